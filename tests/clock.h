@@ -1,10 +1,10 @@
-/* clock.h - how late it is. */
+/* clock.h - a monotonic clock. */
 #ifndef LUTETIA_TESTS_CLOCK_H
 #define LUTETIA_TESTS_CLOCK_H
 
 #include <time.h>
 
-/* Seconds, from some moment on. */
+/* Seconds since a fixed moment. */
 static inline double clock_now_s(void)
 {
     struct timespec now;

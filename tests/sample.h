@@ -19,7 +19,7 @@ static inline uint64_t sample_mixed(uint64_t z)
     return z ^ (z >> 31);
 }
 
-/* Splitmix64: 64 bits; any state. */
+/* Splitmix64, 64 bits; any state. */
 static inline uint64_t sample_word(uint64_t *state)
 {
     return sample_mixed(*state += SAMPLE_GOLDEN);

@@ -15,7 +15,7 @@
 
 static char scratch_dir[256];
 
-/* How many files lie in the folder. */
+/* The number of files in the folder. */
 static inline int scratch_count(void)
 {
     DIR *dir = opendir(scratch_dir);
@@ -37,7 +37,7 @@ static inline int scratch_drop(const char *path, const struct stat *about, int t
     return 0;
 }
 
-/* With the folders in it. */
+/* Removes all files and folders in the folder. */
 static inline void scratch_empty(void)
 {
     nftw(scratch_dir, scratch_drop, 8, FTW_DEPTH | FTW_PHYS);

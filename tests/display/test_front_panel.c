@@ -126,7 +126,7 @@ static void light_is_added(void **state)
     assert_true(more > 320L * 320 * 10);
     assert_true(floor_more > 320 * 20); /* the floor is polished */
 
-    /* The same lights, the same picture. */
+    /* The same lights give the same picture. */
     struct display_image again = {0};
     assert_int_equal(front_panel_draw(panel, lights, &again), DISPLAY_OK);
     assert_memory_equal(again.pixels, lit.pixels, 3 * 320 * 320);

@@ -151,12 +151,12 @@ static void pens_report_changes(void **state)
     /* A report holds only what changed: pressure is then its first value. */
     pen_report(&wacom, (const unsigned char[]){0x04}, 1, (const double[]){2047}, &pen);
     assert_true(pen.pressure == 1 && pen.tilt_x == -0.5 && pen.tilt_y == 1);
-    /* Beyond its range, or no number. */
+    /* Values beyond their range, or NaN. */
     pen_report(&wacom, (const unsigned char[]){0x04}, 1, (const double[]){9999}, &pen);
     assert_true(pen.pressure == 1);
     pen_report(&wacom, (const unsigned char[]){0x04}, 1, (const double[]){NAN}, &pen);
     assert_true(pen.pressure == 1);
-    /* A mask that ends before. */
+    /* A mask that is too short. */
     pen_report(&wacom, (const unsigned char[]){0x03}, 1, (const double[]){1, 2}, &pen);
     assert_true(pen.pressure == 1 && pen.tilt_y == 1);
 }

@@ -5,7 +5,7 @@
 #include <network.h>
 #include <stdint.h>
 
-/* From least to most. */
+/* Draws a number from least to most. */
 double scene_chance(uint64_t *state, double least, double most);
 
 /* Draws a network: random masses, springs between some of them, a random world (with walls, wind, breaking springs), and tacked

@@ -25,7 +25,7 @@ static double energy_of(const struct dyn_network *n)
     return e.motion + e.gravity + e.springs + e.pulls;
 }
 
-/* The mean over a second. */
+/* The mean energy over a second. */
 static double energy_about(struct dyn_network *n)
 {
     double sum = 0;
@@ -64,8 +64,8 @@ static void letter_keeps_its_energy(void **unused)
         }
 }
 
-/* A word by chance, of letters that a fall does not turn inside out, on a floor: thrown, turned, tilted. Masses that
- * bounce keep `restitution` of their speed. */
+/* Draws a word on a floor: thrown, turned, tilted, and of letters that no fall turns inside out. Masses that bounce keep
+ * `restitution` of their speed. */
 static struct dyn_network *word_by_chance(uint64_t *state, int letters, int integrator,
                                           double restitution)
 {
@@ -100,7 +100,7 @@ static struct dyn_network *word_by_chance(uint64_t *state, int letters, int inte
     return n;
 }
 
-/* Letters and words on a floor that takes nothing, for a minute with the usual settings: some hundreds of bounces of each
+/* Letters and words on a floor that takes no energy, for a minute with the default settings: some hundreds of bounces of each
  * corner. */
 static void bounces_keep_energy(void **unused)
 {
@@ -128,8 +128,8 @@ static int ascending(const void *a, const void *b)
     return (*x > *y) - (*x < *y);
 }
 
-/* How far letters are from where much shorter steps lead, after 0.8 s with some bounces: the median, for a few letters meet
- * the floor so that the least difference decides what follows. */
+/* The distance of letters from their places with much shorter steps, after 0.8 s with some bounces. Takes the median, because
+ * for a few letters the smallest difference at a bounce decides the rest of the motion. */
 static double bounces_error(int integrator, int finer)
 {
     enum { WORDS = 41 };
@@ -154,7 +154,7 @@ static double bounces_error(int integrator, int finer)
     return far[WORDS / 2];
 }
 
-/* A bounce within a part is as exact as parts are: of the second order, which a bounce by the part's speed is not. */
+/* A bounce within a part has an error of second order, like the parts. If it used the part's speed, it would not. */
 static void bounces_are_where_short_steps_lead(void **unused)
 {
     (void)unused;

@@ -218,7 +218,7 @@ static void file_without_a_place_is_not_written(void **unused)
     w.integrator = DYN_THESIS;
     scene_must(dyn_network_world_set(n, &w));
     scene_must(dyn_mass_write(n, 0, dyn_mass_field_find("x"), 0.5));
-    scene_must(dyn_network_step(n, 0.02, 100)); /* explodes, as it does */
+    scene_must(dyn_network_step(n, 0.02, 100)); /* the thesis's step explodes */
     assert_int_equal(dyn_network_print(n, stdout), DYN_BAD_ARGUMENT);
     assert_non_null(strstr(dyn_error(), "mass 0: x must be -1e+06..1e+06 units (got "));
     dyn_network_destroy(n);

@@ -48,7 +48,7 @@ static void force_of(struct dyn_network *n, int i, const struct dyn_world *w, do
     f[s.end[1]][1] -= pull * dy / length;
 }
 
-/* Back from beyond a side at 0, the speed v against it and t along it: what does not bounce stops there. */
+/* Puts a mass back from beyond a side at 0. v is its velocity across the side, t along it. It does not bounce but stops there. */
 static void side(double mu, double *p, double *v, double *t)
 {
     double grip = -mu * *v;
@@ -219,7 +219,7 @@ static void step_has_the_same_bits_one_by_one_and_from_a_copy(void **unused)
         scene_must(dyn_network_step(n, 1.0 / 240, 100));
         for (int i = 0; i < 50; i++)
             scene_must(dyn_network_step(single, 1.0 / 240, 1));
-        copy = scene_by_chance(&state); /* had another network before */
+        copy = scene_by_chance(&state); /* used for another network before */
         scene_must(dyn_network_copy(copy, single));
         scene_must(dyn_network_step(copy, 1.0 / 240, 50));
         scene_must(dyn_network_step(single, 1.0 / 240, 50));
@@ -436,7 +436,7 @@ static void step_beyond_the_bound_would_explode(void **unused)
                 x[i] += h * v[i];
             }
         }
-        assert_int_equal(!(fabs(x[0]) < 1), beyond); /* it may be no number */
+        assert_int_equal(!(fabs(x[0]) < 1), beyond); /* may be NaN */
         dyn_network_destroy(n);
     }
 }

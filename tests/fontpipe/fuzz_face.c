@@ -1,4 +1,4 @@
-/* fuzz_face.c - see fuzz_face.h. With libFuzzer it is the target; fuzz_face_seeds.c makes small fonts to begin with. */
+/* fuzz_face.c - see fuzz_face.h. With libFuzzer it is the target; fuzz_face_seeds.c makes small fonts as its first inputs. */
 #include "fuzz_face.h"
 
 #include <drawing.h>
@@ -24,7 +24,7 @@ static uint32_t next(uint32_t *seed)
     return *seed >> 8;
 }
 
-/* Each axis to some place, its ends and beyond them among them. */
+/* Sets each axis to a random place, which may be an end or beyond. */
 static void axes_set(struct font_face *face, int count, uint32_t *seed)
 {
     for (int i = 0; i < count && i < 4; i++) {
@@ -35,7 +35,7 @@ static void axes_set(struct font_face *face, int count, uint32_t *seed)
     }
 }
 
-/* Its outline, edges and gray. Returns whether there is ink. */
+/* Makes a glyph's outline, edges and gray. Returns whether there is ink. */
 static bool glyph_use(struct font_face *face, uint32_t glyph, double em,
                       struct font_painter *painter)
 {

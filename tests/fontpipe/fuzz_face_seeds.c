@@ -1,4 +1,4 @@
-/* fuzz_face_seeds.c - small fonts to begin a fuzzer with: a few letters of each font that is installed, and colours for one.
+/* fuzz_face_seeds.c - writes small fonts as first inputs of a fuzzer: a few letters of each installed font, one with colours.
  *
  *     fuzz_face_seeds FOLDER */
 #include "made_font.h"
@@ -25,7 +25,7 @@ static bool bytes_write(const char *folder, int number, const void *bytes, size_
     return (f && fclose(f) == 0) && good;
 }
 
-/* Paints of all kinds, of glyphs 1 to 4. */
+/* Makes paints of all kinds, for glyphs 1 to 4. */
 static struct made_paints *paints_make(void)
 {
     enum { ONE = 0x4000 };
@@ -50,7 +50,7 @@ static struct made_paints *paints_make(void)
     return p;
 }
 
-/* The font with colours of each kind. */
+/* Writes the font with colours of each kind. */
 static int coloured_make(const char *folder, int number, hb_blob_t *plain)
 {
     static const uint8_t palette[][4] = {{0, 0, 255, 255}, {0, 255, 0, 128}};
@@ -82,7 +82,7 @@ static int coloured_make(const char *folder, int number, hb_blob_t *plain)
     return made;
 }
 
-/* The font with these letters alone, as it is where it cannot be made smaller. */
+/* Writes the font with a few letters only, or the whole font where it cannot be made smaller. */
 static int seed_make(const char *file, const char *folder, int number)
 {
     enum { WHOLE_MAX = 100000, COLOURED = 900 };

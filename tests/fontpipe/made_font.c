@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Children's places: bit 31 those of the list of bases, bit 30 of layers, else within the paints. */
+/* The place where a child's offset is written. Bit 31: in the list of bases; bit 30: in that of layers; else within the
+ * paints. */
 #define OF_BASES 0x80000000u
 #define OF_LAYERS 0x40000000u
 
@@ -87,12 +88,11 @@ size_t made_paint(struct made_paints *p, size_t of, unsigned format, const char 
     size_t begin = p->paints_count;
     uint8_t *at = made_put(p->paints + begin, format, 1);
     va_list numbers;
-    if (of &
-        OF_BASES) /* the list's length is not known yet: what is missing is added at the end */
+    if (of & OF_BASES) /* made_colr() adds the list's length */
         made_put(p->bases + (of & ~OF_BASES), (uint32_t)begin, 4);
     else if (of & OF_LAYERS)
         made_put(p->layers + (of & ~OF_LAYERS), (uint32_t)begin, 4);
-    else /* behind the parent's format byte or further: its own beginning is kept beside it until then */
+    else /* until then the place holds its parent's beginning */
         made_put(p->paints + of, (uint32_t)begin - get(p->paints + of, 3), 3);
     va_start(numbers, widths);
     for (const char *w = widths; *w; w++) {
@@ -108,7 +108,7 @@ void made_clip(struct made_paints *p, unsigned glyph, int x0, int y0, int x1, in
 {
     uint8_t *at = p->clips + p->clips_count;
     at = made_put(made_put(at, glyph, 2), glyph, 2);
-    at = made_put(at, 0, 3); /* its box is behind it: see made_colr() */
+    at = made_put(at, 0, 3); /* made_colr() writes the box's offset */
     at = made_put(at, 1, 1);
     at = made_put(made_put(at, (uint32_t)x0, 2), (uint32_t)y0, 2);
     at = made_put(made_put(at, (uint32_t)x1, 2), (uint32_t)y1, 2);

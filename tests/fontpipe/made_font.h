@@ -1,11 +1,11 @@
-/* made_font.h - fonts made for tests: a font's bytes with tables more, and graphs of paints as bytes (COLR 1). */
+/* made_font.h - makes fonts for tests: adds tables to a font's bytes, and writes graphs of paints as bytes (COLR 1). */
 #ifndef LUTETIA_TESTS_MADE_FONT_H
 #define LUTETIA_TESTS_MADE_FONT_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-/* The number's bytes, the highest first; returns what is behind them. */
+/* Writes a number's bytes, the highest first; returns the place after them. */
 uint8_t *made_put(uint8_t *at, uint32_t value, int bytes);
 
 struct made_table {
@@ -18,7 +18,7 @@ struct made_table {
 uint8_t *made_font(const uint8_t *from, size_t count, const struct made_table *tables,
                    int tables_count, size_t *made_count);
 
-/* A COLR table of version 1. A paint is written behind the one that it belongs to:
+/* A COLR table of version 1. A paint is written after its parent:
  *
  *     struct made_paints *p = made_paints_begin();
  *     size_t glyph = made_glyph(p, made_base(p, 36), 50);    // glyph 36: the outline of glyph 50
@@ -29,22 +29,22 @@ struct made_paints {
     size_t bases_count, layers_count, clips_count, paints_count;
 };
 struct made_paints *made_paints_begin(void); /* free() ends it */
-/* Where the number of a paint's child is still to be written; what follows is that child. */
+/* Adds a base glyph or a layer. Returns the place for its paint's offset, the parent of the next paint. */
 size_t made_base(struct made_paints *p, unsigned glyph);
 size_t made_layer(struct made_paints *p);
-/* A paint of a format with numbers of 1 to 4 bytes as `widths` says, '3' a child's place. Written as the child of `of`. Returns
- * its own place, to which 1 and so on are added for its children's. */
+/* Writes a paint as the child at place `of`. widths: the bytes of each number, 1 to 4; '3' is a child's offset. Returns the
+ * paint's place; its children's places are that plus 1 and so on. */
 size_t made_paint(struct made_paints *p, size_t of, unsigned format, const char *widths, ...);
 void made_clip(struct made_paints *p, unsigned glyph, int x0, int y0, int x1, int y1);
 /* Owns: the caller frees it. */
 uint8_t *made_colr(const struct made_paints *p, size_t *count);
-/* A CPAL table of one palette: blue, green, red, cover. */
+/* Writes a CPAL table of one palette: blue, green, red, cover. */
 size_t made_cpal(const uint8_t (*bgra)[4], int colours, uint8_t *out);
-/* An SVG table of one document for glyphs from first to last. */
+/* Writes an SVG table of one document for the glyphs first to last. */
 size_t made_svg(const char *document, unsigned first, unsigned last, uint8_t *out);
 
-/* The font with an axis `wdth` of 90..110, 100 usual, along which its outlines grow as the axis says: those of glyphs that are not put
- * together of others. TrueType. Owns: the caller frees it. */
+/* Adds an axis `wdth`, 90..110, default 100, to a TrueType font. Outlines widen along it, except those of composite glyphs. Owns:
+ * the caller frees it. */
 uint8_t *made_wide(const uint8_t *from, size_t count, size_t *made_count);
 
 #endif

@@ -1,4 +1,4 @@
-/* made_wide.c - a font whose outlines have an axis of widths: see made_font.h. */
+/* made_wide.c - adds an axis of widths to a font: see made_font.h. */
 #include "made_font.h"
 
 #include <stdbool.h>
@@ -24,7 +24,7 @@ static const uint8_t *table_of(const uint8_t *font, const char *tag)
     return NULL;
 }
 
-/* The points' x of a glyph that is contours; how many. */
+/* Reads the x of the points of a simple glyph; returns how many. */
 static int points_read(const uint8_t *glyph, int x[POINTS_MAX])
 {
     int contours = (int16_t)get(glyph, 2), count, n = 0, at = 0;
@@ -55,7 +55,7 @@ static int points_read(const uint8_t *glyph, int x[POINTS_MAX])
     return count;
 }
 
-/* Differences in x as runs of words, in y of none. */
+/* Writes differences in x as runs of words, and differences of 0 in y. */
 static uint8_t *deltas_put(uint8_t *to, const int *x, int count, int sign)
 {
     enum { RUN = 64 };
@@ -71,7 +71,7 @@ static uint8_t *deltas_put(uint8_t *to, const int *x, int count, int sign)
     return to;
 }
 
-/* The variations of a glyph. Returns what is behind them. */
+/* Writes the variations of a glyph; returns the place after them. */
 static uint8_t *glyph_put(uint8_t *to, const uint8_t *glyph, int advance)
 {
     int x[POINTS_MAX], count = points_read(glyph, x);

@@ -1,4 +1,4 @@
-/* support.h - what the pipeline's tests share. Include after cmocka's headers. */
+/* support.h - functions that the pipeline's tests share. Include after cmocka's headers. */
 #ifndef LUTETIA_TESTS_FONTPIPE_SUPPORT_H
 #define LUTETIA_TESTS_FONTPIPE_SUPPORT_H
 

@@ -314,7 +314,7 @@ static void what_cannot_be_is_refused(void **state)
         assert_int_equal(font_atlas_create(&def, &none), FONT_BAD_ARGUMENT);
         assert_null(none);
     }
-    /* Turned glyphs are other glyphs. */
+    /* A turned glyph has its own slot. */
     struct font_map turned = font_map_rotation(30);
     struct font_atlas_slot upright;
     assert_font(font_atlas_get(f.atlas, f.face, glyph, 20, NULL, 0, 0, &upright));

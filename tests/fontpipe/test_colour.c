@@ -218,7 +218,7 @@ static void layers_are_drawn_one_above_the_other(void **state)
     free(made);
 }
 
-/* How often a word is in a drawing of the layout. */
+/* Counts a word in a drawing of the layout. */
 static int drawing_has(const struct font_layout *l, bool pdf, const char *word)
 {
     struct font_drawing d = {.width_px = SIDE, .height_px = SIDE};

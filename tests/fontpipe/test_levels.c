@@ -179,7 +179,7 @@ static void masters_are_cut_the_better_way(void **state)
     font_rectangles_finish(&r);
 }
 
-/* Merged, and one moved by hand. */
+/* Rectangles are merged, and one is moved. */
 static void rectangles_edit(struct font_levels *l)
 {
     const struct font_gray *gray;
@@ -357,7 +357,7 @@ static void masters_are_retouched_as_pictures(void **state)
     assert_true(gray->width_px >= before.width_px && gray->pixels[2 * gray->pitch + 2] > 50);
     font_levels_made_get(l, &made);
     assert_true(made.masters == 1 && made.rectangles == 3 && made.filters == 1);
-    /* What cannot be. */
+    /* Wrong arguments. */
     frame.em_px = 0;
     assert_int_equal(font_master_from_picture(&read, &frame, picture), FONT_BAD_ARGUMENT);
     assert_int_equal(font_levels_master_set(l, &read), FONT_BAD_ARGUMENT);

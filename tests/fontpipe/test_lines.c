@@ -182,7 +182,7 @@ static void lines_to_the_left_begin_at_the_right(void **state)
         assert_true(fabs(l->lines[i].x_px + l->lines[i].width_px - 100) < 1e-9);
         before = last;
     }
-    /* What is read first is seen last. */
+    /* In a right-to-left line the first letter is at the right end. */
     assert_int_equal(l->glyphs[l->lines[0].glyphs_count - 1].cluster, 0);
     end(&f);
 }

@@ -60,7 +60,7 @@ static void many_are_as_one(void **state)
         print_message("%s: %ld of %ld pixels are rounded otherwise\n", filters[n], differ,
                       pixels);
         assert_true(worst <= 1 && differ * 1000 < pixels);
-        /* Again, fewer and others. */
+        /* Draws fewer and other glyphs again. */
         font_many_edges_forget(many);
         jobs[0].edges = font_many_edges(many, &edges[3]);
         assert_int_equal(jobs[0].edges, 0);

@@ -20,7 +20,7 @@ struct way {
     double best;
 };
 
-/* All ways from a place on. */
+/* Tries all ways to break from a place on. */
 static void ways_try(struct way *w, int from, int line, int fitness, double demerits)
 {
     if (from == w->count - 1) {

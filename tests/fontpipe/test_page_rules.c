@@ -196,7 +196,7 @@ static void letters_widen_a_little(void **state)
     end(&f);
 }
 
-/* A font with an axis of widths, in a file; what is set by it is written there. */
+/* Writes a font with an axis of widths to a file; path is a template that gets the file's name. */
 static void wide_write(char path[], double *em)
 {
     struct font_face *plain;
@@ -214,7 +214,8 @@ static void wide_write(char path[], double *em)
     font_face_close(plain);
 }
 
-/* Where a font has an axis of widths lines are as wide as without, and their letters set by it: maps have next to nothing to do. */
+/* With an axis of widths lines are as wide as without it. Letters are expanded along the axis, so their maps expand them
+ * hardly at all. */
 static void letters_are_expanded_by_the_fonts_axis(void **state)
 {
     (void)state;

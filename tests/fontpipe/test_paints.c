@@ -13,9 +13,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* An em of 2048 units, drawn at 128 pixels, 16 units each; the origin is at (16, 112). */
+/* An em of 2048 units is drawn at 128 pixels, so a pixel is 16 units; the origin is at pixel (16, 112). */
 enum { SIDE = 144, EM = 2048, SIZE = 128, LEFT = 16, BASE = 112, ONE = 0x4000 };
-/* Formats of COLR. */
+/* COLR's formats of paints. */
 enum {
     LAYERS = 1,
     SOLID = 2,
@@ -37,7 +37,7 @@ static const uint8_t palette[][4] = {{0, 0, 255, 255}, {0, 255, 0, 255}, {255, 0
 
 static uint8_t page[2][SIDE * SIDE * 3];
 static struct font_face *plain;
-static unsigned block, letter, base; /* a full block, an R, and the glyph that is painted */
+static unsigned block, letter, base; /* a full block, an R, and the painted glyph */
 
 static int plain_open(void **state)
 {
@@ -67,7 +67,7 @@ static struct font_face *face_make(const struct made_table *tables, int tables_c
     return face;
 }
 
-/* The font with the paints; they are freed. */
+/* Opens the font with these paints, and frees them. */
 static struct font_face *painted(struct made_paints *p)
 {
     uint8_t cpal[64];
@@ -99,14 +99,14 @@ static void draw(int k, struct font_face *face, unsigned glyph, const struct fon
     font_painter_destroy(painter);
 }
 
-/* The pixel's three numbers at a place of the font's plane. */
+/* The three numbers of the pixel at a place in the font's units. */
 static const uint8_t *at(double x, double y)
 {
     int column = (int)floor(LEFT + x * SIZE / EM), row = (int)floor(BASE - y * SIZE / EM);
     return page[0] + 3 * (row * SIDE + column);
 }
 
-/* Over white, cover and all, mixed as numbers. */
+/* Checks a pixel: this colour with this cover over white, mixed as numbers. */
 static void near(double x, double y, double red, double green, double blue, double cover)
 {
     const uint8_t *is = at(x, y);
@@ -125,7 +125,7 @@ static int most_apart(void)
     return most;
 }
 
-/* The block's outline, painted by what follows. */
+/* A paint with the block's outline, which the next paint fills. */
 static size_t in_block(struct made_paints *p, size_t of)
 {
     return made_paint(p, of, GLYPH, "32", 0, block) + 1;
@@ -164,7 +164,7 @@ static void layers_lie_over_each_other(void **state)
     font_face_close(face);
 }
 
-/* A line of red at a quarter, green at three quarters. */
+/* Writes a colour line: red at a quarter, green at three quarters. */
 static void line_put(struct made_paints *p, int extend)
 {
     uint8_t *to = p->paints + p->paints_count;
@@ -174,14 +174,14 @@ static void line_put(struct made_paints *p, int extend)
     p->paints_count = (size_t)(to - p->paints);
 }
 
-/* The place of a line of colours that follows its paint at once. */
+/* Writes a colour line right after its paint, and its offset into the paint. */
 static void line_follows(struct made_paints *p, size_t paint, int extend)
 {
     made_put(p->paints + paint + 1, (uint32_t)(p->paints_count - paint), 3);
     line_put(p, extend);
 }
 
-/* Part of green at a place along the line, by the kind of extension. */
+/* The share of green at a place along the colour line, by the kind of extension. */
 static double green_at(double way, int extend)
 {
     double part = (way - 0.25) / 0.5;
@@ -201,7 +201,7 @@ static void gradients_are_what_they_are_defined_as(void **state)
         for (int extend = 0; extend < 3; extend++) {
             struct made_paints *p = made_paints_begin();
             size_t of = in_block(p, made_base(p, base));
-            /* From (200, 100) to (1000, 100), slanted; around (600, 600); a turn and a half from a quarter on. */
+            /* linear from (200, 100) to (1000, 100), slanted; radial around (600, 600); sweep of half a turn from a quarter on */
             size_t paint =
                 kind == 0
                     ? made_paint(p, of, LINEAR, "3222222", 0, 200, 100, 1000, 100, 400, 700)
@@ -216,7 +216,7 @@ static void gradients_are_what_they_are_defined_as(void **state)
                        y = floor(places[i][1] / 16) * 16 + 8;
                 double angle = atan2(y - 600, x - 600) / (2 * M_PI);
                 angle += angle < 0 ? 1 : 0;
-                /* The slant (200, 600) says the same all along it. */
+                /* A linear gradient is constant along the slant (200, 600). */
                 double way = kind == 0   ? (x - 200 - (y - 100) / 3) / 800
                              : kind == 1 ? (hypot(x - 600, y - 600) - 100) / 800
                                          : (angle - 0.25) / 0.5;
@@ -232,7 +232,7 @@ static void gradients_are_what_they_are_defined_as(void **state)
         }
 }
 
-/* A transformed letter beside the same letter through the painter's map. */
+/* Compares a transformed letter with the same letter through the painter's map. */
 static void transforms_are_the_maps_that_they_name(void **state)
 {
     (void)state;
@@ -297,7 +297,7 @@ static void transforms_are_the_maps_that_they_name(void **state)
 static void composites_mix_as_they_are_named(void **state)
 {
     (void)state;
-    /* Half of blue over red; what is left is over white. */
+    /* Half transparent blue is mixed with red; the result lies over white. */
     const double a = 128 / 255.0;
     const struct {
         int mode;
@@ -359,7 +359,7 @@ static void a_box_clips_and_measures(void **state)
     font_face_close(face);
 }
 
-/* Glyphs that contain themselves, and nothing at all to paint. */
+/* Glyphs that contain themselves, and a paint without a shape. */
 static void circles_end(void **state)
 {
     (void)state;
@@ -374,7 +374,7 @@ static void circles_end(void **state)
     p = made_paints_begin();
     made_paint(p, made_base(p, base), SOLID, "22", GREEN, ONE);
     face = painted(p);
-    draw(0, face, base, NULL, 1); /* without end, and without a box: nothing */
+    draw(0, face, base, NULL, 1); /* infinite, and without a clip box: nothing */
     near(500, 500, 0, 0, 0, 0);
     font_face_close(face);
 }

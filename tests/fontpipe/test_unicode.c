@@ -83,8 +83,8 @@ static void directions_are_unicodes(void **state)
     assert_int_equal(wrong, 0);
 }
 
-/* The rule of UAX 14 by which ICU differs here from Unicode 15's file; NOT_A_RULE: by none. The file is made with another rule for
- * numbers than the standard's own (its example 7). */
+/* The rules of UAX 14 by which ICU differs from Unicode 15's file; NOT_A_RULE: any other difference. The file uses another
+ * rule for numbers than the standard (its example 7). */
 enum rule { LB15C, LB20A, LB25, RULES_COUNT, NOT_A_RULE = RULES_COUNT };
 static const char *const rule_names[] = {
     "LB15c (Unicode 16): a line may end before \" .3\"",

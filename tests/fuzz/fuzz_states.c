@@ -270,7 +270,7 @@ static void loaded(struct choices *c, const struct state_pieces *s, const uint8_
     }
 }
 
-/* The same through a file. */
+/* Loads a changed state from a file. */
 static void loaded_from_file(const struct state_pieces *s, const uint8_t *const *words,
                              const struct event_bytes *run)
 {
@@ -341,7 +341,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
 }
 
 #ifndef LUTETIA_FUZZ_LIBFUZZER
-/* Prints how many were looked at. */
+/* Prints how many states were tried. */
 int main(int argc, char **argv)
 {
     enum { STATES = 1200 };
@@ -358,7 +358,7 @@ int main(int argc, char **argv)
     }
     printf("%ld states, of which %ld loaded\n", count, loaded_count);
     if (loaded_count < count / 20 || loaded_count > count - count / 20)
-        return 1; /* it looks at half of what it should */
+        return 1; /* too few were loaded, or refused */
     return 0;
 }
 #endif

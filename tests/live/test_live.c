@@ -191,8 +191,7 @@ static void keys_outside_are_played_by_octaves(void **unused)
     stage_destroy(stage);
 }
 
-/* A long performance looks like one played at once: notes that have been forgotten make no
- * difference. */
+/* Forgetting the old notes of a long performance does not change its letters. */
 static void forgotten_notes_make_no_difference(void **unused)
 {
     (void)unused;

@@ -1,4 +1,4 @@
-/* test_paper_actor.c - paper on a stage: keys print, controls and maps act, a hand paints and takes it back. */
+/* test_paper_actor.c - paper on a stage: keys print, controls and maps act, the pointer paints, and undo takes it back. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -60,7 +60,7 @@ static double total(struct stage *stage, int substance)
     return sum;
 }
 
-/* The mean place of the first pigment, from the left and from the top, 0..1. */
+/* The mean place of the first pigment, 0..1 from the left and from the top. */
 static void ink_place(struct stage *stage, double *x, double *y)
 {
     static const enum paper_layer layers[3] = {
@@ -88,7 +88,7 @@ static void go_on(struct stage *stage, double *now_s, double seconds)
         assert_int_equal(stage_frame(stage, *now_s += 0.05, NULL), STAGE_OK);
 }
 
-/* A letter's ink is in proportion to its area: to the velocity's square. */
+/* A letter's ink is proportional to its area, and so to the square of the velocity. */
 static void letters_are_as_large_as_keys_are_struck(void **unused)
 {
     (void)unused;
@@ -148,7 +148,7 @@ static void aftertouch_gives_water(void **unused)
     stage_destroy(stage);
 }
 
-/* A low note leads the brush along the bottom. */
+/* A low note moves the brush along the bottom. */
 static void a_map_leads_a_brush(void **unused)
 {
     (void)unused;

@@ -329,7 +329,7 @@ static void closing_stops_the_program(void **state)
     ends_with(&command, 0);
     assert_true(kill(pid, 0) != 0 && errno == ESRCH);
 
-    /* One that will not hear of SIGINT. */
+    /* A program that ignores SIGINT. */
     struct command deaf = {.arguments = {lutetia, "leds", "--size", "100x100", "/bin/sh", "-c",
                                          "trap '' INT; exec \"$0\" \"$1\" wait", latcher,
                                          path}};

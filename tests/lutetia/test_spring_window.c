@@ -51,7 +51,7 @@ static void ends_with(pid_t pid, int wanted)
     fail_msg("it does not end");
 }
 
-/* Waits for a file to be there. */
+/* Waits until a file exists. */
 static void file_wait(const char *path)
 {
     for (double until_s = clock_now_s() + 20; access(path, R_OK) != 0; usleep(5000))
@@ -165,7 +165,7 @@ static void fine_screens_have_larger_windows(void **state)
     screen_dpi(0);
 }
 
-/* The window's cross, Ctrl-C. */
+/* Closing the window, and Ctrl-C. */
 static void windows_end(void **state)
 {
     (void)state;

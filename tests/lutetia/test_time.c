@@ -20,7 +20,7 @@
 static const char *lutetia;
 static struct child child;
 
-/* A paper that needs few kernels. */
+/* A paper with few kernels. */
 #define PAPER                                                                                  \
     "local p = paper{width = 24, height = 16, model = {'infused'}, pigments = {'cyan'}}\n"     \
     "p:put(ellipse(12, 8, 6), {water = 0.7, cyan = 0.5})\n"

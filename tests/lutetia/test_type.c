@@ -44,7 +44,7 @@ static double number_after(const char *text, const char *words)
     return number;
 }
 
-/* Ink of a picture: 0 is white. */
+/* The amount of ink on a picture; white has none. */
 static double ink_of(const char *path, int *width, int *height)
 {
     struct display_image image;
@@ -220,7 +220,7 @@ static void wrong_lines_are_said(void **state)
         memcpy(child.arguments + 1, cases[i].arguments, sizeof cases[i].arguments);
         run(&child, cases[i].status, cases[i].says);
     }
-    /* What can be set is set, and said. */
+    /* Damaged text and missing glyphs are reported; the rest is set. */
     const char *path = scratch_path("said.png");
     struct child damaged = {.arguments = {"", "type", "a\xff\xc3(", "-o", path}};
     run(&damaged, 0, "not UTF-8 in 2 places");

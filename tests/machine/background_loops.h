@@ -116,7 +116,7 @@ static void turns(const struct sheet *s, int count)
     }
 }
 
-/* What is being compiled is there. */
+/* Waits until the background has compiled all kernels. */
 static void wait_for(const struct sheet *s)
 {
     for (int i = 0; s->m->plans->improving; i++) {

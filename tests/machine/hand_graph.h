@@ -28,7 +28,7 @@ void hand_by_chance(struct hand_graph *h, int count, int rank);
 void hand_prune(struct hand_graph *h);
 
 struct vpset hand_set(int rank, const int *dimensions, int halo);
-/* A CPU with vectors of 8. */
+/* The device shape of a CPU with vectors of 8. */
 struct device_shape hand_shape(void);
 
 #endif

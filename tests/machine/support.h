@@ -63,7 +63,7 @@ void support_expect(struct machine *m, struct machine_value *value, support_expe
 void support_later(struct machine *m, struct machine_value *value, support_expected expected,
                    const void *data, size_t data_bytes, const char *what);
 void support_check(struct machine *m);
-/* The same for a field as it is. */
+/* As support_expect(), for a field. */
 void support_expect_field(struct machine *m, uint32_t field, struct machine_type type,
                           support_expected expected, const void *data, const char *what);
 

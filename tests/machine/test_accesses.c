@@ -88,7 +88,7 @@ static void planned(struct hand_graph *h, uint32_t seed, int rank, bool strips,
     hand_by_chance(h, 10 + hand_below(h, 120), rank);
     hand_prune(h);
     shape.always_strips = strips;
-    shape.op_ns = seed % 3 ? 0.1 : 5; /* dear: more is stored */
+    shape.op_ns = seed % 3 ? 0.1 : 5; /* costly: more nodes are stored */
     h->g.no_strips = !strips;
     sets[1] = hand_set(rank, dimensions + 3 - rank, shape.halo);
     plan_choose(&h->g, sets, &shape);
@@ -162,7 +162,7 @@ static void equal_turns_have_one_form(void **state)
     free(h);
 }
 
-/* The short way round, of a torus. */
+/* The distance by the short way round the torus. */
 static void rows_are_counted_the_short_way(void **state)
 {
     (void)state;

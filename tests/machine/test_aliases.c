@@ -1,7 +1,7 @@
-/* test_aliases.c - the same memory seen from VP sets of other ratios, against a plain array of bits.
+/* test_aliases.c - the same memory in VP sets of other ratios, against a plain array of bits.
  *
- * The oracle is each physical processor's memory, a byte for each bit, and the rule of machine.h that says
- * which bits a VP's are. */
+ * The oracle is each physical processor's memory, a byte for each bit, and the rule of machine.h that gives
+ * each VP its bits. */
 #include "support.h"
 
 #include "sample.h"

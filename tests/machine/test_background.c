@@ -31,8 +31,8 @@ static void forced(const char *background, const struct looped *p)
         unsetenv("LUTETIA_KEEP");
     else
         setenv("LUTETIA_KEEP", "0", 1);
-    setenv("LUTETIA_OPTIMISE_AFTER", "1000000", 1); /* quick kernels first */
-    setenv("LUTETIA_BOX_AFTER", "1", 1);            /* and better ones as soon as can be */
+    setenv("LUTETIA_OPTIMISE_AFTER", "1000000", 1); /* kernels are first built quickly */
+    setenv("LUTETIA_BOX_AFTER", "1", 1);            /* and optimised as soon as possible */
     setenv("LUTETIA_FLUSH_AFTER", "48", 1);
     setenv("LUTETIA_TURNS", p->looks ? "1" : "3", 1);
     setenv("LUTETIA_STRIPS", p->looks ? "0" : "1", 1);
@@ -185,7 +185,7 @@ static void compiler_path(char path[1024])
     strcat(path, "/host/machine/lutetia-compiler");
 }
 
-/* The real one. */
+/* Makes the compiler a script that logs its start and runs the real compiler. */
 static void compiler_is_noted(void)
 {
     char does[1100] = "exec ";
@@ -276,7 +276,7 @@ static void one_that_does_not_is_done_without(void **state)
     done_without("printf Z >&0; exec sleep 100", 1);    /* of another version */
     done_without("printf A >&0; head -c 1; exit 1", 1); /* as if the kernel had crashed it */
     done_without("printf A >&0; head -c 1; printf n >&0; exec sleep 100", 1);
-    setenv("POCL_KERNEL_CACHE", "0", 1); /* what it did would be for nobody */
+    setenv("POCL_KERNEL_CACHE", "0", 1); /* nobody could use its results */
     done_without("printf A >&0; exec sleep 100", 0);
     unsetenv("POCL_KERNEL_CACHE");
 }
@@ -362,7 +362,7 @@ static void machine_ends_while_one_is_compiled(void **state)
     all_end();
 }
 
-/* This program, told how to end. */
+/* Runs as a child program, which ends in the given way. */
 static int program(const char *how)
 {
     struct sheet s;

@@ -21,7 +21,7 @@ enum { PARTS_MOST = 100, JOBS = 3000, THREADS = 4 };
 struct job {
     int parts, of_a_part;
     atomic_int done[PARTS_MOST];
-    atomic_int strangers; /* workers that there cannot be */
+    atomic_int strangers; /* calls with impossible numbers */
     uint64_t sums[CREW_MOST];
 };
 

@@ -192,7 +192,7 @@ static void dear_value_is_stored_for_its_neighbours(void **state)
     x = explained();
     assert_int_equal(x->kernels_count, 2);
     const struct machine_explained_kernel *first = &x->kernels[0], *then = &x->kernels[1];
-    if (first->operations == 1) { /* they come by time */
+    if (first->operations == 1) { /* kernels are sorted by time */
         first = &x->kernels[1];
         then = &x->kernels[0];
     }
@@ -210,7 +210,7 @@ static void dear_value_is_stored_for_its_neighbours(void **state)
     assert_true(first->predicted_s + then->predicted_s < plan_s * 1.001 &&
                 first->predicted_s + then->predicted_s > plan_s * 0.999);
     assert_true(first->plan.cost_s[MACHINE_PLAN_STORED] >= plan_s);
-    assert_true(first->plan.cost_s[MACHINE_PLAN_STRIPS] == 0); /* they are forbidden here */
+    assert_true(first->plan.cost_s[MACHINE_PLAN_STRIPS] == 0); /* strips are turned off here */
 
     store(c, machine_binary(
                  machine, MACHINE_FADD,
@@ -378,9 +378,9 @@ static void bound_is_measured_when_asked_for(void **state)
     assert_true(x->kernels[0].operations_s > 0);
     x = machine_explain(machine, true);
     assert_non_null(x);
-    assert_int_equal(x->kernels_count, 1); /* the copies are none of its own */
+    assert_int_equal(x->kernels_count, 1); /* copies are not counted as its own */
     if (!x->kernels[0].runs_timed)
-        skip(); /* a device that tells no times */
+        skip(); /* a device without timestamps */
     assert_true(x->kernels[0].copy_s > 0);
     assert_int_equal(x->copy_bytes, 12 * COUNT);
     assert_true(x->copy_bytes_per_s > 1e6 && x->copy_bytes_per_s < 1e13);

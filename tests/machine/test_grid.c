@@ -130,7 +130,7 @@ static void shift_of_what_is_computed_agrees(void **state)
     }
 }
 
-/* ---- numbers that processors know ---- */
+/* ---- coordinates and addresses ---- */
 
 static wide expected_coordinate(const void *data, uint64_t n)
 {

@@ -424,7 +424,7 @@ static void a_plan_that_costs_more_than_compiling_is_compiled(void **state)
     free(out[1]);
 }
 
-/* Each number's bits are a plan: a sum or an exclusive or. */
+/* Makes a plan for each number: each of its bits chooses a sum or an exclusive or. */
 static void of_many_plans_the_oldest_go(void **state)
 {
     enum { BITS = 14 };

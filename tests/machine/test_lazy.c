@@ -93,7 +93,7 @@ static void unobserved_values_are_never_computed(void **state)
               machine_binary(s.m, MACHINE_MUL, support_value(s.m, s.water, MACHINE_UINT(32)),
                              constant(s.m, (uint64_t)n)));
     }
-    store(&s, s.scratch, constant(s.m, 5)); /* what was there is gone, unseen */
+    store(&s, s.scratch, constant(s.m, 5)); /* overwritten before anybody read it */
     after = stats(s.m);
     assert_int_equal(after.kernels_run, before.kernels_run);
     assert_int_equal(after.stores, before.stores + 101);

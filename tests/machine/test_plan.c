@@ -190,7 +190,7 @@ static void graph(struct hand_graph *h, uint32_t seed, bool dead)
 static struct device_shape shape_for(uint32_t seed, bool strips)
 {
     struct device_shape shape = hand_shape();
-    shape.op_ns = seed % 3 ? 0.1 : 5; /* dear: more is stored */
+    shape.op_ns = seed % 3 ? 0.1 : 5; /* costly: more nodes are stored */
     shape.launch_ns = seed % 2 ? 500 : 5000;
     shape.always_strips = strips;
     return shape;

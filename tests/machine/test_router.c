@@ -169,7 +169,7 @@ static void scene_make(struct scene *c, int round)
         c->address[n] = next(12) == 0 ? next(UINT64_C(1) << c->width)
                                       : address_of(&c->to, next(3) ? some : few);
         if (round % 2)
-            c->address[n] |= (wide)next(8) << c->width; /* what nobody looks at */
+            c->address[n] |= (wide)next(8) << c->width; /* bits above the address's width */
         c->where[n] =
             index_of(&c->to, (uint64_t)c->address[n] & ((UINT64_C(1) << c->width) - 1));
         c->active[n] = round % 4 == 3 || next(3) > 0;

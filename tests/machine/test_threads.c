@@ -17,7 +17,7 @@ struct result {
 };
 
 static const char *trace_path; /* NULL: none */
-static int times = 3;          /* that each thread makes a machine */
+static int times = 3;          /* how often a thread makes a machine */
 static bool background;
 
 struct sheet {

@@ -38,7 +38,7 @@ static struct vpset sheet_of(int height, int width)
                           .width = width};
 }
 
-/* Each look goes to a later stage. */
+/* Each access is by a later stage. */
 static void tiling_by_chance(struct tiling *t)
 {
     int stages = 2 + below(STAGES_MOST - 2), arrays = 1 + below(ARRAYS_MOST);

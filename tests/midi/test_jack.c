@@ -88,7 +88,7 @@ static void messages_go_through_jack(void **unused)
     struct served s = served_begin((const char *[]){"jack", NULL}, 0, NULL);
     struct midi_client *c = client_of(&s, "listener", "");
     wait_up(c, "jack");
-    /* what goes out comes in again */
+    /* connects output to input */
     assert_int_equal(jack->jack_activate(patch), 0);
     assert_int_equal(jack->jack_connect(patch, "lutetia:out", "lutetia:in"), 0);
     struct midi_message note = midi_message_make(0, 0x90, 60, 100), m;

@@ -113,7 +113,7 @@ static void letters_go_to_keys(void **unused)
     midi_song_destroy(song);
 }
 
-/* How high the ink of a picture is. */
+/* The height of a picture's ink. */
 static int ink_height(const struct font_picture *p)
 {
     int top = p->height_px, bottom = -1;
@@ -126,7 +126,7 @@ static int ink_height(const struct font_picture *p)
     return bottom < top ? 0 : bottom - top + 1;
 }
 
-/* Pearson's. */
+/* Pearson's correlation. */
 static double correlation(const double *x, const double *y, int count)
 {
     double mx = 0, my = 0, xx = 0, yy = 0, xy = 0;
@@ -177,7 +177,7 @@ static void heights_in_pixels_follow_velocity(void **unused)
         heights[i] = ink_height(&picture);
     }
     assert_true(correlation(velocities, heights, NOTES) >= 0.99);
-    /* Let go, it is gone. */
+    /* After its release the letter is gone. */
     assert_int_equal(keys_type_moment(type, 0.9, &picture), FONT_OK);
     assert_int_equal(ink_height(&picture), 0);
     keys_type_destroy(type);

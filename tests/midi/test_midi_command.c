@@ -50,7 +50,7 @@ static void words_are_sent_and_status_is_told(void **unused)
     check_text(&m, "note-on 1 c4 100");
     m = next_message(c, NULL);
     check_text(&m, "bend 2 -5");
-    m = next_message(c, NULL); /* its player is gone */
+    m = next_message(c, NULL); /* because its player has left */
     check_text(&m, "note-off 1 c4 64");
     run(MIDI("devices", "-s", s.path), 0, "loop loop in,out up\n");
     run(MIDI("status", "-s", s.path), 0, "listener: sent 3");
@@ -100,7 +100,7 @@ static void ended_well(pid_t child)
     assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
 }
 
-/* Until so many clients are there. */
+/* Waits until there are that many clients. */
 static void wait_clients(struct midi_client *c, const char *name)
 {
     char text[8000] = "";

@@ -102,7 +102,7 @@ static void the_same_song_is_the_same_sound(void **unused)
         midi_song_destroy(song);
         w[i] = wav_read(path);
     }
-    /* Left is right on the other side. */
+    /* The second sound is on the other side: left and right are exchanged. */
     assert_int_equal(w[0].count, w[1].count);
     double left[2] = {0, 0}, right[2] = {0, 0};
     for (int i = 0; i < 2; i++)

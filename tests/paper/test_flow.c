@@ -53,7 +53,7 @@ static void steps(struct paper_sheet *sheet, int count)
     check(paper_sheet_finish(sheet));
 }
 
-/* All of a pigment, units. */
+/* Reads a pigment's amounts, the sums of all layers. */
 static void pigment_read(struct paper_sheet *sheet, int pigment, float *amounts)
 {
     static const enum paper_layer layers[3] = {
@@ -165,7 +165,7 @@ static void backrun_has_lobes(void **state)
     assert_true(inside < 0.85 * beyond && rim > 1.3 * beyond);
 }
 
-/* ---- a drop of colour into clean water ---- */
+/* ---- a drop of colour in clean water ---- */
 
 /* How far `amounts` differ from the best fitting disc about their own middle, whose profile is an error function. */
 static double unlike_a_disc(const float *amounts)
@@ -275,7 +275,7 @@ static double ink_front(uint64_t seed, const char *stock)
     return front_ratio(first, 0.04f);
 }
 
-/* Three of twenty sheets that were measured. */
+/* Three seeds of twenty that were measured. */
 static void ink_runs_along_fibers(void **state)
 {
     (void)state;

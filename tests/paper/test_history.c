@@ -128,7 +128,7 @@ static void what_is_inserted_comes_before_what_followed(void **state)
     }
     uint64_t before = state_hash(sheet);
     assert_int_equal(paper_history_insert_begin(sheet, 27), PAPER_BAD_ARGUMENT);
-    check(paper_history_insert_begin(sheet, 12)); /* thinks better of it */
+    check(paper_history_insert_begin(sheet, 12)); /* abandoned at its end */
     box_put(sheet, 0, 0, 20, (double[]){2, 2, 2});
     check(paper_history_insert_end(sheet, false));
     assert_true(state_hash(sheet) == before);
@@ -243,7 +243,7 @@ static void a_saved_run_goes_on(void **state)
     paper_history_undo(whole, done[OPERATIONS] - done[SAVED]);
     uint64_t middle = state_hash(whole);
 
-    /* loaded: it is there, with its past */
+    /* loaded: the sheet has its history */
     check(
         paper_history_decode(saved.bytes, saved.count, false, 1e6, saved_give, &saved, &sheet));
     assert_true(state_hash(sheet) == middle);
@@ -476,7 +476,7 @@ static void another_resolution_is_the_same_picture(void **state)
         if (fabs(large / small - 4) > (substance > 0 ? 0.01 : 0.5))
             fail_msg("substance %d: %g became %g", substance, small, large);
     }
-    /* where pigment is, in all layers */
+    /* the pigment's places, sums of all layers */
     static float coarse[FIBERS], fine[4 * FIBERS], part[4 * FIBERS];
     memset(coarse, 0, sizeof coarse);
     memset(fine, 0, sizeof fine);

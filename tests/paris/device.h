@@ -18,7 +18,7 @@ void device_start(int eager);
 void device_put(CM_field_id_t field, int width, const number *numbers);
 void device_get(CM_field_id_t field, int width, number *numbers);
 
-/* Reproducible: xorshift. */
+/* The next random number, by xorshift. */
 uint64_t device_random(void);
 void device_seed(uint64_t seed);
 /* Draws COUNT numbers of width bits. Half of them are special: 0, 1, -1, the range's ends, single bits. */
@@ -27,7 +27,7 @@ void device_integers(number *numbers, int width);
  * halves, others. */
 void device_floats(number *numbers, int width);
 
-/* which % 3: none, all, random */
+/* Draws a mask; which % 3: none, all, random. */
 void device_mask(number *bits, int which);
 
 /* The last message of the error handler device_error_catch(). */

@@ -9,9 +9,9 @@
  * and dest, b_signed that of the second source. */
 struct oracle_result oracle_integer_row(const char *op, bool is_signed, bool b_signed, number a,
                                         int alen, number b, int blen, int dlen);
-/* The row touches the overflow flag. */
+/* Whether the row sets the overflow flag. */
 bool oracle_integer_overflows(const char *op);
-/* The low len bits, last one first. */
+/* The low len bits in reverse order. */
 number oracle_reversed(number a, int len);
 
 #endif

@@ -98,7 +98,7 @@ static void set_free(struct set *s)
     free(s->got);
 }
 
-/* COUNT numbers at a time. */
+/* Draws numbers, COUNT at a time. */
 static void numbers_random(number *n, int count, int width, bool floats)
 {
     number some[COUNT];

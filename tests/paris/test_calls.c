@@ -477,7 +477,7 @@ static void timers_add_up(void **unused)
     assert_int_equal(CM_timer_read_run_state(3), 0);
 }
 
-/* Last: it gives all back. */
+/* Last, because it deallocates everything. */
 static void init_gives_all_back(void **unused)
 {
     (void)unused;

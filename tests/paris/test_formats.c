@@ -239,7 +239,7 @@ static void instructions_agree(struct soft_format format)
     record_arithmetic(a, b);
     record_moves(a, u);
     record_flags(a, b);
-    if (f.s == 40) /* as many kernels again */
+    if (f.s == 40) /* they would double the kernels */
         record_functions(a, b, d, u);
     for (int k = 0; k < results_count; k++) {
         const struct result *r = &results[k];

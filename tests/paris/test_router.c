@@ -197,7 +197,7 @@ static void complex_sums_arrive(void **unused)
     CM_deallocate_stack_through(s);
 }
 
-/* 200 bits: whole messages win. */
+/* Messages of 200 bits: of two that collide one arrives whole. */
 static void long_messages_arrive_whole(void **unused)
 {
     (void)unused;

@@ -103,7 +103,7 @@ static void files_are_whole_or_as_they_were(void **state)
     struct paper_sheet_config config = *paper_sheet_get_config(sheet);
     check(paper_state_save(path, &(struct paper_state_sheet){1, sheet}, 1));
     sample_paint(sheet, 3);
-    /* a disk that is full */
+    /* a full disk */
     struct rlimit full = {20000, RLIM_INFINITY}, before;
     getrlimit(RLIMIT_FSIZE, &before);
     full.rlim_max = before.rlim_max;

@@ -54,7 +54,7 @@ static void header_agree(void)
     free(bytes);
 }
 
-/* A good state, changed, with a header that agrees. */
+/* Changes a good state, and makes its header agree. */
 static void forge(void (*change)(hid_t file))
 {
     good_save(false);

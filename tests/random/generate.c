@@ -128,7 +128,7 @@ static void emit_row(struct generator *g)
         return;
     if (info->shape == FLAG && draw(g, 2))
         return;
-    /* each look costs kernels of its own */
+    /* each read needs kernels of its own */
     if ((info->shape == INT_GLOBAL || info->shape == FLOAT_GLOBAL ||
          info->shape == READ_PROCESSOR) &&
         draw(g, 4))

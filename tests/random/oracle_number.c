@@ -1,4 +1,4 @@
-/* oracle_number.c - numbers, one at a time. */
+/* oracle_number.c - see oracle_number.h. */
 #include "oracle_number.h"
 
 #include <math.h>
@@ -76,7 +76,7 @@ static wide divided(enum op op, bool is_signed, wide a, wide b, int bits, bool *
     return result & wide_mask(bits);
 }
 
-/* One place at a time. */
+/* Shifts one place at a time. */
 static wide shifted(signed_wide a, signed_wide count, int bits, bool *overflows)
 {
     *overflows = false;
@@ -263,7 +263,7 @@ uint64_t number_float(enum op op, int bits, uint64_t a, uint64_t b, bool *overfl
                       : real_arithmetic(op, a, b, overflows);
 }
 
-/* A NaN is none of the three. */
+/* A NaN is neither less, equal nor greater. */
 bool number_compare_float(enum op op, int bits, uint64_t pa, uint64_t pb)
 {
     double a = number_value(pa, bits), b = number_value(pb, bits);

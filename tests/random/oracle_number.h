@@ -16,7 +16,7 @@ signed_wide wide_signed(wide x, int bits);
 /* Returns a op b. The operands are already zero- or sign-extended. *overflows tells whether the exact result does not fit in
  * `bits` bits; operations that record no overflow leave it alone. */
 wide number_integer(enum op op, bool is_signed, wide a, wide b, int bits, bool *overflows);
-/* Floats as bits; 32 or 64 of them. */
+/* Floats are bits, 32 or 64 of them. */
 uint64_t number_float(enum op op, int bits, uint64_t a, uint64_t b, bool *overflows);
 
 bool number_compare_integer(enum op op, bool is_signed, wide a, wide b);
@@ -25,9 +25,9 @@ bool number_compare_float(enum op op, int bits, uint64_t a, uint64_t b);
 uint64_t number_from_integer(bool is_signed, wide a, int float_bits);
 wide number_to_integer(enum op op, bool is_signed, uint64_t a, int float_bits, int bits,
                        bool *overflows);
-/* Float to float of another length. */
+/* Converts a float to another length. */
 uint64_t number_resize_float(uint64_t a, int from_bits, int to_bits);
-/* A front-end number, rounded. */
+/* Rounds a front-end number. */
 uint64_t number_real(double x, int float_bits);
 double number_value(uint64_t a, int float_bits);
 

@@ -119,7 +119,7 @@ static void write_floats(struct execution *x)
     free(numbers);
 }
 
-/* Of a row-major index. */
+/* The send address of a row-major index. */
 static unsigned int address(const struct execution *x)
 {
     CM_geometry_id_t g = CM_vp_set_geometry(CM_current_vp_set);

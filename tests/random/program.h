@@ -170,7 +170,7 @@ void program_generate(struct program *p, uint64_t seed, int length);
 void program_generate_loop(struct program *p, uint64_t seed, bool sheet);
 /* Drops instructions that cannot run; call it before the executors. */
 void program_normalise(struct program *p);
-/* A C program with CM_ calls. */
+/* Prints a C program with CM_ calls. */
 void program_print(const struct program *p, FILE *out);
 
 /* ---- data that programs write: a function of the instruction alone ---- */
@@ -207,7 +207,7 @@ enum sabotage {
 
 /* Runs on plain bit arrays; `sabotage` makes one operation wrong on purpose. */
 void oracle_run(const struct program *p, struct trace *out, enum sabotage sabotage);
-/* C/Paris calls. */
+/* Runs by C/Paris calls. */
 void paris_run(const struct program *p, struct trace *out, bool eager);
 
 /* Sets these environment variables (NAME=value, ending with NULL) for all later machines, and unsets those of the previous

@@ -234,7 +234,7 @@ static const struct {
     {"x = setmetatable({}, {__gc = function() open() p:close() p = paper{width = 8, height = "
      "8} end})",
      NULL, NULL, true},
-    /* what is made does not end */
+    /* scripts that make objects without end */
     {"while true do paper{width = 8, height = 8} end", "stopped after", "", false},
     {"while true do p:brush{number = 1} end", "stopped after", "", false},
     {"while true do pcall(paper, {width = 8, height = 8}) end", "stopped after", "", false},

@@ -320,7 +320,7 @@ static void windows_agree(void **state)
     assert_int_equal(stage_renderer_read(renderer, &image), STAGE_OK);
     keep("window", &image);
     agrees(&image, &wanted, 0.98);
-    /* And that is what is seen. */
+    /* The screen shows the same picture. */
     Window there = screen_window("stage", 10);
     assert_true(there != 0);
     assert_true(screen_shows(there, &image, 10));

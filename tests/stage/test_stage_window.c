@@ -135,7 +135,7 @@ static void masses_are_dragged_and_let_go(void **state)
     xtest_button(1, false);
     UNTIL(hypot(mass(0).vx, mass(0).vy) < 0.3); /* it swings until it rests */
     assert_int_equal(hold_of(0), DYN_FREE);
-    /* Undone it is where it was. */
+    /* Undo puts it back. */
     xtest_type(XK_space);
     UNTIL(stage_clock(stage)->paused);
     xtest_key(XK_Control_L, true);
@@ -285,7 +285,7 @@ static void sliders_and_typed_values_set_controls(void **state)
     xtest_type(XK_u);
     UNTIL(value_of("gravity") > 40);
 
-    /* A switch changes with a click. */
+    /* A click changes a switch. */
     control("shadow", &row);
     assert_true(stage_panel_place(stage_window_panel(window), row, &slider, &value));
     xtest_move(there, (int)value.x1 - 5, (int)value.y0 + 5);
