@@ -69,10 +69,11 @@ lanes_function *lanes_find_conversion(int op, enum lanes_class from, enum lanes_
 lanes_function lane_each;
 
 /* Of n processors' indices those from `first` on, `count` of them, where the context (NULL: everywhere) holds: `place` and `lane`
- * become their indices and their lanes, one after the other. n is 512 at most; both have room for 16 more. Returns how many. */
+ * become their indices, so much further, and their lanes, one after the other. n is 512 at most; both have room for 16 more. Returns how many. */
 struct lanes_pick {
     const uint32_t *index;
     uint32_t first, count;
+    uint32_t further; /* added to what is picked */
 };
 typedef size_t lanes_pick_function(const struct lanes_pick *p, const uint8_t *context, int n,
                                    uint32_t *place, uint16_t *lane);

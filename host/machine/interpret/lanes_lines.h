@@ -5,7 +5,7 @@
 
 static size_t pick(const struct lanes_pick *p, const u8 *context, int n, u32 *place, u16 *lane)
 {
-    const u32 *index = p->index, first = p->first, count = p->count;
+    const u32 *index = p->index, first = p->first, count = p->count, further = p->further;
     size_t picked = 0;
     int i = 0;
 #ifdef __AVX512F__
@@ -18,7 +18,8 @@ static size_t pick(const struct lanes_pick *p, const u8 *context, int n, u32 *pl
             const __m128i c = _mm_loadu_si128((const __m128i *)(const void *)(context + i));
             on &= _mm_test_epi8_mask(c, c);
         }
-        _mm512_storeu_si512(place + picked, _mm512_maskz_compress_epi32(on, x));
+        _mm512_storeu_si512(place + picked, _mm512_add_epi32(_mm512_maskz_compress_epi32(on, x),
+                                                             _mm512_set1_epi32((i32)further)));
         _mm256_storeu_si256((__m256i *)(void *)(lane + picked),
                             _mm512_cvtepi32_epi16(_mm512_maskz_compress_epi32(on, lanes)));
         lanes = _mm512_add_epi32(lanes, _mm512_set1_epi32(16));
@@ -27,7 +28,7 @@ static size_t pick(const struct lanes_pick *p, const u8 *context, int n, u32 *pl
 #endif
     for (; i < n; i++) {
         const bool on = !context || context[i];
-        place[picked] = index[i];
+        place[picked] = index[i] + further;
         lane[picked] = (u16)i;
         picked += on & (index[i] - first < count);
     }

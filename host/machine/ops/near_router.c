@@ -66,15 +66,14 @@ static void hops_find(const struct near_route *r, const struct range *to, size_t
     uint32_t index[BLOCK];
     const struct vpset *s = r->to;
     const unsigned char *context = r->context ? r->context->host : NULL;
-    const struct lanes_pick p = {index, (uint32_t)to->first, (uint32_t)(to->end - to->first)};
+    const struct lanes_pick p = {index, (uint32_t)to->first, (uint32_t)(to->end - to->first),
+                                 s->rows == 1 ? (uint32_t)s->halo : 0};
     addresses_read(r, at, n, index);
     h->count = r->lanes->pick(&p, context ? context + at : NULL, n, h->place, h->lane);
     if (s->rows > 1)
         r->lanes->places(h->place, h->count,
                          &(struct lanes_rows){(uint32_t)s->width, (uint32_t)s->halo,
                                               (uint32_t)(s->pitch - (size_t)s->width)});
-    for (size_t i = 0; i < h->count && s->rows == 1; i++)
-        h->place[i] += (uint32_t)s->halo;
 }
 
 /* Blocks of the senders' rows, one after the other. All zero: before the first. */
@@ -241,7 +240,7 @@ static void floats_join(const struct hops *h, int combiner, struct machine_type 
 
 #define MOVE_ALL(T)                                                                            \
     {                                                                                          \
-        const T *in = (const T *)from + at;                                                    \
+        const T *in = (const T *)source + from;                                                \
         T *to = (T *)out + r->to->halo;                                                        \
         for (int i = 0; i < n; i++)                                                            \
             to[index[i]] = in[i];                                                              \
@@ -249,7 +248,7 @@ static void floats_join(const struct hops *h, int combiner, struct machine_type 
 
 /* All of a block's messages to a set of one row. False: somebody does not send, or to nobody; nothing has been done. */
 static bool messages_move_all(const struct near_route *r, const struct block *b, size_t bytes,
-                              const void *from, void *out)
+                              const void *source, size_t from, void *out)
 {
     uint32_t index[BLOCK], greatest = 0;
     const int n = b->n;
@@ -287,12 +286,19 @@ struct routing {
     struct machine_type type;
     size_t bytes;
     const void *source;
+    bool same; /* all send the same, which a block of the source is full of */
     void *out;
     char *own;
     size_t own_bytes; /* of each */
     unsigned char *arrived;
     uint64_t wrong[CREW_MOST]; /* for each thread */
 };
+
+/* Where a block's messages are. */
+static size_t messages_at(const struct routing *g, const struct block *b)
+{
+    return g->same ? 0 : b->at;
+}
 
 /* Some senders, to all processors. */
 static void part_combine(void *of, int part, int worker)
@@ -305,7 +311,7 @@ static void part_combine(void *of, int part, int worker)
     (void)worker;
     for (struct block b = {0}; block_of_part(r, &b, part);) {
         hops_find(r, &all, b.at, b.n, &h);
-        integers_join(&h, g->combiner, g->type, g->source, b.at, out);
+        integers_join(&h, g->combiner, g->type, g->source, messages_at(g, &b), out);
     }
 }
 
@@ -372,30 +378,37 @@ static void part_send(void *of, int part, int worker)
     (void)worker;
     for (struct block b = {0}; block_next(r, &b);) {
         bool moves = g->combiner == MACHINE_COMBINE_OVERWRITE;
+        const size_t from = messages_at(g, &b);
         if (moves && !g->arrived && parts == 1 &&
-            messages_move_all(r, &b, g->bytes, g->source, g->out))
+            messages_move_all(r, &b, g->bytes, g->source, from, g->out))
             continue;
         hops_find(r, &to, b.at, b.n, &h);
         if (moves)
-            messages_move(&h, g->bytes, g->source, b.at, g->out);
+            messages_move(&h, g->bytes, g->source, from, g->out);
         else if (g->type.kind == MACHINE_FLOAT)
-            floats_join(&h, g->combiner, g->type, g->source, b.at, g->out);
+            floats_join(&h, g->combiner, g->type, g->source, from, g->out);
         else
-            integers_join(&h, g->combiner, g->type, g->source, b.at, g->out);
+            integers_join(&h, g->combiner, g->type, g->source, from, g->out);
         for (size_t i = 0; g->arrived && i < h.count; i++)
             g->arrived[h.place[i]] = 1;
     }
 }
 
 void near_send(const struct near_route *r, int combiner, struct machine_type type,
-               const struct device_buffer *source, struct device_buffer *out,
+               const struct machine_value *source, struct device_buffer *out,
                struct device_buffer *arrived)
 {
+    _Alignas(16) unsigned char number[BLOCK * 16];
+    const bool same = source->op == NODE_CONSTANT && !source->buffer;
+    if (same)
+        array_fill(number, (const uint64_t[2]){source->imm.lo, source->imm.hi},
+                   type_bytes(type), BLOCK);
     struct routing g = {.r = r,
                         .combiner = combiner,
                         .type = type,
                         .bytes = type_bytes(type),
-                        .source = source->host,
+                        .source = same ? number : source->buffer->host,
+                        .same = same,
                         .out = out->host,
                         .arrived = arrived ? arrived->host : NULL};
     if (!send_to_few(&g))

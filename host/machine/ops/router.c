@@ -71,8 +71,9 @@ static bool message_make(struct machine *m, struct message *g, struct machine_va
         return false;
     g->all = !g->context || (g->context->op == NODE_CONSTANT && g->context->imm.lo);
     g->address = materialise(m, g->from_set, address);
-    if (g->address && source)
-        g->source = materialise(m, source_set, source);
+    if (g->address && source) /* a number that is sent may do as it is */
+        g->source =
+            other && source->op == NODE_CONSTANT ? source : materialise(m, source_set, source);
     if (g->address && other)
         g->old = materialise(m, to_set, other);
     if (!g->address || (source && !g->source) || (other && !g->old))
@@ -323,7 +324,7 @@ static enum machine_status transmit_near(struct machine *m, const struct message
     device_move(m, out->host, g->old->buffer->host, bytes);
     if (arrived)
         memset(arrived->host, 0, arrived->bytes);
-    near_send(&r, (int)combiner, g->source->type, g->source->buffer, out, arrived);
+    near_send(&r, (int)combiner, g->source->type, g->source, out, arrived);
     if (arrived)
         *notification = graph_buffer_node(m, MACHINE_BIT, g->to_set, arrived);
     near_end(m, "sending", start);
@@ -368,7 +369,7 @@ static enum machine_status transmit_far(struct machine *m, const struct message 
 }
 
 /* notification NULL: nobody wants it. */
-static struct machine_value *transmit(struct machine *m, const struct message *g,
+static struct machine_value *transmit(struct machine *m, struct message *g,
                                       enum machine_combiner combiner,
                                       struct machine_value **notification)
 {
@@ -382,6 +383,10 @@ static struct machine_value *transmit(struct machine *m, const struct message *g
         device_buffer_unref(m, out);
         rows.bytes += shares(m, g->to) * 64 * type_bytes(type); /* thrown away */
         out = device_rows_get(m, rows);
+    }
+    if (out && !near && !(g->source = materialise(m, g->from_set, g->source))) {
+        device_buffer_unref(m, out);
+        return NULL;
     }
     if (!out)
         return NULL;
