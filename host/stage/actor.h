@@ -77,6 +77,8 @@ struct stage_actor_kind {
     /* Saves to a file, written whole or not at all; loads from a file: unchanged on failure. */
     enum stage_status (*save)(void *actor, const char *path);
     enum stage_status (*load)(void *actor, const char *path);
+    /* A number that differs where the words, places and files differ that it began with. */
+    uint64_t (*digest)(void *actor);
     /* Takes the oldest waiting sounds, at most `most`; returns how many. */
     int (*heard)(void *actor, struct stage_sound *out, int most);
     void (*destroy)(void *actor);

@@ -11,14 +11,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WORDS_MAX = 9, LINE_MAX_BYTES = 400 };
+enum { WORDS_MAX = 9, LINE_MAX_BYTES = 4400 };
+enum { PATH_MOST = 4095 };
 static const long file_bytes_max = 1L << 28;
 
-static const char *const kind_names[] = {"hand", "set", "mark", "drop", "undo", "reset"};
+static const char *const kind_names[] = {"hand", "set",  "load", "mark",
+                                         "drop", "undo", "reset"};
 static const char *const event_names[] = {"down", "move", "up", "cancel"};
 
 void stage_session_finish(struct stage_session *s)
 {
+    for (int i = 0; i < s->files_count; i++)
+        free(s->files[i].path);
+    free(s->files);
     free(s->deeds);
     memset(s, 0, sizeof *s);
 }
@@ -35,14 +40,90 @@ void stage_session_add(struct stage_session *s, const struct stage_deed *deed)
     s->deeds[s->count++] = *deed;
 }
 
+/* ---- loaded files ---- */
+
+uint64_t stage_digest(uint64_t digest, const void *bytes, size_t count)
+{
+    const unsigned char *b = bytes;
+    for (size_t i = 0; i < count; i++)
+        digest = (digest ^ b[i]) * 0x100000001b3u;
+    return digest;
+}
+
+/* NULL: it was read; else why not. */
+static const char *digest_find(const char *path, uint64_t *digest)
+{
+    const char *why = NULL;
+    unsigned char bytes[1 << 14];
+    FILE *file = input_file_open(path, &why);
+    *digest = STAGE_DIGEST_NONE;
+    if (!file)
+        return why;
+    for (size_t count; (count = fread(bytes, 1, sizeof bytes, file)) > 0;)
+        *digest = stage_digest(*digest, bytes, count);
+    why = ferror(file) ? strerror(errno) : NULL;
+    fclose(file);
+    return why;
+}
+
+/* False: no memory. */
+static bool file_add(struct stage_session *s, const char *path, uint64_t digest)
+{
+    char *copy = strdup(path);
+    if (!copy ||
+        !array_reserve(&s->files, &s->files_capacity, s->files_count + 1, sizeof *s->files)) {
+        free(copy);
+        return false;
+    }
+    s->files[s->files_count++] = (struct stage_file){copy, digest};
+    return true;
+}
+
+void stage_session_add_load(struct stage_session *s, int64_t step, const char *path)
+{
+    uint64_t digest;
+    size_t length = strlen(path);
+    if (s->broken)
+        return;
+    if (!length || length > PATH_MOST || strpbrk(path, "\r\n"))
+        s->broken = "a file with such a name was loaded";
+    else if (digest_find(path, &digest))
+        s->broken = "a file was loaded that is gone";
+    else if (!file_add(s, path, digest))
+        s->broken = "it is too long";
+    else
+        stage_session_add(s, &(struct stage_deed){.step = step,
+                                                  .kind = STAGE_DEED_LOAD,
+                                                  .file = s->files_count - 1});
+}
+
+enum stage_status stage_session_file_check(const struct stage_file *file, const char *name,
+                                           int line)
+{
+    uint64_t digest;
+    const char *why = digest_find(file->path, &digest);
+    if (why)
+        return stage_fail(STAGE_BAD_FILE, "%s:%d: loads %s, which cannot be read: %s", name,
+                          line, file->path, why);
+    if (digest != file->digest)
+        return stage_fail(STAGE_BAD_FILE,
+                          "%s:%d: loads %s, which has changed since the session", name, line,
+                          file->path);
+    return STAGE_OK;
+}
+
 /* ---- writing ---- */
 
-static void deed_print(const struct stage_deed *d, const struct stage_control *rows, FILE *to)
+static void deed_print(const struct stage_session *s, const struct stage_deed *d,
+                       const struct stage_control *rows, FILE *to)
 {
     const struct stage_event *e = &d->event;
     fprintf(to, "%lld %s", (long long)d->step, kind_names[d->kind]);
     if (d->kind == STAGE_DEED_SET)
         fprintf(to, " %s %.17g", rows[d->control].name, d->value);
+    if (d->kind == STAGE_DEED_LOAD)
+        fprintf(to, " %016llx %s", (unsigned long long)s->files[d->file].digest,
+                s->files[d->file].path);
     if (d->kind == STAGE_DEED_HAND)
         fprintf(to, " %s %.17g %.17g %.17g %.17g %d %u", event_names[e->kind], e->x, e->y,
                 e->near, e->pressure, e->button, e->modifiers);
@@ -59,8 +140,10 @@ enum stage_status stage_session_write(const struct stage_session *s,
     if (!output_file_open(&out, path))
         return stage_fail(STAGE_BAD_FILE, "%s: cannot be written: %s", path, out.why);
     fputs("session 1\n", out.stream);
+    if (s->begin)
+        fprintf(out.stream, "begin %016llx\n", (unsigned long long)s->begin);
     for (int i = 0; i < s->count; i++)
-        deed_print(&s->deeds[i], rows, out.stream);
+        deed_print(s, &s->deeds[i], rows, out.stream);
     fputs("end\n", out.stream);
     if (!output_file_commit(&out))
         return stage_fail(STAGE_BAD_FILE, "%s: cannot be written: %s", path, out.why);
@@ -71,6 +154,7 @@ enum stage_status stage_session_write(const struct stage_session *s,
 
 struct line {
     char text[LINE_MAX_BYTES];
+    char whole[LINE_MAX_BYTES]; /* with its blanks */
     char *words[WORDS_MAX];
     int count; /* WORDS_MAX + 1: more */
 };
@@ -79,6 +163,7 @@ static void line_split(struct line *line)
 {
     char *rest = line->text;
     line->count = 0;
+    snprintf(line->whole, sizeof line->whole, "%s", line->text);
     for (char *word; (word = strtok_r(rest, " \t\r", &rest));) {
         if (line->count == WORDS_MAX) {
             line->count++;
@@ -144,10 +229,38 @@ static const char *set_read(const struct line *line, const struct stage_control 
     return NULL;
 }
 
-/* NULL: it is fine; else what the line must be. */
-static const char *deed_read(const struct line *line, const struct stage_control *rows,
-                             int rows_count, int64_t least_step, struct stage_deed *deed)
+static bool digest_read(const char *word, uint64_t *out)
 {
+    *out = strtoull(word, NULL, 16);
+    return strlen(word) == 16 && strspn(word, "0123456789abcdef") == 16;
+}
+
+/* STEP load DIGEST PATH: a path may have blanks. NULL: it is fine; else what it must be. */
+static const char *load_read(struct line *line, struct stage_session *out,
+                             struct stage_deed *deed)
+{
+    static const char must[] = "`STEP load DIGEST FILE`, a digest of 16 hexadecimal digits";
+    if (line->count < 4)
+        return must;
+    const char *digits = line->words[2];
+    char *path = line->whole + (digits - line->text) + strlen(digits) + 1;
+    size_t length = strlen(path);
+    if (length && path[length - 1] == '\r')
+        path[--length] = '\0';
+    uint64_t digest;
+    if (!digest_read(digits, &digest) || !length || length > PATH_MOST)
+        return must;
+    if (!file_add(out, path, digest))
+        out->broken = "no memory";
+    deed->file = out->files_count - 1;
+    return NULL;
+}
+
+/* NULL: it is fine; else what the line must be. */
+static const char *deed_read(struct line *line, const struct stage_control *rows,
+                             int rows_count, struct stage_session *out, struct stage_deed *deed)
+{
+    int64_t least_step = out->count ? out->deeds[out->count - 1].step : 0;
     long long step;
     *deed = (struct stage_deed){0};
     if (line->count < 2 || !integer_read(line->words[0], INT64_MAX, &step) || step < least_step)
@@ -157,12 +270,15 @@ static const char *deed_read(const struct line *line, const struct stage_control
     deed->kind = (enum stage_deed_kind)kind;
     if (kind == STAGE_DEED_SET)
         return set_read(line, rows, rows_count, deed);
+    if (kind == STAGE_DEED_LOAD)
+        return load_read(line, out, deed);
     if (kind == STAGE_DEED_HAND)
         return hand_read(line, &deed->event)
                    ? NULL
                    : "`STEP hand down|move|up|cancel X Y NEAR PRESSURE BUTTON MODIFIERS`";
-    return kind >= 0 && line->count == 2 ? NULL
-                                         : "hand, set, mark, drop, undo or reset after STEP";
+    return kind >= 0 && line->count == 2
+               ? NULL
+               : "hand, set, load, mark, drop, undo or reset after STEP";
 }
 
 static enum stage_status wrong(const char *name, int number, const char *must)
@@ -170,24 +286,52 @@ static enum stage_status wrong(const char *name, int number, const char *must)
     return stage_fail(STAGE_BAD_FILE, "%s:%d: must be %s", name, number, must);
 }
 
+struct reader {
+    const struct stage_control *rows;
+    int rows_count, number; /* of the line */
+    bool begun, ended;
+};
+
+/* NULL: it is fine; else what the line must be. */
+static const char *line_read(struct reader *r, struct line *line, struct stage_session *out)
+{
+    struct stage_deed deed;
+    const char *first = line->words[0];
+    if (!r->begun) {
+        r->begun =
+            line->count == 2 && !strcmp(first, "session") && !strcmp(line->words[1], "1");
+        return r->begun ? NULL : "`session 1`: is this a session?";
+    }
+    if (line->count == 1 && strcmp(first, "end") == 0) {
+        r->ended = true;
+        return NULL;
+    }
+    if (strcmp(first, "begin") == 0)
+        return line->count == 2 && !out->count && digest_read(line->words[1], &out->begin)
+                   ? NULL
+                   : "`begin DIGEST`, before what was done";
+    const char *must = deed_read(line, r->rows, r->rows_count, out, &deed);
+    deed.line = r->number;
+    if (!must)
+        stage_session_add(out, &deed);
+    return must;
+}
+
 enum stage_status stage_session_parse(const char *text, size_t bytes, const char *name,
                                       const struct stage_control *rows, int rows_count,
                                       struct stage_session *out)
 {
     const char *end = text + bytes;
-    bool begun = false, ended = false;
-    int number = 0;
+    struct reader r = {.rows = rows, .rows_count = rows_count};
     enum stage_status status = STAGE_OK;
     *out = (struct stage_session){0};
-    while (status == STAGE_OK && text < end && !ended) {
+    while (status == STAGE_OK && text < end && !r.ended) {
         struct line line;
-        struct stage_deed deed;
         const char *stop = memchr(text, '\n', (size_t)(end - text));
         size_t length = (size_t)((stop ? stop : end) - text);
-        const char *must = NULL;
-        number++;
+        r.number++;
         if (length >= sizeof line.text || memchr(text, '\0', length)) {
-            status = wrong(name, number, "a line of text, not so long");
+            status = wrong(name, r.number, "a line of text, not so long");
             break;
         }
         memcpy(line.text, text, length);
@@ -196,26 +340,14 @@ enum stage_status stage_session_parse(const char *text, size_t bytes, const char
         text += length + (stop ? 1 : 0);
         if (line.count == 0 || line.words[0][0] == '#')
             continue;
-        if (!begun)
-            must = line.count == 2 && !strcmp(line.words[0], "session") &&
-                           !strcmp(line.words[1], "1")
-                       ? NULL
-                       : "`session 1`: is this a session?";
-        else if (line.count == 1 && strcmp(line.words[0], "end") == 0)
-            ended = true;
-        else
-            must = deed_read(&line, rows, rows_count,
-                             out->count ? out->deeds[out->count - 1].step : 0, &deed);
+        const char *must = line_read(&r, &line, out);
         if (must)
-            status = wrong(name, number, must);
-        else if (begun && !ended)
-            stage_session_add(out, &deed);
-        begun = true;
-        if (out->broken)
+            status = wrong(name, r.number, must);
+        else if (out->broken)
             status = stage_fail(STAGE_NO_MEMORY, "%s: the session is too long", name);
     }
-    if (status == STAGE_OK && !ended)
-        status = wrong(name, number + 1, "`end`: the session was cut short");
+    if (status == STAGE_OK && !r.ended)
+        status = wrong(name, r.number + 1, "`end`: the session was cut short");
     if (status != STAGE_OK)
         stage_session_finish(out);
     return status;
@@ -239,5 +371,11 @@ enum stage_status stage_session_read(const char *path, const struct stage_contro
         whole ? stage_session_parse(text, count, path, rows, rows_count, out)
               : stage_fail(STAGE_BAD_FILE, "%s: cannot be read, or is too long", path);
     free(text);
+    for (int i = 0; status == STAGE_OK && i < out->count; i++)
+        if (out->deeds[i].kind == STAGE_DEED_LOAD)
+            status = stage_session_file_check(&out->files[out->deeds[i].file], path,
+                                              out->deeds[i].line);
+    if (status != STAGE_OK)
+        stage_session_finish(out);
     return status;
 }

@@ -9,16 +9,20 @@
  * A session has a line for each action; the number is that of steps made before it:
  *
  *     session 1
+ *     begin 51ab7e0fd0c94c22                   of the actor as it began: actor.h
  *     412 mark
  *     412 hand down 0.25 2.5 0.23 0 0 1        what, x, y, how far is near, pressure, button, modifiers
  *     415 hand move 0.5 2.75 0.23 0 0 1
  *     430 hand up 0.5 2.75 0.23 0 0 1
  *     500 set gravity 3.7
+ *     540 load 8a1c0f3e55d2b790 word.springs   the file's digest, and its name
  *     612 undo                                 and mark, drop (a mark), reset, hand cancel
  *     end
  *
- * Time is in steps, so pauses and slow motion do not matter. Loaded files are not part of
- * it: a session in which a file was loaded cannot be saved.
+ * Time is in steps, so pauses and slow motion do not matter. A loaded file is not part of the
+ * session: it must be where it was, seen from the working folder, and have the same bytes, or
+ * the session is refused when it is read. What it began with (words, their font, a network, a
+ * script) must be the same, too, or its first frame fails; other controls may be set.
  */
 #ifndef LUTETIA_STAGE_SESSION_H
 #define LUTETIA_STAGE_SESSION_H
@@ -30,6 +34,7 @@
 enum stage_deed_kind {
     STAGE_DEED_HAND,
     STAGE_DEED_SET,
+    STAGE_DEED_LOAD,
     STAGE_DEED_MARK,
     STAGE_DEED_DROP,
     STAGE_DEED_UNDO,
@@ -42,6 +47,18 @@ struct stage_deed {
     struct stage_event event; /* HAND */
     int control;              /* SET: the row of the stage's table */
     double value;
+    int file; /* LOAD: of the session's files */
+    int line; /* of a session that was read */
+};
+
+/* FNV-1a: continues a digest with more bytes. */
+#define STAGE_DIGEST_NONE 0xcbf29ce484222325u
+uint64_t stage_digest(uint64_t digest, const void *bytes, size_t count);
+
+/* A file that was loaded. */
+struct stage_file {
+    char *path;
+    uint64_t digest;
 };
 
 enum { STAGE_DEEDS_MAX = 1 << 22 };
@@ -50,6 +67,9 @@ enum { STAGE_DEEDS_MAX = 1 << 22 };
 struct stage_session {
     struct stage_deed *deeds;
     int count, capacity;
+    struct stage_file *files;
+    int files_count, files_capacity;
+    uint64_t begin;     /* the actor's digest; 0: unknown */
     const char *broken; /* why it cannot be saved; NULL: it can */
 };
 
@@ -62,10 +82,20 @@ void stage_session_add(struct stage_session *session, const struct stage_deed *d
 enum stage_status stage_session_write(const struct stage_session *session,
                                       const struct stage_control *rows, const char *path);
 
-/* Errors: BAD_FILE, with the file's name and the line; NO_MEMORY. *out is then empty. */
+/* Adds that a file is loaded, with its present digest. If that fails the session is marked
+ * broken. */
+void stage_session_add_load(struct stage_session *session, int64_t step, const char *path);
+
+/* Checks that a loaded file is what it was. name, line: of the session, for the error. Errors:
+ * BAD_FILE (it is not there, or is another). */
+enum stage_status stage_session_file_check(const struct stage_file *file, const char *name,
+                                           int line);
+
+/* Errors: BAD_FILE, with the file's name and the line, also if a loaded file is not there or has
+ * changed; NO_MEMORY. *out is then empty. */
 enum stage_status stage_session_read(const char *path, const struct stage_control *rows,
                                      int rows_count, struct stage_session *out);
-/* The same for a text in memory; name: used in errors. */
+/* The same for a text in memory, without a look at loaded files; name: used in errors. */
 enum stage_status stage_session_parse(const char *text, size_t bytes, const char *name,
                                       const struct stage_control *rows, int rows_count,
                                       struct stage_session *out);

@@ -266,6 +266,7 @@ static const struct stage_actor_kind springs_kind = {.name = "springs",
                                                      .forget = springs_forget,
                                                      .save = springs_save,
                                                      .load = springs_load,
+                                                     .digest = springs_digest,
                                                      .heard = springs_heard,
                                                      .destroy = springs_destroy};
 

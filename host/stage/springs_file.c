@@ -1,8 +1,10 @@
 /* springs_file.c - saves and loads the network by dynamics, and converts its errors. */
+#include "session.h"
 #include "springs_internal.h"
 
 #include <network_file.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 enum stage_status springs_fail(enum dyn_status status)
 {
@@ -47,4 +49,27 @@ enum stage_status springs_load(void *actor, const char *path)
     s->network = read;
     s->hand = (struct springs_hand){0};
     return STAGE_OK;
+}
+
+/* Of masses, of what hangs on what, and of the keys that lead masses; parameters may differ. */
+uint64_t springs_digest(void *actor)
+{
+    const struct springs *s = actor;
+    size_t masses = (size_t)dyn_masses_count(s->network), bytes = 0;
+    char *text = NULL;
+    uint64_t digest = stage_digest(STAGE_DIGEST_NONE, dyn_network_states(s->network),
+                                   masses * sizeof(struct dyn_state));
+    for (int i = 0; i < dyn_springs_count(s->network); i++) {
+        struct dyn_spring spring = dyn_spring_get(s->network, i);
+        digest = stage_digest(digest, spring.end, sizeof spring.end);
+        digest = stage_digest(digest, &spring.rest_length, sizeof spring.rest_length);
+    }
+    FILE *to = s->clamps ? open_memstream(&text, &bytes) : NULL;
+    if (to) {
+        (void)dyn_clamps_print(s->clamps, to);
+        fclose(to);
+        digest = stage_digest(digest, text, bytes);
+        free(text);
+    }
+    return digest;
 }

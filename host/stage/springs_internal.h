@@ -48,6 +48,7 @@ struct springs {
 bool springs_event(void *actor, const struct stage_event *event);
 enum stage_status springs_save(void *actor, const char *path);
 enum stage_status springs_load(void *actor, const char *path);
+uint64_t springs_digest(void *actor);
 void springs_draw(void *actor, const struct stage_look *look, struct stage_draw_list *list);
 
 /* A mass's place, extrapolated by that many seconds from the last step. */

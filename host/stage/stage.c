@@ -262,20 +262,45 @@ static bool hand_do(struct stage *s, const struct stage_event *event)
     return taken;
 }
 
-/* Replays the actions that are due before the next step. */
-static void replay_do(struct stage *s)
+/* Loads a file; a mark was set before it. */
+static enum stage_status load_do(struct stage *s, const char *path)
+{
+    enum stage_status status = s->actor.kind->load(s->actor.self, path);
+    if (status == STAGE_OK && s->began)
+        stage_session_add_load(&s->session, s->clock.steps_count, path);
+    s->handed = false;
+    skins_drop(s);
+    return status;
+}
+
+/* The same, of a session. The file may have changed since the session was read. */
+static enum stage_status load_again(struct stage *s, const struct stage_file *file, int line)
+{
+    enum stage_status status = stage_session_file_check(file, "the session", line);
+    if (status == STAGE_OK && !s->actor.kind->load)
+        status = stage_fail(STAGE_BAD_FILE, "the session:%d: %s has no files", line,
+                            s->actor.kind->name);
+    return status == STAGE_OK ? load_do(s, file->path) : status;
+}
+
+/* Replays the actions that are due before the next step. Errors: those of loading. */
+static enum stage_status replay_do(struct stage *s)
 {
     const struct stage_session *r = &s->replay;
-    for (; s->replayed_count < r->count; s->replayed_count++) {
+    enum stage_status status = STAGE_OK;
+    for (; status == STAGE_OK && s->replayed_count < r->count; s->replayed_count++) {
         const struct stage_deed *d = &r->deeds[s->replayed_count];
         if (d->step > s->clock.steps_count)
-            return;
+            return STAGE_OK;
         switch (d->kind) {
         case STAGE_DEED_HAND:
             hand_do(s, &d->event);
             break;
         case STAGE_DEED_SET:
             stage_control_write(&s->controls[d->control], s, d->value);
+            break;
+        case STAGE_DEED_LOAD:
+            status = load_again(s, &r->files[d->file], d->line);
             break;
         case STAGE_DEED_MARK:
             stage_mark(s);
@@ -291,24 +316,38 @@ static void replay_do(struct stage *s)
             break;
         }
     }
+    return status;
+}
+
+/* The clock and the session begin. Errors: a session of another beginning. */
+static enum stage_status begin(struct stage *s, double now_s)
+{
+    s->clock.now_s = now_s;
+    s->began = true;
+    if (s->actor.kind->digest)
+        s->session.begin = s->actor.kind->digest(s->actor.self);
+    if (!s->replay.begin || s->replay.begin == s->session.begin)
+        return STAGE_OK;
+    return stage_fail(STAGE_BAD_FILE,
+                      "the session began with other words, another font or other files: "
+                      "replay it with the same options");
 }
 
 enum stage_status stage_frame(struct stage *s, double now_s, int *steps)
 {
     enum stage_status status = beginning_keep(s);
-    if (!s->began) {
-        s->clock.now_s = now_s;
-        s->began = true;
-    }
+    if (status == STAGE_OK && !s->began)
+        status = begin(s, now_s);
     int due = frame_clock_advance(&s->clock, now_s);
     if (steps)
         *steps = due;
     int64_t last = s->clock.steps_count;
     for (int i = 0; i < due && status == STAGE_OK; i++) {
         s->clock.steps_count = last - due + i;
-        replay_do(s);
+        status = replay_do(s);
         skin_take(s);
-        status = s->actor.kind->step(s->actor.self, s->clock.step_s);
+        if (status == STAGE_OK)
+            status = s->actor.kind->step(s->actor.self, s->clock.step_s);
     }
     s->clock.steps_count = last;
     return status;
@@ -485,13 +524,9 @@ enum stage_status stage_load(struct stage *s, const char *path)
     enum stage_status status = stage_mark(s);
     if (status != STAGE_OK)
         return status;
-    status = s->actor.kind->load(s->actor.self, path);
+    status = load_do(s, path);
     if (status != STAGE_OK)
         stage_mark_drop(s);
-    else
-        s->session.broken = "something was loaded";
-    s->handed = false;
-    skins_drop(s);
     return status;
 }
 

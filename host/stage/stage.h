@@ -93,10 +93,11 @@ enum stage_status stage_load(struct stage *stage, const char *path);
 /* ---- sessions: see session.h ---- */
 
 /* Saves the actions since the first frame. Errors: BAD_FILE; BAD_ARGUMENT: a file was
- * loaded, or there were too many actions. */
+ * loaded that was gone at once, or there were too many actions. */
 enum stage_status stage_session_save(struct stage *stage, const char *path);
-/* Repeats a session's actions at their steps; call before the first frame. Errors: BAD_FILE,
- * NO_MEMORY. */
+/* Repeats a session's actions at their steps; call before the first frame. Errors: BAD_FILE (also
+ * if a file that it loads is not there, or has changed), NO_MEMORY. If the stage began in
+ * another way than the session did, stage_frame() says so. */
 enum stage_status stage_session_replay(struct stage *stage, const char *path);
 
 #endif

@@ -127,7 +127,7 @@ static void scripts_lead_masses(void **state)
         fail_msg("%s", text);
 }
 
-/* A session that moves and tacks a mass and changes gravity is replayed into a film. Saved again it is the same text. */
+/* A session that moves and tacks a mass and changes gravity is replayed into a film. Saved again it is the same text, but for what it began with. */
 static void sessions_are_replayed(void **state)
 {
     (void)state;
@@ -155,6 +155,9 @@ static void sessions_are_replayed(void **state)
     assert_non_null(file);
     assert_true(fread(text, 1, sizeof text - 1, file) > 0);
     fclose(file);
+    char *begin = strstr(text, "begin "), *rest = begin ? strchr(begin, '\n') : NULL;
+    assert_non_null(rest);
+    memmove(begin, rest + 1, strlen(rest + 1) + 1);
     assert_string_equal(text, played);
 }
 

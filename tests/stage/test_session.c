@@ -111,9 +111,11 @@ static void sessions_are_done_again_to_the_bit(void **state)
     }
 }
 
-static const char good[] = "session 1\n# by hand\n0 mark\n0 hand down 0.5 1.5 0.2 0 0 1\n\n"
-                           "12 hand move 1 2 0.2 0.75 0 0\n13 hand up 1 2 0.2 0 0 0\n"
-                           "13 set gravity -3.5\n20 undo\n20 reset\n21 drop\nend\n";
+static const char good[] =
+    "session 1\n# by hand\nbegin 00000000000000ff\n0 mark\n0 hand down 0.5 1.5 0.2 0 0 1\n\n"
+    "12 hand move 1 2 0.2 0.75 0 0\n13 hand up 1 2 0.2 0 0 0\n"
+    "13 set gravity -3.5\n14 load 0123456789abcdef  a b.springs\n20 "
+    "undo\n20 reset\n21 drop\nend\n";
 
 static enum stage_status parse(const char *text, size_t bytes, struct stage_session *session)
 {
@@ -136,7 +138,9 @@ static void texts_are_read(void **state)
     struct stage_session s;
     if (parse(good, sizeof good - 1, &s) != STAGE_OK)
         fail_msg("%s", stage_error());
-    assert_int_equal(s.count, 8);
+    assert_int_equal(s.count, 9);
+    assert_string_equal(s.files[s.deeds[5].file].path, " a b.springs");
+    assert_true(s.files[0].digest == 0x0123456789abcdefu);
     assert_int_equal(s.deeds[1].kind, STAGE_DEED_HAND);
     assert_true(s.deeds[1].event.y == 1.5 && s.deeds[1].event.modifiers == 1);
     assert_true(s.deeds[2].step == 12 && s.deeds[2].event.pressure == 0.75);
@@ -155,8 +159,8 @@ static void wrong_texts_are_refused(void **state)
         {"session 1\n5 mark\n4 mark\nend\n", "t:3: must be STEP"},
         {"session 1\n-1 mark\nend\n", "t:2: must be STEP"},
         {"session 1\nmark\nend\n", "t:2: must be STEP"},
-        {"session 1\n0 jump\nend\n", "t:2: must be hand, set, mark"},
-        {"session 1\n0 mark it\nend\n", "t:2: must be hand, set, mark"},
+        {"session 1\n0 jump\nend\n", "t:2: must be hand, set, load"},
+        {"session 1\n0 mark it\nend\n", "t:2: must be hand, set, load"},
         {"session 1\n0 set gravita 3\nend\n", "t:2: must be a control that there is"},
         {"session 1\n0 set gravity 1e9\nend\n", "t:2: must be a value within"},
         {"session 1\n0 set gravity nan\nend\n", "t:2: must be a value within"},
@@ -164,6 +168,11 @@ static void wrong_texts_are_refused(void **state)
         {"session 1\n0 hand wave 0 0 0 0 0 0\nend\n", "t:2: must be `STEP hand down|move"},
         {"session 1\n0 hand down 0 0 -1 0 0 0\nend\n", "t:2: must be `STEP hand down|move"},
         {"session 1\n0 hand down 0 0 0 0 0 0 0\nend\n", "t:2: must be `STEP hand down|move"},
+        {"session 1\n0 load 0123456789abcdef\nend\n", "t:2: must be `STEP load DIGEST FILE`"},
+        {"session 1\n0 load 0123456789ABCDEF a\nend\n", "t:2: must be `STEP load DIGEST FILE`"},
+        {"session 1\nbegin 12\nend\n", "t:2: must be `begin DIGEST`"},
+        {"session 1\n0 mark\nbegin 0123456789abcdef\nend\n", "t:3: must be `begin DIGEST`"},
+        {"session 1\n0 load 123 a\nend\n", "t:2: must be `STEP load DIGEST FILE`"},
         {"session 1\n99999999999999999999 mark\nend\n", "t:2: must be STEP"},
     };
     struct stage_session s;
@@ -173,9 +182,9 @@ static void wrong_texts_are_refused(void **state)
         if (strncmp(stage_error(), wrong[i].said, strlen(wrong[i].said)) != 0)
             fail_msg("%s", stage_error());
     }
-    char *line = malloc(1000);
-    memset(line, 'x', 1000);
-    assert_int_equal(parse(line, 1000, &s), STAGE_BAD_FILE);
+    char *line = malloc(5000);
+    memset(line, 'x', 5000);
+    assert_int_equal(parse(line, 5000, &s), STAGE_BAD_FILE);
     free(line);
     struct stage *stage = stage_make();
     assert_int_equal(stage_session_replay(stage, "/no/such"), STAGE_BAD_FILE);
@@ -208,18 +217,86 @@ static void bytes_by_chance_are_read_or_refused(void **state)
     assert_in_range(read, runs / 10, runs * 9 / 10);
 }
 
-static void what_loads_files_is_no_session(void **state)
+static void frames_until(struct stage *stage, int64_t steps)
+{
+    for (int i = 0; stage_clock(stage)->steps_count < steps; i++) {
+        struct frame_clock *clock = stage_clock(stage);
+        clock->paused = true;
+        frame_clock_single(clock);
+        if (stage_frame(stage, i / 30.0, NULL) != STAGE_OK)
+            fail_msg("%s", stage_error());
+    }
+}
+
+static void file_append(const char *path, const char *text)
+{
+    FILE *file = fopen(path, "a");
+    assert_non_null(file);
+    fputs(text, file);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void session_refused(const char *session, const char *said)
+{
+    struct stage *stage = scene_springs("word", 1, face);
+    assert_int_equal(stage_session_replay(stage, session), STAGE_BAD_FILE);
+    if (!strstr(stage_error(), said) || strchr(stage_error(), '\n'))
+        fail_msg("%s", stage_error());
+    stage_destroy(stage);
+}
+
+/* A session loads a network and goes on; it is replayed to the bit, and refused once the file has changed or gone. A file
+ * that cannot be loaded is no part of it. */
+static void sessions_load_files_again(void **state)
 {
     (void)state;
-    struct stage *stage = stage_make();
-    const char *path = scratch_path("word.springs"), *session = scratch_path("c.session");
-    assert_int_equal(stage_save(stage, path), STAGE_OK);
-    assert_int_equal(stage_load(stage, path), STAGE_OK);
-    assert_int_equal(stage_session_save(stage, session), STAGE_BAD_ARGUMENT);
-    assert_non_null(strstr(stage_error(), "something was loaded"));
-    stage_destroy(stage);
-    struct stage_session s;
-    parse("", 0, &s);
+    char path[4096], session[4096], bad[4096];
+    snprintf(path, sizeof path, "%s", scratch_path("a loaded word.springs"));
+    snprintf(session, sizeof session, "%s", scratch_path("c.session"));
+    snprintf(bad, sizeof bad, "%s", scratch_path("bad.springs"));
+    file_append(bad, "springs 1\n");
+    struct stage *played = stage_make();
+    frames_until(played, 40);
+    assert_int_equal(stage_save(played, path), STAGE_OK);
+    frames_until(played, 90);
+    assert_int_equal(stage_load(played, bad), STAGE_BAD_FILE);
+    assert_int_equal(stage_load(played, path), STAGE_OK);
+    assert_int_equal(stage_set(played, "gravity=3"), STAGE_OK);
+    frames_until(played, 150);
+    assert_int_equal(stage_session_save(played, session), STAGE_OK);
+
+    struct stage *other = scene_springs("word", 1, face);
+    if (stage_session_replay(other, session) != STAGE_OK)
+        fail_msg("%s", stage_error());
+    frames_until(other, 150);
+    assert_memory_equal(states(played), states(other), 16 * sizeof(struct dyn_state));
+    stage_destroy(other);
+    stage_destroy(played);
+
+    struct stage *late = scene_springs("word", 1, face); /* the file changes while it runs */
+    assert_int_equal(stage_session_replay(late, session), STAGE_OK);
+    frames_until(late, 50);
+    file_append(path, "# other bytes\n");
+    enum stage_status status = STAGE_OK;
+    for (int i = 0; i < 60 && status == STAGE_OK; i++) {
+        frame_clock_single(stage_clock(late));
+        status = stage_frame(late, 10 + i / 30.0, NULL);
+    }
+    assert_int_equal(status, STAGE_BAD_FILE);
+    assert_non_null(strstr(stage_error(), "has changed since the session"));
+    stage_destroy(late);
+
+    const char *wordless = scratch_path("d.session");
+    file_append(wordless, "session 1\nbegin 0123456789abcdef\nend\n");
+    struct stage *others = scene_springs("word", 1, face);
+    assert_int_equal(stage_session_replay(others, wordless), STAGE_OK);
+    assert_int_equal(stage_frame(others, 0, NULL), STAGE_BAD_FILE);
+    assert_non_null(strstr(stage_error(), "began with other words"));
+    stage_destroy(others);
+
+    session_refused(session, "a loaded word.springs, which has changed since the session");
+    assert_int_equal(remove(path), 0);
+    session_refused(session, "a loaded word.springs, which cannot be read: No such file");
 }
 
 int main(void)
@@ -229,11 +306,13 @@ int main(void)
         cmocka_unit_test(texts_are_read),
         cmocka_unit_test(wrong_texts_are_refused),
         cmocka_unit_test(bytes_by_chance_are_read_or_refused),
-        cmocka_unit_test(what_loads_files_is_no_session),
+        cmocka_unit_test(sessions_load_files_again),
     };
     if (font_face_open("DejaVuSans", 0, &face) != FONT_OK)
         return 1;
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    struct stage_session unused;
+    parse("", 0, &unused);
     font_face_close(face);
     return failed;
 }
