@@ -67,6 +67,7 @@ static bool launch_add(struct machine *m, struct plan *p, const struct plan_grap
                         .arguments = program->arguments,
                         .arguments_count = program->arguments_count};
     p->work += set->count;
+    p->looks_around = p->looks_around || program->moves;
     p->predicted_s += program->lane_s * (double)set->count;
     return true;
 }
@@ -149,7 +150,8 @@ bool interpreted_is_due(const struct machine *m, const struct plan *p)
         return true;
     double mean = p->spent_s / (double)p->runs,
            saved = mean - shape->kernel_part * mean - 1e-9 * shape->wait_ns * p->launches_count;
-    if (p->worked >= m->settings.box_after && mean > 1e-9 * shape->turns_from_ns)
+    if (p->looks_around && p->worked >= m->settings.box_after &&
+        mean > 1e-9 * shape->turns_from_ns)
         return true;
     return saved * (double)p->runs > compile_time(m, p);
 }

@@ -56,6 +56,7 @@ struct plan {
     uint64_t runs;       /* while it is interpreted */
     double spent_s;      /* ... by these */
     bool asked;          /* ... whether its kernels are at hand */
+    bool looks_around;   /* ... it reads neighbours, so strips and turns of loops may pay */
     bool only_at_hand;   /* while it is made: nothing is compiled */
     bool later;          /* its kernels are compiled in the background */
     struct plan *better; /* the plan whose kernels are being compiled, and which replaces
