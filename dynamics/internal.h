@@ -81,6 +81,8 @@ struct dyn_packed {
     double *k, *k_rest, *c, *limit; /* limit: the length at which it breaks */
     int32_t *which;                 /* the spring's number; -1 for padding */
     int count;
+    bool breaks;  /* some limit is finite */
+    bool carries; /* a third or more have the first end of the spring before */
 };
 
 /* A mass of more restitution bounces again and again; others rest where a leap would be shorter than a part. */

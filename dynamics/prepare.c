@@ -79,6 +79,17 @@ static void masses_scale(struct dyn_network *n, const struct sums *sums)
     }
 }
 
+static void packed_look(struct dyn_packed *s, int count)
+{
+    int again = 0;
+    s->breaks = false;
+    for (int i = 0; i < count; i++) {
+        s->breaks = s->breaks || isfinite(s->limit[i]);
+        again += i > 0 && s->end[0][i] == s->end[0][i - 1];
+    }
+    s->carries = again >= count / 3;
+}
+
 static void springs_pack(struct dyn_network *n, const struct sums *sums)
 {
     struct dyn_packed *s = &n->prepared.springs;
@@ -106,6 +117,7 @@ static void springs_pack(struct dyn_network *n, const struct sums *sums)
         sums->damping[a] += times_a * c;
         sums->damping[b] += times_b * c;
     }
+    packed_look(s, count);
     for (; count % 8; count++) {
         s->end[0][count] = s->end[1][count] = n->masses_count;
         s->k[count] = s->k_rest[count] = s->c[count] = 0;

@@ -11,10 +11,24 @@
 
 #include <string.h>
 
-INLINE void springs_pass(struct dyn_job *job)
+/* Reports which of LANES springs snap, and lets them pull no more. */
+INLINE lanes snaps_tell(struct dyn_job *job, int i, lanes_mask over, lanes length, lanes pull)
+{
+    double lengths[LANES];
+    lanes_store(lengths, length);
+    for (unsigned snaps = lanes_bits(over); snaps; snaps &= snaps - 1) {
+        int lane = __builtin_ctz(snaps);
+        job->on_snap(job, i + lane, lengths[lane]);
+    }
+    return lanes_pick(over, lanes_all(0), pull);
+}
+
+/* breaks: some springs can; carries: many have the first end of the spring before. */
+INLINE void springs_pass(struct dyn_job *job, const bool breaks, const bool carries)
 {
     const struct dyn_packed *s = &job->springs;
     const lanes none = lanes_all(0), one = lanes_all(1);
+    struct carried carried = carried_none();
     for (int i = 0; i < s->count; i += LANES) {
         const int32_t *a = s->end[0] + i, *b = s->end[1] + i;
         struct lanes_state d = states_difference(job->state, a, b);
@@ -22,19 +36,15 @@ INLINE void springs_pass(struct dyn_job *job)
         lanes inverse = lanes_pick(lanes_less(none, length), one / length, none);
         lanes pull = (lanes_load(s->k + i) - lanes_load(s->k_rest + i) * inverse) +
                      lanes_load(s->c + i) * (d.x * d.vx + d.y * d.vy) * inverse * inverse;
-        lanes_mask over = lanes_less(lanes_load(s->limit + i), length);
-        unsigned snaps = lanes_bits(over);
-        if (__builtin_expect(snaps != 0, 0)) {
-            double lengths[LANES];
-            lanes_store(lengths, length);
-            pull = lanes_pick(over, none, pull);
-            for (; snaps; snaps &= snaps - 1) {
-                int lane = __builtin_ctz(snaps);
-                job->on_snap(job, i + lane, lengths[lane]);
-            }
+        if (breaks) {
+            lanes_mask over = lanes_less(lanes_load(s->limit + i), length);
+            if (__builtin_expect(lanes_bits(over) != 0, 0))
+                pull = snaps_tell(job, i, over, length, pull);
         }
-        forces_add(job->force, a, b, (struct lanes_force){pull * d.x, pull * d.y});
+        struct lanes_force f = {pull * d.x, pull * d.y};
+        forces_add(job->force, a, b, f, carries ? &carried : NULL);
     }
+    carried_store(job->force, carried);
 }
 
 /* Notes what bounces.c makes of it: `which` of LANES masses meet the side. */
@@ -85,16 +95,20 @@ INLINE void side_meet(struct dyn_job *job, int i, enum dyn_side side, double at,
 INLINE void sides_meet(struct dyn_job *job, int i, struct lanes_state *s,
                        struct lanes_force gained)
 {
-    lanes_mask out = lanes_either(lanes_either(lanes_less(s->y, lanes_all(job->least_y)),
-                                               lanes_less(lanes_all(job->most_y), s->y)),
-                                  lanes_either(lanes_less(s->x, lanes_all(job->least_x)),
-                                               lanes_less(lanes_all(job->most_x), s->x)));
-    if (!lanes_bits(out))
+    const unsigned below = lanes_bits(lanes_less(s->y, lanes_all(job->least_y)));
+    const unsigned above = lanes_bits(lanes_less(lanes_all(job->most_y), s->y));
+    const unsigned left = lanes_bits(lanes_less(s->x, lanes_all(job->least_x)));
+    const unsigned right = lanes_bits(lanes_less(lanes_all(job->most_x), s->x));
+    if (!(below | above | left | right))
         return;
-    side_meet(job, i, DYN_FLOOR, job->least_y, 1, &s->y, &s->vy, &s->vx, gained);
-    side_meet(job, i, DYN_CEILING, job->most_y, -1, &s->y, &s->vy, &s->vx, gained);
-    side_meet(job, i, DYN_LEFT, job->least_x, 1, &s->x, &s->vx, &s->vy, gained);
-    side_meet(job, i, DYN_RIGHT, job->most_x, -1, &s->x, &s->vx, &s->vy, gained);
+    if (below)
+        side_meet(job, i, DYN_FLOOR, job->least_y, 1, &s->y, &s->vy, &s->vx, gained);
+    if (above)
+        side_meet(job, i, DYN_CEILING, job->most_y, -1, &s->y, &s->vy, &s->vx, gained);
+    if (left)
+        side_meet(job, i, DYN_LEFT, job->least_x, 1, &s->x, &s->vx, &s->vy, gained);
+    if (right)
+        side_meet(job, i, DYN_RIGHT, job->most_x, -1, &s->x, &s->vx, &s->vy, gained);
 }
 
 /* Computes velocities from forces; if `moves`, also places from velocities, and sets forces
@@ -128,7 +142,13 @@ INLINE void masses_pass(struct dyn_job *job, bool moves)
 
 INLINE void forces_find(struct dyn_job *job)
 {
-    springs_pass(job);
+    const struct dyn_packed *s = &job->springs;
+    if (s->breaks)
+        springs_pass(job, true, false);
+    else if (s->carries)
+        springs_pass(job, false, true);
+    else
+        springs_pass(job, false, false);
     if (job->pull)
         job->pull(job);
 }

@@ -175,42 +175,83 @@ INLINE void forces_clear(struct dyn_force *force)
 #endif
 
 /* Adds forces to the first ends and subtracts them from the second, one spring after the
- * other, so that the order of a mass's forces does not depend on LANES. */
+ * other, so that the order of a mass's forces does not depend on LANES. Where springs often have
+ * the first end of the one before, its sum is carried in a register: a load of what was just
+ * stored is slow. c: NULL where they do not. */
 #if LANES > 1
 
-INLINE void force_pass(struct dyn_force *force, int a, int b, __m128d f)
+struct carried {
+    int mass; /* -1: none */
+    __m128d sum;
+};
+
+INLINE struct carried carried_none(void)
 {
-    _mm_store_pd(&force[a].x, _mm_add_pd(_mm_load_pd(&force[a].x), f));
+    return (struct carried){-1, _mm_setzero_pd()};
+}
+
+INLINE void carried_store(struct dyn_force *force, struct carried c)
+{
+    if (c.mass >= 0)
+        _mm_store_pd(&force[c.mass].x, c.sum);
+}
+
+INLINE void force_pass(struct dyn_force *force, int a, int b, __m128d f, struct carried *c)
+{
+    if (!c) {
+        _mm_store_pd(&force[a].x, _mm_add_pd(_mm_load_pd(&force[a].x), f));
+    } else {
+        if (a != c->mass) {
+            carried_store(force, *c);
+            *c = (struct carried){a, _mm_load_pd(&force[a].x)};
+        }
+        c->sum = _mm_add_pd(c->sum, f);
+    }
     _mm_store_pd(&force[b].x, _mm_sub_pd(_mm_load_pd(&force[b].x), f));
 }
 
 INLINE void forces_add(struct dyn_force *force, const int32_t *a, const int32_t *b,
-                       struct lanes_force f)
+                       struct lanes_force f, struct carried *c)
 {
 #if LANES == 8
     __m512d even = _mm512_unpacklo_pd(f.x, f.y), odd = _mm512_unpackhi_pd(f.x, f.y);
-    force_pass(force, a[0], b[0], _mm512_castpd512_pd128(even));
-    force_pass(force, a[1], b[1], _mm512_castpd512_pd128(odd));
-    force_pass(force, a[2], b[2], _mm512_extractf64x2_pd(even, 1));
-    force_pass(force, a[3], b[3], _mm512_extractf64x2_pd(odd, 1));
-    force_pass(force, a[4], b[4], _mm512_extractf64x2_pd(even, 2));
-    force_pass(force, a[5], b[5], _mm512_extractf64x2_pd(odd, 2));
-    force_pass(force, a[6], b[6], _mm512_extractf64x2_pd(even, 3));
-    force_pass(force, a[7], b[7], _mm512_extractf64x2_pd(odd, 3));
+    force_pass(force, a[0], b[0], _mm512_castpd512_pd128(even), c);
+    force_pass(force, a[1], b[1], _mm512_castpd512_pd128(odd), c);
+    force_pass(force, a[2], b[2], _mm512_extractf64x2_pd(even, 1), c);
+    force_pass(force, a[3], b[3], _mm512_extractf64x2_pd(odd, 1), c);
+    force_pass(force, a[4], b[4], _mm512_extractf64x2_pd(even, 2), c);
+    force_pass(force, a[5], b[5], _mm512_extractf64x2_pd(odd, 2), c);
+    force_pass(force, a[6], b[6], _mm512_extractf64x2_pd(even, 3), c);
+    force_pass(force, a[7], b[7], _mm512_extractf64x2_pd(odd, 3), c);
 #else
     __m256d even = _mm256_unpacklo_pd(f.x, f.y), odd = _mm256_unpackhi_pd(f.x, f.y);
-    force_pass(force, a[0], b[0], _mm256_castpd256_pd128(even));
-    force_pass(force, a[1], b[1], _mm256_castpd256_pd128(odd));
-    force_pass(force, a[2], b[2], _mm256_extractf128_pd(even, 1));
-    force_pass(force, a[3], b[3], _mm256_extractf128_pd(odd, 1));
+    force_pass(force, a[0], b[0], _mm256_castpd256_pd128(even), c);
+    force_pass(force, a[1], b[1], _mm256_castpd256_pd128(odd), c);
+    force_pass(force, a[2], b[2], _mm256_extractf128_pd(even, 1), c);
+    force_pass(force, a[3], b[3], _mm256_extractf128_pd(odd, 1), c);
 #endif
 }
 
 #else
 
-INLINE void forces_add(struct dyn_force *force, const int32_t *a, const int32_t *b,
-                       struct lanes_force f)
+struct carried {
+    int mass;
+};
+
+INLINE struct carried carried_none(void)
 {
+    return (struct carried){-1};
+}
+
+INLINE void carried_store(struct dyn_force *force, struct carried c)
+{
+    (void)force, (void)c;
+}
+
+INLINE void forces_add(struct dyn_force *force, const int32_t *a, const int32_t *b,
+                       struct lanes_force f, struct carried *c)
+{
+    (void)c;
     force[*a].x += f.x;
     force[*a].y += f.y;
     force[*b].x -= f.x;
