@@ -179,10 +179,49 @@ static void by_opengl(enum stage_way way, const char *name)
     stage_draw_finish(&list);
 }
 
+/* Images of a few sizes in boxes that begin and end between pixels, partly off the picture: the same numbers as the exact picture's. */
+static void images_by_opengl(enum stage_way way)
+{
+    enum { IMAGE_WIDTH = 37, IMAGE_HEIGHT = 23 };
+    static uint8_t rgb[3 * IMAGE_WIDTH * IMAGE_HEIGHT];
+    static const double boxes[][4] = {{10.3, 20.6, 150.2, 90.9},
+                                      {160, 30, 160 + IMAGE_WIDTH, 30 + IMAGE_HEIGHT},
+                                      {-20.4, 120.4, 60.1, WIDTH},
+                                      {210.7, 70.2, 219.1, 75.6}};
+    struct stage_draw_list list = {0};
+    struct stage_renderer *renderer;
+    struct display_image image = {0};
+    for (int i = 0; i < IMAGE_WIDTH * IMAGE_HEIGHT; i++)
+        for (int c = 0; c < 3; c++)
+            rgb[3 * i + c] = (uint8_t)(127 + 120 * sin(0.3 * (i % IMAGE_WIDTH) + c) *
+                                                 cos(0.2 * (i / IMAGE_WIDTH)));
+    stage_draw_begin(&list, STAGE_VIEW_PIXELS);
+    for (size_t i = 0; i < sizeof boxes / sizeof *boxes; i++)
+        stage_draw_image(&list, rgb, i == 3 ? 20 : IMAGE_WIDTH, i == 3 ? 10 : IMAGE_HEIGHT,
+                         boxes[i][0], boxes[i][1], boxes[i][2], boxes[i][3]);
+    struct display_image wanted = exact_picture(&list);
+    if (stage_renderer_offscreen(way, WIDTH, HEIGHT, &renderer) != STAGE_OK)
+        fail_msg("%s", stage_error());
+    assert_int_equal(stage_renderer_draw(renderer, &list, paper), STAGE_OK);
+    assert_int_equal(stage_renderer_read(renderer, &image), STAGE_OK);
+    int most = 0;
+    for (int i = 0; i < 3 * WIDTH * HEIGHT; i++) {
+        const int off = abs(image.pixels[i] - wanted.pixels[i]);
+        most = off > most ? off : most;
+    }
+    if (most > 2)
+        fail_msg("%d of 255 apart", most);
+    stage_renderer_destroy(renderer);
+    display_image_destroy(&image);
+    display_image_destroy(&wanted);
+    stage_draw_finish(&list);
+}
+
 static void egl_agrees(void **state)
 {
     (void)state;
     by_opengl(STAGE_BY_EGL, "egl");
+    images_by_opengl(STAGE_BY_EGL);
 }
 
 /* OSMesa needs no display, no EGL and no graphics card. */
@@ -192,6 +231,7 @@ static void osmesa_agrees(void **state)
     unsetenv("DISPLAY");
     unsetenv("WAYLAND_DISPLAY");
     by_opengl(STAGE_BY_OSMESA, "osmesa");
+    images_by_opengl(STAGE_BY_OSMESA);
 }
 
 static void wrong_sizes_are_refused(void **state)
