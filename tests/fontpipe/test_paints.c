@@ -6,6 +6,7 @@
 
 #include <colour.h>
 #include <colour_mix.h>
+#include <colour_read.h>
 #include <edges.h>
 #include <paint.h>
 
@@ -419,6 +420,46 @@ static void svg_is_drawn(void **state)
     font_face_close(face);
 }
 
+/* Two rows of what two regions add: with the axis above its usual place 300 and -1000, below it -7 and 5. */
+static void axes_add_to_numbers(void **state)
+{
+    (void)state;
+    enum { STORE = 34, REGIONS = 12, DATA = REGIONS + 4 + 12, MAP = 120 };
+    uint8_t bytes[160] = {0, 1};
+    made_put(bytes + 30, STORE, 4);
+    uint8_t *at = made_put(made_put(bytes + STORE, 1, 2), REGIONS, 4);
+    made_put(made_put(at, 1, 2), DATA, 4);
+    at = made_put(made_put(bytes + STORE + REGIONS, 1, 2), 2, 2);
+    at = made_put(made_put(made_put(at, 0, 2), ONE, 2), ONE, 2);
+    made_put(made_put(made_put(at, 0xc000, 2), 0xc000, 2), 0, 2);
+    at = made_put(made_put(made_put(bytes + STORE + DATA, 2, 2), 1, 2), 2, 2);
+    at = made_put(made_put(at, 0, 2), 1, 2);
+    at = made_put(made_put(at, 300, 2), 0xf9, 1);
+    made_put(made_put(at, 0xfc18, 2), 5, 1);
+    struct font_colr c = {.bytes = bytes, .count = sizeof bytes, .axes_count = 1};
+    static const struct {
+        double axis, first, second;
+    } settings[] = {
+        {0, 0, 0}, {0.5, 150, -500}, {1, 300, -1000}, {-1, -7, 5}, {-0.5, -3.5, 2.5}};
+    for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
+        c.axes[0] = settings[i].axis;
+        assert_float_equal(font_colr_delta(&c, 0, 0), settings[i].first, 1e-9);
+        assert_float_equal(font_colr_delta(&c, 0, 1), settings[i].second, 1e-9);
+        assert_float_equal(font_colr_delta(&c, 0, 2), 0, 0);
+        assert_float_equal(font_colr_delta(&c, 0xffffffff, 0), 0, 0);
+    }
+    /* By an index map: of its three entries the last holds for all behind it. */
+    static const uint8_t map[] = {0, 0, 0, 3, 1, 0, 1};
+    memcpy(bytes + MAP, map, sizeof map);
+    made_put(bytes + 26, MAP, 4);
+    c.axes[0] = 1;
+    assert_float_equal(font_colr_delta(&c, 0, 0), -1000, 1e-9);
+    assert_float_equal(font_colr_delta(&c, 0, 1), 300, 1e-9);
+    assert_float_equal(font_colr_delta(&c, 7, 1), -1000, 1e-9);
+    c.count = STORE + DATA; /* cut off: nothing */
+    assert_float_equal(font_colr_delta(&c, 0, 0), 0, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -430,6 +471,7 @@ int main(void)
         cmocka_unit_test(mixtures_are_colours),
         cmocka_unit_test(a_box_clips_and_measures),
         cmocka_unit_test(circles_end),
+        cmocka_unit_test(axes_add_to_numbers),
         cmocka_unit_test(svg_is_drawn),
     };
     return cmocka_run_group_tests_name("paints", tests, plain_open, plain_close);
