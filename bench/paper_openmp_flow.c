@@ -114,7 +114,7 @@ static void drying_own(const struct paper_openmp *o, int y)
 static double edge_length(const struct paper_openmp *o)
 {
     const double width = o->config.air.edge_width;
-    return o->config.model > 2 ? fmax(1, 1.3 * width - 2.5) : 0.75 * width;
+    return o->config.model > 2 ? fmax(1, 1.6 * width - 2.5) : 0.75 * width;
 }
 
 static void around_own(const struct paper_openmp *o, int y)
@@ -160,6 +160,7 @@ static void edge_own(const struct paper_openmp *o, int y)
                 film = (float)(1 / air->film), relief = (float)air->relief,
                 helped = (float)(1 + 1.2 / 4);
     const bool third = o->config.model > 2;
+    const float still = (float)(-4.0 * air->film);
 #pragma omp simd
     for (int x = 0; x < width; x++) {
         float h = surface[x] * to_unit, full = water[x] / (capacity[x] * unit);
@@ -182,7 +183,8 @@ static void edge_own(const struct paper_openmp *o, int y)
         deep[x] = high * least(part * 8.0f, 1.0f);
         level[x] = high + height[x] * relief;
         inverse[x] = 1.0f / greatest(h, least_depth);
-        swirled[x] = greatest(around[x] * 2.0f + -1.0f, 0.0f) * h;
+        swirled[x] =
+            greatest(around[x] * 2.0f + -1.0f, 0.0f) * (third ? greatest(h + still, 0.0f) : h);
     }
 }
 
@@ -293,7 +295,8 @@ INLINE void film_faces(const struct paper_openmp *o, int y, int axis, const floa
           *pigment_in = term_row(o, T_FACES + 6 * axis + 3, y);
     const float gravity = (float)air->gravity[axis], pull = 0.3f,
                 spread = (float)(2.0 * air->spread), edge = (float)edge_pull(o),
-                bent = o->config.model > 2 ? 12.0f : 0.0f;
+                bent = o->config.model > 2 ? 12.0f : 0.0f, still = (float)(-4.0 * air->film);
+    const bool third = o->config.model > 2;
 #pragma omp simd
     for (int x = 0; x < o->config.width; x++) {
         float drive = (level[x] - level2[x] + gravity) * pull;
@@ -310,7 +313,9 @@ INLINE void film_faces(const struct paper_openmp *o, int y, int axis, const floa
         water_out[x] = out;
         water_in[x] = in;
         float net = out * depth[x] + in * depth2[x] + eddies[x];
-        float both = least(depth[x], depth2[x]) * least(face[x] * 1e6f, 1.0f);
+        float both = least(depth[x], depth2[x]);
+        both = third ? greatest(both + still, 0.0f) : both;
+        both *= least(face[x] * 1e6f, 1.0f);
         float within_edge = greatest(around[x] + around2[x] + -1.0f, 0.0f);
         net += (around[x] - around2[x]) * edge * within_edge *
                (within_edge * within_edge * bent + 1.0f) * both;

@@ -399,7 +399,7 @@ static void edges_are_as_wide_as_asked(void **state)
     for (int i = 0; i < 4; i++)
         assert_true(contrast[i] > 1.15);
     for (int i = 0; i < 4; i++)
-        assert_true(band[i] >= 0.75 * widths[i] && band[i] <= 1.3 * widths[i]);
+        assert_true(band[i] >= 0.65 * widths[i] && band[i] <= 1.3 * widths[i]);
 }
 
 /* ---- gray edges ---- */

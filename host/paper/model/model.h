@@ -22,7 +22,9 @@ struct paper_sheet {
         *history; /* history/; nothing in this folder looks at it. NULL: nothing is recorded */
     long steps;   /* that were computed */
     bool touched; /* something was done, and not recorded */
-    double unit;  /* of amounts: PAPER_GRAINS, or 1 without parts */
+    double
+        finer; /* version 3: how many times finer than its stock is known the sheet is, 1 or more; a render at 2 is 2 */
+    double unit; /* of amounts: PAPER_GRAINS, or 1 without parts */
     /* VP set, contexts, coordinates, and what the thesis's cycle needs: water and absorbency are in the fibers */
     struct paper page;
     CM_field_id_t height, capacity, resist;
@@ -169,6 +171,8 @@ struct sheet_terms {
     CM_field_id_t inverse; /* 1 / depth */
     CM_field_id_t swirled; /* depth that eddies move: none at the edge of what is wet */
 };
+/* Water in which pigments do not mix, times air.film. */
+#define SHEET_STILL 4.0
 /* Fibers over which the nearness of an edge falls to 1/e. */
 double sheet_edge_length(const struct paper_sheet *p);
 /* Uses t[7..15]; terms are t[0..6]. */

@@ -99,7 +99,8 @@ static void brine_spread(struct paper_sheet *p, CM_field_id_t wet)
 {
     CM_field_id_t open = p->t[1], other = p->t[2], flow[2] = {p->t[3], p->t[4]},
                   source = p->t[5];
-    kit_f_times(source, wet, -DISSOLVING);
+    const double steps = p->finer * p->finer; /* in the time of one */
+    kit_f_times(source, wet, -DISSOLVING / steps);
     kit_f_plus(source, source, 1.0);
     kit_f_mul(p->salt, p->salt, source);
     kit_f_mul(source, p->salt, wet);
@@ -125,7 +126,7 @@ static void brine_spread(struct paper_sheet *p, CM_field_id_t wet)
     kit_f_add(flow[0], flow[0], flow[1]);
     kit_f_add(p->brine, p->brine, flow[0]);
     kit_f_times(p->brine, p->brine, 1 - SPREADING / (p->salt_reach * p->salt_reach + 1));
-    kit_f_plus(p->brine, p->brine, -BRINE_LEAST);
+    kit_f_plus(p->brine, p->brine, -BRINE_LEAST / steps);
     kit_f_least(p->brine, p->brine, 0.0);
 }
 

@@ -1,7 +1,9 @@
 /* sheet.c - a sheet's life: what it is checked for, made, made anew, and given back. */
 #include "arguments/rows.h"
+#include "model/felt.h"
 #include "model/model.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -87,6 +89,7 @@ enum paper_status sheet_create(const struct paper_sheet_config *config,
     p->config = *config;
     p->config.parts = sheet_parts_whole(config->parts);
     p->config.model = sheet_model_whole(config);
+    p->finer = sheet_of_version_3(p) ? fmax(1, felt_scale(&p->config)) : 1;
     p->unit = p->config.parts ? PAPER_GRAINS : 1;
     p->air = paper_air_default();
     p->salt_reach = 10;

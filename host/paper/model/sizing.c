@@ -10,6 +10,7 @@
  *
  * Everything is sums and products of floats in one order: the bits are the same wherever it runs. A side that is a multiple of
  * the coarsest size has no seam on a torus. */
+#include "model/clouds.h"
 #include "model/model.h"
 
 #include <math.h>
@@ -19,12 +20,14 @@
 /* Of a cubic B-spline through uniform numbers in -1..1: its deviation. */
 #define SPLINE_DEVIATION 0.277
 #define NOISE_MOST 3.0f
+#define EDDY_MOST 1.2
 #define CALM_EDGE 16       /* fibers */
 #define DEVIATION_MOST 0.7 /* of the logarithm of sizing */
 
 struct octaves {
     int finest, coarsest; /* fibers between the random numbers, powers of two */
     double roughness;     /* amplitude goes with size to this power */
+    double step;          /* and from a size to half of it by this */
     uint32_t seed;
 };
 
@@ -120,35 +123,65 @@ static void spread_out(float *values, size_t count, float deviation)
 
 /* Eddies fade towards the edges of a sheet: water that they moved there would have nowhere to
  * go. */
-static void edges_calm(float *values, const struct paper_sheet_config *config)
+static void edges_calm(float *values, const struct paper_sheet_config *config, double finer)
 {
+    const int wide = (int)(CALM_EDGE * finer);
     for (int y = 0; y < config->height; y++)
         for (int x = 0; x < config->width; x++) {
             int across = x < config->width - 1 - x ? x : config->width - 1 - x,
                 down = y < config->height - 1 - y ? y : config->height - 1 - y,
                 least = across < down ? across : down;
-            if (least < CALM_EDGE)
+            if (least < wide)
                 values[(size_t)y * (size_t)config->width + (size_t)x] *=
-                    (float)least / CALM_EDGE;
+                    (float)least / (float)wide;
         }
+}
+
+/* Only the slope of the stream function moves anything; but what its value is times how much the depth differs from fiber to fiber
+ * moves pigments too, hither and thither, and into single fibers that cannot give as much as they get. So it is folded, like a
+ * ruler, into -EDDY_MOST..EDDY_MOST (version 3). */
+static void eddies_fold(float *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        double n = (double)values[i] + EDDY_MOST;
+        n -= 4 * EDDY_MOST * floor(n / (4 * EDDY_MOST));
+        values[i] = (float)(fabs(n - 2 * EDDY_MOST) - EDDY_MOST);
+    }
+}
+
+/* Version 3: of clouds, which are the same ones, finer, on a sheet that is drawn anew. */
+static bool clouded_make(const struct paper_sheet *p, float *out, const struct octaves *of)
+{
+    const double step = of->step;
+    const struct clouds clouds = {of->finest * p->finer, of->coarsest * p->finer, step,
+                                  clouds_word(p->config.seed, of->seed & 3)};
+    return clouds_make(out, p->config.width, p->config.height, p->config.torus, &clouds);
+}
+
+static bool octaves_make(const struct paper_sheet *p, float *out, const struct octaves *of)
+{
+    return sheet_of_version_3(p) ? clouded_make(p, out, of)
+                                 : noise_make(out, p->config.width, p->config.height, of);
 }
 
 enum paper_status sheet_sizing_make(struct paper_sheet *p)
 {
     const struct paper_sheet_config *config = &p->config;
-    const struct octaves sizes = {4, 64, 0.4, (uint32_t)config->seed * 77 + 1},
-                         eddies = {8, 16, 1, (uint32_t)config->seed * 77 + 3};
+    const struct octaves sizes = {4, 64, 0.4, 0.75786, (uint32_t)config->seed * 77 + 1},
+                         eddies = {8, 16, 1, 0.5, (uint32_t)config->seed * 77 + 3};
     size_t count = (size_t)config->width * (size_t)config->height;
     float *values = malloc(count * sizeof *values);
-    bool made = values && noise_make(values, config->width, config->height, &sizes);
+    bool made = values && octaves_make(p, values, &sizes);
     if (made) {
         spread_out(values, count,
                    (float)(DEVIATION_MOST * fmin(1, 2 * config->stock.absorbency_variation)));
         kit_grid_f_write(&p->page.grid, p->sizing, values);
-        made = noise_make(values, config->width, config->height, &eddies);
+        made = octaves_make(p, values, &eddies);
     }
+    if (made && sheet_of_version_3(p))
+        eddies_fold(values, count);
     if (made && !config->torus)
-        edges_calm(values, config);
+        edges_calm(values, config, p->finer);
     if (made)
         kit_grid_f_write(&p->page.grid, p->current, values);
     free(values);

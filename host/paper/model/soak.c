@@ -42,7 +42,7 @@
 #define DRIED_LEAST 4.0    /* grains */
 #define AROUND_LEAST 0.01  /* of what it relaxes by */
 #define EDGE_SHARE 0.75    /* of edge_width, over which the nearness of an edge falls to 1/e */
-#define EDGE_SLOPE 1.3
+#define EDGE_SLOPE 1.6
 #define EDGE_BLUR 2.5 /* fibers by which mixing widens a band */
 #define EDGE_LEAST 1.0
 #define ROOM_FROM 13.0 /* units that may be taken in before a fiber is full */
@@ -225,8 +225,10 @@ static void both_sides_make(struct paper_sheet *p, CM_field_id_t d, CM_field_id_
 
 double sheet_edge_length(const struct paper_sheet *p)
 {
-    return sheet_of_version_3(p) ? fmax(EDGE_LEAST, EDGE_SLOPE * p->air.edge_width - EDGE_BLUR)
-                                 : EDGE_SHARE * p->air.edge_width;
+    return sheet_of_version_3(p)
+               ? p->finer *
+                     fmax(EDGE_LEAST, EDGE_SLOPE * p->air.edge_width / p->finer - EDGE_BLUR)
+               : EDGE_SHARE * p->air.edge_width;
 }
 
 /* wet_around follows the wet part and spreads, to the neighbours and to those at `reach`: in the long run it is 1 well inside, 1/2 at
@@ -235,7 +237,7 @@ static void around_follow(struct paper_sheet *p)
 {
     CM_field_id_t sum = p->t[8], along_y = p->t[9], along_x = p->t[10], near = p->t[12];
     const double width = sheet_edge_length(p);
-    const int reach = around_reach(p->air.edge_width);
+    const int reach = around_reach(p->air.edge_width / p->finer);
     const double spread = (1 + reach * reach) / 8.0, relax = spread / (width * width + spread);
     for (int from = 1;; from = reach) {
         both_sides_make(p, along_y, p->wet_around, KIT_AXIS_Y, from);
@@ -360,5 +362,11 @@ void sheet_soak(struct paper_sheet *p, struct sheet_terms *terms)
     kit_f_times(terms->swirled, p->wet_around, 2.0);
     kit_f_plus(terms->swirled, terms->swirled, -1.0);
     kit_f_least(terms->swirled, terms->swirled, 0.0);
-    kit_f_mul(terms->swirled, terms->swirled, terms->depth);
+    if (!sheet_of_version_3(p)) {
+        kit_f_mul(terms->swirled, terms->swirled, terms->depth);
+        return;
+    }
+    kit_f_plus(p->t[7], terms->depth, -SHEET_STILL * p->air.film);
+    kit_f_least(p->t[7], p->t[7], 0.0);
+    kit_f_mul(terms->swirled, terms->swirled, p->t[7]);
 }

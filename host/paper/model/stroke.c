@@ -18,6 +18,7 @@
 #define FORCE_FULL 0.3
 #define LINE_LEAST 1.5    /* fibers; a line that is thinner has gaps */
 #define WAITING_PACE 60.0 /* pieces of a second where the paper waits */
+#define TOUCH_SHARE 0.25  /* of a bristle's contact: fibers are touched by several */
 #define CONTACT_STEPS                                                                          \
     65536.0 /* a contact is a whole number of these: the last bits of exp() vary */
 
@@ -77,7 +78,7 @@ static void place_scatter(const struct sheet_brush *own, int number, uint64_t mo
 /* Places that lie evenly on a line as wide as the bristle, however many of them there are:
  * multiples of the golden section, counted from a place of the bristle's own. */
 static void place_beside(const struct sheet_brush *own, int number, uint64_t moment,
-                         double *side, double *ahead)
+                         double spacing, double *side, double *ahead)
 {
     double from = sheet_chance(own->brush.seed + 7, (uint64_t)number, 0),
            along = sheet_chance(own->brush.seed + 7, (uint64_t)number, 1);
@@ -85,7 +86,7 @@ static void place_beside(const struct sheet_brush *own, int number, uint64_t mom
            forward = fmod(along + 0.7548776662466927 * (double)moment, 1);
     double width = fmax(LINE_LEAST, own->brush.thickness);
     *side = width * (place - 0.5) * (own->brush.mirrored ? -1 : 1);
-    *ahead = PLACE_SPACING * (forward - 0.5);
+    *ahead = spacing * (forward - 0.5);
 }
 
 /* One place of bristle `number`; false: it does not touch. */
@@ -102,7 +103,7 @@ static bool place_make(struct paper_sheet *p, const struct sheet_brush *own,
     *force = fmin(1, pressed / FORCE_FULL);
     double side, ahead;
     if (sheet_flows(p))
-        place_beside(own, number, moment, &side, &ahead);
+        place_beside(own, number, moment, PLACE_SPACING / p->finer, &side, &ahead);
     else
         place_scatter(own, number, moment, &side, &ahead);
     double a = hypot(tuft->across[0], tuft->across[1]),
@@ -123,6 +124,19 @@ struct going {
     int cursor;
     uint64_t moment; /* places along the way so far */
 };
+
+static float whole_contact(double contact)
+{
+    return (float)(rint(contact * CONTACT_STEPS) / CONTACT_STEPS);
+}
+
+/* Version 3: what all touches of a fiber in one exchange come to, of the way to equal levels. It is the same whether they come in
+ * one exchange or in two, so there are no bars where one ends and the next begins. */
+static double contact_of(const struct sheet_brush *own, double force, double dwell,
+                         double touches)
+{
+    return 1 - exp(-TOUCH_SHARE * own->brush.flow * dwell * force * touches);
+}
 
 /* Fills p->brushes->contacts for the times from..from + rows * length; false: nothing touches. */
 static bool contacts_make(struct going *g, double from, double length, int rows, double dwell)
@@ -152,12 +166,12 @@ static bool contacts_make(struct going *g, double from, double length, int rows,
             double force;
             if (!place_make(p, g->own, &tuft, i, g->moment, fiber, &force))
                 continue;
-            float contact = (float)(rint(part * force * CONTACT_STEPS) / CONTACT_STEPS);
+            float contact = whole_contact(part * force);
             if (!(contact > 0))
                 continue;
             fibers[place] = fiber[1] * p->page.grid.width + fiber[0];
             c->contact[place] = contact;
-            c->force[place] = (float)(rint(force * CONTACT_STEPS) / CONTACT_STEPS);
+            c->force[place] = whole_contact(force);
             c->takes[place] = (float)sheet_brush_cloud(p->brushes, fiber[0], fiber[1]);
             touched[fibers[place]]++;
             touching++;
@@ -173,6 +187,9 @@ static bool contacts_make(struct going *g, double from, double length, int rows,
     for (int i = 0; i < BRUSH_PLACES; i++) {
         c->places[i] = fmaxf(c->places[i], 1);
         c->sharers[i] = fibers[i] >= 0 ? (float)touched[fibers[i]] : 1;
+        if (sheet_of_version_3(p) && fibers[i] >= 0)
+            c->contact[i] = whole_contact(
+                contact_of(g->own, (double)c->force[i], dwell, (double)c->sharers[i]));
     }
     for (int i = 0; i < BRUSH_PLACES; i++) {
         if (fibers[i] < 0)
@@ -205,7 +222,8 @@ static double way_length(struct going *g, double from, double to)
 static void brush_go(struct going *g, double from, double to)
 {
     double length = way_length(g, from, to), seconds = to - from;
-    int places = (int)fmin(100000, fmax(1, ceil(length / PLACE_SPACING)));
+    /* finer fibers are touched as often each as coarse ones */
+    int places = (int)fmin(100000, fmax(1, ceil(length * g->sheet->finer / PLACE_SPACING)));
     double thick = fmax(PLACE_SPACING, g->own->brush.thickness);
     double dwell = length > thick ? seconds * thick / length : seconds;
     for (int done = 0; done < places;) {
