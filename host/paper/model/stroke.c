@@ -18,7 +18,7 @@
 #define FORCE_FULL 0.3
 #define LINE_LEAST 1.5    /* fibers; a line that is thinner has gaps */
 #define WAITING_PACE 60.0 /* pieces of a second where the paper waits */
-#define TOUCH_SHARE 0.25  /* of a bristle's contact: fibers are touched by several */
+#define TOUCH_SHARE 0.3   /* of a bristle's contact: fibers are touched by several */
 #define CONTACT_STEPS                                                                          \
     65536.0 /* a contact is a whole number of these: the last bits of exp() vary */
 
