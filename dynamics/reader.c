@@ -2,6 +2,8 @@
 #include "reader.h"
 #include "number_text.h"
 
+#include <input_file.h>
+
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -148,10 +150,11 @@ enum dyn_status dyn_file_bytes(const char *path, char **text, size_t *bytes)
 {
     struct stat about;
     enum dyn_status status = DYN_OK;
-    FILE *file = fopen(path, "rb");
+    const char *why;
+    FILE *file = input_file_open(path, &why); /* never waits for a pipe */
     *text = NULL;
     if (!file)
-        return dyn_fail(DYN_BAD_FILE, "%.200s: cannot be read: %s", path, strerror(errno));
+        return dyn_fail(DYN_BAD_FILE, "%.200s: cannot be read: %s", path, why);
     if (fstat(fileno(file), &about) != 0 || !S_ISREG(about.st_mode))
         status = dyn_fail(DYN_BAD_FILE, "%.200s: is no file", path);
     else if (about.st_size > FILE_MAX_BYTES)

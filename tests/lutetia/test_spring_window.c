@@ -136,6 +136,58 @@ static void hands_are_saved_as_scripts(void **state)
     dyn_network_destroy(network);
 }
 
+static void control_type(KeySym key)
+{
+    xtest_key(XK_Control_L, true);
+    xtest_type(key);
+    xtest_key(XK_Control_L, false);
+    usleep(200000);
+}
+
+/* What was saved is loaded after a drag. The recorded session does the same again, without a window. */
+static void sessions_in_which_files_are_loaded_are_replayed(void **state)
+{
+    (void)state;
+    char saved[4096], session[4096], text[1 << 15] = "";
+    snprintf(saved, sizeof saved, "%s", scratch_path("loaded.springs"));
+    snprintf(session, sizeof session, "%s", scratch_path("loads.session"));
+    const char *arguments[20] = {"wo",        "--at",  "0,2",    "--set", "gravity=0",
+                                 "--session", session, "--save", saved};
+    memcpy(arguments + 9, scene, sizeof scene);
+    pid_t pid = start(arguments);
+    Window window = window_of();
+    control_type(XK_s);
+    file_wait(saved);
+    at(window, 0.06, 2.729);
+    xtest_button(1, true);
+    for (int i = 0; i <= 10; i++) {
+        at(window, 0.05 * i, 2.729 + 0.1 * i);
+        usleep(20000);
+    }
+    xtest_button(1, false);
+    usleep(100000);
+    control_type(XK_o);
+    xtest_type(XK_Escape);
+    ends_with(pid, 0);
+    FILE *file = fopen(session, "r");
+    assert_non_null(file);
+    assert_true(fread(text, 1, sizeof text - 1, file) > 0);
+    fclose(file);
+    if (!strstr(text, "begin ") || !strstr(text, " load ") ||
+        !strstr(text, strrchr(saved, '/')))
+        fail_msg("%s", text);
+    const char *again[20] = {"wo",        "--at",      "0,2",
+                             "--set",     "gravity=0", "--replay",
+                             session,     "--still",   scratch_path("loads.png"),
+                             "--seconds", "1",         NULL};
+    ends_with(start(again), 0);
+    file = fopen(saved, "a");
+    assert_non_null(file);
+    fputs("# changed\n", file);
+    fclose(file);
+    ends_with(start(again), 1);
+}
+
 /* On a screen with twice the resolution the window has twice as many pixels, and masses have the same size in inches. */
 static void fine_screens_have_larger_windows(void **state)
 {
@@ -184,6 +236,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hands_are_saved_as_scripts),
+        cmocka_unit_test(sessions_in_which_files_are_loaded_are_replayed),
         cmocka_unit_test(fine_screens_have_larger_windows),
         cmocka_unit_test(windows_end),
     };
