@@ -122,9 +122,8 @@ uint8_t *made_colr(const struct made_paints *p, size_t *count)
     size_t bases = HEADER, layers = bases + p->bases_count, paints = layers + p->layers_count,
            boxes = paints + p->paints_count;
     *count = boxes + p->clips_count;
-    uint8_t *made = calloc(1, *count), *at = made_put(made, 1, 2);
-    at = made_put(at, 0, 4 + 4 + 4); /* of version 0: nothing */
-    memset(made + 2, 0, 12);
+    uint8_t *made = calloc(1, *count), *at;
+    made_put(made, 1, 2); /* of version 0 there is nothing */
     at = made_put(made + 14, (uint32_t)bases, 4);
     at = made_put(at, (uint32_t)layers, 4);
     at = made_put(at, clips ? (uint32_t)boxes : 0, 4);
