@@ -40,8 +40,8 @@ void blocks_room_free(struct blocks_room *room)
 
 static bool room_ready(struct blocks_registers *room, const struct byte_code *p)
 {
-    if (room->bytes < p->registers_bytes) {
-        size_t bytes = (p->registers_bytes + 4095) / 4096 * 4096;
+    if (!room->memory || room->bytes < p->registers_bytes) {
+        size_t bytes = p->registers_bytes / 4096 * 4096 + 4096;
         free(room->memory);
         room->memory = aligned_alloc(LINE, bytes);
         room->bytes = room->memory ? bytes : 0;
