@@ -77,6 +77,12 @@ static int coloured_make(const char *folder, int number, hb_blob_t *plain)
         made += bytes_write(folder, number + i, font, font_count);
         free(font);
     }
+    unsigned plain_count;
+    size_t wide_count;
+    const char *bytes = hb_blob_get_data(plain, &plain_count);
+    uint8_t *wide = made_wide((const uint8_t *)bytes, plain_count, &wide_count);
+    made += bytes_write(folder, number + 3, wide, wide_count);
+    free(wide);
     free(colr);
     free(paints);
     return made;
