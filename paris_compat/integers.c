@@ -167,15 +167,15 @@ void paris_integer_unary(const struct paris_instruction *self, struct paris_oper
             result_signed = true;
         }
         break;
-    case MACHINE_UNGRAY:
-        result = machine_unary(m, MACHINE_UNGRAY, x);
-        break;
     case PARIS_OP_TO_GRAY:
         result = to_gray(m, x);
         break;
-    default: /* PARIS_OP_SIGNUM */
+    case PARIS_OP_SIGNUM:
         result = signum(m, paris_resize(m, x, paris_longest(dest.len, a.len), true));
         result_signed = true;
+        break;
+    default: /* the machine's operation is the whole instruction, and refuses what is none */
+        result = machine_unary(m, self->op, x);
         break;
     }
     overflow = either(m, overflow, paris_lost(m, result, dest.len, result_signed));

@@ -2,6 +2,8 @@
 
 #include <math.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 typedef __int128 signed_number;
@@ -137,6 +139,15 @@ double oracle_float_value(int width, number bits)
     return x;
 }
 
+/* The last operation that the two functions below know. */
+static void expect_root(const char *op)
+{
+    if (is(op, "sqrt"))
+        return;
+    fprintf(stderr, "oracle.c does not know %s\n", op);
+    abort();
+}
+
 static double single_arithmetic(const char *op, float a, float b)
 {
     volatile float r = 0;
@@ -152,8 +163,10 @@ static double single_arithmetic(const char *op, float a, float b)
         r = a / b;
     else if (is(op, "divinto"))
         r = b / a;
-    else
+    else {
+        expect_root(op);
         r = sqrtf(a);
+    }
     return (double)r;
 }
 
@@ -171,6 +184,7 @@ static double double_arithmetic(const char *op, double a, double b)
         return a / b;
     if (is(op, "divinto"))
         return b / a;
+    expect_root(op);
     return sqrt(a);
 }
 

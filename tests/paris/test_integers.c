@@ -338,6 +338,20 @@ static const struct integer_row *row_named(const char *name)
     return NULL;
 }
 
+/* Operations on one number, of one bit: these are made in another way than those of wider numbers. */
+static void single_bits_are_the_oracles(void **unused)
+{
+    (void)unused;
+    arrange(157, 13);
+    begin();
+    for (int r = 0; r < ROW_COUNT; r++) {
+        const struct integer_row *row = &integer_rows[r];
+        if (is_number(row) && is_unary(row) && row->type == 'u' && !row->always)
+            trial(row, row->lengths == 2 ? 3 : 1, 1, 1, 0, true);
+    }
+    finish();
+}
+
 /* Tests every operation's form with all lengths, at several sets of lengths; PARIS_TEST_FULL=1: at hundreds. */
 static void lengths_are_the_oracles(void **unused)
 {
@@ -457,6 +471,7 @@ int main(int argc, char **argv)
     };
     const struct CMUnitTest forms[] = {
         cmocka_unit_test(every_row_is_the_oracles),
+        cmocka_unit_test(single_bits_are_the_oracles),
         cmocka_unit_test(lengths_are_the_oracles),
         cmocka_unit_test(vectors_are_the_oracles),
     };

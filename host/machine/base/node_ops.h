@@ -84,7 +84,7 @@ enum op_flags {
     OP_WIDTH = 4,     /* integers: the kernels' function wants the width */
     OP_CUTS = 8,      /* bits above the width are to be cleared */
     OP_ORDERS = 16,   /* compares with < or <=: against a coordinate it is one side of a line */
-    OP_BIT_KEPT = 32, /* integers: of one bit it gives that bit */
+    OP_BIT_KEPT = 32, /* integers, two operands: where the first is one bit it gives that bit */
     OP_NARROW = 64,   /* can be done in lanes of 8 or 16 bits: codegen/narrow_spell.c */
     OP_NARROW_BITS = 128 /* ... of operands of one bit, too */
 };

@@ -1,6 +1,7 @@
 /* costs_by_driver.c - the numbers of each kind of device and driver that nobody has measured here: see shape.h. */
 #include <string.h>
 
+#include "base/errors.h"
 #include "device/shape.h"
 
 /* What all rows have. Processors first compare only the low 12 bits of addresses, and delay a load that seems to read what a
@@ -74,8 +75,22 @@ static const struct driver_row {
                .from = "public figures of large GPUs; not measured"}},
 };
 
+/* A number that a row forgets is 0: a division by it, or work that costs nothing. */
+static bool row_is_whole(const struct driver_row *row)
+{
+    const struct device_shape *s = &row->shape;
+    return (row->is_cpu || s->vector > 0) && s->op_ns > 0 && s->byte_ns > 0 &&
+           s->near_byte_ns > 0 && s->launch_ns > 0 && s->call_columns > 0 &&
+           s->call_processors > 0 && s->run_columns > 0 && s->strips_each > 0 &&
+           s->strip_columns > 0 && s->strip_least > 0 && s->pass_cost > 0 && s->turns > 0 &&
+           s->arrays_foreseen > 0 && s->fetch_bytes > 0 && s->stream_bytes > 0 &&
+           s->in_place_bytes > 0 && s->fill_run > 0 && s->sort_long > 0 && s->from;
+}
+
 struct device_shape shape_by_driver(bool is_cpu, const char *platform)
 {
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        INVARIANT(row_is_whole(&rows[i]));
     const struct driver_row *row = rows;
     while (row->is_cpu != is_cpu || (row->platform && !strstr(platform, row->platform)))
         row++; /* the last of each kind fits any driver */

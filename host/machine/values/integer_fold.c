@@ -1,9 +1,10 @@
 /* integer_fold.c - values of integers' quotients, powers, shifts and counts: kernels/integers.cl
  * computes them; results of constants are computed here.
  *
- * A single bit is represented differently from wider numbers (spell.c), so it is extended to
- * two bits for these operations: value and sign stay the same, and the low bit of the result
- * is the result.
+ * A single bit is represented differently from wider numbers (spell.c). An operation on one
+ * operand of one bit is computed here, for 0 and for 1. For operations on two, the bits are
+ * extended to two bits: value and sign stay the same, and the low bit of the result is the
+ * result.
  */
 #include "values/integers.h"
 
@@ -175,6 +176,16 @@ static number number_of(const struct machine_value *v)
     return (number)v->imm.hi << 64 | v->imm.lo;
 }
 
+/* The operation of one bit: it keeps the bit, inverts it, or gives the same for 0 and 1. */
+static struct machine_value *of_one_bit(struct machine *m, enum machine_op op,
+                                        struct machine_value *a)
+{
+    bool zero = integer_fold(op, 1, 0, 0) & 1, one = integer_fold(op, 1, 1, 0) & 1;
+    if (zero == one)
+        return machine_constant(m, MACHINE_BIT, scalar(zero));
+    return one ? a : rules_not(m, a);
+}
+
 /* Operands have one width but for shifts, whose b is a count of 32 bits. */
 struct machine_value *integer_value(struct machine *m, enum machine_op op,
                                     struct machine_value *a, struct machine_value *b)
@@ -187,6 +198,8 @@ struct machine_value *integer_value(struct machine *m, enum machine_op op,
     if (a->op == NODE_CONSTANT && (!b || b->op == NODE_CONSTANT))
         return machine_constant(
             m, type, scalar(integer_fold(op, width, number_of(a), b ? number_of(b) : 0)));
+    if (width == 1 && !b)
+        return of_one_bit(m, op, a);
     if (width == 1 && op_has((int)op, OP_BIT_KEPT))
         return a;
     if (width > 1)
@@ -197,11 +210,9 @@ struct machine_value *integer_value(struct machine *m, enum machine_op op,
     }
     /* One bit is done as two, for operations whose low bit does not depend on the width. */
     a = machine_resize(m, a, 2, keeps_sign);
-    if (b && node_ops[op].fold != FOLD_SHIFT)
+    if (node_ops[op].fold != FOLD_SHIFT)
         b = machine_resize(m, b, 2, keeps_sign);
-    struct machine_value *v = a && (b || node_ops[op].inputs == 1)
-                                  ? make_operation(m, op, MACHINE_UINT(2), a, b)
-                                  : NULL;
+    struct machine_value *v = a && b ? make_operation(m, op, MACHINE_UINT(2), a, b) : NULL;
     return v ? machine_extract(m, v, 0, 1) : NULL;
 }
 
