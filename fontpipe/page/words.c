@@ -1,6 +1,8 @@
-/* words.c - where words may be divided, by libhyphen and the dictionaries of the system; and where words of Thai end, by libthai. */
+/* words.c - where words may be divided, by libhyphen and the dictionaries of the system; and where words of Thai end, by libthai.
+ * Both libraries are loaded when they are first needed: most programs divide no words. */
 #include "page_internal.h"
 
+#include <dlfcn.h>
 #include <linebreak.h>
 #include <locale.h>
 #include <pthread.h>
@@ -12,6 +14,42 @@
 
 #include <hyphen.h>
 #include <thai/thwbrk.h>
+
+/* ---- the libraries ---- */
+
+static struct {
+    void *library;
+    __typeof__(&hnj_hyphen_load) load;
+    __typeof__(&hnj_hyphen_free) free;
+    __typeof__(&hnj_hyphen_hyphenate2) hyphenate;
+} hyphen;
+
+static struct {
+    void *library;
+    __typeof__(&th_brk_new) create;
+    __typeof__(&th_brk_delete) destroy;
+    __typeof__(&th_brk_wc_find_breaks) breaks_find;
+} thai;
+
+static bool function_find(void *library, const char *name, void *function)
+{
+    void *found = library ? dlsym(library, name) : NULL;
+    memcpy(function, &found, sizeof found); /* a function's address, as POSIX has it */
+    return found != NULL;
+}
+
+/* Under the dictionaries' lock. */
+static bool hyphen_load(void)
+{
+    if (!hyphen.library) {
+        hyphen.library = dlopen("libhyphen.so.0", RTLD_NOW | RTLD_LOCAL);
+        if (!function_find(hyphen.library, "hnj_hyphen_load", &hyphen.load) ||
+            !function_find(hyphen.library, "hnj_hyphen_free", &hyphen.free) ||
+            !function_find(hyphen.library, "hnj_hyphen_hyphenate2", &hyphen.hyphenate))
+            hyphen.load = NULL;
+    }
+    return hyphen.load != NULL;
+}
 
 /* ---- dictionaries, each loaded once ---- */
 
@@ -40,7 +78,7 @@ static HyphenDict *patterns_load(const char *language)
     for (int i = 0; i < 3; i++) {
         struct stat about;
         if (names[i][0] && stat(names[i], &about) == 0 && S_ISREG(about.st_mode))
-            return hnj_hyphen_load(names[i]);
+            return hyphen_load() ? hyphen.load(names[i]) : NULL;
     }
     return NULL;
 }
@@ -110,7 +148,7 @@ static void word_divide(HyphenDict *patterns, struct paragraph *p, int begin, in
     word[bytes] = '\0';
     char **others = NULL;
     int *places = NULL, *cuts = NULL;
-    if (hnj_hyphen_hyphenate2(patterns, word, bytes, hyphens, NULL, &others, &places, &cuts))
+    if (hyphen.hyphenate(patterns, word, bytes, hyphens, NULL, &others, &places, &cuts))
         return;
     /* Dictionaries of UTF-8 count characters, others bytes; what is spelled otherwise when divided stays whole. */
     for (int i = 0; i + 1 < end - begin; i++) {
@@ -164,17 +202,21 @@ static ThBrk *thai_breaker; /* reads a file; kept to the end */
 
 static void thai_begin(void)
 {
-    thai_breaker = th_brk_new(NULL);
+    thai.library = dlopen("libthai.so.0", RTLD_NOW | RTLD_LOCAL);
+    if (function_find(thai.library, "th_brk_new", &thai.create) &&
+        function_find(thai.library, "th_brk_delete", &thai.destroy) &&
+        function_find(thai.library, "th_brk_wc_find_breaks", &thai.breaks_find))
+        thai_breaker = thai.create(NULL);
 }
 
 static void thai_end(void) __attribute__((destructor));
 static void thai_end(void)
 {
     if (thai_breaker)
-        th_brk_delete(thai_breaker);
+        thai.destroy(thai_breaker);
     for (int i = 0; i < dictionaries_count; i++)
         if (dictionaries[i].patterns)
-            hnj_hyphen_free(dictionaries[i].patterns);
+            hyphen.free(dictionaries[i].patterns);
 }
 
 void words_thai(struct paragraph *p)
@@ -189,10 +231,9 @@ void words_thai(struct paragraph *p)
             int *places = calloc((size_t)(end - i) + 1, sizeof *places);
             for (int k = i; word && k < end; k++)
                 word[k - i] = (thwchar_t)p->characters[k];
-            int count =
-                word && places && thai_breaker
-                    ? th_brk_wc_find_breaks(thai_breaker, word, places, (size_t)(end - i))
-                    : 0;
+            int count = word && places && thai_breaker
+                            ? thai.breaks_find(thai_breaker, word, places, (size_t)(end - i))
+                            : 0;
             for (int k = i; count > 0 && k + 1 < end;
                  k++) /* not where another has found words */
                 p->letters[k].brk = LINEBREAK_NOBREAK;
