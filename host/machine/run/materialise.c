@@ -30,6 +30,8 @@ struct machine_value *materialise_upload(struct machine *m, int set, struct mach
     size_t element = type_bytes(type), bytes = geometry_bytes(s, type);
     struct device_buffer *b = device_rows_get(m, geometry_rows(s, type));
     bool near = b && b->host && m->settings.near;
+    if (near && m->watch)
+        watch_bytes(m, bytes); /* of the wait that follows */
     if (near && device_settle_for(m, "writing a field")) {
         device_buffer_unref(m, b);
         return NULL;
@@ -50,8 +52,6 @@ struct machine_value *materialise_upload(struct machine *m, int set, struct mach
         memcpy(to - halo, to + width - halo, halo);
         memcpy(to + width, to, halo);
     }
-    if (near && m->watch)
-        watch_bytes(m, bytes);
     enum machine_status status =
         near ? MACHINE_OK : device_write(m, b, 0, image, bytes, "writing a field");
     free(copy);
