@@ -160,8 +160,8 @@ int main(void)
         "1.5 0.3 0 1 0\n"
         "6 hand up 3 1.5 0.3 0 1 0\n8 hand down 1 1 0.4 0.9 0 1\n9 hand cancel 0 0 0.4 0 0 "
         "0\n10 drop\nend\n",
-        "session 1\n2 mark\n2 load 0123456789abcdef /no such file\n4 set restitution 1\n4 set "
-        "rate 2\nend\n",
+        ("session 1\n2 mark\n2 load 0123456789abcdef /no such file\n4 set restitution 1\n4 set "
+         "rate 2\nend\n"),
     };
     enum { ROUNDS = 1500 };
     for (uint64_t i = 0; i < ROUNDS; i++) {
