@@ -1,4 +1,5 @@
 /* drawing.c - outlines as paths, and which glyphs there are: see drawing_internal.h. */
+#include "colour.h"
 #include "drawing_internal.h"
 
 #include <math.h>
@@ -181,4 +182,19 @@ enum font_status drawn_path(const struct font_outline *o, const struct font_map 
             fputs(pdf ? "h\n" : "Z", f);
     }
     return FONT_OK;
+}
+
+enum font_status drawn_spread(const struct font_drawing *d, const struct font_layout *layout,
+                              const struct font_map *map, double x, double y, FILE *file,
+                              drawn_put *put)
+{
+    struct font_layout spread;
+    enum font_status status = drawn_inks_check(layout);
+    if (status == FONT_OK)
+        status = font_colour_spread(layout, &spread);
+    if (status != FONT_OK)
+        return status;
+    status = put(d, &spread, map, x, y, file);
+    font_layout_finish(&spread);
+    return status;
 }

@@ -33,6 +33,13 @@ enum font_status drawn_png(const struct font_tile *tile, FILE *file);
 /* The bytes as zlib packs them. Owns: the caller frees them; NULL: no memory. */
 uint8_t *drawn_deflated(const uint8_t *bytes, size_t count, size_t *out_count);
 
+/* Checks the inks, and draws the layout with the glyphs of colour fonts as their layers (font_colour_spread()). */
+typedef enum font_status drawn_put(const struct font_drawing *d,
+                                   const struct font_layout *layout, const struct font_map *map,
+                                   double x, double y, FILE *file);
+enum font_status drawn_spread(const struct font_drawing *d, const struct font_layout *layout,
+                              const struct font_map *map, double x, double y, FILE *file,
+                              drawn_put *put);
 enum font_status drawn_find(const struct font_layout *layout, struct drawn *out);
 void drawn_finish(struct drawn *drawn);
 

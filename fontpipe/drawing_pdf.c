@@ -454,13 +454,5 @@ enum font_status font_drawing_pdf(const struct font_drawing *d,
                                   const struct font_layout *layout, const struct font_map *map,
                                   double x, double y, FILE *file)
 {
-    struct font_layout spread;
-    enum font_status status = drawn_inks_check(layout);
-    if (status == FONT_OK)
-        status = font_colour_spread(layout, &spread);
-    if (status != FONT_OK)
-        return status;
-    status = spread_put(d, &spread, map, x, y, file);
-    font_layout_finish(&spread);
-    return status;
+    return drawn_spread(d, layout, map, x, y, file, spread_put);
 }

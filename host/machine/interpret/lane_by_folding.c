@@ -58,54 +58,7 @@ static wide extended(wide a, int width)
     return is_negative(a, width) ? a | ~ones(width) : a;
 }
 
-static bool signed_less(wide a, wide b, int width)
-{
-    return (__int128)extended(a, width) < (__int128)extended(b, width);
-}
-
 /* ---- bits ---- */
-
-static wide bits_binary(int op, int width, wide a, wide b)
-{
-    switch (op) {
-    case MACHINE_NOT:
-        return ~a;
-    case MACHINE_NEG:
-        return -a;
-    case MACHINE_AND:
-        return a & b;
-    case MACHINE_OR:
-        return a | b;
-    case MACHINE_XOR:
-        return a ^ b;
-    case MACHINE_ADD:
-        return a + b;
-    case MACHINE_SUB:
-        return a - b;
-    case MACHINE_MUL:
-        return a * b;
-    case MACHINE_UMIN:
-        return a < b ? a : b;
-    case MACHINE_UMAX:
-        return a < b ? b : a;
-    case MACHINE_SMIN:
-        return signed_less(a, b, width) ? a : b;
-    case MACHINE_SMAX:
-        return signed_less(a, b, width) ? b : a;
-    case MACHINE_EQ:
-        return a == b;
-    case MACHINE_NE:
-        return a != b;
-    case MACHINE_ULT:
-        return a < b;
-    case MACHINE_ULE:
-        return a <= b;
-    case MACHINE_SLT:
-        return signed_less(a, b, width);
-    default: /* SLE */
-        return !signed_less(b, a, width);
-    }
-}
 
 static bool product_overflows(wide a, wide b, int width, bool is_signed)
 {
@@ -301,7 +254,7 @@ static wide evaluated(const struct lanes_step *s, wide a, wide b, wide c)
         return integer_fold((enum machine_op)op, s->from.width, a, b);
     case SPELL_BITS_ONE:
     case SPELL_BITS:
-        return bits_binary(op, s->from.width, a, b);
+        return bits_fold((enum machine_op)op, s->from.width, a, b);
     case SPELL_OVERFLOW:
         return s->from.kind == MACHINE_FLOAT ? float_operation(op, s->from, a, b)
                                              : bits_overflow(op, s->from.width, a, b);

@@ -7,60 +7,6 @@
 #include "values/math_ops.h"
 #include "values/rules.h"
 
-/* Signed numbers of that width are in the order of what this makes of them. */
-static unsigned __int128 ordered(unsigned __int128 a, int width)
-{
-    return a ^ (unsigned __int128)1 << (width - 1);
-}
-
-/* The rows with FOLD_BITS, of operands of that width. */
-static unsigned __int128 fold_bits(enum machine_op op, int width, unsigned __int128 a,
-                                   unsigned __int128 b)
-{
-    const bool less = a < b, signed_less = ordered(a, width) < ordered(b, width);
-    switch ((int)op) {
-    case MACHINE_NOT:
-        return ~a;
-    case MACHINE_NEG:
-        return -a;
-    case MACHINE_AND:
-        return a & b;
-    case MACHINE_OR:
-        return a | b;
-    case MACHINE_XOR:
-        return a ^ b;
-    case MACHINE_ADD:
-        return a + b;
-    case MACHINE_SUB:
-        return a - b;
-    case MACHINE_MUL:
-        return a * b;
-    case MACHINE_UMIN:
-        return less ? a : b;
-    case MACHINE_UMAX:
-        return less ? b : a;
-    case MACHINE_SMIN:
-        return signed_less ? a : b;
-    case MACHINE_SMAX:
-        return signed_less ? b : a;
-    case MACHINE_EQ:
-        return a == b;
-    case MACHINE_NE:
-        return a != b;
-    case MACHINE_ULT:
-        return less;
-    case MACHINE_ULE:
-        return less || a == b;
-    case MACHINE_SLT:
-        return signed_less;
-    case MACHINE_SLE:
-        return signed_less || a == b;
-    default:
-        INVARIANT(node_ops[op].fold != FOLD_BITS); /* all such rows are above */
-        return 0;
-    }
-}
-
 static struct machine_value *unary(struct machine *m, enum machine_op op,
                                    struct machine_value *a)
 {
@@ -76,7 +22,7 @@ static struct machine_value *unary(struct machine *m, enum machine_op op,
         return integer_value(m, op, a, NULL);
     if (value_is_number(a) && node_ops[op].fold == FOLD_BITS)
         return make_number(m, a->type,
-                           scalar_narrow(fold_bits(op, a->type.width, scalar_wide(a->imm), 0)));
+                           scalar_narrow(bits_fold(op, a->type.width, scalar_wide(a->imm), 0)));
     if (op == MACHINE_NOT && a->type.width == 1)
         return rules_not(m, a);
     if (op == MACHINE_NOT && rules_chooses_number(a, 4))
@@ -113,7 +59,7 @@ static struct machine_value *binary(struct machine *m, enum machine_op op,
                                        : integer_value(m, op, a, b);
     if (value_is_number(a) && value_is_number(b) && row->fold == FOLD_BITS)
         return make_number(m, row->gives == GIVES_BIT ? MAKE_BIT_TYPE : a->type,
-                           scalar_narrow(fold_bits(op, a->type.width, scalar_wide(a->imm),
+                           scalar_narrow(bits_fold(op, a->type.width, scalar_wide(a->imm),
                                                    scalar_wide(b->imm))));
     if (a->type.width == 1) { /* bits have rules of their own */
         switch ((int)op) {

@@ -169,6 +169,61 @@ number integer_fold(enum machine_op op, int width, number a, number b)
     }
 }
 
+/* ---- bits ---- */
+
+/* Signed numbers of that width are in the order of what this makes of them. */
+static unsigned __int128 ordered(unsigned __int128 a, int width)
+{
+    return a ^ (unsigned __int128)1 << (width - 1);
+}
+
+unsigned __int128 bits_fold(enum machine_op op, int width, unsigned __int128 a,
+                            unsigned __int128 b)
+{
+    const bool less = a < b, signed_less = ordered(a, width) < ordered(b, width);
+    switch ((int)op) {
+    case MACHINE_NOT:
+        return ~a;
+    case MACHINE_NEG:
+        return -a;
+    case MACHINE_AND:
+        return a & b;
+    case MACHINE_OR:
+        return a | b;
+    case MACHINE_XOR:
+        return a ^ b;
+    case MACHINE_ADD:
+        return a + b;
+    case MACHINE_SUB:
+        return a - b;
+    case MACHINE_MUL:
+        return a * b;
+    case MACHINE_UMIN:
+        return less ? a : b;
+    case MACHINE_UMAX:
+        return less ? b : a;
+    case MACHINE_SMIN:
+        return signed_less ? a : b;
+    case MACHINE_SMAX:
+        return signed_less ? b : a;
+    case MACHINE_EQ:
+        return a == b;
+    case MACHINE_NE:
+        return a != b;
+    case MACHINE_ULT:
+        return less;
+    case MACHINE_ULE:
+        return less || a == b;
+    case MACHINE_SLT:
+        return signed_less;
+    case MACHINE_SLE:
+        return signed_less || a == b;
+    default:
+        INVARIANT(node_ops[op].fold != FOLD_BITS); /* all such rows are above */
+        return 0;
+    }
+}
+
 /* ---- values ---- */
 
 static number number_of(const struct machine_value *v)

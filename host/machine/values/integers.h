@@ -11,4 +11,8 @@ struct machine_value *integer_value(struct machine *m, enum machine_op op,
 unsigned __int128 integer_fold(enum machine_op op, int width, unsigned __int128 a,
                                unsigned __int128 b);
 
+/* ... and of the rows with FOLD_BITS; one operand: b is not looked at. */
+unsigned __int128 bits_fold(enum machine_op op, int width, unsigned __int128 a,
+                            unsigned __int128 b);
+
 #endif
