@@ -4,7 +4,7 @@
  * written here, and none of their headers is needed. librsvg reads no other file for a document that came from memory. */
 #include "colour_internal.h"
 
-#include <dlfcn.h>
+#include <library.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
@@ -51,13 +51,11 @@ static pthread_once_t svg_once = PTHREAD_ONCE_INIT;
 
 static void svg_begin(void)
 {
-    void *library = dlopen("librsvg-2.so.2", RTLD_NOW | RTLD_LOCAL), *found;
-    svg.good = library;
-#define FIND(result, name, parameters)                                                         \
-    found = library ? dlsym(library, #name) : NULL;                                            \
-    memcpy(&svg.name, &found, sizeof found);                                                   \
-    svg.good = svg.good && found;
-    FUNCTIONS(FIND)
+#define ROW(result, name, parameters) LIBRARY_FUNCTION(svg, name),
+    static const struct library_function functions[] = {FUNCTIONS(ROW)};
+    const char *missing;
+    svg.good = library_load("librsvg-2.so.2", functions, sizeof functions / sizeof *functions,
+                            &svg, &missing);
 }
 
 bool font_colour_svg_drawn(void)

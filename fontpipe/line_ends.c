@@ -5,7 +5,7 @@
  * both say the same (tests/fontpipe/test_unicode.c). So it is loaded when the first paragraph comes that has more. */
 #include "text_internal.h"
 
-#include <dlfcn.h>
+#include <library.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -61,7 +61,6 @@ static bool by_unibreak(const uint32_t *characters, int count, const char *langu
 enum { LANGUAGES_MAX = 16 };
 
 static struct {
-    void *library;
     UBreakIterator *(*open)(UBreakIteratorType, const char *, const UChar *, int32_t,
                             UErrorCode *);
     void (*close)(UBreakIterator *);
@@ -69,6 +68,7 @@ static struct {
     int32_t (*next)(UBreakIterator *);
     int32_t (*status)(UBreakIterator *);
 } icu;
+static bool icu_there;
 
 static struct {
     char language[16];
@@ -78,22 +78,17 @@ static int iterators_count;
 static pthread_mutex_t icu_lock = PTHREAD_MUTEX_INITIALIZER;
 static pthread_once_t icu_once = PTHREAD_ONCE_INIT;
 
-static bool function_find(const char *name, void *function)
-{
-    void *found = dlsym(icu.library, name);
-    memcpy(function, &found, sizeof found); /* a function's address, as POSIX has it */
-    return found != NULL;
-}
-
 static void icu_begin(void)
 {
-    icu.library = dlopen("libicuuc.so." U_ICU_VERSION_SHORT, RTLD_NOW | RTLD_LOCAL);
-    if (icu.library && !(function_find(VERSIONED("ubrk_open"), &icu.open) &&
-                         function_find(VERSIONED("ubrk_close"), &icu.close) &&
-                         function_find(VERSIONED("ubrk_setText"), &icu.text_set) &&
-                         function_find(VERSIONED("ubrk_next"), &icu.next) &&
-                         function_find(VERSIONED("ubrk_getRuleStatus"), &icu.status)))
-        icu.library = NULL;
+    static const struct library_function functions[] = {
+        {VERSIONED("ubrk_open"), offsetof(__typeof__(icu), open)},
+        {VERSIONED("ubrk_close"), offsetof(__typeof__(icu), close)},
+        {VERSIONED("ubrk_setText"), offsetof(__typeof__(icu), text_set)},
+        {VERSIONED("ubrk_next"), offsetof(__typeof__(icu), next)},
+        {VERSIONED("ubrk_getRuleStatus"), offsetof(__typeof__(icu), status)}};
+    const char *missing;
+    icu_there = library_load("libicuuc.so." U_ICU_VERSION_SHORT, functions,
+                             sizeof functions / sizeof *functions, &icu, &missing);
 }
 
 static void icu_end(void) __attribute__((destructor));
@@ -171,7 +166,7 @@ bool font_breaks_find(const uint32_t *characters, int count, const char *languag
         first++;
     if (first < count) {
         pthread_once(&icu_once, icu_begin);
-        if (icu.library && by_icu(characters, count, language, breaks))
+        if (icu_there && by_icu(characters, count, language, breaks))
             return true;
     }
     return by_unibreak(characters, count, language, breaks);
@@ -181,5 +176,5 @@ bool font_breaks_by_icu(const uint32_t *characters, int count, const char *langu
                         char *breaks)
 {
     pthread_once(&icu_once, icu_begin);
-    return icu.library && by_icu(characters, count, language, breaks);
+    return icu_there && by_icu(characters, count, language, breaks);
 }

@@ -2,7 +2,7 @@
  * Both libraries are loaded when they are first needed: most programs divide no words. */
 #include "page_internal.h"
 
-#include <dlfcn.h>
+#include <library.h>
 #include <linebreak.h>
 #include <locale.h>
 #include <pthread.h>
@@ -18,37 +18,34 @@
 /* ---- the libraries ---- */
 
 static struct {
-    void *library;
-    __typeof__(&hnj_hyphen_load) load;
-    __typeof__(&hnj_hyphen_free) free;
-    __typeof__(&hnj_hyphen_hyphenate2) hyphenate;
+    bool tried, there;
+    __typeof__(&hnj_hyphen_load) hnj_hyphen_load;
+    __typeof__(&hnj_hyphen_free) hnj_hyphen_free;
+    __typeof__(&hnj_hyphen_hyphenate2) hnj_hyphen_hyphenate2;
 } hyphen;
+static const struct library_function hyphen_functions[] = {
+    LIBRARY_FUNCTION(hyphen, hnj_hyphen_load), LIBRARY_FUNCTION(hyphen, hnj_hyphen_free),
+    LIBRARY_FUNCTION(hyphen, hnj_hyphen_hyphenate2)};
 
 static struct {
-    void *library;
-    __typeof__(&th_brk_new) create;
-    __typeof__(&th_brk_delete) destroy;
-    __typeof__(&th_brk_wc_find_breaks) breaks_find;
+    __typeof__(&th_brk_new) th_brk_new;
+    __typeof__(&th_brk_delete) th_brk_delete;
+    __typeof__(&th_brk_wc_find_breaks) th_brk_wc_find_breaks;
 } thai;
-
-static bool function_find(void *library, const char *name, void *function)
-{
-    void *found = library ? dlsym(library, name) : NULL;
-    memcpy(function, &found, sizeof found); /* a function's address, as POSIX has it */
-    return found != NULL;
-}
+static const struct library_function thai_functions[] = {
+    LIBRARY_FUNCTION(thai, th_brk_new), LIBRARY_FUNCTION(thai, th_brk_delete),
+    LIBRARY_FUNCTION(thai, th_brk_wc_find_breaks)};
 
 /* Under the dictionaries' lock. */
 static bool hyphen_load(void)
 {
-    if (!hyphen.library) {
-        hyphen.library = dlopen("libhyphen.so.0", RTLD_NOW | RTLD_LOCAL);
-        if (!function_find(hyphen.library, "hnj_hyphen_load", &hyphen.load) ||
-            !function_find(hyphen.library, "hnj_hyphen_free", &hyphen.free) ||
-            !function_find(hyphen.library, "hnj_hyphen_hyphenate2", &hyphen.hyphenate))
-            hyphen.load = NULL;
-    }
-    return hyphen.load != NULL;
+    const char *missing;
+    if (!hyphen.tried)
+        hyphen.there =
+            library_load("libhyphen.so.0", hyphen_functions,
+                         sizeof hyphen_functions / sizeof *hyphen_functions, &hyphen, &missing);
+    hyphen.tried = true;
+    return hyphen.there;
 }
 
 /* ---- dictionaries, each loaded once ---- */
@@ -78,7 +75,7 @@ static HyphenDict *patterns_load(const char *language)
     for (int i = 0; i < 3; i++) {
         struct stat about;
         if (names[i][0] && stat(names[i], &about) == 0 && S_ISREG(about.st_mode))
-            return hyphen_load() ? hyphen.load(names[i]) : NULL;
+            return hyphen_load() ? hyphen.hnj_hyphen_load(names[i]) : NULL;
     }
     return NULL;
 }
@@ -148,7 +145,8 @@ static void word_divide(HyphenDict *patterns, struct paragraph *p, int begin, in
     word[bytes] = '\0';
     char **others = NULL;
     int *places = NULL, *cuts = NULL;
-    if (hyphen.hyphenate(patterns, word, bytes, hyphens, NULL, &others, &places, &cuts))
+    if (hyphen.hnj_hyphen_hyphenate2(patterns, word, bytes, hyphens, NULL, &others, &places,
+                                     &cuts))
         return;
     /* Dictionaries of UTF-8 count characters, others bytes; what is spelled otherwise when divided stays whole. */
     for (int i = 0; i + 1 < end - begin; i++) {
@@ -202,21 +200,20 @@ static ThBrk *thai_breaker; /* reads a file; kept to the end */
 
 static void thai_begin(void)
 {
-    thai.library = dlopen("libthai.so.0", RTLD_NOW | RTLD_LOCAL);
-    if (function_find(thai.library, "th_brk_new", &thai.create) &&
-        function_find(thai.library, "th_brk_delete", &thai.destroy) &&
-        function_find(thai.library, "th_brk_wc_find_breaks", &thai.breaks_find))
-        thai_breaker = thai.create(NULL);
+    const char *missing;
+    if (library_load("libthai.so.0", thai_functions,
+                     sizeof thai_functions / sizeof *thai_functions, &thai, &missing))
+        thai_breaker = thai.th_brk_new(NULL);
 }
 
 static void thai_end(void) __attribute__((destructor));
 static void thai_end(void)
 {
     if (thai_breaker)
-        thai.destroy(thai_breaker);
+        thai.th_brk_delete(thai_breaker);
     for (int i = 0; i < dictionaries_count; i++)
         if (dictionaries[i].patterns)
-            hyphen.free(dictionaries[i].patterns);
+            hyphen.hnj_hyphen_free(dictionaries[i].patterns);
 }
 
 void words_thai(struct paragraph *p)
@@ -231,9 +228,10 @@ void words_thai(struct paragraph *p)
             int *places = calloc((size_t)(end - i) + 1, sizeof *places);
             for (int k = i; word && k < end; k++)
                 word[k - i] = (thwchar_t)p->characters[k];
-            int count = word && places && thai_breaker
-                            ? thai.breaks_find(thai_breaker, word, places, (size_t)(end - i))
-                            : 0;
+            int count =
+                word && places && thai_breaker
+                    ? thai.th_brk_wc_find_breaks(thai_breaker, word, places, (size_t)(end - i))
+                    : 0;
             for (int k = i; count > 0 && k + 1 < end;
                  k++) /* not where another has found words */
                 p->letters[k].brk = LINEBREAK_NOBREAK;

@@ -4,36 +4,28 @@
 
 #include <X11/Xlib.h>
 #include <X11/extensions/XInput2.h>
-#include <dlfcn.h>
+#include <library.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { DEVICES_MAX = 64 };
 
 static struct {
-    void *library;
-    __typeof__(&XIQueryVersion) version;
-    __typeof__(&XIQueryDevice) devices;
-    __typeof__(&XIFreeDeviceInfo) devices_free;
-    __typeof__(&XISelectEvents) select;
+    __typeof__(&XIQueryVersion) XIQueryVersion;
+    __typeof__(&XIQueryDevice) XIQueryDevice;
+    __typeof__(&XIFreeDeviceInfo) XIFreeDeviceInfo;
+    __typeof__(&XISelectEvents) XISelectEvents;
 } xi;
-
-static bool function_find(const char *name, void *function)
-{
-    void *found = dlsym(xi.library, name);
-    memcpy(function, &found, sizeof found); /* a function's address, as POSIX has it */
-    return found != NULL;
-}
+static const struct library_function xi_functions[] = {
+    LIBRARY_FUNCTION(xi, XIQueryVersion), LIBRARY_FUNCTION(xi, XIQueryDevice),
+    LIBRARY_FUNCTION(xi, XIFreeDeviceInfo), LIBRARY_FUNCTION(xi, XISelectEvents)};
 
 static bool xi_load(void)
 {
-    static bool all;
-    if (!xi.library && (xi.library = dlopen("libXi.so.6", RTLD_NOW | RTLD_LOCAL)))
-        all = function_find("XIQueryVersion", &xi.version) &&
-              function_find("XIQueryDevice", &xi.devices) &&
-              function_find("XIFreeDeviceInfo", &xi.devices_free) &&
-              function_find("XISelectEvents", &xi.select);
-    return all;
+    const char *missing;
+    return xi.XIQueryVersion ||
+           library_load("libXi.so.6", xi_functions, sizeof xi_functions / sizeof *xi_functions,
+                        &xi, &missing);
 }
 
 struct pen {
@@ -70,7 +62,7 @@ static struct pen_axes axes_of(const struct pen *pen, const XIDeviceInfo *device
 static void devices_find(struct pen *pen)
 {
     int count = 0;
-    XIDeviceInfo *all = xi.devices(pen->display, XIAllDevices, &count);
+    XIDeviceInfo *all = xi.XIQueryDevice(pen->display, XIAllDevices, &count);
     pen->devices_count = 0;
     for (int i = 0; all && i < count && pen->devices_count < DEVICES_MAX; i++) {
         struct pen_axes axes = axes_of(pen, &all[i]);
@@ -80,7 +72,7 @@ static void devices_find(struct pen *pen)
         pen->devices[pen->devices_count++].axes = axes;
     }
     if (all)
-        xi.devices_free(all);
+        xi.XIFreeDeviceInfo(all);
 }
 
 static void events_select(struct pen *pen)
@@ -92,7 +84,7 @@ static void events_select(struct pen *pen)
     XISetMask(changes, XI_HierarchyChanged);
     XIEventMask masks[2] = {{XIAllMasterDevices, sizeof raw, raw},
                             {XIAllDevices, sizeof changes, changes}};
-    xi.select(pen->display, DefaultRootWindow(pen->display), masks, 2);
+    xi.XISelectEvents(pen->display, DefaultRootWindow(pen->display), masks, 2);
     XFlush(pen->display);
 }
 
@@ -107,7 +99,7 @@ struct pen *pen_open(void)
     if (!pen->display ||
         !XQueryExtension(pen->display, "XInputExtension", &pen->opcode, &first_event,
                          &first_error) ||
-        !xi_load() || xi.version(pen->display, &major, &minor) != Success) {
+        !xi_load() || xi.XIQueryVersion(pen->display, &major, &minor) != Success) {
         pen_close(pen);
         return NULL;
     }

@@ -1,6 +1,7 @@
 /* alsa_library.c - see alsa_library.h. */
 #include "alsa_library.h"
 
+#include <library.h>
 #include <midi_internal.h>
 
 #include <dlfcn.h>
@@ -9,15 +10,9 @@
 
 _Static_assert(sizeof(struct alsa_event) == 28, "as the kernel declares it");
 
-#define FUNCTION(name)                                                                         \
-    {                                                                                          \
-#name, offsetof(struct alsa_library, name)                                             \
-    }
+#define FUNCTION(name) LIBRARY_FUNCTION(struct alsa_library, name)
 
-static const struct {
-    const char *name;
-    size_t at;
-} functions[] = {
+static const struct library_function functions[] = {
     FUNCTION(snd_seq_open),
     FUNCTION(snd_seq_close),
     FUNCTION(snd_seq_set_client_name),
@@ -51,19 +46,13 @@ enum midi_status alsa_load(const struct alsa_library **out)
     *out = &loaded;
     if (there)
         return MIDI_OK;
-    void *library = dlopen("libasound.so.2", RTLD_NOW | RTLD_LOCAL);
-    if (!library)
-        return midi_fail(MIDI_NO_DEVICE, "ALSA is not installed: install libasound2 (%s)",
-                         dlerror());
-    for (size_t i = 0; i < sizeof functions / sizeof *functions; i++) {
-        void *function = dlsym(library, functions[i].name);
-        if (!function) {
-            dlclose(library);
-            return midi_fail(MIDI_NO_DEVICE, "ALSA has no %s: install libasound2",
-                             functions[i].name);
-        }
-        memcpy((char *)&loaded + functions[i].at, &function, sizeof function);
-    }
+    const char *missing;
+    if (!library_load("libasound.so.2", functions, sizeof functions / sizeof *functions,
+                      &loaded, &missing))
+        return missing
+                   ? midi_fail(MIDI_NO_DEVICE, "ALSA has no %s: install libasound2", missing)
+                   : midi_fail(MIDI_NO_DEVICE, "ALSA is not installed: install libasound2 (%s)",
+                               dlerror());
     loaded.snd_lib_error_set_handler(told);
     there = true;
     return MIDI_OK;

@@ -1,21 +1,16 @@
 /* jack_library.c - see jack_library.h. */
 #include "jack_library.h"
 
+#include <library.h>
 #include <midi_internal.h>
 
 #include <dlfcn.h>
 #include <stdbool.h>
 #include <string.h>
 
-#define FUNCTION(name)                                                                         \
-    {                                                                                          \
-#name, offsetof(struct jack_library, name)                                             \
-    }
+#define FUNCTION(name) LIBRARY_FUNCTION(struct jack_library, name)
 
-static const struct {
-    const char *name;
-    size_t at;
-} functions[] = {
+static const struct library_function functions[] = {
     FUNCTION(jack_client_open),
     FUNCTION(jack_client_close),
     FUNCTION(jack_activate),
@@ -47,19 +42,14 @@ enum midi_status jack_load(const struct jack_library **out)
     *out = &loaded;
     if (there)
         return MIDI_OK;
-    void *library = dlopen("libjack.so.0", RTLD_NOW | RTLD_LOCAL);
-    if (!library)
-        return midi_fail(MIDI_NO_DEVICE, "JACK is not installed: install libjack-jackd2-0 (%s)",
-                         dlerror());
-    for (size_t i = 0; i < sizeof functions / sizeof *functions; i++) {
-        void *function = dlsym(library, functions[i].name);
-        if (!function) {
-            dlclose(library);
-            return midi_fail(MIDI_NO_DEVICE, "JACK has no %s: install libjack-jackd2-0",
-                             functions[i].name);
-        }
-        memcpy((char *)&loaded + functions[i].at, &function, sizeof function);
-    }
+    const char *missing;
+    if (!library_load("libjack.so.0", functions, sizeof functions / sizeof *functions, &loaded,
+                      &missing))
+        return missing ? midi_fail(MIDI_NO_DEVICE, "JACK has no %s: install libjack-jackd2-0",
+                                   missing)
+                       : midi_fail(MIDI_NO_DEVICE,
+                                   "JACK is not installed: install libjack-jackd2-0 (%s)",
+                                   dlerror());
     loaded.jack_set_error_function(told);
     loaded.jack_set_info_function(told);
     there = true;

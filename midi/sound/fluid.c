@@ -1,22 +1,16 @@
 /* fluid.c - see fluid.h. */
 #include "fluid.h"
 
+#include <library.h>
 #include <midi_internal.h>
 
 #include <dlfcn.h>
 #include <stddef.h>
 #include <string.h>
 
-/* A function's name, and its place in the struct. */
-#define FUNCTION(name)                                                                         \
-    {                                                                                          \
-#name, offsetof(struct fluid, name)                                                    \
-    }
+#define FUNCTION(name) LIBRARY_FUNCTION(struct fluid, name)
 
-static const struct {
-    const char *name;
-    size_t at;
-} functions[] = {
+static const struct library_function functions[] = {
     FUNCTION(new_fluid_settings),
     FUNCTION(delete_fluid_settings),
     FUNCTION(fluid_settings_setstr),
@@ -50,19 +44,14 @@ enum midi_status fluid_load(const struct fluid **out)
     *out = &loaded;
     if (there)
         return MIDI_OK;
-    void *library = dlopen("libfluidsynth.so.3", RTLD_NOW | RTLD_LOCAL);
-    if (!library)
-        return midi_fail(MIDI_NO_DEVICE, "sound needs FluidSynth: install libfluidsynth3 (%s)",
-                         dlerror());
-    for (size_t i = 0; i < sizeof functions / sizeof *functions; i++) {
-        void *function = dlsym(library, functions[i].name);
-        if (!function) {
-            dlclose(library);
-            return midi_fail(MIDI_NO_DEVICE, "FluidSynth has no %s: install libfluidsynth3",
-                             functions[i].name);
-        }
-        memcpy((char *)&loaded + functions[i].at, &function, sizeof function);
-    }
+    const char *missing;
+    if (!library_load("libfluidsynth.so.3", functions, sizeof functions / sizeof *functions,
+                      &loaded, &missing))
+        return missing ? midi_fail(MIDI_NO_DEVICE,
+                                   "FluidSynth has no %s: install libfluidsynth3", missing)
+                       : midi_fail(MIDI_NO_DEVICE,
+                                   "sound needs FluidSynth: install libfluidsynth3 (%s)",
+                                   dlerror());
     for (int level = 0; level < LEVELS; level++)
         loaded.fluid_set_log_function(level, NULL, NULL); /* we report failures ourselves */
     there = true;
