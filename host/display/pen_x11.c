@@ -1,5 +1,5 @@
-/* pen_x11.c - reports of X11's input devices, by XInput 2: see pen.h. libXi is loaded when a window is
- * opened: most programs have none. */
+/* pen_x11.c - reports of X11's input devices, by XInput 2: see pen.h. libX11 and libXi are loaded when
+ * a window is opened: most programs have none. */
 #include "pen.h"
 
 #include <X11/Xlib.h>
@@ -10,22 +10,35 @@
 
 enum { DEVICES_MAX = 64 };
 
-static struct {
-    __typeof__(&XIQueryVersion) XIQueryVersion;
-    __typeof__(&XIQueryDevice) XIQueryDevice;
-    __typeof__(&XIFreeDeviceInfo) XIFreeDeviceInfo;
-    __typeof__(&XISelectEvents) XISelectEvents;
-} xi;
-static const struct library_function xi_functions[] = {
-    LIBRARY_FUNCTION(xi, XIQueryVersion), LIBRARY_FUNCTION(xi, XIQueryDevice),
-    LIBRARY_FUNCTION(xi, XIFreeDeviceInfo), LIBRARY_FUNCTION(xi, XISelectEvents)};
+/* clang-format off */
+#define X_NAMES(X)                                                                             \
+    X(OpenDisplay) X(CloseDisplay) X(QueryExtension) X(InternAtom) X(Flush)                    \
+    X(Pending) X(NextEvent) X(GetEventData) X(FreeEventData)
+#define XI_NAMES(X) X(QueryVersion) X(QueryDevice) X(FreeDeviceInfo) X(SelectEvents)
+/* clang-format on */
 
-static bool xi_load(void)
+#define X_MEMBER(name) __typeof__(X##name) *name;
+#define XI_MEMBER(name) __typeof__(XI##name) *name;
+static struct x {
+    X_NAMES(X_MEMBER)
+} x;
+static struct xi {
+    XI_NAMES(XI_MEMBER)
+} xi;
+
+static bool libraries_load(void)
 {
+#define X_ROW(name) {"X" #name, offsetof(struct x, name)},
+#define XI_ROW(name) {"XI" #name, offsetof(struct xi, name)},
+    static const struct library_function x_functions[] = {X_NAMES(X_ROW)},
+                                         xi_functions[] = {XI_NAMES(XI_ROW)};
     const char *missing;
-    return xi.XIQueryVersion ||
-           library_load("libXi.so.6", xi_functions, sizeof xi_functions / sizeof *xi_functions,
-                        &xi, &missing);
+    return (x.OpenDisplay ||
+            library_load("libX11.so.6", x_functions, sizeof x_functions / sizeof *x_functions,
+                         &x, &missing)) &&
+           (xi.QueryVersion ||
+            library_load("libXi.so.6", xi_functions, sizeof xi_functions / sizeof *xi_functions,
+                         &xi, &missing));
 }
 
 struct pen {
@@ -62,7 +75,7 @@ static struct pen_axes axes_of(const struct pen *pen, const XIDeviceInfo *device
 static void devices_find(struct pen *pen)
 {
     int count = 0;
-    XIDeviceInfo *all = xi.XIQueryDevice(pen->display, XIAllDevices, &count);
+    XIDeviceInfo *all = xi.QueryDevice(pen->display, XIAllDevices, &count);
     pen->devices_count = 0;
     for (int i = 0; all && i < count && pen->devices_count < DEVICES_MAX; i++) {
         struct pen_axes axes = axes_of(pen, &all[i]);
@@ -72,7 +85,7 @@ static void devices_find(struct pen *pen)
         pen->devices[pen->devices_count++].axes = axes;
     }
     if (all)
-        xi.XIFreeDeviceInfo(all);
+        xi.FreeDeviceInfo(all);
 }
 
 static void events_select(struct pen *pen)
@@ -84,8 +97,8 @@ static void events_select(struct pen *pen)
     XISetMask(changes, XI_HierarchyChanged);
     XIEventMask masks[2] = {{XIAllMasterDevices, sizeof raw, raw},
                             {XIAllDevices, sizeof changes, changes}};
-    xi.XISelectEvents(pen->display, DefaultRootWindow(pen->display), masks, 2);
-    XFlush(pen->display);
+    xi.SelectEvents(pen->display, DefaultRootWindow(pen->display), masks, 2);
+    x.Flush(pen->display);
 }
 
 struct pen *pen_open(void)
@@ -95,17 +108,17 @@ struct pen *pen_open(void)
     struct pen *pen = calloc(1, sizeof *pen);
     if (!pen)
         return NULL;
-    pen->display = XOpenDisplay(NULL);
+    pen->display = libraries_load() ? x.OpenDisplay(NULL) : NULL;
     if (!pen->display ||
-        !XQueryExtension(pen->display, "XInputExtension", &pen->opcode, &first_event,
-                         &first_error) ||
-        !xi_load() || xi.XIQueryVersion(pen->display, &major, &minor) != Success) {
+        !x.QueryExtension(pen->display, "XInputExtension", &pen->opcode, &first_event,
+                          &first_error) ||
+        xi.QueryVersion(pen->display, &major, &minor) != Success) {
         pen_close(pen);
         return NULL;
     }
-    pen->pressure = XInternAtom(pen->display, "Abs Pressure", False);
-    pen->tilt_x = XInternAtom(pen->display, "Abs Tilt X", False);
-    pen->tilt_y = XInternAtom(pen->display, "Abs Tilt Y", False);
+    pen->pressure = x.InternAtom(pen->display, "Abs Pressure", False);
+    pen->tilt_x = x.InternAtom(pen->display, "Abs Tilt X", False);
+    pen->tilt_y = x.InternAtom(pen->display, "Abs Tilt Y", False);
     devices_find(pen);
     events_select(pen);
     return pen;
@@ -116,7 +129,7 @@ void pen_close(struct pen *pen)
     if (!pen)
         return;
     if (pen->display)
-        XCloseDisplay(pen->display);
+        x.CloseDisplay(pen->display);
     free(pen);
 }
 
@@ -135,17 +148,17 @@ struct pen_state pen_now(struct pen *pen)
 {
     if (!pen)
         return (struct pen_state){0};
-    while (XPending(pen->display)) {
+    while (x.Pending(pen->display)) {
         XEvent event;
-        XNextEvent(pen->display, &event);
+        x.NextEvent(pen->display, &event);
         if (event.type != GenericEvent || event.xcookie.extension != pen->opcode ||
-            !XGetEventData(pen->display, &event.xcookie))
+            !x.GetEventData(pen->display, &event.xcookie))
             continue;
         if (event.xcookie.evtype == XI_HierarchyChanged)
             devices_find(pen);
         else
             report_take(pen, event.xcookie.data);
-        XFreeEventData(pen->display, &event.xcookie);
+        x.FreeEventData(pen->display, &event.xcookie);
     }
     return pen->state;
 }

@@ -66,8 +66,8 @@ void window_draw(struct window *window)
     window->stale = false;
     if (window->drawn_by_caller)
         return;
-    glfwMakeContextCurrent(window->glfw);
-    glfwGetFramebufferSize(window->glfw, &width, &height);
+    glfw3.MakeContextCurrent(window->glfw);
+    glfw3.GetFramebufferSize(window->glfw, &width, &height);
     if (width < 1 || height < 1)
         return; /* an icon now */
     gl->Viewport(0, 0, width, height);
@@ -91,7 +91,7 @@ void window_draw(struct window *window)
         rectangle_draw(gl);
         gl->Disable(GL_BLEND);
     }
-    glfwSwapBuffers(window->glfw);
+    glfw3.SwapBuffers(window->glfw);
 }
 
 enum display_status window_show(struct window *window, const struct display_image *image)
@@ -111,7 +111,7 @@ enum display_status window_show(struct window *window, const struct display_imag
                             "4 channels (got %dx%d with %d%s)",
                             window->side_max_px, image->width_px, image->height_px,
                             image->channels, image->pixels ? "" : ", and no pixels");
-    glfwMakeContextCurrent(window->glfw);
+    glfw3.MakeContextCurrent(window->glfw);
     gl->BindTexture(GL_TEXTURE_2D, window->texture);
     gl->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
     if (image->width_px == window->image_width_px &&
@@ -140,24 +140,24 @@ enum display_status window_show(struct window *window, const struct display_imag
 
 void (*(*window_functions(void))(const char *))(void)
 {
-    return glfwGetProcAddress;
+    return glfw3.GetProcAddress;
 }
 
 void window_frame_begin(struct window *window)
 {
-    glfwMakeContextCurrent(window->glfw);
+    glfw3.MakeContextCurrent(window->glfw);
 }
 
 void window_frame_end(struct window *window)
 {
     window->stale = false;
-    glfwSwapBuffers(window->glfw);
+    glfw3.SwapBuffers(window->glfw);
 }
 
 double window_scale(const struct window *window)
 {
     float x = 1, y = 1;
-    glfwGetWindowContentScale(window->glfw, &x, &y);
+    glfw3.GetWindowContentScale(window->glfw, &x, &y);
     return x >= SCALE_LEAST ? x : 1;
 }
 
@@ -168,18 +168,18 @@ bool window_fullscreen(const struct window *window)
 
 void window_fullscreen_set(struct window *window, bool full)
 {
-    GLFWmonitor *monitor = glfwGetPrimaryMonitor();
-    const GLFWvidmode *mode = monitor ? glfwGetVideoMode(monitor) : NULL;
+    GLFWmonitor *monitor = glfw3.GetPrimaryMonitor();
+    const GLFWvidmode *mode = monitor ? glfw3.GetVideoMode(monitor) : NULL;
     int *b = window->before;
     if (full == window->fullscreen || !mode)
         return;
     if (full) {
-        glfwGetWindowPos(window->glfw, &b[0], &b[1]);
-        glfwGetWindowSize(window->glfw, &b[2], &b[3]);
-        glfwSetWindowMonitor(window->glfw, monitor, 0, 0, mode->width, mode->height,
-                             mode->refreshRate);
+        glfw3.GetWindowPos(window->glfw, &b[0], &b[1]);
+        glfw3.GetWindowSize(window->glfw, &b[2], &b[3]);
+        glfw3.SetWindowMonitor(window->glfw, monitor, 0, 0, mode->width, mode->height,
+                               mode->refreshRate);
     } else {
-        glfwSetWindowMonitor(window->glfw, NULL, b[0], b[1], b[2], b[3], GLFW_DONT_CARE);
+        glfw3.SetWindowMonitor(window->glfw, NULL, b[0], b[1], b[2], b[3], GLFW_DONT_CARE);
     }
     window->fullscreen = full;
 }
@@ -188,15 +188,15 @@ void window_fullscreen_set(struct window *window, bool full)
 
 void window_size(const struct window *window, int *width_px, int *height_px)
 {
-    glfwGetFramebufferSize(window->glfw, width_px, height_px);
+    glfw3.GetFramebufferSize(window->glfw, width_px, height_px);
 }
 
 bool window_closing(const struct window *window)
 {
-    return glfwWindowShouldClose(window->glfw) != 0;
+    return glfw3.WindowShouldClose(window->glfw) != 0;
 }
 
 void window_title_set(struct window *window, const char *title)
 {
-    glfwSetWindowTitle(window->glfw, title);
+    glfw3.SetWindowTitle(window->glfw, title);
 }

@@ -10,7 +10,7 @@
 
 static struct window *window_of(GLFWwindow *glfw)
 {
-    return glfwGetWindowUserPointer(glfw);
+    return glfw3.GetWindowUserPointer(glfw);
 }
 
 /* Appends an event of the present time, at the pointer's present place. */
@@ -86,8 +86,8 @@ static void drop_take(GLFWwindow *glfw, int count, const char **paths)
 static void place_set(struct window *window, double x, double y)
 {
     int width, height, width_px, height_px;
-    glfwGetWindowSize(window->glfw, &width, &height);
-    glfwGetFramebufferSize(window->glfw, &width_px, &height_px);
+    glfw3.GetWindowSize(window->glfw, &width, &height);
+    glfw3.GetFramebufferSize(window->glfw, &width_px, &height_px);
     window->pointer.x_px = width > 0 ? x * width_px / width : x;
     window->pointer.y_px = height > 0 ? y * height_px / height : y;
 }
@@ -198,26 +198,26 @@ void window_input_begin(struct window *window)
     double x, y;
     GLFWwindow *glfw = window->glfw;
     window->pen = pen_open();
-    glfwSetWindowUserPointer(glfw, window);
-    glfwSetFramebufferSizeCallback(glfw, size_take);
-    glfwSetWindowRefreshCallback(glfw, refresh_take);
-    glfwSetWindowCloseCallback(glfw, close_take);
-    glfwSetWindowFocusCallback(glfw, focus_take);
-    glfwSetDropCallback(glfw, drop_take);
-    glfwSetCursorPosCallback(glfw, move_take);
-    glfwSetCursorEnterCallback(glfw, enter_take);
-    glfwSetMouseButtonCallback(glfw, button_take);
-    glfwSetScrollCallback(glfw, scroll_take);
-    glfwSetKeyCallback(glfw, key_take);
-    glfwSetCharCallback(glfw, text_take);
-    glfwGetCursorPos(glfw, &x, &y);
+    glfw3.SetWindowUserPointer(glfw, window);
+    glfw3.SetFramebufferSizeCallback(glfw, size_take);
+    glfw3.SetWindowRefreshCallback(glfw, refresh_take);
+    glfw3.SetWindowCloseCallback(glfw, close_take);
+    glfw3.SetWindowFocusCallback(glfw, focus_take);
+    glfw3.SetDropCallback(glfw, drop_take);
+    glfw3.SetCursorPosCallback(glfw, move_take);
+    glfw3.SetCursorEnterCallback(glfw, enter_take);
+    glfw3.SetMouseButtonCallback(glfw, button_take);
+    glfw3.SetScrollCallback(glfw, scroll_take);
+    glfw3.SetKeyCallback(glfw, key_take);
+    glfw3.SetCharCallback(glfw, text_take);
+    glfw3.GetCursorPos(glfw, &x, &y);
     place_set(window, x, y);
 }
 
 bool window_input_take(struct window *window, double wait_s, struct input_event *event)
 {
     double until_s = input_now_s() + wait_s;
-    glfwPollEvents();
+    glfw3.PollEvents();
     for (;;) {
         if (window->stale)
             window_draw(window);
@@ -230,7 +230,7 @@ bool window_input_take(struct window *window, double wait_s, struct input_event 
         }
         if (!(left_s > 0))
             return false;
-        glfwWaitEventsTimeout(left_s);
+        glfw3.WaitEventsTimeout(left_s);
     }
 }
 
@@ -238,6 +238,6 @@ void window_close(struct window *window)
 {
     if (window_closing(window))
         return;
-    glfwSetWindowShouldClose(window->glfw, GLFW_TRUE);
+    glfw3.SetWindowShouldClose(window->glfw, GLFW_TRUE);
     put(window, (struct input_event){.kind = INPUT_CLOSE});
 }

@@ -2,10 +2,9 @@
 #ifndef LUTETIA_WINDOW_INTERNAL_H
 #define LUTETIA_WINDOW_INTERNAL_H
 
+#include "glfw_library.h"
 #include "pen.h"
 #include "window.h"
-
-#include <GLFW/glfw3.h>
 
 #ifndef GL_CLAMP_TO_EDGE /* OpenGL 1.2 */
 #define GL_CLAMP_TO_EDGE 0x812F

@@ -8,7 +8,7 @@
 static enum display_status fail_glfw(const char *what)
 {
     const char *why = NULL;
-    glfwGetError(&why);
+    glfw3.GetError(&why);
     return display_fail(DISPLAY_NO_WINDOW, "%s: %s", what, why ? why : "GLFW does not say why");
 }
 
@@ -16,11 +16,11 @@ static bool functions_find(struct gl *gl)
 {
     bool all = true;
 #define GL_FIND(name, parameters)                                                              \
-    gl->name = (void(*) parameters)glfwGetProcAddress("gl" #name);                             \
+    gl->name = (void(*) parameters)glfw3.GetProcAddress("gl" #name);                           \
     all = all && gl->name;
     GL_FUNCTIONS(GL_FIND)
-    gl->GetError = (GLenum(*)(void))glfwGetProcAddress("glGetError");
-    gl->GenerateMipmap = (void (*)(GLenum))glfwGetProcAddress("glGenerateMipmap");
+    gl->GetError = (GLenum(*)(void))glfw3.GetProcAddress("glGetError");
+    gl->GenerateMipmap = (void (*)(GLenum))glfw3.GetProcAddress("glGenerateMipmap");
     GLint major = 0;
     if (all && gl->GetError) /* a driver may return functions that it does not implement */
         gl->GetIntegerv(GL_MAJOR_VERSION, &major);
@@ -34,30 +34,30 @@ static bool functions_find(struct gl *gl)
 static GLFWwindow *glfw_window_make(const struct window_config *config)
 {
     float x = 1, y = 1;
-    GLFWmonitor *monitor = glfwGetPrimaryMonitor();
+    GLFWmonitor *monitor = glfw3.GetPrimaryMonitor();
     if (monitor)
-        glfwGetMonitorContentScale(monitor, &x, &y);
-    glfwDefaultWindowHints();
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 2);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 1);
-    glfwWindowHint(GLFW_DEPTH_BITS, 0);
-    glfwWindowHint(GLFW_STENCIL_BITS, 0);
-    glfwWindowHint(GLFW_SCALE_TO_MONITOR, x >= SCALE_LEAST);
-    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+        glfw3.GetMonitorContentScale(monitor, &x, &y);
+    glfw3.DefaultWindowHints();
+    glfw3.WindowHint(GLFW_CONTEXT_VERSION_MAJOR, 2);
+    glfw3.WindowHint(GLFW_CONTEXT_VERSION_MINOR, 1);
+    glfw3.WindowHint(GLFW_DEPTH_BITS, 0);
+    glfw3.WindowHint(GLFW_STENCIL_BITS, 0);
+    glfw3.WindowHint(GLFW_SCALE_TO_MONITOR, x >= SCALE_LEAST);
+    glfw3.WindowHint(GLFW_VISIBLE, GLFW_FALSE);
     GLFWwindow *glfw =
-        glfwCreateWindow(config->width_px, config->height_px, config->title, NULL, NULL);
+        glfw3.CreateWindow(config->width_px, config->height_px, config->title, NULL, NULL);
     if (!glfw)
         return NULL;
 
     int at[2], room[2] = {0}, size[2];
-    glfwGetWindowSize(glfw, &size[0], &size[1]);
+    glfw3.GetWindowSize(glfw, &size[0], &size[1]);
     if (monitor)
-        glfwGetMonitorWorkarea(monitor, &at[0], &at[1], &room[0], &room[1]);
+        glfw3.GetMonitorWorkarea(monitor, &at[0], &at[1], &room[0], &room[1]);
     if (room[0] > 0 && room[1] > 0 && (size[0] > room[0] || size[1] > room[1])) {
         /* A tenth is left for the window's frame. */
         double scale = 0.9 * fmin((double)room[0] / size[0], (double)room[1] / size[1]);
         int width = (int)lround(size[0] * scale), height = (int)lround(size[1] * scale);
-        glfwSetWindowSize(glfw, width > 1 ? width : 1, height > 1 ? height : 1);
+        glfw3.SetWindowSize(glfw, width > 1 ? width : 1, height > 1 ? height : 1);
     }
     return glfw;
 }
@@ -80,7 +80,12 @@ enum display_status window_create(const struct window_config *config, struct win
     struct window *window = calloc(1, sizeof *window);
     if (!window)
         return display_fail(DISPLAY_NO_MEMORY, "no memory for a window");
-    if (!glfwInit()) {
+    const char *why;
+    if (!glfw_load(&why)) {
+        status = display_fail(DISPLAY_NO_WINDOW, "no window: GLFW cannot be loaded: %s", why);
+        goto failed;
+    }
+    if (!glfw3.Init()) {
         status = fail_glfw("no display");
         goto failed;
     }
@@ -89,12 +94,12 @@ enum display_status window_create(const struct window_config *config, struct win
         status = fail_glfw("no window");
         goto failed;
     }
-    glfwMakeContextCurrent(window->glfw);
+    glfw3.MakeContextCurrent(window->glfw);
     if (!functions_find(&window->gl)) {
         status = display_fail(DISPLAY_NO_WINDOW, "no window: this display has no OpenGL 2.1");
         goto failed;
     }
-    glfwSwapInterval(config->vsync);
+    glfw3.SwapInterval(config->vsync);
     window->gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &window->side_max_px);
     window->gl.GenTextures(1, &window->texture);
     window->gl.BindTexture(GL_TEXTURE_2D, window->texture);
@@ -104,7 +109,7 @@ enum display_status window_create(const struct window_config *config, struct win
     window->gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     window->drawn_by_caller = config->drawn_by_caller;
     window_input_begin(window);
-    glfwShowWindow(window->glfw);
+    glfw3.ShowWindow(window->glfw);
     window_draw(window);
     *out = window;
     return DISPLAY_OK;
@@ -119,10 +124,10 @@ void window_destroy(struct window *window)
     if (!window)
         return;
     if (window->glfw) {
-        glfwMakeContextCurrent(window->glfw);
+        glfw3.MakeContextCurrent(window->glfw);
         if (window->texture)
             window->gl.DeleteTextures(1, &window->texture);
-        glfwDestroyWindow(window->glfw);
+        glfw3.DestroyWindow(window->glfw);
     }
     pen_close(window->pen);
     input_queue_finish(&window->queue);

@@ -4,6 +4,7 @@
  * when HDF5 reads the first byte, so it uses this driver, which reads by pread(). All other
  * operations fail.
  */
+#include "states/hdf5_library.h"
 #include "states/state_internal.h"
 
 #include <errno.h>
@@ -11,8 +12,6 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include <hdf5.h>
 
 struct driver_file {
     H5FD_t pub; /* HDF5's; first */
@@ -25,7 +24,7 @@ static H5FD_t *driver_open(const char *name, unsigned flags, hid_t access, haddr
     (void)name;
     (void)most;
     struct stat status;
-    const int *descriptor = H5Pget_driver_info(access);
+    const int *descriptor = hdf5.Pget_driver_info(access);
     struct driver_file *file =
         descriptor && !(flags & H5F_ACC_RDWR) ? calloc(1, sizeof *file) : NULL;
     if (!file || fstat(*descriptor, &status) != 0) {
@@ -123,8 +122,9 @@ int64_t state_file_open(int descriptor)
         .write = driver_write,
         .fl_map = H5FD_FLMAP_SINGLE,
     };
-    hid_t number = H5FDregister(&driver), access = H5Pcreate(H5P_FILE_ACCESS);
-    if (number < 0 || access < 0 || H5Pset_driver(access, number, &descriptor) < 0)
+    hid_t number = hdf5.FDregister(&driver),
+          access = hdf5.Pcreate(*hdf5.P_CLS_FILE_ACCESS_ID_g);
+    if (number < 0 || access < 0 || hdf5.Pset_driver(access, number, &descriptor) < 0)
         return -1;
-    return H5Fopen("state", H5F_ACC_RDONLY, access);
+    return hdf5.Fopen("state", H5F_ACC_RDONLY, access);
 }

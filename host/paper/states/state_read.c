@@ -9,6 +9,7 @@
  * only the reader's process; here the pipe ends. The file is opened once, here, and the
  * reader inherits the descriptor, so it reads the file that was checked.
  */
+#include "states/hdf5_library.h"
 #include "states/state_internal.h"
 
 #include <errno.h>
@@ -50,6 +51,9 @@ static enum paper_status file_failed(const struct paper_state *state, enum paper
 static enum paper_status reader_start(struct paper_state *state, int index, bool planes)
 {
     int ends[2];
+    enum paper_status status = hdf5_load(state->path);
+    if (status != PAPER_OK)
+        return status;
     if (pipe2(ends, O_CLOEXEC) != 0)
         return paper_fail(PAPER_NO_MEMORY, "%s: cannot read: %s", state->path, strerror(errno));
     fflush(NULL);

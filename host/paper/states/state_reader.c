@@ -6,6 +6,7 @@
  *     walk         only what we write is there (states/state_walk.c)
  *     read         the run, then the planes; or an error in words
  */
+#include "states/hdf5_library.h"
 #include "states/state_internal.h"
 
 #include <confine.h>
@@ -14,8 +15,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-#include <hdf5.h>
 
 enum { READER_SECONDS = 300 };
 /* Memory that HDF5 needs for itself, whatever is read. */
@@ -68,19 +67,19 @@ static void reader_confine(const struct state_reading *reading)
 static void *dataset_read(const struct state_reading *reading, hid_t group, const char *name,
                           hid_t type, hsize_t size[2], size_t *bytes)
 {
-    hid_t set = H5Dopen2(group, name, H5P_DEFAULT), space = H5Dget_space(set);
+    hid_t set = hdf5.Dopen2(group, name, H5P_DEFAULT), space = hdf5.Dget_space(set);
     size[0] = size[1] = 1;
-    int rank = H5Sget_simple_extent_dims(space, size, NULL);
-    *bytes = (size_t)(size[0] * size[1]) * H5Tget_size(type);
+    int rank = hdf5.Sget_simple_extent_dims(space, size, NULL);
+    *bytes = (size_t)(size[0] * size[1]) * hdf5.Tget_size(type);
     void *made = rank > 0 ? malloc(*bytes) : NULL;
     if (rank > 0 && (!made || *bytes > reading->memory_bytes))
         reader_fail(reading->pipe, STATE_FRAME_NO_MEMORY, "");
-    if (made && H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, made) < 0) {
+    if (made && hdf5.Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, made) < 0) {
         free(made);
         made = NULL;
     }
-    H5Sclose(space);
-    H5Dclose(set);
+    hdf5.Sclose(space);
+    hdf5.Dclose(set);
     return made;
 }
 
@@ -95,20 +94,23 @@ static bool planes_send(const struct state_reading *reading, hid_t group, const 
     if (paper_history_describe(run, run_count, &config) != PAPER_OK)
         return false;
     int count = paper_config_planes(&config, planes);
-    hid_t inner = H5Gopen2(group, "planes", H5P_DEFAULT);
-    bool done = inner >= 0 && H5Gget_info(inner, &info) >= 0 && info.nlinks == (hsize_t)count;
+    hid_t inner = hdf5.Gopen2(group, "planes", H5P_DEFAULT);
+    bool done =
+        inner >= 0 && hdf5.Gget_info(inner, &info) >= 0 && info.nlinks == (hsize_t)count;
     for (int i = 0; i < count && done; i++) {
         size_t bytes;
         hsize_t size[2];
         bool whole = planes[i].whole;
-        hid_t stored = H5Dopen2(inner, planes[i].name, H5P_DEFAULT), type = H5Dget_type(stored);
-        done = H5Tequal(type, whole ? H5T_STD_U32LE : H5T_IEEE_F32LE) > 0;
-        H5Tclose(type);
-        H5Dclose(stored);
+        hid_t stored = hdf5.Dopen2(inner, planes[i].name, H5P_DEFAULT),
+              type = hdf5.Dget_type(stored);
+        done = hdf5.Tequal(type, whole ? *hdf5.T_STD_U32LE_g : *hdf5.T_IEEE_F32LE_g) > 0;
+        hdf5.Tclose(type);
+        hdf5.Dclose(stored);
         void *words =
             !done ? NULL
                   : dataset_read(reading, inner, planes[i].name,
-                                 whole ? H5T_NATIVE_UINT32 : H5T_NATIVE_FLOAT, size, &bytes);
+                                 whole ? *hdf5.T_NATIVE_UINT32_g : *hdf5.T_NATIVE_FLOAT_g, size,
+                                 &bytes);
         done = words && size[0] == (hsize_t)config.height && size[1] == (hsize_t)config.width;
         if (done)
             frame_write(reading->pipe, STATE_FRAME_PLANE, words, bytes);
@@ -123,9 +125,8 @@ _Noreturn void state_reader(const struct state_reading *reading)
     size_t count = 0;
     hsize_t size[2];
     reader_confine(reading);
-    H5dont_atexit();
-    H5PLset_loading_state(0);
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    hdf5_begin();
+    hdf5.PLset_loading_state(0);
     hid_t file = state_file_open(reading->descriptor);
     if (file < 0)
         reader_fail(reading->pipe, STATE_FRAME_ERROR, "it is damaged: HDF5 cannot read it");
@@ -133,8 +134,8 @@ _Noreturn void state_reader(const struct state_reading *reading)
     if (wrong)
         reader_fail(reading->pipe, STATE_FRAME_ERROR, wrong);
     state_sheet_name(name, reading->number);
-    hid_t group = H5Gopen2(file, name, H5P_DEFAULT);
-    uint8_t *run = dataset_read(reading, group, "run", H5T_NATIVE_UINT8, size, &count);
+    hid_t group = hdf5.Gopen2(file, name, H5P_DEFAULT);
+    uint8_t *run = dataset_read(reading, group, "run", *hdf5.T_NATIVE_UINT8_g, size, &count);
     if (!run)
         reader_fail(reading->pipe, STATE_FRAME_ERROR, "it is damaged: its run cannot be read");
     frame_write(reading->pipe, STATE_FRAME_RUN, run, count);

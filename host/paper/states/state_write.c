@@ -1,4 +1,5 @@
 /* state_write.c - writes sheets to an HDF5 file, which output_file.h renames. */
+#include "states/hdf5_library.h"
 #include "states/state_internal.h"
 
 #include <output_file.h>
@@ -9,7 +10,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <hdf5.h>
 #include <zlib.h>
 
 enum { CHUNK_SIDE = 256, DEFLATE_LEVEL = 1 };
@@ -48,23 +48,23 @@ bool state_checksum(int descriptor, const char *header, uint32_t *checksum, long
 
 static bool number_note(hid_t at, const char *name, long long number)
 {
-    hid_t space = H5Screate(H5S_SCALAR);
-    hid_t note = H5Acreate2(at, name, H5T_STD_I64LE, space, H5P_DEFAULT, H5P_DEFAULT);
-    bool done = note >= 0 && H5Awrite(note, H5T_NATIVE_LLONG, &number) >= 0;
-    H5Aclose(note);
-    H5Sclose(space);
+    hid_t space = hdf5.Screate(H5S_SCALAR);
+    hid_t note = hdf5.Acreate2(at, name, *hdf5.T_STD_I64LE_g, space, H5P_DEFAULT, H5P_DEFAULT);
+    bool done = note >= 0 && hdf5.Awrite(note, *hdf5.T_NATIVE_LLONG_g, &number) >= 0;
+    hdf5.Aclose(note);
+    hdf5.Sclose(space);
     return done;
 }
 
 static bool text_note(hid_t at, const char *name, const char *text)
 {
-    hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
-    H5Tset_size(type, strlen(text) + 1);
-    hid_t note = H5Acreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
-    bool done = note >= 0 && H5Awrite(note, type, text) >= 0;
-    H5Aclose(note);
-    H5Sclose(space);
-    H5Tclose(type);
+    hid_t type = hdf5.Tcopy(*hdf5.T_C_S1_g), space = hdf5.Screate(H5S_SCALAR);
+    hdf5.Tset_size(type, strlen(text) + 1);
+    hid_t note = hdf5.Acreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    bool done = note >= 0 && hdf5.Awrite(note, type, text) >= 0;
+    hdf5.Aclose(note);
+    hdf5.Sclose(space);
+    hdf5.Tclose(type);
     return done;
 }
 
@@ -72,29 +72,31 @@ static bool text_note(hid_t at, const char *name, const char *text)
  * make the same file. */
 static hid_t how_made(hid_t kind)
 {
-    hid_t how = H5Pcreate(kind);
-    H5Pset_obj_track_times(how, false);
+    hid_t how = hdf5.Pcreate(kind);
+    hdf5.Pset_obj_track_times(how, false);
     return how;
 }
 
 static hid_t group_make(hid_t at, const char *name)
 {
-    hid_t how = how_made(H5P_GROUP_CREATE);
-    hid_t group = H5Gcreate2(at, name, H5P_DEFAULT, how, H5P_DEFAULT);
-    H5Pclose(how);
+    hid_t how = how_made(*hdf5.P_CLS_GROUP_CREATE_ID_g);
+    hid_t group = hdf5.Gcreate2(at, name, H5P_DEFAULT, how, H5P_DEFAULT);
+    hdf5.Pclose(how);
     return group;
 }
 
 static bool bytes_write(hid_t group, const uint8_t *bytes, size_t count)
 {
     hsize_t size = count;
-    hid_t space = H5Screate_simple(1, &size, NULL), how = how_made(H5P_DATASET_CREATE);
-    hid_t set = H5Dcreate2(group, "run", H5T_STD_U8LE, space, H5P_DEFAULT, how, H5P_DEFAULT);
-    bool done =
-        set >= 0 && H5Dwrite(set, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes) >= 0;
-    H5Dclose(set);
-    H5Pclose(how);
-    H5Sclose(space);
+    hid_t space = hdf5.Screate_simple(1, &size, NULL),
+          how = how_made(*hdf5.P_CLS_DATASET_CREATE_ID_g);
+    hid_t set =
+        hdf5.Dcreate2(group, "run", *hdf5.T_STD_U8LE_g, space, H5P_DEFAULT, how, H5P_DEFAULT);
+    bool done = set >= 0 && hdf5.Dwrite(set, *hdf5.T_NATIVE_UINT8_g, H5S_ALL, H5S_ALL,
+                                        H5P_DEFAULT, bytes) >= 0;
+    hdf5.Dclose(set);
+    hdf5.Pclose(how);
+    hdf5.Sclose(space);
     return done;
 }
 
@@ -104,17 +106,21 @@ static bool plane_write(hid_t group, const struct paper_plane *plane, const hsiz
     hsize_t chunk[2];
     for (int i = 0; i < 2; i++)
         chunk[i] = size[i] < CHUNK_SIDE ? size[i] : CHUNK_SIDE;
-    hid_t space = H5Screate_simple(2, size, NULL), how = how_made(H5P_DATASET_CREATE);
-    H5Pset_chunk(how, 2, chunk);
-    H5Pset_shuffle(how);
-    H5Pset_deflate(how, DEFLATE_LEVEL);
-    hid_t set = H5Dcreate2(group, plane->name, plane->whole ? H5T_STD_U32LE : H5T_IEEE_F32LE,
-                           space, H5P_DEFAULT, how, H5P_DEFAULT);
-    bool done = set >= 0 && H5Dwrite(set, plane->whole ? H5T_NATIVE_UINT32 : H5T_NATIVE_FLOAT,
-                                     H5S_ALL, H5S_ALL, H5P_DEFAULT, words) >= 0;
-    H5Dclose(set);
-    H5Pclose(how);
-    H5Sclose(space);
+    hid_t space = hdf5.Screate_simple(2, size, NULL),
+          how = how_made(*hdf5.P_CLS_DATASET_CREATE_ID_g);
+    hdf5.Pset_chunk(how, 2, chunk);
+    hdf5.Pset_shuffle(how);
+    hdf5.Pset_deflate(how, DEFLATE_LEVEL);
+    hid_t set = hdf5.Dcreate2(group, plane->name,
+                              plane->whole ? *hdf5.T_STD_U32LE_g : *hdf5.T_IEEE_F32LE_g, space,
+                              H5P_DEFAULT, how, H5P_DEFAULT);
+    bool done =
+        set >= 0 &&
+        hdf5.Dwrite(set, plane->whole ? *hdf5.T_NATIVE_UINT32_g : *hdf5.T_NATIVE_FLOAT_g,
+                    H5S_ALL, H5S_ALL, H5P_DEFAULT, words) >= 0;
+    hdf5.Dclose(set);
+    hdf5.Pclose(how);
+    hdf5.Sclose(space);
     return done;
 }
 
@@ -156,8 +162,8 @@ static enum paper_status sheet_write(hid_t file, const struct paper_state_sheet 
         snprintf(name, sizeof name, "pigment_%d", i + 1);
         *written = text_note(group, name, config->pigments[i].name);
     }
-    H5Gclose(inner);
-    H5Gclose(group);
+    hdf5.Gclose(inner);
+    hdf5.Gclose(group);
     free(run);
     free(words);
     return status;
@@ -177,26 +183,25 @@ static int model_of(const struct paper_state_sheet *sheets, int count)
 static enum paper_status content_write(const char *path, const struct paper_state_sheet *sheets,
                                        int count, bool *written)
 {
-    H5dont_atexit(); /* HDF5 would try again at exit to write what failed on a full disk, and
-                      * crash */
-    hid_t how = how_made(H5P_FILE_CREATE), access = H5Pcreate(H5P_FILE_ACCESS);
+    hdf5_begin();
+    hid_t how = how_made(*hdf5.P_CLS_FILE_CREATE_ID_g),
+          access = hdf5.Pcreate(*hdf5.P_CLS_FILE_ACCESS_ID_g);
     enum paper_status status = PAPER_OK;
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-    H5Pset_userblock(how, STATE_HEADER_BYTES);
-    H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
-    H5Pset_file_locking(access, false, true); /* the part file has our lock, so HDF5 must not
+    hdf5.Pset_userblock(how, STATE_HEADER_BYTES);
+    hdf5.Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
+    hdf5.Pset_file_locking(access, false, true); /* the part file has our lock, so HDF5 must not
                                                * lock it */
     errno = 0;
-    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, how, access);
+    hid_t file = hdf5.Fcreate(path, H5F_ACC_TRUNC, how, access);
     *written = file >= 0 && number_note(file, "format", STATE_VERSION) &&
                number_note(file, "model", model_of(sheets, count)) &&
                text_note(file, "program", "lutetia " LUTETIA_VERSION);
     for (int i = 0; i < count && status == PAPER_OK && *written; i++)
         status = sheet_write(file, &sheets[i], written);
-    if (file >= 0 && H5Fclose(file) < 0)
+    if (file >= 0 && hdf5.Fclose(file) < 0)
         *written = false;
-    H5Pclose(access);
-    H5Pclose(how);
+    hdf5.Pclose(access);
+    hdf5.Pclose(how);
     return status;
 }
 
@@ -238,9 +243,12 @@ enum paper_status paper_state_save(const char *path, const struct paper_state_sh
     if (count < 0 || count > PAPER_STATE_SHEETS_MAX)
         return paper_fail(PAPER_BAD_ARGUMENT, "a state holds up to %d sheets (got %d)",
                           PAPER_STATE_SHEETS_MAX, count);
+    enum paper_status status = hdf5_load(path);
+    if (status != PAPER_OK)
+        return status;
     if (!output_file_open(&out, path))
         return paper_fail(PAPER_BAD_ARGUMENT, "%s: cannot write: %s", path, out.why);
-    enum paper_status status = content_write(out.part, sheets, count, &written);
+    status = content_write(out.part, sheets, count, &written);
     int error = errno;
     if (status == PAPER_OK && written) {
         errno = 0;
