@@ -324,10 +324,34 @@ inline VU column(int x, int W)
 #define AT_f32(type, p, j) LANES_AT(type, p, j)
 #define AT_f64(type, p, j) LANES_AT(type, p, j)
 #endif
-/* An index that is inside, and what is read there: 0 where it was not. letter: of the container. */
+/* An index that is inside. */
 #define INSIDE(i, n) SEL_U(CMP_U((i) < (n)), i, (VU)(0))
-#define GATHER(letter, kind, type, p, i, n, j)                                                 \
-    SEL_##letter(CMP_U((i) < (n)), FROM_##kind(AT_##kind(type, p, j)), (V##letter)(0))
+/* Whether the indices i go up by one, and all are inside: then one load has all lanes. */
+#if VECTOR == 1
+#define FIRST(i) (i)
+#define IN_A_ROW(i, n) 0
+#else
+#define FIRST(i) (i).s0
+#define IN_A_ROW(i, n) in_a_row(i, (n).s0)
+inline int in_a_row(VU i, uint n)
+{
+    VU off = (i - (VU)(i.s0)) ^ AS_U(IOTA);
+#if VECTOR == 16
+    uint8 eight = off.lo | off.hi;
+    uint4 four = eight.lo | eight.hi;
+#elif VECTOR == 8
+    uint4 four = off.lo | off.hi;
+#else
+    uint4 four = off;
+#endif
+    ulong2 two = as_ulong2(four);
+    return (two.x | two.y) == 0 && i.s0 < n && n - i.s0 >= VECTOR;
+}
+#endif
+/* What is read at the indices i, which are j where they are inside: 0 where they are not. letter: of the container. */
+#define GATHER(letter, kind, type, p, i, n, j, row)                                            \
+    ((row) ? FROM_##kind(GET(type, p, FIRST(i)))                                               \
+           : SEL_##letter(CMP_U((i) < (n)), FROM_##kind(AT_##kind(type, p, j)), (V##letter)(0)))
 
 /* ---- NaN ---- */
 

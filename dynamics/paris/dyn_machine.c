@@ -24,11 +24,15 @@ static CM_field_id_t real_field(void)
     return CM_allocate_heap_field(REAL_BITS);
 }
 
-/* Makes a field of the current set from an array of doubles. */
+/* Makes a field of the current set from an array of doubles. A number that all have is in no memory. */
 static CM_field_id_t real_of(const double *values, int count)
 {
     CM_field_id_t field = real_field();
     int counts[1] = {count};
+    if (!memcmp(values, values + 1, ((size_t)count - 1) * sizeof *values)) {
+        CM_f_move_constant_1L(field, values[0], REAL);
+        return field;
+    }
     CM_f_write_to_news_array_1L(values, zero, zero, counts, axis, field, REAL, 1, counts,
                                 CM_float_double);
     return field;
@@ -115,11 +119,11 @@ static int slots_needed(const int32_t *degrees, int count)
 
 /* Which springs each mass gets from, and which send. which: as many as masses. */
 static void slots_make(struct dyn_masses *m, struct dyn_springs *s,
-                       const struct dyn_packed *packed, int end, struct slots_room *room)
+                       const struct dyn_order *order, int end, struct slots_room *room)
 {
     memset(room->degrees, 0, (size_t)m->count * sizeof *room->degrees);
     for (int i = 0; i < s->count; i++)
-        room->degrees[packed->end[end][i]]++;
+        room->degrees[order->end[end][i]]++;
     m->slots[end] = slots_needed(room->degrees, m->count);
     for (int k = 0; k < m->slots[end]; k++) {
         /* Of each mass, its k-th spring. */
@@ -127,7 +131,7 @@ static void slots_make(struct dyn_masses *m, struct dyn_springs *s,
         for (int i = 0; i < m->count; i++)
             room->which[i] = s->count;
         for (int i = 0; i < s->count; i++) {
-            int mass = packed->end[end][i];
+            int mass = order->end[end][i];
             if (room->degrees[mass]++ == k)
                 room->which[mass] = i;
         }
@@ -137,7 +141,7 @@ static void slots_make(struct dyn_masses *m, struct dyn_springs *s,
     memset(room->degrees, 0, (size_t)m->count * sizeof *room->degrees);
     s->any_sends[end] = false;
     for (int i = 0; i < s->count; i++) {
-        room->sends[i] = room->degrees[packed->end[end][i]]++ >= m->slots[end];
+        room->sends[i] = room->degrees[order->end[end][i]]++ >= m->slots[end];
         s->any_sends[end] = s->any_sends[end] || room->sends[i];
     }
     room->sends[s->count] = 0;
@@ -150,28 +154,32 @@ static void slots_make(struct dyn_masses *m, struct dyn_springs *s,
     }
 }
 
-/* With one more at the end, which pulls at nothing. */
-static CM_field_id_t real_of_springs(const double *values, int count, double last, double *row)
+/* With one more at the end, which pulls at nothing: both its ends are one mass, so it has no length. */
+static CM_field_id_t real_of_springs(const double *values, const struct dyn_order *order,
+                                     double *row)
 {
-    memcpy(row, values, (size_t)count * sizeof *row);
-    row[count] = last;
-    return real_of(row, count + 1);
+    for (int i = 0; i < order->count; i++)
+        row[i] = values[order->packed[i]];
+    row[order->count] = values[0];
+    return real_of(row, order->count + 1);
 }
 
 static void springs_make(struct dyn_springs *s, const struct dyn_masses *m,
-                         const struct dyn_packed *packed, double *row, int32_t *ends)
+                         const struct dyn_packed *packed, const struct dyn_order *order,
+                         double *row, int32_t *ends)
 {
     set_make(&s->geometry, &s->set, s->count + 1);
     for (int end = 0; end < 2; end++) {
-        memcpy(ends, packed->end[end], (size_t)s->count * sizeof *ends);
+        memcpy(ends, order->end[end], (size_t)s->count * sizeof *ends);
         ends[s->count] = 0;
         s->address[end] = addresses_of(m->geometry, ends, s->count + 1);
     }
-    s->k = real_of_springs(packed->k, s->count, 0, row);
-    s->k_rest = real_of_springs(packed->k_rest, s->count, 0, row);
-    s->c = real_of_springs(packed->c, s->count, 0, row);
-    for (int i = 0; i <= s->count; i++)
-        row[i] = i < s->count ? fmin(packed->limit[i], DYN_MACHINE_NEVER) : DYN_MACHINE_NEVER;
+    s->k = real_of_springs(packed->k, order, row);
+    s->k_rest = real_of_springs(packed->k_rest, order, row);
+    s->c = real_of_springs(packed->c, order, row);
+    for (int i = 0; i < s->count; i++)
+        row[i] = fmin(packed->limit[order->packed[i]], DYN_MACHINE_NEVER);
+    row[s->count] = DYN_MACHINE_NEVER;
     s->limit = real_of(row, s->count + 1);
     s->broken = CM_allocate_heap_field(1);
     s->any_breaks = false;
@@ -254,25 +262,28 @@ enum dyn_status dyn_machine_create(struct dyn_network *n, double dt_s, struct dy
     struct dyn_machine *m = calloc(1, sizeof *m);
     double *row = malloc(most * sizeof *row);
     int32_t *numbers = malloc(3 * most * sizeof *numbers);
+    const struct dyn_packed *packed = &n->prepared.springs;
+    bool dealt = m && dyn_machine_deal(packed, springs, &m->order);
     if (m) {
         m->which = malloc((size_t)springs * sizeof *m->which);
         m->broken = calloc((size_t)springs + 1, sizeof *m->broken);
     }
-    if (!m || !row || !numbers || !m->which || !m->broken) {
+    if (!dealt || !row || !numbers || !m->which || !m->broken) {
         free(row);
         free(numbers);
         dyn_machine_destroy(m);
         return dyn_fail(DYN_NO_MEMORY, "no memory for %d springs on the machine", springs);
     }
-    memcpy(m->which, n->prepared.springs.which, (size_t)springs * sizeof *m->which);
+    for (int i = 0; i < springs; i++)
+        m->which[i] = packed->which[m->order.packed[i]];
     m->springs.count = springs;
     numbers_set(m, n, dt_s);
     kit_begin();
     masses_make(&m->masses, n, row);
-    springs_make(&m->springs, &m->masses, &n->prepared.springs, row, numbers);
+    springs_make(&m->springs, &m->masses, packed, &m->order, row, numbers);
     struct slots_room room = {numbers, numbers + most, numbers + 2 * most};
     for (int end = 0; end < 2; end++)
-        slots_make(&m->masses, &m->springs, &n->prepared.springs, end, &room);
+        slots_make(&m->masses, &m->springs, &m->order, end, &room);
     free(row);
     free(numbers);
     enum dyn_status bouncing = bouncing_make(m, n, dt_s);
@@ -303,6 +314,7 @@ void dyn_machine_destroy(struct dyn_machine *m)
     dyn_network_destroy(m->bouncing);
     free(m->values);
     free(m->which);
+    dyn_order_free(&m->order);
     free(m->broken);
     free(m);
 }
@@ -325,7 +337,7 @@ static void broken_forget(struct dyn_machine *m, uint32_t *broken)
     CM_set_vp_set(m->masses.set);
     for (int i = 0; i < m->springs.count; i++)
         if (broken[i])
-            s->k[i] = s->k_rest[i] = 0;
+            s->k[m->order.packed[i]] = s->k_rest[m->order.packed[i]] = 0;
 }
 
 /* Reads the masses, and finds those that the machine left beyond a side. */

@@ -40,6 +40,12 @@ struct dyn_springs {
     bool any_breaks;      /* else limit and broken are nobody's */
 };
 
+/* Which spring a processor has, of the packed ones, and its masses, that of the lower number first. */
+struct dyn_order {
+    int count;
+    int32_t *packed, *end[2];
+};
+
 struct dyn_machine {
     struct dyn_masses masses;
     struct dyn_springs springs;
@@ -54,9 +60,14 @@ struct dyn_machine {
     double dt_s;
     uint32_t *broken;          /* of each spring, as it was read last */
     int32_t *which;            /* of each spring: its number in the network */
+    struct dyn_order order;    /* of each spring: which of the packed ones it is */
     int of_masses, of_springs; /* the network's counts */
     int steps;                 /* steps since the network's time was read */
 };
+
+/* dyn_machine_order.c. False: no memory. */
+bool dyn_machine_deal(const struct dyn_packed *packed, int count, struct dyn_order *out);
+void dyn_order_free(struct dyn_order *order);
 
 /* dyn_machine_program.c: one part of a step, but for the bounces. */
 void dyn_machine_part(const struct dyn_machine *m);

@@ -320,6 +320,47 @@ static void gets_wait(void **unused)
     }
 }
 
+/* Addresses that go up by one, for a while or throughout, up to the last processor and beyond: a whole vector is loaded at once
+ * there. */
+static void gets_along_rows(void **unused)
+{
+    (void)unused;
+    static const int widths[] = {1, 7, 16, 32, 50, 64};
+    enum { LENGTH = 500, WIDTHS = sizeof widths / sizeof *widths };
+    state = 12;
+    for (int round = 0; round < 6 * WIDTHS; round++) {
+        int length = LENGTH, shorter = LENGTH - (int)next(40), breaks = round % 3;
+        machine_begin(machine);
+        struct set from = {.count = LENGTH}, to = {.count = (uint64_t)shorter};
+        from.id = machine_vpset_create_ordered(machine, &length, 1, MACHINE_SEND_ORDER);
+        to.id = machine_vpset_create_ordered(machine, &shorter, 1, MACHINE_SEND_ORDER);
+        struct machine_type type = MACHINE_UINT(widths[round % WIDTHS]);
+        wide address[LENGTH], x[LENGTH], got[LENGTH];
+        uint32_t at = (uint32_t)next(60) - 30,
+                 last = 511; /* which no processor has; after it comes the first */
+        for (int n = 0; n < LENGTH; n++, at++) {
+            if (breaks && !next(breaks == 1 ? 100 : 20))
+                at = (uint32_t)next(LENGTH);
+            address[n] = at & last;
+        }
+        numbers(x, to.count, type);
+        for (int n = 0; n < LENGTH; n++)
+            got[n] = address[n] < to.count ? x[address[n]] : 0;
+        assert_ok(machine_vpset_select(machine, from.id), machine);
+        uint32_t a = field_of(&from, MACHINE_UINT(32), address), s = field_of(&to, type, x),
+                 d = machine_field_allocate(machine, from.id, type.width, MACHINE_STACK);
+        struct machine_value *where =
+            machine_field_value(machine, a, MACHINE_UINT(32), MACHINE_EVERYWHERE);
+        struct machine_value *v = machine_get(machine, where, s, type);
+        assert_non_null(v);
+        assert_ok(machine_field_store(machine, d, v, MACHINE_EVERYWHERE), machine);
+        field_is(&from, d, type, got, NULL, "along rows", round);
+        machine_begin(machine);
+        assert_ok(machine_vpset_destroy(machine, to.id), machine);
+        assert_ok(machine_vpset_destroy(machine, from.id), machine);
+    }
+}
+
 /* Pointer jumping: a field of addresses gets from itself, so each processor finds its successor's successor. */
 static void gets_of_gets(void **unused)
 {
@@ -474,6 +515,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(messages_arrive_as_in_a_loop),
         cmocka_unit_test(gets_wait),
+        cmocka_unit_test(gets_along_rows),
         cmocka_unit_test(gets_of_gets),
         cmocka_unit_test(values_that_wait_are_sent),
         cmocka_unit_test(geometry_of_a_set_changes),

@@ -427,11 +427,13 @@ static void emit_gather(struct emitter *e, char *out, size_t size, const struct 
 {
     struct operand place = emit_value(e, plan_input(e->g, n, 0, e->stage), row, dx, false),
                    count = emit_value(e, n->in[2], row, dx, false);
-    text_put(&e->body, "        const VU j%d = INSIDE(%s, %s);\n", e->names, place.text,
-             count.text);
-    snprintf(out, size, "GATHER(%c, %s, %s, b%d, %s, %s, j%d)", spell_letter(n->type),
+    text_put(&e->body,
+             "        const VU j%d = INSIDE(%s, %s);\n"
+             "        const int w%d = IN_A_ROW(%s, %s);\n",
+             e->names, place.text, count.text, e->names, place.text, count.text);
+    snprintf(out, size, "GATHER(%c, %s, %s, b%d, %s, %s, j%d, w%d)", spell_letter(n->type),
              memory_kind(n->type), memory_type(n->type), input_of(e, n->in[1]), place.text,
-             count.text, e->names);
+             count.text, e->names, e->names);
     e->ops++;
     e->loads++;
     e->cost += node_cost(n->op, n->type);
