@@ -350,8 +350,9 @@ inline int in_a_row(VU i, uint n)
 #endif
 /* What is read at the indices i, which are j where they are inside: 0 where they are not. letter: of the container. */
 #define GATHER(letter, kind, type, p, i, n, j, row)                                            \
-    ((row) ? FROM_##kind(GET(type, p, FIRST(i)))                                               \
-           : SEL_##letter(CMP_U((i) < (n)), FROM_##kind(AT_##kind(type, p, j)), (V##letter)(0)))
+    ((row)                                                                                     \
+         ? FROM_##kind(GET(type, p, FIRST(i)))                                                 \
+         : SEL_##letter(CMP_U((i) < (n)), FROM_##kind(AT_##kind(type, p, j)), (V##letter)(0)))
 
 /* ---- NaN ---- */
 
