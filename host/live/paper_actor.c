@@ -2,6 +2,7 @@
 #include "paper_actor.h"
 #include "keys_places.h"
 
+#include <brush.h>
 #include <history.h>
 #include <paint.h>
 
@@ -10,9 +11,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A pointer's brush is down for a button; a step prints at most so many dabs. */
-enum { DABS_MOST = 64, CHOICES_BYTES = PAPER_ACTOR_PIGMENTS * (PAPER_NAME_MAX + 1) };
+/* Numbers of the sheet's brushes: the one that controls lead, and the pointer's. */
+enum { MAPPED, POINTED, BRUSHES };
+enum { CHOICES_BYTES = PAPER_ACTOR_PIGMENTS * (PAPER_NAME_MAX + 1) };
 static const double FILL = 0.94; /* of the sheet's width is for letters, as in keys_actor.c */
+static const double REACH = 1e5; /* fibers: a brush that is down does not run dry */
 static const double PRESSED_MOST = 1.2; /* water that the most aftertouch gives a second */
 
 /* All doubles, for the table's sake. */
@@ -25,6 +28,17 @@ enum { ROWS = sizeof(struct settings) / sizeof(double) };
 struct brush {
     double x, y; /* fibers, y downwards */
     bool down;
+};
+
+/* What a brush was dipped in. */
+struct dip {
+    double size, pigment, water, ink;
+};
+
+/* How far a brush has been led. */
+struct led {
+    struct brush at;
+    struct dip dip;
 };
 
 /* A key that is held: where its letter is, and how hard it is pressed. */
@@ -44,11 +58,12 @@ struct paper_actor {
     char choices[CHOICES_BYTES];
     double fit_px; /* the size of a letter of the most velocity */
     double due;    /* steps of the sheet that are due, a fraction */
-    struct brush brush, pointer,
-        pointed; /* pointed: where the pointer's brush has painted to */
+    struct brush pointer;
+    bool tapped; /* the pointer has been down since the last step, if only for a moment */
+    struct led led[BRUSHES];
     double pressure;
     struct held held[MIDI_NOTES];
-    struct font_cover cover; /* of a letter or a dab, as large as the sheet */
+    struct font_cover cover; /* of a letter, as large as the sheet */
     uint16_t *view;
     uint8_t *rgb;
     bool seen; /* rgb is of the sheet as it is */
@@ -213,52 +228,70 @@ static enum stage_status letter_print(struct paper_actor *a, int key, double siz
     return cover_put(a, water, ink);
 }
 
-/* A round dab with an edge a fiber wide. */
-static void dab(struct paper_actor *a, double x, double y, double radius)
+/* ---- brushes: those of the paper ---- */
+
+/* What the brush is dipped in; a change is a new dip. */
+static struct dip dip_of(const struct paper_actor *a, double water, double ink)
 {
-    const int x0 = (int)fmax(0, floor(x - radius - 1)),
-              y0 = (int)fmax(0, floor(y - radius - 1)),
-              x1 = (int)fmin(a->cover.width_px, ceil(x + radius + 1)),
-              y1 = (int)fmin(a->cover.height_px, ceil(y + radius + 1));
-    for (int row = y0; row < y1; row++)
-        for (int column = x0; column < x1; column++) {
-            const double depth = radius + 0.5 - hypot(column + 0.5 - x, row + 0.5 - y);
-            const uint8_t gray = (uint8_t)lround(255 * fmin(1, fmax(0, depth)));
-            uint8_t *to = &a->cover.gray[(size_t)row * (size_t)a->cover.pitch + (size_t)column];
-            *to = gray > *to ? gray : *to;
-        }
+    return (struct dip){a->set.brush_size, a->set.pigment, water, ink};
 }
 
-/* From where the brush was to where it is. */
-static enum stage_status brush_lead(struct paper_actor *a, struct brush *was,
-                                    const struct brush *is, double water, double ink,
-                                    double dt_s)
+static enum paper_status brush_dip(struct paper_actor *a, int number, const struct dip *dip)
 {
-    const double radius = a->set.brush_size / 2, way = hypot(is->x - was->x, is->y - was->y);
-    const struct brush from = was->down ? *was : *is;
-    const int dabs = (int)fmin(DABS_MOST, 1 + ceil(way / fmax(0.5, radius / 2)));
-    const bool rests = was->down && way < 0.25;
-    *was = *is;
-    if (!is->down || (water <= 0 && ink <= 0))
+    struct paper_brush brush = paper_brush_default();
+    struct paper_dip paint = {
+        .number = number, .part = 1, .side = {-1, 1}, .amount = {fmin(1, dip->water)}};
+    brush.number = number;
+    /* as dense when it is wide as when it is narrow, with at most so many bristles */
+    const double wide = fmax(1, dip->size / brush.width);
+    brush.bristles = (int)fmin(PAPER_BRISTLES_MAX, brush.bristles * wide);
+    brush.thickness *= sqrt(wide);
+    brush.width = brush.depth = dip->size;
+    brush.load = fmin(2, fmax(0.01, dip->water));
+    brush.reach = REACH;
+    paint.amount[1 + (int)dip->pigment] = dip->ink;
+    enum paper_status status = paper_sheet_brush(a->sheet, &brush);
+    return status == PAPER_OK ? paper_sheet_dip(a->sheet, &paint) : status;
+}
+
+/* From where the brush was to where it is, within that time. */
+static enum stage_status brush_lead(struct paper_actor *a, int number, const struct brush *is,
+                                    double pressure, const struct dip *dip, double dt_s)
+{
+    struct led *led = &a->led[number];
+    const bool began = led->at.down && is->down;
+    const struct brush from = began ? led->at : *is;
+    led->at = *is;
+    if (!is->down || (dip->water <= 0 && dip->ink <= 0))
         return STAGE_OK;
-    /* where it rests it gives a little more, in time */
-    const double part = rests ? fmin(1, dt_s) : 1;
-    for (int i = 1; i <= dabs; i++)
-        dab(a, from.x + (is->x - from.x) * i / dabs, from.y + (is->y - from.y) * i / dabs,
-            radius);
-    return cover_put(a, part * water, part * ink);
+    enum paper_status status = PAPER_OK;
+    if (!began || memcmp(&led->dip, dip, sizeof *dip))
+        status = brush_dip(a, number, dip);
+    led->dip = *dip;
+    const struct paper_stroke_sample samples[2] = {
+        {.x = from.x, .y = from.y, .pressure = pressure},
+        {.time_s = dt_s, .x = is->x, .y = is->y, .pressure = pressure}};
+    const struct paper_stroke stroke = {
+        .number = number, .samples_count = 2, .samples = samples};
+    if (status == PAPER_OK)
+        status = paper_sheet_stroke(a->sheet, &stroke, NULL);
+    a->seen = false;
+    return paper_failed(status);
 }
 
 static enum stage_status brushes_lead(struct paper_actor *a, double dt_s)
 {
+    const struct dip mapped_dip = dip_of(a, a->set.brush_water, a->set.brush_ink),
+                     pointer_dip = dip_of(a, a->set.water, a->set.ink);
     const struct brush mapped = {a->set.brush_x * a->cover.width_px,
                                  (1 - a->set.brush_y) * a->cover.height_px,
                                  a->set.brush_water > 0 || a->set.brush_ink > 0};
-    enum stage_status status =
-        brush_lead(a, &a->brush, &mapped, a->set.brush_water, a->set.brush_ink, dt_s);
+    struct brush pointer = a->pointer;
+    pointer.down |= a->tapped;
+    a->tapped = false;
+    enum stage_status status = brush_lead(a, MAPPED, &mapped, 1, &mapped_dip, dt_s);
     return status == STAGE_OK
-               ? brush_lead(a, &a->pointed, &a->pointer, a->set.water * a->pressure,
-                            a->set.ink * a->pressure, dt_s)
+               ? brush_lead(a, POINTED, &pointer, a->pressure, &pointer_dip, dt_s)
                : status;
 }
 
@@ -365,9 +398,12 @@ static bool actor_event(void *actor, const struct stage_event *event)
     a->pointer =
         (struct brush){event->x, a->cover.height_px - event->y,
                        event->kind == STAGE_POINTER_DOWN || event->kind == STAGE_POINTER_MOVE};
-    a->pressure = event->pressure > 0 ? event->pressure : 0.5;
-    if (event->kind == STAGE_POINTER_DOWN)
-        a->pointed.down = false;
+    if (a->pointer.down)
+        a->pressure = event->pressure > 0 ? event->pressure : 0.5;
+    if (event->kind == STAGE_POINTER_DOWN) {
+        a->led[POINTED].at.down = false;
+        a->tapped = true;
+    }
     return true;
 }
 
@@ -438,7 +474,8 @@ static enum stage_status actor_restore(void *actor, const void *state)
     a->seen = false;
     a->due = 0;
     memset(a->held, 0, sizeof a->held);
-    a->brush.down = a->pointer.down = a->pointed.down = false;
+    memset(a->led, 0, sizeof a->led);
+    a->pointer.down = a->tapped = false;
     return air_set(a);
 }
 

@@ -10,8 +10,8 @@
  * A key's letter is as large as its velocity says, where keys_actor.h would show it, and of the pigment that is chosen. Aftertouch
  * gives it more water, which runs.
  *
- * The brush is where the controls brush_x and brush_y say. While brush_ink or brush_water is above 0 it is down, and paints along
- * the way between two steps. The pointer is another brush, of the same size and pigment.
+ * The brush is where the controls brush_x and brush_y say: a brush of brush.h that does not run dry. While brush_ink or brush_water
+ * is above 0 it is down, and paints along the way between two steps. The pointer is another brush, of the same size and pigment.
  *
  * Units of the world: fibers, y upwards. */
 #ifndef LUTETIA_PAPER_ACTOR_H

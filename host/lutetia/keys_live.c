@@ -35,6 +35,9 @@ static int paper_make(const struct keys_live *def, const struct keys_actor_def *
     actor.keys = *keys;
     actor.width = def->size[0] / 2; /* two pixels a fiber */
     actor.height = def->size[1] / 2;
+    if (actor.width < PAPER_SIDE_MIN || actor.height < PAPER_SIDE_MIN)
+        return fail_usage("keys", "--picture must be %dx%d or more with --wet (got %dx%d)",
+                          2 * PAPER_SIDE_MIN, 2 * PAPER_SIDE_MIN, def->size[0], def->size[1]);
     if (def->stock)
         actor.stock = def->stock;
     if (def->pigments.count > PAPER_ACTOR_PIGMENTS)

@@ -213,6 +213,41 @@ static void a_hand_paints_and_takes_it_back(void **unused)
     stage_destroy(stage);
 }
 
+/* Down and up again between two steps. */
+static void a_tap_paints(void **unused)
+{
+    (void)unused;
+    struct stage *stage = paper_stage();
+    struct stage_draw_list list = {0};
+    double now_s = 0;
+    stage_picture(stage, 2 * WIDTH, 2 * HEIGHT, 1, &list);
+    assert_true(stage_hand(stage, STAGE_POINTER_DOWN, 90, 60, 0.8, 0, 0));
+    stage_hand(stage, STAGE_POINTER_UP, 90, 60, 0, 0, 0);
+    go_on(stage, &now_s, 0.1);
+    const double painted = total(stage, 1);
+    assert_true(painted > 0);
+    go_on(stage, &now_s, 0.1);
+    assert_true(total(stage, 1) == painted);
+    stage_draw_finish(&list);
+    stage_destroy(stage);
+}
+
+static void a_resting_brush_does_not_flood(void **unused)
+{
+    (void)unused;
+    static const char *const sets[] = {"brush_ink=0.5", "brush_water=0.8", "humidity=0"};
+    struct stage *stage = paper_stage();
+    double now_s = 0;
+    for (size_t i = 0; i < sizeof sets / sizeof *sets; i++)
+        assert_int_equal(stage_set(stage, sets[i]), STAGE_OK);
+    go_on(stage, &now_s, 0.1);
+    const double ink = total(stage, 1), water = total(stage, 0);
+    assert_true(ink > 0 && water > 0); /* it paints where it comes down */
+    go_on(stage, &now_s, 3);
+    assert_true(total(stage, 1) < 4 * ink && total(stage, 0) < 4 * water);
+    stage_destroy(stage);
+}
+
 static void unknown_names_are_answered_with_the_known_ones(void **unused)
 {
     (void)unused;
@@ -235,6 +270,8 @@ int main(void)
         cmocka_unit_test(aftertouch_gives_water),
         cmocka_unit_test(a_map_leads_a_brush),
         cmocka_unit_test(a_hand_paints_and_takes_it_back),
+        cmocka_unit_test(a_tap_paints),
+        cmocka_unit_test(a_resting_brush_does_not_flood),
         cmocka_unit_test(unknown_names_are_answered_with_the_known_ones),
     };
     if (font_face_open("DejaVuSans", 0, &face) != FONT_OK)
