@@ -3,10 +3,11 @@
  * A pseudo-terminal stands for the instrument; the server is a process, and so is each of 16
  * programs that listen. A thousand notes a second, five rounds of a thousand; each delivery is
  * timed, from before the write at the instrument's end to after the read in the program. The
- * cases are: an idle machine; as many busy processes as processors; and each of them with
- * real-time priority for the server, the programs and the player, where that is allowed. Lost or altered
- * messages are errors. Then a program takes the place of the instrument, because the terminal's
- * bytes go through a kernel worker, which has no such priority.
+ * cases are: an idle machine; the same whose processors may sleep between notes; as many busy
+ * processes as processors; and the first and the last with real-time priority for the server, the
+ * programs and the player, where that is allowed. Lost or altered messages are errors. Then a
+ * program takes the place of the instrument, because the terminal's bytes go through a kernel
+ * worker, which has no such priority.
  *
  * --thorough: ten minutes of soak, too. `lutetia bench midi --soak SECONDS`: that alone
  * (midi_soak.c).
@@ -89,18 +90,38 @@ static bool round_measure(struct midi_scene *s, uint32_t from, double part_us[PA
     return true;
 }
 
-static bool case_measure(struct bench_report *r, enum midi_player player, bool loaded,
-                         bool real_time, int rounds)
+struct kind_of_case {
+    const char *load, *words;
+    bool loaded, real_time, may_sleep;
+};
+
+static void rows_add(struct bench_report *r, enum midi_player player,
+                     const struct kind_of_case *kind, double *us, int rounds)
 {
+    static const char *const whats[] = {"server", "server, from a program"};
+    for (int part = 0; part < PARTS; part++) {
+        char row[32];
+        if (part == READ_P99 && player == MIDI_FROM_PROGRAM)
+            continue; /* such a message's time is the program's */
+        snprintf(row, sizeof row, "%s p%s%s", kind->load, part == P50 ? "50" : "99",
+                 kind->words);
+        bench_report_add(r, part == READ_P99 ? "terminal" : whats[player], row,
+                         bench_sample_of(us + part * rounds, rounds), 1, "us");
+    }
+}
+
+static bool case_measure(struct bench_report *r, enum midi_player player,
+                         const struct kind_of_case *kind, int rounds)
+{
+    const struct midi_scene_def def = {player, kind->real_time, kind->may_sleep};
     struct midi_scene scene;
     struct busy busy = {.count = 0};
     double *us = calloc(PARTS * (size_t)rounds, sizeof *us), one[PARTS];
     if (!us)
         return bench_fail("no memory for %d rounds", rounds);
-    if (loaded)
+    if (kind->loaded)
         busy_begin(&busy);
-    bool ok = midi_scene_begin(&scene, player, real_time) &&
-              midi_scene_listeners(&scene, LISTENERS, 0);
+    bool ok = midi_scene_begin(&scene, &def) && midi_scene_listeners(&scene, LISTENERS, 0);
     ok = ok && round_measure(&scene, 0, one); /* warm */
     for (int i = 0; ok && i < rounds; i++) {
         ok = round_measure(&scene, (uint32_t)(i + 1) * NOTES, one);
@@ -109,17 +130,31 @@ static bool case_measure(struct bench_report *r, enum midi_player player, bool l
     }
     midi_scene_end(&scene);
     busy_end(&busy);
-    static const char *const whats[] = {"server", "server, from a program"};
-    for (int part = 0; part < PARTS && ok; part++) {
-        char row[32];
-        if (part == READ_P99 && player == MIDI_FROM_PROGRAM)
-            continue; /* such a message's time is the program's */
-        snprintf(row, sizeof row, "%s p%s%s", loaded ? "loaded" : "idle",
-                 part == P50 ? "50" : "99", real_time ? ", real time" : "");
-        bench_report_add(r, part == READ_P99 ? "terminal" : whats[player], row,
-                         bench_sample_of(us + part * rounds, rounds), 1, "us");
-    }
+    if (ok)
+        rows_add(r, player, kind, us, rounds);
     free(us);
+    return ok;
+}
+
+static bool cases_measure(struct bench_report *r, int rounds)
+{
+    static const struct kind_of_case kinds[] = {{"idle", "", false, false, false},
+                                                {"idle", ", may sleep", false, false, true},
+                                                {"idle", ", real time", false, true, false},
+                                                {"loaded", "", true, false, false},
+                                                {"loaded", ", real time", true, true, false}};
+    const bool real_time = midi_real_time_allowed(), awake = midi_awake_allowed();
+    bool ok = true;
+    for (int player = MIDI_FROM_INSTRUMENT; player <= MIDI_FROM_PROGRAM; player++)
+        for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+            if ((real_time || !kinds[i].real_time) && (awake || !kinds[i].may_sleep))
+                ok = ok && case_measure(r, (enum midi_player)player, &kinds[i], rounds);
+    if (!real_time)
+        fprintf(stderr, "lutetia bench midi: real time is not allowed here (`ulimit -r`); its "
+                        "rows are missing\n");
+    if (!awake)
+        fprintf(stderr, "lutetia bench midi: processors cannot be kept awake here "
+                        "(/dev/cpu_dma_latency); they may sleep in all rows\n");
     return ok;
 }
 
@@ -174,15 +209,7 @@ int bench_midi_main(int argc, char **argv)
         ok = soak_add(&report, soak_s);
         return bench_options_finish(&options, &report, "server", ok);
     }
-    const bool real_time = midi_real_time_allowed();
-    for (int player = MIDI_FROM_INSTRUMENT; ok && player <= MIDI_FROM_PROGRAM; player++)
-        for (int loaded = 0; loaded < 2; loaded++)
-            for (int first = 0; ok && first < 1 + real_time; first++)
-                ok = case_measure(&report, (enum midi_player)player, loaded, first,
-                                  options.repeat_count);
-    if (!real_time)
-        fprintf(stderr, "lutetia bench midi: real time is not allowed here (`ulimit -r`); its "
-                        "rows are missing\n");
+    ok = cases_measure(&report, options.repeat_count);
     if (ok && options.thorough)
         ok = soak_add(&report, SOAK_S);
     return bench_options_finish(&options, &report, "server", ok);

@@ -38,6 +38,11 @@ bool midi_real_time_allowed(void)
     return child > 0 && waitpid(child, &status, 0) == child && status == 0;
 }
 
+bool midi_awake_allowed(void)
+{
+    return access("/dev/cpu_dma_latency", W_OK) == 0;
+}
+
 /* splitmix64's finaliser. */
 static uint64_t mixed(uint64_t z)
 {
@@ -73,16 +78,19 @@ static void serve_stop(int signal_number)
     midi_server_stop(serving);
 }
 
-static void serve(const struct midi_scene *s, bool real_time)
+static void serve(const struct midi_scene *s)
 {
     char device[128];
     const char *devices[] = {device};
-    if (s->player == MIDI_FROM_INSTRUMENT)
+    if (s->def.player == MIDI_FROM_INSTRUMENT)
         snprintf(device, sizeof device, "keys=serial:%s", s->link);
     else
         snprintf(device, sizeof device, "keys=loop");
-    const struct midi_server_def def = {
-        .path = s->path, .devices = devices, .devices_count = 1, .real_time = real_time};
+    const struct midi_server_def def = {.path = s->path,
+                                        .devices = devices,
+                                        .devices_count = 1,
+                                        .real_time = s->def.real_time,
+                                        .awake = !s->def.may_sleep};
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     close(s->port);
     if (midi_server_create(&def, &serving) != MIDI_OK)
@@ -157,10 +165,10 @@ static bool server_ready(const struct midi_scene *s)
     return strstr(text, " up") || bench_fail("the server's device did not come: %s", text);
 }
 
-bool midi_scene_begin(struct midi_scene *s, enum midi_player player, bool real_time)
+bool midi_scene_begin(struct midi_scene *s, const struct midi_scene_def *def)
 {
     *s = (struct midi_scene){
-        .player = player, .port = -1, .server = -1, .encoder = {.running_status = true}};
+        .def = *def, .port = -1, .server = -1, .encoder = {.running_status = true}};
     snprintf(s->folder, sizeof s->folder, "/tmp/lutetia-midi-XXXXXX");
     if (!mkdtemp(s->folder))
         return bench_fail("no folder can be made in /tmp");
@@ -174,16 +182,16 @@ bool midi_scene_begin(struct midi_scene *s, enum midi_player player, bool real_t
     }
     if (!port_open(s))
         return false;
-    real_time_set(real_time);
+    real_time_set(def->real_time);
     s->server = fork();
     if (s->server == 0)
-        serve(s, real_time);
+        serve(s);
     if (s->server < 0)
         return bench_fail("no process: %s", strerror(errno));
-    const struct midi_client_def def = {.name = "player", .address = s->path};
+    const struct midi_client_def player = {.name = "player", .address = s->path};
     return server_ready(s) &&
-           (player == MIDI_FROM_INSTRUMENT || midi_client_open(&def, &s->client) == MIDI_OK ||
-            bench_fail("%s", midi_error()));
+           (def->player == MIDI_FROM_INSTRUMENT ||
+            midi_client_open(&player, &s->client) == MIDI_OK || bench_fail("%s", midi_error()));
 }
 
 bool midi_scene_listeners(struct midi_scene *s, int count, uint32_t from)

@@ -1,7 +1,7 @@
 /* midi_scene.h - a MIDI server as a process of its own, an instrument on a pseudo-terminal, and programs that listen.
  *
  *     struct midi_scene scene;
- *     if (midi_scene_begin(&scene, MIDI_FROM_INSTRUMENT, real_time) && midi_scene_listeners(&scene, 16, 0)) {
+ *     if (midi_scene_begin(&scene, &(struct midi_scene_def){.real_time = true}) && midi_scene_listeners(&scene, 16, 0)) {
  *         for (uint32_t i = 0; i < 5000; i++)
  *             midi_scene_play(&scene, i);
  *         ok = midi_scene_wait(&scene, 5000);
@@ -38,10 +38,17 @@ struct midi_shared {
 /* Who plays: the other end of a pseudo-terminal, or a program, through the server's loop. */
 enum midi_player { MIDI_FROM_INSTRUMENT, MIDI_FROM_PROGRAM };
 
+struct midi_scene_def {
+    enum midi_player player;
+    bool
+        real_time; /* SCHED_FIFO for the server, the listeners and whoever calls, where that is allowed */
+    bool may_sleep; /* the server does not keep the processors awake */
+};
+
 struct midi_client;
 
 struct midi_scene {
-    enum midi_player player;
+    struct midi_scene_def def;
     struct midi_client *client; /* the program that plays */
     char folder[64], link[96], path[96];
     pid_t server, listeners[MIDI_LISTENERS_MAX];
@@ -50,8 +57,8 @@ struct midi_scene {
     struct midi_shared *shared;
 };
 
-/* Starts the server; real_time: SCHED_FIFO for it, the listeners and whoever calls, where that is allowed. Errors: false. */
-bool midi_scene_begin(struct midi_scene *s, enum midi_player player, bool real_time);
+/* Starts the server. Errors: false. */
+bool midi_scene_begin(struct midi_scene *s, const struct midi_scene_def *def);
 /* That many processes that listen, from message `from` on. Errors: false. */
 bool midi_scene_listeners(struct midi_scene *s, int count, uint32_t from);
 /* Writes message i; returns how many bytes that took, 0: it cannot be written. */
@@ -61,7 +68,8 @@ struct midi_message midi_scene_message(uint32_t i);
 bool midi_scene_wait(struct midi_scene *s, uint32_t count);
 void midi_scene_end(struct midi_scene *s);
 
-/* Whether this user may have real-time priority. */
+/* Whether this user may have real-time priority, and keep processors awake. */
 bool midi_real_time_allowed(void);
+bool midi_awake_allowed(void);
 
 #endif

@@ -137,8 +137,9 @@ bool midi_soak(double seconds, struct midi_soak_result *out)
     static struct midi_histogram all;
     *out = (struct midi_soak_result){0};
     memset(&all, 0, sizeof all);
-    bool ok = midi_scene_begin(&scene, MIDI_FROM_INSTRUMENT, false) &&
-              midi_scene_listeners(&scene, STEADY, 0) && soak_run(&scene, seconds, out);
+    const struct midi_scene_def def = {.player = MIDI_FROM_INSTRUMENT};
+    bool ok = midi_scene_begin(&scene, &def) && midi_scene_listeners(&scene, STEADY, 0) &&
+              soak_run(&scene, seconds, out);
     for (int i = 0; ok && i < STEADY; i++) {
         const struct midi_listener *l = &scene.shared->listeners[i];
         out->deliveries += l->heard;

@@ -22,7 +22,7 @@ struct midi_verb {
     const char *address, *device, *filters, *output, *font;
     int tcp_port, count;
     double seconds;
-    bool usual_priority;
+    bool usual_priority, may_sleep;
     struct option_words words;
 };
 
@@ -65,6 +65,7 @@ static int serve_do(struct midi_verb *v)
                                         .devices = v->words.words,
                                         .devices_count = v->words.count,
                                         .real_time = !v->usual_priority,
+                                        .awake = !v->may_sleep,
                                         .log = serve_log};
     struct sigaction action = {.sa_handler = serve_stop};
     if (v->tcp_port && !def.token)
@@ -458,6 +459,9 @@ int verb_midi(int argc, char **argv)
          1, 65535, 0},
         {"usual-priority", 0, OPTION_FLAG, NULL,
          "serve: not in real time, even where that is allowed", &v.usual_priority, 0, 0, 0},
+        {"may-sleep", 0, OPTION_FLAG, NULL,
+         "serve: processors may sleep between messages, even where they can be kept awake",
+         &v.may_sleep, 0, 0, 0},
         {"output", 'o', OPTION_TEXT, "FILE.wav", "render: what is written (out.wav)", &v.output,
          0, 0, 0},
         {"soundfont", 0, OPTION_TEXT, "FILE",

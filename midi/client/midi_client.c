@@ -205,18 +205,9 @@ static bool frame_take(struct midi_client *c, const struct midi_wire_frame *f)
     }
 }
 
-/* Reads the available bytes, without blocking. */
-static void input_take(struct midi_client *c)
+/* Takes the frames that have come, and calls gone() if they are malformed. */
+static void frames_take(struct midi_client *c)
 {
-    const ssize_t got =
-        recv(c->file, c->in + c->in_count, sizeof c->in - c->in_count, MSG_DONTWAIT);
-    if (got < 0 && (errno == EAGAIN || errno == EINTR))
-        return;
-    if (got <= 0) {
-        gone(c, c->farewell[0] ? c->farewell : "the server is gone");
-        return;
-    }
-    c->in_count += (size_t)got;
     struct midi_wire_frame f;
     size_t at = 0;
     for (size_t used; (used = midi_wire_read(c->in + at, c->in_count - at, &f)); at += used)
@@ -230,6 +221,21 @@ static void input_take(struct midi_client *c)
     }
     memmove(c->in, c->in + at, c->in_count - at);
     c->in_count -= at;
+}
+
+/* Reads once; flags: MSG_DONTWAIT, or 0 to wait. False: nothing came, or a signal did. */
+static bool input_take(struct midi_client *c, int flags)
+{
+    const ssize_t got = recv(c->file, c->in + c->in_count, sizeof c->in - c->in_count, flags);
+    if (got < 0 && (errno == EAGAIN || errno == EINTR))
+        return false;
+    if (got <= 0) {
+        gone(c, c->farewell[0] ? c->farewell : "the server is gone");
+        return true;
+    }
+    c->in_count += (size_t)got;
+    frames_take(c);
+    return true;
 }
 
 /* Waits until the socket is readable or writable, or the time is over. */
@@ -285,7 +291,7 @@ static enum midi_status reply_wait(struct midi_client *c, const bool *done, cons
     const uint64_t until_ns = midi_now_ns() + REPLY_WAIT_MS * UINT64_C(1000000);
     while (c->file >= 0 && !*done && !c->refused && midi_now_ns() < until_ns)
         if (wait_for(c, POLLIN, until_ns))
-            input_take(c);
+            (void)input_take(c, MSG_DONTWAIT);
     if (c->refused)
         return midi_fail(MIDI_REFUSED, "%.300s",
                          text[0] ? text : "the server refuses, and does not say why");
@@ -480,9 +486,9 @@ enum midi_status midi_client_next(struct midi_client *c, int wait_ms,
         last = midi_now_ns() >= until_ns;
         if (c->file < 0)
             try_again(c, until_ns);
+        else if (until_ns == UINT64_MAX) /* waits in the read itself: a system call less */
+            last = !input_take(c, 0) && errno == EINTR; /* a signal: return to the caller */
         else if (wait_for(c, POLLIN, until_ns))
-            input_take(c);
-        else if (until_ns == UINT64_MAX)
-            last = true; /* interrupted by a signal: return to the caller */
+            (void)input_take(c, MSG_DONTWAIT);
     }
 }

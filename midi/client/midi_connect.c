@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 #include <sys/un.h>
 #include <unistd.h>
 
@@ -80,5 +81,9 @@ enum midi_status midi_connect(const char *address, int *file)
         close(*file);
         *file = -1;
     }
+    /* A read that has a timeout is interrupted by every signal, SA_RESTART or not: signal(7). */
+    const struct timeval day = {.tv_sec = 86400};
+    if (status == MIDI_OK)
+        (void)setsockopt(*file, SOL_SOCKET, SO_RCVTIMEO, &day, sizeof day);
     return status;
 }

@@ -212,6 +212,7 @@ static void second_fire(struct server_timer *t, uint64_t now_ns)
     }
     clients_sweep(s);
     rates_take(s, now_ns);
+    awake_look(&s->awake, s->messages, now_ns);
     loop_timer(&s->loop, t, now_ns + HOUSEKEEPING_MS * UINT64_C(1000000));
 }
 
@@ -236,6 +237,18 @@ static void real_time_begin(struct midi_server *s, bool wanted)
         snprintf(s->real_time, sizeof s->real_time,
                  "usual priority: real time is not allowed (%s; `ulimit -r`)", strerror(errno));
     tell(s, "%s", s->real_time);
+}
+
+static void awake_set(struct midi_server *s, bool wanted)
+{
+    if (!awake_begin(&s->awake, wanted ? AWAKE_PATH : NULL))
+        snprintf(s->sleep, sizeof s->sleep, "processors may sleep: " AWAKE_PATH ": %s",
+                 strerror(errno));
+    else
+        snprintf(s->sleep, sizeof s->sleep, "%s",
+                 wanted ? "processors are kept awake while messages come"
+                        : "processors may sleep");
+    tell(s, "%s", s->sleep);
 }
 
 static enum midi_status listen_begin(struct midi_server *s, const struct midi_server_def *def)
@@ -274,7 +287,7 @@ enum midi_status midi_server_create(const struct midi_server_def *def, struct mi
     s->log = def->log;
     s->context = def->context;
     s->began_ns = s->rates_ns = midi_now_ns();
-    s->lock = -1;
+    s->lock = s->awake.file = -1;
     s->unix_watch = (struct server_watch){-1, accept_ready, s};
     s->tcp_watch = (struct server_watch){-1, accept_ready, s};
     s->stop_watch =
@@ -295,6 +308,7 @@ enum midi_status midi_server_create(const struct midi_server_def *def, struct mi
         return status;
     }
     real_time_begin(s, def->real_time);
+    awake_set(s, def->awake);
     *out = s;
     return MIDI_OK;
 }
@@ -325,6 +339,7 @@ void midi_server_destroy(struct midi_server *s)
         device_destroy(s->devices[i]);
     s->devices_count = 0;
     clients_sweep(s);
+    awake_end(&s->awake);
     socket_leave(s->path, s->unix_watch.file, s->lock);
     if (s->tcp_watch.file >= 0)
         close(s->tcp_watch.file);

@@ -1,7 +1,7 @@
 /* midi_server.h - a process that opens the instruments; any number of programs play them and
  * listen to them through it.
  *
- *     struct midi_server_def def = {.devices = specs, .devices_count = 2, .real_time = true};
+ *     struct midi_server_def def = {.devices = specs, .devices_count = 2, .real_time = true, .awake = true};
  *     struct midi_server *server;
  *     if (midi_server_create(&def, &server) != MIDI_OK)
  *         die(midi_error());
@@ -33,6 +33,8 @@ struct midi_server_def {
     const char *const *devices; /* [NAME=]KIND[:ARGUMENT] each */
     int devices_count;
     bool real_time; /* SCHED_FIFO, if that is allowed */
+    bool
+        awake; /* no processor sleeps while messages come, if that is allowed (server_awake.h) */
     void (*log)(void *context, const char *line);
     void *context;
 };

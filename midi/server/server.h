@@ -3,6 +3,7 @@
 #define LUTETIA_MIDI_SERVER_INTERNAL_H
 
 #include "device.h"
+#include "server_awake.h"
 #include "server_client.h"
 
 enum { SERVER_CLIENTS_MAX = 64, SERVER_TOKEN_BYTES = 128 };
@@ -23,7 +24,10 @@ struct midi_server {
     uint64_t began_ns, rates_ns;
     uint64_t in_before[MIDI_WIRE_DEVICES], out_before[MIDI_WIRE_DEVICES]; /* a second ago */
     double in_hz[MIDI_WIRE_DEVICES], out_hz[MIDI_WIRE_DEVICES];
-    char token[SERVER_TOKEN_BYTES], path[108], real_time[160];
+    uint64_t messages; /* both ways, but for active sensing */
+    struct server_awake awake;
+    char token[SERVER_TOKEN_BYTES], path[108];
+    char real_time[160], sleep[160]; /* for people: what was asked for, and what is allowed */
     /* sockets */
     struct server_watch unix_watch, tcp_watch, stop_watch;
     int lock;

@@ -37,7 +37,8 @@ static void thinned_set(struct midi_server *s)
 
 void route_received(struct server_device *d, const struct midi_message *m)
 {
-    const struct midi_server *s = d->owner;
+    struct midi_server *s = d->owner;
+    s->messages += m->bytes[0] != MIDI_SENSING;
     for (struct server_client *c = s->clients; c; c = c->next) {
         struct hearing h = {c, d->number};
         if (c->hears[d->number])
@@ -94,6 +95,7 @@ static void play_take(void *context, const struct midi_message *m)
     const int device = p->device->number;
     if (!device_put(p->device, m))
         return;
+    p->server->messages += m->bytes[0] != MIDI_SENSING;
     midi_notes_take(&p->client->played[device], m);
     if (midi_message_kind(m) == MIDI_KIND_REAL_TIME)
         return;

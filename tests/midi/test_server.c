@@ -21,6 +21,8 @@
 #include "server_support.h"
 
 #include <fcntl.h>
+#include <signal.h>
+#include <sys/time.h>
 
 /* ---- both directions ---- */
 
@@ -56,6 +58,34 @@ static void every_client_hears_what_it_asked_for(void **unused)
     midi_client_close(deaf);
     served_end(&s);
     instrument_unplug(&keys);
+}
+
+static void nothing_to_do(int signal_number)
+{
+    (void)signal_number;
+}
+
+/* As Ctrl-C does; signal() sets SA_RESTART, with which a usual read would go on waiting. */
+static void a_signal_ends_the_wait(void **unused)
+{
+    (void)unused;
+    struct served s = served_begin((const char *const[]){"through=loop", NULL}, 0, NULL);
+    struct midi_client *c = client_of(&s, "c", "");
+    struct midi_client_event e;
+    const struct itimerval soon = {.it_value = {.tv_usec = 30000}, .it_interval = {0, 30000}};
+    const struct itimerval never = {.it_value = {0, 0}};
+    void (*before)(int) = signal(SIGALRM, nothing_to_do);
+    wait_up(c, "through");
+    do
+        assert_int_equal(midi_client_next(c, 0, &e), MIDI_OK);
+    while (e.kind != MIDI_CLIENT_NOTHING);
+    assert_int_equal(setitimer(ITIMER_REAL, &soon, NULL), 0);
+    assert_int_equal(midi_client_next(c, -1, &e), MIDI_OK);
+    assert_int_equal(e.kind, MIDI_CLIENT_NOTHING);
+    assert_int_equal(setitimer(ITIMER_REAL, &never, NULL), 0);
+    signal(SIGALRM, before);
+    midi_client_close(c);
+    served_end(&s);
 }
 
 static void a_device_plays_what_clients_send(void **unused)
@@ -333,6 +363,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_client_hears_what_it_asked_for),
+        cmocka_unit_test(a_signal_ends_the_wait),
         cmocka_unit_test(a_device_plays_what_clients_send),
         cmocka_unit_test(nothing_is_lost_or_altered),
         cmocka_unit_test(songs_are_played_in_time),
