@@ -174,8 +174,9 @@ static enum font_status draw(struct font_gray *gray, const struct font_edges *e,
     int pitch = gray->pitch, height = gray->height_px;
     job.width = gray->width_px;
     job.pitch = pitch;
-    /* Blocks end up to 8 floats past the width; with more taps, of 16, up to 16. */
-    if (!e->arcs_count && f->taps <= 5 && f->way != FONT_BY_PATCHES && pitch == 16) {
+    /* Blocks end up to 8 floats past the width. */
+    if (!e->arcs_count && f->taps <= 5 && f->way != FONT_BY_PATCHES && pitch == 16 &&
+        height <= FONT_NARROW_ROWS) {
         job.odd = FONT_NARROW_ODD;
         job.stride = FONT_NARROW_STRIDE;
     } else {

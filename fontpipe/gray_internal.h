@@ -13,7 +13,8 @@ enum {
     FONT_NARROW_STRIDE =
         32, /* of pictures of up to 16 columns and 5 taps, and where odd blocks begin there */
     FONT_NARROW_ODD = 8,
-    FONT_SUMS_FLOATS = 1 << 16 /* of a band */
+    FONT_SUMS_FLOATS = 1 << 16, /* of a band */
+    FONT_NARROW_ROWS = FONT_SUMS_FLOATS / FONT_NARROW_STRIDE - 2 * FONT_MARGIN_ROWS
 };
 
 /* The sums are differences between rows: row r of the band is at sums + (FONT_MARGIN_ROWS + r) * stride. */

@@ -14,20 +14,18 @@
  *
  * At the end one pass down the columns adds the rows up.
  *
- * Nodes that follow each other mostly add to the same block of 8 columns, which begins at a multiple of 4, of the same rows:
- * they are added up in registers, and then once to the sums.
+ * Nodes that follow each other mostly add to the same block of 8 columns, which begins at a multiple of 4 (of 2 or 1 if there
+ * are more than 5 taps), of the same rows: they are added up in registers, and then once to the sums.
  *
  * In a small picture they seldom are, and what one node stores the next loads at once, of columns that overlap. A processor
  * hands what was just stored to the next load without waiting only if the load is of the same bytes; so there sums
- * are touched in whole blocks alone. Up to five taps, wherever they begin, lie in one of the blocks of 8
- * columns that begin at multiples of 4, and of a picture of up to 16 columns a row of sums is two rows of such blocks,
- * each aligned, added up at the end:
+ * of up to five taps are touched in whole blocks alone. Of a picture of up to 16 columns a row of sums is two rows of such
+ * blocks, each aligned, added up at the end:
  *
  *     even   |0       |8       |
  *     odd    |   4    |   12   |
  *
- * The tables are padded, so that a block's values are one load whatever column the taps begin at. More taps take 16
- * columns from a multiple of 8, as two blocks of the even row. */
+ * The tables are padded, so that a block's values are one load whatever column the taps begin at. */
 #include "gray_internal.h"
 
 #include <string.h>
@@ -61,7 +59,8 @@ INLINE half_vector half_load(const float *at)
 /* Weights are written and read again one by one: a processor broadcasts from memory for nothing. */
 #define IN_MEMORY() __asm__ volatile("" ::: "memory")
 
-#define SHORT(taps) ((taps) <= 5)            /* they lie in one block */
+#define SHORT(taps) ((taps) <= 5) /* they lie in a block that begins at a multiple of 4 */
+#define STEP(taps) (SHORT(taps) ? 4 : (taps) <= 7 ? 2 : 1)
 #define WEIGHTS(taps) ((taps) < 8 ? 8 : ROW) /* floats for taps + 1 */
 
 /* What rows get: the taps down, times the weight. */
@@ -103,9 +102,8 @@ struct batch {
 };
 
 INLINE void batch_fill(struct batch *b, const struct font_gray_job *job, const float *ys,
-                       int first, int count, int stride, int taps, bool single)
+                       int first, int count, int stride, int taps, bool odd)
 {
-    int odd = job->odd;
     for (int k = 0; k < count; k += LANES) { /* the arrays are longer than the count */
         vector ax = load(job->node_x + first + k) + job->ax;
         vector ay = load(job->node_y + first + k) + job->ay;
@@ -114,10 +112,9 @@ INLINE void batch_fill(struct batch *b, const struct font_gray_job *job, const f
         vector py = (ay - __builtin_convertvector(iy, vector)) * FONT_PHASES;
         ints qx = __builtin_convertvector(px, ints), qy = __builtin_convertvector(py, ints);
         ints row = iy - job->row;
-        ints within = SHORT(taps) ? ix & 3 : ix & 7, block = ix - within;
-        if (SHORT(taps) &&
-            !single) /* odd blocks have a row of their own, 4 columns to the right */
-            block += (block >> 2 & 1) * (odd + 4);
+        ints within = ix & (STEP(taps) - 1), block = ix - within;
+        if (odd) /* odd blocks have a row of their own, 4 columns to the right */
+            block += (block >> 2 & 1) * (FONT_NARROW_ODD + 4);
         *(ints_loose *)(b->column + k) = qx * (2 * FONT_X_ROW) + 16 - within;
         *(ints_loose *)(b->rows + k) = qy * (2 * FONT_Y_ROW);
         *(ints_loose *)(b->row + k) = row;
@@ -145,79 +142,118 @@ INLINE void block_add(float *sums, int stride, const half_vector *columns, int p
             *(half_vector *)(sums + r * stride + p * HALF_LANES) += columns[p] * weights[r];
 }
 
-INLINE void node_add(const struct font_gray_job *job, const struct batch *b, int k,
-                     const float *xs, float *sums, int stride, int taps, bool banded)
+/* A block of sums in registers. */
+enum { RUN_ROWS_MAX = 9 };
+struct run {
+    half_vector rows[RUN_ROWS_MAX][HALF_PARTS];
+};
+
+INLINE void run_row_clear(struct run *run, int row, int parts)
 {
-    if (banded && !row_in_band(job, b->row[k]))
-        return;
-    const int parts = (SHORT(taps) ? 8 : ROW) / HALF_LANES;
+    for (int p = 0; p < parts; p++)
+        run->rows[row][p] = (half_vector){0};
+}
+
+INLINE void run_row_add(const struct run *run, int row, float *sums, int parts)
+{
+    for (int p = 0; p < parts; p++)
+        *(half_loose *)(sums + p * HALF_LANES) += run->rows[row][p];
+}
+
+INLINE void run_row_copy(struct run *run, int row, int from, int parts)
+{
+    for (int p = 0; p < parts; p++)
+        run->rows[row][p] = run->rows[from][p];
+}
+
+/* From sums to sums + way. Where that is one row further down or up, one row is added to the sums and the others stay; of few
+ * rows in few registers that is slower than to add them all. */
+INLINE void run_move(struct run *run, float *sums, int way, int stride, int last, int parts)
+{
+    const bool slides = LANES == 16 || !SHORT(last);
+    if (slides && way == stride) {
+        run_row_add(run, 0, sums, parts);
+        for (int r = 0; r < last; r++)
+            run_row_copy(run, r, r + 1, parts);
+        run_row_clear(run, last, parts);
+    } else if (slides && way == -stride) {
+        run_row_add(run, last, sums + last * stride, parts);
+        for (int r = last; r > 0; r--)
+            run_row_copy(run, r, r - 1, parts);
+        run_row_clear(run, 0, parts);
+    } else {
+        for (int r = 0; r <= last; r++) {
+            run_row_add(run, r, sums + r * stride, parts);
+            run_row_clear(run, r, parts);
+        }
+    }
+}
+
+/* All but narrow pictures of few taps. Of nodes that follow each other many are of the same block of the same rows, or of rows
+ * that begin one further down or up: their sums stay in registers. */
+INLINE void runs_add(const struct font_gray_job *job, int term, int stride, int taps,
+                     bool banded)
+{
+    const float *xs = font_filter_x(job->filter, term), *ys = font_filter_y(job->filter, term);
+    const int parts = 8 / HALF_LANES, last = taps;
+    struct batch b;
+    struct run run = {0};
+    int at = FONT_MARGIN_ROWS * stride; /* nothing yet, wherever it is */
+    for (int first = 0; first < job->nodes_count; first += BATCH) {
+        int count = job->nodes_count - first < BATCH ? job->nodes_count - first : BATCH;
+        batch_fill(&b, job, ys, first, count, stride, taps, false);
+        for (int k = 0; k < count; k++) {
+            if (banded && !row_in_band(job, b.row[k]))
+                continue;
+            if (b.sums[k] != at) {
+                run_move(&run, job->sums + at, b.sums[k] - at, stride, last, parts);
+                at = b.sums[k];
+            }
+            const float *x = xs + b.column[k], *weights = b.weights + k * WEIGHTS(taps);
+            float t = b.column_t[k];
+            for (int p = 0; p < parts; p++) {
+                half_vector column = half_load(x + p * HALF_LANES) +
+                                     half_load(x + FONT_X_ROW + p * HALF_LANES) * t;
+                for (int r = 0; r <= last; r++)
+                    run.rows[r][p] += column * weights[r];
+            }
+        }
+    }
+    for (int r = 0; r <= last; r++)
+        run_row_add(&run, r, job->sums + at + r * stride, parts);
+}
+
+INLINE void node_add(const struct font_gray_job *job, const struct batch *b, int k,
+                     const float *xs, int taps)
+{
+    const int parts = 8 / HALF_LANES;
     const float *x = xs + b->column[k];
     float t = b->column_t[k];
     half_vector columns[HALF_PARTS];
     for (int p = 0; p < parts; p++)
         columns[p] =
             half_load(x + p * HALF_LANES) + half_load(x + FONT_X_ROW + p * HALF_LANES) * t;
-    block_add(sums + b->sums[k], stride, columns, parts, b->weights + k * WEIGHTS(taps),
-              taps + 1);
+    block_add(job->sums + b->sums[k], FONT_NARROW_STRIDE, columns, parts,
+              b->weights + k * WEIGHTS(taps), taps + 1);
 }
 
-/* Wider pictures. Of nodes that follow each other many are of the same block of the same rows: their sums stay in registers. */
-INLINE void runs_add(const struct font_gray_job *job, int term, int stride, int taps,
-                     bool banded)
-{
-    enum { ROWS_MAX = 6 };
-    const float *xs = font_filter_x(job->filter, term), *ys = font_filter_y(job->filter, term);
-    const int parts = 8 / HALF_LANES;
-    struct batch b;
-    for (int first = 0; first < job->nodes_count; first += BATCH) {
-        int count = job->nodes_count - first < BATCH ? job->nodes_count - first : BATCH;
-        batch_fill(&b, job, ys, first, count, stride, taps, true);
-        for (int k = 0; k < count;) {
-            half_vector run[ROWS_MAX][HALF_PARTS];
-            int at = b.sums[k];
-            if (banded && !row_in_band(job, b.row[k])) {
-                k++;
-                continue;
-            }
-            for (int r = 0; r <= taps; r++)
-                for (int p = 0; p < parts; p++)
-                    run[r][p] = (half_vector){0};
-            do {
-                const float *x = xs + b.column[k], *weights = b.weights + k * WEIGHTS(taps);
-                float t = b.column_t[k];
-                for (int p = 0; p < parts; p++) {
-                    half_vector column = half_load(x + p * HALF_LANES) +
-                                         half_load(x + FONT_X_ROW + p * HALF_LANES) * t;
-                    for (int r = 0; r <= taps; r++)
-                        run[r][p] += column * weights[r];
-                }
-            } while (++k < count && b.sums[k] == at);
-            for (int r = 0; r <= taps; r++)
-                for (int p = 0; p < parts; p++)
-                    *(half_loose *)(job->sums + at + r * stride + p * HALF_LANES) += run[r][p];
-        }
-    }
-}
-
-/* Pictures of 16 columns, and more taps. Neighbours on an edge add to the same rows and each waits for what the one before has stored; so a batch is gone
- * through from three places in turns. */
-INLINE void nodes_add(const struct font_gray_job *job, int term, int stride, int taps,
-                      bool banded)
+/* Narrow pictures of few taps. Neighbours on an edge add to the same rows and each waits for what the one before has stored; so
+ * a batch is gone through from three places in turns. */
+INLINE void narrow_add(const struct font_gray_job *job, int term, int taps)
 {
     const float *xs = font_filter_x(job->filter, term), *ys = font_filter_y(job->filter, term);
-    float *sums = job->sums;
     struct batch b;
     for (int first = 0; first < job->nodes_count; first += BATCH) {
         int count = job->nodes_count - first < BATCH ? job->nodes_count - first : BATCH;
         int third = count / 3;
-        batch_fill(&b, job, ys, first, count, stride, taps, false);
+        batch_fill(&b, job, ys, first, count, FONT_NARROW_STRIDE, taps, true);
         for (int k = 0; k < third; k++) {
-            node_add(job, &b, k, xs, sums, stride, taps, banded);
-            node_add(job, &b, k + third, xs, sums, stride, taps, banded);
-            node_add(job, &b, k + 2 * third, xs, sums, stride, taps, banded);
+            node_add(job, &b, k, xs, taps);
+            node_add(job, &b, k + third, xs, taps);
+            node_add(job, &b, k + 2 * third, xs, taps);
         }
         for (int k = 3 * third; k < count; k++)
-            node_add(job, &b, k, xs, sums, stride, taps, banded);
+            node_add(job, &b, k, xs, taps);
     }
 }
 
@@ -374,10 +410,10 @@ INLINE void edges_add(const struct font_gray_job *job, int stride, int taps, boo
     if (patches)
         patches_add(job, stride, banded);
     for (int term = 0; term < job->filter->terms_count; term++) {
-        if (!patches && SHORT(taps) && !job->odd)
-            runs_add(job, term, stride, taps, banded);
+        if (!patches && SHORT(taps) && !banded && job->odd)
+            narrow_add(job, term, taps);
         else if (!patches)
-            nodes_add(job, term, stride, taps, banded);
+            runs_add(job, term, stride, taps, banded);
         lines_add(job, term, stride, taps);
     }
 }
