@@ -41,12 +41,12 @@ bool dyn_bounces_prepare(struct dyn_network *n)
     memset(e->from, 0, ((size_t)masses + 2) * sizeof *e->from);
     for (int end = 0; end < 2; end++)
         for (int i = 0; i < springs; i++)
-            e->from[p->springs.end[end][i] + 2]++;
+            e->from[dyn_packed_end(&p->springs, end, i) + 2]++;
     for (int i = 2; i < masses + 2; i++)
         e->from[i] += e->from[i - 1];
     for (int i = 0; i < springs; i++)
         for (int end = 0; end < 2; end++)
-            e->at[e->from[p->springs.end[end][i] + 1]++] = i;
+            e->at[e->from[dyn_packed_end(&p->springs, end, i) + 1]++] = i;
     return true;
 }
 
@@ -91,7 +91,8 @@ struct stiff {
 
 static int other_end(const struct dyn_packed *s, int spring, int mass)
 {
-    return s->end[0][spring] == mass ? s->end[1][spring] : s->end[0][spring];
+    int first = dyn_packed_end(s, 0, spring);
+    return first == mass ? dyn_packed_end(s, 1, spring) : first;
 }
 
 /* At the fraction r of the part; `at` is the mass. */

@@ -75,15 +75,28 @@ struct dyn_pull {
     double x, y, constant, damping;
 };
 
+/* A mass's force is so many times its number from the first force, in bytes, and its state twice as far from the first state.
+ * Springs keep that instead of the number, which costs no operation when they read a state or add a force. */
+enum {
+    DYN_FORCE_BYTES = sizeof(struct dyn_force),
+    DYN_MASSES_MOST = INT32_MAX / DYN_FORCE_BYTES
+};
+_Static_assert(sizeof(struct dyn_state) == 2 * DYN_FORCE_BYTES, "a state is two forces long");
+
 /* The springs that are not broken; count is a multiple of 8. */
 struct dyn_packed {
-    int32_t *end[2];
+    int32_t *at[2];                 /* where their masses' forces are */
     double *k, *k_rest, *c, *limit; /* limit: the length at which it breaks */
     int32_t *which;                 /* the spring's number; -1 for padding */
     int count;
     bool breaks;  /* some limit is finite */
     bool carries; /* a third or more have the first end of the spring before */
 };
+
+static inline int dyn_packed_end(const struct dyn_packed *s, int end, int spring)
+{
+    return (int)((uint32_t)s->at[end][spring] / DYN_FORCE_BYTES);
+}
 
 /* A mass of more restitution bounces again and again; others rest where a leap would be shorter than a part. */
 #define DYN_ELASTIC 0.95

@@ -60,7 +60,8 @@ static bool rows_reserve(double **rows, size_t *capacity, size_t count, int rows
 static bool masses_reserve(struct dyn_network *n, int count)
 {
     size_t padded = dyn_masses_padded(count);
-    return rows_reserve(&n->mass_field, &n->masses_capacity, padded, MASS_PARAMETERS) &&
+    return padded <= DYN_MASSES_MOST &&
+           rows_reserve(&n->mass_field, &n->masses_capacity, padded, MASS_PARAMETERS) &&
            dyn_array_reserve((void **)&n->state, &n->state_capacity, padded,
                              sizeof *n->state) &&
            dyn_array_reserve((void **)&n->force, &n->force_capacity, padded,

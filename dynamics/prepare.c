@@ -61,8 +61,8 @@ static bool room_make(struct dyn_network *n, struct sums *sums)
     for (size_t i = 0; i < SPRING_ROWS; i++)
         *spring_rows[i] = p->spring_block + i * springs;
     int32_t *numbers = (int32_t *)(void *)(p->spring_block + SPRING_ROWS * springs);
-    s->end[0] = numbers;
-    s->end[1] = numbers + springs;
+    s->at[0] = numbers;
+    s->at[1] = numbers + springs;
     s->which = numbers + 2 * springs;
     return true;
 }
@@ -85,7 +85,7 @@ static void packed_look(struct dyn_packed *s, int count)
     s->breaks = false;
     for (int i = 0; i < count; i++) {
         s->breaks = s->breaks || isfinite(s->limit[i]);
-        again += i > 0 && s->end[0][i] == s->end[0][i - 1];
+        again += i > 0 && s->at[0][i] == s->at[0][i - 1];
     }
     s->carries = again >= count / 3;
 }
@@ -103,8 +103,8 @@ static void springs_pack(struct dyn_network *n, const struct sums *sums)
         double c = dyn_spring_row(n, SPRING_DAMPING)[i] * w->damping;
         double rest = dyn_spring_row(n, SPRING_REST)[i] * w->rest;
         double strain = dyn_spring_row(n, SPRING_BREAKING)[i] * w->breaking;
-        s->end[0][count] = a;
-        s->end[1][count] = b;
+        s->at[0][count] = a * DYN_FORCE_BYTES;
+        s->at[1][count] = b * DYN_FORCE_BYTES;
         s->k[count] = k;
         s->k_rest[count] = k * rest;
         s->c[count] = c;
@@ -119,7 +119,7 @@ static void springs_pack(struct dyn_network *n, const struct sums *sums)
     }
     packed_look(s, count);
     for (; count % 8; count++) {
-        s->end[0][count] = s->end[1][count] = n->masses_count;
+        s->at[0][count] = s->at[1][count] = n->masses_count * DYN_FORCE_BYTES;
         s->k[count] = s->k_rest[count] = s->c[count] = 0;
         s->limit[count] = INFINITY;
         s->which[count] = -1;
@@ -157,7 +157,8 @@ static int soften(struct dyn_network *n, const struct sums *sums, double h)
     for (int i = 0; i < s->count; i++) {
         if (s->which[i] < 0)
             continue;
-        double soft = fmin(sums->soft[s->end[0][i]], sums->soft[s->end[1][i]]);
+        double soft =
+            fmin(sums->soft[dyn_packed_end(s, 0, i)], sums->soft[dyn_packed_end(s, 1, i)]);
         s->k[i] *= soft;
         s->k_rest[i] *= soft;
         s->c[i] *= soft;

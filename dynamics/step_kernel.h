@@ -30,7 +30,7 @@ INLINE void springs_pass(struct dyn_job *job, const bool breaks, const bool carr
     const lanes none = lanes_all(0), one = lanes_all(1);
     struct carried carried = carried_none();
     for (int i = 0; i < s->count; i += LANES) {
-        const int32_t *a = s->end[0] + i, *b = s->end[1] + i;
+        const int32_t *a = s->at[0] + i, *b = s->at[1] + i;
         struct lanes_state d = states_difference(job->state, a, b);
         lanes length = lanes_sqrt(d.x * d.x + d.y * d.y);
         lanes inverse = lanes_pick(lanes_less(none, length), one / length, none);

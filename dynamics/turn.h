@@ -17,6 +17,17 @@ struct lanes_force {
     lanes x, y;
 };
 
+/* Of the mass whose force is there: struct dyn_packed. */
+INLINE const struct dyn_state *state_at(const struct dyn_state *first, int32_t at)
+{
+    return (const void *)((const char *)first + 2 * (ptrdiff_t)at);
+}
+
+INLINE struct dyn_force *force_at(struct dyn_force *first, int32_t at)
+{
+    return (void *)((char *)first + at);
+}
+
 #if LANES == 8
 
 /* Two states, as one vector. */
@@ -25,9 +36,10 @@ INLINE __m512d two(__m256d first, __m256d second)
     return _mm512_insertf64x4(_mm512_castpd256_pd512(first), second, 1);
 }
 
-INLINE __m256d difference(const struct dyn_state *state, int a, int b)
+INLINE __m256d difference(const struct dyn_state *state, int32_t a, int32_t b)
 {
-    return _mm256_sub_pd(_mm256_load_pd(&state[b].x), _mm256_load_pd(&state[a].x));
+    return _mm256_sub_pd(_mm256_load_pd(&state_at(state, b)->x),
+                         _mm256_load_pd(&state_at(state, a)->x));
 }
 
 INLINE struct lanes_state states_difference(const struct dyn_state *state, const int32_t *a,
@@ -99,9 +111,10 @@ INLINE struct lanes_state states_turn(__m256d m0, __m256d m1, __m256d m2, __m256
         _mm256_permute2f128_pd(x01, x23, 0x31), _mm256_permute2f128_pd(y01, y23, 0x31)};
 }
 
-INLINE __m256d difference(const struct dyn_state *state, int a, int b)
+INLINE __m256d difference(const struct dyn_state *state, int32_t a, int32_t b)
 {
-    return _mm256_sub_pd(_mm256_load_pd(&state[b].x), _mm256_load_pd(&state[a].x));
+    return _mm256_sub_pd(_mm256_load_pd(&state_at(state, b)->x),
+                         _mm256_load_pd(&state_at(state, a)->x));
 }
 
 INLINE struct lanes_state states_difference(const struct dyn_state *state, const int32_t *a,
@@ -147,7 +160,7 @@ INLINE void forces_clear(struct dyn_force *force)
 INLINE struct lanes_state states_difference(const struct dyn_state *state, const int32_t *a,
                                             const int32_t *b)
 {
-    const struct dyn_state *from = &state[*a], *to = &state[*b];
+    const struct dyn_state *from = state_at(state, *a), *to = state_at(state, *b);
     return (struct lanes_state){to->x - from->x, to->y - from->y, to->vx - from->vx,
                                 to->vy - from->vy};
 }
@@ -181,7 +194,7 @@ INLINE void forces_clear(struct dyn_force *force)
 #if LANES > 1
 
 struct carried {
-    int mass; /* -1: none */
+    int32_t at; /* -1: none */
     __m128d sum;
 };
 
@@ -192,22 +205,24 @@ INLINE struct carried carried_none(void)
 
 INLINE void carried_store(struct dyn_force *force, struct carried c)
 {
-    if (c.mass >= 0)
-        _mm_store_pd(&force[c.mass].x, c.sum);
+    if (c.at >= 0)
+        _mm_store_pd(&force_at(force, c.at)->x, c.sum);
 }
 
-INLINE void force_pass(struct dyn_force *force, int a, int b, __m128d f, struct carried *c)
+INLINE void force_pass(struct dyn_force *force, int32_t a, int32_t b, __m128d f,
+                       struct carried *c)
 {
+    double *first = &force_at(force, a)->x, *second = &force_at(force, b)->x;
     if (!c) {
-        _mm_store_pd(&force[a].x, _mm_add_pd(_mm_load_pd(&force[a].x), f));
+        _mm_store_pd(first, _mm_add_pd(_mm_load_pd(first), f));
     } else {
-        if (a != c->mass) {
+        if (a != c->at) {
             carried_store(force, *c);
-            *c = (struct carried){a, _mm_load_pd(&force[a].x)};
+            *c = (struct carried){a, _mm_load_pd(first)};
         }
         c->sum = _mm_add_pd(c->sum, f);
     }
-    _mm_store_pd(&force[b].x, _mm_sub_pd(_mm_load_pd(&force[b].x), f));
+    _mm_store_pd(second, _mm_sub_pd(_mm_load_pd(second), f));
 }
 
 INLINE void forces_add(struct dyn_force *force, const int32_t *a, const int32_t *b,
@@ -235,7 +250,7 @@ INLINE void forces_add(struct dyn_force *force, const int32_t *a, const int32_t 
 #else
 
 struct carried {
-    int mass;
+    int32_t at;
 };
 
 INLINE struct carried carried_none(void)
@@ -252,10 +267,11 @@ INLINE void forces_add(struct dyn_force *force, const int32_t *a, const int32_t 
                        struct lanes_force f, struct carried *c)
 {
     (void)c;
-    force[*a].x += f.x;
-    force[*a].y += f.y;
-    force[*b].x -= f.x;
-    force[*b].y -= f.y;
+    struct dyn_force *first = force_at(force, *a), *second = force_at(force, *b);
+    first->x += f.x;
+    first->y += f.y;
+    second->x -= f.x;
+    second->y -= f.y;
 }
 
 #endif

@@ -50,7 +50,7 @@ bool dyn_machine_deal(const struct dyn_packed *packed, int count, struct dyn_ord
     out->end[0] = out->packed + size;
     out->end[1] = out->end[0] + size;
     for (int i = 0; i < count; i++) {
-        int32_t a = packed->end[0][i], b = packed->end[1][i];
+        int32_t a = dyn_packed_end(packed, 0, i), b = dyn_packed_end(packed, 1, i);
         dealt[i] = (struct dealt){a < b ? a : b, a < b ? b : a, i, 0};
     }
     qsort(dealt, size, sizeof *dealt, by_ends);
