@@ -2,6 +2,8 @@
  * compares their values. Run by oclgrind.sh. */
 #include "support.h"
 
+#include <stdlib.h>
+
 struct sample {
     struct machine_type type;
     int last_axis;
@@ -49,12 +51,27 @@ static wide expected_part(const void *data, uint64_t n)
     return support_word(MACHINE_UINT(100), 7, n) >> 13 & wide_mask(50);
 }
 
-static void sample_runs_clean(void **state)
+/* "0": generated kernels; "3": the device's interpreter. */
+static struct machine *machine_that(const char *interprets)
 {
+    setenv("LUTETIA_INTERPRET", interprets, 1);
     struct machine *m = support_machine(0);
+    unsetenv("LUTETIA_INTERPRET");
+    return m;
+}
+
+static void assert_done(struct machine *m, const char *interprets)
+{
+    struct machine_stats now;
+    machine_stats_get(m, &now);
+    assert_true(*interprets == '3' ? now.interpreted > 0 : now.interpreted == 0);
+}
+
+static void sample_runs(const char *interprets)
+{
+    struct machine *m = machine_that(interprets);
     uint32_t f;
 
-    (void)state;
     sum_with_neighbour(m, 3, 41, 32);
     sum_with_neighbour(m, 1, 1, 8);
     sum_with_neighbour(m, 2, 16, 64);
@@ -63,12 +80,68 @@ static void sample_runs_clean(void **state)
     support_set(m, 3, 2, 3, 19);
     f = support_field(m, MACHINE_UINT(100), 7);
     support_expect_field(m, f + 13, MACHINE_UINT(50), expected_part, NULL, "a part of a field");
+    assert_done(m, interprets);
     machine_destroy(m);
+}
+
+static void kernels_run_clean(void **state)
+{
+    (void)state;
+    sample_runs("0");
+}
+
+static void the_interpreter_runs_clean(void **state)
+{
+    (void)state;
+    sample_runs("3");
+}
+
+/* Chains of all kinds of operations. */
+enum { CHAINED = 37 };
+static void chain(const char *interprets, double *doubles, uint64_t *words)
+{
+    const struct machine_type whole = MACHINE_UINT(64), half = MACHINE_UINT(23);
+    struct machine *m = machine_that(interprets);
+    support_set(m, 1, CHAINED);
+    uint32_t f = support_field(m, MACHINE_F64, 3), g = support_field(m, half, 4),
+             h = support_field(m, whole, 5);
+    machine_begin(m);
+    struct machine_value *x = support_value(m, f, MACHINE_F64), *a = support_value(m, g, half),
+                         *b = machine_random(m, 23, 1000);
+    struct machine_value *y = machine_binary(m, MACHINE_FMUL, machine_unary(m, MACHINE_FEXP, x),
+                                             machine_to_float(m, a, MACHINE_F64, false));
+    y = machine_select(m, machine_binary(m, MACHINE_FLT, x, y), y,
+                       machine_unary(m, MACHINE_FSQRT, machine_unary(m, MACHINE_FABS, x)));
+    struct machine_value *z = machine_binary(
+        m, MACHINE_UDIV, machine_binary(m, MACHINE_MUL, a, b),
+        machine_binary(m, MACHINE_OR, b,
+                       machine_constant(m, half, (struct machine_scalar){1, 0})));
+    z = machine_shift(m, machine_unary(m, MACHINE_REVERSE, z), 0, 5);
+    assert_ok(machine_field_store(m, f, y, MACHINE_EVERYWHERE), m);
+    assert_ok(machine_field_store(m, h, machine_resize(m, z, 64, true), MACHINE_EVERYWHERE), m);
+    machine_begin(m);
+    assert_ok(machine_field_download(m, f, MACHINE_F64, doubles), m);
+    assert_ok(machine_field_download(m, h, whole, words), m);
+    assert_done(m, interprets);
+    machine_destroy(m);
+}
+
+static void both_give_the_same(void **state)
+{
+    static double doubles[2][CHAINED];
+    static uint64_t words[2][CHAINED];
+    (void)state;
+    chain("0", doubles[0], words[0]);
+    chain("3", doubles[1], words[1]);
+    assert_memory_equal(doubles[0], doubles[1], sizeof doubles[0]);
+    assert_memory_equal(words[0], words[1], sizeof words[0]);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sample_runs_clean)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(kernels_run_clean),
+                                       cmocka_unit_test(the_interpreter_runs_clean),
+                                       cmocka_unit_test(both_give_the_same)};
 
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -314,9 +314,11 @@ static wide index_is(const void *data, uint64_t n)
     return n;
 }
 
-static void neighbours_check(struct neighbour b, int rank, const int *dimensions)
+/* how: by the front end, or by the device itself. */
+static void neighbours_check(const char *how, struct neighbour b, int rank,
+                             const int *dimensions)
 {
-    struct machine *m = interpreting("2");
+    struct machine *m = interpreting(how);
     static const int far[] = {0, 1, -1, 5, -17, 40, 1000};
     int set = rank == 1   ? support_set(m, 1, dimensions[0])
               : rank == 2 ? support_set(m, 2, dimensions[0], dimensions[1])
@@ -363,8 +365,9 @@ static void blocks_find_their_neighbours(void **state)
                                                 {MACHINE_BITS, 90, 0, 0}};
     (void)state;
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
-        neighbours_check((struct neighbour){.type = types[i % 5]}, shapes[i].rank,
-                         shapes[i].dimensions);
+        for (int how = 0; how < 2; how++)
+            neighbours_check(how ? "3" : "2", (struct neighbour){.type = types[i % 5]},
+                             shapes[i].rank, shapes[i].dimensions);
 }
 
 /* ---- promotion ---- */

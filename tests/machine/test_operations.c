@@ -13,6 +13,7 @@
 #include "base/node_ops.h"
 #include "codegen/narrow_spell.h"
 #include "codegen/spell.h"
+#include "kernels.h"
 #include "plan/lanes.h"
 
 /* ---- rows ---- */
@@ -198,6 +199,41 @@ static void narrow_operations_are_spelt(void **state)
         }
 }
 
+/* The names of operations as kernels/lane.cl writes them. */
+static const char *const constants[NODE_OP_COUNT] = {
+#define OPERATION(op, ...) [op] = #op,
+#define NODE(op, ...) [op] = #op,
+#include "machine_op.tab"
+#undef OPERATION
+#undef NODE
+};
+
+/* As a case, or in the comment of a default. */
+static bool is_performed(const char *name)
+{
+    size_t length = strlen(name);
+    for (const char *at = kernel_lane_cl; (at = strstr(at, name)); at++)
+        if ((!strncmp(at - 5, "case ", 5) && at[length] == ':') ||
+            (!strncmp(at - 3, "/* ", 3) && strchr(" :", at[length])))
+            return true;
+    return false;
+}
+
+static void devices_perform_each_operation(void **state)
+{
+    (void)state;
+    for (int op = 0; op < NODE_OP_COUNT; op++) {
+        int spell = node_ops[op].spell;
+        if (spell == SPELL_PLACE || spell == SPELL_CONCAT || spell == SPELL_SELECT ||
+            op == NODE_REINTERPRET) /* by their families, or as steps of their own */
+            continue;
+        if (!is_performed(constants[op]))
+            fail_msg("kernels/lane.cl does not perform %s", constants[op]);
+    }
+    assert_false(is_performed("MACHINE_NOTHING"));
+    assert_false(is_performed("MACHINE_S"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -208,6 +244,7 @@ int main(void)
         cmocka_unit_test(each_operation_is_spelt),
         cmocka_unit_test(no_two_are_spelt_alike),
         cmocka_unit_test(narrow_operations_are_spelt),
+        cmocka_unit_test(devices_perform_each_operation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,7 +8,7 @@ static void better_give_up(struct machine *m, struct plan *p)
 {
     if (p->better)
         plan_notes_settle(m, p->better);
-    plan_free(p->better);
+    plan_free(m, p->better);
     p->better = NULL;
 }
 
@@ -48,7 +48,7 @@ void plan_becomes(struct machine *m, struct plan *p, struct plan *better)
     better->stored = old.stored;
     better->arrays = old.arrays;
     better->signature = NULL;
-    plan_free(better);
+    plan_free(m, better);
 }
 
 void plan_improve(struct machine *m, struct plan *p, const struct plan_request *q,

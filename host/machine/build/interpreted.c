@@ -28,13 +28,20 @@ static bool is_known(const struct machine_value *v)
     return v->op == NODE_SHIFT || !node_ops[v->op].inputs || op_has(v->op, OP_ALONE);
 }
 
+/* Whether the device performs byte code, not the front end, which cannot look into its memory. */
+static bool on_device(const struct machine *m)
+{
+    return m->settings.interpret == 3 || (!m->device->is_pocl && m->device->has_double);
+}
+
 static bool could_be(const struct machine *m, const struct plan_request *q)
 {
-    if (!m->settings.interpret || !m->device->is_pocl || !plan_use_runs(q->use))
+    if (!m->settings.interpret || !plan_use_runs(q->use) ||
+        !(m->device->is_pocl || on_device(m)))
         return false;
     for (int i = 0; i < q->reach->count; i++) {
         const struct machine_value *v = q->reach->nodes[i];
-        if (v->buffer ? !v->buffer->host : !is_known(v))
+        if (v->buffer ? !v->buffer->host && !on_device(m) : !is_known(v))
             return false;
     }
     return m->settings.interpret > 1 ||
@@ -50,25 +57,34 @@ static bool launch_add(struct machine *m, struct plan *p, const struct plan_grap
                                     ? byte_code_make(&m->device->shape, g, stores, count, set,
                                                      m->values->processors_log2)
                                     : NULL;
-    if (!program)
+    struct device_code *code =
+        program && on_device(m) ? device_code_make(m, &m->plans->device_kernels, program, set)
+                                : NULL;
+    if (!program || (on_device(m) && !code)) {
+        byte_code_free(program);
         return false;
+    }
     struct kernel_text said = {.arguments = program->arguments,
                                .arguments_count = program->arguments_count,
                                .vector = m->device->shape.vector,
                                .ops = program->ops,
                                .cost = program->cost};
-    struct kernel_note *note =
-        m->watch ? explained_kernel(m, NULL, g, stores, count, &said, "interpreted") : NULL;
+    struct kernel_note *note = m->watch
+                                   ? explained_kernel(m, code ? device_code_kernel(code) : NULL,
+                                                      g, stores, count, &said, "interpreted")
+                                   : NULL;
     p->launches[p->launches_count++] =
         (struct launch){.number = -1,
                         .note = note,
                         .set = set_id,
                         .program = program,
+                        .code = code,
                         .arguments = program->arguments,
                         .arguments_count = program->arguments_count};
     p->work += set->count;
     p->looks_around = p->looks_around || program->moves;
-    p->predicted_s += program->lane_s * (double)set->count;
+    p->predicted_s +=
+        code ? device_code_time_s(m, code, set) : program->lane_s * (double)set->count;
     return true;
 }
 
@@ -109,7 +125,7 @@ static struct plan *plan_interpreted(struct machine *m, const struct plan_reques
     free(g.nodes);
     free(stores);
     if (!good) {
-        plan_free(p);
+        plan_free(m, p);
         return NULL;
     }
     return p;
@@ -133,7 +149,7 @@ struct plan *interpreted_make(struct machine *m, const struct plan_request *q)
     struct plan *better = interpreted_at_hand(m, q);
     p->asked = true;
     if (better || p->predicted_s > compile_time(m, p)) {
-        plan_free(p);
+        plan_free(m, p);
         return better;
     }
     if (m->watch)

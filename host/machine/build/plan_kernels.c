@@ -14,7 +14,7 @@
 
 /* ---- life ---- */
 
-void plan_free(struct plan *p)
+void plan_free(struct machine *m, struct plan *p)
 {
     if (!p)
         return;
@@ -22,9 +22,10 @@ void plan_free(struct plan *p)
         if (!p->launches[i].program) /* else they are its */
             free(p->launches[i].arguments);
         byte_code_free(p->launches[i].program);
+        device_code_free(m, p->launches[i].code);
         free(p->launches[i].in_place.pairs);
     }
-    plan_free(p->better);
+    plan_free(m, p->better);
     free(p->launches);
     free(p->stored);
     free(p->arrays);
@@ -381,7 +382,7 @@ static struct plan *plan_attempt(struct machine *m, const struct plan_request *q
     if (!good) {
         if (p && later)
             plan_notes_settle(m, p);
-        plan_free(p);
+        plan_free(m, p);
         return NULL;
     }
     return p;
@@ -401,7 +402,7 @@ struct plan *plan_make(struct machine *m, const struct plan_request *q, enum qua
         if (p && !plan_is_one_kernel(p)) {
             if (later)
                 plan_notes_settle(m, p);
-            plan_free(p);
+            plan_free(m, p);
             p = NULL;
         }
         if (!p && later)

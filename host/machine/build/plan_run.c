@@ -180,6 +180,20 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
     return status;
 }
 
+/* By the device's own interpreter. What it costs is known from the cost model alone, since nobody waits for it. */
+static enum machine_status interpret_on_device(struct machine *m, struct plan *p,
+                                               const struct launch *l,
+                                               struct device_buffer *const *buffers,
+                                               struct machine_value *const *nodes)
+{
+    const struct vpset *set = &m->values->sets[l->set];
+    p->spent_s += device_code_time_s(m, l->code, set);
+    m->plans->interpreted++;
+    if (m->watch)
+        watch_launch(m, l->note);
+    return device_code_run(m, l->code, set, buffers, nodes);
+}
+
 /* On the front end's own thread, when the device has done what came before. */
 static enum machine_status interpret(struct machine *m, struct plan *p, const struct launch *l,
                                      struct device_buffer *const *buffers,
@@ -258,7 +272,9 @@ enum machine_status plan_run(struct machine *m, struct plan *p, struct device_bu
     uint32_t in_place = take_places(m, p, buffers, fates ? fates->dies : NULL);
     for (int i = 0; i < p->launches_count && !status; i++) {
         status = arrays_get(m, p, i, buffers, fates);
-        if (!status && p->launches[i].program)
+        if (!status && p->launches[i].code)
+            status = interpret_on_device(m, p, &p->launches[i], buffers, nodes);
+        else if (!status && p->launches[i].program)
             status = interpret(m, p, &p->launches[i], buffers, nodes);
         else if (!status)
             status = launch(m, &p->launches[i], buffers, nodes, in_place);
@@ -271,7 +287,7 @@ enum machine_status plan_run(struct machine *m, struct plan *p, struct device_bu
     m->plans->predicted_s += status ? 0 : p->predicted_s;
     p->worked += p->work;
     p->runs++;
-    if (!p->launches_count || !p->launches[0].program)
+    if (!p->launches_count || !p->launches[0].program || p->launches[0].code)
         device_flush(m);
     if (m->watch)
         watch_span(m, WATCH_LAUNCH, start, "\"kernels\":%d", p->launches_count);

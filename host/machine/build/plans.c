@@ -31,7 +31,7 @@ static void forget_before(struct machine *m, uint64_t used)
             }
             *at = p->next;
             m->plans->count--;
-            plan_free(p);
+            plan_free(m, p);
         }
 }
 
@@ -48,7 +48,7 @@ void plans_finish(struct machine *m)
     for (int i = 0; i < m->plans->table_size; i++)
         for (struct plan *p = m->plans->table[i], *next; p; p = next) {
             next = p->next;
-            plan_free(p);
+            plan_free(m, p);
         }
     free(m->plans->table);
     blocks_room_free(&m->plans->room);
@@ -112,7 +112,7 @@ static bool plan_keep(struct machine *m, struct plan *p, const struct plan_reque
     m->plans->built++;
     p->signature = malloc(bytes);
     if (!p->signature) {
-        plan_free(p);
+        plan_free(m, p);
         machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for a plan");
         return false;
     }

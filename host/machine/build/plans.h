@@ -5,6 +5,7 @@
 #include "build/explained.h"
 #include "codegen/codegen.h"
 #include "interpret/blocks.h"
+#include "interpret/device_code.h"
 #include "watch/sums.h"
 
 /* The quality of a plan's kernels: small work that runs once is not worth a second of
@@ -19,6 +20,7 @@ enum quality {
 struct launch {
     cl_kernel kernel; /* NULL: it is compiled in the background, or there is a program */
     struct byte_code *program; /* what is interpreted; NULL: a kernel */
+    struct device_code *code;  /* the same for the device; NULL: the front end performs it */
     int number;                /* for observers; may be NULL */
     struct kernel_note *note;  /* for observers; may be NULL */
     int set, vector;
@@ -96,8 +98,9 @@ struct plans {
     struct background *background; /* background.c; NULL: not used yet */
     struct plan *improving;        /* the plan whose better kernels are being compiled */
     struct describing describing;
-    struct blocks_room room; /* of the interpreter */
-    char *dump_dir;          /* NULL: no dumps */
+    struct blocks_room room;              /* of the interpreter */
+    struct device_kernels device_kernels; /* of the device's */
+    char *dump_dir;                       /* NULL: no dumps */
     int dump_count;
     uint64_t interpreted; /* programs run, of one stage and VP set each */
     uint64_t built, kernels_in_place, kernels_in_strips, kernels_in_tiles;
@@ -165,7 +168,7 @@ struct fates {
 enum machine_status plan_run(struct machine *m, struct plan *p, struct device_buffer **buffers,
                              struct machine_value *const *nodes, const struct fates *fates);
 void plans_finish(struct machine *m);
-void plan_free(struct plan *p);
+void plan_free(struct machine *m, struct plan *p);
 /* Of one whose kernels are compiled in the background, the notes: with those, or without (NULL). */
 void plan_notes_settle(struct machine *m, struct plan *p);
 bool plan_is_one_kernel(const struct plan *p);

@@ -20,7 +20,7 @@
 /* ... and all of CPUs, whose units are few and have long work-items. */
 #define ROW_CPU                                                                                \
     ROW_USUAL, .call_columns = 4096, .call_processors = 512, .scatter_units = 8,               \
-               .fill_run = 1 << 16, .sort_long = 1 << 15
+               .fill_run = 1 << 16, .sort_long = 1 << 15, .step_ns = 20
 
 /* Each row is of a kind of device, and of a driver (its OpenCL platform; NULL: any). The first that fits is taken: a driver's row stands above the row for
  * any driver. */
@@ -55,7 +55,8 @@ static const struct driver_row {
                .fill_run = 256,
                .sort_chunk = 2048,
                .sort_long =
-                   INT32_MAX, /* counters of 11 bits are more than local memory holds */
+                   INT32_MAX,   /* counters of 11 bits are more than local memory holds */
+               .step_ns = 0.01, /* a hundred instructions */
                .vector = 1,
                .op_ns = 1e-4,
                .byte_ns = 1e-3,
@@ -84,7 +85,8 @@ static bool row_is_whole(const struct driver_row *row)
            s->call_processors > 0 && s->run_columns > 0 && s->strips_each > 0 &&
            s->strip_columns > 0 && s->strip_least > 0 && s->pass_cost > 0 && s->turns > 0 &&
            s->arrays_foreseen > 0 && s->fetch_bytes > 0 && s->stream_bytes > 0 &&
-           s->in_place_bytes > 0 && s->fill_run > 0 && s->sort_long > 0 && s->from;
+           s->in_place_bytes > 0 && s->fill_run > 0 && s->sort_long > 0 && s->step_ns > 0 &&
+           s->from;
 }
 
 struct device_shape shape_by_driver(bool is_cpu, const char *platform)
