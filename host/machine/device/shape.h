@@ -68,7 +68,8 @@ struct device_shape {
     /* The interpreter, in nanoseconds for a lane: a step that is a loop, for each unit of an operation's cost on top, a gather on
      * top; a step lane by lane, of floats' functions and of all else. */
     double loop_ns, loop_cost_ns, gather_ns, each_math_ns, each_ns;
-    double step_ns; /* ... a step of the device's own interpreter (kernels/interpret.cl), for a processor */
+    double
+        step_ns; /* ... a step of the device's own interpreter (kernels/interpret.cl), for a processor */
     uint64_t
         ahead_from; /* processors of a set whose arrays are not in the caches: they are fetched ahead */
     double
