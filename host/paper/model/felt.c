@@ -126,8 +126,9 @@ static int around(int at, int length)
     return place < 0 ? place + length : place;
 }
 
-/* Leaves `part` around x, y on the four nearest. */
-static void mass_leave(const struct making *m, float *mass, double x, double y, double part)
+/* Leaves `part` around x, y on the four nearest, of which some may be beyond the edge. */
+static void mass_leave_at_edge(const struct making *m, float *mass, double x, double y,
+                               double part)
 {
     double left = floor(x - 0.5), top = floor(y - 0.5), u = x - 0.5 - left, v = y - 0.5 - top;
     for (int j = 0; j < 2; j++)
@@ -142,6 +143,25 @@ static void mass_leave(const struct making *m, float *mass, double x, double y, 
             mass[(size_t)row * (size_t)m->width + (size_t)column] +=
                 (float)(part * (i ? u : 1 - u) * (j ? v : 1 - v));
         }
+}
+
+/* The same anywhere. */
+static void mass_leave(const struct making *m, float *mass, double x, double y, double part)
+{
+    double u = x - 0.5, v = y - 0.5;
+    if (!(u >= 0 && v >= 0 && u < m->width - 1 && v < m->height - 1)) {
+        mass_leave_at_edge(m, mass, x, y, part);
+        return;
+    }
+    int left = (int)u, top = (int)v;
+    u -= left;
+    v -= top;
+    double before = part * (1 - u), behind = part * u;
+    float *above = mass + (size_t)top * (size_t)m->width + left, *below = above + m->width;
+    above[0] += (float)(before * (1 - v));
+    above[1] += (float)(behind * (1 - v));
+    below[0] += (float)(before * v);
+    below[1] += (float)(behind * v);
 }
 
 static void unit_make(double direction[2])
@@ -176,11 +196,14 @@ static void fiber_draw(const struct making *m, float *mass, struct chances *c, d
     int pieces = strands;
     double part = STRIDE * m->scale * m->scale / (strands * pieces);
     for (double gone = 0; gone < length; gone += STRIDE) {
-        for (int i = 0; i < strands * pieces; i++) {
-            double aside = ((i % strands + 0.5) / strands - 0.5),
-                   ahead = (i / strands + 0.5) / pieces * STRIDE;
-            mass_leave(m, mass, (x + ahead * direction[0] - aside * direction[1]) * m->scale,
-                       (y + ahead * direction[1] + aside * direction[0]) * m->scale, part);
+        for (int piece = 0; piece < pieces; piece++) {
+            double ahead = (piece + 0.5) / pieces * STRIDE;
+            for (int strand = 0; strand < strands; strand++) {
+                double aside = (strand + 0.5) / strands - 0.5;
+                mass_leave(m, mass,
+                           (x + ahead * direction[0] - aside * direction[1]) * m->scale,
+                           (y + ahead * direction[1] + aside * direction[0]) * m->scale, part);
+            }
         }
         x += STRIDE * direction[0];
         y += STRIDE * direction[1];
@@ -258,42 +281,93 @@ static void laid_add(const struct making *m, float *relief, const float *waver,
 
 enum { MARKS = 3 }; /* in a square as wide as a mark's radius, up or down */
 
-/* One round mark of that radius, highest in its middle. */
-static void mark_press(const struct making *m, float *relief, double x, double y, double radius,
-                       double height)
+/* Places along one axis that a mark covers. */
+struct marked {
+    int count;
+    size_t *at;      /* in the sheet */
+    double *squared; /* of the distance from the mark's middle, in its radius */
+};
+
+static bool marked_make(struct marked *of, double radius_most)
 {
-    int left = (int)ceil(x - radius - 0.5), right = (int)floor(x + radius - 0.5);
-    int top = (int)ceil(y - radius - 0.5), bottom = (int)floor(y + radius - 0.5);
-    for (int row = top; row <= bottom; row++)
-        for (int column = left; column <= right; column++) {
-            double dx = (column + 0.5 - x) / radius, dy = (row + 0.5 - y) / radius,
-                   inside = 1 - dx * dx - dy * dy;
-            bool there = row >= 0 && column >= 0 && row < m->height && column < m->width;
-            if (inside <= 0 || !(there || m->config->torus))
-                continue;
-            relief[(size_t)around(row, m->height) * (size_t)m->width +
-                   (size_t)around(column, m->width)] += (float)(height * inside * inside);
-        }
+    size_t most = (size_t)(2 * radius_most) + 2;
+    of->at = malloc(most * sizeof *of->at);
+    of->squared = malloc(most * sizeof *of->squared);
+    return of->at && of->squared;
 }
 
-/* Round marks of about that radius everywhere: no direction is before another. */
-static void marks_add(const struct making *m, float *relief, double radius, double height,
+static void marked_free(struct marked *of)
+{
+    free(of->at);
+    free(of->squared);
+}
+
+/* Those of an axis of that length around `middle`; `step`: from one place to the next in the sheet. */
+static void marked_find(struct marked *of, const struct making *m, int length, size_t step,
+                        double middle, double radius)
+{
+    int from = (int)ceil(middle - radius - 0.5), to = (int)floor(middle + radius - 0.5);
+    bool torus = m->config->torus;
+    of->count = 0;
+    for (int i = torus || from > 0 ? from : 0; i <= to && (torus || i < length); i++) {
+        double d = (i + 0.5 - middle) / radius;
+        of->at[of->count] = (size_t)(torus ? around(i, length) : i) * step;
+        of->squared[of->count++] = d * d;
+    }
+}
+
+/* What a mark of that height adds where `inside` is 1 in its middle, 0 at its edge and less beyond. */
+static float pressed(double height, double inside)
+{
+    inside = inside > 0 ? inside : 0;
+    return (float)(height * inside * inside);
+}
+
+/* One round mark, highest in its middle. Its places are side by side unless the mark goes around the sheet. */
+static void mark_press(float *relief, const struct marked *across, const struct marked *down,
+                       double height)
+{
+    const int count = across->count;
+    const size_t *at = across->at;
+    const double *squared = across->squared;
+    for (int row = 0; count > 0 && row < down->count; row++) {
+        float *line = relief + down->at[row], *to = line + at[0];
+        double less = down->squared[row];
+        if (at[count - 1] == at[0] + (size_t)count - 1)
+            for (int i = 0; i < count; i++)
+                to[i] += pressed(height, 1 - squared[i] - less);
+        else
+            for (int i = 0; i < count; i++)
+                line[at[i]] += pressed(height, 1 - squared[i] - less);
+    }
+}
+
+/* Round marks of about that radius everywhere: no direction is before another. False: no memory. */
+static bool marks_add(const struct making *m, float *relief, double radius, double height,
                       uint64_t which)
 {
+    struct marked across = {0}, down = {0};
     int columns = (int)ceil(m->width / radius), rows = (int)ceil(m->height / radius);
     int beyond = m->config->torus ? 0 : 2;
-    for (int row = -beyond; row < rows + beyond; row++)
+    uint64_t seed = clouds_word(m->seed, which);
+    bool made = marked_make(&across, 1.5 * radius);
+    made = marked_make(&down, 1.5 * radius) && made;
+    for (int row = -beyond; made && row < rows + beyond; row++)
         for (int column = -beyond; column < columns + beyond; column++) {
             struct chances c = {
-                clouds_word(clouds_word(m->seed, which),
-                            (uint64_t)(row + 65536) << 32 | (uint64_t)(column + 65536)),
+                clouds_word(seed, (uint64_t)(row + 65536) << 32 | (uint64_t)(column + 65536)),
                 0};
             for (int i = 0; i < MARKS; i++) {
                 double x = (column + chance(&c)) * radius, y = (row + chance(&c)) * radius,
                        size = radius * (0.7 + 0.8 * chance(&c));
-                mark_press(m, relief, x, y, size, height * (2 * chance(&c) - 1));
+                marked_find(&across, m, m->width, 1, x, size);
+                marked_find(&down, m, m->height, (size_t)m->width, y, size);
+                mark_press(relief, &across, &down, height * (2 * chance(&c) - 1));
             }
         }
+    marked_free(&across);
+    marked_free(&down);
+    return made;
 }
 
 /* ---- the sheet ---- */
@@ -317,8 +391,8 @@ static bool parts_make(const struct making *m, struct felt *felt, float *clouds,
         fibers_make(m, felt->mass, clouds);
     level_out(felt->mass, count, 1);
     memcpy(felt->fibers, felt->mass, count * sizeof *felt->mass);
-    marks_add(m, felt->relief, 1.2 * grain, 1, SEED_TOOTH);
-    marks_add(m, felt->relief, fmax(1, 0.6 * grain), 0.5, SEED_TOOTH + 100);
+    made = made && marks_add(m, felt->relief, 1.2 * grain, 1, SEED_TOOTH) &&
+           marks_add(m, felt->relief, fmax(1, 0.6 * grain), 0.5, SEED_TOOTH + 100);
     level_out(felt->relief, count, 1);
     for (size_t i = 0; i < count; i++)
         felt->relief[i] *= (float)of->tooth;
