@@ -281,6 +281,22 @@ static void doubles_are_within_two(void **unused)
     run(false);
 }
 
+/* Singles take a short way where it is certain; it must end where the long one does. */
+static void singles_end_as_doubles_do(void **unused)
+{
+    (void)unused;
+    for (int i = 0; i < FUNCTIONS_COUNT; i++)
+        for (long n = 0; n < 24 * points_count(); n++) {
+            const struct function *f = &functions[i];
+            double a = point(f, true, (int)(n % 6)), b = point(f, true, (int)(n / 6 % 6)),
+                   quick, slow;
+            assert_true(math_evaluate_single(f->op, a, b, &quick) &&
+                        math_evaluate(f->op, a, b, &slow));
+            if (bits_wanted(quick, true) != bits_wanted(slow, true))
+                fail_msg("%s(%a, %a): %a, in short %a", f->name, a, b, slow, quick);
+        }
+}
+
 static void special_cases_are_annex_f(void **unused)
 {
     (void)unused;
@@ -417,6 +433,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(special_cases_are_annex_f),
         cmocka_unit_test(singles_are_within_one),
+        cmocka_unit_test(singles_end_as_doubles_do),
         cmocka_unit_test(doubles_are_within_two),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -176,6 +176,8 @@ static wide float_operation(int op, struct machine_type t, wide a, wide b)
     case SPELL_FLOAT_OPERATOR:
         return bits_of(float_binary(op, t, x, y), t);
     case SPELL_MATH:
+        if (t.width == 32 && !t.s)
+            return math_evaluate_single(op, x, y, &r) ? bits_of(r, t) : 0;
         return math_evaluate(op, x, y, &r) ? bits_of(r, t) : 0;
     default:
         if (op == MACHINE_FNEG)

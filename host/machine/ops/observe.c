@@ -89,14 +89,18 @@ enum machine_status machine_field_download(struct machine *m, uint32_t field,
     return device_wait_end(m, error, start, "reading a field");
 }
 
-static void mask_elements(void *data, uint64_t count, struct machine_type type)
+/* Whether an element in memory has bits that the type has not. */
+static bool is_masked(struct machine_type type)
+{
+    return type.kind != MACHINE_FLOAT && (size_t)type.width != 8 * type_bytes(type);
+}
+
+static void mask_elements(unsigned char *data, uint64_t count, struct machine_type type)
 {
     size_t element = type_bytes(type);
-    if (type.kind == MACHINE_FLOAT || (size_t)type.width == 8 * element)
-        return;
     for (uint64_t i = 0; i < count; i++) {
         struct machine_scalar x = {0, 0};
-        unsigned char *at = (unsigned char *)data + i * element;
+        unsigned char *at = data + i * element;
         memcpy(&x.lo, at, element < 8 ? element : 8);
         if (element > 8)
             memcpy(&x.hi, at + 8, 8);
@@ -111,15 +115,18 @@ enum machine_status machine_field_upload(struct machine *m, uint32_t field,
     struct field *f = part(m, field, type, &offset);
     if (!f)
         return m->status;
-    size_t bytes = m->values->sets[f->vpset].count * type_bytes(type);
-    void *copy = malloc(bytes);
-    if (!copy)
+    uint64_t count = m->values->sets[f->vpset].count;
+    size_t bytes = count * type_bytes(type);
+    unsigned char *masked = is_masked(type) ? malloc(bytes) : NULL;
+    if (!masked && is_masked(type))
         return machine_fail(m, MACHINE_NO_MEMORY,
                             "not enough memory to write a field of %zu bytes", bytes);
-    memcpy(copy, in, bytes);
-    mask_elements(copy, m->values->sets[f->vpset].count, type);
-    struct machine_value *v = materialise_upload(m, f->vpset, type, copy);
-    free(copy);
+    if (masked) {
+        memcpy(masked, in, bytes);
+        mask_elements(masked, count, type);
+    }
+    struct machine_value *v = materialise_upload(m, f->vpset, type, masked ? masked : in);
+    free(masked);
     return v ? machine_field_store(m, field, v, MACHINE_EVERYWHERE) : m->status;
 }
 

@@ -11,16 +11,43 @@
 #include "values/graph.h"
 #include "watch/watch.h"
 
+/* Whether a NaN of any kind is among so many: loops without branches, which compilers make vectors of. */
+static bool nan_among(size_t bytes, const unsigned char *in, size_t count)
+{
+    unsigned found = 0;
+    if (bytes == 4)
+        for (size_t i = 0; i < count; i++) {
+            uint32_t x;
+            memcpy(&x, in + i * sizeof x, sizeof x);
+            found |= (x & INT32_MAX) > UINT32_C(0x7f800000);
+        }
+    else
+        for (size_t i = 0; i < count; i++) {
+            uint64_t x;
+            memcpy(&x, in + i * sizeof x, sizeof x);
+            found |= (x & INT64_MAX) > UINT64_C(0x7ff0000000000000);
+        }
+    return found;
+}
+
+/* Strange NaNs are rare: pieces without any are passed over. */
 bool materialise_has_strange_nan(struct machine_type type, const void *in, uint64_t count)
 {
+    enum { PIECE = 1024 };
+    const unsigned char *at = in;
     size_t bytes = type_bytes(type);
-    bool has = false;
-    for (uint64_t i = 0; i < count && type.kind == MACHINE_FLOAT && !has; i++) {
-        uint64_t x = 0; /* the host is little-endian, as OpenCL's devices are */
-        memcpy(&x, (const unsigned char *)in + i * bytes, bytes);
-        has = scalar_is_strange_nan(type, x);
+    for (uint64_t done = 0; type.kind == MACHINE_FLOAT && done < count; done += PIECE) {
+        size_t here = count - done < PIECE ? (size_t)(count - done) : PIECE;
+        bool look = nan_among(bytes, at, here);
+        for (size_t i = 0; look && i < here; i++) {
+            uint64_t x = 0; /* the host is little-endian, as OpenCL's devices are */
+            memcpy(&x, at + i * bytes, bytes);
+            if (scalar_is_strange_nan(type, x))
+                return true;
+        }
+        at += here * bytes;
     }
-    return has;
+    return false;
 }
 
 struct machine_value *materialise_upload(struct machine *m, int set, struct machine_type type,

@@ -107,6 +107,19 @@ bool math_evaluate(int op, double a, double b, double *out)
     }
 }
 
+/* Almost always the C library's result says which single it is. Its error is below a 2^53rd, and 2^50ths are allowed for. */
+static bool exp_single(double a, double *out)
+{
+    double r = fabs(a) < 80 ? exp(a) : 0, less = r - r * 0x1p-50, more = r + r * 0x1p-50;
+    *out = r;
+    return r > 0 && (float)less == (float)more;
+}
+
+bool math_evaluate_single(int op, double a, double b, double *out)
+{
+    return (op == MACHINE_FEXP && exp_single(a, out)) || math_evaluate(op, a, b, out);
+}
+
 bool math_fold(int op, struct machine_type type, struct machine_scalar a,
                struct machine_scalar b, struct machine_scalar *out)
 {
@@ -121,7 +134,7 @@ bool math_fold(int op, struct machine_type type, struct machine_scalar a,
     uint32_t low[2] = {(uint32_t)a.lo, (uint32_t)b.lo};
     float single[2];
     memcpy(single, low, sizeof single);
-    if (!math_evaluate(op, (double)single[0], (double)single[1], &r))
+    if (!math_evaluate_single(op, (double)single[0], (double)single[1], &r))
         return false;
     single[0] = (float)r;
     memcpy(low, single, sizeof low);
