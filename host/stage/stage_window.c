@@ -22,7 +22,7 @@ struct stage_window {
     struct stage_panel *panel;
     struct stage_draw_list list;
     struct frame_pace pace;
-    bool open, help;
+    bool open, help, drawn; /* drawn: at least once */
     char message[240];
     double message_s; /* when it was said */
     /* A recording: pictures at times that are a thirtieth apart. */
@@ -352,6 +352,9 @@ static void overlay_draw(struct stage_window *w, int width, int height, double p
     if (w->message[0] && now_s < w->message_s + MESSAGE_S)
         stage_panel_text(w->panel, &w->list, w->message, text, height - text, text, false,
                          colors[STAGE_COLOR_PANEL_TEXT]);
+    if (!w->drawn) /* the first text takes some milliseconds longer, which a played letter must not */
+        stage_panel_text(w->panel, &w->list, "A", text, height - text, text, false,
+                         stage_background(w->stage));
     if (w->video)
         stage_draw_disc(&w->list, text, text, 0.5 * text, colors[STAGE_COLOR_RECORDING]);
 }
@@ -365,6 +368,7 @@ static enum stage_status frame_draw(struct stage_window *w, double now_s)
         return STAGE_OK; /* an icon now */
     stage_picture(w->stage, width, height, px, &w->list);
     overlay_draw(w, width, height, px, now_s);
+    w->drawn = true;
     return stage_renderer_draw(w->renderer, &w->list, stage_background(w->stage));
 }
 
