@@ -14,6 +14,7 @@ struct maker {
     struct font_edges *e;
     float side;
     float per_span, per_bend; /* one over the filter's limits; four times the bend */
+    bool discs;               /* arcs may turn around in y */
     float x0, y0, x1, y1;
     enum font_status status;
 };
@@ -31,6 +32,11 @@ static bool room(struct maker *m)
     else if (!array_reserve(&e->arcs, &e->arcs_capacity, e->arcs_count + 1, sizeof *e->arcs))
         m->status = font_fail(FONT_NO_MEMORY, "no memory for edges");
     return m->status == FONT_OK;
+}
+
+static float larger(float a, float b)
+{
+    return a > b ? a : b;
 }
 
 static void range_add(struct maker *m, float x, float y)
@@ -83,6 +89,21 @@ static int up(float number)
     return floor + (number > (float)floor);
 }
 
+/* For discs: x does not turn around in it. An arc goes at most as far as its ends are apart and, where y turns around, a quarter
+ * of b further; of parts alike in t none is faster than the arc is at its faster end. */
+static void disc_put(struct maker *m, const struct font_arc *a)
+{
+    float across = fabsf(a->cx + a->bx), down = fabsf(a->cy + a->by) + 0.25f * fabsf(a->by);
+    float bend = (fabsf(a->bx) + fabsf(a->by)) * m->per_bend;
+    if (larger(across, down) * m->per_span <= 1 && bend <= 1) {
+        put(m, a);
+        return;
+    }
+    across = larger(fabsf(a->cx), fabsf(a->cx + 2 * a->bx));
+    down = larger(fabsf(a->cy), fabsf(a->cy + 2 * a->by));
+    parts_put(m, a, up(larger(larger(across, down) * m->per_span, sqrtf(bend))));
+}
+
 /* Neither x nor y turns around in it. */
 static void straight_put(struct maker *m, const struct font_arc *a)
 {
@@ -109,6 +130,15 @@ static float turn_at(float c, float b)
 static void curve_put(struct maker *m, const struct font_arc *a)
 {
     float tx = turn_at(a->cx, a->bx), ty = turn_at(a->cy, a->by);
+    if (m->discs) {
+        if (ty < 1)
+            range_add(m, a->x, a->y + ty * (a->cy + ty * a->by));
+        struct font_arc one = part(a, 0, tx), two = part(a, tx, 1);
+        disc_put(m, tx < 1 ? &one : a);
+        if (tx < 1)
+            disc_put(m, &two);
+        return;
+    }
     float first = tx < ty ? tx : ty, second = tx < ty ? ty : tx;
     float from = 0, to[3] = {first, second, 1};
     if (first == 1) {
@@ -129,6 +159,8 @@ static void arc_put(struct maker *m, const struct font_arc *a)
     if (a->cx == 0 && a->bx == 0) {
         range_add(m, a->x, a->y);
         range_add(m, a->x, a->y + a->cy + a->by);
+    } else if (line && m->discs) {
+        disc_put(m, a);
     } else if (line) {
         straight_put(m, a);
     } else {
@@ -143,11 +175,6 @@ static float beside_of(const float a[2], float dx, float dy)
 {
     float cross = a[0] * dy - a[1] * dx;
     return cross * cross / (dx * dx + dy * dy + 1e-20f);
-}
-
-static float larger(float a, float b)
-{
-    return a > b ? a : b;
 }
 
 /* The number of quadratic curves that a cubic is cut into. In t^3 = (3/2 t^2 - 1/2 t) + rest,
@@ -285,6 +312,7 @@ enum font_status font_arcs_build(struct font_edges *e, const struct font_outline
                       .side = side,
                       .per_span = 1 / filter->arc_span_px,
                       .per_bend = 1 / (4 * filter->arc_bend_px),
+                      .discs = filter->way == FONT_BY_DISCS,
                       .x0 = INFINITY,
                       .y0 = INFINITY,
                       .x1 = -INFINITY,

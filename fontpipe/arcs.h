@@ -3,8 +3,8 @@
  * An arc is a line or a quadratic curve, at t from 0 to 1 at (x + t (cx + t bx), y + t (cy + t by)), in pixels, y downwards, in
  * the direction that counts ink below it positive (see edges.c). Vertical lines are left out. Outlines' quadratic
  * curves are arcs exactly; cubic and distorted ones are cut into arcs that follow them to FONT_ARC_TOLERANCE_PX. What else an
- * arc must be the filter says that it is drawn for: x and y do not turn around in it, it goes at most arc_span_px along
- * either, and is at most arc_bend_px beside its chord. gray_area.h and gray_disc.h draw arcs. */
+ * arc must be the filter says that it is drawn for: x does not turn around in it, nor y but in an arc for discs; it goes at most
+ * arc_span_px along either, and is at most arc_bend_px beside its chord. gray_area.h and gray_disc.h draw arcs. */
 #ifndef LUTETIA_FONT_ARCS_H
 #define LUTETIA_FONT_ARCS_H
 

@@ -40,26 +40,3 @@ INLINE vector vector_max(vector a, vector b)
     return (vector)(((ints)a & mask) | ((ints)b & ~mask));
 #endif
 }
-
-/* Lanes 0 to 3, and 4 to 7, again and again. */
-#if LANES == 16
-INLINE vector vector_first_four(vector v)
-{
-    return (vector)_mm512_shuffle_f32x4((__m512)v, (__m512)v, 0x00);
-}
-
-INLINE vector vector_second_four(vector v)
-{
-    return (vector)_mm512_shuffle_f32x4((__m512)v, (__m512)v, 0x55);
-}
-#elif LANES == 8
-INLINE vector vector_first_four(vector v)
-{
-    return (vector)_mm256_permute2f128_ps((__m256)v, (__m256)v, 0x00);
-}
-
-INLINE vector vector_second_four(vector v)
-{
-    return (vector)_mm256_permute2f128_ps((__m256)v, (__m256)v, 0x11);
-}
-#endif
