@@ -26,5 +26,8 @@ void explain_json(FILE *out, const struct machine_explained *x);
 double explain_bound_s(const struct machine_explained_kernel *k, const char **by);
 const char *explain_why(enum machine_cut why);
 const char *explain_way(enum machine_plan_way way);
+const char *explain_tier(enum machine_tier tier);
+const char *explain_plan_why(enum machine_plan_why why);
+const char *explain_number(enum machine_number number);
 
 #endif

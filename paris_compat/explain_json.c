@@ -95,6 +95,30 @@ static void kernel(FILE *out, const struct machine_explained_kernel *k)
     fprintf(out, "}");
 }
 
+static void family(FILE *out, const struct machine_explained_family *f)
+{
+    const char *before = "";
+    fprintf(out, "{\"name\": ");
+    text(out, f->name);
+    fprintf(out, ", \"values\": %d, \"plans\": %llu, \"runs\": {", f->nodes,
+            (unsigned long long)f->plans);
+    for (int i = 0; i < MACHINE_TIERS; i++)
+        fprintf(out, "%s\"%s\": %llu", i ? ", " : "", explain_tier((enum machine_tier)i),
+                (unsigned long long)f->runs[i]);
+    fprintf(out, "}, \"why\": {");
+    for (int i = 0; i < MACHINE_PLAN_WHYS; i++)
+        fprintf(out, "%s\"%s\": %llu", i ? ", " : "",
+                explain_plan_why((enum machine_plan_why)i), (unsigned long long)f->why[i]);
+    fprintf(out, "}, \"differ\": {");
+    for (int i = 0; i < MACHINE_NUMBERS; i++)
+        if (f->differ[i].differs) {
+            fprintf(out, "%s\"%s\": [%d, %d]", before, explain_number((enum machine_number)i),
+                    f->differ[i].least, f->differ[i].most);
+            before = ", ";
+        }
+    fprintf(out, "}}");
+}
+
 void explain_json(FILE *out, const struct machine_explained *x)
 {
     fprintf(out, "{\"device\": ");
@@ -115,6 +139,12 @@ void explain_json(FILE *out, const struct machine_explained *x)
     rows(out, "evaluated_because", x->evaluations, x->evaluations_count, NULL, false);
     fprintf(out, ",\n \"plans_built\": %llu, \"plans_improved\": %llu",
             (unsigned long long)x->plans_built, (unsigned long long)x->plans_improved);
+    fprintf(out, ",\n \"families\": [");
+    for (int i = 0; i < x->families_count; i++) {
+        fprintf(out, "%s\n  ", i ? "," : "");
+        family(out, &x->families[i]);
+    }
+    fprintf(out, "]");
     rows(out, "phases", x->phases, x->phases_count, NULL, true);
     rows(out, "waits", x->transfers, x->transfers_count, "bytes", true);
     fprintf(out, ",\n \"copy_bytes\": %llu, \"copy_bytes_per_s\": %.9g,\n \"kernels\": [",

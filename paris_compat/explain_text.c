@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-enum { CALLS_SHOWN = 40, KERNELS_SHOWN = 20, STORES_SHOWN = 12 };
+enum { CALLS_SHOWN = 40, KERNELS_SHOWN = 20, FAMILIES_SHOWN = 12, STORES_SHOWN = 12 };
 
 static void print_calls(FILE *out, const struct machine_explained *x)
 {
@@ -70,6 +70,45 @@ static void print_cuts(FILE *out, const struct machine_explained *x)
     if (split)
         fprintf(out, "  %10llu  kernels are parts of one that had too many arguments\n",
                 (unsigned long long)split);
+}
+
+/* Plans that are the same but for numbers. */
+static void print_family(FILE *out, const struct machine_explained_family *f)
+{
+    const char *before = ": ";
+    fprintf(out, "  %10llu  %s, of %d values", (unsigned long long)f->plans, f->name, f->nodes);
+    for (int i = 0; i < MACHINE_TIERS; i++)
+        if (f->runs[i]) {
+            fprintf(out, "%s%llu run%s %s", before, (unsigned long long)f->runs[i],
+                    f->runs[i] == 1 ? "" : "s", explain_tier((enum machine_tier)i));
+            before = ", ";
+        }
+    fprintf(out, "\n");
+    before = "              which differ in ";
+    bool differ = false;
+    for (int i = 0; i < MACHINE_NUMBERS; i++)
+        if (f->differ[i].differs) {
+            fprintf(out, "%s%s (%d to %d)", before, explain_number((enum machine_number)i),
+                    f->differ[i].least, f->differ[i].most);
+            before = ", ";
+            differ = true;
+        }
+    fprintf(out, differ ? "\n" : "");
+    for (int i = 0; i < MACHINE_PLAN_WHYS; i++)
+        if (f->why[i])
+            fprintf(out, "              %llu %s\n", (unsigned long long)f->why[i],
+                    explain_plan_why((enum machine_plan_why)i));
+}
+
+static void print_families(FILE *out, const struct machine_explained *x)
+{
+    if (x->families_count)
+        fprintf(out,
+                "\nplans that differ only in numbers, together; those that ran most first\n");
+    for (int i = 0; i < x->families_count && i < FAMILIES_SHOWN; i++)
+        print_family(out, &x->families[i]);
+    if (x->families_count > FAMILIES_SHOWN)
+        fprintf(out, "  and %d more\n", x->families_count - FAMILIES_SHOWN);
 }
 
 static void print_stores(FILE *out, const struct machine_explained_kernel *k)
@@ -180,6 +219,7 @@ void explain_text(FILE *out, const struct machine_explained *x)
     print_calls(out, x);
     print_vanished(out, x);
     print_cuts(out, x);
+    print_families(out, x);
     for (int i = 0; i < x->kernels_count; i++)
         all_s += x->kernels[i].time_s;
     fprintf(out, "\nkernels, those that took most time first");

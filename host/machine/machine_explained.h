@@ -83,6 +83,49 @@ struct machine_explained_kernel {
     struct machine_explained_plan plan;
 };
 
+/* How a plan's run was performed. */
+enum machine_tier {
+    MACHINE_TIER_INTERPRETED,
+    MACHINE_TIER_QUICK,
+    MACHINE_TIER_OPTIMISED,
+    MACHINE_TIER_BOXED,
+    MACHINE_TIERS
+};
+
+/* Why a plan runs as it does. */
+enum machine_plan_why {
+    MACHINE_PLAN_SHORT,     /* interpreted: done before a kernel would begin */
+    MACHINE_PLAN_NOT_WORTH, /* interpreted: kernels would have saved less than a compiler takes */
+    MACHINE_PLAN_COMPILING, /* interpreted: kernels are being compiled */
+    MACHINE_PLAN_SHARED,    /* kernels that take its numbers as arguments */
+    MACHINE_PLAN_OWN,       /* kernels with its numbers in their text */
+    MACHINE_PLAN_WHYS
+};
+
+/* The numbers in which plans that are otherwise the same may differ. */
+enum machine_number {
+    MACHINE_NUMBER_POSITION, /* of bits in a field */
+    MACHINE_NUMBER_WIDTH,    /* in bits */
+    MACHINE_NUMBER_DISTANCE, /* along an axis */
+    MACHINE_NUMBER_VPSET,
+    MACHINE_NUMBERS
+};
+
+struct machine_explained_range {
+    bool differs;
+    int32_t least, most;
+};
+
+/* Plans that are the same but for numbers. */
+struct machine_explained_family {
+    char name[80]; /* what the first one stores */
+    int nodes;     /* of each */
+    uint64_t plans;
+    uint64_t runs[MACHINE_TIERS];
+    uint64_t why[MACHINE_PLAN_WHYS]; /* plans */
+    struct machine_explained_range differ[MACHINE_NUMBERS];
+};
+
 enum { MACHINE_VANISHED_OPS_MOST = 128 };
 
 struct machine_explained {
@@ -106,6 +149,8 @@ struct machine_explained {
     struct machine_explained_row evaluations[8]; /* reasons of evaluations */
     int evaluations_count;
     uint64_t plans_built, plans_improved;
+    const struct machine_explained_family *families; /* of plans that are kept, by runs */
+    int families_count;
     struct machine_explained_row
         phases[24]; /* where the front end's time went; phases may be nested */
     int phases_count;

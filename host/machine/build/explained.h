@@ -30,6 +30,8 @@ struct kernel_note *explained_kernel(struct machine *m, cl_kernel kernel,
 /* The kernel was NULL and has been built; NULL: it will not be. Returns its note. */
 struct kernel_note *explained_built(struct machine *m, struct kernel_note *note,
                                     cl_kernel kernel);
+/* How a kernel was made. */
+const char *explained_made(bool quick, bool boxed, bool lifted);
 void explained_split(struct machine *m);
 void explained_improved(struct machine *m);
 

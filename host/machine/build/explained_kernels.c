@@ -17,6 +17,14 @@ void explained_nodes(struct machine *m, struct machine_value *const *nodes,
         .nodes = nodes, .wanted = wanted, .wanted_count = wanted_count, .where = where};
 }
 
+const char *explained_made(bool quick, bool boxed, bool lifted)
+{
+    static const char *const made[2][3] = {
+        {"quick", "boxed", "optimised"},
+        {"quick, for any numbers", "boxed, for any numbers", "optimised, for any numbers"}};
+    return made[lifted][quick ? 0 : boxed ? 1 : 2];
+}
+
 void explained_split(struct machine *m)
 {
     m->plans->describing.parts += m->plans->describing.parts ? 1 : 2;

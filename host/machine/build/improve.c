@@ -3,6 +3,9 @@
 #include "build/explained.h"
 #include "build/plans.h"
 
+/* How many times as often a plan runs before it gets kernels with its numbers in their text as before it gets boxes. */
+enum { WRITTEN_AFTER_BOXES = 64 };
+
 /* Gives up the better plan. */
 static void better_give_up(struct machine *m, struct plan *p)
 {
@@ -19,11 +22,20 @@ enum quality plan_quality_after(const struct machine *m, uint64_t worked)
                                                   : QUICK;
 }
 
+/* Text with numbers in it is some percent faster at most, and a compiler takes as long as a second. */
+bool plan_is_due_written(const struct machine *m, const struct plan *p)
+{
+    return p->lifted && m->settings.numbers == SETTING_FREE &&
+           p->worked / WRITTEN_AFTER_BOXES >= m->settings.box_after;
+}
+
 bool plan_is_due(const struct machine *m, const struct plan *p)
 {
     enum quality quality = plan_quality_after(m, p->worked);
     if (p->quality == INTERPRETED)
         return interpreted_is_due(m, p) && !background_busy(m);
+    if (plan_is_due_written(m, p) && !background_busy(m))
+        return true;
     return quality > p->quality && (quality != OPTIMISED || p->could_be_optimised) &&
            (quality != BOXED || p->could_be_optimised || p->could_be_boxed ||
             p->could_be_strips) &&
@@ -41,6 +53,7 @@ void plan_becomes(struct machine *m, struct plan *p, struct plan *better)
     p->worked = old.worked;
     p->version = old.version + 1;
     p->next = old.next;
+    p->family = old.family;
     if (m->watch && !old.empty)
         explained_improved(m);
     better->launches = old.launches;
@@ -60,6 +73,7 @@ void plan_improve(struct machine *m, struct plan *p, const struct plan_request *
         plan_becomes(m, p, better);
     else
         machine_error_clear(m);
+    p->lifted = p->lifted && !q->written;
 }
 
 void improve_give_up(struct machine *m)
@@ -81,6 +95,8 @@ void plans_see_to(struct machine *m)
             better->launches[i].kernel = background_kernel(m, better->launches[i].number);
         plan_notes_settle(m, better);
         better->later = false;
+        if (better->lifted && better->family)
+            better->family->lifted++;
         p->better = NULL;
         plan_becomes(m, p, better);
     } else {
@@ -108,9 +124,10 @@ void plan_promote(struct machine *m, struct plan *p, const struct plan_request *
 {
     enum quality quality = plan_quality_after(m, p->worked);
     quality = quality < OPTIMISED ? OPTIMISED : quality;
-    if (!p->asked) {
+    if (interpreted_asks(p)) {
         struct plan *better = interpreted_at_hand(m, q);
         p->asked = true;
+        p->asked_of = q->family ? q->family->lifted : 0;
         if (better)
             plan_becomes(m, p, better);
     } else if (!improve_begin(m, p, q, quality)) {

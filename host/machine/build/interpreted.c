@@ -157,17 +157,33 @@ struct plan *interpreted_make(struct machine *m, const struct plan_request *q)
     return p;
 }
 
+bool interpreted_asks(const struct plan *p)
+{
+    return !p->asked || (p->family && p->family->lifted > p->asked_of);
+}
+
+/* What kernels for any numbers would have saved all of its family. */
+static bool pays_family(const struct machine *m, const struct plan *p)
+{
+    const struct device_shape *shape = &m->device->shape;
+    const struct plan_family *f = p->family;
+    return f && f->differ >= FAMILY_FROM && !f->lifted &&
+           f->spent_s * (1 - shape->kernel_part) - 1e-9 * shape->wait_ns * (double)f->started >
+               compile_time(m, p);
+}
+
 bool interpreted_is_due(const struct machine *m, const struct plan *p)
 {
     const struct device_shape *shape = &m->device->shape;
     if (m->settings.interpret != 1 || !p->runs)
         return false;
-    if (!p->asked && p->spent_s > 1e-9 * shape->text_ns)
+    if (interpreted_asks(p) && p->spent_s > 1e-9 * shape->text_ns)
         return true;
     double mean = p->spent_s / (double)p->runs,
            saved = mean - shape->kernel_part * mean - 1e-9 * shape->wait_ns * p->launches_count;
     if (p->looks_around && p->worked >= m->settings.box_after &&
         mean > 1e-9 * shape->turns_from_ns)
         return true;
-    return saved * (double)p->runs > compile_time(m, p);
+    return saved * (double)p->runs > compile_time(m, p) ||
+           (saved > 0 && p->asked && pays_family(m, p));
 }

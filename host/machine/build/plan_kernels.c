@@ -10,6 +10,7 @@
 #include "build/background.h"
 #include "build/explained.h"
 #include "build/plans.h"
+#include "codegen/numbers.h"
 #include "kernels.h"
 
 /* ---- life ---- */
@@ -167,6 +168,53 @@ bool plan_launches_grow(struct plan *p)
     return launches != NULL;
 }
 
+/* Whether the kernel takes its numbers as arguments: where plans that differ from it in numbers only have such kernels, or
+ * there are several such plans, and nobody has compiled the written one. */
+static bool lifts(struct machine *m, const struct plan *p, const struct kernel_text *k,
+                  const char *parts[DEVICE_PARTS], const char *written, const char *lifted)
+{
+    if (m->settings.numbers != SETTING_FREE)
+        return m->settings.numbers;
+    if (p->written || !m->settings.optimise_after || !m->settings.box_after)
+        return false;
+    parts[DEVICE_PARTS - 1] = written;
+    if (device_kernel_at_hand(m, parts, k->options, "k"))
+        return false;
+    if (p->family && p->family->differ >= FAMILY_FROM)
+        return true;
+    parts[DEVICE_PARTS - 1] = lifted;
+    return device_kernel_at_hand(m, parts, k->options, "k");
+}
+
+/* Makes the text one of the two that it can be (codegen/numbers.h), the last of the parts. True: numbers are arguments. */
+static bool text_take(struct machine *m, struct plan *p, struct kernel_text *k,
+                      const char *parts[DEVICE_PARTS])
+{
+    struct kernel_argument *arguments;
+    int count;
+    char *lifted = m->settings.numbers ? numbers_lift(k, &arguments, &count) : NULL;
+    struct kernel_text other = *k;
+    if (lifted) {
+        other.arguments = arguments;
+        other.arguments_count = count;
+    }
+    numbers_write(k->text);
+    bool takes =
+        lifted && !too_many_arguments(&other) && lifts(m, p, k, parts, k->text, lifted);
+    if (lifted) {
+        free(takes ? k->text : lifted);
+        free(takes ? k->arguments : arguments);
+    }
+    if (takes) {
+        k->text = lifted;
+        k->arguments = arguments;
+        k->arguments_count = count;
+    }
+    p->lifted |= takes;
+    parts[DEVICE_PARTS - 1] = k->text;
+    return takes;
+}
+
 /* Builds the kernel of that text, or requests it from the background. The plan has room for
  * it. False: impossible; an error may be set. */
 static bool plan_build(struct machine *m, struct plan *p, const struct plan_graph *g,
@@ -180,10 +228,12 @@ static bool plan_build(struct machine *m, struct plan *p, const struct plan_grap
                                        k->formats ? kernel_formats_cl : "",
                                        k->math ? kernel_math_tables_cl : "",
                                        k->math ? kernel_math_cl : "",
-                                       k->math ? kernel_math_others_cl : "",
-                                       k->text};
+                                       k->math ? kernel_math_others_cl : ""};
     if (many_streams(m, set, k))
         strcat(k->options, " -DAHEAD=128");
+    bool lifted = text_take(m, p, k, parts);
+    if (m->plans->dump_dir)
+        plan_dump_text(m, k);
     if (p->only_at_hand && !device_kernel_at_hand(m, parts, k->options, "k"))
         return false;
     bool quick = p->quality == QUICK && !much_math(m, k, set) &&
@@ -202,7 +252,9 @@ static bool plan_build(struct machine *m, struct plan *p, const struct plan_grap
     p->work += set->count;
     if (!kernel && number < 0)
         return false;
-    const char *made = quick ? "quick" : g->boxes && k->has_boxes ? "boxed" : "optimised";
+    if (lifted && p->family && !p->later)
+        p->family->lifted++;
+    const char *made = explained_made(quick, g->boxes && k->has_boxes, lifted);
     struct kernel_note *note =
         m->watch ? explained_kernel(m, kernel, g, stores, stores_count, k, made) : NULL;
     p->launches[p->launches_count++] = (struct launch){.kernel = kernel,
@@ -247,8 +299,6 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
     }
     if (m->watch)
         watch_span(m, WATCH_GENERATE, start, "\"operations\":%d,\"loads\":%d", k.ops, k.loads);
-    if (m->plans->dump_dir)
-        plan_dump_text(m, &k);
     bool good = plan_launches_grow(p) && plan_build(m, p, g, stores, stores_count, &k);
     kernel_text_finish(&k);
     return good;
@@ -354,6 +404,8 @@ static struct plan *plan_attempt(struct machine *m, const struct plan_request *q
     if (good) {
         p->quality = quality;
         p->later = later;
+        p->family = q->family;
+        p->written = q->written;
         p->only_at_hand = q->use == PLAN_TO_RUN_AT_HAND;
         p->stored = calloc(count, sizeof *p->stored);
         p->arrays = calloc(count, sizeof *p->arrays);

@@ -30,16 +30,20 @@ bool plan_in_place_wanted(const struct machine *m, const struct plan *p)
            (m->settings.in_place == SETTING_FREE ? l->in_place.pays : m->settings.in_place);
 }
 
+static cl_int set_number(cl_kernel kernel, cl_uint at, uint64_t bits, uint8_t size)
+{
+    uint32_t low = (uint32_t)bits;
+    return size == 8 ? clSetKernelArg(kernel, at, 8, &bits)
+                     : clSetKernelArg(kernel, at, 4, &low);
+}
+
 static cl_int set_constant(cl_kernel kernel, cl_uint at, const struct machine_value *v,
                            const struct kernel_argument *a)
 {
     uint64_t bits = a->kind == ARGUMENT_SECOND ? v->imm.hi : v->imm.lo;
-    if (a->size == 8)
-        return clSetKernelArg(kernel, at, 8, &bits);
-    uint32_t low = (uint32_t)bits;
-    if (v->type.kind == MACHINE_BITS && v->type.width == 1)
-        low = bits ? UINT32_MAX : 0;
-    return clSetKernelArg(kernel, at, 4, &low);
+    if (a->size == 4 && v->type.kind == MACHINE_BITS && v->type.width == 1)
+        bits = bits ? UINT32_MAX : 0;
+    return set_number(kernel, at, bits, a->size);
 }
 
 /* Chooses the number of strips and their rows for the shortest time. The time is that of the
@@ -166,6 +170,8 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
             error |= clSetKernelArg(l->kernel, at, sizeof(cl_mem), &scratch->mem);
         else if (a->kind == ARGUMENT_BORDERS)
             error |= clSetKernelArg(l->kernel, at, sizeof(cl_uint), &in_place);
+        else if (a->kind == ARGUMENT_NUMBER)
+            error |= set_number(l->kernel, at, a->number, a->size);
         else if (a->kind == ARGUMENT_INPUT || a->kind == ARGUMENT_OUTPUT)
             error |= clSetKernelArg(l->kernel, at, sizeof(cl_mem), &buffers[a->node]->mem);
         else
@@ -209,7 +215,12 @@ static enum machine_status interpret(struct machine *m, struct plan *p, const st
     bool good =
         blocks_run(&m->plans->room, m->device->crew, parts, l->program, set, buffers, nodes);
     m->inside--;
-    p->spent_s += clock_s() - start;
+    double spent = clock_s() - start;
+    p->spent_s += spent;
+    if (p->family) {
+        p->family->spent_s += spent;
+        p->family->started++;
+    }
     m->plans->interpreted++;
     if (m->watch)
         watch_interpreted(m, l->note, start);
@@ -287,6 +298,8 @@ enum machine_status plan_run(struct machine *m, struct plan *p, struct device_bu
     m->plans->predicted_s += status ? 0 : p->predicted_s;
     p->worked += p->work;
     p->runs++;
+    if (p->family)
+        p->family->said.runs[p->quality]++;
     if (!p->launches_count || !p->launches[0].program || p->launches[0].code)
         device_flush(m);
     if (m->watch)

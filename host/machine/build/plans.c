@@ -31,6 +31,8 @@ static void forget_before(struct machine *m, uint64_t used)
             }
             *at = p->next;
             m->plans->count--;
+            if (p->family)
+                p->family->kept--;
             plan_free(m, p);
         }
 }
@@ -41,6 +43,7 @@ void plans_forget_oldest(struct machine *m)
     forget_before(m, m->plans->built - PLANS_MOST / 2);
     if (m->plans->count > PLANS_MOST) /* all are in use */
         forget_before(m, m->plans->built);
+    families_sweep(m);
 }
 
 void plans_finish(struct machine *m)
@@ -51,6 +54,7 @@ void plans_finish(struct machine *m)
             plan_free(m, p);
         }
     free(m->plans->table);
+    families_finish(m);
     blocks_room_free(&m->plans->room);
 }
 
@@ -121,6 +125,9 @@ static bool plan_keep(struct machine *m, struct plan *p, const struct plan_reque
     p->hash = hash;
     p->used = m->plans->built;
     p->next = *bucket;
+    p->family = q->family;
+    if (p->family)
+        p->family->kept++;
     *bucket = p;
     m->plans->count++;
     return true;
@@ -154,31 +161,46 @@ static struct plan *plan_rehearse(struct machine *m, struct plan *p,
     return p;
 }
 
-struct plan *plan_get(struct machine *m, const struct plan_request *q)
+/* Better kernels for a plan that is due. */
+static void plan_better(struct machine *m, struct plan *p, struct plan_request *q)
 {
+    enum quality quality = plan_quality_after(m, p->worked);
+    if (p->quality == INTERPRETED) {
+        plan_promote(m, p, q);
+        return;
+    }
+    q->written = plan_is_due_written(m, p);
+    if (!improve_begin(m, p, q, quality))
+        plan_improve(m, p, q, quality);
+}
+
+static bool table_make(struct machine *m)
+{
+    if (m->plans->table)
+        return true;
+    m->plans->table_size = BUCKETS;
+    m->plans->table = calloc((size_t)m->plans->table_size, sizeof *m->plans->table);
+    return m->plans->table != NULL;
+}
+
+struct plan *plan_get(struct machine *m, const struct plan_request *wanted)
+{
+    struct plan_request request = *wanted, *q = &request;
     uint64_t hash = words_hash(q->reach->signature, q->reach->length);
-    if (!m->plans->table) {
-        m->plans->table_size = BUCKETS;
-        m->plans->table = calloc((size_t)m->plans->table_size, sizeof *m->plans->table);
-        if (!m->plans->table) {
-            machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for plans");
-            return NULL;
-        }
+    if (!table_make(m)) {
+        machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for plans");
+        return NULL;
     }
     if (plan_use_runs(q->use))
         plans_see_to(m);
     struct plan *p = plan_find(m, q->reach, hash);
+    q->family = p ? p->family : family_join(m, q->reach, q->targets);
     if (!plan_use_runs(q->use))
         return plan_rehearse(m, p, q, hash);
     if (p && p->empty)
         return plan_fill(m, p, q) ? p : NULL;
-    if (p && plan_is_due(m, p)) {
-        enum quality quality = plan_quality_after(m, p->worked);
-        if (p->quality == INTERPRETED)
-            plan_promote(m, p, q);
-        else if (!improve_begin(m, p, q, quality))
-            plan_improve(m, p, q, quality);
-    }
+    if (p && plan_is_due(m, p))
+        plan_better(m, p, q);
     if (p)
         return p;
     p = interpreted_make(m, q);

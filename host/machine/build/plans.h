@@ -3,6 +3,7 @@
 #define LUTETIA_MACHINE_PLANS_H
 
 #include "build/explained.h"
+#include "build/families.h"
 #include "codegen/codegen.h"
 #include "interpret/blocks.h"
 #include "interpret/device_code.h"
@@ -54,17 +55,21 @@ struct plan {
     enum quality quality;
     bool could_be_optimised, could_be_boxed, could_be_strips;
     int turns_most;
-    double predicted_s;  /* of a run */
-    uint64_t runs;       /* while it is interpreted */
-    double spent_s;      /* ... by these */
-    bool asked;          /* ... whether its kernels are at hand */
-    bool looks_around;   /* ... it reads neighbours, so strips and turns of loops may pay */
-    bool only_at_hand;   /* while it is made: nothing is compiled */
-    bool later;          /* its kernels are compiled in the background */
-    struct plan *better; /* the plan whose kernels are being compiled, and which replaces
+    double predicted_s; /* of a run */
+    uint64_t runs;      /* while it is interpreted */
+    double spent_s;     /* ... by these */
+    bool asked;         /* ... whether its kernels are at hand */
+    bool looks_around;  /* ... it reads neighbours, so strips and turns of loops may pay */
+    bool only_at_hand;  /* while it is made: nothing is compiled */
+    bool later;         /* its kernels are compiled in the background */
+    bool lifted;        /* kernels take numbers as arguments: codegen/numbers.h */
+    bool written;       /* while it is made: none does */
+    uint64_t asked_of;  /* its family's lifted kernels when it was last asked */
+    struct plan_family *family; /* NULL: unknown */
+    struct plan *better;        /* the plan whose kernels are being compiled, and which replaces
                           * this one */
-    bool empty;          /* without kernels, except those of a better plan */
-    bool hopeless;       /* of many turns that do not fit one kernel */
+    bool empty;                 /* without kernels, except those of a better plan */
+    bool hopeless;              /* of many turns that do not fit one kernel */
     struct plan *next;
 };
 
@@ -97,6 +102,8 @@ struct plans {
     uint64_t begun;                /* plans made when the oldest were last forgotten */
     struct background *background; /* background.c; NULL: not used yet */
     struct plan *improving;        /* the plan whose better kernels are being compiled */
+    struct plan_family **families; /* families.c; NULL: none yet */
+    int families_count;
     struct describing describing;
     struct blocks_room room;              /* of the interpreter */
     struct device_kernels device_kernels; /* of the device's */
@@ -125,6 +132,8 @@ struct plan_request {
     const struct reach *reach;
     const struct targets *targets;
     enum plan_use use;
+    struct plan_family *family; /* set by plan_get() */
+    bool written;               /* no kernel takes numbers as arguments */
 };
 
 /* Returns the plan: a new or a known one, with better kernels if these are due. NULL: error
@@ -180,6 +189,8 @@ struct plan *plan_make(struct machine *m, const struct plan_request *q, enum qua
 enum quality plan_quality_after(const struct machine *m, uint64_t worked);
 /* Whether better kernels pay by now, and can be made. */
 bool plan_is_due(const struct machine *m, const struct plan *p);
+/* ... because it has run so often that its kernels should have its numbers in their text. */
+bool plan_is_due_written(const struct machine *m, const struct plan *p);
 void plan_becomes(struct machine *m, struct plan *p, struct plan *better);
 /* Makes better kernels for the plan, now. Failures are ignored. */
 void plan_improve(struct machine *m, struct plan *p, const struct plan_request *q,
@@ -208,6 +219,8 @@ void plan_last_launches(struct plan *p); /* finds which launch is the last to ta
 struct plan *interpreted_make(struct machine *m, const struct plan_request *q);
 /* What its runs have cost, and are likely to cost, is worth a look at kernels, or compiling them. */
 bool interpreted_is_due(const struct machine *m, const struct plan *p);
+/* Its family has got kernels since it was asked whether there are any. */
+bool interpreted_asks(const struct plan *p);
 /* The same with kernels that need not be compiled; NULL: there are none. */
 struct plan *interpreted_at_hand(struct machine *m, const struct plan_request *q);
 

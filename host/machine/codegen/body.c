@@ -15,6 +15,7 @@
 #include "base/errors.h"
 #include "base/node_ops.h"
 #include "codegen/narrow_spell.h"
+#include "codegen/numbers.h"
 #include "codegen/spell.h"
 #include "plan/lanes.h"
 
@@ -36,7 +37,7 @@ static int row_moved(struct emitter *e, int from, int axis, int distance)
     e->row_offsets[e->rows_count] = wanted;
     for (int a = 0; a < e->set->rank - 1; a++)
         if (wanted.d[a])
-            text_put(&e->rows, "    const int y%d_%d = wrap(c%d + (%d), D%d);\n", a,
+            text_put(&e->rows, "    const int y%d_%d = wrap(c%d + (" NUMBER_INT "), D%d);\n", a,
                      e->rows_count, a, wanted.d[a], a);
     text_put(&e->rows, "    const int r%d = row", e->rows_count);
     for (int a = 0; a < e->set->rank - 1; a++)
@@ -216,7 +217,8 @@ static void emit_generated(struct emitter *e, char *out, size_t size, const stru
         row_place(e, place, sizeof place, row, n->axis);
         snprintf(index, sizeof index, "(VU)((uint)%s)", place);
     } else if (n->op == NODE_COORDINATE) {
-        snprintf(index, sizeof index, "column(x + (%d), W)", dx);
+        snprintf(index, sizeof index,
+                 dx ? "column(x + (" NUMBER_INT "), W)" : "column(x + (%d), W)", dx);
     } else {
         snprintf(index, sizeof index, "(column(x + (%d), W) + (uint)(r%d * W))", dx, row);
     }
@@ -351,14 +353,15 @@ static bool emit_between(struct emitter *e, int node, int row, int dx, struct op
 static void spell_concat(char *out, size_t size, const char *type, const char *a,
                          struct machine_type from, const char *b, struct machine_type to)
 {
-    char low[120], high[120];
+    char low[120], high[120], shifted[160];
     spell_widened(low, sizeof low, a, from, type[1]);
     spell_widened(high, sizeof high, b, to, type[1]);
     if (type[1] == 'Q')
-        snprintf(out, size, "q_or(%s, q_shl(%s, %d))", low, high, from.width);
-    else
-        snprintf(out, size, "%s | (%s << %d%s)", low, high, from.width,
-                 type[1] == 'L' ? "UL" : "");
+        snprintf(out, size, "q_or(%s, q_shl(%s, " NUMBER_INT "))", low, high, from.width);
+    else {
+        spell_shifted(shifted, sizeof shifted, high, "<<", from.width, type[1]);
+        snprintf(out, size, "%s | %s", low, shifted);
+    }
 }
 
 /* NOT or NEG of bits. */
@@ -477,8 +480,8 @@ static void emit_load(struct emitter *e, char *out, size_t size, const struct pl
     seen->low = dx < seen->low ? dx : seen->low;
     seen->high = dx > seen->high ? dx : seen->high;
     e->reach = abs(dx) > e->reach ? abs(dx) : e->reach;
-    snprintf(out, size, "LOAD_%s(p%d, %s(%d))", memory_kind(n->type), p,
-             e->near && !n->leaf ? "NEAR" : "AT", dx);
+    snprintf(out, size, dx ? "LOAD_%s(p%d, %s(" NUMBER_INT "))" : "LOAD_%s(p%d, %s(%d))",
+             memory_kind(n->type), p, e->near && !n->leaf ? "NEAR" : "AT", dx);
     e->loads++;
 }
 

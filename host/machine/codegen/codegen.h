@@ -26,17 +26,19 @@ enum kernel_argument_kind {
     ARGUMENT_CONSTANT,
     ARGUMENT_SECOND,
     ARGUMENT_BORDERS, /* of strips: which arrays are written in place */
-    ARGUMENT_SCRATCH  /* of strips */
+    ARGUMENT_SCRATCH, /* of strips */
+    ARGUMENT_NUMBER   /* of no node: see numbers.h */
 };
 
 struct kernel_argument {
     uint8_t kind; /* enum kernel_argument_kind; SECOND: imm.hi of the node */
-    uint8_t size; /* of a constant, bytes */
+    uint8_t size; /* of a constant or number, bytes */
     int32_t node;
+    uint64_t number; /* of NUMBER */
 };
 
 struct kernel_text {
-    char *text; /* without the prelude */
+    char *text; /* without the prelude; numbers of rows are marked: see numbers.h */
     char options[160];
     struct kernel_argument *arguments;
     int arguments_count;

@@ -6,6 +6,7 @@
 #include "base/arrays.h"
 #include "base/node_ops.h"
 #include "codegen/body.h"
+#include "codegen/numbers.h"
 #include "codegen/spell.h"
 
 void emit_argument(struct arguments *to, int kind, int node, int size, bool *failed)
@@ -126,6 +127,7 @@ void emit_options(struct kernel_text *k, int halo, bool wraps, bool streams, int
 void emit_hand_over(bool good, struct text *t, struct arguments *a, struct kernel_text *out)
 {
     if (good) {
+        numbers_write(t->data);
         out->text = t->data;
         out->arguments = a->list;
         out->arguments_count = a->count;

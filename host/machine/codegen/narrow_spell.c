@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/node_ops.h"
+#include "codegen/numbers.h"
 
 /* ---- the text of one operation ---- */
 
@@ -44,7 +45,7 @@ static void cut(char *out, size_t size, const char *from, int width, int lane)
     if (width == lane)
         snprintf(out, size, "(%s)", from);
     else
-        snprintf(out, size, "((%s) & (VU)(0x%x))", from, (1u << width) - 1);
+        snprintf(out, size, "((%s) & (VU)(" NUMBER_UINT "))", from, (1u << width) - 1);
 }
 
 /* A bit loaded from memory is 0 or 1, and negating it twice restores it. Of other bits the
@@ -68,8 +69,8 @@ static void extended(char *out, size_t size, const char *a, struct machine_type 
     if (t.width == 1 || t.width == lane)
         snprintf(out, size, "AS_S(%s)", a);
     else
-        snprintf(out, size, "(AS_S(%s << (VU)(%d)) >> (VI)(%d))", a, lane - t.width,
-                 lane - t.width);
+        snprintf(out, size, "(AS_S(%s << (VU)(" NUMBER_INT ")) >> (VI)(" NUMBER_INT "))", a,
+                 lane - t.width, lane - t.width);
 }
 
 static void extremum(char *out, size_t size, const char *symbol, const char *x, const char *y,
@@ -105,10 +106,10 @@ void narrow_spell(char *out, size_t size, const struct plan_graph *g, const stru
     case NODE_CONCAT:
         widened(x, sizeof x, g, n->in[0], a);
         widened(y, sizeof y, g, n->in[1], b);
-        snprintf(out, size, "(%s | (%s << (VU)(%d)))", x, y, from.width);
+        snprintf(out, size, "(%s | (%s << (VU)(" NUMBER_INT ")))", x, y, from.width);
         return;
     case NODE_EXTRACT:
-        snprintf(raw, sizeof raw, "%s >> (VU)(%d)", a, n->detail);
+        snprintf(raw, sizeof raw, "%s >> (VU)(" NUMBER_INT ")", a, n->detail);
         if (width == 1)
             snprintf(out, size, "(((%s) & (VU)(1)) != (VU)(0))", raw);
         else

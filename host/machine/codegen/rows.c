@@ -14,6 +14,7 @@
 
 #include "base/types.h"
 #include "codegen/body.h"
+#include "codegen/numbers.h"
 #include "kernels.h"
 #include "plan/lanes.h"
 
@@ -68,7 +69,7 @@ static void header(struct emitter *e, struct text *t)
         else
             emit_number(t, e->g, arg, &constant);
     }
-    text_put(t, ")\n{\n");
+    text_put(t, NUMBER_PARAMETERS ")\n{\n");
 }
 
 void kernel_text_finish(struct kernel_text *k)

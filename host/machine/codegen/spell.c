@@ -10,6 +10,7 @@
 #include <stdio.h>
 
 #include "base/node_ops.h"
+#include "codegen/numbers.h"
 
 const char *spell_container(struct machine_type t)
 {
@@ -58,11 +59,20 @@ void spell_cut(char *out, size_t size, const char *from, int width)
     if (width == 32 || width == 64 || width == 128)
         snprintf(out, size, "%s", from);
     else if (width < 32)
-        snprintf(out, size, "((%s) & 0x%xu)", from, (1u << width) - 1);
+        snprintf(out, size, "((%s) & " NUMBER_UINT ")", from, (1u << width) - 1);
     else if (width < 64)
-        snprintf(out, size, "((%s) & 0x%" PRIx64 "UL)", from, (UINT64_C(1) << width) - 1);
+        snprintf(out, size, "((%s) & " NUMBER_ULONG ")", from, (UINT64_C(1) << width) - 1);
     else
-        snprintf(out, size, "q_cut(%s, %d)", from, width);
+        snprintf(out, size, "q_cut(%s, " NUMBER_INT ")", from, width);
+}
+
+void spell_shifted(char *out, size_t size, const char *a, const char *which, int by,
+                   char letter)
+{
+    if (letter == 'L')
+        snprintf(out, size, "(%s %s " NUMBER_ULONG ")", a, which, (uint64_t)by);
+    else
+        snprintf(out, size, "(%s %s " NUMBER_INT ")", a, which, by);
 }
 
 /* A signed number in its whole container, as a signed vector (U, L) or VQ. */
@@ -73,13 +83,14 @@ static void extended(char *out, size_t size, const char *a, struct machine_type 
         snprintf(out, size, "%s", a);
         break;
     case 'U':
-        snprintf(out, size, "(AS_S(%s << %d) >> %d)", a, 32 - t.width, 32 - t.width);
+        snprintf(out, size, "(AS_S(%s << " NUMBER_INT ") >> " NUMBER_INT ")", a, 32 - t.width,
+                 32 - t.width);
         break;
     case 'L':
         snprintf(out, size, "(AS_M(%s << %dUL) >> %dL)", a, 64 - t.width, 64 - t.width);
         break;
     default:
-        snprintf(out, size, "q_extended(%s, %d)", a, t.width);
+        snprintf(out, size, "q_extended(%s, " NUMBER_INT ")", a, t.width);
         break;
     }
 }
@@ -317,9 +328,9 @@ void spell_conversion(char *out, size_t size, const struct plan_node *n,
         if (have == 'I')
             snprintf(raw, sizeof raw, "AS_U(%s & 1)", a);
         else if (have == 'Q')
-            snprintf(raw, sizeof raw, "q_shr(%s, %d)", a, n->detail);
+            snprintf(raw, sizeof raw, "q_shr(%s, " NUMBER_INT ")", a, n->detail);
         else
-            snprintf(raw, sizeof raw, "(%s >> %d%s)", a, n->detail, have == 'L' ? "UL" : "");
+            spell_shifted(raw, sizeof raw, a, ">>", n->detail, have);
         if (want == 'I') {
             spell_widened(inner, sizeof inner, raw, MACHINE_UINT(from.width),
                           have == 'U' || have == 'I' ? 'U' : 'L');

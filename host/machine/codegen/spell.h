@@ -15,6 +15,9 @@ void spell_widened(char *out, size_t size, const char *from, struct machine_type
                    char want);
 /* All but the low width bits cleared. */
 void spell_cut(char *out, size_t size, const char *from, int width);
+/* Shifted by a number, "<<" or ">>": a word (letter U) or a long one (L). */
+void spell_shifted(char *out, size_t size, const char *a, const char *which, int by,
+                   char letter);
 /* MACHINE_AND .. MACHINE_SLE on two operands of type t. */
 void spell_bits_binary(char *out, size_t size, int op, struct machine_type t, const char *a,
                        const char *b);

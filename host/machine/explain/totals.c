@@ -110,6 +110,8 @@ const struct machine_explained *machine_explain(struct machine *m, bool wish_mea
     f->calls = e->calls;
     f->stores = m->run->stores;
     f->plans_built = m->plans->built;
+    free(e->families);
+    f->families = e->families = families_said(m, &f->families_count);
     gather_rows(m, e);
     if (wish_measured)
         copies_measure(m, e);

@@ -25,6 +25,7 @@ void sums_destroy(struct watch_sums *e)
         free(n);
     }
     free(e->kernels);
+    free(e->families);
     free(e);
 }
 
