@@ -15,7 +15,7 @@
 #include "paris_internal.h"
 #include <cm/paris.h>
 
-enum { STEPS = 32, WIDE = 100, HEIGHT = 19, WIDTH = 70 };
+enum { STEPS = 20, WIDE = 100, HEIGHT = 19, WIDTH = 70 };
 
 static uint64_t state;
 

@@ -176,7 +176,8 @@ static enum machine_status first_half(struct machine *m, struct evaluation *e,
         return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to evaluate");
     from = watch_clock(m);
     uint64_t built = m->plans->built;
-    const struct plan_request request = {.reach = &e->reach, .targets = &e->targets, .use = use};
+    const struct plan_request request = {
+        .reach = &e->reach, .targets = &e->targets, .use = use};
     e->plan = plan_get(m, &request);
     if (m->watch)
         watch_span(m, WATCH_LOOKUP, from, "\"found\":%s",

@@ -26,7 +26,7 @@ struct watch_sums {
     struct machine_explained_row phases[WATCH_PHASES_COUNT];
     struct machine_explained_kernel *kernels; /* as last told */
     struct machine_explained_family *families;
-    cl_kernel copies[2];                      /* see copies.c; NULL: none */
+    cl_kernel copies[2]; /* see copies.c; NULL: none */
     void (*between)(void);
 };
 
