@@ -63,6 +63,7 @@ struct font_placed {
         y_px; /* of the origin, from the column's left edge on the first baseline; y downwards */
     int cluster; /* byte of the text that it comes from */
     int line;
+    bool is_mark;  /* it moves the pen by nothing: an accent on another letter */
     float size_px; /* of the em; 0: the layout's */
     int ink;       /* of the layout's inks, from 1; 0: whoever draws says */
     /* Of the layout's maps, from 1; 0: none. It takes pixels around the glyph's origin to pixels around it, before the glyph is

@@ -215,7 +215,8 @@ static enum font_status run_set(struct shaping *g, const struct paragraph *p,
                                  .x_px = *pen + positions[i].x_offset * scale,
                                  .y_px = y - positions[i].y_offset * scale,
                                  .cluster = p->letters[infos[i].cluster].byte,
-                                 .line = line};
+                                 .line = line,
+                                 .is_mark = positions[i].x_advance == 0};
         *pen += pen_step(g, infos, positions, i, count, scale);
     }
     return FONT_OK;

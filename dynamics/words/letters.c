@@ -62,15 +62,17 @@ static void box_make(struct dyn_letter *letter, const struct font_outline *outli
     at_least(&letter->y0, &letter->y1, SIDE_LEAST * def->size);
 }
 
-/* A glyph without ink, such as a space, is no letter. */
-static enum dyn_status letter_add(struct dyn_word *word, const struct dyn_word_def *def,
-                                  const struct font_placed *placed, struct dyn_place *places)
+/* A glyph without ink, such as a space, is no letter and no mark. */
+static enum dyn_status glyph_add(struct dyn_word *word, const struct dyn_word_def *def,
+                                 const struct font_placed *placed, bool is_mark,
+                                 struct dyn_place *places)
 {
     struct font_outline outline;
     if (font_face_outline(placed->face, placed->glyph, &outline) != FONT_OK)
         return dyn_fail(DYN_BAD_ARGUMENT, "%s", font_error());
     if (outline.segments_count) {
-        struct dyn_letter *letter = &word->letters[word->letters_count];
+        int index = dyn_glyphs(word);
+        struct dyn_letter *letter = &word->letters[index];
         *letter = (struct dyn_letter){.face = placed->face,
                                       .glyph = placed->glyph,
                                       .size = def->size,
@@ -79,11 +81,79 @@ static enum dyn_status letter_add(struct dyn_word *word, const struct dyn_word_d
                                       .line = placed->line};
         box_make(letter, &outline, def);
         double scale = def->size / LAYOUT_PX;
-        places[word->letters_count++] =
-            (struct dyn_place){placed->x_px * scale, -placed->y_px * scale};
+        places[index] = (struct dyn_place){placed->x_px * scale, -placed->y_px * scale};
+        word->letters_count += !is_mark;
+        word->marks_count += is_mark;
     }
     font_outline_finish(&outline);
     return DYN_OK;
+}
+
+/* ---- marks ---- */
+
+static struct dyn_place middle_of(const struct dyn_word *word, const struct dyn_place *places,
+                                  int i)
+{
+    const struct dyn_letter *l = &word->letters[i];
+    return (struct dyn_place){places[i].x + (l->x0 + l->x1) / 2,
+                              places[i].y + (l->y0 + l->y1) / 2};
+}
+
+/* The letter of the mark's cluster; or the nearest, for an accent may be of another face than its letter. */
+static int letter_below(const struct dyn_word *word, const struct dyn_place *places, int mark)
+{
+    struct dyn_place at = middle_of(word, places, mark);
+    double least = INFINITY;
+    int nearest = 0;
+    for (int i = 0; i < word->letters_count; i++) {
+        if (word->letters[i].cluster == word->letters[mark].cluster)
+            return i;
+        struct dyn_place middle = middle_of(word, places, i);
+        double far = hypot(middle.x - at.x, middle.y - at.y);
+        if (far < least) {
+            least = far;
+            nearest = i;
+        }
+    }
+    return nearest;
+}
+
+/* A mark's box is its letter's, seen from the mark's origin. */
+static void mark_put(struct dyn_word *word, const struct dyn_place *places, int mark)
+{
+    int letter = letter_below(word, places, mark);
+    struct dyn_letter *m = &word->letters[mark];
+    const struct dyn_letter *l = &word->letters[letter];
+    double dx = places[letter].x - places[mark].x, dy = places[letter].y - places[mark].y;
+    m->x0 = l->x0 + dx;
+    m->x1 = l->x1 + dx;
+    m->y0 = l->y0 + dy;
+    m->y1 = l->y1 + dy;
+    m->mass[0] = letter;
+}
+
+void dyn_marks_stand(struct dyn_word *word)
+{
+    for (int i = word->letters_count; i < dyn_glyphs(word); i++) {
+        const struct dyn_letter *letter = &word->letters[word->letters[i].mass[0]];
+        memcpy(word->letters[i].mass, letter->mass, sizeof letter->mass);
+    }
+}
+
+/* Letters, then marks. Where there are only marks they are letters. */
+static enum dyn_status glyphs_add(struct dyn_word *word, const struct dyn_word_def *def,
+                                  const struct font_layout *layout, struct dyn_place *places)
+{
+    enum dyn_status status = DYN_OK;
+    for (int marks = 0; marks < 2; marks++) {
+        bool stand = marks && word->letters_count;
+        for (int i = 0; status == DYN_OK && i < layout->glyphs_count; i++)
+            if (layout->glyphs[i].is_mark == marks)
+                status = glyph_add(word, def, &layout->glyphs[i], stand, places);
+    }
+    for (int i = word->letters_count; status == DYN_OK && i < dyn_glyphs(word); i++)
+        mark_put(word, places, i);
+    return status;
 }
 
 static enum dyn_status look(const struct dyn_word_def *def)
@@ -119,8 +189,8 @@ enum dyn_status dyn_letters_make(struct dyn_word *word, const struct dyn_word_de
     if (!*places || !array_reserve(&word->letters, &word->letters_capacity,
                                    layout.glyphs_count + 1, sizeof *word->letters))
         status = dyn_fail(DYN_NO_MEMORY, "no memory for %d letters", layout.glyphs_count);
-    for (int i = 0; status == DYN_OK && i < layout.glyphs_count; i++)
-        status = letter_add(word, def, &layout.glyphs[i], *places);
+    if (status == DYN_OK)
+        status = glyphs_add(word, def, &layout, *places);
     if (status == DYN_OK && !word->letters_count)
         status = dyn_fail(DYN_BAD_ARGUMENT, "nothing of '%.40s' has ink", def->text);
     font_layout_finish(&layout);

@@ -177,6 +177,7 @@ static enum dyn_status masses_make(struct dyn_word *word, struct dyn_network *n,
         }
     }
     word->range.masses_count = dyn_masses_count(n) - word->range.first_mass;
+    dyn_marks_stand(word);
     dyn_path_finish(&path);
     return status;
 }
@@ -211,6 +212,11 @@ enum dyn_status dyn_word_create(struct dyn_network *n, const struct dyn_word_def
 int dyn_word_letters_count(const struct dyn_word *word)
 {
     return word->letters_count;
+}
+
+int dyn_word_glyphs_count(const struct dyn_word *word)
+{
+    return dyn_glyphs(word);
 }
 
 const struct dyn_letter *dyn_word_letter(const struct dyn_word *word, int index)

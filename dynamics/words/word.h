@@ -8,14 +8,14 @@
  *     if (dyn_preset_apply("breakdown", &def.style, &world) != DYN_OK ||
  *         dyn_network_world_set(network, &world) != DYN_OK || dyn_word_create(network, &def, &word) != DYN_OK)
  *         die(dyn_error());
- *     for (int i = 0; i < dyn_word_letters_count(word); i++) {
+ *     for (int i = 0; i < dyn_word_glyphs_count(word); i++) {
  *         double corners[4][2];
  *         dyn_word_quad(word, network, i, corners);
  *         draw(dyn_word_letter(word, i), corners);
  *     }
  *     dyn_word_destroy(word);
  *
- * Text is shaped and broken into lines by fontpipe; each glyph that has ink is a letter: four
+ * Text is shaped and broken into lines by fontpipe; each glyph that has ink, and is no mark on another, is a letter: four
  * masses at its box's corners, springs along its sides and diagonals, and a pair of springs to
  * the next letter of its line. Lines hang from each other:
  *
@@ -116,7 +116,10 @@ struct dyn_letter {
     int line;
 };
 
+/* After the letters come the marks that stand on letters, accents and such: they have their letter's masses and its box, and
+ * are only drawn. glyphs: both together. */
 int dyn_word_letters_count(const struct dyn_word *word);
+int dyn_word_glyphs_count(const struct dyn_word *word);
 const struct dyn_letter *dyn_word_letter(const struct dyn_word *word, int index);
 
 /* The places of the letter's corners, in the order of its masses. */

@@ -7,22 +7,28 @@
 #include <internal.h>
 
 struct dyn_word {
-    struct dyn_letter *letters;
-    int letters_count, letters_capacity;
+    struct dyn_letter *letters; /* and then marks */
+    int letters_count, marks_count, letters_capacity;
     struct dyn_word_style style;
     struct dyn_word_range range;
     uint8_t *part; /* of each spring */
     int parts_capacity;
 };
 
-/* letters.c: makes the letters of the text, with their boxes, without masses. place: each
+static inline int dyn_glyphs(const struct dyn_word *word)
+{
+    return word->letters_count + word->marks_count;
+}
+
+/* letters.c: makes the letters of the text, with their boxes, without masses, and the marks. place: each
  * letter's origin, in units from the beginning of the first baseline, y upwards; the caller
- * frees it. */
+ * frees it. A mark's mass[0] is the number of its letter until dyn_marks_stand() gives it the letter's masses. */
 struct dyn_place {
     double x, y;
 };
 enum dyn_status dyn_letters_make(struct dyn_word *word, const struct dyn_word_def *def,
                                  struct dyn_place **places);
+void dyn_marks_stand(struct dyn_word *word);
 
 /* path.c: a point along a path: x from its beginning, y to its left. Errors: BAD_ARGUMENT: a
  * path without length, or a point that is not finite. */

@@ -15,7 +15,8 @@ static const double line_length = 10000;
 
 struct spring_scene_def spring_scene_def_default(void)
 {
-    return (struct spring_scene_def){.font = "DejaVuSans", .theme = "light", .at = {0, 2}};
+    return (struct spring_scene_def){
+        .font = "DejaVuSans", .theme = "light", .at = {0, NAN}, .view = {NAN, 0, 0, 0}};
 }
 
 static enum stage_status fail_dyn(enum dyn_status status)
@@ -67,26 +68,45 @@ static enum stage_status font_open(const struct spring_scene_def *def, struct sp
     return STAGE_OK;
 }
 
+/* How far the last baseline is below the first, in ems. */
+static double lines_height(const struct spring_scene_def *def, const struct spring_scene *scene)
+{
+    enum { PX = 100 };
+    struct font_text_options options = {.width_px = def->column * PX};
+    struct font_layout layout;
+    double height = 0;
+    if (font_shaper_layout(scene->shaper, def->text, strlen(def->text), PX, &options,
+                           &layout) == FONT_OK) {
+        if (layout.lines_count)
+            height = layout.lines[layout.lines_count - 1].y_px / PX;
+        font_layout_finish(&layout);
+    }
+    return height; /* where it fails, the word fails, too, and says why */
+}
+
 static enum stage_status word_put(const struct spring_scene_def *def,
                                   const struct spring_scene *scene,
                                   struct stage_springs_def *springs)
 {
-    double path[CIRCLE_POINTS][2] = {{def->at[0], def->at[1]}};
+    double x = def->at[0], y = def->at[1], path[CIRCLE_POINTS][2];
     struct dyn_word_def word = dyn_word_def_usual();
     struct dyn_world world = *dyn_network_world(springs->network);
+    if (isnan(y)) /* nothing begins below the floor */
+        y = 2 + (def->circle > 0 ? def->circle : lines_height(def, scene));
     word.text = def->text;
     word.shaper = scene->shaper;
-    word.x = def->at[0];
-    word.y = def->at[1];
+    word.x = x;
+    word.y = y;
     word.width = def->column;
     if (def->circle > 0) {
-        dyn_path_circle(def->at[0], def->at[1], def->circle, 90 + def->turn, path,
-                        CIRCLE_POINTS);
+        dyn_path_circle(x, y, def->circle, 90 + def->turn, path, CIRCLE_POINTS);
         word.path_count = CIRCLE_POINTS;
     } else if (def->turn != 0) {
         double angle = def->turn * M_PI / 180;
-        path[1][0] = def->at[0] + line_length * cos(angle);
-        path[1][1] = def->at[1] + line_length * sin(angle);
+        path[0][0] = x;
+        path[0][1] = y;
+        path[1][0] = x + line_length * cos(angle);
+        path[1][1] = y + line_length * sin(angle);
         word.path_count = 2;
     }
     word.path = word.path_count ? (const double(*)[2])path : NULL;
@@ -104,6 +124,17 @@ static enum stage_status word_put(const struct spring_scene_def *def,
 }
 
 /* ---- a scene ---- */
+
+/* A script of other masses than there are is refused before the first picture. */
+static enum stage_status script_read(const char *path, struct stage_springs_def *springs)
+{
+    enum dyn_status status = dyn_clamps_read(path, &springs->clamps);
+    if (status != DYN_OK)
+        return fail_dyn(status);
+    if (dyn_clamps_step(springs->clamps, springs->network, 1, 0) != DYN_OK)
+        return stage_fail(STAGE_BAD_FILE, "%s: %s", path, dyn_error());
+    return STAGE_OK;
+}
 
 static enum stage_status springs_make(const struct spring_scene_def *def,
                                       struct spring_scene *scene,
@@ -123,9 +154,7 @@ static enum stage_status springs_make(const struct spring_scene_def *def,
         if (made != STAGE_OK)
             return made;
     }
-    enum dyn_status status =
-        def->script ? dyn_clamps_read(def->script, &springs->clamps) : DYN_OK;
-    return status == DYN_OK ? STAGE_OK : fail_dyn(status);
+    return def->script ? script_read(def->script, springs) : STAGE_OK;
 }
 
 static enum stage_status sets_do(const struct spring_scene_def *def, struct stage *stage)
@@ -144,7 +173,9 @@ enum stage_status spring_scene_make(const struct spring_scene_def *def,
     struct stage_def stage = stage_def_default();
     *out = (struct spring_scene){0};
     stage.theme = def->theme;
-    springs.extent = (struct font_box){def->view[0], def->view[1], def->view[2], def->view[3]};
+    if (!isnan(def->view[0]))
+        springs.extent =
+            (struct font_box){def->view[0], def->view[1], def->view[2], def->view[3]};
     enum stage_status status = springs_make(def, out, &springs);
     if (status == STAGE_OK) {
         status = stage_springs_create(&springs, &stage.actor);

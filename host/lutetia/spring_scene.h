@@ -25,13 +25,14 @@ struct spring_scene_def {
     const char *const *
         sets; /* NAME=VALUE: controls of the stage, the word's style, the world; after the preset */
     int sets_count;
-    double at[2];  /* where the baseline begins, in ems; the floor is at 0 */
+    double at
+        [2]; /* where the baseline begins, in ems; the floor is at 0; at[1] is NaN: as high as the text needs */
     double turn;   /* degrees, to the left, round there */
     double column; /* lines are broken for so many ems; 0: only where the text has line ends */
     double
         circle; /* the baseline goes round a circle of that radius, over the place; 0: it is straight */
     double view
-        [4]; /* x0, y0, x1, y1: the part of the world that is seen; zeros: around what there is */
+        [4]; /* x0, y0, x1, y1: the part of the world that is seen; x0 is NaN: around what there is */
 };
 struct spring_scene_def spring_scene_def_default(void);
 

@@ -66,6 +66,8 @@ static int spring_check(struct spring *s, const struct option_words *words)
         return fail_usage("spring", "a session says what is done: --replay has no --map");
     if (!s->live_options.map && (s->song_path || s->live_options.server))
         return fail_usage("spring", "what is played goes through a --map FILE.lua");
+    if (!s->live_options.map && s->live_options.params.count)
+        return fail_usage("spring", "--param is for a --map FILE.lua");
     if (s->live_options.map && !s->song_path && (s->film.still || s->film.video || s->frames))
         return fail_usage("spring", "a film through a --map is of a --song FILE.mid");
     if (s->is_wet && !s->film.still && !s->film.video && !s->frames)
@@ -73,7 +75,7 @@ static int spring_check(struct spring *s, const struct option_words *words)
     if (s->sound_path && !s->film.still && !s->film.video && !s->frames)
         return fail_usage("spring", "--sound goes with --video, --frames or --still");
     const double *v = s->scene.view;
-    if ((v[0] != 0 || v[1] != 0 || v[2] != 0 || v[3] != 0) && !(v[2] > v[0] && v[3] > v[1]))
+    if (!isnan(v[0]) && !(v[2] > v[0] && v[3] > v[1]))
         return fail_usage("spring", "--view must be X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1");
     if (words->count)
         s->scene.text = words->words[0];

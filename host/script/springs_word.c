@@ -275,7 +275,7 @@ static void letters_go(lua_State *L, struct script_network *s, const struct view
                        struct font_box *box, struct script_mask *mask)
 {
     for (int i = 0; i < s->words_count; i++)
-        for (int k = 0; k < dyn_word_letters_count(s->words[i]); k++) {
+        for (int k = 0; k < dyn_word_glyphs_count(s->words[i]); k++) {
             const struct font_gray *gray;
             script_check(L);
             if (!letter_draw(L, s, s->words[i], k, view, &gray))

@@ -283,7 +283,7 @@ static struct stage_springs_letter letter_of(const struct dyn_letter *l)
 
 static enum stage_status letters_make(struct springs *s, const struct stage_springs_def *def)
 {
-    int own = def->letters_count, of_word = s->word ? dyn_word_letters_count(s->word) : 0;
+    int own = def->letters_count, of_word = s->word ? dyn_word_glyphs_count(s->word) : 0;
     for (int i = 0; i < own; i++)
         for (int k = 0; k < 4; k++)
             if (def->letters[i].masses[k] < 0 ||

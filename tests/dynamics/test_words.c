@@ -100,6 +100,53 @@ static void letters_have_their_advances_and_kerning(void **state)
     dyn_network_destroy(n);
 }
 
+/* Accents have their letter's masses, no springs, and are where the text has them: from left to right, from right to left, and
+ * alone. */
+static void marks_stand_on_their_letters(void **state)
+{
+    const struct fixture *f = *state;
+    static const struct {
+        const char *text;
+        int letters, marks;
+    } cases[] = {{"ag\xcc\x88x\xcc\x82\xcc\x84z", 4,
+                  3}, /* a, g and diaeresis, x, circumflex, macron, z */
+                 {"\xd7\x91\xd6\xb8\xd7\x9d", 2, 1}, /* bet and qamats, final mem */
+                 {"\xcc\x88", 1, 0}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        struct dyn_word_def def = def_of(f, cases[k].text);
+        struct dyn_network *n;
+        struct dyn_word *word = word_make(&n, &def);
+        struct font_layout layout;
+        assert_int_equal(
+            font_shaper_layout(f->shaper, def.text, strlen(def.text), 100, NULL, &layout),
+            FONT_OK);
+        int letters = dyn_word_letters_count(word), found = 0;
+        assert_int_equal(letters, cases[k].letters);
+        assert_int_equal(dyn_word_glyphs_count(word), letters + cases[k].marks);
+        assert_int_equal(dyn_masses_count(n), 4 * letters);
+        assert_int_equal(dyn_springs_count(n), 6 * letters + 2 * (letters - 1));
+        for (int i = letters; i < dyn_word_glyphs_count(word); i++) {
+            const struct dyn_letter *mark = dyn_word_letter(word, i), *letter = NULL;
+            for (int j = 0; j < letters; j++)
+                if (dyn_word_letter(word, j)->cluster == mark->cluster)
+                    letter = dyn_word_letter(word, j);
+            assert_non_null(letter);
+            assert_memory_equal(mark->mass, letter->mass, sizeof mark->mass);
+            for (int g = 0; g < layout.glyphs_count; g++)
+                if (layout.glyphs[g].glyph == mark->glyph) {
+                    const struct dyn_state *corner = &dyn_network_states(n)[mark->mass[0]];
+                    assert_near(corner->x - mark->x0, layout.glyphs[g].x_px / 100, 1e-9);
+                    assert_near(corner->y - mark->y0, -layout.glyphs[g].y_px / 100, 1e-9);
+                    found++;
+                }
+        }
+        assert_int_equal(found, cases[k].marks);
+        font_layout_finish(&layout);
+        dyn_word_destroy(word);
+        dyn_network_destroy(n);
+    }
+}
+
 static void boxes_are_the_capital_ms_or_the_inks(void **state)
 {
     const struct fixture *f = *state;
@@ -524,6 +571,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(letters_have_their_advances_and_kerning),
+        cmocka_unit_test(marks_stand_on_their_letters),
         cmocka_unit_test(boxes_are_the_capital_ms_or_the_inks),
         cmocka_unit_test(paragraph_is_boxes_links_and_what_lines_hang_from),
         cmocka_unit_test(word_goes_round_a_circle),
