@@ -156,10 +156,11 @@ static void float_copy(size_t to_bytes, unsigned char *to, size_t from_bytes,
     }
 }
 
-/* Whether both sides have the same bits; else unused bits must be cleared or filled. */
+/* Whether both sides have the same bits; else they must be filled. Bits that a processor's number does not use are 0, and what goes
+ * to processors is cut to its width by the machine. */
 static bool elements_same(struct element to, struct element from)
 {
-    return to.bytes == from.bytes && (to.letter == 'f' || to.width == from.width);
+    return to.bytes == from.bytes && (to.letter != 's' || to.width == from.width);
 }
 
 /* Copies `count` elements; steps in bytes. */
@@ -227,6 +228,7 @@ struct transfer {
     struct walk walk;
     uint64_t processors_count;
     bool direct; /* the block is all processors in their order, element by element */
+    bool rows;   /* it is a part of them, rows of the last axis in their order */
     unsigned char *processors;
 };
 
@@ -238,6 +240,21 @@ static bool is_direct(const struct transfer *t)
     for (unsigned int j = w->rank; same && j-- > 0; step *= w->extent[j])
         same = w->array_step[j] == step && w->processor_step[j] == step;
     return same;
+}
+
+static bool is_rows(const struct transfer *t, const struct paris_geometry *g,
+                    struct paris_block block)
+{
+    const struct walk *w = &t->walk;
+    return elements_same(t->processor, t->array) && g->rank == 2 && w->rank == 2 &&
+           block.axis[0] == 0 && w->array_step[1] == 1;
+}
+
+static struct machine_block block_rows(const struct walk *w)
+{
+    const uint64_t width = w->processor_step[0];
+    return (struct machine_block){w->processor_first / width, w->extent[0],
+                                  (int)(w->processor_first % width), (int)w->extent[1]};
 }
 
 /* Checks all and allocates, unless it is direct, the dense array of the processors' elements. */
@@ -267,7 +284,8 @@ static bool transfer_begin(struct transfer *t, const struct paris_instruction *s
     t->processors_count = g->count;
     t->processors = NULL;
     t->direct = is_direct(t);
-    if (t->direct)
+    t->rows = !t->direct && is_rows(t, g, block);
+    if (t->direct || t->rows)
         return true;
     t->processors = malloc(g->count * t->processor.bytes);
     if (!t->processors)
@@ -292,6 +310,13 @@ void paris_array_write(const struct paris_instruction *self, const void *array,
                                  source.bytes + t.walk.array_first * t.array.bytes) !=
             MACHINE_OK)
             paris_fail_machine();
+    } else if (t.rows) {
+        const struct machine_block of = block_rows(&t.walk);
+        if (t.walk.count &&
+            machine_block_upload(t.m, dest.field, t.type, &of,
+                                 source.bytes + t.walk.array_first * t.array.bytes,
+                                 t.walk.array_step[0] * t.array.bytes) != MACHINE_OK)
+            paris_fail_machine();
     } else if (!all &&
                machine_field_download(t.m, dest.field, t.type, t.processors) != MACHINE_OK) {
         paris_fail_machine();
@@ -309,6 +334,15 @@ void paris_array_read(const struct paris_instruction *self, void *array,
     struct transfer t;
     if (!transfer_begin(&t, self, array, block, source, "source"))
         return;
+    if (t.rows) {
+        const struct machine_block of = block_rows(&t.walk);
+        if (t.walk.count &&
+            machine_block_download(t.m, source.field, t.type, &of,
+                                   (unsigned char *)array + t.walk.array_first * t.array.bytes,
+                                   t.walk.array_step[0] * t.array.bytes) != MACHINE_OK)
+            paris_fail_machine();
+        return;
+    }
     unsigned char *to =
         t.direct ? (unsigned char *)array + t.walk.array_first * t.array.bytes : t.processors;
     if (machine_field_download(t.m, source.field, t.type, to) != MACHINE_OK)

@@ -573,6 +573,20 @@ enum machine_status machine_field_download(struct machine *m, uint32_t field,
                                            struct machine_type type, void *out);
 enum machine_status machine_field_upload(struct machine *m, uint32_t field,
                                          struct machine_type type, const void *in);
+/* A block of them: rows (all axes but the last together) and columns (the last one). The front end's rows lie `pitch` bytes apart.
+ * Likewise otherwise; only the block is touched where the device's memory is the front end's. */
+struct machine_block {
+    uint64_t row, rows;
+    int column, columns;
+};
+enum machine_status machine_block_download(struct machine *m, uint32_t field,
+                                           struct machine_type type,
+                                           const struct machine_block *of, void *out,
+                                           size_t pitch);
+enum machine_status machine_block_upload(struct machine *m, uint32_t field,
+                                         struct machine_type type,
+                                         const struct machine_block *of, const void *in,
+                                         size_t pitch);
 /* One processor, by row-major index; writing ignores the context. */
 enum machine_status machine_field_read(struct machine *m, uint32_t field,
                                        struct machine_type type, uint64_t index,

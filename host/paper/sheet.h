@@ -223,6 +223,12 @@ enum paper_status paper_sheet_air(struct paper_sheet *sheet, const struct paper_
 const struct paper_air *paper_sheet_get_air(const struct paper_sheet *sheet);
 enum paper_status paper_sheet_step(struct paper_sheet *sheet);
 enum paper_status paper_sheet_finish(struct paper_sheet *sheet);
+/* Where water flows, steps are computed only in boxes around what can change, if they take less than half of the sheet. The bits are
+ * the same. Their sides are a few multiples of `unit` fibers, 4..4096: 64 unless told; 0: there are none. No event: it is not
+ * recorded. Errors: BAD_ARGUMENT, MACHINE_FAILED. */
+enum paper_status paper_sheet_confine(struct paper_sheet *sheet, int unit);
+/* The part of the sheet that the last step computed: 1 without boxes. */
+double paper_sheet_share(const struct paper_sheet *sheet);
 /* The number of steps that the sheet has gone through; during a stroke, those of the stroke so far, too. */
 long paper_sheet_now(const struct paper_sheet *sheet);
 

@@ -104,3 +104,41 @@ void kit_grid_u_read(const struct kit_grid *g, void *numbers, CM_field_id_t a, u
     int size[2] = {g->height, g->width};
     CM_u_read_from_news_array_1L(numbers, zeros, zeros, size, axes, a, bits, 2, size, type);
 }
+
+/* ---- parts of fields ---- */
+
+struct vectors {
+    int offset[2], start[2], end[2], size[2];
+};
+
+static struct vectors vectors_of(const struct kit_block *b)
+{
+    return (struct vectors){{b->row, b->column},
+                            {b->y1, b->x1},
+                            {b->y1 + b->height, b->x1 + b->width},
+                            {b->array_height, b->array_width}};
+}
+
+void kit_grid_block_write(const struct kit_block *block, CM_field_id_t d, unsigned bits,
+                          const void *array)
+{
+    struct vectors v = vectors_of(block);
+    if (bits == 0)
+        CM_f_write_to_news_array_1L(array, v.offset, v.start, v.end, axes, d, KIT_F, 2, v.size,
+                                    CM_float_single);
+    else
+        CM_u_write_to_news_array_1L(array, v.offset, v.start, v.end, axes, d, bits, 2, v.size,
+                                    CM_32_bit);
+}
+
+void kit_grid_block_read(const struct kit_block *block, void *array, CM_field_id_t a,
+                         unsigned bits)
+{
+    struct vectors v = vectors_of(block);
+    if (bits == 0)
+        CM_f_read_from_news_array_1L(array, v.offset, v.start, v.end, axes, a, KIT_F, 2, v.size,
+                                     CM_float_single);
+    else
+        CM_u_read_from_news_array_1L(array, v.offset, v.start, v.end, axes, a, bits, 2, v.size,
+                                     CM_32_bit);
+}

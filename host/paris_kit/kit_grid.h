@@ -46,4 +46,15 @@ void kit_grid_u_write(const struct kit_grid *g, CM_field_id_t d, unsigned bits,
 void kit_grid_u_read(const struct kit_grid *g, void *numbers, CM_field_id_t a, unsigned bits,
                      unsigned type);
 
+/* A part of a field: processors x1 <= x < x1 + width and so on; they lie in the front end's rows from column `column` and row `row` on.
+ * As above otherwise; bits = 0: single floats. */
+struct kit_block {
+    int x1, y1, width, height;
+    int column, row, array_width, array_height;
+};
+void kit_grid_block_write(const struct kit_block *block, CM_field_id_t d, unsigned bits,
+                          const void *array);
+void kit_grid_block_read(const struct kit_block *block, void *array, CM_field_id_t a,
+                         unsigned bits);
+
 #endif

@@ -212,6 +212,60 @@ static void arrays_of_floats_move(void **unused)
     CM_deallocate_stack_through(f);
 }
 
+/* Of rows with halos, in a set of its own: a copy that shares the field's memory stays as it is, and neighbours are found round the
+ * edge. */
+static void blocks_spare_copies_and_reach_halos(void **unused)
+{
+    (void)unused;
+    enum { HIGH = 7, WIDE = 70, ALL = HIGH * WIDE };
+    int sides[2] = {HIGH, WIDE}, zeros[2] = {0, 0}, axes[2] = {0, 1};
+    const CM_vp_set_id_t before = CM_current_vp_set;
+    CM_vp_set_id_t set = CM_allocate_vp_set(CM_create_geometry(sides, 2));
+    CM_set_vp_set(set);
+    CM_set_context();
+    CM_field_id_t f = CM_allocate_heap_field(32), copy = CM_allocate_heap_field(32),
+                  next = CM_allocate_heap_field(32);
+    static float in[ALL], expected[ALL], out[ALL];
+    for (int i = 0; i < ALL; i++)
+        expected[i] = (float)i;
+    CM_f_write_to_news_array_1L(expected, zeros, zeros, sides, axes, f, 23, 8, 2, sides,
+                                CM_float_single);
+    for (int turn = 0; turn < 40; turn++) {
+        int from[2], to[2], size[2];
+        for (int j = 0; j < 2; j++) {
+            from[j] = (int)(device_random() % (unsigned)sides[j]);
+            to[j] = from[j] + 1 + (int)(device_random() % (unsigned)(sides[j] - from[j]));
+            size[j] = to[j] - from[j];
+        }
+        for (int i = 0; i < size[0] * size[1]; i++)
+            in[i] = (float)(1000 * turn + i);
+        if (turn % 2)
+            CM_f_move_1L(copy, f, 23, 8);
+        CM_f_write_to_news_array_1L(in, zeros, from, to, axes, f, 23, 8, 2, size,
+                                    CM_float_single);
+        if (turn % 2) {
+            CM_f_read_from_news_array_1L(out, zeros, zeros, sides, axes, copy, 23, 8, 2, sides,
+                                         CM_float_single);
+            assert_memory_equal(out, expected, sizeof out);
+        }
+        for (int i = 0; i < size[0] * size[1]; i++)
+            expected[(from[0] + i / size[1]) * WIDE + from[1] + i % size[1]] = in[i];
+        CM_get_from_news_1L(next, f, 1, turn % 3 ? CM_upward : CM_downward, 32);
+        CM_f_read_from_news_array_1L(out, zeros, zeros, sides, axes, next, 23, 8, 2, sides,
+                                     CM_float_single);
+        for (int i = 0; i < ALL; i++)
+            assert_true(
+                out[i] ==
+                expected[i / WIDE * WIDE + (i % WIDE + (turn % 3 ? 1 : WIDE - 1)) % WIDE]);
+        CM_f_read_from_news_array_1L(in, zeros, from, to, axes, f, 23, 8, 2, size,
+                                     CM_float_single);
+        for (int i = 0; i < size[0] * size[1]; i++)
+            assert_true(in[i] == (float)(1000 * turn + i));
+    }
+    CM_set_vp_set(before);
+    CM_deallocate_vp_set(set);
+}
+
 /* ---- reductions ---- */
 
 static void integer_reductions(int width, int which)
@@ -506,6 +560,7 @@ int main(void)
         cmocka_unit_test(processors_are_read_and_written),
         cmocka_unit_test(arrays_of_integers_move),
         cmocka_unit_test(arrays_of_floats_move),
+        cmocka_unit_test(blocks_spare_copies_and_reach_halos),
         cmocka_unit_test(reductions_of_integers_are_the_oracles),
         cmocka_unit_test(reductions_of_floats_are_the_oracles),
         cmocka_unit_test(long_fields_go_in_pieces),

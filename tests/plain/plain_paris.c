@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FIELDS_MAX = 1024, SETS_MAX = 64, GEOMETRIES_MAX = 64 };
+enum { FIELDS_MAX = 4096, SETS_MAX = 64, GEOMETRIES_MAX = 64 };
 
 struct set {
     bool used;
@@ -482,19 +482,31 @@ void CM_u_random_1L(CM_field_id_t dest, unsigned int len, unsigned long limit)
          words(dest)[i] = (uint32_t)((z ^ (z >> 31)) >> (64 - len)));
 }
 
-/* ---- the front end's arrays: the whole grid, rows from the top ---- */
+/* ---- the front end's arrays: rows from the top ---- */
 
 static int bytes_of(unsigned int format)
 {
     return format == CM_8_bit ? 1 : format == CM_16_bit ? 2 : format == CM_float_double ? 8 : 4;
 }
 
-/* Checks that the array covers the whole grid or its first rows; nothing else is implemented. */
-static void array_check(CM_vector_t start, CM_vector_t end, CM_vector_t axes)
+/* Of a block of processors: where its rows are in the array, and their words in the field. Only axes in their order. */
+struct block {
+    size_t rows, columns, array_width, array_at, field_at;
+};
+
+static struct block block_of(CM_vector_t offset, CM_vector_t start, CM_vector_t end,
+                             CM_vector_t axes, CM_vector_t dimensions)
 {
-    if (start.ints[0] != 0 || start.ints[1] != 0 || end.ints[0] > the()->height ||
-        end.ints[1] != the()->width || axes.ints[0] != 0 || axes.ints[1] != 1 || !the()->all)
+    int rows = end.ints[0] - start.ints[0], columns = end.ints[1] - start.ints[1];
+    if (start.ints[0] < 0 || start.ints[1] < 0 || rows < 0 || columns < 0 ||
+        end.ints[0] > the()->height || end.ints[1] > the()->width || axes.ints[0] != 0 ||
+        axes.ints[1] != 1 || offset.ints[0] < 0 || offset.ints[1] < 0 ||
+        offset.ints[0] + rows > dimensions.ints[0] ||
+        offset.ints[1] + columns > dimensions.ints[1])
         abort();
+    return (struct block){(size_t)rows, (size_t)columns, (size_t)dimensions.ints[1],
+                          (size_t)(offset.ints[0] * dimensions.ints[1] + offset.ints[1]),
+                          (size_t)(start.ints[0] * the()->width + start.ints[1])};
 }
 
 void CM_u_write_to_news_array_1L(const void *array, CM_vector_t offset, CM_vector_t start,
@@ -502,15 +514,19 @@ void CM_u_write_to_news_array_1L(const void *array, CM_vector_t offset, CM_vecto
                                  unsigned int len, unsigned int rank, CM_vector_t dimensions,
                                  unsigned int format)
 {
-    (void)offset, (void)len, (void)rank, (void)dimensions;
-    array_check(start, end, axes);
-    size_t count = (size_t)end.ints[0] * (size_t)end.ints[1], bytes = (size_t)bytes_of(format);
-    if (bytes >= 4)
-        memcpy(fields[dest].words, array, count * bytes);
-    for (size_t i = 0; i < count && bytes < 4; i++) {
-        uint32_t x = 0;
-        memcpy(&x, (const char *)array + i * bytes, bytes);
-        words(dest)[i] = x;
+    (void)len, (void)rank;
+    const struct block b = block_of(offset, start, end, axes, dimensions);
+    const size_t bytes = (size_t)bytes_of(format);
+    for (size_t row = 0; row < b.rows; row++) {
+        const char *from = (const char *)array + (b.array_at + row * b.array_width) * bytes;
+        const size_t to = b.field_at + row * (size_t)the()->width;
+        if (bytes >= 4)
+            memcpy((char *)fields[dest].words + to * bytes, from, b.columns * bytes);
+        for (size_t i = 0; i < b.columns && bytes < 4; i++) {
+            uint32_t x = 0;
+            memcpy(&x, from + i * bytes, bytes);
+            words(dest)[to + i] = x;
+        }
     }
 }
 
@@ -519,13 +535,17 @@ void CM_u_read_from_news_array_1L(void *array, CM_vector_t offset, CM_vector_t s
                                   unsigned int len, unsigned int rank, CM_vector_t dimensions,
                                   unsigned int format)
 {
-    (void)offset, (void)len, (void)rank, (void)dimensions;
-    array_check(start, end, axes);
-    size_t count = (size_t)end.ints[0] * (size_t)end.ints[1], bytes = (size_t)bytes_of(format);
-    if (bytes >= 4)
-        memcpy(array, fields[source].words, count * bytes);
-    for (size_t i = 0; i < count && bytes < 4; i++)
-        memcpy((char *)array + i * bytes, &words(source)[i], bytes);
+    (void)len, (void)rank;
+    const struct block b = block_of(offset, start, end, axes, dimensions);
+    const size_t bytes = (size_t)bytes_of(format);
+    for (size_t row = 0; row < b.rows; row++) {
+        char *to = (char *)array + (b.array_at + row * b.array_width) * bytes;
+        const size_t from = b.field_at + row * (size_t)the()->width;
+        if (bytes >= 4)
+            memcpy(to, (const char *)fields[source].words + from * bytes, b.columns * bytes);
+        for (size_t i = 0; i < b.columns && bytes < 4; i++)
+            memcpy(to + i * bytes, &words(source)[from + i], bytes);
+    }
 }
 
 void CM_f_write_to_news_array_1L(const void *array, CM_vector_t offset, CM_vector_t start,

@@ -8,137 +8,14 @@
 #include <paper.h>
 #include <sheet.h>
 
-#include "../sample.h"
+#include "sheet_chance.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { SIDE = 16, SIDE_LEAST = 8, PIGMENTS = 3, STEPS = 5 };
-
-static uint64_t chance;
-static uint64_t set_seed;
-
-static int below(int n)
-{
-    return (int)(sample_word(&chance) % (uint64_t)n);
-}
-
-static double within(double low, double high)
-{
-    uint64_t word = sample_word(&chance);
-    switch (word % 6) {
-    case 0:
-        return low;
-    case 1:
-        return high;
-    case 2: /* orders of magnitude near the low end */
-        return low + (high - low) * ldexp(1, -(int)(word >> 8 & 31));
-    default:
-        return low + (high - low) * (double)(word >> 11) * 0x1p-53;
-    }
-}
-
-__attribute__((noreturn, format(printf, 1, 2))) static void wrong(const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    fprintf(stderr, "set %llu: ", (unsigned long long)set_seed);
-    vfprintf(stderr, format, arguments);
-    fputc('\n', stderr);
-    va_end(arguments);
-    exit(1);
-}
-
-static void check(enum paper_status status)
-{
-    if (status != PAPER_OK)
-        wrong("status %d: %s", (int)status, paper_error());
-}
-
-static struct paper_pigment pigment_by_chance(void)
-{
-    struct paper_pigment pigment = *paper_pigment_number(below(15));
-    if (below(2))
-        return pigment;
-    for (int i = 0; i < 2; i++)
-        pigment.weight[i] = within(0, 1);
-    pigment.density = within(0, 1);
-    pigment.staining = within(0.5, 100);
-    pigment.granulation = within(0, 1);
-    for (int i = 0; i < 3; i++) {
-        pigment.k[i] = within(0, 100);
-        pigment.s[i] = within(0, 100);
-        pigment.takes[i] = within(-1, 1);
-    }
-    return pigment;
-}
-
-static struct paper_sheet_config config_by_chance(void)
-{
-    struct paper_sheet_config config = paper_sheet_config_default();
-    config.width = SIDE_LEAST + below(SIDE - SIDE_LEAST + 1);
-    config.height = SIDE_LEAST + below(SIDE - SIDE_LEAST + 1);
-    config.torus = below(2);
-    config.parts = (unsigned)(below(3) ? 15 : below(16));
-    config.model = 1 + below(PAPER_MODEL_VERSION);
-    config.rule = (enum paper_rule)below(3);
-    config.seed = sample_word(&chance);
-    config.stock = *paper_stock_number(below(5));
-    if (below(2)) {
-        struct paper_stock *stock = &config.stock;
-        stock->color_variation = within(0, 1);
-        stock->absorbency = within(0, PAPER_ABSORBENCY_MAX);
-        stock->absorbency_variation = within(0, 1);
-        for (int i = 0; i < 2; i++) {
-            stock->absorbency_along[i] = within(0, 1);
-            stock->capacity[i] = within(0.01, 1);
-            stock->fiber_length[i] = (int)within(1, 64);
-        }
-        stock->roughness = within(0, 1);
-        stock->grain_px = within(1, 64);
-    }
-    config.pigments_count = below(PIGMENTS + 1);
-    for (int i = 0; i < config.pigments_count; i++)
-        config.pigments[i] = pigment_by_chance();
-    return config;
-}
-
-static struct paper_air air_by_chance(void)
-{
-    struct paper_air air = paper_air_default();
-    for (int i = 0; i < 2; i++) {
-        air.gravity[i] = within(-1, 1);
-        air.seep[i] = within(-1, 1);
-    }
-    air.spread = within(0, 1);
-    air.tension = below(2) ? 0 : within(0, 0.1);
-    air.relief = within(0, 1);
-    air.film = within(0.001, 1);
-    air.pinning = within(0, 2);
-    air.damp = within(0, 1);
-    air.absorption = within(0, 4);
-    air.carry = within(0, 1);
-    air.humidity = within(0, 1);
-    air.edge = within(0, 200);
-    air.edge_width = within(1, 32);
-    air.settling = within(0, 10);
-    air.thesis.gravity_x = within(0.5, 2);
-    air.thesis.gravity_y = within(0.5, 2);
-    air.thesis.humidity = within(0, 1);
-    return air;
-}
-
-static struct paper_screen screen_by_chance(uint8_t *gray)
-{
-    struct paper_screen screen = {
-        .width_px = 1 + below(SIDE), .height_px = 1 + below(SIDE), .gray = gray};
-    for (int i = 0; i < screen.width_px * screen.height_px; i++)
-        gray[i] = (uint8_t)within(0, 255);
-    return screen;
-}
+enum { SIDE = 16, SIDE_LEAST = 8, PIGMENTS = CHANCE_PIGMENTS, STEPS = 5 };
 
 /* The sheet's totals: water, with what has dried, and each pigment. */
 static void totals_get(struct paper_sheet *sheet, int count, double *totals)
@@ -204,7 +81,7 @@ static void apply_by_chance(struct paper_sheet *sheet)
     static float values[SIDE * SIDE];
     const struct paper_sheet_config *config = paper_sheet_get_config(sheet);
     double amount[1 + PIGMENTS];
-    struct paper_screen screen = screen_by_chance(gray);
+    struct paper_screen screen = screen_by_chance(gray, SIDE);
     for (int i = 0; i <= config->pigments_count; i++)
         amount[i] = below(4) ? within(0, 4) : within(-4, 4);
     int x = below(SIDE + 8) - 8, y = below(SIDE + 8) - 8;
@@ -238,9 +115,8 @@ static void apply_by_chance(struct paper_sheet *sheet)
 static void set_look(uint64_t seed)
 {
     static uint16_t rgb[3 * SIDE * SIDE];
-    set_seed = seed;
-    chance = seed * 0x2545f4914f6cdd1d;
-    struct paper_sheet_config config = config_by_chance();
+    chance_begin(seed);
+    struct paper_sheet_config config = config_by_chance(SIDE_LEAST, SIDE);
     struct paper_sheet *sheet;
     double totals[1 + PIGMENTS];
     check(paper_sheet_create(&config, &sheet));

@@ -15,6 +15,7 @@
 #include "memory/memory.h"
 #include "ops/gather.h"
 #include "ops/near.h"
+#include "ops/observe.h"
 #include "run/materialise.h"
 #include "run/notes.h"
 #include "values/graph.h"
@@ -24,8 +25,8 @@ enum {
     REDUCE_RUN = 4096
 }; /* columns; fixes the order of float addition, see machine_reduce() */
 
-static struct field *part(struct machine *m, uint32_t id, struct machine_type type,
-                          uint32_t *offset)
+struct field *observe_field(struct machine *m, uint32_t id, struct machine_type type,
+                            uint32_t *offset)
 {
     settle(m);
     int bits = machine_type_bits(type);
@@ -48,7 +49,7 @@ enum machine_status machine_field_download(struct machine *m, uint32_t field,
                                            struct machine_type type, void *out)
 {
     uint32_t offset;
-    struct field *f = part(m, field, type, &offset);
+    struct field *f = observe_field(m, field, type, &offset);
     struct machine_value *v =
         f ? machine_field_value(m, field, type, MACHINE_EVERYWHERE) : NULL;
     if (!v)
@@ -95,9 +96,11 @@ static bool is_masked(struct machine_type type)
     return type.kind != MACHINE_FLOAT && (size_t)type.width != 8 * type_bytes(type);
 }
 
-static void mask_elements(unsigned char *data, uint64_t count, struct machine_type type)
+void observe_mask(unsigned char *data, uint64_t count, struct machine_type type)
 {
     size_t element = type_bytes(type);
+    if (!is_masked(type))
+        return;
     for (uint64_t i = 0; i < count; i++) {
         struct machine_scalar x = {0, 0};
         unsigned char *at = data + i * element;
@@ -112,7 +115,7 @@ enum machine_status machine_field_upload(struct machine *m, uint32_t field,
                                          struct machine_type type, const void *in)
 {
     uint32_t offset;
-    struct field *f = part(m, field, type, &offset);
+    struct field *f = observe_field(m, field, type, &offset);
     if (!f)
         return m->status;
     uint64_t count = m->values->sets[f->vpset].count;
@@ -123,7 +126,7 @@ enum machine_status machine_field_upload(struct machine *m, uint32_t field,
                             "not enough memory to write a field of %zu bytes", bytes);
     if (masked) {
         memcpy(masked, in, bytes);
-        mask_elements(masked, count, type);
+        observe_mask(masked, count, type);
     }
     struct machine_value *v = materialise_upload(m, f->vpset, type, masked ? masked : in);
     free(masked);
@@ -135,7 +138,7 @@ enum machine_status machine_field_read(struct machine *m, uint32_t field,
                                        struct machine_scalar *out)
 {
     uint32_t offset;
-    struct field *f = part(m, field, type, &offset);
+    struct field *f = observe_field(m, field, type, &offset);
     if (!f)
         return m->status;
     if (index >= m->values->sets[f->vpset].count)
@@ -174,6 +177,16 @@ static struct machine_value *own_copy(struct machine *m, int set, struct machine
     return graph_buffer_node(m, v->type, set, b);
 }
 
+struct machine_value *observe_own(struct machine *m, const struct field *f, uint32_t offset,
+                                  struct machine_value *v)
+{
+    /* the slot's reference, and those of this call */
+    return v->op != NODE_BUFFER || v->refs > gather_borrowed(m, v) + 1 ||
+                   !field_holds(f, offset, v)
+               ? own_copy(m, f->vpset, v)
+               : v;
+}
+
 enum machine_status machine_field_write(struct machine *m, uint32_t field,
                                         struct machine_type type, uint64_t index,
                                         struct machine_scalar value)
@@ -183,7 +196,7 @@ enum machine_status machine_field_write(struct machine *m, uint32_t field,
         value = (struct machine_scalar){type_packed_bits(value.lo, type), 0};
         type = MACHINE_UINT(machine_type_bits(type));
     }
-    struct field *f = part(m, field, type, &offset);
+    struct field *f = observe_field(m, field, type, &offset);
     if (!f)
         return m->status;
     const struct vpset *s = &m->values->sets[f->vpset];
@@ -198,12 +211,8 @@ enum machine_status machine_field_write(struct machine *m, uint32_t field,
     v = v ? materialise(m, f->vpset, v) : NULL;
     if (!v)
         return m->status;
-    /* The buffer may be written in place if only this part of the field refers to it: the
-     * slot's reference, and those of this call. */
     bool strange = v->strange_nan || materialise_has_strange_nan(type, &value.lo, 1);
-    if (v->op != NODE_BUFFER || v->refs > gather_borrowed(m, v) + 1 ||
-        !field_holds(f, offset, v))
-        v = own_copy(m, f->vpset, v);
+    v = observe_own(m, f, offset, v);
     if (!v)
         return m->status;
     v->strange_nan = strange;

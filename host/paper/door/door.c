@@ -39,6 +39,16 @@ enum paper_status paper_sheet_step(struct paper_sheet *p)
     return sheet_event(p, SHEET_EVENT_STEP, NULL);
 }
 
+enum paper_status paper_sheet_confine(struct paper_sheet *p, int unit)
+{
+    return sheet_confine(p, unit);
+}
+
+double paper_sheet_share(const struct paper_sheet *p)
+{
+    return sheet_share(p);
+}
+
 enum paper_status paper_sheet_finish(struct paper_sheet *p)
 {
     return sheet_finish(p);

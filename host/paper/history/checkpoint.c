@@ -179,7 +179,7 @@ void checkpoint_reached(struct sheet_history *h, const struct checkpoint *point)
 
 enum paper_status checkpoint_restore(struct paper_sheet *p, const struct checkpoint *point)
 {
-    paper_enter(&p->page);
+    sheet_change_all(p);
     for (int i = 0; i < point->planes_count; i++)
         sheet_plane_write(p, i, point->planes[i]->words);
     sheet_planes_written(p);
@@ -208,14 +208,14 @@ enum paper_status planes_load(struct paper_sheet *p, paper_plane_source source, 
             status = sheet_plane_check(p, i, words);
         if (status != PAPER_OK)
             break;
-        paper_enter(&p->page);
+        sheet_change_all(p);
         sheet_plane_write(p, i, words);
         status = paper_leave(&p->page);
     }
     free(words);
     if (status != PAPER_OK)
         return status;
-    paper_enter(&p->page);
+    sheet_change_all(p);
     sheet_planes_written(p);
     return paper_leave(&p->page);
 }

@@ -21,7 +21,7 @@ enum paper_status sheet_put(struct paper_sheet *p, const void *arguments)
 {
     const struct event_put *put = arguments;
     const double *amount = put->amount;
-    paper_enter(&p->page);
+    sheet_change(p);
     CM_set_context();
     CM_field_id_t share = p->t[1], part = p->t[2];
     enum paper_status status = sheet_share_make(p, &put->place, share);
@@ -57,7 +57,7 @@ enum paper_status sheet_blot(struct paper_sheet *p, const void *arguments)
 {
     const struct event_blot *blot = arguments;
     double part = blot->part, lift = blot->lift;
-    paper_enter(&p->page);
+    sheet_change(p);
     CM_set_context();
     CM_field_id_t share = p->t[1], lost = p->t[2];
     enum paper_status status = sheet_share_make(p, &blot->place, share);
@@ -91,7 +91,7 @@ enum paper_status sheet_resist_check(const struct paper_sheet *p, const void *ar
 enum paper_status sheet_resist(struct paper_sheet *p, const void *arguments)
 {
     const struct event_resist *resist = arguments;
-    paper_enter(&p->page);
+    sheet_change(p);
     CM_set_context();
     CM_field_id_t share = p->t[2];
     enum paper_status status = sheet_share_make(p, &resist->place, share);
@@ -110,7 +110,7 @@ enum paper_status sheet_resist(struct paper_sheet *p, const void *arguments)
 enum paper_status sheet_dry(struct paper_sheet *p, const void *arguments)
 {
     (void)arguments;
-    paper_enter(&p->page);
+    sheet_change(p);
     CM_set_context();
     CM_field_id_t water[2] = {p->page.water, p->surface_water}, count = p->t[0];
     for (int i = 0; i < (sheet_has(p, PAPER_PART_SURFACE) ? 2 : 1); i++) {
@@ -151,7 +151,7 @@ enum paper_status sheet_seal(struct paper_sheet *p, const void *arguments)
     enum paper_status status = sheet_dry(p, arguments);
     if (status != PAPER_OK)
         return status;
-    paper_enter(&p->page);
+    sheet_change(p);
     CM_field_id_t color[3] = {p->t[8], p->t[9], p->t[10]}, fields[3];
     sheet_color_make(p, color);
     for (int i = 0; i < 3; i++)

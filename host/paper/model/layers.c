@@ -118,7 +118,7 @@ enum paper_status sheet_layer(struct paper_sheet *p, const void *arguments)
         double value = fmin(range[1], fmax(range[0], values[i])) * unit;
         cut[i] = (float)(unit > 1 ? floor(value) : value);
     }
-    paper_enter(&p->page);
+    sheet_change(p);
     CM_set_context();
     kit_grid_f_write(&p->page.grid, field, cut);
     p->varnished = p->varnished || layer == PAPER_LAYER_VARNISH;
@@ -140,7 +140,7 @@ enum paper_status sheet_layer_read(struct paper_sheet *p, enum paper_layer layer
     enum paper_status status = layer_check(p, layer, pigment, &field);
     if (status != PAPER_OK)
         return status;
-    paper_enter(&p->page);
+    sheet_look(p);
     CM_set_context();
     if (layer == PAPER_LAYER_DRIED_WATER) {
         CM_f_u_float_2_2L(p->t[0], field, SHEET_DRIED_BITS, KIT_F);
@@ -167,7 +167,7 @@ enum paper_status sheet_total(struct paper_sheet *p, int substance, double *tota
     if (substance < -1 || substance > p->config.pigments_count)
         return paper_fail(PAPER_BAD_ARGUMENT, "the sheet has %d pigments (asked for number %d)",
                           p->config.pigments_count, substance);
-    paper_enter(&p->page);
+    sheet_look(p);
     CM_set_context();
     CM_field_id_t wide = CM_allocate_heap_field(64), fields[3];
     *total = 0;

@@ -48,6 +48,8 @@ struct paper_sheet {
     CM_field_id_t mask;     /* 8 bits */
     CM_field_id_t shown[3]; /* 16 bits */
     CM_field_id_t t[SHEET_TEMPORARIES];
+    struct sheet_boxes *boxes;     /* model/boxes.c; NULL: there was none */
+    int boxes_unit;                /* their sides are multiples of it; 0: no boxes */
     struct sheet_brushes *brushes; /* model/brush_internal.h; NULL: there is none */
     bool (*due)(void *context);    /* paper_sheet_stop_when() */
     void *due_context;
@@ -84,6 +86,22 @@ enum paper_status sheet_finish(struct paper_sheet *p);
 enum paper_status sheet_reset(struct paper_sheet *p);
 /* No brush, no salt, no varnish. */
 void sheet_extras_reset(struct paper_sheet *p);
+
+/* ---- steps (step.c, boxes.c) ---- */
+
+/* A step of all of the VP set's fibers. Between paper_enter() and paper_leave(). */
+void sheet_step_everywhere(struct paper_sheet *p);
+/* Steps go on in boxes around what can change, away from the sheet's own fields. So who looks at these begins with sheet_look(), who
+ * changes some of them with sheet_change(), who writes all that steps change with sheet_change_all(): paper_enter(), and more. */
+void sheet_look(struct paper_sheet *p);
+void sheet_change(struct paper_sheet *p);
+void sheet_change_all(struct paper_sheet *p);
+void sheet_boxes_init(struct paper_sheet *p);
+void sheet_boxes_destroy(struct paper_sheet *p);
+/* As paper_sheet_confine(). */
+enum paper_status sheet_confine(struct paper_sheet *p, int unit);
+/* As paper_sheet_share(). */
+double sheet_share(const struct paper_sheet *p);
 
 /* ---- its fields (fields.c) and layers (layers.c) ---- */
 
@@ -171,6 +189,10 @@ struct sheet_terms {
     CM_field_id_t inverse; /* 1 / depth */
     CM_field_id_t swirled; /* depth that eddies move: none at the edge of what is wet */
 };
+/* How far apart the fibers are among which wet_around spreads in a step. */
+int sheet_around_reach(const struct paper_sheet *p);
+/* How fast a pigment settles, with surface water: a part of it in a step. */
+double sheet_settling_pace(const struct paper_sheet *p, int pigment);
 /* Water in which pigments do not mix, times air.film. */
 #define SHEET_STILL 4.0
 /* Fibers over which the nearness of an edge falls to 1/e. */

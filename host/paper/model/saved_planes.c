@@ -130,7 +130,7 @@ enum paper_status sheet_plane_fetch(struct paper_sheet *p, int number, void *wor
 {
     bool whole;
     CM_field_id_t field = plane_field(p, number, &whole);
-    paper_enter(&p->page);
+    sheet_look(p);
     CM_set_context();
     if (whole)
         kit_grid_u_read(&p->page.grid, words, field, SHEET_DRIED_BITS, CM_32_bit);

@@ -94,6 +94,7 @@ enum paper_status sheet_create(const struct paper_sheet_config *config,
     p->air = paper_air_default();
     p->salt_reach = 10;
     p->salt_strength = 1;
+    sheet_boxes_init(p);
     status = paper_attach();
     if (status != PAPER_OK) {
         free(p);
@@ -116,6 +117,7 @@ enum paper_status sheet_create(const struct paper_sheet_config *config,
 
 void sheet_destroy(struct paper_sheet *p)
 {
+    sheet_boxes_destroy(p);
     sheet_brushes_destroy(p);
     kit_grid_free(&p->page.grid);
     free(p);
@@ -136,7 +138,7 @@ void sheet_extras_reset(struct paper_sheet *p)
 
 enum paper_status sheet_reset(struct paper_sheet *p)
 {
-    paper_enter(&p->page);
+    sheet_change_all(p);
     CM_set_context();
     kit_f_set(p->resist, 0.0);
     kit_f_set(p->wet_around, 0.0);

@@ -91,6 +91,11 @@ static void rate_make(struct paper_sheet *p, CM_field_id_t d, double slope, doub
         kit_f_most(d, d, 1.0);
 }
 
+double sheet_settling_pace(const struct paper_sheet *p, int pigment)
+{
+    return p->air.settling * SETTLING * p->config.pigments[pigment].density;
+}
+
 /* Part of what is fixed, and of what is in the fibers, is lifted into the water above. Uses t[11..15]. */
 static void pigment_settle(struct paper_sheet *p, int i, CM_field_id_t thin, CM_field_id_t slow,
                            CM_field_id_t dry)
@@ -98,7 +103,7 @@ static void pigment_settle(struct paper_sheet *p, int i, CM_field_id_t thin, CM_
     CM_field_id_t rate = p->t[11], up = p->t[12], part = p->t[13];
     CM_field_id_t surface = p->surface[i], infused = p->infused[i], fixed = p->fixed[i];
     const struct paper_pigment *pigment = &p->config.pigments[i];
-    const double pace = p->air.settling * SETTLING * pigment->density,
+    const double pace = sheet_settling_pace(p, i),
                  lift = p->air.settling * LIFTING / pigment->staining,
                  hollows = pigment->granulation * HOLLOWS;
     rate_make(p, up, lift * hollows, lift * (1 - hollows), thin);
@@ -204,8 +209,9 @@ static void dry_out(struct paper_sheet *p)
 
 /* How far apart the fibers are among which wet_around spreads. Wide edges take greater
  * distances, so that they form in as many steps as narrow ones. */
-static int around_reach(double width)
+int sheet_around_reach(const struct paper_sheet *p)
 {
+    const double width = p->air.edge_width / p->finer;
     return width <= 10 ? 1 : width <= 20 ? 2 : 4;
 }
 
@@ -237,7 +243,7 @@ static void around_follow(struct paper_sheet *p)
 {
     CM_field_id_t sum = p->t[8], along_y = p->t[9], along_x = p->t[10], near = p->t[12];
     const double width = sheet_edge_length(p);
-    const int reach = around_reach(p->air.edge_width / p->finer);
+    const int reach = sheet_around_reach(p);
     const double spread = (1 + reach * reach) / 8.0, relax = spread / (width * width + spread);
     for (int from = 1;; from = reach) {
         both_sides_make(p, along_y, p->wet_around, KIT_AXIS_Y, from);

@@ -490,18 +490,15 @@ static void spreading_step(struct paper_sheet *p)
     flow_infused(p, room);
 }
 
-enum paper_status sheet_step(struct paper_sheet *p, const void *arguments)
+void sheet_step_everywhere(struct paper_sheet *p)
 {
-    (void)arguments;
-    p->steps++;
-    paper_enter(&p->page);
     CM_set_context();
     if (p->config.parts == 0) {
         double weights[PAPER_PIGMENTS_MAX];
         for (int i = 0; i < p->config.pigments_count; i++)
             weights[i] = p->config.pigments[i].weight[0];
         paper_cycle(&p->page, &p->air.thesis, p->infused, weights, p->config.pigments_count);
-        return paper_leave(&p->page);
+        return;
     }
     if (sheet_flows(p))
         sheet_film_step(p);
@@ -510,5 +507,4 @@ enum paper_status sheet_step(struct paper_sheet *p, const void *arguments)
     if (p->salted)
         sheet_salt_step(p);
     temporaries_clear(p);
-    return paper_leave(&p->page);
 }

@@ -286,7 +286,7 @@ enum paper_status sheet_stroke(struct paper_sheet *p, const void *arguments)
             break;
         }
         double from = start + i / pace, to = fmin(end, start + (i + 1) / pace);
-        paper_enter(&p->page);
+        sheet_change(p);
         brush_go(&g, from, i == count - 1 && to <= from ? from + 1 / pace : fmax(to, from));
         status = paper_leave(&p->page);
         if (stroke->pace > 0 && status == PAPER_OK) {

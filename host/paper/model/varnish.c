@@ -17,7 +17,7 @@ enum paper_status sheet_varnish_check(const struct paper_sheet *p, const void *a
 enum paper_status sheet_varnish(struct paper_sheet *p, const void *arguments)
 {
     const struct paper_varnish *v = arguments;
-    paper_enter(&p->page);
+    sheet_change(p);
     CM_set_context();
     CM_field_id_t share = p->t[1];
     enum paper_status status = sheet_share_make(p, &v->place, share);

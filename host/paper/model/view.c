@@ -254,7 +254,7 @@ static enum paper_status fibers_view(struct paper_sheet *p, const struct paper_s
     bool colored = view->show == PAPER_SHOW_COLOR || view->show == PAPER_SHOW_WET;
     bool linear = colored && p->config.rule == PAPER_RULE_KUBELKA_MUNK;
     table_make(table, linear);
-    paper_enter(&p->page);
+    sheet_look(p);
     CM_set_context();
     CM_field_id_t color[3] = {p->t[8], p->t[9], p->t[10]};
     if (colored) {
