@@ -289,7 +289,7 @@ static void singles_end_as_doubles_do(void **unused)
         for (long n = 0; n < 24 * points_count(); n++) {
             const struct function *f = &functions[i];
             double a = point(f, true, (int)(n % 6)), b = point(f, true, (int)(n / 6 % 6)),
-                   quick, slow;
+                   quick = 0, slow = 0;
             assert_true(math_evaluate_single(f->op, a, b, &quick) &&
                         math_evaluate(f->op, a, b, &slow));
             if (bits_wanted(quick, true) != bits_wanted(slow, true))
