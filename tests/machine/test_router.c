@@ -156,13 +156,27 @@ struct scene {
     int width;
 };
 
-static void scene_make(struct scene *c, int round)
+/* One of at least and at most so many processors. */
+static struct set set_between(int rank, enum machine_order order, uint64_t least, uint64_t most)
+{
+    for (;;) {
+        struct set s = set_make(rank, order);
+        if (s.count >= least && s.count <= most)
+            return s;
+        assert_ok(machine_vpset_destroy(machine, s.id), machine);
+    }
+}
+
+/* few_get: many send to few. */
+static void scene_make(struct scene *c, int round, bool few_get)
 {
     wide context[1024];
 
     machine_begin(machine);
-    c->from = set_make(1 + round % 5, round & 1);
-    c->to = round % 3 ? set_make(1 + (round + 2) % 5, round >> 1 & 1) : c->from;
+    c->from = set_between(1 + round % 5, round & 1, few_get ? 60 : 1, 1024);
+    c->to = few_get ? set_between(1 + (round + 2) % 3, round >> 1 & 1, 1, c->from.count / 16)
+            : round % 3 ? set_make(1 + (round + 2) % 5, round >> 1 & 1)
+                        : c->from;
     c->width = machine_address_bits(machine, c->to.id);
     for (uint64_t n = 0; n < c->from.count; n++) {
         uint64_t some = next(c->to.count), few = next(3) * c->to.count / 3;
@@ -231,15 +245,13 @@ static void get_case(const struct scene *c, int which)
     field_is(&c->from, d, type, got, c->active, "get", which);
 }
 
-static void messages_arrive_as_in_a_loop(void **unused)
+static void messages_arrive(bool few_get, int rounds)
 {
-    (void)unused;
-    state = 7;
-    for (int round = 0; round < ROUNDS; round++) {
+    for (int round = 0; round < rounds; round++) {
         struct scene *c = calloc(1, sizeof *c);
         uint64_t wrong, expected = 0;
 
-        scene_make(c, round);
+        scene_make(c, round, few_get);
         for (int which = 0; which < CASES; which++) {
             send_case(c, which);
             if (cases[which].combiner == MACHINE_COMBINE_OVERWRITE)
@@ -261,6 +273,14 @@ static void messages_arrive_as_in_a_loop(void **unused)
         assert_ok(machine_vpset_destroy(machine, c->from.id), machine);
         free(c);
     }
+}
+
+static void messages_arrive_as_in_a_loop(void **unused)
+{
+    (void)unused;
+    state = 7;
+    messages_arrive(false, ROUNDS);
+    messages_arrive(true, 2 * ROUNDS);
 }
 
 /* Gets that are recorded and not yet evaluated: their results are fetched again and shifted, and their sources are changed or

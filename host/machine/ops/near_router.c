@@ -8,15 +8,15 @@
  *     hops           place 5, lane 0 | place 1, lane 1 | place 7, lane 3 */
 #include "ops/near_router.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/arrays.h"
 #include "base/scalar.h"
 #include "base/types.h"
+#include "ops/near_few.h"
 #include "values/geometry.h"
 
-enum { BLOCK = 512 };
+enum { BLOCK = ROUTE_BLOCK };
 
 typedef unsigned __int128 u128;
 
@@ -33,32 +33,6 @@ struct hops {
 
 /* ---- addresses ---- */
 
-#define ADDRESSES(T)                                                                           \
-    for (int i = 0; i < n; i++)                                                                \
-    to[i] = (uint32_t)((const T *)in)[at + (size_t)i] & mask
-
-static void addresses_read(const struct near_route *r, size_t at, int n, uint32_t *to)
-{
-    const void *in = r->address->host;
-    const uint32_t mask = r->mask;
-    switch (r->address_bytes) {
-    case 1:
-        ADDRESSES(uint8_t);
-        break;
-    case 2:
-        ADDRESSES(uint16_t);
-        break;
-    case 4:
-        ADDRESSES(uint32_t);
-        break;
-    case 8:
-        ADDRESSES(uint64_t);
-        break;
-    default:
-        ADDRESSES(u128);
-    }
-}
-
 /* Of n senders from that element on. */
 static void hops_find(const struct near_route *r, const struct range *to, size_t at, int n,
                       struct hops *h)
@@ -68,7 +42,7 @@ static void hops_find(const struct near_route *r, const struct range *to, size_t
     const unsigned char *context = r->context ? r->context->host : NULL;
     const struct lanes_pick p = {index, (uint32_t)to->first, (uint32_t)(to->end - to->first),
                                  s->rows == 1 ? (uint32_t)s->halo : 0};
-    addresses_read(r, at, n, index);
+    near_addresses(r, at, n, index);
     h->count = r->lanes->pick(&p, context ? context + at : NULL, n, h->place, h->lane);
     if (s->rows > 1)
         r->lanes->places(h->place, h->count,
@@ -255,7 +229,7 @@ static bool messages_move_all(const struct near_route *r, const struct block *b,
     const size_t at = b->at;
     if (r->context || r->to->rows > 1)
         return false;
-    addresses_read(r, at, n, index);
+    near_addresses(r, at, n, index);
     for (int i = 0; i < n; i++)
         greatest = index[i] > greatest ? index[i] : greatest;
     if (greatest >= r->to->count)
@@ -279,7 +253,7 @@ static bool messages_move_all(const struct near_route *r, const struct block *b,
     return true;
 }
 
-/* One part of a send, of a get, or of a count. own: arrays of the parts of a send to few processors, but the first's, which is out. */
+/* One part of a send, of a get, or of a count. */
 struct routing {
     const struct near_route *r;
     int combiner;
@@ -288,8 +262,6 @@ struct routing {
     const void *source;
     bool same; /* all send the same, which a block of the source is full of */
     void *out;
-    char *own;
-    size_t own_bytes; /* of each */
     unsigned char *arrived;
     uint64_t wrong[CREW_MOST]; /* for each thread */
 };
@@ -298,73 +270,6 @@ struct routing {
 static size_t messages_at(const struct routing *g, const struct block *b)
 {
     return g->same ? 0 : b->at;
-}
-
-/* Some senders, to all processors. */
-static void part_combine(void *of, int part, int worker)
-{
-    const struct routing *g = of;
-    const struct near_route *r = g->r;
-    const struct range all = {0, r->to->count};
-    void *out = part ? g->own + (size_t)(part - 1) * g->own_bytes : g->out;
-    struct hops h;
-    (void)worker;
-    for (struct block b = {0}; block_of_part(r, &b, part);) {
-        hops_find(r, &all, b.at, b.n, &h);
-        integers_join(&h, g->combiner, g->type, g->source, messages_at(g, &b), out);
-    }
-}
-
-/* What sends change nothing. */
-static struct machine_scalar identity_of(int combiner, int width)
-{
-    const struct machine_scalar zero = {0, 0}, ones = scalar_ones(width),
-                                sign = scalar_sign(width);
-    switch (combiner) {
-    case MACHINE_COMBINE_AND:
-    case MACHINE_COMBINE_UMIN:
-        return ones;
-    case MACHINE_COMBINE_SMIN:
-        return (struct machine_scalar){ones.lo ^ sign.lo, ones.hi ^ sign.hi};
-    case MACHINE_COMBINE_SMAX:
-        return sign;
-    default:
-        return zero;
-    }
-}
-
-/* Combines whole numbers sent to few processors: each part has an array of its own, and these are combined at the end, in which order
- * makes no difference. False: nothing has been done. */
-static bool send_to_few(struct routing *g)
-{
-    const struct near_route *r = g->r;
-    const size_t places = (size_t)r->to->rows * r->to->pitch, most = 32 << 10;
-    struct machine_scalar none = identity_of(g->combiner, g->type.width);
-    if (r->parts < 2 || g->arrived || g->combiner == MACHINE_COMBINE_OVERWRITE ||
-        g->type.kind == MACHINE_FLOAT || places * g->bytes > most ||
-        places * 16 > r->from->count)
-        return false;
-    g->own_bytes = (places * g->bytes + 63) / 64 * 64;
-    g->own = malloc((size_t)(r->parts - 1) * g->own_bytes);
-    if (!g->own)
-        return false;
-    for (int i = 0; i < r->parts - 1; i++)
-        array_fill(g->own + (size_t)i * g->own_bytes, (const uint64_t[2]){none.lo, none.hi},
-                   g->bytes, places);
-    crew_run(r->crew, r->parts, part_combine, g);
-    struct hops h;
-    for (size_t at = 0; at < places; at += h.count) {
-        h.count = places - at < BLOCK ? places - at : BLOCK;
-        for (size_t i = 0; i < h.count; i++) {
-            h.place[i] = (uint32_t)(at + i);
-            h.lane[i] = (uint16_t)i;
-        }
-        for (int i = 0; i < r->parts - 1; i++)
-            integers_join(&h, g->combiner, g->type, g->own + (size_t)i * g->own_bytes, at,
-                          g->out);
-    }
-    free(g->own);
-    return true;
 }
 
 static void part_send(void *of, int part, int worker)
@@ -411,7 +316,8 @@ void near_send(const struct near_route *r, int combiner, struct machine_type typ
                         .same = same,
                         .out = out->host,
                         .arrived = arrived ? arrived->host : NULL};
-    if (!send_to_few(&g))
+    const bool whole = combiner != MACHINE_COMBINE_OVERWRITE && type.kind != MACHINE_FLOAT;
+    if (arrived || !whole || !near_send_few(r, combiner, type, g.source, same, g.out))
         crew_run(r->crew, r->parts, part_send, &g);
     rows_repeat(r->to, g.bytes, out);
     if (arrived)

@@ -2,21 +2,7 @@
 #ifndef LUTETIA_MACHINE_NEAR_ROUTER_H
 #define LUTETIA_MACHINE_NEAR_ROUTER_H
 
-#include "base/crew.h"
-#include "interpret/lanes.h"
-#include "values/values.h"
-
-/* Where messages go, or come from: senders, and the row-major indices of the processors they address. The arrays are the front end's,
- * and the device is not at them. */
-struct near_route {
-    const struct vpset *from, *to;
-    const struct device_buffer *address, *context; /* context NULL: all send */
-    size_t address_bytes;                          /* of an element */
-    uint32_t mask;                                 /* the bits of an address that count */
-    struct crew *crew;                             /* which does it in so many parts */
-    int parts;
-    const struct lanes_table *lanes;
-};
+#include "ops/near_addresses.h"
 
 /* source: in memory, or a number that all send. out holds the old dest. arrived: bits, all 0; NULL: nobody wants to know. combiner: MACHINE_COMBINE_. */
 void near_send(const struct near_route *r, int combiner, struct machine_type type,
