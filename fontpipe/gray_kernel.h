@@ -43,6 +43,7 @@ typedef float half_vector __attribute__((vector_size(HALF_LANES * 4)));
 typedef float half_loose __attribute__((vector_size(HALF_LANES * 4), aligned(4), may_alias));
 
 #define INLINE static inline __attribute__((always_inline))
+#define APART __attribute__((noinline))
 
 enum { PARTS = ROW / LANES, HALF_PARTS = ROW / HALF_LANES };
 
@@ -418,16 +419,34 @@ INLINE void edges_add(const struct font_gray_job *job, int stride, int taps, boo
     }
 }
 
-INLINE void edges_add_taps(const struct font_gray_job *job, int taps)
+/* Apart: in one large function these loops would have to share the registers. */
+#define EDGES_ADD(taps)                                                                        \
+    static APART void edges_add_##taps(const struct font_gray_job *job)                        \
+    {                                                                                          \
+        edges_add(job, job->stride, taps, job->banded);                                        \
+    }                                                                                          \
+    static APART void edges_add_narrow_##taps(const struct font_gray_job *job)                 \
+    {                                                                                          \
+        edges_add(job, FONT_NARROW_STRIDE, taps, false);                                       \
+    }
+EDGES_ADD(1)
+EDGES_ADD(2)
+EDGES_ADD(3)
+EDGES_ADD(4)
+EDGES_ADD(5)
+EDGES_ADD(6)
+
+static APART void edges_add_more(const struct font_gray_job *job)
 {
-    if (job->stride == FONT_NARROW_STRIDE && !job->banded)
-        edges_add(job, FONT_NARROW_STRIDE, taps, false);
-    else
-        edges_add(job, job->stride, taps, job->banded);
+    edges_add(job, job->stride, job->filter->taps, job->banded);
 }
 
 void KERNEL(const struct font_gray_job *job)
 {
+    static void (*const by_taps[][2])(const struct font_gray_job *) = {
+        [1] = {edges_add_1, edges_add_narrow_1}, [2] = {edges_add_2, edges_add_narrow_2},
+        [3] = {edges_add_3, edges_add_narrow_3}, [4] = {edges_add_4, edges_add_narrow_4},
+        [5] = {edges_add_5, edges_add_narrow_5}, [6] = {edges_add_6, edges_add_narrow_6}};
     if (job->arcs_count) {
         if (job->filter->way == FONT_BY_AREAS)
             areas_add(job);
@@ -439,28 +458,12 @@ void KERNEL(const struct font_gray_job *job)
             rows_add_up(job, job->stride, 0, false);
         return;
     }
-    switch (job->filter->taps) {
-    case 1:
-        edges_add_taps(job, 1);
-        break;
-    case 2:
-        edges_add_taps(job, 2);
-        break;
-    case 3:
-        edges_add_taps(job, 3);
-        break;
-    case 4:
-        edges_add_taps(job, 4);
-        break;
-    case 5:
-        edges_add_taps(job, 5);
-        break;
-    case 6:
-        edges_add(job, job->stride, 6, job->banded);
-        break;
-    default:
-        edges_add(job, job->stride, job->filter->taps, job->banded);
-    }
+    int taps = job->filter->taps;
+    bool narrow = job->stride == FONT_NARROW_STRIDE && !job->banded;
+    if (taps < (int)(sizeof by_taps / sizeof *by_taps))
+        by_taps[taps][narrow](job);
+    else
+        edges_add_more(job);
     if (job->exact)
         rows_add_up(job, job->stride, job->odd, true);
     else if (job->stride == FONT_NARROW_STRIDE && job->odd)
