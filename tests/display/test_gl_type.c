@@ -196,6 +196,62 @@ static void glyphs_have_maps_and_inks(void **state)
     }
 }
 
+/* Gradients and pictures as ink, translucent, mixed as light and as numbers, side by side with plain ones; then turned. */
+static void inks_are_as_painted(void **state)
+{
+    (void)state;
+    enum { INKS = 8 };
+    static uint8_t tile[7 * 32];
+    for (int i = 0; i < (int)sizeof tile; i++)
+        tile[i] = (uint8_t)(i * 97 % 251);
+    const struct font_ink_stop stops[] = {{0.1, {0.9, 0.1, 0, 1}},
+                                          {0.5, {0, 0.6, 0.2, 0.3}},
+                                          {0.5, {0, 0, 1, 0.9}},
+                                          {0.8, {1, 1, 0, 1}}};
+    struct font_ink inks[INKS] = {
+        {.kind = FONT_INK_LINEAR,
+         .x0 = 10.3,
+         .y0 = -20,
+         .x1 = 61.7,
+         .y1 = 7.1,
+         .stops_count = 4},
+        {.kind = FONT_INK_RADIAL, .x0 = 90.2, .y0 = 5.4, .x1 = 71.3, .stops_count = 4},
+        {.kind = FONT_INK_PICTURE,
+         .x0 = -3,
+         .y0 = 2,
+         .width_px = 9,
+         .height_px = 7,
+         .pitch = 32},
+        {.kind = FONT_INK_LINEAR, .x1 = 0, .stops_count = 2},
+        {.kind = FONT_INK_RADIAL, .x0 = 50, .x1 = 0, .stops_count = 3},
+        {.kind = FONT_INK_LINEAR, .x1 = 200, .y1 = 30, .stops_count = 3, .numbers = true},
+        {.kind = FONT_INK_PICTURE, .width_px = 8, .height_px = 4, .pitch = 24, .numbers = true},
+        {.rgba = {0.8, 0.2, 0.1, 0.4}, .numbers = true},
+    };
+    for (int k = 0; k < INKS; k++) {
+        memcpy(inks[k].stops, stops, sizeof stops);
+        inks[k].rgb = inks[k].kind == FONT_INK_PICTURE ? tile : NULL;
+        if (inks[k].rgb)
+            inks[k].rgba[3] = 0.7;
+    }
+    for (int turned = 0; turned < 2; turned++) {
+        struct stage s;
+        struct font_atlas_def atlas = font_atlas_def_default();
+        atlas.places_x = atlas.places_y = 16;
+        stage_open(&s, 34, &atlas);
+        for (int k = 0; k < INKS; k++)
+            assert_int_equal(font_layout_ink_add(&s.layout, &inks[k]), k + 1);
+        for (int i = 0; i < s.layout.glyphs_count; i++)
+            s.layout.glyphs[i].ink = i / 2 % (INKS + 1);
+        struct font_map all = font_map_rotation(9);
+        gl_type_begin(s.type, WIDTH, HEIGHT);
+        assert_display(gl_type_draw(s.type, &s.layout, turned ? &all : NULL, 8, 50, ink));
+        struct display_image wanted = painted(&s, turned ? &all : NULL, 8, 50, 16);
+        assert_true(compare(&s, &wanted) > 1000);
+        stage_close(&s);
+    }
+}
+
 /* The atlas's one page cannot hold all glyphs: drawn glyphs make room for others. */
 static void small_atlases_do(void **state)
 {
@@ -247,7 +303,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(text_is_as_painted),      cmocka_unit_test(text_turns),
         cmocka_unit_test(pictures_are_as_painted), cmocka_unit_test(glyphs_have_maps_and_inks),
-        cmocka_unit_test(small_atlases_do),        cmocka_unit_test(what_cannot_be_is_said),
+        cmocka_unit_test(inks_are_as_painted),     cmocka_unit_test(small_atlases_do),
+        cmocka_unit_test(what_cannot_be_is_said),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

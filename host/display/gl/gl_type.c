@@ -3,6 +3,7 @@
  * drawn page by page. */
 #include "gl_type.h"
 #include "display_internal.h"
+#include "gl_ink.h"
 #include "gl_light.h"
 #include <colour.h>
 
@@ -47,6 +48,7 @@ struct gl_type {
     struct font_atlas *atlas;
     struct font_atlas_def def;
     struct font_painter *painter; /* of glyphs that are pictures, once there is one */
+    struct gl_ink *ink;           /* of gradients and pictures, once there is one */
     GLuint textures[PAGES_MAX];
     int textures_count;
     int width_px, height_px; /* of the viewport */
@@ -116,6 +118,7 @@ void gl_type_destroy(struct gl_type *t)
         t->gl.DeleteTextures(t->textures_count, t->textures);
     font_atlas_destroy(t->atlas);
     font_painter_destroy(t->painter);
+    gl_ink_destroy(t->ink);
     free(t);
 }
 
@@ -197,11 +200,11 @@ static float mixed(const struct gl_type *t, double number)
     return (float)(t->light ? font_light(number, 0) : number);
 }
 
-/* Draws quads in their order, each in its own colour. */
-static void quads_draw_in_order(const struct gl_type *t, int count)
+/* Draws quads from `first` to before `end` in their order, each in its own colour. */
+static void quads_draw_in_order(const struct gl_type *t, int first, int end)
 {
     int bound = -1;
-    for (int i = 0; i < count; i++) {
+    for (int i = first; i < end; i++) {
         const struct font_quad *q = &t->quads[i];
         if (q->page != bound) {
             if (bound >= 0)
@@ -239,22 +242,44 @@ static void state_reset(const struct gl_type *t)
         t->gl.Disable(GL_FRAMEBUFFER_SRGB);
 }
 
-/* Sets the quads' colours from the layout's inks. */
-static enum display_status inks_set(struct gl_type *t, const struct font_layout *layout,
-                                    const double ink[3], int count)
+/* Draws quads of the layout's inks in their order. Those that follow each other are drawn at once if their inks are plain and
+ * mixed alike, or the same. */
+static enum display_status inked_draw(struct gl_type *t, const struct font_layout *layout,
+                                      const double ink[3], double x_px, double y_px, int count)
 {
-    for (int i = 0; i < count; i++) {
-        const struct font_ink plain = font_ink_plain(ink[0], ink[1], ink[2], 1);
-        const struct font_ink *own =
-            t->quads[i].ink > 0 ? &layout->inks[t->quads[i].ink - 1] : &plain;
-        if (own->kind != FONT_INK_PLAIN)
-            return display_fail(DISPLAY_BAD_ARGUMENT,
-                                "gradients and pictures as ink are not drawn by OpenGL");
-        for (int c = 0; c < 3; c++)
-            t->colors[i][c] = mixed(t, own->rgba[c]);
-        t->colors[i][3] = (float)own->rgba[3];
+    const struct font_ink plain = font_ink_plain(ink[0], ink[1], ink[2], 1);
+    enum display_status status = DISPLAY_OK;
+    for (int first = 0, end = 0; first < count && status == DISPLAY_OK; first = end) {
+        const struct font_ink *own = NULL;
+        bool light = false;
+        for (; end < count; end++) {
+            const struct font_ink *next =
+                t->quads[end].ink > 0 ? &layout->inks[t->quads[end].ink - 1] : &plain;
+            if (own && own != next &&
+                (own->kind != FONT_INK_PLAIN || next->kind != FONT_INK_PLAIN ||
+                 own->numbers != next->numbers))
+                break;
+            own = next;
+            light = t->light && !own->numbers;
+            for (int c = 0; c < 3; c++)
+                t->colors[end][c] = (float)(light ? font_light(own->rgba[c], 0) : own->rgba[c]);
+            t->colors[end][3] = (float)own->rgba[3];
+        }
+        if (t->light && !light)
+            t->gl.Disable(GL_FRAMEBUFFER_SRGB);
+        if (own->kind != FONT_INK_PLAIN) {
+            status = t->ink ? DISPLAY_OK : gl_ink_create(t->function, &t->ink);
+            if (status == DISPLAY_OK)
+                status = gl_ink_use(t->ink, own, x_px, y_px, t->height_px, light);
+        }
+        if (status == DISPLAY_OK)
+            quads_draw_in_order(t, first, end);
+        if (t->ink)
+            gl_ink_leave(t->ink);
+        if (t->light && !light)
+            t->gl.Enable(GL_FRAMEBUFFER_SRGB);
     }
-    return DISPLAY_OK;
+    return status;
 }
 
 /* Glyphs that are outlines. */
@@ -276,9 +301,7 @@ static enum display_status outlines_draw(struct gl_type *t, const struct font_la
         }
         status = textures_update(t);
         if (status == DISPLAY_OK && layout->inks_count)
-            status = inks_set(t, layout, ink, count);
-        if (status == DISPLAY_OK && layout->inks_count)
-            quads_draw_in_order(t, count);
+            status = inked_draw(t, layout, ink, x_px, y_px, count);
         else if (status == DISPLAY_OK)
             quads_draw(t, count);
         emptied = placed == FONT_FULL;
@@ -440,7 +463,7 @@ enum display_status gl_type_glyphs(struct gl_type *t, const struct gl_type_glyph
         }
         status = textures_update(t);
         if (status == DISPLAY_OK)
-            quads_draw_in_order(t, count);
+            quads_draw_in_order(t, 0, count);
         emptied = placed == FONT_FULL;
         if (emptied)
             font_atlas_begin(t->atlas);

@@ -14,10 +14,11 @@
  * The text's pixels are the picture's: y goes down. A glyph's rectangle lies on whole pixels;
  * its fraction of a pixel is one of the atlas's positions. Only glyphs that the atlas has newly
  * drawn are copied into the textures; the others stay from frame to frame. If the framebuffer
- * is encoded as sRGB, coverage mixes light (as font_painter_layout() does), else numbers.
+ * is encoded as sRGB, coverage mixes light (as font_painter_layout() does, and numbers where an
+ * ink says so), else numbers.
  *
- * OpenGL 2.1 is enough. The calls change the blend state, the bound texture, the current colour
- * and the unpack alignment.
+ * OpenGL 2.1 is enough. The calls change the blend state, the bound textures, the program in use (none afterwards), the current
+ * colour and the unpack alignment.
  *
  * Errors. What fontpipe says is passed on as BAD_ARGUMENT, its text in display_error().
  * Threads. That of the context, which must be the same, and current, in all calls.
@@ -45,8 +46,8 @@ void gl_type_begin(struct gl_type *type, int width_px, int height_px);
 
 /* A layout with its origin at (x_px, y_px), through any map (NULL: as it is), each glyph first through its own. ink: 0..1, as numbers
  * of sRGB, for glyphs that have none of the layout's.
- * Errors: BAD_ARGUMENT (a glyph larger than a page or beyond the horizon, a place out of range, an ink that is not plain), NO_MEMORY;
- * part of the text may then have been drawn. */
+ * Errors: BAD_ARGUMENT (a glyph larger than a page or beyond the horizon, a place out of range, an ink that cannot be drawn),
+ * NO_MEMORY, NO_WINDOW (a gradient or picture as ink, and no shaders); part of the text may then have been drawn. */
 enum display_status gl_type_draw(struct gl_type *type, const struct font_layout *layout,
                                  const struct font_map *map, double x_px, double y_px,
                                  const double ink[3]);
