@@ -79,11 +79,25 @@ const struct font_ink *drawn_ink(const struct font_drawing *d, const struct font
 
 enum font_status drawn_inks_check(const struct font_layout *layout)
 {
-    for (int i = 0; i < layout->inks_count; i++)
-        if (layout->inks[i].kind == FONT_INK_PICTURE)
-            return font_fail(FONT_BAD_ARGUMENT,
-                             "a picture as ink is drawn in pixels: write a PNG");
-    return FONT_OK;
+    enum font_status status = FONT_OK;
+    for (int i = 0; i < layout->inks_count && status == FONT_OK; i++)
+        status = font_ink_check(&layout->inks[i]);
+    return status;
+}
+
+bool drawn_flat(const struct font_ink *ink, double rgba[4])
+{
+    float anywhere[4];
+    bool flat = ink->kind == FONT_INK_PLAIN ||
+                (ink->kind == FONT_INK_LINEAR && ink->x0 == ink->x1 && ink->y0 == ink->y1) ||
+                (ink->kind == FONT_INK_RADIAL && !(ink->x1 > 0)) ||
+                (ink->kind != FONT_INK_PICTURE && ink->stops_count == 1);
+    if (flat) {
+        font_ink_at(ink, 0, 0, anywhere);
+        for (int c = 0; c < 4; c++)
+            rgba[c] = (double)anywhere[c];
+    }
+    return flat;
 }
 
 void drawn_text(const struct font_drawing *d, const struct font_layout *layout, int i,

@@ -5,10 +5,10 @@
  *
  * Outlines are the fonts': no filter, no pixels. In SVG each letter's outline is a path that is there once and used wherever it
  * stands, under its own map; what maps distort is a path of its own. In PDF letters that are not distorted are glyphs of fonts (Type 3: outlines
- * as they are), so that the text can be looked for and copied; others are paths. A pixel is 1/96 inch in SVG, and 0.75 points in PDF. Plain
- * inks keep their translucency; so do gradients, but for PDF, where they are as translucent as their first colour; pictures as ink are refused.
+ * as they are), so that the text can be looked for and copied; others are paths. A pixel is 1/96 inch in SVG, and 0.75 points in PDF. Inks
+ * keep their translucency; gradients are gradients, and pictures as ink are patterns. Who shows the file mixes numbers, not light.
  *
- * Errors: BAD_ARGUMENT (such an ink, a distortion that sends a letter beyond the horizon), BAD_FILE where the file cannot be
+ * Errors: BAD_ARGUMENT (an ink that font_ink_check() refuses, a distortion that sends a letter beyond the horizon), BAD_FILE where the file cannot be
  * written, NO_MEMORY. */
 #ifndef LUTETIA_FONT_DRAWING_H
 #define LUTETIA_FONT_DRAWING_H

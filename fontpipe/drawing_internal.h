@@ -50,6 +50,12 @@ enum font_status drawn_path(const struct font_outline *outline, const struct fon
 /* The map of a layout's glyph from its font's units to the picture's pixels, its place within. */
 enum font_status drawn_map(const struct font_layout *layout, int i, const struct font_map *map,
                            double x_px, double y_px, struct font_map *out);
+/* Whether an ink is the same colour everywhere: plain, or a gradient that goes nowhere. That is then in rgba. */
+bool drawn_flat(const struct font_ink *ink, double rgba[4]);
+/* An ink's picture, opaque. Owns: the caller frees out->rgba. */
+enum font_status drawn_ink_tile(const struct font_ink *ink, struct font_tile *out);
+/* drawing_pdf_ink.c: a gradient as a shading, its places as they are: its colours, or its cover as a gray. */
+void drawn_pdf_shading(const struct font_ink *ink, bool cover, FILE *file);
 /* A glyph's ink; own: room for the drawing's. */
 const struct font_ink *drawn_ink(const struct font_drawing *d, const struct font_layout *layout,
                                  int i, struct font_ink *own);

@@ -88,59 +88,164 @@ static bool stream_put(struct pdf *p, const char *bytes, size_t count)
 
 /* ---- what is on the page ---- */
 
-static bool gradient(const struct font_ink *ink)
+static void picture_free(struct pdf_picture *picture)
 {
-    return (ink->kind == FONT_INK_LINEAR || ink->kind == FONT_INK_RADIAL) &&
-           ink->stops_count > 0;
+    for (int k = 0; k < 2; k++)
+        free(picture->packed[k]);
 }
 
-/* From one stop to the next, and the ends' colours beyond them, as one function over 0..1. */
-static void stops_put(const struct font_ink *ink, FILE *f)
+/* Without cover if all of it covers. */
+static bool picture_pack(const struct font_tile *tile, struct pdf_picture *out)
 {
-    int n = ink->stops_count;
-    fputs("<< /FunctionType 3 /Domain [0 1] /Functions [", f);
-    for (int i = 0; i <= n; i++) {
-        const double *a = ink->stops[i ? i - 1 : 0].rgba,
-                     *b = ink->stops[i < n ? i : n - 1].rgba;
-        fprintf(f,
-                " << /FunctionType 2 /Domain [0 1] /N 1 /C0 [%.5g %.5g %.5g] /C1 [%.5g %.5g "
-                "%.5g] >>",
-                a[0], a[1], a[2], b[0], b[1], b[2]);
+    size_t count = (size_t)tile->width_px * (size_t)tile->height_px;
+    uint8_t *apart = calloc(4, count);
+    bool opaque = true;
+    *out = (struct pdf_picture){.width_px = tile->width_px, .height_px = tile->height_px};
+    for (size_t i = 0; apart && i < count; i++) {
+        memcpy(apart + 3 * i, tile->rgba + 4 * i, 3);
+        apart[3 * count + i] = tile->rgba[4 * i + 3];
+        opaque = opaque && tile->rgba[4 * i + 3] == 255;
     }
-    fputs(" ] /Bounds [", f);
-    double before = 0;
-    for (int i = 0; i < n; i++) { /* bounds rise, and are within 0..1 */
-        before = fmin(fmax(ink->stops[i].at, before + 1e-6), 1 - 1e-6 * (n - i));
-        fprintf(f, " %.7f", before); /* PDF has no exponents */
-    }
-    fputs(" ] /Encode [", f);
-    for (int i = 0; i <= n; i++)
-        fputs(" 0 1", f);
-    fputs(" ] >>", f);
+    for (int k = 0; apart && k < 2 - opaque; k++)
+        out->packed[k] =
+            drawn_deflated(apart + (k ? 3 * count : 0), k ? count : 3 * count, &out->counts[k]);
+    free(apart);
+    return out->packed[0] && (out->packed[1] || opaque);
 }
 
-/* The layout's gradients. Their places are the page's, from the layout's origin on. */
-static void gradients_put(const struct pdf *p)
+/* Its cover, then itself. */
+static bool picture_object(struct pdf *p, struct pdf_picture *picture)
 {
-    fputs(" /Pattern <<", p->f);
+    bool good = true;
+    for (int k = picture->packed[1] ? 1 : 0; k >= 0 && good; k--) {
+        good = object_begin(p);
+        fprintf(p->f,
+                "<< /Type /XObject /Subtype /Image /Width %d /Height %d /ColorSpace /Device%s "
+                "/BitsPerComponent 8 /Filter /FlateDecode /Length %zu",
+                picture->width_px, picture->height_px, k ? "Gray" : "RGB", picture->counts[k]);
+        if (!k && picture->packed[1])
+            fprintf(p->f, " /SMask %d 0 R", p->objects - 1);
+        fputs(" >>\nstream\n", p->f);
+        fwrite(picture->packed[k], 1, picture->counts[k], p->f);
+        fputs("\nendstream\nendobj\n", p->f);
+    }
+    picture->number = p->objects;
+    return good;
+}
+
+/* From the layout's pixels to the page's points. */
+static void matrix_put(const struct pdf *p, double x, double y, FILE *f)
+{
+    fprintf(f, "%g 0 0 %g %.7g %.7g", point_px, -point_px, (p->x + x) * point_px,
+            (p->d->height_px - p->y - y) * point_px);
+}
+
+/* A picture as ink: a pattern of its own, in the object that `number` becomes. */
+static bool pattern_object(struct pdf *p, int ink, int *number)
+{
+    const struct font_ink *of = &p->layout->inks[ink];
+    char content[64];
+    int count = snprintf(content, sizeof content, "%d 0 0 %d 0 %d cm /I Do", of->width_px,
+                         -of->height_px, of->height_px);
+    bool good = object_begin(p);
+    *number = p->objects;
+    fprintf(p->f,
+            "<< /Type /Pattern /PatternType 1 /PaintType 1 /TilingType 1 /BBox [0 0 %d %d]\n"
+            "/XStep %d /YStep %d /Matrix [",
+            of->width_px, of->height_px, of->width_px, of->height_px);
+    matrix_put(p, of->x0, of->y0, p->f);
+    fprintf(p->f, "]\n/Resources << /XObject << /I %d 0 R >> >> /Length %d >>\nstream\n",
+            *number - 1, count);
+    fputs(content, p->f);
+    fputs("\nendstream\nendobj\n", p->f);
+    return good;
+}
+
+/* Whether it is a gradient that lets something through. */
+static bool translucent(const struct font_ink *ink)
+{
+    double flat[4];
+    if (ink->kind == FONT_INK_PICTURE || drawn_flat(ink, flat))
+        return false;
+    for (int i = 0; i < ink->stops_count; i++)
+        if (ink->stops[i].rgba[3] < 1)
+            return true;
+    return false;
+}
+
+/* How much a gradient covers, as the light of a group of its own. */
+static bool mask_object(struct pdf *p, int ink, int *number)
+{
+    char *content = NULL;
+    size_t count = 0;
+    FILE *f = open_memstream(&content, &count);
+    if (!f)
+        return false;
+    matrix_put(p, 0, 0, f);
+    fputs(" cm /S sh", f);
+    bool good = fclose(f) == 0 && object_begin(p);
+    *number = p->objects;
+    fprintf(p->f,
+            "<< /Type /XObject /Subtype /Form /BBox [0 0 %.7g %.7g] /Group << /S /Transparency "
+            "/CS /DeviceGray >>\n/Resources << /Shading << /S ",
+            p->d->width_px * point_px, p->d->height_px * point_px);
+    drawn_pdf_shading(&p->layout->inks[ink], true, p->f);
+    fprintf(p->f, " >> >> /Length %zu >>\nstream\n", count);
+    fwrite(content, 1, good ? count : 0, p->f);
+    fputs("\nendstream\nendobj\n", p->f);
+    free(content);
+    return good;
+}
+
+/* numbers[i]: of the object that is ink i's pattern or mask, or 0. */
+static enum font_status inks_objects(struct pdf *p, int *numbers)
+{
+    enum font_status status = FONT_OK;
+    for (int i = 0; i < p->layout->inks_count && status == FONT_OK; i++) {
+        const struct font_ink *ink = &p->layout->inks[i];
+        struct font_tile tile;
+        struct pdf_picture picture;
+        if (ink->kind == FONT_INK_PICTURE) {
+            status = drawn_ink_tile(ink, &tile);
+            if (status != FONT_OK)
+                break;
+            bool good = picture_pack(&tile, &picture) && picture_object(p, &picture) &&
+                        pattern_object(p, i, &numbers[i]);
+            picture_free(&picture);
+            free(tile.rgba);
+            status = good ? FONT_OK : no_memory();
+        } else if (translucent(ink) && !mask_object(p, i, &numbers[i])) {
+            status = no_memory();
+        }
+    }
+    return status;
+}
+
+/* In the page's resources: what letters are filled with, and how much that covers. */
+static void inks_put(const struct pdf *p, const int *numbers)
+{
+    fputs(" /ExtGState <<", p->f);
+    for (int i = 0; i < 256; i++)
+        if (p->covers[i])
+            fprintf(p->f, " /A%d << /ca %.5g /SMask /None >>", i, i / 255.0);
+    for (int i = 0; i < p->layout->inks_count; i++)
+        if (numbers[i] && p->layout->inks[i].kind != FONT_INK_PICTURE)
+            fprintf(p->f,
+                    "\n/M%d << /ca 1 /SMask << /Type /Mask /S /Luminosity /G %d 0 R >> >>",
+                    i + 1, numbers[i]);
+    fputs(" >> /Pattern <<", p->f);
     for (int i = 0; i < p->layout->inks_count; i++) {
         const struct font_ink *ink = &p->layout->inks[i];
-        if (!gradient(ink))
-            continue;
-        fprintf(
-            p->f,
-            "\n/P%d << /PatternType 2 /Matrix [%g 0 0 %g %.7g %.7g]\n/Shading << /ColorSpace "
-            "/DeviceRGB /Extend [true true] ",
-            i + 1, point_px, -point_px, p->x * point_px, (p->d->height_px - p->y) * point_px);
-        if (ink->kind == FONT_INK_RADIAL)
-            fprintf(p->f, "/ShadingType 3 /Coords [%.7g %.7g 0 %.7g %.7g %.7g]", ink->x0,
-                    ink->y0, ink->x0, ink->y0, ink->x1);
-        else
-            fprintf(p->f, "/ShadingType 2 /Coords [%.7g %.7g %.7g %.7g]", ink->x0, ink->y0,
-                    ink->x1, ink->y1);
-        fputs("\n/Function ", p->f);
-        stops_put(ink, p->f);
-        fputs(" >> >>", p->f);
+        double flat[4];
+        if (ink->kind == FONT_INK_PICTURE) {
+            fprintf(p->f, "\n/P%d %d 0 R", i + 1, numbers[i]);
+        } else if (!drawn_flat(ink, flat)) {
+            fprintf(p->f, "\n/P%d << /PatternType 2 /Matrix [", i + 1);
+            matrix_put(p, 0, 0, p->f);
+            fputs("]\n/Shading ", p->f);
+            drawn_pdf_shading(ink, false, p->f);
+            fputs(" >>", p->f);
+        }
     }
     fputs(" >>", p->f);
 }
@@ -149,29 +254,19 @@ static void ink_put(struct pdf *p, int i, FILE *f)
 {
     struct font_ink own;
     const struct font_ink *ink = drawn_ink(p->d, p->layout, i, &own);
-    const double *c = ink->kind == FONT_INK_PLAIN ? ink->rgba : ink->stops[0].rgba;
-    int cover = (int)lrint(255 * c[3]);
+    int number = p->layout->glyphs[i].ink;
+    double c[4];
+    bool flat = drawn_flat(ink, c);
+    int cover = (int)lrint(255 * (flat                            ? c[3]
+                                  : ink->kind == FONT_INK_PICTURE ? ink->rgba[3]
+                                                                  : 1));
     p->covers[cover] = true;
-    if (gradient(ink))
-        fprintf(f, "/Pattern cs /P%d scn /A%d gs\n", p->layout->glyphs[i].ink, cover);
-    else
+    if (flat)
         fprintf(f, "%.5g %.5g %.5g rg /A%d gs\n", c[0], c[1], c[2], cover);
-}
-
-static bool picture_pack(const struct font_tile *tile, struct pdf_picture *out)
-{
-    size_t count = (size_t)tile->width_px * (size_t)tile->height_px;
-    uint8_t *apart = malloc(4 * count);
-    *out = (struct pdf_picture){.width_px = tile->width_px, .height_px = tile->height_px};
-    for (size_t i = 0; apart && i < count; i++) {
-        memcpy(apart + 3 * i, tile->rgba + 4 * i, 3);
-        apart[3 * count + i] = tile->rgba[4 * i + 3];
-    }
-    for (int k = 0; apart && k < 2; k++)
-        out->packed[k] =
-            drawn_deflated(apart + (k ? 3 * count : 0), k ? count : 3 * count, &out->counts[k]);
-    free(apart);
-    return out->packed[0] && out->packed[1];
+    else if (translucent(ink))
+        fprintf(f, "/Pattern cs /P%d scn /M%d gs\n", number, number);
+    else
+        fprintf(f, "/Pattern cs /P%d scn /A%d gs\n", number, cover);
 }
 
 /* A glyph that is a picture, where it is. */
@@ -195,26 +290,6 @@ static enum font_status picture_put(struct pdf *p, int i, const struct font_map 
     return good ? FONT_OK : no_memory();
 }
 
-/* Its cover, then itself. */
-static bool picture_object(struct pdf *p, struct pdf_picture *picture)
-{
-    bool good = true;
-    for (int k = 1; k >= 0 && good; k--) {
-        good = object_begin(p);
-        fprintf(p->f,
-                "<< /Type /XObject /Subtype /Image /Width %d /Height %d /ColorSpace /Device%s "
-                "/BitsPerComponent 8 /Filter /FlateDecode /Length %zu",
-                picture->width_px, picture->height_px, k ? "Gray" : "RGB", picture->counts[k]);
-        if (!k)
-            fprintf(p->f, " /SMask %d 0 R", p->objects - 1);
-        fputs(" >>\nstream\n", p->f);
-        fwrite(picture->packed[k], 1, picture->counts[k], p->f);
-        fputs("\nendstream\nendobj\n", p->f);
-    }
-    picture->number = p->objects;
-    return good;
-}
-
 static enum font_status letter_put(struct pdf *p, int i, const struct font_map *map, double x,
                                    double y, FILE *f)
 {
@@ -234,9 +309,10 @@ static enum font_status letter_put(struct pdf *p, int i, const struct font_map *
             return status;
     }
     struct font_ink own;
-    /* Programs that show PDF do not clip gradients to the letters of such fonts: those are paths. */
+    double flat[4];
+    /* Programs that show PDF do not clip patterns to the letters of such fonts: those are paths. */
     if (drawn->picture ||
-        (whole.kind == FONT_AFFINE && !gradient(drawn_ink(p->d, p->layout, i, &own)))) {
+        (whole.kind == FONT_AFFINE && drawn_flat(drawn_ink(p->d, p->layout, i, &own), flat))) {
         font_face_describe(g->face, &info);
         double em = info.units_per_em * point_px;
         const double *m = whole.m;
@@ -371,7 +447,10 @@ static enum font_status objects_put(struct pdf *p, const char *content, size_t c
 {
     enum font_status status = FONT_OK;
     int *numbers = calloc((size_t)p->fonts_count + 1, sizeof *numbers);
-    bool good = numbers && stream_put(p, content, count);
+    int *inks = calloc((size_t)p->layout->inks_count + 1, sizeof *inks);
+    bool good = numbers && inks && stream_put(p, content, count);
+    if (good)
+        status = inks_objects(p, inks);
     for (int i = 0; good && i < p->fonts_count && status == FONT_OK; i++)
         status = font_put(p, &p->fonts[i], &numbers[i]);
     for (int i = 0; good && i < p->pictures_count; i++)
@@ -388,12 +467,9 @@ static enum font_status objects_put(struct pdf *p, const char *content, size_t c
     fputs(" >> /XObject <<", p->f);
     for (int i = 0; good && i < p->pictures_count; i++)
         fprintf(p->f, " /I%d %d 0 R", i, p->pictures[i].number);
-    fputs(" >> /ExtGState <<", p->f);
-    for (int i = 0; i < 256; i++)
-        if (p->covers[i])
-            fprintf(p->f, " /A%d << /ca %.5g >>", i, i / 255.0);
     fputs(" >>", p->f);
-    gradients_put(p);
+    if (good)
+        inks_put(p, inks);
     fputs(" >> >>\nendobj\n", p->f);
     good = good && object_begin(p);
     fprintf(p->f, "<< /Type /Pages /Kids [%d 0 R] /Count 1 >>\nendobj\n", page);
@@ -406,6 +482,7 @@ static enum font_status objects_put(struct pdf *p, const char *content, size_t c
     fprintf(p->f, "trailer\n<< /Size %d /Root %d 0 R >>\nstartxref\n%ld\n%%%%EOF\n",
             p->objects + 1, p->objects, table);
     free(numbers);
+    free(inks);
     return status == FONT_OK && !good ? no_memory() : status;
 }
 
@@ -440,10 +517,8 @@ static enum font_status spread_put(const struct font_drawing *d,
     free(content);
     free(whole);
     free(p.fonts);
-    for (int i = 0; i < p.pictures_count; i++) {
-        free(p.pictures[i].packed[0]);
-        free(p.pictures[i].packed[1]);
-    }
+    for (int i = 0; i < p.pictures_count; i++)
+        picture_free(&p.pictures[i]);
     free(p.pictures);
     free(p.offsets);
     drawn_finish(&p.drawn);

@@ -29,6 +29,21 @@ enum font_status drawn_tile(struct drawn *drawn, const struct font_drawing *d,
                : status;
 }
 
+enum font_status drawn_ink_tile(const struct font_ink *ink, struct font_tile *out)
+{
+    size_t width = (size_t)ink->width_px, height = (size_t)ink->height_px;
+    *out = (struct font_tile){.width_px = ink->width_px, .height_px = ink->height_px};
+    uint8_t *to = out->rgba = malloc(4 * width * height);
+    if (!to)
+        return font_fail(FONT_NO_MEMORY, "no memory for a drawing");
+    for (size_t y = 0; y < height; y++)
+        for (size_t x = 0; x < width; x++, to += 4) {
+            memcpy(to, ink->rgb + (ptrdiff_t)y * ink->pitch + 3 * x, 3);
+            to[3] = 255;
+        }
+    return FONT_OK;
+}
+
 static void put32(uint8_t *at, uint32_t value)
 {
     for (int k = 0; k < 4; k++)

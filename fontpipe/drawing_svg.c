@@ -21,6 +21,26 @@ static void text_put(const char *text, size_t begin, size_t end, FILE *f)
     }
 }
 
+/* A picture as ink: repeated from its place on, its pixels as they are. */
+static enum font_status pattern_put(const struct font_ink *ink, int number, double x, double y,
+                                    FILE *f)
+{
+    struct font_tile tile;
+    enum font_status status = drawn_ink_tile(ink, &tile);
+    if (status != FONT_OK)
+        return status;
+    fprintf(f,
+            "<pattern id=\"i%d\" patternUnits=\"userSpaceOnUse\" x=\"%.7g\" y=\"%.7g\" "
+            "width=\"%d\" height=\"%d\"><image width=\"%d\" height=\"%d\" "
+            "image-rendering=\"optimizeSpeed\" href=\"data:image/png;base64,",
+            number, x + ink->x0, y + ink->y0, ink->width_px, ink->height_px, ink->width_px,
+            ink->height_px);
+    status = drawn_png(&tile, f);
+    fputs("\"/></pattern>\n", f);
+    free(tile.rgba);
+    return status;
+}
+
 static void gradient_put(const struct font_ink *ink, int number, double x, double y, FILE *f)
 {
     bool round = ink->kind == FONT_INK_RADIAL;
@@ -49,11 +69,13 @@ static void fill_put(const struct font_drawing *d, const struct font_layout *lay
 {
     struct font_ink own;
     const struct font_ink *ink = drawn_ink(d, layout, i, &own);
-    if (ink->kind != FONT_INK_PLAIN)
-        fprintf(f, " fill=\"url(#i%d)\"", layout->glyphs[i].ink);
+    double c[4];
+    if (!drawn_flat(ink, c))
+        fprintf(f, " fill=\"url(#i%d)\" fill-opacity=\"%.6g\"", layout->glyphs[i].ink,
+                ink->kind == FONT_INK_PICTURE ? ink->rgba[3] : 1);
     else if (ink != &own)
-        fprintf(f, " fill=\"rgb(%d,%d,%d)\" fill-opacity=\"%.6g\"", byte_of(ink->rgba[0]),
-                byte_of(ink->rgba[1]), byte_of(ink->rgba[2]), ink->rgba[3]);
+        fprintf(f, " fill=\"rgb(%d,%d,%d)\" fill-opacity=\"%.6g\"", byte_of(c[0]),
+                byte_of(c[1]), byte_of(c[2]), c[3]);
 }
 
 static enum font_status picture_put(const struct font_drawing *d,
@@ -87,10 +109,11 @@ static enum font_status letter_put(const struct font_drawing *d,
         return picture_put(d, layout, drawn, i, map, x, y, f);
     struct font_outline outline;
     struct font_ink own;
+    double flat[4];
     enum font_status status = drawn_map(layout, i, map, x, y, &whole);
     if (status != FONT_OK)
         return status;
-    if (whole.kind == FONT_AFFINE && drawn_ink(d, layout, i, &own)->kind == FONT_INK_PLAIN) {
+    if (whole.kind == FONT_AFFINE && drawn_flat(drawn_ink(d, layout, i, &own), flat)) {
         const double *m = whole.m;
         fprintf(f, "<use href=\"#g%d\" transform=\"matrix(%.7g %.7g %.7g %.7g %.7g %.7g)\"",
                 drawn->of[i], m[0], m[3], m[1], m[4], m[2], m[5]);
@@ -166,10 +189,16 @@ static enum font_status spread_put(const struct font_drawing *d,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.7g\" height=\"%.7g\" "
             "viewBox=\"0 0 %.7g %.7g\">\n<defs>\n",
             d->width_px, d->height_px, d->width_px, d->height_px);
-    for (int i = 0; i < layout->inks_count; i++)
-        if (layout->inks[i].kind != FONT_INK_PLAIN)
-            gradient_put(&layout->inks[i], i + 1, x, y, f);
-    status = outlines_put(&drawn, f);
+    for (int i = 0; i < layout->inks_count && status == FONT_OK; i++) {
+        const struct font_ink *ink = &layout->inks[i];
+        double flat[4];
+        if (ink->kind == FONT_INK_PICTURE)
+            status = pattern_put(ink, i + 1, x, y, f);
+        else if (!drawn_flat(ink, flat))
+            gradient_put(ink, i + 1, x, y, f);
+    }
+    if (status == FONT_OK)
+        status = outlines_put(&drawn, f);
     fprintf(f, "</defs>\n<g fill=\"rgb(%d,%d,%d)\">\n", byte_of(d->ink[0]), byte_of(d->ink[1]),
             byte_of(d->ink[2]));
     for (int i = 0; i < layout->glyphs_count && status == FONT_OK; i++)
