@@ -224,10 +224,13 @@ static enum font_status inks_objects(struct pdf *p, int *numbers)
 /* In the page's resources: what letters are filled with, and how much that covers. */
 static void inks_put(const struct pdf *p, const int *numbers)
 {
+    bool masks = false;
+    for (int i = 0; i < p->layout->inks_count; i++)
+        masks = masks || translucent(&p->layout->inks[i]);
     fputs(" /ExtGState <<", p->f);
     for (int i = 0; i < 256; i++)
         if (p->covers[i])
-            fprintf(p->f, " /A%d << /ca %.5g /SMask /None >>", i, i / 255.0);
+            fprintf(p->f, " /A%d << /ca %.5g%s >>", i, i / 255.0, masks ? " /SMask /None" : "");
     for (int i = 0; i < p->layout->inks_count; i++)
         if (numbers[i] && p->layout->inks[i].kind != FONT_INK_PICTURE)
             fprintf(p->f,
