@@ -32,7 +32,8 @@ static const struct {
     {"model", bench_model_main,
      "what the engine's cost model prefers, beside what it could have had"},
     {"midi", bench_midi_main, "a note from an instrument to sixteen programs"},
-    {"start", bench_start_main, "the first picture, from the command, with warm caches"},
+    {"start", bench_start_main,
+     "the first picture, from the command, with warm caches and empty ones"},
 };
 
 enum { BENCHES_COUNT = sizeof benches / sizeof *benches, EXIT_USAGE = 2 };

@@ -1,10 +1,10 @@
-/* start.c - `lutetia bench start`: the time from starting the command to its first picture,
- * with warm caches.
+/* start.c - `lutetia bench start`: the time from starting the command to its first picture, and of a first program in
+ * C/Paris, with warm caches and with empty ones.
  *
- * Each run is a process of `lutetia`, which writes into a temporary folder. One run of each
- * kind warms the caches of kernels, fonts and files. Then the kinds run alternately. Each row
+ * Each run is a process, in a temporary folder. One run of each kind warms the caches of
+ * kernels, fonts and files. Then the kinds run alternately. Each row
  * gives the elapsed time, and the processor time of all threads, which depends less on other
- * load.
+ * load. Caches of kernels that are empty are folders of their own, made for the run.
  *
  * --thorough also measures the longest pause of a program that looks after each step, with
  * empty caches, with and without compiling better kernels in the background. The first two
@@ -27,6 +27,7 @@
 #include "of_machine.h"
 #include "paris_internal.h"
 #include "program.h"
+#include "programs.h"
 #include "scene.h"
 
 enum { REPEAT_MIN = 3, COMMAND_WORDS = 12, STEPS = 400, STEPS_FIRST = 2, SIDE = 512, RUNS = 5 };
@@ -38,36 +39,56 @@ extern char **environ;
 #define PICTURE "@picture" /* a name in the folder */
 #define SCRIPT "@script"
 #define FOLDER "@folder"
+#define LIFE "@life" /* examples/paris/life.c, compiled; else the command is lutetia */
 
 static const char script[] =
-    "local p = paper{width = 600, height = 400, pigments = {\"quinacridone rose\", \"phthalo "
-    "green\"}}\n"
+    "local v = param(\"version\", 0)\n"
+    "local p = paper{width = 600, height = 400, version = v > 0 and v or nil, "
+    "pigments = {\"quinacridone rose\", \"phthalo green\"}}\n"
     "p:put(ellipse(300, 200, 120), {water = 0.7, [\"quinacridone rose\"] = 0.5})\n"
     "p:step(1)\n"
     "p:frame(\"picture.png\")\n";
 
-static const struct {
+static const struct start_command {
     const char *what, *of_case;
     const char *words[COMMAND_WORDS];
+    bool kernels; /* it makes some: with empty caches, too */
 } commands[] = {
-    {"a process", "--version", {"--version"}},
-    {"a machine", "info", {"info"}},
-    {"type, no machine", "type", {"type", "Paris", "-o", PICTURE}},
+    {"a process", "--version", {"--version"}, false},
+    {"a machine", "info", {"info"}, false},
+    {"type, no machine", "type", {"type", "Paris", "-o", PICTURE}, false},
     {"first picture",
      "paint 300x200",
-     {"paint", "Paris", "--model=thesis", "--paper", "300x200", "--steps", "1", "-o", PICTURE}},
+     {"paint", "Paris", "--model=thesis", "--paper", "300x200", "--steps", "1", "-o", PICTURE},
+     true},
     {"first picture",
      "paint 1024x640",
-     {"paint", "Paris", "--model=thesis", "--paper", "1024x640", "--steps", "1", "-o",
-      PICTURE}},
-    {"first picture", "script 600x400", {"run", SCRIPT, "-q", "-o", FOLDER}},
+     {"paint", "Paris", "--model=thesis", "--paper", "1024x640", "--steps", "1", "-o", PICTURE},
+     true},
+    {"first picture", "script 600x400", {"run", SCRIPT, "-q", "-o", FOLDER}, true},
+    {"first picture",
+     "script, version 1",
+     {"run", SCRIPT, "version=1", "-q", "-o", FOLDER},
+     true},
+    {"in C/Paris", "life 200", {LIFE, "200"}, true},
 };
 
 enum { COMMANDS_COUNT = sizeof commands / sizeof *commands };
 
 struct place {
-    char folder[64], picture[96], script[96];
+    char folder[64], picture[96], script[96], life[96];
 };
+
+static bool file_make(const char *folder, const char *name, const char *text)
+{
+    char path[128];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "w");
+    bool written = file && fputs(text, file) >= 0;
+    if (file && fclose(file) != 0)
+        written = false;
+    return written || bench_fail("%s: cannot write", path);
+}
 
 static bool place_make(struct place *place)
 {
@@ -76,18 +97,10 @@ static bool place_make(struct place *place)
         return bench_fail("no folder can be made in /tmp");
     snprintf(place->picture, sizeof place->picture, "%s/picture.png", place->folder);
     snprintf(place->script, sizeof place->script, "%s/start.lua", place->folder);
-    FILE *file = fopen(place->script, "w");
-    bool written = file && fputs(script, file) >= 0;
-    if (file && fclose(file) != 0)
-        written = false;
-    return written || bench_fail("%s: cannot write", place->script);
-}
-
-static void place_remove(const struct place *place)
-{
-    unlink(place->picture);
-    unlink(place->script);
-    rmdir(place->folder);
+    snprintf(place->life, sizeof place->life, "%s/life", place->folder);
+    return file_make(place->folder, "start.lua", script) &&
+           file_make(place->folder, "life.c", program_life_c) &&
+           file_make(place->folder, "picture.h", program_picture_h);
 }
 
 static double seconds_of(struct timeval t)
@@ -95,25 +108,14 @@ static double seconds_of(struct timeval t)
     return (double)t.tv_sec + 1e-6 * (double)t.tv_usec;
 }
 
-static bool command_run(const char *const words[COMMAND_WORDS], struct place *place,
+/* Runs a program in the folder, which it may leave pictures in. */
+static bool program_run(struct place *place, const char *program, char *const *arguments,
                         double *passed_s, double *processor_s)
 {
-    char program[PATH_MAX], name[] = "lutetia";
-    char *arguments[COMMAND_WORDS + 2] = {name};
-    if (!program_find(program, (program_code *)bench_start_main, LUTETIA_BINDIR "/lutetia",
-                      "host/lutetia/lutetia"))
-        return bench_fail("the program lutetia is not beside lutetia-bench; install or build "
-                          "it with the rest");
-    for (int i = 0; i < COMMAND_WORDS && words[i]; i++) {
-        const char *word = words[i];
-        arguments[i + 1] = strcmp(word, PICTURE) == 0  ? place->picture
-                           : strcmp(word, SCRIPT) == 0 ? place->script
-                           : strcmp(word, FOLDER) == 0 ? place->folder
-                                                       : (char *)(uintptr_t)word;
-    }
     posix_spawn_file_actions_t quiet;
     posix_spawn_file_actions_init(&quiet);
     posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addchdir_np(&quiet, place->folder);
     double start = bench_now_s();
     pid_t pid;
     int error = posix_spawn(&pid, program, &quiet, NULL, arguments, environ), status = 0;
@@ -124,30 +126,118 @@ static bool command_run(const char *const words[COMMAND_WORDS], struct place *pl
     *passed_s = bench_now_s() - start;
     *processor_s = seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
     return (WIFEXITED(status) && WEXITSTATUS(status) == 0) ||
-           bench_fail("lutetia %s did not succeed", words[0]);
+           bench_fail("%s %s did not succeed", program, arguments[1]);
+}
+
+static bool command_run(const char *const words[COMMAND_WORDS], struct place *place,
+                        double *passed_s, double *processor_s)
+{
+    char program[PATH_MAX], name[] = "lutetia";
+    char *arguments[COMMAND_WORDS + 2] = {name};
+    bool life = strcmp(words[0], LIFE) == 0;
+    if (!program_find(program, (program_code *)bench_start_main, LUTETIA_BINDIR "/lutetia",
+                      "host/lutetia/lutetia"))
+        return bench_fail("the program lutetia is not beside lutetia-bench; install or build "
+                          "it with the rest");
+    for (int i = life, at = 1; i < COMMAND_WORDS && words[i]; i++, at++) {
+        const char *word = words[i];
+        arguments[at] = strcmp(word, PICTURE) == 0  ? place->picture
+                        : strcmp(word, SCRIPT) == 0 ? place->script
+                        : strcmp(word, FOLDER) == 0 ? place->folder
+                                                    : (char *)(uintptr_t)word;
+    }
+    return program_run(place, life ? place->life : program, arguments, passed_s, processor_s);
+}
+
+/* ---- empty caches ---- */
+
+enum { CACHE_NAMES = 2 };
+static const char *const cache_names[CACHE_NAMES] = {"XDG_CACHE_HOME", "POCL_CACHE_DIR"};
+
+/* Caches as they were, and the folder of those that are used instead. */
+struct caches {
+    char *kept[CACHE_NAMES];
+    char folder[96];
+};
+
+static void variable_put(const char *name, char *value)
+{
+    if (value)
+        setenv(name, value, 1);
+    else
+        unsetenv(name);
+    free(value);
+}
+
+static char *variable_kept(const char *name)
+{
+    const char *value = getenv(name);
+    return value ? strdup(value) : NULL;
+}
+
+static bool caches_empty(struct caches *c, const struct place *place)
+{
+    char driver[128];
+    snprintf(c->folder, sizeof c->folder, "%s/cache", place->folder);
+    snprintf(driver, sizeof driver, "%s/pocl", c->folder);
+    for (int i = 0; i < CACHE_NAMES; i++)
+        c->kept[i] = variable_kept(cache_names[i]);
+    setenv(cache_names[0], c->folder, 1);
+    setenv(cache_names[1], driver, 1);
+    return (mkdir(c->folder, 0700) == 0 && mkdir(driver, 0700) == 0) ||
+           bench_fail("%s: cannot be made", driver);
+}
+
+static void caches_back(struct caches *c)
+{
+    for (int i = 0; i < CACHE_NAMES; i++)
+        variable_put(cache_names[i], c->kept[i]);
+    cold_folder_remove(c->folder);
+}
+
+/* ---- first pictures ---- */
+
+/* Times of a command: passed and processor time with warm caches, then with empty ones. */
+enum { WARM, WARM_CPU, COLD, COLD_CPU, TIMES };
+static const char *const times_named[TIMES] = {"", ", CPU", ", cold", ", cold, CPU"};
+
+static bool command_measure(const struct start_command *c, struct place *place,
+                            double times[TIMES])
+{
+    struct caches caches;
+    if (!command_run(c->words, place, &times[WARM], &times[WARM_CPU]))
+        return false;
+    if (!c->kernels)
+        return true;
+    bool ok = caches_empty(&caches, place) &&
+              command_run(c->words, place, &times[COLD], &times[COLD_CPU]);
+    caches_back(&caches);
+    return ok;
 }
 
 static bool all_measure(struct bench_report *r, struct place *place, int repeat_count)
 {
-    double *times = calloc((size_t)(2 * COMMANDS_COUNT * repeat_count), sizeof *times), ignored;
-    bool ok = times || bench_fail("no memory for %d times", repeat_count);
+    static const char *const compile[COMMAND_WORDS] = {"cc", "life.c", "-o", "life"};
+    double(*times)[TIMES] = calloc((size_t)(COMMANDS_COUNT * repeat_count), sizeof *times);
+    double *one = calloc((size_t)repeat_count, sizeof *one), ignored;
+    bool ok = (times && one) || bench_fail("no memory for %d times", repeat_count);
+    ok = ok && command_run(compile, place, &ignored, &ignored);
     for (int i = 0; ok && i < COMMANDS_COUNT; i++)
         ok = command_run(commands[i].words, place, &ignored, &ignored);
     for (int turn = 0; ok && turn < repeat_count; turn++)
         for (int i = 0; ok && i < COMMANDS_COUNT; i++)
-            ok = command_run(commands[i].words, place, &times[2 * i * repeat_count + turn],
-                             &times[(2 * i + 1) * repeat_count + turn]);
-    for (int i = 0; ok && i < COMMANDS_COUNT; i++) {
-        char processor[32];
-        snprintf(processor, sizeof processor, "%.20s, CPU", commands[i].what);
-        bench_report_add(r, commands[i].what, commands[i].of_case,
-                         bench_sample_of(times + 2 * i * repeat_count, repeat_count), 1e3,
-                         "ms");
-        bench_report_add(r, processor, commands[i].of_case,
-                         bench_sample_of(times + (2 * i + 1) * repeat_count, repeat_count), 1e3,
-                         "ms");
-    }
+            ok = command_measure(&commands[i], place, times[i * repeat_count + turn]);
+    for (int i = 0; ok && i < COMMANDS_COUNT; i++)
+        for (int t = 0; t < (commands[i].kernels ? TIMES : COLD); t++) {
+            char what[32];
+            snprintf(what, sizeof what, "%s%s", commands[i].what, times_named[t]);
+            for (int turn = 0; turn < repeat_count; turn++)
+                one[turn] = times[i * repeat_count + turn][t];
+            bench_report_add(r, what, commands[i].of_case, bench_sample_of(one, repeat_count),
+                             1e3, "ms");
+        }
     free(times);
+    free(one);
     return ok;
 }
 
@@ -184,43 +274,17 @@ static bool steps_run(const char *path)
     return file && fclose(file) == 0 && ok;
 }
 
-static void variable_put(const char *name, char *value)
-{
-    if (value)
-        setenv(name, value, 1);
-    else
-        unsetenv(name);
-    free(value);
-}
-
-static char *variable_kept(const char *name)
-{
-    const char *value = getenv(name);
-    return value ? strdup(value) : NULL;
-}
-
 /* Runs the steps in a process with empty caches of its own. */
 static bool steps_of(struct place *place, const char *background, double out[2])
 {
-    static const char *const names[] = {"XDG_CACHE_HOME", "POCL_CACHE_DIR",
-                                        "LUTETIA_BACKGROUND"};
-    enum { NAMES = sizeof names / sizeof *names };
     const char *const words[COMMAND_WORDS] = {"bench", "start", STEPS_INTO, PICTURE};
-    char folder[96], driver[128], *kept[NAMES];
+    char *kept = variable_kept("LUTETIA_BACKGROUND");
+    struct caches caches;
     double ignored;
-    snprintf(folder, sizeof folder, "%s/cache", place->folder);
-    snprintf(driver, sizeof driver, "%s/pocl", folder);
-    if (mkdir(folder, 0700) || mkdir(driver, 0700))
-        return bench_fail("%s: cannot be made", driver);
-    for (int i = 0; i < NAMES; i++)
-        kept[i] = variable_kept(names[i]);
-    setenv(names[0], folder, 1);
-    setenv(names[1], driver, 1);
-    setenv(names[2], background, 1);
-    bool ok = command_run(words, place, &ignored, &ignored);
-    for (int i = 0; i < NAMES; i++)
-        variable_put(names[i], kept[i]);
-    cold_folder_remove(folder);
+    setenv("LUTETIA_BACKGROUND", background, 1);
+    bool ok = caches_empty(&caches, place) && command_run(words, place, &ignored, &ignored);
+    caches_back(&caches);
+    variable_put("LUTETIA_BACKGROUND", kept);
     FILE *file = ok ? fopen(place->picture, "r") : NULL;
     if (ok && !(file && fscanf(file, "%lf %lf", &out[0], &out[1]) == 2))
         ok = bench_fail("%s: no times are in it", place->picture);
@@ -270,6 +334,6 @@ int bench_start_main(int argc, char **argv)
         return status;
     bool ok = place_make(&place) && all_measure(&report, &place, options.repeat_count) &&
               (!options.thorough || pauses_measure(&report, &place));
-    place_remove(&place);
+    cold_folder_remove(place.folder);
     return bench_options_finish(&options, &report, "first picture", ok);
 }
