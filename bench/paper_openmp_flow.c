@@ -13,7 +13,7 @@
 
 #define UNIT ((double)PAPER_GRAINS)
 
-enum { FAR = 4 }; /* as far as anything looks along x */
+enum { FAR = 6 }; /* as far as anything looks along x */
 
 /* ---- own parts ---- */
 
@@ -56,13 +56,15 @@ static void pigment_own(const struct paper_openmp *o, int y, int pigment)
                 to_unit = (float)(1 / UNIT);
     const bool up_cut = lift * (1 - hollows) > 1 || lift * hollows + lift * (1 - hollows) > 1,
                down_cut = pace > 1 || -pace * hollows + pace > 1, third = o->config.model > 2;
+    const float still = (float)(-8.0 * o->config.air.film);
 #pragma omp simd
     for (int x = 0; x < width; x++) {
         float s = surface[x], i = infused[x], f = fixed[x];
         float moved = whole_of(part_row[x] * weight * s, s);
         s -= moved;
         i += moved;
-        float slow = least(water[x] * to_unit, 1.0f), thin = least(slow * 4.0f, 1.0f);
+        float slow = least(water[x] * to_unit, 1.0f),
+              thin = least((third ? greatest(slow + still, 0.0f) : slow) * 4.0f, 1.0f);
         float covered = greatest(wet[x] * 4.0f + -3.0f, 0.0f);
         thin *= covered;
         slow = slow * -0.75f + 1.0f;
@@ -120,9 +122,11 @@ static double edge_length(const struct paper_openmp *o)
 static void around_own(const struct paper_openmp *o, int y)
 {
     const struct paper_air *air = &o->config.air;
-    const int width = o->config.width, reach = air->edge_width <= 10   ? 1
-                                               : air->edge_width <= 20 ? 2
-                                                                       : 4;
+    const int width = o->config.width,
+              reach = o->config.model > 2     ? (int)fmax(1, floor(air->edge_width * 0.1875))
+                      : air->edge_width <= 10 ? 1
+                      : air->edge_width <= 20 ? 2
+                                              : 4;
     const double wide = edge_length(o), spread = (1 + reach * reach) / 8.0,
                  relax = spread / (wide * wide + spread);
     const float *here = field_row(o, o->around_now, y),
@@ -155,10 +159,11 @@ static void edge_own(const struct paper_openmp *o, int y)
           *level = term_row(o, T_LEVEL, y), *deep = term_row(o, T_DEEP, y),
           *inverse = term_row(o, T_INVERSE, y), *swirled = term_row(o, T_SWIRLED, y),
           *saturated = term_row(o, T_SATURATED, y);
-    const float unit = (float)UNIT, to_unit = (float)(1 / UNIT), help = (float)(-1.2 / 16),
+    const double most = o->config.model > 2 ? 0.3 : 1.2;
+    const float unit = (float)UNIT, to_unit = (float)(1 / UNIT), help = (float)(-most / 16),
                 least_depth = (float)(4 / UNIT), pinning = (float)(4.375 * air->pinning),
                 film = (float)(1 / air->film), relief = (float)air->relief,
-                helped = (float)(1 + 1.2 / 4);
+                helped = (float)(1 + most / 4);
     const bool third = o->config.model > 2;
     const float still = (float)(-4.0 * air->film);
 #pragma omp simd

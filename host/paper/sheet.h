@@ -119,7 +119,7 @@ struct paper_air paper_air_default(void);
 
 /* Versions of the model. No version ever changes, to the bit: a change that would give other
  * bits is a new version. The default version, and the latest: */
-enum { PAPER_MODEL_USUAL = 2, PAPER_MODEL_VERSION = 3 };
+enum { PAPER_MODEL_USUAL = 3, PAPER_MODEL_VERSION = 3 };
 
 struct paper_sheet_config {
     int width, height; /* fibers, PAPER_SIDE_MIN..PAPER_SIDE_MAX */

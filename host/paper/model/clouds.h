@@ -10,6 +10,8 @@ struct clouds {
     double finest, coarsest; /* fibers between the random numbers, 1.. */
     double step;             /* amplitude of each size, to that of the next coarser */
     uint64_t seed;
+    bool
+        turned; /* each size by an angle of its own, but on a torus: nothing in them lies along the axes */
 };
 
 /* Shape: out holds height * width numbers, rows from the top; mean about 0, deviation about 1, over a large sheet. Sizes may be any

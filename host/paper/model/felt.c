@@ -5,6 +5,8 @@
  *                passes. Bends wander, so fibers curl; lengths go from a fifth to three times the usual one; no direction is
  *                dearer than another, but by stock.fiber_length: a sheet from a machine has a grain
  *     tooth      the felts' marks, as large as stock.grain_px
+ *     grit       short hairs and filler, in version 3: noise of sizes 6 to 1.5. Pigments that granulate gather in it; with fibers alone they
+ *                drew a net
  *     laid       on a mould of wires, which are ridges in the sheet: lines close together, and chains across them far apart, both
  *                wavering, and fainter in some clouds than in others
  *     sizing     glue goes into some places more than into others: noise of sizes 256 to 16
@@ -26,6 +28,7 @@ struct recipe {
     double cover;                 /* fibers that lie on one another */
     double curl;                  /* how fast bends wander */
     double tooth, fibers, clouds; /* parts of the relief */
+    double grit;                  /* version 3: in part in place of the fibers */
     double laid, laid_step,
         chain_step; /* the lines' part, and how far apart they are; 0: wove */
 };
@@ -34,19 +37,28 @@ struct recipe {
  * hot rollers. rough: handmade, dried without pressing. blotting: cotton linters, unsized and loose. glass: no fibers. laid: Ingres
  * paper, with its wires' lines. xuan: the bark of the wingceltis and rice straw, long fine fibers, unsized, on a screen of bamboo. */
 static const struct recipe recipes[] = {
-    {"cold press", 60, 2.6, .006, .75, .55, .20, 0, 0, 0},
-    {"hot press", 60, 2.6, .006, .40, .85, .30, 0, 0, 0},
-    {"rough", 70, 2.6, .006, .66, .62, .15, 0, 0, 0},
-    {"blotting", 30, 3.4, .014, .30, .85, .40, 0, 0, 0},
-    {"glass", 0, 0, 0, 0, 0, 0, 0, 0, 0},
-    {"laid", 60, 2.6, .006, .35, .70, .30, .40, 5, 96},
-    {"xuan", 110, 2.0, .004, .20, .95, .35, .15, 6, 120},
+    {"cold press", 60, 2.6, .006, .75, .55, .20, .5, 0, 0, 0},
+    {"hot press", 60, 2.6, .006, .40, .85, .30, .3, 0, 0, 0},
+    {"rough", 70, 2.6, .006, .66, .62, .15, .5, 0, 0, 0},
+    {"blotting", 30, 3.4, .014, .30, .85, .40, .3, 0, 0, 0},
+    {"glass", 0, 0, 0, 0, 0, 0, 0, 0, 0, 0},
+    {"laid", 60, 2.6, .006, .35, .70, .30, .2, .40, 5, 96},
+    {"xuan", 110, 2.0, .004, .20, .95, .35, 0, .15, 6, 120},
 };
 
-enum { SEED_CLOUDS = 1, SEED_FIBERS, SEED_TOOTH, SEED_SIZING, SEED_WAVER, SEED_FAINT };
+enum {
+    SEED_CLOUDS = 1,
+    SEED_FIBERS,
+    SEED_TOOTH,
+    SEED_SIZING,
+    SEED_WAVER,
+    SEED_FAINT,
+    SEED_GRIT
+};
 #define STRIDE 0.7
 #define BEND_KEPT 0.985
 #define BEND_FIRST 0.03
+#define FIBERS_FOR_GRIT 1.0
 
 static const struct recipe *recipe_of(const struct paper_stock *stock)
 {
@@ -94,7 +106,7 @@ static void add(float *to, const float *from, size_t count, double part)
 static bool cloud_make(const struct making *m, float *out, double finest, double coarsest,
                        double step, uint64_t which)
 {
-    const struct clouds of = {finest, coarsest, step, clouds_word(m->seed, which)};
+    const struct clouds of = {finest, coarsest, step, clouds_word(m->seed, which), false};
     return clouds_make(out, m->width, m->height, m->config->torus, &of);
 }
 
@@ -396,8 +408,14 @@ static bool parts_make(const struct making *m, struct felt *felt, float *clouds,
     level_out(felt->relief, count, 1);
     for (size_t i = 0; i < count; i++)
         felt->relief[i] *= (float)of->tooth;
-    add(felt->relief, felt->mass, count, of->fibers);
+    const double grit = m->config->model >= 3 ? of->grit : 0;
+    add(felt->relief, felt->mass, count, of->fibers * (1 - FIBERS_FOR_GRIT * grit));
     add(felt->relief, clouds, count, of->clouds);
+    if (grit > 0 && made) {
+        made = cloud_make(m, spare, 1.5 * scale, 6 * scale, 0.9, SEED_GRIT);
+        level_out(spare, count, 1);
+        add(felt->relief, spare, count, grit);
+    }
     add(felt->mass, clouds, count, 0.7);
     made = made && cloud_make(m, felt->sizing, 16 * scale, 256 * scale, 0.8, SEED_SIZING);
     if (made && of->laid > 0) {
@@ -440,10 +458,9 @@ enum paper_status felt_make(const struct paper_sheet_config *config, struct felt
                          .mass = calloc(count, sizeof(float)),
                          .fibers = calloc(count, sizeof(float)),
                          .sizing = calloc(count, sizeof(float))};
-    float *clouds = calloc(count, sizeof *clouds),
-          *spare = m.recipe->laid > 0 ? calloc(count, sizeof *spare) : NULL;
-    bool made = out->relief && out->mass && out->fibers && out->sizing && clouds &&
-                (spare || !(m.recipe->laid > 0)) && parts_make(&m, out, clouds, spare);
+    float *clouds = calloc(count, sizeof *clouds), *spare = calloc(count, sizeof *spare);
+    bool made = out->relief && out->mass && out->fibers && out->sizing && clouds && spare &&
+                parts_make(&m, out, clouds, spare);
     free(clouds);
     free(spare);
     if (made)

@@ -44,7 +44,8 @@
 #define DRY_PART 8.0 /* of a fiber, that gives all of its film: 1 / this */
 #define PIGMENT_SHARE 0.2
 #define MIXING 0.06
-#define EDDIES 0.7
+#define EDDIES_2 0.7
+#define EDDIES 1.0
 #define EDGE_FLOW 0.005
 #define EDGE_WIDTH_LEAST 8.0
 #define EDGE_DRIES 0.05 /* version 3; see edge_flow_make() */
@@ -74,7 +75,7 @@ void sheet_film_faces_make(struct paper_sheet *p)
     kit_f_next(far, p->current, KIT_AXIS_Y);
     kit_f_add(far, far, other);
     kit_f_add(sum, sum, far);
-    kit_f_times(sum, sum, EDDIES / 4);
+    kit_f_times(sum, sum, (sheet_of_version_3(p) ? EDDIES : EDDIES_2) / 4);
     for (unsigned axis = 0; axis < 2; axis++) {
         kit_f_mul(sum, sum, open[axis]);
         kit_f_next(other, open[axis], 1 - axis);

@@ -20,7 +20,7 @@
 /* Of a cubic B-spline through uniform numbers in -1..1: its deviation. */
 #define SPLINE_DEVIATION 0.277
 #define NOISE_MOST 3.0f
-#define EDDY_MOST 1.2
+#define EDDY_MOST 1.8
 #define CALM_EDGE 16       /* fibers */
 #define DEVIATION_MOST 0.7 /* of the logarithm of sizing */
 
@@ -153,8 +153,11 @@ static void eddies_fold(float *values, size_t count)
 static bool clouded_make(const struct paper_sheet *p, float *out, const struct octaves *of)
 {
     const double step = of->step;
-    const struct clouds clouds = {of->finest * p->finer, of->coarsest * p->finer, step,
-                                  clouds_word(p->config.seed, of->seed & 3)};
+    const struct clouds clouds = {.finest = of->finest * p->finer,
+                                  .coarsest = of->coarsest * p->finer,
+                                  .step = step,
+                                  .seed = clouds_word(p->config.seed, of->seed & 3),
+                                  .turned = true};
     return clouds_make(out, p->config.width, p->config.height, p->config.torus, &clouds);
 }
 
@@ -168,7 +171,9 @@ enum paper_status sheet_sizing_make(struct paper_sheet *p)
 {
     const struct paper_sheet_config *config = &p->config;
     const struct octaves sizes = {4, 64, 0.4, 0.75786, (uint32_t)config->seed * 77 + 1},
-                         eddies = {8, 16, 1, 0.5, (uint32_t)config->seed * 77 + 3};
+                         eddies = {sheet_of_version_3(p) ? 10 : 8,
+                                   sheet_of_version_3(p) ? 20 : 16, 1, 0.5,
+                                   (uint32_t)config->seed * 77 + 3};
     size_t count = (size_t)config->width * (size_t)config->height;
     float *values = malloc(count * sizeof *values);
     bool made = values && octaves_make(p, values, &sizes);

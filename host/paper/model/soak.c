@@ -17,8 +17,10 @@
 
 #define ADVANCE 4.375      /* of pinning */
 #define ADVANCE_LEAST 1e-3 /* units */
-#define NEIGHBOURS_HELP                                                                        \
-    1.2 /* the most by which wet neighbours lower it; along a straight edge a quarter of the neighbours are wet */
+/* The most by which wet neighbours lower it; along a straight edge a quarter of the neighbours are wet. With as much as in version 2, rows
+ * of fibers fill from end to end: edges came to lie along the axes. */
+#define NEIGHBOURS_HELP_2 1.2
+#define NEIGHBOURS_HELP 0.3
 #define NEIGHBOURS_LEAST 0.1
 /* Version 3: sixteenths of how wet a fiber and its neighbours are at which water closes over it; all eight neighbours are 12. */
 #define HOLE_FROM 12.0
@@ -33,15 +35,19 @@
     0.6 /* of granulation; below 1, because pigment that is lifted and settles again gathers in hollows by itself */
 #define LIFTING 0.4
 #define LIFTED_FROM 0.25 /* depth, units, at which water lifts as fast as it can */
+/* Version 3: water that lifts nothing, times `film`. In the last of a film each fiber that is still wet would draw the pigments of those
+ * around it up to its surface, and keep them: the wash would have measles. */
+#define LIFTS_NOT 8.0
 /* Nothing is lifted from a fiber of which less than 1 - 1 / this is wet: otherwise the edge
  * would be washed out. */
 #define LIFTED_WET 4.0
 #define HELD_UP 0.75 /* by a unit of depth, of what settles */
 #define SEEPED_SETTLING 0.1
-#define FIBERS_DRYING 0.25 /* of what dries on the surface */
-#define DRIED_LEAST 4.0    /* grains */
-#define AROUND_LEAST 0.01  /* of what it relaxes by */
-#define EDGE_SHARE 0.75    /* of edge_width, over which the nearness of an edge falls to 1/e */
+#define FIBERS_DRYING 0.25  /* of what dries on the surface */
+#define DRIED_LEAST 4.0     /* grains */
+#define AROUND_LEAST 0.01   /* of what it relaxes by */
+#define AROUND_REACH 0.1875 /* of edge_width, version 3 */
+#define EDGE_SHARE 0.75     /* of edge_width, over which the nearness of an edge falls to 1/e */
 #define EDGE_SLOPE 1.6
 #define EDGE_BLUR 2.5 /* fibers by which mixing widens a band */
 #define EDGE_LEAST 1.0
@@ -137,7 +143,12 @@ static void settle_under(struct paper_sheet *p)
     CM_field_id_t thin = p->t[8], slow = p->t[9], wet = p->t[10], dry = p->t[14];
     kit_f_times(slow, p->surface_water, 1 / p->unit);
     kit_f_most(slow, slow, 1.0);
-    kit_f_times(thin, slow, 1 / LIFTED_FROM);
+    kit_f_copy(thin, slow);
+    if (sheet_of_version_3(p)) {
+        kit_f_plus(thin, thin, -LIFTS_NOT * p->air.film);
+        kit_f_least(thin, thin, 0.0);
+    }
+    kit_f_times(thin, thin, 1 / LIFTED_FROM);
     kit_f_most(thin, thin, 1.0);
     kit_f_times(wet, p->wet_part, LIFTED_WET); /* none where only a part is wet */
     kit_f_plus(wet, wet, 1 - LIFTED_WET);
@@ -208,10 +219,13 @@ static void dry_out(struct paper_sheet *p)
 }
 
 /* How far apart the fibers are among which wet_around spreads. Wide edges take greater
- * distances, so that they form in as many steps as narrow ones. */
+ * distances, so that they form in as many steps as narrow ones: else a band would be as wide as wet_around has come when the water has dried,
+ * and not as wide as was asked for. */
 int sheet_around_reach(const struct paper_sheet *p)
 {
     const double width = p->air.edge_width / p->finer;
+    if (sheet_of_version_3(p))
+        return (int)fmax(1, floor(width * AROUND_REACH));
     return width <= 10 ? 1 : width <= 20 ? 2 : 4;
 }
 
@@ -292,10 +306,11 @@ static void neighbourhood_make(struct paper_sheet *p, CM_field_id_t d)
 static void edge_move(struct paper_sheet *p, const struct sheet_terms *terms)
 {
     CM_field_id_t advance = p->t[7], help = p->t[8], part = p->t[9];
+    const double most = sheet_of_version_3(p) ? NEIGHBOURS_HELP : NEIGHBOURS_HELP_2;
     neighbourhood_make(p, help);
     kit_f_times(part, help, -HOLE_STEEPNESS);
-    kit_f_times(help, help, -NEIGHBOURS_HELP / 16);
-    kit_f_plus(help, help, 1 + NEIGHBOURS_HELP / 4);
+    kit_f_times(help, help, -most / 16);
+    kit_f_plus(help, help, 1 + most / 4);
     kit_f_least(help, help, NEIGHBOURS_LEAST);
     if (sheet_of_version_3(p)) {
         kit_f_plus(part, part, HOLE_FROM * HOLE_STEEPNESS);
