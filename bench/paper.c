@@ -6,6 +6,7 @@
 #include "bench.h"
 #include "of_machine.h"
 #include "paper_scene.h"
+#include "paper_wet.h"
 #include "paris_internal.h"
 
 enum {
@@ -15,11 +16,7 @@ enum {
     STEPS_LARGE = 4,
     FIBERS_SMALL = 2000000,
     FRAMES = 8,
-    SPOT_SIDE = 100, /* fibers across */
-    SPOT_UNIT = 64,
     SPOT_LEAST = 512 * 512,
-    STEPS_BOXED = 30,
-    STEPS_KERNELS = 1000,
     COPY_BYTES = 256 << 20,
     /* Arrays that a step must at least access: each amount is read and written, also the
      * dried water and the wet area; the paper is read. */
@@ -171,89 +168,18 @@ static bool size_measure(struct bench_report *r, const struct bench_options *o, 
     return ok;
 }
 
-/* ---- a spot on a dry sheet: what boxes are worth ---- */
-
-static bool spot_ready(void *context, int unit)
-{
-    const struct turn *t = context;
-    return paper_said(paper_sheet_confine(t->scene->sheet, unit)) &&
-           sheet_steps(t, 2); /* the first looks where it is wet */
-}
-
-static bool spot_boxed_ready(void *context)
-{
-    return spot_ready(context, SPOT_UNIT);
-}
-
-static bool spot_whole_ready(void *context)
-{
-    return spot_ready(context, 0);
-}
-
-static bool spot_put(struct paper_sheet *sheet, int width, int height)
-{
-    static uint8_t gray[SPOT_SIDE * SPOT_SIDE];
-    const double amount[1 + PAPER_PIGMENTS_MAX] = {0.7, 0.5};
-    for (int i = 0; i < SPOT_SIDE * SPOT_SIDE; i++) {
-        const int x = i % SPOT_SIDE - SPOT_SIDE / 2, y = i / SPOT_SIDE - SPOT_SIDE / 2;
-        gray[i] = x * x + y * y < SPOT_SIDE * SPOT_SIDE / 4 ? 255 : 0;
-    }
-    const struct paper_screen screen = {
-        .width_px = SPOT_SIDE, .height_px = SPOT_SIDE, .gray = gray};
-    return paper_said(paper_sheet_put(sheet, &screen, (width - SPOT_SIDE) / 2,
-                                      (height - SPOT_SIDE) / 2, amount));
-}
-
-static bool spot_measure(struct bench_report *r, const struct bench_options *o, int width,
-                         int height)
-{
-    struct paper_sheet_config config = paper_sheet_config_default();
-    struct paper_scene scene = {.sheet = NULL};
-    struct machine_config machine = machine_config_default();
-    char of_case[48];
-    snprintf(of_case, sizeof of_case, "spot on %dx%d", width, height);
-    fprintf(stderr, "paper: %s ...\n", of_case);
-    config.model = PAPER_MODEL_VERSION;
-    config.width = width;
-    config.height = height;
-    config.pigments_count = PIGMENTS;
-    for (int i = 0; i < PIGMENTS; i++)
-        config.pigments[i] = *paper_pigment_number(i);
-    bool ok = (paris_reset(&machine) || bench_fail("%s", paris_error())) &&
-              paper_said(paper_sheet_create(&config, &scene.sheet)) &&
-              spot_put(scene.sheet, width, height);
-    struct turn boxed = {&scene, STEPS_BOXED, false, NULL},
-                whole = {&scene, STEPS_LARGE, false, NULL};
-    ok = ok && sheet_steps(&boxed, STEPS_KERNELS); /* until the box has its best kernels */
-    struct bench_contender contenders[] = {
-        {.what = "sheet, in boxes",
-         .ready = spot_boxed_ready,
-         .work = sheet_work,
-         .context = &boxed},
-        {.what = "sheet, everywhere",
-         .ready = spot_whole_ready,
-         .work = sheet_work,
-         .context = &whole},
-    };
-    ok = ok && bench_measure_in_turns(contenders, 2, o->repeat_count);
-    if (ok) {
-        rate_add(r, contenders[0].what, of_case, contenders[0].seconds, STEPS_BOXED, "steps/s");
-        rate_add(r, contenders[1].what, of_case, contenders[1].seconds, STEPS_LARGE, "steps/s");
-    }
-    paper_scene_finish(&scene);
-    return ok;
-}
-
 int bench_paper_main(int argc, char **argv)
 {
     static struct bench_report report;
-    struct bench_options options = {.name = "paper",
-                                    .sizes = {{512, 512}, {1024, 1024}, {2048, 2048}},
-                                    .sizes_count = 3,
-                                    .size_least = 16,
-                                    .size_most = 4096,
-                                    .repeat_least = 5,
-                                    .repeat_count = 11};
+    struct bench_options options = {
+        .name = "paper",
+        .sizes = {{512, 512}, {1024, 1024}, {2048, 2048}},
+        .sizes_count = 3,
+        .size_least = 16,
+        .size_most = 4096,
+        .repeat_least = 5,
+        .repeat_count = 11,
+        .thorough_does = "a poster's time, and the memory of a large sheet, too"};
     int status = bench_machine_start(&report, &options, true, argc, argv);
     if (status >= 0)
         return status;
@@ -266,7 +192,9 @@ int bench_paper_main(int argc, char **argv)
     ok = ok && size_measure(&report, &options, 0, 1024, 1024, copy);
     for (int i = 0; ok && i < options.sizes_count; i++)
         ok = options.sizes[i][0] * options.sizes[i][1] < SPOT_LEAST ||
-             spot_measure(&report, &options, options.sizes[i][0], options.sizes[i][1]);
+             paper_spot_measure(&report, &options, options.sizes[i][0], options.sizes[i][1]);
     bench_copy_destroy(copy);
+    if (ok && options.thorough)
+        ok = paper_poster_measure(&report) && paper_memory_measure(&report);
     return bench_options_finish(&options, &report, "openmp", ok);
 }

@@ -1,4 +1,5 @@
 /* test_sheet.c - sheets with pigments: nothing is lost, mirrored sheets give mirrored bits, and each effect can be measured. */
+#include <history.h>
 #include <paper.h>
 #include <paris_internal.h>
 #include <sheet.h>
@@ -371,6 +372,50 @@ static void eager_is_fused(void **state)
     assert_memory_equal(fused, eager, sizeof fused);
 }
 
+/* On the machine: sessions by chance are tests/plain/boxes_by_chance.c. */
+static void boxes_give_the_same_bits(void **state)
+{
+    (void)state;
+    enum { WIDE = 96, HIGH = 72, SPOT = 9 };
+    static uint32_t words[2][WIDE * HIGH];
+    static uint8_t gray[SPOT * SPOT];
+    struct paper_sheet *sheets[2];
+    double amount[1 + PAPER_PIGMENTS_MAX] = {0.8, 0.5}, share = 1;
+    struct paper_sheet_config config = paper_sheet_config_default();
+    config.width = WIDE;
+    config.height = HIGH;
+    config.model = PAPER_MODEL_VERSION;
+    config.pigments_count = 1;
+    config.pigments[0] = *paper_pigment_number(0);
+    memset(gray, 255, sizeof gray);
+    const struct paper_screen screen = {.width_px = SPOT, .height_px = SPOT, .gray = gray};
+    for (int k = 0; k < 2; k++) {
+        assert_int_equal(paper_sheet_create(&config, &sheets[k]), PAPER_OK);
+        assert_int_equal(paper_sheet_confine(sheets[k], k == 0 ? 8 : 0), PAPER_OK);
+    }
+    for (int turn = 0; turn < 4; turn++) {
+        const int x = turn % 2 ? 60 : -4, y = turn < 2 ? 20 : HIGH - 5; /* over the edges */
+        for (int k = 0; k < 2; k++) {
+            assert_int_equal(paper_sheet_put(sheets[k], &screen, x, y, amount), PAPER_OK);
+            for (int i = 0; i < 25; i++) {
+                assert_int_equal(paper_sheet_step(sheets[k]), PAPER_OK);
+                share = k == 0 ? fmin(share, paper_sheet_share(sheets[k])) : share;
+            }
+        }
+        struct paper_plane planes[PAPER_PLANES_MAX];
+        for (int i = paper_sheet_planes(sheets[0], planes) - 1; i >= 0; i--) {
+            for (int k = 0; k < 2; k++)
+                assert_int_equal(paper_sheet_plane_read(sheets[k], i, words[k]), PAPER_OK);
+            if (memcmp(words[0], words[1], sizeof words[0]) != 0)
+                fail_msg("%s differs in boxes, in turn %d", planes[i].name, turn);
+        }
+    }
+    assert_true(share < 0.5);
+    assert_int_equal(paper_sheet_confine(sheets[0], 3), PAPER_BAD_ARGUMENT);
+    for (int k = 0; k < 2; k++)
+        paper_sheet_destroy(sheets[k]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -379,6 +424,7 @@ int main(void)
         cmocka_unit_test(any_air_keeps_matter_and_numbers),
         cmocka_unit_test(moved_sheets_give_moved_bits),
         cmocka_unit_test(eager_is_fused),
+        cmocka_unit_test(boxes_give_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -86,7 +86,10 @@ struct paper_sheet_config config_by_chance(int least, int most)
     config.model = 1 + below(PAPER_MODEL_VERSION);
     config.rule = (enum paper_rule)below(3);
     config.seed = sample_word(&chance);
-    config.stock = *paper_stock_number(below(5));
+    int stocks = 0;
+    while (paper_stock_number(stocks))
+        stocks++;
+    config.stock = *paper_stock_number(below(stocks));
     if (below(2)) {
         struct paper_stock *stock = &config.stock;
         stock->color_variation = within(0, 1);

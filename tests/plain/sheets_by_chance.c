@@ -1,9 +1,10 @@
 /* sheets_by_chance.c - runs random tiny sheets. Amounts stay finite, within their bounds and whole, and none is lost.
  *
- *     sheets_by_chance [COUNT [SEED]]
+ *     sheets_by_chance [COUNT [SEED [VERSION [AIRS]]]]
  *
- * Each set draws every setting: parts, torus, paper, pigments, and the air twice; and it draws what is put on, blotted, masked
- * and dried. One parameter in three is at an end of its range. Prints how many sheets were checked. */
+ * Each set draws every setting: parts, torus, paper, pigments, and an air AIRS times (2); under each air it draws what is put on,
+ * blotted, masked and dried. One parameter in three is at an end of its range. VERSION: of the model, 0: any. Prints how many sheets
+ * were checked, and of many the number so far. */
 #include <history.h>
 #include <paper.h>
 #include <sheet.h>
@@ -15,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SIDE = 16, SIDE_LEAST = 8, PIGMENTS = CHANCE_PIGMENTS, STEPS = 5 };
+enum { SIDE = 16, SIDE_LEAST = 8, PIGMENTS = CHANCE_PIGMENTS, STEPS = 5, EVERY = 10000 };
 
 /* The sheet's totals: water, with what has dried, and each pigment. */
 static void totals_get(struct paper_sheet *sheet, int count, double *totals)
@@ -27,7 +28,7 @@ static void totals_get(struct paper_sheet *sheet, int count, double *totals)
     totals[0] += dried;
 }
 
-static void planes_look(struct paper_sheet *sheet, const char *when)
+static void planes_look(struct paper_sheet *sheet, int when)
 {
     static union {
         float values[SIDE * SIDE];
@@ -54,14 +55,15 @@ static void planes_look(struct paper_sheet *sheet, const char *when)
         for (int j = 0; j < fibers; j++) {
             double value = planes[i].whole ? plane.words[j] : (double)plane.values[j];
             if (!(value >= least && value <= (planes[i].whole ? 0x1p31 - 1 : most)))
-                wrong("%s: %s is %g in fiber %d", when, planes[i].name, value, j);
+                wrong("after air %d: %s is %g in fiber %d", when, planes[i].name, value, j);
             if (!fraction && config->parts && floor(value) != value)
-                wrong("%s: %s is %g in fiber %d, not whole", when, planes[i].name, value, j);
+                wrong("after air %d: %s is %g in fiber %d, not whole", when, planes[i].name,
+                      value, j);
         }
     }
 }
 
-static void look(struct paper_sheet *sheet, const double *before, const char *when)
+static void look(struct paper_sheet *sheet, const double *before, int when)
 {
     const struct paper_sheet_config *config = paper_sheet_get_config(sheet);
     double after[1 + PIGMENTS];
@@ -71,8 +73,8 @@ static void look(struct paper_sheet *sheet, const double *before, const char *wh
     totals_get(sheet, config->pigments_count, after);
     for (int i = 0; i <= config->pigments_count; i++)
         if (after[i] != before[i])
-            wrong("%s: of substance %d there was %.9g and is %.9g", when, i, before[i],
-                  after[i]);
+            wrong("after air %d: of substance %d there was %.9g and is %.9g", when, i,
+                  before[i], after[i]);
 }
 
 static void apply_by_chance(struct paper_sheet *sheet)
@@ -112,22 +114,24 @@ static void apply_by_chance(struct paper_sheet *sheet)
     }
 }
 
-static void set_look(uint64_t seed)
+static void set_look(uint64_t seed, int version, int airs)
 {
     static uint16_t rgb[3 * SIDE * SIDE];
     chance_begin(seed);
     struct paper_sheet_config config = config_by_chance(SIDE_LEAST, SIDE);
+    if (version)
+        config.model = version;
     struct paper_sheet *sheet;
     double totals[1 + PIGMENTS];
     check(paper_sheet_create(&config, &sheet));
-    for (int turn = 0; turn < 2; turn++) {
+    for (int turn = 0; turn < airs; turn++) {
         struct paper_air air = air_by_chance();
         check(paper_sheet_air(sheet, &air));
         apply_by_chance(sheet);
         totals_get(sheet, config.pigments_count, totals);
         for (int i = 0; i < STEPS; i++)
             check(paper_sheet_step(sheet));
-        look(sheet, totals, turn ? "after the second air" : "after the first air");
+        look(sheet, totals, turn);
     }
     check(paper_sheet_view(sheet, &(struct paper_sheet_view){.show = PAPER_SHOW_WET}, rgb));
     paper_sheet_destroy(sheet);
@@ -137,8 +141,12 @@ int main(int argc, char **argv)
 {
     long count = argc > 1 ? atol(argv[1]) : 1000;
     uint64_t seed = argc > 2 ? (uint64_t)atoll(argv[2]) : 1;
-    for (long i = 0; i < count; i++)
-        set_look(seed + (uint64_t)i);
-    printf("%ld sets of parameters\n", count);
+    int version = argc > 3 ? atoi(argv[3]) : 0, airs = argc > 4 ? atoi(argv[4]) : 2;
+    for (long i = 0; i < count; i++) {
+        set_look(seed + (uint64_t)i, version, airs);
+        if ((i + 1) % EVERY == 0)
+            fprintf(stderr, "%ld sets\n", i + 1);
+    }
+    printf("%ld sets of parameters, each with %d airs\n", count, airs);
     return 0;
 }

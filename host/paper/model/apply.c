@@ -43,7 +43,7 @@ enum paper_status sheet_put(struct paper_sheet *p, const void *arguments)
         }
     }
     sheet_wet_put(p, amount[0] > 0, share);
-    return paper_leave(&p->page);
+    return sheet_leave(p);
 }
 
 enum paper_status sheet_blot_check(const struct paper_sheet *p, const void *arguments)
@@ -74,7 +74,7 @@ enum paper_status sheet_blot(struct paper_sheet *p, const void *arguments)
         if (sheet_has(p, PAPER_PART_FIXING) && lift > 0)
             sheet_amount_lose(p, p->fixed[i], share, lift, lost);
     }
-    return paper_leave(&p->page);
+    return sheet_leave(p);
 }
 
 enum paper_status sheet_resist_check(const struct paper_sheet *p, const void *arguments)
@@ -104,7 +104,7 @@ enum paper_status sheet_resist(struct paper_sheet *p, const void *arguments)
         kit_f_min(p->resist, p->resist, share);
     }
     sheet_faces_make(p);
-    return paper_leave(&p->page);
+    return sheet_leave(p);
 }
 
 enum paper_status sheet_dry(struct paper_sheet *p, const void *arguments)
@@ -143,7 +143,7 @@ enum paper_status sheet_dry(struct paper_sheet *p, const void *arguments)
         kit_f_set(p->brine, 0.0);
         p->salted = false;
     }
-    return paper_leave(&p->page);
+    return sheet_leave(p);
 }
 
 enum paper_status sheet_seal(struct paper_sheet *p, const void *arguments)
@@ -159,5 +159,5 @@ enum paper_status sheet_seal(struct paper_sheet *p, const void *arguments)
     for (int i = 0; i < p->config.pigments_count; i++)
         for (int j = sheet_pigment_fields(p, i, fields) - 1; j >= 0; j--)
             kit_f_set(fields[j], 0.0);
-    return paper_leave(&p->page);
+    return sheet_leave(p);
 }

@@ -179,6 +179,7 @@ void sheet_brush_exchange(struct paper_sheet *p, struct sheet_brushes *b,
     CM_set_vp_set(p->page.grid.vp_set);
     CM_set_context();
     sheet_wet_around_make(p);
+    kit_f_set(p->t[0], 0.0);
     CM_warm_boot(); /* so the next operation starts from the same kind of values as any other,
                      * and a step after it needs no kernels of its own */
 }

@@ -80,3 +80,20 @@ enum paper_status sheet_amounts_clear(struct paper_sheet *p)
     free(zeros);
     return PAPER_OK;
 }
+
+/* A step of water that spreads uses fewer. */
+enum { SPREADING_TEMPORARIES = 24 };
+
+void sheet_temporaries_clear(struct paper_sheet *p)
+{
+    for (int i = 0; i < (sheet_flows(p) ? SHEET_TEMPORARIES : SPREADING_TEMPORARIES); i++)
+        kit_f_set(p->t[i], 0.0);
+}
+
+enum paper_status sheet_leave(struct paper_sheet *p)
+{
+    CM_set_context();
+    if (p->config.parts)
+        sheet_temporaries_clear(p);
+    return paper_leave(&p->page);
+}

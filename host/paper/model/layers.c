@@ -128,7 +128,7 @@ enum paper_status sheet_layer(struct paper_sheet *p, const void *arguments)
         sheet_faces_make(p);
     if (layer == PAPER_LAYER_SURFACE_WATER || layer == PAPER_LAYER_INFUSED_WATER)
         sheet_wet_around_make(p);
-    status = paper_leave(&p->page);
+    status = sheet_leave(p);
     free(cut);
     return status;
 }
@@ -147,7 +147,7 @@ enum paper_status sheet_layer_read(struct paper_sheet *p, enum paper_layer layer
         field = p->t[0];
     }
     kit_grid_f_read(&p->page.grid, values, field);
-    status = paper_leave(&p->page);
+    status = sheet_leave(p);
     size_t count = (size_t)p->page.grid.width * (size_t)p->page.grid.height;
     if (layers[layer].amount && p->unit != 1)
         for (size_t i = 0; i < count; i++)
@@ -184,5 +184,5 @@ enum paper_status sheet_total(struct paper_sheet *p, int substance, double *tota
     }
     *total /= p->unit;
     CM_deallocate_heap_field(wide);
-    return paper_leave(&p->page);
+    return sheet_leave(p);
 }

@@ -108,6 +108,11 @@ double sheet_share(const struct paper_sheet *p);
 /* Between paper_enter() and paper_leave(), like all below that return nothing. */
 void sheet_fields_make(struct paper_sheet *p);
 enum paper_status sheet_amounts_clear(struct paper_sheet *p);
+/* What is left in temporaries is a value like any other: the machine would have to be able to tell it, keep for that what it is made
+ * of, and store what it cannot have as an expression. So they are cleared before anybody looks, and at the end by sheet_leave(), which
+ * is paper_leave() otherwise. */
+void sheet_temporaries_clear(struct paper_sheet *p);
+enum paper_status sheet_leave(struct paper_sheet *p);
 /* Fields of each pigment that the parts use, in the order surface, infused, fixed; how many. */
 int sheet_pigment_fields(const struct paper_sheet *p, int pigment, CM_field_id_t fields[3]);
 /* The field of a layer; 0 where there is none. */

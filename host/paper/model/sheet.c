@@ -104,7 +104,7 @@ enum paper_status sheet_create(const struct paper_sheet_config *config,
     sheet_fields_make(p);
     status = fresh_make(p);
     if (status == PAPER_OK)
-        status = paper_leave(&p->page);
+        status = sheet_leave(p);
     if (status == PAPER_OK)
         status = sheet_finish(p);
     if (status != PAPER_OK) {
@@ -152,7 +152,7 @@ enum paper_status sheet_reset(struct paper_sheet *p)
     sheet_extras_reset(p);
     CM_u_move_constant_1L(p->dried, 0, SHEET_DRIED_BITS);
     p->air = paper_air_default();
-    enum paper_status status = fresh_make(p), left = paper_leave(&p->page);
+    enum paper_status status = fresh_make(p), left = sheet_leave(p);
     if (status == PAPER_OK)
         status = left;
     return status == PAPER_OK ? sheet_finish(p) : status;

@@ -31,7 +31,7 @@
 
 #include <math.h>
 
-enum { TENSION_REACH = 10, SPREADING_TEMPORARIES = 24 };
+enum { TENSION_REACH = 10 };
 #define SURFACE_SHARE 0.125
 #define INFUSED_SHARE 0.125
 #define CAPACITY_SHARE 0.25 /* of what a fiber can still take, at one face */
@@ -467,14 +467,6 @@ static void flow_infused(struct paper_sheet *p, CM_field_id_t room)
     }
 }
 
-/* What is left in them is a value like any other: the machine would have to be able to tell it, keep for that what it is
- * made of, and store what it cannot have as an expression (one array of 23 with six pigments). */
-static void temporaries_clear(struct paper_sheet *p)
-{
-    for (int i = 0; i < (sheet_flows(p) ? SHEET_TEMPORARIES : SPREADING_TEMPORARIES); i++)
-        kit_f_set(p->t[i], 0.0);
-}
-
 static void spreading_step(struct paper_sheet *p)
 {
     CM_field_id_t room = p->t[0];
@@ -506,5 +498,5 @@ void sheet_step_everywhere(struct paper_sheet *p)
         spreading_step(p);
     if (p->salted)
         sheet_salt_step(p);
-    temporaries_clear(p);
+    sheet_temporaries_clear(p);
 }

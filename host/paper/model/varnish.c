@@ -26,7 +26,7 @@ enum paper_status sheet_varnish(struct paper_sheet *p, const void *arguments)
     kit_f_times(share, share, v->amount);
     kit_f_max(p->varnish, p->varnish, share);
     p->varnished = true;
-    return paper_leave(&p->page);
+    return sheet_leave(p);
 }
 
 /* slope += the varnish of the next fiber, or slope -= the varnish of the previous one. Beyond

@@ -212,13 +212,15 @@ static enum paper_status shades_read(struct paper_sheet *p, int channels, const 
                                      uint16_t *one, uint16_t *rgb)
 {
     size_t count = (size_t)p->page.grid.width * (size_t)p->page.grid.height;
+    if (p->config.parts)
+        sheet_temporaries_clear(p);
     for (int channel = 0; channel < 3; channel++) {
         if (channel < channels)
             kit_grid_u_read(&p->page.grid, one, p->shown[channel], 16, CM_16_bit);
         for (size_t i = 0; i < count; i++)
             rgb[3 * i + (size_t)channel] = table[one[i]];
     }
-    return paper_leave(&p->page);
+    return sheet_leave(p);
 }
 
 struct paper_sheet_view paper_sheet_view_default(const struct paper_sheet_config *config)

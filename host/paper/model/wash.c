@@ -67,7 +67,7 @@ enum paper_status sheet_wash(struct paper_sheet *p, const void *arguments)
         sheet_amount_put(p, i, part);
     }
     sheet_wet_put(p, w->amount[0] > 0 || w->end[0] > 0, share);
-    return paper_leave(&p->page);
+    return sheet_leave(p);
 }
 
 enum paper_status sheet_print_check(const struct paper_sheet *p, const void *arguments)
@@ -122,7 +122,7 @@ enum paper_status sheet_print(struct paper_sheet *p, const void *arguments)
         kit_f_times(part, part, p->unit);
         sheet_amount_put(p, i, part);
         sheet_wet_around_make(p);
-        status = paper_leave(&p->page);
+        status = sheet_leave(p);
     }
     free(whole);
     return status;
@@ -156,5 +156,5 @@ enum paper_status sheet_lift(struct paper_sheet *p, const void *arguments)
         if (sheet_has(p, PAPER_PART_FIXING))
             sheet_amount_lose(p, p->fixed[i], share, lift->part / held, lost);
     }
-    return paper_leave(&p->page);
+    return sheet_leave(p);
 }

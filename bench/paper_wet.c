@@ -1,0 +1,229 @@
+/* paper_wet.c - see paper_wet.h. */
+#include "paper_wet.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <paper.h>
+#include <sheet.h>
+
+#include "paris_internal.h"
+
+enum {
+    SPOT_SIDE = 100, /* fibers across */
+    SPOT_PIGMENTS = 6,
+    UNIT = 64,            /* as usual */
+    STEPS_BOXED = 30,     /* of a turn */
+    STEPS_WHOLE = 4,      /* ... */
+    STEPS_KERNELS = 1000, /* until a box has its best kernels */
+    POSTER_WIDTH = 3000,
+    POSTER_HEIGHT = 2000,
+    POSTER_STEPS = 600,
+    POSTER_PIGMENTS = 3,
+    LARGE_SIDE = 4096,
+    LARGE_STEPS = 4
+};
+
+static bool said(enum paper_status status)
+{
+    return status == PAPER_OK || bench_fail("the paper: %s", paper_error());
+}
+
+/* On a machine of its own. */
+static bool sheet_make(int model, int width, int height, int pigments,
+                       struct paper_sheet **sheet)
+{
+    struct paper_sheet_config config = paper_sheet_config_default();
+    struct machine_config machine = machine_config_default();
+    *sheet = NULL;
+    config.model = model;
+    config.width = width;
+    config.height = height;
+    config.pigments_count = pigments;
+    for (int i = 0; i < pigments; i++)
+        config.pigments[i] = *paper_pigment_number(i);
+    return (paris_reset(&machine) || bench_fail("%s", paris_error())) &&
+           said(paper_sheet_create(&config, sheet));
+}
+
+static bool steps_go(struct paper_sheet *sheet, int count)
+{
+    bool ok = true;
+    for (int i = 0; ok && i < count; i++)
+        ok = said(paper_sheet_step(sheet));
+    return ok && said(paper_sheet_finish(sheet));
+}
+
+/* ---- a spot ---- */
+
+struct turn {
+    struct paper_sheet *sheet;
+    int unit, steps;
+};
+
+/* The first step looks where it is wet. */
+static bool turn_ready(void *context)
+{
+    const struct turn *t = context;
+    return said(paper_sheet_confine(t->sheet, t->unit)) && steps_go(t->sheet, 2);
+}
+
+static bool turn_work(void *context)
+{
+    const struct turn *t = context;
+    return steps_go(t->sheet, t->steps);
+}
+
+static bool spot_put(struct paper_sheet *sheet, int width, int height)
+{
+    static uint8_t gray[SPOT_SIDE * SPOT_SIDE];
+    const double amount[1 + PAPER_PIGMENTS_MAX] = {0.7, 0.5};
+    for (int i = 0; i < SPOT_SIDE * SPOT_SIDE; i++) {
+        const int x = i % SPOT_SIDE - SPOT_SIDE / 2, y = i / SPOT_SIDE - SPOT_SIDE / 2;
+        gray[i] = x * x + y * y < SPOT_SIDE * SPOT_SIDE / 4 ? 255 : 0;
+    }
+    const struct paper_screen screen = {
+        .width_px = SPOT_SIDE, .height_px = SPOT_SIDE, .gray = gray};
+    return said(paper_sheet_put(sheet, &screen, (width - SPOT_SIDE) / 2,
+                                (height - SPOT_SIDE) / 2, amount));
+}
+
+bool paper_spot_measure(struct bench_report *r, const struct bench_options *o, int width,
+                        int height)
+{
+    struct paper_sheet *sheet;
+    char of_case[48];
+    snprintf(of_case, sizeof of_case, "spot on %dx%d", width, height);
+    fprintf(stderr, "paper: %s ...\n", of_case);
+    bool ok = sheet_make(PAPER_MODEL_VERSION, width, height, SPOT_PIGMENTS, &sheet) &&
+              spot_put(sheet, width, height) && steps_go(sheet, STEPS_KERNELS);
+    struct turn boxed = {sheet, UNIT, STEPS_BOXED}, whole = {sheet, 0, STEPS_WHOLE};
+    struct bench_contender contenders[] = {
+        {.what = "sheet, in boxes", .ready = turn_ready, .work = turn_work, .context = &boxed},
+        {.what = "sheet, everywhere",
+         .ready = turn_ready,
+         .work = turn_work,
+         .context = &whole},
+    };
+    ok = ok && bench_measure_in_turns(contenders, 2, o->repeat_count);
+    for (int i = 0; ok && i < 2; i++) {
+        const struct bench_sample seconds = contenders[i].seconds;
+        const double steps = i == 0 ? STEPS_BOXED : STEPS_WHOLE;
+        bench_report_add(r, contenders[i].what, of_case,
+                         (struct bench_sample){steps / seconds.median, steps / seconds.min}, 1,
+                         "steps/s");
+    }
+    paper_sheet_destroy(sheet);
+    return ok;
+}
+
+/* ---- a poster ---- */
+
+static bool line_put(struct paper_sheet *sheet, const char *text, double size, int x, int y,
+                     int pigment)
+{
+    const struct paper_line line = {
+        .text = text, .font = "DejaVu Serif", .size_px = size, .anchor = 0.5};
+    struct paper_screen screen;
+    double amount[1 + PAPER_PIGMENTS_MAX] = {0.6};
+    amount[1 + pigment] = 0.6;
+    bool ok = said(paper_line_screen(&line, &screen, NULL)) &&
+              said(paper_sheet_put(sheet, &screen, x - screen.width_px / 2,
+                                   y - screen.height_px / 2, amount));
+    paper_screen_destroy(&screen);
+    return ok;
+}
+
+/* A word, a line below it, and a wash behind their upper half; all dry while the steps go. */
+static bool poster_paint(struct paper_sheet *sheet)
+{
+    const double wash[1 + PAPER_PIGMENTS_MAX] = {0.5, 0, 0.2};
+    enum { BAND = 500 };
+    uint8_t *gray = malloc((size_t)POSTER_WIDTH * BAND);
+    if (!gray)
+        return bench_fail("no memory for a poster");
+    memset(gray, 255, (size_t)POSTER_WIDTH * BAND);
+    const struct paper_screen screen = {
+        .width_px = POSTER_WIDTH, .height_px = BAND, .gray = gray};
+    bool ok = said(paper_sheet_put(sheet, &screen, 0, 300, wash)) &&
+              line_put(sheet, "Lutetia", 720, POSTER_WIDTH / 2, 800, 0) &&
+              line_put(sheet, "water, paper, time", 240, POSTER_WIDTH / 2, 1500, 2);
+    free(gray);
+    return ok;
+}
+
+static bool poster_time(int model, double *seconds)
+{
+    struct paper_sheet *sheet;
+    fprintf(stderr, "paper: a poster, version %d ...\n", model);
+    bool ok = sheet_make(model, POSTER_WIDTH, POSTER_HEIGHT, POSTER_PIGMENTS, &sheet) &&
+              poster_paint(sheet);
+    const double start = bench_now_s();
+    ok = ok && steps_go(sheet, POSTER_STEPS);
+    *seconds = bench_now_s() - start;
+    paper_sheet_destroy(sheet);
+    return ok;
+}
+
+bool paper_poster_measure(struct bench_report *r)
+{
+    double first, third;
+    if (!poster_time(1, &first) || !poster_time(3, &third))
+        return false;
+    const char *of_case = "poster 3000x2000, 600 steps";
+    bench_report_add(r, "sheet, version 1", of_case, (struct bench_sample){first, first}, 1,
+                     "s");
+    bench_report_add(r, "sheet, version 3", of_case, (struct bench_sample){third, third}, 1,
+                     "s");
+    bench_report_add(r, "version 3 / version 1", of_case,
+                     (struct bench_sample){third / first, third / first}, 1, "times");
+    return true;
+}
+
+/* ---- memory ---- */
+
+/* The most that the process had in memory, bytes; 0: the system does not say. */
+static double most_in_memory(void)
+{
+    FILE *f = fopen("/proc/self/status", "r");
+    char line[256];
+    double kilobytes = 0;
+    while (f && fgets(line, sizeof line, f))
+        if (sscanf(line, "VmHWM: %lf", &kilobytes) == 1)
+            break;
+    if (f)
+        fclose(f);
+    return 1024 * kilobytes;
+}
+
+bool paper_memory_measure(struct bench_report *r)
+{
+    struct paper_sheet *sheet;
+    const double amount[1 + PAPER_PIGMENTS_MAX] = {0.5, 0.2, 0.2, 0.2};
+    const size_t count = (size_t)LARGE_SIDE * LARGE_SIDE;
+    const struct paper_sheet_view view = {.show = PAPER_SHOW_COLOR};
+    fprintf(stderr, "paper: memory of %dx%d ...\n", LARGE_SIDE, LARGE_SIDE);
+    FILE *f = fopen("/proc/self/clear_refs", "w"); /* "5": the most begins anew */
+    if (f) {
+        fputs("5", f);
+        fclose(f);
+    }
+    const double before = most_in_memory();
+    uint16_t *rgb = malloc(3 * count * sizeof *rgb);
+    bool ok = (rgb || bench_fail("no memory for a picture")) &&
+              sheet_make(PAPER_MODEL_VERSION, LARGE_SIDE, LARGE_SIDE, POSTER_PIGMENTS, &sheet);
+    if (!ok) {
+        free(rgb);
+        return false;
+    }
+    ok = said(paper_sheet_put(sheet, NULL, 0, 0, amount)) && steps_go(sheet, LARGE_STEPS) &&
+         said(paper_sheet_view(sheet, &view, rgb));
+    const double bytes = most_in_memory() - before;
+    if (ok && bytes > 0)
+        bench_report_add(r, "memory", "4096x4096, three pigments",
+                         (struct bench_sample){bytes, bytes}, 0x1p-30, "GiB");
+    free(rgb);
+    paper_sheet_destroy(sheet);
+    return ok;
+}

@@ -1,0 +1,16 @@
+/* paper_wet.h - what wet paper costs: a spot on a dry sheet, a poster, the memory of a large sheet. */
+#ifndef LUTETIA_BENCH_PAPER_WET_H
+#define LUTETIA_BENCH_PAPER_WET_H
+
+#include "harness.h"
+#include "options.h"
+
+/* A dry sheet with a wet spot: steps in boxes, and everywhere. */
+bool paper_spot_measure(struct bench_report *r, const struct bench_options *o, int width,
+                        int height);
+/* 600 steps of a poster of 3000x2000 with type on it, by versions 1 and 3 of the model. */
+bool paper_poster_measure(struct bench_report *r);
+/* Of the process: a sheet of 4096x4096 with three pigments, wet everywhere, after some steps and a picture. */
+bool paper_memory_measure(struct bench_report *r);
+
+#endif
