@@ -65,6 +65,43 @@ static void machine_steps_as_c_does(void **unused)
     }
 }
 
+/* A cloth of several blocks whose springs come in any order and direction, with constants of their own, and masses that have
+ * more springs than there are slots: their forces are sent. */
+static void springs_come_in_any_order(void **unused)
+{
+    (void)unused;
+    enum { SIDE = 70, MASSES = SIDE * SIDE, HUBS = 3, OF_HUB = 40 };
+    uint64_t state = 7;
+    struct dyn_network *n;
+    scene_must(dyn_network_create(&n));
+    for (int i = 0; i < MASSES; i++) {
+        struct dyn_mass mass = dyn_mass_usual();
+        mass.x = i % SIDE;
+        mass.y = 100 - i / SIDE;
+        mass.vx = scene_chance(&state, -1, 1);
+        mass.hold = i < SIDE ? DYN_STUCK : DYN_FREE;
+        scene_must(dyn_mass_add(n, &mass, NULL));
+    }
+    for (int i = 0; i < 4 * MASSES + HUBS * OF_HUB; i++) {
+        int hub = i - 4 * MASSES, a = (int)scene_chance(&state, 0, MASSES);
+        int b = (a + (i % 2 ? 1 : SIDE)) % MASSES;
+        if (hub >= 0) {
+            a = 5000 - 1500 * (hub % HUBS) - 400;
+            b = (int)scene_chance(&state, 0, MASSES);
+        }
+        if (a == b)
+            continue;
+        struct dyn_spring spring = dyn_spring_usual();
+        spring.end[0] = i % 3 ? a : b;
+        spring.end[1] = i % 3 ? b : a;
+        spring.constant = scene_chance(&state, 10, 100);
+        spring.damping = 0.1;
+        scene_must(dyn_spring_add(n, &spring, NULL));
+    }
+    compare(n, 20, 1e-9);
+    dyn_network_destroy(n);
+}
+
 /* A cloth is torn from its rail: springs snap, and the remaining springs go on moving. */
 static void springs_break_on_the_machine(void **unused)
 {
@@ -128,6 +165,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(machine_steps_as_c_does),
+        cmocka_unit_test(springs_come_in_any_order),
         cmocka_unit_test(springs_break_on_the_machine),
         cmocka_unit_test(what_the_machine_does_not_do_is_refused),
     };
