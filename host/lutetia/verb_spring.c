@@ -70,6 +70,10 @@ static int spring_check(struct spring *s, const struct option_words *words)
         return fail_usage("spring", "--param is for a --map FILE.lua");
     if (s->live_options.map && !s->song_path && (s->film.still || s->film.video || s->frames))
         return fail_usage("spring", "a film through a --map is of a --song FILE.mid");
+    const struct spring_wet_def usual = spring_wet_def_default();
+    if (!s->is_wet &&
+        (s->wet_def.pigment != usual.pigment || s->wet_def.every_s != usual.every_s))
+        return fail_usage("spring", "--pigment and --every are for --wet");
     if (s->is_wet && !s->film.still && !s->film.video && !s->frames)
         return fail_usage("spring", "--wet goes with --still, --video or --frames");
     if (s->sound_path && !s->film.still && !s->film.video && !s->frames)

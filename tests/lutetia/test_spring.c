@@ -305,9 +305,14 @@ static void controls_are_listed(void **state)
 static void what_is_wrong_is_said_in_a_line(void **state)
 {
     (void)state;
-    const char *bad = scratch_path("bad.springs"), *still = scratch_path("none.png");
+    const char *bad = scratch_path("bad.springs"), *still = scratch_path("none.png"),
+               *others = scratch_path("others.clamps");
     FILE *file = fopen(bad, "w");
     fputs("springs 1\nmass x=0 y=1\nspring 0 0\nend\n", file);
+    fclose(file);
+    file = fopen(others, "w");
+    fputs("clamps 1\nkey 7 100 0 0\nend\n",
+          file); /* a mass there is not, long after the film */
     fclose(file);
     const struct {
         const char *arguments[8];
@@ -334,6 +339,12 @@ static void what_is_wrong_is_said_in_a_line(void **state)
         {{"--network", collision, "--still", "/no/folder/a.png"}, 1, "/no/folder/a.png"},
         {{"--network", collision, "--video", still, "--size", "33x32"}, 2, "even sides"},
         {{"--network", collision, "--still", still, "--view", "1,0,0,1"}, 2, "X0 < X1"},
+        {{"--network", collision, "--still", still, "--view", "0,0,0,0"}, 2, "X0 < X1"},
+        {{"a", "--still", still, "--script", others},
+         1,
+         "others.clamps: there is no mass 7 (of 4)"},
+        {{"a", "--still", still, "--param", "a=b"}, 2, "--param is for a --map"},
+        {{"a", "--still", still, "--every", "1"}, 2, "are for --wet"},
         {{"--network", collision, "--strip", "2x2"}, 2, "--strip is for a --still"},
         {{"--network", collision, "--still", still, "--filter", "soft"}, 1, "soft"},
         {{"a", "--network", collision, "--still", still}, 2, "not both"},
