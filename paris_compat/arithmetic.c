@@ -32,6 +32,8 @@ void paris_binary(const struct paris_instruction *self, struct paris_operand des
     struct machine_type type;
     struct machine_value *x, *y;
     bool is_integer = dest.letter != 'f', is_signed = dest.letter == 's';
+    if (!self->swap && paris_direct(m, self->op, self->overflow, dest, a, b))
+        return;
     if (is_integer ? !paris_load_widest(m, self, dest, a, b, is_signed, &x, &y)
                    : !paris_check_dest(dest, a, b, &type) ||
                          !paris_load_two(m, self, dest, a, b, &x, &y))
@@ -103,6 +105,10 @@ void paris_compare(const struct paris_instruction *self, struct paris_operand a,
                    struct paris_operand b)
 {
     struct machine *m = paris_begin(self->name);
+    struct paris_operand test = a;
+    test.field = CM_no_field;
+    if (!self->swap && paris_direct(m, self->op, false, test, a, b))
+        return;
     struct machine_value *x = paris_load(m, a, "source1", MACHINE_WHERE_ACTIVE);
     struct machine_value *y =
         x ? paris_load(m, b, b.is_constant ? "value" : "source2", MACHINE_WHERE_ACTIVE) : NULL;

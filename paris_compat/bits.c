@@ -4,18 +4,27 @@
 
 #include <stdlib.h>
 
+/* By truth table: an operation of the machine, and what is inverted. */
+static const struct boolean {
+    uint8_t op, not_a, not_b, not_result;
+} boolean_how[16] = {
+    [0x1] = {MACHINE_AND, 0, 0, 0}, [0x2] = {MACHINE_AND, 0, 1, 0},
+    [0x4] = {MACHINE_AND, 1, 0, 0}, [0x8] = {MACHINE_OR, 0, 0, 1},
+    [0x7] = {MACHINE_OR, 0, 0, 0},  [0xb] = {MACHINE_OR, 0, 1, 0},
+    [0xd] = {MACHINE_OR, 1, 0, 0},  [0xe] = {MACHINE_AND, 0, 0, 1},
+    [0x6] = {MACHINE_XOR, 0, 0, 0}, [0x9] = {MACHINE_XOR, 0, 0, 1},
+};
+
+/* Whether that operation is all. */
+static bool boolean_is_plain(unsigned int truth)
+{
+    return truth == 0x1 || truth == 0x7 || truth == 0x6;
+}
+
 struct machine_value *paris_boolean(struct machine *m, unsigned int truth,
                                     struct machine_value *a, struct machine_value *b)
 {
-    static const struct {
-        uint8_t op, not_a, not_b, not_result;
-    } how[16] = {
-        [0x1] = {MACHINE_AND, 0, 0, 0}, [0x2] = {MACHINE_AND, 0, 1, 0},
-        [0x4] = {MACHINE_AND, 1, 0, 0}, [0x8] = {MACHINE_OR, 0, 0, 1},
-        [0x7] = {MACHINE_OR, 0, 0, 0},  [0xb] = {MACHINE_OR, 0, 1, 0},
-        [0xd] = {MACHINE_OR, 1, 0, 0},  [0xe] = {MACHINE_AND, 0, 0, 1},
-        [0x6] = {MACHINE_XOR, 0, 0, 0}, [0x9] = {MACHINE_XOR, 0, 0, 1},
-    };
+    const struct boolean *how = boolean_how;
     if (!a || !b)
         return NULL;
     if (truth == 0xc)
@@ -108,6 +117,9 @@ void paris_logical(const struct paris_instruction *self, struct paris_operand de
                    struct paris_operand a, struct paris_operand b)
 {
     struct machine *m = paris_begin(self->name);
+    const enum machine_op op = boolean_how[self->op].op;
+    if (boolean_is_plain(self->op) && paris_direct(m, op, false, dest, a, b))
+        return;
     if (dest.len == 0 || !paris_check_operand(dest, "dest") ||
         !paris_check_operand(a, "source1") || !paris_check_operand(b, "source2") ||
         !paris_check_overlap(dest, a) || !paris_check_overlap(dest, b))

@@ -123,20 +123,20 @@ static const struct paris_geometry *geometry_of(CM_geometry_id_t id, unsigned in
 }
 
 static struct machine_value *load(struct machine *m, CM_field_id_t field, unsigned int len,
-                                  const char *role)
+                                  const char *role, int width)
 {
     if (len > 32) {
         paris_fail("%s: length must be 1..32 bits (got %u)", role, len);
         return NULL;
     }
     struct machine_value *v = paris_load(m, paris_u(field, len), role, MACHINE_WHERE_ACTIVE);
-    return v ? machine_resize(m, v, WIDTH, false) : NULL;
+    return v ? machine_resize(m, v, width, false) : NULL;
 }
 
 static struct machine_value *load_address(struct machine *m, const struct paris_geometry *g,
                                           CM_field_id_t field)
 {
-    return load(m, field, paris_address_bits(g), "send_address");
+    return load(m, field, paris_address_bits(g), "send_address", WIDTH);
 }
 
 static void store_address(struct machine *m, const struct paris_instruction *self,
@@ -156,12 +156,12 @@ void paris_coordinate_make(const struct paris_instruction *self, CM_geometry_id_
 {
     struct machine *m = paris_begin(self->name);
     const struct paris_geometry *g = geometry_of(geometry, axis);
-    struct machine_value *v = g ? load(m, coordinate, slen, "coordinate") : NULL;
-    uint64_t stride = v ? stride_of(g, axis) : 0;
+    uint64_t stride = g ? stride_of(g, axis) : 0;
+    struct machine_value *v =
+        g ? load(m, coordinate, slen, "coordinate", stride == 1 ? 32 : WIDTH) : NULL;
     if (!v)
         return;
-    v = stride == 1 ? short_address_of(m, g, machine_resize(m, v, 32, false))
-                    : address_of(m, g, times(m, v, stride));
+    v = stride == 1 ? short_address_of(m, g, v) : address_of(m, g, times(m, v, stride));
     store_address(m, self, g, dest, v);
 }
 
@@ -175,7 +175,7 @@ void paris_coordinate_deposit(const struct paris_instruction *self, CM_geometry_
     if (!index)
         return;
     if (self->op == 0) {
-        v = load(m, coordinate, slen, "coordinate");
+        v = load(m, coordinate, slen, "coordinate", WIDTH);
     } else if (coordinate >= (unsigned int)g->dimensions[axis] &&
                !paris_let_pass("value: must be 0..%d on axis %u; %u is taken modulo",
                                g->dimensions[axis] - 1, axis, coordinate)) {

@@ -149,6 +149,29 @@ bool paris_load_two(struct machine *m, const struct paris_instruction *self,
     return *y != NULL;
 }
 
+bool paris_direct(struct machine *m, enum machine_op op, bool overflow,
+                  struct paris_operand dest, struct paris_operand a, struct paris_operand b)
+{
+    if (paris_the.safety || a.is_constant || a.len != dest.len || b.len != dest.len ||
+        a.e != dest.e || b.e != dest.e)
+        return false;
+    bool is_float = dest.letter == 'f';
+    struct machine_type type =
+        is_float ? machine_float_type((int)dest.len, (int)dest.e) : MACHINE_UINT((int)dest.len);
+    struct machine_direct d = {.op = op,
+                               .type = type,
+                               .dest = dest.field,
+                               .a = a.field,
+                               .b = b.is_constant ? MACHINE_NO_FIELD : b.field,
+                               .overflow = overflow,
+                               .is_signed = dest.letter == 's'};
+    if (b.is_constant)
+        d.number = is_float ? machine_float_bits(type, b.value.number) : paris_constant_bits(b);
+    else if (!b.field)
+        return false;
+    return machine_direct(m, &d);
+}
+
 bool paris_load_widest(struct machine *m, const struct paris_instruction *self,
                        struct paris_operand dest, struct paris_operand a,
                        struct paris_operand b, bool y_signed, struct machine_value **x,

@@ -28,6 +28,7 @@
 #endif
 
 #include "base/scalar.h"
+#include "machine_direct.h"
 #include "paris_internal.h"
 
 /* One entry point. */
@@ -218,6 +219,10 @@ bool paris_load_widest(struct machine *m, const struct paris_instruction *self,
                        struct paris_operand dest, struct paris_operand a,
                        struct paris_operand b, bool y_signed, struct machine_value **x,
                        struct machine_value **y);
+/* dest = a op b where that is possible at once (machine_direct()), all of one type. dest of no field: the test flag. False: nothing was done,
+ * and nothing has been reported. */
+bool paris_direct(struct machine *m, enum machine_op op, bool overflow,
+                  struct paris_operand dest, struct paris_operand a, struct paris_operand b);
 /* value may be NULL. False: nothing was stored; the error has been reported. */
 bool paris_store(struct machine *m, struct paris_operand dest, struct machine_value *value,
                  enum machine_scope scope);

@@ -34,16 +34,28 @@ static void programs_have_every_operation(void **state)
         assert_true(seen[op]);
 }
 
-static void interpreted_programs_come_to_the_same(void **state)
+/* Sizes on both sides of the one up to which operations are computed as they are called. */
+static void all_come_to_the_same(const char *interpret)
 {
-    static const int sizes[] = {1, 10, 63, 1000, 5001};
-    (void)state;
-    setenv("LUTETIA_INTERPRET", "2", 1);
+    static const int sizes[] = {1, 10, 63, 1000, 4000, 4096, 5001};
+    setenv("LUTETIA_INTERPRET", interpret, 1);
     CM_detach();
     CM_init();
     for (uint64_t seed = 1; seed <= 8; seed++)
-        for (int i = 0; i < 5; i++)
+        for (int i = 0; i < (int)(sizeof sizes / sizeof *sizes); i++)
             same(seed, sizes[i], 3);
+}
+
+static void interpreted_programs_come_to_the_same(void **state)
+{
+    (void)state;
+    all_come_to_the_same("2");
+}
+
+static void so_do_those_that_run_as_usual(void **state)
+{
+    (void)state;
+    all_come_to_the_same("1");
 }
 
 static void so_do_those_that_are_compiled(void **state)
@@ -60,6 +72,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(programs_have_every_operation),
         cmocka_unit_test(interpreted_programs_come_to_the_same),
+        cmocka_unit_test(so_do_those_that_run_as_usual),
         cmocka_unit_test(so_do_those_that_are_compiled),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

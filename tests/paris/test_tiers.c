@@ -1,5 +1,5 @@
 /* Runs random programs without loops in all tiers: byte code and C loops on the front end's threads, the same with even short
- * work shared out to threads, kernels only, and one instruction at a time. After each program all fields hold the same bits. */
+ * work shared out to threads, kernels only, one instruction at a time, and small sets' operations as they are called. After each program all fields hold the same bits. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -17,15 +17,17 @@
 enum { PROGRAMS = 16, STEPS = 40, FIELDS = 4, WIDE = 100, MOST = 400000 };
 
 static const struct tier {
-    const char *name, *near, *interpret, *gather;
+    const char *name, *near, *interpret, *gather, *at_once;
     bool eager;
     int every; /* of so many programs one */
 } tiers[] = {
-    {"as usual", "1", "1", "1", false, 1},
-    {"byte code, shared out", "2", "2", "1", false, 1},
-    {"kernels", "0", "0", "1", false, 8},
-    {"byte code, one instruction at a time", "1", "2", "1", true, 1},
-    {"gets apart", "2", "2", "0", false, 2},
+    {"as usual", "1", "1", "1", "1", false, 1},
+    {"byte code, shared out", "2", "2", "1", "0", false, 1},
+    {"kernels", "0", "0", "1", "0", false, 8},
+    {"byte code, one instruction at a time", "1", "2", "1", "0", true, 1},
+    {"gets apart", "2", "2", "0", "0", false, 2},
+    {"byte code", "1", "2", "1", "0", false, 1},
+    {"always at once", "1", "2", "1", "2", false, 1},
 };
 enum { TIERS = sizeof tiers / sizeof *tiers };
 
@@ -260,6 +262,7 @@ static void begin_as(const struct tier *t)
     setenv("LUTETIA_NEAR", t->near, 1);
     setenv("LUTETIA_INTERPRET", t->interpret, 1);
     setenv("LUTETIA_GATHER", t->gather, 1);
+    setenv("LUTETIA_AT_ONCE", t->at_once, 1);
     config.eager = t->eager;
     config.processors_count = 16;
     assert_true(paris_reset(&config));

@@ -2,6 +2,7 @@
 #include "access/settle.h"
 #include "base/arrays.h"
 #include "memory/memory.h"
+#include "run/at_once_when.h"
 #include "run/evaluate.h"
 #include "run/notes.h"
 #include "run/replay.h"
@@ -34,6 +35,7 @@ static bool foreseen(struct machine *m, struct machine_call *call)
         if (p->log_count < CALLS_MOST)
             p->log[p->log_count++] = *call;
     }
+    at_once_decide(m);
     p->depth = 1;
     return false;
 }

@@ -7,6 +7,7 @@
 #include "run/evaluate.h"
 #include "run/notes.h"
 #include "values/graph.h"
+#include "values/make.h"
 #include "values/rules.h"
 #include "values/soft.h"
 
@@ -140,8 +141,8 @@ enum machine_status machine_field_store(struct machine *m, uint32_t field,
     struct slot *slot = slot_exact(f, offset, value->type.width);
     if (slot)
         slot_accessed(m, slot, true);
-    if (scope == MACHINE_WHERE_ACTIVE) {
-        struct machine_value *context = m->memory->flags[f->vpset].of[MACHINE_CONTEXT].value;
+    struct machine_value *context = m->memory->flags[f->vpset].of[MACHINE_CONTEXT].value;
+    if (scope == MACHINE_WHERE_ACTIVE && !value_is_one_bit(context)) {
         struct machine_value *old = field_content(m, f, offset, value->type.width);
         old = machine_reinterpret(m, old, value->type);
         value = old ? machine_select(m, context, value, old) : NULL;

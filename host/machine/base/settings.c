@@ -57,6 +57,7 @@ static const struct setting {
     {SETTING(BOX_AFTER, box_after), 32 << 20, 0, UINT64_MAX - 1, 0, "a number"},
     {SETTING(INTERPRET, interpret), 1, 0, 3, 0, "0, 1, 2 or 3"},
     {SETTING(NUMBERS, numbers), SETTING_FREE, 0, 1, 0, "0 or 1"},
+    {SETTING(AT_ONCE, at_once), 1, 0, 2, 0, "0, 1 or 2"},
     {SETTING(BACKGROUND, background), 1, 0, 1, 0, "0 or 1"},
     {SETTING(STRIPS, strips), SETTING_FREE, 0, 1, 0, "0 or 1"},
     {SETTING_READ(TILE, tile, sides_read), SETTING_FREE, 0, UINT64_MAX, 0,

@@ -15,7 +15,9 @@ struct settings {
     uint64_t optimise_after, box_after;
     uint64_t
         interpret; /* plans run as byte code: 0 never, 1 until kernels pay, 2 always, 3 always and on the device */
-    uint64_t numbers;    /* numbers in kernels are arguments: 0 never, 1 where they can be */
+    uint64_t numbers; /* numbers in kernels are arguments: 0 never, 1 where they can be */
+    uint64_t
+        at_once; /* operations of small sets are computed when called: 0 never, 1 where nothing repeats, 2 always */
     uint64_t background; /* better kernels are compiled while others run */
     uint64_t knob[MACHINE_KNOBS];
     double cost_ns[MACHINE_COSTS]; /* measured for this device (device/tuning.c); 0: not */

@@ -8,15 +8,6 @@
 #include "soft.cl"
 #pragma GCC diagnostic pop
 
-size_t type_bytes(struct machine_type type)
-{
-    return type.width <= 8    ? 1
-           : type.width <= 16 ? 2
-           : type.width <= 32 ? 4
-           : type.width <= 64 ? 8
-                              : 16;
-}
-
 size_t machine_element_bytes(struct machine_type type)
 {
     return type_bytes(type);

@@ -17,7 +17,14 @@ static inline bool type_is_short(struct machine_type t)
     return t.s <= 24 && t.e <= 9;
 }
 
-size_t type_bytes(struct machine_type type); /* in a buffer */
+static inline size_t type_bytes(struct machine_type type) /* in a buffer */
+{
+    return type.width <= 8    ? 1
+           : type.width <= 16 ? 2
+           : type.width <= 32 ? 4
+           : type.width <= 64 ? 8
+                              : 16;
+}
 
 bool type_format_good(struct machine_type type);       /* s and e are within their ranges */
 static inline bool type_good(struct machine_type type) /* ... or 0 */

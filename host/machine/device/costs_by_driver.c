@@ -16,7 +16,8 @@
     .compile_ns = 1e8, .compile_op_ns = 2e6, .kernel_part = 0.4, .turns_from_ns = 4e3,         \
     .scan_run_least = 65536, .sort_short = 64, .near_rank_most = 1 << 17, .share_ns = 150e3,   \
     .part_ns = 40e3, .loop_ns = 0.04, .loop_cost_ns = 0.01, .gather_ns = 0.5,                  \
-    .ahead_from = 1 << 18, .each_math_ns = 15, .each_ns = 8, .short_ns = 10e3
+    .ahead_from = 1 << 18, .each_math_ns = 15, .each_ns = 8, .short_ns = 10e3,                 \
+    .at_once_lanes = 4096
 /* ... and all of CPUs, whose units are few and have long work-items. */
 #define ROW_CPU                                                                                \
     ROW_USUAL, .call_columns = 4096, .call_processors = 512, .scatter_units = 8,               \

@@ -72,6 +72,8 @@ struct device_shape {
         step_ns; /* ... a step of the device's own interpreter (kernels/interpret.cl), for a processor */
     uint64_t
         ahead_from; /* processors of a set whose arrays are not in the caches: they are fetched ahead */
+    uint64_t
+        at_once_lanes; /* sets of up to so many, halos included, are computed at once where nothing repeats */
     double
         short_ns; /* what the front end interprets in less time is as soon done as noted: run/record.c */
     /* When plans get kernels (build/interpreted.c): nanoseconds of a launch and its wait, of the search for a plan and its

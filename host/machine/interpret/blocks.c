@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/arrays.h"
+#include "interpret/generate.h"
 #include "values/values.h"
 
 enum { LINE = 64 };
@@ -86,12 +87,6 @@ static void places_begin(const struct run *r, struct machine_value *const *nodes
 
 /* ---- neighbours ---- */
 
-static int wrapped(int64_t c, int length)
-{
-    c %= length;
-    return (int)(c < 0 ? c + length : c);
-}
-
 /* The row that is so much further along all axes but the last. */
 static uint64_t row_moved(const struct vpset *s, uint64_t row, const int32_t *further)
 {
@@ -100,7 +95,7 @@ static uint64_t row_moved(const struct vpset *s, uint64_t row, const int32_t *fu
         uint64_t length = (uint64_t)s->dimensions[a], c = row % length;
         row /= length;
         if (further[a])
-            c = (uint64_t)wrapped((int64_t)c + further[a], s->dimensions[a]);
+            c = (uint64_t)generate_wrapped((int64_t)c + further[a], s->dimensions[a]);
         moved += c * stride;
         stride *= length;
     }
@@ -116,7 +111,7 @@ static char *row_begin(const struct run *r, const struct place *place, uint64_t 
 /* lanes columns of a row from column x on, which may lie beyond its ends. */
 static void columns_copy(char *to, const char *row, int64_t x, int lanes, int width, int bytes)
 {
-    int from = wrapped(x, width);
+    int from = generate_wrapped(x, width);
     while (lanes > 0) {
         int part = width - from < lanes ? width - from : lanes;
         memcpy(to, row + (size_t)from * (size_t)bytes, (size_t)part * (size_t)bytes);
@@ -170,40 +165,14 @@ static void places_move(const struct run *r, const struct block *b)
 
 /* ---- coordinates ---- */
 
-/* Along an axis that is not the last. */
-static uint32_t coordinate(const struct vpset *s, uint64_t row, int axis)
-{
-    for (int a = s->rank - 2; a > axis; a--)
-        row /= (uint64_t)s->dimensions[a];
-    return (uint32_t)(row % (uint64_t)s->dimensions[axis]);
-}
-
-static void row_generate(const struct vpset *s, const struct lanes_step *step, uint64_t row,
-                         int x, uint32_t *to, int lanes)
-{
-    bool along = step->op == NODE_INDEX || step->axis == s->rank - 1;
-    uint32_t first = step->op == NODE_INDEX ? (uint32_t)row * (uint32_t)s->width
-                     : along                ? 0
-                                            : coordinate(s, row, step->axis);
-    if (!along)
-        for (int i = 0; i < lanes; i++)
-            to[i] = first;
-    else if (x >= 0 && x + lanes <= s->width)
-        for (int i = 0; i < lanes; i++)
-            to[i] = first + (uint32_t)(x + i);
-    else
-        for (int i = 0; i < lanes; i++)
-            to[i] = first + (uint32_t)wrapped((int64_t)x + i, s->width);
-}
-
 static void generate(const struct run *r, const struct lanes_step *step, const struct block *b)
 {
     uint32_t *to = r->room->at[step->to];
+    const int axis = step->op == NODE_INDEX ? -1 : step->axis;
     if (!b->rows)
-        row_generate(r->set, step, b->row, b->x, to, b->lanes);
-    for (int i = 0; i < b->rows; i++)
-        row_generate(r->set, step, b->row + (uint64_t)i, -r->set->halo,
-                     to + (size_t)i * r->set->pitch, (int)r->set->pitch);
+        generate_row(r->set, axis, b->row, b->x, to, b->lanes);
+    else
+        generate_lanes(r->set, axis, b->row * r->set->pitch, to, b->lanes);
 }
 
 /* ---- blocks ---- */

@@ -3,29 +3,6 @@
 
 #include "base/types.h"
 
-enum lanes_class lanes_class_of(struct machine_type type)
-{
-    if (type.kind == MACHINE_FLOAT)
-        return type.width == 32 ? LANES_F32 : LANES_F64;
-    switch (type_bytes(type)) {
-    case 1:
-        return LANES_U8;
-    case 2:
-        return LANES_U16;
-    case 4:
-        return LANES_U32;
-    case 8:
-        return LANES_U64;
-    default:
-        return LANES_U128;
-    }
-}
-
-enum lanes_class lanes_bits_of(enum lanes_class c)
-{
-    return c == LANES_F32 ? LANES_U32 : c == LANES_F64 ? LANES_U64 : c;
-}
-
 size_t lanes_bytes(enum lanes_class c)
 {
     static const uint8_t bytes[LANES_CLASSES] = {1, 2, 4, 8, 16, 4, 8};

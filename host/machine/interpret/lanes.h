@@ -27,9 +27,21 @@ enum lanes_class {
     LANES_CLASSES,
     LANES_INTEGERS = LANES_F32
 };
-enum lanes_class lanes_class_of(struct machine_type type);
+static inline enum lanes_class lanes_class_of(struct machine_type type)
+{
+    if (type.kind == MACHINE_FLOAT)
+        return type.width == 32 ? LANES_F32 : LANES_F64;
+    return type.width <= 8    ? LANES_U8
+           : type.width <= 16 ? LANES_U16
+           : type.width <= 32 ? LANES_U32
+           : type.width <= 64 ? LANES_U64
+                              : LANES_U128;
+}
 /* The same bytes as bits. */
-enum lanes_class lanes_bits_of(enum lanes_class c);
+static inline enum lanes_class lanes_bits_of(enum lanes_class c)
+{
+    return c == LANES_F32 ? LANES_U32 : c == LANES_F64 ? LANES_U64 : c;
+}
 size_t lanes_bytes(enum lanes_class c);
 
 /* Operations of the interpreter beside those of the graph. */

@@ -40,6 +40,7 @@ void field_unlink_alias(struct field *alias)
 void field_release(struct machine *m, int index)
 {
     struct field *f = m->memory->fields[index];
+    memset(m->memory->found, 0, sizeof m->memory->found);
     if (f->root) {
         f->root->newest = f->root->newest == f ? NULL : f->root->newest;
         field_unlink_alias(f);
@@ -140,7 +141,7 @@ struct field *field_search(struct machine *m, uint32_t id, uint32_t *offset)
         machine_fail(m, MACHINE_BAD_ARGUMENT, "there is no field %u (any more)", id);
         return NULL;
     }
-    m->memory->last_found = i;
+    m->memory->found[field_line(id)] = m->memory->fields[i];
     *offset = id - m->memory->fields[i]->base;
     return m->memory->fields[i];
 }
@@ -148,11 +149,13 @@ struct field *field_search(struct machine *m, uint32_t id, uint32_t *offset)
 bool machine_field_lookup(const struct machine *m, uint32_t field,
                           struct machine_field_info *out)
 {
-    int i = fields_above(m, field) - 1;
-    if (i < 0 || (field - m->memory->fields[i]->base >= m->memory->fields[i]->bits &&
-                  (m->memory->fields[i]->bits || field != m->memory->fields[i]->base)))
-        return false;
-    const struct field *f = m->memory->fields[i];
+    const struct field *f = m->memory->found[field_line(field)];
+    if (!f || field - f->base >= f->bits) {
+        int i = fields_above(m, field) - 1;
+        f = i < 0 ? NULL : m->memory->fields[i];
+        if (!f || (field - f->base >= f->bits && (f->bits || field != f->base)))
+            return false;
+    }
     *out = (struct machine_field_info){.base = f->base,
                                        .bits = f->bits,
                                        .offset = field - f->base,
@@ -172,14 +175,14 @@ struct field *field_near(const struct machine *m, uint32_t id, uint32_t *offset)
 
 int machine_field_vpset(const struct machine *m, uint32_t id)
 {
-    int i = m->memory->last_found;
-    if (!(i < m->memory->fields_count && m->memory->fields[i]->base <= id &&
-          id - m->memory->fields[i]->base < m->memory->fields[i]->bits))
-        i = fields_above(m, id) - 1;
-    if (i < 0)
-        return 0;
-    m->memory->last_found = i; /* what looks next looks there */
-    const struct field *f = m->memory->fields[i];
+    struct field *f = m->memory->found[field_line(id)];
+    if (!f || id - f->base >= f->bits) {
+        int i = fields_above(m, id) - 1;
+        if (i < 0)
+            return 0;
+        f = m->memory->fields[i];
+        m->memory->found[field_line(id)] = f; /* what looks next looks there */
+    }
     return id - f->base < (m->settings.lenient ? f->room : f->bits) ? f->vpset : 0;
 }
 

@@ -49,12 +49,20 @@ struct flags {
     struct lazy_overflow overflow;
 };
 
+/* Fields that were found lately: an id's line is where it is looked for first. Bases are multiples of 64. */
+enum { FIELDS_FOUND = 64 };
+static inline uint32_t field_line(uint32_t id)
+{
+    return id / 64 % FIELDS_FOUND;
+}
+
 /* Fields and flags. */
 struct memory {
     struct flags *flags;   /* by VP set, as many as values->sets */
     struct field **fields; /* ascending base */
     int fields_count, fields_capacity;
-    int last_found; /* cache: the index of the field last found */
+    struct field
+        *found[FIELDS_FOUND]; /* by field_line(): the one last found there; NULL: none */
     uint32_t next_base;
     uint64_t serial;
     struct lifetimes lifetimes;
@@ -89,13 +97,11 @@ struct field *field_search(struct machine *m, uint32_t id, uint32_t *offset);
 /* The field that the id is in; NULL and an error if there is none. */
 static inline struct field *field_find(struct machine *m, uint32_t id, uint32_t *offset)
 {
-    const struct memory *all = m->memory;
-    struct field *last =
-        all->last_found < all->fields_count ? all->fields[all->last_found] : NULL;
-    if (!last || id - last->base >= last->bits)
+    struct field *f = m->memory->found[field_line(id)];
+    if (!f || id - f->base >= f->bits)
         return field_search(m, id, offset);
-    *offset = id - last->base;
-    return last;
+    *offset = id - f->base;
+    return f;
 }
 /* The field that the id is in, or past the end of but not yet in the next; NULL if there is none. */
 struct field *field_near(const struct machine *m, uint32_t id, uint32_t *offset);

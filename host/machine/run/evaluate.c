@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "base/errors.h"
+#include "interpret/at_once.h"
 #include "memory/memory.h"
 #include "run/pending.h"
 #include "run/replay.h"
@@ -70,9 +71,20 @@ static enum machine_status evaluate_now(struct machine *m, struct machine_value 
     return evaluate_rolled(m, &wish, why);
 }
 
+/* Where operations are computed at once, so is what stayed a node when somebody looks at it. What else waits need not be evaluated with it. */
+static bool are_computed(struct machine *m, struct machine_value **wanted, int count)
+{
+    bool all = true;
+    for (int i = 0; i < count && all; i++)
+        all = node_is_leaf(wanted[i]) || at_once_looked(m, wanted[i]);
+    return all;
+}
+
 enum machine_status evaluate_values(struct machine *m, struct machine_value **wanted, int count,
                                     bool all)
 {
+    if (m->values->at_once && count && are_computed(m, wanted, count))
+        return MACHINE_OK;
     return evaluate_now(m, wanted, count, all, RUN_LOOKED);
 }
 
@@ -87,9 +99,11 @@ void evaluate_init(struct machine *m)
         m->run->trace_power *= TRACE_FACTOR;
 }
 
-enum machine_status evaluate_after_store(struct machine *m, const struct machine_value *v)
+enum machine_status evaluate_after_store(struct machine *m, struct machine_value *v)
 {
     m->run->stores++;
+    if (m->values->at_once && !m->run->flush_status && at_once_stored(m, v))
+        return MACHINE_OK; /* nothing waits because of it */
     if (m->settings.eager)
         return evaluate_values(m, NULL, 0, true);
     if (run_mode_holds(m->run->mode) && v->height < HEIGHT_MOST)

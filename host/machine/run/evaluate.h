@@ -7,7 +7,7 @@
 /* Evaluates the values (possibly none) and other targets; all: everything that is live. */
 enum machine_status evaluate_values(struct machine *m, struct machine_value **targets,
                                     int count, bool all);
-enum machine_status evaluate_after_store(struct machine *m, const struct machine_value *v);
+enum machine_status evaluate_after_store(struct machine *m, struct machine_value *v);
 /* Performs, between instructions, the evaluation that a store made due. */
 void evaluate_due(struct machine *m);
 void evaluate_init(struct machine *m);

@@ -130,6 +130,9 @@ struct history {
     } met[WINDOWS];
 };
 
+/* Whether operations are computed as they are called: at_once_when.c. */
+enum at_once_may { AT_ONCE_UNKNOWN, AT_ONCE_NEVER, AT_ONCE_SOMETIMES, AT_ONCE_ALWAYS };
+
 struct replay {
     struct history history;
     uint32_t since; /* calls performed one by one since the last evaluation */
@@ -165,7 +168,9 @@ struct replay {
     /* Evaluations after which a state was looked for, and no call was foreseen since: see record.c. */
     int in_vain;
     uint64_t foreseen; /* calls foreseen by then */
-    bool is_short;     /* the plan of the last evaluation is */
+    enum at_once_may at_once;
+    uint64_t foreseen_at_once, unforeseen; /* calls foreseen; calls performed since then */
+    bool is_short;                         /* the plan of the last evaluation is */
 
     struct device_buffer **scratch;
     int scratch_capacity;

@@ -156,8 +156,7 @@ static void bear(struct machine_value *v, uint32_t epoch)
     }
 }
 
-/* Derives which NaNs the value may hold. */
-static void derive_nan(const struct machine *m, struct machine_value *v)
+void graph_derive_nan(const struct machine *m, struct machine_value *v)
 {
     bool keeps = m->device->shape.keeps_nan;
     bool nan = false, strange = false;
@@ -194,20 +193,27 @@ static void derive_nan(const struct machine *m, struct machine_value *v)
     }
 }
 
+uint8_t graph_generator(const struct machine_value *v)
+{
+    unsigned generator = (unsigned)node_cost(v->op, v->type);
+    for (int i = 0; i < node_ops[v->op].inputs; i++)
+        generator += v->in[i]->generator;
+    return generator > GENERATOR_NONE ? GENERATOR_NONE : (uint8_t)generator;
+}
+
 static void derive(const struct machine *m, struct machine_value *v, uint32_t epoch)
 {
     const struct node_op_info *info = &node_ops[v->op];
-    unsigned generator = (unsigned)node_cost(v->op, v->type), height = 0;
+    unsigned height = 0;
     bear(v, epoch);
     for (int i = 0; i < info->inputs; i++) {
         const struct machine_value *in = v->in[i];
-        generator += in->generator;
         if (in->height + 1u > height && !node_is_leaf(in))
             height = in->height + 1u;
     }
-    v->generator = generator > GENERATOR_NONE ? GENERATOR_NONE : (uint8_t)generator;
+    v->generator = graph_generator(v);
     v->height = height > UINT16_MAX ? UINT16_MAX : (uint16_t)height;
-    derive_nan(m, v);
+    graph_derive_nan(m, v);
 }
 
 /* Whether the value waits to be computed; slices are views, which cost nothing until they

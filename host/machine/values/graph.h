@@ -13,6 +13,9 @@ struct machine_value *graph_buffer_node(struct machine *m, struct machine_type t
                                         struct device_buffer *buffer);
 /* The same if there is one, else NULL. */
 struct machine_value *graph_find(struct machine *m, const struct machine_value *key);
+/* What follows from its operation and operands: which NaNs it may hold, and its cost where nothing is read from memory. */
+void graph_derive_nan(const struct machine *m, struct machine_value *v);
+uint8_t graph_generator(const struct machine_value *v);
 /* Redefines a pending node by another way of computing the same values. Two nodes with the
  * same key may then exist. */
 void graph_become(struct machine *m, struct machine_value *v, const struct machine_value *key);

@@ -107,7 +107,8 @@ struct machine_value *make_node(struct machine *m, int op, struct machine_type t
     if (set == 0)
         return make_bad(m, "there is no current VP set");
     key.set = (uint16_t)set;
-    return graph_node(m, &key);
+    struct machine_value *computed = m->values->at_once ? m->values->at_once(m, &key) : NULL;
+    return computed ? computed : graph_node(m, &key);
 }
 
 struct machine_value *make_overflow(struct machine *m, enum node_op op, struct machine_value *a,

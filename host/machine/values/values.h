@@ -61,6 +61,10 @@ struct values {
      * states are left. NULL: there are no states. */
     void (*before_change)(struct machine *m);
 
+    /* Computes an operation of a small set at once, into memory, instead of making it a node: interpret/at_once.c. NULL from it: it must be a
+     * node. NULL: all are nodes. */
+    struct machine_value *(*at_once)(struct machine *m, struct machine_value *key);
+
     struct vpset *sets; /* 1 .. sets_count - 1; sets[0] is none */
     int sets_count, set_current;
     int processors_count, processors_log2; /* physical ones */
