@@ -238,6 +238,14 @@ static bool input_take(struct midi_client *c, int flags)
     return true;
 }
 
+/* The server takes nothing any more; it may have said why. */
+static void refused(struct midi_client *c, int error)
+{
+    while (c->file >= 0 && input_take(c, MSG_DONTWAIT))
+        ;
+    gone(c, c->farewell[0] ? c->farewell : strerror(error));
+}
+
 /* Waits until the socket is readable or writable, or the time is over. */
 static bool wait_for(struct midi_client *c, short events, uint64_t until_ns)
 {
@@ -265,7 +273,7 @@ static enum midi_status frame_send(struct midi_client *c, const struct midi_wire
         else if (errno == EAGAIN)
             wait_for(c, POLLOUT, midi_now_ns() + 100000000);
         else if (errno != EINTR)
-            gone(c, strerror(errno));
+            refused(c, errno);
     }
     return c->file >= 0 ? MIDI_OK : midi_fail(MIDI_NO_SERVER, "the server is gone");
 }
@@ -285,13 +293,20 @@ static enum midi_status text_send(struct midi_client *c, uint8_t kind, const cha
                                                    .payload = (const uint8_t *)text});
 }
 
-/* Waits for a reply, until *done. */
+/* Waits for a reply, until *done. A long turn is one in which this process was stopped, and the server perhaps, too: it counts as
+ * a usual one. */
 static enum midi_status reply_wait(struct midi_client *c, const bool *done, const char *text)
 {
-    const uint64_t until_ns = midi_now_ns() + REPLY_WAIT_MS * UINT64_C(1000000);
-    while (c->file >= 0 && !*done && !c->refused && midi_now_ns() < until_ns)
-        if (wait_for(c, POLLIN, until_ns))
+    const uint64_t turn_ns = 100000000;
+    uint64_t left_ns = REPLY_WAIT_MS * UINT64_C(1000000);
+    while (c->file >= 0 && !*done && !c->refused && left_ns) {
+        const uint64_t began_ns = midi_now_ns();
+        if (wait_for(c, POLLIN, began_ns + turn_ns))
             (void)input_take(c, MSG_DONTWAIT);
+        const uint64_t took_ns = midi_now_ns() - began_ns,
+                       counts_ns = took_ns < turn_ns ? took_ns : turn_ns;
+        left_ns -= counts_ns < left_ns ? counts_ns : left_ns;
+    }
     if (c->refused)
         return midi_fail(MIDI_REFUSED, "%.300s",
                          text[0] ? text : "the server refuses, and does not say why");
@@ -345,7 +360,7 @@ static enum midi_status connect_to(struct midi_client *c)
     c->reply = why;
     c->reply_room = sizeof why;
     status = text_send(c, MIDI_WIRE_HELLO, hello);
-    if (status == MIDI_OK)
+    if (status == MIDI_OK || c->refused)
         status = reply_wait(c, &c->welcome, why);
     c->reply_room = 0;
     for (int i = 0; status == MIDI_OK && i < c->listens_count; i++)

@@ -24,14 +24,14 @@ static enum midi_status lock_take(const char *path, int *lock)
     *lock = open(name, O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600);
     if (*lock < 0)
         return midi_fail(errno == EACCES ? MIDI_REFUSED : MIDI_IO_FAILED, "%s: %s", name,
-                         errno == EACCES ? "it is another user's; give another --socket"
+                         errno == EACCES ? "it is another user's; give another --server"
                                          : strerror(errno));
     if (flock(*lock, LOCK_EX | LOCK_NB) != 0) {
         close(*lock);
         *lock = -1;
         return midi_fail(MIDI_REFUSED,
                          "%s: a MIDI server listens there already; stop it, or give another "
-                         "--socket",
+                         "--server",
                          path);
     }
     return MIDI_OK;
@@ -47,7 +47,7 @@ static enum midi_status way_clear(const char *path)
         return midi_fail(MIDI_REFUSED, "%s: there is something that is no socket", path);
     if (about.st_uid != getuid() || unlink(path) != 0)
         return midi_fail(MIDI_REFUSED,
-                         "%s: a socket of another user's is there; give another --socket",
+                         "%s: a socket of another user's is there; give another --server",
                          path);
     return MIDI_OK;
 }
