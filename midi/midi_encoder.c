@@ -4,7 +4,7 @@
 #include <string.h>
 
 size_t midi_encoder_put(struct midi_encoder *e, const struct midi_message *m,
-                        uint8_t bytes[static MIDI_ENCODED_MAX])
+                        uint8_t bytes[MIDI_ENCODED_MAX])
 {
     size_t count = 0;
     if (!midi_message_good(m))

@@ -20,6 +20,10 @@
 
 #include <stddef.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 enum { MIDI_ENCODED_MAX = MIDI_BYTES_MAX + 1 };
 
 struct midi_encoder { /* zeros, but for the choice */
@@ -32,6 +36,10 @@ struct midi_encoder { /* zeros, but for the choice */
 /* Returns the number of bytes written; 0: the message is invalid, or continues a system
  * exclusive that is not open. */
 size_t midi_encoder_put(struct midi_encoder *e, const struct midi_message *m,
-                        uint8_t bytes[static MIDI_ENCODED_MAX]);
+                        uint8_t bytes[MIDI_ENCODED_MAX]);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

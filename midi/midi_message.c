@@ -115,7 +115,7 @@ bool midi_message_releases(const struct midi_message *m)
 static const char *const note_names[12] = {"c",  "c#", "d",  "d#", "e",  "f",
                                            "f#", "g",  "g#", "a",  "a#", "b"};
 
-void midi_note_text(int note, char text[static 8])
+void midi_note_text(int note, char text[8])
 {
     const unsigned int one = (unsigned int)note % MIDI_NOTES;
     snprintf(text, 8, "%s%d", note_names[one % 12], (int)(one / 12) - 1);
@@ -154,7 +154,7 @@ static bool has_note(uint8_t status)
     return status < 0xb0;
 }
 
-void midi_message_text(const struct midi_message *m, char text[static MIDI_TEXT_MAX])
+void midi_message_text(const struct midi_message *m, char text[MIDI_TEXT_MAX])
 {
     const struct midi_row *row = midi_row_of(m->bytes[0]);
     if (midi_message_kind(m) == MIDI_KIND_SYSEX) {

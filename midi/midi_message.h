@@ -26,6 +26,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 enum {
     MIDI_BYTES_MAX = 244, /* bytes of a piece of system exclusive; the whole struct then has
                            * 256 bytes */
@@ -104,12 +108,16 @@ bool midi_message_releases(const struct midi_message *m);
 
 /* A name, the channel from 1, then numbers; notes as c4 (60), c#4, sysex as hexadecimal digits:
  * "note-on 10 c#2 90", "bend 1 -200", "song-position 12", "sysex f0 7e 7f 09 01 f7". */
-void midi_message_text(const struct midi_message *m, char text[static MIDI_TEXT_MAX]);
+void midi_message_text(const struct midi_message *m, char text[MIDI_TEXT_MAX]);
 /* Reads what the above wrote; notes may be numbers, too. Errors: BAD_ARGUMENT, with the known names. */
 enum midi_status midi_message_read(const char *text, struct midi_message *m);
 /* Reads "c4", "f#-1", or a number, 0..127. -1: it is neither. */
 int midi_note_read(const char *word);
 /* The note as text; 8 bytes are enough. */
-void midi_note_text(int note, char text[static 8]);
+void midi_note_text(int note, char text[8]);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

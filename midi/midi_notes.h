@@ -10,6 +10,10 @@
 
 #include "midi_parser.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 struct midi_notes { /* zeros: none */
     uint64_t on[MIDI_CHANNELS][2];
     uint16_t pedals; /* a bit for each channel whose sustain pedal is down */
@@ -24,5 +28,9 @@ int midi_notes_count(const struct midi_notes *n);
 void midi_notes_release(struct midi_notes *n, uint64_t time_ns, midi_take *take, void *context);
 /* Without knowledge of earlier messages: sends pedal up and all notes off on each channel. */
 void midi_notes_silence(uint64_t time_ns, midi_take *take, void *context);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -24,6 +24,10 @@
 
 #include <stddef.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 struct midi_parser_counts {
     uint64_t messages;
     uint64_t stray;     /* data bytes without a status; f7 without a beginning */
@@ -48,5 +52,9 @@ void midi_parser_take(struct midi_parser *p, uint64_t time_ns, const uint8_t *by
 /* The source is gone: ends an open system exclusive, drops an incomplete message, and
  * forgets the running status. */
 void midi_parser_end(struct midi_parser *p, uint64_t time_ns, midi_take *take, void *context);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -28,6 +28,10 @@
 
 #include "midi_parser.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 enum {
     MIDI_TEMPO_USUAL_US = 500000, /* microseconds of a quarter note, if there is no tempo
                                    * event: 120 a minute */
@@ -109,5 +113,9 @@ enum midi_status midi_song_record(struct midi_song *song, int track,
                                   const struct midi_message *m, uint64_t begin_ns);
 /* Ends the track at that time or at its last event, whichever is later. */
 enum midi_status midi_song_end(struct midi_song *song, int track, uint32_t tick);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

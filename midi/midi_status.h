@@ -6,6 +6,10 @@
 #ifndef LUTETIA_MIDI_STATUS_H
 #define LUTETIA_MIDI_STATUS_H
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 enum midi_status {
     MIDI_OK = 0,
     MIDI_BAD_ARGUMENT, /* an invalid text, number or message */
@@ -19,5 +23,9 @@ enum midi_status {
 
 /* Detail of this thread's last failure, one line without a newline. Owns: the library; valid until the next failure. */
 const char *midi_error(void);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

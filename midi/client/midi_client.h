@@ -25,6 +25,10 @@
 
 #include <stddef.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 struct midi_client;
 
 struct midi_client_def {
@@ -82,5 +86,9 @@ enum midi_status midi_client_next(struct midi_client *client, int wait_ms,
 /* A descriptor that is readable when midi_client_next() has something to do; -1 while the
  * server is gone. It can change. */
 int midi_client_descriptor(const struct midi_client *client);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif
