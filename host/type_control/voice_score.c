@@ -10,6 +10,7 @@
 #define OPEN_MOST_HZ 850.0
 #define FRONT_LEAST_HZ 700.0
 #define FRONT_MOST_HZ 2400.0
+#define RISE_S 0.06 /* the longest rise of an attack */
 #define SMOOTH 0.35 /* of the way to a new pitch or vowel in each frame */
 
 /* ---- mappings ---- */
@@ -151,6 +152,17 @@ static bool kept_all(struct voice_score *s)
     return memory;
 }
 
+/* Where the envelope began to rise: an attack is known where a sound has risen most in 50 ms, which is near the end of its rise. */
+static double rise_begin_s(const struct voice_score *s, int attack)
+{
+    const struct voice_frame *f = s->frames;
+    int i = attack;
+    while (i > 0 && f[i - 1].envelope < f[i].envelope &&
+           f[i - 1].time_s >= f[attack].time_s - RISE_S)
+        i--;
+    return s->begins ? fmax(f[i].time_s, s->begin_s[s->begins - 1]) : f[i].time_s;
+}
+
 /* Sounds begin at attacks; sound before the first attack begins where it becomes audible. */
 static bool begins_find(struct voice_score *s, double silence)
 {
@@ -163,7 +175,7 @@ static bool begins_find(struct voice_score *s, double silence)
         if (heard)
             s->end_s = f->time_s;
         if (f->attack || (heard && s->begins == 0))
-            s->begin_s[s->begins++] = f->time_s;
+            s->begin_s[s->begins++] = f->attack ? rise_begin_s(s, i) : f->time_s;
     }
     /* a sound that begins just after the voice becomes audible is the same one */
     if (s->begins > 1 && s->begin_s[1] - s->begin_s[0] < 0.1) {

@@ -209,6 +209,35 @@ static void heights_follow_the_envelope(void **state)
     font_face_close(face);
 }
 
+/* An attack is marked where a sound has risen most. It begins where it began to rise, if that is not long ago. */
+static void sounds_begin_where_they_rise(void **state)
+{
+    (void)state;
+    enum { FRAMES = 300 };
+    static const struct {
+        int from, to, attack;
+        double begins_s;
+    } rises[] = {{50, 56, 54, 0.5}, {120, 124, 124, 1.2}, {160, 200, 195, 1.89}};
+    static struct voice_frame played[FRAMES];
+    struct voice_score made;
+    bool empty;
+    for (int i = 0; i < FRAMES; i++) {
+        played[i] = (struct voice_frame){.time_s = i / 100.0};
+        for (int k = 0; k < 3; k++)
+            if (i >= rises[k].from && i < rises[k].from + 60)
+                played[i].envelope =
+                    i <= rises[k].to ? (i - rises[k].from) / 100.0 : (280 - i) / 1e4;
+    }
+    for (int k = 0; k < 3; k++)
+        played[rises[k].attack].attack = true;
+    assert_true(voice_score_make(played, FRAMES, 0.02, &made, &empty));
+    assert_int_equal(made.begins, 3);
+    for (int k = 0; k < 3; k++)
+        if (fabs(made.begin_s[k] - rises[k].begins_s) > 0.011)
+            fail_msg("sound %d begins at %g, not %g", k, made.begin_s[k], rises[k].begins_s);
+    voice_score_finish(&made);
+}
+
 static void every_letter_is_on_the_line(void **state)
 {
     (void)state;
@@ -309,6 +338,7 @@ int main(void)
         cmocka_unit_test(letters_share_the_time),
         cmocka_unit_test(mappings_are_read),
         cmocka_unit_test(heights_follow_the_envelope),
+        cmocka_unit_test(sounds_begin_where_they_rise),
         cmocka_unit_test(every_letter_is_on_the_line),
         cmocka_unit_test(vowels_are_inks),
     };
