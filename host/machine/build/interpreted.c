@@ -48,6 +48,16 @@ static bool could_be(const struct machine *m, const struct plan_request *q)
            (q->use == PLAN_TO_RUN && m->settings.optimise_after && m->settings.box_after);
 }
 
+/* An element of each array, for each processor. */
+static uint64_t bytes_of(const struct plan_graph *g, const struct byte_code *program,
+                         const struct vpset *set)
+{
+    uint64_t bytes = 0;
+    for (int i = 0; i < program->arguments_count; i++)
+        bytes += set->count * type_bytes(g->nodes[program->arguments[i].node].type);
+    return bytes;
+}
+
 static bool launch_add(struct machine *m, struct plan *p, const struct plan_graph *g,
                        const int *stores, int count)
 {
@@ -82,6 +92,7 @@ static bool launch_add(struct machine *m, struct plan *p, const struct plan_grap
                         .arguments = program->arguments,
                         .arguments_count = program->arguments_count};
     p->work += set->count;
+    p->bytes += bytes_of(g, program, set);
     p->looks_around = p->looks_around || program->moves;
     p->predicted_s +=
         code ? device_code_time_s(m, code, set) : program->lane_s * (double)set->count;
@@ -129,6 +140,19 @@ static struct plan *plan_interpreted(struct machine *m, const struct plan_reques
         return NULL;
     }
     return p;
+}
+
+/* The part of a run's time that may be memory's. */
+static const double TRAFFIC_PART = 0.15;
+
+double plan_waits_for_memory(const struct machine *m, const struct plan *p)
+{
+    const struct device_shape *shape = &m->device->shape;
+    if (p->quality != INTERPRETED || p->looks_around || !p->launches_count ||
+        p->launches[0].code || (double)p->bytes < shape->in_place_bytes)
+        return 0;
+    double compute_ns = 1e9 * p->predicted_s / crew_size(m->device->crew);
+    return shape->byte_ns * (double)p->bytes / (TRAFFIC_PART * compute_ns);
 }
 
 struct plan *interpreted_at_hand(struct machine *m, const struct plan_request *q)

@@ -12,12 +12,17 @@
 #include "base/errors.h"
 #include "build/background.h"
 
-/* Of a program that does not repeat; each takes some kilobytes. */
-enum { PLANS_MOST = 8192, BUCKETS = 4096 };
+/* Of a program that does not repeat, in units of some 4 kilobytes: a plan of few values is one, of many values several. */
+enum { PLANS_MOST = 8192, BUCKETS = 4096, UNIT_WORDS = 512 };
+
+static uint64_t units_of(const struct plan *p)
+{
+    return 1 + p->signature_length / UNIT_WORDS;
+}
 
 bool plans_are_many(const struct machine *m)
 {
-    return m->plans->count > PLANS_MOST && m->plans->built - m->plans->begun > PLANS_MOST / 2;
+    return m->plans->units > PLANS_MOST && m->plans->age - m->plans->begun > PLANS_MOST / 2;
 }
 
 /* All that were used last before that. */
@@ -31,6 +36,7 @@ static void forget_before(struct machine *m, uint64_t used)
             }
             *at = p->next;
             m->plans->count--;
+            m->plans->units -= units_of(p);
             if (p->family)
                 p->family->kept--;
             plan_free(m, p);
@@ -39,10 +45,10 @@ static void forget_before(struct machine *m, uint64_t used)
 
 void plans_forget_oldest(struct machine *m)
 {
-    m->plans->begun = m->plans->built;
-    forget_before(m, m->plans->built - PLANS_MOST / 2);
-    if (m->plans->count > PLANS_MOST) /* all are in use */
-        forget_before(m, m->plans->built);
+    m->plans->begun = m->plans->age;
+    forget_before(m, m->plans->age - PLANS_MOST / 2);
+    if (m->plans->units > PLANS_MOST) /* all are in use */
+        forget_before(m, m->plans->age);
     families_sweep(m);
 }
 
@@ -102,7 +108,7 @@ static struct plan *plan_find(const struct machine *m, const struct reach *r, ui
                   !memcmp(p->signature, r->signature, r->length * sizeof *r->signature)))
         p = p->next;
     if (p)
-        p->used = m->plans->built;
+        p->used = m->plans->age;
     return p;
 }
 
@@ -123,7 +129,9 @@ static bool plan_keep(struct machine *m, struct plan *p, const struct plan_reque
     memcpy(p->signature, r->signature, bytes);
     p->signature_length = r->length;
     p->hash = hash;
-    p->used = m->plans->built;
+    m->plans->age += units_of(p);
+    m->plans->units += units_of(p);
+    p->used = m->plans->age;
     p->next = *bucket;
     p->family = q->family;
     if (p->family)

@@ -43,7 +43,7 @@ struct array {
 struct plan {
     uint32_t *signature;
     uint32_t signature_length;
-    uint64_t hash, used; /* used: when it was last found, in plans made */
+    uint64_t hash, used; /* used: when it was last found: plans.age */
     struct launch *launches;
     int launches_count;
     int *stored; /* the nodes that get buffers, in the order of launches */
@@ -56,6 +56,7 @@ struct plan {
     bool could_be_optimised, could_be_boxed, could_be_strips;
     int turns_most;
     double predicted_s; /* of a run */
+    uint64_t bytes;     /* of the arrays that a run touches, while it is interpreted */
     uint64_t runs;      /* while it is interpreted */
     double spent_s;     /* ... by these */
     bool asked;         /* ... whether its kernels are at hand */
@@ -99,7 +100,9 @@ static inline bool plan_use_runs(enum plan_use use)
 struct plans {
     struct plan **table; /* by signature; NULL: empty */
     int table_size, count;
-    uint64_t begun;                /* plans made when the oldest were last forgotten */
+    /* Both in units of plans' sizes (plans.c): of all that are kept; of all that were made, now and when the oldest were last
+     * forgotten. */
+    uint64_t units, age, begun;
     struct background *background; /* background.c; NULL: not used yet */
     struct plan *improving;        /* the plan whose better kernels are being compiled */
     struct plan_family **families; /* families.c; NULL: none yet */
@@ -155,6 +158,9 @@ bool plan_is_hopeless(const struct plan *p);
 /* Called between evaluations: a plan whose better kernels are all compiled gets them. Loads
  * at most one of them. */
 void plans_see_to(struct machine *m);
+/* How many times as much would have to be computed for each byte so that a run hardly waits for memory, if more values of the same
+ * arrays were evaluated together. 0: its arrays are in the caches, it reads neighbours, or it has kernels. */
+double plan_waits_for_memory(const struct machine *m, const struct plan *p);
 const int *plan_stored(const struct plan *p, int *count);
 /* How many of it may be cheaper in one kernel; 1: one. */
 int plan_turns(const struct machine *m, const struct plan *p);

@@ -126,7 +126,7 @@ enum machine_status evaluate_after_store(struct machine *m, struct machine_value
     if (history_in_loop(m) && v->height < HEIGHT_MOST && m->values->pending < PENDING_MOST)
         return MACHINE_OK;
     bool again = m->run->flush_hash && m->run->trace_hash == m->run->flush_hash &&
-                 m->values->pending >= m->settings.flush_after / 8;
+                 m->values->pending >= pending_least(m);
     bool many = m->values->pending >=
                 (m->run->flush_hash ? 5 * m->settings.flush_after : m->settings.flush_after);
     if (!again && !many && v->height < HEIGHT_MOST)
@@ -142,7 +142,7 @@ enum machine_status evaluate_after_store(struct machine *m, struct machine_value
         m->run->roll_after = 0;
         if (partial && m->values->pending < PENDING_LOOP)
             m->run->roll_after = 2 * m->values->pending + PENDING_MANY;
-        if (m->run->roll_after || m->values->pending < m->settings.flush_after / 8)
+        if (m->run->roll_after || m->values->pending < pending_least(m))
             return MACHINE_OK;
     }
     m->run->flush_place = m->run->trace_hash;

@@ -21,6 +21,7 @@
 #include "base/errors.h"
 #include "build/explained.h"
 #include "memory/memory.h"
+#include "run/pending.h"
 #include "run/replay.h"
 #include "run/slices.h"
 #include "values/graph.h"
@@ -286,6 +287,19 @@ static enum watch_why watch_why_of(const struct machine *m, const struct wish *w
                                : WATCH_ASKED_TO;
 }
 
+/* A turn of a loop whose plan waits for memory: several turns at once go through the caches together. */
+static void wait_longer(struct machine *m, const struct evaluation *e)
+{
+    const uint64_t most = PENDING_TRAFFIC * m->settings.flush_after;
+    double times = plan_waits_for_memory(m, e->plan);
+    if (times <= 0) {
+        m->run->wait_for = 0;
+    } else if (times > 1) {
+        double wanted = times * e->reach.count;
+        m->run->wait_for = wanted < (double)most ? (uint64_t)wanted : most;
+    }
+}
+
 static enum machine_status perform(struct machine *m, struct evaluation *e,
                                    const struct wish *w, enum run_why why)
 {
@@ -295,6 +309,8 @@ static enum machine_status perform(struct machine *m, struct evaluation *e,
         record_failed(m);
     else
         record_evaluated(m, e->buffers, w->values, w->count, why == RUN_DUE);
+    if (!status && why == RUN_DUE)
+        wait_longer(m, e);
     if (m->watch)
         watch_evaluated(m, e->start, watch_why_of(m, w, why), e->targets.count);
     m->run->flushes++;

@@ -11,6 +11,7 @@
  * kernels.
  */
 #include "memory/memory.h"
+#include "run/pending.h"
 #include "run/replay.h"
 
 /* A window's hash is a polynomial in it; a call that leaves the window has been multiplied
@@ -122,7 +123,7 @@ bool history_turn_ends(const struct machine *m)
     if (!history_in_loop(m) || !m->values->pending)
         return false;
     struct history *h = &m->run->replay->history;
-    if (m->values->pending < m->settings.flush_after / 8 && !is_one_by_one(h))
+    if (m->values->pending < pending_least(m) && !is_one_by_one(h))
         return false;
     return (h->count - turns_end(m)) % h->period == 0;
 }

@@ -60,6 +60,7 @@ struct run {
     uint64_t trace_hash, trace_power, flush_hash;
     uint32_t trace_count;
     bool sliced;         /* a slice was made at some time: see slices.c */
+    uint64_t wait_for;   /* pending values that are worth an evaluation; 0: as usual */
     uint64_t roll_after; /* pending values before roll_waiting() is tried again */
     bool flush_due;      /* an evaluation is due before the next instruction */
     enum run_mode mode;
