@@ -10,6 +10,7 @@
 
 /* A line whose ends differ less in y is horizontal: it is then wrong by less than a tenth of a 255th. */
 #define FONT_FLAT_PX 4e-4f
+#define FONT_MOTE_PX 0.02f  /* a curve so short is its chord */
 #define FONT_SPECK_PX 0.06f /* a cubic so short needs two nodes, not three */
 #define FONT_BEND_PX2 0.03f /* the square of how far a quadratic's second difference reaches */
 #define FONT_LENGTH_LAST 6.727f /* the longest piece that was measured */

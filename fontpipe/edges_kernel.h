@@ -136,6 +136,11 @@ enum font_status KERNEL(const struct font_edges_job *job)
             }
             struct font_cubic c = {q.x[k], q.cx[k], q.bx[k], q.ax[k],
                                    q.y[k], q.cy[k], q.by[k], q.ay[k]};
+            /* One node's weight must be all of the dx: a cubic's speed at its middle is not. */
+            bool mote = length < FONT_MOTE_PX;
+            if (mote)
+                c = (struct font_cubic){
+                    .x = c.x, .cx = c.cx + c.bx + c.ax, .y = c.y, .cy = c.cy + c.by + c.ay};
             const float *error = errors + q.row[k];
             eight_ints large =
                 *(const eight_loose *)error * across > (eight){0} + f->piece_tolerance;
@@ -147,7 +152,7 @@ enum font_status KERNEL(const struct font_edges_job *job)
             /* So many nodes that the area under the curve is exact, one more where a quadratic turns around; specks
              * can do with less. */
             int least = degree == 1              ? 1
-                        : length < 0.02f         ? 1
+                        : mote                   ? 1
                         : degree == 2            ? 2 + (q.bend[k] > FONT_BEND_PX2)
                         : length < FONT_SPECK_PX ? 2
                                                  : 3;

@@ -181,6 +181,32 @@ static void gray_is_gold_with_other_filters(void **state)
     }
 }
 
+/* Curves of a hundredth of a pixel, many of them in a pixel, are as wide as they are: what they lacked would be missing all the way
+ * down. */
+static void motes_are_whole(void **state)
+{
+    (void)state;
+    struct font_filter *lanczos = filter_make("lanczos");
+    struct font_difference bytes = {0}, exact = {0};
+    struct font_outline outline = {.units_per_em = 1000};
+    assert_font(font_outline_move(&outline, 0, 0));
+    assert_font(font_outline_line(&outline, 900, 0));
+    assert_font(font_outline_line(&outline, 900, 800));
+    for (int i = 0; i < 20; i++) { /* steps */
+        double x = 900 - 3 * i, y = 800 + 5 * i;
+        assert_font(font_outline_cubic(&outline, x - 1, y, x - 1, y + 1, x - 2, y + 1));
+        assert_font(font_outline_line(&outline, x - 3, y + 5));
+    }
+    assert_font(font_outline_line(&outline, 0, 900));
+    assert_font(font_outline_prepare(&outline, FONT_NONZERO));
+    struct font_map map = font_map_size(5, 1000);
+    for (int k = 0; k < 16; k++)
+        compare(&outline, &map, lanczos, k % 4 / 4.0, k / 4 / 4.0, &bytes, &exact);
+    sums_check("motes", &bytes, &exact);
+    font_outline_finish(&outline);
+    font_filter_destroy(lanczos);
+}
+
 /* A picture that is drawn in bands agrees with gold. */
 static void bands_join(void **state)
 {
@@ -356,6 +382,7 @@ int main(void)
         cmocka_unit_test(gray_is_gold_when_large),
         cmocka_unit_test(gray_is_gold_sheared_and_distorted),
         cmocka_unit_test(gray_is_gold_with_other_filters),
+        cmocka_unit_test(motes_are_whole),
         cmocka_unit_test(bands_join),
         cmocka_unit_test(instruction_sets_agree),
         cmocka_unit_test(plain_here_is_plain),
