@@ -22,13 +22,14 @@
 
 /* How an outline's plane becomes the picture's. */
 enum font_map_kind { FONT_AFFINE, FONT_PROJECTIVE, FONT_BILINEAR, FONT_SMOOTH };
-enum { FONT_MAP_NUMBERS = 12 };
+enum { FONT_MAP_NUMBERS = 15 };
 struct font_map {
     enum font_map_kind kind;
     /* Affine: x' = m[0] x + m[1] y + m[2], y' = m[3] x + m[4] y + m[5].
      * Projective: both over m[6] x + m[7] y + m[8].
      * Bilinear: x' = m[0] + m[1] x + m[2] y + m[3] x y, y' = m[4] + m[5] x + m[6] y + m[7] x y.
-     * Smooth: both of these over m[8] + m[9] x + m[10] y + m[11] x y. */
+     * Smooth: both of these over m[8] + m[9] x + m[10] y + m[11] x y.
+     * Of a bilinear or smooth one after another map x y stands for m[12] x^2 + (1 + m[13]) x y + m[14] y^2. */
     double m[FONT_MAP_NUMBERS];
 };
 

@@ -90,6 +90,24 @@ static bool square_to(enum font_map_kind kind, const struct font_point q[4],
     return true;
 }
 
+/* A square form in x and y. */
+struct square {
+    double xx, xy, yy, x, y, one;
+};
+
+/* What x y stands for in a map m, of an affine map's x and y. */
+static struct square square_after(const double *m, const double *a)
+{
+    const double p = m[12], r = 1 + m[13], q = m[14];
+    return (struct square){
+        .xx = r * a[0] * a[3] + p * a[0] * a[0] + q * a[3] * a[3],
+        .xy = r * (a[0] * a[4] + a[1] * a[3]) + 2 * (p * a[0] * a[1] + q * a[3] * a[4]),
+        .yy = r * a[1] * a[4] + p * a[1] * a[1] + q * a[4] * a[4],
+        .x = r * (a[0] * a[5] + a[2] * a[3]) + 2 * (p * a[0] * a[2] + q * a[3] * a[5]),
+        .y = r * (a[1] * a[5] + a[2] * a[4]) + 2 * (p * a[1] * a[2] + q * a[4] * a[5]),
+        .one = r * a[2] * a[5] + p * a[2] * a[2] + q * a[5] * a[5]};
+}
+
 enum font_status font_map_compose(const struct font_map *first, const struct font_map *second,
                                   struct font_map *out)
 {
@@ -113,18 +131,18 @@ enum font_status font_map_compose(const struct font_map *first, const struct fon
     case FONT_SMOOTH:
         break;
     }
-    /* x y becomes a square form of which only the mixed term may stay. */
-    if (fabs(a[0] * a[3]) > 1e-12 * fabs(a[0] * a[4]) ||
-        fabs(a[1] * a[4]) > 1e-12 * fabs(a[0] * a[4]))
-        return font_fail(
-            FONT_BAD_ARGUMENT,
-            "before a bilinear distortion type can be sized and moved, not turned");
+    struct square q = square_after(m, a);
+    /* Where type is only sized and moved, x y is what it was. */
+    bool mixed = fabs(q.xx) <= 1e-12 * fabs(q.xy) && fabs(q.yy) <= 1e-12 * fabs(q.xy);
+    r[12] = mixed ? 0 : q.xx;
+    r[13] = mixed ? 0 : q.xy - 1;
+    r[14] = mixed ? 0 : q.yy;
     for (int row = 0; row < (after.kind == FONT_SMOOTH ? 3 : 2); row++) {
         const double *s = m + 4 * row;
-        r[4 * row] = s[0] + s[1] * a[2] + s[2] * a[5] + s[3] * a[2] * a[5];
-        r[4 * row + 1] = s[1] * a[0] + s[3] * a[0] * a[5];
-        r[4 * row + 2] = s[2] * a[4] + s[3] * a[2] * a[4];
-        r[4 * row + 3] = s[3] * a[0] * a[4];
+        r[4 * row] = s[0] + s[1] * a[2] + s[2] * a[5] + s[3] * q.one;
+        r[4 * row + 1] = s[1] * a[0] + s[2] * a[3] + s[3] * q.x;
+        r[4 * row + 2] = s[1] * a[1] + s[2] * a[4] + s[3] * q.y;
+        r[4 * row + 3] = mixed ? s[3] * q.xy : s[3];
     }
     return FONT_OK;
 }
@@ -158,6 +176,10 @@ bool font_map_point(const struct font_map *map, struct font_point from, struct f
 {
     const double *m = map->m;
     double x = from.x, y = from.y, w;
+    /* What x y stands for, and how it changes along x and along y. */
+    double xy = m[12] * x * x + (1 + m[13]) * x * y + m[14] * y * y;
+    double along_x = 2 * m[12] * x + (1 + m[13]) * y;
+    double along_y = (1 + m[13]) * x + 2 * m[14] * y;
     switch (map->kind) {
     case FONT_AFFINE:
         *to = (struct font_point){m[0] * x + m[1] * y + m[2], m[3] * x + m[4] * y + m[5]};
@@ -178,23 +200,23 @@ bool font_map_point(const struct font_map *map, struct font_point from, struct f
         jacobian[3] = (m[4] - to->y * m[7]) / w;
         return true;
     case FONT_BILINEAR:
-        *to = (struct font_point){m[0] + m[1] * x + m[2] * y + m[3] * x * y,
-                                  m[4] + m[5] * x + m[6] * y + m[7] * x * y};
-        jacobian[0] = m[1] + m[3] * y;
-        jacobian[1] = m[2] + m[3] * x;
-        jacobian[2] = m[5] + m[7] * y;
-        jacobian[3] = m[6] + m[7] * x;
+        *to = (struct font_point){m[0] + m[1] * x + m[2] * y + m[3] * xy,
+                                  m[4] + m[5] * x + m[6] * y + m[7] * xy};
+        jacobian[0] = m[1] + m[3] * along_x;
+        jacobian[1] = m[2] + m[3] * along_y;
+        jacobian[2] = m[5] + m[7] * along_x;
+        jacobian[3] = m[6] + m[7] * along_y;
         return true;
     case FONT_SMOOTH:
-        w = m[8] + m[9] * x + m[10] * y + m[11] * x * y;
+        w = m[8] + m[9] * x + m[10] * y + m[11] * xy;
         if (!(w > 1e-9))
             return false;
-        *to = (struct font_point){(m[0] + m[1] * x + m[2] * y + m[3] * x * y) / w,
-                                  (m[4] + m[5] * x + m[6] * y + m[7] * x * y) / w};
-        jacobian[0] = (m[1] + m[3] * y - to->x * (m[9] + m[11] * y)) / w;
-        jacobian[1] = (m[2] + m[3] * x - to->x * (m[10] + m[11] * x)) / w;
-        jacobian[2] = (m[5] + m[7] * y - to->y * (m[9] + m[11] * y)) / w;
-        jacobian[3] = (m[6] + m[7] * x - to->y * (m[10] + m[11] * x)) / w;
+        *to = (struct font_point){(m[0] + m[1] * x + m[2] * y + m[3] * xy) / w,
+                                  (m[4] + m[5] * x + m[6] * y + m[7] * xy) / w};
+        jacobian[0] = (m[1] + m[3] * along_x - to->x * (m[9] + m[11] * along_x)) / w;
+        jacobian[1] = (m[2] + m[3] * along_y - to->x * (m[10] + m[11] * along_y)) / w;
+        jacobian[2] = (m[5] + m[7] * along_x - to->y * (m[9] + m[11] * along_x)) / w;
+        jacobian[3] = (m[6] + m[7] * along_y - to->y * (m[10] + m[11] * along_y)) / w;
         return true;
     }
     return false;

@@ -43,6 +43,35 @@ bool font_utf8_next(const char **text, const char *end, uint32_t *character)
     return true;
 }
 
+int font_utf8_damaged(const char *text, size_t bytes)
+{
+    int damaged = 0;
+    uint32_t c;
+    for (const char *at = text, *end = text + bytes; at < end;)
+        damaged += !font_utf8_next(&at, end, &c);
+    return damaged;
+}
+
+enum font_status font_utf8_mend(const char *text, size_t bytes, char **out, size_t *out_bytes)
+{
+    static const char instead[3] = {'\xef', '\xbf', '\xbd'}; /* U+FFFD */
+    char *to = *out =
+        malloc(bytes + sizeof instead * (size_t)font_utf8_damaged(text, bytes) + 1);
+    if (!to)
+        return font_fail(FONT_NO_MEMORY, "no memory for a text");
+    for (const char *at = text, *end = text + bytes; at < end;) {
+        const char *from = at;
+        uint32_t c;
+        bool good = font_utf8_next(&at, end, &c);
+        size_t count = good ? (size_t)(at - from) : sizeof instead;
+        memcpy(to, good ? from : instead, count);
+        to += count;
+    }
+    *to = '\0';
+    *out_bytes = (size_t)(to - *out);
+    return FONT_OK;
+}
+
 /* ---- faces for HarfBuzz ----
  *
  * HarfBuzz reads OpenType's tables itself: characters, advances, kerning and extents take no outline. Type 1 fonts have no such

@@ -122,5 +122,8 @@ void font_layout_finish(struct font_layout *layout);
 
 /* The next character of UTF-8; *text moves on. false: it was damaged, and U+FFFD is what stands for it. text < end. */
 bool font_utf8_next(const char **text, const char *end, uint32_t *character);
+/* How many sequences are not UTF-8; and the text with U+FFFD in place of each. Owns: the caller frees *out. Errors: NO_MEMORY. */
+int font_utf8_damaged(const char *text, size_t bytes);
+enum font_status font_utf8_mend(const char *text, size_t bytes, char **out, size_t *out_bytes);
 
 #endif

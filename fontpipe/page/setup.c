@@ -370,11 +370,16 @@ enum font_status page_setup_make(const struct page_setup *setup, const char *utf
 {
     enum { BYTES_MAX = 1 << 28 };
     struct making m = {.setup = setup};
+    char *mended = NULL;
     *out = NULL;
     if (bytes > BYTES_MAX)
         return font_fail(FONT_TOO_LARGE, "a text is at most %d bytes (got %zu)", BYTES_MAX,
                          bytes);
     enum font_status status = page_text_create(&m.text);
+    if (status == FONT_OK && font_utf8_damaged(utf8, bytes)) {
+        status = font_utf8_mend(utf8, bytes, &mended, &bytes);
+        utf8 = mended;
+    }
     if (status == FONT_OK && setup->colour)
         page_text_colour(m.text);
     if (status == FONT_OK)
@@ -386,6 +391,7 @@ enum font_status page_setup_make(const struct page_setup *setup, const char *utf
     free(m.letters);
     free(m.spans);
     free(m.notes);
+    free(mended);
     if (status == FONT_OK)
         *out = m.text;
     else

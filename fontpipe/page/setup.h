@@ -34,7 +34,7 @@ struct page_setup {
 };
 struct page_setup page_setup_default(void);
 
-/* Errors: those of page.h. Owns: the caller destroys *out, which is NULL on failure. */
+/* Sequences that are not UTF-8 become U+FFFD. Errors: those of page.h. Owns: the caller destroys *out, which is NULL on failure. */
 enum font_status page_setup_make(const struct page_setup *setup, const char *utf8, size_t bytes,
                                  struct page_text **out);
 

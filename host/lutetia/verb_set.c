@@ -323,6 +323,9 @@ int verb_set(int argc, char **argv)
         status = fail_font("set");
     if (status == EXIT_SUCCESS)
         status = pages_draw(&s, pages);
+    int damaged = status == EXIT_SUCCESS ? font_utf8_damaged(text, bytes) : 0;
+    if (damaged)
+        tell("set", "the text is not UTF-8 in %d places; U+FFFD stands there", damaged);
     if (status == EXIT_SUCCESS)
         type_missing_tell("set", s.font, &s.lacking);
     page_text_destroy(pages);

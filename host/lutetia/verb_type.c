@@ -99,9 +99,8 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
             printf("%s, ", *name);
         puts("each with :radius;\ngaussian:sigma,radius; samples:radius,s0,s1,.. and "
              "round:radius,s0,s1,.. from the centre outwards; @FILE reads such words from a "
-             "file.\n--corners: where the text's "
-             "upper "
-             "left, upper right, lower right and lower left corners go.");
+             "file.\n--corners: where the upper left, upper right, lower right and lower left "
+             "corners of the box around the\ntext, turned and sheared, go.");
         return EXIT_SUCCESS;
     }
     if (words.count != 1)
@@ -138,6 +137,24 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
     return EXIT_SUCCESS;
 }
 
+/* The box around the text after an affine map, from the first ascent to the last descent. */
+static struct font_box type_box(const struct font_layout *l, const struct font_map *map)
+{
+    const double y[2] = {-l->ascent_px,
+                         (l->lines_count - 1) * l->line_height_px + l->descent_px};
+    struct font_box box = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+    for (int i = 0; i < 4; i++) {
+        struct font_point at = {i & 1 ? l->width_px : 0, y[i >> 1]};
+        double jacobian[4];
+        font_map_point(map, at, &at, jacobian);
+        box.x0 = fmin(box.x0, at.x);
+        box.y0 = fmin(box.y0, at.y);
+        box.x1 = fmax(box.x1, at.x);
+        box.y1 = fmax(box.y1, at.y);
+    }
+    return box;
+}
+
 /* Makes the text's map: shear, rotation, corners. */
 static int type_map(const struct type *t, const struct font_layout *layout,
                     struct font_map *map)
@@ -152,9 +169,8 @@ static int type_map(const struct type *t, const struct font_layout *layout,
     enum font_map_kind kind =
         t->warp && strcmp(t->warp, "bilinear") == 0 ? FONT_BILINEAR : FONT_PROJECTIVE;
     struct font_map warp;
-    double bottom = (layout->lines_count - 1) * layout->line_height_px + layout->descent_px;
-    if (font_map_corners(kind, 0, -layout->ascent_px, layout->width_px, bottom, corners,
-                         &warp) != FONT_OK ||
+    const struct font_box box = type_box(layout, map);
+    if (font_map_corners(kind, box.x0, box.y0, box.x1, box.y1, corners, &warp) != FONT_OK ||
         font_map_compose(map, &warp, map) != FONT_OK)
         return fail_font("type");
     return EXIT_SUCCESS;

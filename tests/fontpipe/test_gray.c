@@ -153,6 +153,54 @@ static void gray_is_gold_sheared_and_distorted(void **state)
     sums_check("smooth", &bytes[3], &exact[3]);
 }
 
+/* A map of any kind after affine ones, twice, is what both do to a point; and letters through it are gold's. */
+static void maps_follow_each_other(void **state)
+{
+    const struct fixture *f = *state;
+    static const enum font_map_kind kinds[] = {FONT_PROJECTIVE, FONT_BILINEAR, FONT_SMOOTH};
+    const struct font_point corners[3][4] = {{{2, 4}, {70, 9}, {63, 52}, {7, 44}},
+                                             {{2, 4}, {50, -9}, {63, 52}, {17, 34}},
+                                             {{2, 4}, {70, 9}, {40, 30}, {7, 44}}};
+    struct font_difference bytes = {0}, exact = {0};
+    struct font_outline letter;
+    assert_font(font_face_outline(f->face[1], font_face_glyph(f->face[1], 'g'), &letter));
+    for (int k = 0; k < 3 * 24; k++) {
+        struct font_map bent, turned = font_map_rotation(15 * (k / 3)), both, all;
+        struct font_map slanted = font_map_shear(k % 5 * 0.2);
+        assert_font(font_map_corners(kinds[k % 3], 0, -40, 60, 12, corners[k % 3], &bent));
+        turned.m[2] = k % 4;
+        slanted.m[5] = -1.5 * (k % 3);
+        assert_font(font_map_compose(&turned, &bent, &both));
+        assert_font(font_map_compose(&slanted, &both, &all));
+        for (int i = 0; i < 20; i++) {
+            struct font_point at = {i % 5 * 3.1 - 4, i / 5 * 2.3 - 3}, one, two;
+            double j[4], c[4], chain[4], a[4];
+            assert_true(font_map_point(&slanted, at, &one, j));
+            assert_true(font_map_point(&turned, one, &one, a));
+            if (!font_map_point(&bent, one, &one, c))
+                continue;
+            assert_true(font_map_point(&all, at, &two, chain));
+            assert_true(fabs(one.x - two.x) < 1e-9 && fabs(one.y - two.y) < 1e-9);
+            for (int row = 0; row < 2; row++) /* the chain rule */
+                for (int column = 0; column < 2; column++) {
+                    double inner[2];
+                    for (int q = 0; q < 2; q++)
+                        inner[q] = a[2 * q] * j[column] + a[2 * q + 1] * j[2 + column];
+                    assert_true(fabs(c[2 * row] * inner[0] + c[2 * row + 1] * inner[1] -
+                                     chain[2 * row + column]) < 1e-9);
+                }
+        }
+        struct font_map size = font_map_size(24, f->units[1]), letters;
+        assert_font(font_map_compose(&size, &all, &letters));
+        struct font_edges edges = {0};
+        if (font_edges_build(&edges, &letter, &letters, f->filter[0]) == FONT_OK)
+            compare(&letter, &letters, f->filter[k % FILTERS], 0, 0, &bytes, &exact);
+        font_edges_finish(&edges);
+    }
+    sums_check("turned, then bent", &bytes, &exact);
+    font_outline_finish(&letter);
+}
+
 /* Compares gray with gold for the rarer filters. */
 static void gray_is_gold_with_other_filters(void **state)
 {
@@ -382,6 +430,7 @@ int main(void)
         cmocka_unit_test(gray_is_gold_when_large),
         cmocka_unit_test(gray_is_gold_sheared_and_distorted),
         cmocka_unit_test(gray_is_gold_with_other_filters),
+        cmocka_unit_test(maps_follow_each_other),
         cmocka_unit_test(motes_are_whole),
         cmocka_unit_test(bands_join),
         cmocka_unit_test(instruction_sets_agree),

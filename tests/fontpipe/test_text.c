@@ -443,6 +443,22 @@ static void what_lies_outside_is_cut_off(void **state)
     paint_end(&f);
 }
 
+/* What is no UTF-8 is mended once for all: then every byte of the text is a character's. */
+static void damaged_text_is_mended(void **state)
+{
+    (void)state;
+    static const char damaged[] = "a\xff\xc3(\xe2\x82 \xf0\x9f\x90\xb8\x80";
+    char *mended;
+    size_t bytes;
+    assert_int_equal(font_utf8_damaged(damaged, strlen(damaged)), 4);
+    assert_font(font_utf8_mend(damaged, strlen(damaged), &mended, &bytes));
+    assert_string_equal(mended,
+                        "a\xef\xbf\xbd\xef\xbf\xbd(\xef\xbf\xbd \xf0\x9f\x90\xb8\xef\xbf\xbd");
+    assert_int_equal(bytes, strlen(mended));
+    assert_int_equal(font_utf8_damaged(mended, bytes), 0);
+    free(mended);
+}
+
 /* A map distorts a whole line, and the line stays within the map's four corners. */
 static void lines_are_distorted_as_a_whole(void **state)
 {
@@ -486,6 +502,7 @@ int main(void)
         cmocka_unit_test(glyphs_kept_are_glyphs_drawn),
         cmocka_unit_test(what_lies_outside_is_cut_off),
         cmocka_unit_test(lines_are_distorted_as_a_whole),
+        cmocka_unit_test(damaged_text_is_mended),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

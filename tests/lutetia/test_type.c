@@ -92,6 +92,20 @@ static void type_is_set(void **state)
     run(&others, 0, "");
     assert_non_null(strstr(others.output, "filter: "));
     assert_true(ink_of(path, &width, &height) > 100);
+    /* Turned text stays between the corners, by both kinds of map, and OpenGL draws the same. */
+    static char *const kinds[] = {"projective", "bilinear"};
+    for (int k = 0; k < 2; k++) {
+        struct child bent = {.arguments = {"", "type", "HIH", "--rotate", "40", "--corners",
+                                           "20,12,200,20,190,90,30,80", "--warp", kinds[k],
+                                           "-o", path}};
+        run(&bent, 0, "");
+        double ink = ink_of(path, &width, &height);
+        assert_true(ink > 100 && width > 150 && width <= 210 && height > 70 && height <= 101);
+        struct child same = bent;
+        same.arguments[11] = "--gl";
+        run(&same, 0, "");
+        assert_true(fabs(ink_of(path, &width, &height) / ink - 1) < 0.01);
+    }
     unlink(path);
 }
 
