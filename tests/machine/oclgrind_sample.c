@@ -67,6 +67,50 @@ static void assert_done(struct machine *m, const char *interprets)
     assert_true(*interprets == '3' ? now.interpreted > 0 : now.interpreted == 0);
 }
 
+static wide expected_got(const void *data, uint64_t n)
+{
+    const struct sample *s = data;
+    uint64_t from = (n + 5) & (s->last_axis > 64 ? 127 : 63); /* an address has no more bits */
+    return from < (uint64_t)s->last_axis ? support_word(s->type, 7, from) : 0;
+}
+
+/* Gets of whole vectors, up to the last processor and beyond: 5 further on in a set that is `longer` by so many. */
+static void gets_along_a_row(struct machine *m, int longer)
+{
+    enum { LENGTH = 70 };
+    int length = LENGTH, source = LENGTH + longer;
+    struct sample s = {MACHINE_UINT(64), source};
+    int from = machine_vpset_create_ordered(m, &source, 1, MACHINE_SEND_ORDER);
+    assert_ok(machine_vpset_select(m, from), m);
+    uint32_t f = support_field(m, s.type, 7);
+    int set = machine_vpset_create_ordered(m, &length, 1, MACHINE_SEND_ORDER);
+    assert_ok(machine_vpset_select(m, set), m);
+    uint32_t d = machine_field_allocate(m, set, 64, MACHINE_HEAP);
+    machine_begin(m);
+    struct machine_value *further =
+        machine_binary(m, MACHINE_ADD, machine_coordinate(m, 0, 16),
+                       machine_constant(m, MACHINE_UINT(16), (struct machine_scalar){5, 0}));
+    assert_ok(machine_field_store(m, d, machine_get(m, further, f, s.type), MACHINE_EVERYWHERE),
+              m);
+    support_expect_field(m, d, s.type, expected_got, &s, "got along a row");
+    machine_begin(m);
+    assert_ok(machine_vpset_destroy(m, set), m);
+    assert_ok(machine_vpset_destroy(m, from), m);
+}
+
+static void vectors_get_clean(void **state)
+{
+    (void)state;
+    setenv("LUTETIA_VECTOR", "16", 1);
+    setenv("LUTETIA_NEAR", "0", 1);
+    struct machine *m = machine_that("0");
+    unsetenv("LUTETIA_VECTOR");
+    unsetenv("LUTETIA_NEAR");
+    for (int longer = -8; longer < 8; longer++)
+        gets_along_a_row(m, longer);
+    machine_destroy(m);
+}
+
 static void sample_runs(const char *interprets)
 {
     struct machine *m = machine_that(interprets);
@@ -139,9 +183,9 @@ static void both_give_the_same(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(kernels_run_clean),
-                                       cmocka_unit_test(the_interpreter_runs_clean),
-                                       cmocka_unit_test(both_give_the_same)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(kernels_run_clean), cmocka_unit_test(vectors_get_clean),
+        cmocka_unit_test(the_interpreter_runs_clean), cmocka_unit_test(both_give_the_same)};
 
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
