@@ -7,7 +7,7 @@ local blue, rose, umber = "french ultramarine", "quinacridone rose", "burnt umbe
 local middle = side / 2
 
 local function sheet(stock)
-  return paper{width = side, height = side, version = 2, seed = 7, stock = stock or "cold press",
+  return paper{width = side, height = side, seed = 7, stock = stock or "cold press",
                pigments = {blue, rose, umber}}
 end
 

@@ -87,6 +87,7 @@ struct paper_ink { /* amounts to add to a fiber; the sum is clamped to 0..1 */
 };
 
 /* Shades of gray through which ink is put: 255 lets all of it pass, 0 none. */
+struct paper_drawing; /* drawing.h */
 struct paper_screen {
     int width_px, height_px;
     uint8_t *gray;     /* rows from the top, no padding */
@@ -95,6 +96,8 @@ struct paper_screen {
     double advance_px; /* type: the length of the longest line, or the column */
     double line_height_px;
     int lines_count;
+    struct paper_drawing *
+        drawing; /* what it was drawn from, for renders; NULL: they interpolate. Not the screen's own */
 };
 
 /* Adds ink to the fibers in the rectangle; its part off the sheet is ignored. Errors:

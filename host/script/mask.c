@@ -67,6 +67,7 @@ static int mask_gc(lua_State *L)
     struct script_mask *mask = luaL_checkudata(L, 1, script_mask_type);
     free(mask->points);
     free(mask->gray);
+    free(mask->drawn.at);
     script_memory_give(mask->script, mask->bytes);
     *mask = (struct script_mask){.script = mask->script};
     return 0;
@@ -113,6 +114,7 @@ struct script_mask *script_mask_grayed(lua_State *L, int index)
                screen.gray + (size_t)row * (size_t)screen.width_px, (size_t)screen.width_px);
     paper_screen_destroy(&screen);
     lua_pop(L, 1);
+    script_mask_drawn_join(made, mask, NULL, 0);
     return made;
 }
 
@@ -139,7 +141,7 @@ static const struct script_mask *all_over(lua_State *L, const struct script_mask
 bool script_mask_screen(lua_State *L, int index, int width, int height,
                         struct paper_screen *screen, int *x, int *y)
 {
-    const struct script_mask *mask = luaL_checkudata(L, index, script_mask_type);
+    struct script_mask *mask = luaL_checkudata(L, index, script_mask_type);
     *screen = (struct paper_screen){0};
     if (mask->outside) {
         const struct script_mask *all = all_over(L, mask, width, height);
@@ -147,6 +149,7 @@ bool script_mask_screen(lua_State *L, int index, int width, int height,
         screen->width_px = all->width;
         screen->height_px = all->height;
         screen->gray = all->gray;
+        script_mask_drawing_tell(mask, screen);
         return all->gray != NULL;
     }
     if (!mask->points) {
@@ -155,6 +158,7 @@ bool script_mask_screen(lua_State *L, int index, int width, int height,
         screen->width_px = mask->width;
         screen->height_px = mask->height;
         screen->gray = mask->gray;
+        script_mask_drawing_tell(mask, screen);
         return mask->gray != NULL;
     }
     struct script_mask *kept = script_mask_new(L); /* takes over the gray values */
@@ -171,6 +175,8 @@ bool script_mask_screen(lua_State *L, int index, int width, int height,
     kept->bytes = bytes;
     kept->x = *x;
     kept->y = *y;
+    script_mask_drawn_join(kept, mask, NULL, 0);
+    script_mask_drawing_tell(kept, screen);
     return true;
 }
 
@@ -290,6 +296,7 @@ static int make_line(lua_State *L)
     struct script_mask *all = script_mask_gray_new(L, x2 - x1, y2 - y1, x1, y1);
     int all_index = lua_gettop(L);
     double before[3] = {0};
+    bool drawn = true;
     for (int i = 1; i <= count; i++) {
         double at[3];
         corner_read(L, 1, i, "line", at);
@@ -301,6 +308,7 @@ static int make_line(lua_State *L)
         struct script_mask *part = script_mask_grayed(L, -1);
         if (part->gray)
             gray_join(all, part);
+        drawn = drawn && script_mask_drawn_part(all, lua_touserdata(L, all_index + 1), i > 1);
         double dx = at[0] - before[0], dy = at[1] - before[1], length = hypot(dx, dy);
         if (i > 1 && length > 0) {
             double nx = -dy / length, ny = dx / length;
@@ -313,11 +321,13 @@ static int make_line(lua_State *L)
             part = script_mask_grayed(L, -1);
             if (part->gray)
                 gray_join(all, part);
+            drawn = drawn && script_mask_drawn_part(all, bar, true);
         }
         lua_settop(L, all_index);
         memcpy(before, at, sizeof at);
         script_check(L);
     }
+    script_mask_drawn_keep(all, drawn);
     return 1;
 }
 
@@ -431,6 +441,8 @@ int script_mask_text_push(lua_State *L, int index)
     mask->height = screen.height_px;
     mask->x = (int)floor(x) - screen.origin_x_px;
     mask->y = (int)floor(y) - screen.baseline_y_px;
+    script_mask_drawn_keep(mask, paper_drawing_line(&mask->drawn, &line, x, y) &&
+                                     mask->drawn.count <= PAPER_DRAWING_MOST);
     lua_pushnumber(L, screen.advance_px);
     lua_pushnumber(L, screen.lines_count * screen.line_height_px);
     return 3;

@@ -88,14 +88,6 @@ static int mask_scale(lua_State *L)
         L, (double[6]){scale, 0, at[0] * (1 - scale), 0, scale, at[1] * (1 - scale)});
 }
 
-/* a + b: union; a * b: intersection; a - b: a without b. */
-static int joined(char operation, int p, int q)
-{
-    return operation == '+'   ? p > q ? p : q
-           : operation == '*' ? (p * q + 127) / 255
-                              : (p * (255 - q) + 127) / 255;
-}
-
 /* A mask and a number: m * n, n * m, m + n, n + m, m - n, n - m, within 0..1. */
 static int mask_count(lua_State *L, char operation)
 {
@@ -106,19 +98,16 @@ static int mask_count(lua_State *L, char operation)
                               : script_arg_at(L, 3 - of, "what a mask is shifted by", -1, 1);
     const struct script_mask *mask = script_mask_grayed(L, of);
     uint8_t table[256];
-    for (int i = 0; i < 256; i++) {
-        const double value = i / 255.0;
-        const double made = operation == '*'   ? value * number
-                            : operation == '+' ? value + number
-                            : first            ? number - value
-                                               : value - number;
-        table[i] = (uint8_t)lround(255 * fmin(1, fmax(0, made)));
-    }
+    for (int i = 0; i < 256; i++)
+        table[i] = paper_gray_number(operation, number, first, i);
     struct script_mask *made =
         script_mask_gray_new(L, mask->width, mask->height, mask->x, mask->y);
     made->outside = table[mask->outside];
     for (size_t i = 0; made->gray && i < (size_t)made->width * (size_t)made->height; i++)
         made->gray[i] = table[mask->gray[i]];
+    script_mask_drawn_join(made, mask, NULL, 0);
+    if (made->drawn.count > 0)
+        paper_drawing_number(&made->drawn, operation, number, first);
     return 1;
 }
 
@@ -137,17 +126,19 @@ static int mask_join(lua_State *L, char operation)
         y2 = first && y2 > b->y + b->height ? y2 : b->y + b->height;
     }
     struct script_mask *made = script_mask_gray_new(L, x2 - x1, y2 - y1, x1, y1);
-    made->outside = (uint8_t)joined(operation, a->outside, b->outside);
+    made->outside = (uint8_t)paper_gray_join(operation, a->outside, b->outside);
     for (int y = y1; y < y2 && made->gray; y++)
         for (int x = x1; x < x2; x++) {
-            int value =
-                joined(operation, script_mask_gray_at(a, x, y), script_mask_gray_at(b, x, y));
+            int value = paper_gray_join(operation, script_mask_gray_at(a, x, y),
+                                        script_mask_gray_at(b, x, y));
             made->gray[(size_t)(y - y1) * (size_t)made->width + (size_t)(x - x1)] =
                 (uint8_t)value;
         }
+    script_mask_drawn_join(made, a, b, operation);
     return 1;
 }
 
+/* a + b: union; a * b: intersection; a - b: a without b. */
 static int mask_add(lua_State *L)
 {
     return mask_join(L, '+');

@@ -2,6 +2,7 @@
 #ifndef LUTETIA_TESTS_STATE_SAMPLE_H
 #define LUTETIA_TESTS_STATE_SAMPLE_H
 
+#include <drawing.h>
 #include <paper.h>
 #include <state.h>
 
@@ -29,10 +30,16 @@ static inline void sample_turn(struct paper_sheet *sheet, int turn, int steps)
 {
     uint8_t gray[5 * 4];
     memset(gray, 255 - 20 * turn, sizeof gray);
-    struct paper_screen screen = {.width_px = 5, .height_px = 4, .gray = gray};
+    struct event_bytes drawn = {0}; /* every other screen says what it was drawn from */
+    paper_drawing_polygon(&drawn, (double[]){3, 2, 8, 2, 8, 6, 3, 6}, 4);
+    paper_drawing_number(&drawn, '*', 1 - 0.08 * turn, false);
+    struct paper_drawing drawing = {drawn.at, drawn.count, 1};
+    struct paper_screen screen = {
+        .width_px = 5, .height_px = 4, .gray = gray, .drawing = turn % 2 ? &drawing : NULL};
     paper_history_mark(sheet);
     sample_check(
         paper_sheet_put(sheet, &screen, 3 + turn, 2 + turn, (double[]){1, 0.2 * turn, 0.3}));
+    free(drawn.at);
     for (int step = 0; step < steps; step++)
         sample_check(paper_sheet_step(sheet));
 }

@@ -1,9 +1,10 @@
-/* forms.c - see arguments/forms.h. A screen is stored as a flag, x, y, width, height (4
- * bytes each) and its gray. */
+/* forms.c - see arguments/forms.h. A screen is stored as a byte (enum place_kind), x, y, width, height (4
+ * bytes each) and its gray; then, if there is one, its drawing: length (4 bytes), scale, bytes. */
 #include "arguments/forms.h"
 
 #include "arguments/resample.h"
 #include "arguments/rows.h"
+#include "drawing.h"
 
 #include <scale.h>
 #include <stream.h>
@@ -62,13 +63,41 @@ static void screen_get(struct event_stream *s, const struct rectangle *r,
     *place = (struct paper_place){screen, (int)r->x, (int)r->y};
 }
 
+#define DRAWING_SCALE_MOST 1e4
+
+/* What the screen that was read was drawn from. */
+static void drawing_get(struct event_stream *s, struct paper_screen *screen)
+{
+    const uint64_t count = event_pass_number(s, 0, 4);
+    double scale = 0;
+    event_pass_words(s, &scale, 1);
+    event_stream_expect(s, count > 0 && count <= PAPER_DRAWING_MOST && scale > 0 &&
+                               scale < DRAWING_SCALE_MOST);
+    void *bytes = s->in->bad ? NULL : event_pass_array(s, NULL, (size_t)count);
+    struct paper_drawing *drawing = malloc(sizeof *drawing);
+    if (!bytes || !drawing) {
+        s->short_of_memory = s->short_of_memory || !s->in->bad;
+        free(bytes);
+        free(drawing);
+        return;
+    }
+    *drawing = (struct paper_drawing){bytes, (size_t)count, scale};
+    screen->drawing = drawing;
+}
+
+enum place_kind { PLACE_SCREEN, PLACE_EVERYWHERE, PLACE_DRAWN };
+
 static void place_pass(struct event_stream *s, void *start, void *of)
 {
     (void)of;
     struct paper_place *place = start;
-    bool everywhere = !place->screen;
-    event_pass_flag(s, &everywhere);
-    if (everywhere)
+    const struct paper_drawing *drawing = place->screen ? place->screen->drawing : NULL;
+    enum place_kind kind = !place->screen ? PLACE_EVERYWHERE : PLACE_SCREEN;
+    if (drawing && drawing->count > 0 && drawing->count <= PAPER_DRAWING_MOST)
+        kind = PLACE_DRAWN;
+    kind = (enum place_kind)event_pass_number(s, kind, 1);
+    event_stream_expect(s, kind <= PLACE_DRAWN);
+    if (kind == PLACE_EVERYWHERE || (s->in && s->in->bad))
         return;
     struct rectangle r = {0, 0, 0, 0};
     if (!s->in)
@@ -78,6 +107,8 @@ static void place_pass(struct event_stream *s, void *start, void *of)
         *numbers[i] = (int64_t)event_pass_number(s, (uint64_t)*numbers[i], 4);
     if (s->in) {
         screen_get(s, &r, place);
+        if (kind == PLACE_DRAWN && place->screen && !s->in->bad)
+            drawing_get(s, members_owned(place->screen));
         return;
     }
     const struct paper_screen *screen = place->screen;
@@ -86,6 +117,36 @@ static void place_pass(struct event_stream *s, void *start, void *of)
                         screen->gray + (y - place->y) * (int64_t)screen->width_px +
                             (r.x - place->x),
                         (size_t)r.width);
+    if (kind == PLACE_DRAWN) {
+        event_put_number(s->out, drawing->count, 4);
+        event_put_double(s->out, drawing->scale);
+        event_put_bytes(s->out, drawing->bytes, drawing->count);
+    }
+}
+
+/* The screen, drawn anew from what it was drawn from. False: it cannot be: there is no drawing, or its font is not here. */
+static bool place_draw(struct paper_place *place, struct paper_screen *screen,
+                       const struct event_scaling *scaling)
+{
+    const struct paper_sizes *sizes = scaling->context;
+    struct paper_drawing *drawing = screen->drawing;
+    if (!drawing || !sizes->draw)
+        return false;
+    drawing->scale *= scaling->length;
+    struct paper_screen made;
+    int x, y;
+    if (sizes->draw(drawing, drawing->scale, sizes->new_width, sizes->new_height, &made, &x,
+                    &y) != PAPER_OK ||
+        !made.gray)
+        return false;
+    free(screen->gray);
+    *screen = (struct paper_screen){.width_px = made.width_px,
+                                    .height_px = made.height_px,
+                                    .gray = made.gray,
+                                    .drawing = drawing};
+    place->x = x;
+    place->y = y;
+    return true;
 }
 
 static bool place_scale(void *start, void *of, const struct event_scaling *scaling)
@@ -94,7 +155,7 @@ static bool place_scale(void *start, void *of, const struct event_scaling *scali
     const struct paper_sizes *sizes = scaling->context;
     struct paper_place *place = start;
     struct paper_screen *screen = members_owned(place->screen);
-    if (!screen)
+    if (!screen || place_draw(place, screen, scaling))
         return true;
     struct paper_resampling r = {.scale = scaling->length,
                                  .old_x = place->x,
@@ -121,8 +182,10 @@ static bool place_scale(void *start, void *of, const struct event_scaling *scali
         gray[i] = (uint8_t)lrintf(new[i]);
     free(done ? screen->gray : gray);
     if (done) {
-        *screen =
-            (struct paper_screen){.width_px = r.width, .height_px = r.height, .gray = gray};
+        *screen = (struct paper_screen){.width_px = r.width,
+                                        .height_px = r.height,
+                                        .gray = gray,
+                                        .drawing = screen->drawing};
         place->x = r.x0;
         place->y = r.y0;
     }
@@ -135,8 +198,12 @@ static void place_free(void *start, void *of)
 {
     (void)of;
     const struct paper_place *place = start;
-    if (place->screen)
+    if (place->screen) {
         free(place->screen->gray);
+        if (place->screen->drawing)
+            free(place->screen->drawing->bytes);
+        free(place->screen->drawing);
+    }
     free(members_owned(place->screen));
 }
 

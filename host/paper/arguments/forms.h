@@ -6,9 +6,16 @@
 
 #include <members.h>
 
+#include "paper.h"
+
+struct paper_drawing;
+
 struct paper_sizes {
     int width, height;         /* of the sheet that the arguments were made for */
     int new_width, new_height; /* of the sheet that they are scaled to */
+    /* Draws a screen anew (drawing.h); NULL: screens are interpolated. */
+    enum paper_status (*draw)(const struct paper_drawing *d, double scale, int width,
+                              int height, struct paper_screen *screen, int *x, int *y);
 };
 
 extern const struct member_form

@@ -14,6 +14,7 @@
  *       what, number, digest             1, 8, 8
  */
 #include "arguments/forms.h"
+#include "drawing.h"
 #include "history/history_internal.h"
 #include "model/model.h"
 
@@ -325,7 +326,7 @@ enum paper_status paper_history_render(struct paper_sheet *p, double scale, doub
         return paper_fail(PAPER_BAD_ARGUMENT, "a pace must be 1/4096..4096 (got %g)", pace);
     struct paper_sizes sizes = {p->config.width, p->config.height,
                                 (int)lround(p->config.width * scale),
-                                (int)lround(p->config.height * scale)};
+                                (int)lround(p->config.height * scale), paper_drawing_screen};
     struct event_scaling scaling = {scale, pace, &sizes};
     struct paper_sheet_config config = p->config;
     struct paper_sheet *to;
