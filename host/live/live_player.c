@@ -21,9 +21,11 @@ struct live_player {
 
 static void tell(struct live_player *p, const char *text)
 {
-    if (strcmp(p->told, text) == 0)
+    char cut[sizeof p->told];
+    snprintf(cut, sizeof cut, "%s", text);
+    if (strcmp(p->told, cut) == 0)
         return;
-    snprintf(p->told, sizeof p->told, "%s", text);
+    memcpy(p->told, cut, sizeof cut);
     if (p->def.tell)
         p->def.tell(p->def.context, text);
 }

@@ -305,6 +305,7 @@ static void what_maps_do_wrong_is_told(void **unused)
          "end",
          "not enough memory", true},
         {"function message(m) error{} end", "error: (a table)", true},
+        {"function message(m) error(('long '):rep(100)) end", "long long", true},
         {"function message(m) os.exit() end", "os", true},
         {"function message(m) io.open('/etc/passwd') end", "io", true},
         {"function message(m) load('x = 1')() end", "load", true},
