@@ -6,6 +6,7 @@
 
 #include <dlfcn.h>
 #include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define FUNCTION(name) LIBRARY_FUNCTION(struct fluid, name)
@@ -34,6 +35,43 @@ static const struct library_function functions[] = {
     FUNCTION(delete_fluid_file_renderer),
     FUNCTION(fluid_set_log_function),
 };
+
+static void alsa_told(const char *file, int line, const char *function, int error,
+                      const char *format, ...)
+{
+    (void)file, (void)line, (void)function, (void)error, (void)format;
+}
+
+static void jack_told(const char *text)
+{
+    (void)text;
+}
+
+void fluid_hush_drivers(void)
+{
+    static struct {
+        int (*snd_lib_error_set_handler)(void (*told)(const char *file, int line,
+                                                      const char *function, int error,
+                                                      const char *format, ...));
+    } alsa;
+    static struct {
+        void (*jack_set_error_function)(void (*told)(const char *text));
+        void (*jack_set_info_function)(void (*told)(const char *text));
+    } jack;
+    static const struct library_function of_alsa[] = {LIBRARY_FUNCTION(
+        alsa, snd_lib_error_set_handler)},
+                                         of_jack[] = {
+                                             LIBRARY_FUNCTION(jack, jack_set_error_function),
+                                             LIBRARY_FUNCTION(jack, jack_set_info_function)};
+    const char *missing;
+    if (library_load("libasound.so.2", of_alsa, 1, &alsa, &missing))
+        alsa.snd_lib_error_set_handler(alsa_told);
+    if (library_load("libjack.so.0", of_jack, 2, &jack, &missing)) {
+        jack.jack_set_error_function(jack_told);
+        jack.jack_set_info_function(jack_told);
+    }
+    setenv("JACK_NO_START_SERVER", "1", 0); /* one that runs is used */
+}
 
 enum { LEVELS = 5 }; /* of its log: panic, error, warning, information, debug */
 

@@ -128,12 +128,26 @@ void sound_destroy(struct sound *s)
     free(s);
 }
 
+static bool can_be_written(const char *path)
+{
+    const int file = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    if (file < 0)
+        return false;
+    close(file);
+    return true;
+}
+
 enum midi_status sound_listen(struct sound *s, const char *driver)
 {
     const size_t count = driver ? strlen(driver) : 0;
     const bool file = count > 4 && !strcmp(driver + count - 4, ".wav");
+    if (file && !can_be_written(driver))
+        return midi_fail(MIDI_IO_FAILED, "%s: cannot write: %s; the folder must exist", driver,
+                         strerror(errno));
     if (file)
         s->fluid->fluid_settings_setstr(s->settings, "audio.file.name", driver);
+    else
+        fluid_hush_drivers();
     if (driver && s->fluid->fluid_settings_setstr(s->settings, "audio.driver",
                                                   file ? "file" : driver) != 0)
         return midi_fail(

@@ -36,7 +36,7 @@ struct sound;
 enum midi_status sound_create(const struct sound_def *def, struct sound **out);
 void sound_destroy(struct sound *sound); /* takes NULL */
 /* Plays through a driver of FluidSynth (pulseaudio, alsa, jack, ...; NULL: its default), or,
- * if the name ends with .wav, into that file, in real time. Errors: NO_DEVICE. */
+ * if the name ends with .wav, into that file, in real time. Errors: NO_DEVICE, IO_FAILED. */
 enum midi_status sound_listen(struct sound *sound, const char *driver);
 /* Ignores messages without sound. Threads: any. */
 void sound_message(struct sound *sound, const struct midi_message *m);

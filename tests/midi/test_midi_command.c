@@ -225,6 +225,25 @@ static void wrong_lines_are_refused(void **unused)
     run(MIDI("monitor", "-n", "x"), 2, "--count");
 }
 
+/* What the libraries of sound cards complain about is not the user's matter. Where there is a card or a JACK server it plays. */
+static void no_sound_card_is_one_line(void **unused)
+{
+    (void)unused;
+    static const char *const devices[] = {"s=sound:alsa", "s=sound:jack",
+                                          "s=sound:/nowhere/x.wav"};
+    for (int i = 0; i < 3; i++) {
+        struct child child = {.arguments = {"/usr/bin/timeout", "10", lutetia, "midi", "serve",
+                                            devices[i], "--server", scratch_path("no card")}};
+        child_run(&child);
+        if (child.status == 124 && i < 2)
+            continue;
+        assert_int_equal(child.status, 1);
+        if (strncmp(child.errors, "lutetia midi serve: ", 20) != 0 ||
+            strchr(child.errors, '\n') != child.errors + strlen(child.errors) - 1)
+            fail_msg("%s: %s", devices[i], child.errors);
+    }
+}
+
 int main(void)
 {
     lutetia = getenv("LUTETIA");
@@ -234,6 +253,7 @@ int main(void)
         cmocka_unit_test(programs_use_the_library),
         cmocka_unit_test(songs_become_letters),
         cmocka_unit_test(wrong_lines_are_refused),
+        cmocka_unit_test(no_sound_card_is_one_line),
     };
     return lutetia && getenv("OCTAVE")
                ? cmocka_run_group_tests_name("midi command", tests, NULL, NULL)
