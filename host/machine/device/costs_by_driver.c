@@ -14,7 +14,7 @@
     .kernels_ahead_building = 16, .move_ns = 0.06, .reduce_ns = 0.1, .rank_ns = 8,             \
     .send_ns = 1.2, .scan_ns = 0.6, .fill_ns = 0.2, .wait_ns = 12e3, .text_ns = 1e6,           \
     .compile_ns = 1e8, .compile_op_ns = 2e6, .kernel_part = 0.4, .turns_from_ns = 4e3,         \
-    .scan_run_least = 65536, .sort_short = 64, .near_rank_most = 1 << 17, .share_ns = 150e3,   \
+    .scan_run_least = 65536, .sort_short = 64, .rank_alone_most = 1 << 14, .share_ns = 150e3,  \
     .part_ns = 40e3, .loop_ns = 0.04, .loop_cost_ns = 0.01, .gather_ns = 0.5,                  \
     .ahead_from = 1 << 18, .each_math_ns = 15, .each_ns = 8, .short_ns = 10e3,                 \
     .at_once_lanes = 4096

@@ -62,7 +62,7 @@ struct device_shape {
     int kernels_ahead, kernels_ahead_building;
     /* The front end's own threads, in nanoseconds: for a byte that is moved, and for an element. */
     double move_ns, reduce_ns, rank_ns, send_ns, scan_ns, fill_ns;
-    int near_rank_most; /* longer lines are ranked by the device, which shares one line out */
+    int rank_alone_most; /* longer lines are ranked by all threads together */
     double share_ns,
         part_ns; /* the least work that threads share out, and the least part of it */
     /* The interpreter, in nanoseconds for a lane: a step that is a loop, for each unit of an operation's cost on top, a gather on

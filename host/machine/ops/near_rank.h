@@ -15,4 +15,9 @@ struct near_word {
 bool near_rank(const struct device *d, int parts, const struct lines *l,
                const struct near_word *words, int count, struct device_buffer *out);
 
+/* The same, each line shared out by itself: of few and long ones. pairs: memory of a line's length twice, 8 bytes each. */
+bool near_rank_shared(const struct device *d, int parts, const struct lines *l,
+                      const struct near_word *words, int count, struct device_buffer *pairs,
+                      struct device_buffer *out);
+
 #endif

@@ -18,6 +18,7 @@
 #include "values/graph.h"
 
 enum { WORDS_MAX = 6 };
+enum { NEAR_SHARED = 64 }; /* LUTETIA_NEAR=2: longer lines are shared out */
 
 enum { WORD, PAIR, GATHER }; /* as in kernels/sort.cl */
 
@@ -211,25 +212,40 @@ static struct device_buffer *ranks_far(struct machine *m, const struct vpset *s,
     return status ? NULL : t.ranks;
 }
 
+/* By the front end. False: nothing has been done. */
+static bool ranks_near(struct machine *m, const struct vpset *s, const struct lines *l,
+                       const struct words *w, struct device_buffer *ranks)
+{
+    const struct device *d = m->device;
+    struct near_word words[WORDS_MAX];
+    double start, seconds = 1e-9 * d->shape.rank_ns * (double)s->count * w->count;
+    int parts = device_parts(m, seconds);
+    bool shared = parts > 1 &&
+                  l->length > (m->settings.near < 2 ? d->shape.rank_alone_most : NEAR_SHARED);
+    for (int i = 0; i < w->count; i++)
+        words[i] = (struct near_word){.word = w->values[i]->buffer->host, .bits = w->bits[i]};
+    if (!near_begin(m, ranks, &start))
+        return false;
+    struct device_buffer *pairs = shared ? device_buffer_get(m, 16 * (size_t)l->length) : NULL;
+    bool good = shared ? pairs && near_rank_shared(d, parts, l, words, w->count, pairs, ranks)
+                       : near_rank(d, parts, l, words, w->count, ranks);
+    if (pairs)
+        device_buffer_unref(m, pairs);
+    if (good)
+        near_end(m, "sorting", start);
+    return good;
+}
+
 /* By the front end; else by the device. NULL: error set. */
 static struct device_buffer *ranks_of(struct machine *m, const struct vpset *s, int axis,
                                       const struct words *w)
 {
     const struct lines l = lines_of(s, axis, false);
-    struct near_word words[WORDS_MAX];
-    bool is_long = l.length > m->device->shape.near_rank_most && m->settings.near < 2;
-    double start, seconds = 1e-9 * m->device->shape.rank_ns * (double)s->count * w->count;
     struct device_buffer *ranks = device_rows_get(m, geometry_rows(s, MACHINE_UINT(32)));
-    for (int i = 0; i < w->count; i++)
-        words[i] = (struct near_word){.word = w->values[i]->buffer->host, .bits = w->bits[i]};
-    bool good = !is_long && near_begin(m, ranks, &start) &&
-                near_rank(m->device, device_parts(m, seconds), &l, words, w->count, ranks);
-    if (good)
-        near_end(m, "sorting", start);
-    if (good || !ranks)
+    if (!ranks || ranks_near(m, s, &l, w, ranks))
         return ranks;
     device_buffer_unref(m, ranks);
-    return ranks_far(m, s, axis, w);
+    return m->status ? NULL : ranks_far(m, s, axis, w);
 }
 
 struct machine_value *machine_rank(struct machine *m, int axis, bool downward, bool is_signed,
