@@ -64,18 +64,25 @@ static void brush_draw(int pigments)
     const struct paper_sheet_config *config = paper_sheet_get_config(sheets[0]);
     struct paper_brush brush = paper_brush_default();
     brush.bristles = 1 + below(20);
-    brush.width = within(1, 12);
-    brush.load = within(0.01, 2);
-    brush.thickness = within(0, 4);
+    const bool small = below(4) > 0; /* such strokes leave room for boxes */
+    brush.width = within(1, small ? 4 : 12);
+    brush.depth = 1 + below(3);
+    brush.load = within(small ? 0.5 : 0.01, 2);
+    brush.thickness = within(0, 3);
     brush.seed = chance_word();
     struct paper_dip dip = {.part = 1, .side = {-1, 1}};
     amounts_draw(dip.amount, pigments, 1);
+    dip.amount[0] = small ? 1 : dip.amount[0];
     struct paper_stroke_sample samples[2];
     for (int i = 0; i < 2; i++)
         samples[i] = (struct paper_stroke_sample){.time_s = 0.1 * i,
                                                   .x = within(-5, config->width + 5),
                                                   .y = within(-5, config->height + 5),
-                                                  .pressure = within(0, 1)};
+                                                  .pressure = small ? 0.8 : within(0, 1)};
+    if (small) {
+        samples[1].x = samples[0].x + within(-8, 8);
+        samples[1].y = samples[0].y + within(-8, 8);
+    }
     const struct paper_stroke stroke = {
         .pace = below(3) ? 60 : 0, .samples_count = 2, .samples = samples};
     BOTH(paper_sheet_brush(sheet, &brush))

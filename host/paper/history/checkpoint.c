@@ -1,6 +1,7 @@
 /* checkpoint.c - copies of the whole sheet in the front end's memory, within a budget.
  *
- * A checkpoint is offered every CHECKPOINT_EVERY steps and operations. Unchanged planes are
+ * A checkpoint is offered every CHECKPOINT_EVERY steps and operations: of steps that are done in boxes, as many more as
+ * take as long, up to CHECKPOINT_SPARED times as many. Unchanged planes are
  * shared with the checkpoint before; those of the paper itself hardly change. When the
  * budget is full, the checkpoint is dropped whose neighbours are nearest to each other
  * relative to their age. So the recent past is kept in fine steps and the far past in coarse
@@ -158,13 +159,17 @@ void checkpoint_offer(struct paper_sheet *p, bool now)
     const struct checkpoint *before = checkpoint_before(h, h->at);
     long since = h->work - (before ? before->work : 0);
     double bytes = plane_bytes(p) * paper_sheet_planes(p, planes);
-    if (since < (now ? 1 : CHECKPOINT_EVERY) || bytes > h->budget_bytes)
+    bool due = now ? since >= 1
+                   : since >= CHECKPOINT_EVERY * CHECKPOINT_SPARED ||
+                         (double)since - h->spared >= CHECKPOINT_EVERY;
+    if (!due || bytes > h->budget_bytes)
         return;
     while (h->held_bytes + bytes > h->budget_bytes || h->points_count == CHECKPOINTS_MAX)
         if (!point_drop_least(h))
             return;
     struct checkpoint point = {
         .position = h->at, .work = h->work, .air = p->air, .plane_bytes = plane_bytes(p)};
+    h->spared = 0;
     if (!point_fill(p, &point, checkpoint_before(h, h->at)))
         return;
     point_insert(h, &point);
@@ -190,6 +195,7 @@ enum paper_status checkpoint_restore(struct paper_sheet *p, const struct checkpo
         status = sheet_extras_decode(p, &r);
     p->history->at = point->position;
     p->history->work = point->work;
+    p->history->spared = 0;
     return status;
 }
 

@@ -207,6 +207,8 @@ static enum paper_status operation_perform(struct paper_sheet *p, const struct e
     if (status != PAPER_OK)
         return status;
     h->work++;
+    if (op->kind == SHEET_EVENT_STEP)
+        h->spared += 1 - sheet_share(p);
     at.step++;
     bool ends = op->kind != SHEET_EVENT_STEP || at.step == op->steps;
     h->at = ends ? (struct position){at.op + 1, 0} : at;

@@ -64,13 +64,14 @@ struct checkpoint {
     bool pinned; /* a saved state: kept until it has been reached */
 };
 
-enum { CHECKPOINTS_MAX = 256, CHECKPOINT_EVERY = 24 };
+enum { CHECKPOINTS_MAX = 256, CHECKPOINT_EVERY = 24, CHECKPOINT_SPARED = 16 };
 
 struct sheet_history {
     struct event_log log; /* the operations; their kinds are enum sheet_event_kind */
     struct position now, at;
     struct paper_air air; /* history_air()'s */
     long work;            /* at `at` */
+    double spared;        /* of the steps since the last checkpoint, by boxes */
     long steps_before;    /* the sheet's time before the operation that is being performed */
     bool open;            /* further steps may be joined to the last operation */
     struct notes notes;

@@ -16,269 +16,20 @@
  * So a step in boxes gives the same bits as one of the whole sheet. The boxes are good for as many steps as what is active is away
  * from their sides; then they are looked at again, and cut anew where it has come too near or has shrunk. Whoever changes the sheet
  * closes them. Where more than a half would lie in boxes there are none, and the sheet is looked at again some steps later. */
-#include "model/boxes_find.h"
-#include "model/model.h"
+#include "model/boxes_parts.h"
 
 #include <limits.h>
 #include <math.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum {
     UNIT_USUAL = 64,
     SHEET_LEAST = 64, /* units x units: a step of less takes no longer than a box's beginning */
-    PARTS_MOST = 2 * BOXES_MOST,
-    WAIT_LEAST = 24, /* steps until a sheet that had no boxes is looked at again */
     WAIT_MOST = 384
 };
-#define SHARE_MOST 0.5    /* of the sheet, in boxes */
 #define SHRUNK 0.6        /* of their area, from which boxes are cut anew */
 #define SETTLED_LEAST 4.5 /* grains that settle at 1 / 10 of the pace: fewer than a half stay */
-
-/* A box on the machine. Of the sheet it has what a step needs. */
-struct part {
-    struct paper_sheet sheet;
-    struct box box;
-    bool open;
-};
-
-struct sheet_boxes {
-    struct part *parts[PARTS_MOST];
-    bool confined; /* steps are done in the open parts */
-    bool ahead;    /* they are newer than the sheet's own fields */
-    int good;      /* steps for which they can be used */
-    int wait;      /* steps until the sheet is looked at */
-    int wait_next;
-    double share;         /* of the sheet, that the last step computed */
-    struct paper_air air; /* by which they were made */
-    void *words;          /* of the largest open part */
-};
-
-/* ---- which fields ---- */
-
-struct copied {
-    CM_field_id_t sheet, part;
-    unsigned bits; /* 0: a float */
-    bool changes;
-};
-enum { COPIED_MOST = 20 + 3 * PAPER_PIGMENTS_MAX };
-
-static int copied_fields(const struct paper_sheet *p, const struct paper_sheet *part,
-                         struct copied all[COPIED_MOST])
-{
-    const bool surface = sheet_has(p, PAPER_PART_SURFACE);
-    const struct {
-        size_t member;
-        bool there, changes;
-    } rows[] = {
-#define ROW(member, there, changes) {offsetof(struct paper_sheet, member), there, changes}
-        ROW(height, true, false),          ROW(page.absorbency, true, false),
-        ROW(capacity, true, false),        ROW(face[0], true, false),
-        ROW(face[1], true, false),         ROW(sizing, surface, false),
-        ROW(ease[0], surface, false),      ROW(ease[1], surface, false),
-        ROW(swirl, surface, false),        ROW(page.water, true, true),
-        ROW(surface_water, surface, true), ROW(wet_around, surface, true),
-        ROW(wet_part, surface, true),      ROW(speed[0], surface, true),
-        ROW(speed[1], surface, true),      ROW(salt, p->salted, true),
-        ROW(brine, p->salted, true),
-#undef ROW
-    };
-    int count = 0;
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct copied *c = &all[count];
-        memcpy(&c->sheet, (const char *)p + rows[i].member, sizeof c->sheet);
-        memcpy(&c->part, (const char *)part + rows[i].member, sizeof c->part);
-        c->bits = 0;
-        c->changes = rows[i].changes;
-        count += rows[i].there;
-    }
-    all[count++] = (struct copied){p->dried, part->dried, SHEET_DRIED_BITS, true};
-    for (int i = 0; i < p->config.pigments_count; i++) {
-        CM_field_id_t of_sheet[3], of_part[3];
-        const int fields = sheet_pigment_fields(p, i, of_sheet);
-        sheet_pigment_fields(part, i, of_part);
-        for (int k = 0; k < fields; k++)
-            all[count++] = (struct copied){of_sheet[k], of_part[k], 0, true};
-    }
-    return count;
-}
-
-/* Calls block_do() for each of the up to four blocks of the sheet that a box is made of: it may go over the sheet's edge. */
-static void blocks_each(const struct paper_sheet *p, const struct box *box, CM_field_id_t field,
-                        unsigned bits, void *words, bool read)
-{
-    const int width = p->page.grid.width, height = p->page.grid.height;
-    for (int row = 0; row < box->height;) {
-        const int y = (box->y + row) % height,
-                  rows = box->height - row < height - y ? box->height - row : height - y;
-        for (int column = 0; column < box->width;) {
-            const int x = (box->x + column) % width, left = box->width - column,
-                      columns = left < width - x ? left : width - x;
-            const struct kit_block block = {x,      y,   columns,    rows,
-                                            column, row, box->width, box->height};
-            if (read)
-                kit_grid_block_read(&block, words, field, bits);
-            else
-                kit_grid_block_write(&block, field, bits, words);
-            column += columns;
-        }
-        row += rows;
-    }
-}
-
-static void part_fill(struct paper_sheet *p, struct part *part, void *words)
-{
-    struct copied all[COPIED_MOST];
-    const int count = copied_fields(p, &part->sheet, all);
-    const struct kit_grid *grid = &part->sheet.page.grid;
-    for (int i = 0; i < count; i++) {
-        CM_set_vp_set(p->page.grid.vp_set);
-        blocks_each(p, &part->box, all[i].sheet, all[i].bits, words, true);
-        CM_set_vp_set(grid->vp_set);
-        if (all[i].bits)
-            kit_grid_u_write(grid, all[i].part, all[i].bits, words, CM_32_bit);
-        else
-            kit_grid_f_write(grid, all[i].part, words);
-    }
-}
-
-static void part_give(struct paper_sheet *p, const struct part *part, void *words)
-{
-    struct copied all[COPIED_MOST];
-    const int count = copied_fields(p, &part->sheet, all);
-    const struct kit_grid *grid = &part->sheet.page.grid;
-    for (int i = 0; i < count; i++) {
-        if (!all[i].changes)
-            continue;
-        CM_set_vp_set(grid->vp_set);
-        if (all[i].bits)
-            kit_grid_u_read(grid, words, all[i].part, all[i].bits, CM_32_bit);
-        else
-            kit_grid_f_read(grid, words, all[i].part);
-        CM_set_vp_set(p->page.grid.vp_set);
-        blocks_each(p, &part->box, all[i].sheet, all[i].bits, words, false);
-    }
-}
-
-/* ---- parts ---- */
-
-static void part_destroy(struct part *part)
-{
-    kit_grid_free(&part->sheet.page.grid);
-    free(part);
-}
-
-void sheet_boxes_destroy(struct paper_sheet *p)
-{
-    struct sheet_boxes *b = p->boxes;
-    if (!b)
-        return;
-    for (int i = 0; i < PARTS_MOST; i++)
-        if (b->parts[i])
-            part_destroy(b->parts[i]);
-    free(b->words);
-    free(b);
-    p->boxes = NULL;
-}
-
-/* A part that is as large as the box and not open; a new one if there is none. */
-static enum paper_status part_get(struct paper_sheet *p, const struct box *box,
-                                  struct part **out)
-{
-    struct sheet_boxes *b = p->boxes;
-    int free_place = -1, closed = -1;
-    for (int i = 0; i < PARTS_MOST; i++) {
-        struct part *part = b->parts[i];
-        if (!part)
-            free_place = i;
-        else if (!part->open && part->box.width == box->width &&
-                 part->box.height == box->height) {
-            *out = part;
-            part->box = *box;
-            part->open = true;
-            return PAPER_OK;
-        } else if (!part->open)
-            closed = i;
-    }
-    if (free_place < 0) { /* more than are open at once */
-        part_destroy(b->parts[closed]);
-        b->parts[closed] = NULL;
-        free_place = closed;
-    }
-    struct part *part = calloc(1, sizeof *part);
-    if (!part)
-        return paper_fail(PAPER_NO_MEMORY, "no memory for a part of a sheet");
-    struct paper_sheet *s = &part->sheet;
-    s->config = p->config;
-    s->config.width = box->width;
-    s->config.height = box->height;
-    s->unit = p->unit;
-    s->finer = p->finer;
-    kit_grid_make(&s->page.grid, box->width, box->height);
-    sheet_fields_make(s);
-    part->box = *box;
-    part->open = true;
-    b->parts[free_place] = *out = part;
-    return paper_leave(&s->page);
-}
-
-/* Parts that are closed stay, as long as they and the open ones take no more than boxes may. */
-static void parts_closed_few(struct paper_sheet *p)
-{
-    struct sheet_boxes *b = p->boxes;
-    double room = SHARE_MOST * p->page.grid.width * p->page.grid.height;
-    for (int i = 0; i < PARTS_MOST; i++)
-        if (b->parts[i] && b->parts[i]->open)
-            room -= (double)b->parts[i]->box.width * b->parts[i]->box.height;
-    for (int i = 0; i < PARTS_MOST; i++) {
-        if (!b->parts[i] || b->parts[i]->open)
-            continue;
-        room -= (double)b->parts[i]->box.width * b->parts[i]->box.height;
-        if (room < 0) {
-            part_destroy(b->parts[i]);
-            b->parts[i] = NULL;
-        }
-    }
-}
-
-static void parts_close(struct sheet_boxes *b)
-{
-    for (int i = 0; i < PARTS_MOST; i++)
-        if (b->parts[i])
-            b->parts[i]->open = false;
-    b->confined = b->ahead = false;
-    b->wait = 0;
-    b->wait_next = WAIT_LEAST;
-}
-
-/* ---- whoever looks ---- */
-
-void sheet_look(struct paper_sheet *p)
-{
-    struct sheet_boxes *b = p->boxes;
-    paper_enter(&p->page);
-    if (!b || !b->ahead)
-        return;
-    for (int i = 0; i < PARTS_MOST; i++)
-        if (b->parts[i] && b->parts[i]->open)
-            part_give(p, b->parts[i], b->words);
-    b->ahead = false;
-}
-
-void sheet_change(struct paper_sheet *p)
-{
-    sheet_look(p);
-    if (p->boxes)
-        parts_close(p->boxes);
-}
-
-void sheet_change_all(struct paper_sheet *p)
-{
-    if (p->boxes)
-        parts_close(p->boxes);
-    paper_enter(&p->page);
-}
 
 /* ---- what is active ---- */
 
@@ -333,10 +84,18 @@ static void active_read(struct paper_sheet *p, uint8_t *active)
     kit_grid_u_read(&p->page.grid, active, p->mask, 8, CM_8_bit);
 }
 
+/* Steps for which boxes get a margin: fewer where wet_around reaches far, or they would be large. */
+static int steps_ahead(const struct paper_sheet *p)
+{
+    const int reach = spread_in_a_step(p), most = p->boxes_unit / 2,
+              far = 3 * most / reach > 1 ? 3 * most / reach : 1;
+    return far < most ? far : most;
+}
+
 static struct boxes_wish wish_of(const struct paper_sheet *p)
 {
     return (struct boxes_wish){p->page.grid.width, p->page.grid.height, p->boxes_unit,
-                               1 + spread_in_a_step(p) * (p->boxes_unit / 2)};
+                               1 + spread_in_a_step(p) * steps_ahead(p)};
 }
 
 /* The sheet's active fibers, from those of the parts; good = steps that they are good for. */
@@ -363,20 +122,44 @@ static void parts_look(struct paper_sheet *p, const struct boxes_wish *wish, uin
     b->good = distance == INT_MAX ? INT_MAX : (distance - 1) / spread_in_a_step(p);
 }
 
+/* Steps for which active fibers there leave the part as it is: 0 where they are not in it. */
+static int part_good_for(const struct paper_sheet *p, const struct part *part,
+                         const struct box *at)
+{
+    const int sides[2][4] = {
+        {at->x, at->width, part->box.x, part->box.width},
+        {at->y, at->height, part->box.y, part->box.height},
+    };
+    const int lengths[2] = {p->page.grid.width, p->page.grid.height};
+    int distance = INT_MAX;
+    for (int i = 0; i < 2; i++) {
+        const int before = ((sides[i][0] - sides[i][2]) % lengths[i] + lengths[i]) % lengths[i],
+                  after = sides[i][3] - before - sides[i][1],
+                  least = before < after ? before : after;
+        if (sides[i][3] != lengths[i] && least < distance)
+            distance = least;
+    }
+    return distance == INT_MAX ? INT_MAX
+           : distance < 1      ? 0
+                               : (distance - 1) / spread_in_a_step(p);
+}
+
+/* The open part that these fibers are well within; NULL: there is none. */
+static struct part *part_around(const struct paper_sheet *p, const struct box *at)
+{
+    for (int i = 0; i < PARTS_MOST; i++) {
+        struct part *part = p->boxes->parts[i];
+        if (part && part->open && part_good_for(p, part, at) > 0)
+            return part;
+    }
+    return NULL;
+}
+
 static double boxes_area(const struct box *boxes, int count)
 {
     double area = 0;
     for (int i = 0; i < count; i++)
         area += (double)boxes[i].width * boxes[i].height;
-    return area;
-}
-
-static double parts_area(const struct sheet_boxes *b)
-{
-    double area = 0;
-    for (int i = 0; i < PARTS_MOST; i++)
-        if (b->parts[i] && b->parts[i]->open)
-            area += (double)b->parts[i]->box.width * b->parts[i]->box.height;
     return area;
 }
 
@@ -408,7 +191,7 @@ static enum paper_status boxes_open(struct paper_sheet *p, const struct box *box
     b->confined = true;
     b->ahead = false;
     b->air = p->air;
-    b->good = count > 0 ? p->boxes_unit / 2 : INT_MAX;
+    b->good = count > 0 ? steps_ahead(p) : INT_MAX;
     return paper_leave(&p->page);
 }
 
@@ -429,12 +212,16 @@ static enum paper_status boxes_cut(struct paper_sheet *p)
     else
         active_read(p, active);
     enum paper_status status = paper_leave(&p->page);
+    const struct box *e = &b->expected;
+    for (int y = e->y; y < e->y + e->height; y++)
+        memset(active + (size_t)y * (size_t)wish.width + e->x, 1, (size_t)e->width);
     const int count = boxes_find(&wish, active, boxes);
     free(active);
     if (status != PAPER_OK)
         return status;
     const double area = boxes_area(boxes, count);
-    if (b->confined && b->good >= wish.unit / 4 && area > SHRUNK * parts_area(b))
+    if (b->confined && b->good >= (steps_ahead(p) + 1) / 2 && area > SHRUNK * parts_area(b) &&
+        (e->width == 0 || part_around(p, e)))
         return PAPER_OK;
     const int wait_next = b->wait_next;
     sheet_change(p);
@@ -460,20 +247,27 @@ static bool boxes_pay(const struct paper_sheet *p)
     return p->config.parts && sheet_flows(p) && unit > 0 && fibers >= SHEET_LEAST * unit * unit;
 }
 
+static enum paper_status boxes_ready(struct paper_sheet *p)
+{
+    if (p->boxes)
+        return PAPER_OK;
+    p->boxes = calloc(1, sizeof *p->boxes);
+    if (!p->boxes)
+        return paper_fail(PAPER_NO_MEMORY, "no memory for the parts of a sheet");
+    p->boxes->wait_next = WAIT_LEAST;
+    return PAPER_OK;
+}
+
 /* Whether this step can be done in boxes; they are opened or looked at where that is due. */
 static enum paper_status confine(struct paper_sheet *p, bool *confined)
 {
-    struct sheet_boxes *b = p->boxes;
-    enum paper_status status = PAPER_OK;
     *confined = false;
     if (!boxes_pay(p))
         return PAPER_OK;
-    if (!b) {
-        b = p->boxes = calloc(1, sizeof *b);
-        if (!b)
-            return paper_fail(PAPER_NO_MEMORY, "no memory for the parts of a sheet");
-        b->wait_next = WAIT_LEAST;
-    }
+    enum paper_status status = boxes_ready(p);
+    struct sheet_boxes *b = p->boxes;
+    if (status != PAPER_OK)
+        return status;
     if (b->confined && memcmp(&b->air, &p->air, sizeof b->air) != 0) {
         sheet_change(p);
         status = paper_leave(&p->page);
@@ -517,6 +311,66 @@ enum paper_status sheet_step(struct paper_sheet *p, const void *arguments)
         b->good -= b->good != INT_MAX;
     }
     return paper_leave(&p->page);
+}
+
+/* ---- strokes ---- */
+
+enum paper_status sheet_boxes_expect(struct paper_sheet *p, int x1, int y1, int x2, int y2)
+{
+    const int width = p->page.grid.width, height = p->page.grid.height;
+    x1 = x1 > 0 ? x1 : 0;
+    y1 = y1 > 0 ? y1 : 0;
+    x2 = x2 < width ? x2 : width;
+    y2 = y2 < height ? y2 : height;
+    if (!boxes_pay(p))
+        return PAPER_OK;
+    enum paper_status status = boxes_ready(p);
+    if (status != PAPER_OK)
+        return status;
+    struct sheet_boxes *b = p->boxes;
+    b->expected = (struct box){0, 0, 0, 0};
+    if (x1 >= x2 || y1 >= y2)
+        return PAPER_OK;
+    b->expected = (struct box){x1, y1, x2 - x1, y2 - y1};
+    return b->confined ? part_around(p, &b->expected) ? PAPER_OK : boxes_cut(p)
+           : b->wait ? PAPER_OK
+                       : boxes_cut(p);
+}
+
+struct paper_sheet *sheet_boxes_touch(struct paper_sheet *p, int x1, int y1, int x2, int y2,
+                                      int origin[2])
+{
+    struct sheet_boxes *b = p->boxes;
+    const struct box at = {x1, y1, x2 - x1, y2 - y1};
+    origin[0] = origin[1] = 0;
+    if (!b || !b->confined)
+        return p;
+    struct part *part = part_around(p, &at);
+    if (!part) {
+        parts_give(p);
+        parts_close(b);
+        CM_set_vp_set(p->page.grid.vp_set);
+        return p;
+    }
+    const int good = part_good_for(p, part, &at);
+    b->good = good < b->good ? good : b->good;
+    b->ahead = true;
+    origin[0] = part->box.x;
+    origin[1] = part->box.y;
+    return &part->sheet;
+}
+
+void sheet_boxes_wetted(struct paper_sheet *p, const struct paper_sheet *at)
+{
+    for (int i = 0; at != p && i < PARTS_MOST; i++) {
+        struct part *part = p->boxes->parts[i];
+        if (!part || !part->open || &part->sheet == at)
+            continue;
+        CM_set_vp_set(part->sheet.page.grid.vp_set);
+        CM_set_context();
+        sheet_wet_around_make(&part->sheet);
+        kit_f_set(part->sheet.t[0], 0.0);
+    }
 }
 
 enum paper_status sheet_confine(struct paper_sheet *p, int unit)

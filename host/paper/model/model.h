@@ -98,6 +98,14 @@ void sheet_change(struct paper_sheet *p);
 void sheet_change_all(struct paper_sheet *p);
 void sheet_boxes_init(struct paper_sheet *p);
 void sheet_boxes_destroy(struct paper_sheet *p);
+/* A stroke is going to touch fibers x1..x2 - 1, y1..y2 - 1, or nothing (x1 = x2) from now on: boxes have room for it. */
+enum paper_status sheet_boxes_expect(struct paper_sheet *p, int x1, int y1, int x2, int y2);
+/* For who changes these fibers: the sheet whose fields hold them, the sheet itself or a box of it, and where its first fiber is on
+ * the sheet. Between paper_enter() and paper_leave(). */
+struct paper_sheet *sheet_boxes_touch(struct paper_sheet *p, int x1, int y1, int x2, int y2,
+                                      int origin[2]);
+/* After sheet_wet_around_make() of the fibers' sheet: the same for the other boxes. */
+void sheet_boxes_wetted(struct paper_sheet *p, const struct paper_sheet *at);
 /* As paper_sheet_confine(). */
 enum paper_status sheet_confine(struct paper_sheet *p, int unit);
 /* As paper_sheet_share(). */

@@ -138,8 +138,39 @@ static double contact_of(const struct sheet_brush *own, double force, double dwe
     return 1 - exp(-TOUCH_SHARE * own->brush.flow * dwell * force * touches);
 }
 
-/* Fills p->brushes->contacts for the times from..from + rows * length; false: nothing touches. */
-static bool contacts_make(struct going *g, double from, double length, int rows, double dwell)
+/* Where the fibers (those of 0 or more, by row-major number on the sheet) are on the sheet or on a box of it, which is returned. */
+static struct paper_sheet *addresses_make(struct paper_sheet *p, const int fibers[BRUSH_PLACES],
+                                          uint32_t address[BRUSH_PLACES])
+{
+    const int width = p->page.grid.width, height = p->page.grid.height;
+    int x1 = width, y1 = height, x2 = 0, y2 = 0, origin[2];
+    for (int i = 0; i < BRUSH_PLACES; i++) {
+        if (fibers[i] < 0)
+            continue;
+        const int x = fibers[i] % width, y = fibers[i] / width;
+        x1 = x < x1 ? x : x1;
+        y1 = y < y1 ? y : y1;
+        x2 = x >= x2 ? x + 1 : x2;
+        y2 = y >= y2 ? y + 1 : y2;
+    }
+    struct paper_sheet *at = sheet_boxes_touch(p, x1, y1, x2, y2, origin);
+    const CM_geometry_id_t geometry = at->page.grid.geometry;
+    for (int i = 0; i < BRUSH_PLACES; i++) {
+        if (fibers[i] < 0)
+            continue;
+        const int x = (fibers[i] % width - origin[0] + width) % width,
+                  y = (fibers[i] / width - origin[1] + height) % height;
+        address[i] = CM_fe_deposit_news_coordinate(
+            geometry, CM_fe_make_news_coordinate(geometry, KIT_AXIS_Y, (unsigned)y), KIT_AXIS_X,
+            (unsigned)x);
+    }
+    return at;
+}
+
+/* Fills p->brushes->contacts for the times from..from + rows * length; false: nothing touches. *exchanging: the sheet, or a box of
+ * it, that the addresses are of. */
+static bool contacts_make(struct going *g, double from, double length, int rows, double dwell,
+                          struct paper_sheet **exchanging)
 {
     struct paper_sheet *p = g->sheet;
     struct sheet_contacts *c = &p->brushes->contacts;
@@ -191,16 +222,10 @@ static bool contacts_make(struct going *g, double from, double length, int rows,
             c->contact[i] = whole_contact(
                 contact_of(g->own, (double)c->force[i], dwell, (double)c->sharers[i]));
     }
-    for (int i = 0; i < BRUSH_PLACES; i++) {
-        if (fibers[i] < 0)
-            continue;
-        touched[fibers[i]] = 0;
-        int x = fibers[i] % p->page.grid.width, y = fibers[i] / p->page.grid.width;
-        c->address[i] = CM_fe_deposit_news_coordinate(
-            p->page.grid.geometry,
-            CM_fe_make_news_coordinate(p->page.grid.geometry, KIT_AXIS_Y, (unsigned)y),
-            KIT_AXIS_X, (unsigned)x);
-    }
+    for (int i = 0; i < BRUSH_PLACES; i++)
+        if (fibers[i] >= 0)
+            touched[fibers[i]] = 0;
+    *exchanging = touching > 0 ? addresses_make(p, fibers, c->address) : p;
     return touching > 0;
 }
 
@@ -230,8 +255,12 @@ static void brush_go(struct going *g, double from, double to)
         if (g->sheet->due && g->sheet->due(g->sheet->due_context))
             return;
         int rows = places - done < BRUSH_ROWS ? places - done : BRUSH_ROWS;
-        if (contacts_make(g, from + done * seconds / places, seconds / places, rows, dwell))
-            sheet_brush_exchange(g->sheet, g->sheet->brushes, g->own);
+        struct paper_sheet *at;
+        if (contacts_make(g, from + done * seconds / places, seconds / places, rows, dwell,
+                          &at)) {
+            sheet_brush_exchange(at, g->sheet->brushes, g->own);
+            sheet_boxes_wetted(g->sheet, at);
+        }
         done += rows;
     }
 }
@@ -268,11 +297,27 @@ enum paper_status sheet_stroke_check(const struct paper_sheet *p, const void *ar
                             PAPER_STROKE_STEPS_MAX, seconds, pace);
 }
 
-enum paper_status sheet_stroke(struct paper_sheet *p, const void *arguments)
+/* Boxes get room for about all that a stroke touches while steps go. */
+static enum paper_status stroke_expect(struct paper_sheet *p, const struct paper_stroke *stroke,
+                                       const struct paper_brush *brush)
 {
-    const struct paper_stroke *stroke = arguments;
-    if (!sheet_brush_get(p, stroke->number))
-        return paper_fail(PAPER_BAD_ARGUMENT, "the sheet has no brush %d", stroke->number);
+    const double most = p->page.grid.width + p->page.grid.height,
+                 around = fmin(most, hypot(brush->width, brush->depth) *
+                                             (1 + brush->splay + brush->bend) +
+                                         brush->thickness + 2);
+    double low[2] = {most, most}, high[2] = {-most, -most};
+    for (int i = 0; i < stroke->samples_count; i++) {
+        const double at[2] = {stroke->samples[i].x, stroke->samples[i].y};
+        for (int axis = 0; axis < 2; axis++) {
+            low[axis] = fmax(-most, fmin(low[axis], at[axis] - around));
+            high[axis] = fmin(2 * most, fmax(high[axis], at[axis] + around));
+        }
+    }
+    return sheet_boxes_expect(p, (int)low[0], (int)low[1], (int)high[0], (int)high[1]);
+}
+
+static enum paper_status stroke_go(struct paper_sheet *p, const struct paper_stroke *stroke)
+{
     enum paper_status status = PAPER_OK;
     double start = stroke_start(stroke), end = stroke_end(stroke), pace = stroke_pace(stroke);
     int count = (int)fmax(1, ceil((end - start) * pace - 1e-9));
@@ -286,7 +331,7 @@ enum paper_status sheet_stroke(struct paper_sheet *p, const void *arguments)
             break;
         }
         double from = start + i / pace, to = fmin(end, start + (i + 1) / pace);
-        sheet_change(p);
+        paper_enter(&p->page);
         brush_go(&g, from, i == count - 1 && to <= from ? from + 1 / pace : fmax(to, from));
         status = paper_leave(&p->page);
         if (stroke->pace > 0 && status == PAPER_OK) {
@@ -299,4 +344,18 @@ enum paper_status sheet_stroke(struct paper_sheet *p, const void *arguments)
         return paper_fail(PAPER_MACHINE_FAILED,
                           "stopped"); /* it may have ended in its last step */
     return status;
+}
+
+enum paper_status sheet_stroke(struct paper_sheet *p, const void *arguments)
+{
+    const struct paper_stroke *stroke = arguments;
+    if (!sheet_brush_get(p, stroke->number))
+        return paper_fail(PAPER_BAD_ARGUMENT, "the sheet has no brush %d", stroke->number);
+    enum paper_status status = PAPER_OK;
+    if (stroke->pace > 0)
+        status = stroke_expect(p, stroke, &p->brushes->brush[stroke->number].brush);
+    if (status == PAPER_OK)
+        status = stroke_go(p, stroke);
+    const enum paper_status ended = sheet_boxes_expect(p, 0, 0, 0, 0);
+    return status == PAPER_OK ? ended : status;
 }

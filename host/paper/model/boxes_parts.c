@@ -1,0 +1,252 @@
+/* boxes_parts.c - boxes of a sheet as VP sets of their own: which fields they have, and how these come and go. model/boxes.c says
+ * when. */
+#include "model/boxes_parts.h"
+
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- which fields ---- */
+
+struct copied {
+    CM_field_id_t sheet, part;
+    unsigned bits; /* 0: a float */
+    bool changes;
+};
+enum { COPIED_MOST = 20 + 3 * PAPER_PIGMENTS_MAX };
+
+static int copied_fields(const struct paper_sheet *p, const struct paper_sheet *part,
+                         struct copied all[COPIED_MOST])
+{
+    const bool surface = sheet_has(p, PAPER_PART_SURFACE);
+    const struct {
+        size_t member;
+        bool there, changes;
+    } rows[] = {
+#define ROW(member, there, changes) {offsetof(struct paper_sheet, member), there, changes}
+        ROW(height, true, false),
+        ROW(page.absorbency, true, false),
+        ROW(capacity, true, false),
+        ROW(face[0], true, false),
+        ROW(face[1], true, false),
+        ROW(sizing, surface, false),
+        ROW(ease[0], surface, false),
+        ROW(ease[1], surface, false),
+        ROW(swirl, surface, false),
+        ROW(page.water, true, true),
+        ROW(surface_water, surface, true),
+        ROW(wet_around, surface, true),
+        ROW(wet_part, surface, true),
+        ROW(speed[0], surface, true),
+        ROW(speed[1], surface, true),
+        ROW(salt, p->salted, true),
+        ROW(brine, p->salted, true),
+        ROW(resist, true, false),
+        ROW(grip, sheet_of_version_3(p), false),
+#undef ROW
+    };
+    int count = 0;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct copied *c = &all[count];
+        memcpy(&c->sheet, (const char *)p + rows[i].member, sizeof c->sheet);
+        memcpy(&c->part, (const char *)part + rows[i].member, sizeof c->part);
+        c->bits = 0;
+        c->changes = rows[i].changes;
+        count += rows[i].there;
+    }
+    all[count++] = (struct copied){p->dried, part->dried, SHEET_DRIED_BITS, true};
+    for (int i = 0; i < p->config.pigments_count; i++) {
+        CM_field_id_t of_sheet[3], of_part[3];
+        const int fields = sheet_pigment_fields(p, i, of_sheet);
+        sheet_pigment_fields(part, i, of_part);
+        for (int k = 0; k < fields; k++)
+            all[count++] = (struct copied){of_sheet[k], of_part[k], 0, true};
+    }
+    return count;
+}
+
+/* Calls block_do() for each of the up to four blocks of the sheet that a box is made of: it may go over the sheet's edge. */
+static void blocks_each(const struct paper_sheet *p, const struct box *box, CM_field_id_t field,
+                        unsigned bits, void *words, bool read)
+{
+    const int width = p->page.grid.width, height = p->page.grid.height;
+    for (int row = 0; row < box->height;) {
+        const int y = (box->y + row) % height,
+                  rows = box->height - row < height - y ? box->height - row : height - y;
+        for (int column = 0; column < box->width;) {
+            const int x = (box->x + column) % width, left = box->width - column,
+                      columns = left < width - x ? left : width - x;
+            const struct kit_block block = {x,      y,   columns,    rows,
+                                            column, row, box->width, box->height};
+            if (read)
+                kit_grid_block_read(&block, words, field, bits);
+            else
+                kit_grid_block_write(&block, field, bits, words);
+            column += columns;
+        }
+        row += rows;
+    }
+}
+
+void part_fill(struct paper_sheet *p, struct part *part, void *words)
+{
+    struct copied all[COPIED_MOST];
+    const int count = copied_fields(p, &part->sheet, all);
+    const struct kit_grid *grid = &part->sheet.page.grid;
+    for (int i = 0; i < count; i++) {
+        CM_set_vp_set(p->page.grid.vp_set);
+        blocks_each(p, &part->box, all[i].sheet, all[i].bits, words, true);
+        CM_set_vp_set(grid->vp_set);
+        if (all[i].bits)
+            kit_grid_u_write(grid, all[i].part, all[i].bits, words, CM_32_bit);
+        else
+            kit_grid_f_write(grid, all[i].part, words);
+    }
+}
+
+static void part_give(struct paper_sheet *p, const struct part *part, void *words)
+{
+    struct copied all[COPIED_MOST];
+    const int count = copied_fields(p, &part->sheet, all);
+    const struct kit_grid *grid = &part->sheet.page.grid;
+    for (int i = 0; i < count; i++) {
+        if (!all[i].changes)
+            continue;
+        CM_set_vp_set(grid->vp_set);
+        if (all[i].bits)
+            kit_grid_u_read(grid, words, all[i].part, all[i].bits, CM_32_bit);
+        else
+            kit_grid_f_read(grid, words, all[i].part);
+        CM_set_vp_set(p->page.grid.vp_set);
+        blocks_each(p, &part->box, all[i].sheet, all[i].bits, words, false);
+    }
+}
+
+/* ---- parts ---- */
+
+static void part_destroy(struct part *part)
+{
+    kit_grid_free(&part->sheet.page.grid);
+    free(part);
+}
+
+void sheet_boxes_destroy(struct paper_sheet *p)
+{
+    struct sheet_boxes *b = p->boxes;
+    if (!b)
+        return;
+    for (int i = 0; i < PARTS_MOST; i++)
+        if (b->parts[i])
+            part_destroy(b->parts[i]);
+    free(b->words);
+    free(b);
+    p->boxes = NULL;
+}
+
+enum paper_status part_get(struct paper_sheet *p, const struct box *box, struct part **out)
+{
+    struct sheet_boxes *b = p->boxes;
+    int free_place = -1, closed = -1;
+    for (int i = 0; i < PARTS_MOST; i++) {
+        struct part *part = b->parts[i];
+        if (!part)
+            free_place = i;
+        else if (!part->open && part->box.width == box->width &&
+                 part->box.height == box->height) {
+            *out = part;
+            part->box = *box;
+            part->open = true;
+            return PAPER_OK;
+        } else if (!part->open)
+            closed = i;
+    }
+    if (free_place < 0) { /* more than are open at once */
+        part_destroy(b->parts[closed]);
+        b->parts[closed] = NULL;
+        free_place = closed;
+    }
+    struct part *part = calloc(1, sizeof *part);
+    if (!part)
+        return paper_fail(PAPER_NO_MEMORY, "no memory for a part of a sheet");
+    struct paper_sheet *s = &part->sheet;
+    s->config = p->config;
+    s->config.width = box->width;
+    s->config.height = box->height;
+    s->unit = p->unit;
+    s->finer = p->finer;
+    kit_grid_make(&s->page.grid, box->width, box->height);
+    sheet_fields_make(s);
+    part->box = *box;
+    part->open = true;
+    b->parts[free_place] = *out = part;
+    return paper_leave(&s->page);
+}
+
+void parts_closed_few(struct paper_sheet *p)
+{
+    struct sheet_boxes *b = p->boxes;
+    double room = SHARE_MOST * p->page.grid.width * p->page.grid.height;
+    for (int i = 0; i < PARTS_MOST; i++)
+        if (b->parts[i] && b->parts[i]->open)
+            room -= (double)b->parts[i]->box.width * b->parts[i]->box.height;
+    for (int i = 0; i < PARTS_MOST; i++) {
+        if (!b->parts[i] || b->parts[i]->open)
+            continue;
+        room -= (double)b->parts[i]->box.width * b->parts[i]->box.height;
+        if (room < 0) {
+            part_destroy(b->parts[i]);
+            b->parts[i] = NULL;
+        }
+    }
+}
+
+void parts_close(struct sheet_boxes *b)
+{
+    for (int i = 0; i < PARTS_MOST; i++)
+        if (b->parts[i])
+            b->parts[i]->open = false;
+    b->confined = b->ahead = false;
+    b->wait = 0;
+    b->wait_next = WAIT_LEAST;
+}
+
+/* ---- whoever looks ---- */
+
+void parts_give(struct paper_sheet *p)
+{
+    struct sheet_boxes *b = p->boxes;
+    for (int i = 0; b->ahead && i < PARTS_MOST; i++)
+        if (b->parts[i] && b->parts[i]->open)
+            part_give(p, b->parts[i], b->words);
+    b->ahead = false;
+}
+
+void sheet_look(struct paper_sheet *p)
+{
+    paper_enter(&p->page);
+    if (p->boxes)
+        parts_give(p);
+}
+
+void sheet_change(struct paper_sheet *p)
+{
+    sheet_look(p);
+    if (p->boxes)
+        parts_close(p->boxes);
+}
+
+void sheet_change_all(struct paper_sheet *p)
+{
+    if (p->boxes)
+        parts_close(p->boxes);
+    paper_enter(&p->page);
+}
+
+double parts_area(const struct sheet_boxes *b)
+{
+    double area = 0;
+    for (int i = 0; i < PARTS_MOST; i++)
+        if (b->parts[i] && b->parts[i]->open)
+            area += (double)b->parts[i]->box.width * b->parts[i]->box.height;
+    return area;
+}

@@ -1,0 +1,46 @@
+/* boxes_parts.h - boxes of a sheet on the machine. */
+#ifndef LUTETIA_PAPER_BOXES_PARTS_H
+#define LUTETIA_PAPER_BOXES_PARTS_H
+
+#include "model/boxes_find.h"
+#include "model/model.h"
+
+enum {
+    PARTS_MOST = 2 * BOXES_MOST,
+    WAIT_LEAST = 24 /* steps until a sheet that had no boxes is looked at again */
+};
+#define SHARE_MOST 0.5 /* of the sheet, in boxes */
+
+/* A box on the machine. Of the sheet it has what a step needs. */
+struct part {
+    struct paper_sheet sheet;
+    struct box box;
+    bool open;
+};
+
+struct sheet_boxes {
+    struct part *parts[PARTS_MOST];
+    bool confined; /* steps are done in the open parts */
+    bool ahead;    /* they are newer than the sheet's own fields */
+    int good;      /* steps for which they can be used */
+    int wait;      /* steps until the sheet is looked at */
+    int wait_next;
+    double share;         /* of the sheet, that the last step computed */
+    struct box expected;  /* fibers that will be touched are active, too; no width: none */
+    struct paper_air air; /* by which they were made */
+    void *words;          /* of the largest open part */
+};
+
+/* A part that is as large as the box and not open; a new one if there is none. Errors: NO_MEMORY, MACHINE_FAILED. */
+enum paper_status part_get(struct paper_sheet *p, const struct box *box, struct part **out);
+/* Its fields from the sheet's; words: room for it. Between paper_enter() and paper_leave(). */
+void part_fill(struct paper_sheet *p, struct part *part, void *words);
+/* Parts that are closed stay, as long as they and the open ones take no more than boxes may. */
+void parts_closed_few(struct paper_sheet *p);
+/* What open parts have changed, into the sheet's fields, if that has not been done. Between paper_enter() and paper_leave(). */
+void parts_give(struct paper_sheet *p);
+void parts_close(struct sheet_boxes *b);
+/* Fibers of the open parts. */
+double parts_area(const struct sheet_boxes *b);
+
+#endif
