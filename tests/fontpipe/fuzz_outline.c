@@ -133,15 +133,17 @@ static bool levels_check(const struct font_outline *o, struct input *in)
 
 int fuzz_outline(const uint8_t *bytes, size_t count)
 {
-    static struct font_filter *filters[4];
-    static const char *const names[] = {"gaussian-fast", "box", "cone", "mitchell"};
+    static const char *const names[] = {"gaussian-fast", "box",     "cone",
+                                        "mitchell",      "pillbox", "lanczos"};
+    enum { FILTERS = sizeof names / sizeof *names };
+    static struct font_filter *filters[FILTERS];
     struct input in = {bytes, bytes + count};
     struct font_outline o = {.units_per_em = 1000, .advance = 500};
     struct font_edges edges = {0};
     struct font_gray gray = {0};
     struct font_map map;
     int ink = 0;
-    const int which = byte(&in) % 4;
+    const int which = byte(&in) % FILTERS;
     if (!filters[which])
         must(font_filter_create_named(names[which], &filters[which]) == FONT_OK);
     const struct font_filter *filter = filters[which];
