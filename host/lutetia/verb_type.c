@@ -2,6 +2,7 @@
 #include "lutetia.h"
 #include "options.h"
 #include "type_common.h"
+#include "type_ink.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -14,6 +15,7 @@ struct type {
     double size_px, rotate, shear, place[2], ink[3], gamma, darken_px, spacing_px, leading;
     double margin_px, width_px;
     struct option_list corners;
+    struct type_ink more;
     int face, zoom;
     bool stripes, to_left, no_fallback, compare, gl, statistics;
 };
@@ -58,6 +60,18 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
         {"warp", 0, OPTION_TEXT, "KIND", "projective or bilinear, with --corners (projective)",
          &t->warp, 0, 0, 0},
         {"ink", 0, OPTION_NUMBERS, "R,G,B", "0..1 (0,0,0)", t->ink, 0, 1, 3},
+        {"cover", 0, OPTION_NUMBER, "C", "how much ink covers of what is below, 0..1 (1)",
+         &t->more.cover, 0, 1, 0},
+        {"gradient", 0, OPTION_LIST, "X,Y,X,Y",
+         "ink along a way, pixels from the first baseline", &t->more.gradient, -far, far, 4},
+        {"radial", 0, OPTION_LIST, "X,Y,R", "ink from a place outwards", &t->more.radial, -far,
+         far, 3},
+        {"stop", 0, OPTION_LIST, "AT,R,G,B,C",
+         "a colour of these, and its cover, 0..1; up to 8", &t->more.stops, 0, 1, 5},
+        {"texture", 0, OPTION_TEXT, "FILE", "a PNG as ink, repeated", &t->more.picture, 0, 0,
+         0},
+        {"mix-numbers", 0, OPTION_FLAG, NULL, "ink is mixed as numbers, not as light",
+         &t->more.numbers, 0, 0, 0},
         {"gamma", 0, OPTION_NUMBER, "G", "light is mixed by this power; 1: not at all (sRGB's)",
          &t->gamma, 0.2, 5, 0},
         {"darken", 0, OPTION_NUMBER, "PX",
@@ -118,6 +132,8 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
         return fail_usage("type", "--gl goes without --gamma, --stripes and --compare");
     if (t->compare && t->stripes)
         return fail_usage("type", "--compare goes without --stripes: it shows gray");
+    if (t->compare && type_ink_given(&t->more))
+        return fail_usage("type", "--compare shows gray: it goes without inks");
     enum type_out kind = type_out_of(t->out_path);
     if (kind == TYPE_OUT_NONE)
         return fail_usage("type", "-o names a picture: FILE.png, .svg or .pdf (got '%.80s')",
@@ -134,7 +150,7 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
     if (align_of(t->align) < 0)
         return fail_usage(
             "type", "--align must be left, right, center or justify (got '%.60s')", t->align);
-    return EXIT_SUCCESS;
+    return type_ink_check("type", &t->more);
 }
 
 /* The box around the text after an affine map, from the first ascent to the last descent. */
@@ -261,6 +277,8 @@ static int type_run(struct type *t, struct font_face *face)
         type_report(t, &layout);
         status = type_map(t, &layout, &map);
     }
+    if (status == EXIT_SUCCESS && type_ink_given(&t->more))
+        status = type_ink_apply("type", &t->more, t->ink, &layout);
     if (status == EXIT_SUCCESS)
         status = t->compare ? type_compare("type", t->out_path, &layout, &map, t->filter,
                                            t->place[0], t->place[1], t->zoom)
@@ -290,19 +308,19 @@ int verb_type(int argc, char **argv)
                       .size_px = 48,
                       .darken_px = FONT_DARKEN_BY_STEM,
                       .margin_px = 8,
+                      .more.cover = 1,
                       .zoom = 8};
     int status = type_options(&t, argc, argv, &help);
-    if (status != EXIT_SUCCESS || help)
-        return status;
     struct font_face *face = NULL;
-    char *filter;
-    status = type_filter_read("type", t.filter, &filter);
-    if (status != EXIT_SUCCESS)
-        return status;
+    char *filter = NULL;
+    if (status == EXIT_SUCCESS && !help)
+        status = type_filter_read("type", t.filter, &filter);
     t.filter = filter;
-    status = type_face_open("type", t.font, t.face, t.axes, &face);
-    if (status == EXIT_SUCCESS)
+    if (status == EXIT_SUCCESS && !help)
+        status = type_face_open("type", t.font, t.face, t.axes, &face);
+    if (status == EXIT_SUCCESS && !help)
         status = type_run(&t, face);
+    type_ink_finish(&t.more);
     font_face_close(face);
     free(filter);
     return status;

@@ -31,7 +31,8 @@ VALUES = ["", "0", "1", "-1", "2", "0.5", "1e3", "1e308", "-1e308", "nan", "inf"
 # good values, by the name that the help gives a value
 RIGHT = {"FILE": ["out.png", "out.h5", "script.lua"], "DIR": ["made", "folder"], "N": ["1", "2", "3"], "S": ["1", "5"], "PX": ["12", "40"],
          "F": ["box:2", "DejaVuSans", "triangle:3"], "WxH": ["16x16", "40x20"], "W": ["0.5"], "A": ["left", "0.5"], "B": ["1"],
-         "C,M,Y": ["0.1,0.5,1"], "X,Y": ["3,4"], "R,G,B": ["0,0.5,1"], "DEG": ["30"], "G": ["1.5"], "H": ["0.1"], "C": ["g"],
+         "C,M,Y": ["0.1,0.5,1"], "X,Y": ["3,4"], "R,G,B": ["0,0.5,1"], "DEG": ["30"], "G": ["1.5"], "H": ["0.1"], "C": ["g", "0.5"], "X,Y,X,Y": ["0,-40,90,0"], "X,Y,R": ["40,-20,60"],
+         "AT,R,G,B,C": ["0,1,0,0,1", "1,0,0,1,0.4"],
          "KEY=LIST": ["a=1,2"], "MB": ["64", "4096"], "VIEW": ["color"], "X,Y,W,H": ["0,0,8,8"], "TEXT": ["Ag"], "L": ["en", "1.2"]}
 WORDS = ["Wet", "", "é漢🎨", "\x1b]0;x\x07", "script.lua", "picture.png", "DejaVuSans", "pipe", "folder", "link", "no/such", "a=1", "-",
          "A" * 400]

@@ -109,6 +109,45 @@ static void type_is_set(void **state)
     unlink(path);
 }
 
+/* Half a cover is half of the darkness; a gradient and a picture are drawn by OpenGL as by the painter, and in drawings. */
+static void ink_is_more_than_a_colour(void **state)
+{
+    (void)state;
+    int width, height;
+    char path[] = "lutetia-type-ink.png", tile[] = "lutetia-type-tile.png";
+    static char *const others[] = {"lutetia-type-ink.svg", "lutetia-type-ink.pdf"};
+    struct child dot = {.arguments = {"", "type", "Wq", "--size", "20", "-o", tile}};
+    run(&dot, 0, "");
+    struct child whole = {
+        .arguments = {"", "type", "Wet", "--gamma", "1", "--mix-numbers", "-o", path}};
+    run(&whole, 0, "");
+    double ink = ink_of(path, &width, &height);
+    struct child half = {.arguments = {"", "type", "Wet", "--gamma", "1", "--mix-numbers", "-o",
+                                       path, "--cover", "0.5"}};
+    run(&half, 0, "");
+    assert_true(fabs(ink_of(path, &width, &height) / ink - 0.5) < 0.01);
+    for (int k = 0; k < 2; k++) {
+        struct child by[] = {
+            {.arguments = {"", "type", "Wet", "-o", path, "--gradient", "0,0,90,0", "--stop",
+                           "0,1,0,0,1", "--stop", "1,0,0,0.6,0.4"}},
+            {.arguments = {"", "type", "Wet", "-o", path, "--texture", tile}}};
+        run(&by[k], 0, "");
+        double painted = ink_of(path, &width, &height);
+        struct child same = by[k];
+        same.arguments[k ? 7 : 11] = "--gl";
+        run(&same, 0, "");
+        assert_true(fabs(ink_of(path, &width, &height) / painted - 1) < 0.01);
+        for (int i = 0; i < 2; i++) {
+            struct child drawing = by[k];
+            drawing.arguments[4] = others[i];
+            run(&drawing, 0, "");
+            assert_true(unlink(others[i]) == 0);
+        }
+    }
+    unlink(path);
+    unlink(tile);
+}
+
 static void lines_are_broken_to_fit(void **state)
 {
     (void)state;
@@ -215,6 +254,10 @@ static void wrong_lines_are_said(void **state)
         {{"set", "/nowhere"}, 1, "/nowhere: "},
         {{"set", "/dev/null", "-o", "a.jpg"}, 2, "-o names a picture"},
         {{"type", "a", "--corners", "0,0,9,9,9,0,0,9"}, 1, "without a dent"},
+        {{"type", "a", "--gradient", "0,0,9,9"}, 2, "come with --stop"},
+        {{"type", "a", "--stop", "0,0,0,0,1"}, 2, "a colour of --gradient"},
+        {{"type", "a", "--texture", "no-such.png"}, 1, "no-such.png"},
+        {{"type", "a", "--texture", "x.png", "--radial", "0,0,9"}, 2, "given once"},
         {{"type", "a", "--corners", "0,0,9"}, 2, "must be 8 numbers X,Y"},
         {{"type", "a", "--features", "="}, 1, "there is no feature"},
         {{"type", "a", "-o", "/nowhere/a.png"}, 1, "/nowhere"},
@@ -254,8 +297,11 @@ static void wrong_lines_are_said(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(type_is_set),           cmocka_unit_test(lines_are_broken_to_fit),
-        cmocka_unit_test(comparisons_are_shown), cmocka_unit_test(fonts_and_filters_are_shown),
+        cmocka_unit_test(type_is_set),
+        cmocka_unit_test(ink_is_more_than_a_colour),
+        cmocka_unit_test(lines_are_broken_to_fit),
+        cmocka_unit_test(comparisons_are_shown),
+        cmocka_unit_test(fonts_and_filters_are_shown),
         cmocka_unit_test(wrong_lines_are_said),
     };
     lutetia = getenv("LUTETIA");
