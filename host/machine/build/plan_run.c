@@ -210,6 +210,8 @@ static enum machine_status interpret(struct machine *m, struct plan *p, const st
         return status;
     const struct vpset *set = &m->values->sets[l->set];
     int parts = device_parts(m, l->program->lane_s * (double)set->count);
+    if (parts > 1)
+        device_stays_awake(m);
     double start = clock_s();
     m->inside++;
     bool good =

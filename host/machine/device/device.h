@@ -4,6 +4,7 @@
 
 #include <CL/cl.h>
 
+#include "base/awake.h"
 #include "base/crew.h"
 #include "base/settings.h"
 #include "device/shape.h"
@@ -47,7 +48,8 @@ struct device {
     cl_kernel *unstarted; /* built, but never started */
     int unstarted_count, unstarted_capacity;
     const char *options;
-    bool is_pocl; /* on a CPU */
+    bool is_pocl;        /* on a CPU */
+    struct awake *awake; /* NULL: processors may halt between kernels */
     struct crew
         *crew;   /* as many threads as units, for what the front end does; NULL: it is alone */
     bool queued; /* commands that nobody has waited for may be in the queue */
@@ -135,6 +137,8 @@ enum machine_status device_settle(struct machine *m);
 /* The same, for a look of that name, which those who watch hear of. */
 enum machine_status device_settle_for(struct machine *m, const char *what);
 
+/* Work for more than one thread begins, or goes on. */
+void device_stays_awake(struct machine *m);
 /* In how many parts the crew does what takes one thread so long. LUTETIA_NEAR=2: in several, however short. */
 int device_parts(const struct machine *m, double seconds);
 

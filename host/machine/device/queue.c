@@ -9,9 +9,13 @@
 
 enum { PARTS_FORCED = 7 };
 
+/* How long processors do not halt after a kernel was started; and at most, while the front end waits for one. */
+static const double AWAKE_S = 5e-3, AWAKE_WAITING_S = 1;
+
 double device_wait_begin(struct machine *m)
 {
     m->inside++;
+    awake_for(m->device->awake, AWAKE_WAITING_S);
     return clock_s();
 }
 
@@ -19,10 +23,16 @@ enum machine_status device_wait_end(struct machine *m, cl_int error, double star
                                     const char *what)
 {
     m->inside--;
+    awake_for(m->device->awake, AWAKE_S);
     m->device->busy_s += clock_s() - start;
     if (m->watch)
         watch_waited(m, start, what);
     return device_check(m, error, what);
+}
+
+void device_stays_awake(struct machine *m)
+{
+    awake_for(m->device->awake, AWAKE_S);
 }
 
 int device_parts(const struct machine *m, double seconds)
@@ -222,6 +232,7 @@ enum machine_status device_launch(struct machine *m, cl_kernel kernel, cl_int er
     double start = watch_clock(m);
     cl_event *done = m->watch ? watch_command(m, start) : NULL;
     d->queued = true;
+    awake_for(d->awake, AWAKE_S);
     if (!error)
         error = clEnqueueNDRangeKernel(d->queue, kernel, dimensions, NULL, global,
                                        local       ? local

@@ -1,0 +1,136 @@
+/* test_awake.c - threads that keep processors from halting: of the lowest priority, for as long as was asked, and no longer. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <dirent.h>
+#include <sched.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/awake.h"
+#include "base/clock.h"
+
+static double used_s(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void pause_s(double seconds)
+{
+    struct timespec t = {(time_t)seconds, (long)((seconds - (double)(time_t)seconds) * 1e9)};
+    while (nanosleep(&t, &t))
+        continue;
+}
+
+/* Threads of this process, and those of the lowest priority. */
+static void threads(int *all, int *last)
+{
+    DIR *d = opendir("/proc/self/task");
+    *all = *last = 0;
+    assert_non_null(d);
+    for (struct dirent *e; (e = readdir(d));) {
+        int id = atoi(e->d_name);
+        *all += id > 0;
+        *last += id > 0 && sched_getscheduler(id) == SCHED_IDLE;
+    }
+    closedir(d);
+}
+
+static int processors(void)
+{
+    cpu_set_t set;
+    assert_int_equal(sched_getaffinity(0, sizeof set, &set), 0);
+    return CPU_COUNT(&set);
+}
+
+static void threads_are_last_and_end(void **unused)
+{
+    (void)unused;
+    int all, last, before;
+    struct awake *a = awake_create(true);
+    if (processors() < 2) {
+        assert_null(a);
+        skip();
+    }
+    if (!a) /* more than it is for */
+        skip();
+    threads(&before, &last);
+    assert_int_equal(last, 0);
+    awake_for(a, 30);
+    double deadline = clock_s() + 20;
+    do { /* it takes them a moment */
+        threads(&all, &last);
+    } while (last < processors() && clock_s() < deadline);
+    assert_int_equal(all, before + processors());
+    assert_int_equal(last, processors());
+    awake_destroy(a);
+    deadline = clock_s() + 20;
+    do { /* on a busy processor they may take longer to end than was waited */
+        threads(&all, &last);
+    } while (all > before && clock_s() < deadline);
+    assert_int_equal(all, before);
+}
+
+static void after_that_nobody_looks(void **unused)
+{
+    (void)unused;
+    struct awake *a = awake_create(true);
+    if (!a)
+        skip();
+    for (int turn = 0; turn < 3; turn++) {
+        awake_for(a, 30);
+        pause_s(0.02);
+        awake_for(a, 0); /* until now */
+        pause_s(0.3);    /* a thread that got no time yet sees that it is over */
+        double least = 1;
+        for (int i = 0; i < 5; i++) {
+            double used = used_s();
+            pause_s(0.1);
+            used = used_s() - used;
+            least = used < least ? used : least;
+        }
+        assert_true(least < 0.02);
+    }
+    awake_destroy(a);
+}
+
+static void a_child_has_no_threads(void **unused)
+{
+    (void)unused;
+    struct awake *a = awake_create(true);
+    if (!a)
+        skip();
+    awake_for(a, 30);
+    pid_t child = fork();
+    if (!child) {
+        alarm(60);
+        awake_for(a, 1);
+        awake_destroy(a);
+        _exit(7);
+    }
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 7);
+    awake_for(a, 1);
+    awake_destroy(a);
+    awake_for(NULL, 1);
+    awake_destroy(NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(threads_are_last_and_end),
+        cmocka_unit_test(after_that_nobody_looks),
+        cmocka_unit_test(a_child_has_no_threads),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
