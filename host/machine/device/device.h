@@ -27,6 +27,7 @@ struct device_buffer {
 };
 
 struct program_entry;
+struct chunk;
 
 struct device {
     cl_platform_id platform;
@@ -41,6 +42,7 @@ struct device {
     struct device_buffer **pool;
     int pool_count, pool_capacity;
     uint64_t pool_bytes, held_bytes;
+    struct chunk *small, *middle;   /* that arrays are parts of: buffers.c; NULL: none */
     unsigned skew;                  /* where the next buffer begins relative to a page */
     struct program_entry *programs; /* hash table by text: see programs.c */
     uint64_t kernels_built, kernels_built_background, kernels_run;
@@ -77,6 +79,9 @@ bool device_rows_fit(const struct device_buffer *b, struct rows rows);
 void device_buffer_ref(struct device_buffer *b);
 void device_buffer_unref(struct machine *m, struct device_buffer *b);
 void device_pool_empty(struct device *d);
+/* Memory that small arrays are parts of. */
+void device_chunks_begin(struct device *d);
+void device_chunks_finish(struct device *d);
 
 /* ---- programs.c ---- */
 

@@ -130,6 +130,7 @@ static enum machine_status choose_and_open(struct machine *m,
         d->queue = clCreateCommandQueueWithProperties(d->context, d->id, NULL, &error);
     if (error)
         return device_check(m, error, "a command queue cannot be made");
+    device_chunks_begin(d);
     return device_programs_begin(d)
                ? MACHINE_OK
                : machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for the kernel cache");
@@ -166,6 +167,7 @@ void device_close(struct machine *m)
         clReleaseCommandQueue(d->queue);
     if (d->context)
         clReleaseContext(d->context);
+    device_chunks_finish(d);
 }
 
 const char *machine_device_name(const struct machine *m)
