@@ -11,7 +11,8 @@
 #include "harness.h"
 #include "paper_scene.h"
 
-enum { WIDTH = 50, HEIGHT = 40, PIGMENTS = 2 };
+/* Washes are squares of 48 fibers, every third dry: there are several of each. */
+enum { WIDTH = 162, HEIGHT = 101, PIGMENTS = 2 };
 
 static void check(bool ok)
 {
