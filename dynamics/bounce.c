@@ -149,7 +149,10 @@ static double way_meets(const struct way *w)
             early = r;
         else
             late = r;
+        double before = r;
         r = between(r - place / (w->h * (way_moment(w, r) - w->turn / 6)), early, late);
+        if (r == before)
+            break; /* and so it would stay */
     }
     return r;
 }
@@ -213,7 +216,10 @@ static double leap_ends(const struct leap *l)
             early = t;
         else
             late = t;
+        double before = t;
         t = between(t - mean / (0.5 * l->gain + t * l->turn / 3), early, late);
+        if (t == before)
+            break;
     }
     return t;
 }
