@@ -21,8 +21,6 @@ enum machine_status machine_flush(struct machine *m)
 enum machine_status machine_finish(struct machine *m)
 {
     enum machine_status status = machine_flush(m);
-    double start = device_wait_begin(m);
-    cl_int error = clFinish(m->device->queue);
-    enum machine_status waited = device_wait_end(m, error, start, "waiting for the device");
+    enum machine_status waited = device_settle_for(m, "waiting for the device");
     return status ? status : waited;
 }
