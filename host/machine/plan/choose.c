@@ -41,14 +41,17 @@ static int by_cost(const void *a, const void *b)
     return x->cost < y->cost ? -1 : x->cost > y->cost ? 1 : x->node - y->node;
 }
 
-/* Twice, tries each remaining barrier, and removes them in the order of the expected gain. */
+/* Twice, tries each remaining barrier, and removes them in the order of the expected gain. If the first time removes none, the
+ * second would try the same again. */
 static double descend(struct search *s, double best)
 {
     struct gain *gains = malloc((size_t)s->g->count * sizeof *gains);
     INVARIANT(gains != NULL);
+    bool changed = true;
     s->first = false;
-    for (int round = 0; round < 2; round++) {
+    for (int round = 0; round < 2 && changed; round++) {
         int count = 0;
+        changed = false;
         for (int i = 0; i < s->g->count; i++) {
             if (!s->barrier[i])
                 continue;
@@ -60,10 +63,12 @@ static double descend(struct search *s, double best)
         for (int i = 0; i < count; i++) {
             s->barrier[gains[i].node] = false;
             double c = cost_of(s);
-            if (c < best)
+            if (c < best) {
                 best = c;
-            else
+                changed = true;
+            } else {
                 s->barrier[gains[i].node] = true;
+            }
         }
     }
     free(gains);
