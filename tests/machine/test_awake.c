@@ -8,6 +8,7 @@
 
 #include <dirent.h>
 #include <sched.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -30,18 +31,34 @@ static void pause_s(double seconds)
         continue;
 }
 
-/* Threads of this process, and those of the lowest priority. */
-static void threads(int *all, int *last)
+/* Threads of this process that have the lowest priority. */
+static int threads_last(void)
 {
+    int last = 0;
     DIR *d = opendir("/proc/self/task");
-    *all = *last = 0;
     assert_non_null(d);
     for (struct dirent *e; (e = readdir(d));) {
         int id = atoi(e->d_name);
-        *all += id > 0;
-        *last += id > 0 && sched_getscheduler(id) == SCHED_IDLE;
+        last += id > 0 && sched_getscheduler(id) == SCHED_IDLE;
     }
     closedir(d);
+    return last;
+}
+
+/* Whether the system lets a thread be of the lowest priority, on a processor of its own. */
+static bool is_allowed(void)
+{
+    pid_t child = fork();
+    if (!child) {
+        const struct sched_param none = {0};
+        cpu_set_t set;
+        _exit(sched_getaffinity(0, sizeof set, &set) ||
+              sched_setaffinity(0, sizeof set, &set) ||
+              sched_setscheduler(0, SCHED_IDLE, &none));
+    }
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 static int processors(void)
@@ -54,29 +71,22 @@ static int processors(void)
 static void threads_are_last_and_end(void **unused)
 {
     (void)unused;
-    int all, last, before;
     struct awake *a = awake_create(true);
-    if (processors() < 2) {
+    if (processors() < 2)
         assert_null(a);
+    if (!a || !is_allowed()) /* there are more processors than it is for */
         skip();
-    }
-    if (!a) /* more than it is for */
-        skip();
-    threads(&before, &last);
-    assert_int_equal(last, 0);
+    assert_int_equal(threads_last(), 0);
     awake_for(a, 30);
     double deadline = clock_s() + 20;
-    do { /* it takes them a moment */
-        threads(&all, &last);
-    } while (last < processors() && clock_s() < deadline);
-    assert_int_equal(all, before + processors());
-    assert_int_equal(last, processors());
+    while (threads_last() < processors() && clock_s() < deadline) /* it takes them a moment */
+        pause_s(0.001);
+    assert_int_equal(threads_last(), processors());
     awake_destroy(a);
-    deadline = clock_s() + 20;
-    do { /* on a busy processor they may take longer to end than was waited */
-        threads(&all, &last);
-    } while (all > before && clock_s() < deadline);
-    assert_int_equal(all, before);
+    deadline = clock_s() + 20; /* on a busy processor they may take longer than was waited */
+    while (threads_last() > 0 && clock_s() < deadline)
+        pause_s(0.001);
+    assert_int_equal(threads_last(), 0);
 }
 
 static void after_that_nobody_looks(void **unused)
@@ -97,7 +107,7 @@ static void after_that_nobody_looks(void **unused)
             used = used_s() - used;
             least = used < least ? used : least;
         }
-        assert_true(least < 0.02);
+        assert_true(least < 0.05); /* two that look use 0.1 to 0.2 */
     }
     awake_destroy(a);
 }
