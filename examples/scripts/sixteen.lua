@@ -35,8 +35,8 @@ local effects = {
     p:put(square, {water = 0.7, [blue] = 0.6, [umber] = 0.35}) steps(p, 900)
   end},
   {"bloom", "cold press", function(p)
-    p:put(square, {water = 0.3, [green] = 0.3, [blue] = 0.2}) steps(p, 300)
-    p:put(disc(92, 100, 18), {water = 4}) steps(p, 600)
+    p:put(square, {water = 0.32, [blue] = 0.45, [green] = 0.25}) steps(p, 300)
+    p:put(disc(76, 78, 22), {water = 4}) p:put(disc(136, 132, 13), {water = 4}) steps(p, 600)
   end},
   {"wet-in-wet", "cold press", function(p)
     p:put(square, {water = 0.6})

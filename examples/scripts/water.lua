@@ -24,7 +24,7 @@ end
 
 -- A drop of colour in clean water spreads with the water.
 function effects.drop(p)
-  p:put(everywhere, {water = 0.35})
+  p:put(everywhere, {water = 0.6})
   p:put(ellipse(middle - 30 * scale, middle, 20 * scale), {water = 2, [rose] = 1.6})
   p:put(ellipse(middle + 40 * scale, middle + 10 * scale, 16 * scale), {water = 2, [blue] = 1.6})
   p:step(math.min(most, 500))

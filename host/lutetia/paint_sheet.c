@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <techniques.h>
 
 #define AMOUNT_USUAL 0.5 /* of a pigment that is named alone */
 
@@ -100,10 +101,14 @@ static enum paper_status all_put(const struct paint *paint, struct paper_sheet *
         status = paper_sheet_put(sheet, NULL, 0, 0, wet);
     for (int i = 0; i < paint->pools.count && status == PAPER_OK; i++)
         status = pool_put(paint, sheet, paint->pools.numbers[i]);
-    if (status == PAPER_OK)
-        status = paper_sheet_put(sheet, &paint->screen,
-                                 (paint->size[0] - paint->screen.width_px) / 2,
-                                 (paint->size[1] - paint->screen.height_px) / 2, amount);
+    const int x = (paint->size[0] - paint->screen.width_px) / 2,
+              y = (paint->size[1] - paint->screen.height_px) / 2;
+    const bool usual =
+        isnan(paint->ink[0]) && paint->pigments.count == 0; /* no amount was named */
+    if (status == PAPER_OK && usual && paint->letter_px > 0)
+        status = paper_sheet_put_charged(sheet, &paint->screen, x, y, amount, paint->letter_px);
+    else if (status == PAPER_OK)
+        status = paper_sheet_put(sheet, &paint->screen, x, y, amount);
     return status == PAPER_OK ? paper_sheet_finish(sheet) : status;
 }
 

@@ -56,7 +56,7 @@ static int full_take(struct paint *paint)
     if (paint->pigments.count && !isnan(paint->ink[0]))
         return fail_usage("paint", "give --ink or --pigment, one of them");
     paint->light = or_else(paint->light, PAPER_LIGHT_USUAL);
-    paint->water = or_else(paint->water, 0.9);
+    paint->water = or_else(paint->water, 0.75);
     paint->wet = or_else(paint->wet, 0);
     paint->steps = paint->steps < 0 ? 400 : paint->steps;
     paint->gravity = or_else(paint->gravity, air.gravity[1]);
@@ -147,7 +147,7 @@ static int paint_options(struct paint *paint, int argc, char **argv, bool *help)
         {"ink", 0, OPTION_NUMBERS, "C,M,Y", "or cyan, magenta, yellow of the type, 0..1",
          paint->ink, 0, 1, 3},
         {"water", 0, OPTION_NUMBER, "W",
-         "water put on with the type, 0..1 (full 0.9; thesis 0.8)", &paint->water, 0, 1, 0},
+         "water put on with the type, 0..1 (full 0.75; thesis 0.8)", &paint->water, 0, 1, 0},
         {"wet", 0, OPTION_NUMBER, "W",
          "water on the whole sheet before, 0..1 (full 0; thesis 0.25)", &paint->wet, 0, 1, 0},
         {"pool", 0, OPTION_LIST, "X,Y,W,H,A",
@@ -170,7 +170,7 @@ static int paint_options(struct paint *paint, int argc, char **argv, bool *help)
         {"weights", 0, OPTION_NUMBERS, "C,M,Y",
          "thesis: how easily pigments move, 0..1 (1,0.35,0.7)", paint->weights, 0, 1, 3},
         {"seed", 0, OPTION_INTEGER, "S", "of the paper (1990)", &paint->seed, 0, 2147483647, 0},
-        {"light", 0, OPTION_NUMBER, "L", "full: on the paper's relief, 0..4 (1.6)",
+        {"light", 0, OPTION_NUMBER, "L", "full: on the paper's relief, 0..4 (1.2)",
          &paint->light, 0, 4, 0},
         {"view", 0, OPTION_TEXT, "VIEW", "color, water, or full: wet, with light on the water",
          &paint->view, 0, 0, 0},
@@ -218,6 +218,7 @@ static int screen_from_text(struct paint *paint)
     if ((paint->size_px == 0 && line_fit(paint, &line) != PAPER_OK) ||
         paper_line_screen(&line, &paint->screen, &missing) != PAPER_OK)
         return fail_paper("paint");
+    paint->letter_px = line.size_px;
     if (missing)
         tell("paint", "no font has a glyph for U+%04X; %s's sign for that is set instead",
              (unsigned)missing, line.font);

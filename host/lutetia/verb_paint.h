@@ -20,6 +20,7 @@ struct paint {
     int size[2], steps, every, seed;
     struct option_list pools;
     struct paper_screen screen;
+    double letter_px; /* the size at which its type is set; 0: it is an image */
 };
 
 /* The sheet with layers that the options ask for, and the amounts of water and of its

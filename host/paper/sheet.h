@@ -235,7 +235,7 @@ long paper_sheet_now(const struct paper_sheet *sheet);
 /* ---- looking ---- */
 
 /* Light on the relief of version 2, where nothing else is said. */
-#define PAPER_LIGHT_USUAL 1.6
+#define PAPER_LIGHT_USUAL 1.2
 
 enum paper_show {
     PAPER_SHOW_COLOR, /* by the sheet's rule */

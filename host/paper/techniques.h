@@ -37,6 +37,12 @@ struct paper_print {
 };
 enum paper_status paper_sheet_print(struct paper_sheet *sheet, const struct paper_print *print);
 
+/* Puts letters of about that size as a painter does: a thin wash of 0.42 of the pigments, and into it, here and there, drops with 0.6 of them.
+ * Where they fall follows from the sheet's seed. */
+enum paper_status paper_sheet_put_charged(struct paper_sheet *sheet,
+                                          const struct paper_screen *screen, int x, int y,
+                                          const double *amount, double size);
+
 /* Throws drops at random about a place: many small drops and few large ones. Drops thrown in a direction fly further and are longer. */
 struct paper_splatter {
     double x, y, radius; /* most fall within it */

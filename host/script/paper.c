@@ -253,7 +253,7 @@ static int paper_put(lua_State *L)
 }
 
 /* What type is put with where a script names no amounts: water, and the first pigment. */
-#define TYPE_WATER 0.9
+#define TYPE_WATER 0.75
 #define TYPE_PIGMENT 1.2
 
 static void type_amounts_usual(lua_State *L, const struct paper_sheet_config *config,
@@ -299,7 +299,8 @@ static int paper_put_type(lua_State *L)
     double amount[1 + PAPER_PIGMENTS_MAX];
     struct paper_screen screen;
     int x, y;
-    if (lua_isnoneornil(L, 4))
+    const bool none = lua_isnoneornil(L, 4), usual = none && config_of(paper)->model >= 3;
+    if (none)
         type_amounts_usual(L, config_of(paper), amount);
     else
         script_paper_amounts(L, 4, paper->sheet, amount);
@@ -308,7 +309,10 @@ static int paper_put_type(lua_State *L)
     int made = script_mask_text_push(L, 2);
     if (screen_read(L, lua_gettop(L) - made + 1, paper, &screen, &x, &y)) {
         off_sheet_tell(L, config_of(paper), &screen, x, y);
-        script_paper_check(L, paper_sheet_put(paper->sheet, &screen, x, y, amount));
+        script_paper_check(L, usual ? paper_sheet_put_charged(
+                                          paper->sheet, &screen, x, y, amount,
+                                          script_arg_number(L, 3, "text", "size", 100, 1, 8192))
+                                    : paper_sheet_put(paper->sheet, &screen, x, y, amount));
     }
     script_check(L);
     return made - 1;

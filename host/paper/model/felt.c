@@ -274,7 +274,7 @@ static void laid_add(const struct making *m, float *relief, const float *waver,
 {
     const struct recipe *of = m->recipe;
     /* less in version 3, whose washes are smoother: the lines stand out as much as before */
-    const double laid = m->config->model >= 3 ? 0.8 * of->laid : of->laid;
+    const double laid = m->config->model >= 3 ? 0.7 * of->laid : of->laid;
     for (int y = 0; y < m->height; y++)
         for (int x = 0; x < m->width; x++) {
             size_t at = (size_t)y * (size_t)m->width + (size_t)x;

@@ -45,7 +45,7 @@
 #define PIGMENT_SHARE 0.2
 #define MIXING 0.06
 #define EDDIES_2 0.7
-#define EDDIES 1.0
+#define EDDIES 0.9
 #define EDGE_FLOW 0.005
 #define EDGE_WIDTH_LEAST 8.0
 #define EDGE_DRIES 0.05 /* version 3; see edge_flow_make() */

@@ -20,7 +20,7 @@
 /* Of a cubic B-spline through uniform numbers in -1..1: its deviation. */
 #define SPLINE_DEVIATION 0.277
 #define NOISE_MOST 3.0f
-#define EDDY_MOST 1.8
+#define EDDY_MOST 2.2
 #define CALM_EDGE 16       /* fibers */
 #define DEVIATION_MOST 0.7 /* of the logarithm of sizing */
 
@@ -171,8 +171,8 @@ enum paper_status sheet_sizing_make(struct paper_sheet *p)
 {
     const struct paper_sheet_config *config = &p->config;
     const struct octaves sizes = {4, 64, 0.4, 0.75786, (uint32_t)config->seed * 77 + 1},
-                         eddies = {sheet_of_version_3(p) ? 10 : 8,
-                                   sheet_of_version_3(p) ? 20 : 16, 1, 0.5,
+                         eddies = {sheet_of_version_3(p) ? 12 : 8,
+                                   sheet_of_version_3(p) ? 24 : 16, 1, 0.5,
                                    (uint32_t)config->seed * 77 + 3};
     size_t count = (size_t)config->width * (size_t)config->height;
     float *values = malloc(count * sizeof *values);
