@@ -490,7 +490,7 @@ void paper_openmp_flow_start(struct paper_openmp *o)
             field_row(o, F_EASE_Y, y)[x] =
                 least(face_y[x] * 1e6f, 1.0f) / (sizing[x] + sizing2[x]);
             float sum = (current[x] + current2[x2]) + (current2[x] + current[x2]);
-            sum *= (float)((o->config.model > 2 ? 1.0 : 0.7) / 4);
+            sum *= (float)((o->config.model > 2 ? 0.9 : 0.7) / 4);
             sum *= least(face_y[x] * 1e6f, 1.0f) * least(face_y[x2] * 1e6f, 1.0f) *
                    least(face_x[x] * 1e6f, 1.0f) * least(face_x2[x] * 1e6f, 1.0f);
             field_row(o, F_SWIRL, y)[x] = sum;
