@@ -71,7 +71,7 @@ static int processors(void)
 static void threads_are_last_and_end(void **unused)
 {
     (void)unused;
-    struct awake *a = awake_create(true);
+    struct awake *a = awake_create();
     if (processors() < 2)
         assert_null(a);
     if (!a || !is_allowed()) /* there are more processors than it is for */
@@ -92,7 +92,7 @@ static void threads_are_last_and_end(void **unused)
 static void after_that_nobody_looks(void **unused)
 {
     (void)unused;
-    struct awake *a = awake_create(true);
+    struct awake *a = awake_create();
     if (!a)
         skip();
     for (int turn = 0; turn < 3; turn++) {
@@ -115,7 +115,7 @@ static void after_that_nobody_looks(void **unused)
 static void a_child_has_no_threads(void **unused)
 {
     (void)unused;
-    struct awake *a = awake_create(true);
+    struct awake *a = awake_create();
     if (!a)
         skip();
     awake_for(a, 30);

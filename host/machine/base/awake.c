@@ -18,13 +18,10 @@
 #include <unistd.h>
 
 #include <linux/futex.h>
-#if defined(__x86_64__)
-#include <cpuid.h>
-#endif
 
 #include "base/clock.h"
 
-enum { PROCESSORS_MOST = 16, RESTS = 64, PATH_BYTES = 600 };
+enum { PROCESSORS_MOST = 16, RESTS = 64 };
 
 /* How long the end of a thread is waited for. */
 static const double END_S = 0.05;
@@ -50,58 +47,11 @@ static int64_t now_ns(void)
     return (int64_t)(clock_s() * 1e9);
 }
 
-/* ---- whether it pays ---- */
-
-static bool is_virtual(void)
-{
-#if defined(__x86_64__)
-    unsigned int a, b, c = 0, d;
-    return __get_cpuid(1, &a, &b, &c, &d) && c >> 31;
-#else
-    return false;
-#endif
-}
-
-/* Whether the file's first word is another than `free`. */
-static bool says_other(const char *path, const char *free_word)
-{
-    char word[32] = "";
-    FILE *f = fopen(path, "re");
-    bool other = f && fscanf(f, "%31s", word) == 1 && strcmp(word, free_word) != 0;
-    if (f)
-        fclose(f);
-    return other;
-}
-
-/* A control group of the process, or one above it, has a share of time that the threads would use up. */
-static bool is_rationed(void)
-{
-    char line[PATH_BYTES], path[PATH_BYTES + 40], *group = NULL;
-    if (says_other("/sys/fs/cgroup/cpu/cpu.cfs_quota_us", "-1") ||
-        says_other("/sys/fs/cgroup/cpu.max", "max"))
-        return true;
-    FILE *f = fopen("/proc/self/cgroup", "re");
-    while (f && !group && fgets(line, sizeof line, f))
-        if (!strncmp(line, "0::", 3))
-            group = line + 3;
-    if (f)
-        fclose(f);
-    if (!group)
-        return false;
-    group[strcspn(group, "\n")] = '\0';
-    for (char *end; (end = strrchr(group, '/')); *end = '\0') {
-        snprintf(path, sizeof path, "/sys/fs/cgroup%s/cpu.max", group);
-        if (says_other(path, "max"))
-            return true;
-    }
-    return false;
-}
-
-struct awake *awake_create(bool forced)
+struct awake *awake_create(void)
 {
     cpu_set_t set;
     int count = sched_getaffinity(0, sizeof set, &set) ? 0 : CPU_COUNT(&set);
-    if (count < 2 || count > PROCESSORS_MOST || (!forced && (!is_virtual() || is_rationed())))
+    if (count < 2 || count > PROCESSORS_MOST)
         return NULL;
     struct awake *a = calloc(1, sizeof *a);
     if (!a)

@@ -5,7 +5,7 @@
  * is work, a thread for each processor looks at the time: of the lowest priority (SCHED_IDLE), which any other thread of any
  * program preempts at once.
  *
- *     struct awake *awake = awake_create (false);
+ *     struct awake *awake = awake_create ();
  *     awake_for (awake, 0.005);                 for 5 ms from now on
  *     awake_destroy (awake); */
 #ifndef LUTETIA_MACHINE_AWAKE_H
@@ -15,9 +15,8 @@
 
 struct awake;
 
-/* Starts no thread yet. NULL: it does not pay (there is one processor, or more than sixteen; it is no virtual machine; or the time of
- * processors is rationed), or no memory. forced: it pays. */
-struct awake *awake_create(bool forced);
+/* Starts no thread yet. NULL: there is one processor, or there are more than sixteen; or no memory. */
+struct awake *awake_create(void);
 /* From one thread at a time; a child after fork() does nothing. NULL is fine. */
 void awake_for(struct awake *a, double seconds);
 void awake_destroy(struct awake *a);
