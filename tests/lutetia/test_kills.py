@@ -128,7 +128,7 @@ class Place:
 def killed(place, chance, moment, empty):
     """Returns whether it was killed before its end."""
     task = chance.choice(place.tasks)
-    version = 1 + moment % 3
+    version = 1 + moment % 2
     if empty:  # kernels are compiled, and kept
         shutil.rmtree(place.at / "cache", ignore_errors=True)
     after = chance.uniform(0, task.seconds * (4 if empty else 1.2))
@@ -152,7 +152,7 @@ def killed(place, chance, moment, empty):
 
 def full(place, chance, moment):
     task = chance.choice(place.tasks)
-    version = 1 + moment % 3
+    version = 1 + moment % 2
     limit = int(2 ** chance.uniform(0, 18))
     child = place.begin(task.arguments(version), limit)
     words = child.communicate(timeout=SECONDS)[1].decode(errors="replace")
