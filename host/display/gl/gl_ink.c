@@ -1,30 +1,20 @@
 /* gl_ink.c - see gl_ink.h. */
 #include "gl_ink.h"
 #include "display_internal.h"
+#include "gl_program.h"
 
-#include <GL/gl.h>
-#include <GL/glext.h>
-#include <stdbool.h>
 #include <stdlib.h>
 
 #define GL_FUNCTIONS(X)                                                                        \
     X(void, ActiveTexture, (GLenum))                                                           \
-    X(void, AttachShader, (GLuint, GLuint))                                                    \
     X(void, BindTexture, (GLenum, GLuint))                                                     \
-    X(void, CompileShader, (GLuint))                                                           \
-    X(GLuint, CreateProgram, (void))                                                           \
-    X(GLuint, CreateShader, (GLenum))                                                          \
     X(void, DeleteProgram, (GLuint))                                                           \
-    X(void, DeleteShader, (GLuint))                                                            \
     X(void, DeleteTextures, (GLsizei, const GLuint *))                                         \
     X(void, GenTextures, (GLsizei, GLuint *))                                                  \
     X(GLenum, GetError, (void))                                                                \
     X(void, GetIntegerv, (GLenum, GLint *))                                                    \
-    X(void, GetProgramiv, (GLuint, GLenum, GLint *))                                           \
     X(GLint, GetUniformLocation, (GLuint, const char *))                                       \
-    X(void, LinkProgram, (GLuint))                                                             \
     X(void, PixelStorei, (GLenum, GLint))                                                      \
-    X(void, ShaderSource, (GLuint, GLsizei, const char *const *, const GLint *))               \
     X(void, TexImage2D,                                                                        \
       (GLenum, GLint, GLint, GLsizei, GLsizei, GLint, GLenum, GLenum, const void *))           \
     X(void, TexParameteri, (GLenum, GLenum, GLint))                                            \
@@ -35,10 +25,7 @@
     X(void, Uniform4fv, (GLint, GLsizei, const GLfloat *))                                     \
     X(void, UseProgram, (GLuint))
 
-struct gl {
-#define MEMBER(result, name, parameters) result(*name) parameters;
-    GL_FUNCTIONS(MEMBER)
-};
+#include "gl_functions.h"
 
 /* The shader's variables. */
 #define UNIFORMS(X) X(cover) X(picture) X(kind) X(light) X(origin) X(way) X(stops) X(at) X(rgba)
@@ -100,36 +87,6 @@ static const char fragment_text[] =
     "    gl_FragColor = vec4(ink.rgb, ink.a * texture2D(cover, uv).a);\n"
     "}\n";
 
-static bool functions_find(struct gl *gl, void (*(*function)(const char *name))(void))
-{
-    bool all = true;
-#define FIND(result, name, parameters)                                                         \
-    gl->name = (result(*) parameters)function("gl" #name);                                     \
-    all = all && gl->name;
-    GL_FUNCTIONS(FIND)
-    return all;
-}
-
-static bool program_make(struct gl_ink *s)
-{
-    const struct gl *gl = &s->gl;
-    const char *texts[2] = {vertex_text, fragment_text};
-    GLint linked = 0;
-    s->program = gl->CreateProgram();
-    for (int i = 0; i < 2; i++) {
-        GLuint shader = gl->CreateShader(i ? GL_FRAGMENT_SHADER : GL_VERTEX_SHADER);
-        gl->ShaderSource(shader, 1, &texts[i], NULL);
-        gl->CompileShader(shader);
-        gl->AttachShader(s->program, shader);
-        gl->DeleteShader(shader); /* freed with the program */
-    }
-    gl->LinkProgram(s->program);
-    gl->GetProgramiv(s->program, GL_LINK_STATUS, &linked);
-#define LOCATION(name) s->name = gl->GetUniformLocation(s->program, #name);
-    UNIFORMS(LOCATION)
-    return linked != 0;
-}
-
 enum display_status gl_ink_create(void (*(*function)(const char *name))(void),
                                   struct gl_ink **out)
 {
@@ -137,11 +94,14 @@ enum display_status gl_ink_create(void (*(*function)(const char *name))(void),
     struct gl_ink *s = calloc(1, sizeof *s);
     if (!s)
         return display_fail(DISPLAY_NO_MEMORY, "no memory for ink on a display");
-    if (!functions_find(&s->gl, function) || !program_make(s)) {
+    if (!gl_functions_find(&s->gl, function) ||
+        !(s->program = gl_program_make(function, vertex_text, fragment_text))) {
         gl_ink_destroy(s);
         return display_fail(DISPLAY_NO_WINDOW, "no gradients and pictures as ink: this display "
                                                "has no OpenGL 2.1 with shaders");
     }
+#define LOCATION(name) s->name = s->gl.GetUniformLocation(s->program, #name);
+    UNIFORMS(LOCATION)
     *out = s;
     return DISPLAY_OK;
 }

@@ -2,37 +2,27 @@
 #include "gl_shapes.h"
 #include "display_internal.h"
 #include "gl_light.h"
+#include "gl_program.h"
 
-#include <GL/gl.h>
-#include <GL/glext.h>
 #include <math.h>
-#include <stdbool.h>
 #include <stdlib.h>
 
 #define GL_FUNCTIONS(X)                                                                        \
-    X(void, AttachShader, (GLuint, GLuint))                                                    \
     X(void, Begin, (GLenum))                                                                   \
     X(void, BindTexture, (GLenum, GLuint))                                                     \
     X(void, BlendFunc, (GLenum, GLenum))                                                       \
     X(void, Clear, (GLbitfield))                                                               \
     X(void, ClearColor, (GLfloat, GLfloat, GLfloat, GLfloat))                                  \
     X(void, Color4f, (GLfloat, GLfloat, GLfloat, GLfloat))                                     \
-    X(void, CompileShader, (GLuint))                                                           \
-    X(GLuint, CreateProgram, (void))                                                           \
-    X(GLuint, CreateShader, (GLenum))                                                          \
     X(void, DeleteProgram, (GLuint))                                                           \
-    X(void, DeleteShader, (GLuint))                                                            \
     X(void, DeleteTextures, (GLsizei, const GLuint *))                                         \
     X(void, Disable, (GLenum))                                                                 \
     X(void, Enable, (GLenum))                                                                  \
     X(void, End, (void))                                                                       \
     X(void, GenTextures, (GLsizei, GLuint *))                                                  \
-    X(void, GetProgramiv, (GLuint, GLenum, GLint *))                                           \
-    X(void, LinkProgram, (GLuint))                                                             \
     X(void, MultiTexCoord2f, (GLenum, GLfloat, GLfloat))                                       \
     X(void, MultiTexCoord4f, (GLenum, GLfloat, GLfloat, GLfloat, GLfloat))                     \
     X(void, PixelStorei, (GLenum, GLint))                                                      \
-    X(void, ShaderSource, (GLuint, GLsizei, const char *const *, const GLint *))               \
     X(void, TexCoord2f, (GLfloat, GLfloat))                                                    \
     X(void, TexImage2D,                                                                        \
       (GLenum, GLint, GLint, GLsizei, GLsizei, GLint, GLenum, GLenum, const void *))           \
@@ -41,10 +31,7 @@
     X(void, Vertex2f, (GLfloat, GLfloat))                                                      \
     X(void, Viewport, (GLint, GLint, GLsizei, GLsizei))
 
-struct gl {
-#define MEMBER(result, name, parameters) result(*name) parameters;
-    GL_FUNCTIONS(MEMBER)
-};
+#include "gl_functions.h"
 
 struct gl_shapes {
     struct gl gl;
@@ -84,34 +71,6 @@ static const char fragment_text[] =
     "    gl_FragColor = vec4(gl_Color.rgb, gl_Color.a * clamp(cover, 0.0, 1.0));\n"
     "}\n";
 
-static bool functions_find(struct gl *gl, void (*(*function)(const char *name))(void))
-{
-    bool all = true;
-#define FIND(result, name, parameters)                                                         \
-    gl->name = (result(*) parameters)function("gl" #name);                                     \
-    all = all && gl->name;
-    GL_FUNCTIONS(FIND)
-    return all;
-}
-
-static bool program_make(struct gl_shapes *s)
-{
-    const struct gl *gl = &s->gl;
-    const char *texts[2] = {vertex_text, fragment_text};
-    GLint linked = 0;
-    s->program = gl->CreateProgram();
-    for (int i = 0; i < 2; i++) {
-        GLuint shader = gl->CreateShader(i ? GL_FRAGMENT_SHADER : GL_VERTEX_SHADER);
-        gl->ShaderSource(shader, 1, &texts[i], NULL);
-        gl->CompileShader(shader);
-        gl->AttachShader(s->program, shader);
-        gl->DeleteShader(shader); /* freed with the program */
-    }
-    gl->LinkProgram(s->program);
-    gl->GetProgramiv(s->program, GL_LINK_STATUS, &linked);
-    return linked != 0;
-}
-
 enum display_status gl_shapes_create(void (*(*function)(const char *name))(void),
                                      struct gl_shapes **out)
 {
@@ -120,7 +79,8 @@ enum display_status gl_shapes_create(void (*(*function)(const char *name))(void)
     if (!s)
         return display_fail(DISPLAY_NO_MEMORY, "no memory to draw shapes");
     s->function = function;
-    if (!functions_find(&s->gl, function) || !program_make(s)) {
+    if (!gl_functions_find(&s->gl, function) ||
+        !(s->program = gl_program_make(function, vertex_text, fragment_text))) {
         gl_shapes_destroy(s);
         return display_fail(DISPLAY_NO_WINDOW,
                             "no shapes: this display has no OpenGL 2.1 with shaders");

@@ -3,9 +3,6 @@
 #include "gl_target.h"
 #include "display_internal.h"
 
-#include <GL/gl.h>
-#include <GL/glext.h>
-#include <stdbool.h>
 #include <stdlib.h>
 
 #define GL_FUNCTIONS(X)                                                                        \
@@ -25,10 +22,7 @@
     X(void, ReadPixels, (GLint, GLint, GLsizei, GLsizei, GLenum, GLenum, void *))              \
     X(void, RenderbufferStorage, (GLenum, GLenum, GLsizei, GLsizei))
 
-struct gl {
-#define MEMBER(result, name, parameters) result(*name) parameters;
-    GL_FUNCTIONS(MEMBER)
-};
+#include "gl_functions.h"
 
 struct gl_target {
     struct gl gl;
@@ -36,17 +30,14 @@ struct gl_target {
     int width_px, height_px;
 };
 
+/* Framebuffers of one's own came with OpenGL 3. */
 static bool functions_find(struct gl *gl, void (*(*function)(const char *name))(void))
 {
-    bool all = true;
     GLint major = 0;
-#define FIND(result, name, parameters)                                                         \
-    gl->name = (result(*) parameters)function("gl" #name);                                     \
-    all = all && gl->name;
-    GL_FUNCTIONS(FIND)
-    if (all)
-        gl->GetIntegerv(GL_MAJOR_VERSION, &major);
-    return all && gl->GetError() == GL_NO_ERROR && major >= 3;
+    if (!gl_functions_find(gl, function))
+        return false;
+    gl->GetIntegerv(GL_MAJOR_VERSION, &major);
+    return gl->GetError() == GL_NO_ERROR && major >= 3;
 }
 
 enum display_status gl_target_create(void (*(*function)(const char *name))(void),

@@ -7,9 +7,6 @@
 #include "gl_light.h"
 #include <colour.h>
 
-#include <GL/gl.h>
-#include <GL/glext.h>
-#include <stdbool.h>
 #include <stdlib.h>
 
 enum { QUADS = 1024, PAGES_MAX = 64 };
@@ -37,10 +34,7 @@ enum { QUADS = 1024, PAGES_MAX = 64 };
       (GLenum, GLint, GLint, GLint, GLsizei, GLsizei, GLenum, GLenum, const void *))           \
     X(void, Vertex2f, (GLfloat, GLfloat))
 
-struct gl {
-#define MEMBER(result, name, parameters) result(*name) parameters;
-    GL_FUNCTIONS(MEMBER)
-};
+#include "gl_functions.h"
 
 struct gl_type {
     struct gl gl;
@@ -62,16 +56,6 @@ struct gl_type_def gl_type_def_default(void)
     return (struct gl_type_def){.atlas = font_atlas_def_default()};
 }
 
-static bool functions_find(struct gl *gl, void (*(*function)(const char *name))(void))
-{
-    bool all = true;
-#define FIND(result, name, parameters)                                                         \
-    gl->name = (result(*) parameters)function("gl" #name);                                     \
-    all = all && gl->name;
-    GL_FUNCTIONS(FIND)
-    return all;
-}
-
 static enum display_status fail_font(enum font_status status)
 {
     return display_fail(status == FONT_NO_MEMORY ? DISPLAY_NO_MEMORY : DISPLAY_BAD_ARGUMENT,
@@ -89,7 +73,7 @@ enum display_status gl_type_create(const struct gl_type_def *def, struct gl_type
     t->def.filter = NULL;
     t->function = def->function;
     enum display_status status = DISPLAY_OK;
-    if (!def->function || !functions_find(&t->gl, def->function))
+    if (!def->function || !gl_functions_find(&t->gl, def->function))
         status = display_fail(DISPLAY_NO_WINDOW, "no type: this display has no OpenGL 2.1");
     if (status == DISPLAY_OK) {
         t->gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &side_max);
