@@ -11,6 +11,8 @@
 #include "watch/watch.h"
 
 struct block {
+    struct field *field;
+    uint32_t offset; /* of the bits in it */
     const struct vpset *set;
     const struct machine_block *of;
     size_t element;
@@ -31,17 +33,15 @@ static bool is_within(struct machine *m, const struct block *b)
     return false;
 }
 
-/* Between an array as machine_field_download() has it and the caller's rows. */
-static void dense_copy(const struct block *b, unsigned char *dense, unsigned char *rows,
-                       size_t pitch, bool out)
+/* Where row i of the block begins in an array as machine_field_download() has it. */
+static size_t dense_at(const struct block *b, uint64_t i)
 {
-    const size_t bytes = (size_t)b->of->columns * b->element,
-                 row_bytes = (size_t)b->set->width * b->element;
-    for (uint64_t i = 0; i < b->of->rows; i++) {
-        unsigned char *at =
-            dense + (b->of->row + i) * row_bytes + (size_t)b->of->column * b->element;
-        memcpy(out ? rows + i * pitch : at, out ? at : rows + i * pitch, bytes);
-    }
+    return ((b->of->row + i) * (uint64_t)b->set->width + (uint64_t)b->of->column) * b->element;
+}
+
+static size_t row_bytes(const struct block *b)
+{
+    return (size_t)b->of->columns * b->element;
 }
 
 static unsigned char *dense_get(struct machine *m, uint32_t field, struct machine_type type,
@@ -58,6 +58,27 @@ static unsigned char *dense_get(struct machine *m, uint32_t field, struct machin
     return NULL;
 }
 
+/* The block, and what the bits hold that it is a part of. NULL: error set. */
+static struct machine_value *block_find(struct machine *m, uint32_t field,
+                                        struct machine_type type,
+                                        const struct machine_block *of, struct block *b)
+{
+    b->field = observe_field(m, field, type, &b->offset);
+    struct machine_value *v =
+        b->field ? machine_field_value(m, field, type, MACHINE_EVERYWHERE) : NULL;
+    if (!v)
+        return NULL;
+    b->set = &m->values->sets[b->field->vpset];
+    b->of = of;
+    b->element = type_bytes(type);
+    return is_within(m, b) ? v : NULL;
+}
+
+static bool is_near(const struct machine *m, const struct machine_value *v)
+{
+    return m->settings.near && v->buffer && v->buffer->host;
+}
+
 /* ---- out ---- */
 
 enum machine_status machine_block_download(struct machine *m, uint32_t field,
@@ -65,27 +86,22 @@ enum machine_status machine_block_download(struct machine *m, uint32_t field,
                                            const struct machine_block *of, void *out,
                                            size_t pitch)
 {
-    uint32_t offset;
-    struct field *f = observe_field(m, field, type, &offset);
-    struct machine_value *v =
-        f ? machine_field_value(m, field, type, MACHINE_EVERYWHERE) : NULL;
+    struct block b;
+    struct machine_value *v = block_find(m, field, type, of, &b);
     if (!v)
-        return m->status;
-    const struct block b = {&m->values->sets[f->vpset], of, type_bytes(type)};
-    if (!is_within(m, &b))
         return m->status;
     if (v->op != NODE_CONSTANT)
-        v = materialise(m, f->vpset, v);
+        v = materialise(m, b.field->vpset, v);
     if (!v)
         return m->status;
-    if (!m->settings.near || !v->buffer || !v->buffer->host) {
+    const size_t bytes = row_bytes(&b);
+    if (!is_near(m, v)) {
         unsigned char *dense = dense_get(m, field, type, &b);
-        if (dense)
-            dense_copy(&b, dense, out, pitch, true);
+        for (uint64_t i = 0; dense && i < of->rows; i++)
+            memcpy((unsigned char *)out + i * pitch, dense + dense_at(&b, i), bytes);
         free(dense);
         return m->status;
     }
-    const size_t bytes = (size_t)of->columns * b.element;
     if (m->watch)
         watch_bytes(m, of->rows * bytes);
     if (device_settle_for(m, "reading a field"))
@@ -105,8 +121,7 @@ static void rows_write(const struct block *b, unsigned char *to, const unsigned 
 {
     const size_t width = (size_t)b->set->width * b->element,
                  halo = (size_t)b->set->halo * b->element,
-                 from = (size_t)b->of->column * b->element,
-                 bytes = (size_t)b->of->columns * b->element;
+                 from = (size_t)b->of->column * b->element, bytes = row_bytes(b);
     for (uint64_t i = 0; i < b->of->rows; i++) {
         unsigned char *row = to + (b->of->row + i) * b->set->pitch * b->element + halo;
         memcpy(row + from, in + i * pitch, bytes);
@@ -123,13 +138,10 @@ static enum machine_status dense_upload(struct machine *m, uint32_t field,
                                         const void *in, size_t pitch)
 {
     unsigned char *dense = dense_get(m, field, type, b);
-    union {
-        const void *in;
-        unsigned char *rows; /* dense_copy() only reads them */
-    } source = {.in = in};
     if (!dense)
         return m->status;
-    dense_copy(b, dense, source.rows, pitch, false);
+    for (uint64_t i = 0; i < b->of->rows; i++)
+        memcpy(dense + dense_at(b, i), (const unsigned char *)in + i * pitch, row_bytes(b));
     enum machine_status status = machine_field_upload(m, field, type, dense);
     free(dense);
     return status;
@@ -140,29 +152,24 @@ enum machine_status machine_block_upload(struct machine *m, uint32_t field,
                                          const struct machine_block *of, const void *in,
                                          size_t pitch)
 {
-    uint32_t offset;
-    struct field *f = observe_field(m, field, type, &offset);
-    struct machine_value *v =
-        f ? machine_field_value(m, field, type, MACHINE_EVERYWHERE) : NULL;
+    struct block b;
+    struct machine_value *v = block_find(m, field, type, of, &b);
     if (!v)
         return m->status;
-    const struct block b = {&m->values->sets[f->vpset], of, type_bytes(type)};
-    if (!is_within(m, &b))
-        return m->status;
-    v = type.s ? v : materialise(m, f->vpset, v);
+    v = type.s ? v : materialise(m, b.field->vpset, v);
     if (!v)
         return m->status;
-    if (type.s || !m->settings.near || !v->buffer || !v->buffer->host)
+    if (type.s || !is_near(m, v))
         return dense_upload(m, field, type, &b, in, pitch);
     bool strange = v->strange_nan;
     for (uint64_t i = 0; i < of->rows && !strange; i++)
         strange = materialise_has_strange_nan(type, (const unsigned char *)in + i * pitch,
                                               (uint64_t)of->columns);
-    v = observe_own(m, f, offset, v);
+    v = observe_own(m, b.field, b.offset, v);
     if (!v)
         return m->status;
     if (m->watch)
-        watch_bytes(m, of->rows * (size_t)of->columns * b.element);
+        watch_bytes(m, of->rows * row_bytes(&b));
     if (device_settle_for(m, "writing a field"))
         return m->status;
     v->strange_nan = strange;
