@@ -171,8 +171,7 @@ static void edge_own(const struct paper_openmp *o, int y)
         float h = surface[x] * to_unit, full = water[x] / (capacity[x] * unit);
         float corners = (down[x - 1] + up[x + 1]) + (down[x + 1] + up[x - 1]);
         float near = ((wet[x - 1] + wet[x + 1]) + (down[x] + up[x])) * 2.0f + corners;
-        near += wet[x] * 4.0f;
-        float help_here = greatest(near * help + helped, 0.1f);
+        float help_here = greatest((near + wet[x] * 4.0f) * help + helped, 0.1f);
         if (third)
             help_here = least(help_here, greatest(near * -0.5f + 6.0f, 0.0f));
         float advance = sizing[x] * pinning * help_here;

@@ -22,7 +22,9 @@
 #define NEIGHBOURS_HELP_2 1.2
 #define NEIGHBOURS_HELP 0.3
 #define NEIGHBOURS_LEAST 0.1
-/* Version 3: sixteenths of how wet a fiber and its neighbours are at which water closes over it; all eight neighbours are 12. */
+/* Version 3: sixteenths of how wet the neighbours are at which water closes over a fiber; all eight are 12. How wet the fiber itself is does
+ * not count: where a wash fades out all fibers are wet in part, and water would close over one after the other, in facets along the axes
+ * and the diagonals. */
 #define HOLE_FROM 12.0
 #define HOLE_STEEPNESS 0.5
 #define DAMP_HELP 0.85
@@ -275,7 +277,7 @@ static void around_follow(struct paper_sheet *p)
     kit_f_least(p->wet_around, sum, 0.0);
 }
 
-/* d = how wet the fiber and its eight neighbours are, by weights of 4, 2, 1, times 16. Sums go in pairs of opposite sides, so a
+/* d = how wet the eight neighbours are, sixteenths: by weights of 2 and 1, the fiber's own being 4. Sums go in pairs of opposite sides, so a
  * mirrored sheet has the same bits. Uses t[10..14]. */
 static void neighbourhood_make(struct paper_sheet *p, CM_field_id_t d)
 {
@@ -297,8 +299,6 @@ static void neighbourhood_make(struct paper_sheet *p, CM_field_id_t d)
     kit_f_add(d, d, one);
     kit_f_times(d, d, 2.0);
     kit_f_add(d, d, corners);
-    kit_f_times(one, p->wet_part, 4.0);
-    kit_f_add(d, d, one);
 }
 
 /* Moves the edge of the wet part forward or back, then computes level and deep from it. Uses
@@ -307,12 +307,14 @@ static void edge_move(struct paper_sheet *p, const struct sheet_terms *terms)
 {
     CM_field_id_t advance = p->t[7], help = p->t[8], part = p->t[9];
     const double most = sheet_of_version_3(p) ? NEIGHBOURS_HELP : NEIGHBOURS_HELP_2;
-    neighbourhood_make(p, help);
-    kit_f_times(part, help, -HOLE_STEEPNESS);
+    neighbourhood_make(p, part);
+    kit_f_times(help, p->wet_part, 4.0);
+    kit_f_add(help, part, help);
     kit_f_times(help, help, -most / 16);
     kit_f_plus(help, help, 1 + most / 4);
     kit_f_least(help, help, NEIGHBOURS_LEAST);
     if (sheet_of_version_3(p)) {
+        kit_f_times(part, part, -HOLE_STEEPNESS);
         kit_f_plus(part, part, HOLE_FROM * HOLE_STEEPNESS);
         kit_f_least(part, part, 0.0);
         kit_f_min(help, help, part);
