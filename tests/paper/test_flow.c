@@ -452,6 +452,36 @@ static void gray_edges_stay(void **state)
     paper_sheet_destroy(sheet);
 }
 
+/* A wash that fades: a part of each fiber is wet, and water stands on it as high as beside it. Where all of a fiber is wet the water
+ * would come forward only where it stands higher. */
+static void water_that_fades_stays(void **state)
+{
+    enum { TURN_X = SIDE / 2, STEPS = 30 };
+    static uint8_t gray[FIBERS];
+    const struct paper_screen screen = {.width_px = SIDE, .height_px = SIDE, .gray = gray};
+    const double water[1 + PAPER_PIGMENTS_MAX] = {0.25};
+    struct paper_sheet *sheet = sheet_new(1);
+    struct paper_air air = *paper_sheet_get_air(sheet);
+    (void)state;
+    air.gravity[0] = air.gravity[1] = air.humidity = air.relief = 0;
+    check(paper_sheet_air(sheet, &air));
+    for (int i = 0; i < FIBERS; i++) {
+        gray[i] = i % SIDE < TURN_X ? 255 : 179;
+        layer[i] = 1;
+    }
+    check(paper_sheet_layer_write(sheet, PAPER_LAYER_SIZING, 0, layer));
+    check(paper_sheet_put(sheet, &screen, 0, 0, water));
+    steps(sheet, STEPS);
+    check(paper_sheet_layer_read(sheet, PAPER_LAYER_WET_PART, 0, layer));
+    int closed = 0;
+    for (int i = 0; i < FIBERS; i++)
+        closed += gray[i] < 255 && layer[i] > 0.99f;
+    print_message("water that fades: closes over %.2f fibers a row in %d steps\n",
+                  (double)closed / SIDE, STEPS);
+    assert_true(closed < SIDE * STEPS / 10);
+    paper_sheet_destroy(sheet);
+}
+
 /* ---- another resolution ---- */
 
 enum { SMALL = 128, WINDOW = 8 };
@@ -548,6 +578,7 @@ int main(void)
         cmocka_unit_test(drips_differ),
         cmocka_unit_test(edges_are_as_wide_as_asked),
         cmocka_unit_test(gray_edges_stay),
+        cmocka_unit_test(water_that_fades_stays),
         cmocka_unit_test(a_render_is_the_same_painting),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
