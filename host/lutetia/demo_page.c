@@ -2,7 +2,7 @@
  *
  *     a town in a marsh ...          crisp: the sheet is dry there
  *
- *      Lu te tia                     crisp, each syllable in an ink of its own
+ *      Lu te tia                     wet letters on dry paper, each syllable in an ink of its own
  *     ~~~~~~~~~~~~~~~~  waterline
  *      (reflected)                   bleeding, the deeper the longer
  *
@@ -16,6 +16,7 @@
 #include "lutetia.h"
 
 #include <face.h>
+#include <techniques.h>
 
 #include <math.h>
 #include <stdlib.h>
@@ -55,6 +56,8 @@ static const struct ink inks[SYLLABLES] = {
 };
 static const struct ink caption_ink = {{0, 1.2, 0.3, 0.1}};
 
+/* The letters' water: strong colour spreads in it. */
+static const double letters_water = 0.35;
 /* A reflection is a little paler than the letters, and its ink brings water. */
 static const double reflection_strength = 0.7, reflection_water = 0.5;
 /* Steps from one band to the next; all bands take four fifths of the time. */
@@ -171,6 +174,25 @@ static enum paper_status letter_screen(struct paper_sheet *sheet,
     return paper_sheet_put(sheet, &letter->screen, letter->x_px, letter->y_px, ink->amount);
 }
 
+/* A syllable is one screen, so that drops of strong colour fall over it as a whole: first a thin wash, then the drops. */
+static enum paper_status syllable_put(const struct demo_page *page, struct paper_sheet *sheet,
+                                      int syllable)
+{
+    struct paper_screen screen = {.width_px = DEMO_WIDTH, .height_px = DEMO_HEIGHT};
+    struct ink ink = inks[syllable];
+    screen.gray = calloc((size_t)DEMO_WIDTH, DEMO_HEIGHT);
+    if (!screen.gray)
+        return PAPER_NO_MEMORY;
+    for (int i = 0; i < LETTERS; i++)
+        if (syllable_of[i] == syllable)
+            demo_letter_blend(&page->letters[i], &screen);
+    ink.amount[0] = letters_water;
+    enum paper_status status =
+        paper_sheet_put_charged(sheet, &screen, 0, 0, ink.amount, word_size_px);
+    paper_screen_destroy(&screen);
+    return status;
+}
+
 enum paper_status demo_page_begin(struct demo_page *page, struct paper_sheet *sheet)
 {
     const struct demo_mask mask = {DEMO_WIDTH, DEMO_HEIGHT, WATERLINE_PX};
@@ -182,8 +204,8 @@ enum paper_status demo_page_begin(struct demo_page *page, struct paper_sheet *sh
         status = paper_sheet_put(sheet, &screen, 0, 0, marsh[i].ink.amount);
         paper_screen_destroy(&screen);
     }
-    for (int i = 0; i < LETTERS && status == PAPER_OK; i++)
-        status = letter_screen(sheet, &page->letters[i], &inks[syllable_of[i]]);
+    for (int i = 0; i < SYLLABLES && status == PAPER_OK; i++)
+        status = syllable_put(page, sheet, i);
     if (status == PAPER_OK)
         status = letter_screen(sheet, &page->caption, &caption_ink);
     return status == PAPER_OK ? paper_sheet_finish(sheet) : status;

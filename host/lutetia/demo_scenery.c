@@ -100,6 +100,21 @@ bool demo_mask_screen(const struct demo_mask *mask, enum demo_mask_kind kind,
     return true;
 }
 
+void demo_letter_blend(const struct demo_letter *letter, struct paper_screen *sheet)
+{
+    const struct paper_screen *screen = &letter->screen;
+    for (int row = 0; row < screen->height_px; row++)
+        for (int column = 0; column < screen->width_px; column++) {
+            const int x = letter->x_px + column, y = letter->y_px + row;
+            if (x < 0 || x >= sheet->width_px || y < 0 || y >= sheet->height_px)
+                continue;
+            uint8_t *to = &sheet->gray[(size_t)y * (size_t)sheet->width_px + (size_t)x];
+            const uint8_t from =
+                screen->gray[(size_t)row * (size_t)screen->width_px + (size_t)column];
+            *to = from > *to ? from : *to;
+        }
+}
+
 /* The share of a reflection at that depth in the band: bands overlap, and their shares add
  * up to 1. */
 static double band_share(int band, double depth)

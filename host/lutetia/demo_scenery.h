@@ -32,6 +32,9 @@ struct demo_letter {
     int x_px, y_px; /* of the screen's upper left corner */
 };
 
+/* Adds the letter to a sheet-sized screen. */
+void demo_letter_blend(const struct demo_letter *letter, struct paper_screen *sheet);
+
 /* A reflection is put on band by band, the deepest first, so that deeper bands bleed longer. */
 enum { DEMO_BANDS = 10, DEMO_REFLECTION_DEPTH_PX = 400 };
 
