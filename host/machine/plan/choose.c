@@ -45,14 +45,15 @@ static int by_cost(const void *a, const void *b)
  * second would try the same again. */
 static double descend(struct search *s, double best)
 {
-    struct gain *gains = malloc((size_t)s->g->count * sizeof *gains);
+    struct gain *gains = malloc(((size_t)s->shifts_count + 1) * sizeof *gains);
     INVARIANT(gains != NULL);
     bool changed = true;
     s->first = false;
     for (int round = 0; round < 2 && changed; round++) {
         int count = 0;
         changed = false;
-        for (int i = 0; i < s->g->count; i++) {
+        for (int k = 0; k < s->shifts_count; k++) {
+            int i = s->shifts[k];
             if (!s->barrier[i])
                 continue;
             s->barrier[i] = false;
@@ -129,9 +130,8 @@ static int turns_most(const struct plan_graph *g, const struct vpset *set,
 /* Puts a barrier at each shift of a value that must be computed. */
 static double barriers_everywhere(struct search *s)
 {
-    for (int i = 0; i < s->g->count; i++)
-        s->barrier[i] = s->g->nodes[i].op == NODE_SHIFT && !s->g->nodes[i].leaf &&
-                        !s->light[s->g->nodes[i].in[0]];
+    for (int k = 0; k < s->shifts_count; k++)
+        s->barrier[s->shifts[k]] = !s->light[s->g->nodes[s->shifts[k]].in[0]];
     s->first = true;
     return cost_of(s);
 }
@@ -141,23 +141,10 @@ void plan_choose(struct plan_graph *g, const struct vpset *sets,
 {
     size_t count = (size_t)g->count;
     struct search s = {.g = g, .sets = sets, .shape = shape};
-    s.visits_size = 1024;
-    while (s.visits_size < 4 * count + 4 * EVALUATIONS_MAX)
-        s.visits_size *= 2;
-    s.barrier = calloc(count, sizeof *s.barrier);
-    s.light = calloc(count, sizeof *s.light);
-    s.earliest = calloc(count, sizeof *s.earliest);
-    s.loaded = calloc(count, sizeof *s.loaded);
-    s.visits = calloc(s.visits_size, sizeof *s.visits);
-    s.offsets = calloc(OFFSETS_MAX, sizeof *s.offsets);
-    s.array = calloc(count, sizeof *s.array);
-    double *weight = calloc(count, sizeof *weight);
     bool *barrier = calloc(count, sizeof *barrier);
-    INVARIANT(s.barrier && s.light && s.earliest && s.loaded && s.visits && s.offsets &&
-              s.array && weight && barrier);
-    s.offsets_count = 1;
-    cost_find_light(&s, weight);
+    INVARIANT(barrier != NULL);
     substitutes_find(g);
+    search_begin(&s);
     double all = barriers_everywhere(&s), best = descend(&s, all);
     plan_compared(g, MACHINE_PLAN_STORED, all);
     plan_compared(g, MACHINE_PLAN_ROWS, best);
@@ -188,14 +175,6 @@ void plan_choose(struct plan_graph *g, const struct vpset *sets,
     }
     s.decided = true;
     g->cost_ns = cost_of(&s);
-    free(s.barrier);
-    free(s.light);
-    free(s.earliest);
-    free(s.loaded);
-    free(s.visits);
-    free(s.offsets);
-    free(s.array);
-    tiling_finish(&s.tiling);
-    free(weight);
+    search_finish(&s);
     free(barrier);
 }

@@ -15,6 +15,20 @@ struct visit {
     int32_t offset;
 };
 
+/* What the search asks of a node again and again; no choice changes it. */
+struct search_node {
+    uint8_t inputs; /* 0: of a leaf or a number, too */
+    uint8_t bytes;  /* of an element in memory */
+    uint8_t lane_computed, lane_loaded;
+    int32_t operations; /* where it is computed */
+};
+
+/* Stored nodes, stage after stage; of a stage in the order of the graph. */
+struct stage_lists {
+    int *nodes;
+    int *begins; /* of a stage, and of the one behind the last */
+};
+
 struct search {
     struct plan_graph *g;
     const struct vpset *sets;
@@ -22,6 +36,10 @@ struct search {
     bool *barrier; /* of shift nodes */
     bool *light;   /* never stored: computed wherever it is needed */
     int *earliest;
+    struct search_node *facts;
+    int *computed, computed_count; /* nodes that are neither leaves nor numbers */
+    int *shifts, shifts_count;     /* ... and shifts */
+    struct stage_lists stages;
     int *loaded, loads_stamp; /* stamp: counted in this kernel's bytes already */
     struct visit *visits;
     uint32_t visits_size, stamp, visits_count;
@@ -40,9 +58,11 @@ struct search {
     bool decided; /* this is the plan: what its kernels cost is kept */
 };
 
+/* Begins and ends a search over a graph whose substitutes are known. */
+void search_begin(struct search *s);
+void search_finish(struct search *s);
 /* Assigns stages and stored values, for the present barriers. Returns the last stage. */
 int cost_assign(struct search *s);
 double cost_of(struct search *s);
-void cost_find_light(struct search *s, double *weight);
 
 #endif
