@@ -120,6 +120,8 @@ void machine_destroy(struct machine *m)
 
 void machine_leave(struct machine *m)
 {
+    if (m)
+        choosing_stop(m);
     if (m && m->device->queue && m->inside == 0 && pthread_equal(m->owner, pthread_self())) {
         clFinish(m->device->queue);
         watch_leave(m);

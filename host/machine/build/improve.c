@@ -29,9 +29,11 @@ bool plan_is_due_written(const struct machine *m, const struct plan *p)
            p->worked / WRITTEN_AFTER_BOXES >= m->settings.box_after;
 }
 
-bool plan_is_due(const struct machine *m, const struct plan *p)
+bool plan_is_due(struct machine *m, const struct plan *p)
 {
     enum quality quality = plan_quality_after(m, p->worked);
+    if (choice_is_awaited(m))
+        return false;
     if (p->quality == INTERPRETED)
         return interpreted_is_due(m, p) && !background_busy(m);
     if (plan_is_due_written(m, p) && !background_busy(m))
@@ -60,6 +62,7 @@ void plan_becomes(struct machine *m, struct plan *p, struct plan *better)
     better->launches_count = old.launches_count;
     better->stored = old.stored;
     better->arrays = old.arrays;
+    better->choice = old.choice;
     better->signature = NULL;
     plan_free(m, better);
 }
@@ -135,7 +138,7 @@ void plan_promote(struct machine *m, struct plan *p, const struct plan_request *
     }
 }
 
-uint32_t plan_version(const struct machine *m, const struct plan *p)
+uint32_t plan_version(struct machine *m, const struct plan *p)
 {
     return plan_is_due(m, p) ? UINT32_MAX : p->version;
 }

@@ -170,8 +170,9 @@ struct plan *interpreted_make(struct machine *m, const struct plan_request *q)
     struct plan *p = could_be(m, q) ? plan_interpreted(m, q) : NULL;
     if (!p || m->settings.interpret > 1 || p->predicted_s < 1e-9 * m->device->shape.text_ns)
         return p;
-    struct plan *better = interpreted_at_hand(m, q);
-    p->asked = true;
+    const bool slow = choice_takes_long(m, q) && p->predicted_s <= compile_time(m, p);
+    struct plan *better = slow ? NULL : interpreted_at_hand(m, q);
+    p->asked = !slow;
     if (better || p->predicted_s > compile_time(m, p)) {
         plan_free(m, p);
         return better;

@@ -26,6 +26,7 @@ void plan_free(struct machine *m, struct plan *p)
         device_code_free(m, p->launches[i].code);
         free(p->launches[i].in_place.pairs);
     }
+    choice_free(p->choice);
     plan_free(m, p->better);
     free(p->launches);
     free(p->stored);
@@ -415,7 +416,8 @@ static struct plan *plan_attempt(struct machine *m, const struct plan_request *q
         g.boxes = quality == BOXED;
         g.no_strips = !*strips;
         double start = watch_clock(m);
-        plan_choose(&g, m->values->sets, &m->device->shape);
+        if (!choice_take(q->choice, &g))
+            plan_choose(&g, m->values->sets, &m->device->shape);
         if (m->watch)
             watch_span(m, WATCH_PLAN, start, "\"nodes\":%d", q->reach->count);
         p->could_be_strips = g.no_strips && g.turns_most > 1;

@@ -30,7 +30,7 @@ static void forget_before(struct machine *m, uint64_t used)
 {
     for (int i = 0; i < m->plans->table_size; i++)
         for (struct plan **at = &m->plans->table[i], *p; (p = *at);) {
-            if (p->used >= used || p == m->plans->improving) {
+            if (p->used >= used || p == m->plans->improving || p == m->plans->choosing.plan) {
                 at = &p->next;
                 continue;
             }
@@ -54,6 +54,7 @@ void plans_forget_oldest(struct machine *m)
 
 void plans_finish(struct machine *m)
 {
+    choosing_stop(m);
     for (int i = 0; i < m->plans->table_size; i++)
         for (struct plan *p = m->plans->table[i], *next; p; p = next) {
             next = p->next;
@@ -173,6 +174,11 @@ static struct plan *plan_rehearse(struct machine *m, struct plan *p,
 static void plan_better(struct machine *m, struct plan *p, struct plan_request *q)
 {
     enum quality quality = plan_quality_after(m, p->worked);
+    const bool asks = p->quality == INTERPRETED && interpreted_asks(p);
+    if (!choice_is_at_hand(m, p, q,
+                           (quality == BOXED && !asks) || m->device->shape.always_strips))
+        return;
+    q->choice = p->choice;
     if (p->quality == INTERPRETED) {
         plan_promote(m, p, q);
         return;

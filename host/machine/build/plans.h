@@ -2,6 +2,7 @@
 #ifndef LUTETIA_MACHINE_PLANS_H
 #define LUTETIA_MACHINE_PLANS_H
 
+#include "build/choices.h"
 #include "build/explained.h"
 #include "build/families.h"
 #include "codegen/codegen.h"
@@ -67,6 +68,7 @@ struct plan {
     bool written;       /* while it is made: none does */
     uint64_t asked_of;  /* its family's lifted kernels when it was last asked */
     struct plan_family *family; /* NULL: unknown */
+    struct choice *choice;      /* what it would store with kernels; NULL: not known */
     struct plan *better;        /* the plan whose kernels are being compiled, and which replaces
                           * this one */
     bool empty;                 /* without kernels, except those of a better plan */
@@ -105,6 +107,7 @@ struct plans {
     uint64_t units, age, begun;
     struct background *background; /* background.c; NULL: not used yet */
     struct plan *improving;        /* the plan whose better kernels are being compiled */
+    struct choosing choosing;      /* what a plan stores, in a thread */
     struct plan_family **families; /* families.c; NULL: none yet */
     int families_count;
     struct describing describing;
@@ -135,8 +138,9 @@ struct plan_request {
     const struct reach *reach;
     const struct targets *targets;
     enum plan_use use;
-    struct plan_family *family; /* set by plan_get() */
-    bool written;               /* no kernel takes numbers as arguments */
+    struct plan_family *family;  /* set by plan_get() */
+    bool written;                /* no kernel takes numbers as arguments */
+    const struct choice *choice; /* what kernels store; NULL: to be chosen */
 };
 
 /* Returns the plan: a new or a known one, with better kernels if these are due. NULL: error
@@ -145,7 +149,7 @@ struct plan *plan_get(struct machine *m, const struct plan_request *q);
 /* Whether there are so many that the oldest should go; they go, all but those used lately. Nobody else may know them any more. */
 bool plans_are_many(const struct machine *m);
 void plans_forget_oldest(struct machine *m);
-uint32_t plan_version(const struct machine *m, const struct plan *p);
+uint32_t plan_version(struct machine *m, const struct plan *p);
 /* Whether its kernels are still being compiled in the background. */
 bool plan_waits(const struct machine *m, const struct plan *p);
 /* Whether its kernels are final, and as many turns take a kernel or more of each VP set for
@@ -194,7 +198,7 @@ struct plan *plan_make(struct machine *m, const struct plan_request *q, enum qua
 /* The quality of kernels for a plan that has run on that many processors. */
 enum quality plan_quality_after(const struct machine *m, uint64_t worked);
 /* Whether better kernels pay by now, and can be made. */
-bool plan_is_due(const struct machine *m, const struct plan *p);
+bool plan_is_due(struct machine *m, const struct plan *p);
 /* ... because it has run so often that its kernels should have its numbers in their text. */
 bool plan_is_due_written(const struct machine *m, const struct plan *p);
 void plan_becomes(struct machine *m, struct plan *p, struct plan *better);

@@ -41,6 +41,11 @@ static int by_cost(const void *a, const void *b)
     return x->cost < y->cost ? -1 : x->cost > y->cost ? 1 : x->node - y->node;
 }
 
+static bool is_stopped(const struct search *s)
+{
+    return s->g->stop && atomic_load_explicit(s->g->stop, memory_order_relaxed);
+}
+
 /* Twice, tries each remaining barrier, and removes them in the order of the expected gain. If the first time removes none, the
  * second would try the same again. */
 static double descend(struct search *s, double best)
@@ -54,14 +59,14 @@ static double descend(struct search *s, double best)
         changed = false;
         for (int k = 0; k < s->shifts_count; k++) {
             int i = s->shifts[k];
-            if (!s->barrier[i])
+            if (!s->barrier[i] || is_stopped(s))
                 continue;
             s->barrier[i] = false;
             gains[count++] = (struct gain){i, cost_of(s)};
             s->barrier[i] = true;
         }
         qsort(gains, (size_t)count, sizeof *gains, by_cost);
-        for (int i = 0; i < count; i++) {
+        for (int i = 0; i < count && !is_stopped(s); i++) {
             s->barrier[gains[i].node] = false;
             double c = cost_of(s);
             if (c < best) {

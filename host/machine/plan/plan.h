@@ -2,6 +2,8 @@
 #ifndef LUTETIA_MACHINE_PLAN_H
 #define LUTETIA_MACHINE_PLAN_H
 
+#include <stdatomic.h>
+
 #include "machine_explained.h"
 #include "values/geometry.h"
 
@@ -35,6 +37,8 @@ struct plan_graph {
     int turns_most; /* turns of a loop in one kernel; 1: more are impossible, or do not pay */
     double cost_ns; /* of one run, by the model */
     struct machine_explained_plan considered;
+    const atomic_bool
+        *stop; /* NULL, or: once this is true the choice does not matter any more */
 };
 
 void plan_choose(struct plan_graph *g, const struct vpset *sets,

@@ -336,12 +336,12 @@ static void find_facts(struct search *s)
     for (int i = 0; i < s->g->count; i++) {
         struct plan_node *n = &s->g->nodes[i];
         const bool given = n->leaf || n->constant;
-        s->facts[i] = (struct search_node){
-            .inputs = (uint8_t)(given ? 0 : node_ops[n->op].inputs),
-            .bytes = (uint8_t)type_bytes(n->type),
-            .lane_computed = (uint8_t)lanes_of_node(s->g, i, given),
-            .lane_loaded = (uint8_t)lanes_of_node(s->g, i, true),
-            .operations = node_cost(n->op, n->type)};
+        s->facts[i] =
+            (struct search_node){.inputs = (uint8_t)(given ? 0 : node_ops[n->op].inputs),
+                                 .bytes = (uint8_t)type_bytes(n->type),
+                                 .lane_computed = (uint8_t)lanes_of_node(s->g, i, given),
+                                 .lane_loaded = (uint8_t)lanes_of_node(s->g, i, true),
+                                 .operations = node_cost(n->op, n->type)};
         n->stored = n->target;
         n->stage = 0;
         if (given)

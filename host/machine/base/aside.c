@@ -1,0 +1,44 @@
+/* aside.c - see aside.h. */
+#include "base/aside.h"
+
+#include <signal.h>
+#include <unistd.h>
+
+static void *run(void *of)
+{
+    struct aside *a = of;
+    a->work(a->context);
+    atomic_store(&a->done, true);
+    return NULL;
+}
+
+bool aside_begin(struct aside *a, aside_work *work, void *context)
+{
+    sigset_t all, before;
+    a->work = work;
+    a->context = context;
+    a->owner = getpid();
+    atomic_store(&a->done, false);
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    a->begun = pthread_create(&a->thread, NULL, run, a) == 0;
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return a->begun;
+}
+
+bool aside_is_done(const struct aside *a)
+{
+    return a->begun && atomic_load(&a->done);
+}
+
+bool aside_is_lost(const struct aside *a)
+{
+    return a->begun && a->owner != getpid();
+}
+
+void aside_end(struct aside *a)
+{
+    if (a->begun && !aside_is_lost(a))
+        pthread_join(a->thread, NULL);
+    a->begun = false;
+}
