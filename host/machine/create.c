@@ -120,8 +120,10 @@ void machine_destroy(struct machine *m)
 
 void machine_leave(struct machine *m)
 {
-    if (m)
+    if (m && pthread_equal(m->owner, pthread_self())) {
         choosing_stop(m);
+        background_leave(m);
+    }
     if (m && m->device->queue && m->inside == 0 && pthread_equal(m->owner, pthread_self())) {
         clFinish(m->device->queue);
         watch_leave(m);

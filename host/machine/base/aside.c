@@ -38,7 +38,8 @@ bool aside_is_lost(const struct aside *a)
 
 void aside_end(struct aside *a)
 {
-    if (a->begun && !aside_is_lost(a))
-        pthread_join(a->thread, NULL);
+    const bool joins = a->begun && !aside_is_lost(a);
     a->begun = false;
+    if (joins)
+        pthread_join(a->thread, NULL);
 }

@@ -35,6 +35,7 @@
 
 #include "base/arrays.h"
 #include "build/compiler.h"
+#include "build/loading.h"
 #include "build/plans.h"
 #include "device/cache.h"
 #include "program.h"
@@ -63,6 +64,9 @@ struct background {
     bool lost;  /* for good */
     pid_t owner;
     char path[PATH_MAX]; /* of the compiler */
+
+    struct loading loading;
+    double loading_s; /* when that began */
 
     int socket;     /* -1: there is no process */
     pid_t child;    /* the child that starts the process; 0: it has ended */
@@ -178,7 +182,7 @@ static void item_is_compiled(struct machine *m, struct background *b, double now
     if (item->mark)
         cache_mark_write(m->device, item->mark);
     if (m->watch)
-        watch_background(m, b->heard_s, now, item->options);
+        watch_background(m, "build", b->heard_s, now, item->options);
     while (b->asked < b->count && b->items[b->asked].compiled)
         b->asked++;
     b->heard_s = now;
@@ -421,6 +425,32 @@ static enum background_state background_lose(struct background *b)
     return BACKGROUND_LOST;
 }
 
+/* One kernel that the driver has. False: that is impossible. */
+static bool item_load(struct machine *m, struct background *b, struct item *item)
+{
+    struct loading *l = &b->loading;
+    const char *const *parts = item->parts;
+    uint64_t built = m->device->kernels_built;
+    cl_program program = NULL;
+    if (loading_is_on(l) && !loading_is_done(l))
+        return true;
+    if (loading_is_of(l, item->text, item->options)) {
+        program = loading_take(l);
+        if (m->watch)
+            watch_background(m, "load", b->loading_s, clock_s(), item->options);
+    } else {
+        loading_drop(l); /* of a batch before */
+        b->loading_s = clock_s();
+        if (!device_kernel_at_hand(m, parts, item->options, item->name) &&
+            loading_begin(l, m->device, parts, item->options))
+            return true;
+    }
+    item->kernel = program ? device_program_take(m, program, parts, item->options, item->name)
+                           : device_kernel(m, parts, item->options, item->name);
+    m->device->kernels_built_background += m->device->kernels_built - built;
+    return item->kernel != NULL;
+}
+
 enum background_state background_take(struct machine *m)
 {
     struct background *b = m->plans->background;
@@ -437,12 +467,10 @@ enum background_state background_take(struct machine *m)
         waits |= !item->compiled || loaded;
         if (!item->compiled || loaded)
             continue;
-        uint64_t built = m->device->kernels_built;
-        item->kernel = device_kernel(m, item->parts, item->options, item->name);
-        if (!item->kernel)
+        if (!item_load(m, b, item))
             return background_lose(b);
-        m->device->kernels_built_background += m->device->kernels_built - built;
         loaded = true;
+        waits |= !item->kernel;
     }
     b->looked_s = clock_s();
     return waits ? BACKGROUND_WAITS : BACKGROUND_LOADED;
@@ -453,12 +481,19 @@ cl_kernel background_kernel(const struct machine *m, int number)
     return m->plans->background->items[number].kernel;
 }
 
+void background_leave(struct machine *m)
+{
+    if (m->plans->background)
+        loading_drop(&m->plans->background->loading);
+}
+
 void background_finish(struct machine *m)
 {
     struct background *b = m->plans->background;
     if (!b)
         return;
     background_drop(m);
+    loading_drop(&b->loading);
     compiler_end(b);
     free(b->items);
     free(b);

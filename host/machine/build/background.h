@@ -46,13 +46,14 @@ int background_want(struct machine *m, const struct background_wish *wish);
 void background_foresee(struct machine *m, const struct background_wish *wish);
 /* False: no memory. */
 bool background_begin(struct machine *m);
-/* Returns the state of the batch; never waits. Loads at most one kernel, which takes some 20
- * milliseconds. */
+/* Returns the state of the batch; never waits. One kernel after the other is loaded, by a thread (loading.h). */
 enum background_state background_take(struct machine *m);
 /* A kernel of a batch that is loaded. */
 cl_kernel background_kernel(const struct machine *m, int number);
 /* Drops the batch. */
 void background_drop(struct machine *m);
+/* Called before the process ends: no thread is in the driver any more. */
+void background_leave(struct machine *m);
 /* Called when the machine is destroyed. */
 void background_finish(struct machine *m);
 

@@ -212,7 +212,7 @@ void improve_give_up(struct machine *m);
 /* Requests better kernels from the background. False: impossible. */
 bool improve_begin(struct machine *m, struct plan *p, const struct plan_request *q,
                    enum quality quality);
-/* ---- plan_kernels.c, for interpreted.c ---- */
+/* ---- plan_graph.c ---- */
 
 bool plan_graph_init(struct plan_graph *g, const struct plan_request *q);
 /* What is stored in that stage (-1: in all) and VP set, in stages' order; how many. */
@@ -220,8 +220,11 @@ int plan_stores(const struct plan_graph *g, int stage, int set, int *stores);
 /* These get arrays, by the next launch. */
 void plan_arrays(const struct machine *m, struct plan *p, const struct plan_graph *g,
                  const int *stores, int count);
-bool plan_launches_grow(struct plan *p); /* room for one more; false: no memory */
 void plan_last_launches(struct plan *p); /* finds which launch is the last to take an array */
+
+/* ---- plan_kernels.c, for interpreted.c ---- */
+
+bool plan_launches_grow(struct plan *p); /* room for one more; false: no memory */
 
 /* ---- interpreted.c ---- */
 

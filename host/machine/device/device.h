@@ -107,6 +107,13 @@ void device_options(const struct device *d, const char *options, bool header,
 char *device_text_without_header(const char *const parts[DEVICE_PARTS]);
 /* Whether the kernel can be started in work-groups of that many items. */
 bool device_takes_group(const struct device *d, cl_kernel kernel, int items);
+/* The program of such parts, in any thread. NULL: it cannot be built here; device_kernel() says why. */
+cl_program device_program_build(const struct device *d, const char *const parts[DEVICE_PARTS],
+                                const char *options);
+/* The kernel of that name in a program that was built so, which is the device's from now on. NULL: error set. */
+cl_kernel device_program_take(struct machine *m, cl_program program,
+                              const char *const parts[DEVICE_PARTS], const char *options,
+                              const char *name);
 /* Whether the kernel is in memory or on disk, and need not be built. */
 bool device_kernel_at_hand(struct machine *m, const char *const parts[DEVICE_PARTS],
                            const char *options, const char *name);

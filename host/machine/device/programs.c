@@ -189,40 +189,66 @@ bool device_kernel_at_hand(struct machine *m, const char *const parts[DEVICE_PAR
     return found;
 }
 
+/* Keeps the program and its kernel under the key; both arguments are the table's from now on. NULL: error set. */
+static cl_kernel program_keep(struct machine *m, cl_program program, char *key,
+                              const char *name)
+{
+    struct device *d = m->device;
+    struct program_entry *entry = calloc(1, sizeof *entry), *bucket = program_bucket(d, key);
+    cl_int error = CL_OUT_OF_HOST_MEMORY;
+    cl_kernel kernel = entry ? clCreateKernel(program, name, &error) : NULL;
+    if (!error) {
+        *entry = (struct program_entry){key, program, kernel, bucket->next};
+        bucket->next = entry;
+        d->kernels_built++;
+        device_unstarted_add(d, kernel);
+        return kernel;
+    }
+    device_check(m, error, "a kernel cannot be made");
+    clReleaseProgram(program);
+    free(entry);
+    free(key);
+    return NULL;
+}
+
+static char *key_of(struct machine *m, const char *const parts[DEVICE_PARTS],
+                    const char *options, const char *name)
+{
+    char *key = cache_key(m->device, parts, options, name);
+    if (!key)
+        machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for a kernel's text");
+    return key;
+}
+
 cl_kernel device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS],
                         const char *options, const char *name)
 {
-    struct device *d = m->device;
-    char *key = cache_key(d, parts, options, name);
-    if (!key) {
-        machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for a kernel's text");
-        return NULL;
-    }
-    cl_kernel known = program_find(d, key);
-    if (known) {
-        free(key);
-        return known;
-    }
-    struct program_entry *entry = calloc(1, sizeof *entry), *bucket = program_bucket(d, key);
-    cl_int error = CL_OUT_OF_HOST_MEMORY;
+    char *key = key_of(m, parts, options, name);
+    cl_kernel kernel = key ? program_find(m->device, key) : NULL;
     m->inside++;
-    if (entry && (entry->program = build(m, parts, options, key)))
-        entry->kernel = clCreateKernel(entry->program, name, &error);
+    cl_program program = key && !kernel ? build(m, parts, options, key) : NULL;
+    if (program)
+        kernel = program_keep(m, program, key, name);
+    else
+        free(key);
     m->inside--;
-    if (entry && entry->program) {
-        if (!error) {
-            entry->key = key;
-            entry->next = bucket->next;
-            bucket->next = entry;
-            d->kernels_built++;
-            device_unstarted_add(d, entry->kernel);
-            return entry->kernel;
-        }
-        device_check(m, error, "a kernel cannot be made");
-        clReleaseProgram(entry->program);
-    }
-    free(entry);
-    free(key);
+    return kernel;
+}
+
+cl_program device_program_build(const struct device *d, const char *const parts[DEVICE_PARTS],
+                                const char *options)
+{
+    return d->is_pocl && !full_folder(d) ? build_without_header(d, parts, options) : NULL;
+}
+
+cl_kernel device_program_take(struct machine *m, cl_program program,
+                              const char *const parts[DEVICE_PARTS], const char *options,
+                              const char *name)
+{
+    char *key = key_of(m, parts, options, name);
+    if (key)
+        return program_keep(m, program, key, name);
+    clReleaseProgram(program);
     return NULL;
 }
 

@@ -120,7 +120,8 @@ void watch_near(struct machine *m, const char *what, double start)
 }
 
 /* It is no time of the front end's. */
-void watch_background(struct machine *m, double start, double end, const char *options)
+void watch_background(struct machine *m, const char *what, double start, double end,
+                      const char *options)
 {
     struct watch *w = m->watch;
     char text[DETAILS_BYTES];
@@ -130,7 +131,7 @@ void watch_background(struct machine *m, double start, double end, const char *o
         trace_background(w->machine);
     w->background = true;
     snprintf(text, sizeof text, "\"options\":\"%s\"", options);
-    trace_event(w->machine, TRACE_BACKGROUND, "build", "build", start, end, text);
+    trace_event(w->machine, TRACE_BACKGROUND, what, what, start, end, text);
 }
 
 /* ---- calls ---- */

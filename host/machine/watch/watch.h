@@ -94,7 +94,8 @@ void watch_evaluated(struct machine *m, double start, enum watch_why why, int ta
 void watch_vanished(struct machine *m, int op);
 void watch_overwritten(struct machine *m);
 void watch_computed(struct machine *m, int count, int stored);
-void watch_background(struct machine *m, double start, double end, const char *options);
+void watch_background(struct machine *m, const char *what, double start, double end,
+                      const char *options);
 /* Commands: first the kernel that the next device_launch() starts, generated or
  * hand-written, and the bytes of the latter's arrays. Then where to put the command's event,
  * and what the command was (not after an error). */
