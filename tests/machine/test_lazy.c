@@ -78,6 +78,23 @@ static void look(struct sheet *s, uint32_t *out)
     assert_ok(machine_field_download(s->m, s->water, MACHINE_UINT(32), out), s->m);
 }
 
+/* So that neighbours' bits are stored, and not the longer numbers made of them. */
+static void neighbours_read_a_number_before_it_is_made_longer(void **state)
+{
+    struct sheet s;
+    (void)state;
+    sheet_open(&s, 0);
+    machine_begin(s.m);
+    struct machine_value *bit = machine_binary(
+        s.m, MACHINE_ULT, support_value(s.m, s.water, MACHINE_UINT(32)), constant(s.m, 77));
+    struct machine_value *moved = machine_shift(s.m, bit, 1, -3);
+    for (int is_signed = 0; is_signed < 2; is_signed++)
+        assert_ptr_equal(machine_shift(s.m, machine_resize(s.m, bit, 32, is_signed), 1, -3),
+                         machine_resize(s.m, moved, 32, is_signed));
+    assert_ptr_not_equal(moved, bit);
+    machine_destroy(s.m);
+}
+
 static void unobserved_values_are_never_computed(void **state)
 {
     struct sheet s;
@@ -283,6 +300,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(value_outlives_the_content_it_is_a_part_of),
+        cmocka_unit_test(neighbours_read_a_number_before_it_is_made_longer),
         cmocka_unit_test(unobserved_values_are_never_computed),
         cmocka_unit_test(repeated_step_builds_nothing_new),
         cmocka_unit_test(unobserved_steps_stay_bounded),

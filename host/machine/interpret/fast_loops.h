@@ -391,6 +391,7 @@ LOOP(draw, u32)
 }
 
 #include "interpret/lanes_lines.h"
+#include "interpret/lanes_sums.h"
 
 /* ---- the table ---- */
 
@@ -433,6 +434,7 @@ const struct lanes_table TABLE =
     {.pick = pick,
      .places = places,
      .scan = SCAN,
+     .sum = sum,
      .of =
          {
              [MACHINE_NOT] = OF_INTEGERS(not ),

@@ -105,6 +105,19 @@ struct lanes_scan {
     uint32_t none, flip, cut;
 };
 typedef uint32_t lanes_scan_function(const struct lanes_scan *s, size_t n, uint32_t before);
+/* Whole numbers joined with one another, where the context (NULL: everywhere) holds. */
+struct lanes_sum {
+    int op;         /* 0 and, 1 or, 2 exclusive or, 3 add, 4 least, 5 greatest */
+    size_t element; /* bytes: 1, 2, 4 or 8 */
+    bool
+        plain; /* they are as long as the result, or added without a sign; else they are made longer */
+    uint64_t none; /* what is joined where the context does not hold */
+    uint64_t flip; /* turned over: exclusive or */
+    uint64_t
+        sign; /* the highest bit of those that are made longer with their sign; 0: without */
+};
+typedef uint64_t lanes_sum_function(const struct lanes_sum *s, const void *numbers,
+                                    const uint8_t *context, size_t n);
 
 /* The tables of one instruction set. */
 struct lanes_table {
@@ -113,6 +126,7 @@ struct lanes_table {
     lanes_pick_function *pick;
     lanes_places_function *places;
     lanes_scan_function *scan; /* NULL: none by vectors */
+    lanes_sum_function *sum;
 };
 /* The widest that this processor has. */
 const struct lanes_table *lanes_table(void);

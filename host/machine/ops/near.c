@@ -6,6 +6,8 @@
 #include "base/parts.h"
 #include "base/scalar.h"
 #include "base/types.h"
+#include "interpret/joins.h"
+#include "interpret/lanes.h"
 #include "values/make.h"
 #include "watch/watch.h"
 
@@ -106,78 +108,6 @@ bool near_read(struct machine *m, int set, const struct machine_value *v, uint64
            moved(&m->values->sets[set], v, index, DEEPEST, out);
 }
 
-/* ---- reductions of integers: in any order ---- */
-
-#define JOIN_AND(a, x) ((a) & (x))
-#define JOIN_OR(a, x) ((a) | (x))
-#define JOIN_XOR(a, x) ((a) ^ (x))
-#define JOIN_ADD(a, x) ((a) + (x))
-#define JOIN_LEAST(a, x) ((x) < (a) ? (x) : (a))
-#define JOIN_GREATEST(a, x) ((x) > (a) ? (x) : (a))
-
-/* Numbers as they are, in lanes of their own length. */
-#define INTEGERS_PLAIN(type, wide, join)                                                       \
-    {                                                                                          \
-        const type *p = (const type *)numbers, from = (type)flip;                              \
-        const wide least = (wide)none;                                                         \
-        wide plain = least;                                                                    \
-        if (!context)                                                                          \
-            for (size_t i = 0; i < count; i++) {                                               \
-                const wide x = (wide)(p[i] ^ from);                                            \
-                plain = (wide)join(plain, x);                                                  \
-            }                                                                                  \
-        else                                                                                   \
-            for (size_t i = 0; i < count; i++) {                                               \
-                const wide x = context[i] ? (wide)(p[i] ^ from) : least;                       \
-                plain = (wide)join(plain, x);                                                  \
-            }                                                                                  \
-        return plain;                                                                          \
-    }
-
-/* Numbers made longer, with their sign or without. */
-#define INTEGERS_LONGER(type, join)                                                            \
-    {                                                                                          \
-        const type *p = (const type *)numbers;                                                 \
-        uint64_t sum = none;                                                                   \
-        for (size_t i = 0; i < count; i++) {                                                   \
-            const uint64_t x = ((p[i] ^ sign) - sign) ^ flip,                                  \
-                           y = !context || context[i] ? x : none;                              \
-            sum = join(sum, y);                                                                \
-        }                                                                                      \
-        return sum;                                                                            \
-    }
-
-#define INTEGERS(type, wide, join)                                                             \
-    if (w->plain)                                                                              \
-        INTEGERS_PLAIN(type, wide, join)                                                       \
-    else                                                                                       \
-        INTEGERS_LONGER(type, join)
-
-#define INTEGERS_BY(name, wide1, wide2, wide4, join)                                           \
-    static uint64_t name(const struct near_sum *w, const void *numbers,                        \
-                         const unsigned char *context, size_t count)                           \
-    {                                                                                          \
-        const uint64_t none = w->identity.lo, flip = w->flip.lo,                               \
-                       sign = w->extends ? UINT64_C(1) << (w->width - 1) : 0;                  \
-        switch (w->element) {                                                                  \
-        case 1:                                                                                \
-            INTEGERS(uint8_t, wide1, join)                                                     \
-        case 2:                                                                                \
-            INTEGERS(uint16_t, wide2, join)                                                    \
-        case 4:                                                                                \
-            INTEGERS(uint32_t, wide4, join)                                                    \
-        default:                                                                               \
-            INTEGERS(uint64_t, uint64_t, join)                                                 \
-        }                                                                                      \
-    }
-
-INTEGERS_BY(run_and, uint8_t, uint16_t, uint32_t, JOIN_AND)
-INTEGERS_BY(run_or, uint8_t, uint16_t, uint32_t, JOIN_OR)
-INTEGERS_BY(run_xor, uint8_t, uint16_t, uint32_t, JOIN_XOR)
-INTEGERS_BY(run_add, uint64_t, uint64_t, uint64_t, JOIN_ADD)
-INTEGERS_BY(run_least, uint8_t, uint16_t, uint32_t, JOIN_LEAST)
-INTEGERS_BY(run_greatest, uint8_t, uint16_t, uint32_t, JOIN_GREATEST)
-
 /* ---- of floats: sixteen lanes by column, then halves of them ---- */
 
 #define FLOATS_LOOP(type, join)                                                                \
@@ -256,6 +186,7 @@ static u128 run_wide(const struct near_sum *w, const u128 *p, const unsigned cha
 struct summing {
     const struct vpset *set;
     const struct near_sum *what;
+    struct lanes_sum integers;
     size_t run, runs; /* columns of one; of a row */
     struct machine_scalar *sums;
     int parts;
@@ -263,9 +194,6 @@ struct summing {
 
 static struct machine_scalar run_sum(const struct summing *g, size_t row, size_t i)
 {
-    static uint64_t (*const integers[])(const struct near_sum *, const void *,
-                                        const unsigned char *, size_t) = {
-        run_and, run_or, run_xor, run_add, run_least, run_greatest};
     const struct near_sum *what = g->what;
     const struct vpset *s = g->set;
     size_t x = i * g->run, width = (size_t)s->width, at = row * s->pitch + (size_t)s->halo + x,
@@ -275,7 +203,7 @@ static struct machine_scalar run_sum(const struct summing *g, size_t row, size_t
     const void *p = (const char *)what->numbers->host + at * what->element;
     if (what->element == 16)
         return scalar_narrow(run_wide(what, p, c, count));
-    uint64_t bits = !what->is_float      ? integers[what->op](what, p, c, count)
+    uint64_t bits = !what->is_float      ? lanes_table()->sum(&g->integers, p, c, count)
                     : what->element == 4 ? run_floats(what, p, c, count)
                                          : run_doubles(what, p, c, count);
     return (struct machine_scalar){bits, 0};
@@ -305,6 +233,12 @@ bool near_sums(struct machine *m, const struct vpset *s, const struct near_sum *
     struct summing g = {
         .set = s,
         .what = what,
+        .integers = {.op = what->op,
+                     .element = what->element,
+                     .plain = what->plain,
+                     .none = what->identity.lo,
+                     .flip = what->flip.lo,
+                     .sign = what->extends ? UINT64_C(1) << (what->width - 1) : 0},
         .run = run,
         .runs = ((size_t)s->width + run - 1) / run,
         .sums = sums,

@@ -39,6 +39,12 @@ struct machine_value *machine_shift(struct machine *m, struct machine_value *a, 
         struct machine_value *moved = machine_shift(m, a->in[0], axis, distance);
         return machine_reinterpret(m, moved, a->type);
     }
+    /* What neighbours read of each other is stored as narrow as it is. */
+    if (!a->buffer && (a->op == NODE_ZERO_EXTEND || a->op == NODE_SIGN_EXTEND)) {
+        bool is_signed = a->op == NODE_SIGN_EXTEND;
+        struct machine_value *moved = machine_shift(m, a->in[0], axis, distance);
+        return moved ? machine_resize(m, moved, a->type.width, is_signed) : NULL;
+    }
     struct machine_value key = {.op = NODE_SHIFT,
                                 .type = a->type,
                                 .axis = (uint8_t)axis,

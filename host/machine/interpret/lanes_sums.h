@@ -1,0 +1,72 @@
+/* lanes_sums.h - reductions of whole numbers, in any order: a part of fast_loops.h. The slow twin is the kernel of kernels/reduce.cl. */
+
+#include "interpret/joins.h"
+
+/* Numbers as they are, in lanes of their own length. */
+#define SUM_PLAIN(type, wide, join)                                                            \
+    {                                                                                          \
+        const type *p = numbers, from = (type)s->flip;                                         \
+        const wide least = (wide)s->none;                                                      \
+        wide plain = least;                                                                    \
+        if (!context)                                                                          \
+            for (size_t i = 0; i < n; i++) {                                                   \
+                const wide x = (wide)(p[i] ^ from);                                            \
+                plain = (wide)join(plain, x);                                                  \
+            }                                                                                  \
+        else                                                                                   \
+            for (size_t i = 0; i < n; i++) {                                                   \
+                const wide x = context[i] ? (wide)(p[i] ^ from) : least;                       \
+                plain = (wide)join(plain, x);                                                  \
+            }                                                                                  \
+        return plain;                                                                          \
+    }
+
+/* Numbers made longer, with their sign or without. */
+#define SUM_LONGER(type, join)                                                                 \
+    {                                                                                          \
+        const type *p = numbers;                                                               \
+        const u64 none = s->none, flip = s->flip, sign = s->sign;                              \
+        u64 sum = none;                                                                        \
+        for (size_t i = 0; i < n; i++) {                                                       \
+            const u64 x = ((p[i] ^ sign) - sign) ^ flip,                                       \
+                      y = !context || context[i] ? x : none;                                   \
+            sum = join(sum, y);                                                                \
+        }                                                                                      \
+        return sum;                                                                            \
+    }
+
+#define SUM(type, wide, join)                                                                  \
+    if (s->plain)                                                                              \
+        SUM_PLAIN(type, wide, join)                                                            \
+    else                                                                                       \
+        SUM_LONGER(type, join)
+
+#define SUM_BY(name, wide1, wide2, wide4, join)                                                \
+    static u64 name(const struct lanes_sum *s, const void *numbers, const u8 *context,         \
+                    size_t n)                                                                  \
+    {                                                                                          \
+        switch (s->element) {                                                                  \
+        case 1:                                                                                \
+            SUM(u8, wide1, join)                                                               \
+        case 2:                                                                                \
+            SUM(u16, wide2, join)                                                              \
+        case 4:                                                                                \
+            SUM(u32, wide4, join)                                                              \
+        default:                                                                               \
+            SUM(u64, u64, join)                                                                \
+        }                                                                                      \
+    }
+
+SUM_BY(sum_and, u8, u16, u32, JOIN_AND)
+SUM_BY(sum_or, u8, u16, u32, JOIN_OR)
+SUM_BY(sum_xor, u8, u16, u32, JOIN_XOR)
+SUM_BY(sum_add, u64, u64, u64, JOIN_ADD)
+SUM_BY(sum_least, u8, u16, u32, JOIN_LEAST)
+SUM_BY(sum_greatest, u8, u16, u32, JOIN_GREATEST)
+
+static u64 sum(const struct lanes_sum *s, const void *numbers, const u8 *context, size_t n)
+{
+    static lanes_sum_function *const of[] = {sum_and, sum_or,    sum_xor,
+                                             sum_add, sum_least, sum_greatest};
+    return of[s->op](s, numbers, context, n);
+}
