@@ -32,7 +32,7 @@ enum display_status {
 /* Rows from top to bottom, pixels from left to right, channels together, no padding. */
 struct display_image {
     int width_px, height_px;
-    int channels; /* 1: gray; 3: red, green, blue; windows also accept 4, with alpha */
+    int channels; /* 1: gray; 3: red, green, blue; 4: with alpha, which the colours are not multiplied by */
     uint8_t *pixels;
 };
 
@@ -47,7 +47,7 @@ enum display_status display_image_create(struct display_image *image);
 /* Frees the pixels; an image of zeros is fine. */
 void display_image_destroy(struct display_image *image);
 
-/* Writes 8-bit gray or RGB. The file appears under its name only when it is whole
+/* Writes 8-bit gray, RGB or RGB with alpha. The file appears under its name only when it is whole
  * (output_file.h). Errors: BAD_ARGUMENT, IO_FAILED (a full disk, a folder that is missing or
  * closed), NO_MEMORY; a file that had the name is unchanged, and no part file is left. */
 enum display_status display_png_write(const char *path, const struct display_image *image);

@@ -72,7 +72,9 @@ static int png_encode(struct png_sink *sink, const struct png_source *image)
     png_set_write_fn(png, sink, sink_write, sink_flush);
     png_set_IHDR(png, info, (png_uint_32)image->width_px, (png_uint_32)image->height_px,
                  8 * image->bytes,
-                 image->channels == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB,
+                 image->channels == 1   ? PNG_COLOR_TYPE_GRAY
+                 : image->channels == 3 ? PNG_COLOR_TYPE_RGB
+                                        : PNG_COLOR_TYPE_RGB_ALPHA,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     /* Level 2 takes a tenth of the default level's time. Files with the paper's grain are a
      * tenth larger; files of type are no larger. */
@@ -93,7 +95,7 @@ static int png_encode(struct png_sink *sink, const struct png_source *image)
 static enum display_status source_write(const char *path, const struct png_source *image)
 {
     if (!path || !image->pixels || image->width_px < 1 || image->height_px < 1 ||
-        (image->channels != 1 && image->channels != 3))
+        (image->channels != 1 && image->channels != 3 && image->channels != 4))
         return display_fail(DISPLAY_BAD_ARGUMENT, "%s: there is no image to write",
                             path ? path : "(no file name)");
 

@@ -61,6 +61,7 @@ int paint_sheet_config(const struct paint *paint, struct paper_sheet_config *con
     config->width = paint->size[0];
     config->height = paint->size[1];
     config->seed = (uint64_t)paint->seed;
+    config->deckled = paint->deckled;
     const struct paper_stock *stock =
         paint->stock ? paper_stock_find(paint->stock) : &config->stock;
     if (!stock) {
@@ -120,7 +121,8 @@ static int sheet_run(const struct paint *paint, struct paper_sheet *sheet, const
                 : strcmp(paint->view, "wet") == 0 ? PAPER_SHOW_WET
                                                   : PAPER_SHOW_COLOR,
         .high = 1,
-        .light = paint->light};
+        .light = paint->light,
+        .ground = isnan(paint->ground[0]) ? NULL : paint->ground};
     struct progress progress = progress_begin("painting", paint->steps);
     for (int step = 0; step <= paint->steps && status == EXIT_SUCCESS; step++) {
         char path[PAINT_PATH_MAX];

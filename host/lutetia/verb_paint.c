@@ -31,6 +31,7 @@ static struct paint paint_default(void)
         .weights = {NAN, NAN, NAN},
         .absorbency = NAN,
         .light = NAN,
+        .ground = {NAN, NAN, NAN},
     };
 }
 
@@ -53,6 +54,8 @@ static int full_take(struct paint *paint)
     if (!isnan(paint->absorbency) || !isnan(paint->weights[0]))
         return fail_usage("paint", "--%s is the thesis's model's; add --model thesis",
                           isnan(paint->absorbency) ? "weights" : "absorbency");
+    if (!paint->deckled && !isnan(paint->ground[0]))
+        return fail_usage("paint", "--ground is what a sheet with --deckle lies on");
     if (paint->pigments.count && !isnan(paint->ink[0]))
         return fail_usage("paint", "give --ink or --pigment, one of them");
     paint->light = or_else(paint->light, PAPER_LIGHT_USUAL);
@@ -76,6 +79,9 @@ static int thesis_take(struct paint *paint)
     const struct paper_weather weather = paper_weather_default();
     if (paint->stock)
         return fail_usage("paint", "--stock is the full model's; the thesis has one paper");
+    if (paint->deckled || !isnan(paint->ground[0]))
+        return fail_usage("paint", "--%s is the full model's; the thesis's paper is cut",
+                          paint->deckled ? "deckle" : "ground");
     if (paint->pigments.count)
         return fail_usage("paint", "--pigment is the full model's; the thesis has --ink");
     if (!isnan(paint->light) || strcmp(paint->view, "wet") == 0)
@@ -141,6 +147,9 @@ static int paint_options(struct paint *paint, int argc, char **argv, bool *help)
         {"model", 0, OPTION_TEXT, "MODEL", "full or thesis (full)", &paint->model, 0, 0, 0},
         {"stock", 0, OPTION_TEXT, "NAME", "full: the paper's kind (cold press)", &paint->stock,
          0, 0, 0},
+        {"deckle", 0, OPTION_FLAG, NULL, "full: the edges of handmade paper, on a ground",
+         &paint->deckled, 0, 0, 0},
+        {"ground", 0, OPTION_NUMBERS, "R,G,B", "its colour, 0..1", paint->ground, 0, 1, 3},
         {"pigment", 0, OPTION_TEXTS, "NAME=A",
          "full: of the type, -4..4; any number (french ultramarine=1.2)", &paint->pigments, 0,
          0, 0},
@@ -200,8 +209,11 @@ static enum paper_status line_fit(const struct paint *paint, struct paper_line *
     enum paper_status status = paper_line_screen(line, &trial, NULL);
     if (status != PAPER_OK)
         return status;
-    double by_width = 100 * 0.8 * paint->size[0] / trial.width_px;
-    double by_height = 100 * 0.6 * paint->size[1] / trial.height_px;
+    const struct paper_sheet_config config = {.deckled = paint->deckled,
+                                              .deckle = paper_deckle_default()};
+    const double margins = 2 * paper_sheet_margin(&config);
+    double by_width = 100 * 0.8 * (paint->size[0] - margins) / trial.width_px;
+    double by_height = 100 * 0.6 * (paint->size[1] - margins) / trial.height_px;
     line->size_px = fmax(1, fmin(8192, fmin(by_width, by_height)));
     paper_screen_destroy(&trial);
     return PAPER_OK;

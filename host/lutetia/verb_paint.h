@@ -17,6 +17,8 @@ struct paint {
     double size_px; /* 0: the line is fitted to the paper */
     /* Options that were not given are NaN until the model's values are taken. */
     double ink[3], water, wet, gravity, gravity_x, humidity, weights[3], absorbency, light;
+    double ground[3]; /* NaN: the usual one */
+    bool deckled;
     int size[2], steps, every, seed;
     struct option_list pools;
     struct paper_screen screen;

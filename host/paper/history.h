@@ -95,7 +95,7 @@ enum paper_status paper_history_render(struct paper_sheet *sheet, double scale, 
 
 /* ---- states, for files ---- */
 
-enum { PAPER_PLANES_MAX = 20 + 3 * PAPER_PIGMENTS_MAX };
+enum { PAPER_PLANES_MAX = 21 + 3 * PAPER_PIGMENTS_MAX };
 /* The parts of a sheet that change are held in planes, each with a word of 4 bytes for each
  * fiber. */
 struct paper_plane {

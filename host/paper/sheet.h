@@ -81,6 +81,15 @@ const struct paper_stock *paper_stock_find(const char *name);
 const struct paper_stock *paper_stock_number(int number);
 void paper_stock_names(char *text, size_t room);
 
+/* The edges of a handmade sheet: fibers seep under the frame of the mould, the deckle. Lengths in fibers. */
+struct paper_deckle {
+    double margin; /* from the picture's border to the mean edge, 2..4096 */
+    double waves;  /* deviation of the edge from it, 0..256 */
+    double thin;   /* over how many fibers the sheet gets as thick as it is, 1..1024 */
+    double fringe; /* how far single fibers reach over the edge, 0..256 */
+};
+struct paper_deckle paper_deckle_default(void);
+
 /* ---- the sheet ---- */
 
 enum {
@@ -132,8 +141,13 @@ struct paper_sheet_config {
     uint64_t seed;
     int pigments_count; /* 0..PAPER_PIGMENTS_MAX */
     struct paper_pigment pigments[PAPER_PIGMENTS_MAX];
+    bool
+        deckled; /* in version 3, with fibers, no torus: the sheet has such edges. Else it is cut at the picture's border */
+    struct paper_deckle deckle;
 };
 struct paper_sheet_config paper_sheet_config_default(void);
+/* Fibers along the picture's borders where the sheet may end or be thin: 0 without a deckle. */
+double paper_sheet_margin(const struct paper_sheet_config *config);
 /* Memory that a sheet of that size takes of the device, bytes: each field, its replacement, and
  * temporaries between steps. A little above what was measured of 4096x4096 fibers with three
  * pigments (64 float arrays) and with six (89). */
@@ -177,6 +191,8 @@ enum paper_layer {
     PAPER_LAYER_WET_PART,
     /* In version 3: how willingly the paper takes what a bristle leaves, 0.15..2, about 1 */
     PAPER_LAYER_GRIP,
+    /* Of sheets with a deckle: 1; less towards the edge, and 0 where there is no paper */
+    PAPER_LAYER_THICKNESS,
     PAPER_LAYERS_COUNT
 };
 
@@ -251,7 +267,17 @@ struct paper_sheet_view {
     double
         light; /* on the paper's relief, from the upper left, in colours: 0 (even light) to 4; water that stands hides it */
     int scale; /* pixels a fiber each way: 1 (or 0), 2 or 4; the mean of a fiber's pixels is what one shows */
+    /* Of colours, where the sheet has a deckle: what it lies on, display values; NULL: PAPER_GROUND_USUAL. With `alpha` there is no
+     * ground: it gets as many numbers as there are pixels, how much of what is behind is hidden by the sheet and its shadow. */
+    const double *ground;
+    uint16_t *alpha;
 };
+
+/* What sheets with a deckle lie on, display values. */
+#define PAPER_GROUND_USUAL                                                                     \
+    {                                                                                          \
+        0.44, 0.42, 0.40                                                                       \
+    }
 
 /* The colours as they are usually looked at: with light on the relief of sheets of version 2; of version 1 without. */
 struct paper_sheet_view paper_sheet_view_default(const struct paper_sheet_config *config);

@@ -463,14 +463,14 @@ static void text_place(lua_State *L, int options, double size, double x, double 
     lua_replace(L, options);
 }
 
-void script_mask_text_fit(lua_State *L, int index, int width, int height)
+void script_mask_text_fit(lua_State *L, int index, int width, int height, double margin)
 {
     const int options = index + 1;
     text_place(L, options, TEXT_TRIAL, 0, 0);
     lua_pop(L, script_mask_text_push(L, index) - 1);
     const struct script_mask *trial = luaL_checkudata(L, -1, script_mask_type);
-    const double by_width = TEXT_WIDE * width / fmax(1, trial->width),
-                 by_height = TEXT_HIGH * height / fmax(1, trial->height);
+    const double by_width = TEXT_WIDE * (width - 2 * margin) / fmax(1, trial->width),
+                 by_height = TEXT_HIGH * (height - 2 * margin) / fmax(1, trial->height);
     const double scale =
         fmax(1, fmin(8192, TEXT_TRIAL * fmin(by_width, by_height))) / TEXT_TRIAL;
     const double x = width / 2.0 - scale * (trial->x + trial->width / 2.0),

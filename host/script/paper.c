@@ -144,13 +144,30 @@ static void stock_read(lua_State *L, struct paper_stock *stock)
     script_fields_read(L, 1, "paper", &paper_stock_members, stock);
 }
 
+/* deckle = true, or a table of its numbers. */
+static void deckle_read(lua_State *L, struct paper_sheet_config *config)
+{
+    lua_pushliteral(L, "deckle");
+    int type = lua_rawget(L, 1);
+    if (type == LUA_TTABLE) {
+        int t = lua_gettop(L);
+        script_fields_options(L, t, "deckle", &paper_deckle_members, NULL);
+        script_fields_read(L, t, "deckle", &paper_deckle_members, &config->deckle);
+    } else if (type != LUA_TNIL && type != LUA_TBOOLEAN) {
+        luaL_error(L, "paper deckle must be true, false or a table (got a %s)",
+                   luaL_typename(L, -1));
+    }
+    config->deckled = type == LUA_TTABLE || lua_toboolean(L, -1);
+    lua_pop(L, 1);
+}
+
 static const char *const rules[] = {"kubelka-munk", "subtract", "luminous", NULL};
 
 static int make_paper(lua_State *L)
 {
     static const char *const besides[] = {"width", "height",  "torus",    "model", "rule",
                                           "stock", "seed",    "pigments", "color", "history",
-                                          "undo",  "version", NULL};
+                                          "undo",  "version", "deckle",   NULL};
     lua_remove(L, 1); /* removes the table `paper`, which was called */
     lua_settop(L, 1);
     luaL_checktype(L, 1, LUA_TTABLE);
@@ -171,6 +188,7 @@ static int make_paper(lua_State *L)
     if (rule)
         config.rule = (enum paper_rule)script_arg_choice(L, "paper rule", rule, rules);
     stock_read(L, &config.stock);
+    deckle_read(L, &config);
     pigments_read(L, &config);
     bool history = script_arg_boolean(L, 1, "paper", "history", true);
     double undo = fmin(UNDO_BYTES_MOST, (double)(script->config->memory_bytes / UNDO_SHARE));
@@ -272,6 +290,7 @@ static void off_sheet_tell(lua_State *L, const struct paper_sheet_config *config
                            const struct paper_screen *screen, int x, int y)
 {
     double all = 0, off = 0;
+    const double edge = config->deckled ? config->deckle.margin : 0;
     char text[256];
     for (int row = 0; row < screen->height_px && !config->torus; row++)
         for (int column = 0; column < screen->width_px; column++) {
@@ -279,7 +298,8 @@ static void off_sheet_tell(lua_State *L, const struct paper_sheet_config *config
             const double ink =
                 screen->gray[(size_t)row * (size_t)screen->width_px + (size_t)column];
             all += ink;
-            if (at_x < 0 || at_y < 0 || at_x >= config->width || at_y >= config->height)
+            if (at_x < edge || at_y < edge || at_x >= config->width - edge ||
+                at_y >= config->height - edge)
                 off += ink;
         }
     if (off == 0)
@@ -288,6 +308,9 @@ static void off_sheet_tell(lua_State *L, const struct paper_sheet_config *config
              "type: %s of it is off the paper: it takes %d..%d by %d..%d, the paper is %dx%d",
              off == all ? "all" : "some", x, x + screen->width_px, y, y + screen->height_px,
              config->width, config->height);
+    if (edge > 0)
+        snprintf(text + strlen(text), sizeof text - strlen(text),
+                 " with a margin of %g around it", edge);
     script_note_where(L, text);
 }
 
@@ -305,7 +328,8 @@ static int paper_put_type(lua_State *L)
     else
         script_paper_amounts(L, 4, paper->sheet, amount);
     if (lua_isnoneornil(L, 3))
-        script_mask_text_fit(L, 2, config_of(paper)->width, config_of(paper)->height);
+        script_mask_text_fit(L, 2, config_of(paper)->width, config_of(paper)->height,
+                             paper_sheet_margin(config_of(paper)));
     int made = script_mask_text_push(L, 2);
     if (screen_read(L, lua_gettop(L) - made + 1, paper, &screen, &x, &y)) {
         off_sheet_tell(L, config_of(paper), &screen, x, y);
@@ -451,6 +475,8 @@ static int paper_index(lua_State *L)
         lua_pushinteger(L, config_of(paper)->width);
     else if (paper->sheet && strcmp(key, "height") == 0)
         lua_pushinteger(L, config_of(paper)->height);
+    else if (paper->sheet && strcmp(key, "margin") == 0)
+        lua_pushinteger(L, (lua_Integer)ceil(paper_sheet_margin(config_of(paper))));
     else if (strcmp(key, "steps") == 0)
         lua_pushinteger(L, paper->sheet ? paper_sheet_steps(paper->sheet) : 0);
     else {

@@ -33,6 +33,7 @@ static const char *const layer_names[] = {[PAPER_LAYER_HEIGHT] = "height",
                                           [PAPER_LAYER_CURRENT] = "current",
                                           [PAPER_LAYER_WET_PART] = "wet part",
                                           [PAPER_LAYER_GRIP] = "grip",
+                                          [PAPER_LAYER_THICKNESS] = "thickness",
                                           [PAPER_LAYERS_COUNT] = NULL};
 
 /* Finds the layer of that name, and its pigment if it has one. */
@@ -169,11 +170,61 @@ static int paper_total_of(lua_State *L)
 
 static const char *const shows[] = {"color", "water", "wet", "layer", NULL};
 
-/* paper:frame("name.png" [, {show=, layer=, pigment=, low=, high=, bits=, light=, scale=}]) */
+/* What a sheet with a deckle lies on: a colour, the usual one, or (true) nothing. */
+static bool ground_read(lua_State *L, const struct paper_sheet_config *config,
+                        struct paper_sheet_view *view, double ground[3])
+{
+    lua_getfield(L, 3, "ground");
+    const int type = lua_type(L, -1);
+    const bool none = type == LUA_TSTRING && strcmp(lua_tostring(L, -1), "none") == 0;
+    lua_pop(L, 1);
+    if (type == LUA_TNIL)
+        return false;
+    if (!config->deckled)
+        luaL_error(L, "frame ground is what paper with a deckle lies on; this paper has none");
+    if (view->show != PAPER_SHOW_COLOR && view->show != PAPER_SHOW_WET)
+        luaL_error(L, "frame ground goes with show = \"color\" or \"wet\"");
+    if (!none && script_arg_color(L, 3, "frame", "ground", ground))
+        view->ground = ground;
+    return none;
+}
+
+/* Numbers of 16 bits as a PNG file with 8 or 16; alpha: its own channel, or NULL. */
+static void frame_write(lua_State *L, const char *path, int width, int height, int bits,
+                        const uint16_t *rgb, const uint16_t *alpha)
+{
+    const size_t pixels = (size_t)width * (size_t)height, channels = alpha ? 4 : 3,
+                 count = channels * pixels;
+    enum display_status status;
+    const uint16_t *all = rgb;
+    if (alpha) {
+        uint16_t *joined = lua_newuserdatauv(L, count * sizeof *joined, 0);
+        for (size_t i = 0; i < pixels; i++) {
+            memcpy(joined + 4 * i, rgb + 3 * i, 3 * sizeof *rgb);
+            joined[4 * i + 3] = alpha[i];
+        }
+        all = joined;
+    }
+    if (bits == 16) {
+        status = display_png_write_16(path, width, height, (int)channels, all);
+    } else {
+        uint8_t *bytes = lua_newuserdatauv(L, count, 0);
+        for (size_t i = 0; i < count; i++)
+            bytes[i] = (uint8_t)((all[i] * 255u + 32767) / 65535);
+        status = display_png_write(path, &(struct display_image){.width_px = width,
+                                                                 .height_px = height,
+                                                                 .channels = (int)channels,
+                                                                 .pixels = bytes});
+    }
+    if (status != DISPLAY_OK)
+        luaL_error(L, "%s", display_error());
+}
+
+/* paper:frame("name.png" [, {show=, layer=, pigment=, low=, high=, bits=, light=, scale=, ground=}]) */
 static int paper_frame(lua_State *L)
 {
-    static const char *const keys[] = {"show", "layer", "pigment", "low", "high",
-                                       "bits", "light", "scale",   NULL};
+    static const char *const keys[] = {"show", "layer", "pigment", "low",    "high",
+                                       "bits", "light", "scale",   "ground", NULL};
     struct script_paper *paper = script_paper_begin(L, 3);
     const struct paper_sheet_config *config = paper_sheet_get_config(paper->sheet);
     const char *name = luaL_checkstring(L, 2);
@@ -197,6 +248,8 @@ static int paper_frame(lua_State *L)
     int bits = script_arg_integer(L, 3, "frame", "bits", 8, 8, 16);
     if (bits != 8 && bits != 16)
         luaL_error(L, "frame bits must be 8 or 16 (got %d)", bits);
+    double ground[3];
+    const bool bare = ground_read(L, config, &view, ground);
     const char *path = script_path_to_write(L, name, ".png", "frame");
 
     if (paper_history_following(paper->sheet) > 0 && access(path, F_OK) == 0)
@@ -204,25 +257,15 @@ static int paper_frame(lua_State *L)
     const int width = config->width * view.scale, height = config->height * view.scale;
     size_t count = 3 * (size_t)width * (size_t)height;
     uint16_t *rgb = lua_newuserdatauv(L, count * sizeof *rgb, 0);
+    if (bare)
+        view.alpha = lua_newuserdatauv(L, count / 3 * sizeof *view.alpha, 0);
     const double besides = paper_sheet_view_bytes(config, view.scale);
     script_memory_take(L, besides, "a picture");
     const enum paper_status viewed = paper_sheet_view(paper->sheet, &view, rgb);
     script_memory_give(paper->script, besides);
     script_paper_check(L, viewed);
     script_check(L);
-    enum display_status status;
-    if (bits == 16) {
-        status = display_png_write_16(path, width, height, 3, rgb);
-    } else {
-        uint8_t *bytes = lua_newuserdatauv(L, count, 0);
-        for (size_t i = 0; i < count; i++)
-            bytes[i] = (uint8_t)((rgb[i] * 255u + 32767) / 65535);
-        status = display_png_write(
-            path, &(struct display_image){
-                      .width_px = width, .height_px = height, .channels = 3, .pixels = bytes});
-    }
-    if (status != DISPLAY_OK)
-        luaL_error(L, "%s", display_error());
+    frame_write(L, path, width, height, bits, rgb, view.alpha);
     return 0;
 }
 

@@ -172,8 +172,8 @@ bool script_mask_place(lua_State *L, int index, const struct paper_sheet *sheet,
 /* Calls Lua's text() with the text at an argument and the table behind it; pushes a mask, a
  * length and a height. */
 int script_mask_text_push(lua_State *L, int index);
-/* Puts a table behind the text at an argument, by which text() fills width x height well. */
-void script_mask_text_fit(lua_State *L, int index, int width, int height);
+/* Puts a table behind the text at an argument, by which text() fills width x height, but for a margin, well. */
+void script_mask_text_fit(lua_State *L, int index, int width, int height, double margin);
 /* Pushes a mask with a copy of the gray values. */
 void script_mask_push(lua_State *L, const uint8_t *gray, int width, int height, int x, int y);
 

@@ -33,9 +33,8 @@ static const struct {
      "right_to_left:b axes:S darken:n corners:t warp:S"},
     {NULL, "page", "SO",
      "width:n height:n margin:n columns:i gap:n size:n font:S italic:S bold:S leading:n "
-     "align:S "
-     "indent:n notes:n page:i hyphenate:b language:S features:S protrude:n expand:n vertical:b "
-     "around:t inside:t x:n y:n filter:S darken:n"},
+     "align:S indent:n notes:n page:i hyphenate:b language:S features:S protrude:n expand:n "
+     "vertical:b around:t inside:t x:n y:n filter:S darken:n"},
     {NULL, "image", "snn", ""},
     {NULL, "song", "S", ""},
     {NULL, "mask", "iif", ""},
@@ -53,7 +52,7 @@ static const struct {
     {"papers", "__call", "O",
      "width:i height:i torus:b model:S version:i rule:S stock:S seed:i pigments:v color:v "
      "color_variation:n absorbency:n capacity:n "
-     "roughness:n grain:n fibers:v history:b undo:n"},
+     "roughness:n grain:n fibers:v history:b undo:n deckle:v"},
     {"papers", "load", "hi", ""},
     {"paper", "put", "mA", ""},
     {"paper", "blot", "mnn", ""},
@@ -72,7 +71,8 @@ static const struct {
     {"paper", "mask", "LnnP", ""},
     {"paper", "at", "if", ""},
     {"paper", "total", "W", ""},
-    {"paper", "frame", "sO", "show:S layer:L pigment:P low:n high:n bits:i light:n"},
+    {"paper", "frame", "sO",
+     "show:S layer:L pigment:P low:n high:n bits:i light:n scale:i ground:v"},
     {"paper", "undo", "i", ""},
     {"paper", "redo", "i", ""},
     {"paper", "to", "i", ""},
@@ -546,7 +546,7 @@ static const char functions[] =
 const char *script_by_chance(struct script_source *s)
 {
     static const char *const models[] = {"{'infused'}", "'full'", "'thesis'",
-                                         "{'infused', 'surface'}"};
+                                         "'full', deckle = {margin = 2, thin = 1}"};
     s->length = 0;
     s->text[0] = '\0';
     say(s, "%s", functions);

@@ -135,6 +135,8 @@ static struct paper_sheet *sheet_made(int which)
     struct paper_sheet *sheet;
     struct paper_air air = paper_air_default();
     config.seed = (uint64_t)which + 1;
+    config.deckled = which == 1;
+    config.deckle = (struct paper_deckle){.margin = 2, .waves = 1, .thin = 2, .fringe = 1};
     if (which == 2)
         config.parts = 0; /* the thesis's paper */
     sample_check(paper_sheet_create(&config, &sheet));

@@ -27,7 +27,8 @@ struct state_pieces {
     size_t file_count, run_at, run_count, plane_at[PAPER_PLANES_MAX];
 };
 
-/* Takes a sheet apart and writes its file. which: 0 with all operations, 1 also with undone and inserted ones, 2 the thesis's
+/* Takes a sheet apart and writes its file. which: 0 with all operations, 1 also with undone and inserted ones on a sheet with a
+ * deckle, 2 the thesis's
  * paper. */
 void state_pieces_make(struct state_pieces *s, int which, const char *path);
 

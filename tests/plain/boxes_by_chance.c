@@ -170,6 +170,7 @@ static void session(uint64_t seed)
     struct paper_sheet_config config = config_by_chance(SIDE_LEAST, SIDE);
     config.model = 2 + below(PAPER_MODEL_VERSION - 1);
     config.parts = config.parts ? config.parts : PAPER_PARTS_ALL;
+    deckle_by_chance(&config);
     for (int k = 0; k < 2; k++)
         check(paper_sheet_create(&config, &sheets[k]));
     const int unit = below(2) ? 4 : 8, recorded = below(3) == 0;

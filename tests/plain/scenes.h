@@ -35,15 +35,17 @@ static inline void scene_paper(struct paper_sheet *sheet, uint64_t *chance)
 }
 
 /* Prints one line for each turn: a hash of each plane except the planes of colour. */
-static inline void scene_of_model_play(FILE *out, int model)
+static inline void scene_of_model_play(FILE *out, int model, bool deckled)
 {
     static uint8_t gray[11 * 9];
     static uint32_t words[SCENE_WIDTH * SCENE_HEIGHT];
     struct paper_plane planes[PAPER_PLANES_MAX];
     struct paper_sheet_config config =
         sheet_of_two(SCENE_WIDTH, SCENE_HEIGHT, "quinacridone rose", "french ultramarine");
-    config.torus = true;
+    config.torus = !deckled;
     config.model = model;
+    config.deckled = deckled;
+    config.deckle = (struct paper_deckle){.margin = 3, .waves = 1, .thin = 3, .fringe = 2};
     uint64_t chance = 3;
     struct paper_sheet *sheet;
     scene_check(paper_sheet_create(&config, &sheet));
@@ -75,7 +77,8 @@ static inline void scene_of_model_play(FILE *out, int model)
             for (int j = 0; j < SCENE_WIDTH * SCENE_HEIGHT; j++)
                 hash = (hash ^ words[j]) * 0x100000001b3u;
             if (i < 4 || i >= 10)
-                fprintf(out, "model %d, turn %d, %s: %016llx\n", model, turn, planes[i].name,
+                fprintf(out, "model %d%s, turn %d, %s: %016llx\n", model,
+                        deckled ? " with a deckle" : "", turn, planes[i].name,
                         (unsigned long long)hash);
         }
     }
@@ -85,7 +88,8 @@ static inline void scene_of_model_play(FILE *out, int model)
 static inline void scene_play(FILE *out)
 {
     for (int model = 1; model <= PAPER_MODEL_VERSION; model++)
-        scene_of_model_play(out, model);
+        scene_of_model_play(out, model, false);
+    scene_of_model_play(out, PAPER_MODEL_VERSION, true);
 }
 
 #endif

@@ -7,6 +7,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static uint64_t chance, first_seed;
 
@@ -107,6 +108,19 @@ struct paper_sheet_config config_by_chance(int least, int most)
     for (int i = 0; i < config.pigments_count; i++)
         config.pigments[i] = pigment_by_chance();
     return config;
+}
+
+void deckle_by_chance(struct paper_sheet_config *config)
+{
+    const int side = config->width < config->height ? config->width : config->height;
+    config->deckled = config->model >= 3 && config->parts && !config->torus &&
+                      strcmp(config->stock.name, "glass") != 0 && below(3) == 0;
+    if (!config->deckled)
+        return;
+    config->deckle.margin = within(2, side / 4.0);
+    config->deckle.thin = within(1, side / 4.0 - 0.5);
+    config->deckle.waves = within(0, 4);
+    config->deckle.fringe = within(0, 6);
 }
 
 struct paper_air air_by_chance(void)

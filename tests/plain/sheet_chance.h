@@ -22,6 +22,8 @@ void check(enum paper_status status);
 
 /* Sides least..most. */
 struct paper_sheet_config config_by_chance(int least, int most);
+/* A deckle for one sheet in three of those that can have one. */
+void deckle_by_chance(struct paper_sheet_config *config);
 struct paper_air air_by_chance(void);
 /* Shape: gray has most * most bytes. */
 struct paper_screen screen_by_chance(uint8_t *gray, int most);

@@ -42,8 +42,9 @@ static void planes_look(struct paper_sheet *sheet, int when)
              speed = strncmp(planes[i].name, "speed", 5) == 0,
              noise = strcmp(planes[i].name, "sizing") == 0 ||
                      strcmp(planes[i].name, "current") == 0 ||
-                     strcmp(planes[i].name, "grip") == 0;
-        bool fraction = i < 10 || wet || speed || noise;
+                     strcmp(planes[i].name, "grip") == 0,
+             thick = strcmp(planes[i].name, "thickness") == 0;
+        bool fraction = i < 10 || wet || speed || noise || thick;
         double most = noise           ? 100
                       : fraction      ? 1
                       : config->parts ? 15.0 * PAPER_GRAINS
@@ -106,6 +107,12 @@ static void apply_by_chance(struct paper_sheet *sheet)
             values[i] = (float)within(0, 1);
         check(paper_sheet_layer_write(sheet, (enum paper_layer)below(3), 0, values));
         break;
+    case 5: /* holes in the paper, and none where there were some */
+        for (int i = 0; i < config->width * config->height; i++)
+            values[i] = (float)within(0, 1);
+        if (config->deckled)
+            check(paper_sheet_layer_write(sheet, PAPER_LAYER_THICKNESS, 0, values));
+        break;
     case 4:
         check(below(2) ? paper_sheet_dry(sheet) : paper_sheet_seal(sheet));
         break;
@@ -121,6 +128,7 @@ static void set_look(uint64_t seed, int version, int airs)
     struct paper_sheet_config config = config_by_chance(SIDE_LEAST, SIDE);
     if (version)
         config.model = version;
+    deckle_by_chance(&config);
     struct paper_sheet *sheet;
     double totals[1 + PIGMENTS];
     check(paper_sheet_create(&config, &sheet));

@@ -56,6 +56,8 @@ static inline struct paper_sheet *sample_sheet(uint64_t seed)
         sheet_of_two(SAMPLE_WIDTH, SAMPLE_HEIGHT, "burnt umber", "phthalo green");
     config.seed = seed;
     config.model = 1 + (int)(seed % PAPER_MODEL_VERSION);
+    config.deckled = seed % 6 == 2; /* 8 is one; of version 3 */
+    config.deckle = (struct paper_deckle){.margin = 2, .waves = 1, .thin = 2, .fringe = 1};
     struct paper_sheet *sheet;
     sample_check(paper_sheet_create(&config, &sheet));
     sample_check(paper_history_begin(sheet, 1e6));

@@ -41,17 +41,17 @@ static void table_print(const char *name, const struct members *members)
     }
 }
 
-/* Whether the rows' defaults are those of a new sheet's air. */
-static bool defaults_hold(void)
+/* Whether the rows' defaults are those of `usual`. */
+static bool defaults_hold(const char *whose, const struct members *members, const void *usual)
 {
-    struct paper_air air = paper_air_default();
     bool hold = true;
-    for (size_t i = 0; i < paper_air_members.count; i++) {
-        const struct member *m = &paper_air_members.first[i];
-        double value = *(const double *)(const void *)((const char *)&air + m->offset);
+    for (size_t i = 0; i < members->count; i++) {
+        const struct member *m = &members->first[i];
+        double value = *(const double *)(const void *)((const char *)usual + m->offset);
         if (!m->usual || strtod(m->usual, NULL) == value)
             continue;
-        fprintf(stderr, "air's %s is %g, and its row says %s\n", m->name, value, m->usual);
+        fprintf(stderr, "%s's %s is %g, and its row says %s\n", whose, m->name, value,
+                m->usual);
         hold = false;
     }
     return hold;
@@ -60,11 +60,16 @@ static bool defaults_hold(void)
 int main(void)
 {
     table_print("paper", &paper_stock_members);
+    table_print("deckle", &paper_deckle_members);
     table_print("pigment", &paper_pigment_members);
     table_print("air", &paper_air_members);
     table_print("brush", &paper_brush_members);
     table_print("dip", &paper_dip_members);
     table_print("splatter", &paper_splatter_members);
     table_print("salt", &paper_salt_members);
-    return !defaults_hold();
+    const struct paper_air air = paper_air_default();
+    const struct paper_deckle deckle = paper_deckle_default();
+    const bool both = defaults_hold("air", &paper_air_members, &air) &&
+                      defaults_hold("deckle", &paper_deckle_members, &deckle);
+    return !both;
 }

@@ -83,6 +83,17 @@ static const struct member stock_rows[] = {
            .field = "fibers", .element = 2),
 };
 
+static const struct member deckle_rows[] = {
+    MEMBER(paper_deckle, margin, DOUBLE, 1, LENGTH, "margin", 2, 4096, .field = "margin",
+           .usual = "22", .help = "from the picture's border to the mean edge"),
+    MEMBER(paper_deckle, waves, DOUBLE, 1, LENGTH, "waves", 0, 256, .field = "waves",
+           .usual = "2.5", .help = "how far the edge wanders: its deviation"),
+    MEMBER(paper_deckle, thin, DOUBLE, 1, LENGTH, "thin", 1, 1024, .field = "thin",
+           .usual = "14", .help = "over how many fibers the sheet gets as thick as it is"),
+    MEMBER(paper_deckle, fringe, DOUBLE, 1, LENGTH, "fringe", 0, 256, .field = "fringe",
+           .usual = "5", .help = "how far single fibers reach over the edge"),
+};
+
 static const struct member pigment_rows[] = {
     KEPT(paper_pigment, name, TEXT, PAPER_NAME_MAX),
     MEMBER(paper_pigment, weight[0], DOUBLE, 1, NOT, "weight along x", 0, 1, .field = "weight",
@@ -247,6 +258,7 @@ static const struct member varnish_rows[] = {
 
 const struct members paper_air_members = MEMBERS_OF(air_rows),
                      paper_stock_members = MEMBERS_OF(stock_rows),
+                     paper_deckle_members = MEMBERS_OF(deckle_rows),
                      paper_pigment_members = MEMBERS_OF(pigment_rows),
                      paper_put_members = MEMBERS_OF(put_rows),
                      paper_blot_members = MEMBERS_OF(blot_rows),

@@ -9,22 +9,27 @@
 #include <string.h>
 
 /* The upper bits hold the model's version, less 1: descriptions from before there were
- * versions are of version 1. */
+ * versions are of version 1. The highest one says that a deckle follows the stock: programs that know of none refuse it as a version
+ * that there is not. */
 enum { PARTS_BITS = 16 };
+#define DECKLED (UINT64_C(1) << 31)
 
 static void config_pass(struct event_stream *s, struct paper_sheet_config *config)
 {
     uint64_t width = event_pass_number(s, (uint64_t)config->width, 4),
              height = event_pass_number(s, (uint64_t)config->height, 4),
              torus = event_pass_number(s, config->torus, 1),
-             parts = event_pass_number(
-                 s, config->parts | (uint64_t)(config->model - 1) << PARTS_BITS, 4),
+             parts =
+                 event_pass_number(s,
+                                   config->parts | (uint64_t)(config->model - 1) << PARTS_BITS |
+                                       (config->deckled ? DECKLED : 0),
+                                   4),
              rule = event_pass_number(s, (uint64_t)config->rule, 4),
              seed = event_pass_number(s, config->seed, 8),
              pigments = event_pass_number(s, (uint64_t)config->pigments_count, 4);
     event_stream_expect(s, width >= PAPER_SIDE_MIN && width <= PAPER_SIDE_MAX &&
                                height >= PAPER_SIDE_MIN && height <= PAPER_SIDE_MAX &&
-                               parts >> PARTS_BITS < PAPER_MODEL_VERSION &&
+                               (parts & ~DECKLED) >> PARTS_BITS < PAPER_MODEL_VERSION &&
                                rule <= PAPER_RULE_LUMINOUS && pigments <= PAPER_PIGMENTS_MAX);
     if (!event_stream_good(s))
         return;
@@ -33,12 +38,15 @@ static void config_pass(struct event_stream *s, struct paper_sheet_config *confi
             (struct paper_sheet_config){.width = (int)width,
                                         .height = (int)height,
                                         .torus = torus != 0,
-                                        .model = (int)(parts >> PARTS_BITS) + 1,
+                                        .model = (int)((parts & ~DECKLED) >> PARTS_BITS) + 1,
                                         .parts = (unsigned)parts & ((1u << PARTS_BITS) - 1),
                                         .rule = (enum paper_rule)rule,
                                         .seed = seed,
-                                        .pigments_count = (int)pigments};
+                                        .pigments_count = (int)pigments,
+                                        .deckled = (parts & DECKLED) != 0};
     event_pass_members(s, &paper_stock_members, &config->stock);
+    if (config->deckled)
+        event_pass_members(s, &paper_deckle_members, &config->deckle);
     for (int i = 0; i < config->pigments_count; i++)
         event_pass_members(s, &paper_pigment_members, &config->pigments[i]);
 }
@@ -62,6 +70,8 @@ void sheet_config_scale(struct paper_sheet_config *config, const struct event_sc
     config->width = sizes->new_width;
     config->height = sizes->new_height;
     members_scale(&paper_stock_members, &config->stock, scaling);
+    if (config->deckled)
+        members_scale(&paper_deckle_members, &config->deckle, scaling);
 }
 
 void sheet_air_encode(struct event_bytes *b, const struct paper_air *air)

@@ -41,7 +41,7 @@ static int copied_fields(const struct paper_sheet *p, const struct paper_sheet *
         ROW(speed[1], surface, true),
         ROW(salt, p->salted, true),
         ROW(brine, p->salted, true),
-        ROW(resist, true, false),
+        ROW(barred, true, false),
         ROW(grip, sheet_of_version_3(p), false),
 #undef ROW
     };

@@ -1,6 +1,6 @@
 /* exchange.c - what passes between bristles and fibers, as a program on the bristles' own processors.
  *
- * A place is a bristle on a fiber. It looks at the fiber's height, resist, water s and pigments by CM_get, and at its own
+ * A place is a bristle on a fiber. It looks at the fiber's height, whether it is barred, water s and pigments by CM_get, and at its own
  * water w. With
  *
  *     level   = load * gives * takes * f (2 - f), f = w / full what the bristle would leave on a fiber
@@ -89,7 +89,7 @@ static void part_make(struct paper_sheet *p, struct sheet_brushes *b, CM_field_i
     CM_f_multiply_constant_2_1L(part, TOUCH_STEEPNESS, D);
     CM_f_max_constant_2_1L(part, 0.0, D);
     CM_f_min_constant_2_1L(part, 1.0, D);
-    get(b, other, p->resist);
+    get(b, other, p->barred);
     CM_f_subfrom_constant_2_1L(other, 1.0, D);
     CM_f_max_constant_2_1L(other, 0.0, D);
     CM_f_multiply_2_1L(part, other, D);

@@ -16,6 +16,7 @@
 
 #include "base/base.h"
 #include "model/clouds.h"
+#include "model/deckle.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -55,6 +56,9 @@ enum {
     SEED_FAINT,
     SEED_GRIT
 };
+enum {
+    CHANCE_REACH = 1 << 20
+}; /* the number of a fiber's chance that its shape does not use */
 #define STRIDE 0.7
 #define BEND_KEPT 0.985
 #define BEND_FIRST 0.03
@@ -75,6 +79,8 @@ struct making {
     double scale;   /* fibers of this sheet for one of the stock as it is known */
     double lean[2]; /* x, y: how much of a fiber's direction counts; the longer is 1 */
     uint64_t seed;
+    const float *inside; /* of a sheet with a deckle, else NULL: deckle_make() */
+    float *stayed;       /* mass of the fibers that lie in the sheet, where that is not all */
 };
 
 static size_t count_of(const struct making *m)
@@ -197,6 +203,16 @@ static void direction_make(const struct making *m, struct chances *c, double dir
     unit_make(direction);
 }
 
+/* Where the sheet is thin, a fiber lies only as far as it reaches. */
+static bool stays(const struct making *m, double x, double y, double reach)
+{
+    const double column = x * m->scale, row = y * m->scale;
+    if (!(column >= 0 && row >= 0 && column < m->width && row < m->height))
+        return false;
+    const double inside = (double)m->inside[(size_t)row * (size_t)m->width + (size_t)column];
+    return inside > reach && inside < m->config->deckle.thin + 2 * m->scale;
+}
+
 /* One fiber from x, y, in fibers of the stock's own scale. At finer scales it is as wide as it is there: it is drawn in strands. */
 static void fiber_draw(const struct making *m, float *mass, struct chances *c, double x,
                        double y)
@@ -207,14 +223,21 @@ static void fiber_draw(const struct making *m, float *mass, struct chances *c, d
     int strands = m->scale > 1 ? (int)ceil(m->scale) : 1;
     int pieces = strands;
     double part = STRIDE * m->scale * m->scale / (strands * pieces);
+    const double reach =
+        m->inside ? deckle_reach(&m->config->deckle, clouds_chance(c->seed, CHANCE_REACH)) : 0;
     for (double gone = 0; gone < length; gone += STRIDE) {
+        const bool lies = m->inside && stays(m, x, y, reach);
         for (int piece = 0; piece < pieces; piece++) {
             double ahead = (piece + 0.5) / pieces * STRIDE;
             for (int strand = 0; strand < strands; strand++) {
                 double aside = (strand + 0.5) / strands - 0.5;
-                mass_leave(m, mass,
-                           (x + ahead * direction[0] - aside * direction[1]) * m->scale,
-                           (y + ahead * direction[1] + aside * direction[0]) * m->scale, part);
+                const double to_x =
+                                 (x + ahead * direction[0] - aside * direction[1]) * m->scale,
+                             to_y =
+                                 (y + ahead * direction[1] + aside * direction[0]) * m->scale;
+                mass_leave(m, mass, to_x, to_y, part);
+                if (lies)
+                    mass_leave(m, m->stayed, to_x, to_y, part);
             }
         }
         x += STRIDE * direction[0];
@@ -429,6 +452,11 @@ static bool parts_make(const struct making *m, struct felt *felt, float *clouds,
     return made;
 }
 
+bool felt_has_fibers(const struct paper_stock *stock)
+{
+    return recipe_of(stock)->length > 0;
+}
+
 double felt_scale(const struct paper_sheet_config *config)
 {
     const struct paper_stock *usual = paper_stock_find(config->stock.name);
@@ -458,9 +486,18 @@ enum paper_status felt_make(const struct paper_sheet_config *config, struct felt
                          .mass = calloc(count, sizeof(float)),
                          .fibers = calloc(count, sizeof(float)),
                          .sizing = calloc(count, sizeof(float))};
-    float *clouds = calloc(count, sizeof *clouds), *spare = calloc(count, sizeof *spare);
-    bool made = out->relief && out->mass && out->fibers && out->sizing && clouds && spare &&
-                parts_make(&m, out, clouds, spare);
+    float *clouds = calloc(count, sizeof *clouds), *spare = calloc(count, sizeof *spare),
+          *inside = NULL;
+    bool made = out->relief && out->mass && out->fibers && out->sizing && clouds && spare;
+    if (made && config->deckled) {
+        m.stayed = out->thickness = calloc(count, sizeof *out->thickness);
+        m.inside = inside = malloc(count * sizeof *inside);
+        made = m.stayed && inside && deckle_make(config, m.scale, inside, spare);
+    }
+    made = made && parts_make(&m, out, clouds, spare);
+    if (made && config->deckled) /* after all other parts: it needs the spare room */
+        deckle_thickness_make(config, m.scale, inside, m.recipe->cover, out->thickness, spare);
+    free(inside);
     free(clouds);
     free(spare);
     if (made)
@@ -476,5 +513,6 @@ void felt_free(struct felt *felt)
     free(felt->mass);
     free(felt->fibers);
     free(felt->sizing);
+    free(felt->thickness);
     *felt = (struct felt){0};
 }

@@ -41,6 +41,11 @@ void sheet_fields_make(struct paper_sheet *p)
         p->t[i] = field_make(KIT_FLOAT_BITS);
     for (int i = 0; i < 3; i++)
         p->shown[i] = field_make(16);
+    p->barred = p->resist;
+    if (p->config.deckled) {
+        p->thickness = field_make(KIT_FLOAT_BITS);
+        p->barred = field_make(KIT_FLOAT_BITS);
+    }
     p->dried = field_make(SHEET_DRIED_BITS);
     p->mask = field_make(8);
     p->page.inner_context = field_make(1);

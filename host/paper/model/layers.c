@@ -33,6 +33,7 @@ static const struct {
     LAYER(CURRENT, current, false, false, -10, 10),
     LAYER(WET_PART, wet_part, false, false, 0, 1),
     LAYER(GRIP, grip, false, false, PAPER_GRIP_LEAST, PAPER_GRIP_MOST),
+    LAYER(THICKNESS, thickness, false, false, 0, 1),
 #undef LAYER
 };
 
@@ -55,6 +56,8 @@ static enum paper_status layer_check(const struct paper_sheet *p, enum paper_lay
     *field = sheet_layer_field(p, layer, pigment);
     if (*field)
         return PAPER_OK;
+    if (layer == PAPER_LAYER_THICKNESS)
+        return paper_fail(PAPER_BAD_ARGUMENT, "only paper with a deckle has a thickness");
     return paper_fail(PAPER_BAD_ARGUMENT,
                       "the sheet has no layer %d of pigment %d (it has %d pigments)",
                       (int)layer, pigment, p->config.pigments_count);
@@ -121,10 +124,13 @@ enum paper_status sheet_layer(struct paper_sheet *p, const void *arguments)
     sheet_change(p);
     CM_set_context();
     kit_grid_f_write(&p->page.grid, field, cut);
+    if (p->config.deckled && layers[layer].amount)
+        sheet_paper_heed(p, field);
     p->varnished = p->varnished || layer == PAPER_LAYER_VARNISH;
     p->salted = p->salted || layer == PAPER_LAYER_SALT || layer == PAPER_LAYER_BRINE;
     if (layer == PAPER_LAYER_ABSORBENCY || layer == PAPER_LAYER_RESIST ||
-        layer == PAPER_LAYER_SIZING || layer == PAPER_LAYER_CURRENT)
+        layer == PAPER_LAYER_SIZING || layer == PAPER_LAYER_CURRENT ||
+        layer == PAPER_LAYER_THICKNESS)
         sheet_faces_make(p);
     if (layer == PAPER_LAYER_SURFACE_WATER || layer == PAPER_LAYER_INFUSED_WATER)
         sheet_wet_around_make(p);

@@ -12,6 +12,8 @@ enum { SHEET_TEMPORARIES = 56, SHEET_DRIED_BITS = 31 };
 #define SHEET_LOAD_MAX 15.0
 /* What a fiber gets of a pigment in all layers, or of water in one, by putting it there; more may flow in. */
 #define SHEET_PUT_MOST 4.0
+/* Thickness times this is 1 or more wherever there is paper. */
+#define SHEET_THIN_SCALE 1e6
 
 struct sheet_history;
 
@@ -28,6 +30,9 @@ struct paper_sheet {
     /* VP set, contexts, coordinates, and what the thesis's cycle needs: water and absorbency are in the fibers */
     struct paper page;
     CM_field_id_t height, capacity, resist;
+    CM_field_id_t thickness; /* of the paper, 0..1; 0 where there is none. Only with a deckle */
+    /* Where nothing can be put and nothing flows: resist, and, with a deckle, where there is no paper (sheet_faces_make()) */
+    CM_field_id_t barred;
     CM_field_id_t face
         [2]; /* [axis]: part of a gradient that flows to the neighbour above; 0: none, closed */
     CM_field_id_t substrate[3]; /* what the pigments lie on */
@@ -146,17 +151,19 @@ void sheet_planes_written(struct paper_sheet *p);
 
 /* Absorbency, capacity, height and colour from the seed. Errors: NO_MEMORY. */
 enum paper_status sheet_stock_make(struct paper_sheet *p);
-/* Faces from absorbency, resist and the edges; call it when these change. */
+/* Faces from absorbency, resist, thickness and the edges; call it when these change. */
 void sheet_faces_make(struct paper_sheet *p);
 
 /* ---- amounts (put_and_take.c) ---- */
 
 /* Errors: BAD_ARGUMENT (a screen of nothing). */
 enum paper_status sheet_place_check(const struct paper_place *place);
-/* share = the place's gray (1 where there is no screen) as 0..1; then 0 where there is resist. `open` is free. */
+/* share = the place's gray (1 where there is no screen) as 0..1; then 0 where there is resist, or no paper. `open` is free. */
 enum paper_status sheet_share_make(struct paper_sheet *p, const struct paper_place *place,
                                    CM_field_id_t share);
 void sheet_resist_heed(struct paper_sheet *p, CM_field_id_t share, CM_field_id_t open);
+/* On a sheet with a deckle: q, in grains, becomes 0 where there is no paper. Uses t[0]. */
+void sheet_paper_heed(struct paper_sheet *p, CM_field_id_t q);
 /* Where water (0) or a pigment (1 + its number) is put. */
 CM_field_id_t sheet_amount_field(const struct paper_sheet *p, int substance);
 /* q gets whole grains of part (the same field is free afterwards), up to what may be put in a fiber. Uses t[3]. */
@@ -271,6 +278,13 @@ enum paper_status sheet_view(struct paper_sheet *p, const struct paper_sheet_vie
 /* rgb = the picture with `scale` pixels a fiber each way (finer.c), from the one with one. Errors: NO_MEMORY. */
 enum paper_status sheet_finer(const uint16_t *coarse, int width, int height, bool torus,
                               int scale, uint16_t *rgb);
+/* The same sheet on its ground, where it has a deckle (ground.c); the picture is `scale` times as fine as the sheet.
+ * Errors: NO_MEMORY, MACHINE_FAILED. */
+enum paper_status sheet_ground_lay(struct paper_sheet *p, const struct paper_sheet_view *view,
+                                   uint16_t *rgb);
+/* Where there is no paper the colours next to it go on, so that a finer picture's edge is as dark as the paint there. Errors: as
+ * above. */
+enum paper_status sheet_color_spread(struct paper_sheet *p, uint16_t *rgb);
 /* dest (three fields) = the sheet's colour as it lies, in the terms of substrate. Uses t[0..7]. */
 void sheet_color_make(struct paper_sheet *p, const CM_field_id_t dest[3]);
 /* Varnish over the colours. Uses t[0..3]. */

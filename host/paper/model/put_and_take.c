@@ -45,9 +45,18 @@ enum paper_status sheet_share_make(struct paper_sheet *p, const struct paper_pla
 
 void sheet_resist_heed(struct paper_sheet *p, CM_field_id_t share, CM_field_id_t open)
 {
-    kit_f_from(open, 1.0, p->resist);
+    kit_f_from(open, 1.0, p->barred);
     kit_f_least(open, open, 0.0);
     kit_f_mul(share, share, open);
+}
+
+void sheet_paper_heed(struct paper_sheet *p, CM_field_id_t q)
+{
+    CM_field_id_t there = p->t[0];
+    kit_f_times(there, p->thickness, SHEET_THIN_SCALE);
+    kit_f_most(there, there, 1.0);
+    kit_f_mul(q, q, there);
+    kit_f_whole(q);
 }
 
 /* Depth of water, units, that was laid on all of a fiber. */

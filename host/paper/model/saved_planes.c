@@ -70,6 +70,8 @@ static int planes_make(const struct paper_sheet_config *config, struct paper_pla
     }
     if (config->model >= 3)
         PLANE("grip", grip, PAPER_GRIP_LEAST, PAPER_GRIP_MOST);
+    if (config->deckled)
+        PLANE("thickness", thickness, 0, 1);
     for (int i = 0; i < config->pigments_count; i++) {
         if (parts & (PAPER_PART_SURFACE | PAPER_PART_EDGE))
             AMOUNT("surface pigment", surface, i);

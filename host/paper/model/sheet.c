@@ -15,7 +15,8 @@ struct paper_sheet_config paper_sheet_config_default(void)
                                         .parts = PAPER_PARTS_ALL,
                                         .rule = PAPER_RULE_KUBELKA_MUNK,
                                         .stock = *paper_stock_number(0),
-                                        .seed = 1990};
+                                        .seed = 1990,
+                                        .deckle = paper_deckle_default()};
     return config;
 }
 
@@ -33,6 +34,31 @@ static enum paper_status named_check(const struct members *members, const void *
     char whose[PAPER_NAME_MAX + 16];
     snprintf(whose, sizeof whose, "%s%s%.*s's ", what, *name ? " " : "", PAPER_NAME_MAX, name);
     return paper_members_check(members, of, whose, "");
+}
+
+static enum paper_status deckle_check(const struct paper_sheet_config *c)
+{
+    const double least = 2 * (c->deckle.margin + c->deckle.thin);
+    const int side = c->width < c->height ? c->width : c->height;
+    enum paper_status status =
+        paper_members_check(&paper_deckle_members, &c->deckle, "a deckle's ", "");
+    if (status != PAPER_OK)
+        return status;
+    if (c->model < 3 || !c->parts)
+        return paper_fail(PAPER_BAD_ARGUMENT,
+                          "paper has a deckle in version 3 of the full model");
+    if (c->torus)
+        return paper_fail(PAPER_BAD_ARGUMENT, "a torus has no edges, and so no deckle");
+    if (!felt_has_fibers(&c->stock))
+        return paper_fail(PAPER_BAD_ARGUMENT, "%.*s has no fibers, and so no deckle",
+                          PAPER_NAME_MAX, c->stock.name);
+    if (!(side > least))
+        return paper_fail(
+            PAPER_BAD_ARGUMENT,
+            "paper with this deckle must be more than %g wide and high, twice its "
+            "margin and thin edge (got %dx%d)",
+            least, c->width, c->height);
+    return PAPER_OK;
 }
 
 static enum paper_status config_check(const struct paper_sheet_config *c)
@@ -58,7 +84,7 @@ static enum paper_status config_check(const struct paper_sheet_config *c)
     for (int i = 0; i < c->pigments_count && status == PAPER_OK; i++)
         status = named_check(&paper_pigment_members, &c->pigments[i], "pigment",
                              c->pigments[i].name);
-    return status;
+    return status == PAPER_OK && c->deckled ? deckle_check(c) : status;
 }
 
 /* ---- life ---- */

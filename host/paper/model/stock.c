@@ -16,6 +16,9 @@
 enum { RANDOM_BITS = 16 };
 #define SMEARS 0.09     /* of version 3: the roughness of what is smooth */
 #define FACE_LEAST 1e-6 /* an open face's; see OPEN_SCALE */
+/* Of a sheet with a deckle: what is left of the height, and of how fast it drinks, where it is thinnest. */
+#define THIN_HEIGHT 0.4
+#define THIN_DRINKS 0.3
 
 /* Deviation 1, mean 0, another at each call. */
 static void white(CM_field_id_t d, CM_field_id_t bits)
@@ -127,10 +130,22 @@ static void color_make(struct paper_sheet *p, CM_field_id_t shade)
     }
 }
 
+/* All of a fiber is barred where there is no paper at all, and nothing of it where there is a little. Uses t[0]. */
+static void barred_make(struct paper_sheet *p)
+{
+    if (!p->config.deckled)
+        return;
+    kit_f_times(p->t[0], p->thickness, -SHEET_THIN_SCALE);
+    kit_f_plus(p->t[0], p->t[0], 1.0);
+    kit_f_least(p->t[0], p->t[0], 0.0);
+    kit_f_max(p->barred, p->resist, p->t[0]);
+}
+
 void sheet_faces_make(struct paper_sheet *p)
 {
     CM_field_id_t open = p->t[0], other = p->t[1];
-    kit_f_from(open, 1.0, p->resist);
+    barred_make(p);
+    kit_f_from(open, 1.0, p->barred);
     kit_f_least(open, open, 0.0);
     for (unsigned axis = 0; axis < 2; axis++) {
         bool x = axis == KIT_AXIS_X;
@@ -191,6 +206,24 @@ static void felt_write(struct paper_sheet *p, CM_field_id_t d, float *values,
     kit_grid_f_write(&p->page.grid, d, values);
 }
 
+/* d gets less where the sheet is thin, down to `least` of it. Uses t[3]. */
+static void thinned(struct paper_sheet *p, CM_field_id_t d, double least)
+{
+    kit_f_times(p->t[3], p->thickness, 1 - least);
+    kit_f_plus(p->t[3], p->t[3], least);
+    kit_f_mul(d, d, p->t[3]);
+}
+
+/* A sheet with a deckle is lower, drinks slower and holds less where fewer fibers lie. */
+static void thickness_heed(struct paper_sheet *p, float *thickness)
+{
+    kit_grid_f_write(&p->page.grid, p->thickness, thickness);
+    thinned(p, p->height, THIN_HEIGHT);
+    thinned(p, p->page.absorbency, THIN_DRINKS);
+    thinned(p, p->capacity, 0);
+    kit_f_least(p->capacity, p->capacity, 0.01);
+}
+
 /* From model 2 on all comes from the same fibers. Where more of them lie, the sheet stands up, holds more and drinks faster; where more
  * size went in, slower. In version 3 it is the fibers that drink, more than their clouds: ink on unsized paper runs out in fingers
  * everywhere, and not only where the sheet as a whole drinks little. */
@@ -219,6 +252,8 @@ static enum paper_status felted_make(struct paper_sheet *p, CM_field_id_t shade)
     memcpy(felt.relief, felt.mass, count * sizeof *felt.mass);
     felt_write(p, p->capacity, felt.relief, holds, 0.01, 1);
     felt_write(p, shade, felt.mass, looks, -1, 1);
+    if (felt.thickness)
+        thickness_heed(p, felt.thickness);
     felt_free(&felt);
     return PAPER_OK;
 }

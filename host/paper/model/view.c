@@ -293,15 +293,23 @@ enum paper_status sheet_view(struct paper_sheet *p, const struct paper_sheet_vie
     if (scale < 0 || scale == 3 || scale > 4)
         return paper_fail(PAPER_BAD_ARGUMENT,
                           "a picture's scale must be 1, 2 or 4 pixels a fiber (got %d)", scale);
-    if (scale < 2)
-        return fibers_view(p, view, rgb);
+    const bool lies =
+        p->config.deckled && (view->show == PAPER_SHOW_COLOR || view->show == PAPER_SHOW_WET);
+    if (scale < 2) {
+        const enum paper_status seen = fibers_view(p, view, rgb);
+        return seen == PAPER_OK && lies ? sheet_ground_lay(p, view, rgb) : seen;
+    }
     uint16_t *coarse = malloc(3 * sizeof *coarse * (size_t)width * (size_t)height);
     if (!coarse)
         return paper_fail(PAPER_NO_MEMORY, "no memory for a picture of %dx%d", width * scale,
                           height * scale);
     enum paper_status status = fibers_view(p, view, coarse);
+    if (status == PAPER_OK && lies)
+        status = sheet_color_spread(p, coarse);
     if (status == PAPER_OK)
         status = sheet_finer(coarse, width, height, p->config.torus, scale, rgb);
     free(coarse);
+    if (status == PAPER_OK && lies)
+        status = sheet_ground_lay(p, view, rgb);
     return status;
 }
