@@ -1,5 +1,6 @@
 /* Tests base/crew.h: threads share the parts of one job, and each part is done once, by a thread that is free. In a child
  * after fork(), and without threads, the caller does all parts. */
+#include <sched.h>
 #include <setjmp.h>
 #include <signal.h>
 #include <stdarg.h>
@@ -137,10 +138,43 @@ static void short_work_is_not_shared_out(void **unused)
 {
     (void)unused;
     struct crew *crew = crew_create(2);
-    assert_int_equal(crew_parts(crew, 99, 100, 10), 1);
-    assert_int_equal(crew_parts(NULL, 1e9, 100, 10), 1);
-    assert_int_equal(crew_parts(crew, 100, 100, 10), 10);
-    assert_true(crew_parts(crew, 1e9, 100, 10) <= 100);
+    const struct crew_costs costs = {.awake = 100, .asleep = 100, .late = 1000, .part = 10};
+    assert_int_equal(crew_parts(crew, 99, &costs), 1);
+    assert_int_equal(crew_parts(NULL, 1e9, &costs), 1);
+    assert_int_equal(crew_parts(crew, 100, &costs), 10);
+    assert_true(crew_parts(crew, 1e9, &costs) <= 100);
+    crew_destroy(crew);
+}
+
+static atomic_bool other_began;
+
+/* The other thread stops in the middle of its part, as if the system ran somebody else. */
+static void part_stopped(void *context, int part, int worker)
+{
+    (void)context;
+    (void)part;
+    if (worker) {
+        atomic_store(&other_began, true);
+        usleep(20000);
+    }
+    while (!atomic_load(&other_began))
+        sched_yield();
+}
+
+static void short_work_is_not_shared_out_after_a_late_part(void **unused)
+{
+    (void)unused;
+    const struct crew_costs costs = {.awake = 100, .asleep = 100, .late = 1000, .part = 10};
+    struct crew *crew = crew_create(2);
+    int alone[3];
+    for (int turn = 0; turn < 3; turn++) {
+        atomic_store(&other_began, false);
+        crew_run(crew, 2, part_stopped, NULL);
+        assert_true(crew_parts(crew, 1000, &costs) > 1);
+        for (alone[turn] = 0; crew_parts(crew, 999, &costs) == 1; alone[turn]++)
+            assert_true(alone[turn] < 100000);
+    }
+    assert_true(alone[0] > 10 && alone[1] > alone[0] && alone[2] > alone[1]);
     crew_destroy(crew);
 }
 
@@ -153,6 +187,7 @@ int main(void)
         cmocka_unit_test(a_child_works_alone),
         cmocka_unit_test(no_thread_takes_a_signal),
         cmocka_unit_test(short_work_is_not_shared_out),
+        cmocka_unit_test(short_work_is_not_shared_out_after_a_late_part),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,32 +6,12 @@
 #include <math.h>
 
 #include "build/plans.h"
-#include "interpret/lanes.h"
+#include "tables.h"
 #include "values/graph.h"
 
 enum { LANES = 67 };
 
 /* ---- loops ---- */
-
-struct tables {
-    const struct lanes_table *of[3];
-    int count;
-};
-
-static struct tables tables_here(void)
-{
-    struct tables t = {{&lanes_table_plain}, 1};
-#if defined(__x86_64__)
-    extern const struct lanes_table lanes_table_avx2, lanes_table_avx512;
-    __builtin_cpu_init();
-    if (__builtin_cpu_supports("avx2"))
-        t.of[t.count++] = &lanes_table_avx2;
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-        __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq"))
-        t.of[t.count++] = &lanes_table_avx512;
-#endif
-    return t;
-}
 
 static lanes_wide ones(int width)
 {
@@ -489,7 +469,7 @@ static void tests_of_coordinates_keep_their_definition(void **state)
     }
 }
 
-/* ---- lines and messages ---- */
+/* ---- lines ---- */
 
 static uint32_t joined(int op, uint32_t a, uint32_t b)
 {
@@ -545,42 +525,6 @@ static void scans_by_vectors_give_what_a_loop_gives(void **state)
     }
 }
 
-static void messages_are_picked_alike(void **state)
-{
-    enum { MOST = 512 };
-    static uint32_t index[MOST], place[MOST + 16];
-    static uint16_t lane[MOST + 16];
-    static uint8_t context[MOST];
-    const struct lanes_pick p = {index, 70, 9000, 3};
-    const struct lanes_rows rows = {37, 16, 91};
-    struct tables t = tables_here();
-    (void)state;
-    for (int n = 0; n <= MOST; n += n < 40 ? 1 : 59)
-        for (int k = 0; k < 2 * t.count; k++) {
-            const bool masked = k % 2;
-            size_t expected = 0;
-            for (int i = 0; i < n; i++) {
-                const uint32_t x =
-                    (uint32_t)support_word(MACHINE_UINT(32), (uint64_t)n, (uint64_t)i);
-                index[i] = x % 9 ? x % 10000 : x;
-                context[i] = x >> 20 & 1;
-            }
-            size_t picked = t.of[k / 2]->pick(&p, masked ? context : NULL, n, place, lane);
-            for (size_t i = 0; i < picked; i++)
-                place[i] -= 3;
-            t.of[k / 2]->places(place, picked, &rows);
-            for (int i = 0; i < n; i++) {
-                const uint32_t x = index[i];
-                if (x < 70 || x - 70 >= 9000 || (masked && !context[i]))
-                    continue;
-                assert_true(expected < picked);
-                assert_int_equal(lane[expected], i);
-                assert_int_equal(place[expected++], x / 37 * (37 + 91) + x % 37 + 16);
-            }
-            assert_int_equal(picked, expected);
-        }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -588,7 +532,6 @@ int main(void)
         cmocka_unit_test(each_conversion_gives_what_lane_by_lane_gives),
         cmocka_unit_test(what_is_fetched_is_in_the_array),
         cmocka_unit_test(scans_by_vectors_give_what_a_loop_gives),
-        cmocka_unit_test(messages_are_picked_alike),
         cmocka_unit_test(short_formats_round_as_whole_numbers_do),
         cmocka_unit_test(blocks_find_their_neighbours),
         cmocka_unit_test(tests_of_coordinates_keep_their_definition),

@@ -1,11 +1,13 @@
 /* crew.c - see crew.h.
  *
- * A ticket says what is left to take: the number of the job above, and how many parts nobody has taken below. Whoever lowers it by
- * one has taken a part. The number of the job differs from job to job, so who still thinks of an old job cannot take a part of a
- * new one. What the job is stays as it is until all its parts are done, and is looked at only with a part in hand.
+ * A ticket says what is left to take: the number of the job above, and below it the first part that nobody has taken and the end of
+ * these. The caller takes the first, the threads the last: so much of what one of two has written it finds in its own cache the next
+ * time. Whoever changes the ticket has taken a part. The number of the job differs from job to job, so who still thinks of an old
+ * job cannot take a part of a new one. What the job is stays as it is until all its parts are done, and is looked at only with a
+ * part in hand.
  *
- *     caller     writes the job | ticket = job 7, 4 left | takes parts ........... waits until none is undone
- *     thread     sleeps         | wakes                  | takes parts | looks for more | sleeps */
+ *     caller     writes the job | ticket = job 7, 0 to 4 | takes 0, 1 .............. waits until none is undone
+ *     thread     sleeps         | wakes                  | takes 3, 2 | looks for more | sleeps */
 #include "base/crew.h"
 
 #include <pthread.h>
@@ -17,8 +19,19 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-enum { LOOKS = 4000 };   /* before a thread sleeps: some 20 us */
-enum { PARTS_EACH = 8 }; /* for each thread, at most */
+#include "base/clock.h"
+
+enum { RESTS = 16 };          /* from one look at the clock to the next */
+enum { PARTS_EACH = 8 };      /* for each thread, at most */
+enum { PARTS_MOST = 0xffff }; /* of a job that is shared out */
+enum {
+    ALONE_LEAST = 256,
+    ALONE_MOST = 8192
+}; /* pieces of short work that follow a late part */
+
+static const double LOOKS_S = 50e-6; /* how long before a thread sleeps */
+/* A part is late when the caller waits longer than this, and longer than half of what it did itself. */
+static const double LATE_S = 30e-6;
 
 struct worker {
     struct crew *crew;
@@ -29,13 +42,14 @@ struct worker {
 struct crew {
     pthread_mutex_t lock;
     pthread_cond_t work;
-    _Atomic uint64_t ticket; /* job << 32 | parts left to take */
+    _Atomic uint64_t ticket; /* job << 32 | first << 16 | end, of the parts left to take */
     _Atomic int undone, sleeping;
     _Atomic bool ends;
     crew_part *function;
     void *context;
-    int parts;
     int size, started; /* started: threads, without the caller */
+    int alone;         /* pieces of short work that the caller still does alone */
+    int alone_next;    /* ... after the next late part */
     pid_t owner;
     struct worker workers[CREW_MOST];
 };
@@ -47,13 +61,31 @@ static inline void rest(void)
 #endif
 }
 
+static uint32_t first_of(uint64_t ticket)
+{
+    return (uint32_t)ticket >> 16;
+}
+
+static uint32_t end_of(uint64_t ticket)
+{
+    return (uint32_t)ticket & 0xffff;
+}
+
+static bool has_parts(uint64_t ticket)
+{
+    return first_of(ticket) < end_of(ticket);
+}
+
 /* False: there was none. */
 static bool part_take(struct crew *c, int worker)
 {
+    const uint64_t first_taken = UINT64_C(1) << 16;
     uint64_t ticket = atomic_load(&c->ticket);
-    while ((uint32_t)ticket)
-        if (atomic_compare_exchange_weak(&c->ticket, &ticket, ticket - 1)) {
-            c->function(c->context, c->parts - (int)(uint32_t)ticket, worker);
+    while (has_parts(ticket))
+        if (atomic_compare_exchange_weak(&c->ticket, &ticket,
+                                         worker ? ticket - 1 : ticket + first_taken)) {
+            c->function(c->context, (int)(worker ? end_of(ticket) - 1 : first_of(ticket)),
+                        worker);
             atomic_fetch_sub(&c->undone, 1);
             return true;
         }
@@ -62,7 +94,26 @@ static bool part_take(struct crew *c, int worker)
 
 static bool is_wanted(const struct crew *c)
 {
-    return (uint32_t)atomic_load(&c->ticket) || atomic_load(&c->ends);
+    return has_parts(atomic_load(&c->ticket)) || atomic_load(&c->ends);
+}
+
+static bool is_done(const struct crew *c)
+{
+    return !atomic_load(&c->undone);
+}
+
+/* Looks for so long whether it is so. */
+static bool look(const struct crew *c, bool (*is_so)(const struct crew *c))
+{
+    const double start = clock_s();
+    do
+        for (int i = 0; i < RESTS; i++) {
+            if (is_so(c))
+                return true;
+            rest();
+        }
+    while (clock_s() - start < LOOKS_S);
+    return false;
 }
 
 static void *work(void *of)
@@ -70,11 +121,7 @@ static void *work(void *of)
     struct worker *w = of;
     struct crew *c = w->crew;
     while (!atomic_load(&c->ends)) {
-        if (part_take(c, w->number))
-            continue;
-        for (int i = 0; i < LOOKS && !is_wanted(c); i++)
-            rest();
-        if (is_wanted(c))
+        if (part_take(c, w->number) || look(c, is_wanted))
             continue;
         pthread_mutex_lock(&c->lock);
         atomic_fetch_add(&c->sleeping, 1);
@@ -95,6 +142,7 @@ struct crew *crew_create(int threads)
     pthread_cond_init(&c->work, NULL);
     c->size = threads < CREW_MOST ? threads : CREW_MOST;
     c->owner = getpid();
+    c->alone_next = ALONE_LEAST;
     return c;
 }
 
@@ -122,9 +170,20 @@ static void wake(struct crew *c)
     pthread_mutex_unlock(&c->lock);
 }
 
+/* The longer one was late again and again, the longer short work is not shared out. */
+static void was_late(struct crew *c, bool late)
+{
+    if (late) {
+        c->alone = c->alone_next;
+        c->alone_next = c->alone_next < ALONE_MOST ? 2 * c->alone_next : ALONE_MOST;
+    } else if (c->alone_next > ALONE_LEAST) {
+        c->alone_next--;
+    }
+}
+
 void crew_run(struct crew *c, int parts, crew_part *function, void *context)
 {
-    if (!c || parts < 2 || c->owner != getpid()) {
+    if (!c || parts < 2 || parts > PARTS_MOST || c->owner != getpid()) {
         for (int i = 0; i < parts; i++)
             function(context, i, 0);
         return;
@@ -133,26 +192,31 @@ void crew_run(struct crew *c, int parts, crew_part *function, void *context)
         threads_start(c);
     c->function = function;
     c->context = context;
-    c->parts = parts;
     atomic_store(&c->undone, parts);
     uint64_t job = (atomic_load(&c->ticket) >> 32) + 1;
     atomic_store(&c->ticket, job << 32 | (uint32_t)parts);
     if (atomic_load(&c->sleeping))
         wake(c);
+    const double start = clock_s();
     while (part_take(c, 0))
         continue;
-    for (int i = 0; atomic_load(&c->undone); i++)
-        if (i < LOOKS)
-            rest();
-        else
-            sched_yield();
+    const double done = clock_s();
+    while (!look(c, is_done))
+        sched_yield();
+    was_late(c, clock_s() - done > LATE_S + (done - start) / 2);
 }
 
-int crew_parts(const struct crew *c, double work, double least, double part)
+int crew_parts(struct crew *c, double work, const struct crew_costs *costs)
 {
-    if (!c || work < least)
+    if (!c || work < costs->awake)
         return 1;
-    double parts = work / part, most = (double)(PARTS_EACH * c->size);
+    if (work < costs->late && c->alone > 0) {
+        c->alone--;
+        return 1;
+    }
+    if (work < costs->asleep && (c->started < c->size - 1 || atomic_load(&c->sleeping)))
+        return 1;
+    double parts = work / costs->part, most = (double)(PARTS_EACH * c->size);
     return (int)(parts < most ? parts : most);
 }
 

@@ -4,8 +4,9 @@
  *     crew_run (crew, 8, add_part, &sum);                  add_part (&sum, 0, worker) to add_part (&sum, 7, worker), in any order
  *     crew_destroy (crew);
  *
- * Who is free takes the next part, so a thread that the system does not run costs nothing but its share. A thread looks for work
- * for some microseconds and then sleeps. No thread takes a signal. In a child after fork() there are no threads, and the caller does
+ * Who is free takes the next part, so a thread that the system does not run costs nothing but its share. But one that it stops in the
+ * middle of a part makes the caller wait: after that short work is not shared out for a while. A thread looks for work for some
+ * microseconds and then sleeps. No thread takes a signal. In a child after fork() there are no threads, and the caller does
  * all parts. */
 #ifndef LUTETIA_MACHINE_CREW_H
 #define LUTETIA_MACHINE_CREW_H
@@ -19,9 +20,13 @@ typedef void crew_part(void *context, int part, int worker);
 
 /* For so many threads, the caller among them; none begins before there is work. NULL: no memory, or only one. */
 struct crew *crew_create(int threads);
-/* How many parts to make of work that takes one thread so long, where work is shared out from least on, and a part takes part or
- * more, all in one unit of time; 1: none. */
-int crew_parts(const struct crew *crew, double work, double least, double part);
+/* The least work that is shared out, in nanoseconds: where a thread looks for work; where all sleep, and one must be woken; where one
+ * was late a short time ago, since others' programs run on its processor; and the least part of it. */
+struct crew_costs {
+    double awake, asleep, late, part;
+};
+/* How many parts to make of work that takes one thread so long, in nanoseconds; 1: it is not shared out. */
+int crew_parts(struct crew *crew, double work, const struct crew_costs *costs);
 /* crew NULL: the caller does all. Returns when all parts are done. One caller at a time. */
 void crew_run(struct crew *crew, int parts, crew_part *function, void *context);
 /* How many may be at work. */

@@ -48,16 +48,6 @@ static bool could_be(const struct machine *m, const struct plan_request *q)
            (q->use == PLAN_TO_RUN && m->settings.optimise_after && m->settings.box_after);
 }
 
-/* An element of each array, for each processor. */
-static uint64_t bytes_of(const struct plan_graph *g, const struct byte_code *program,
-                         const struct vpset *set)
-{
-    uint64_t bytes = 0;
-    for (int i = 0; i < program->arguments_count; i++)
-        bytes += set->count * type_bytes(g->nodes[program->arguments[i].node].type);
-    return bytes;
-}
-
 static bool launch_add(struct machine *m, struct plan *p, const struct plan_graph *g,
                        const int *stores, int count)
 {
@@ -92,7 +82,7 @@ static bool launch_add(struct machine *m, struct plan *p, const struct plan_grap
                         .arguments = program->arguments,
                         .arguments_count = program->arguments_count};
     p->work += set->count;
-    p->bytes += bytes_of(g, program, set);
+    p->bytes += set->count * (uint64_t)program->lane_bytes;
     p->looks_around = p->looks_around || program->moves;
     p->predicted_s +=
         code ? device_code_time_s(m, code, set) : program->lane_s * (double)set->count;

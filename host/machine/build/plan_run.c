@@ -209,7 +209,9 @@ static enum machine_status interpret(struct machine *m, struct plan *p, const st
     if (status)
         return status;
     const struct vpset *set = &m->values->sets[l->set];
-    int parts = device_parts(m, l->program->lane_s * (double)set->count);
+    const double lane_s =
+        l->program->lane_s + 1e-9 * m->device->shape.near_byte_ns * l->program->lane_bytes;
+    int parts = device_parts(m, lane_s * (double)set->count);
     if (parts > 1)
         device_stays_awake(m);
     double start = clock_s();

@@ -39,9 +39,8 @@ int device_parts(const struct machine *m, double seconds)
 {
     if (m->settings.near > 1)
         return PARTS_FORCED;
-    const struct device_shape *shape = &m->device->shape;
     return m->settings.near
-               ? crew_parts(m->device->crew, 1e9 * seconds, shape->share_ns, shape->part_ns)
+               ? crew_parts(m->device->crew, 1e9 * seconds, &m->device->shape.share)
                : 1;
 }
 

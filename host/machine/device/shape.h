@@ -8,6 +8,7 @@
 
 #include <stddef.h>
 
+#include "base/crew.h"
 #include "machine.h"
 
 struct device_shape {
@@ -61,10 +62,9 @@ struct device_shape {
     /* The queue: kernels in it, and while better ones are built. */
     int kernels_ahead, kernels_ahead_building;
     /* The front end's own threads, in nanoseconds: for a byte that is moved, and for an element. */
-    double move_ns, reduce_ns, rank_ns, send_ns, scan_ns, fill_ns;
-    int rank_alone_most; /* longer lines are ranked by all threads together */
-    double share_ns,
-        part_ns; /* the least work that threads share out, and the least part of it */
+    double move_ns, reduce_ns, rank_ns, send_ns, scan_ns, scan_vector_ns, fill_ns;
+    int rank_alone_most;     /* longer lines are ranked by all threads together */
+    struct crew_costs share; /* which work threads share out */
     /* The interpreter, in nanoseconds for a lane: a step that is a loop, for each unit of an operation's cost on top, a gather on
      * top; a step lane by lane, of floats' functions and of all else. */
     double loop_ns, loop_cost_ns, gather_ns, each_math_ns, each_ns;

@@ -43,10 +43,11 @@ struct byte_code {
     size_t registers_bytes;
     struct kernel_argument *arguments; /* arrays: inputs, outputs */
     int arguments_count, arguments_capacity;
-    int ops, cost; /* as of struct kernel_text */
-    double lane_s; /* how long a lane takes, about */
-    bool moves;    /* there is a MOVED */
-    bool failed;   /* no memory */
+    int ops, cost;  /* as of struct kernel_text */
+    double lane_s;  /* how long a lane takes, about */
+    int lane_bytes; /* of arrays, that it reads and writes */
+    bool moves;     /* there is a MOVED */
+    bool failed;    /* no memory */
 };
 
 /* Decides what is stored and in which stage (plan_node.stage, stored): what neighbours look at, and what a later stage does. */

@@ -432,9 +432,10 @@ LOOP(draw, u32)
 
 const struct lanes_table TABLE =
     {.pick = pick,
+     .greatest = greatest,
+     .sum = sum,
      .places = places,
      .scan = SCAN,
-     .sum = sum,
      .of =
          {
              [MACHINE_NOT] = OF_INTEGERS(not ),

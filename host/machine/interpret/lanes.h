@@ -89,6 +89,8 @@ struct lanes_pick {
 };
 typedef size_t lanes_pick_function(const struct lanes_pick *p, const uint8_t *context, int n,
                                    uint32_t *place, uint16_t *lane);
+/* The greatest of n numbers; 0 of none. */
+typedef uint32_t lanes_greatest_function(const uint32_t *x, int n);
 /* n indices below 2^31 become places in an array of such rows, halos between them. */
 struct lanes_rows {
     uint32_t width, halo, further;
@@ -124,9 +126,10 @@ struct lanes_table {
     lanes_function *of[LANES_OP_COUNT][LANES_CLASSES];
     lanes_function *convert[NODE_OP_COUNT][LANES_CLASSES][LANES_CLASSES];
     lanes_pick_function *pick;
+    lanes_greatest_function *greatest;
+    lanes_sum_function *sum;
     lanes_places_function *places;
     lanes_scan_function *scan; /* NULL: none by vectors */
-    lanes_sum_function *sum;
 };
 /* The widest that this processor has. */
 const struct lanes_table *lanes_table(void);

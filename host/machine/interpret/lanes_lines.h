@@ -35,6 +35,14 @@ static size_t pick(const struct lanes_pick *p, const u8 *context, int n, u32 *pl
     return picked;
 }
 
+static u32 greatest(const u32 *x, int n)
+{
+    u32 most = 0;
+    for (int i = 0; i < n; i++)
+        most = x[i] > most ? x[i] : most;
+    return most;
+}
+
 /* An index becomes a place: a row's halos lie between it and the next row. */
 static void places(u32 *place, size_t n, const struct lanes_rows *r)
 {

@@ -190,6 +190,12 @@ SUMS_OF(u32)
 SUMS_OF(u64)
 SUMS_OF(u128)
 
+bool near_loops_by_vectors(const struct line_scan *j, ptrdiff_t step)
+{
+    return lanes_table()->scan && j->element->bytes == 4 && j->element->kind == 0 &&
+           !j->backward && step == 1 && j->op != LINES_COPY;
+}
+
 /* Forwards along a row: sixteen at a time, where there is a loop for that. */
 static bool vectors_u32(const struct stretch *s, u32 *acc)
 {
@@ -198,8 +204,7 @@ static bool vectors_u32(const struct stretch *s, u32 *acc)
                               [LINES_OR] = MACHINE_OR,
                               [LINES_XOR] = MACHINE_XOR};
     const struct line_scan *j = s->j;
-    lanes_scan_function *scan = lanes_table()->scan;
-    if (!scan || j->backward || s->step != 1 || j->op == LINES_COPY)
+    if (!near_loops_by_vectors(j, s->step))
         return false;
     const struct lanes_scan v = {
         .in = (const u32 *)j->in->host + s->at,
@@ -212,7 +217,7 @@ static bool vectors_u32(const struct stretch *s, u32 *acc)
         .none = (u32)j->identity.lo,
         .flip = (u32)j->flip.lo,
         .cut = (u32)j->cut.lo};
-    *acc = scan(&v, (size_t)(s->end - s->begin), *acc);
+    *acc = lanes_table()->scan(&v, (size_t)(s->end - s->begin), *acc);
     return true;
 }
 

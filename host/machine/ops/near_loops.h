@@ -45,5 +45,7 @@ struct loops {
     loops_join *join;
 };
 const struct loops *near_loops_of(const struct element *e);
+/* Whether a line that goes on by so much is scanned by vectors. */
+bool near_loops_by_vectors(const struct line_scan *j, ptrdiff_t step);
 
 #endif

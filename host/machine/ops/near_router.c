@@ -224,15 +224,13 @@ static void floats_join(const struct hops *h, int combiner, struct machine_type 
 static bool messages_move_all(const struct near_route *r, const struct block *b, size_t bytes,
                               const void *source, size_t from, void *out)
 {
-    uint32_t index[BLOCK], greatest = 0;
+    uint32_t index[BLOCK];
     const int n = b->n;
     const size_t at = b->at;
     if (r->context || r->to->rows > 1)
         return false;
     near_addresses(r, at, n, index);
-    for (int i = 0; i < n; i++)
-        greatest = index[i] > greatest ? index[i] : greatest;
-    if (greatest >= r->to->count)
+    if (r->lanes->greatest(index, n) >= r->to->count)
         return false;
     switch (bytes) {
     case 1:

@@ -21,76 +21,14 @@
 #include "memory/memory.h"
 #include "ops/gets.h"
 #include "ops/index.h"
+#include "ops/message.h"
 #include "ops/near.h"
-#include "ops/near_router.h"
 #include "run/evaluate.h"
 #include "run/materialise.h"
 #include "values/graph.h"
 #include "values/make.h"
 
 enum { NO_PROCESSOR = -2 };
-
-struct message {
-    const struct vpset *from, *to;
-    int from_set, to_set;
-    struct machine_value *address, *source, *old, *context;
-    bool flat; /* see -DFLAT */
-    bool all;  /* the context is 1 everywhere */
-    uint32_t mask;
-};
-
-/* Puts everything that a router operation reads into memory, by one evaluation. context may
- * be NULL: not needed. */
-static bool message_make(struct machine *m, struct message *g, struct machine_value *address,
-                         struct machine_value *source, int source_set,
-                         struct machine_value *other, int to_set, bool under_context,
-                         bool combines)
-{
-    /* A reinterpreted value has the same bits in memory, so its source serves as well. */
-    while (source && source->op == NODE_REINTERPRET && !source->buffer && !combines)
-        source = source->in[0];
-    while (other && other->op == NODE_REINTERPRET && !other->buffer && !combines)
-        other = other->in[0];
-    g->from_set = m->values->set_current;
-    g->to_set = to_set;
-    bool is_index = !index_is_address(&m->values->sets[to_set]);
-    if (is_index)
-        address = index_of_address(m, to_set, address);
-    if (!address)
-        return false;
-    g->context = under_context
-                     ? m->memory->flags[m->values->set_current].of[MACHINE_CONTEXT].value
-                     : NULL;
-    struct machine_value *wanted[4];
-    int count = 0;
-    struct machine_value *const all[4] = {address, source, other, g->context};
-    for (int i = 0; i < 4; i++)
-        if (all[i] && !node_is_leaf(all[i]))
-            wanted[count++] = all[i];
-    if (count && evaluate_values(m, wanted, count, false))
-        return false;
-    g->all = !g->context || (g->context->op == NODE_CONSTANT && g->context->imm.lo);
-    g->address = materialise(m, g->from_set, address);
-    if (g->address && source) /* a number that is sent may do as it is */
-        g->source =
-            other && source->op == NODE_CONSTANT ? source : materialise(m, source_set, source);
-    if (g->address && other)
-        g->old = materialise(m, to_set, other);
-    if (!g->address || (source && !g->source) || (other && !g->old))
-        return false;
-    if (g->all)
-        g->context = g->address; /* a dummy for the unused argument */
-    else
-        g->context = materialise(m, g->from_set, g->context);
-    g->from = &m->values->sets[g->from_set];
-    g->to = &m->values->sets[to_set];
-    g->flat = g->from->rows == 1 && g->to->rows == 1;
-    int bits = is_index ? INDEX_BITS : machine_address_bits(m, to_set),
-        width = address->type.width;
-    bits = bits < width ? bits : width;
-    g->mask = bits >= 32 ? UINT32_MAX : (UINT32_C(1) << bits) - 1;
-    return g->context != NULL;
-}
 
 /* element NULL: no elements are moved. Kernels that also move elements are specialised for
  * flat sets. */
@@ -143,13 +81,6 @@ static struct device_buffer *addresses_pass(struct machine *m, const struct mess
         return NULL;
     }
     return b;
-}
-
-/* Gets a new buffer for a value of the destination's set. */
-static struct device_buffer *fresh(struct machine *m, const struct vpset *s,
-                                   struct machine_type type)
-{
-    return device_rows_get(m, geometry_rows(s, type));
 }
 
 /* Writes the halos, the columns that repeat the other end. */
@@ -273,7 +204,7 @@ static enum machine_status combine(struct machine *m, const struct message *g, i
 static struct machine_value *arrivals(struct machine *m, const struct message *g,
                                       const struct device_buffer *owner)
 {
-    struct device_buffer *b = fresh(m, g->to, MACHINE_BIT);
+    struct device_buffer *b = message_array(m, g->to, MACHINE_BIT);
     if (!b)
         return NULL;
     struct kernel_call c = call_begin(m, kernel_router_cl, "-DFLAT=0", "arrived");
@@ -286,49 +217,6 @@ static struct machine_value *arrivals(struct machine *m, const struct message *g
         return NULL;
     }
     return graph_buffer_node(m, MACHINE_BIT, g->to_set, b);
-}
-
-/* shares: each part passes all senders. */
-static struct near_route route_of(const struct machine *m, const struct message *g, bool shares)
-{
-    int parts = device_parts(m, 1e-9 * m->device->shape.send_ns * (double)g->from->count),
-        size = crew_size(m->device->crew);
-    return (struct near_route){.from = g->from,
-                               .to = g->to,
-                               .address = g->address->buffer,
-                               .context = g->all ? NULL : g->context->buffer,
-                               .address_bytes = type_bytes(g->address->type),
-                               .mask = g->mask,
-                               .lanes = lanes_table(),
-                               .crew = m->device->crew,
-                               .parts = shares && parts > size ? size : parts};
-}
-
-/* Whether the front end does it by itself. Places in arrays of the set are numbers of 32 bits then. */
-static bool route_near(struct machine *m, const struct vpset *to, const struct device_buffer *b,
-                       double *start)
-{
-    return (uint64_t)to->rows * to->pitch < UINT32_MAX && near_begin(m, b, start);
-}
-
-/* On the front end's own thread. */
-static enum machine_status transmit_near(struct machine *m, const struct message *g,
-                                         enum machine_combiner combiner,
-                                         struct device_buffer *out, size_t bytes, double start,
-                                         struct machine_value **notification)
-{
-    const struct near_route r = route_of(m, g, true);
-    struct device_buffer *arrived = notification ? fresh(m, g->to, MACHINE_BIT) : NULL;
-    if (notification && !arrived)
-        return m->status;
-    device_move(m, out->host, g->old->buffer->host, bytes);
-    if (arrived)
-        memset(arrived->host, 0, arrived->bytes);
-    near_send(&r, (int)combiner, g->source->type, g->source, out, arrived);
-    if (arrived)
-        *notification = graph_buffer_node(m, MACHINE_BIT, g->to_set, arrived);
-    near_end(m, "sending", start);
-    return MACHINE_OK;
 }
 
 /* By kernels. out has room for what is thrown away. */
@@ -377,8 +265,10 @@ static struct machine_value *transmit(struct machine *m, struct message *g,
     struct rows rows = geometry_rows(g->to, type);
     size_t bytes = rows.bytes;
     double start;
-    struct device_buffer *out = device_rows_get(m, rows);
-    bool near = out && route_near(m, g->to, out, &start);
+    struct device_buffer *out = g->over ? g->old->buffer : device_rows_get(m, rows);
+    if (g->over)
+        device_buffer_ref(out);
+    bool near = out && message_near(m, g->to, out, &start);
     if (out && !near) {
         device_buffer_unref(m, out);
         rows.bytes += shares(m, g->to) * 64 * type_bytes(type); /* thrown away */
@@ -391,14 +281,18 @@ static struct machine_value *transmit(struct machine *m, struct message *g,
     if (!out)
         return NULL;
     enum machine_status status =
-        near ? transmit_near(m, g, combiner, out, bytes, start, notification)
+        near ? message_send_near(m, g, combiner, out, bytes, start, notification)
              : transmit_far(m, g, combiner, out, bytes, notification);
     if (status) {
         device_buffer_unref(m, out);
         return NULL;
     }
-    struct machine_value *v = graph_buffer_node(m, type, g->to_set, out);
-    v->strange_nan = g->source->strange_nan || (g->old && g->old->strange_nan);
+    struct machine_value *v = g->old;
+    if (out == v->buffer)
+        device_buffer_unref(m, out);
+    else
+        v = graph_buffer_node(m, type, g->to_set, out);
+    v->strange_nan = g->source->strange_nan || g->old->strange_nan;
     return v;
 }
 
@@ -457,14 +351,18 @@ enum machine_status machine_send(struct machine *m, uint32_t dest,
     if (notify && (!machine_field_lookup(m, notify, &told) || told.vpset != to.vpset))
         return machine_fail(m, MACHINE_BAD_ARGUMENT,
                             "the notification bit is not a field of dest's VP set");
+    uint32_t offset;
+    const struct field *f = field_find(m, dest, &offset);
     struct message g = {0};
     struct machine_value *old = machine_field_value(m, dest, source->type, MACHINE_EVERYWHERE);
     struct machine_value *notification = NULL, *out = NULL;
     if (!old)
         return m->status;
     if (message_make(m, &g, send_address, source, m->values->set_current, old, to.vpset, true,
-                     combiner != MACHINE_COMBINE_OVERWRITE))
+                     combiner != MACHINE_COMBINE_OVERWRITE)) {
+        g.over = message_over(m, &g, f, offset);
         out = transmit(m, &g, combiner, notify ? &notification : NULL);
+    }
     if (!out)
         return m->status;
     enum machine_status status = machine_field_store(m, dest, out, MACHINE_EVERYWHERE);
@@ -485,12 +383,12 @@ static struct machine_value *fetch(struct machine *m, const struct message *g)
 {
     char options[128];
     struct machine_type type = g->source->type;
-    struct device_buffer *out = fresh(m, g->from, type);
+    struct device_buffer *out = message_array(m, g->from, type);
     double start;
     if (!out)
         return NULL;
-    if (route_near(m, g->to, out, &start)) {
-        const struct near_route r = route_of(m, g, false);
+    if (message_near(m, g->to, out, &start)) {
+        const struct near_route r = message_route(m, g, false);
         near_get(&r, type_bytes(type), g->source->buffer, out);
         near_end(m, "getting", start);
         return fetched(m, g, out);
@@ -550,8 +448,8 @@ enum machine_status machine_addresses_check(struct machine *m,
     double begin;
     if (!message_make(m, &g, send_address, NULL, 0, NULL, vpset, true, false))
         return m->status;
-    if (route_near(m, g.to, g.address->buffer, &begin)) {
-        const struct near_route r = route_of(m, &g, false);
+    if (message_near(m, g.to, g.address->buffer, &begin)) {
+        const struct near_route r = message_route(m, &g, false);
         *wrong = near_wrong(&r);
         near_end(m, "checking addresses", begin);
         return MACHINE_OK;

@@ -20,6 +20,7 @@
 #include "memory/memory.h"
 #include "ops/near.h"
 #include "ops/near_lines.h"
+#include "ops/near_loops.h"
 #include "run/materialise.h"
 #include "values/graph.h"
 
@@ -169,7 +170,10 @@ static enum machine_status scan_lines(struct machine *m, const struct lines *l,
     int run = run_of(m, l, e), runs = (l->length - 1) / run + 1;
     double start;
     if (near_begin(m, j->out, &start)) {
-        int parts = device_parts(m, 1e-9 * m->device->shape.scan_ns * elements_of(l));
+        const struct device_shape *shape = &m->device->shape;
+        const double ns = near_loops_by_vectors(j, (ptrdiff_t)l->step) ? shape->scan_vector_ns
+                                                                       : shape->scan_ns;
+        int parts = device_parts(m, 1e-9 * ns * elements_of(l));
         near_lines_scan(m->device->crew, parts, l, j, run);
         near_end(m, "scanning", start);
         return MACHINE_OK;

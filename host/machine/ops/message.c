@@ -1,0 +1,120 @@
+/* message.c - see message.h. */
+#include "ops/message.h"
+
+#include <string.h>
+
+#include "base/types.h"
+#include "ops/gather.h"
+#include "ops/index.h"
+#include "ops/near.h"
+#include "run/evaluate.h"
+#include "run/materialise.h"
+#include "values/graph.h"
+
+bool message_make(struct machine *m, struct message *g, struct machine_value *address,
+                  struct machine_value *source, int source_set, struct machine_value *other,
+                  int to_set, bool under_context, bool combines)
+{
+    /* A reinterpreted value has the same bits in memory, so its source serves as well. */
+    while (source && source->op == NODE_REINTERPRET && !source->buffer && !combines)
+        source = source->in[0];
+    while (other && other->op == NODE_REINTERPRET && !other->buffer && !combines)
+        other = other->in[0];
+    g->from_set = m->values->set_current;
+    g->to_set = to_set;
+    bool is_index = !index_is_address(&m->values->sets[to_set]);
+    if (is_index)
+        address = index_of_address(m, to_set, address);
+    if (!address)
+        return false;
+    g->context = under_context
+                     ? m->memory->flags[m->values->set_current].of[MACHINE_CONTEXT].value
+                     : NULL;
+    struct machine_value *wanted[4];
+    int count = 0;
+    struct machine_value *const all[4] = {address, source, other, g->context};
+    for (int i = 0; i < 4; i++)
+        if (all[i] && !node_is_leaf(all[i]))
+            wanted[count++] = all[i];
+    if (count && evaluate_values(m, wanted, count, false))
+        return false;
+    g->all = !g->context || (g->context->op == NODE_CONSTANT && g->context->imm.lo);
+    g->address = materialise(m, g->from_set, address);
+    if (g->address && source) /* a number that is sent may do as it is */
+        g->source =
+            other && source->op == NODE_CONSTANT ? source : materialise(m, source_set, source);
+    if (g->address && other)
+        g->old = materialise(m, to_set, other);
+    if (!g->address || (source && !g->source) || (other && !g->old))
+        return false;
+    if (g->all)
+        g->context = g->address; /* a dummy for the unused argument */
+    else
+        g->context = materialise(m, g->from_set, g->context);
+    g->from = &m->values->sets[g->from_set];
+    g->to = &m->values->sets[to_set];
+    g->flat = g->from->rows == 1 && g->to->rows == 1;
+    int bits = is_index ? INDEX_BITS : machine_address_bits(m, to_set),
+        width = address->type.width;
+    bits = bits < width ? bits : width;
+    g->mask = bits >= 32 ? UINT32_MAX : (UINT32_C(1) << bits) - 1;
+    return g->context != NULL;
+}
+
+struct device_buffer *message_array(struct machine *m, const struct vpset *s,
+                                    struct machine_type type)
+{
+    return device_rows_get(m, geometry_rows(s, type));
+}
+
+bool message_over(const struct machine *m, const struct message *g, const struct field *f,
+                  uint32_t offset)
+{
+    const struct machine_value *v = g->old;
+    const struct device_buffer *b = v->buffer;
+    return v->op == NODE_BUFFER && b->host && b->refs == 1 && m->settings.near &&
+           type_equal(v->type, g->source->type) && b != g->address->buffer &&
+           b != g->source->buffer && b != g->context->buffer &&
+           v->refs <= gather_borrowed(m, v) + (uint32_t)field_holds(f, offset, v);
+}
+
+struct near_route message_route(const struct machine *m, const struct message *g, bool shares)
+{
+    int parts = device_parts(m, 1e-9 * m->device->shape.send_ns * (double)g->from->count),
+        size = crew_size(m->device->crew);
+    return (struct near_route){.from = g->from,
+                               .to = g->to,
+                               .address = g->address->buffer,
+                               .context = g->all ? NULL : g->context->buffer,
+                               .address_bytes = type_bytes(g->address->type),
+                               .mask = g->mask,
+                               .lanes = lanes_table(),
+                               .crew = m->device->crew,
+                               .parts = shares && parts > size ? size : parts};
+}
+
+bool message_near(struct machine *m, const struct vpset *to, const struct device_buffer *b,
+                  double *start)
+{
+    return (uint64_t)to->rows * to->pitch < UINT32_MAX && near_begin(m, b, start);
+}
+
+enum machine_status message_send_near(struct machine *m, const struct message *g,
+                                      enum machine_combiner combiner, struct device_buffer *out,
+                                      size_t bytes, double start,
+                                      struct machine_value **notification)
+{
+    const struct near_route r = message_route(m, g, true);
+    struct device_buffer *arrived = notification ? message_array(m, g->to, MACHINE_BIT) : NULL;
+    if (notification && !arrived)
+        return m->status;
+    if (out != g->old->buffer)
+        device_move(m, out->host, g->old->buffer->host, bytes);
+    if (arrived)
+        memset(arrived->host, 0, arrived->bytes);
+    near_send(&r, (int)combiner, g->source->type, g->source, out, arrived);
+    if (arrived)
+        *notification = graph_buffer_node(m, MACHINE_BIT, g->to_set, arrived);
+    near_end(m, "sending", start);
+    return MACHINE_OK;
+}

@@ -1,0 +1,134 @@
+/* test_messages.c - messages on the front end's own thread: loops that go through them come to the same under every instruction set,
+ * and an array is written over only where nobody else looks at it. */
+#include "support.h"
+
+#include "tables.h"
+
+/* ---- loops ---- */
+
+static void messages_are_picked_alike(void **state)
+{
+    enum { MOST = 512 };
+    static uint32_t index[MOST], place[MOST + 16];
+    static uint16_t lane[MOST + 16];
+    static uint8_t context[MOST];
+    const struct lanes_pick p = {index, 70, 9000, 3};
+    const struct lanes_rows rows = {37, 16, 91};
+    struct tables t = tables_here();
+    (void)state;
+    for (int n = 0; n <= MOST; n += n < 40 ? 1 : 59)
+        for (int k = 0; k < 2 * t.count; k++) {
+            const bool masked = k % 2;
+            size_t expected = 0;
+            for (int i = 0; i < n; i++) {
+                const uint32_t x =
+                    (uint32_t)support_word(MACHINE_UINT(32), (uint64_t)n, (uint64_t)i);
+                index[i] = x % 9 ? x % 10000 : x;
+                context[i] = x >> 20 & 1;
+            }
+            size_t picked = t.of[k / 2]->pick(&p, masked ? context : NULL, n, place, lane);
+            for (size_t i = 0; i < picked; i++)
+                place[i] -= 3;
+            t.of[k / 2]->places(place, picked, &rows);
+            for (int i = 0; i < n; i++) {
+                const uint32_t x = index[i];
+                if (x < 70 || x - 70 >= 9000 || (masked && !context[i]))
+                    continue;
+                assert_true(expected < picked);
+                assert_int_equal(lane[expected], i);
+                assert_int_equal(place[expected++], x / 37 * (37 + 91) + x % 37 + 16);
+            }
+            assert_int_equal(picked, expected);
+        }
+}
+
+static void the_greatest_is_found_alike(void **state)
+{
+    enum { MOST = 300 };
+    static uint32_t x[MOST];
+    struct tables t = tables_here();
+    (void)state;
+    for (int n = 0; n <= MOST; n++) {
+        uint32_t most = 0;
+        for (int i = 0; i < n; i++) {
+            x[i] = (uint32_t)support_word(MACHINE_UINT(32), (uint64_t)n, (uint64_t)i);
+            most = x[i] > most ? x[i] : most;
+        }
+        for (int k = 0; k < t.count; k++)
+            assert_int_equal(t.of[k]->greatest(x, n), most);
+    }
+}
+
+/* ---- sends ---- */
+
+enum { COUNT = 300 };
+
+static uint32_t field_of(struct machine *m, int set, const uint32_t *x)
+{
+    uint32_t f = machine_field_allocate(m, set, 32, MACHINE_STACK);
+    assert_ok(machine_field_upload(m, f, MACHINE_UINT(32), x), m);
+    return f;
+}
+
+static void field_is(struct machine *m, uint32_t field, const uint32_t *x)
+{
+    uint32_t got[COUNT];
+    assert_ok(machine_field_download(m, field, MACHINE_UINT(32), got), m);
+    assert_memory_equal(got, x, sizeof got);
+}
+
+static struct machine_value *content(struct machine *m, uint32_t field)
+{
+    return machine_field_value(m, field, MACHINE_UINT(32), MACHINE_EVERYWHERE);
+}
+
+/* Not a copy, the messages, or the addresses. */
+static void what_shares_the_destination_stays(void **state)
+{
+    enum { NOBODY, COPY, MESSAGES, ADDRESSES, KINDS };
+    const int length[] = {COUNT};
+    struct machine *m = support_machine(false);
+    int set = machine_vpset_create_ordered(m, length, 1, MACHINE_SEND_ORDER);
+    (void)state;
+    assert_ok(machine_vpset_select(m, set), m);
+    for (uint64_t i = 0; i < 8 * KINDS; i++) {
+        const int shares = (int)i % KINDS;
+        uint32_t address[COUNT], message[COUNT], old[COUNT], expected[COUNT];
+        for (uint64_t n = 0; n < COUNT; n++) {
+            expected[n] = old[n] = (uint32_t)support_word(MACHINE_UINT(32), 3 * i, n) % COUNT;
+            message[n] = (uint32_t)support_word(MACHINE_UINT(32), 3 * i + 1, n);
+            address[n] = (uint32_t)support_word(MACHINE_UINT(32), 3 * i + 2, n) % COUNT;
+        }
+        const uint32_t *sent = shares == MESSAGES ? old : message,
+                       *where = shares == ADDRESSES ? old : address;
+        for (int n = 0; n < COUNT; n++)
+            expected[where[n]] = sent[n];
+        machine_begin(m);
+        const uint32_t to = field_of(m, set, old), copy = field_of(m, set, message),
+                       from = shares == MESSAGES ? to : field_of(m, set, message),
+                       at = shares == ADDRESSES ? to : field_of(m, set, address);
+        if (shares == COPY)
+            assert_ok(machine_field_store(m, copy, content(m, to), MACHINE_EVERYWHERE), m);
+        machine_begin(m);
+        assert_ok(
+            machine_send(m, to, content(m, at), content(m, from), MACHINE_COMBINE_OVERWRITE, 0),
+            m);
+        field_is(m, to, expected);
+        field_is(m, copy, shares == COPY ? old : message);
+        if (at != to)
+            field_is(m, at, address);
+        if (from != to)
+            field_is(m, from, message);
+    }
+    support_machine_destroy(m);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(messages_are_picked_alike),
+        cmocka_unit_test(the_greatest_is_found_alike),
+        cmocka_unit_test(what_shares_the_destination_stays),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
