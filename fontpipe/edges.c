@@ -87,16 +87,51 @@ static void line_put(struct font_edges *e, double x0, double x1, double y)
     e->line_y[i] = (float)y;
 }
 
-float font_gauss_at_single[FONT_NODES_MAX + 1][8] __attribute__((aligned(32)));
-float font_gauss_weight_single[FONT_NODES_MAX + 1][8] __attribute__((aligned(32)));
+float font_rule_places[FONT_RULES * 8], font_rule_weights[FONT_RULES * 8];
+float font_even_ends[18];
 
-__attribute__((constructor)) static void gauss_begin(void)
+__attribute__((constructor)) static void rules_begin(void)
 {
+    for (int k = 0; k < 8; k++) {
+        font_rule_places[k] = (float)k + 0.5f;
+        font_rule_weights[k] = k < 3 ? font_even_weight[k] : 1;
+        font_rule_weights[FONT_RULE_EVEN_LATER * 8 + k] = 1;
+    }
     for (int m = 1; m <= FONT_NODES_MAX; m++)
         for (int k = 0; k < m; k++) {
-            font_gauss_at_single[m][k] = (float)font_gauss_at[m][k];
-            font_gauss_weight_single[m][k] = (float)font_gauss_weight[m][k];
+            font_rule_places[m * 8 + k] = (float)font_gauss_at[m][k];
+            font_rule_weights[m * 8 + k] = (float)font_gauss_weight[m][k];
         }
+    for (int k = 0; k < 18; k++)
+        font_even_ends[k] = k >= 8 && k < 11 ? font_even_weight[10 - k] : 1;
+}
+
+int font_nodes_needed(const struct font_filter *f, float length, float across, int slant,
+                      int *pieces)
+{
+    int n = length > FONT_LENGTH_LAST ? (int)ceilf(length / FONT_LENGTH_LAST) : 1;
+    for (;; n += 1 + n / 4) {
+        /* The bin of length / n, a quarter of a pixel times the fourth root of 2 each, from the number's exponent. */
+        float quarter = 4 * length / (float)n, power = quarter * quarter * quarter * quarter;
+        union {
+            float number;
+            uint32_t bits;
+        } u = {.number = power};
+        int l = (int)(u.bits >> 23) - 126;
+        l = l < 0 ? 0 : l > FONT_LENGTHS - 1 ? FONT_LENGTHS - 1 : l;
+        const float *error = f->node_error[slant][l];
+        /* The pieces' errors add up where they lie above each other, but not all with one sign. */
+        float allowed = f->piece_tolerance * (n > 1 ? sqrtf((float)n) : 1);
+        int m = 1;
+        for (int k = 0; k < FONT_NODES_MAX;
+             k++) /* errors fall: as many as are too large, and one */
+            m += error[k] * across > allowed;
+        if (m <= FONT_NODES_MAX ||
+            (float)n > 8 * length) { /* or an eighth of a pixel: as fine as it gets */
+            *pieces = n;
+            return m <= FONT_NODES_MAX ? m : FONT_NODES_MAX;
+        }
+    }
 }
 
 /* ---- affine maps ---- */
@@ -199,9 +234,9 @@ static enum font_status mapped_build(struct font_edges *e, const struct font_fil
         return FONT_OK;
     }
     int halves = (int)ceil(all / 2) + (s->degree > 1), pieces;
-    int m = font_nodes_needed(f, (float)(1.1 * all / halves),
-                              (float)(fmin(1.1 * all, 1.5 * across + 1e-3) / halves),
-                              (float)(down / halves), &pieces) +
+    double flat_across = fmin(1.1 * all, 1.5 * across + 1e-3);
+    int m = font_nodes_needed(f, (float)(1.1 * all / halves), (float)(flat_across / halves),
+                              font_slant(flat_across, down), &pieces) +
             1;
     pieces *= halves;
     double part = 1.0 / pieces;

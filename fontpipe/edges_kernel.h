@@ -2,49 +2,49 @@
  *     LANES    floats in a vector
  *     KERNEL   the function's name
  *
- * Segments are polynomials, x0 + t (c + t (b + t a)), kept as eight arrays; LANES of them are mapped and measured at
- * once: how long, how far across, how flat. Then each takes as many of Gauss's nodes as its row of the filter's table of
- * errors says, eight evaluated together. */
+ * Segments are polynomials, x0 + t (c + t (b + t a)), kept as eight arrays. A group of them is gone through three times,
+ * without branches that depend on what they are: a processor would guess those wrong half of the time.
+ *
+ *     measure    LANES at once: mapped; how long, how far across, how flat. Vertical ones are left out, horizontal lines
+ *                are their ends
+ *     plan       LANES at once: as many of Gauss's nodes as its row of the filter's table of errors says; a long one takes
+ *                them on several pieces, or evenly spaced ones where those are fewer
+ *     put        eight nodes of a segment at once */
 #include "edges_internal.h"
+#include "lanes.h"
 #include "outline.h"
 
 #include <string.h>
 
-typedef float vector __attribute__((vector_size(LANES * 4)));
-typedef float vector_loose __attribute__((vector_size(LANES * 4), aligned(4), may_alias));
-typedef int ints __attribute__((vector_size(LANES * 4)));
+enum { GROUP = 64 };
 
-#define INLINE static inline __attribute__((always_inline))
+struct group {
+    float x[GROUP], cx[GROUP], bx[GROUP], ax[GROUP];
+    float y[GROUP], cy[GROUP], by[GROUP], ay[GROUP];
+    float bx_twice[GROUP], ax_thrice[GROUP]; /* of the speed along x */
+    float across[GROUP], square[GROUP];      /* square: of the length */
+    float spacings_square[GROUP];            /* of the length in spacings of even nodes */
+    int row[GROUP];                          /* of the table of errors */
+    float allowed[GROUP];                    /* an error that is larger is too large */
+    int large[GROUP];                        /* how many of the row are */
+    float least[GROUP];                      /* nodes that it takes anyway */
+    int pieces[GROUP];
+    /* The plan. A turn puts up to eight nodes: those of a piece, or the next of evenly spaced ones. */
+    int turns[GROUP];
+    float part[GROUP],
+        step[GROUP]; /* t is a rule's place times part, and the turn times step */
+    float weight[GROUP];
+    int rule[2][GROUP]; /* of the first turn, of the others: where it begins in the tables */
+    int most[GROUP], left[GROUP]; /* nodes in a turn; of evenly spaced ones in all, else many */
+    uint64_t nodes;               /* a bit for each that has some */
+};
 
-INLINE vector load(const float *at)
-{
-    return *(const vector_loose *)at;
-}
-
-INLINE vector absolute(vector v)
-{
-    return (vector)((ints)v & 0x7fffffff);
-}
-
-INLINE vector larger(vector a, vector b)
-{
-    ints mask = a > b;
-    return (vector)(((ints)a & mask) | ((ints)b & ~mask));
-}
-
-INLINE vector root(vector v)
-{
-    vector out;
-    for (int k = 0; k < LANES; k++)
-        out[k] = sqrtf(v[k]);
-    return out;
-}
-
-struct measured {
-    float x[LANES], y[LANES], cx[LANES], cy[LANES], bx[LANES], by[LANES], ax[LANES], ay[LANES];
-    float across[LANES], down[LANES], length[LANES], flat[LANES], bend[LANES];
-    int row[LANES];   /* of the table of errors */
-    int slant[LANES]; /* where it is flattest */
+/* Nodes and the ends of lines are put there; with the least and the most of them, in eight and in LANES lanes. */
+struct target {
+    float *x, *y, *weight;
+    int count;
+    eight x0, x1, y0, y1;
+    vector left, right, top, bottom;
 };
 
 INLINE void put(float *to, vector v)
@@ -52,7 +52,80 @@ INLINE void put(float *to, vector v)
     *(vector_loose *)to = v;
 }
 
-INLINE void measure(struct measured *out, const struct font_edges_job *job, int first)
+INLINE void put_ints(int *to, ints v)
+{
+    *(ints_loose *)to = v;
+}
+
+INLINE ints load_ints(const int *at)
+{
+    return *(const ints_loose *)at;
+}
+
+/* ---- measure ---- */
+
+/* Where rows of the table of errors begin for a length, by its fourth power in quarters of a pixel. */
+INLINE ints row_of(vector fourth_power)
+{
+    const vector none = {0};
+    vector limited = vector_min(vector_max(fourth_power, none + 0.5f),
+                                none + (float)(1 << (FONT_LENGTHS - 2)));
+    return (((ints)limited >> 23) - 126) * FONT_NODES_MAX;
+}
+
+INLINE void lines_put(struct font_edges *e, struct target *to, choice lines, float side,
+                      vector x, vector x_end, vector y)
+{
+    const vector far = (vector){0} + INFINITY;
+    int i = e->lines_count;
+    store_chosen((side > 0 ? e->line_x0 : e->line_x1) + i, lines, x);
+    store_chosen((side > 0 ? e->line_x1 : e->line_x0) + i, lines, x_end);
+    store_chosen(e->line_y + i, lines, y);
+    to->left = vector_min(to->left, chosen(lines, vector_min(x, x_end), far));
+    to->right = vector_max(to->right, chosen(lines, vector_max(x, x_end), -far));
+    to->top = vector_min(to->top, chosen(lines, y, far));
+    to->bottom = vector_max(to->bottom, chosen(lines, y, -far));
+    e->lines_count = i + __builtin_popcount(choice_bits(lines));
+}
+
+/* Pieces so long that FONT_NODES_MAX nodes suffice for each. */
+INLINE void measure_longer(struct group *q, int at, const struct font_filter *f, vector square,
+                           vector pieces_per_px, ints slants, vector across)
+{
+    vector length = vector_root(square);
+    ints pieces = __builtin_convertvector(length * pieces_per_px, ints) + 1;
+    vector count = __builtin_convertvector(pieces, vector), quarters = length * 4 / count;
+    quarters *= quarters;
+    put_ints(q->pieces + at, pieces);
+    put_ints(q->row + at, slants + row_of(quarters * quarters));
+    /* The pieces' errors add up where they lie above each other, but not all with one sign. */
+    put(q->allowed + at, vector_root(count) * f->piece_tolerance / across);
+}
+
+INLINE void errors_count(struct group *q, int at, const struct font_filter *f)
+{
+    for (int k = at; k < at + LANES; k++) {
+        const float *row = &f->node_error[0][0][0] + q->row[k];
+        eight_ints large = *(const eight_loose *)row > (eight){0} + q->allowed[k];
+#if LANES > 4
+        q->large[k] = __builtin_popcount((unsigned)_mm256_movemask_ps((__m256)large));
+#else
+        q->large[k] = 0;
+        for (int i = 0; i < 8; i++)
+            q->large[k] -= large[i];
+#endif
+    }
+}
+
+/* LANES segments, and how fast each is along x and y, without a sign: at its beginning, between, and at its end. */
+struct mapped {
+    vector x, cx, bx, ax, y, cy, by, ay;
+    vector dx[3], dy[3];
+    vector chord_x, chord_y; /* from end to end */
+    vector square;           /* of the largest speed: no segment is longer */
+};
+
+INLINE struct mapped map(const struct font_edges_job *job, int first)
 {
     const float *p = job->outline->polynomials + first, *m = job->m;
     int stride = job->outline->polynomials_stride;
@@ -60,127 +133,279 @@ INLINE void measure(struct measured *out, const struct font_edges_job *job, int 
     vector cx = load(p + 2 * stride), cy = load(p + 3 * stride);
     vector bx = load(p + 4 * stride), by = load(p + 5 * stride);
     vector ax = load(p + 6 * stride), ay = load(p + 7 * stride);
-    put(out->x, x * m[0] + y * m[1] + m[2]);
-    put(out->y, x * m[3] + y * m[4] + m[5]);
-    vector Cx = cx * m[0] + cy * m[1], Cy = cx * m[3] + cy * m[4];
-    vector Bx = bx * m[0] + by * m[1], By = bx * m[3] + by * m[4];
-    vector Ax = ax * m[0] + ay * m[1], Ay = ax * m[3] + ay * m[4];
-    put(out->cx, Cx);
-    put(out->cy, Cy);
-    put(out->bx, Bx);
-    put(out->by, By);
-    put(out->ax, Ax);
-    put(out->ay, Ay);
-    /* How fast it is at its beginning, between, and at its end: all the same for a line. Nodes lie as far apart as
-     * where it is fastest, and must suffice for where it is flattest. */
-    vector sx = Cx + Bx, sy = Cy + By, ex = sx + Bx + Ax * 3, ey = sy + By + Ay * 3;
-    vector square = larger(larger(Cx * Cx + Cy * Cy, sx * sx + sy * sy), ex * ex + ey * ey);
-    vector length = root(square);
-    vector dx0 = absolute(Cx), dx1 = absolute(sx), dx2 = absolute(ex);
-    vector dy0 = absolute(Cy), dy1 = absolute(sy), dy2 = absolute(ey);
-    vector across = (dx0 + dx1 + dx2) * (1 / 3.0f), down = (dy0 + dy1 + dy2) * (1 / 3.0f);
-    vector tiny = across * 0 + 1e-9f;
-    vector flat = down / (across + tiny), f0 = dy0 / (dx0 + tiny), f1 = dy1 / (dx1 + tiny);
-    vector f2 = dy2 / (dx2 + tiny);
-    vector flattest = -larger(larger(-f0, -f1), -f2);
-    /* Short quadratics bend little. */
-    ints bends = ((Ax * Ax + Ay * Ay) > across * 0) | (length > 3.0f);
-    flat = (vector)(((ints)flattest & bends) | ((ints)flat & ~bends));
-    vector quarters = length * 4, power = quarters * quarters * quarters * quarters;
-    ints l = ((ints)power >> 23) - 126, above = l > 0;
-    l &= above;
-    above = l < FONT_LENGTHS - 1;
-    l = (l & above) | ((FONT_LENGTHS - 1) & ~above);
-    ints s = -((flat > 0.2f) + (flat > 0.5f) + (flat > 1.0f) + (flat > 2.0f) + (flat > 5.0f));
-    *(ints *)out->slant = -((flattest > 0.2f) + (flattest > 0.5f) + (flattest > 1.0f) +
-                            (flattest > 2.0f) + (flattest > 5.0f));
-    put(out->across, across);
-    put(out->down, down);
-    put(out->length, length);
-    put(out->flat, flat);
-    put(out->bend, Bx * Bx + By * By);
-    *(ints *)out->row = (s * FONT_LENGTHS + l) * FONT_NODES_MAX;
+    struct mapped s = {.x = x * m[0] + y * m[1] + m[2], .y = x * m[3] + y * m[4] + m[5]};
+    s.cx = cx * m[0] + cy * m[1];
+    s.cy = cx * m[3] + cy * m[4];
+    s.bx = bx * m[0] + by * m[1];
+    s.by = bx * m[3] + by * m[4];
+    s.ax = ax * m[0] + ay * m[1];
+    s.ay = ax * m[3] + ay * m[4];
+    vector sx = s.cx + s.bx, sy = s.cy + s.by;
+    vector ex = sx + s.bx + s.ax * 3, ey = sy + s.by + s.ay * 3;
+    s.dx[0] = vector_absolute(s.cx);
+    s.dy[0] = vector_absolute(s.cy);
+    s.dx[1] = vector_absolute(sx);
+    s.dy[1] = vector_absolute(sy);
+    s.dx[2] = vector_absolute(ex);
+    s.dy[2] = vector_absolute(ey);
+    s.chord_x = sx + s.ax;
+    s.chord_y = sy + s.ay;
+    s.square =
+        vector_max(vector_max(s.cx * s.cx + s.cy * s.cy, sx * sx + sy * sy), ex * ex + ey * ey);
+    return s;
+}
+
+/* Of a line; of a curve that bends where it is flattest, else on the whole. */
+INLINE ints slant_of(const struct mapped *s, choice bends)
+{
+    const vector tiny = (vector){0} + 1e-9f;
+    vector dx = s->dx[0] + tiny, dx1 = s->dx[1] + tiny, dx2 = s->dx[2] + tiny, dy = s->dy[0];
+    choice flatter = less(s->dy[1] * dx, dy * dx1);
+    dx = chosen(flatter, dx1, dx);
+    dy = chosen(flatter, s->dy[1], dy);
+    flatter = less(s->dy[2] * dx, dy * dx2);
+    dx = chosen(bends, chosen(flatter, dx2, dx), s->dx[0] + s->dx[1] + s->dx[2]);
+    dy = chosen(bends, chosen(flatter, s->dy[2], dy), s->dy[0] + s->dy[1] + s->dy[2]);
+    ints slant = {0};
+    for (int k = 0; k < FONT_SLANTS - 1; k++)
+        slant = raised(slant, less(dx * (float)font_slants[k], dy), 1);
+    return slant;
+}
+
+/* Curves of the group from `at` on, or the chords of motes. */
+INLINE void curves_put(struct group *q, int at, const struct mapped *s, choice mote)
+{
+    const vector none = {0};
+    vector bx = chosen(mote, none, s->bx), ax = chosen(mote, none, s->ax);
+    put(q->x + at, s->x);
+    put(q->y + at, s->y);
+    put(q->cx + at, chosen(mote, s->chord_x, s->cx));
+    put(q->cy + at, chosen(mote, s->chord_y, s->cy));
+    put(q->bx + at, bx);
+    put(q->by + at, chosen(mote, none, s->by));
+    put(q->ax + at, ax);
+    put(q->ay + at, chosen(mote, none, s->ay));
+    put(q->bx_twice + at, bx * 2);
+    put(q->ax_thrice + at, ax * 3);
+}
+
+/* The segments from `first` on, which are the group's from `at` on; lines are put. */
+INLINE void measure(struct group *q, int at, const struct font_edges_job *job, int first,
+                    struct target *to)
+{
+    const struct font_filter *f = job->filter;
+    const vector none = {0};
+    const struct mapped s = map(job, first);
+    vector across = (s.dx[0] + s.dx[1] + s.dx[2]) * (1 / 3.0f);
+    vector down = (s.dy[0] + s.dy[1] + s.dy[2]) * (1 / 3.0f);
+    vector bend = s.bx * s.bx + s.by * s.by;
+    choice cubic = less(none, s.ax * s.ax + s.ay * s.ay), curved = cubic | less(none, bend);
+    choice bends = cubic | less(none + 9, s.square); /* short quadratics bend little */
+    choice some = less(none, across);
+    choice lines = but_not(but_not(some, curved), less(none + FONT_FLAT_PX, down));
+    choice nodes = but_not(some, lines);
+    q->nodes |= (uint64_t)choice_bits(nodes) << at;
+
+    ints slant = slant_of(&s, bends), slants = slant * (FONT_LENGTHS * FONT_NODES_MAX);
+    vector even_per_px = of_table(f->even_per_px, slant);
+    vector pieces_per_px = of_table(f->pieces_per_px, slant);
+    put_ints(q->row + at, slants + row_of(s.square * s.square * 256));
+    put_ints(q->pieces + at, (ints){0} + 1);
+    put(q->allowed + at, f->piece_tolerance / across);
+    put(q->across + at, across);
+    put(q->square + at, s.square);
+    /* Short curves take none that are evenly spaced. */
+    vector spacings_square = s.square * (even_per_px * even_per_px);
+    put(q->spacings_square + at, chosen(but_not(curved, bends), none, spacings_square));
+    choice longer = nodes & less(none + 1, s.square * (pieces_per_px * pieces_per_px));
+    if (choice_bits(longer))
+        measure_longer(q, at, f, s.square, pieces_per_px, slants, across);
+    errors_count(q, at, f);
+    lines_put(job->edges, to, lines, job->side, s.x, s.x + s.cx, s.y + s.cy * 0.5f);
+
+    /* So many nodes that the area under the curve is exact, one more where a quadratic turns around; specks can do with
+     * less. Of motes one node's weight must be all of the dx, which a cubic's speed at its middle is not. */
+    choice mote = less(s.square, none + FONT_MOTE_PX * FONT_MOTE_PX);
+    choice speck = less(s.square, none + FONT_SPECK_PX * FONT_SPECK_PX);
+    choice two = but_not(curved, mote);
+    choice three = but_not(cubic, speck) | but_not(less(none + FONT_BEND_PX2, bend), cubic);
+    put(q->least + at, chosen(two, chosen(three, none + 3, none + 2), none + 1));
+    curves_put(q, at, &s, mote);
+}
+
+/* ---- plan ---- */
+
+/* Those for which no row of the table suffices (next to none) are cut into more pieces. */
+static void segments_cut(struct group *q, const struct font_filter *f, int at, unsigned which)
+{
+    for (; which; which &= which - 1) {
+        int k = at + __builtin_ctz(which);
+        int slant = q->row[k] / (FONT_LENGTHS * FONT_NODES_MAX);
+        q->large[k] =
+            font_nodes_needed(f, sqrtf(q->square[k]), q->across[k], slant, &q->pieces[k]) - 1;
+    }
+}
+
+INLINE void plan(struct group *q, int at, const struct font_filter *f, float side)
+{
+    const vector none = {0}, many = none + 1e9f, later = none + FONT_RULE_EVEN_LATER;
+    const vector least_even = none + FONT_EVEN_LEAST * FONT_EVEN_LEAST;
+    vector large = __builtin_convertvector(load_ints(q->large + at), vector);
+    vector pieces = __builtin_convertvector(load_ints(q->pieces + at), vector);
+    vector m = vector_max(large + 1, load(q->least + at));
+    vector square = load(q->spacings_square + at);
+    choice even = less(least_even, square) & less(square, m * pieces * (m * pieces));
+    choice cut = but_not(less(none + FONT_NODES_MAX, m), even);
+    if (choice_bits(cut)) {
+        segments_cut(q, f, at, choice_bits(cut) & (unsigned)(q->nodes >> at));
+        large = __builtin_convertvector(load_ints(q->large + at), vector);
+        pieces = __builtin_convertvector(load_ints(q->pieces + at), vector);
+        m = vector_max(large + 1, load(q->least + at));
+    }
+    ints spaced = __builtin_convertvector(vector_root(square), ints) + 1;
+    vector count = __builtin_convertvector(spaced, vector);
+    vector part = (none + 1) / chosen(even, count, pieces);
+    put(q->part + at, part);
+    put(q->step + at, chosen(even, part * 8, part));
+    put(q->weight + at, part * side);
+#define PUT_WHOLE(member, v) put_ints(q->member + at, __builtin_convertvector(v, ints))
+    PUT_WHOLE(turns, chosen(even, (count + 7) * 0.125f, pieces));
+    PUT_WHOLE(most, chosen(even, none + 8, m));
+    PUT_WHOLE(left, chosen(even, count, many));
+    PUT_WHOLE(rule[0], chosen(even, none, m * 8));
+    PUT_WHOLE(rule[1], chosen(even, later * 8, m * 8));
+#undef PUT_WHOLE
+}
+
+/* ---- put ---- */
+
+#if LANES > 4
+#define EIGHT_LEAST(a, b) ((eight)_mm256_min_ps((__m256)(a), (__m256)(b)))
+#define EIGHT_MOST(a, b) ((eight)_mm256_max_ps((__m256)(a), (__m256)(b)))
+#else
+#define EIGHT_LEAST(a, b) FONT_CHOSEN(a, b, (a) < (b))
+#define EIGHT_MOST(a, b) FONT_CHOSEN(a, b, (a) > (b))
+#endif
+
+/* A number in all lanes. Not by adding 0, which would be done: it makes 0 of -0. */
+#define EIGHT_OF(number) ((number) - (eight){0})
+
+/* Copies of a segment's numbers: those in memory are read again after each store, as far as a compiler knows. What is beyond a
+ * turn's nodes is at the beginning of their piece, or at t = 1. */
+INLINE void segment_put(struct target *to, const struct group *q, int k)
+{
+    const eight x0 = EIGHT_OF(q->x[k]), y0 = EIGHT_OF(q->y[k]);
+    const eight cx = EIGHT_OF(q->cx[k]), bx = EIGHT_OF(q->bx[k]), ax = EIGHT_OF(q->ax[k]);
+    const eight cy = EIGHT_OF(q->cy[k]), by = EIGHT_OF(q->by[k]), ay = EIGHT_OF(q->ay[k]);
+    const eight bx_twice = EIGHT_OF(q->bx_twice[k]), ax_thrice = EIGHT_OF(q->ax_thrice[k]);
+    const eight step = EIGHT_OF(q->step[k]), scale = EIGHT_OF(q->weight[k]);
+    const eight places = *(const eight_loose *)(font_rule_places + q->rule[0][k]) * q->part[k];
+    eight weights = *(const eight_loose *)(font_rule_weights + q->rule[0][k]) * scale;
+    /* Counted: steps that are added up would add up what they are rounded by. */
+    eight turn = EIGHT_OF(0.0f);
+    int left = q->left[k], most = q->most[k];
+    for (int turns = q->turns[k];;) {
+        int beyond = left < 11 ? left : 11;
+        eight t = EIGHT_LEAST(places + turn * step, EIGHT_OF(1.0f));
+        eight x = x0 + t * (cx + t * (bx + t * ax)), y = y0 + t * (cy + t * (by + t * ay));
+        *(eight_loose *)(to->x + to->count) = x;
+        *(eight_loose *)(to->y + to->count) = y;
+        *(eight_loose *)(to->weight + to->count) =
+            (cx + t * (bx_twice + t * ax_thrice)) *
+            (weights * *(const eight_loose *)(font_even_ends + 11 - beyond));
+        to->x0 = EIGHT_LEAST(x, to->x0);
+        to->x1 = EIGHT_MOST(x, to->x1);
+        to->y0 = EIGHT_LEAST(y, to->y0);
+        to->y1 = EIGHT_MOST(y, to->y1);
+        to->count += left < most ? left : most;
+        if (--turns == 0)
+            break;
+        left -= 8;
+        turn += 1;
+        weights = *(const eight_loose *)(font_rule_weights + q->rule[1][k]) * scale;
+    }
+}
+
+static enum font_status target_grow(struct font_edges *e, struct target *to, int more)
+{
+    e->nodes_count = to->count;
+    enum font_status status = font_nodes_reserve(e, more);
+    to->x = e->node_x;
+    to->y = e->node_y;
+    to->weight = e->node_weight;
+    return status;
+}
+
+INLINE enum font_status group_put(struct font_edges *e, struct target *to,
+                                  const struct group *q)
+{
+    for (uint64_t set = q->nodes; set; set &= set - 1) {
+        int k = __builtin_ctzll(set);
+        if (to->count + 8 * q->turns[k] > e->nodes_capacity) {
+            enum font_status status = target_grow(e, to, 8 * q->turns[k]);
+            if (status != FONT_OK)
+                return status;
+        }
+        segment_put(to, q, k);
+    }
+    return FONT_OK;
+}
+
+/* ---- all of them ---- */
+
+/* The least of LANES lanes and of eight. */
+INLINE float least_of(vector lanes, const eight *others)
+{
+    eight v = *others;
+#if LANES == 16
+    v = EIGHT_LEAST(v, __builtin_shufflevector(lanes, lanes, 0, 1, 2, 3, 4, 5, 6, 7));
+    v = EIGHT_LEAST(v, __builtin_shufflevector(lanes, lanes, 8, 9, 10, 11, 12, 13, 14, 15));
+#elif LANES == 8
+    v = EIGHT_LEAST(v, lanes);
+#else
+    v = EIGHT_LEAST(v, __builtin_shufflevector(lanes, lanes, 0, 1, 2, 3, 0, 1, 2, 3));
+#endif
+    v = EIGHT_LEAST(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3));
+    v = EIGHT_LEAST(v, __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5));
+    v = EIGHT_LEAST(v, __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6));
+    return v[0];
+}
+
+INLINE void bounds_put(struct font_edges *e, const struct target *to)
+{
+    eight x1 = -to->x1, y1 = -to->y1;
+    e->x0 = least_of(to->left, &to->x0);
+    e->y0 = least_of(to->top, &to->y0);
+    e->x1 = -least_of(-to->right, &x1);
+    e->y1 = -least_of(-to->bottom, &y1);
 }
 
 enum font_status KERNEL(const struct font_edges_job *job)
 {
     struct font_edges *e = job->edges;
-    const struct font_filter *f = job->filter;
-    const struct font_segment *segments = job->outline->segments;
-    const float *errors = &f->node_error[0][0][0];
-    struct measured q __attribute__((aligned(64)));
-    eight none = (eight){0} + INFINITY;
-    struct font_range range = {none, -none, none, -none};
-    for (int first = 0; first < job->outline->segments_count; first += LANES) {
+    const eight far = (eight){0} + INFINITY;
+    const vector far_lanes = (vector){0} + INFINITY;
+    struct group q __attribute__((aligned(64)));
+    struct target to = {e->node_x, e->node_y, e->node_weight, 0,         far,       -far, far,
+                        -far,      far_lanes, -far_lanes,     far_lanes, -far_lanes};
+    for (int first = 0; first < job->outline->segments_count; first += GROUP) {
         int count = job->outline->segments_count - first;
-        measure(&q, job, first);
-        enum font_status status = font_nodes_reserve(e, LANES * FONT_NODES_MAX);
-        if (status == FONT_OK)
-            status = font_lines_reserve(e, LANES);
+        count = count < GROUP ? count : GROUP;
+        enum font_status status = FONT_OK;
+        if (e->lines_count + GROUP > e->lines_capacity)
+            status = font_lines_reserve(e, GROUP);
         if (status != FONT_OK)
             return status;
-        for (int k = 0; k < LANES && k < count; k++) {
-            float across = q.across[k], length = q.length[k];
-            int degree = segments[first + k].degree, pieces = 1;
-            if (across == 0)
-                continue;
-            if (degree == 1 && q.down[k] <= FONT_FLAT_PX) {
-                int i = e->lines_count++;
-                float x = q.x[k], end = x + q.cx[k];
-                e->line_x0[i] = job->side > 0 ? x : end;
-                e->line_x1[i] = job->side > 0 ? end : x;
-                float y = e->line_y[i] = q.y[k] + 0.5f * q.cy[k];
-                eight xs = {x, end, x, x, x, x, x, x}, ys = (eight){0} + y;
-                font_range_add(&range, &xs, &ys);
-                continue;
-            }
-            struct font_cubic c = {q.x[k], q.cx[k], q.bx[k], q.ax[k],
-                                   q.y[k], q.cy[k], q.by[k], q.ay[k]};
-            /* One node's weight must be all of the dx: a cubic's speed at its middle is not. */
-            bool mote = length < FONT_MOTE_PX;
-            if (mote)
-                c = (struct font_cubic){
-                    .x = c.x, .cx = c.cx + c.bx + c.ax, .y = c.y, .cy = c.cy + c.by + c.ay};
-            const float *error = errors + q.row[k];
-            eight_ints large =
-                *(const eight_loose *)error * across > (eight){0} + f->piece_tolerance;
-            int m = 1;
-            for (int i = 0; i < 8; i++)
-                m -= large[i];
-            if (m > FONT_NODES_MAX || length > FONT_LENGTH_LAST)
-                m = font_nodes_needed(f, length, across, q.flat[k] * across, &pieces);
-            /* So many nodes that the area under the curve is exact, one more where a quadratic turns around; specks
-             * can do with less. */
-            int least = degree == 1              ? 1
-                        : mote                   ? 1
-                        : degree == 2            ? 2 + (q.bend[k] > FONT_BEND_PX2)
-                        : length < FONT_SPECK_PX ? 2
-                                                 : 3;
-            m = m < least ? least : m;
-            float spacing = f->spacing_px[q.slant[k]];
-            if (length > FONT_EVEN_LEAST * spacing && length < (float)(m * pieces) * spacing) {
-                int even = (int)(length / spacing) + 1;
-                status = font_nodes_reserve(e, even + LANES * FONT_NODES_MAX);
-                if (status != FONT_OK)
-                    return status;
-                font_nodes_even(e, &c, even, job->side, &range);
-                continue;
-            }
-            if (pieces > 1) {
-                status = font_nodes_reserve(e, m * pieces + LANES * FONT_NODES_MAX);
-                if (status != FONT_OK)
-                    return status;
-            }
-            font_nodes_put(e, &c, m, pieces, job->side, &range);
-        }
+        q.nodes = 0;
+        for (int at = 0; at < count; at += LANES)
+            measure(&q, at, job, first + at, &to);
+        for (int at = 0; at < count; at += LANES)
+            plan(&q, at, job->filter, job->side);
+        status = group_put(e, &to, &q);
+        if (status != FONT_OK)
+            return status;
     }
-    e->x0 = e->y0 = INFINITY;
-    e->x1 = e->y1 = -INFINITY;
-    for (int k = 0; k < 8; k++) {
-        e->x0 = range.x0[k] < e->x0 ? range.x0[k] : e->x0;
-        e->x1 = range.x1[k] > e->x1 ? range.x1[k] : e->x1;
-        e->y0 = range.y0[k] < e->y0 ? range.y0[k] : e->y0;
-        e->y1 = range.y1[k] > e->y1 ? range.y1[k] : e->y1;
-    }
+    e->nodes_count = to.count;
+    bounds_put(e, &to);
     return FONT_OK;
 }

@@ -28,6 +28,7 @@ enum {
     FONT_LENGTHS = 20, /* a quarter of a pixel, times the fourth root of 2 each */
     FONT_SLANTS = 6
 };
+#define FONT_LENGTH_LAST 6.727f /* the longest of them */
 
 /* One product: the profile as its integral at evenly spaced knots, and the density there. */
 struct font_filter_term {
@@ -86,8 +87,10 @@ struct font_filter {
     /* Of an edge of unit dx: what m nodes on a length are wrong by at most, by its slant: |dy| up to
      * font_slants[s] of |dx|. */
     float node_error[FONT_SLANTS][FONT_LENGTHS][FONT_NODES_MAX]; /* [m - 1] */
-    float spacing_px[FONT_SLANTS]; /* of evenly spaced nodes on a long edge */
-    bool use_nodes;                /* else steps, where it is drawn by tables */
+    /* By slant; two more, for whole vectors. Of an edge as flat as its slant can be: how many pieces with FONT_NODES_MAX nodes
+     * each; and how many evenly spaced nodes on a long one (0: none). */
+    float pieces_per_px[FONT_SLANTS + 2], even_per_px[FONT_SLANTS + 2];
+    bool use_nodes; /* else steps, where it is drawn by tables */
     enum font_filter_way way;
     float piece_tolerance; /* of nodes: FONT_PIECE_TOLERANCE, or what patches allow */
     float *patches;        /* see gray_patch.h; NULL but for FONT_BY_PATCHES */
@@ -119,7 +122,8 @@ double font_term_density(const struct font_filter *f, int term, double v);
 double font_term_integral(const struct font_filter *f, int term, double v);
 
 /* filter_measure.c */
-extern const double font_slants[FONT_SLANTS];
+static const double font_slants[FONT_SLANTS] = {0.2, 0.5, 1,
+                                                2,   5,   30}; /* the last: steeper ones too */
 void font_filter_measure(struct font_filter *f);
 
 /* filter_round.c: fills the terms of a round filter. */

@@ -11,9 +11,6 @@
 
 enum { REFERENCE_PER_PX = 48, GRID_PER_PX = 4, GRID_MAX = 80, REFERENCE_MAX = 288 };
 
-const double font_slants[FONT_SLANTS] = {0.2, 0.5, 1,
-                                         2,   5,   30}; /* the last: steeper ones too */
-
 /* The trial edge runs from the origin. Sums of what it adds to a pixel at (x, y) of a grid, per unit of dx. */
 struct trial {
     double x[GRID_MAX], y[GRID_MAX];
@@ -157,6 +154,22 @@ static void nodes_measure(struct font_filter *f, struct trial *t)
     f->use_nodes = true;
 }
 
+/* The longest pieces that can be taken apart. */
+static void pieces_measure(struct font_filter *f)
+{
+    for (int s = 0; s < FONT_SLANTS; s++) {
+        double dx_per_px = 1 / hypot(1, s ? font_slants[s - 1] : 0), length = 0.25;
+        for (int l = 0; l < FONT_LENGTHS; l++) {
+            double longer = 0.25 * pow(2, 0.25 * l);
+            double error = (double)f->node_error[s][l][FONT_NODES_MAX - 1] * longer * dx_per_px;
+            if (error > (double)f->piece_tolerance)
+                break;
+            length = longer;
+        }
+        f->pieces_per_px[s] = (float)(1 / length);
+    }
+}
+
 /* How far apart nodes on a long edge may be. */
 static void spacing_measure(struct font_filter *f, struct trial *t)
 {
@@ -169,7 +182,7 @@ static void spacing_measure(struct font_filter *f, struct trial *t)
             if (trial_error(t) <= 0.7 * (double)f->piece_tolerance)
                 break;
         }
-        f->spacing_px[s] = (float)(length / count);
+        f->even_per_px[s] = (float)(count / length);
     }
 }
 
@@ -239,6 +252,7 @@ void font_filter_measure(struct font_filter *f)
     f->step_px = 1.0 / 16;
     if (t) { /* without memory for the trial: the finest steps */
         nodes_measure(f, t);
+        pieces_measure(f);
         if (f->use_nodes)
             spacing_measure(f, t);
         f->use_nodes &= f->way != FONT_BY_PATCHES; /* tables alone take steps */

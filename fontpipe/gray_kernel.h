@@ -27,30 +27,18 @@
  *
  * The tables are padded, so that a block's values are one load whatever column the taps begin at. */
 #include "gray_internal.h"
+#include "lanes.h"
 
 #include <string.h>
-#if defined(__AVX2__)
-#include <immintrin.h>
-#elif defined(__SSE2__)
-#include <emmintrin.h>
-#endif
 
 enum { ROW = 16, HALF_LANES = LANES > 8 ? 8 : LANES };
 
-typedef float vector __attribute__((vector_size(LANES * 4)));
-typedef float vector_loose __attribute__((vector_size(LANES * 4), aligned(4), may_alias));
 typedef float half_vector __attribute__((vector_size(HALF_LANES * 4)));
 typedef float half_loose __attribute__((vector_size(HALF_LANES * 4), aligned(4), may_alias));
 
-#define INLINE static inline __attribute__((always_inline))
 #define APART __attribute__((noinline))
 
 enum { PARTS = ROW / LANES, HALF_PARTS = ROW / HALF_LANES };
-
-INLINE vector load(const float *at)
-{
-    return *(const vector_loose *)at;
-}
 
 INLINE half_vector half_load(const float *at)
 {
@@ -90,9 +78,6 @@ INLINE bool row_in_band(const struct font_gray_job *job, int row)
 /* ---- nodes, a batch at a time ---- */
 
 enum { BATCH = 64 };
-
-typedef int ints __attribute__((vector_size(LANES * 4)));
-typedef int ints_loose __attribute__((vector_size(LANES * 4), aligned(4), may_alias));
 
 /* For each node: where its column's and its rows' values begin in the tables, how far it is to the next phase, and
  * where its sums are. */
@@ -395,8 +380,6 @@ INLINE void rows_add_up(const struct font_gray_job *job, int stride, int odd, bo
     for (; column < job->width; column += ROW)
         strip_add_up(job, column, PARTS, stride, odd, exact);
 }
-
-#include "gray_lanes.h"
 
 #include "gray_area.h"
 #include "gray_disc.h"
