@@ -10,6 +10,8 @@
  *     curved       the same: the curve itself is never made of lines */
 #include "edges_internal.h"
 #include "internal.h"
+#define LANES 4
+#include "lanes.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -256,20 +258,19 @@ static enum font_status mapped_build(struct font_edges *e, const struct font_fil
 
 /* ---- all of an outline ---- */
 
-/* The least and the most of an array that has room for eight more. */
+/* The least and the most of an array that has room for LANES more. */
 static void range_find(float *at, int count, float *least, float *most)
 {
     if (!count)
         return;
-    for (int k = count; k < count + 8; k++)
+    for (int k = count; k < count + LANES; k++)
         at[k] = at[0];
-    eight low = *(const eight_loose *)at, high = low;
-    for (int k = 8; k < count; k += 8) {
-        eight here = *(const eight_loose *)(at + k);
-        low = FONT_CHOSEN(here, low, here < low);
-        high = FONT_CHOSEN(here, high, here > high);
+    vector low = load(at), high = low;
+    for (int k = LANES; k < count; k += LANES) {
+        low = vector_min(low, load(at + k));
+        high = vector_max(high, load(at + k));
     }
-    for (int k = 0; k < 8; k++) {
+    for (int k = 0; k < LANES; k++) {
         *least = low[k] < *least ? low[k] : *least;
         *most = high[k] > *most ? high[k] : *most;
     }

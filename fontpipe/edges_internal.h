@@ -46,15 +46,6 @@ static inline int font_slant(double across, double down)
 int font_nodes_needed(const struct font_filter *f, float length, float across, int slant,
                       int *pieces);
 
-/* ---- nodes, eight at a time ---- */
-
-typedef int eight_ints __attribute__((vector_size(32)));
-typedef float eight __attribute__((vector_size(32)));
-typedef float eight_loose __attribute__((vector_size(32), aligned(4), may_alias));
-
-#define FONT_CHOSEN(a, b, mask)                                                                \
-    ((eight)(((eight_ints)(a) & (mask)) | ((eight_ints)(b) & ~(mask))))
-
 /* Rules: how eight nodes lie, and their weights. The first: evenly spaced ones at the beginning of an edge, with half of a
  * spacing before them; then those of Gauss with 1, 2, .. nodes; the last: evenly spaced ones from the ninth on. */
 enum { FONT_RULE_EVEN_LATER = FONT_NODES_MAX + 1, FONT_RULES };

@@ -16,6 +16,34 @@
 
 #include <string.h>
 
+/* Nodes are put eight at a time: in one or two vectors. */
+enum { WIDE = LANES < 8 ? LANES : 8 };
+#if LANES > 8
+typedef float wide __attribute__((vector_size(32)));
+typedef float wide_loose __attribute__((vector_size(32), aligned(4), may_alias));
+#else
+typedef vector wide;
+typedef vector_loose wide_loose;
+#endif
+
+INLINE wide wide_min(wide a, wide b)
+{
+#if LANES > 8
+    return (wide)_mm256_min_ps((__m256)a, (__m256)b);
+#else
+    return vector_min(a, b);
+#endif
+}
+
+INLINE wide wide_max(wide a, wide b)
+{
+#if LANES > 8
+    return (wide)_mm256_max_ps((__m256)a, (__m256)b);
+#else
+    return vector_max(a, b);
+#endif
+}
+
 enum { GROUP = 64 };
 
 struct group {
@@ -39,11 +67,11 @@ struct group {
     uint64_t nodes;               /* a bit for each that has some */
 };
 
-/* Nodes and the ends of lines are put there; with the least and the most of them, in eight and in LANES lanes. */
+/* Nodes and the ends of lines are put there; with the least and the most of both, by lanes. */
 struct target {
     float *x, *y, *weight;
     int count;
-    eight x0, x1, y0, y1;
+    wide x0, x1, y0, y1;
     vector left, right, top, bottom;
 };
 
@@ -85,7 +113,7 @@ INLINE void lines_put(struct font_edges *e, struct target *to, choice lines, flo
     to->right = vector_max(to->right, chosen(lines, vector_max(x, x_end), -far));
     to->top = vector_min(to->top, chosen(lines, y, far));
     to->bottom = vector_max(to->bottom, chosen(lines, y, -far));
-    e->lines_count = i + __builtin_popcount(choice_bits(lines));
+    e->lines_count = i + bits_count(choice_bits(lines));
 }
 
 /* Pieces so long that FONT_NODES_MAX nodes suffice for each. */
@@ -106,13 +134,15 @@ INLINE void errors_count(struct group *q, int at, const struct font_filter *f)
 {
     for (int k = at; k < at + LANES; k++) {
         const float *row = &f->node_error[0][0][0] + q->row[k];
-        eight_ints large = *(const eight_loose *)row > (eight){0} + q->allowed[k];
 #if LANES > 4
-        q->large[k] = __builtin_popcount((unsigned)_mm256_movemask_ps((__m256)large));
+        __m256 allowed = _mm256_set1_ps(q->allowed[k]);
+        int large =
+            _mm256_movemask_ps(_mm256_cmp_ps(allowed, _mm256_loadu_ps(row), _CMP_LT_OQ));
+        q->large[k] = bits_count((unsigned)large);
 #else
-        q->large[k] = 0;
-        for (int i = 0; i < 8; i++)
-            q->large[k] -= large[i];
+        vector allowed = (vector){0} + q->allowed[k];
+        unsigned large = choice_bits(less(allowed, load(row)));
+        q->large[k] = bits_count(large | choice_bits(less(allowed, load(row + 4))) << 4);
 #endif
     }
 }
@@ -279,50 +309,50 @@ INLINE void plan(struct group *q, int at, const struct font_filter *f, float sid
 
 /* ---- put ---- */
 
-#if LANES > 4
-#define EIGHT_LEAST(a, b) ((eight)_mm256_min_ps((__m256)(a), (__m256)(b)))
-#define EIGHT_MOST(a, b) ((eight)_mm256_max_ps((__m256)(a), (__m256)(b)))
-#else
-#define EIGHT_LEAST(a, b) FONT_CHOSEN(a, b, (a) < (b))
-#define EIGHT_MOST(a, b) FONT_CHOSEN(a, b, (a) > (b))
-#endif
-
 /* A number in all lanes. Not by adding 0, which would be done: it makes 0 of -0. */
-#define EIGHT_OF(number) ((number) - (eight){0})
+#define WIDE_OF(number) ((number) - (wide){0})
+
+INLINE wide wide_load(const float *at)
+{
+    return *(const wide_loose *)at;
+}
 
 /* Copies of a segment's numbers: those in memory are read again after each store, as far as a compiler knows. What is beyond a
  * turn's nodes is at the beginning of their piece, or at t = 1. */
 INLINE void segment_put(struct target *to, const struct group *q, int k)
 {
-    const eight x0 = EIGHT_OF(q->x[k]), y0 = EIGHT_OF(q->y[k]);
-    const eight cx = EIGHT_OF(q->cx[k]), bx = EIGHT_OF(q->bx[k]), ax = EIGHT_OF(q->ax[k]);
-    const eight cy = EIGHT_OF(q->cy[k]), by = EIGHT_OF(q->by[k]), ay = EIGHT_OF(q->ay[k]);
-    const eight bx_twice = EIGHT_OF(q->bx_twice[k]), ax_thrice = EIGHT_OF(q->ax_thrice[k]);
-    const eight step = EIGHT_OF(q->step[k]), scale = EIGHT_OF(q->weight[k]);
-    const eight places = *(const eight_loose *)(font_rule_places + q->rule[0][k]) * q->part[k];
-    eight weights = *(const eight_loose *)(font_rule_weights + q->rule[0][k]) * scale;
+    const wide x0 = WIDE_OF(q->x[k]), y0 = WIDE_OF(q->y[k]);
+    const wide cx = WIDE_OF(q->cx[k]), bx = WIDE_OF(q->bx[k]), ax = WIDE_OF(q->ax[k]);
+    const wide cy = WIDE_OF(q->cy[k]), by = WIDE_OF(q->by[k]), ay = WIDE_OF(q->ay[k]);
+    const wide bx_twice = WIDE_OF(q->bx_twice[k]), ax_thrice = WIDE_OF(q->ax_thrice[k]);
+    const wide part = WIDE_OF(q->part[k]), step = WIDE_OF(q->step[k]);
+    const wide weight = WIDE_OF(q->weight[k]);
+    const float *places = font_rule_places + q->rule[0][k];
+    const float *weights = font_rule_weights + q->rule[0][k];
     /* Counted: steps that are added up would add up what they are rounded by. */
-    eight turn = EIGHT_OF(0.0f);
+    wide turn = WIDE_OF(0.0f);
     int left = q->left[k], most = q->most[k];
     for (int turns = q->turns[k];;) {
-        int beyond = left < 11 ? left : 11;
-        eight t = EIGHT_LEAST(places + turn * step, EIGHT_OF(1.0f));
-        eight x = x0 + t * (cx + t * (bx + t * ax)), y = y0 + t * (cy + t * (by + t * ay));
-        *(eight_loose *)(to->x + to->count) = x;
-        *(eight_loose *)(to->y + to->count) = y;
-        *(eight_loose *)(to->weight + to->count) =
-            (cx + t * (bx_twice + t * ax_thrice)) *
-            (weights * *(const eight_loose *)(font_even_ends + 11 - beyond));
-        to->x0 = EIGHT_LEAST(x, to->x0);
-        to->x1 = EIGHT_MOST(x, to->x1);
-        to->y0 = EIGHT_LEAST(y, to->y0);
-        to->y1 = EIGHT_MOST(y, to->y1);
+        const float *ends = font_even_ends + 11 - (left < 11 ? left : 11);
+        for (int p = 0; p < 8; p += WIDE) {
+            wide t = wide_min(wide_load(places + p) * part + turn * step, WIDE_OF(1.0f));
+            wide x = x0 + t * (cx + t * (bx + t * ax)), y = y0 + t * (cy + t * (by + t * ay));
+            wide speed = cx + t * (bx_twice + t * ax_thrice);
+            *(wide_loose *)(to->x + to->count + p) = x;
+            *(wide_loose *)(to->y + to->count + p) = y;
+            *(wide_loose *)(to->weight + to->count + p) =
+                speed * (wide_load(weights + p) * weight * wide_load(ends + p));
+            to->x0 = wide_min(x, to->x0);
+            to->x1 = wide_max(x, to->x1);
+            to->y0 = wide_min(y, to->y0);
+            to->y1 = wide_max(y, to->y1);
+        }
         to->count += left < most ? left : most;
         if (--turns == 0)
             break;
         left -= 8;
         turn += 1;
-        weights = *(const eight_loose *)(font_rule_weights + q->rule[1][k]) * scale;
+        weights = font_rule_weights + q->rule[1][k];
     }
 }
 
@@ -353,37 +383,38 @@ INLINE enum font_status group_put(struct font_edges *e, struct target *to,
 
 /* ---- all of them ---- */
 
-/* The least of LANES lanes and of eight. */
-INLINE float least_of(vector lanes, const eight *others)
+/* The least of all lanes. */
+INLINE float least_of(vector lanes, wide v)
 {
-    eight v = *others;
 #if LANES == 16
-    v = EIGHT_LEAST(v, __builtin_shufflevector(lanes, lanes, 0, 1, 2, 3, 4, 5, 6, 7));
-    v = EIGHT_LEAST(v, __builtin_shufflevector(lanes, lanes, 8, 9, 10, 11, 12, 13, 14, 15));
-#elif LANES == 8
-    v = EIGHT_LEAST(v, lanes);
+    v = wide_min(v, __builtin_shufflevector(lanes, lanes, 0, 1, 2, 3, 4, 5, 6, 7));
+    v = wide_min(v, __builtin_shufflevector(lanes, lanes, 8, 9, 10, 11, 12, 13, 14, 15));
 #else
-    v = EIGHT_LEAST(v, __builtin_shufflevector(lanes, lanes, 0, 1, 2, 3, 0, 1, 2, 3));
+    v = wide_min(v, lanes);
 #endif
-    v = EIGHT_LEAST(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3));
-    v = EIGHT_LEAST(v, __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5));
-    v = EIGHT_LEAST(v, __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6));
+#if LANES > 4
+    v = wide_min(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3));
+    v = wide_min(v, __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5));
+    v = wide_min(v, __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6));
+#else
+    v = wide_min(v, __builtin_shufflevector(v, v, 2, 3, 0, 1));
+    v = wide_min(v, __builtin_shufflevector(v, v, 1, 0, 3, 2));
+#endif
     return v[0];
 }
 
 INLINE void bounds_put(struct font_edges *e, const struct target *to)
 {
-    eight x1 = -to->x1, y1 = -to->y1;
-    e->x0 = least_of(to->left, &to->x0);
-    e->y0 = least_of(to->top, &to->y0);
-    e->x1 = -least_of(-to->right, &x1);
-    e->y1 = -least_of(-to->bottom, &y1);
+    e->x0 = least_of(to->left, to->x0);
+    e->y0 = least_of(to->top, to->y0);
+    e->x1 = -least_of(-to->right, -to->x1);
+    e->y1 = -least_of(-to->bottom, -to->y1);
 }
 
 enum font_status KERNEL(const struct font_edges_job *job)
 {
     struct font_edges *e = job->edges;
-    const eight far = (eight){0} + INFINITY;
+    const wide far = WIDE_OF(INFINITY);
     const vector far_lanes = (vector){0} + INFINITY;
     struct group q __attribute__((aligned(64)));
     struct target to = {e->node_x, e->node_y, e->node_weight, 0,         far,       -far, far,

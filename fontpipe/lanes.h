@@ -142,6 +142,19 @@ INLINE unsigned choice_bits(choice so)
 #endif
 }
 
+/* Of up to sixteen. */
+INLINE int bits_count(unsigned bits)
+{
+#ifdef __POPCNT__
+    return __builtin_popcount(bits);
+#else
+    bits -= bits >> 1 & 0x5555;
+    bits = (bits & 0x3333) + (bits >> 2 & 0x3333);
+    bits = (bits + (bits >> 4)) & 0x0f0f;
+    return (int)((bits + (bits >> 8)) & 31);
+#endif
+}
+
 /* The lanes where it is so, one behind the other. Up to LANES floats are written. */
 INLINE void store_chosen(float *to, choice so, vector v)
 {
