@@ -7,9 +7,10 @@ local blue, rose, umber, green, yellow = "french ultramarine", "quinacridone ros
 local function steps(p, n) p:step(math.min(n, most)) end
 local works = {}
 
--- Five ranges of hills, each a glaze that fades into the mist below it.
+-- Five ranges of hills, each a glaze that fades into the mist below it, over the edges of a handmade sheet.
 function works.hills()
-  local p = paper{width = px(560), height = px(380), stock = "cold press", seed = 3, pigments = {blue, umber, green, yellow, rose}}
+  local p = paper{width = px(560), height = px(380), stock = "cold press", seed = 3, pigments = {blue, umber, green, yellow, rose},
+    deckle = {margin = 22 * scale, waves = 2.5 * scale, thin = 14 * scale, fringe = 5 * scale}}
   p:wash({water = 0.45, [blue] = 0.3}, {from = {0, px(10)}, to = {0, px(210)}, into = {water = 0.45, [rose] = 0.16, [yellow] = 0.25}})
   steps(p, 350)
   p:seal()

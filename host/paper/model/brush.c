@@ -44,8 +44,12 @@ static bool clouds_lay(const struct paper_sheet *p, struct sheet_brushes *b)
     b->clouds_rows = height / BRUSH_CLOUD + 2;
     b->clouds = calloc((size_t)b->clouds_columns * (size_t)b->clouds_rows, sizeof *b->clouds);
     double scale = felt_scale(&p->config) / BRUSH_CLOUD;
-    const struct clouds of = {CLOUD_FINEST * scale, CLOUD_COARSEST * scale, CLOUD_STEP,
-                              clouds_word(p->config.seed, 77), false};
+    const struct clouds of = {CLOUD_FINEST * scale,
+                              CLOUD_COARSEST * scale,
+                              CLOUD_STEP,
+                              clouds_word(p->config.seed, 77),
+                              false,
+                              0};
     return b->clouds && clouds_make(b->clouds, b->clouds_columns, b->clouds_rows, false, &of);
 }
 
@@ -71,8 +75,12 @@ enum paper_status sheet_grip_make(struct paper_sheet *p)
     const int width = p->page.grid.width, height = p->page.grid.height;
     const size_t count = (size_t)width * (size_t)height;
     const double scale = felt_scale(&p->config);
-    const struct clouds of = {CLOUD_FINEST * scale, CLOUD_COARSEST * scale, CLOUD_STEP,
-                              clouds_word(p->config.seed, 77), false};
+    const struct clouds of = {CLOUD_FINEST * scale,
+                              CLOUD_COARSEST * scale,
+                              CLOUD_STEP,
+                              clouds_word(p->config.seed, 77),
+                              false,
+                              0};
     float *grip = malloc(count * sizeof *grip);
     if (!grip || !clouds_make(grip, width, height, p->config.torus, &of)) {
         free(grip);

@@ -74,7 +74,7 @@ enum { TURNS = sizeof turns / sizeof *turns };
 
 /* out += amplitude * the size's spline on a grid that is turned. */
 static bool turned_add(float *out, int width, int height, double size, float amplitude,
-                       uint64_t seed, const double turn[2])
+                       uint64_t seed, const double turn[2], int border)
 {
     /* the grid's places go from 0 along turn, and from -width sin / size across it */
     const double along = turn[0] / size, across = turn[1] / size;
@@ -86,8 +86,11 @@ static bool turned_add(float *out, int width, int height, double size, float amp
         return false;
     for (int y = 0; y < rows; y++)
         grid_row(grid + (size_t)y * (size_t)columns, columns, (uint64_t)y, seed);
-    for (int y = 0; y < height; y++)
+    for (int y = 0; y < height; y++) {
+        const bool middle = border > 0 && y >= border && y < height - border;
         for (int x = 0; x < width; x++) {
+            if (middle && x == border && border < width - border)
+                x = width - border;
             double u = (x + 0.5) * along + (y + 0.5) * across,
                    v = (y + 0.5) * along - (x + 0.5) * across + left;
             int column = (int)u, row = (int)v;
@@ -102,6 +105,7 @@ static bool turned_add(float *out, int width, int height, double size, float amp
                 amplitude * ((sum[0] * down_weight[0] + sum[3] * down_weight[3]) +
                              (sum[1] * down_weight[1] + sum[2] * down_weight[2]));
         }
+    }
     free(grid);
     return true;
 }
@@ -159,7 +163,8 @@ bool clouds_make(float *out, int width, int height, bool torus, const struct clo
         const double *turn = turns[octave % TURNS];
         const uint64_t seed = clouds_word(of->seed, octave++);
         if (!(of->turned && !torus
-                  ? turned_add(out, width, height, size, (float)amplitude, seed, turn)
+                  ? turned_add(out, width, height, size, (float)amplitude, seed, turn,
+                               of->border)
                   : size_add(out, width, height, torus, size, (float)amplitude, seed)))
             return false;
     }

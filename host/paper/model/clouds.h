@@ -12,6 +12,7 @@ struct clouds {
     uint64_t seed;
     bool
         turned; /* each size by an angle of its own, but on a torus: nothing in them lies along the axes */
+    int border; /* turned ones are made only so far from the sheet's sides, and are 0 farther in; 0: everywhere */
 };
 
 /* Shape: out holds height * width numbers, rows from the top; mean about 0, deviation about 1, over a large sheet. Sizes may be any

@@ -31,9 +31,13 @@ enum { SEED_WAVES = 21, SEED_TEARS };
 #define TEARS_STEP 0.7
 #define TEARS_FROM 0.9 /* deviations */
 #define TEARS 0.9      /* of waves, for one deviation more */
-#define BEYOND 0.24    /* of the fibers */
-#define AT_EDGE 0.2    /* of the thickness */
-#define FLOC 3.0       /* fibers that the edge is farther out where twice as many lie */
+#define WAVES_MOST 3.5
+#define TEARS_MOST 2.5
+#define WHOLE_FROM                                                                             \
+    (WAVES_MOST + TEARS * TEARS_MOST) /* waves beyond which the sheet is whole everywhere */
+#define BEYOND 0.24                   /* of the fibers */
+#define AT_EDGE 0.2                   /* of the thickness */
+#define FLOC 3.0 /* fibers that the edge is farther out where twice as many lie */
 #define LIE_EVEN 0.75
 #define LIE_MOST 2.5
 #define OF_HAIRS 0.12 /* of the thickness, fibers beyond the edge as many as usual within */
@@ -61,14 +65,23 @@ bool deckle_make(const struct paper_sheet_config *config, double scale, float *i
 {
     const struct paper_deckle *d = &config->deckle;
     const int width = config->width, height = config->height;
-    const struct clouds waves = {WAVES_FINEST * scale, WAVES_COARSEST * scale, WAVES_STEP,
-                                 clouds_word(config->seed, SEED_WAVES), true},
-                        tears = {TEARS_FINEST * scale, TEARS_COARSEST * scale, TEARS_STEP,
-                                 clouds_word(config->seed, SEED_TEARS), true};
+    const double corner = d->thin, whole = d->margin + d->thin + WHOLE_FROM * d->waves;
+    const int border = (int)fmin(PAPER_SIDE_MAX, ceil(whole + 2 * scale));
+    const struct clouds waves = {WAVES_FINEST * scale,
+                                 WAVES_COARSEST * scale,
+                                 WAVES_STEP,
+                                 clouds_word(config->seed, SEED_WAVES),
+                                 true,
+                                 border},
+                        tears = {TEARS_FINEST * scale,
+                                 TEARS_COARSEST * scale,
+                                 TEARS_STEP,
+                                 clouds_word(config->seed, SEED_TEARS),
+                                 true,
+                                 border};
     if (!clouds_make(inside, width, height, false, &waves) ||
         !clouds_make(spare, width, height, false, &tears))
         return false;
-    const double corner = d->thin;
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
             const size_t at = (size_t)y * (size_t)width + (size_t)x;
@@ -76,8 +89,8 @@ bool deckle_make(const struct paper_sheet_config *config, double scale, float *i
                          down = inside_of(y + 0.5, height, d->margin, corner),
                          u = fmin(across, 0), v = fmin(down, 0),
                          mean = corner + fmax(fmin(across, down), 0) - sqrt(u * u + v * v);
-            const double wave = fmax(-3.5, fmin(3.5, (double)inside[at])),
-                         tear = fmax(0, fmin(2.5, (double)spare[at] - TEARS_FROM));
+            const double wave = fmax(-WAVES_MOST, fmin(WAVES_MOST, (double)inside[at])),
+                         tear = fmax(0, fmin(TEARS_MOST, (double)spare[at] - TEARS_FROM));
             inside[at] = (float)(mean + d->waves * (wave - TEARS * tear));
         }
     return true;

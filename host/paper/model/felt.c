@@ -112,7 +112,7 @@ static void add(float *to, const float *from, size_t count, double part)
 static bool cloud_make(const struct making *m, float *out, double finest, double coarsest,
                        double step, uint64_t which)
 {
-    const struct clouds of = {finest, coarsest, step, clouds_word(m->seed, which), false};
+    const struct clouds of = {finest, coarsest, step, clouds_word(m->seed, which), false, 0};
     return clouds_make(out, m->width, m->height, m->config->torus, &of);
 }
 
