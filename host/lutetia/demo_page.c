@@ -84,6 +84,7 @@ struct paper_sheet_config demo_page_config(void)
     config.width = DEMO_WIDTH;
     config.height = DEMO_HEIGHT;
     config.pigments_count = PIGMENTS;
+    config.deckled = true;
     for (int i = 0; i < PIGMENTS; i++)
         config.pigments[i] = *paper_pigment_find(pigments[i]);
     return config;
