@@ -87,8 +87,8 @@ struct batch {
     float weights[BATCH * ROW] __attribute__((aligned(64)));
 };
 
-INLINE void batch_fill(struct batch *b, const struct font_gray_job *job, const float *ys,
-                       int first, int count, int stride, int taps, bool odd)
+INLINE void batch_fill(struct batch *b, const struct font_gray_job *job, int first, int count,
+                       int stride, int taps, bool odd)
 {
     for (int k = 0; k < count; k += LANES) { /* the arrays are longer than the count */
         vector ax = load(job->node_x + first + k) + job->ax;
@@ -108,6 +108,12 @@ INLINE void batch_fill(struct batch *b, const struct font_gray_job *job, const f
         *(vector_loose *)(b->column_t + k) = px - __builtin_convertvector(qx, vector);
         *(vector_loose *)(b->rows_t + k) = py - __builtin_convertvector(qy, vector);
     }
+    IN_MEMORY();
+}
+
+INLINE void batch_weigh(struct batch *b, const struct font_gray_job *job, const float *ys,
+                        int first, int count, int taps)
+{
     const float *weight = job->node_weight + first;
     for (int k = 0; k < count; k++)
         rows_weigh(b->weights + k * WEIGHTS(taps), ys + b->rows[k], b->rows_t[k], weight[k],
@@ -187,7 +193,8 @@ INLINE void runs_add(const struct font_gray_job *job, int term, int stride, int 
     int at = FONT_MARGIN_ROWS * stride; /* nothing yet, wherever it is */
     for (int first = 0; first < job->nodes_count; first += BATCH) {
         int count = job->nodes_count - first < BATCH ? job->nodes_count - first : BATCH;
-        batch_fill(&b, job, ys, first, count, stride, taps, false);
+        batch_fill(&b, job, first, count, stride, taps, false);
+        batch_weigh(&b, job, ys, first, count, taps);
         for (int k = 0; k < count; k++) {
             if (banded && !row_in_band(job, b.row[k]))
                 continue;
@@ -209,18 +216,37 @@ INLINE void runs_add(const struct font_gray_job *job, int term, int stride, int 
         run_row_add(&run, r, job->sums + at + r * stride, parts);
 }
 
-INLINE void node_add(const struct font_gray_job *job, const struct batch *b, int k,
-                     const float *xs, int taps)
+/* One of the numbers that rows get, in all lanes: from a register, which takes no load. */
+INLINE half_vector spread(const half_vector *weights, int row)
+{
+#if LANES > 4
+    return (half_vector)_mm256_permutevar8x32_ps((__m256)weights[0], _mm256_set1_epi32(row));
+#else
+    return weights[row / HALF_LANES][row % HALF_LANES] - (half_vector){0};
+#endif
+}
+
+INLINE void node_add(const struct font_gray_job *job, const struct batch *b, int first, int k,
+                     const float *xs, const float *ys, int taps)
 {
     const int parts = 8 / HALF_LANES;
-    const float *x = xs + b->column[k];
-    float t = b->column_t[k];
-    half_vector columns[HALF_PARTS];
-    for (int p = 0; p < parts; p++)
-        columns[p] =
-            half_load(x + p * HALF_LANES) + half_load(x + FONT_X_ROW + p * HALF_LANES) * t;
-    block_add(job->sums + b->sums[k], FONT_NARROW_STRIDE, columns, parts,
-              b->weights + k * WEIGHTS(taps), taps + 1);
+    const float *x = xs + b->column[k], *y = ys + b->rows[k];
+    float *sums = job->sums + b->sums[k];
+    half_vector columns[HALF_PARTS], weights[HALF_PARTS];
+    for (int p = 0; p < parts; p++) {
+        columns[p] = half_load(x + p * HALF_LANES) +
+                     half_load(x + FONT_X_ROW + p * HALF_LANES) * b->column_t[k];
+        weights[p] = (half_load(y + p * HALF_LANES) +
+                      half_load(y + FONT_Y_ROW + p * HALF_LANES) * b->rows_t[k]) *
+                     job->node_weight[first + k];
+    }
+    OPAQUE(sums);
+    for (int r = 0; r <= taps; r++) {
+        half_vector weight = spread(weights, r);
+        for (int p = 0; p < parts; p++)
+            *(half_vector *)(sums + r * FONT_NARROW_STRIDE + p * HALF_LANES) +=
+                columns[p] * weight;
+    }
 }
 
 /* Narrow pictures of few taps. Neighbours on an edge add to the same rows and each waits for what the one before has stored; so
@@ -232,14 +258,14 @@ INLINE void narrow_add(const struct font_gray_job *job, int term, int taps)
     for (int first = 0; first < job->nodes_count; first += BATCH) {
         int count = job->nodes_count - first < BATCH ? job->nodes_count - first : BATCH;
         int third = count / 3;
-        batch_fill(&b, job, ys, first, count, FONT_NARROW_STRIDE, taps, true);
+        batch_fill(&b, job, first, count, FONT_NARROW_STRIDE, taps, true);
         for (int k = 0; k < third; k++) {
-            node_add(job, &b, k, xs, taps);
-            node_add(job, &b, k + third, xs, taps);
-            node_add(job, &b, k + 2 * third, xs, taps);
+            node_add(job, &b, first, k, xs, ys, taps);
+            node_add(job, &b, first, k + third, xs, ys, taps);
+            node_add(job, &b, first, k + 2 * third, xs, ys, taps);
         }
         for (int k = 3 * third; k < count; k++)
-            node_add(job, &b, k, xs, taps);
+            node_add(job, &b, first, k, xs, ys, taps);
     }
 }
 
