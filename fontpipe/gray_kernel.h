@@ -45,7 +45,7 @@ INLINE half_vector half_load(const float *at)
     return *(const half_loose *)at;
 }
 
-/* Weights are written and read again one by one: a processor broadcasts from memory for nothing. */
+/* What vectors wrote is read again one by one: a processor broadcasts from memory for nothing. */
 #define IN_MEMORY() __asm__ volatile("" ::: "memory")
 
 #define SHORT(taps) ((taps) <= 5) /* they lie in a block that begins at a multiple of 4 */
@@ -84,7 +84,6 @@ enum { BATCH = 64 };
 struct batch {
     int column[BATCH], rows[BATCH], row[BATCH], sums[BATCH];
     float column_t[BATCH], rows_t[BATCH];
-    float weights[BATCH * ROW] __attribute__((aligned(64)));
 };
 
 INLINE void batch_fill(struct batch *b, const struct font_gray_job *job, int first, int count,
@@ -111,14 +110,29 @@ INLINE void batch_fill(struct batch *b, const struct font_gray_job *job, int fir
     IN_MEMORY();
 }
 
-INLINE void batch_weigh(struct batch *b, const struct font_gray_job *job, const float *ys,
-                        int first, int count, int taps)
+/* What a node's columns get, and its rows. */
+INLINE void node_weigh(half_vector *columns, half_vector *weights, const struct batch *b, int k,
+                       const float *xs, const float *ys, float weight, int taps)
 {
-    const float *weight = job->node_weight + first;
-    for (int k = 0; k < count; k++)
-        rows_weigh(b->weights + k * WEIGHTS(taps), ys + b->rows[k], b->rows_t[k], weight[k],
-                   taps);
-    IN_MEMORY();
+    const float *x = xs + b->column[k], *y = ys + b->rows[k];
+    for (int p = 0; p < 8 / HALF_LANES; p++)
+        columns[p] = half_load(x + p * HALF_LANES) +
+                     half_load(x + FONT_X_ROW + p * HALF_LANES) * b->column_t[k];
+    for (int p = 0; p < WEIGHTS(taps) / HALF_LANES; p++)
+        weights[p] = (half_load(y + p * HALF_LANES) +
+                      half_load(y + FONT_Y_ROW + p * HALF_LANES) * b->rows_t[k]) *
+                     weight;
+}
+
+/* One of the numbers that rows get, in all lanes: from a register, which takes no load. */
+INLINE half_vector spread(const half_vector *weights, int row)
+{
+#if LANES > 4
+    return (half_vector)_mm256_permutevar8x32_ps((__m256)weights[row / 8],
+                                                 _mm256_set1_epi32(row % 8));
+#else
+    return weights[row / HALF_LANES][row % HALF_LANES] - (half_vector){0};
+#endif
 }
 
 /* What the compiler knows of a pointer it forgets: it then counts from it, and does not compute each row's address. */
@@ -174,8 +188,10 @@ INLINE void run_move(struct run *run, float *sums, int way, int stride, int last
             run_row_copy(run, r, r - 1, parts);
         run_row_clear(run, 0, parts);
     } else {
-        for (int r = 0; r <= last; r++) {
-            run_row_add(run, r, sums + r * stride, parts);
+        for (int r = 0; r <= last; r++, sums += stride) {
+            OPAQUE(
+                sums); /* else the rows' offsets take the registers that the loop around this needs */
+            run_row_add(run, r, sums, parts);
             run_row_clear(run, r, parts);
         }
     }
@@ -194,7 +210,6 @@ INLINE void runs_add(const struct font_gray_job *job, int term, int stride, int 
     for (int first = 0; first < job->nodes_count; first += BATCH) {
         int count = job->nodes_count - first < BATCH ? job->nodes_count - first : BATCH;
         batch_fill(&b, job, first, count, stride, taps, false);
-        batch_weigh(&b, job, ys, first, count, taps);
         for (int k = 0; k < count; k++) {
             if (banded && !row_in_band(job, b.row[k]))
                 continue;
@@ -202,13 +217,12 @@ INLINE void runs_add(const struct font_gray_job *job, int term, int stride, int 
                 run_move(&run, job->sums + at, b.sums[k] - at, stride, last, parts);
                 at = b.sums[k];
             }
-            const float *x = xs + b.column[k], *weights = b.weights + k * WEIGHTS(taps);
-            float t = b.column_t[k];
-            for (int p = 0; p < parts; p++) {
-                half_vector column = half_load(x + p * HALF_LANES) +
-                                     half_load(x + FONT_X_ROW + p * HALF_LANES) * t;
-                for (int r = 0; r <= last; r++)
-                    run.rows[r][p] += column * weights[r];
+            half_vector columns[HALF_PARTS], weights[HALF_PARTS];
+            node_weigh(columns, weights, &b, k, xs, ys, job->node_weight[first + k], taps);
+            for (int r = 0; r <= last; r++) {
+                half_vector weight = spread(weights, r);
+                for (int p = 0; p < parts; p++)
+                    run.rows[r][p] += columns[p] * weight;
             }
         }
     }
@@ -216,34 +230,16 @@ INLINE void runs_add(const struct font_gray_job *job, int term, int stride, int 
         run_row_add(&run, r, job->sums + at + r * stride, parts);
 }
 
-/* One of the numbers that rows get, in all lanes: from a register, which takes no load. */
-INLINE half_vector spread(const half_vector *weights, int row)
-{
-#if LANES > 4
-    return (half_vector)_mm256_permutevar8x32_ps((__m256)weights[0], _mm256_set1_epi32(row));
-#else
-    return weights[row / HALF_LANES][row % HALF_LANES] - (half_vector){0};
-#endif
-}
-
 INLINE void node_add(const struct font_gray_job *job, const struct batch *b, int first, int k,
                      const float *xs, const float *ys, int taps)
 {
-    const int parts = 8 / HALF_LANES;
-    const float *x = xs + b->column[k], *y = ys + b->rows[k];
     float *sums = job->sums + b->sums[k];
     half_vector columns[HALF_PARTS], weights[HALF_PARTS];
-    for (int p = 0; p < parts; p++) {
-        columns[p] = half_load(x + p * HALF_LANES) +
-                     half_load(x + FONT_X_ROW + p * HALF_LANES) * b->column_t[k];
-        weights[p] = (half_load(y + p * HALF_LANES) +
-                      half_load(y + FONT_Y_ROW + p * HALF_LANES) * b->rows_t[k]) *
-                     job->node_weight[first + k];
-    }
+    node_weigh(columns, weights, b, k, xs, ys, job->node_weight[first + k], taps);
     OPAQUE(sums);
     for (int r = 0; r <= taps; r++) {
         half_vector weight = spread(weights, r);
-        for (int p = 0; p < parts; p++)
+        for (int p = 0; p < 8 / HALF_LANES; p++)
             *(half_vector *)(sums + r * FONT_NARROW_STRIDE + p * HALF_LANES) +=
                 columns[p] * weight;
     }
