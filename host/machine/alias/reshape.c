@@ -3,6 +3,7 @@
 #include "alias/reshape.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/errors.h"
 #include "base/scalar.h"
@@ -10,6 +11,7 @@
 #include "memory/call_set.h"
 #include "run/evaluate.h"
 #include "run/materialise.h"
+#include "run/near_shapes.h"
 #include "run/roll.h"
 #include "run/slices.h"
 #include "values/graph.h"
@@ -51,16 +53,56 @@ static bool words_evaluate(struct machine *m, struct word *y, uint32_t count, in
     return good;
 }
 
+/* Of the finer value that words become. */
+struct woven {
+    int coarse, fine; /* sets */
+    uint32_t k;
+    struct machine_type type;
+    struct device_buffer *out;
+};
+
+/* n words that are alike, whose first part is element `first`. */
+static enum machine_status words_weave(struct machine *m, const struct woven *w,
+                                       const struct word *y, uint32_t n, uint32_t first)
+{
+    const struct vpset *f = &m->values->sets[w->fine], *s = &m->values->sets[w->coarse];
+    const size_t element = type_bytes(w->type), whole = type_bytes(y->value->type);
+    const struct device_buffer *in[SLICES_BLOCK];
+    for (uint32_t i = 0; i < SLICES_BLOCK; i++)
+        in[i] = y[i < n ? i : 0].value->buffer;
+    if (near_weave(m, w->fine, w->coarse, w->k, first, n, y->parts, w->type.width, whole, in,
+                   element, w->out))
+        return MACHINE_OK;
+    char options[96];
+    snprintf(options, sizeof options, "-DELEMENT=%s -DWHOLE=%s%s", call_element(element),
+             call_element(whole),
+             element == 16 ? " -DPAIR"
+             : whole == 16 ? " -DWIDE"
+                           : "");
+    struct kernel_call c = call_begin(m, kernel_reshape_cl, options, "weave");
+    call_set(&c, m, f);
+    call_set(&c, m, s);
+    call_uint(&c, call_processors_run(m));
+    call_uint(&c, w->k);
+    call_uint(&c, first);
+    call_uint(&c, n);
+    call_uint(&c, y->parts);
+    call_uint(&c, w->type.width);
+    call_ulong(&c, scalar_ones(w->type.width).lo);
+    for (uint32_t i = 0; i < SLICES_BLOCK; i++)
+        call_buffer(&c, in[i]);
+    call_buffer(&c, w->out);
+    return call_processors(&c, m, (size_t)s->ratio, "reshaping");
+}
+
 /* Interleaves into a buffer of the finer set. */
 static struct machine_value *weave(struct machine *m, struct word *y, uint32_t count,
                                    int coarse, int fine, uint32_t k, struct machine_type type)
 {
-    const struct vpset *f = &m->values->sets[fine], *s = &m->values->sets[coarse];
-    size_t element = type_bytes(type);
-    struct device_buffer *out = NULL;
+    struct woven w = {.coarse = coarse, .fine = fine, .k = k, .type = type};
     enum machine_status status = MACHINE_OK;
     if (!words_evaluate(m, y, count, coarse) ||
-        !(out = device_rows_get(m, geometry_rows(f, type))))
+        !(w.out = device_rows_get(m, geometry_rows(&m->values->sets[fine], type))))
         return NULL;
     for (uint32_t at = 0, n, first = 0; at < count && !status;
          first += n * y[at].parts, at += n) {
@@ -68,30 +110,11 @@ static struct machine_value *weave(struct machine *m, struct word *y, uint32_t c
         for (n = 1; n < SLICES_BLOCK && at + n < count; n++)
             if (y[at + n].parts != y[at].parts || type_bytes(y[at + n].value->type) != whole)
                 break;
-        char options[96];
-        snprintf(options, sizeof options, "-DELEMENT=%s -DWHOLE=%s%s", call_element(element),
-                 call_element(whole),
-                 element == 16 ? " -DPAIR"
-                 : whole == 16 ? " -DWIDE"
-                               : "");
-        struct kernel_call c = call_begin(m, kernel_reshape_cl, options, "weave");
-        call_set(&c, m, f);
-        call_set(&c, m, s);
-        call_uint(&c, call_processors_run(m));
-        call_uint(&c, k);
-        call_uint(&c, first);
-        call_uint(&c, n);
-        call_uint(&c, y[at].parts);
-        call_uint(&c, type.width);
-        call_ulong(&c, scalar_ones(type.width).lo);
-        for (uint32_t i = 0; i < SLICES_BLOCK; i++)
-            call_buffer(&c, y[at + (i < n ? i : 0)].value->buffer);
-        call_buffer(&c, out);
-        status = call_processors(&c, m, (size_t)s->ratio, "reshaping");
+        status = words_weave(m, &w, y + at, n, first);
     }
     if (!status)
-        return graph_buffer_node(m, type, fine, out);
-    device_buffer_unref(m, out);
+        return graph_buffer_node(m, type, fine, w.out);
+    device_buffer_unref(m, w.out);
     return NULL;
 }
 
@@ -310,6 +333,12 @@ static enum machine_status image_pass(struct machine *m, const char *name,
 {
     const struct vpset *s = &m->values->sets[f->vpset];
     struct view view = reshape_view(f);
+    const bool put = strcmp(name, "put") == 0;
+    if (near_image(m, f->vpset,
+                   &(struct near_view){words, view.start + at, view.parts, view.outer,
+                                       view.inner, type.width},
+                   put, type_bytes(type), put ? from : to, put ? to : from))
+        return MACHINE_OK;
     struct kernel_call c = slices_call(m, type, name);
     call_set(&c, m, s);
     call_uint(&c, call_processors_run(m));

@@ -149,6 +149,9 @@ enum machine_status device_settle(struct machine *m);
 /* The same, for a look of that name, which those who watch hear of. */
 enum machine_status device_settle_for(struct machine *m, const char *what);
 
+/* Whether the front end can do by itself what a kernel would do with arrays such as this one: it is in its memory, and the device has done
+ * all that is in its queue. LUTETIA_NEAR=0: never. */
+bool device_is_near(struct machine *m, const struct device_buffer *b);
 /* Work for more than one thread begins, or goes on. */
 void device_stays_awake(struct machine *m);
 /* In how many parts the crew does what takes one thread so long. LUTETIA_NEAR=2: in several, however short. */

@@ -90,6 +90,11 @@ static bool near(const struct machine *m, const struct device_buffer *b)
     return b->host && m->settings.near;
 }
 
+bool device_is_near(struct machine *m, const struct device_buffer *b)
+{
+    return m->settings.near && m->device->is_pocl && b && b->host && !device_settle(m);
+}
+
 /* Where no command is on its way. */
 static bool at_once(const struct machine *m, const struct device_buffer *b)
 {

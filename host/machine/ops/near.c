@@ -17,7 +17,7 @@ typedef unsigned __int128 u128;
 
 bool near_begin(struct machine *m, const struct device_buffer *b, double *start)
 {
-    if (!m->settings.near || !m->device->is_pocl || !b || !b->host || device_settle(m))
+    if (!device_is_near(m, b))
         return false;
     *start = watch_clock(m);
     return true;

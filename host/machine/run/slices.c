@@ -2,6 +2,7 @@
 #include "run/slices.h"
 
 #include "memory/call_set.h"
+#include "run/near_shapes.h"
 #include "run/run.h"
 #include "values/graph.h"
 
@@ -29,18 +30,22 @@ bool slice_unpack(struct machine *m, struct machine_value *slice)
         any = b[i];
         wanted |= 1u << i;
     }
-    struct kernel_call c = slices_call(m, slice->type, "slices");
-    call_set(&c, m, f);
-    call_set(&c, m, s);
-    call_uint(&c, call_processors_run(m));
-    call_uint(&c, k);
-    call_uint(&c, (uint64_t)first);
-    call_uint(&c, (uint64_t)count);
-    call_uint(&c, wanted);
-    call_buffer(&c, fine->buffer);
-    for (int i = 0; i < SLICES_BLOCK; i++)
-        call_buffer(&c, b[i] ? b[i] : any);
-    enum machine_status status = call_processors(&c, m, (size_t)s->ratio, "reshaping");
+    enum machine_status status = MACHINE_OK;
+    if (!near_slices(m, fine->set, slice->set, k, (uint32_t)first, (uint32_t)count, wanted,
+                     type_bytes(slice->type), fine->buffer, b)) {
+        struct kernel_call c = slices_call(m, slice->type, "slices");
+        call_set(&c, m, f);
+        call_set(&c, m, s);
+        call_uint(&c, call_processors_run(m));
+        call_uint(&c, k);
+        call_uint(&c, (uint64_t)first);
+        call_uint(&c, (uint64_t)count);
+        call_uint(&c, wanted);
+        call_buffer(&c, fine->buffer);
+        for (int i = 0; i < SLICES_BLOCK; i++)
+            call_buffer(&c, b[i] ? b[i] : any);
+        status = call_processors(&c, m, (size_t)s->ratio, "reshaping");
+    }
     for (int i = 0; i < SLICES_BLOCK; i++)
         if (b[i] && status)
             device_buffer_unref(m, b[i]);
