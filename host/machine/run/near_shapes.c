@@ -62,39 +62,60 @@ static inline uint32_t index_of(const struct homes *h, uint32_t base, uint32_t r
     return n < h->set->count ? n : NOBODY;
 }
 
-/* An element of an array; column: in its row. */
-static inline size_t place_of(const struct vpset *s, uint32_t n, uint32_t *column)
+/* How an array of the set lies in memory. Loops have copies of their own: what they store cannot change these. */
+struct grid {
+    uint32_t width, halo;
+    size_t pitch;
+};
+
+static struct grid grid_of(const struct vpset *s)
 {
-    const uint32_t width = (uint32_t)s->width, row = n < width ? 0 : n / width;
-    *column = n - row * width;
-    return (size_t)row * s->pitch + (size_t)s->halo + *column;
+    return (struct grid){(uint32_t)s->width, (uint32_t)s->halo, s->pitch};
+}
+
+/* An element of an array; column: in its row. */
+static inline size_t place_of(const struct grid *g, uint32_t n, uint32_t *column)
+{
+    const uint32_t row = n < g->width ? 0 : n / g->width;
+    *column = n - row * g->width;
+    return row * g->pitch + g->halo + *column;
 }
 
 /* Stores an element, and its copy at the other end of its row. */
-#define STORE(T, s, array, n, v)                                                               \
+#define STORE(T, g, array, n, v)                                                               \
     do {                                                                                       \
         uint32_t column_;                                                                      \
-        T *at_ = (T *)(array) + place_of(s, n, &column_);                                      \
+        T *at_ = (T *)(array) + place_of(g, n, &column_);                                      \
         const T value_ = (T)(v);                                                               \
         *at_ = value_;                                                                         \
-        if ((s)->halo && column_ < (uint32_t)(s)->halo)                                        \
-            at_[(s)->width] = value_;                                                          \
-        if ((s)->halo && column_ + (uint32_t)(s)->halo >= (uint32_t)(s)->width)                \
-            at_[-(ptrdiff_t)(s)->width] = value_;                                              \
+        if (column_ < (g)->halo)                                                               \
+            at_[(g)->width] = value_;                                                          \
+        if (column_ + (g)->halo >= (g)->width)                                                 \
+            at_[-(ptrdiff_t)(g)->width] = value_;                                              \
     } while (0)
 
-static inline u128 element_get(const void *array, size_t bytes, size_t at)
-{
-    u128 v = 0;
-    memcpy(&v, (const char *)array + at * bytes, bytes);
-    return v;
-}
+#define LOAD(T, g, array, n) ((n) == NOBODY ? 0 : ((const T *)(array))[place_in(g, n)])
 
-static inline u128 element_of(const struct vpset *s, const void *array, size_t bytes,
-                              uint32_t n)
+static inline size_t place_in(const struct grid *g, uint32_t n)
 {
     uint32_t column;
-    return n == NOBODY ? 0 : element_get(array, bytes, place_of(s, n, &column));
+    return place_of(g, n, &column);
+}
+
+static inline u128 element_of(const struct grid *g, const void *array, size_t bytes, uint32_t n)
+{
+    switch (bytes) {
+    case 1:
+        return LOAD(uint8_t, g, array, n);
+    case 2:
+        return LOAD(uint16_t, g, array, n);
+    case 4:
+        return LOAD(uint32_t, g, array, n);
+    case 8:
+        return LOAD(uint64_t, g, array, n);
+    default:
+        return LOAD(u128, g, array, n);
+    }
 }
 
 /* ---- what is shared out ---- */
@@ -134,16 +155,25 @@ static void share(struct machine *m, struct shape_work *w, crew_part *part, doub
 /* ---- slices ---- */
 
 #define SLICES(T)                                                                              \
-    static void slices_##T(const struct shape_work *w, uint32_t fine, uint32_t coarse)         \
+    static void slices_##T(const struct shape_work *w, uint64_t p, uint64_t end)               \
     {                                                                                          \
-        const struct vpset *s = w->coarse.set;                                                 \
-        for (uint32_t j = 0; j < s->ratio; j++) {                                              \
-            const uint32_t n = index_of(&w->coarse, coarse, j);                                \
-            for (uint32_t i = 0; n != NOBODY && i < w->count; i++) {                           \
-                if (!(w->wanted >> i & 1))                                                     \
-                    continue;                                                                  \
-                const uint32_t q = index_of(&w->fine, fine, j * w->k + w->first + i);          \
-                STORE(T, s, w->out[i], n, element_of(w->fine.set, w->in[0], sizeof(T), q));    \
+        const struct homes fine = w->fine, coarse = w->coarse;                                 \
+        const struct grid from = grid_of(fine.set), to = grid_of(coarse.set);                  \
+        const uint32_t k = w->k, first = w->first, count = w->count, wanted = w->wanted;       \
+        const uint32_t ratio = (uint32_t)coarse.set->ratio;                                    \
+        const T *in = w->in[0];                                                                \
+        void *out[SLICES_BLOCK];                                                               \
+        memcpy(out, w->out, sizeof out);                                                       \
+        for (; p < end; p++) {                                                                 \
+            const uint32_t there = base_of(&fine, p), here = base_of(&coarse, p);              \
+            for (uint32_t j = 0; j < ratio; j++) {                                             \
+                const uint32_t n = index_of(&coarse, here, j);                                 \
+                for (uint32_t i = 0; n != NOBODY && i < count; i++) {                          \
+                    if (!(wanted >> i & 1))                                                    \
+                        continue;                                                              \
+                    const uint32_t q = index_of(&fine, there, j * k + first + i);              \
+                    STORE(T, &to, out[i], n, LOAD(T, &from, in, q));                           \
+                }                                                                              \
             }                                                                                  \
         }                                                                                      \
     }
@@ -165,26 +195,41 @@ static void slices_part(void *of, int part, int worker)
 {
     const struct shape_work *w = of;
     (void)worker;
-    for (uint64_t p = part_begin(w, part); p < part_begin(w, part + 1); p++)
-        BY_ELEMENT(w->element, slices, w, base_of(&w->fine, p), base_of(&w->coarse, p));
+    BY_ELEMENT(w->element, slices, w, part_begin(w, part), part_begin(w, part + 1));
 }
 
 /* ---- weaving ---- */
 
+/* Words of one part are as long as elements. */
 #define WEAVE(T)                                                                               \
-    static void weave_##T(const struct shape_work *w, uint32_t fine, uint32_t coarse)          \
+    static void weave_##T(const struct shape_work *w, uint64_t p, uint64_t end)                \
     {                                                                                          \
-        const struct vpset *s = w->fine.set;                                                   \
-        const T mask = (T)(w->width >= 8 * sizeof(T) ? ~(u128)0 : ((u128)1 << w->width) - 1);  \
-        for (uint32_t j = 0; j < w->coarse.set->ratio; j++) {                                  \
-            const uint32_t n = index_of(&w->coarse, coarse, j);                                \
-            for (uint32_t i = 0, e = w->first; i < w->count; i++) {                            \
-                u128 whole = element_of(w->coarse.set, w->in[i], w->whole, n);                 \
-                for (uint32_t t = 0; t < w->parts && e < w->k; t++, e++) {                     \
-                    const uint32_t q = index_of(&w->fine, fine, j * w->k + e);                 \
+        const struct homes fine = w->fine, coarse = w->coarse;                                 \
+        const struct grid from = grid_of(coarse.set), to = grid_of(fine.set);                  \
+        const uint32_t k = w->k, first = w->first, count = w->count, parts = w->parts;         \
+        const uint32_t ratio = (uint32_t)coarse.set->ratio, width = w->width;                  \
+        const size_t whole = w->whole;                                                         \
+        const T mask = (T)(width >= 8 * sizeof(T) ? ~(u128)0 : ((u128)1 << width) - 1);        \
+        T *const out = w->out[0];                                                              \
+        const void *in[SLICES_BLOCK];                                                          \
+        memcpy(in, w->in, sizeof in);                                                          \
+        for (; p < end; p++) {                                                                 \
+            const uint32_t there = base_of(&fine, p), here = base_of(&coarse, p);              \
+            for (uint32_t j = 0; j < ratio; j++) {                                             \
+                const uint32_t n = index_of(&coarse, here, j);                                 \
+                uint32_t e = first;                                                            \
+                for (uint32_t i = 0; i < count && parts == 1; i++, e++) {                      \
+                    const uint32_t q = index_of(&fine, there, j * k + e);                      \
                     if (q != NOBODY)                                                           \
-                        STORE(T, s, w->out[0], q, (T)whole &mask);                             \
-                    whole = w->width < 128 ? whole >> w->width : 0;                            \
+                        STORE(T, &to, out, q, LOAD(T, &from, in[i], n));                       \
+                }                                                                              \
+                for (uint32_t i = 0; i < count && parts > 1; i++) {                            \
+                    u128 word = element_of(&from, in[i], whole, n);                            \
+                    for (uint32_t t = 0; t < parts && e < k; t++, e++, word >>= width) {       \
+                        const uint32_t q = index_of(&fine, there, j * k + e);                  \
+                        if (q != NOBODY)                                                       \
+                            STORE(T, &to, out, q, (T)word &mask);                              \
+                    }                                                                          \
                 }                                                                              \
             }                                                                                  \
         }                                                                                      \
@@ -199,8 +244,7 @@ static void weave_part(void *of, int part, int worker)
 {
     const struct shape_work *w = of;
     (void)worker;
-    for (uint64_t p = part_begin(w, part); p < part_begin(w, part + 1); p++)
-        BY_ELEMENT(w->element, weave, w, base_of(&w->fine, p), base_of(&w->coarse, p));
+    BY_ELEMENT(w->element, weave, w, part_begin(w, part), part_begin(w, part + 1));
 }
 
 /* ---- an image of the memory ---- */
@@ -226,36 +270,36 @@ static void image_write(uint32_t *image, uint32_t at, uint32_t width, uint64_t v
     }
 }
 
-static void element_put(const struct vpset *s, void *array, size_t bytes, uint32_t n, u128 v)
+static void element_put(const struct grid *g, void *array, size_t bytes, uint32_t n, u128 v)
 {
     if (bytes == 1)
-        STORE(uint8_t, s, array, n, v);
+        STORE(uint8_t, g, array, n, v);
     else if (bytes == 2)
-        STORE(uint16_t, s, array, n, v);
+        STORE(uint16_t, g, array, n, v);
     else if (bytes == 4)
-        STORE(uint32_t, s, array, n, v);
+        STORE(uint32_t, g, array, n, v);
     else if (bytes == 8)
-        STORE(uint64_t, s, array, n, v);
+        STORE(uint64_t, g, array, n, v);
     else
-        STORE(u128, s, array, n, v);
+        STORE(u128, g, array, n, v);
 }
 
 static void image_processor(const struct shape_work *w, uint64_t p)
 {
     const struct near_view *v = &w->view;
-    const struct vpset *s = w->coarse.set;
+    const struct grid g = grid_of(w->coarse.set);
     const uint32_t base = base_of(&w->coarse, p), low = v->width < 64 ? v->width : 64;
     uint32_t *memory = (uint32_t *)w->out[0] + (size_t)p * v->words;
-    for (uint32_t r = 0; r < s->ratio; r++) {
+    for (uint32_t r = 0; r < w->coarse.set->ratio; r++) {
         const uint32_t n = index_of(&w->coarse, base, r),
                        at = v->start + r / v->parts * v->outer + r % v->parts * v->inner;
         if (w->put) {
-            const u128 x = element_of(s, w->in[0], w->element, n);
+            const u128 x = element_of(&g, w->in[0], w->element, n);
             image_write(memory, at, low, (uint64_t)x);
             image_write(memory, at + 64, v->width - low, (uint64_t)(x >> 64));
         } else if (n != NOBODY) {
             const u128 high = image_read(memory, at + 64, v->width - low);
-            element_put(s, w->out[1], w->element, n, high << 64 | image_read(memory, at, low));
+            element_put(&g, w->out[1], w->element, n, high << 64 | image_read(memory, at, low));
         }
     }
 }
