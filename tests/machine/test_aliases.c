@@ -5,6 +5,7 @@
 #include "support.h"
 
 #include "sample.h"
+#include "values/values.h"
 
 enum { PROCESSORS = 16, BITS_MOST = 1 << 14, SETS = 12, VIEWS_MOST = 8 };
 
@@ -376,6 +377,60 @@ static void missing_processors_have_no_memory(void **unused)
     assert_ok(machine_vpset_destroy(machine, odd), machine);
 }
 
+/* The bits of the processor that is so much further along the last axis. Rows of arrays hold their other ends, too. */
+static void check_moved(const struct view *v, uint32_t at, uint32_t width, int distance)
+{
+    const struct machine_type type = MACHINE_UINT(width);
+    const uint64_t count = machine_vpset_count(machine, v->set);
+    machine_begin(machine);
+    assert_ok(machine_vpset_select(machine, v->set), machine);
+    const int last = machine->values->sets[v->set].rank - 1;
+    const uint64_t row = (uint64_t)machine->values->sets[v->set].width;
+    const uint32_t f = machine_field_allocate(machine, v->set, width, MACHINE_HEAP);
+    struct machine_value *x =
+        machine_field_value(machine, v->id + at, type, MACHINE_EVERYWHERE);
+    assert_ok(machine_field_store(machine, f, machine_shift(machine, x, last, distance),
+                                  MACHINE_EVERYWHERE),
+              machine);
+    unsigned char *dense = malloc(count * machine_element_bytes(type));
+    assert_ok(machine_field_download(machine, f, type, dense), machine);
+    for (uint64_t n = 0; n < count; n++) {
+        const uint64_t x0 = n % row,
+                       there = n - x0 + (x0 + row + (uint64_t)(int64_t)distance) % row;
+        wide expected = 0;
+        for (uint32_t b = 0; b < width; b++)
+            expected |= (wide)*bit_of(v, there, at + b) << b;
+        if (support_element(dense, type, n) != expected)
+            fail_msg("ratio %d, bits %u..%u moved by %d: element %d", (int)ratio_of(v->set), at,
+                     at + width - 1, distance, (int)n);
+    }
+    free(dense);
+    assert_ok(machine_field_deallocate(machine, f), machine);
+}
+
+static void neighbours_see_what_aliases_hold(void **unused)
+{
+    (void)unused;
+    for (int from = 0; from < SETS; from++)
+        for (int to = 0; to < SETS; to++) {
+            static const uint32_t lengths[] = {8, 16, 32, 64, 1};
+            const uint64_t a = ratio_of(sets[from]), b = ratio_of(sets[to]);
+            const uint32_t width = lengths[(from + to) % 5];
+            if (b < a) /* an alias of fewer bits for each of more processors */
+                continue;
+            struct view all = root_make(sets[from], width * (uint32_t)b),
+                        fine = alias_make(&all, 0, sets[to]);
+            for (uint32_t at = 0; at + width <= all.bits; at += width)
+                write_all(&all, at, MACHINE_UINT(width));
+            check_moved(&fine, 0, width, 1);
+            write_all(&fine, 0, MACHINE_UINT(width));
+            check_moved(&all, all.bits - width, width, -2);
+            check_moved(&all, 0, width, 3);
+            machine_begin(machine);
+            assert_ok(machine_field_deallocate(machine, all.id), machine);
+        }
+}
+
 static void wrong_aliases_are_refused(void **unused)
 {
     (void)unused;
@@ -406,6 +461,7 @@ int main(void)
         cmocka_unit_test(words_become_bits_for_every_ratio),
         cmocka_unit_test(copies_of_slices_cost_nothing),
         cmocka_unit_test(missing_processors_have_no_memory),
+        cmocka_unit_test(neighbours_see_what_aliases_hold),
         cmocka_unit_test(wrong_aliases_are_refused),
     };
     int failed = 0;
