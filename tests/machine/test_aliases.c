@@ -413,10 +413,10 @@ static void neighbours_see_what_aliases_hold(void **unused)
     (void)unused;
     for (int from = 0; from < SETS; from++)
         for (int to = 0; to < SETS; to++) {
-            static const uint32_t lengths[] = {8, 16, 32, 64, 1};
+            static const uint32_t lengths[] = {8, 32};
             const uint64_t a = ratio_of(sets[from]), b = ratio_of(sets[to]);
-            const uint32_t width = lengths[(from + to) % 5];
-            if (b < a) /* an alias of fewer bits for each of more processors */
+            const uint32_t width = lengths[to % 2];
+            if (b < a || (from * SETS + to) % 5) /* few kernels are compiled */
                 continue;
             struct view all = root_make(sets[from], width * (uint32_t)b),
                         fine = alias_make(&all, 0, sets[to]);

@@ -70,8 +70,8 @@ static enum machine_status words_weave(struct machine *m, const struct woven *w,
     const struct device_buffer *in[SLICES_BLOCK];
     for (uint32_t i = 0; i < SLICES_BLOCK; i++)
         in[i] = y[i < n ? i : 0].value->buffer;
-    if (near_weave(m, w->fine, w->coarse, w->k, first, n, y->parts, w->type.width, whole, in,
-                   element, w->out))
+    if (near_weave(m, f, s, w->k, first, n, y->parts, w->type.width, whole, in, element,
+                   w->out))
         return MACHINE_OK;
     char options[96];
     snprintf(options, sizeof options, "-DELEMENT=%s -DWHOLE=%s%s", call_element(element),
@@ -334,7 +334,7 @@ static enum machine_status image_pass(struct machine *m, const char *name,
     const struct vpset *s = &m->values->sets[f->vpset];
     struct view view = reshape_view(f);
     const bool put = strcmp(name, "put") == 0;
-    if (near_image(m, f->vpset,
+    if (near_image(m, s,
                    &(struct near_view){words, view.start + at, view.parts, view.outer,
                                        view.inner, type.width},
                    put, type_bytes(type), put ? from : to, put ? to : from))

@@ -29,9 +29,8 @@ static uint32_t linear(const uint32_t *bits, uint32_t x)
     return sum;
 }
 
-static bool homes_make(const struct machine *m, struct homes *h, int id)
+static bool homes_make(const struct machine *m, struct homes *h, const struct vpset *s)
 {
-    const struct vpset *s = &m->values->sets[id];
     *h = (struct homes){.set = s,
                         .steps = malloc((size_t)s->ratio * sizeof *h->steps),
                         .subgrids = s->layout.blocks,
@@ -314,10 +313,10 @@ static void image_part(void *of, int part, int worker)
 
 /* ---- the calls ---- */
 
-static bool homes_of_both(const struct machine *m, struct shape_work *w, int fine, int coarse)
+static bool homes_of_both(const struct machine *m, struct shape_work *w,
+                          const struct vpset *fine, const struct vpset *coarse)
 {
-    bool good = homes_make(m, &w->coarse, coarse);
-    return (fine < 0 || homes_make(m, &w->fine, fine)) && good;
+    return homes_make(m, &w->coarse, coarse) && (!fine || homes_make(m, &w->fine, fine));
 }
 
 static void homes_free(struct shape_work *w)
@@ -326,30 +325,30 @@ static void homes_free(struct shape_work *w)
     free(w->coarse.steps);
 }
 
-bool near_slices(struct machine *m, int fine, int coarse, uint32_t k, uint32_t first,
-                 uint32_t count, uint32_t wanted, size_t element,
-                 const struct device_buffer *in, struct device_buffer *const out[SLICES_BLOCK])
+bool near_slices(struct machine *m, const struct vpset *fine, const struct vpset *coarse,
+                 const struct slices_taken *t, const struct device_buffer *in,
+                 struct device_buffer *const out[SLICES_BLOCK])
 {
-    struct shape_work w = {.k = k,
-                           .first = first,
-                           .count = count,
-                           .wanted = wanted,
-                           .element = element,
+    struct shape_work w = {.k = t->k,
+                           .first = t->first,
+                           .count = t->count,
+                           .wanted = t->wanted,
+                           .element = type_bytes(t->type),
                            .in = {in->host}};
     bool good = device_is_near(m, in) && homes_of_both(m, &w, fine, coarse);
-    for (uint32_t i = 0; i < count; i++)
+    for (uint32_t i = 0; i < t->count; i++)
         w.out[i] = out[i] ? out[i]->host : NULL;
     if (good)
         share(m, &w, slices_part,
-              (double)__builtin_popcount(wanted) * (double)w.coarse.set->count, "slices");
+              (double)__builtin_popcount(t->wanted) * (double)w.coarse.set->count, "slices");
     homes_free(&w);
     return good;
 }
 
-bool near_weave(struct machine *m, int fine, int coarse, uint32_t k, uint32_t first,
-                uint32_t count, uint32_t parts, uint32_t width, size_t whole,
-                const struct device_buffer *const in[SLICES_BLOCK], size_t element,
-                const struct device_buffer *out)
+bool near_weave(struct machine *m, const struct vpset *fine, const struct vpset *coarse,
+                uint32_t k, uint32_t first, uint32_t count, uint32_t parts, uint32_t width,
+                size_t whole, const struct device_buffer *const in[SLICES_BLOCK],
+                size_t element, const struct device_buffer *out)
 {
     struct shape_work w = {.k = k,
                            .first = first,
@@ -368,8 +367,8 @@ bool near_weave(struct machine *m, int fine, int coarse, uint32_t k, uint32_t fi
     return good;
 }
 
-bool near_image(struct machine *m, int set, const struct near_view *view, bool put,
-                size_t element, const struct device_buffer *value,
+bool near_image(struct machine *m, const struct vpset *set, const struct near_view *view,
+                bool put, size_t element, const struct device_buffer *value,
                 const struct device_buffer *image)
 {
     struct shape_work w = {.view = *view,
@@ -377,7 +376,7 @@ bool near_image(struct machine *m, int set, const struct near_view *view, bool p
                            .element = element,
                            .in = {value->host},
                            .out = {image->host, value->host}};
-    bool good = device_is_near(m, image) && homes_of_both(m, &w, -1, set);
+    bool good = device_is_near(m, image) && homes_of_both(m, &w, NULL, set);
     if (good)
         share(m, &w, image_part, (double)w.coarse.set->count, put ? "put" : "get");
     homes_free(&w);

@@ -15,18 +15,17 @@ struct near_view {
     uint32_t start, parts, outer, inner, width;
 };
 
-/* Slices first .. first + count - 1 of the k of a finer value, those whose bit in `wanted` is set. */
-bool near_slices(struct machine *m, int fine, int coarse, uint32_t k, uint32_t first,
-                 uint32_t count, uint32_t wanted, size_t element,
-                 const struct device_buffer *in, struct device_buffer *const out[SLICES_BLOCK]);
+bool near_slices(struct machine *m, const struct vpset *fine, const struct vpset *coarse,
+                 const struct slices_taken *t, const struct device_buffer *in,
+                 struct device_buffer *const out[SLICES_BLOCK]);
 /* The count words of the coarser set, each of so many parts of `width` bits, are elements `first` and so on of the k of a finer value. */
-bool near_weave(struct machine *m, int fine, int coarse, uint32_t k, uint32_t first,
-                uint32_t count, uint32_t parts, uint32_t width, size_t whole,
-                const struct device_buffer *const in[SLICES_BLOCK], size_t element,
-                const struct device_buffer *out);
+bool near_weave(struct machine *m, const struct vpset *fine, const struct vpset *coarse,
+                uint32_t k, uint32_t first, uint32_t count, uint32_t parts, uint32_t width,
+                size_t whole, const struct device_buffer *const in[SLICES_BLOCK],
+                size_t element, const struct device_buffer *out);
 /* A value's bits go into the image, or come out of it. */
-bool near_image(struct machine *m, int set, const struct near_view *view, bool put,
-                size_t element, const struct device_buffer *value,
+bool near_image(struct machine *m, const struct vpset *set, const struct near_view *view,
+                bool put, size_t element, const struct device_buffer *value,
                 const struct device_buffer *image);
 
 #endif

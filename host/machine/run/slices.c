@@ -6,6 +6,28 @@
 #include "run/run.h"
 #include "values/graph.h"
 
+enum machine_status slices_take(struct machine *m, const struct vpset *from,
+                                const struct vpset *to, const struct slices_taken *t,
+                                const struct device_buffer *in,
+                                struct device_buffer *const out[SLICES_BLOCK])
+{
+    const struct device_buffer *any = out[__builtin_ctz(t->wanted)];
+    if (near_slices(m, from, to, t, in, out))
+        return MACHINE_OK;
+    struct kernel_call c = slices_call(m, t->type, "slices");
+    call_set(&c, m, from);
+    call_set(&c, m, to);
+    call_uint(&c, call_processors_run(m));
+    call_uint(&c, t->k);
+    call_uint(&c, t->first);
+    call_uint(&c, t->count);
+    call_uint(&c, t->wanted);
+    call_buffer(&c, in);
+    for (int i = 0; i < SLICES_BLOCK; i++)
+        call_buffer(&c, out[i] ? out[i] : any);
+    return call_processors(&c, m, (size_t)to->ratio, "reshaping");
+}
+
 bool slice_unpack(struct machine *m, struct machine_value *slice)
 {
     struct machine_value *fine = slice->in[0], *out[SLICES_BLOCK] = {NULL};
@@ -13,7 +35,7 @@ bool slice_unpack(struct machine *m, struct machine_value *slice)
     uint32_t k = (uint32_t)slice->imm.lo, wanted = 0;
     int first = slice->detail / SLICES_BLOCK * SLICES_BLOCK, count = (int)k - first;
     struct machine_value key = *slice;
-    struct device_buffer *b[SLICES_BLOCK] = {NULL}, *any = NULL;
+    struct device_buffer *b[SLICES_BLOCK] = {NULL};
     count = count < SLICES_BLOCK ? count : SLICES_BLOCK;
     for (int i = 0; i < count; i++) {
         key.detail = first + i;
@@ -27,25 +49,11 @@ bool slice_unpack(struct machine *m, struct machine_value *slice)
                     device_buffer_unref(m, b[i]);
             return false;
         }
-        any = b[i];
         wanted |= 1u << i;
     }
-    enum machine_status status = MACHINE_OK;
-    if (!near_slices(m, fine->set, slice->set, k, (uint32_t)first, (uint32_t)count, wanted,
-                     type_bytes(slice->type), fine->buffer, b)) {
-        struct kernel_call c = slices_call(m, slice->type, "slices");
-        call_set(&c, m, f);
-        call_set(&c, m, s);
-        call_uint(&c, call_processors_run(m));
-        call_uint(&c, k);
-        call_uint(&c, (uint64_t)first);
-        call_uint(&c, (uint64_t)count);
-        call_uint(&c, wanted);
-        call_buffer(&c, fine->buffer);
-        for (int i = 0; i < SLICES_BLOCK; i++)
-            call_buffer(&c, b[i] ? b[i] : any);
-        status = call_processors(&c, m, (size_t)s->ratio, "reshaping");
-    }
+    const struct slices_taken taken = {k, (uint32_t)first, (uint32_t)count, wanted,
+                                       slice->type};
+    enum machine_status status = slices_take(m, f, s, &taken, fine->buffer, b);
     for (int i = 0; i < SLICES_BLOCK; i++)
         if (b[i] && status)
             device_buffer_unref(m, b[i]);

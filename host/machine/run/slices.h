@@ -22,6 +22,16 @@ static inline struct kernel_call slices_call(struct machine *m, struct machine_t
     return call_begin(m, kernel_reshape_cl, options, name);
 }
 
+/* Slices first .. first + count - 1 of the k of a value of that type, those whose bit in `wanted` is set: at least one. */
+struct slices_taken {
+    uint32_t k, first, count, wanted;
+    struct machine_type type;
+};
+/* Writes them to `out`, each at its place: arrays of a set with a k-th of the VPs. */
+enum machine_status slices_take(struct machine *m, const struct vpset *from,
+                                const struct vpset *to, const struct slices_taken *t,
+                                const struct device_buffer *in,
+                                struct device_buffer *const out[SLICES_BLOCK]);
 /* Makes slice i of the k that `fine` (in memory) is divided into, in the VP set. */
 struct machine_value *slice_make(struct machine *m, struct machine_value *fine, int set,
                                  uint32_t k, uint32_t i);
