@@ -1,4 +1,5 @@
-/* test_awake.c - threads that keep processors from halting: of the lowest priority, for as long as was asked, and no longer. */
+/* test_awake.c - what keeps processors from halting: the system, here a usual file in its place, or threads of the lowest priority; for as long as
+ * was asked, and no longer. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -7,6 +8,7 @@
 #include <cmocka.h>
 
 #include <dirent.h>
+#include <fcntl.h>
 #include <sched.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -71,7 +73,7 @@ static int processors(void)
 static void threads_are_last_and_end(void **unused)
 {
     (void)unused;
-    struct awake *a = awake_create();
+    struct awake *a = awake_create(NULL, true);
     if (processors() < 2)
         assert_null(a);
     if (!a || !is_allowed()) /* there are more processors than it is for */
@@ -92,7 +94,7 @@ static void threads_are_last_and_end(void **unused)
 static void after_that_nobody_looks(void **unused)
 {
     (void)unused;
-    struct awake *a = awake_create();
+    struct awake *a = awake_create(NULL, true);
     if (!a)
         skip();
     for (int turn = 0; turn < 3; turn++) {
@@ -115,7 +117,7 @@ static void after_that_nobody_looks(void **unused)
 static void a_child_has_no_threads(void **unused)
 {
     (void)unused;
-    struct awake *a = awake_create();
+    struct awake *a = awake_create(NULL, true);
     if (!a)
         skip();
     awake_for(a, 30);
@@ -135,12 +137,75 @@ static void a_child_has_no_threads(void **unused)
     awake_destroy(NULL);
 }
 
+/* What the system has been asked for last; -1: nothing. */
+static long asked(int file)
+{
+    int32_t all[64];
+    ssize_t bytes = pread(file, all, sizeof all, 0);
+    assert_true(bytes >= 0 && bytes % 4 == 0 && bytes < (ssize_t)sizeof all);
+    return bytes ? all[bytes / 4 - 1] : -1;
+}
+
+static long asked_in_time(int file, long value)
+{
+    double deadline = clock_s() + 20;
+    while (asked(file) != value && clock_s() < deadline)
+        pause_s(0.001);
+    return asked(file);
+}
+
+static void the_system_is_asked_and_told_when_it_is_over(void **unused)
+{
+    enum { ANY = 2000000000 };
+    char path[] = "/tmp/lutetia-awake-XXXXXX";
+    (void)unused;
+    int file = mkstemp(path);
+    assert_true(file >= 0);
+    struct awake *a = awake_create(path, false);
+    if (!a) /* there are other numbers of processors than it is for */
+        skip();
+    assert_int_equal(asked(file), -1);
+    awake_for(a, 30);
+    assert_int_equal(asked(file), 0);
+    awake_for(a, 30); /* once is enough */
+    assert_int_equal(lseek(file, 0, SEEK_END), 4);
+    pid_t child = fork();
+    if (!child) { /* the parent's processors are its own business */
+        awake_for(a, 0);
+        awake_destroy(a);
+        _exit(7);
+    }
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 7);
+    awake_for(a, 0.02); /* sooner than it was to be */
+    assert_int_equal(asked_in_time(file, ANY), ANY);
+    awake_for(a, 30);
+    assert_int_equal(asked(file), 0);
+    awake_destroy(a);
+    assert_int_equal(asked(file), ANY);
+
+    assert_int_equal(ftruncate(file, 0), 0);
+    assert_non_null(a = awake_create(path, false));
+    for (int turn = 0; turn < 3; turn++) {
+        awake_for(a, 0.02);
+        assert_int_equal(asked(file), 0);
+        assert_int_equal(asked_in_time(file, ANY), ANY);
+    }
+    awake_destroy(a);
+    assert_int_equal(asked(file), ANY);
+    close(file);
+    unlink(path);
+    assert_null(awake_create(path, false)); /* it is not there */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(threads_are_last_and_end),
         cmocka_unit_test(after_that_nobody_looks),
         cmocka_unit_test(a_child_has_no_threads),
+        cmocka_unit_test(the_system_is_asked_and_told_when_it_is_over),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -338,6 +338,31 @@ static void turns_end_where_somebody_looks(void **state)
     expect(&s);
 }
 
+/* A program that reads after each turn, and later after every twentieth: then many turns are a kernel, each time. */
+static void looks_become_fewer(void **state)
+{
+    (void)state;
+    struct sheet s;
+    start(&s);
+    for (int time = 0; time < 3; time++) {
+        for (int i = 0; i < 40; i++) {
+            short_turn(&s);
+            short_turn_wanted(&s);
+            expect(&s);
+        }
+        uint64_t before = 0;
+        for (int look = 0; look < 10; look++) {
+            before = kernels_run();
+            for (int i = 0; i < 20; i++) {
+                short_turn(&s);
+                short_turn_wanted(&s);
+            }
+            expect(&s);
+        }
+        assert_in_range(kernels_run() - before, 1, 12);
+    }
+}
+
 /* A turn of two sheets: each adds the other's cells and their neighbours. `looks` reads in the middle of the turn. */
 static void coupled_turn(struct sheet s[2], bool looks)
 {
@@ -544,6 +569,11 @@ static int forced(void **state)
     return paris_reset(NULL) ? 0 : -1;
 }
 
+static int forced_to_strips(void **state)
+{
+    return forced(state) || usual_turns_in_strips(state);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -567,6 +597,7 @@ int main(void)
         cmocka_unit_test_setup(turns_that_save_nothing_are_evaluated_one_by_one, in_rows),
         cmocka_unit_test_setup(so_they_are_when_they_come_again, in_rows),
         cmocka_unit_test_setup(as_many_turns_as_can_be_are_one_kernel, eight_turns_at_a_time),
+        cmocka_unit_test_setup(looks_become_fewer, forced_to_strips),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,6 +4,7 @@
  * nobody waits long for its end: who is last to let go of the memory frees it. */
 #include "base/awake.h"
 
+#include <fcntl.h>
 #include <limits.h>
 #include <pthread.h>
 #include <sched.h>
@@ -18,10 +19,13 @@
 #include <unistd.h>
 
 #include <linux/futex.h>
+#ifdef __x86_64__
+#include <cpuid.h>
+#endif
 
 #include "base/clock.h"
 
-enum { PROCESSORS_MOST = 16, RESTS = 64 };
+enum { PROCESSORS_MOST = 16, RESTS = 64, LOOKS_NS = 20000000 };
 
 /* How long the end of a thread is waited for. */
 static const double END_S = 0.05;
@@ -33,6 +37,8 @@ struct keeper {
 };
 
 struct awake {
+    int file;                 /* what the system is asked by; -1: threads look at the time */
+    _Atomic bool held;        /* it has been asked that no processor halts */
     _Atomic int64_t until_ns; /* by clock_s() */
     _Atomic uint32_t wakes;   /* threads sleep while it stays the same */
     _Atomic int sleeping, users;
@@ -47,18 +53,35 @@ static int64_t now_ns(void)
     return (int64_t)(clock_s() * 1e9);
 }
 
-struct awake *awake_create(void)
+bool awake_is_virtual(void)
+{
+    unsigned int of[4] = {0};
+#ifdef __x86_64__
+    if (!__get_cpuid(1, &of[0], &of[1], &of[2], &of[3]))
+        return false;
+#endif
+    return of[2] >> 31;
+}
+
+struct awake *awake_create(const char *path, bool threads)
 {
     cpu_set_t set;
     int count = sched_getaffinity(0, sizeof set, &set) ? 0 : CPU_COUNT(&set);
     if (count < 2 || count > PROCESSORS_MOST)
         return NULL;
-    struct awake *a = calloc(1, sizeof *a);
-    if (!a)
+    bool few =
+        sysconf(_SC_NPROCESSORS_ONLN) <= PROCESSORS_MOST; /* the system's are asked, all */
+    int file = path && few ? open(path, O_WRONLY | O_CLOEXEC) : -1;
+    struct awake *a = file >= 0 || threads ? calloc(1, sizeof *a) : NULL;
+    if (!a) {
+        if (file >= 0)
+            close(file);
         return NULL;
+    }
+    a->file = file;
     a->owner = getpid();
     atomic_store(&a->users, 1);
-    for (size_t i = 0; i < CPU_SETSIZE; i++)
+    for (size_t i = 0; i < CPU_SETSIZE && (file < 0 || !a->count); i++)
         if (CPU_ISSET(i, &set))
             a->keepers[a->count++] = (struct keeper){.awake = a, .processor = i};
     return a;
@@ -87,13 +110,18 @@ static void rest(void)
 
 static void let_go(struct awake *a)
 {
-    if (atomic_fetch_sub(&a->users, 1) == 1)
-        free(a);
+    if (atomic_fetch_sub(&a->users, 1) != 1)
+        return;
+    if (a->file >= 0)
+        close(a->file);
+    free(a);
 }
 
-static void futex(_Atomic uint32_t *word, int operation, uint32_t value)
+/* end: at most until then; NULL: for as long as it takes. */
+static void futex(_Atomic uint32_t *word, int operation, uint32_t value,
+                  const struct timespec *end)
 {
-    syscall(SYS_futex, word, operation | FUTEX_PRIVATE_FLAG, value, NULL, NULL, 0);
+    syscall(SYS_futex, word, operation | FUTEX_PRIVATE_FLAG, value, end, NULL, 0);
 }
 
 static bool is_wanted(const struct awake *a)
@@ -114,8 +142,40 @@ static void *keep(void *of)
         }
         atomic_fetch_add(&a->sleeping, 1);
         if (!is_wanted(a)) /* whoever wants it from here on sees that somebody sleeps */
-            futex(&a->wakes, FUTEX_WAIT, wakes);
+            futex(&a->wakes, FUTEX_WAIT, wakes, NULL);
         atomic_fetch_sub(&a->sleeping, 1);
+    }
+    let_go(a);
+    return NULL;
+}
+
+/* How many microseconds a processor may take to wake: the least that any program has asked for counts. */
+static void ask(struct awake *a, bool held)
+{
+    static const int32_t at_once = 0, any = 2000000000;
+    atomic_store(&a->held, held);
+    if (write(a->file, held ? &at_once : &any, sizeof at_once) < 0)
+        return; /* they halt, as they would without it */
+}
+
+/* The only thread where the system is asked: takes the question back when the time is over. */
+static void *take_back(void *of)
+{
+    const struct keeper *k = of;
+    struct awake *a = k->awake;
+    while (!atomic_load(&a->ends)) {
+        const uint32_t wakes = atomic_load(&a->wakes);
+        const int64_t left = atomic_load(&a->until_ns) - now_ns();
+        const struct timespec t = {0, left < LOOKS_NS ? left
+                                                      : LOOKS_NS}; /* the end may come sooner */
+        if (left <= 0 && atomic_load(&a->held)) {
+            ask(a, false);
+            if (is_wanted(
+                    a)) /* somebody has asked meanwhile, perhaps before it was taken back */
+                ask(a, true);
+        } else {
+            futex(&a->wakes, FUTEX_WAIT, wakes, left > 0 ? &t : NULL);
+        }
     }
     let_go(a);
     return NULL;
@@ -124,7 +184,7 @@ static void *keep(void *of)
 static void wake(struct awake *a)
 {
     atomic_fetch_add(&a->wakes, 1);
-    futex(&a->wakes, FUTEX_WAKE, INT_MAX);
+    futex(&a->wakes, FUTEX_WAKE, INT_MAX, NULL);
 }
 
 /* As many as the system allows. */
@@ -136,7 +196,7 @@ static void threads_start(struct awake *a)
     for (; a->started < a->count; a->started++) {
         struct keeper *k = &a->keepers[a->started];
         atomic_fetch_add(&a->users, 1);
-        if (pthread_create(&k->thread, NULL, keep, k)) {
+        if (pthread_create(&k->thread, NULL, a->file < 0 ? keep : take_back, k)) {
             atomic_fetch_sub(&a->users, 1);
             break;
         }
@@ -150,12 +210,17 @@ void awake_for(struct awake *a, double seconds)
     if (!a)
         return;
     atomic_store(&a->until_ns, now_ns() + (int64_t)(seconds * 1e9));
-    if ((a->started && !atomic_load(&a->sleeping)) || a->owner != getpid())
+    bool good = a->file < 0 ? !atomic_load(&a->sleeping) : atomic_load(&a->held);
+    if ((a->started && good) || !a->count || a->owner != getpid())
         return;
-    if (!a->started && a->count)
-        threads_start(a);
-    else
+    if (a->file >= 0)
+        ask(a, true);
+    if (a->started)
         wake(a);
+    else
+        threads_start(a);
+    if (a->file >= 0 && !a->started) /* nobody would take it back */
+        ask(a, false);
 }
 
 void awake_destroy(struct awake *a)
@@ -164,6 +229,8 @@ void awake_destroy(struct awake *a)
     if (!a)
         return;
     if (a->owner != getpid()) { /* the threads are another process's */
+        if (a->file >= 0)
+            close(a->file);
         free(a);
         return;
     }
@@ -173,6 +240,8 @@ void awake_destroy(struct awake *a)
     end.tv_nsec += (long)(END_S * 1e9);
     end.tv_sec += end.tv_nsec / 1000000000;
     end.tv_nsec %= 1000000000;
+    if (a->file >= 0)
+        ask(a, false);
     for (int i = 0; i < a->started; i++)
         if (pthread_timedjoin_np(a->keepers[i].thread, NULL, &end))
             pthread_detach(a->keepers[i].thread);

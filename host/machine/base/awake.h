@@ -1,11 +1,13 @@
 /* awake.h - keeps processors from halting between two pieces of work.
  *
  * A thread that sleeps on a processor with nothing else to do is woken by letting the processor go on. In a virtual machine that takes
- * the host's time, too: up to a millisecond. Of two threads that share a kernel of 0.4 ms the other one then does all. So while there
- * is work, a thread for each processor looks at the time: of the lowest priority (SCHED_IDLE), which any other thread of any
+ * the host's time, too: up to a millisecond. Of two threads that share a kernel of 0.4 ms the other one then does all. There are two
+ * remedies while there is work. The better one asks the system (PM QoS): while a program keeps the file /dev/cpu_dma_latency open, with a 0
+ * written to it, processors with nothing to do look for work in a loop. Root may open it, and those whom a rule of udev's lets. Where it
+ * is not allowed, a thread for each processor can look at the time: of the lowest priority (SCHED_IDLE), which any other thread of any
  * program preempts at once.
  *
- *     struct awake *awake = awake_create ();
+ *     struct awake *awake = awake_create (AWAKE_PATH, false);
  *     awake_for (awake, 0.005);                 for 5 ms from now on
  *     awake_destroy (awake); */
 #ifndef LUTETIA_MACHINE_AWAKE_H
@@ -13,10 +15,15 @@
 
 #include <stdbool.h>
 
+#define AWAKE_PATH "/dev/cpu_dma_latency"
+
 struct awake;
 
-/* Starts no thread yet. NULL: there is one processor, or there are more than sixteen; or no memory. */
-struct awake *awake_create(void);
+/* Whether this computer is another one's program: only there it takes long to wake a processor. */
+bool awake_is_virtual(void);
+/* Asks nothing and starts no thread yet. path: AWAKE_PATH, or NULL if the system is not to be asked; threads: by threads where it cannot be. NULL: neither
+ * can be, there is one processor, or there are more than sixteen; or no memory. */
+struct awake *awake_create(const char *path, bool threads);
 /* From one thread at a time; a child after fork() does nothing. NULL is fine. */
 void awake_for(struct awake *a, double seconds);
 void awake_destroy(struct awake *a);

@@ -66,7 +66,7 @@ static const struct setting {
     {SETTING(NARROW, narrow), 1, 0, 1, 0, "0 or 1"},
     {SETTING(KEEPS_NAN, keeps_nan), SETTING_FREE, 0, 1, 0, "0 or 1"},
     {SETTING(SCATTER, scatter), SETTING_FREE, 0, 1, 0, "0 or 1"},
-    {SETTING(AWAKE, awake), 0, 0, 1, 0, "0 or 1"},
+    {SETTING(AWAKE, awake), SETTING_FREE, 0, 1, 0, "0 or 1"},
     {SETTING(NEAR, near), 1, 0, 2, 0, "0, 1 or 2"},
     {SETTING(LENIENT, lenient), 0, 0, 1, 0, "0 or 1"},
     {SETTING(GATHER, gather), 1, 0, 1, 0, "0 or 1"},

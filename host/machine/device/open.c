@@ -94,7 +94,10 @@ static enum machine_status ask(struct machine *m)
     d->keeps_programs = m->settings.keep == SETTING_FREE ? !d->is_pocl : m->settings.keep;
     d->units = units ? (int)units : 1;
     d->crew = d->is_pocl ? crew_create(d->units) : NULL;
-    d->awake = d->is_pocl && d->units > 1 && m->settings.awake ? awake_create() : NULL;
+    const uint64_t awake = m->settings.awake;
+    if (d->is_pocl && d->units > 1 && awake)
+        d->awake =
+            awake_create(awake == 1 || awake_is_virtual() ? AWAKE_PATH : NULL, awake == 1);
     d->memory_bytes = d->is_cpu ? memory / 2 : memory; /* on a CPU the front end uses the
                                                         * same memory */
     d->memory_max_alloc_bytes = max_alloc;

@@ -54,12 +54,25 @@ bool notes_take(struct machine *m, const struct machine_call *call)
     return true;
 }
 
+/* A program that looked after each turn of a loop, and has not for so many, is expected to look no more. */
+enum { TURNS_UNSEEN = 8 };
+
+static bool looks_no_more(const struct machine *m, const struct machine_call *call)
+{
+    const struct replay *p = m->run->replay;
+    const struct edge *e = p->edge;
+    return e && !e->alone && e->to == p->active && m->run->calls_noted == e->calls_count &&
+           m->run->turns_in_row >= TURNS_UNSEEN && record_same_call(&e->calls[0], call);
+}
+
 bool notes_take_elsewhere(struct machine *m, const struct machine_call *call)
 {
     struct replay *p = m->run->replay;
     if (p->edge && m->run->calls_noted > p->edge->calls_count && !turns_do(m))
         return false;
     struct edge *other = p->edge ? other_edge(m, call) : NULL;
+    if (!other && looks_no_more(m, call)) /* turns will end by themselves, several at once */
+        notes_forget(m);
     if (!other)
         return false;
     p->edge = other;
