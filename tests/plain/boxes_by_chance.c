@@ -15,14 +15,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SIDE_LEAST = 32, SIDE = 96, SCREEN = 20, OPERATIONS = 9, STEPS = 40 };
+enum { SIDE_LEAST = 32, SIDE = 96, SIDE_LARGE = 160, SCREEN = 20, OPERATIONS = 9, STEPS = 40 };
 
 static struct paper_sheet *sheets[2];
 static long steps_all, steps_confined;
 
 static void planes_compare(const char *when)
 {
-    static uint32_t words[2][SIDE * SIDE];
+    static uint32_t words[2][SIDE_LARGE * SIDE_LARGE];
     struct paper_plane planes[PAPER_PLANES_MAX];
     const struct paper_sheet_config *config = paper_sheet_get_config(sheets[0]);
     int count = paper_sheet_planes(sheets[0], planes), fibers = config->width * config->height;
@@ -196,10 +196,50 @@ static void session(uint64_t seed)
         paper_sheet_destroy(sheets[k]);
 }
 
+/* A stroke in one box while a puddle runs in another: what the bristles' exchange makes wet, it makes wet in all of them. */
+static void puddle_beside_stroke(int model)
+{
+    enum { PUDDLE = 12 };
+    static uint8_t gray[PUDDLE * PUDDLE];
+    struct paper_sheet_config config = paper_sheet_config_default();
+    config.model = model;
+    config.width = config.height = SIDE_LARGE;
+    config.pigments_count = 1;
+    config.pigments[0] = *paper_pigment_number(0);
+    chance_begin((uint64_t)model);
+    for (int k = 0; k < 2; k++)
+        check(paper_sheet_create(&config, &sheets[k]));
+    check(paper_sheet_confine(sheets[0], 4));
+    check(paper_sheet_confine(sheets[1], 0));
+    memset(gray, 255, sizeof gray);
+    const struct paper_screen screen = {.width_px = PUDDLE, .height_px = PUDDLE, .gray = gray};
+    const double amount[2] = {2, 0.3};
+    BOTH(paper_sheet_put(sheet, &screen, 14, 14, amount))
+    steps_go(2);
+    struct paper_brush brush = paper_brush_default();
+    brush.bristles = 8;
+    brush.width = 4;
+    const struct paper_dip dip = {.amount = {1, 0.5}, .part = 1, .side = {-1, 1}};
+    const struct paper_stroke_sample samples[2] = {
+        {.time_s = 0, .x = 106, .y = 110, .pressure = 0.8},
+        {.time_s = 0.1, .x = 112, .y = 110, .pressure = 0.8}};
+    const struct paper_stroke stroke = {.pace = 60, .samples_count = 2, .samples = samples};
+    BOTH(paper_sheet_brush(sheet, &brush))
+    BOTH(paper_sheet_dip(sheet, &dip))
+    BOTH(paper_sheet_stroke(sheet, &stroke, NULL))
+    if (!(paper_sheet_share(sheets[0]) < 1))
+        wrong("a stroke beside a puddle was not in boxes");
+    planes_compare("a stroke beside a puddle");
+    for (int k = 0; k < 2; k++)
+        paper_sheet_destroy(sheets[k]);
+}
+
 int main(int argc, char **argv)
 {
     long count = argc > 1 ? atol(argv[1]) : 25;
     uint64_t seed = argc > 2 ? (uint64_t)atoll(argv[2]) : 1;
+    for (int model = 2; model <= PAPER_MODEL_VERSION; model++)
+        puddle_beside_stroke(model);
     for (long i = 0; i < count; i++)
         session(seed + (uint64_t)i);
     printf("%ld sessions; %ld of %ld steps in boxes\n", count, steps_confined, steps_all);
