@@ -16,7 +16,8 @@ enum {
     STEPS_LARGE = 4,
     FIBERS_SMALL = 2000000,
     FRAMES = 8,
-    SPOT_LEAST = 512 * 512,
+    WORD_LEAST = 512 * 512,
+    WORD_MOST = 4096,
     COPY_BYTES = 256 << 20,
     /* Arrays that a step must at least access: each amount is read and written, also the
      * dried water and the wet area; the paper is read. */
@@ -179,7 +180,8 @@ int bench_paper_main(int argc, char **argv)
         .size_most = 4096,
         .repeat_least = 5,
         .repeat_count = 11,
-        .thorough_does = "a poster's time, and the memory of a large sheet, too"};
+        .thorough_does =
+            "a word on 4096x4096, a poster's time, and the memory of a large sheet, too"};
     int status = bench_machine_start(&report, &options, true, argc, argv);
     if (status >= 0)
         return status;
@@ -191,10 +193,12 @@ int bench_paper_main(int argc, char **argv)
                               options.sizes[i][1], copy);
     ok = ok && size_measure(&report, &options, 0, 1024, 1024, copy);
     for (int i = 0; ok && i < options.sizes_count; i++)
-        ok = options.sizes[i][0] * options.sizes[i][1] < SPOT_LEAST ||
-             paper_spot_measure(&report, &options, options.sizes[i][0], options.sizes[i][1]);
+        ok = options.sizes[i][0] * options.sizes[i][1] < WORD_LEAST ||
+             paper_word_measure(&report, &options, options.sizes[i][0], options.sizes[i][1],
+                                true);
     bench_copy_destroy(copy);
     if (ok && options.thorough)
-        ok = paper_poster_measure(&report) && paper_memory_measure(&report);
+        ok = paper_word_measure(&report, &options, WORD_MOST, WORD_MOST, false) &&
+             paper_poster_measure(&report) && paper_memory_measure(&report);
     return bench_options_finish(&options, &report, "openmp", ok);
 }

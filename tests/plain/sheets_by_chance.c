@@ -9,6 +9,7 @@
 #include <paper.h>
 #include <sheet.h>
 
+#include "model/felt.h"
 #include "sheet_chance.h"
 
 #include <math.h>
@@ -16,7 +17,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SIDE = 16, SIDE_LEAST = 8, PIGMENTS = CHANCE_PIGMENTS, STEPS = 5, EVERY = 10000 };
+enum {
+    SIDE = 16,
+    SIDE_LEAST = 8,
+    PIGMENTS = CHANCE_PIGMENTS,
+    STEPS = 5,
+    PAPERS = 60,
+    EVERY = 10000
+};
 
 /* The sheet's totals: water, with what has dried, and each pigment. */
 static void totals_get(struct paper_sheet *sheet, int count, double *totals)
@@ -145,11 +153,33 @@ static void set_look(uint64_t seed, int version, int airs)
     paper_sheet_destroy(sheet);
 }
 
+/* Fibers that cannot reach a sheet are left out, and the paper is the same. */
+static void paper_look(uint64_t seed, int version)
+{
+    chance_begin(seed);
+    struct paper_sheet_config config = config_by_chance(1, 5 * SIDE);
+    struct felt felts[2];
+    if (version)
+        config.model = version;
+    check(felt_make(&config, &felts[0]));
+    check(felt_make_slowly(&config, &felts[1]));
+    const size_t bytes = sizeof(float) * (size_t)config.width * (size_t)config.height;
+    if (memcmp(felts[0].relief, felts[1].relief, bytes) != 0 ||
+        memcmp(felts[0].mass, felts[1].mass, bytes) != 0 ||
+        memcmp(felts[0].fibers, felts[1].fibers, bytes) != 0)
+        wrong("a paper of %dx%d differs where fibers are left out", config.width,
+              config.height);
+    for (int k = 0; k < 2; k++)
+        felt_free(&felts[k]);
+}
+
 int main(int argc, char **argv)
 {
     long count = argc > 1 ? atol(argv[1]) : 1000;
     uint64_t seed = argc > 2 ? (uint64_t)atoll(argv[2]) : 1;
     int version = argc > 3 ? atoi(argv[3]) : 0, airs = argc > 4 ? atoi(argv[4]) : 2;
+    for (long i = 0; i < count && i < PAPERS; i++)
+        paper_look(seed + (uint64_t)i, version);
     for (long i = 0; i < count; i++) {
         set_look(seed + (uint64_t)i, version, airs);
         if ((i + 1) % EVERY == 0)

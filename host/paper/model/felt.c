@@ -81,6 +81,7 @@ struct making {
     uint64_t seed;
     const float *inside; /* of a sheet with a deckle, else NULL: deckle_make() */
     float *stayed;       /* mass of the fibers that lie in the sheet, where that is not all */
+    bool slowly;         /* all fibers are drawn, also those that do not reach the sheet */
 };
 
 static size_t count_of(const struct making *m)
@@ -213,6 +214,15 @@ static bool stays(const struct making *m, double x, double y, double reach)
     return inside > reach && inside < m->config->deckle.thin + 2 * m->scale;
 }
 
+/* No mass can come to the sheet from within `reach` of x, y, in fibers of the stock's own scale. */
+static bool beyond(const struct making *m, double x, double y, double reach)
+{
+    const double far = (reach + STRIDE + 1) * m->scale + 2;
+    return !m->slowly && !m->config->torus &&
+           (x * m->scale < -far || y * m->scale < -far || x * m->scale > m->width + far ||
+            y * m->scale > m->height + far);
+}
+
 /* One fiber from x, y, in fibers of the stock's own scale. At finer scales it is as wide as it is there: it is drawn in strands. */
 static void fiber_draw(const struct making *m, float *mass, struct chances *c, double x,
                        double y)
@@ -220,6 +230,8 @@ static void fiber_draw(const struct making *m, float *mass, struct chances *c, d
     double direction[2], bend = BEND_FIRST * bell(c), u = chance(c);
     direction_make(m, c, direction);
     double length = m->recipe->length * (0.2 + 2.8 * u * u);
+    if (beyond(m, x, y, length))
+        return;
     int strands = m->scale > 1 ? (int)ceil(m->scale) : 1;
     int pieces = strands;
     double part = STRIDE * m->scale * m->scale / (strands * pieces);
@@ -227,7 +239,7 @@ static void fiber_draw(const struct making *m, float *mass, struct chances *c, d
         m->inside ? deckle_reach(&m->config->deckle, clouds_chance(c->seed, CHANCE_REACH)) : 0;
     for (double gone = 0; gone < length; gone += STRIDE) {
         const bool lies = m->inside && stays(m, x, y, reach);
-        for (int piece = 0; piece < pieces; piece++) {
+        for (int piece = 0; piece < pieces && !beyond(m, x, y, 0); piece++) {
             double ahead = (piece + 0.5) / pieces * STRIDE;
             for (int strand = 0; strand < strands; strand++) {
                 double aside = (strand + 0.5) / strands - 0.5;
@@ -468,7 +480,8 @@ double felt_scale(const struct paper_sheet_config *config)
                                                             : usual->fiber_length[1]);
 }
 
-enum paper_status felt_make(const struct paper_sheet_config *config, struct felt *out)
+static enum paper_status felt_of(const struct paper_sheet_config *config, bool slowly,
+                                 struct felt *out)
 {
     const int *length = config->stock.fiber_length;
     struct making m = {.config = config,
@@ -476,7 +489,8 @@ enum paper_status felt_make(const struct paper_sheet_config *config, struct felt
                        .width = config->width,
                        .height = config->height,
                        .lean = {1, 1},
-                       .seed = config->seed};
+                       .seed = config->seed,
+                       .slowly = slowly};
     int longer = length[0] > length[1] ? length[0] : length[1];
     for (int axis = 0; axis < 2; axis++)
         m.lean[axis] = (double)length[axis] / longer;
@@ -505,6 +519,16 @@ enum paper_status felt_make(const struct paper_sheet_config *config, struct felt
     felt_free(out);
     return paper_fail(PAPER_NO_MEMORY, "no memory for a sheet of %dx%d", config->width,
                       config->height);
+}
+
+enum paper_status felt_make(const struct paper_sheet_config *config, struct felt *out)
+{
+    return felt_of(config, false, out);
+}
+
+enum paper_status felt_make_slowly(const struct paper_sheet_config *config, struct felt *out)
+{
+    return felt_of(config, true, out);
 }
 
 void felt_free(struct felt *felt)

@@ -17,6 +17,8 @@ struct felt {
 /* From the stock and the seed, by sums, products, quotients and square roots alone: the same bits everywhere.
  * Errors: NO_MEMORY; nothing is then allocated. Owns: the caller gives it to felt_free(). */
 enum paper_status felt_make(const struct paper_sheet_config *config, struct felt *out);
+/* The same bits, slower: fibers that cannot reach the sheet are drawn, too. */
+enum paper_status felt_make_slowly(const struct paper_sheet_config *config, struct felt *out);
 /* Whether a stock has fibers. */
 bool felt_has_fibers(const struct paper_stock *stock);
 /* Fibers of this sheet to one of its stock as it is known: 2 where the sheet is drawn anew twice as fine. */
