@@ -3,10 +3,12 @@
 #include "machine_explained.h"
 #include "support.h"
 
-#include "device/device.h"
+#include "device/cache.h"
 
 #include <dirent.h>
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 enum { COMPILED = 1, LOADED = 2 };
@@ -122,6 +124,38 @@ static void program_that_needs_the_header_gets_it(void **state)
     machine_destroy(m);
 }
 
+/* Files of programs and marks, and one that is neither. */
+static void the_oldest_files_go(void **state)
+{
+    enum { FILES = 50 };
+    char path[400], name[60];
+    (void)state;
+    snprintf(path, sizeof path, "%s/many", support_cache);
+    assert_int_equal(mkdir(path, 0700), 0);
+    for (int i = 0; i <= FILES; i++) {
+        struct timespec times[2];
+        clock_gettime(CLOCK_REALTIME, times);
+        times[0].tv_sec -= 60 * (i * 7 % FILES);
+        times[1] = times[0];
+        snprintf(name, sizeof name, i < FILES ? "/many/%032x%s" : "/many/tuned-%x%s", i * 77,
+                 i % 2 ? ".bin" : ".has");
+        snprintf(path, sizeof path, "%s%s", support_cache, name);
+        int file = open(path, O_WRONLY | O_CREAT, 0600);
+        assert_true(file >= 0);
+        close(file);
+        assert_int_equal(utimensat(AT_FDCWD, path, times, 0), 0);
+    }
+    assert_int_equal(access(path, F_OK), 0);
+    snprintf(path, sizeof path, "%s/many", support_cache);
+    assert_int_equal(cache_trim(path, FILES, 0), 0);
+    assert_int_equal(cache_trim(path, 20, 0), FILES - 20);
+    assert_int_equal(cache_trim(path, 20, 0), 0);
+    assert_int_equal(cache_trim(path, 0, 60 * 10 - 30), 10);
+    snprintf(name, sizeof name, "/many/tuned-%x%s", FILES * 77, FILES % 2 ? ".bin" : ".has");
+    snprintf(path, sizeof path, "%s%s", support_cache, name);
+    assert_int_equal(access(path, F_OK), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -129,6 +163,7 @@ int main(void)
         cmocka_unit_test(damaged_programs_are_compiled_again),
         cmocka_unit_test(nothing_is_kept_where_nobody_wants_it),
         cmocka_unit_test(program_that_needs_the_header_gets_it),
+        cmocka_unit_test(the_oldest_files_go),
     };
     return cmocka_run_group_tests(tests, support_cache_make, support_cache_remove);
 }

@@ -20,6 +20,8 @@
 #include <sys/types.h>
 #include <unistd.h>
 
+#include "kept_kernels.h"
+
 enum { IDLE_MS = 30000, MOST = 64, TEXT_MOST = 16 << 20, MEMORY_BYTES = 1 << 16 };
 
 static cl_device_id device;
@@ -41,6 +43,15 @@ static void *leave_with_machine(void *nothing)
     while (poll(machine, 2, -1) <= 0)
         ;
     _exit(EXIT_SUCCESS);
+    return nothing;
+}
+
+/* PoCL's cache, while the first kernel is compiled. A program that was removed in part is compiled again. */
+static void *trim(void *nothing)
+{
+    const char *cache = getenv("POCL_CACHE_DIR");
+    if (cache)
+        kept_kernels_trim(cache, KEPT_KERNELS_MOST, 3600);
     return nothing;
 }
 
@@ -196,6 +207,8 @@ int main(int argc, char **argv)
     settle(atoi(argv[1]));
     if (pthread_create(&thread, NULL, leave_with_machine, NULL))
         return EXIT_FAILURE;
+    if (!pthread_create(&thread, NULL, trim, NULL))
+        pthread_detach(thread);
     answer(COMPILER_READY);
     while (asked() && take(&request, sizeof request)) {
         char *strings[COMPILER_STRINGS] = {NULL};

@@ -12,6 +12,7 @@
  */
 #include "device/cache.h"
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -19,8 +20,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "oldest.h"
 #include "output_file.h"
 #include "user_folder.h"
+
+enum { TRIM_EVERY = 256 }; /* files that a process adds */
 
 uint64_t cache_hash(uint64_t h, const char *s)
 {
@@ -40,6 +44,48 @@ static void sweep_once(const char *path)
         return;
     output_file_sweep(folder);
     close(folder);
+}
+
+/* Files of programs and marks, 32 digits and a suffix. */
+static bool is_program(const char *name)
+{
+    const size_t digits = strspn(name, "0123456789abcdef");
+    return digits == 32 && (!strcmp(name + digits, ".bin") || !strcmp(name + digits, ".has"));
+}
+
+int cache_trim(const char *path, int most, double unused_s)
+{
+    int folder = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NOFOLLOW), count = 0;
+    DIR *list = folder >= 0 ? fdopendir(folder) : NULL;
+    struct oldest o = {.folder = folder};
+    for (const struct dirent *e; list && (e = readdir(list));)
+        count += is_program(e->d_name);
+    if (count > most)
+        rewinddir(list);
+    for (const struct dirent *e; count > most && (e = readdir(list));)
+        if (is_program(e->d_name))
+            oldest_add(&o, e->d_name, NULL);
+    count = oldest_remove(&o, most, unused_s);
+    if (list)
+        closedir(list);
+    else if (folder >= 0)
+        close(folder);
+    return count;
+}
+
+/* A file was added: now and then there are too many. */
+static void trim_sometimes(void)
+{
+    static atomic_uint added;
+    char path[MACHINE_CACHE_FOLDER_MAX];
+    if (atomic_fetch_add(&added, 1) % TRIM_EVERY == 0 && machine_cache_folder(path, NULL))
+        cache_trim(path, CACHE_FILES_MOST, 0);
+}
+
+/* It is not among the oldest any more. */
+static void was_used(const char *path)
+{
+    utimensat(AT_FDCWD, path, NULL, AT_SYMLINK_NOFOLLOW);
 }
 
 bool machine_cache_folder(char out[static MACHINE_CACHE_FOLDER_MAX], const char **why)
@@ -123,6 +169,8 @@ static unsigned char *binary_read(const char *path, const char *key, size_t *siz
     }
     free(read_key);
     fclose(f);
+    if (binary)
+        was_used(path);
     return binary;
 }
 
@@ -141,6 +189,7 @@ static void binary_write(const char *path, const char *key, cl_program program)
         fwrite(key, 1, length[0], out.stream);
         fwrite(binary, 1, size, out.stream);
         output_file_commit(&out);
+        trim_sometimes();
     }
     free(binary);
 }
@@ -174,7 +223,10 @@ bool cache_program_is_there(const struct device *d, const char *key)
 bool cache_mark_is_there(const struct device *d, const char *key)
 {
     char path[700];
-    return path_of(path, sizeof path, d, key, ".has") && !access(path, F_OK);
+    const bool there = path_of(path, sizeof path, d, key, ".has") && !access(path, F_OK);
+    if (there)
+        was_used(path);
+    return there;
 }
 
 void cache_mark_write(const struct device *d, const char *key)
@@ -183,6 +235,8 @@ void cache_mark_write(const struct device *d, const char *key)
     int file = -1;
     if (path_of(path, sizeof path, d, key, ".has"))
         file = open(path, O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0600);
-    if (file >= 0)
+    if (file >= 0) {
         close(file);
+        trim_sometimes();
+    }
 }

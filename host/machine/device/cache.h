@@ -15,6 +15,11 @@ FILE *cache_file_read(const char *path);
  * before that. The caller frees it; NULL: no memory. */
 char *cache_key(const struct device *d, const char *const parts[DEVICE_PARTS],
                 const char *options, const char *name);
+/* Programs and marks in the folder: this many at most, and up to 256 more until the process that adds them looks. Those go that were
+ * used last longest ago. */
+enum { CACHE_FILES_MOST = 4096 };
+/* Removes the oldest until so many are left, none that was used in so many seconds; returns how many. Other files stay. */
+int cache_trim(const char *folder, int most, double unused_s);
 unsigned char *cache_program_read(const struct device *d, const char *key, size_t *size);
 void cache_program_write(const struct device *d, const char *key, cl_program program);
 bool cache_program_is_there(const struct device *d, const char *key);
