@@ -14,7 +14,7 @@
  * queues, contexts or threads do not help. A kernel that another process left in PoCL's cache
  * is loaded in some 20 milliseconds.
  *
- * Nothing here blocks, no thread is made, and the program can end at any time. The process
+ * Nothing here blocks, and the program can end at any time. What the process has compiled is loaded by a thread (loading.h). The process
  * is not a child of the program, because a program may wait for all of its children. It ends
  * when the program does. If the process fails, the machine compiles from then on, while the
  * program waits.
