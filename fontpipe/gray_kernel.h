@@ -53,15 +53,27 @@ INLINE half_vector half_load(const float *at)
 #define WEIGHTS(taps) ((taps) < 8 ? 8 : ROW) /* floats for taps + 1 */
 
 /* What rows get: the taps down, times the weight. */
-INLINE void rows_weigh(float *out, const float *y, float t, float weight, int taps)
+INLINE void rows_weigh(half_vector *out, const float *y, float t, float weight, int taps)
 {
-    for (int k = 0; k < WEIGHTS(taps); k += HALF_LANES)
-        *(half_loose *)(out + k) =
-            (half_load(y + k) + half_load(y + FONT_Y_ROW + k) * t) * weight;
+    for (int p = 0; p < WEIGHTS(taps) / HALF_LANES; p++)
+        out[p] =
+            (half_load(y + p * HALF_LANES) + half_load(y + FONT_Y_ROW + p * HALF_LANES) * t) *
+            weight;
+}
+
+/* One of them in all lanes: from a register, which takes no load. */
+INLINE half_vector spread(const half_vector *weights, int row)
+{
+#if LANES > 4
+    return (half_vector)_mm256_permutevar8x32_ps((__m256)weights[row / 8],
+                                                 _mm256_set1_epi32(row % 8));
+#else
+    return weights[row / HALF_LANES][row % HALF_LANES] - (half_vector){0};
+#endif
 }
 
 /* The row that y reaches first, and its phase. */
-INLINE void row_weigh(float *out, const float *table, float a, int *row, int taps)
+INLINE void row_weigh(half_vector *out, const float *table, float a, int *row, int taps)
 {
     int i = (int)a;
     float at = (a - (float)i) * FONT_PHASES;
@@ -114,38 +126,25 @@ INLINE void batch_fill(struct batch *b, const struct font_gray_job *job, int fir
 INLINE void node_weigh(half_vector *columns, half_vector *weights, const struct batch *b, int k,
                        const float *xs, const float *ys, float weight, int taps)
 {
-    const float *x = xs + b->column[k], *y = ys + b->rows[k];
+    const float *x = xs + b->column[k];
     for (int p = 0; p < 8 / HALF_LANES; p++)
         columns[p] = half_load(x + p * HALF_LANES) +
                      half_load(x + FONT_X_ROW + p * HALF_LANES) * b->column_t[k];
-    for (int p = 0; p < WEIGHTS(taps) / HALF_LANES; p++)
-        weights[p] = (half_load(y + p * HALF_LANES) +
-                      half_load(y + FONT_Y_ROW + p * HALF_LANES) * b->rows_t[k]) *
-                     weight;
-}
-
-/* One of the numbers that rows get, in all lanes: from a register, which takes no load. */
-INLINE half_vector spread(const half_vector *weights, int row)
-{
-#if LANES > 4
-    return (half_vector)_mm256_permutevar8x32_ps((__m256)weights[row / 8],
-                                                 _mm256_set1_epi32(row % 8));
-#else
-    return weights[row / HALF_LANES][row % HALF_LANES] - (half_vector){0};
-#endif
+    rows_weigh(weights, ys + b->rows[k], b->rows_t[k], weight, taps);
 }
 
 /* What the compiler knows of a pointer it forgets: it then counts from it, and does not compute each row's address. */
 #define OPAQUE(pointer) __asm__("" : "+r"(pointer))
 
-INLINE void block_add(float *sums, int stride, const half_vector *columns, int parts,
-                      const float *weights, int rows)
+INLINE void block_add(float *sums, int stride, const half_vector *columns,
+                      const half_vector *weights, int taps)
 {
     OPAQUE(sums);
-    OPAQUE(weights);
-    for (int r = 0; r < rows; r++)
-        for (int p = 0; p < parts; p++)
-            *(half_vector *)(sums + r * stride + p * HALF_LANES) += columns[p] * weights[r];
+    for (int r = 0; r <= taps; r++) {
+        half_vector weight = spread(weights, r);
+        for (int p = 0; p < 8 / HALF_LANES; p++)
+            *(half_vector *)(sums + r * stride + p * HALF_LANES) += columns[p] * weight;
+    }
 }
 
 /* A block of sums in registers. */
@@ -233,16 +232,9 @@ INLINE void runs_add(const struct font_gray_job *job, int term, int stride, int 
 INLINE void node_add(const struct font_gray_job *job, const struct batch *b, int first, int k,
                      const float *xs, const float *ys, int taps)
 {
-    float *sums = job->sums + b->sums[k];
     half_vector columns[HALF_PARTS], weights[HALF_PARTS];
     node_weigh(columns, weights, b, k, xs, ys, job->node_weight[first + k], taps);
-    OPAQUE(sums);
-    for (int r = 0; r <= taps; r++) {
-        half_vector weight = spread(weights, r);
-        for (int p = 0; p < 8 / HALF_LANES; p++)
-            *(half_vector *)(sums + r * FONT_NARROW_STRIDE + p * HALF_LANES) +=
-                columns[p] * weight;
-    }
+    block_add(job->sums + b->sums[k], FONT_NARROW_STRIDE, columns, weights, taps);
 }
 
 /* Narrow pictures of few taps. Neighbours on an edge add to the same rows and each waits for what the one before has stored; so
@@ -282,7 +274,7 @@ INLINE const float *line_end(const float *table, float a, int first, float *t)
 INLINE void lines_add(const struct font_gray_job *job, int term, int stride, int taps)
 {
     const float *hs = font_filter_h(job->filter, term), *ys = font_filter_y(job->filter, term);
-    float weights[ROW] __attribute__((aligned(64)));
+    half_vector weights[HALF_PARTS];
     for (int n = 0; n < job->lines_count; n++) {
         float a0 = job->line_x0[n] + job->ax, a1 = job->line_x1[n] + job->ax;
         int row;
@@ -290,7 +282,6 @@ INLINE void lines_add(const struct font_gray_job *job, int term, int stride, int
         row -= job->row;
         if (job->banded && !row_in_band(job, row))
             continue;
-        IN_MEMORY();
         /* Blocks of the even row; what lies beyond the ends' reach is 0. */
         int first = (int)(a0 < a1 ? a0 : a1) & ~7, end = (int)(a0 < a1 ? a1 : a0) + taps;
         float *sums = job->sums + (long)(FONT_MARGIN_ROWS + row) * stride;
@@ -303,7 +294,7 @@ INLINE void lines_add(const struct font_gray_job *job, int term, int stride, int
                 columns[p] = (half_load(h0 + at) + half_load(h0 + FONT_H_ROW + at) * t0) -
                              (half_load(h1 + at) + half_load(h1 + FONT_H_ROW + at) * t1);
             }
-            block_add(sums + first, stride, columns, 8 / HALF_LANES, weights, taps + 1);
+            block_add(sums + first, stride, columns, weights, taps);
         }
     }
 }
