@@ -161,8 +161,12 @@ void paris_coordinate_make(const struct paris_instruction *self, CM_geometry_id_
         g ? load(m, coordinate, slen, "coordinate", stride == 1 ? 32 : WIDTH) : NULL;
     if (!v)
         return;
-    v = stride == 1 ? short_address_of(m, g, v) : address_of(m, g, times(m, v, stride));
-    store_address(m, self, g, dest, v);
+    struct machine_value *address =
+        stride == 1 ? short_address_of(m, g, v) : address_of(m, g, times(m, v, stride));
+    address = machine_resize(m, address, (int)paris_address_bits(g), false);
+    if (g->rank == 1 && address)
+        machine_layout_note(m, &g->layout, v, address);
+    store_address(m, self, g, dest, address);
 }
 
 void paris_coordinate_deposit(const struct paris_instruction *self, CM_geometry_id_t geometry,

@@ -61,5 +61,8 @@ struct machine_value *machine_layout_address_value(struct machine *m,
 struct machine_value *machine_layout_index_value(struct machine *m,
                                                  const struct machine_layout *l,
                                                  struct machine_value *address);
+/* These addresses are those of these indices, by this layout. A send by them may then be recognised. */
+void machine_layout_note(struct machine *m, const struct machine_layout *layout,
+                         struct machine_value *index, struct machine_value *address);
 
 #endif

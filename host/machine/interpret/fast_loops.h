@@ -433,6 +433,7 @@ LOOP(draw, u32)
 const struct lanes_table TABLE =
     {.pick = pick,
      .greatest = greatest,
+     .pack = pack,
      .sum = sum,
      .places = places,
      .scan = SCAN,

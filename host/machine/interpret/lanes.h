@@ -91,6 +91,10 @@ typedef size_t lanes_pick_function(const struct lanes_pick *p, const uint8_t *co
                                    uint32_t *place, uint16_t *lane);
 /* The greatest of n numbers; 0 of none. */
 typedef uint32_t lanes_greatest_function(const uint32_t *x, int n);
+/* The elements of so many bytes where the context holds, one after the other; nothing is written from element `room` on. Returns how
+ * many. */
+typedef size_t lanes_pack_function(const void *from, const uint8_t *context, size_t n,
+                                   size_t bytes, void *to, size_t room);
 /* n indices below 2^31 become places in an array of such rows, halos between them. */
 struct lanes_rows {
     uint32_t width, halo, further;
@@ -127,6 +131,7 @@ struct lanes_table {
     lanes_function *convert[NODE_OP_COUNT][LANES_CLASSES][LANES_CLASSES];
     lanes_pick_function *pick;
     lanes_greatest_function *greatest;
+    lanes_pack_function *pack;
     lanes_sum_function *sum;
     lanes_places_function *places;
     lanes_scan_function *scan; /* NULL: none by vectors */

@@ -43,6 +43,46 @@ static u32 greatest(const u32 *x, int n)
     return most;
 }
 
+/* Each element is written, and the next one over it if it is not wanted. */
+#define PACK(T)                                                                                \
+    {                                                                                          \
+        const T *in = from;                                                                    \
+        T *out = to;                                                                           \
+        for (; i < n && packed < room; i++) {                                                  \
+            out[packed] = in[i];                                                               \
+            packed += context[i] != 0;                                                         \
+        }                                                                                      \
+        return packed;                                                                         \
+    }
+
+static size_t pack(const void *from, const u8 *context, size_t n, size_t bytes, void *to,
+                   size_t room)
+{
+    size_t i = 0, packed = 0;
+#ifdef __AVX512F__
+    for (; bytes == 4 && i + 16 <= n && packed + 16 <= room; i += 16) {
+        const __m128i c = _mm_loadu_si128((const __m128i *)(const void *)(context + i));
+        const __mmask16 on = _mm_test_epi8_mask(c, c);
+        _mm512_storeu_si512(
+            (u32 *)to + packed,
+            _mm512_maskz_compress_epi32(on, _mm512_loadu_si512((const u32 *)from + i)));
+        packed += (size_t)__builtin_popcount(on);
+    }
+#endif
+    switch (bytes) {
+    case 1:
+        PACK(u8)
+    case 2:
+        PACK(u16)
+    case 4:
+        PACK(u32)
+    case 8:
+        PACK(u64)
+    default:
+        PACK(u128)
+    }
+}
+
 /* An index becomes a place: a row's halos lie between it and the next row. */
 static void places(u32 *place, size_t n, const struct lanes_rows *r)
 {

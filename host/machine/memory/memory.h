@@ -3,6 +3,7 @@
 #define LUTETIA_MACHINE_MEMORY_H
 
 #include "base/parts.h"
+#include "memory/known_addresses.h"
 #include "memory/lifetimes.h"
 #include "values/values.h"
 
@@ -66,6 +67,8 @@ struct memory {
     uint32_t next_base;
     uint64_t serial;
     struct lifetimes lifetimes;
+    struct known_addresses known;
+    struct known_ranks ranks;
 };
 
 /* The flags of a VP set that exists. */

@@ -7,6 +7,7 @@
 #include "ops/gather.h"
 #include "ops/index.h"
 #include "ops/near.h"
+#include "ops/near_pack.h"
 #include "run/evaluate.h"
 #include "run/materialise.h"
 #include "values/graph.h"
@@ -22,8 +23,11 @@ bool message_make(struct machine *m, struct message *g, struct machine_value *ad
         other = other->in[0];
     g->from_set = m->values->set_current;
     g->to_set = to_set;
-    bool is_index = !index_is_address(&m->values->sets[to_set]);
-    if (is_index)
+    const bool is_index = !index_is_address(&m->values->sets[to_set]);
+    struct machine_value *const given = address;
+    if ((g->known = known_addresses_find(m, address, to_set)))
+        address = g->known->index;
+    else if (is_index)
         address = index_of_address(m, to_set, address);
     if (!address)
         return false;
@@ -58,6 +62,8 @@ bool message_make(struct machine *m, struct message *g, struct machine_value *ad
         width = address->type.width;
     bits = bits < width ? bits : width;
     g->mask = bits >= 32 ? UINT32_MAX : (UINT32_C(1) << bits) - 1;
+    if (g->context && other && !g->known && known_addresses_note(m, given, to_set, g->address))
+        g->known = &m->memory->known;
     return g->context != NULL;
 }
 
@@ -78,8 +84,23 @@ bool message_over(const struct machine *m, const struct message *g, const struct
            v->refs <= gather_borrowed(m, v) + (uint32_t)field_holds(f, offset, v);
 }
 
+/* What is known of the addresses grows with their use: to find out whether they are distinct takes longer than a send. */
+static void known_look(struct machine *m, const struct message *g)
+{
+    enum { THERE_AFTER = 2, DISTINCT_AFTER = 4 };
+    struct known_addresses *k = g->known;
+    if (!k || ++k->uses > DISTINCT_AFTER)
+        return;
+    const struct near_route r = message_route(m, g, true);
+    if (k->uses == THERE_AFTER)
+        k->there = near_all_there(&r);
+    if (k->uses == DISTINCT_AFTER && k->there)
+        k->distinct = near_are_distinct(&r);
+}
+
 struct near_route message_route(const struct machine *m, const struct message *g, bool shares)
 {
+    const bool distinct = g->known && g->known->distinct;
     int parts = device_parts(m, 1e-9 * m->device->shape.send_ns * (double)g->from->count),
         size = crew_size(m->device->crew);
     return (struct near_route){.from = g->from,
@@ -90,7 +111,9 @@ struct near_route message_route(const struct machine *m, const struct message *g
                                .mask = g->mask,
                                .lanes = lanes_table(),
                                .crew = m->device->crew,
-                               .parts = shares && parts > size ? size : parts};
+                               .there = g->known && g->known->there,
+                               .distinct = distinct,
+                               .parts = shares && !distinct && parts > size ? size : parts};
 }
 
 bool message_near(struct machine *m, const struct vpset *to, const struct device_buffer *b,
@@ -104,11 +127,14 @@ enum machine_status message_send_near(struct machine *m, const struct message *g
                                       size_t bytes, double start,
                                       struct machine_value **notification)
 {
+    known_look(m, g);
     const struct near_route r = message_route(m, g, true);
+    const bool fills = r.distinct && g->all && combiner == MACHINE_COMBINE_OVERWRITE &&
+                       g->from->count == g->to->count;
     struct device_buffer *arrived = notification ? message_array(m, g->to, MACHINE_BIT) : NULL;
     if (notification && !arrived)
         return m->status;
-    if (out != g->old->buffer)
+    if (out != g->old->buffer && !fills)
         device_move(m, out->host, g->old->buffer->host, bytes);
     if (arrived)
         memset(arrived->host, 0, arrived->bytes);
@@ -117,4 +143,46 @@ enum machine_status message_send_near(struct machine *m, const struct message *g
         *notification = graph_buffer_node(m, MACHINE_BIT, g->to_set, arrived);
     near_end(m, "sending", start);
     return MACHINE_OK;
+}
+
+static struct machine_value *same_bits(struct machine_value *v)
+{
+    while (v->op == NODE_REINTERPRET && !v->buffer)
+        v = v->in[0];
+    return v;
+}
+
+struct machine_value *message_pack(struct machine *m, struct machine_value *source,
+                                   struct machine_value *old)
+{
+    const int set = m->values->set_current;
+    const struct machine_type type = source->type;
+    const struct machine_value *context = m->memory->ranks.context;
+    struct machine_value *wanted[2];
+    int count = 0;
+    source = same_bits(source);
+    old = same_bits(old);
+    if (!node_is_leaf(source))
+        wanted[count++] = source;
+    if (!node_is_leaf(old))
+        wanted[count++] = old;
+    if (!context->buffer || (count && evaluate_values(m, wanted, count, false)))
+        return NULL;
+    source = materialise(m, set, source);
+    const struct vpset *s = &m->values->sets[set];
+    struct device_buffer *out = source ? message_array(m, s, type) : NULL;
+    double start;
+    if (!out || s->rows > 1 || !near_begin(m, out, &start)) {
+        if (out)
+            device_buffer_unref(m, out);
+        return NULL;
+    }
+    const int parts =
+        device_parts(m, 1e-9 * m->device->shape.scan_vector_ns * (double)s->count);
+    near_pack(m->device->crew, parts, s, type_bytes(type), context->buffer, source->buffer, old,
+              out);
+    near_end(m, "sending", start);
+    struct machine_value *v = graph_buffer_node(m, type, set, out);
+    v->strange_nan = source->strange_nan || old->strange_nan;
+    return v;
 }

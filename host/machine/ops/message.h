@@ -13,6 +13,7 @@ struct message {
     bool over; /* old's array may be written over */
     bool all;  /* the context is 1 everywhere */
     uint32_t mask;
+    struct known_addresses *known; /* of the addresses; NULL: nothing is */
 };
 
 /* Puts everything that a router operation reads into memory, by one evaluation. source and other may be NULL, the context need not
@@ -31,6 +32,10 @@ bool message_near(struct machine *m, const struct vpset *to, const struct device
                   double *start);
 /* shares: each part passes all senders. */
 struct near_route message_route(const struct machine *m, const struct message *g, bool shares);
+/* A send by ranks to the same set (known_ranks_are()): the messages go one after the other. source and old are contents of fields, not
+ * yet computed perhaps. NULL: it cannot be done so, or there is an error. */
+struct machine_value *message_pack(struct machine *m, struct machine_value *source,
+                                   struct machine_value *old);
 /* On the front end's own thread. out: old's array, or another. */
 enum machine_status message_send_near(struct machine *m, const struct message *g,
                                       enum machine_combiner combiner, struct device_buffer *out,

@@ -15,6 +15,8 @@ struct near_route {
     uint32_t mask;                                 /* the bits of an address that count */
     struct crew *crew;                             /* which does it in so many parts */
     int parts;
+    bool there;    /* each address is of a processor, also where nobody sends */
+    bool distinct; /* ... and no two are of the same */
     const struct lanes_table *lanes;
 };
 

@@ -8,6 +8,7 @@
  *     hops           place 5, lane 0 | place 1, lane 1 | place 7, lane 3 */
 #include "ops/near_router.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/arrays.h"
@@ -50,34 +51,35 @@ static void hops_find(const struct near_route *r, const struct range *to, size_t
                                               (uint32_t)(s->pitch - (size_t)s->width)});
 }
 
-/* Blocks of the senders' rows, one after the other. All zero: before the first. */
+/* Blocks of the senders' rows, one after the other. */
 struct block {
-    uint64_t row;
-    int x, n;
+    int n;
     size_t at; /* of its first element */
 };
 
-static bool block_next(const struct near_route *r, struct block *b)
+static uint64_t blocks_along(const struct near_route *r)
 {
-    const struct vpset *s = r->from;
-    b->x += b->n;
-    if (b->x == s->width) {
-        b->x = 0;
-        b->row++;
-    }
-    b->n = s->width - b->x < BLOCK ? s->width - b->x : BLOCK;
-    b->at = (size_t)b->row * s->pitch + (size_t)s->halo + (size_t)b->x;
-    return b->row < s->rows;
+    return ((uint64_t)r->from->width + BLOCK - 1) / BLOCK;
 }
 
-/* The blocks of a part: every parts-th, from that one on. */
-static bool block_of_part(const struct near_route *r, struct block *b, int part)
+static uint64_t blocks_count(const struct near_route *r)
 {
-    int before = b->n ? r->parts : part + 1;
-    while (before--)
-        if (!block_next(r, b))
-            return false;
-    return true;
+    return r->from->rows * blocks_along(r);
+}
+
+static struct block block_get(const struct near_route *r, uint64_t i)
+{
+    const struct vpset *s = r->from;
+    const uint64_t along = blocks_along(r), row = i / along;
+    const int x = (int)(i % along) * BLOCK;
+    return (struct block){.n = s->width - x < BLOCK ? s->width - x : BLOCK,
+                          .at = (size_t)row * s->pitch + (size_t)s->halo + (size_t)x};
+}
+
+static struct range blocks_of_part(const struct near_route *r, int part)
+{
+    const uint64_t count = blocks_count(r), parts = (uint64_t)r->parts;
+    return (struct range){count * (uint64_t)part / parts, count * (uint64_t)(part + 1) / parts};
 }
 
 /* The other end of each row, on both sides. */
@@ -230,7 +232,7 @@ static bool messages_move_all(const struct near_route *r, const struct block *b,
     if (r->context || r->to->rows > 1)
         return false;
     near_addresses(r, at, n, index);
-    if (r->lanes->greatest(index, n) >= r->to->count)
+    if (!r->there && r->lanes->greatest(index, n) >= r->to->count)
         return false;
     switch (bytes) {
     case 1:
@@ -274,12 +276,16 @@ static void part_send(void *of, int part, int worker)
 {
     const struct routing *g = of;
     const struct near_route *r = g->r;
-    const uint64_t count = r->to->count, parts = (uint64_t)r->parts;
-    const struct range to = {count * (uint64_t)part / parts,
-                             count * (uint64_t)(part + 1) / parts};
+    /* Each part has some of the destinations, or where no two messages go to the same one, some of the senders. */
+    const uint64_t count = r->to->count, parts = r->distinct ? 1 : (uint64_t)r->parts,
+                   own = r->distinct ? 0 : (uint64_t)part;
+    const struct range to = {count * own / parts, count * (own + 1) / parts},
+                       blocks = r->distinct ? blocks_of_part(r, part)
+                                            : (struct range){0, blocks_count(r)};
     struct hops h;
     (void)worker;
-    for (struct block b = {0}; block_next(r, &b);) {
+    for (uint64_t i = blocks.first; i < blocks.end; i++) {
+        const struct block b = block_get(r, i);
         bool moves = g->combiner == MACHINE_COMBINE_OVERWRITE;
         const size_t from = messages_at(g, &b);
         if (moves && !g->arrived && parts == 1 &&
@@ -292,8 +298,8 @@ static void part_send(void *of, int part, int worker)
             floats_join(&h, g->combiner, g->type, g->source, from, g->out);
         else
             integers_join(&h, g->combiner, g->type, g->source, from, g->out);
-        for (size_t i = 0; g->arrived && i < h.count; i++)
-            g->arrived[h.place[i]] = 1;
+        for (size_t k = 0; g->arrived && k < h.count; k++)
+            g->arrived[h.place[k]] = 1;
     }
 }
 
@@ -357,8 +363,10 @@ static void part_get(void *of, int part, int worker)
     const struct routing *g = of;
     const struct range all = {0, g->r->to->count};
     struct hops h;
+    const struct range blocks = blocks_of_part(g->r, part);
     (void)worker;
-    for (struct block b = {0}; block_of_part(g->r, &b, part);) {
+    for (uint64_t i = blocks.first; i < blocks.end; i++) {
+        const struct block b = block_get(g->r, i);
         hops_find(g->r, &all, b.at, b.n, &h);
         if (h.count < (size_t)b.n)
             memset((char *)g->out + b.at * g->bytes, 0, (size_t)b.n * g->bytes);
@@ -380,11 +388,13 @@ static void part_count(void *of, int part, int worker)
     const unsigned char *context = g->r->context ? g->r->context->host : NULL;
     const struct range all = {0, g->r->to->count};
     struct hops h;
-    for (struct block b = {0}; block_of_part(g->r, &b, part);) {
+    const struct range blocks = blocks_of_part(g->r, part);
+    for (uint64_t i = blocks.first; i < blocks.end; i++) {
+        const struct block b = block_get(g->r, i);
         hops_find(g->r, &all, b.at, b.n, &h);
         uint64_t active = context ? 0 : (uint64_t)b.n;
-        for (int i = 0; context && i < b.n; i++)
-            active += context[b.at + (size_t)i] != 0;
+        for (int k = 0; context && k < b.n; k++)
+            active += context[b.at + (size_t)k] != 0;
         g->wrong[worker] += active - h.count;
     }
 }
@@ -397,4 +407,35 @@ uint64_t near_wrong(const struct near_route *r)
     for (int i = 0; i < CREW_MOST; i++)
         wrong += g.wrong[i];
     return wrong;
+}
+
+bool near_all_there(const struct near_route *r)
+{
+    uint32_t index[BLOCK];
+    for (uint64_t i = 0; i < blocks_count(r); i++) {
+        const struct block b = block_get(r, i);
+        near_addresses(r, b.at, b.n, index);
+        if (r->lanes->greatest(index, b.n) >= r->to->count)
+            return false;
+    }
+    return true;
+}
+
+bool near_are_distinct(const struct near_route *r)
+{
+    uint32_t index[BLOCK];
+    const uint64_t count = r->to->count;
+    uint64_t *taken = r->from->count > count ? NULL : calloc(count / 64 + 1, sizeof *taken);
+    uint64_t twice = taken ? 0 : 1;
+    for (uint64_t i = 0; i < blocks_count(r) && !twice; i++) {
+        const struct block b = block_get(r, i);
+        near_addresses(r, b.at, b.n, index);
+        for (int k = 0; k < b.n; k++) {
+            const uint64_t bit = UINT64_C(1) << index[k] % 64;
+            twice |= taken[index[k] / 64] & bit;
+            taken[index[k] / 64] |= bit;
+        }
+    }
+    free(taken);
+    return !twice;
 }

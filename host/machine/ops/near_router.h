@@ -11,6 +11,9 @@ void near_send(const struct near_route *r, int combiner, struct machine_type typ
 /* Of elements of so many bytes; 0 from a processor that does not exist. */
 void near_get(const struct near_route *r, size_t bytes, const struct device_buffer *source,
               struct device_buffer *out);
+/* Whether each address is of a processor, also where nobody sends; and whether then no two are of the same. */
+bool near_all_there(const struct near_route *r);
+bool near_are_distinct(const struct near_route *r);
 /* How many send to a processor that does not exist. */
 uint64_t near_wrong(const struct near_route *r);
 

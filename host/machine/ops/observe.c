@@ -181,10 +181,11 @@ struct machine_value *observe_own(struct machine *m, const struct field *f, uint
                                   struct machine_value *v)
 {
     /* the slot's reference, and those of this call */
-    return v->op != NODE_BUFFER || v->refs > gather_borrowed(m, v) + 1 ||
-                   !field_holds(f, offset, v)
-               ? own_copy(m, f->vpset, v)
-               : v;
+    if (v->op != NODE_BUFFER || v->refs > gather_borrowed(m, v) + 1 ||
+        !field_holds(f, offset, v))
+        return own_copy(m, f->vpset, v);
+    known_addresses_changed(m, v->buffer);
+    return v;
 }
 
 enum machine_status machine_field_write(struct machine *m, uint32_t field,

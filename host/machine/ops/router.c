@@ -358,8 +358,13 @@ enum machine_status machine_send(struct machine *m, uint32_t dest,
     struct machine_value *notification = NULL, *out = NULL;
     if (!old)
         return m->status;
-    if (message_make(m, &g, send_address, source, m->values->set_current, old, to.vpset, true,
-                     combiner != MACHINE_COMBINE_OVERWRITE)) {
+    if (combiner == MACHINE_COMBINE_OVERWRITE && !notify &&
+        known_ranks_are(m, send_address, to.vpset))
+        out = message_pack(m, source, old);
+    if (!out && m->status)
+        return m->status;
+    if (!out && message_make(m, &g, send_address, source, m->values->set_current, old, to.vpset,
+                             true, combiner != MACHINE_COMBINE_OVERWRITE)) {
         g.over = message_over(m, &g, f, offset);
         out = transmit(m, &g, combiner, notify ? &notification : NULL);
     }
@@ -446,8 +451,12 @@ enum machine_status machine_addresses_check(struct machine *m,
         return m->status;
     struct message g = {0};
     double begin;
+    if (known_ranks_are(m, send_address, vpset))
+        return MACHINE_OK;
     if (!message_make(m, &g, send_address, NULL, 0, NULL, vpset, true, false))
         return m->status;
+    if (g.known && g.known->there)
+        return MACHINE_OK;
     if (message_near(m, g.to, g.address->buffer, &begin)) {
         const struct near_route r = message_route(m, &g, false);
         *wrong = near_wrong(&r);

@@ -435,6 +435,8 @@ struct machine_value *scan_where(struct machine *m, const struct machine_scan *h
         return NULL;
     if (!op_fits(how->op, value->type))
         return wrong(m, "this scan does not take values of this type");
+    const bool ranks = how->op == MACHINE_SCAN_ADD && is_constant(value, 1) && !segmented &&
+                       how->exclusive && !how->downward;
     struct form f;
     struct machine_value *values[3] = {formed(m, how->op, value, &f)};
     int count = 1, masked = 0, bits = 0;
@@ -466,7 +468,10 @@ struct machine_value *scan_where(struct machine *m, const struct machine_scan *h
         device_buffer_unref(m, out);
         return NULL;
     }
-    return shown(m, &f, m->values->set_current, out);
+    struct machine_value *v = shown(m, &f, m->values->set_current, out);
+    if (v && ranks && s->rank == 1 && masked && values[masked]->buffer)
+        known_ranks_note(m, v, values[masked]);
+    return v;
 }
 
 struct machine_value *machine_scan(struct machine *m, const struct machine_scan *how,

@@ -1,0 +1,129 @@
+/* known_addresses.c - see known_addresses.h. */
+#include "memory/known_addresses.h"
+
+#include "memory/memory.h"
+#include "values/graph.h"
+
+static bool layouts_equal(const struct machine_layout *a, const struct machine_layout *b)
+{
+    if (a->order != b->order || a->blocks != b->blocks || a->count != b->count ||
+        a->processors != b->processors || a->parts_count != b->parts_count)
+        return false;
+    for (int i = 0; i < a->parts_count; i++)
+        if (a->parts[i].in_index != b->parts[i].in_index ||
+            a->parts[i].in_address != b->parts[i].in_address ||
+            a->parts[i].bits != b->parts[i].bits || a->parts[i].gray != b->parts[i].gray)
+            return false;
+    return true;
+}
+
+struct known_addresses *known_addresses_find(struct machine *m,
+                                             const struct machine_value *address, int set)
+{
+    struct known_addresses *k = &m->memory->known;
+    return k->address && k->address == address && k->set == set ? k : NULL;
+}
+
+bool known_addresses_note(struct machine *m, struct machine_value *address, int set,
+                          struct machine_value *index)
+{
+    struct known_addresses *k = &m->memory->known;
+    const bool again = k->seen == address && k->seen_set == set;
+    k->seen = address;
+    k->seen_set = set;
+    if (!again || !address->buffer || !index->buffer || !index->buffer->host)
+        return false;
+    known_addresses_forget(m);
+    graph_ref(address);
+    graph_ref(index);
+    *k = (struct known_addresses){
+        .seen = address, .seen_set = set, .address = address, .index = index, .set = set};
+    return true;
+}
+
+void known_addresses_forget(struct machine *m)
+{
+    struct known_addresses *k = &m->memory->known;
+    struct machine_value *address = k->address, *index = k->index;
+    *k = (struct known_addresses){0};
+    if (!address)
+        return;
+    graph_unref(m, address);
+    graph_unref(m, index);
+}
+
+/* ---- ranks ---- */
+
+void known_ranks_note(struct machine *m, struct machine_value *rank,
+                      struct machine_value *context)
+{
+    struct known_ranks *k = &m->memory->ranks;
+    known_ranks_forget(m);
+    graph_ref(rank);
+    graph_ref(context);
+    k->rank = rank;
+    k->context = context;
+}
+
+/* The same numbers of fewer or more bits, which have room for all ranks. */
+static const struct machine_value *same_ranks(const struct machine *m,
+                                              const struct machine_value *v)
+{
+    const uint64_t last = m->values->sets[m->memory->ranks.rank->set].count - 1;
+    while (!v->buffer &&
+           (v->op == NODE_ZERO_EXTEND || (v->op == NODE_EXTRACT && v->detail == 0)) &&
+           (v->type.width >= 32 || last >> v->type.width == 0))
+        v = v->in[0];
+    return v;
+}
+
+void machine_layout_note(struct machine *m, const struct machine_layout *layout,
+                         struct machine_value *index, struct machine_value *address)
+{
+    struct known_ranks *k = &m->memory->ranks;
+    if (!k->rank || !index || !address || same_ranks(m, index) != k->rank)
+        return;
+    graph_ref(address);
+    if (k->address)
+        graph_unref(m, k->address);
+    k->address = address;
+    k->layout = *layout;
+}
+
+bool known_ranks_are(const struct machine *m, const struct machine_value *address, int set)
+{
+    const struct known_ranks *k = &m->memory->ranks;
+    const struct machine_value *context = m->memory->flags[set].of[MACHINE_CONTEXT].value;
+    return k->address && k->address == address && k->rank->set == m->values->set_current &&
+           set == m->values->set_current &&
+           (context == k->context ||
+            (context->buffer && context->buffer == k->context->buffer)) &&
+           layouts_equal(&m->values->sets[set].layout, &k->layout);
+}
+
+void known_ranks_forget(struct machine *m)
+{
+    const struct known_ranks k = m->memory->ranks;
+    m->memory->ranks = (struct known_ranks){0};
+    if (!k.rank)
+        return;
+    graph_unref(m, k.rank);
+    graph_unref(m, k.context);
+    if (k.address)
+        graph_unref(m, k.address);
+}
+
+static bool is_in(const struct device_buffer *b, const struct machine_value *v)
+{
+    return v && v->buffer == b;
+}
+
+void known_addresses_changed(struct machine *m, const struct device_buffer *b)
+{
+    const struct known_addresses *k = &m->memory->known;
+    const struct known_ranks *r = &m->memory->ranks;
+    if (is_in(b, k->address) || is_in(b, k->index))
+        known_addresses_forget(m);
+    if (is_in(b, r->rank) || is_in(b, r->context) || is_in(b, r->address))
+        known_ranks_forget(m);
+}

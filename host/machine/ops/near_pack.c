@@ -1,0 +1,80 @@
+/* near_pack.c - see near_pack.h.
+ *
+ * Each part has some of the elements. How many are active in each says where each begins to write.
+ *
+ *     context    1 0 1 1 | 0 0 1 0 | 1 1 0 1       3, 1, 3: the parts write from 0, 3, 4 on */
+#include "ops/near_pack.h"
+
+#include <string.h>
+
+#include "base/arrays.h"
+#include "interpret/lanes.h"
+
+enum { PARTS_MOST = 64 };
+
+struct packing {
+    const uint8_t *context;
+    const char *from;
+    char *to;
+    size_t bytes, count;
+    int parts;
+    size_t begins[PARTS_MOST + 1]; /* how many are active before each part */
+};
+
+static size_t first_of(const struct packing *p, int part)
+{
+    return p->count * (size_t)part / (size_t)p->parts;
+}
+
+static void part_count(void *of, int part, int worker)
+{
+    struct packing *p = of;
+    const uint8_t *context = p->context;
+    const size_t end = first_of(p, part + 1);
+    size_t active = 0;
+    (void)worker;
+    for (size_t i = first_of(p, part); i < end;) {
+        const size_t most = end - i < 255 ? end : i + 255;
+        uint8_t few = 0; /* so as many lanes as there are bytes in a vector */
+        for (; i < most; i++)
+            few = (uint8_t)(few + (context[i] != 0));
+        active += few;
+    }
+    p->begins[part + 1] = active;
+}
+
+static void part_pack(void *of, int part, int worker)
+{
+    const struct packing *p = of;
+    const size_t first = first_of(p, part), begin = p->begins[part];
+    (void)worker;
+    lanes_table()->pack(p->from + first * p->bytes, p->context + first,
+                        first_of(p, part + 1) - first, p->bytes, p->to + begin * p->bytes,
+                        p->begins[part + 1] - begin);
+}
+
+void near_pack(struct crew *crew, int parts, const struct vpset *s, size_t bytes,
+               const struct device_buffer *context, const struct device_buffer *from,
+               const struct machine_value *old, struct device_buffer *out)
+{
+    const size_t column = (size_t)s->halo, halo = column * bytes, width = (size_t)s->width;
+    struct packing p = {.context = (const uint8_t *)context->host + column,
+                        .from = (const char *)from->host + halo,
+                        .to = (char *)out->host + halo,
+                        .bytes = bytes,
+                        .count = width,
+                        .parts = parts < PARTS_MOST ? parts : PARTS_MOST};
+    crew_run(crew, p.parts, part_count, &p);
+    for (int i = 0; i < p.parts; i++)
+        p.begins[i + 1] += p.begins[i];
+    crew_run(crew, p.parts, part_pack, &p);
+    const size_t packed = p.begins[p.parts];
+    if (old->buffer)
+        memcpy(p.to + packed * bytes, (const char *)old->buffer->host + halo + packed * bytes,
+               (width - packed) * bytes);
+    else
+        array_fill(p.to + packed * bytes, (const uint64_t[2]){old->imm.lo, old->imm.hi}, bytes,
+                   width - packed);
+    memcpy(p.to - halo, p.to + width * bytes - halo, halo);
+    memcpy(p.to + width * bytes, p.to, halo);
+}
