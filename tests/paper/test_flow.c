@@ -277,15 +277,18 @@ static double ink_front(uint64_t seed, const char *stock)
     return front_ratio(first, 0.04f);
 }
 
-/* Three seeds of twenty that were measured. */
+/* Three sheets, among them the one with the shortest front of twenty; with PAPER_TEST_FULL=1 all twenty. */
 static void ink_runs_along_fibers(void **state)
 {
     (void)state;
-    static const uint64_t seeds[] = {1, 5, 13};
-    for (size_t i = 0; i < sizeof seeds / sizeof *seeds; i++) {
-        const double ratio = ink_front(seeds[i], "xuan");
+    const char *full = getenv("PAPER_TEST_FULL");
+    const bool all = full && *full == '1';
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+        if (!all && seed != 1 && seed != 5 && seed != 12)
+            continue;
+        const double ratio = ink_front(seed, "xuan");
         print_message("ink on xuan %d: its front is %.2f times as long as a smooth one\n",
-                      (int)seeds[i], ratio);
+                      (int)seed, ratio);
         assert_true(ratio >= 3);
     }
     assert_true(ink_front(1, "blotting") >= 3);
