@@ -67,14 +67,14 @@ bool deckle_make(const struct paper_sheet_config *config, double scale, float *i
     const int width = config->width, height = config->height;
     const double corner = d->thin, whole = d->margin + d->thin + WHOLE_FROM * d->waves;
     const int border = (int)fmin(PAPER_SIDE_MAX, ceil(whole + 2 * scale));
-    const struct clouds waves = {WAVES_FINEST * scale,
-                                 WAVES_COARSEST * scale,
+    const struct clouds waves = {fmax(1, WAVES_FINEST * scale),
+                                 fmax(1, WAVES_COARSEST * scale),
                                  WAVES_STEP,
                                  clouds_word(config->seed, SEED_WAVES),
                                  true,
                                  border},
-                        tears = {TEARS_FINEST * scale,
-                                 TEARS_COARSEST * scale,
+                        tears = {fmax(1, TEARS_FINEST * scale),
+                                 fmax(1, TEARS_COARSEST * scale),
                                  TEARS_STEP,
                                  clouds_word(config->seed, SEED_TEARS),
                                  true,

@@ -155,9 +155,14 @@ static void channel_make(struct finer *f)
 double paper_sheet_view_bytes(const struct paper_sheet_config *config, int scale)
 {
     const double count = (double)config->width * config->height;
-    return scale < 2 ? 0
-                     : count * (3 * sizeof(uint16_t) +
-                                sizeof(float) * (2 + scale + (double)scale * scale));
+    const double squared = scale < 2 ? 1 : (double)scale * scale,
+                 ground =
+                     !config->deckled
+                         ? 0
+                         : count * (4 * sizeof(float) + 3 * sizeof(uint16_t) * (1 + squared));
+    return scale < 2 ? ground
+                     : ground + count * (3 * sizeof(uint16_t) +
+                                         sizeof(float) * (2 + scale + squared));
 }
 
 enum paper_status sheet_finer(const uint16_t *coarse, int width, int height, bool torus,
