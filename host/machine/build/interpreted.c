@@ -81,7 +81,7 @@ static bool launch_add(struct machine *m, struct plan *p, const struct plan_grap
                         .code = code,
                         .arguments = program->arguments,
                         .arguments_count = program->arguments_count};
-    p->work += set->count;
+    p->work += shape_work(&m->device->shape, set->count);
     p->bytes += set->count * (uint64_t)program->lane_bytes;
     p->looks_around = p->looks_around || program->moves;
     p->predicted_s +=

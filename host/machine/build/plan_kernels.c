@@ -250,7 +250,7 @@ static bool plan_build(struct machine *m, struct plan *p, const struct plan_grap
         kernel = NULL; /* plan_make() does without */
     p->could_be_optimised |= quick;
     p->could_be_boxed |= k->has_boxes && !g->boxes;
-    p->work += set->count;
+    p->work += shape_work(&m->device->shape, set->count);
     if (!kernel && number < 0)
         return false;
     if (lifted && p->family && !p->later)

@@ -51,7 +51,7 @@ struct plan {
     struct array *arrays;
     int stored_count;
     uint32_t version;
-    uint64_t worked; /* processors that it has run on, summed over all runs */
+    uint64_t worked; /* processors that it has run on, by shape_work(), summed over all runs */
     uint64_t work;   /* ... in one run */
     enum quality quality;
     bool could_be_optimised, could_be_boxed, could_be_strips;

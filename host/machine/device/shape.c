@@ -80,6 +80,11 @@ static double *cost_in(struct device_shape *shape, enum machine_cost cost)
     return &shape->launch_ns;
 }
 
+uint64_t shape_work(const struct device_shape *shape, uint64_t processors)
+{
+    return processors > shape->work_least ? processors : shape->work_least;
+}
+
 double shape_cost_ns(const struct device_shape *shape, enum machine_cost cost)
 {
     struct device_shape copy = *shape;

@@ -80,6 +80,8 @@ struct device_shape {
      * text, of a compiler for a kernel and for each operation in it; the part that a kernel takes of the interpreter's
      * time; the least time of a plan of which many turns can be one kernel. */
     double wait_ns, text_ns, compile_ns, compile_op_ns, kernel_part, turns_from_ns;
+    uint64_t
+        work_least; /* processors of so small a set count as so many, since a launch takes as long: build/improve.c */
     const char *from; /* where these numbers come from */
 };
 
@@ -89,6 +91,9 @@ struct device_shape shape_by_driver(bool is_cpu, const char *platform);
 
 /* Bits of a digit that lines of that length are sorted by; at most 11. */
 int shape_sort_digit(const struct device_shape *shape, int length);
+
+/* What a kernel's run on so many processors counts as, where it is asked how much a plan has run. */
+uint64_t shape_work(const struct device_shape *shape, uint64_t processors);
 
 /* A cost in the terms of struct machine_tuning. */
 double shape_cost_ns(const struct device_shape *shape, enum machine_cost cost);
