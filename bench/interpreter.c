@@ -1,13 +1,17 @@
 /* interpreter.c - `lutetia bench interpreter`: programs that do not repeat, as an interpreter of a vector language runs them on
  * Paris, beside plain C.
  *
- *     cold                   the first run of a program, in a process of its own whose caches of kernels are empty
- *     warm                   each further run of that program
- *     plain C                a loop for each operation, one thread
- *     plain C, two threads   likewise, with OpenMP
- *     kernels compiled       by the cold process, for each size
+ *     cold                     the first run of a program, in a process of its own whose caches of kernels are empty
+ *     plain C, cold            likewise: its vectors, too, are memory that nobody has written before
+ *     warm                     each further run of that program
+ *     plain C                  a loop for each operation, one thread
+ *     plain C, two threads     likewise, with OpenMP
+ *     warm, after a pause      one run after some milliseconds without work
+ *     plain C, after a pause
+ *     kernels compiled         by the cold process, for each size
  *
- * Times are for each element of each operation. All must come to the same numbers. */
+ * Times are for each element of each operation. Short runs are timed many together: one that follows a pause takes longer, in plain C, too,
+ * since a processor that has halted begins with empty caches. All must come to the same numbers. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,6 +26,13 @@
 
 enum { WORD = 32, SIZES_COUNT = 4, SEED = 20 };
 static const int sizes[SIZES_COUNT] = {10, 1000, 100000, 4000000};
+/* How many runs are timed together. */
+enum { COLD_TIMES = 5 };
+static int runs_of(int n)
+{
+    return n < 10000 ? 64 : n < 1000000 ? 8 : 1;
+}
+#define PLAIN "plain " /* a cold process of plain C: before its size */
 
 /* ---- on Paris ---- */
 
@@ -149,10 +160,20 @@ static bool paris_work(void *context)
     return bench_machine_finished();
 }
 
+static bool paris_works(void *context)
+{
+    const struct stack_paris *s = context;
+    bool ok = true;
+    for (int i = runs_of(s->program->n); ok && i; i--)
+        ok = paris_work(context);
+    return ok;
+}
+
 /* ---- plain C ---- */
 
 struct plain {
     struct stack_plain *of;
+    int runs;
     uint32_t turn, result;
 };
 
@@ -160,6 +181,14 @@ static bool plain_work(void *context)
 {
     struct plain *p = context;
     p->result = stack_plain_run(p->of, ++p->turn);
+    return true;
+}
+
+static bool plain_works(void *context)
+{
+    const struct plain *p = context;
+    for (int i = p->runs; i; i--)
+        plain_work(context);
     return true;
 }
 
@@ -188,15 +217,29 @@ bool interpreter_same(uint64_t seed, int n, int turns)
 /* ---- cold ---- */
 
 /* A cold process: its first run of the program; the time of it, the kernels that were compiled, what it came to. */
+static bool cold_tell_plain(const struct stack_program *program, const char *path)
+{
+    struct stack_plain *of = stack_plain_create(program, 1);
+    double start = bench_now_s();
+    uint32_t result = of ? stack_plain_run(of, 1) : 0;
+    double passed = bench_now_s() - start;
+    bool told = of && cold_tell(path, &(struct cold){passed, 0, result});
+    stack_plain_destroy(of);
+    return told;
+}
+
 static int cold_run(const char *size, const char *path)
 {
     static struct stack_program program;
     struct stack_paris s;
     struct machine_stats stats;
-    int n = atoi(size);
+    const bool is_plain = !strncmp(size, PLAIN, strlen(PLAIN));
+    int n = atoi(is_plain ? size + strlen(PLAIN) : size);
     if (n < 1 || n > sizes[SIZES_COUNT - 1])
         return EXIT_FAILURE;
     stack_program_make(&program, SEED, n);
+    if (is_plain)
+        return cold_tell_plain(&program, path) ? EXIT_SUCCESS : EXIT_FAILURE;
     CM_init();
     if (!paris_begin(&s, &program))
         return EXIT_FAILURE;
@@ -222,6 +265,39 @@ static bool results_same(const struct plain *plain, const struct stack_paris *pa
            bench_fail("the cold run and plain C came to different numbers");
 }
 
+/* Processes of both, in turn; last: the last one of ours. */
+static bool colds_measure(struct bench_report *r, int n, int times, struct cold *last)
+{
+    double seconds[2][COLD_TIMES], scale = 1e9 / ((double)n * STACK_OPERATIONS);
+    char of_case[16], of_plain[32];
+    struct cold plain = {0};
+    snprintf(of_case, sizeof of_case, "%d", n);
+    snprintf(of_plain, sizeof of_plain, PLAIN "%d", n);
+    for (int i = 0; i < times; i++) {
+        if (!cold_measure("interpreter", of_case, last) ||
+            !cold_measure("interpreter", of_plain, &plain))
+            return false;
+        if (plain.result != last->result)
+            return bench_fail("cold runs of Paris and plain C came to different numbers");
+        seconds[0][i] = last->seconds;
+        seconds[1][i] = plain.seconds;
+    }
+    for (int i = 0; i < 2; i++)
+        bench_report_add(r, i ? "plain C, cold" : "cold", of_case,
+                         bench_sample_of(seconds[i], times), scale, "ns/element");
+    return true;
+}
+
+static void rows_add(struct bench_report *r, const struct bench_contender *c, int count, int n,
+                     int runs)
+{
+    char of_case[16];
+    snprintf(of_case, sizeof of_case, "%d", n);
+    for (int i = 0; i < count; i++)
+        bench_report_add(r, c[i].what, of_case, c[i].seconds,
+                         1e9 / ((double)n * STACK_OPERATIONS * runs), "ns/element");
+}
+
 static bool size_measure(struct bench_report *r, int n, int repeat_count)
 {
     static struct stack_program program;
@@ -229,29 +305,31 @@ static bool size_measure(struct bench_report *r, int n, int repeat_count)
     struct cold cold = {0};
     char of_case[16];
     stack_program_make(&program, SEED, n);
-    struct plain plain[2] = {{.of = stack_plain_create(&program, 1)},
-                             {.of = stack_plain_create(&program, 2)}};
+    struct plain plain[2] = {{.of = stack_plain_create(&program, 1), .runs = runs_of(n)},
+                             {.of = stack_plain_create(&program, 2), .runs = runs_of(n)}};
     bool ok = (plain[0].of && plain[1].of) || bench_fail("no memory for %d words", n);
-    struct bench_contender contenders[] = {
-        {.what = "warm", .work = paris_work, .context = &paris},
-        {.what = "plain C", .work = plain_work, .context = &plain[0]},
-        {.what = "plain C, two threads", .work = plain_work, .context = &plain[1]},
+    struct bench_contender together[] = {
+        {.what = "warm", .work = paris_works, .context = &paris},
+        {.what = "plain C", .work = plain_works, .context = &plain[0]},
+        {.what = "plain C, two threads", .work = plain_works, .context = &plain[1]},
+    };
+    struct bench_contender alone[] = {
+        {.what = "warm, after a pause", .work = paris_work, .context = &paris},
+        {.what = "plain C, after a pause", .work = plain_work, .context = &plain[0]},
     };
     snprintf(of_case, sizeof of_case, "%d", n);
-    ok = ok && cold_measure("interpreter", of_case, &cold) && paris_begin(&paris, &program) &&
-         bench_measure_in_turns(contenders, 3, repeat_count) &&
+    ok = ok && colds_measure(r, n, repeat_count > COLD_TIMES ? COLD_TIMES : 1, &cold) &&
+         paris_begin(&paris, &program) && bench_measure_in_turns(together, 3, repeat_count) &&
          results_same(plain, &paris, &cold, plain[0].of);
-    double scale = 1e9 / ((double)n * STACK_OPERATIONS);
     if (ok) {
-        struct bench_sample first = {cold.seconds, cold.seconds};
         struct bench_sample kernels = {cold.kernels, cold.kernels};
-        bench_report_add(r, "cold", of_case, first, scale, "ns/element");
-        for (int i = 0; i < 3; i++)
-            bench_report_add(r, contenders[i].what, of_case, contenders[i].seconds, scale,
-                             "ns/element");
+        rows_add(r, together, 3, n, runs_of(n));
+        ok = runs_of(n) == 1 || bench_measure_in_turns(alone, 2, repeat_count);
+        if (ok && runs_of(n) > 1)
+            rows_add(r, alone, 2, n, 1);
         bench_report_add(r, "kernels compiled, cold", of_case, kernels, 1, "kernels");
         CM_deallocate_vp_set(paris.set);
-        ok = bench_machine_finished();
+        ok = bench_machine_finished() && ok;
     }
     stack_plain_destroy(plain[0].of);
     stack_plain_destroy(plain[1].of);

@@ -25,8 +25,8 @@ enum { RESTS = 16 };          /* from one look at the clock to the next */
 enum { PARTS_EACH = 8 };      /* for each thread, at most */
 enum { PARTS_MOST = 0xffff }; /* of a job that is shared out */
 enum {
-    ALONE_LEAST = 1024,
-    ALONE_MOST = 1 << 15
+    ALONE_LEAST = 256,
+    ALONE_MOST = 1 << 13
 }; /* pieces of short work that follow a late part */
 
 static const double LOOKS_S = 50e-6; /* how long before a thread sleeps */
