@@ -102,67 +102,6 @@ static void a_print_is_what_was_given(void **state)
     paper_sheet_destroy(sheet);
 }
 
-/* Under masking fluid, the left half, nothing is put and nothing lifted. */
-static void masking_fluid_keeps_techniques_off(void **state)
-{
-    (void)state;
-    enum { HALF = WIDTH / 2 };
-    static float resist[FIBERS], water[FIBERS], rose[FIBERS], before[FIBERS];
-    static float amount[FIBERS];
-    struct paper_sheet *sheet = sheet_make();
-    for (int i = 0; i < FIBERS; i++) {
-        resist[i] = i % WIDTH < HALF;
-        amount[i] = 0.5f;
-    }
-    check(paper_sheet_layer_write(sheet, PAPER_LAYER_RESIST, 0, resist));
-    check(paper_sheet_wash(sheet,
-                           &(struct paper_wash){.amount = {0.5, 0.25}, .end = {0.5, 0.25}}));
-    check(paper_sheet_print(
-        sheet,
-        &(struct paper_print){.width = WIDTH, .height = HEIGHT, .amount = {[1] = amount}}));
-    layer(sheet, PAPER_LAYER_SURFACE_WATER, 0, water);
-    layer(sheet, PAPER_LAYER_SURFACE_PIGMENT, 0, rose);
-    for (int i = 0; i < FIBERS; i++) {
-        const bool masked = i % WIDTH < HALF;
-        assert_true(fabs((double)water[i] - (masked ? 0 : 0.5)) < 1e-6);
-        assert_true(fabs((double)rose[i] - (masked ? 0 : 0.75)) < 1e-6);
-    }
-    for (int i = 0; i < FIBERS; i++)
-        resist[i] = 1 - resist[i];
-    check(paper_sheet_layer_write(sheet, PAPER_LAYER_RESIST, 0, resist));
-    memcpy(before, rose, sizeof before);
-    check(paper_sheet_lift(sheet, &(struct paper_lift){.part = 1}));
-    layer(sheet, PAPER_LAYER_SURFACE_PIGMENT, 0, rose);
-    assert_memory_equal(before, rose, sizeof before);
-    paper_sheet_destroy(sheet);
-}
-
-/* A fiber is wet where a wash or a print brings water to it, though the wash begins dry, and dry where they bring pigment alone. */
-static void what_brings_water_wets(void **state)
-{
-    (void)state;
-    static float wet[FIBERS], amount[FIBERS];
-    for (int i = 0; i < FIBERS; i++)
-        amount[i] = 0.5f;
-    const struct paper_wash dry = {.amount = {0, 0.5}, .end = {0, 0.5}},
-                            ends_wet = {.from = {0, 0}, .to = {0, HEIGHT}, .end = {1}};
-    const struct paper_print print = {.width = WIDTH, .height = HEIGHT / 2, .amount = {amount}};
-    for (int way = 0; way < 3; way++) {
-        struct paper_sheet *sheet = sheet_make();
-        check(way == 2 ? paper_sheet_print(sheet, &print)
-                       : paper_sheet_wash(sheet, way == 1 ? &ends_wet : &dry));
-        layer(sheet, PAPER_LAYER_WET_PART, 0, wet);
-        for (int i = 0; i < FIBERS; i++) {
-            const int y = i / WIDTH;
-            if (way == 0 || (way == 2 && y >= HEIGHT / 2))
-                assert_true(wet[i] == 0);
-            else if (way == 2 || y > HEIGHT / 2)
-                assert_true(wet[i] > 0.4f);
-        }
-        paper_sheet_destroy(sheet);
-    }
-}
-
 static void splatter_falls_where_it_is_thrown(void **state)
 {
     (void)state;
@@ -554,8 +493,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_graded_wash_is_even),
         cmocka_unit_test(a_print_is_what_was_given),
-        cmocka_unit_test(masking_fluid_keeps_techniques_off),
-        cmocka_unit_test(what_brings_water_wets),
         cmocka_unit_test(splatter_falls_where_it_is_thrown),
         cmocka_unit_test(salt_pushes_pigment_away),
         cmocka_unit_test(lifting_takes_what_does_not_stain),

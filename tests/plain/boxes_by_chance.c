@@ -196,8 +196,8 @@ static void session(uint64_t seed)
         paper_sheet_destroy(sheets[k]);
 }
 
-/* A stroke in one box while a puddle runs in another: what the bristles' exchange makes wet, it makes wet in all of them. */
-static void puddle_beside_stroke(int model)
+/* Two large sheets, one in boxes, with a puddle on each. */
+static void puddle_make(int model)
 {
     enum { PUDDLE = 12 };
     static uint8_t gray[PUDDLE * PUDDLE];
@@ -211,11 +211,60 @@ static void puddle_beside_stroke(int model)
         check(paper_sheet_create(&config, &sheets[k]));
     check(paper_sheet_confine(sheets[0], 4));
     check(paper_sheet_confine(sheets[1], 0));
+    struct paper_air air = paper_air_default();
+    air.edge_width = 1;
+    BOTH(paper_sheet_air(sheet, &air))
     memset(gray, 255, sizeof gray);
     const struct paper_screen screen = {.width_px = PUDDLE, .height_px = PUDDLE, .gray = gray};
     const double amount[2] = {2, 0.3};
     BOTH(paper_sheet_put(sheet, &screen, 14, 14, amount))
     steps_go(2);
+    if (!(paper_sheet_share(sheets[0]) < 1))
+        wrong("a puddle is not in boxes");
+}
+
+static void puddle_end(const char *what)
+{
+    planes_compare(what);
+    for (int k = 0; k < 2; k++)
+        paper_sheet_destroy(sheets[k]);
+}
+
+/* Edges get wide while boxes are open: what is active spreads faster than they were made for. */
+static void air_changes(int model)
+{
+    puddle_make(model);
+    struct paper_air air = paper_air_default();
+    air.edge_width = 32;
+    BOTH(paper_sheet_air(sheet, &air))
+    steps_go(20);
+    puddle_end("another air");
+}
+
+/* Salt dissolves in a box, and its brine fades when the water has gone. */
+static void salt_dissolves(int model)
+{
+    puddle_make(model);
+    const struct paper_salt salt = {.x = 20,
+                                    .y = 20,
+                                    .radius = 5,
+                                    .grains = 5,
+                                    .size = {1, 2},
+                                    .strength = 1,
+                                    .reach = 10,
+                                    .seed = 4};
+    BOTH(paper_sheet_salt(sheet, &salt))
+    steps_go(20);
+    planes_compare("salt");
+    BOTH(paper_sheet_dry(sheet))
+    steps_go(20);
+    puddle_end("salt that is dry again");
+}
+
+/* A stroke in one box while a puddle runs in another: what the bristles' exchange makes wet, it makes wet in all of them. */
+static void puddle_beside_stroke(int model)
+{
+    puddle_make(model);
     struct paper_brush brush = paper_brush_default();
     brush.bristles = 8;
     brush.width = 4;
@@ -228,10 +277,8 @@ static void puddle_beside_stroke(int model)
     BOTH(paper_sheet_dip(sheet, &dip))
     BOTH(paper_sheet_stroke(sheet, &stroke, NULL))
     if (!(paper_sheet_share(sheets[0]) < 1))
-        wrong("a stroke beside a puddle was not in boxes");
-    planes_compare("a stroke beside a puddle");
-    for (int k = 0; k < 2; k++)
-        paper_sheet_destroy(sheets[k]);
+        wrong("a stroke beside a puddle is not in boxes");
+    puddle_end("a stroke beside a puddle");
 }
 
 int main(int argc, char **argv)
@@ -239,7 +286,7 @@ int main(int argc, char **argv)
     long count = argc > 1 ? atol(argv[1]) : 25;
     uint64_t seed = argc > 2 ? (uint64_t)atoll(argv[2]) : 1;
     for (int model = 2; model <= PAPER_MODEL_VERSION; model++)
-        puddle_beside_stroke(model);
+        puddle_beside_stroke(model), air_changes(model), salt_dissolves(model);
     for (long i = 0; i < count; i++)
         session(seed + (uint64_t)i);
     printf("%ld sessions; %ld of %ld steps in boxes\n", count, steps_confined, steps_all);
