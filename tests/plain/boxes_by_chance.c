@@ -234,6 +234,7 @@ static void puddle_end(const char *what)
 static void air_changes(int model)
 {
     puddle_make(model);
+    steps_go(1); /* the boxes are good for another */
     struct paper_air air = paper_air_default();
     air.edge_width = 32;
     BOTH(paper_sheet_air(sheet, &air))
@@ -241,7 +242,7 @@ static void air_changes(int model)
     puddle_end("another air");
 }
 
-/* Salt dissolves in a box, and its brine fades when the water has gone. */
+/* Salt dissolves in a box; then all dries. */
 static void salt_dissolves(int model)
 {
     puddle_make(model);
