@@ -16,7 +16,7 @@
 #include "model/model.h"
 
 enum {
-    BRUSH_ROWS = 16,
+    BRUSH_ROWS = 32,
     BRUSH_PLACES = BRUSH_ROWS * PAPER_BRISTLES_MAX,
     BRUSH_TEMPORARIES = 10,
     BRUSH_CLOUD = 2
@@ -57,7 +57,7 @@ struct sheet_brushes {
     CM_field_id_t give[1 + PAPER_PIGMENTS_MAX]; /* what each place gives, less what it takes */
     struct sheet_contacts contacts;
     uint16_t
-        *touched; /* of each fiber, by how many places in this exchange; 0 between exchanges */
+        *touched; /* of each fiber, a number of this exchange: by how many places, or which of those touched; 0 between exchanges */
     float *
         clouds; /* how willingly the paper takes paint, BRUSH_CLOUD fibers apart; NULL: alike everywhere */
     int clouds_columns, clouds_rows;
@@ -68,6 +68,19 @@ struct sheet_brushes {
  * current before and after. */
 void sheet_brush_exchange(struct paper_sheet *p, struct sheet_brushes *b,
                           const struct sheet_brush *brush);
+/* A bristle's place in an exchange, from version 3 on (touches.c): the fibers that it lies over, and how much of it lies over each. */
+struct sheet_place {
+    int fiber[4], part[4];
+    int force; /* 0: it touches nothing */
+};
+
+/* force: 0..1. False: it is beyond the sheet. */
+bool sheet_place_make(const struct paper_sheet *p, double x, double y, double force,
+                      struct sheet_place *place);
+/* fibers[i] = the fiber that place i talks to, by row-major number, -1: none; touch[i] = how many places of full force lie over that
+ * fiber. Writes b->contacts.sharers. */
+void sheet_places_deal(struct sheet_brushes *b, const struct sheet_place *places,
+                       int fibers[BRUSH_PLACES], double touch[BRUSH_PLACES]);
 /* Where the bristles are, and what they are like, from the brush's description. */
 void sheet_brush_bristles_make(struct sheet_brush *brush);
 

@@ -14,7 +14,7 @@
  * CM_send_with_f_add and the shifts along a bristle's places make are exact in any order. */
 #include "model/brush_internal.h"
 
-enum { D_S = 52, D_E = 11, D_BITS = 64, GRAINS_BITS = 31, BRUSH_ROWS_LOG2 = 4 };
+enum { D_S = 52, D_E = 11, D_BITS = 64, GRAINS_BITS = 31, BRUSH_ROWS_LOG2 = 5 };
 #define D D_S, D_E
 
 /* on the scale of heights: at full force a dry bristle touches the fibers above 1 - DRY_REACH,

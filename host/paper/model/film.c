@@ -51,6 +51,8 @@
 #define EDGE_DRIES 0.05 /* version 3; see edge_flow_make() */
 #define EDGE_BALANCE 0.004
 #define EDGE_PLATEAU 12.0
+#define CARRIES_FROM 1.0 /* version 3: depth, times `film`, below which water carries no pigment */
+#define CARRIES_STEEPNESS 0.5
 #define OPEN_SCALE 1e6 /* see step.c */
 
 /* ---- what does not change from step to step ---- */
@@ -204,6 +206,14 @@ static void pigment_faces_make(struct paper_sheet *p, const struct sheet_terms *
     kit_f_next(other, terms->depth, axis);
     kit_f_mul(part, water_in, other);
     kit_f_add(net, net, part);
+    if (sheet_of_version_3(p)) {
+        kit_f_max(both, terms->depth, other);
+        kit_f_times(both, both, CARRIES_STEEPNESS / p->air.film);
+        kit_f_plus(both, both, -CARRIES_STEEPNESS * CARRIES_FROM);
+        kit_f_least(both, both, 0.0);
+        kit_f_most(both, both, 1.0);
+        kit_f_mul(net, net, both);
+    }
     eddies_make(part, terms->swirled, axis);
     kit_f_add(net, net, part);
     kit_f_min(both, terms->depth, other);

@@ -59,13 +59,17 @@ void sheet_paper_heed(struct paper_sheet *p, CM_field_id_t q)
     kit_f_whole(q);
 }
 
-/* Depth of water, units, that was laid on all of a fiber. */
-#define WETTED 0.25
+/* Depth of water, units, that was laid on all of a fiber. In version 3 it is what a brush that is nearly dry leaves: water of fibers that are
+ * wet in part stands as high as it must be to come forward, and where all are, each draws in what its neighbours have, or loses its own:
+ * thin strokes became rows of dots. */
+#define WETTED_2 0.25
+#define WETTED 0.04
 
 /* By its surface water alone. Uses t[0]. */
 static void wet_part_make(struct paper_sheet *p)
 {
-    kit_f_times(p->t[0], p->surface_water, 1 / (WETTED * p->unit));
+    const double all = sheet_of_version_3(p) ? WETTED : WETTED_2;
+    kit_f_times(p->t[0], p->surface_water, 1 / (all * p->unit));
     kit_f_most(p->t[0], p->t[0], 1.0);
     kit_f_max(p->wet_part, p->wet_part, p->t[0]);
     kit_f_max(p->wet_around, p->wet_around, p->t[0]);

@@ -106,7 +106,7 @@ double sheet_settling_pace(const struct paper_sheet *p, int pigment)
 
 /* Part of what is fixed, and of what is in the fibers, is lifted into the water above. Uses t[11..15]. */
 static void pigment_settle(struct paper_sheet *p, int i, CM_field_id_t thin, CM_field_id_t slow,
-                           CM_field_id_t dry)
+                           CM_field_id_t dry, CM_field_id_t inside)
 {
     CM_field_id_t rate = p->t[11], up = p->t[12], part = p->t[13];
     CM_field_id_t surface = p->surface[i], infused = p->infused[i], fixed = p->fixed[i];
@@ -116,6 +116,8 @@ static void pigment_settle(struct paper_sheet *p, int i, CM_field_id_t thin, CM_
                  hollows = pigment->granulation * HOLLOWS;
     rate_make(p, up, lift * hollows, lift * (1 - hollows), thin);
     kit_f_mul(part, up, infused);
+    if (sheet_of_version_3(p))
+        kit_f_mul(part, part, inside);
     sheet_whole_of(part, infused);
     kit_f_sub(infused, infused, part);
     kit_f_mul(up, up, fixed);
@@ -142,7 +144,8 @@ static void pigment_settle(struct paper_sheet *p, int i, CM_field_id_t thin, CM_
 /* Pigments settle, in hollows more than on hills, slower from deep water; what falls dry stays. Uses t[8..15]. */
 static void settle_under(struct paper_sheet *p)
 {
-    CM_field_id_t thin = p->t[8], slow = p->t[9], wet = p->t[10], dry = p->t[14];
+    CM_field_id_t thin = p->t[8], slow = p->t[9], wet = p->t[10], dry = p->t[14],
+                  inside = p->t[15];
     kit_f_times(slow, p->surface_water, 1 / p->unit);
     kit_f_most(slow, slow, 1.0);
     kit_f_copy(thin, slow);
@@ -163,9 +166,12 @@ static void settle_under(struct paper_sheet *p)
     if (sheet_of_version_3(p)) { /* what is not lifted must not settle, or it gathers there */
         kit_f_max(wet, wet, dry);
         kit_f_mul(slow, slow, wet);
+        kit_f_times(inside, p->wet_around, 4.0);
+        kit_f_plus(inside, inside, -3.0);
+        kit_f_least(inside, inside, 0.0);
     }
     for (int i = 0; i < p->config.pigments_count; i++)
-        pigment_settle(p, i, thin, slow, dry);
+        pigment_settle(p, i, thin, slow, dry, inside);
 }
 
 /* Without a surface: in the fibers, while they are damp. Uses t[8..15]. */

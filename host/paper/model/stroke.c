@@ -14,11 +14,14 @@
 #include <math.h>
 #include <string.h>
 
-#define PLACE_SPACING 0.7 /* fibers, along a bristle's way */
+#define PLACE_SPACING 0.35 /* fibers, along a bristle's way */
+#define PLACE_SPACING_2 0.7
+#define BRUSH_ROWS_2 16 /* in one exchange, of versions 1 and 2 */
 #define FORCE_FULL 0.3
 #define LINE_LEAST 1.5    /* fibers; a line that is thinner has gaps */
+#define LINES_OVERLAP 5.0 /* version 3: how wide a line is at least, of a bristle's share of the tuft's width */
 #define WAITING_PACE 60.0 /* pieces of a second where the paper waits */
-#define TOUCH_SHARE 0.3   /* of a bristle's contact: fibers are touched by several */
+#define TOUCH_SHARE 0.15  /* of a bristle's contact: fibers are touched by several */
 #define CONTACT_STEPS                                                                          \
     65536.0 /* a contact is a whole number of these: the last bits of exp() vary */
 
@@ -26,6 +29,7 @@
 struct tuft {
     double x, y;                /* its middle, where it is pressed */
     double across[2], along[2]; /* the tuft's axes, half its size long */
+    double half[2];             /* their lengths */
     double pressure, lean[2];   /* lean: how much harder one side is pressed, along both axes */
 };
 
@@ -50,6 +54,8 @@ static struct tuft tuft_make(const struct sheet_brush *own,
     tuft.across[1] = axis[1] * spread * brush->width;
     tuft.along[0] = axis[1] * spread * brush->depth;
     tuft.along[1] = -axis[0] * spread * brush->depth;
+    tuft.half[0] = hypot(tuft.across[0], tuft.across[1]);
+    tuft.half[1] = hypot(tuft.along[0], tuft.along[1]);
     tuft.lean[0] = axis[0] * tilt[0] + axis[1] * tilt[1];
     tuft.lean[1] = axis[1] * tilt[0] - axis[0] * tilt[1];
     return tuft;
@@ -61,6 +67,11 @@ static int wrapped(double at, int length, bool torus)
     if (torus)
         place -= length * floor(place / length);
     return place >= 0 && place < length ? (int)place : -1;
+}
+
+static double spacing_of(const struct paper_sheet *p)
+{
+    return sheet_of_version_3(p) ? PLACE_SPACING / p->finer : PLACE_SPACING_2;
 }
 
 /* By chance within the bristle's thickness, at each place anew. */
@@ -77,21 +88,26 @@ static void place_scatter(const struct sheet_brush *own, int number, uint64_t mo
 
 /* Places that lie evenly on a line as wide as the bristle, however many of them there are:
  * multiples of the golden section, counted from a place of the bristle's own. */
-static void place_beside(const struct sheet_brush *own, int number, uint64_t moment,
-                         double spacing, double *side, double *ahead)
+static void place_beside(const struct paper_sheet *p, const struct sheet_brush *own, int number,
+                         uint64_t moment, double spacing, double *side, double *ahead)
 {
     double from = sheet_chance(own->brush.seed + 7, (uint64_t)number, 0),
            along = sheet_chance(own->brush.seed + 7, (uint64_t)number, 1);
-    double place = fmod(from + 0.6180339887498949 * (double)moment, 1),
-           forward = fmod(along + 0.7548776662466927 * (double)moment, 1);
+    double place = from + 0.6180339887498949 * (double)moment,
+           forward = along + 0.7548776662466927 * (double)moment;
+    place -= floor(place);
+    forward -= floor(forward);
     double width = fmax(LINE_LEAST, own->brush.thickness);
+    if (sheet_of_version_3(p))
+        width = fmin(own->brush.thickness,
+                     fmax(p->finer, LINES_OVERLAP * own->brush.width / own->brush.bristles));
     *side = width * (place - 0.5) * (own->brush.mirrored ? -1 : 1);
     *ahead = spacing * (forward - 0.5);
 }
 
-/* One place of bristle `number`; false: it does not touch. */
+/* The middle of one place of bristle `number`; false: it does not touch. */
 static bool place_make(struct paper_sheet *p, const struct sheet_brush *own,
-                       const struct tuft *tuft, int number, uint64_t moment, int fiber[2],
+                       const struct tuft *tuft, int number, uint64_t moment, double place[2],
                        double *force)
 {
     const struct sheet_bristle *bristle = &own->bristles[number];
@@ -103,18 +119,13 @@ static bool place_make(struct paper_sheet *p, const struct sheet_brush *own,
     *force = fmin(1, pressed / FORCE_FULL);
     double side, ahead;
     if (sheet_flows(p))
-        place_beside(own, number, moment, PLACE_SPACING / p->finer, &side, &ahead);
+        place_beside(p, own, number, moment, spacing_of(p), &side, &ahead);
     else
         place_scatter(own, number, moment, &side, &ahead);
-    double a = hypot(tuft->across[0], tuft->across[1]),
-           b = hypot(tuft->along[0], tuft->along[1]);
-    double x =
-        tuft->x + tuft->across[0] * (across + side / a) + tuft->along[0] * (along + ahead / b);
-    double y =
-        tuft->y + tuft->across[1] * (across + side / a) + tuft->along[1] * (along + ahead / b);
-    fiber[0] = wrapped(x, p->page.grid.width, p->config.torus);
-    fiber[1] = wrapped(y, p->page.grid.height, p->config.torus);
-    return fiber[0] >= 0 && fiber[1] >= 0;
+    for (int i = 0; i < 2; i++)
+        place[i] = (i == 0 ? tuft->x : tuft->y) + tuft->across[i] * (across + side / tuft->half[0]) +
+                   tuft->along[i] * (along + ahead / tuft->half[1]);
+    return true;
 }
 
 struct going {
@@ -132,10 +143,9 @@ static float whole_contact(double contact)
 
 /* Version 3: what all touches of a fiber in one exchange come to, of the way to equal levels. It is the same whether they come in
  * one exchange or in two, so there are no bars where one ends and the next begins. */
-static double contact_of(const struct sheet_brush *own, double force, double dwell,
-                         double touches)
+static double contact_of(const struct sheet_brush *own, double dwell, double touches)
 {
-    return 1 - exp(-TOUCH_SHARE * own->brush.flow * dwell * force * touches);
+    return 1 - exp(-TOUCH_SHARE * own->brush.flow * dwell * touches);
 }
 
 /* Where the fibers (those of 0 or more, by row-major number on the sheet) are on the sheet or on a box of it, which is returned. */
@@ -167,64 +177,102 @@ static struct paper_sheet *addresses_make(struct paper_sheet *p, const int fiber
     return at;
 }
 
+/* The fiber that the place lies on: versions 1 and 2. False: it is beyond the sheet. */
+static bool nearest_touch(struct paper_sheet *p, int number, const double at[2], int *fiber)
+{
+    const int x = wrapped(at[0], p->page.grid.width, p->config.torus),
+              y = wrapped(at[1], p->page.grid.height, p->config.torus);
+    if (x < 0 || y < 0)
+        return false;
+    *fiber = y * p->page.grid.width + x;
+    p->brushes->contacts.takes[number] = (float)sheet_brush_cloud(p->brushes, x, y);
+    return true;
+}
+
+/* Of each fiber, how many places touch it: versions 1 and 2. */
+static void nearest_deal(struct sheet_brushes *b, const int fibers[BRUSH_PLACES])
+{
+    for (int i = 0; i < BRUSH_PLACES; i++)
+        if (fibers[i] >= 0)
+            b->touched[fibers[i]]++;
+    for (int i = 0; i < BRUSH_PLACES; i++)
+        b->contacts.sharers[i] = fibers[i] >= 0 ? (float)b->touched[fibers[i]] : 1;
+    for (int i = 0; i < BRUSH_PLACES; i++)
+        if (fibers[i] >= 0)
+            b->touched[fibers[i]] = 0;
+}
+
+/* The tuft at a time; the stroke's direction there is kept. */
+static struct tuft tuft_at(struct going *g, double time, double length)
+{
+    struct paper_stroke_sample at = paper_stroke_at(g->stroke, time, &g->cursor);
+    struct paper_stroke_sample next =
+        paper_stroke_at(g->stroke, time + fmax(length, 1e-6), &g->cursor);
+    double dx = next.x - at.x, dy = next.y - at.y, distance = hypot(dx, dy);
+    if (distance > 1e-9) {
+        g->own->toward[0] = dx / distance;
+        g->own->toward[1] = dy / distance;
+    }
+    return tuft_make(g->own, &at);
+}
+
+/* In how many places each bristle touches. */
+static void places_count(struct sheet_contacts *c, int rows, int bristles)
+{
+    for (int i = 0; i < BRUSH_PLACES; i++)
+        c->places[i] = 1;
+    for (int i = 0; i < bristles; i++) {
+        int places = 0;
+        for (int row = 0; row < rows; row++)
+            places += c->contact[row * PAPER_BRISTLES_MAX + i] > 0;
+        for (int row = 0; row < rows; row++)
+            c->places[row * PAPER_BRISTLES_MAX + i] = (float)(places > 0 ? places : 1);
+    }
+}
+
 /* Fills p->brushes->contacts for the times from..from + rows * length; false: nothing touches. *exchanging: the sheet, or a box of
  * it, that the addresses are of. */
 static bool contacts_make(struct going *g, double from, double length, int rows, double dwell,
                           struct paper_sheet **exchanging)
 {
+    static struct sheet_place places[BRUSH_PLACES];
+    static int fibers[BRUSH_PLACES]; /* of the places that touch, else -1 */
+    static double touch[BRUSH_PLACES];
     struct paper_sheet *p = g->sheet;
     struct sheet_contacts *c = &p->brushes->contacts;
-    uint16_t *touched = p->brushes->touched;
-    static int fibers[BRUSH_PLACES]; /* of the places that touch, else -1 */
     int bristles = g->own->brush.bristles, touching = 0;
     double part = 1 - exp(-g->own->brush.flow * dwell);
     memset(c, 0, sizeof *c);
+    memset(places, 0, sizeof places);
     for (int i = 0; i < BRUSH_PLACES; i++)
         fibers[i] = -1;
     for (int row = 0; row < rows; row++, g->moment++) {
-        double time = from + (row + 0.5) * length;
-        struct paper_stroke_sample at = paper_stroke_at(g->stroke, time, &g->cursor);
-        struct paper_stroke_sample next =
-            paper_stroke_at(g->stroke, time + fmax(length, 1e-6), &g->cursor);
-        double dx = next.x - at.x, dy = next.y - at.y, distance = hypot(dx, dy);
-        if (distance > 1e-9) {
-            g->own->toward[0] = dx / distance;
-            g->own->toward[1] = dy / distance;
-        }
-        struct tuft tuft = tuft_make(g->own, &at);
+        struct tuft tuft = tuft_at(g, from + (row + 0.5) * length, length);
         for (int i = 0; i < bristles; i++) {
-            int fiber[2], place = row * PAPER_BRISTLES_MAX + i;
-            double force;
-            if (!place_make(p, g->own, &tuft, i, g->moment, fiber, &force))
+            const int number = row * PAPER_BRISTLES_MAX + i;
+            double at[2], force;
+            if (!place_make(p, g->own, &tuft, i, g->moment, at, &force))
                 continue;
             float contact = whole_contact(part * force);
-            if (!(contact > 0))
+            if (!(contact > 0) ||
+                !(sheet_of_version_3(p)
+                      ? sheet_place_make(p, at[0], at[1], force, &places[number])
+                      : nearest_touch(p, number, at, &fibers[number])))
                 continue;
-            fibers[place] = fiber[1] * p->page.grid.width + fiber[0];
-            c->contact[place] = contact;
-            c->force[place] = whole_contact(force);
-            c->takes[place] = (float)sheet_brush_cloud(p->brushes, fiber[0], fiber[1]);
-            touched[fibers[place]]++;
+            c->contact[number] = contact;
+            c->force[number] = whole_contact(force);
             touching++;
         }
     }
-    for (int i = 0; i < bristles; i++) {
-        int places = 0;
-        for (int row = 0; row < rows; row++)
-            places += fibers[row * PAPER_BRISTLES_MAX + i] >= 0;
-        for (int row = 0; row < rows; row++)
-            c->places[row * PAPER_BRISTLES_MAX + i] = (float)(places > 0 ? places : 1);
+    places_count(c, rows, bristles);
+    if (!sheet_of_version_3(p)) {
+        nearest_deal(p->brushes, fibers);
+    } else {
+        sheet_places_deal(p->brushes, places, fibers, touch);
+        for (int i = 0; i < BRUSH_PLACES; i++)
+            c->contact[i] =
+                fibers[i] >= 0 ? whole_contact(contact_of(g->own, dwell, touch[i])) : 0;
     }
-    for (int i = 0; i < BRUSH_PLACES; i++) {
-        c->places[i] = fmaxf(c->places[i], 1);
-        c->sharers[i] = fibers[i] >= 0 ? (float)touched[fibers[i]] : 1;
-        if (sheet_of_version_3(p) && fibers[i] >= 0)
-            c->contact[i] = whole_contact(
-                contact_of(g->own, (double)c->force[i], dwell, (double)c->sharers[i]));
-    }
-    for (int i = 0; i < BRUSH_PLACES; i++)
-        if (fibers[i] >= 0)
-            touched[fibers[i]] = 0;
     *exchanging = touching > 0 ? addresses_make(p, fibers, c->address) : p;
     return touching > 0;
 }
@@ -248,13 +296,14 @@ static void brush_go(struct going *g, double from, double to)
 {
     double length = way_length(g, from, to), seconds = to - from;
     /* finer fibers are touched as often each as coarse ones */
-    int places = (int)fmin(100000, fmax(1, ceil(length * g->sheet->finer / PLACE_SPACING)));
-    double thick = fmax(PLACE_SPACING, g->own->brush.thickness);
+    int places = (int)fmin(100000, fmax(1, ceil(length / spacing_of(g->sheet))));
+    double thick = fmax(spacing_of(g->sheet), g->own->brush.thickness);
     double dwell = length > thick ? seconds * thick / length : seconds;
     for (int done = 0; done < places;) {
         if (g->sheet->due && g->sheet->due(g->sheet->due_context))
             return;
-        int rows = places - done < BRUSH_ROWS ? places - done : BRUSH_ROWS;
+        const int most = sheet_of_version_3(g->sheet) ? BRUSH_ROWS : BRUSH_ROWS_2;
+        int rows = places - done < most ? places - done : most;
         struct paper_sheet *at;
         if (contacts_make(g, from + done * seconds / places, seconds / places, rows, dwell,
                           &at)) {
