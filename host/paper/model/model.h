@@ -174,7 +174,7 @@ void sheet_amount_lose(struct paper_sheet *p, CM_field_id_t q, CM_field_id_t sha
 /* The wet area is as it is now: its edge begins to dry faster from here. Uses t[0]. */
 void sheet_wet_around_make(struct paper_sheet *p);
 
-/* ... where amounts were put through `share`, water among them or not: of a fiber that part is wet. Uses t[0]. */
+/* ... where amounts were put through `share`, water among them or not: of a fiber that part is wet. Uses t[0], t[3..5]. */
 void sheet_wet_put(struct paper_sheet *p, bool water, CM_field_id_t share);
 
 /* ---- water that flows (sizing.c, soak.c, film.c, capillary.c) ---- */

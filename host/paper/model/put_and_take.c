@@ -65,6 +65,8 @@ void sheet_paper_heed(struct paper_sheet *p, CM_field_id_t q)
 #define WETTED_2 0.25
 #define WETTED 0.04
 
+#define SHARE_LEAST (1 / 255.0)
+
 /* By its surface water alone. Uses t[0]. */
 static void wet_part_make(struct paper_sheet *p)
 {
@@ -87,6 +89,34 @@ void sheet_wet_around_make(struct paper_sheet *p)
     kit_f_max(p->wet_around, p->wet_around, p->t[0]);
 }
 
+/* d = the most of a in a fiber and its eight neighbours. Uses t[4..5]. */
+static void most_around(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t a)
+{
+    CM_field_id_t before = p->t[4], behind = p->t[5];
+    kit_f_copy(d, a);
+    for (unsigned axis = 0; axis < 2; axis++) {
+        kit_f_previous(before, d, axis);
+        kit_f_next(behind, d, axis);
+        kit_f_max(before, before, behind);
+        kit_f_max(d, d, before);
+    }
+}
+
+/* d = what part of a fiber was wetted by water put on it through `share`. In versions 1 and 2 it is the share. In version 3 it is the share of the most
+ * that fibers around got: of an edge as sharp as type's a part is wet, but where a shape fades all of each fiber is, under less water. A film on
+ * parts of fibers everywhere breaks up: where it comes to close over some, it draws in the water of all around them. Uses t[3..5]. */
+static void wetted_make(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t share)
+{
+    CM_field_id_t most = p->t[3];
+    kit_f_most(d, p->surface_water, 1.0);
+    kit_f_mul(d, d, share);
+    if (!sheet_of_version_3(p))
+        return;
+    most_around(p, most, share);
+    kit_f_least(most, most, SHARE_LEAST);
+    kit_f_div(d, d, most);
+}
+
 void sheet_wet_put(struct paper_sheet *p, bool water, CM_field_id_t share)
 {
     if (!sheet_flows(p) || !sheet_has(p, PAPER_PART_SURFACE)) {
@@ -95,8 +125,7 @@ void sheet_wet_put(struct paper_sheet *p, bool water, CM_field_id_t share)
     }
     if (!water)
         return;
-    kit_f_most(p->t[0], p->surface_water, 1.0);
-    kit_f_mul(p->t[0], p->t[0], share);
+    wetted_make(p, p->t[0], share);
     kit_f_max(p->wet_part, p->wet_part, p->t[0]);
     kit_f_max(p->wet_around, p->wet_around, p->t[0]);
 }
