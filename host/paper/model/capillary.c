@@ -16,6 +16,9 @@
 
 #define CONDUCTION 0.8
 #define THRESHOLD_BASE 1.5
+#define THRESHOLD_SIZED 0.6 /* more, where the stock is sized */
+#define UNSIZED_LEAST 0.2   /* absorbency of a stock without size at all */
+#define SIZED_MOST 0.12
 #define THRESHOLD_SLOPE 4.5 /* by absorbency */
 #define THRESHOLD_LEAST 0.05
 #define THRESHOLD_MOST 0.98
@@ -32,6 +35,14 @@ struct pores {
     CM_field_id_t left, threshold, inverse;
 };
 
+/* In version 3 sized paper has no fiber that is entered before it must: single ones that absorb more than others stuck out of edges as hairs. */
+static double threshold_base(const struct paper_sheet *p)
+{
+    const double mean = p->config.stock.absorbency,
+                 sized = fmin(1, fmax(0, (UNSIZED_LEAST - mean) / (UNSIZED_LEAST - SIZED_MOST)));
+    return THRESHOLD_BASE + (sheet_of_version_3(p) ? THRESHOLD_SIZED * sized : 0);
+}
+
 static void pores_make(struct paper_sheet *p, const struct sheet_terms *terms,
                        const struct pores *pores)
 {
@@ -41,7 +52,7 @@ static void pores_make(struct paper_sheet *p, const struct sheet_terms *terms,
     kit_f_times(pores->left, pores->left, CAPACITY_SHARE);
     kit_f_least(pores->left, pores->left, 0.0);
     kit_f_times(pores->threshold, p->page.absorbency, -THRESHOLD_SLOPE);
-    kit_f_plus(pores->threshold, pores->threshold, THRESHOLD_BASE);
+    kit_f_plus(pores->threshold, pores->threshold, threshold_base(p));
     kit_f_least(pores->threshold, pores->threshold, THRESHOLD_LEAST);
     kit_f_most(pores->threshold, pores->threshold, THRESHOLD_MOST);
     kit_f_times(dry, terms->saturated, -WET_FROM);
