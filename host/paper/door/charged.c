@@ -11,14 +11,17 @@ enum { CORNERS = 24, DROPS_MOST = 120 };
 #define THIN 0.42           /* of the pigments, in the wash */
 #define STRONG 0.6          /* and in the drops */
 #define DROPS_WATER 0.1     /* of the water */
-#define DROPS_IN_SQUARE 5.6 /* of a letter's size */
-#define RADIUS_LEAST 0.1    /* of a letter's size */
+#define DROPS_IN_SQUARE 3.2 /* of a letter's size */
+#define RADIUS_LEAST 0.14   /* of a letter's size, of a drop's middle */
 #define RADIUS_MORE 0.22
+/* A drop has no edge: it is put in so many times, wider and wider. With hard edges eddies made spots of them, in letters as large as a hand. */
+enum { RINGS = 4 };
+#define RING_WIDER 0.07 /* of a letter's size */
 #define FROM_TOP 0.15 /* of the screen's height: the tips of letters stay light */
 
 /* What the drops are drawn from: discs over the screen, joined. */
 static void drops_draw(struct event_bytes *b, const struct paper_screen *screen, int left,
-                       int top, double size, uint64_t seed)
+                       int top, double size, double wider, uint64_t seed)
 {
     const double squares = screen->width_px * (double)screen->height_px / (size * size);
     const int count = (int)fmax(1, fmin(DROPS_MOST, ceil(squares * DROPS_IN_SQUARE)));
@@ -27,7 +30,7 @@ static void drops_draw(struct event_bytes *b, const struct paper_screen *screen,
         const double x = left + screen->width_px * sheet_chance(seed, n, 1),
                      y = top + screen->height_px *
                                    (FROM_TOP + (1 - FROM_TOP) * sheet_chance(seed, n, 2)),
-                     radius = size * (RADIUS_LEAST + RADIUS_MORE * sheet_chance(seed, n, 3));
+                     radius = size * (wider + RADIUS_LEAST + RADIUS_MORE * sheet_chance(seed, n, 3));
         double corners[2 * CORNERS];
         for (int k = 0; k < CORNERS; k++) {
             corners[2 * k] = x + radius * cos(TURN * k / CORNERS);
@@ -42,13 +45,13 @@ static void drops_draw(struct event_bytes *b, const struct paper_screen *screen,
 /* The screen, where the drops fall: both keep what they were drawn from. */
 static enum paper_status drops_put(struct paper_sheet *p, const struct paper_screen *screen,
                                    int x, int y, const double *amount, double size,
-                                   uint64_t seed)
+                                   double wider, uint64_t seed)
 {
     struct event_bytes b = {0};
     struct paper_screen drops, both = *screen;
     struct paper_drawing drawing = {.scale = 1};
     int left, top;
-    drops_draw(&b, screen, x, y, size, seed);
+    drops_draw(&b, screen, x, y, size, wider, seed);
     both.gray = calloc((size_t)screen->height_px, (size_t)screen->width_px);
     enum paper_status status = PAPER_OK;
     if (b.short_of_memory || !both.gray)
@@ -89,16 +92,16 @@ enum paper_status paper_sheet_put_charged(struct paper_sheet *p,
                                           const double *amount, double size)
 {
     double wash[1 + PAPER_PIGMENTS_MAX] = {amount[0]},
-                    strong[1 + PAPER_PIGMENTS_MAX] = {DROPS_WATER * amount[0]};
+                    strong[1 + PAPER_PIGMENTS_MAX] = {DROPS_WATER / RINGS * amount[0]};
     if (!(size >= 1))
         return paper_fail(PAPER_BAD_ARGUMENT, "a letter's size must be 1 or more (got %g)",
                           size);
     for (int i = 1; i <= p->config.pigments_count; i++) {
         wash[i] = THIN * amount[i];
-        strong[i] = STRONG * amount[i];
+        strong[i] = STRONG / RINGS * amount[i];
     }
     enum paper_status status = paper_sheet_put(p, screen, x, y, wash);
-    if (status == PAPER_OK && screen->gray)
-        status = drops_put(p, screen, x, y, strong, size, p->config.seed);
+    for (int i = 0; i < RINGS && status == PAPER_OK && screen->gray; i++)
+        status = drops_put(p, screen, x, y, strong, size, i * RING_WIDER, p->config.seed);
     return status;
 }

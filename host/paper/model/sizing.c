@@ -118,6 +118,7 @@ static void spread_out(float *values, size_t count, float deviation)
         root *= root;
         root *= root;
         values[i] = root * root;
+        if (values[i] > 1) values[i] = 1 + (values[i] - 1) * 0.22f;
     }
 }
 

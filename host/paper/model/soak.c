@@ -400,6 +400,7 @@ void sheet_soak(struct paper_sheet *p, struct sheet_terms *terms)
         kit_f_mul(terms->swirled, terms->swirled, terms->depth);
         return;
     }
+    kit_f_mul(terms->swirled, terms->swirled, terms->swirled);
     kit_f_plus(p->t[7], terms->depth, -SHEET_STILL * p->air.film);
     kit_f_least(p->t[7], p->t[7], 0.0);
     kit_f_mul(terms->swirled, terms->swirled, p->t[7]);
