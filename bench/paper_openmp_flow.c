@@ -25,7 +25,9 @@ static void water_own(const struct paper_openmp *o, int y)
           *part = term_row(o, T_PART, y);
     const float *absorbency = field_row(o, F_ABSORBENCY, y),
                 *capacity = field_row(o, F_CAPACITY, y), *wet = field_row(o, o->wet_now, y);
-    const double mean = o->config.absorbency, pull = air->absorption * 10 * mean;
+    const double mean = o->config.absorbency,
+                 unsized = o->config.model > 2 ? fmax(1, mean / 0.12) : 1,
+                 pull = air->absorption * 10 * mean * unsized * unsized * unsized;
     const float slope = (float)(pull * 0.25), base = (float)(pull * (1 - 0.25) * mean),
                 unit = (float)UNIT;
 #pragma omp simd
@@ -46,7 +48,8 @@ static void pigment_own(const struct paper_openmp *o, int y, int pigment)
     float *surface = field_row(o, field, y), *infused = field_row(o, field + 1, y),
           *fixed = field_row(o, field + 2, y);
     const float *part_row = term_row(o, T_PART, y), *height = field_row(o, F_HEIGHT, y),
-                *water = field_row(o, F_SURFACE_WATER, y), *wet = field_row(o, o->wet_now, y);
+                *water = field_row(o, F_SURFACE_WATER, y), *wet = field_row(o, o->wet_now, y),
+                *around = field_row(o, o->around_now, y);
     const double pace = o->config.air.settling * 4 * p->density,
                  lift = o->config.air.settling * 0.4 / p->staining,
                  hollows = p->granulation * 0.6;
@@ -72,7 +75,8 @@ static void pigment_own(const struct paper_openmp *o, int y, int pigment)
         slow *= third ? greatest(covered, dry) : 1.0f;
         float up = (height[x] * up_slope + up_base) * thin;
         up = up_cut ? least(up, 1.0f) : up;
-        float lifted = whole_of(up * i, i);
+        float inside = third ? greatest(around[x] * 4.0f + -3.0f, 0.0f) : 1.0f;
+        float lifted = whole_of(up * i * inside, i);
         i -= lifted;
         up = whole_of(up * f, f);
         f -= up;
@@ -187,9 +191,17 @@ static void edge_own(const struct paper_openmp *o, int y)
         deep[x] = high * least(part * 8.0f, 1.0f);
         level[x] = high + height[x] * relief;
         inverse[x] = 1.0f / greatest(h, least_depth);
-        swirled[x] =
-            greatest(around[x] * 2.0f + -1.0f, 0.0f) * (third ? greatest(h + still, 0.0f) : h);
+        float inside = greatest(around[x] * 2.0f + -1.0f, 0.0f);
+        swirled[x] = third ? inside * inside * greatest(h + still, 0.0f) : inside * h;
     }
+}
+
+/* As model/capillary.c has it. */
+static double threshold_base(const struct paper_openmp *o)
+{
+    const double mean = o->config.absorbency,
+                 sized = fmin(1, fmax(0, (0.2 - mean) / (0.2 - 0.12)));
+    return 1.5 + (o->config.model > 2 ? 0.6 * sized : 0);
 }
 
 static void pores_own(const struct paper_openmp *o, int y)
@@ -201,12 +213,13 @@ static void pores_own(const struct paper_openmp *o, int y)
     float *load = term_row(o, T_LOAD, y), *room = term_row(o, T_ROOM, y),
           *left = term_row(o, T_LEFT, y), *threshold = term_row(o, T_THRESHOLD, y),
           *thin = term_row(o, T_THIN, y);
-    const float unit = (float)UNIT, most = (float)(15 * UNIT), from = (float)(1 / (13 * UNIT));
+    const float unit = (float)UNIT, most = (float)(15 * UNIT), from = (float)(1 / (13 * UNIT)),
+                base = (float)threshold_base(o);
 #pragma omp simd
     for (int x = 0; x < width; x++) {
         room[x] = within((most - load[x]) * from, 0.0f, 1.0f);
         left[x] = greatest((capacity[x] * unit - water[x]) * 0.25f, 0.0f);
-        threshold[x] = within(absorbency[x] * -4.5f + 1.5f, 0.05f, 0.98f) *
+        threshold[x] = within(absorbency[x] * -4.5f + base, 0.05f, 0.98f) *
                        greatest(saturated[x] * -16.0f + 1.0f, 0.0f);
         thin[x] = 1.0f / greatest(water[x], 1.0f);
     }
@@ -299,7 +312,8 @@ INLINE void film_faces(const struct paper_openmp *o, int y, int axis, const floa
           *pigment_in = term_row(o, T_FACES + 6 * axis + 3, y);
     const float gravity = (float)air->gravity[axis], pull = 0.3f,
                 spread = (float)(2.0 * air->spread), edge = (float)edge_pull(o),
-                bent = o->config.model > 2 ? 12.0f : 0.0f, still = (float)(-4.0 * air->film);
+                bent = o->config.model > 2 ? 12.0f : 0.0f, still = (float)(-4.0 * air->film),
+                carries = (float)(0.5 / air->film);
     const bool third = o->config.model > 2;
 #pragma omp simd
     for (int x = 0; x < o->config.width; x++) {
@@ -316,7 +330,10 @@ INLINE void film_faces(const struct paper_openmp *o, int y, int axis, const floa
         in *= room[x];
         water_out[x] = out;
         water_in[x] = in;
-        float net = out * depth[x] + in * depth2[x] + eddies[x];
+        float net = out * depth[x] + in * depth2[x];
+        if (third)
+            net *= within(greatest(depth[x], depth2[x]) * carries + -0.5f, 0.0f, 1.0f);
+        net += eddies[x];
         float both = least(depth[x], depth2[x]);
         both = third ? greatest(both + still, 0.0f) : both;
         both *= least(face[x] * 1e6f, 1.0f);
@@ -463,7 +480,7 @@ void paper_openmp_flow_steps(struct paper_openmp *o, int steps_count)
 void paper_openmp_flow_start(struct paper_openmp *o)
 {
     const int width = o->config.width, height = o->config.height;
-    const float wetted = (float)(1 / (0.25 * UNIT));
+    const float wetted = (float)(1 / ((o->config.model > 2 ? 0.04 : 0.25) * UNIT));
     for (int y = 0; y < height; y++) {
         const float *surface = field_row(o, F_SURFACE_WATER, y);
         for (int x = 0; x < width; x++) {
@@ -489,7 +506,7 @@ void paper_openmp_flow_start(struct paper_openmp *o)
             field_row(o, F_EASE_Y, y)[x] =
                 least(face_y[x] * 1e6f, 1.0f) / (sizing[x] + sizing2[x]);
             float sum = (current[x] + current2[x2]) + (current2[x] + current[x2]);
-            sum *= (float)((o->config.model > 2 ? 0.9 : 0.7) / 4);
+            sum *= (float)((o->config.model > 2 ? 1.5 : 0.7) / 4);
             sum *= least(face_y[x] * 1e6f, 1.0f) * least(face_y[x2] * 1e6f, 1.0f) *
                    least(face_x[x] * 1e6f, 1.0f) * least(face_x2[x] * 1e6f, 1.0f);
             field_row(o, F_SWIRL, y)[x] = sum;

@@ -221,6 +221,51 @@ static void masking_fluid_is_not_painted(void **state)
     paper_sheet_destroy(sheet);
 }
 
+/* A quick stroke of little paint has streaks along it, and no rows of dots: neither where the bristles touch, nor when it has dried. */
+static void a_thin_stroke_has_no_dots(void **state)
+{
+    (void)state;
+    static float layer[FIBERS], rose[FIBERS], ones[FIBERS];
+    struct paper_sheet *sheet = sheet_make();
+    struct paper_brush brush = brush_small();
+    brush.width = 40;
+    brush.depth = 9;
+    brush.bristles = 280;
+    brush.flat = brush.follows = true;
+    brush.load = 0.2;
+    brush.reach = 900;
+    for (int i = 0; i < FIBERS; i++)
+        ones[i] = 0.9f; /* bristles reach all fibers */
+    check(paper_sheet_layer_write(sheet, PAPER_LAYER_HEIGHT, 0, ones));
+    check(paper_sheet_brush(sheet, &brush));
+    dip(sheet, 0.4, 0.8, 0);
+    const struct paper_stroke_sample line[2] = {
+        {.x = 4, .y = 32, .pressure = 0.7}, {.time_s = 0.1, .x = 92, .y = 32, .pressure = 0.7}};
+    stroke(sheet, line, 2, 60);
+    for (int dried = 0; dried < 2; dried++) {
+        for (int i = 0; i < 200 * dried; i++)
+            check(paper_sheet_step(sheet));
+        memset(rose, 0, sizeof rose);
+        for (int k = 0; k < 3; k++) {
+            check(paper_sheet_layer_read(
+                sheet, PAPER_LAYER_SURFACE_PIGMENT + (enum paper_layer)k, 0, layer));
+            for (int i = 0; i < FIBERS; i++)
+                rose[i] += layer[i];
+        }
+        double dots = 0, sum = 0; /* along the stroke, fiber by fiber */
+        for (int y = 20; y < 44; y++)
+            for (int x = 24; x < 72; x++) {
+                const float *at = rose + y * WIDTH + x;
+                dots += fabs((double)(at[0] - (at[-1] + at[1]) / 2));
+                sum += (double)at[0];
+            }
+        print_message("thin stroke%s: dots are %.1f%%\n", dried ? ", dry" : "",
+                      100 * dots / sum);
+        assert_true(sum > 0 && dots < 0.1 * sum);
+    }
+    paper_sheet_destroy(sheet);
+}
+
 /* ---- sameness ---- */
 
 /* Mirrors a sheet by its layers, which hold all its properties in versions 1 and 3. In version 2 bristles leave more in some
@@ -365,6 +410,7 @@ int main(void)
         cmocka_unit_test(a_brush_runs_dry),
         cmocka_unit_test(a_dry_brush_touches_heights_only),
         cmocka_unit_test(masking_fluid_is_not_painted),
+        cmocka_unit_test(a_thin_stroke_has_no_dots),
         cmocka_unit_test(a_mirrored_stroke_gives_the_mirrored_picture),
         cmocka_unit_test(one_side_can_be_loaded),
         cmocka_unit_test(wrong_brushes_and_strokes_are_refused),

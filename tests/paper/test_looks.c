@@ -289,7 +289,7 @@ static void edges_darken(void **state)
         fail_msg("edge to middle: %g, without %g", edge / middle[1],
                  (pale + profile[0][29]) / 3 / middle[0]);
     if (!(p[peak[1]] > 1.4 * middle[1] && peak[1] >= RADIUS - 4 && peak[1] <= RADIUS + 1 &&
-          width <= 9 && p[RADIUS + 3] < 0.1 * middle[1]))
+          width >= 6 && width <= 9 && p[RADIUS + 3] < 0.1 * middle[1]))
         fail_msg("a line %g times as dark as the middle, at %d, %d wide; beyond it %g",
                  p[peak[1]] / middle[1], peak[1], width, p[RADIUS + 3] / middle[1]);
 }

@@ -17,7 +17,7 @@ enum { CORNERS = 24, DROPS_MOST = 120 };
 /* A drop has no edge: it is put in so many times, wider and wider. With hard edges eddies made spots of them, in letters as large as a hand. */
 enum { RINGS = 4 };
 #define RING_WIDER 0.07 /* of a letter's size */
-#define FROM_TOP 0.15 /* of the screen's height: the tips of letters stay light */
+#define FROM_TOP 0.15   /* of the screen's height: the tips of letters stay light */
 
 /* What the drops are drawn from: discs over the screen, joined. */
 static void drops_draw(struct event_bytes *b, const struct paper_screen *screen, int left,
@@ -30,7 +30,8 @@ static void drops_draw(struct event_bytes *b, const struct paper_screen *screen,
         const double x = left + screen->width_px * sheet_chance(seed, n, 1),
                      y = top + screen->height_px *
                                    (FROM_TOP + (1 - FROM_TOP) * sheet_chance(seed, n, 2)),
-                     radius = size * (wider + RADIUS_LEAST + RADIUS_MORE * sheet_chance(seed, n, 3));
+                     radius =
+                         size * (wider + RADIUS_LEAST + RADIUS_MORE * sheet_chance(seed, n, 3));
         double corners[2 * CORNERS];
         for (int k = 0; k < CORNERS; k++) {
             corners[2 * k] = x + radius * cos(TURN * k / CORNERS);

@@ -56,8 +56,8 @@ struct sheet_brushes {
     CM_field_id_t t[BRUSH_TEMPORARIES];
     CM_field_id_t give[1 + PAPER_PIGMENTS_MAX]; /* what each place gives, less what it takes */
     struct sheet_contacts contacts;
-    uint16_t
-        *touched; /* of each fiber, a number of this exchange: by how many places, or which of those touched; 0 between exchanges */
+    uint16_t *
+        touched; /* of each fiber, a number of this exchange: by how many places, or which of those touched; 0 between exchanges */
     float *
         clouds; /* how willingly the paper takes paint, BRUSH_CLOUD fibers apart; NULL: alike everywhere */
     int clouds_columns, clouds_rows;

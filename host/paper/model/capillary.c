@@ -39,7 +39,8 @@ struct pores {
 static double threshold_base(const struct paper_sheet *p)
 {
     const double mean = p->config.stock.absorbency,
-                 sized = fmin(1, fmax(0, (UNSIZED_LEAST - mean) / (UNSIZED_LEAST - SIZED_MOST)));
+                 sized =
+                     fmin(1, fmax(0, (UNSIZED_LEAST - mean) / (UNSIZED_LEAST - SIZED_MOST)));
     return THRESHOLD_BASE + (sheet_of_version_3(p) ? THRESHOLD_SIZED * sized : 0);
 }
 

@@ -45,13 +45,14 @@
 #define PIGMENT_SHARE 0.2
 #define MIXING 0.06
 #define EDDIES_2 0.7
-#define EDDIES 0.9
+#define EDDIES 1.5
 #define EDGE_FLOW 0.005
 #define EDGE_WIDTH_LEAST 8.0
 #define EDGE_DRIES 0.05 /* version 3; see edge_flow_make() */
 #define EDGE_BALANCE 0.004
 #define EDGE_PLATEAU 12.0
-#define CARRIES_FROM 1.0 /* version 3: depth, times `film`, below which water carries no pigment */
+#define CARRIES_FROM                                                                           \
+    1.0 /* version 3: depth, times `film`, below which water carries no pigment */
 #define CARRIES_STEEPNESS 0.5
 #define OPEN_SCALE 1e6 /* see step.c */
 

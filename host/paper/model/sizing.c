@@ -20,8 +20,9 @@
 /* Of a cubic B-spline through uniform numbers in -1..1: its deviation. */
 #define SPLINE_DEVIATION 0.277
 #define NOISE_MOST 3.0f
-#define EDDY_MOST 2.2
+#define EDDY_MOST 1.3
 #define CALM_EDGE 16       /* fibers */
+#define HARD 0.22f         /* version 3; see spread_out() */
 #define DEVIATION_MOST 0.7 /* of the logarithm of sizing */
 
 struct octaves {
@@ -109,16 +110,18 @@ static bool noise_make(float *out, int width, int height, const struct octaves *
     return made;
 }
 
-/* (1 + d n / 8)^8, nearly exp (d n), n cut off at 3 either way: no function of a library, whose last bits may differ. */
-static void spread_out(float *values, size_t count, float deviation)
+/* (1 + d n / 8)^8, nearly exp (d n), n cut off at 3 either way: no function of a library, whose last bits may differ. What is above 1 is
+ * drawn in to `hard` of it: in version 3 the hardest paper lets a hanging bead through in the end, or a band's lower edge would stay as it was
+ * put, straight, between few drips. */
+static void spread_out(float *values, size_t count, float deviation, float hard)
 {
     for (size_t i = 0; i < count; i++) {
         float n = fminf(fmaxf(values[i], -NOISE_MOST), NOISE_MOST);
         float root = 1 + deviation * n * 0.125f;
         root *= root;
         root *= root;
-        values[i] = root * root;
-        if (values[i] > 1) values[i] = 1 + (values[i] - 1) * 0.22f;
+        root *= root;
+        values[i] = root > 1 ? 1 + (root - 1) * hard : root;
     }
 }
 
@@ -173,14 +176,16 @@ enum paper_status sheet_sizing_make(struct paper_sheet *p)
     const struct paper_sheet_config *config = &p->config;
     const struct octaves sizes = {4, 64, 0.4, 0.75786, (uint32_t)config->seed * 77 + 1},
                          eddies = {sheet_of_version_3(p) ? 12 : 8,
-                                   sheet_of_version_3(p) ? 24 : 16, 1, 0.5,
+                                   sheet_of_version_3(p) ? 48 : 16, 1,
+                                   sheet_of_version_3(p) ? 0.65 : 0.5,
                                    (uint32_t)config->seed * 77 + 3};
     size_t count = (size_t)config->width * (size_t)config->height;
     float *values = malloc(count * sizeof *values);
     bool made = values && octaves_make(p, values, &sizes);
     if (made) {
         spread_out(values, count,
-                   (float)(DEVIATION_MOST * fmin(1, 2 * config->stock.absorbency_variation)));
+                   (float)(DEVIATION_MOST * fmin(1, 2 * config->stock.absorbency_variation)),
+                   sheet_of_version_3(p) ? HARD : 1);
         kit_grid_f_write(&p->page.grid, p->sizing, values);
         made = octaves_make(p, values, &eddies);
     }

@@ -18,8 +18,9 @@
 #define PLACE_SPACING_2 0.7
 #define BRUSH_ROWS_2 16 /* in one exchange, of versions 1 and 2 */
 #define FORCE_FULL 0.3
-#define LINE_LEAST 1.5    /* fibers; a line that is thinner has gaps */
-#define LINES_OVERLAP 5.0 /* version 3: how wide a line is at least, of a bristle's share of the tuft's width */
+#define LINE_LEAST 1.5 /* fibers; a line that is thinner has gaps */
+#define LINES_OVERLAP                                                                          \
+    5.0 /* version 3: how wide a line is at least, of a bristle's share of the tuft's width */
 #define WAITING_PACE 60.0 /* pieces of a second where the paper waits */
 #define TOUCH_SHARE 0.15  /* of a bristle's contact: fibers are touched by several */
 #define CONTACT_STEPS                                                                          \
@@ -123,7 +124,8 @@ static bool place_make(struct paper_sheet *p, const struct sheet_brush *own,
     else
         place_scatter(own, number, moment, &side, &ahead);
     for (int i = 0; i < 2; i++)
-        place[i] = (i == 0 ? tuft->x : tuft->y) + tuft->across[i] * (across + side / tuft->half[0]) +
+        place[i] = (i == 0 ? tuft->x : tuft->y) +
+                   tuft->across[i] * (across + side / tuft->half[0]) +
                    tuft->along[i] * (along + ahead / tuft->half[1]);
     return true;
 }

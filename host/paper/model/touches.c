@@ -48,8 +48,8 @@ static bool corners_make(const struct paper_sheet *p, double x, double y,
     for (int i = 0; i < CORNERS; i++) {
         const int column = wrapped((int)left + i % 2, p->page.grid.width, p->config.torus),
                   row = wrapped((int)top + i / 2, p->page.grid.height, p->config.torus);
-        place->part[i] = (i % 2 ? along_x : PART_ONE - along_x) *
-                         (i / 2 ? along_y : PART_ONE - along_y);
+        place->part[i] =
+            (i % 2 ? along_x : PART_ONE - along_x) * (i / 2 ? along_y : PART_ONE - along_y);
         if (column < 0 || row < 0)
             place->part[i] = 0;
         place->fiber[i] = place->part[i] > 0 ? row * p->page.grid.width + column : 0;
@@ -107,8 +107,8 @@ void sheet_places_deal(struct sheet_brushes *b, const struct sheet_place *places
             struct touched *t = &found[number[fiber] - 1];
             t->sum += (int64_t)places[i].part[k] * places[i].force;
             t->left = t->sum;
-            t->pressed += (int64_t)places[i].part[k] * places[i].force *
-                          (places[i].force / FORCE_STEP);
+            t->pressed +=
+                (int64_t)places[i].part[k] * places[i].force * (places[i].force / FORCE_STEP);
         }
     for (int i = 0; i < BRUSH_PLACES; i++) {
         fibers[i] = -1;
