@@ -499,8 +499,6 @@ static void water_that_fades_stays_even(void **state)
     paper_sheet_destroy(sheet);
 }
 
-/* ---- another resolution ---- */
-
 enum { SMALL = 128, WINDOW = 8 };
 
 /* Grays of a picture in even light; of `finer` pixels each way to one. */
