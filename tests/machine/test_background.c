@@ -51,6 +51,8 @@ static void begin(struct sheet *s, const struct looped *p, const char *backgroun
     forced(background, p);
     *s = (struct sheet){.loop = p};
     assert_ok(machine_create(&config, &s->m), s->m);
+    s->m->device->shape.load_aside_bytes =
+        keeps ? 64 << 10 : 0; /* by a thread, or by the caller */
     int set = machine_vpset_create(s->m, dimensions, 2);
     machine_vpset_select(s->m, set);
     for (uint32_t i = 0; i < (uint32_t)(p->height * p->width); i++) {

@@ -14,7 +14,7 @@
  * queues, contexts or threads do not help. A kernel that another process left in PoCL's cache
  * is loaded in some 20 milliseconds.
  *
- * Nothing here blocks, and the program can end at any time. What the process has compiled is loaded by a thread (loading.h). The process
+ * Nothing here blocks, and the program can end at any time. What the process has compiled is loaded between two evaluations, or by a thread (loading.h). The process
  * is not a child of the program, because a program may wait for all of its children. It ends
  * when the program does. If the process fails, the machine compiles from then on, while the
  * program waits.
@@ -441,7 +441,8 @@ static bool item_load(struct machine *m, struct background *b, struct item *item
     } else {
         loading_drop(l); /* of a batch before */
         b->loading_s = clock_s();
-        if (!device_kernel_at_hand(m, parts, item->options, item->name) &&
+        if (strlen(item->text) >= m->device->shape.load_aside_bytes &&
+            !device_kernel_at_hand(m, parts, item->options, item->name) &&
             loading_begin(l, m->device, parts, item->options))
             return true;
     }

@@ -61,6 +61,8 @@ struct device_shape {
         sort_long; /* lines up to here are sorted by digits of 4 bits, from here by 11, others by 8 */
     /* The queue: kernels in it, and while better ones are built. */
     int kernels_ahead, kernels_ahead_building;
+    /* A text of so many bytes is loaded from the driver's cache by a thread: that takes over 10 milliseconds. */
+    size_t load_aside_bytes;
     /* The front end's own threads, in nanoseconds: for a byte that is moved, and for an element. */
     double move_ns, reduce_ns, rank_ns, send_ns, reshape_ns, scan_ns, scan_vector_ns, fill_ns;
     int rank_alone_most;     /* longer lines are ranked by all threads together */
