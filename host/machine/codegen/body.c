@@ -529,8 +529,9 @@ struct operand emit_value(struct emitter *e, int node, int row, int dx, bool can
     }
     int name = variable_add(e, node, row, dx, canonical);
     bool box = !loads && note_box(e, n, row, dx);
-    text_put(&e->body,
-             box ? "        const %s v%d = BOX(%s);\n" : "        const %s v%d = %s;\n", type,
+    /* Not const: clang looks through constants' initial values, and through both arms of each choice, in a time that doubles
+     * with each value of a chain. */
+    text_put(&e->body, box ? "        %s v%d = BOX(%s);\n" : "        %s v%d = %s;\n", type,
              name, expression);
     return named(name);
 }
