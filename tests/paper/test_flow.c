@@ -499,90 +499,6 @@ static void water_that_fades_stays_even(void **state)
     paper_sheet_destroy(sheet);
 }
 
-enum { SMALL = 128, WINDOW = 8 };
-
-/* Grays of a picture in even light; of `finer` pixels each way to one. */
-static void grays_make(struct paper_sheet *sheet, int finer, double *grays)
-{
-    const int side = SMALL * finer;
-    uint16_t *rgb = malloc((size_t)side * (size_t)side * 3 * sizeof *rgb);
-    assert_non_null(rgb);
-    check(paper_sheet_view(sheet, &(struct paper_sheet_view){.high = 1}, rgb));
-    memset(grays, 0, SMALL * SMALL * sizeof *grays);
-    for (int i = 0; i < side * side; i++)
-        grays[i / side / finer * SMALL + i % side / finer] +=
-            (0.2126 * rgb[3 * i] + 0.7152 * rgb[3 * i + 1] + 0.0722 * rgb[3 * i + 2]) / 65535 /
-            (finer * finer);
-    free(rgb);
-}
-
-static double alike_in(const double *a, const double *b, int left, int top)
-{
-    double sum[5] = {0};
-    for (int y = top; y < top + WINDOW; y++)
-        for (int x = left; x < left + WINDOW; x++) {
-            const double u = a[y * SMALL + x], v = b[y * SMALL + x],
-                         terms[5] = {u, v, u * u, v * v, u * v};
-            for (int i = 0; i < 5; i++)
-                sum[i] += terms[i] / (WINDOW * WINDOW);
-        }
-    const double c1 = 0.0001, c2 = 0.0009, squares = sum[0] * sum[0] + sum[1] * sum[1];
-    return (2 * sum[0] * sum[1] + c1) * (2 * (sum[4] - sum[0] * sum[1]) + c2) /
-           ((squares + c1) * (sum[2] + sum[3] - squares + c2));
-}
-
-/* Structural similarity of what the sheet shows and of its render at 2. */
-static double render_likeness(struct paper_sheet *sheet)
-{
-    static double coarse[SMALL * SMALL], fine[SMALL * SMALL];
-    struct paper_sheet *large;
-    grays_make(sheet, 1, coarse);
-    check(paper_history_render(sheet, 2, 4, -1, &large));
-    grays_make(large, 2, fine);
-    paper_sheet_destroy(large);
-    double sum = 0, count = 0;
-    for (int y = 0; y + WINDOW <= SMALL; y++)
-        for (int x = 0; x + WINDOW <= SMALL; x++, count++)
-            sum += alike_in(coarse, fine, x, y);
-    return sum / count;
-}
-
-/* Salt and drips: of the first version that flows they are alike by 0.5. */
-static void a_render_is_the_same_painting(void **state)
-{
-    (void)state;
-    for (int salted = 0; salted < 2; salted++) {
-        struct paper_sheet_config config = paper_sheet_config_default();
-        config.width = config.height = SMALL;
-        config.model = PAPER_MODEL_VERSION;
-        config.pigments_count = 1;
-        config.pigments[0] = *paper_pigment_find("french ultramarine");
-        struct paper_sheet *sheet;
-        check(paper_sheet_create(&config, &sheet));
-        check(paper_history_begin(sheet, 0));
-        struct paper_air air = paper_air_default();
-        air.gravity[1] = salted ? 0 : 0.2;
-        check(paper_sheet_air(sheet, &air));
-        box_put(sheet, 10, 10, SMALL - 10, salted ? SMALL - 10 : 36,
-                (double[]){salted ? 0.7 : 1.5, 0.7});
-        const struct paper_salt salt = {.x = SMALL / 2,
-                                        .y = SMALL / 2,
-                                        .radius = 40,
-                                        .grains = 30,
-                                        .size = {0.6, 1.5},
-                                        .reach = 10,
-                                        .strength = 1,
-                                        .seed = 1};
-        if (salted)
-            check(paper_sheet_salt(sheet, &salt));
-        steps(sheet, 160);
-        const double likeness = render_likeness(sheet);
-        print_message("render at 2, %s: %.3f alike\n", salted ? "salt" : "drips", likeness);
-        assert_true(likeness >= 0.9);
-        paper_sheet_destroy(sheet);
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -594,7 +510,6 @@ int main(void)
         cmocka_unit_test(edges_are_as_wide_as_asked),
         cmocka_unit_test(gray_edges_stay),
         cmocka_unit_test(water_that_fades_stays_even),
-        cmocka_unit_test(a_render_is_the_same_painting),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
