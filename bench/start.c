@@ -8,7 +8,8 @@
  *
  * --thorough also measures the longest pause of a program that looks after each step, with
  * empty caches, with and without compiling better kernels in the background. The first two
- * steps, which need kernels at once, do not count.
+ * steps, which need kernels at once, do not count. And the longest call of a program of other
+ * kinds of calls (start_calls.h).
  */
 #include <fcntl.h>
 #include <spawn.h>
@@ -29,10 +30,12 @@
 #include "program.h"
 #include "programs.h"
 #include "scene.h"
+#include "start_calls.h"
 
 enum { REPEAT_MIN = 3, COMMAND_WORDS = 12, STEPS = 400, STEPS_FIRST = 2, SIDE = 512, RUNS = 5 };
 static const char STEPS_INTO[] =
     "--steps-into"; /* argument for a run of the steps, followed by a file */
+static const char CALLS_INTO[] = "--calls-into"; /* and of the calls */
 
 extern char **environ;
 
@@ -243,6 +246,19 @@ static bool all_measure(struct bench_report *r, struct place *place, int repeat_
 
 /* ---- pauses ---- */
 
+static bool times_write(const char *path, double longest_s, double all_s)
+{
+    FILE *file = fopen(path, "w");
+    bool ok = file && fprintf(file, "%.6f %.6f", longest_s, all_s) > 0;
+    return file && fclose(file) == 0 && ok;
+}
+
+static bool calls_run(const char *path)
+{
+    double longest, all;
+    return start_calls_run(&longest, &all) && times_write(path, longest, all);
+}
+
 /* Runs the steps; writes the longest time between the ends of two steps, and the total time,
  * to a file. */
 static bool steps_run(const char *path)
@@ -269,15 +285,14 @@ static bool steps_run(const char *path)
         before = now;
     }
     diffusion_scene_finish(&scene);
-    FILE *file = ok ? fopen(path, "w") : NULL;
-    ok = file && fprintf(file, "%.6f %.6f", longest, before - start) > 0;
-    return file && fclose(file) == 0 && ok;
+    return ok && times_write(path, longest, before - start);
 }
 
-/* Runs the steps in a process with empty caches of its own. */
-static bool steps_of(struct place *place, const char *background, double out[2])
+/* Runs the steps, or the calls, in a process with empty caches of its own. */
+static bool steps_of(struct place *place, const char *what, const char *background,
+                     double out[2])
 {
-    const char *const words[COMMAND_WORDS] = {"bench", "start", STEPS_INTO, PICTURE};
+    const char *const words[COMMAND_WORDS] = {"bench", "start", what, PICTURE};
     char *kept = variable_kept("LUTETIA_BACKGROUND");
     struct caches caches;
     double ignored;
@@ -296,21 +311,29 @@ static bool steps_of(struct place *place, const char *background, double out[2])
 static bool pauses_measure(struct bench_report *r, struct place *place)
 {
     static const char *const cases[2] = {"cold, waits", "cold, background"};
-    double times[2][2][RUNS];
+    double times[2][2][RUNS], calls[2][RUNS];
     char whats[2][32] = {"longest pause"};
     bool ok = true;
     snprintf(whats[1], sizeof whats[1], "%d steps", STEPS);
     for (int run = 0; ok && run < RUNS; run++)
         for (int background = 0; ok && background < 2; background++) {
             double two[2];
-            ok = steps_of(place, background ? "1" : "0", two);
+            ok = steps_of(place, STEPS_INTO, background ? "1" : "0", two);
             for (int i = 0; ok && i < 2; i++)
                 times[background][i][run] = two[i];
+            if (!background)
+                continue;
+            ok = ok && steps_of(place, CALLS_INTO, "1", two);
+            for (int i = 0; ok && i < 2; i++)
+                calls[i][run] = two[i];
         }
     for (int i = 0; ok && i < 2; i++)
         for (int background = 0; background < 2; background++)
             bench_report_add(r, whats[i], cases[background],
                              bench_sample_of(times[background][i], RUNS), 1e3, "ms");
+    for (int i = 0; ok && i < 2; i++)
+        bench_report_add(r, i ? "all calls" : "longest call", cases[1],
+                         bench_sample_of(calls[i], RUNS), 1e3, "ms");
     return ok;
 }
 
@@ -324,6 +347,8 @@ int bench_start_main(int argc, char **argv)
         .thorough_does = "how long a program stands still whose kernels are in no cache"};
     if (argc == 3 && !strcmp(argv[1], STEPS_INTO))
         return steps_run(argv[2]) ? EXIT_SUCCESS : EXIT_FAILURE;
+    if (argc == 3 && !strcmp(argv[1], CALLS_INTO))
+        return calls_run(argv[2]) ? EXIT_SUCCESS : EXIT_FAILURE;
     struct place place = {0};
     char *background = variable_kept("LUTETIA_BACKGROUND"),
          *interpret = variable_kept("LUTETIA_INTERPRET");
