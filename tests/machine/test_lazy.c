@@ -165,7 +165,9 @@ static void unobserved_steps_stay_bounded(void **state)
     late = stats(s.m);
     assert_true(late.values_live < 2 * early.values_live + 1000);
     assert_true(late.bytes_held <= 2 * early.bytes_held + 64 * COUNT);
-    assert_int_equal(late.kernels_built, early.kernels_built);
+    assert_int_equal(late.plans_built, early.plans_built);
+    /* a plan that is run often gets better kernels, once */
+    assert_true(late.kernels_built <= early.kernels_built + 2 * early.plans_built);
     machine_destroy(s.m);
 }
 
