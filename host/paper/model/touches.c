@@ -88,6 +88,12 @@ static int corner_of(const struct sheet_place *place, const uint16_t *number,
     return best;
 }
 
+/* pressed * FORCE_STEP / sum, whose product may be too large; a sum is some 2^54 at most. */
+static int64_t step_times(int64_t pressed, int64_t sum)
+{
+    return pressed / sum * FORCE_STEP + pressed % sum * FORCE_STEP / sum;
+}
+
 void sheet_places_deal(struct sheet_brushes *b, const struct sheet_place *places,
                        int fibers[BRUSH_PLACES], double touch[BRUSH_PLACES])
 {
@@ -136,7 +142,7 @@ void sheet_places_deal(struct sheet_brushes *b, const struct sheet_place *places
         b->contacts.sharers[i] = fibers[i] >= 0 ? (float)takers[taken[i]] : 1;
         if (fibers[i] >= 0)
             b->contacts.force[i] =
-                (float)(found[taken[i]].pressed * FORCE_STEP / found[taken[i]].sum) / FORCE_ONE;
+                (float)step_times(found[taken[i]].pressed, found[taken[i]].sum) / FORCE_ONE;
     }
     for (int i = 0; i < count; i++)
         number[found[i].fiber] = 0;
