@@ -284,7 +284,8 @@ static void washes_are_cloudy_as_real_ones(void **state)
 {
     (void)state;
     static float density[FIBERS];
-    static const char *const names[] = {"cold press", "hot press", "rough", "laid", "glass"};
+    static const char *const names[] = {"cold press", "hot press", "rough", "laid",
+                                        "xuan",       "blotting",  "glass"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         bool laid = strcmp(names[i], "laid") == 0;
         wash_brush(names[i], density);

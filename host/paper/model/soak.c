@@ -32,8 +32,8 @@
 #define DEEP_FROM 8.0 /* a wet part of less than 1 / this of a fiber does not move as a film */
 #define SUCTION 10.0  /* of the stock's absorbency: well absorbing paper sucks the more */
 #define SUCTION_LOCAL 0.25
-/* Version 3: absorbency of a stock from which it has no size. Such a one takes water in by the cube of what it has more: blotting paper takes a
- * drop before it can run. */
+/* Version 3: absorbency of a stock from which it has no size. Such a one takes water in faster by what it has more. (By
+ * the cube of that blotting paper takes a drop before it can run, and a wash keeps the strokes it was laid by.) */
 #define SIZED_MOST 0.12
 #define SETTLING 4.0
 #define HOLLOWS                                                                                \
@@ -64,7 +64,7 @@ static void sink_in(struct paper_sheet *p)
     CM_field_id_t taken = p->t[8], left = p->t[9], part = p->t[10], moved = p->t[11];
     const double mean = p->config.stock.absorbency,
                  unsized = sheet_of_version_3(p) ? fmax(1, mean / SIZED_MOST) : 1,
-                 pull = p->air.absorption * SUCTION * mean * unsized * unsized * unsized;
+                 pull = p->air.absorption * SUCTION * mean * unsized;
     kit_f_times(left, p->capacity, p->unit);
     kit_f_sub(left, left, p->page.water);
     kit_f_times(taken, p->page.absorbency, pull * SUCTION_LOCAL);
