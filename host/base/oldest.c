@@ -1,6 +1,8 @@
 /* oldest.c - see oldest.h. */
 #include "oldest.h"
 
+#include "array.h"
+
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -21,18 +23,12 @@ void oldest_add(struct oldest *o, const char *name, const char *stamp)
     if (o->failed || length < 0 || (size_t)length >= sizeof path ||
         fstatat(o->folder, path, &status, AT_SYMLINK_NOFOLLOW))
         return;
-    if (o->count == o->capacity) {
-        int capacity = o->capacity ? 2 * o->capacity : 256;
-        struct oldest_entry *more = realloc(o->entries, (size_t)capacity * sizeof *more);
-        o->failed = !more;
-        if (!more)
-            return;
-        o->entries = more;
-        o->capacity = capacity;
-    }
     char *kept = strdup(name);
-    o->failed = !kept;
-    if (kept)
+    o->failed =
+        !kept || !array_reserve(&o->entries, &o->capacity, o->count + 1, sizeof *o->entries);
+    if (o->failed)
+        free(kept);
+    else
         o->entries[o->count++] = (struct oldest_entry){kept, status.st_mtim};
 }
 

@@ -18,6 +18,7 @@
 #include <techniques.h>
 
 #include "sample.h"
+#include "sheet_calls.h"
 #include "sheets.h"
 
 enum { WIDTH = 24, HEIGHT = 20, FIBERS = WIDTH * HEIGHT };
@@ -32,12 +33,6 @@ static double uniform(double low, double high)
 static int below(int n)
 {
     return (int)(sample_word(&chance) % (uint64_t)n);
-}
-
-static void check(enum paper_status status)
-{
-    if (status != PAPER_OK)
-        fail_msg("status %d: %s", (int)status, paper_error());
 }
 
 static int sheets_model = 1;

@@ -3,6 +3,7 @@
 #include <brush.h>
 #include <paper.h>
 
+#include "sheet_calls.h"
 #include "sheets.h"
 
 #include <math.h>
@@ -17,12 +18,6 @@
 #include <cmocka.h>
 
 enum { WIDTH = 96, HEIGHT = 64, FIBERS = WIDTH * HEIGHT };
-
-static void check(enum paper_status status)
-{
-    if (status != PAPER_OK)
-        fail_msg("status %d: %s", (int)status, paper_error());
-}
 
 /* Every sheet has two pigments, so that all tests have the same kernels. */
 static struct paper_sheet *sheet_of(int model)

@@ -5,6 +5,7 @@
 #include <paper.h>
 #include <techniques.h>
 
+#include "sheet_calls.h"
 #include "sheets.h"
 
 #include <complex.h>
@@ -21,12 +22,6 @@
 
 enum { SIDE = 512, FIBERS = SIDE * SIDE, SMALL = 112, FEW = SMALL * SMALL };
 #define PI 3.141592653589793
-
-static void check(enum paper_status status)
-{
-    if (status != PAPER_OK)
-        fail_msg("status %d: %s", (int)status, paper_error());
-}
 
 static struct paper_sheet_config config_of(int side, const char *stock, uint64_t seed)
 {

@@ -13,13 +13,9 @@
 
 #include <cmocka.h>
 
-enum { WIDTH = 90, HEIGHT = 60 };
+#include "sheet_calls.h"
 
-static void check(enum paper_status status)
-{
-    if (status != PAPER_OK)
-        fail_msg("status %d: %s", (int)status, paper_error());
-}
+enum { WIDTH = 90, HEIGHT = 60 };
 
 static struct paper_line line_of(double size)
 {

@@ -17,14 +17,10 @@
 
 #include <cmocka.h>
 
+#include "sheet_calls.h"
+
 enum { SIDE = 512, FIBERS = SIDE * SIDE };
 #define PI 3.141592653589793
-
-static void check(enum paper_status status)
-{
-    if (status != PAPER_OK)
-        fail_msg("status %d: %s", (int)status, paper_error());
-}
 
 static struct paper_sheet_config config_of(const char *stock, int side, uint64_t seed)
 {

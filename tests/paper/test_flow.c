@@ -16,17 +16,13 @@
 
 #include <cmocka.h>
 
+#include "sheet_calls.h"
+
 enum { SIDE = 256, FIBERS = SIDE * SIDE, RAYS = 360, SPECTRUM = 40 };
 #define MIDDLE (SIDE / 2.0)
 #define TURN 6.283185307179586
 
 static float first[FIBERS], second[FIBERS], layer[FIBERS];
-
-static void check(enum paper_status status)
-{
-    if (status != PAPER_OK)
-        fail_msg("status %d: %s", (int)status, paper_error());
-}
 
 static struct paper_sheet *sheet_of(uint64_t seed, const char *stock)
 {
@@ -71,27 +67,7 @@ static void pigment_read(struct paper_sheet *sheet, int pigment, float *amounts)
 static void box_put(struct paper_sheet *sheet, double x1, double y1, double x2, double y2,
                     const double *amount)
 {
-    double corners[8] = {x1, y1, x2, y1, x2, y2, x1, y2};
-    struct paper_screen screen;
-    int x, y;
-    check(paper_polygon_screen(corners, 4, SIDE, SIDE, &screen, &x, &y));
-    check(paper_sheet_put(sheet, &screen, x, y, amount));
-    paper_screen_destroy(&screen);
-}
-
-static void disc_put(struct paper_sheet *sheet, double radius, const double *amount)
-{
-    enum { CORNERS = 90 };
-    double corners[2 * CORNERS];
-    for (int i = 0; i < CORNERS; i++) {
-        corners[2 * i] = MIDDLE + radius * cos(TURN * i / CORNERS);
-        corners[2 * i + 1] = MIDDLE + radius * sin(TURN * i / CORNERS);
-    }
-    struct paper_screen screen;
-    int x, y;
-    check(paper_polygon_screen(corners, CORNERS, SIDE, SIDE, &screen, &x, &y));
-    check(paper_sheet_put(sheet, &screen, x, y, amount));
-    paper_screen_destroy(&screen);
+    polygon_put(sheet, SIDE, (double[]){x1, y1, x2, y1, x2, y2, x1, y2}, 4, amount);
 }
 
 static double value_at(const float *values, double x, double y)
@@ -159,7 +135,7 @@ static void backrun_has_lobes(void **state)
         struct paper_sheet *sheet = sheet_new((uint64_t)seed + 1);
         check(paper_sheet_put(sheet, NULL, 0, 0, (double[]){0.3, 0.4, 0}));
         steps(sheet, 300);
-        disc_put(sheet, 14, (double[]){4, 0, 0});
+        disc_put(sheet, SIDE, MIDDLE, MIDDLE, 14, (double[]){4, 0, 0});
         steps(sheet, 500);
         check(paper_sheet_layer_read(sheet, PAPER_LAYER_WET_PART, 0, second));
         varies += sqrt(front_power(second, power)) / SEEDS;
@@ -222,7 +198,7 @@ static void drop_in_water_is_no_disc(void **state)
     for (size_t i = 0; i < sizeof seeds / sizeof *seeds; i++) {
         struct paper_sheet *sheet = sheet_new(seeds[i]);
         check(paper_sheet_put(sheet, NULL, 0, 0, (double[]){0.3, 0, 0}));
-        disc_put(sheet, 20, (double[]){2, 0.8, 0});
+        disc_put(sheet, SIDE, MIDDLE, MIDDLE, 20, (double[]){2, 0.8, 0});
         steps(sheet, 300);
         pigment_read(sheet, 0, first);
         double unlike = unlike_a_disc(first);
@@ -288,7 +264,7 @@ static double ink_front(uint64_t seed, const char *stock)
     struct paper_air air = paper_air_default();
     air.humidity = 0.0001;
     check(paper_sheet_air(sheet, &air));
-    disc_put(sheet, 10, (double[]){4, 1.5, 0});
+    disc_put(sheet, SIDE, MIDDLE, MIDDLE, 10, (double[]){4, 1.5, 0});
     steps(sheet, 2400);
     pigment_read(sheet, 0, first);
     paper_sheet_destroy(sheet);
@@ -405,7 +381,7 @@ static void edges_are_as_wide_as_asked(void **state)
         struct paper_air air = paper_air_default();
         air.edge_width = widths[i];
         check(paper_sheet_air(sheet, &air));
-        disc_put(sheet, 80, (double[]){0.6, 0.4, 0});
+        disc_put(sheet, SIDE, MIDDLE, MIDDLE, 80, (double[]){0.6, 0.4, 0});
         steps(sheet, 1000);
         pigment_read(sheet, 0, first);
         band[i] = band_width(first, 80, &contrast[i]);

@@ -3,6 +3,7 @@
 #include <paper.h>
 #include <sheet.h>
 
+#include "sheet_calls.h"
 #include "sheets.h"
 
 #include <math.h>
@@ -17,12 +18,6 @@
 #include <cmocka.h>
 
 enum { SIDE = 96, FIBERS = SIDE * SIDE, MIDDLE = SIDE / 2 };
-
-static void check(enum paper_status status)
-{
-    if (status != PAPER_OK)
-        fail_msg("status %d: %s", (int)status, paper_error());
-}
 
 /* A light pigment that hardly granulates, and a heavy one that does. All tests use both pigments and no 0 in the air's numbers,
  * so that they have the same kernels. */
@@ -57,20 +52,6 @@ static struct paper_sheet *sheet_make(const char *stock, const struct paper_air 
 static struct paper_sheet *sheet_spreading(const char *stock, const struct paper_air *air)
 {
     return sheet_of(1, stock, air);
-}
-
-static void disc_put(struct paper_sheet *sheet, double radius, const double *amount)
-{
-    double corners[2 * 64];
-    for (int i = 0; i < 64; i++) {
-        corners[2 * i] = MIDDLE + radius * cos(i * 0.09817477042468103);
-        corners[2 * i + 1] = MIDDLE + radius * sin(i * 0.09817477042468103);
-    }
-    struct paper_screen screen;
-    int x, y;
-    check(paper_polygon_screen(corners, 64, SIDE, SIDE, &screen, &x, &y));
-    check(paper_sheet_put(sheet, &screen, x, y, amount));
-    paper_screen_destroy(&screen);
 }
 
 static void steps(struct paper_sheet *sheet, int count)
@@ -270,7 +251,7 @@ static void edges_darken(void **state)
         air.edge = with ? 15 : 0.001;
         air.humidity = 0.0008;
         struct paper_sheet *sheet = sheet_make("cold press", &air);
-        disc_put(sheet, RADIUS, (double[]){0.7, 0.4, NONE});
+        disc_put(sheet, SIDE, MIDDLE, MIDDLE, RADIUS, (double[]){0.7, 0.4, NONE});
         steps(sheet, 800);
         check(paper_sheet_dry(sheet));
         profile_read(sheet, LIGHT, profile[with]);
@@ -301,10 +282,11 @@ static void backruns_push_pigment_away(void **state)
     struct paper_air air = air_make();
     air.humidity = 0.0002;
     struct paper_sheet *sheet = sheet_spreading("cold press", &air);
-    disc_put(sheet, 40, (double[]){0.25, 0.4, NONE});
+    disc_put(sheet, SIDE, MIDDLE, MIDDLE, 40, (double[]){0.25, 0.4, NONE});
     steps(sheet, 30);
     pigment_read(sheet, LIGHT, before);
-    disc_put(sheet, 8, (double[]){2, NONE, NONE}); /* clear water into the damp wash */
+    disc_put(sheet, SIDE, MIDDLE, MIDDLE, 8,
+             (double[]){2, NONE, NONE}); /* clear water into the damp wash */
     steps(sheet, 400);
     pigment_read(sheet, LIGHT, after);
     double inside = ring_mean(after, 0, 6) / ring_mean(before, 0, 6);
@@ -338,7 +320,7 @@ static void granulating_pigments_settle_in_hollows(void **state)
     static float height[FIBERS], coarse[FIBERS], fine[FIBERS];
     struct paper_air air = air_make();
     struct paper_sheet *sheet = sheet_make("cold press", &air);
-    disc_put(sheet, 35, (double[]){0.8, 0.4, 0.4});
+    disc_put(sheet, SIDE, MIDDLE, MIDDLE, 35, (double[]){0.8, 0.4, 0.4});
     steps(sheet, 60);
     check(paper_sheet_layer_read(sheet, PAPER_LAYER_HEIGHT, 0, height));
     check(paper_sheet_layer_read(sheet, PAPER_LAYER_FIXED_PIGMENT, HEAVY, coarse));
@@ -371,7 +353,7 @@ static void light_pigments_run_ahead(void **state)
     for (int i = 0; i < FIBERS; i++)
         wet[i] = 0.5f;
     check(paper_sheet_layer_write(sheet, PAPER_LAYER_INFUSED_WATER, 0, wet));
-    disc_put(sheet, 15, (double[]){0.3, 0.5, 0.5});
+    disc_put(sheet, SIDE, MIDDLE, MIDDLE, 15, (double[]){0.3, 0.5, 0.5});
     steps(sheet, 300);
     pigment_read(sheet, LIGHT, light);
     pigment_read(sheet, HEAVY, heavy);
@@ -434,7 +416,7 @@ static void masking_fluid_keeps_clear(void **state)
     struct paper_air air = air_make();
     struct paper_sheet *sheet = sheet_spreading("cold press", &air);
     check(paper_sheet_resist(sheet, &screen, 38, 38, true));
-    disc_put(sheet, 35, (double[]){1, 1, NONE});
+    disc_put(sheet, SIDE, MIDDLE, MIDDLE, 35, (double[]){1, 1, NONE});
     steps(sheet, 100);
     pigment_read(sheet, 0, values);
     double inside = 0, outside = 0;

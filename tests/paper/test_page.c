@@ -12,16 +12,12 @@
 
 #include <cmocka.h>
 
+#include "sheet_calls.h"
+
 enum { WIDTH = 96, HEIGHT = 70, BYTES = 3 * WIDTH * HEIGHT };
 
 /* The FNV-1a hash of the golden page, which PoCL 3.1 on x86-64 and every other device must give. */
 static const uint64_t golden_hash = 0x4abb75efe109d328u;
-
-static void check(enum paper_status status)
-{
-    if (status != PAPER_OK)
-        fail_msg("status %d: %s", (int)status, paper_error());
-}
 
 /* Evaluates two steps at a time, as `lutetia` does: kernels of more steps take long to compile. */
 static void disperse(struct paper *sheet, const struct paper_weather *weather, int steps)

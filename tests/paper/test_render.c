@@ -16,15 +16,10 @@
 
 #include <cmocka.h>
 
-enum { SIDE = 160, WINDOW = 8 };
-#define TURN 6.283185307179586
-#define LEAST 0.9
+#include "sheet_calls.h"
 
-static void check(enum paper_status status)
-{
-    if (status != PAPER_OK)
-        fail_msg("status %d: %s", (int)status, paper_error());
-}
+enum { SIDE = 160, WINDOW = 8 };
+#define LEAST 0.9
 
 static struct paper_sheet *sheet_of(const char *stock, bool deckled)
 {
@@ -50,32 +45,10 @@ static void steps(struct paper_sheet *sheet, int count)
     check(paper_sheet_finish(sheet));
 }
 
-static void polygon_put(struct paper_sheet *sheet, const double *corners, int count,
-                        const double *amount)
-{
-    struct paper_screen screen;
-    int x, y;
-    check(paper_polygon_screen(corners, count, SIDE, SIDE, &screen, &x, &y));
-    check(paper_sheet_put(sheet, &screen, x, y, amount));
-    paper_screen_destroy(&screen);
-}
-
 static void box_put(struct paper_sheet *sheet, double x1, double y1, double x2, double y2,
                     const double *amount)
 {
-    polygon_put(sheet, (double[]){x1, y1, x2, y1, x2, y2, x1, y2}, 4, amount);
-}
-
-static void disc_put(struct paper_sheet *sheet, double x, double y, double radius,
-                     const double *amount)
-{
-    enum { CORNERS = 60 };
-    double corners[2 * CORNERS];
-    for (int i = 0; i < CORNERS; i++) {
-        corners[2 * i] = x + radius * cos(TURN * i / CORNERS);
-        corners[2 * i + 1] = y + radius * sin(TURN * i / CORNERS);
-    }
-    polygon_put(sheet, corners, CORNERS, amount);
+    polygon_put(sheet, SIDE, (double[]){x1, y1, x2, y1, x2, y2, x1, y2}, 4, amount);
 }
 
 static void lean(struct paper_sheet *sheet, double gravity)
@@ -167,14 +140,14 @@ static void salt(struct paper_sheet *sheet)
 static void drop(struct paper_sheet *sheet)
 {
     check(paper_sheet_put(sheet, NULL, 0, 0, (double[]){0.6, 0, 0}));
-    disc_put(sheet, 60, 80, 18, (double[]){2, 0, 1.6});
-    disc_put(sheet, 104, 86, 14, (double[]){2, 1.6, 0});
+    disc_put(sheet, SIDE, 60, 80, 18, (double[]){2, 0, 1.6});
+    disc_put(sheet, SIDE, 104, 86, 14, (double[]){2, 1.6, 0});
     steps(sheet, 250);
 }
 
 static void puddle(struct paper_sheet *sheet)
 {
-    disc_put(sheet, SIDE / 2, SIDE / 2, 58, (double[]){0.6, 0.2, 0.5});
+    disc_put(sheet, SIDE, SIDE / 2, SIDE / 2, 58, (double[]){0.6, 0.2, 0.5});
     steps(sheet, 700);
 }
 
@@ -187,7 +160,7 @@ static void drips(struct paper_sheet *sheet)
 
 static void ink(struct paper_sheet *sheet)
 {
-    disc_put(sheet, SIDE / 2, SIDE / 2, 24, (double[]){1.2, 1, 0.4});
+    disc_put(sheet, SIDE, SIDE / 2, SIDE / 2, 24, (double[]){1.2, 1, 0.4});
     steps(sheet, 300);
 }
 
@@ -195,7 +168,7 @@ static void backrun(struct paper_sheet *sheet)
 {
     check(paper_sheet_put(sheet, NULL, 0, 0, (double[]){0.3, 0.5, 0.1}));
     steps(sheet, 300);
-    disc_put(sheet, SIDE / 2, SIDE / 2, 18, (double[]){4, 0, 0});
+    disc_put(sheet, SIDE, SIDE / 2, SIDE / 2, 18, (double[]){4, 0, 0});
     steps(sheet, 400);
 }
 

@@ -5,6 +5,7 @@
 #include <sheet.h>
 
 #include "sample.h"
+#include "sheet_calls.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -24,12 +25,6 @@ static uint64_t chance = 5;
 static double uniform(double low, double high)
 {
     return low + (high - low) * (double)(sample_word(&chance) >> 11) * 0x1p-53;
-}
-
-static void check(enum paper_status status)
-{
-    if (status != PAPER_OK)
-        fail_msg("status %d: %s", (int)status, paper_error());
 }
 
 static struct paper_sheet_config config_small(int width, int height, int pigments)

@@ -4,6 +4,7 @@
 #include <techniques.h>
 
 #include "sample.h"
+#include "sheet_calls.h"
 #include "sheets.h"
 
 #include <math.h>
@@ -18,12 +19,6 @@
 #include <cmocka.h>
 
 enum { WIDTH = 64, HEIGHT = 48, FIBERS = WIDTH * HEIGHT };
-
-static void check(enum paper_status status)
-{
-    if (status != PAPER_OK)
-        fail_msg("status %d: %s", (int)status, paper_error());
-}
 
 /* Every sheet has two pigments, so that all tests have the same kernels. The first stains five times as much as the second. */
 static struct paper_sheet *sheet_make(void)

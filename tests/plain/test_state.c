@@ -14,11 +14,7 @@
 
 #include <cmocka.h>
 
-static void check(enum paper_status status)
-{
-    if (status != PAPER_OK)
-        fail_msg("status %d: %s", (int)status, paper_error());
-}
+#include "sheet_calls.h"
 
 static void sheets_same(struct paper_sheet *a, struct paper_sheet *b)
 {

@@ -3,7 +3,6 @@
 #include "alias/reshape.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/errors.h"
 #include "base/scalar.h"
@@ -324,22 +323,20 @@ static uint32_t image_words(const struct machine *m, const struct field *root)
     return (uint32_t)((m->values->sets[root->vpset].ratio * root->bits + 31) / 32);
 }
 
-/* name: "put" or "get"; at: the value's first bit in f. */
-static enum machine_status image_pass(struct machine *m, const char *name,
-                                      const struct field *f, uint32_t words, uint32_t at,
-                                      struct machine_type type,
+/* put: from the value into the image, else from there; at: the value's first bit in f. */
+static enum machine_status image_pass(struct machine *m, bool put, const struct field *f,
+                                      uint32_t words, uint32_t at, struct machine_type type,
                                       const struct device_buffer *from,
                                       const struct device_buffer *to)
 {
     const struct vpset *s = &m->values->sets[f->vpset];
     struct view view = reshape_view(f);
-    const bool put = strcmp(name, "put") == 0;
     if (near_image(m, s,
                    &(struct near_view){words, view.start + at, view.parts, view.outer,
                                        view.inner, type.width},
                    put, type_bytes(type), put ? from : to, put ? to : from))
         return MACHINE_OK;
-    struct kernel_call c = slices_call(m, type, name);
+    struct kernel_call c = slices_call(m, type, put ? "put" : "get");
     call_set(&c, m, s);
     call_uint(&c, call_processors_run(m));
     call_uint(&c, words);
@@ -359,7 +356,7 @@ static bool image_put(struct machine *m, const struct field *f, uint32_t words,
     for (int i = 0; i < f->slots_count; i++) {
         const struct slot *s = &f->slots[i];
         struct machine_value *v = materialise(m, f->vpset, s->value);
-        if (!v || image_pass(m, "put", f, words, s->offset, v->type, v->buffer, image))
+        if (!v || image_pass(m, true, f, words, s->offset, v->type, v->buffer, image))
             return false;
     }
     return true;
@@ -377,7 +374,7 @@ static bool image_get(struct machine *m, struct field *f, uint32_t words,
             return false;
         struct slot slot = slot_of(m, at, graph_buffer_node(m, type, f->vpset, b));
         field_slots_put(m, f, at, at, &slot, 1);
-        if (image_pass(m, "get", f, words, at, type, image, b))
+        if (image_pass(m, false, f, words, at, type, image, b))
             return false;
     }
     return true;

@@ -37,19 +37,23 @@ struct paper_brush paper_brush_default(void)
 #define CLOUD_STEP 0.9
 #define CLOUD_STRENGTH 0.275
 
+/* With a number for each fiber, or `apart` fibers apart. */
+static struct clouds clouds_of(const struct paper_sheet *p, double apart)
+{
+    const double scale = felt_scale(&p->config) / apart;
+    return (struct clouds){.finest = CLOUD_FINEST * scale,
+                           .coarsest = CLOUD_COARSEST * scale,
+                           .step = CLOUD_STEP,
+                           .seed = clouds_word(p->config.seed, 77)};
+}
+
 static bool clouds_lay(const struct paper_sheet *p, struct sheet_brushes *b)
 {
     int width = p->page.grid.width, height = p->page.grid.height;
     b->clouds_columns = width / BRUSH_CLOUD + 2;
     b->clouds_rows = height / BRUSH_CLOUD + 2;
     b->clouds = calloc((size_t)b->clouds_columns * (size_t)b->clouds_rows, sizeof *b->clouds);
-    double scale = felt_scale(&p->config) / BRUSH_CLOUD;
-    const struct clouds of = {CLOUD_FINEST * scale,
-                              CLOUD_COARSEST * scale,
-                              CLOUD_STEP,
-                              clouds_word(p->config.seed, 77),
-                              false,
-                              0};
+    const struct clouds of = clouds_of(p, BRUSH_CLOUD);
     return b->clouds && clouds_make(b->clouds, b->clouds_columns, b->clouds_rows, false, &of);
 }
 
@@ -74,13 +78,7 @@ enum paper_status sheet_grip_make(struct paper_sheet *p)
 {
     const int width = p->page.grid.width, height = p->page.grid.height;
     const size_t count = (size_t)width * (size_t)height;
-    const double scale = felt_scale(&p->config);
-    const struct clouds of = {CLOUD_FINEST * scale,
-                              CLOUD_COARSEST * scale,
-                              CLOUD_STEP,
-                              clouds_word(p->config.seed, 77),
-                              false,
-                              0};
+    const struct clouds of = clouds_of(p, 1);
     float *grip = malloc(count * sizeof *grip);
     if (!grip || !clouds_make(grip, width, height, p->config.torus, &of)) {
         free(grip);

@@ -68,6 +68,9 @@ struct sheet_brushes {
  * current before and after. */
 void sheet_brush_exchange(struct paper_sheet *p, struct sheet_brushes *b,
                           const struct sheet_brush *brush);
+/* The column or row at a place, of so many; around a torus. -1: it is beyond the sheet. */
+int sheet_fiber_at(double at, int length, bool torus);
+
 /* A bristle's place in an exchange, from version 3 on (touches.c): the fibers that it lies over, and how much of it lies over each. */
 struct sheet_place {
     int fiber[4], part[4];

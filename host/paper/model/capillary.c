@@ -18,7 +18,6 @@
 #define THRESHOLD_BASE 1.5
 #define THRESHOLD_SIZED 0.6 /* more, where the stock is sized */
 #define UNSIZED_LEAST 0.2   /* absorbency of a stock without size at all */
-#define SIZED_MOST 0.12
 #define THRESHOLD_SLOPE 4.5 /* by absorbency */
 #define THRESHOLD_LEAST 0.05
 #define THRESHOLD_MOST 0.98
@@ -39,8 +38,8 @@ struct pores {
 static double threshold_base(const struct paper_sheet *p)
 {
     const double mean = p->config.stock.absorbency,
-                 sized =
-                     fmin(1, fmax(0, (UNSIZED_LEAST - mean) / (UNSIZED_LEAST - SIZED_MOST)));
+                 sized = fmin(
+                     1, fmax(0, (UNSIZED_LEAST - mean) / (UNSIZED_LEAST - SHEET_SIZED_MOST)));
     return THRESHOLD_BASE + (sheet_of_version_3(p) ? THRESHOLD_SIZED * sized : 0);
 }
 

@@ -113,7 +113,10 @@ static void add(float *to, const float *from, size_t count, double part)
 static bool cloud_make(const struct making *m, float *out, double finest, double coarsest,
                        double step, uint64_t which)
 {
-    const struct clouds of = {finest, coarsest, step, clouds_word(m->seed, which), false, 0};
+    const struct clouds of = {.finest = finest,
+                              .coarsest = coarsest,
+                              .step = step,
+                              .seed = clouds_word(m->seed, which)};
     return clouds_make(out, m->width, m->height, m->config->torus, &of);
 }
 

@@ -12,6 +12,8 @@ enum { SHEET_TEMPORARIES = 56, SHEET_DRIED_BITS = 31 };
 #define SHEET_LOAD_MAX 15.0
 /* What a fiber gets of a pigment in all layers, or of water in one, by putting it there; more may flow in. */
 #define SHEET_PUT_MOST 4.0
+/* The absorbency of a stock above which it is not sized, or less than others. */
+#define SHEET_SIZED_MOST 0.12
 /* Thickness times this is 1 or more wherever there is paper. */
 #define SHEET_THIN_SCALE 1e6
 

@@ -32,9 +32,6 @@
 #define DEEP_FROM 8.0 /* a wet part of less than 1 / this of a fiber does not move as a film */
 #define SUCTION 10.0  /* of the stock's absorbency: well absorbing paper sucks the more */
 #define SUCTION_LOCAL 0.25
-/* Version 3: absorbency of a stock from which it has no size. Such a one takes water in faster by what it has more. (By
- * the cube of that blotting paper takes a drop before it can run, and a wash keeps the strokes it was laid by.) */
-#define SIZED_MOST 0.12
 #define SETTLING 4.0
 #define HOLLOWS                                                                                \
     0.6 /* of granulation; below 1, because pigment that is lifted and settles again gathers in hollows by itself */
@@ -58,13 +55,19 @@
 #define EDGE_LEAST 1.0
 #define ROOM_FROM 13.0 /* units that may be taken in before a fiber is full */
 
+/* Version 3: how much faster a stock takes water in that is not sized, or less than others: in proportion to what it absorbs. (By the cube of that
+ * blotting paper takes a drop before it can run, and a wash keeps the strokes it was laid by.) */
+static double unsized(const struct paper_sheet *p)
+{
+    return sheet_of_version_3(p) ? fmax(1, p->config.stock.absorbency / SHEET_SIZED_MOST) : 1;
+}
+
 /* Surface water sinks in where it wets the fiber, pigments with it by their weight. Uses t[8..11]. */
 static void sink_in(struct paper_sheet *p)
 {
     CM_field_id_t taken = p->t[8], left = p->t[9], part = p->t[10], moved = p->t[11];
     const double mean = p->config.stock.absorbency,
-                 unsized = sheet_of_version_3(p) ? fmax(1, mean / SIZED_MOST) : 1,
-                 pull = p->air.absorption * SUCTION * mean * unsized;
+                 pull = p->air.absorption * SUCTION * mean * unsized(p);
     kit_f_times(left, p->capacity, p->unit);
     kit_f_sub(left, left, p->page.water);
     kit_f_times(taken, p->page.absorbency, pull * SUCTION_LOCAL);

@@ -62,14 +62,6 @@ static struct tuft tuft_make(const struct sheet_brush *own,
     return tuft;
 }
 
-static int wrapped(double at, int length, bool torus)
-{
-    double place = floor(at);
-    if (torus)
-        place -= length * floor(place / length);
-    return place >= 0 && place < length ? (int)place : -1;
-}
-
 static double spacing_of(const struct paper_sheet *p)
 {
     return sheet_of_version_3(p) ? PLACE_SPACING / p->finer : PLACE_SPACING_2;
@@ -182,8 +174,8 @@ static struct paper_sheet *addresses_make(struct paper_sheet *p, const int fiber
 /* The fiber that the place lies on: versions 1 and 2. False: it is beyond the sheet. */
 static bool nearest_touch(struct paper_sheet *p, int number, const double at[2], int *fiber)
 {
-    const int x = wrapped(at[0], p->page.grid.width, p->config.torus),
-              y = wrapped(at[1], p->page.grid.height, p->config.torus);
+    const int x = sheet_fiber_at(at[0], p->page.grid.width, p->config.torus),
+              y = sheet_fiber_at(at[1], p->page.grid.height, p->config.torus);
     if (x < 0 || y < 0)
         return false;
     *fiber = y * p->page.grid.width + x;

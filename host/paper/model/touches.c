@@ -30,11 +30,12 @@ struct touched {
 
 static struct touched found[CORNERS * BRUSH_PLACES];
 
-static int wrapped(int at, int length, bool torus)
+int sheet_fiber_at(double at, int length, bool torus)
 {
+    double place = floor(at);
     if (torus)
-        at = at % length + (at % length < 0 ? length : 0);
-    return at >= 0 && at < length ? at : -1;
+        place -= length * floor(place / length);
+    return place >= 0 && place < length ? (int)place : -1;
 }
 
 /* Of the place around x, y. False: it is beyond the sheet. */
@@ -46,8 +47,8 @@ static bool corners_make(const struct paper_sheet *p, double x, double y,
               along_y = (int)rint((y - 0.5 - top) * PART_ONE);
     bool any = false;
     for (int i = 0; i < CORNERS; i++) {
-        const int column = wrapped((int)left + i % 2, p->page.grid.width, p->config.torus),
-                  row = wrapped((int)top + i / 2, p->page.grid.height, p->config.torus);
+        const int column = sheet_fiber_at(left + i % 2, p->page.grid.width, p->config.torus),
+                  row = sheet_fiber_at(top + i / 2, p->page.grid.height, p->config.torus);
         place->part[i] =
             (i % 2 ? along_x : PART_ONE - along_x) * (i / 2 ? along_y : PART_ONE - along_y);
         if (column < 0 || row < 0)
