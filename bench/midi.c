@@ -13,6 +13,7 @@
  * (midi_soak.c).
  */
 #include "bench.h"
+#include "latency.h"
 #include "midi_scene.h"
 #include "midi_soak.h"
 #include "options.h"
@@ -154,7 +155,7 @@ static bool cases_measure(struct bench_report *r, int rounds)
                         "rows are missing\n");
     if (!awake)
         fprintf(stderr, "lutetia bench midi: processors cannot be kept awake here "
-                        "(/dev/cpu_dma_latency); they may sleep in all rows\n");
+                        "(" LATENCY_PATH "); they may sleep in all rows\n");
     return ok;
 }
 

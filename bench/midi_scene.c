@@ -1,6 +1,7 @@
 /* midi_scene.c - see midi_scene.h. */
 #include "midi_scene.h"
 #include "harness.h"
+#include "latency.h"
 
 #include <midi_client.h>
 #include <midi_server.h>
@@ -40,7 +41,7 @@ bool midi_real_time_allowed(void)
 
 bool midi_awake_allowed(void)
 {
-    return access("/dev/cpu_dma_latency", W_OK) == 0;
+    return access(LATENCY_PATH, W_OK) == 0;
 }
 
 /* splitmix64's finaliser. */

@@ -1,6 +1,7 @@
 /* midi_server.c - see midi_server.h: connects devices, clients and sockets. */
 #include "midi_server.h"
 #include "device_kinds.h"
+#include "latency.h"
 #include "server_commands.h"
 #include "server_route.h"
 #include "server_socket.h"
@@ -241,8 +242,8 @@ static void real_time_begin(struct midi_server *s, bool wanted)
 
 static void awake_set(struct midi_server *s, bool wanted)
 {
-    if (!awake_begin(&s->awake, wanted ? AWAKE_PATH : NULL))
-        snprintf(s->sleep, sizeof s->sleep, "processors may sleep: " AWAKE_PATH ": %s",
+    if (!awake_begin(&s->awake, wanted ? LATENCY_PATH : NULL))
+        snprintf(s->sleep, sizeof s->sleep, "processors may sleep: " LATENCY_PATH ": %s",
                  strerror(errno));
     else
         snprintf(s->sleep, sizeof s->sleep, "%s",

@@ -1,7 +1,8 @@
 /* server_awake.c - see server_awake.h. */
 #include "server_awake.h"
 
-#include <fcntl.h>
+#include "latency.h"
+
 #include <stddef.h>
 #include <unistd.h>
 
@@ -10,7 +11,7 @@ bool awake_begin(struct server_awake *a, const char *path)
     *a = (struct server_awake){.path = path, .file = -1};
     if (!path)
         return true;
-    const int file = open(path, O_WRONLY | O_CLOEXEC);
+    const int file = latency_open(path);
     if (file < 0) {
         a->path = NULL;
         return false;
@@ -21,7 +22,6 @@ bool awake_begin(struct server_awake *a, const char *path)
 
 void awake_look(struct server_awake *a, uint64_t messages, uint64_t now_ns)
 {
-    static const int32_t longest_us = 0;
     if (!a->path)
         return;
     if (messages != a->messages) {
@@ -31,8 +31,8 @@ void awake_look(struct server_awake *a, uint64_t messages, uint64_t now_ns)
     if (now_ns >= a->until_ns) {
         awake_end(a);
     } else if (a->file < 0) {
-        a->file = open(a->path, O_WRONLY | O_CLOEXEC);
-        if (a->file < 0 || write(a->file, &longest_us, sizeof longest_us) < 0) {
+        a->file = latency_open(a->path);
+        if (a->file < 0 || !latency_ask(a->file, true)) {
             awake_end(a);
             a->path = NULL; /* no longer allowed */
         }

@@ -4,7 +4,6 @@
  * nobody waits long for its end: who is last to let go of the memory frees it. */
 #include "base/awake.h"
 
-#include <fcntl.h>
 #include <limits.h>
 #include <pthread.h>
 #include <sched.h>
@@ -24,6 +23,7 @@
 #endif
 
 #include "base/clock.h"
+#include "latency.h"
 
 enum { PROCESSORS_MOST = 16, RESTS = 64, LOOKS_NS = 20000000 };
 
@@ -71,7 +71,7 @@ struct awake *awake_create(const char *path, bool threads)
         return NULL;
     bool few =
         sysconf(_SC_NPROCESSORS_ONLN) <= PROCESSORS_MOST; /* the system's are asked, all */
-    int file = path && few ? open(path, O_WRONLY | O_CLOEXEC) : -1;
+    int file = path && few ? latency_open(path) : -1;
     struct awake *a = file >= 0 || threads ? calloc(1, sizeof *a) : NULL;
     if (!a) {
         if (file >= 0)
@@ -149,13 +149,11 @@ static void *keep(void *of)
     return NULL;
 }
 
-/* How many microseconds a processor may take to wake: the least that any program has asked for counts. */
+/* Where it cannot be asked processors halt, as they would without it. */
 static void ask(struct awake *a, bool held)
 {
-    static const int32_t at_once = 0, any = 2000000000;
     atomic_store(&a->held, held);
-    if (write(a->file, held ? &at_once : &any, sizeof at_once) < 0)
-        return; /* they halt, as they would without it */
+    (void)latency_ask(a->file, held);
 }
 
 /* The only thread where the system is asked: takes the question back when the time is over. */

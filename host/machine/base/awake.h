@@ -2,12 +2,10 @@
  *
  * A thread that sleeps on a processor with nothing else to do is woken by letting the processor go on. In a virtual machine that takes
  * the host's time, too: up to a millisecond. Of two threads that share a kernel of 0.4 ms the other one then does all. There are two
- * remedies while there is work. The better one asks the system (PM QoS): while a program keeps the file /dev/cpu_dma_latency open, with a 0
- * written to it, processors with nothing to do look for work in a loop. Root may open it, and those whom a rule of udev's lets. Where it
- * is not allowed, a thread for each processor can look at the time: of the lowest priority (SCHED_IDLE), which any other thread of any
+ * remedies while there is work. The better one asks the system (latency.h). Where it is not allowed, a thread for each processor can look at the time: of the lowest priority (SCHED_IDLE), which any other thread of any
  * program preempts at once.
  *
- *     struct awake *awake = awake_create (AWAKE_PATH, false);
+ *     struct awake *awake = awake_create (LATENCY_PATH, false);
  *     awake_for (awake, 0.005);                 for 5 ms from now on
  *     awake_destroy (awake); */
 #ifndef LUTETIA_MACHINE_AWAKE_H
@@ -15,13 +13,11 @@
 
 #include <stdbool.h>
 
-#define AWAKE_PATH "/dev/cpu_dma_latency"
-
 struct awake;
 
 /* Whether this computer is another one's program: only there it takes long to wake a processor. */
 bool awake_is_virtual(void);
-/* Asks nothing and starts no thread yet. path: AWAKE_PATH, or NULL if the system is not to be asked; threads: by threads where it cannot be. NULL: neither
+/* Asks nothing and starts no thread yet. path: LATENCY_PATH, or NULL if the system is not to be asked; threads: by threads where it cannot be. NULL: neither
  * can be, there is one processor, or there are more than sixteen; or no memory. */
 struct awake *awake_create(const char *path, bool threads);
 /* From one thread at a time; a child after fork() does nothing. NULL is fine. */

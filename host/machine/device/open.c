@@ -8,6 +8,7 @@
 #include "base/parts.h"
 #include "device/tuning.h"
 #include "devices.h"
+#include "latency.h"
 
 int machine_devices_list(void (*each)(void *context, int index, const char *platform,
                                       const char *device, const char *version,
@@ -97,7 +98,7 @@ static enum machine_status ask(struct machine *m)
     const uint64_t awake = m->settings.awake;
     if (d->is_pocl && d->units > 1 && awake)
         d->awake =
-            awake_create(awake == 1 || awake_is_virtual() ? AWAKE_PATH : NULL, awake == 1);
+            awake_create(awake == 1 || awake_is_virtual() ? LATENCY_PATH : NULL, awake == 1);
     d->memory_bytes = d->is_cpu ? memory / 2 : memory; /* on a CPU the front end uses the
                                                         * same memory */
     d->memory_max_alloc_bytes = max_alloc;
