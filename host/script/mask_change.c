@@ -111,9 +111,27 @@ static int mask_count(lua_State *L, char operation)
     return 1;
 }
 
+/* Text has operators of its own, which call the mask's: the script's line is the first caller's that has one. */
+static int operand_wrong(lua_State *L, char operation, const char *what)
+{
+    enum { DEEPEST = 4 };
+    for (int level = 1; level <= DEEPEST; level++) {
+        luaL_where(L, level);
+        if (*lua_tostring(L, -1))
+            break;
+        lua_pop(L, 1);
+    }
+    lua_pushfstring(L, "%c joins a mask with a mask or a number (got a %s)", operation, what);
+    lua_concat(L, lua_gettop(L) - 2);
+    return lua_error(L);
+}
+
 static int mask_join(lua_State *L, char operation)
 {
     lua_settop(L, 2);
+    for (int i = 1; i <= 2; i++)
+        if (lua_type(L, i) != LUA_TNUMBER && !luaL_testudata(L, i, script_mask_type))
+            return operand_wrong(L, operation, luaL_typename(L, i));
     if (lua_type(L, 1) == LUA_TNUMBER || lua_type(L, 2) == LUA_TNUMBER)
         return mask_count(L, operation);
     const struct script_mask *a = script_mask_grayed(L, 1), *b = script_mask_grayed(L, 2);

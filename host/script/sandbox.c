@@ -93,6 +93,8 @@ void script_hook_set(lua_State *L)
 static int set_metatable(lua_State *L)
 {
     lua_settop(L, 2);
+    luaL_checktype(L, 1, LUA_TTABLE); /* here, where the script's line is known */
+    luaL_argexpected(L, lua_isnil(L, 2) || lua_istable(L, 2), 2, "nil or table");
     if (lua_istable(L, 2)) {
         lua_pushliteral(L, "__gc");
         if (lua_rawget(L, 2) != LUA_TNIL)

@@ -194,6 +194,13 @@ static const struct {
     {"p.close(b)", "lutetia paper expected", "", false},
     {"b.dip(p, {water = 1})", "lutetia brush expected", "", false},
     {"m.bounds(q)", "lutetia mask expected", "", false},
+    /* what is wrong is said with its line, also where Lua's own functions are between */
+    {"print((select(2, pcall(function() return 'a' - m end))):match(':%d+: (.*)'))", NULL,
+     "- joins a mask with a mask or a number (got a string)\n", false},
+    {"print((select(2, pcall(function() return m + {} end))):match(':%d+: (.*)'))", NULL,
+     "+ joins a mask with a mask or a number (got a table)\n", false},
+    {"print((select(2, pcall(function() setmetatable({}, 5) end))):match(':%d+: (.*)'))", NULL,
+     "bad argument #2 to 'setmetatable' (nil or table expected, got number)\n", false},
     /* to-be-closed variables close the paper while it is in use, and when it is not */
     {"p:layer('height', function() local x <close> = setmetatable({}, {__close = close}) "
      "return 1 end)",
