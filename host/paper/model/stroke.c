@@ -6,7 +6,7 @@
  *        '-----------'                 where that is above 0, and its force is that over FORCE_FULL, at most 1
  *
  * While a step of the paper lasts the tuft goes some way; each bristle touches the fibers along it at even distances, at most
- * BRUSH_ROWS in one exchange. A place lasts as long as the bristle's thickness takes to pass; contact = 1 - exp (-flow * that).
+ * BRUSH_ROWS in one exchange. Which fibers a place lies over, and which it talks to, says touches.c. A place lasts as long as the bristle's thickness takes to pass; contact = 1 - exp (-flow * that).
  * In the first model places are moved by chance within the bristle's thickness; from the second on they lie evenly in a line as
  * wide. Both follow from the bristle and the number of the place alone. */
 #include "model/brush_internal.h"
