@@ -116,8 +116,8 @@ static void share_make(CM_field_id_t share, CM_field_id_t part, CM_field_id_t he
     CM_f_min_2_1L(share, other, D);
 }
 
-/* held loses what all places of its bristle give. The rows form a ring: after shifts by 8, 4, 2
- * and 1 rows each row has the sum of all. */
+/* held loses what all places of its bristle give. The rows form a ring: after shifts by 16, 8, 4,
+ * 2 and 1 rows each row has the sum of all. */
 static void held_change(CM_field_id_t held, CM_field_id_t give, CM_field_id_t sum,
                         CM_field_id_t other)
 {
