@@ -137,8 +137,9 @@ void explain_json(FILE *out, const struct machine_explained *x)
     rows(out, "vanished", x->vanished, x->vanished_count, NULL, false);
     rows(out, "vanished_because", x->reasons, x->reasons_count, NULL, false);
     rows(out, "evaluated_because", x->evaluations, x->evaluations_count, NULL, false);
-    fprintf(out, ",\n \"plans_built\": %llu, \"plans_improved\": %llu",
-            (unsigned long long)x->plans_built, (unsigned long long)x->plans_improved);
+    fprintf(out, ",\n \"plans_built\": %llu, \"plans_improved\": %llu, \"kernels_gone\": %llu",
+            (unsigned long long)x->plans_built, (unsigned long long)x->plans_improved,
+            (unsigned long long)x->kernels_gone);
     fprintf(out, ",\n \"families\": [");
     for (int i = 0; i < x->families_count; i++) {
         fprintf(out, "%s\n  ", i ? "," : "");

@@ -67,6 +67,9 @@ static void print_cuts(FILE *out, const struct machine_explained *x)
         if (by_why[i])
             fprintf(out, "  %10llu  %s\n", (unsigned long long)by_why[i],
                     explain_why((enum machine_cut)i));
+    if (x->kernels_gone)
+        fprintf(out, "  %10llu  kernels had to leave memory for others\n",
+                (unsigned long long)x->kernels_gone);
     if (split)
         fprintf(out, "  %10llu  kernels are parts of one that had too many arguments\n",
                 (unsigned long long)split);

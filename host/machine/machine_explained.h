@@ -149,6 +149,7 @@ struct machine_explained {
     struct machine_explained_row evaluations[8]; /* reasons of evaluations */
     int evaluations_count;
     uint64_t plans_built, plans_improved;
+    uint64_t kernels_gone; /* compiled kernels that had to leave memory for others */
     const struct machine_explained_family *families; /* of plans that are kept, by runs */
     int families_count;
     struct machine_explained_row

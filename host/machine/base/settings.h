@@ -19,6 +19,9 @@ struct settings {
     uint64_t
         at_once; /* operations of small sets are computed when called: 0 never, 1 where nothing repeats, 2 always */
     uint64_t background; /* better kernels are compiled while others run */
+    uint64_t kernels;    /* in memory at most, in units: device/programs.c */
+    uint64_t
+        kernels_ever; /* after so many started in this process plans are interpreted: device/started.c */
     uint64_t knob[MACHINE_KNOBS];
     double cost_ns[MACHINE_COSTS]; /* measured for this device (device/tuning.c); 0: not */
     uint64_t strips, in_place, scatter, gather, narrow, keeps_nan;

@@ -52,8 +52,8 @@ struct item {
     const char *parts[DEVICE_PARTS];
     uint32_t dimensions, group;
     uint64_t widest;
-    bool compiled;    /* the driver has it */
-    cl_kernel kernel; /* NULL: not loaded yet */
+    bool compiled;                /* the driver has it */
+    struct device_kernel *kernel; /* held; NULL: not loaded yet */
 };
 
 struct background {
@@ -268,6 +268,7 @@ static void item_free(struct item *item)
     free(item->name);
     free(item->arguments);
     free(item->mark);
+    device_kernel_let_go(item->kernel);
 }
 
 void background_drop(struct machine *m)
@@ -327,6 +328,7 @@ int background_want(struct machine *m, const struct background_wish *wish)
         item->kernel = device_kernel(m, wish->parts, wish->options, wish->name);
     else if (m->settings.keep)
         item->mark = mark_of(m, wish);
+    device_kernel_hold(item->kernel);
     item->compiled = item->kernel || (item->mark && cache_mark_is_there(m->device, item->mark));
     return b->count++;
 }
@@ -448,6 +450,7 @@ static bool item_load(struct machine *m, struct background *b, struct item *item
     }
     item->kernel = program ? device_program_take(m, program, parts, item->options, item->name)
                            : device_kernel(m, parts, item->options, item->name);
+    device_kernel_hold(item->kernel);
     m->device->kernels_built_background += m->device->kernels_built - built;
     return item->kernel != NULL;
 }
@@ -477,7 +480,7 @@ enum background_state background_take(struct machine *m)
     return waits ? BACKGROUND_WAITS : BACKGROUND_LOADED;
 }
 
-cl_kernel background_kernel(const struct machine *m, int number)
+struct device_kernel *background_kernel(const struct machine *m, int number)
 {
     return m->plans->background->items[number].kernel;
 }

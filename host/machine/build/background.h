@@ -50,7 +50,7 @@ bool background_begin(struct machine *m);
  * thread (loading.h). */
 enum background_state background_take(struct machine *m);
 /* A kernel of a batch that is loaded. */
-cl_kernel background_kernel(const struct machine *m, int number);
+struct device_kernel *background_kernel(const struct machine *m, int number);
 /* Drops the batch. */
 void background_drop(struct machine *m);
 /* Called before the process ends: no thread is in the driver any more. */

@@ -23,13 +23,13 @@ struct describing {
 void explained_nodes(struct machine *m, struct machine_value *const *nodes,
                      struct machine_value *const *wanted, int wanted_count,
                      explained_where *where);
-struct kernel_note *explained_kernel(struct machine *m, cl_kernel kernel,
+struct kernel_note *explained_kernel(struct machine *m, const struct device_kernel *kernel,
                                      const struct plan_graph *g, const int *stores,
                                      int stores_count, const struct kernel_text *k,
                                      const char *made);
 /* The kernel was NULL and has been built; NULL: it will not be. Returns its note. */
 struct kernel_note *explained_built(struct machine *m, struct kernel_note *note,
-                                    cl_kernel kernel);
+                                    const struct device_kernel *kernel);
 /* How a kernel was made. */
 const char *explained_made(bool quick, bool boxed, bool lifted);
 void explained_split(struct machine *m);

@@ -126,7 +126,7 @@ static void take_arguments(struct machine_explained_kernel *f, const struct plan
     }
 }
 
-struct kernel_note *explained_kernel(struct machine *m, cl_kernel kernel,
+struct kernel_note *explained_kernel(struct machine *m, const struct device_kernel *kernel,
                                      const struct plan_graph *g, const int *stores,
                                      int stores_count, const struct kernel_text *k,
                                      const char *made)
@@ -134,7 +134,8 @@ struct kernel_note *explained_kernel(struct machine *m, cl_kernel kernel,
     struct describing *e = &m->plans->describing;
     int set = g->nodes[stores[0]].set;
     struct kernel_note *n = /* a new kernel has no note yet */
-        sums_note(watch_sums(m), kernel, kernel ? NULL : "", set, m->values->sets[set].count);
+        sums_note(watch_sums(m), kernel ? kernel->id : 0, kernel ? NULL : "", set,
+                  m->values->sets[set].count);
     bool split = e->parts > 0;
     e->parts -= split;
     if (!n || n->facts.generated)
@@ -187,15 +188,15 @@ struct kernel_note *explained_kernel(struct machine *m, cl_kernel kernel,
 }
 
 struct kernel_note *explained_built(struct machine *m, struct kernel_note *note,
-                                    cl_kernel kernel)
+                                    const struct device_kernel *kernel)
 {
     struct kernel_note *known = NULL;
     if (!note)
         return NULL;
     for (struct kernel_note *n = watch_sums(m)->notes; n && kernel && !known; n = n->next)
-        if (n->kernel == kernel && n->facts.vpset == note->facts.vpset &&
+        if (n->kernel == kernel->id && n->facts.vpset == note->facts.vpset &&
             n->facts.processors == note->facts.processors)
             known = n;
-    note->kernel = known ? NULL : kernel;
+    note->kernel = known || !kernel ? 0 : kernel->id;
     return known ? known : note;
 }

@@ -32,7 +32,7 @@ bool plan_is_due_written(const struct machine *m, const struct plan *p)
 bool plan_is_due(struct machine *m, const struct plan *p)
 {
     enum quality quality = plan_quality_after(m, p->worked);
-    if (choice_is_awaited(m))
+    if (choice_is_awaited(m) || !device_takes_kernels(m))
         return false;
     if (p->quality == INTERPRETED)
         return interpreted_is_due(m, p) && !background_busy(m);
@@ -56,7 +56,7 @@ void plan_becomes(struct machine *m, struct plan *p, struct plan *better)
     p->version = old.version + 1;
     p->next = old.next;
     p->family = old.family;
-    if (m->watch && !old.empty)
+    if (m->watch && !old.empty && !old.gone)
         explained_improved(m);
     better->launches = old.launches;
     better->launches_count = old.launches_count;
@@ -95,7 +95,8 @@ void plans_see_to(struct machine *m)
     if (state == BACKGROUND_LOADED) {
         struct plan *better = p->better;
         for (int i = 0; i < better->launches_count; i++)
-            better->launches[i].kernel = background_kernel(m, better->launches[i].number);
+            launch_takes(&better->launches[i],
+                         background_kernel(m, better->launches[i].number));
         plan_notes_settle(m, better);
         better->later = false;
         if (better->lifted && better->family)

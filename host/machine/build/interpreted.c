@@ -36,7 +36,8 @@ static bool on_device(const struct machine *m)
 
 static bool could_be(const struct machine *m, const struct plan_request *q)
 {
-    if (!m->settings.interpret || !plan_use_runs(q->use) ||
+    const bool must = !device_takes_kernels(m);
+    if ((!m->settings.interpret && !must) || !plan_use_runs(q->use) ||
         !(m->device->is_pocl || on_device(m)))
         return false;
     for (int i = 0; i < q->reach->count; i++) {
@@ -44,7 +45,7 @@ static bool could_be(const struct machine *m, const struct plan_request *q)
         if (v->buffer ? !v->buffer->host && !on_device(m) : !is_known(v))
             return false;
     }
-    return m->settings.interpret > 1 ||
+    return m->settings.interpret > 1 || must ||
            (q->use == PLAN_TO_RUN && m->settings.optimise_after && m->settings.box_after);
 }
 
@@ -158,7 +159,8 @@ struct plan *interpreted_make(struct machine *m, const struct plan_request *q)
 {
     double start = watch_clock(m);
     struct plan *p = could_be(m, q) ? plan_interpreted(m, q) : NULL;
-    if (!p || m->settings.interpret > 1 || p->predicted_s < 1e-9 * m->device->shape.text_ns)
+    if (!p || m->settings.interpret > 1 || !device_takes_kernels(m) ||
+        p->predicted_s < 1e-9 * m->device->shape.text_ns)
         return p;
     const bool slow = choice_takes_long(m, q) && p->predicted_s <= compile_time(m, p);
     struct plan *better = slow ? NULL : interpreted_at_hand(m, q);

@@ -15,20 +15,52 @@
 
 /* ---- life ---- */
 
-void plan_free(struct machine *m, struct plan *p)
+void launch_takes(struct launch *l, struct device_kernel *kernel)
 {
-    if (!p)
-        return;
+    l->kernel = kernel;
+    device_kernel_hold(kernel);
+}
+
+static void launches_free(struct machine *m, struct plan *p)
+{
     for (int i = 0; i < p->launches_count; i++) {
         if (!p->launches[i].program) /* else they are its */
             free(p->launches[i].arguments);
         byte_code_free(p->launches[i].program);
         device_code_free(m, p->launches[i].code);
+        device_kernel_let_go(p->launches[i].kernel);
         free(p->launches[i].in_place.pairs);
     }
+    free(p->launches);
+    p->launches = NULL;
+    p->launches_count = 0;
+}
+
+/* Kernels that were used before then. */
+static bool has_old(const struct plan *p, uint64_t used_before)
+{
+    bool old = false;
+    for (int i = 0; i < p->launches_count; i++)
+        old |= p->launches[i].kernel && p->launches[i].kernel->used < used_before;
+    return old;
+}
+
+void plan_let_go_of_old(struct machine *m, struct plan *p, uint64_t used_before)
+{
+    if (!has_old(p, used_before))
+        return;
+    launches_free(m, p);
+    p->gone = true;
+    p->version++;
+}
+
+void plan_free(struct machine *m, struct plan *p)
+{
+    if (!p)
+        return;
+    launches_free(m, p);
     choice_free(p->choice);
     plan_free(m, p->better);
-    free(p->launches);
     free(p->stored);
     free(p->arrays);
     free(p->signature);
@@ -241,7 +273,7 @@ static bool plan_build(struct machine *m, struct plan *p, const struct plan_grap
                  !device_kernel_at_hand(m, parts, k->options, "k");
     if (quick)
         strcat(k->options, " -cl-opt-disable");
-    cl_kernel kernel = NULL;
+    struct device_kernel *kernel = NULL;
     if (p->later || quick)
         number = kernel_want(m, set, k, parts, p->later);
     if (!p->later)
@@ -258,8 +290,7 @@ static bool plan_build(struct machine *m, struct plan *p, const struct plan_grap
     const char *made = explained_made(quick, g->boxes && k->has_boxes, lifted);
     struct kernel_note *note =
         m->watch ? explained_kernel(m, kernel, g, stores, stores_count, k, made) : NULL;
-    p->launches[p->launches_count++] = (struct launch){.kernel = kernel,
-                                                       .number = number,
+    p->launches[p->launches_count++] = (struct launch){.number = number,
                                                        .note = note,
                                                        .set = set_id,
                                                        .vector = k->vector,
@@ -272,6 +303,7 @@ static bool plan_build(struct machine *m, struct plan *p, const struct plan_grap
                                                        .in_place = k->in_place,
                                                        .arguments = k->arguments,
                                                        .arguments_count = k->arguments_count};
+    launch_takes(&p->launches[p->launches_count - 1], kernel);
     k->arguments = NULL;
     k->in_place.pairs = NULL;
     return true;

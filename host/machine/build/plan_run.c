@@ -154,28 +154,29 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
             return status;
         }
     }
+    cl_kernel kernel = l->kernel->cl;
     cl_int fixed[5] = {s->width, (cl_int)s->pitch, (cl_int)run, m->values->processors_log2,
                        (cl_int)s->ratio};
     cl_uint at = 0;
     cl_int error = CL_SUCCESS;
     for (int i = 0; i < 5; i++)
-        error |= clSetKernelArg(l->kernel, at++, sizeof(cl_int), &fixed[i]);
+        error |= clSetKernelArg(kernel, at++, sizeof(cl_int), &fixed[i]);
     for (int a = 0; a < s->rank - 1; a++)
-        error |= clSetKernelArg(l->kernel, at++, sizeof(cl_int), &s->dimensions[a]);
+        error |= clSetKernelArg(kernel, at++, sizeof(cl_int), &s->dimensions[a]);
     if (l->strip_bytes)
-        error |= clSetKernelArg(l->kernel, at++, sizeof(cl_int), &l->strip_columns);
+        error |= clSetKernelArg(kernel, at++, sizeof(cl_int), &l->strip_columns);
     for (int i = 0; i < l->arguments_count; i++, at++) {
         const struct kernel_argument *a = &l->arguments[i];
         if (a->kind == ARGUMENT_SCRATCH)
-            error |= clSetKernelArg(l->kernel, at, sizeof(cl_mem), &scratch->mem);
+            error |= clSetKernelArg(kernel, at, sizeof(cl_mem), &scratch->mem);
         else if (a->kind == ARGUMENT_BORDERS)
-            error |= clSetKernelArg(l->kernel, at, sizeof(cl_uint), &in_place);
+            error |= clSetKernelArg(kernel, at, sizeof(cl_uint), &in_place);
         else if (a->kind == ARGUMENT_NUMBER)
-            error |= set_number(l->kernel, at, a->number, a->size);
+            error |= set_number(kernel, at, a->number, a->size);
         else if (a->kind == ARGUMENT_INPUT || a->kind == ARGUMENT_OUTPUT)
-            error |= clSetKernelArg(l->kernel, at, sizeof(cl_mem), &buffers[a->node]->mem);
+            error |= clSetKernelArg(kernel, at, sizeof(cl_mem), &buffers[a->node]->mem);
         else
-            error |= set_constant(l->kernel, at, nodes[a->node], a);
+            error |= set_constant(kernel, at, nodes[a->node], a);
     }
     if (m->watch)
         watch_launch(m, l->note);

@@ -20,9 +20,14 @@ static uint64_t units_of(const struct plan *p)
     return 1 + p->signature_length / UNIT_WORDS;
 }
 
+static bool too_many(const struct plans *p)
+{
+    return p->units > PLANS_MOST && p->age - p->begun > PLANS_MOST / 2;
+}
+
 bool plans_are_many(const struct machine *m)
 {
-    return m->plans->units > PLANS_MOST && m->plans->age - m->plans->begun > PLANS_MOST / 2;
+    return too_many(m->plans) || device_kernels_are_many(m);
 }
 
 /* All that were used last before that. */
@@ -43,13 +48,32 @@ static void forget_before(struct machine *m, uint64_t used)
         }
 }
 
-void plans_forget_oldest(struct machine *m)
+/* Plans whose kernels go are kept: these are on disk when the plan comes back. */
+static void forget_kernels(struct machine *m)
+{
+    const uint64_t before = device_kernels_old(m);
+    for (int i = 0; i < m->plans->table_size; i++)
+        for (struct plan *p = m->plans->table[i]; p; p = p->next)
+            if (p != m->plans->improving && p != m->plans->choosing.plan)
+                plan_let_go_of_old(m, p, before);
+    device_kernels_forget(m, before);
+}
+
+static void forget_plans(struct machine *m)
 {
     m->plans->begun = m->plans->age;
     forget_before(m, m->plans->age - PLANS_MOST / 2);
     if (m->plans->units > PLANS_MOST) /* all are in use */
         forget_before(m, m->plans->age);
     families_sweep(m);
+}
+
+void plans_forget_oldest(struct machine *m)
+{
+    if (too_many(m->plans))
+        forget_plans(m);
+    if (device_kernels_are_many(m))
+        forget_kernels(m);
 }
 
 void plans_finish(struct machine *m)
@@ -170,6 +194,21 @@ static struct plan *plan_rehearse(struct machine *m, struct plan *p,
     return p;
 }
 
+/* Its kernels had gone. A large plan is interpreted until it is known again what it stores. False: error set. */
+static bool plan_comes_back(struct machine *m, struct plan *p, struct plan_request *q)
+{
+    struct plan *made = choice_takes_long(m, q) ? interpreted_make(m, q) : NULL;
+    q->choice = p->choice;
+    q->written = !p->lifted;
+    for (int quality = (int)p->quality; !made && quality >= (int)QUICK; quality--) {
+        machine_error_clear(m);
+        made = plan_make(m, q, (enum quality)quality, false);
+    }
+    if (made)
+        plan_becomes(m, p, made);
+    return made != NULL;
+}
+
 /* Better kernels for a plan that is due. */
 static void plan_better(struct machine *m, struct plan *p, struct plan_request *q)
 {
@@ -211,6 +250,8 @@ struct plan *plan_get(struct machine *m, const struct plan_request *wanted)
     q->family = p ? p->family : family_join(m, q->reach, q->targets);
     if (!plan_use_runs(q->use))
         return plan_rehearse(m, p, q, hash);
+    if (p && p->gone && !plan_comes_back(m, p, q))
+        return NULL;
     if (p && p->empty)
         return plan_fill(m, p, q) ? p : NULL;
     if (p && plan_is_due(m, p))

@@ -20,7 +20,8 @@ enum quality {
 };
 
 struct launch {
-    cl_kernel kernel; /* NULL: it is compiled in the background, or there is a program */
+    struct device_kernel
+        *kernel; /* held; NULL: it is compiled in the background, or there is a program */
     struct byte_code *program; /* what is interpreted; NULL: a kernel */
     struct device_code *code;  /* the same for the device; NULL: the front end performs it */
     int number;                /* for observers; may be NULL */
@@ -72,6 +73,7 @@ struct plan {
     struct plan *better;        /* the plan whose kernels are being compiled, and which replaces
                           * this one */
     bool empty;                 /* without kernels, except those of a better plan */
+    bool gone;                  /* its kernels had to go; they are on disk */
     bool hopeless;              /* of many turns that do not fit one kernel */
     struct plan *next;
 };
@@ -146,7 +148,7 @@ struct plan_request {
 /* Returns the plan: a new or a known one, with better kernels if these are due. NULL: error
  * set; for a plan that is not to run, it may also be impossible. */
 struct plan *plan_get(struct machine *m, const struct plan_request *q);
-/* Whether there are so many that the oldest should go; they go, all but those used lately. Nobody else may know them any more. */
+/* Whether there are so many, or so many kernels, that the oldest should go; they go, all but those used lately. Nobody else may know the plans any more. */
 bool plans_are_many(const struct machine *m);
 void plans_forget_oldest(struct machine *m);
 uint32_t plan_version(struct machine *m, const struct plan *p);
@@ -188,6 +190,8 @@ enum machine_status plan_run(struct machine *m, struct plan *p, struct device_bu
                              struct machine_value *const *nodes, const struct fates *fates);
 void plans_finish(struct machine *m);
 void plan_free(struct machine *m, struct plan *p);
+/* If it has kernels that were used last before then (device_kernel.used), it lets go of all its kernels. */
+void plan_let_go_of_old(struct machine *m, struct plan *p, uint64_t used_before);
 /* Of one whose kernels are compiled in the background, the notes: with those, or without (NULL). */
 void plan_notes_settle(struct machine *m, struct plan *p);
 bool plan_is_one_kernel(const struct plan *p);
@@ -222,9 +226,11 @@ void plan_arrays(const struct machine *m, struct plan *p, const struct plan_grap
                  const int *stores, int count);
 void plan_last_launches(struct plan *p); /* finds which launch is the last to take an array */
 
-/* ---- plan_kernels.c, for interpreted.c ---- */
+/* ---- plan_kernels.c ---- */
 
 bool plan_launches_grow(struct plan *p); /* room for one more; false: no memory */
+/* Of the launch, which had none. */
+void launch_takes(struct launch *l, struct device_kernel *kernel);
 
 /* ---- interpreted.c ---- */
 

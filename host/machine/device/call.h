@@ -17,7 +17,8 @@
 
 /* Work for each work-item on a CPU: columns; physical processors. */
 struct kernel_call {
-    cl_kernel kernel; /* NULL after an error, which the machine's error text explains */
+    struct device_kernel
+        *kernel; /* NULL after an error, which the machine's error text explains */
     cl_uint at;
     cl_int error;
     size_t bytes; /* bytes of the buffers passed so far */
@@ -32,7 +33,7 @@ static inline struct kernel_call call_begin(struct machine *m, const char *text,
 static inline void call_argument(struct kernel_call *c, size_t size, const void *value)
 {
     if (c->kernel)
-        c->error |= clSetKernelArg(c->kernel, c->at++, size, value);
+        c->error |= clSetKernelArg(c->kernel->cl, c->at++, size, value);
 }
 
 static inline void call_int(struct kernel_call *c, int value)

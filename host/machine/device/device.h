@@ -26,8 +26,19 @@ struct device_buffer {
     uint32_t mark, number; /* of the last walk that came by: run/states.c */
 };
 
-struct program_entry;
 struct chunk;
+
+/* A kernel in memory, with its program. It stays while somebody holds it, and else until there are too many: programs.c. */
+struct device_kernel {
+    cl_kernel cl;
+    uint64_t id;   /* a hash of its key: the same when it has gone and comes back */
+    uint64_t used; /* kernels started by then, when it was last asked for or started */
+    uint32_t units, holders;
+    bool started; /* it has been, once */
+    char *key;    /* cache_key() */
+    cl_program program;
+    struct device_kernel *next;
+};
 
 struct device {
     cl_platform_id platform;
@@ -44,11 +55,12 @@ struct device {
     uint64_t pool_bytes, held_bytes;
     struct chunk *small, *middle;   /* that arrays are parts of: buffers.c; NULL: none */
     unsigned skew;                  /* where the next buffer begins relative to a page */
-    struct program_entry *programs; /* hash table by text: see programs.c */
+    struct device_kernel **kernels; /* hash table by text: see programs.c */
+    uint64_t kernel_units;          /* of all that are in memory */
+    uint64_t built_then;            /* kernels_built when some last had to go */
+    uint64_t kernels_gone;          /* that had to go for others */
     uint64_t kernels_built, kernels_built_background, kernels_run;
-    double busy_s;        /* time spent waiting for the device */
-    cl_kernel *unstarted; /* built, but never started */
-    int unstarted_count, unstarted_capacity;
+    double busy_s; /* time spent waiting for the device */
     const char *options;
     bool is_pocl;        /* on a CPU */
     struct awake *awake; /* NULL: processors may halt between kernels */
@@ -89,14 +101,14 @@ bool device_programs_begin(struct device *d); /* false: no memory */
 
 void device_programs_finish(struct device *d);
 /* Gets the kernel of that name in a program of these parts, from memory, from disk, or by
- * building it. All parts but the last are the same for many programs. Owns: the device.
- * NULL: error set. */
+ * building it. All parts but the last are the same for many programs. It is the device's, and may go where
+ * device_kernels_forget() is called, unless it is held. NULL: error set. */
 enum { DEVICE_PARTS = 8 };
-cl_kernel device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS],
-                        const char *options, const char *name);
+struct device_kernel *device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS],
+                                    const char *options, const char *name);
 /* The same for a hand-written kernel, whose text is complete. */
-cl_kernel device_library_kernel(struct machine *m, const char *text, const char *options,
-                                const char *name);
+struct device_kernel *device_library_kernel(struct machine *m, const char *text,
+                                            const char *options, const char *name);
 /* The build options of a program, and its text for PoCL. Clang takes longer to read PoCL's
  * header of all OpenCL functions than the machine's text. So an include guard skips the
  * header, and functions.cl declares the functions in use. The caller frees the text; NULL:
@@ -106,17 +118,34 @@ void device_options(const struct device *d, const char *options, bool header,
                     char out[DEVICE_OPTIONS_BYTES]);
 char *device_text_without_header(const char *const parts[DEVICE_PARTS]);
 /* Whether the kernel can be started in work-groups of that many items. */
-bool device_takes_group(const struct device *d, cl_kernel kernel, int items);
+bool device_takes_group(const struct device *d, const struct device_kernel *kernel, int items);
 /* The program of such parts, in any thread. NULL: it cannot be built here; device_kernel() says why. */
 cl_program device_program_build(const struct device *d, const char *const parts[DEVICE_PARTS],
                                 const char *options);
 /* The kernel of that name in a program that was built so, which is the device's from now on. NULL: error set. */
-cl_kernel device_program_take(struct machine *m, cl_program program,
-                              const char *const parts[DEVICE_PARTS], const char *options,
-                              const char *name);
+struct device_kernel *device_program_take(struct machine *m, cl_program program,
+                                          const char *const parts[DEVICE_PARTS],
+                                          const char *options, const char *name);
 /* Whether the kernel is in memory or on disk, and need not be built. */
 bool device_kernel_at_hand(struct machine *m, const char *const parts[DEVICE_PARTS],
                            const char *options, const char *name);
+
+/* NULL: nothing happens. As often as it is held it has to be let go of. */
+void device_kernel_hold(struct device_kernel *kernel);
+void device_kernel_let_go(struct device_kernel *kernel);
+/* Whether there are so many that some should go. */
+bool device_kernels_are_many(const struct machine *m);
+/* If those go that were used before then, there is some room: device_kernel.used. */
+uint64_t device_kernels_old(const struct machine *m);
+/* They go, but for those that somebody holds. Nobody else may know them any more. */
+void device_kernels_forget(struct machine *m, uint64_t used_before);
+
+/* ---- started.c ---- */
+
+/* A kernel of that id (device_kernel.id) has been started. */
+void device_started(uint64_t id);
+/* Whether more kernels may be made for plans: the driver has room for them. */
+bool device_takes_kernels(const struct machine *m);
 
 /* ---- queue.c ---- */
 
@@ -124,7 +153,7 @@ bool device_kernel_at_hand(struct machine *m, const char *const parts[DEVICE_PAR
  * arguments. local NULL: the driver decides, except on a CPU, where a group is one item. A
  * kernel's first start waits for its end: the driver may still compile it in a thread, and a
  * program that exits meanwhile would crash. */
-enum machine_status device_launch(struct machine *m, cl_kernel kernel, cl_int error,
+enum machine_status device_launch(struct machine *m, struct device_kernel *kernel, cl_int error,
                                   cl_uint dimensions, const size_t *global, const size_t *local,
                                   const char *what);
 /* Around a call that waits for the device: the time counts as busy. device_wait_begin()
@@ -163,8 +192,5 @@ void device_move(struct machine *m, void *to, const void *from, size_t bytes);
 /* Called after kernels were started. Waits if the front end is `ahead` kernels ahead of the
  * device, because each waiting kernel takes memory. */
 enum machine_status device_pace(struct machine *m, uint64_t ahead);
-/* Remembers a kernel that has never been started. */
-
-void device_unstarted_add(struct device *d, cl_kernel kernel);
 
 #endif

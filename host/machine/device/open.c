@@ -164,7 +164,6 @@ void device_close(struct machine *m)
     device_pool_empty(d);
     free(d->pool);
     device_programs_finish(d);
-    free(d->unstarted);
     if (d->queue)
         clReleaseCommandQueue(d->queue);
     if (d->context)

@@ -10,34 +10,97 @@
 #include "kernels.h"
 #include "watch/watch.h"
 
-enum { PROGRAMS_SIZE = 1024 };
+enum { BUCKETS = 1024 };
 #define KERNEL_ROOM_BYTES 1e6 /* the most disk space that compiling a kernel takes */
 
-struct program_entry {
-    char *key; /* cache_key() */
-    cl_program program;
-    cl_kernel kernel;
-    struct program_entry *next;
-};
+/* Of a kernel's memory, most is its program's as the compiler keeps it: a megabyte with PoCL, and more where the text is long. */
+enum { UNIT_TEXT_BYTES = 1 << 15 };
 
 bool device_programs_begin(struct device *d)
 {
-    d->programs = calloc(PROGRAMS_SIZE, sizeof *d->programs);
-    return d->programs != NULL;
+    d->kernels = calloc(BUCKETS, sizeof(struct device_kernel *));
+    return d->kernels != NULL;
+}
+
+static void kernel_free(struct device_kernel *k)
+{
+    clReleaseKernel(k->cl);
+    clReleaseProgram(k->program);
+    free(k->key);
+    free(k);
 }
 
 void device_programs_finish(struct device *d)
 {
-    if (d->programs)
-        for (int i = 0; i < PROGRAMS_SIZE; i++)
-            for (struct program_entry *p = d->programs[i].next, *next; p; p = next) {
-                next = p->next;
-                clReleaseKernel(p->kernel);
-                clReleaseProgram(p->program);
-                free(p->key);
-                free(p);
+    for (int i = 0; d->kernels && i < BUCKETS; i++)
+        for (struct device_kernel *k = d->kernels[i], *next; k; k = next) {
+            next = k->next;
+            kernel_free(k);
+        }
+    free(d->kernels);
+}
+
+void device_kernel_hold(struct device_kernel *kernel)
+{
+    if (kernel)
+        kernel->holders++;
+}
+
+void device_kernel_let_go(struct device_kernel *kernel)
+{
+    if (kernel)
+        kernel->holders--;
+}
+
+bool device_kernels_are_many(const struct machine *m)
+{
+    const struct device *d = m->device;
+    return d->kernel_units > m->settings.kernels && d->kernels_built != d->built_then;
+}
+
+static int last_used_first(const void *a, const void *b)
+{
+    const struct device_kernel *const *x = a, *const *y = b;
+    return (*x)->used < (*y)->used ? 1 : (*x)->used > (*y)->used ? -1 : 0;
+}
+
+uint64_t device_kernels_old(const struct machine *m)
+{
+    const struct device *d = m->device;
+    const uint64_t room = m->settings.kernels - m->settings.kernels / 4;
+    struct device_kernel **all =
+        calloc((size_t)d->kernel_units + 1, sizeof(struct device_kernel *));
+    size_t count = 0, i = 0;
+    uint64_t units = 0;
+    for (int bucket = 0; all && bucket < BUCKETS; bucket++)
+        for (struct device_kernel *k = d->kernels[bucket]; k; k = k->next)
+            all[count++] = k;
+    if (count)
+        qsort(all, count, sizeof *all, last_used_first);
+    while (i < count && units + all[i]->units <= room)
+        units += all[i++]->units;
+    const uint64_t old = i < count ? all[i]->used + 1 : 0;
+    free(all);
+    return old;
+}
+
+void device_kernels_forget(struct machine *m, uint64_t used_before)
+{
+    struct device *d = m->device;
+    if (device_settle(m))
+        return;
+    d->built_then = d->kernels_built;
+    for (int i = 0; i < BUCKETS; i++)
+        for (struct device_kernel **at = &d->kernels[i], *k; (k = *at);) {
+            if (k->holders || k->used >= used_before) {
+                at = &k->next;
+                continue;
             }
-    free(d->programs);
+            *at = k->next;
+            d->kernel_units -= k->units;
+            d->kernels_gone++;
+            kernel_free(k);
+        }
 }
 
 char *device_text_without_header(const char *const parts[DEVICE_PARTS])
@@ -158,23 +221,25 @@ built:
     return program;
 }
 
-static struct program_entry *program_bucket(struct device *d, const char *key)
+static struct device_kernel **kernel_bucket(struct device *d, uint64_t id)
 {
-    return &d->programs[cache_hash(CACHE_HASH_BEGIN, key) % PROGRAMS_SIZE];
+    return &d->kernels[id % BUCKETS];
 }
 
-static cl_kernel program_find(struct device *d, const char *key)
+static struct device_kernel *kernel_find(struct device *d, const char *key)
 {
-    for (struct program_entry *p = program_bucket(d, key)->next; p; p = p->next)
-        if (!strcmp(p->key, key))
-            return p->kernel;
-    return NULL;
+    struct device_kernel *k = *kernel_bucket(d, cache_hash(CACHE_HASH_BEGIN, key));
+    while (k && strcmp(k->key, key) != 0)
+        k = k->next;
+    if (k)
+        k->used = d->kernels_run;
+    return k;
 }
 
-bool device_takes_group(const struct device *d, cl_kernel kernel, int items)
+bool device_takes_group(const struct device *d, const struct device_kernel *kernel, int items)
 {
     size_t most = 0;
-    return !clGetKernelWorkGroupInfo(kernel, d->id, CL_KERNEL_WORK_GROUP_SIZE, sizeof most,
+    return !clGetKernelWorkGroupInfo(kernel->cl, d->id, CL_KERNEL_WORK_GROUP_SIZE, sizeof most,
                                      &most, NULL) &&
            (size_t)items <= most;
 }
@@ -183,30 +248,38 @@ bool device_kernel_at_hand(struct machine *m, const char *const parts[DEVICE_PAR
                            const char *options, const char *name)
 {
     char *key = cache_key(m->device, parts, options, name);
-    bool found = key && (program_find(m->device, key) ||
+    bool found = key && (kernel_find(m->device, key) ||
                          (m->device->keeps_programs && cache_program_is_there(m->device, key)));
     free(key);
     return found;
 }
 
 /* Keeps the program and its kernel under the key; both arguments are the table's from now on. NULL: error set. */
-static cl_kernel program_keep(struct machine *m, cl_program program, char *key,
-                              const char *name)
+static struct device_kernel *program_keep(struct machine *m, cl_program program, char *key,
+                                          const char *name)
 {
     struct device *d = m->device;
-    struct program_entry *entry = calloc(1, sizeof *entry), *bucket = program_bucket(d, key);
+    struct device_kernel *k = calloc(1, sizeof *k);
     cl_int error = CL_OUT_OF_HOST_MEMORY;
-    cl_kernel kernel = entry ? clCreateKernel(program, name, &error) : NULL;
+    cl_kernel kernel = k ? clCreateKernel(program, name, &error) : NULL;
     if (!error) {
-        *entry = (struct program_entry){key, program, kernel, bucket->next};
-        bucket->next = entry;
+        const uint64_t id = cache_hash(CACHE_HASH_BEGIN, key);
+        struct device_kernel **bucket = kernel_bucket(d, id);
+        *k = (struct device_kernel){.cl = kernel,
+                                    .id = id,
+                                    .used = d->kernels_run,
+                                    .units = 1 + (uint32_t)(strlen(key) / UNIT_TEXT_BYTES),
+                                    .key = key,
+                                    .program = program,
+                                    .next = *bucket};
+        *bucket = k;
+        d->kernel_units += k->units;
         d->kernels_built++;
-        device_unstarted_add(d, kernel);
-        return kernel;
+        return k;
     }
     device_check(m, error, "a kernel cannot be made");
     clReleaseProgram(program);
-    free(entry);
+    free(k);
     free(key);
     return NULL;
 }
@@ -220,11 +293,11 @@ static char *key_of(struct machine *m, const char *const parts[DEVICE_PARTS],
     return key;
 }
 
-cl_kernel device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS],
-                        const char *options, const char *name)
+struct device_kernel *device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS],
+                                    const char *options, const char *name)
 {
     char *key = key_of(m, parts, options, name);
-    cl_kernel kernel = key ? program_find(m->device, key) : NULL;
+    struct device_kernel *kernel = key ? kernel_find(m->device, key) : NULL;
     m->inside++;
     cl_program program = key && !kernel ? build(m, parts, options, key) : NULL;
     if (program)
@@ -241,9 +314,9 @@ cl_program device_program_build(const struct device *d, const char *const parts[
     return d->is_pocl && !full_folder(d) ? build_without_header(d, parts, options) : NULL;
 }
 
-cl_kernel device_program_take(struct machine *m, cl_program program,
-                              const char *const parts[DEVICE_PARTS], const char *options,
-                              const char *name)
+struct device_kernel *device_program_take(struct machine *m, cl_program program,
+                                          const char *const parts[DEVICE_PARTS],
+                                          const char *options, const char *name)
 {
     char *key = key_of(m, parts, options, name);
     if (key)
@@ -252,8 +325,8 @@ cl_kernel device_program_take(struct machine *m, cl_program program,
     return NULL;
 }
 
-cl_kernel device_library_kernel(struct machine *m, const char *text, const char *options,
-                                const char *name)
+struct device_kernel *device_library_kernel(struct machine *m, const char *text,
+                                            const char *options, const char *name)
 {
     const char *parts[DEVICE_PARTS];
     for (int i = 0; i < DEVICE_PARTS - 1; i++)

@@ -213,20 +213,7 @@ enum machine_status device_pace(struct machine *m, uint64_t ahead)
     return device_wait_end(m, error, start, "waiting for the device");
 }
 
-void device_unstarted_add(struct device *d, cl_kernel kernel)
-{
-    if (d->unstarted_count == d->unstarted_capacity) {
-        int capacity = d->unstarted_capacity ? 2 * d->unstarted_capacity : 16;
-        cl_kernel *list = realloc(d->unstarted, (size_t)capacity * sizeof(cl_kernel));
-        if (!list)
-            return;
-        d->unstarted = list;
-        d->unstarted_capacity = capacity;
-    }
-    d->unstarted[d->unstarted_count++] = kernel;
-}
-
-enum machine_status device_launch(struct machine *m, cl_kernel kernel, cl_int error,
+enum machine_status device_launch(struct machine *m, struct device_kernel *kernel, cl_int error,
                                   cl_uint dimensions, const size_t *global, const size_t *local,
                                   const char *what)
 {
@@ -238,22 +225,21 @@ enum machine_status device_launch(struct machine *m, cl_kernel kernel, cl_int er
     d->queued = true;
     awake_for(d->awake, AWAKE_S);
     if (!error)
-        error = clEnqueueNDRangeKernel(d->queue, kernel, dimensions, NULL, global,
+        error = clEnqueueNDRangeKernel(d->queue, kernel->cl, dimensions, NULL, global,
                                        local       ? local
                                        : d->is_cpu ? one
                                                    : NULL,
                                        0, NULL, done);
     if (m->watch)
-        watch_launched(m, error, kernel, what);
-    d->kernels_run++;
-    for (int i = 0; i < d->unstarted_count; i++)
-        if (d->unstarted[i] == kernel) {
-            d->unstarted[i] = d->unstarted[--d->unstarted_count];
-            error = error ? error : clFinish(d->queue);
-            if (m->watch)
-                watch_span(m, WATCH_BUILD_FIRST, start, NULL);
-            break;
-        }
+        watch_launched(m, error, kernel->cl, kernel->id, what);
+    kernel->used = ++d->kernels_run;
+    if (!kernel->started) {
+        kernel->started = true;
+        device_started(kernel->id);
+        error = error ? error : clFinish(d->queue);
+        if (m->watch)
+            watch_span(m, WATCH_BUILD_FIRST, start, NULL);
+    }
     m->inside--;
     return device_check(m, error, what);
 }

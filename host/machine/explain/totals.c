@@ -109,6 +109,7 @@ const struct machine_explained *machine_explain(struct machine *m, bool wish_mea
     f->processors_count = m->values->processors_count;
     f->calls = e->calls;
     f->stores = m->run->stores;
+    f->kernels_gone = m->device->kernels_gone;
     f->plans_built = m->plans->built;
     free(e->families);
     f->families = e->families = families_said(m, &f->families_count);

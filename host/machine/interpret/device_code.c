@@ -16,8 +16,8 @@ enum { STEP_WORDS = 10, ARRAYS_MOST = 48, NUMBERS_MOST = 32, REGISTERS_MOST = 64
 enum operand { OPERAND_NONE, OPERAND_ARRAY, OPERAND_MOVED, OPERAND_REGISTER, OPERAND_NUMBER };
 
 struct device_code {
-    cl_kernel kernel;            /* the device's */
-    struct device_buffer *words; /* in its memory */
+    struct device_kernel *kernel; /* held by device_kernels */
+    struct device_buffer *words;  /* in its memory */
     int steps;
     int arrays[ARRAYS_MOST], numbers[NUMBERS_MOST]; /* nodes */
     int arrays_count, numbers_count;
@@ -95,7 +95,8 @@ static char *kernel_text(bool math)
     return text;
 }
 
-static cl_kernel kernel_get(struct machine *m, struct device_kernels *kernels, bool math)
+static struct device_kernel *kernel_get(struct machine *m, struct device_kernels *kernels,
+                                        bool math)
 {
     if (kernels->of[math].asked)
         return kernels->of[math].kernel;
@@ -109,6 +110,7 @@ static cl_kernel kernel_get(struct machine *m, struct device_kernels *kernels, b
                                   "interpret");
     free(text);
     machine_error_clear(m);
+    device_kernel_hold(kernels->of[math].kernel);
     return kernels->of[math].kernel;
 }
 
@@ -274,7 +276,7 @@ struct device_code *device_code_make(struct machine *m, struct device_kernels *k
     return NULL;
 }
 
-cl_kernel device_code_kernel(const struct device_code *c)
+const struct device_kernel *device_code_kernel(const struct device_code *c)
 {
     return c->kernel;
 }

@@ -10,11 +10,12 @@
 #include "interpret/byte_code.h"
 
 struct device_code;
+struct device_kernel;
 
-/* The kernels, which are the device's. All zero: none has been asked for. */
+/* The kernels, which stay in memory. All zero: none has been asked for. */
 struct device_kernels {
     struct {
-        cl_kernel kernel; /* NULL: it is not built, or cannot be */
+        struct device_kernel *kernel; /* held; NULL: it is not built, or cannot be */
         bool asked;
     } of[2];
 };
@@ -32,7 +33,7 @@ enum machine_status device_code_run(struct machine *m, const struct device_code 
 double device_code_time_s(const struct machine *m, const struct device_code *c,
                           const struct vpset *set);
 /* For those who watch. */
-cl_kernel device_code_kernel(const struct device_code *c);
+const struct device_kernel *device_code_kernel(const struct device_code *c);
 void device_code_free(struct machine *m, struct device_code *c);
 
 #endif

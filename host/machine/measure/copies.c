@@ -33,7 +33,9 @@ void copies_ready(struct machine *m, struct watch_sums *e)
         struct device_buffer *b = device_buffer_get(m, 64);
         snprintf(options, sizeof options, "-DELEMENT=float%d -DSTREAMS=%d",
                  m->device->is_cpu ? 16 : 4, streams);
-        cl_kernel k = b ? device_library_kernel(m, kernel_copy_cl, options, "copy") : NULL;
+        struct device_kernel *kernel =
+            b ? device_library_kernel(m, kernel_copy_cl, options, "copy") : NULL;
+        cl_kernel k = kernel ? kernel->cl : NULL;
         if (k && !clSetKernelArg(k, 0, sizeof count, &count) &&
             !clSetKernelArg(k, 1, sizeof run, &run) &&
             !clSetKernelArg(k, 2, sizeof b->mem, &b->mem) &&
@@ -42,6 +44,7 @@ void copies_ready(struct machine *m, struct watch_sums *e)
                                     m->device->is_cpu ? &one : NULL, 0, NULL, NULL) &&
             !clFinish(m->device->queue))
             e->copies[streams] = k;
+        device_kernel_hold(kernel); /* until the machine ends */
         if (b)
             device_buffer_unref(m, b);
     }

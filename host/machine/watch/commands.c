@@ -60,7 +60,8 @@ static void commanded(struct machine *m, cl_int error, struct kernel_note *note,
     w->commands_count++;
 }
 
-void watch_launched(struct machine *m, cl_int error, cl_kernel kernel, const char *what)
+void watch_launched(struct machine *m, cl_int error, cl_kernel kernel, uint64_t id,
+                    const char *what)
 {
     struct watch *w = m->watch;
     struct kernel_note *note = w->next;
@@ -68,7 +69,7 @@ void watch_launched(struct machine *m, cl_int error, cl_kernel kernel, const cha
         char function[64] = "", name[160];
         clGetKernelInfo(kernel, CL_KERNEL_FUNCTION_NAME, sizeof function - 1, function, NULL);
         snprintf(name, sizeof name, "%s: %s", what, function);
-        note = sums_note(w->explain, kernel, name, 0, 0);
+        note = sums_note(w->explain, id, name, 0, 0);
     }
     commanded(m, error, note, w->next_bytes);
     w->next = NULL;
@@ -77,7 +78,7 @@ void watch_launched(struct machine *m, cl_int error, cl_kernel kernel, const cha
 
 void watch_moves(struct machine *m, cl_int error, const char *what, size_t bytes)
 {
-    commanded(m, error, sums_note(m->watch->explain, NULL, what, 0, 0), bytes);
+    commanded(m, error, sums_note(m->watch->explain, 0, what, 0, 0), bytes);
 }
 
 /* Reports a command that has ended to the trace. */

@@ -55,7 +55,7 @@ void sums_call(struct watch_sums *e, const char *name, int foreseen, double time
     row->time_s += time_s;
 }
 
-struct kernel_note *sums_note(struct watch_sums *e, cl_kernel kernel, const char *name,
+struct kernel_note *sums_note(struct watch_sums *e, uint64_t kernel, const char *name,
                               int vpset, uint64_t processors)
 {
     for (struct kernel_note *n = e->notes; n; n = n->next)

@@ -7,7 +7,7 @@
 
 struct kernel_note {
     struct kernel_note *next;
-    cl_kernel kernel; /* NULL: not of one kernel */
+    uint64_t kernel; /* device_kernel.id; 0: not of one kernel */
     struct machine_explained_kernel facts;
     char *name; /* owned by the note, as are the strings in its list of stores */
 };
@@ -37,7 +37,7 @@ void sums_destroy(struct watch_sums *e);
 void sums_call(struct watch_sums *e, const char *name, int foreseen, double time_s);
 /* Returns the kernel's note, and makes it if there is none: its name, whether hand-written,
  * and its VP set (0: none). */
-struct kernel_note *sums_note(struct watch_sums *e, cl_kernel kernel, const char *name,
+struct kernel_note *sums_note(struct watch_sums *e, uint64_t kernel, const char *name,
                               int vpset, uint64_t processors);
 
 #endif

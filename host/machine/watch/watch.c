@@ -116,7 +116,7 @@ void watch_interpreted(struct machine *m, struct kernel_note *note, double start
 
 void watch_near(struct machine *m, const char *what, double start)
 {
-    watch_interpreted(m, sums_note(m->watch->explain, NULL, what, 0, 0), start);
+    watch_interpreted(m, sums_note(m->watch->explain, 0, what, 0, 0), start);
 }
 
 /* It is no time of the front end's. */

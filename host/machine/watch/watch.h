@@ -107,7 +107,9 @@ void watch_near(struct machine *m, const char *what, double start);
 void watch_arrays(struct machine *m, size_t bytes);
 cl_event *watch_command(struct machine *m, double start); /* 0: now */
 
-void watch_launched(struct machine *m, cl_int error, cl_kernel kernel, const char *what);
+/* id: the kernel's, which stays the same when it goes and comes back. */
+void watch_launched(struct machine *m, cl_int error, cl_kernel kernel, uint64_t id,
+                    const char *what);
 void watch_moves(struct machine *m, cl_int error, const char *what, size_t bytes);
 /* The front end waited; watch_bytes() is called before with the number of bytes transferred. */
 void watch_bytes(struct machine *m, size_t bytes);
