@@ -27,7 +27,7 @@ static int evaluations(int turns, int at_once)
 
 /* How many turns of such a plan are evaluated at once. Unless the number is forced, it is up
  * to a quarter more or fewer than usual, if that takes fewer evaluations for a program that
- * always looks after the same number of turns. */
+ * always looks after the same number of turns; up to a half where the usual number fits between two looks only once. */
 static int turns_at_once(const struct machine *m, const struct edge *e)
 {
     int most = plan_turns(m, e->deed.plan), usual = m->device->shape.turns,
@@ -35,9 +35,10 @@ static int turns_at_once(const struct machine *m, const struct edge *e)
     most = e->turns_most && e->turns_most < most ? e->turns_most : most;
     int turns = most < usual ? most : usual;
     if (m->settings.knob[MACHINE_TURNS] != SETTING_FREE || m->run->looks_alike < LOOKS_SURE ||
-        looks < 2 * usual || turns < usual)
+        looks <= usual || turns < usual)
         return turns;
-    for (int away = 1; away <= usual / 4; away++)
+    const int furthest = looks < 2 * usual ? usual / 2 : usual / 4;
+    for (int away = 1; away <= furthest; away++)
         for (int side = 1; side >= -1; side -= 2) {
             int other = usual + side * away;
             if (other <= most && evaluations(looks, other) < evaluations(looks, turns))
