@@ -50,7 +50,7 @@ static void be_watched(struct machine *m)
     struct device_buffer *scratch = device_buffer_get(m, 64);
     snprintf(title, sizeof title, "%d processors on %s", m->values->processors_count,
              m->device->name);
-    watch_ready(m, m->device->queue, scratch ? scratch->mem : NULL, title);
+    watch_ready(m, m->device->queue, scratch ? device_mem(scratch) : NULL, title);
     if (scratch)
         device_buffer_unref(m, scratch);
     machine_error_clear(m); /* commands without times: later commands must do */

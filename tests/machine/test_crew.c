@@ -178,6 +178,77 @@ static void short_work_is_not_shared_out_after_a_late_part(void **unused)
     crew_destroy(crew);
 }
 
+/* ---- errands ---- */
+
+static atomic_int errands_done, errands_dropped;
+static atomic_bool errands_wait;
+
+static void errand(void *context, bool wanted)
+{
+    atomic_fetch_add((atomic_int *)context, wanted);
+    atomic_fetch_add(&errands_dropped, !wanted);
+    while (wanted && atomic_load(&errands_wait))
+        sched_yield();
+}
+
+static void errands_are_done_beside_jobs(void **unused)
+{
+    (void)unused;
+    struct crew *crew = crew_create(THREADS);
+    int taken = 0;
+    atomic_store(&errands_done, 0);
+    for (int i = 0; i < JOBS; i++) {
+        taken += crew_errand(crew, errand, &errands_done);
+        if (i % 3 == 0)
+            assert_true(job_is_done(crew, i % 20, 50));
+    }
+    assert_true(taken > 0);
+    while (atomic_load(&errands_done) < taken)
+        sched_yield();
+    crew_destroy(crew);
+    assert_int_equal(atomic_load(&errands_done), taken);
+}
+
+/* A thread that is on an errand has no part of a job, and what has not begun when the crew ends is let go of. */
+static void errands_hold_up_nobody(void **unused)
+{
+    (void)unused;
+    struct crew *crew = crew_create(2);
+    int taken = 0;
+    atomic_store(&errands_done, 0);
+    atomic_store(&errands_dropped, 0);
+    atomic_store(&errands_wait, true);
+    assert_true(crew_errand(crew, errand, &errands_done));
+    while (!atomic_load(&errands_done))
+        sched_yield();
+    while (crew_errand(crew, errand, &errands_done))
+        taken++;
+    assert_true(taken > 0);
+    assert_true(job_is_done(crew, 40, 2000));
+    assert_int_equal(atomic_load(&errands_done), 1);
+    atomic_store(&errands_wait, false);
+    crew_destroy(crew);
+    assert_int_equal(atomic_load(&errands_done) + atomic_load(&errands_dropped), 1 + taken);
+}
+
+static void without_threads_there_are_no_errands(void **unused)
+{
+    (void)unused;
+    assert_false(crew_errand(NULL, errand, &errands_done));
+    struct crew *crew = crew_create(2);
+    assert_true(crew_errand(crew, errand, &errands_done));
+    pid_t child = fork();
+    if (!child) {
+        bool none = !crew_errand(crew, errand, &errands_done);
+        crew_destroy(crew);
+        _exit(none ? 0 : 1);
+    }
+    int status = -1;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    crew_destroy(crew);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -188,6 +259,9 @@ int main(void)
         cmocka_unit_test(no_thread_takes_a_signal),
         cmocka_unit_test(short_work_is_not_shared_out),
         cmocka_unit_test(short_work_is_not_shared_out_after_a_late_part),
+        cmocka_unit_test(errands_are_done_beside_jobs),
+        cmocka_unit_test(errands_hold_up_nobody),
+        cmocka_unit_test(without_threads_there_are_no_errands),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,6 +6,8 @@
  * job cannot take a part of a new one. What the job is stays as it is until all its parts are done, and is looked at only with a
  * part in hand.
  *
+ * Errands are in a row of few places, behind the lock; a thread that finds no part takes the first.
+ *
  *     caller     writes the job | ticket = job 7, 0 to 4 | takes 0, 1 .............. waits until none is undone
  *     thread     sleeps         | wakes                  | takes 3, 2 | looks for more | sleeps */
 #include "base/crew.h"
@@ -33,6 +35,13 @@ static const double LOOKS_S = 50e-6; /* how long before a thread sleeps */
 /* A part is late when the caller waits longer than this, and longer than half of what it did itself. */
 static const double LATE_S = 30e-6;
 
+enum { ERRANDS_MOST = 8 };
+
+struct errand {
+    crew_errand_work *work;
+    void *context;
+};
+
 struct worker {
     struct crew *crew;
     pthread_t thread;
@@ -44,6 +53,8 @@ struct crew {
     pthread_cond_t work;
     _Atomic uint64_t ticket; /* job << 32 | first << 16 | end, of the parts left to take */
     _Atomic int undone, sleeping;
+    _Atomic int errands_count;
+    struct errand errands[ERRANDS_MOST]; /* behind the lock */
     _Atomic bool ends;
     crew_part *function;
     void *context;
@@ -92,9 +103,30 @@ static bool part_take(struct crew *c, int worker)
     return false;
 }
 
+/* False: there was none. */
+static bool errand_take(struct crew *c, bool wanted)
+{
+    struct errand e = {0};
+    if (!atomic_load(&c->errands_count))
+        return false;
+    pthread_mutex_lock(&c->lock);
+    const int count = atomic_load(&c->errands_count);
+    if (count) {
+        e = c->errands[0];
+        for (int i = 1; i < count; i++)
+            c->errands[i - 1] = c->errands[i];
+        atomic_store(&c->errands_count, count - 1);
+    }
+    pthread_mutex_unlock(&c->lock);
+    if (e.work)
+        e.work(e.context, wanted);
+    return e.work;
+}
+
 static bool is_wanted(const struct crew *c)
 {
-    return has_parts(atomic_load(&c->ticket)) || atomic_load(&c->ends);
+    return atomic_load(&c->errands_count) || has_parts(atomic_load(&c->ticket)) ||
+           atomic_load(&c->ends);
 }
 
 static bool is_done(const struct crew *c)
@@ -121,7 +153,7 @@ static void *work(void *of)
     struct worker *w = of;
     struct crew *c = w->crew;
     while (!atomic_load(&c->ends)) {
-        if (part_take(c, w->number) || look(c, is_wanted))
+        if (part_take(c, w->number) || errand_take(c, true) || look(c, is_wanted))
             continue;
         pthread_mutex_lock(&c->lock);
         atomic_fetch_add(&c->sleeping, 1);
@@ -206,6 +238,24 @@ void crew_run(struct crew *c, int parts, crew_part *function, void *context)
     was_late(c, clock_s() - done > LATE_S + (done - start) / 2);
 }
 
+bool crew_errand(struct crew *c, crew_errand_work *function, void *context)
+{
+    if (!c || c->owner != getpid())
+        return false;
+    if (c->started < c->size - 1)
+        threads_start(c);
+    pthread_mutex_lock(&c->lock);
+    const int count = atomic_load(&c->errands_count);
+    const bool taken = c->started && count < ERRANDS_MOST;
+    if (taken) {
+        c->errands[count] = (struct errand){function, context};
+        atomic_store(&c->errands_count, count + 1);
+        pthread_cond_signal(&c->work);
+    }
+    pthread_mutex_unlock(&c->lock);
+    return taken;
+}
+
 int crew_parts(struct crew *c, double work, const struct crew_costs *costs)
 {
     if (!c || work < costs->awake)
@@ -235,6 +285,8 @@ void crew_destroy(struct crew *c)
         wake(c);
     for (int i = 0; i < c->started && here; i++)
         pthread_join(c->workers[i].thread, NULL);
+    while (here && errand_take(c, false))
+        continue;
     if (here) {
         pthread_cond_destroy(&c->work);
         pthread_mutex_destroy(&c->lock);

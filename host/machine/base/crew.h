@@ -2,6 +2,7 @@
  *
  *     struct crew *crew = crew_create (2);                 the caller and one thread more
  *     crew_run (crew, 8, add_part, &sum);                  add_part (&sum, 0, worker) to add_part (&sum, 7, worker), in any order
+ *     crew_errand (crew, fetch, &book);                    fetch (&book, true), by the way; nobody waits for it
  *     crew_destroy (crew);
  *
  * Who is free takes the next part, so a thread that the system does not run costs nothing but its share. But one that it stops in the
@@ -11,12 +12,16 @@
 #ifndef LUTETIA_MACHINE_CREW_H
 #define LUTETIA_MACHINE_CREW_H
 
+#include <stdbool.h>
+
 enum { CREW_MOST = 16 };
 
 struct crew;
 
 /* worker: 0 is the caller, below CREW_MOST. */
 typedef void crew_part(void *context, int part, int worker);
+/* wanted: else the crew ends, and only what the context holds is let go of. */
+typedef void crew_errand_work(void *context, bool wanted);
 
 /* For so many threads, the caller among them; none begins before there is work. NULL: no memory, or only one. */
 struct crew *crew_create(int threads);
@@ -29,6 +34,9 @@ struct crew_costs {
 int crew_parts(struct crew *crew, double work, const struct crew_costs *costs);
 /* crew NULL: the caller does all. Returns when all parts are done. One caller at a time. */
 void crew_run(struct crew *crew, int parts, crew_part *function, void *context);
+/* What a thread does by the way, while there is nothing to share out; nobody waits for it. False: there is no thread for it, or enough of
+ * such work already. */
+bool crew_errand(struct crew *crew, crew_errand_work *work, void *context);
 /* How many may be at work. */
 int crew_size(const struct crew *crew);
 void crew_destroy(struct crew *crew);

@@ -168,13 +168,13 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
     for (int i = 0; i < l->arguments_count; i++, at++) {
         const struct kernel_argument *a = &l->arguments[i];
         if (a->kind == ARGUMENT_SCRATCH)
-            error |= clSetKernelArg(kernel, at, sizeof(cl_mem), &scratch->mem);
+            error |= device_argument(kernel, at, scratch);
         else if (a->kind == ARGUMENT_BORDERS)
             error |= clSetKernelArg(kernel, at, sizeof(cl_uint), &in_place);
         else if (a->kind == ARGUMENT_NUMBER)
             error |= set_number(kernel, at, a->number, a->size);
         else if (a->kind == ARGUMENT_INPUT || a->kind == ARGUMENT_OUTPUT)
-            error |= clSetKernelArg(kernel, at, sizeof(cl_mem), &buffers[a->node]->mem);
+            error |= device_argument(kernel, at, buffers[a->node]);
         else
             error |= set_constant(kernel, at, nodes[a->node], a);
     }

@@ -61,7 +61,8 @@ static inline void call_scalar(struct kernel_call *c, struct machine_scalar x)
 
 static inline void call_buffer(struct kernel_call *c, const struct device_buffer *b)
 {
-    call_argument(c, sizeof b->mem, &b->mem);
+    if (c->kernel)
+        c->error |= device_argument(c->kernel->cl, c->at++, b);
     c->bytes += b->bytes;
 }
 

@@ -4,6 +4,7 @@
 
 #include <CL/cl.h>
 
+#include "base/aside.h"
 #include "base/awake.h"
 #include "base/crew.h"
 #include "base/settings.h"
@@ -11,22 +12,28 @@
 
 /* Each buffer has this much unused memory before and after it, because kernels in strips
  * load vectors that partly lie beyond a row's ends. A multiple of any device's alignment. */
-enum { DEVICE_GUARD_BYTES = 4096, LINE_BYTES = 64 };
+enum { DEVICE_GUARD_BYTES = 4096, LINE_BYTES = 64, CHUNKS_AHEAD = 6 };
 
 /* The size of a buffer, and the offset of its first row's first column, in bytes. */
 struct rows {
     size_t bytes, first;
 };
 
+struct chunk;
+
+/* What commands are given. */
+struct device_memory {
+    cl_mem mem;          /* NULL: no command has needed it yet */
+    struct chunk *chunk; /* that it is a part of; NULL: it has memory of its own */
+};
+
 struct device_buffer {
-    cl_mem mem;
+    struct device_memory *memory;
     size_t bytes, first; /* see struct rows */
     void *host;    /* where it is for the front end; NULL: the device has memory of its own */
     uint32_t refs; /* a buffer goes back to the pool at 0; the queue is in order, so at once */
     uint32_t mark, number; /* of the last walk that came by: run/states.c */
 };
-
-struct chunk;
 
 /* A kernel in memory, with its program. It stays while somebody holds it, and else until there are too many: programs.c. */
 struct device_kernel {
@@ -53,7 +60,9 @@ struct device {
     struct device_buffer **pool;
     int pool_count, pool_capacity;
     uint64_t pool_bytes, held_bytes;
-    struct chunk *small, *middle;   /* that arrays are parts of: buffers.c; NULL: none */
+    struct chunk *small, *middle, *next[CHUNKS_AHEAD]; /* that arrays are parts of: chunks.h */
+    int next_count;
+    uint64_t expected_bytes;        /* see device_expect() */
     unsigned skew;                  /* where the next buffer begins relative to a page */
     struct device_kernel **kernels; /* hash table by text: see programs.c */
     uint64_t kernel_units;          /* of all that are in memory */
@@ -65,8 +74,9 @@ struct device {
     bool is_pocl;        /* on a CPU */
     struct awake *awake; /* NULL: processors may halt between kernels */
     struct crew
-        *crew;   /* as many threads as units, for what the front end does; NULL: it is alone */
-    bool queued; /* commands that nobody has waited for may be in the queue */
+        *crew; /* as many threads as units, for what the front end does; NULL: it is alone */
+    struct aside code;      /* fetches the machine's own code */
+    bool queued;            /* commands that nobody has waited for may be in the queue */
     bool keeps_programs;    /* on disk */
     cl_event fence;         /* see device_pace(); NULL: none */
     uint64_t fence_kernels; /* run before it */
@@ -88,12 +98,14 @@ struct device_buffer *device_buffer_get(struct machine *m,
 /* On CPUs the first column begins a cache line. */
 struct device_buffer *device_rows_get(struct machine *m, struct rows rows);
 bool device_rows_fit(const struct device_buffer *b, struct rows rows);
+/* For commands. An array that only the front end looks at needs none. NULL: no memory, and the command that is given it fails. */
+cl_mem device_mem(const struct device_buffer *b);
+cl_int device_argument(cl_kernel kernel, cl_uint at, const struct device_buffer *b);
 void device_buffer_ref(struct device_buffer *b);
 void device_buffer_unref(struct machine *m, struct device_buffer *b);
 void device_pool_empty(struct device *d);
-/* Memory that small arrays are parts of. */
-void device_chunks_begin(struct device *d);
-void device_chunks_finish(struct device *d);
+/* Another array like this one may soon be needed: memory for it is got ready by the way. */
+void device_expect(struct device *d, struct rows rows);
 
 /* ---- programs.c ---- */
 

@@ -4,8 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/code_pages.h"
 #include "base/errors.h"
 #include "base/parts.h"
+#include "device/chunks.h"
 #include "device/tuning.h"
 #include "devices.h"
 #include "latency.h"
@@ -116,6 +118,7 @@ static enum machine_status choose_and_open(struct machine *m,
 {
     struct device *d = m->device;
     enum machine_status status = choose(m, config);
+    code_pages_begin(&d->code);
     status = status ? status : ask(m);
     if (status)
         return status;
@@ -132,7 +135,7 @@ static enum machine_status choose_and_open(struct machine *m,
         d->queue = clCreateCommandQueueWithProperties(d->context, d->id, NULL, &error);
     if (error)
         return device_check(m, error, "a command queue cannot be made");
-    device_chunks_begin(d);
+    chunks_begin(d);
     return device_programs_begin(d)
                ? MACHINE_OK
                : machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for the kernel cache");
@@ -157,6 +160,7 @@ void device_close(struct machine *m)
     struct device *d = m->device;
     if (d->queue)
         clFinish(d->queue);
+    aside_end(&d->code);
     if (d->fence)
         clReleaseEvent(d->fence);
     crew_destroy(d->crew);
@@ -168,7 +172,7 @@ void device_close(struct machine *m)
         clReleaseCommandQueue(d->queue);
     if (d->context)
         clReleaseContext(d->context);
-    device_chunks_finish(d);
+    chunks_finish(d);
 }
 
 const char *machine_device_name(const struct machine *m)

@@ -111,8 +111,8 @@ enum machine_status device_fill(struct machine *m, const struct device_buffer *b
     m->inside++;
     cl_event *done = m->watch ? watch_command(m, 0) : NULL;
     m->device->queued = true;
-    cl_int error = clEnqueueFillBuffer(m->device->queue, b->mem, pattern, pattern_bytes, 0,
-                                       b->bytes, 0, NULL, done);
+    cl_int error = clEnqueueFillBuffer(m->device->queue, device_mem(b), pattern, pattern_bytes,
+                                       0, b->bytes, 0, NULL, done);
     m->inside--;
     if (done)
         watch_moves(m, error, "fill", b->bytes);
@@ -129,8 +129,8 @@ enum machine_status device_copy(struct machine *m, const struct device_buffer *f
     m->inside++;
     cl_event *done = m->watch ? watch_command(m, 0) : NULL;
     m->device->queued = true;
-    cl_int error =
-        clEnqueueCopyBuffer(m->device->queue, from->mem, to->mem, 0, 0, bytes, 0, NULL, done);
+    cl_int error = clEnqueueCopyBuffer(m->device->queue, device_mem(from), device_mem(to), 0, 0,
+                                       bytes, 0, NULL, done);
     m->inside--;
     if (done)
         watch_moves(m, error, "copy", 2 * bytes);
@@ -149,8 +149,8 @@ enum machine_status device_read(struct machine *m, const struct device_buffer *b
         return status;
     }
     double start = device_wait_begin(m);
-    cl_int error =
-        clEnqueueReadBuffer(m->device->queue, b->mem, CL_TRUE, at, bytes, to, 0, NULL, NULL);
+    cl_int error = clEnqueueReadBuffer(m->device->queue, device_mem(b), CL_TRUE, at, bytes, to,
+                                       0, NULL, NULL);
     return device_wait_end(m, error, start, what);
 }
 
@@ -166,8 +166,8 @@ enum machine_status device_write(struct machine *m, const struct device_buffer *
         return status;
     }
     double start = device_wait_begin(m);
-    cl_int error =
-        clEnqueueWriteBuffer(m->device->queue, b->mem, CL_TRUE, at, bytes, from, 0, NULL, NULL);
+    cl_int error = clEnqueueWriteBuffer(m->device->queue, device_mem(b), CL_TRUE, at, bytes,
+                                        from, 0, NULL, NULL);
     return device_wait_end(m, error, start, what);
 }
 

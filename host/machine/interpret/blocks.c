@@ -14,7 +14,7 @@
 #include "interpret/generate.h"
 #include "values/values.h"
 
-enum { LINE = 64 };
+enum { LINE = 64, ROOM_LEAST_BYTES = 32 << 10 };
 
 /* Lanes of a block: from column x of a row on, or whole rows. */
 struct block {
@@ -42,7 +42,10 @@ void blocks_room_free(struct blocks_room *room)
 static bool room_ready(struct blocks_registers *room, const struct byte_code *p)
 {
     if (!room->memory || room->bytes < p->registers_bytes) {
+        /* Twice as much as before, at least: a page that is written for the first time costs more than a step. */
         size_t bytes = p->registers_bytes / 4096 * 4096 + 4096;
+        bytes = bytes < 2 * room->bytes ? 2 * room->bytes : bytes;
+        bytes = bytes < ROOM_LEAST_BYTES ? ROOM_LEAST_BYTES : bytes;
         free(room->memory);
         room->memory = aligned_alloc(LINE, bytes);
         room->bytes = room->memory ? bytes : 0;

@@ -37,9 +37,8 @@ void copies_ready(struct machine *m, struct watch_sums *e)
             b ? device_library_kernel(m, kernel_copy_cl, options, "copy") : NULL;
         cl_kernel k = kernel ? kernel->cl : NULL;
         if (k && !clSetKernelArg(k, 0, sizeof count, &count) &&
-            !clSetKernelArg(k, 1, sizeof run, &run) &&
-            !clSetKernelArg(k, 2, sizeof b->mem, &b->mem) &&
-            !clSetKernelArg(k, 3, sizeof b->mem, &b->mem) &&
+            !clSetKernelArg(k, 1, sizeof run, &run) && !device_argument(k, 2, b) &&
+            !device_argument(k, 3, b) &&
             !clEnqueueNDRangeKernel(m->device->queue, k, 1, NULL, &one,
                                     m->device->is_cpu ? &one : NULL, 0, NULL, NULL) &&
             !clFinish(m->device->queue))
@@ -111,8 +110,7 @@ static double copy_s(struct machine *m, const cl_kernel *kernels, uint64_t bytes
         cl_uint columns = (cl_uint)run;
         if (!kernel || clSetKernelArg(kernel, 0, sizeof count, &count) ||
             clSetKernelArg(kernel, 1, sizeof columns, &columns) ||
-            clSetKernelArg(kernel, 2, sizeof from->mem, &from->mem) ||
-            clSetKernelArg(kernel, 3, sizeof to->mem, &to->mem))
+            device_argument(kernel, 2, from) || device_argument(kernel, 3, to))
             break;
         double t = copies_s(m, kernel, elements, run);
         best = t > 0 && (best <= 0 || t < best) ? t : best;

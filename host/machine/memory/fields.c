@@ -131,6 +131,9 @@ uint32_t machine_field_allocate(struct machine *m, int vpset, uint32_t bits,
             (size_t)(m->memory->fields_count - at) * sizeof *m->memory->fields);
     m->memory->fields[at] = f;
     m->memory->fields_count++;
+    if (region == MACHINE_HEAP && bits)
+        device_expect(m->device, geometry_rows(&m->values->sets[vpset],
+                                               MACHINE_UINT(bits < 128 ? (int)bits : 128)));
     return base;
 }
 

@@ -80,11 +80,11 @@ enum machine_status machine_field_download(struct machine *m, uint32_t field,
     size_t region[3] = {(size_t)s->width * element, s->rows, 1};
     double start = device_wait_begin(m);
     cl_int error = s->pitch == (size_t)s->width
-                       ? clEnqueueReadBuffer(m->device->queue, v->buffer->mem, CL_TRUE, 0,
-                                             s->count * element, out, 0, NULL, NULL)
-                       : clEnqueueReadBufferRect(m->device->queue, v->buffer->mem, CL_TRUE,
-                                                 from, to, region, s->pitch * element, 0,
-                                                 region[0], 0, out, 0, NULL, NULL);
+                       ? clEnqueueReadBuffer(m->device->queue, device_mem(v->buffer), CL_TRUE,
+                                             0, s->count * element, out, 0, NULL, NULL)
+                       : clEnqueueReadBufferRect(m->device->queue, device_mem(v->buffer),
+                                                 CL_TRUE, from, to, region, s->pitch * element,
+                                                 0, region[0], 0, out, 0, NULL, NULL);
     if (m->watch)
         watch_bytes(m, s->count * element);
     return device_wait_end(m, error, start, "reading a field");
@@ -413,7 +413,7 @@ static enum machine_status reduce_buffer(struct machine *m, const struct vpset *
     double start = device_wait_begin(m);
     enum machine_status status = call_start(&c, m, runs, s->rows, "reducing");
     cl_int error = status ? CL_SUCCESS
-                          : clEnqueueReadBuffer(m->device->queue, b->mem, CL_TRUE, 0,
+                          : clEnqueueReadBuffer(m->device->queue, device_mem(b), CL_TRUE, 0,
                                                 count * element, raw, 0, NULL, NULL);
     if (m->watch)
         watch_bytes(m, count * element);

@@ -471,7 +471,7 @@ enum machine_status machine_addresses_check(struct machine *m,
         status = machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to check addresses");
     if (!status) {
         double start = device_wait_begin(m);
-        cl_int error = clEnqueueReadBuffer(m->device->queue, b->mem, CL_TRUE, 0,
+        cl_int error = clEnqueueReadBuffer(m->device->queue, device_mem(b), CL_TRUE, 0,
                                            count * sizeof *to, to, 0, NULL, NULL);
         status = device_wait_end(m, error, start, "checking addresses");
     }
