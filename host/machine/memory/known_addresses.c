@@ -17,27 +17,37 @@ static bool layouts_equal(const struct machine_layout *a, const struct machine_l
     return true;
 }
 
+/* A state makes nodes of its own for the same array. */
+static bool same_array(const struct machine_value *a, const struct machine_value *b)
+{
+    return a == b || (a->buffer && a->buffer == b->buffer && a->set == b->set &&
+                      a->type.kind == b->type.kind && a->type.width == b->type.width);
+}
+
 struct known_addresses *known_addresses_find(struct machine *m,
                                              const struct machine_value *address, int set)
 {
     struct known_addresses *k = &m->memory->known;
-    return k->address && k->address == address && k->set == set ? k : NULL;
+    return k->address && k->set == set && same_array(k->address, address) ? k : NULL;
 }
 
 bool known_addresses_note(struct machine *m, struct machine_value *address, int set,
                           struct machine_value *index)
 {
     struct known_addresses *k = &m->memory->known;
-    const bool again = k->seen == address && k->seen_set == set;
-    k->seen = address;
+    const bool again = k->seen && k->seen == address->buffer && k->seen_set == set;
+    k->seen = address->buffer;
     k->seen_set = set;
     if (!again || !address->buffer || !index->buffer || !index->buffer->host)
         return false;
     known_addresses_forget(m);
     graph_ref(address);
     graph_ref(index);
-    *k = (struct known_addresses){
-        .seen = address, .seen_set = set, .address = address, .index = index, .set = set};
+    *k = (struct known_addresses){.seen = address->buffer,
+                                  .seen_set = set,
+                                  .address = address,
+                                  .index = index,
+                                  .set = set};
     return true;
 }
 

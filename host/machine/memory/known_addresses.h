@@ -8,7 +8,7 @@
 #include "values/values.h"
 
 struct known_addresses {
-    const void *seen; /* the last send's addresses; not held, only compared */
+    const void *seen; /* the array of the last send's addresses; not held, only compared */
     int seen_set;
     struct machine_value *address, *index; /* held, in memory; NULL: none */
     int set;                               /* that they are addresses of */

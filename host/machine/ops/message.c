@@ -12,6 +12,27 @@
 #include "run/materialise.h"
 #include "values/graph.h"
 
+static bool is_everywhere(const struct machine_value *context)
+{
+    return context->op == NODE_CONSTANT && context->imm.lo;
+}
+
+/* Whether the front end sends to that set by itself, if its arrays are its own. */
+static bool is_near(const struct machine *m, const struct vpset *to)
+{
+    return m->settings.near && (uint64_t)to->rows * to->pitch < UINT32_MAX;
+}
+
+bool message_fills(struct machine *m, const struct machine_value *address, int to_set)
+{
+    const int from_set = m->values->set_current;
+    const struct vpset *to = &m->values->sets[to_set];
+    const struct known_addresses *k = known_addresses_find(m, address, to_set);
+    return k && k->there && k->distinct && m->device->is_pocl && is_near(m, to) &&
+           m->values->sets[from_set].count == to->count &&
+           is_everywhere(m->memory->flags[from_set].of[MACHINE_CONTEXT].value);
+}
+
 bool message_make(struct machine *m, struct message *g, struct machine_value *address,
                   struct machine_value *source, int source_set, struct machine_value *other,
                   int to_set, bool under_context, bool combines)
@@ -25,6 +46,7 @@ bool message_make(struct machine *m, struct message *g, struct machine_value *ad
     g->to_set = to_set;
     const bool is_index = !index_is_address(&m->values->sets[to_set]);
     struct machine_value *const given = address;
+    g->fills = other && !combines && message_fills(m, address, to_set);
     if ((g->known = known_addresses_find(m, address, to_set)))
         address = g->known->index;
     else if (is_index)
@@ -36,19 +58,19 @@ bool message_make(struct machine *m, struct message *g, struct machine_value *ad
                      : NULL;
     struct machine_value *wanted[4];
     int count = 0;
-    struct machine_value *const all[4] = {address, source, other, g->context};
+    struct machine_value *const all[4] = {address, source, g->fills ? NULL : other, g->context};
     for (int i = 0; i < 4; i++)
         if (all[i] && !node_is_leaf(all[i]))
             wanted[count++] = all[i];
     if (count && evaluate_values(m, wanted, count, false))
         return false;
-    g->all = !g->context || (g->context->op == NODE_CONSTANT && g->context->imm.lo);
+    g->all = !g->context || is_everywhere(g->context);
     g->address = materialise(m, g->from_set, address);
     if (g->address && source) /* a number that is sent may do as it is */
         g->source =
             other && source->op == NODE_CONSTANT ? source : materialise(m, source_set, source);
     if (g->address && other)
-        g->old = materialise(m, to_set, other);
+        g->old = g->fills ? other : materialise(m, to_set, other);
     if (!g->address || (source && !g->source) || (other && !g->old))
         return false;
     if (g->all)
@@ -109,6 +131,7 @@ struct near_route message_route(const struct machine *m, const struct message *g
                                .context = g->all ? NULL : g->context->buffer,
                                .address_bytes = type_bytes(g->address->type),
                                .mask = g->mask,
+                               .near_bytes = (size_t)m->device->shape.near_bytes,
                                .lanes = lanes_table(),
                                .crew = m->device->crew,
                                .there = g->known && g->known->there,
@@ -119,7 +142,7 @@ struct near_route message_route(const struct machine *m, const struct message *g
 bool message_near(struct machine *m, const struct vpset *to, const struct device_buffer *b,
                   double *start)
 {
-    return (uint64_t)to->rows * to->pitch < UINT32_MAX && near_begin(m, b, start);
+    return is_near(m, to) && near_begin(m, b, start);
 }
 
 enum machine_status message_send_near(struct machine *m, const struct message *g,
@@ -129,8 +152,8 @@ enum machine_status message_send_near(struct machine *m, const struct message *g
 {
     known_look(m, g);
     const struct near_route r = message_route(m, g, true);
-    const bool fills = r.distinct && g->all && combiner == MACHINE_COMBINE_OVERWRITE &&
-                       g->from->count == g->to->count;
+    const bool fills = g->fills || (combiner == MACHINE_COMBINE_OVERWRITE && r.distinct &&
+                                    g->all && g->from->count == g->to->count);
     struct device_buffer *arrived = notification ? message_array(m, g->to, MACHINE_BIT) : NULL;
     if (notification && !arrived)
         return m->status;

@@ -12,6 +12,8 @@ struct message {
     bool flat; /* see -DFLAT */
     bool over; /* old's array may be written over */
     bool all;  /* the context is 1 everywhere */
+    bool
+        fills; /* each processor gets a message: old is not needed, and need not be in memory */
     uint32_t mask;
     struct known_addresses *known; /* of the addresses; NULL: nothing is */
 };
@@ -21,6 +23,9 @@ struct message {
 bool message_make(struct machine *m, struct message *g, struct machine_value *address,
                   struct machine_value *source, int source_set, struct machine_value *other,
                   int to_set, bool under_context, bool combines);
+/* Whether it is known that a send by these addresses of the current set's, under its present context, leaves nothing of what was there: there is a
+ * message for each processor. */
+bool message_fills(struct machine *m, const struct machine_value *address, int to_set);
 /* A new array for a value of that set. */
 struct device_buffer *message_array(struct machine *m, const struct vpset *s,
                                     struct machine_type type);

@@ -17,6 +17,7 @@ struct near_route {
     int parts;
     bool there;    /* each address is of a processor, also where nobody sends */
     bool distinct; /* ... and no two are of the same */
+    size_t near_bytes; /* of a cache: what is in a larger array is fetched ahead */
     const struct lanes_table *lanes;
 };
 

@@ -53,8 +53,8 @@ static void hops_find(const struct near_route *r, const struct range *to, size_t
 
 /* Blocks of the senders' rows, one after the other. */
 struct block {
-    int n;
-    size_t at; /* of its first element */
+    int n, follow; /* how many more there are in the row */
+    size_t at;     /* of its first element */
 };
 
 static uint64_t blocks_along(const struct near_route *r)
@@ -72,7 +72,9 @@ static struct block block_get(const struct near_route *r, uint64_t i)
     const struct vpset *s = r->from;
     const uint64_t along = blocks_along(r), row = i / along;
     const int x = (int)(i % along) * BLOCK;
-    return (struct block){.n = s->width - x < BLOCK ? s->width - x : BLOCK,
+    const int n = s->width - x < BLOCK ? s->width - x : BLOCK;
+    return (struct block){.n = n,
+                          .follow = s->width - x - n,
                           .at = (size_t)row * s->pitch + (size_t)s->halo + (size_t)x};
 }
 
@@ -214,26 +216,40 @@ static void floats_join(const struct hops *h, int combiner, struct machine_type 
         FLOATS_JOIN(double)
 }
 
+/* The processor looks ahead over some loads only, so destinations are fetched so many messages before. */
+enum { AHEAD = 64 };
+
 #define MOVE_ALL(T)                                                                            \
     {                                                                                          \
         const T *in = (const T *)source + from;                                                \
         T *to = (T *)out + r->to->halo;                                                        \
-        for (int i = 0; i < n; i++)                                                            \
-            to[index[i]] = in[i];                                                              \
+        int i = 0;                                                                             \
+        for (; i < fetched; i++) {                                                             \
+            __builtin_prefetch(to + (index[i + AHEAD] & mask), 1, 3);                          \
+            to[index[i] & mask] = in[i];                                                       \
+        }                                                                                      \
+        for (; i < n; i++)                                                                     \
+            to[index[i] & mask] = in[i];                                                       \
     }
 
 /* All of a block's messages to a set of one row. False: somebody does not send, or to nobody; nothing has been done. */
 static bool messages_move_all(const struct near_route *r, const struct block *b, size_t bytes,
                               const void *source, size_t from, void *out)
 {
-    uint32_t index[BLOCK];
-    const int n = b->n;
+    uint32_t found[BLOCK + AHEAD];
+    const uint32_t *index = found, mask = r->mask;
+    const int n = b->n, known = b->follow < AHEAD ? n + b->follow : n + AHEAD;
     const size_t at = b->at;
     if (r->context || r->to->rows > 1)
         return false;
-    near_addresses(r, at, n, index);
-    if (!r->there && r->lanes->greatest(index, n) >= r->to->count)
+    if (r->there && r->address_bytes == sizeof *index)
+        index = (const uint32_t *)r->address->host + at;
+    else
+        near_addresses(r, at, known, found);
+    if (!r->there && r->lanes->greatest(found, known) >= r->to->count)
         return false;
+    const int fetched =
+        known > AHEAD && r->to->count * bytes > r->near_bytes ? known - AHEAD : 0;
     switch (bytes) {
     case 1:
         MOVE_ALL(uint8_t)

@@ -16,6 +16,7 @@
 #include "ops/gather.h"
 #include "ops/near.h"
 #include "ops/observe.h"
+#include "run/evaluate.h"
 #include "run/materialise.h"
 #include "run/notes.h"
 #include "values/graph.h"
@@ -337,9 +338,23 @@ static struct machine_scalar join_runs(int op, struct machine_type type,
     return sums[0];
 }
 
+/* What was made longer, if the value is that and not in memory; else the value. */
+static struct machine_value *made_longer(struct machine_value *v)
+{
+    const bool is = !v->buffer && v->type.kind != MACHINE_FLOAT && v->type.width <= 64 &&
+                    (v->op == NODE_ZERO_EXTEND || v->op == NODE_SIGN_EXTEND) &&
+                    v->in[0]->type.width < v->type.width;
+    return is ? v->in[0] : v;
+}
+
+static bool is_everywhere(const struct machine_value *context)
+{
+    return !context || (value_is_number(context) && context->imm.lo);
+}
+
 /* On the front end: of numbers in memory that are few, or were only made longer since, in processors that a context in memory
  * says. False: it is not so. */
-static bool reduce_near(struct machine *m, const struct vpset *s, const struct machine_value *v,
+static bool reduce_near(struct machine *m, const struct vpset *s, struct machine_value *v,
                         const struct machine_value *context, const struct reduction_info *info,
                         struct machine_scalar identity, struct machine_scalar *out)
 {
@@ -348,16 +363,11 @@ static bool reduce_near(struct machine *m, const struct vpset *s, const struct m
                          .flip = info->is_signed ? scalar_sign(v->type.width)
                                                  : (struct machine_scalar){0, 0},
                          .identity = identity};
-    const struct machine_value *in = v;
-    bool all = !context || (value_is_number(context) && context->imm.lo);
+    const struct machine_value *in = made_longer(v);
+    bool all = is_everywhere(context);
     if (!m->settings.near)
         return false;
-    if (!v->buffer && !w.is_float && v->type.width <= 64 &&
-        (v->op == NODE_ZERO_EXTEND || v->op == NODE_SIGN_EXTEND) &&
-        v->in[0]->type.width < v->type.width) {
-        w.extends = v->op == NODE_SIGN_EXTEND;
-        in = v->in[0];
-    }
+    w.extends = in != v && v->op == NODE_SIGN_EXTEND;
     if (!in->buffer || (in->type.kind == MACHINE_FLOAT) != w.is_float ||
         (!all && !context->buffer))
         return false;
@@ -433,6 +443,18 @@ static enum machine_status reduce_buffer(struct machine *m, const struct vpset *
     return status;
 }
 
+/* Puts what was made longer into memory as it was before: it takes less room, and a field may hold it. True: it is there, and the front end may be
+ * able to reduce it now. */
+static bool brought_near(struct machine *m, struct machine_value *value,
+                         const struct machine_value *context)
+{
+    struct machine_value *in = made_longer(value);
+    if (in == value || in->buffer || !m->settings.near || !m->device->is_pocl ||
+        !(is_everywhere(context) || context->buffer))
+        return false;
+    return evaluate_values(m, &in, 1, false) == MACHINE_OK && in->buffer;
+}
+
 /* Selected under the context by an evaluation, and then on the device unless that is slower. */
 static enum machine_status
 reduce_far(struct machine *m, const struct vpset *s, struct machine_value *value,
@@ -489,6 +511,8 @@ enum machine_status machine_reduce(struct machine *m, enum machine_reduction op,
     struct machine_scalar identity = identity_of(info, type);
     struct machine_value *context = flags_of(m, s)->of[MACHINE_CONTEXT].value;
     if (!reduce_near(m, s, value, context, info, identity, out) &&
+        !(brought_near(m, value, context) &&
+          reduce_near(m, s, value, context, info, identity, out)) &&
         reduce_far(m, s, value, context, info, identity, out))
         return m->status;
     return reduce_end(info, type, out);

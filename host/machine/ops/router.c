@@ -274,7 +274,9 @@ static struct machine_value *transmit(struct machine *m, struct message *g,
         rows.bytes += shares(m, g->to) * 64 * type_bytes(type); /* thrown away */
         out = device_rows_get(m, rows);
     }
-    if (out && !near && !(g->source = materialise(m, g->from_set, g->source))) {
+    if (out && !near &&
+        (!(g->source = materialise(m, g->from_set, g->source)) ||
+         !(g->old = materialise(m, g->to_set, g->old)))) {
         device_buffer_unref(m, out);
         return NULL;
     }
@@ -358,6 +360,14 @@ enum machine_status machine_send(struct machine *m, uint32_t dest,
     struct machine_value *notification = NULL, *out = NULL;
     if (!old)
         return m->status;
+    if (combiner == MACHINE_COMBINE_OVERWRITE && message_fills(m, send_address, to.vpset)) {
+        /* nobody needs the content any more, so it is not computed */
+        struct machine_value *none =
+            machine_constant(m, source->type, (struct machine_scalar){0, 0});
+        if (!none || machine_field_store(m, dest, none, MACHINE_EVERYWHERE))
+            return m->status;
+        old = none;
+    }
     if (combiner == MACHINE_COMBINE_OVERWRITE && !notify &&
         known_ranks_are(m, send_address, to.vpset))
         out = message_pack(m, source, old);
