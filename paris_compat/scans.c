@@ -290,13 +290,11 @@ static void enumerate(const char *name, CM_field_id_t dest, unsigned int axis, u
     struct machine_scan how = {.op = MACHINE_SCAN_ADD};
     struct machine_type type;
     if (!scan_load(m, axis, direction, inclusion, smode, sbit, &how) ||
-        !paris_type(paris_u(dest, len), "dest", &type))
+        !paris_type(paris_u(dest, len), "dest", &type) ||
+        !paris_check_operand(paris_u(dest, len), "dest"))
         return;
-    struct machine_value *one =
-        machine_constant(m, MACHINE_UINT(32), (struct machine_scalar){1, 0});
-    struct machine_value *v = one ? machine_scan(m, &how, one) : NULL;
-    paris_store(m, paris_u(dest, len), machine_resize(m, v, (int)len, false),
-                MACHINE_WHERE_ACTIVE);
+    if (machine_enumerate(m, &how, dest, (int)len))
+        paris_fail_machine();
 }
 
 void CM_enumerate_1L(CM_field_id_t dest, unsigned int axis, unsigned int len,

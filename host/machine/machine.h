@@ -519,6 +519,10 @@ struct machine_scan {
  * the earlier runs' totals, one after the other from the segment's beginning. */
 struct machine_value *machine_scan(struct machine *m, const struct machine_scan *how,
                                    struct machine_value *value);
+/* dest, so many bits from there on, becomes in each active processor how many active ones there are from the beginning of its segment to itself, along
+ * the axis: as machine_scan() adds a 1 of each, whatever how->op says. */
+enum machine_status machine_enumerate(struct machine *m, const struct machine_scan *how,
+                                      uint32_t dest, int width);
 /* In each processor, the combination of all active ones that differ from it only on the axes
  * of the mask (bit 0: axis 0). The order is that of a scan upward along the greatest axis of
  * the mask, then of its results along the next axis, and so on. COPY is not allowed. */

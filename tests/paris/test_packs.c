@@ -176,6 +176,8 @@ static void step(void)
     case 4:
         for (unsigned int k = 3 + below(6); k; k--) {
             send_by(same, model.same);
+            if (below(4) == 0) /* what the next one writes over is not computed yet */
+                change();
             if (below(6) == 0)
                 context_load();
             if (below(9) == 0)

@@ -99,6 +99,8 @@ struct device_shape shape_of(const struct device *d, const struct settings *s)
     shape.strips_each = said(s, MACHINE_STRIPS_EACH, shape.strips_each);
     shape.turns = said(s, MACHINE_TURNS, shape.turns);
     shape.streams = said(s, MACHINE_STREAMS, shape.streams) != 0;
+    if (s->near > 1)
+        shape.stream_lanes_bytes = 0;
     shape.no_strips = s->strips == 0;
     shape.always_strips = s->strips == 1;
     bool measured = false;

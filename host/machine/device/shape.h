@@ -41,7 +41,8 @@ struct device_shape {
     int arrays_foreseen; /* of more, hardware does not fetch the next rows by itself */
     double
         fetch_bytes; /* of fewer, all arrays together, kernels of rows fetch nothing ahead: they are near */
-    double stream_bytes;   /* of more, all arrays together, storing past the caches pays */
+    double stream_bytes;       /* of more, all arrays together, storing past the caches pays */
+    double stream_lanes_bytes; /* ... for the interpreter */
     double in_place_bytes; /* of more, writing over what is read pays: fewer are near anyway */
     /* Arrays: device/buffers.c. */
     size_t large_page_bytes; /* arrays as large are in pages as large */

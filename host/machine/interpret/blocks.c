@@ -277,6 +277,8 @@ static void part_run(void *of, int part, int worker)
             if (s->parts == 1 && i % s->along == s->along - 1)
                 halos_make(&r, i / s->along, 1);
         }
+    if (r.p->streams)
+        lanes_table()->settle();
 }
 
 bool blocks_run(struct blocks_room *room, struct crew *crew, int parts,

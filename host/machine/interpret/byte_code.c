@@ -21,6 +21,7 @@ struct making {
     int *owner; /* the node whose place it shares; most: itself */
     int *last;  /* of an owner: the last node that takes it */
     bool *needed, *output;
+    bool streams;             /* what is stored goes past the caches */
     int *idle[LANES_CLASSES]; /* registers in use no more: places */
     int idle_count[LANES_CLASSES], idle_capacity[LANES_CLASSES];
 };
@@ -426,15 +427,32 @@ static void find_needed(struct making *k, const int *stores, int count)
     }
 }
 
+static int place_of_array(struct making *k, int node)
+{
+    argument_add(k->p, ARGUMENT_OUTPUT, node);
+    return place_add(k->p, (struct place){.kind = PLACE_ARRAY,
+                                          .bytes = (uint8_t)lanes_bytes(
+                                              lanes_class_of(k->g->nodes[node].type)),
+                                          .node = node});
+}
+
 static int place_of_result(struct making *k, int node)
 {
-    enum lanes_class c = lanes_class_of(k->g->nodes[node].type);
-    if (!k->output[node])
-        return register_get(k, c);
-    argument_add(k->p, ARGUMENT_OUTPUT, node);
-    return place_add(
-        k->p,
-        (struct place){.kind = PLACE_ARRAY, .bytes = (uint8_t)lanes_bytes(c), .node = node});
+    return k->output[node] && !k->streams
+               ? place_of_array(k, node)
+               : register_get(k, lanes_class_of(k->g->nodes[node].type));
+}
+
+/* A block of results from a register to the array, past the caches. */
+static void step_streamed(struct making *k, int node)
+{
+    const struct machine_type type = k->g->nodes[node].type;
+    if (!k->output[node] || !k->streams)
+        return;
+    step_one(k, lanes_find(LANES_STREAM, lanes_bits_of(lanes_class_of(type))), LANES_STREAM,
+             place_of_array(k, node), type, k->place[node], type, 0);
+    if (k->last[node] <= node) /* nobody else takes it */
+        register_put(k, k->place[node]);
 }
 
 static void node_compute(struct making *k, int node)
@@ -448,8 +466,10 @@ static void node_compute(struct making *k, int node)
     if (n->op == NODE_SHIFT) {
         int moved = place_moved(k, node);
         k->place[node] = moved;
-        if (k->output[node])
+        if (k->output[node]) {
             step_copied(k, k->place[node] = place_of_result(k, node), n->type, moved);
+            step_streamed(k, node);
+        }
         return;
     }
     for (int j = 0; j < node_ops[n->op].inputs; j++)
@@ -468,11 +488,12 @@ static void node_compute(struct making *k, int node)
     } else {
         step_operation(k, n, to, in);
     }
+    step_streamed(k, node);
     k->p->ops++;
     k->p->cost += node_cost(n->op, n->type);
     for (int j = 0; j < node_ops[n->op].inputs; j++) {
         int owner = takes(n, j) ? k->owner[n->in[j]] : node;
-        if (owner != node && k->last[owner] == node && !k->output[owner]) {
+        if (owner != node && k->last[owner] == node) {
             k->last[owner] = -1; /* once, if it is two operands */
             register_put(k, k->place[owner]);
         }
@@ -495,14 +516,24 @@ static void arrays_ahead(struct byte_code *p)
         int inputs = s->run ? operands_of(s) : 0;
         for (int k = 0; k < 4; k++) {
             int place = k == 3 ? s->to : s->in[k];
-            if ((k < inputs || k == 3) && p->places[place].kind == PLACE_ARRAY &&
-                !taken[place]) {
+            if (s->op != LANES_STREAM && (k < inputs || k == 3) &&
+                p->places[place].kind == PLACE_ARRAY && !taken[place]) {
                 taken[place] = true;
                 s->ahead |= (uint8_t)(1u << k);
             }
         }
     }
     free(taken);
+}
+
+/* Whether the arrays are so large that nothing of them is in the caches when somebody looks at them next. */
+static bool are_streamed(const struct making *k)
+{
+    double bytes = 0;
+    for (int i = 0; i < k->g->count; i++)
+        if (k->needed[i] && !k->g->nodes[i].constant && (k->output[i] || loads(k, i)))
+            bytes += (double)type_bytes(k->g->nodes[i].type) * (double)k->set->count;
+    return k->shape->streams && bytes > k->shape->stream_lanes_bytes;
 }
 
 void byte_code_free(struct byte_code *p)
@@ -537,6 +568,7 @@ struct byte_code *byte_code_make(const struct device_shape *shape, const struct 
     bool good = p && k.place && k.owner && k.last && k.needed && k.output;
     if (good) {
         find_needed(&k, stores, count);
+        p->streams = k.streams = are_streamed(&k);
         for (int i = 0; i < g->count && !p->failed; i++)
             if (k.needed[i])
                 node_compute(&k, i);

@@ -47,6 +47,7 @@ struct byte_code {
     double lane_s;  /* how long a lane takes, about */
     int lane_bytes; /* of arrays, that it reads and writes */
     bool moves;     /* there is a MOVED */
+    bool streams;   /* it stores past the caches */
     bool failed;    /* no memory */
 };
 

@@ -4,7 +4,7 @@
  * The result of a loop is in no place of its operands. */
 #include "interpret/lanes.h"
 
-#ifdef __AVX512F__
+#ifdef __SSE2__
 #include <immintrin.h>
 #endif
 #include <math.h>
@@ -151,7 +151,45 @@ typedef double f64;
     LOOP(copy, T)                                                                              \
     {                                                                                          \
         memcpy(at[s->to], at[s->in[0]], (size_t)n * sizeof(T));                                \
+    }                                                                                          \
+    LOOP(stream, T)                                                                            \
+    {                                                                                          \
+        stream(at[s->to], at[s->in[0]], (size_t)n * sizeof(T));                                \
     }
+
+/* Whole lines of the caches, at places where lines begin; the rest as ever. */
+static void stream(void *to, const void *from, size_t bytes)
+{
+    size_t i = 0;
+#ifdef __SSE2__
+#if defined __AVX512F__
+    typedef __m512i vector;
+#define STREAM_VECTOR(d, s) _mm512_stream_si512(d, _mm512_loadu_si512(s))
+#elif defined __AVX2__
+    typedef __m256i vector;
+#define STREAM_VECTOR(d, s) _mm256_stream_si256(d, _mm256_loadu_si256(s))
+#else
+    typedef __m128i vector;
+#define STREAM_VECTOR(d, s) _mm_stream_si128(d, _mm_loadu_si128(s))
+#endif
+    vector *d = to;
+    const vector *s = from;
+    const size_t lines = (uintptr_t)to % 64 ? 0 : bytes / 64,
+                 count = lines * 64 / sizeof(vector);
+    for (size_t k = 0; k < count; k++)
+        STREAM_VECTOR(d + k, s + k);
+    i = lines * 64;
+#undef STREAM_VECTOR
+#endif
+    memcpy((char *)to + i, (const char *)from + i, bytes - i);
+}
+
+static void settle(void)
+{
+#ifdef __SSE2__
+    _mm_sfence();
+#endif
+}
 
 #include "interpret/fast_integers.h"
 
@@ -434,9 +472,11 @@ const struct lanes_table TABLE =
     {.pick = pick,
      .greatest = greatest,
      .pack = pack,
+     .ranks = ranks,
      .sum = sum,
      .places = places,
      .scan = SCAN,
+     .settle = settle,
      .of =
          {
              [MACHINE_NOT] = OF_INTEGERS(not ),
@@ -509,6 +549,7 @@ const struct lanes_table TABLE =
              [NODE_OVERFLOW_FDIV] = OF_FLOATS(over_fdiv),
              [NODE_OVERFLOW_RESULT] = OF_FLOATS(over_result),
              [LANES_COPY] = OF_INTEGERS(copy),
+             [LANES_STREAM] = OF_INTEGERS(stream),
              [LANES_FETCH] = OF_INTEGERS(fetch),
              [LANES_JOIN] = OF_INTEGERS(join),
              [LANES_CANONICAL] = OF_FLOATS(canonical),

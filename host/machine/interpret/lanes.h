@@ -47,6 +47,7 @@ size_t lanes_bytes(enum lanes_class c);
 /* Operations of the interpreter beside those of the graph. */
 enum lanes_op {
     LANES_COPY = NODE_OP_COUNT, /* of bits */
+    LANES_STREAM,               /* likewise, past the caches: see lanes_settle */
     LANES_JOIN,                 /* a | b << detail */
     LANES_CANONICAL,            /* NaNs of `to` become the one that operations give */
     LANES_FIT,                  /* `to`, doubles, rounded to the format of type */
@@ -95,6 +96,15 @@ typedef uint32_t lanes_greatest_function(const uint32_t *x, int n);
  * many. */
 typedef size_t lanes_pack_function(const void *from, const uint8_t *context, size_t n,
                                    size_t bytes, void *to, size_t room);
+/* n numbers of 32 bits: what was there, NULL: a number; but where the context holds, `rank` and one more each time, as far as the bits of mask. to may be
+ * old. */
+struct lanes_ranks {
+    const uint8_t *context;
+    const uint32_t *old;
+    uint32_t *to;
+    uint32_t number, mask;
+};
+typedef void lanes_ranks_function(const struct lanes_ranks *r, size_t n, uint32_t rank);
 /* n indices below 2^31 become places in an array of such rows, halos between them. */
 struct lanes_rows {
     uint32_t width, halo, further;
@@ -125,6 +135,9 @@ struct lanes_sum {
 typedef uint64_t lanes_sum_function(const struct lanes_sum *s, const void *numbers,
                                     const uint8_t *context, size_t n);
 
+/* What was written past the caches is there for other threads from here on. */
+typedef void lanes_settle_function(void);
+
 /* The tables of one instruction set. */
 struct lanes_table {
     lanes_function *of[LANES_OP_COUNT][LANES_CLASSES];
@@ -132,9 +145,11 @@ struct lanes_table {
     lanes_pick_function *pick;
     lanes_greatest_function *greatest;
     lanes_pack_function *pack;
+    lanes_ranks_function *ranks;
     lanes_sum_function *sum;
     lanes_places_function *places;
     lanes_scan_function *scan; /* NULL: none by vectors */
+    lanes_settle_function *settle;
 };
 /* The widest that this processor has. */
 const struct lanes_table *lanes_table(void);

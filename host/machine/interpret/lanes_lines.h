@@ -83,6 +83,30 @@ static size_t pack(const void *from, const u8 *context, size_t n, size_t bytes, 
     }
 }
 
+static void ranks(const struct lanes_ranks *r, size_t n, u32 rank)
+{
+    size_t i = 0;
+#ifdef __AVX512F__
+    const __m512i mask = _mm512_set1_epi32((i32)r->mask),
+                  number = _mm512_set1_epi32((i32)r->number),
+                  up = _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
+    for (; i + 16 <= n; i += 16) {
+        const __m128i c = _mm_loadu_si128((const __m128i *)(const void *)(r->context + i));
+        const __mmask16 on = _mm_test_epi8_mask(c, c);
+        const __m512i next = _mm512_and_si512(
+                          _mm512_add_epi32(up, _mm512_set1_epi32((i32)rank)), mask),
+                      old = r->old ? _mm512_loadu_si512(r->old + i) : number;
+        _mm512_storeu_si512(r->to + i, _mm512_mask_expand_epi32(old, on, next));
+        rank += (u32)__builtin_popcount(on);
+    }
+#endif
+    for (; i < n; i++) {
+        const u32 on = r->context[i] != 0, old = r->old ? r->old[i] : r->number;
+        r->to[i] = on ? rank & r->mask : old;
+        rank += on;
+    }
+}
+
 /* An index becomes a place: a row's halos lie between it and the next row. */
 static void places(u32 *place, size_t n, const struct lanes_rows *r)
 {

@@ -40,6 +40,13 @@ static bool is_own_leaf(const struct machine *m, const struct machine_value *v)
            held_once(m, v);
 }
 
+bool gather_is_own(const struct machine *m, const struct field *f, uint32_t offset,
+                   const struct machine_value *v)
+{
+    return v->op == NODE_BUFFER && v->buffer->host && v->buffer->refs == 1 &&
+           v->refs <= gather_borrowed(m, v) + (uint32_t)field_holds(f, offset, v);
+}
+
 /* Nobody else looks at it, so numbers can be put into it. */
 static bool gathers(const struct machine *m, const struct field *f, uint32_t offset,
                     const struct machine_value *v)

@@ -100,10 +100,9 @@ bool message_over(const struct machine *m, const struct message *g, const struct
 {
     const struct machine_value *v = g->old;
     const struct device_buffer *b = v->buffer;
-    return v->op == NODE_BUFFER && b->host && b->refs == 1 && m->settings.near &&
+    return gather_is_own(m, f, offset, v) && m->settings.near &&
            type_equal(v->type, g->source->type) && b != g->address->buffer &&
-           b != g->source->buffer && b != g->context->buffer &&
-           v->refs <= gather_borrowed(m, v) + (uint32_t)field_holds(f, offset, v);
+           b != g->source->buffer && b != g->context->buffer;
 }
 
 /* What is known of the addresses grows with their use: to find out whether they are distinct takes longer than a send. */
@@ -125,18 +124,19 @@ struct near_route message_route(const struct machine *m, const struct message *g
     const bool distinct = g->known && g->known->distinct;
     int parts = device_parts(m, 1e-9 * m->device->shape.send_ns * (double)g->from->count),
         size = crew_size(m->device->crew);
-    return (struct near_route){.from = g->from,
-                               .to = g->to,
-                               .address = g->address->buffer,
-                               .context = g->all ? NULL : g->context->buffer,
-                               .address_bytes = type_bytes(g->address->type),
-                               .mask = g->mask,
-                               .near_bytes = (size_t)m->device->shape.near_bytes,
-                               .lanes = lanes_table(),
-                               .crew = m->device->crew,
-                               .there = g->known && g->known->there,
-                               .distinct = distinct,
-                               .parts = shares && !distinct && parts > size ? size : parts};
+    return (struct near_route){
+        .from = g->from,
+        .to = g->to,
+        .address = g->address->buffer,
+        .context = g->all ? NULL : g->context->buffer,
+        .address_bytes = type_bytes(g->address->type),
+        .mask = g->mask,
+        .near_bytes = m->settings.near > 1 ? 0 : (size_t)m->device->shape.near_bytes,
+        .lanes = lanes_table(),
+        .crew = m->device->crew,
+        .there = g->known && g->known->there,
+        .distinct = distinct,
+        .parts = shares && !distinct && parts > size ? size : parts};
 }
 
 bool message_near(struct machine *m, const struct vpset *to, const struct device_buffer *b,

@@ -14,10 +14,11 @@ enum { PARTS_MOST = 64 };
 
 struct packing {
     const uint8_t *context;
-    const char *from;
+    const char *from; /* NULL: a number */
     char *to;
     size_t bytes, count;
     int parts;
+    uint32_t number, first, mask;  /* of ranks */
     size_t begins[PARTS_MOST + 1]; /* how many are active before each part */
 };
 
@@ -53,6 +54,33 @@ static void part_pack(void *of, int part, int worker)
                         p->begins[part + 1] - begin);
 }
 
+static void part_number(void *of, int part, int worker)
+{
+    const struct packing *p = of;
+    const size_t first = first_of(p, part);
+    const struct lanes_ranks r = {
+        p->context + first, p->from ? (const uint32_t *)(const void *)p->from + first : NULL,
+        (uint32_t *)(void *)p->to + first, p->number, p->mask};
+    (void)worker;
+    lanes_table()->ranks(&r, first_of(p, part + 1) - first,
+                         (uint32_t)p->begins[part] + p->first);
+}
+
+/* Counts what is active in each part, and before it. */
+static void parts_count(struct crew *crew, struct packing *p)
+{
+    p->begins[0] = 0;
+    crew_run(crew, p->parts, part_count, p);
+    for (int i = 0; i < p->parts; i++)
+        p->begins[i + 1] += p->begins[i];
+}
+
+static void row_repeat(char *row, size_t width, size_t halo)
+{
+    memcpy(row - halo, row + width - halo, halo);
+    memcpy(row + width, row, halo);
+}
+
 void near_pack(struct crew *crew, int parts, const struct vpset *s, size_t bytes,
                const struct device_buffer *context, const struct device_buffer *from,
                const struct machine_value *old, struct device_buffer *out)
@@ -64,9 +92,7 @@ void near_pack(struct crew *crew, int parts, const struct vpset *s, size_t bytes
                         .bytes = bytes,
                         .count = width,
                         .parts = parts < PARTS_MOST ? parts : PARTS_MOST};
-    crew_run(crew, p.parts, part_count, &p);
-    for (int i = 0; i < p.parts; i++)
-        p.begins[i + 1] += p.begins[i];
+    parts_count(crew, &p);
     crew_run(crew, p.parts, part_pack, &p);
     const size_t packed = p.begins[p.parts];
     if (old->buffer)
@@ -75,6 +101,24 @@ void near_pack(struct crew *crew, int parts, const struct vpset *s, size_t bytes
     else
         array_fill(p.to + packed * bytes, (const uint64_t[2]){old->imm.lo, old->imm.hi}, bytes,
                    width - packed);
-    memcpy(p.to - halo, p.to + width * bytes - halo, halo);
-    memcpy(p.to + width * bytes, p.to, halo);
+    row_repeat(p.to, width * bytes, halo);
+}
+
+void near_enumerate(struct crew *crew, int parts, const struct vpset *s,
+                    const struct device_buffer *context, const struct machine_value *old,
+                    uint32_t first, uint32_t mask, struct device_buffer *out)
+{
+    const size_t bytes = sizeof(uint32_t), column = (size_t)s->halo, halo = column * bytes;
+    struct packing p = {.context = (const uint8_t *)context->host + column,
+                        .from = old->buffer ? (const char *)old->buffer->host + halo : NULL,
+                        .to = (char *)out->host + halo,
+                        .bytes = bytes,
+                        .count = (size_t)s->width,
+                        .parts = parts < PARTS_MOST ? parts : PARTS_MOST,
+                        .number = (uint32_t)old->imm.lo,
+                        .first = first,
+                        .mask = mask};
+    parts_count(crew, &p);
+    crew_run(crew, p.parts, part_number, &p);
+    row_repeat(p.to, p.count * bytes, halo);
 }
