@@ -15,8 +15,8 @@ struct near_route {
     uint32_t mask;                                 /* the bits of an address that count */
     struct crew *crew;                             /* which does it in so many parts */
     int parts;
-    bool there;    /* each address is of a processor, also where nobody sends */
-    bool distinct; /* ... and no two are of the same */
+    bool there;        /* each address is of a processor, also where nobody sends */
+    bool distinct;     /* ... and no two are of the same */
     size_t near_bytes; /* of a cache: what is in a larger array is fetched ahead */
     const struct lanes_table *lanes;
 };
