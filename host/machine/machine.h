@@ -519,13 +519,11 @@ struct machine_scan {
  * the earlier runs' totals, one after the other from the segment's beginning. */
 struct machine_value *machine_scan(struct machine *m, const struct machine_scan *how,
                                    struct machine_value *value);
-/* dest, so many bits from there on, becomes in each active processor how many active ones there are from the beginning of its segment to itself, along
- * the axis: as machine_scan() adds a 1 of each, whatever how->op says. */
+/* So many bits of dest become, in each active processor, what machine_scan() adds up to of a 1 in each: how->op does not matter. */
 enum machine_status machine_enumerate(struct machine *m, const struct machine_scan *how,
                                       uint32_t dest, int width);
-/* In each processor, the combination of all active ones that differ from it only on the axes
- * of the mask (bit 0: axis 0). The order is that of a scan upward along the greatest axis of
- * the mask, then of its results along the next axis, and so on. COPY is not allowed. */
+/* In each processor, the combination of all active ones that differ from it only on the axes of the mask (bit 0: axis 0). The order is that
+ * of a scan upward along the greatest axis of the mask, then of its results along the next axis, and so on. COPY is not allowed. */
 struct machine_value *machine_spread(struct machine *m, enum machine_scan_op op, uint32_t axes,
                                      struct machine_value *value);
 /* In each processor, the value of the one on its line along the axis with that coordinate, active
