@@ -6,6 +6,7 @@
 #include "base/errors.h"
 #include "build/background.h"
 #include "build/plans.h"
+#include "forks.h"
 #include "measure/copies.h"
 #include "memory/memory.h"
 #include "run/evaluate.h"
@@ -94,6 +95,8 @@ enum machine_status machine_create(const struct machine_config *config, struct m
     if (status)
         return status;
     status = device_open(m, config);
+    if (!status)
+        forks_machine_made(m);
     if (!status && m->watch)
         be_watched(m);
     return status;
@@ -103,6 +106,7 @@ void machine_destroy(struct machine *m)
 {
     if (!m)
         return;
+    forks_machine_gone(m);
     m->run->calls_noted = 0; /* nothing reads the noted calls' results any more */
     m->run->flush_due = false;
     background_finish(m);
@@ -124,7 +128,8 @@ void machine_leave(struct machine *m)
         choosing_stop(m);
         background_leave(m);
     }
-    if (m && m->device->queue && m->inside == 0 && pthread_equal(m->owner, pthread_self())) {
+    if (m && m->device->queue && device_is_ours(m->device) && m->inside == 0 &&
+        pthread_equal(m->owner, pthread_self())) {
         clFinish(m->device->queue);
         watch_leave(m);
     }

@@ -33,6 +33,8 @@
  *
  * Threads. One machine belongs to one thread at a time. With PoCL, a separate process (no
  * child of the program) may compile better kernels meanwhile (LUTETIA_BACKGROUND=0: none).
+ * After fork() in the machine's thread both processes have the machine, the child without
+ * kernels (forks.h).
  */
 #ifndef LUTETIA_MACHINE_H
 #define LUTETIA_MACHINE_H

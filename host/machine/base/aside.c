@@ -36,10 +36,14 @@ bool aside_is_lost(const struct aside *a)
     return a->begun && a->owner != getpid();
 }
 
+void aside_wait(struct aside *a)
+{
+    if (a->begun && !a->joined && !aside_is_lost(a))
+        a->joined = pthread_join(a->thread, NULL) == 0;
+}
+
 void aside_end(struct aside *a)
 {
-    const bool joins = a->begun && !aside_is_lost(a);
-    a->begun = false;
-    if (joins)
-        pthread_join(a->thread, NULL);
+    aside_wait(a);
+    a->begun = a->joined = false;
 }

@@ -19,7 +19,7 @@ typedef void aside_work(void *context);
 
 /* All zero: no work. */
 struct aside {
-    bool begun;
+    bool begun, joined;
     pid_t owner; /* the process that began it */
     pthread_t thread;
     atomic_bool done;
@@ -35,5 +35,7 @@ bool aside_is_done(const struct aside *a);
 bool aside_is_lost(const struct aside *a);
 /* Waits until the work is done, if there is any and it is not lost. */
 void aside_end(struct aside *a);
+/* The same, but the work is still there to be ended. */
+void aside_wait(struct aside *a);
 
 #endif

@@ -19,6 +19,7 @@ struct machine {
     struct plans *plans;
     struct memory *memory;
     struct run *run;
+    struct machine *made_before; /* forks.c; NULL: none */
 };
 
 #endif

@@ -248,7 +248,8 @@ static struct background *background_of(struct machine *m)
 
 bool background_on(struct machine *m)
 {
-    if (!m->settings.background || !m->settings.box_after || m->settings.eager)
+    if (!m->settings.background || !m->settings.box_after || m->settings.eager ||
+        !device_is_ours(m->device))
         return false;
     struct background *b = background_of(m);
     return b && !b->lost && b->owner == getpid();
@@ -483,6 +484,12 @@ enum background_state background_take(struct machine *m)
 struct device_kernel *background_kernel(const struct machine *m, int number)
 {
     return m->plans->background->items[number].kernel;
+}
+
+void background_rest(struct machine *m)
+{
+    if (m->plans->background)
+        loading_wait(&m->plans->background->loading);
 }
 
 void background_leave(struct machine *m)

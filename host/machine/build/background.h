@@ -53,6 +53,8 @@ enum background_state background_take(struct machine *m);
 struct device_kernel *background_kernel(const struct machine *m, int number);
 /* Drops the batch. */
 void background_drop(struct machine *m);
+/* Waits until no thread of the machine's is in the driver. */
+void background_rest(struct machine *m);
 /* Called before the process ends: no thread is in the driver any more. */
 void background_leave(struct machine *m);
 /* Called when the machine is destroyed. */

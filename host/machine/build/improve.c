@@ -139,9 +139,17 @@ void plan_promote(struct machine *m, struct plan *p, const struct plan_request *
     }
 }
 
+bool plan_is_of_parent(const struct machine *m, const struct plan *p)
+{
+    bool kernels = p->empty;
+    for (int i = 0; i < p->launches_count && !kernels; i++)
+        kernels = p->launches[i].kernel || p->launches[i].code;
+    return kernels && !device_is_ours(m->device);
+}
+
 uint32_t plan_version(struct machine *m, const struct plan *p)
 {
-    return plan_is_due(m, p) ? UINT32_MAX : p->version;
+    return plan_is_due(m, p) || plan_is_of_parent(m, p) ? UINT32_MAX : p->version;
 }
 
 bool plan_waits(const struct machine *m, const struct plan *p)

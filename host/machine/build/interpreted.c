@@ -31,7 +31,8 @@ static bool is_known(const struct machine_value *v)
 /* Whether the device performs byte code, not the front end, which cannot look into its memory. */
 static bool on_device(const struct machine *m)
 {
-    return m->settings.interpret == 3 || (!m->device->is_pocl && m->device->has_double);
+    return (m->settings.interpret == 3 && device_is_ours(m->device)) ||
+           (!m->device->is_pocl && m->device->has_double);
 }
 
 static bool could_be(const struct machine *m, const struct plan_request *q)

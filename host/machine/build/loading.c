@@ -47,6 +47,11 @@ bool loading_is_of(const struct loading *l, const char *text, const char *option
     return l->text && !strcmp(l->text, text) && !strcmp(l->options, options);
 }
 
+void loading_wait(struct loading *l)
+{
+    aside_wait(&l->aside);
+}
+
 cl_program loading_take(struct loading *l)
 {
     cl_program program = NULL;

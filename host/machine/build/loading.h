@@ -23,6 +23,8 @@ bool loading_is_on(const struct loading *l);
 bool loading_is_done(const struct loading *l);
 /* Whether it is of such a program. */
 bool loading_is_of(const struct loading *l, const char *text, const char *options);
+/* Waits until it has ended, if there is any. */
+void loading_wait(struct loading *l);
 /* Ends it, waiting where it must. The program is the caller's; NULL: there is none. */
 cl_program loading_take(struct loading *l);
 /* Ends it; nobody wants the program. */

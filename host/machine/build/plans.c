@@ -194,10 +194,13 @@ static struct plan *plan_rehearse(struct machine *m, struct plan *p,
     return p;
 }
 
-/* Its kernels had gone. A large plan is interpreted until it is known again what it stores. False: error set. */
+/* Its kernels had gone, or are the parent's. A large plan is interpreted until it is known again what it stores. False: error set. */
 static bool plan_comes_back(struct machine *m, struct plan *p, struct plan_request *q)
 {
-    struct plan *made = choice_takes_long(m, q) ? interpreted_make(m, q) : NULL;
+    const bool later = choice_takes_long(m, q) || !device_is_ours(m->device);
+    if (m->plans->improving == p)
+        improve_give_up(m);
+    struct plan *made = later ? interpreted_make(m, q) : NULL;
     q->choice = p->choice;
     q->written = !p->lifted;
     for (int quality = (int)p->quality; !made && quality >= (int)QUICK; quality--) {
@@ -250,7 +253,7 @@ struct plan *plan_get(struct machine *m, const struct plan_request *wanted)
     q->family = p ? p->family : family_join(m, q->reach, q->targets);
     if (!plan_use_runs(q->use))
         return plan_rehearse(m, p, q, hash);
-    if (p && p->gone && !plan_comes_back(m, p, q))
+    if (p && (p->gone || plan_is_of_parent(m, p)) && !plan_comes_back(m, p, q))
         return NULL;
     if (p && p->empty)
         return plan_fill(m, p, q) ? p : NULL;

@@ -152,6 +152,8 @@ struct plan *plan_get(struct machine *m, const struct plan_request *q);
 bool plans_are_many(const struct machine *m);
 void plans_forget_oldest(struct machine *m);
 uint32_t plan_version(struct machine *m, const struct plan *p);
+/* Whether it has kernels, or is to get some, in a child after fork(), where none runs. */
+bool plan_is_of_parent(const struct machine *m, const struct plan *p);
 /* Whether its kernels are still being compiled in the background. */
 bool plan_waits(const struct machine *m, const struct plan *p);
 /* Whether its kernels are final, and as many turns take a kernel or more of each VP set for

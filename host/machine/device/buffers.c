@@ -114,7 +114,8 @@ static cl_int own_memory_get(struct machine *m, struct device_buffer *b, struct 
     cl_mem parent = memory_get(d, (struct rows){whole, rows.first}, &host, &error);
     if (error && d->pool_count) {
         m->inside++;
-        clFinish(d->queue);
+        if (device_is_ours(d))
+            clFinish(d->queue);
         m->inside--;
         device_pool_empty(d);
         parent = memory_get(d, (struct rows){whole, rows.first}, &host, &error);

@@ -29,6 +29,18 @@ static const char *error_name(cl_int error)
     return "error";
 }
 
+enum machine_status device_is_not_ours(struct machine *m)
+{
+    return machine_fail(
+        m, MACHINE_DEVICE_FAILED,
+        m->device->queued
+            ? "this is a child of fork(), and the machine was at work in another thread: "
+              "fork in the thread that uses the machine, or exec another program"
+            : "this is a child of fork(), where %s has no threads, and what is wanted needs a "
+              "kernel: fork before the first instruction, or exec another program",
+        m->device->name);
+}
+
 enum machine_status device_check(struct machine *m, cl_int error, const char *what)
 {
     if (error == CL_SUCCESS)

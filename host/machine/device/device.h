@@ -7,6 +7,7 @@
 #include "base/aside.h"
 #include "base/awake.h"
 #include "base/crew.h"
+#include "base/process.h"
 #include "base/settings.h"
 #include "device/shape.h"
 
@@ -48,6 +49,7 @@ struct device_kernel {
 };
 
 struct device {
+    pid_t process; /* that first opened a device, so the driver's threads are there */
     cl_platform_id platform;
     cl_device_id id;
     cl_context context;
@@ -86,7 +88,16 @@ enum machine_status device_open(struct machine *m, const struct machine_config *
 void device_close(struct machine *m);
 struct device_shape shape_of(const struct device *d, const struct settings *s);
 
+/* Whether the driver works here. In a child after fork() the front end does what it can by itself. */
+static inline bool device_is_ours(const struct device *d)
+{
+    return d->process == process_now();
+}
+
 /* ---- check.c ---- */
+
+/* What a child after fork() cannot do. */
+enum machine_status device_is_not_ours(struct machine *m);
 
 enum machine_status device_check(struct machine *m, cl_int error, const char *what);
 

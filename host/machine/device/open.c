@@ -1,5 +1,6 @@
 /* open.c - chooses, opens and closes the device. */
 #include <signal.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -146,6 +147,13 @@ static enum machine_status choose_and_open(struct machine *m,
  * interrupted. */
 enum machine_status device_open(struct machine *m, const struct machine_config *config)
 {
+    static _Atomic pid_t first;
+    pid_t process = 0;
+    if (atomic_compare_exchange_strong(&first, &process, process_now()))
+        process = process_now();
+    m->device->process = process;
+    if (!device_is_ours(m->device) && !m->settings.near)
+        m->settings.near = 1;
     sigset_t interrupt, before;
     sigemptyset(&interrupt);
     sigaddset(&interrupt, SIGINT);
@@ -158,7 +166,8 @@ enum machine_status device_open(struct machine *m, const struct machine_config *
 void device_close(struct machine *m)
 {
     struct device *d = m->device;
-    if (d->queue)
+    const bool ours = device_is_ours(d);
+    if (d->queue && ours)
         clFinish(d->queue);
     aside_end(&d->code);
     if (d->fence)
@@ -168,9 +177,9 @@ void device_close(struct machine *m)
     device_pool_empty(d);
     free(d->pool);
     device_programs_finish(d);
-    if (d->queue)
+    if (d->queue && ours) /* it may wait for threads */
         clReleaseCommandQueue(d->queue);
-    if (d->context)
+    if (d->context && ours)
         clReleaseContext(d->context);
     chunks_finish(d);
 }

@@ -298,6 +298,11 @@ struct device_kernel *device_kernel(struct machine *m, const char *const parts[D
 {
     char *key = key_of(m, parts, options, name);
     struct device_kernel *kernel = key ? kernel_find(m->device, key) : NULL;
+    if (key && !kernel && !device_is_ours(m->device)) {
+        free(key);
+        device_is_not_ours(m);
+        return NULL;
+    }
     m->inside++;
     cl_program program = key && !kernel ? build(m, parts, options, key) : NULL;
     if (program)

@@ -108,6 +108,8 @@ enum machine_status device_fill(struct machine *m, const struct device_buffer *b
         move(m, b->host, pattern, b->bytes, pattern_bytes);
         return MACHINE_OK;
     }
+    if (!device_is_ours(m->device))
+        return device_is_not_ours(m);
     m->inside++;
     cl_event *done = m->watch ? watch_command(m, 0) : NULL;
     m->device->queued = true;
@@ -126,6 +128,8 @@ enum machine_status device_copy(struct machine *m, const struct device_buffer *f
         move(m, to->host, from->host, bytes, 0);
         return MACHINE_OK;
     }
+    if (!device_is_ours(m->device))
+        return device_is_not_ours(m);
     m->inside++;
     cl_event *done = m->watch ? watch_command(m, 0) : NULL;
     m->device->queued = true;
@@ -148,6 +152,8 @@ enum machine_status device_read(struct machine *m, const struct device_buffer *b
             memcpy(to, (const char *)b->host + at, bytes);
         return status;
     }
+    if (!device_is_ours(m->device))
+        return device_is_not_ours(m);
     double start = device_wait_begin(m);
     cl_int error = clEnqueueReadBuffer(m->device->queue, device_mem(b), CL_TRUE, at, bytes, to,
                                        0, NULL, NULL);
@@ -165,6 +171,8 @@ enum machine_status device_write(struct machine *m, const struct device_buffer *
             memcpy((char *)b->host + at, from, bytes);
         return status;
     }
+    if (!device_is_ours(m->device))
+        return device_is_not_ours(m);
     double start = device_wait_begin(m);
     cl_int error = clEnqueueWriteBuffer(m->device->queue, device_mem(b), CL_TRUE, at, bytes,
                                         from, 0, NULL, NULL);
@@ -173,6 +181,8 @@ enum machine_status device_write(struct machine *m, const struct device_buffer *
 
 void device_flush(struct machine *m)
 {
+    if (!device_is_ours(m->device))
+        return;
     m->inside++;
     clFlush(m->device->queue);
     m->inside--;
@@ -183,6 +193,8 @@ enum machine_status device_settle_for(struct machine *m, const char *what)
     struct device *d = m->device;
     if (!d->queued && !m->watch)
         return MACHINE_OK;
+    if (!device_is_ours(d))
+        return device_is_not_ours(m);
     double start = device_wait_begin(m);
     cl_int error = d->queued ? clFinish(d->queue) : CL_SUCCESS;
     d->queued = false;
@@ -198,7 +210,7 @@ enum machine_status device_settle(struct machine *m)
 enum machine_status device_pace(struct machine *m, uint64_t ahead)
 {
     struct device *d = m->device;
-    if (d->kernels_run - d->fence_kernels < ahead)
+    if (d->kernels_run - d->fence_kernels < ahead || !device_is_ours(d))
         return MACHINE_OK;
     cl_event reached = d->fence;
     cl_int error = clEnqueueMarkerWithWaitList(d->queue, 0, NULL, &d->fence);
@@ -219,6 +231,8 @@ enum machine_status device_launch(struct machine *m, struct device_kernel *kerne
 {
     static const size_t one[3] = {1, 1, 1};
     struct device *d = m->device;
+    if (!device_is_ours(d))
+        return device_is_not_ours(m);
     m->inside++;
     double start = watch_clock(m);
     cl_event *done = m->watch ? watch_command(m, start) : NULL;

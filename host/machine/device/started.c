@@ -29,5 +29,6 @@ void device_started(uint64_t id)
 
 bool device_takes_kernels(const struct machine *m)
 {
-    return !m->device->is_pocl || atomic_load(&count) < m->settings.kernels_ever;
+    const bool room = !m->device->is_pocl || atomic_load(&count) < m->settings.kernels_ever;
+    return room && device_is_ours(m->device);
 }
