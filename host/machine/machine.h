@@ -31,10 +31,8 @@
  * Errors. Functions that can fail return a status, or NULL / 0 with machine_status_last() set;
  * the detail is in machine_error(). A failed call changes nothing.
  *
- * Threads. One machine belongs to one thread at a time. With PoCL, a separate process (no
- * child of the program) may compile better kernels meanwhile (LUTETIA_BACKGROUND=0: none).
- * After fork() in the machine's thread both processes have the machine, the child without
- * kernels (forks.h).
+ * Threads. One machine belongs to one thread at a time. With PoCL, a process that is no child of the program may compile better
+ * kernels meanwhile (LUTETIA_BACKGROUND=0: none). After fork() both processes have the machine, the child without kernels (forks.h).
  */
 #ifndef LUTETIA_MACHINE_H
 #define LUTETIA_MACHINE_H
