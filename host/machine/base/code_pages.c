@@ -1,8 +1,12 @@
-/* code_pages.c - see code_pages.h. */
+/* code_pages.c - see code_pages.h.
+ *
+ *     a library     | names | code ... this function ... | constants | tables for exceptions | variables | zeros |
+ *                           '---------- fetched ---------'-----------'                       '-----------'        */
 #include "base/code_pages.h"
 
 #include <link.h>
 #include <sched.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <sys/mman.h>
 
@@ -17,47 +21,76 @@ enum {
 struct search {
     uintptr_t wanted;
     size_t most;
-    struct code_pages found;
+    struct code_range *found;
+    int count;
 };
+
+static void range_add(struct search *s, uintptr_t begin, uintptr_t end)
+{
+    if (s->count < CODE_RANGES_MOST && begin < end)
+        s->found[s->count++] = (struct code_range){
+            (const char *)(begin / PAGE_BYTES * PAGE_BYTES), (const char *)end};
+}
+
+/* Where that part of the object would be. */
+static uintptr_t place(const struct dl_phdr_info *object, const ElfW(Phdr) * part)
+{
+    return object->dlpi_addr + part->p_vaddr;
+}
 
 static int object_look(struct dl_phdr_info *object, size_t bytes, void *of)
 {
     struct search *s = of;
+    uintptr_t exceptions = 0, code = 0;
     (void)bytes;
     for (int i = 0; i < object->dlpi_phnum; i++) {
         const ElfW(Phdr) *p = &object->dlpi_phdr[i];
-        const uintptr_t begin = object->dlpi_addr + p->p_vaddr, end = begin + p->p_memsz;
+        const uintptr_t begin = place(object, p), end = begin + p->p_memsz;
+        if (p->p_type == PT_GNU_EH_FRAME)
+            exceptions = begin;
         if (p->p_type != PT_LOAD || s->wanted < begin || s->wanted >= end)
             continue;
-        const uintptr_t first = s->wanted - begin > s->most ? s->wanted - s->most : begin,
-                        last = end - s->wanted > s->most ? s->wanted + s->most : end;
-        s->found = (struct code_pages){(const char *)(first / PAGE_BYTES * PAGE_BYTES),
-                                       (const char *)last};
-        return 1;
+        code = begin;
+        range_add(s, s->wanted - begin > s->most ? s->wanted - s->most : begin,
+                  end - s->wanted > s->most ? s->wanted + s->most : end);
     }
-    return 0;
+    for (int i = 0; code && i < object->dlpi_phnum; i++) {
+        const ElfW(Phdr) *p = &object->dlpi_phdr[i];
+        const uintptr_t begin = place(object, p), end = begin + p->p_filesz;
+        if (p->p_type == PT_LOAD && begin > code)
+            range_add(s, begin, exceptions > begin && exceptions < end ? exceptions : end);
+    }
+    return code != 0;
 }
 
-struct code_pages code_pages_find(size_t most_on_a_side)
+int code_pages_find(size_t most_on_a_side, struct code_range out[CODE_RANGES_MOST])
 {
-    struct search s = {.wanted = (uintptr_t)code_pages_find, .most = most_on_a_side};
+    struct search s = {
+        .wanted = (uintptr_t)code_pages_find, .most = most_on_a_side, .found = out};
     dl_iterate_phdr(object_look, &s);
-    return s.found;
+    return s.count;
 }
 
 /* A piece at a time, since whoever wants more memory waits meanwhile. */
-static void fetch(void *nothing)
+static void range_fetch(const struct code_range *r)
 {
-    const struct code_pages c = code_pages_find(MOST_ON_A_SIDE);
-    (void)nothing;
-    for (const char *at = c.begin, *next; at < c.end; at = next) {
-        next = c.end - at > PIECE_BYTES ? at + PIECE_BYTES : c.end;
+    for (const char *at = r->begin, *next; at < r->end; at = next) {
+        next = r->end - at > PIECE_BYTES ? at + PIECE_BYTES : r->end;
 #ifdef MADV_POPULATE_READ /* many pages at once; an older system does not know it */
         madvise((void *)(uintptr_t)at, (size_t)(next - at), MADV_POPULATE_READ);
 #endif
         for (const volatile char *line = at; line < next; line += LINE_BYTES)
             (void)*line;
     }
+}
+
+static void fetch(void *nothing)
+{
+    struct code_range ranges[CODE_RANGES_MOST];
+    const int count = code_pages_find(MOST_ON_A_SIDE, ranges);
+    (void)nothing;
+    for (int i = 0; i < count; i++)
+        range_fetch(&ranges[i]);
 }
 
 void code_pages_begin(struct aside *a)

@@ -1,4 +1,4 @@
-/* code_pages.h - the machine's own code, fetched before it runs for the first time.
+/* code_pages.h - the machine's own code and constants, fetched before they are needed for the first time.
  *
  *     struct aside fetching = {0};
  *     code_pages_begin (&fetching);          while the driver makes its context
@@ -14,12 +14,15 @@
 
 #include "base/aside.h"
 
-struct code_pages {
+enum { CODE_RANGES_MOST = 4 };
+
+struct code_range {
     const char *begin, *end;
 };
 
-/* What of the segment with this very function in it is in memory: so much on each side of it, at most. {NULL, NULL}: it cannot be told. */
-struct code_pages code_pages_find(size_t most_on_a_side);
+/* What is in memory of the program or library with this very function in it: its code, so much on each side of the function at most; then
+ * constants and variables, as far as they are in its file. How many there are; 0: it cannot be told. */
+int code_pages_find(size_t most_on_a_side, struct code_range out[CODE_RANGES_MOST]);
 /* Nothing begins where there is one processor. */
 void code_pages_begin(struct aside *a);
 
