@@ -1,7 +1,7 @@
 /* code_pages.c - see code_pages.h.
  *
- *     a library     | names | code ... this function ... | constants | tables for exceptions | variables | zeros |
- *                           '---------- fetched ---------'-----------'                       '-----------'        */
+ *     a library     | names | code ... this function ... | constants | tables for exceptions | constants with addresses | variables
+ *                           '---------- fetched ---------'-----------'                       '--------------------------' */
 #include "base/code_pages.h"
 
 #include <link.h>
@@ -56,8 +56,9 @@ static int object_look(struct dl_phdr_info *object, size_t bytes, void *of)
     }
     for (int i = 0; code && i < object->dlpi_phnum; i++) {
         const ElfW(Phdr) *p = &object->dlpi_phdr[i];
-        const uintptr_t begin = place(object, p), end = begin + p->p_filesz;
-        if (p->p_type == PT_LOAD && begin > code)
+        const uintptr_t begin = place(object, p), end = begin + p->p_memsz;
+        if ((p->p_type == PT_LOAD && begin > code && !(p->p_flags & PF_W)) ||
+            p->p_type == PT_GNU_RELRO)
             range_add(s, begin, exceptions > begin && exceptions < end ? exceptions : end);
     }
     return code != 0;
@@ -71,8 +72,8 @@ int code_pages_find(size_t most_on_a_side, struct code_range out[CODE_RANGES_MOS
     return s.count;
 }
 
-/* A piece at a time, since whoever wants more memory waits meanwhile. */
-static void range_fetch(const struct code_range *r)
+/* A piece at a time, since whoever wants more memory waits meanwhile. Sanitizers are not asked: what lies between two constants is read, too. */
+__attribute__((no_sanitize("address"))) static void range_fetch(const struct code_range *r)
 {
     for (const char *at = r->begin, *next; at < r->end; at = next) {
         next = r->end - at > PIECE_BYTES ? at + PIECE_BYTES : r->end;

@@ -21,7 +21,7 @@ struct code_range {
 };
 
 /* What is in memory of the program or library with this very function in it: its code, so much on each side of the function at most; then
- * constants and variables, as far as they are in its file. How many there are; 0: it cannot be told. */
+ * its constants. How many there are; 0: it cannot be told. */
 int code_pages_find(size_t most_on_a_side, struct code_range out[CODE_RANGES_MOST]);
 /* Nothing begins where there is one processor. */
 void code_pages_begin(struct aside *a);
