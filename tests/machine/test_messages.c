@@ -59,6 +59,64 @@ static void the_greatest_is_found_alike(void **state)
     }
 }
 
+static void addresses_become_indices_alike(void **state)
+{
+    enum { MOST = 300, NOBODY = 900 };
+    static _Alignas(16) unsigned char address[MOST * 16];
+    static uint8_t context[MOST];
+    uint32_t index[MOST];
+    struct tables t = tables_here();
+    (void)state;
+    for (int n = 0; n <= MOST; n += n < 40 ? 1 : 37)
+        for (int k = 0; k < 2 * 5 * t.count; k++) {
+            const int bytes = 1 << k / 2 % 5;
+            const struct machine_type type = MACHINE_UINT(8 * bytes);
+            const struct lanes_aim a = {address, k % 2 ? context : NULL, (size_t)bytes, 0x3ff,
+                                        NOBODY};
+            for (int i = 0; i < n; i++) {
+                support_element_set(address, type, (uint64_t)i,
+                                    support_word(type, (uint64_t)n, (uint64_t)i));
+                context[i] = i * 7 % 3 != 0;
+            }
+            t.of[k / 10]->aim(&a, n, index);
+            for (int i = 0; i < n; i++) {
+                const uint32_t x =
+                    (uint32_t)support_element(address, type, (uint64_t)i) & 0x3ff;
+                assert_int_equal(index[i], x >= NOBODY || (k % 2 && !context[i]) ? NOBODY : x);
+            }
+        }
+}
+
+/* Over the old numbers, over one number, and in place; the ranks go round at the mask. */
+static void ranks_are_put_alike(void **state)
+{
+    enum { MOST = 300, OLD, NUMBER, IN_PLACE, KINDS = 3 };
+    static uint32_t old[MOST], to[MOST];
+    static uint8_t context[MOST];
+    struct tables t = tables_here();
+    (void)state;
+    for (int n = 0; n <= MOST; n += n < 40 ? 1 : 37)
+        for (int k = 0; k < KINDS * t.count; k++) {
+            const int kind = OLD + k % KINDS;
+            uint32_t rank = 0x1fff0;
+            for (int i = 0; i < n; i++) {
+                old[i] = (uint32_t)support_word(MACHINE_UINT(32), (uint64_t)n, (uint64_t)i);
+                context[i] = (uint8_t)(old[i] >> 7 & 2);
+            }
+            memcpy(to, old, sizeof to);
+            const struct lanes_ranks r = {context,
+                                          kind == NUMBER ? NULL
+                                          : kind == OLD  ? old
+                                                         : to,
+                                          to, 77, 0x1ffff};
+            t.of[k / KINDS]->ranks(&r, (size_t)n, rank);
+            for (int i = 0; i < n; i++)
+                assert_int_equal(to[i], context[i]       ? rank++ & 0x1ffff
+                                        : kind == NUMBER ? 77
+                                                         : old[i]);
+        }
+}
+
 /* ---- sends ---- */
 
 enum { COUNT = 300 };
@@ -128,6 +186,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(messages_are_picked_alike),
         cmocka_unit_test(the_greatest_is_found_alike),
+        cmocka_unit_test(addresses_become_indices_alike),
+        cmocka_unit_test(ranks_are_put_alike),
         cmocka_unit_test(what_shares_the_destination_stays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

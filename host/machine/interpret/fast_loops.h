@@ -469,7 +469,8 @@ LOOP(draw, u32)
     }
 
 const struct lanes_table TABLE =
-    {.pick = pick,
+    {.aim = aim,
+     .pick = pick,
      .greatest = greatest,
      .pack = pack,
      .ranks = ranks,

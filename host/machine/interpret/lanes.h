@@ -90,6 +90,15 @@ struct lanes_pick {
 };
 typedef size_t lanes_pick_function(const struct lanes_pick *p, const uint8_t *context, int n,
                                    uint32_t *place, uint16_t *lane);
+/* Addresses of 1, 2, 4, 8 or 16 bytes each become indices: the bits of mask, and `nobody` where that is greater or the context (NULL: everywhere) does
+ * not hold. */
+struct lanes_aim {
+    const void *address;
+    const uint8_t *context;
+    size_t bytes;
+    uint32_t mask, nobody;
+};
+typedef void lanes_aim_function(const struct lanes_aim *a, int n, uint32_t *index);
 /* The greatest of n numbers; 0 of none. */
 typedef uint32_t lanes_greatest_function(const uint32_t *x, int n);
 /* The elements of so many bytes where the context holds, one after the other; nothing is written from element `room` on. Returns how
@@ -142,6 +151,7 @@ typedef void lanes_settle_function(void);
 struct lanes_table {
     lanes_function *of[LANES_OP_COUNT][LANES_CLASSES];
     lanes_function *convert[NODE_OP_COUNT][LANES_CLASSES][LANES_CLASSES];
+    lanes_aim_function *aim;
     lanes_pick_function *pick;
     lanes_greatest_function *greatest;
     lanes_pack_function *pack;

@@ -3,6 +3,36 @@
 
 /* ---- messages ---- */
 
+#define AIM(T)                                                                                 \
+    {                                                                                          \
+        const T *in = a->address;                                                              \
+        for (int i = 0; i < n; i++) {                                                          \
+            const u32 x = (u32)in[i] & mask;                                                   \
+            index[i] = x < nobody ? x : nobody;                                                \
+        }                                                                                      \
+        break;                                                                                 \
+    }
+
+static void aim(const struct lanes_aim *a, int n, u32 *restrict index)
+{
+    const u32 mask = a->mask, nobody = a->nobody;
+    const u8 *context = a->context;
+    switch (a->bytes) {
+    case 1:
+        AIM(u8)
+    case 2:
+        AIM(u16)
+    case 4:
+        AIM(u32)
+    case 8:
+        AIM(u64)
+    default:
+        AIM(u128)
+    }
+    for (int i = 0; context && i < n; i++)
+        index[i] = context[i] ? index[i] : nobody;
+}
+
 static size_t pick(const struct lanes_pick *p, const u8 *context, int n, u32 *place, u16 *lane)
 {
     const u32 *index = p->index, first = p->first, count = p->count, further = p->further;

@@ -23,11 +23,24 @@ static bool is_near(const struct machine *m, const struct vpset *to)
     return m->settings.near && (uint64_t)to->rows * to->pitch < UINT32_MAX;
 }
 
-bool message_fills(struct machine *m, const struct machine_value *address, int to_set)
+/* Only the low bits of an address count. So what they are part of serves as well, where an address is an index. */
+static struct machine_value *address_whole(struct machine *m, int to_set,
+                                           struct machine_value *address)
+{
+    const int bits = machine_address_bits(m, to_set);
+    while (index_is_address(&m->values->sets[to_set]) && !address->buffer &&
+           address->op == NODE_EXTRACT && address->detail == 0 && address->type.width >= bits &&
+           address->in[0]->type.kind == MACHINE_BITS)
+        address = address->in[0];
+    return address;
+}
+
+bool message_fills(struct machine *m, struct machine_value *address, int to_set)
 {
     const int from_set = m->values->set_current;
     const struct vpset *to = &m->values->sets[to_set];
-    const struct known_addresses *k = known_addresses_find(m, address, to_set);
+    const struct known_addresses *k =
+        known_addresses_find(m, address_whole(m, to_set, address), to_set);
     return k && k->there && k->distinct && m->device->is_pocl && is_near(m, to) &&
            m->values->sets[from_set].count == to->count &&
            is_everywhere(m->memory->flags[from_set].of[MACHINE_CONTEXT].value);
@@ -45,7 +58,7 @@ bool message_make(struct machine *m, struct message *g, struct machine_value *ad
     g->from_set = m->values->set_current;
     g->to_set = to_set;
     const bool is_index = !index_is_address(&m->values->sets[to_set]);
-    struct machine_value *const given = address;
+    struct machine_value *const given = address = address_whole(m, to_set, address);
     g->fills = other && !combines && message_fills(m, address, to_set);
     if ((g->known = known_addresses_find(m, address, to_set)))
         address = g->known->index;

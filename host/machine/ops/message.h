@@ -25,7 +25,7 @@ bool message_make(struct machine *m, struct message *g, struct machine_value *ad
                   int to_set, bool under_context, bool combines);
 /* Whether it is known that a send by these addresses of the current set's, under its present context, leaves nothing of what was there: there is a
  * message for each processor. */
-bool message_fills(struct machine *m, const struct machine_value *address, int to_set);
+bool message_fills(struct machine *m, struct machine_value *address, int to_set);
 /* A new array for a value of that set. */
 struct device_buffer *message_array(struct machine *m, const struct vpset *s,
                                     struct machine_type type);

@@ -24,6 +24,19 @@ struct near_route {
 /* Senders that are looked at together. */
 enum { ROUTE_BLOCK = 512 };
 /* Of n senders from that element on: where they send to, whether they do or not. */
-void near_addresses(const struct near_route *r, size_t at, int n, uint32_t *to);
+static inline void near_addresses(const struct near_route *r, size_t at, int n, uint32_t *to)
+{
+    const struct lanes_aim a = {(const char *)r->address->host + at * r->address_bytes, NULL,
+                                r->address_bytes, r->mask, UINT32_MAX};
+    r->lanes->aim(&a, n, to);
+}
+/* ... and the number of processors where they do not, or where there is none. */
+static inline void near_aims(const struct near_route *r, size_t at, int n, uint32_t *to)
+{
+    const struct lanes_aim a = {(const char *)r->address->host + at * r->address_bytes,
+                                r->context ? (const uint8_t *)r->context->host + at : NULL,
+                                r->address_bytes, r->mask, (uint32_t)r->to->count};
+    r->lanes->aim(&a, n, to);
+}
 
 #endif

@@ -144,8 +144,6 @@ static void part_few(void *of, int part, int worker)
     const struct few *f = of;
     const struct near_route *r = f->r;
     const struct vpset *s = r->from;
-    const uint32_t nobody = (uint32_t)r->to->count;
-    const uint8_t *context = r->context ? r->context->host : NULL;
     char *tables = f->tables + (size_t)part * (size_t)f->tables_count * f->table_bytes;
     uint64_t from = s->count * (uint64_t)part / (uint64_t)r->parts,
              end = s->count * (uint64_t)(part + 1) / (uint64_t)r->parts;
@@ -157,11 +155,7 @@ static void part_few(void *of, int part, int worker)
             (size_t)(from / (uint64_t)s->width) * s->pitch + (size_t)s->halo + (size_t)x;
         n = s->width - x < ROUTE_BLOCK ? s->width - x : ROUTE_BLOCK;
         n = end - from < (uint64_t)n ? (int)(end - from) : n;
-        near_addresses(r, at, n, index);
-        for (int i = 0; i < n; i++)
-            index[i] = index[i] < nobody ? index[i] : nobody;
-        for (int i = 0; context && i < n; i++)
-            index[i] = context[at + (size_t)i] ? index[i] : nobody;
+        near_aims(r, at, n, index);
         const char *source = f->same ? f->source : f->source + at * f->bytes;
         BY_BYTES(f->bytes, send, f, tables, index, source, n)
     }
