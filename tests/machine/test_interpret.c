@@ -133,29 +133,38 @@ static void each_loop_gives_what_lane_by_lane_gives(void **state)
     assert_true(steps_tried > 200);
 }
 
-/* Copies of every class and length, at the beginning of a line and elsewhere; nothing beside them changes. */
-static void what_is_stored_past_the_caches_is_the_same(void **state)
+/* Likewise of an array that is larger than the caches, in blocks of any length. */
+static void what_is_fetched_is_in_a_large_array(void **state)
 {
-    enum { FREE = 64 };
-    static _Alignas(64) unsigned char from[LANES * 16 + FREE], to[LANES * 16 + 3 * FREE];
+    enum { MOST = 200, BYTES = (8 << 20) + 400 };
     const struct tables t = tables_here();
-    const struct lanes_step s = {.in = {0}, .to = 1};
+    const struct lanes_step s = {.op = LANES_FETCH, .in = {0, 1, 2}, .to = 3};
+    static uint32_t places[MOST], count[1];
+    static unsigned char out[16 * MOST];
+    unsigned char *array = malloc(BYTES), none[16] = {0};
+    void *at[] = {places, array, count, out};
     (void)state;
-    for (uint64_t i = 0; i < sizeof from; i++)
-        from[i] = (unsigned char)(i * 37 + 5);
-    for (int c = 0; c < LANES_INTEGERS; c++)
-        for (int n = 0; n <= LANES; n++)
-            for (int k = 0; k < 2 * t.count; k++) {
-                const size_t bytes = (size_t)n * lanes_bytes((enum lanes_class)c);
-                unsigned char *begin = to + FREE + (k % 2 ? 16 : 0);
-                void *at[] = {from + (k % 2 ? 16 : 0), begin};
-                memset(to, 0xee, sizeof to);
-                t.of[k / 2]->of[LANES_STREAM][c](&s, at, n);
-                t.of[k / 2]->settle();
-                assert_memory_equal(begin, at[0], bytes);
-                for (unsigned char *p = to; p < to + sizeof to; p++)
-                    assert_true(*p == 0xee || (p >= begin && p < begin + bytes));
+    assert_non_null(array);
+    for (size_t i = 0; i < BYTES; i++)
+        array[i] = (unsigned char)(i * 151 + i / 4096);
+    for (int k = 0; k < t.count; k++)
+        for (int c = 0; c < LANES_INTEGERS; c++)
+            for (int n = 0; n <= MOST; n += n < 40 ? 1 : 19) {
+                const size_t bytes = lanes_bytes((enum lanes_class)c);
+                count[0] = (uint32_t)(BYTES / bytes);
+                for (int i = 0; i < n; i++)
+                    places[i] =
+                        (uint32_t)support_word(MACHINE_UINT(32), (uint64_t)n, (uint64_t)i) %
+                        (count[0] + count[0] / 8);
+                for (int i = 0; i < n; i += 50)
+                    places[i] = i ? UINT32_MAX : count[0] - 1;
+                t.of[k]->of[LANES_FETCH][c](&s, at, n);
+                for (int i = 0; i < n; i++)
+                    assert_memory_equal(out + (size_t)i * bytes,
+                                        places[i] < count[0] ? array + places[i] * bytes : none,
+                                        bytes);
             }
+    free(array);
 }
 
 /* Fetches from places inside and outside an array, of every class of lanes. */
@@ -554,9 +563,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_loop_gives_what_lane_by_lane_gives),
-        cmocka_unit_test(what_is_stored_past_the_caches_is_the_same),
         cmocka_unit_test(each_conversion_gives_what_lane_by_lane_gives),
         cmocka_unit_test(what_is_fetched_is_in_the_array),
+        cmocka_unit_test(what_is_fetched_is_in_a_large_array),
         cmocka_unit_test(scans_by_vectors_give_what_a_loop_gives),
         cmocka_unit_test(short_formats_round_as_whole_numbers_do),
         cmocka_unit_test(blocks_find_their_neighbours),

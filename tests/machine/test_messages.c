@@ -117,6 +117,31 @@ static void ranks_are_put_alike(void **state)
         }
 }
 
+/* Copies of every class and length, at the beginning of a line and elsewhere; nothing beside them changes. */
+static void what_is_stored_past_the_caches_is_the_same(void **state)
+{
+    enum { FREE = 64, LANES = 67 };
+    static _Alignas(64) unsigned char from[LANES * 16 + FREE], to[LANES * 16 + 3 * FREE];
+    const struct tables t = tables_here();
+    const struct lanes_step s = {.in = {0}, .to = 1};
+    (void)state;
+    for (uint64_t i = 0; i < sizeof from; i++)
+        from[i] = (unsigned char)(i * 37 + 5);
+    for (int c = 0; c < LANES_INTEGERS; c++)
+        for (int n = 0; n <= LANES; n++)
+            for (int k = 0; k < 2 * t.count; k++) {
+                const size_t bytes = (size_t)n * lanes_bytes((enum lanes_class)c);
+                unsigned char *begin = to + FREE + (k % 2 ? 16 : 0);
+                void *at[] = {from + (k % 2 ? 16 : 0), begin};
+                memset(to, 0xee, sizeof to);
+                t.of[k / 2]->of[LANES_STREAM][c](&s, at, n);
+                t.of[k / 2]->settle();
+                assert_memory_equal(begin, at[0], bytes);
+                for (unsigned char *p = to; p < to + sizeof to; p++)
+                    assert_true(*p == 0xee || (p >= begin && p < begin + bytes));
+            }
+}
+
 /* ---- sends ---- */
 
 enum { COUNT = 300 };
@@ -188,6 +213,7 @@ int main(void)
         cmocka_unit_test(the_greatest_is_found_alike),
         cmocka_unit_test(addresses_become_indices_alike),
         cmocka_unit_test(ranks_are_put_alike),
+        cmocka_unit_test(what_is_stored_past_the_caches_is_the_same),
         cmocka_unit_test(what_shares_the_destination_stays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -551,7 +551,7 @@ const struct lanes_table TABLE =
              [NODE_OVERFLOW_RESULT] = OF_FLOATS(over_result),
              [LANES_COPY] = OF_INTEGERS(copy),
              [LANES_STREAM] = OF_INTEGERS(stream),
-             [LANES_FETCH] = OF_INTEGERS(fetch),
+             [LANES_FETCH] = FETCHES,
              [LANES_JOIN] = OF_INTEGERS(join),
              [LANES_CANONICAL] = OF_FLOATS(canonical),
              [LANES_FIT] = {[LANES_F64] = fit_f64},

@@ -152,6 +152,66 @@ static void places(u32 *place, size_t n, const struct lanes_rows *r)
     }
 }
 
+/* ---- gets ---- */
+
+#ifdef __AVX512F__
+
+/* Of an array of so many bytes and more, most places are in memory: they are fetched so many lanes ahead, and sixteen loads wait together. In the caches
+ * one load after the other is as fast, and faster where places lie side by side. */
+enum { FETCH_FAR_BYTES = 8 << 20, FETCH_AHEAD = 64 };
+
+static inline void fetch_ahead(const u32 *place, const void *array, u32 count, size_t bytes)
+{
+    for (int k = 0; k < 16; k++)
+        __builtin_prefetch((const char *)array + (place[k] < count ? place[k] : 0) * bytes, 0,
+                           3);
+}
+
+/* Sixteen at a time; the lanes that are left as ever. A vector's places have a sign. */
+#define FETCH_SIXTEEN(T, GATHER)                                                               \
+    LOOP(fetch_sixteen, T)                                                                     \
+    {                                                                                          \
+        TO(T);                                                                                 \
+        IN(u32, 0, place);                                                                     \
+        IN(T, 1, array);                                                                       \
+        const u32 count = *(const u32 *)at[s->in[2]];                                          \
+        const __m512i most = _mm512_set1_epi32((i32)count);                                    \
+        const int whole = n / 16 * 16;                                                         \
+        if (count < FETCH_FAR_BYTES / sizeof(T) || count > INT32_MAX) {                        \
+            fetch_##T(s, at, n);                                                               \
+            return;                                                                            \
+        }                                                                                      \
+        for (int i = 0; i < whole; i += 16) {                                                  \
+            if (i + FETCH_AHEAD + 16 <= n)                                                     \
+                fetch_ahead(place + i + FETCH_AHEAD, array, count, sizeof(T));                 \
+            const __m512i x = _mm512_loadu_si512(place + i);                                   \
+            const __mmask16 there = _mm512_cmplt_epu32_mask(x, most);                          \
+            GATHER                                                                             \
+        }                                                                                      \
+        for (int i = whole; i < n; i++)                                                        \
+            d[i] = place[i] < count ? array[place[i]] : 0;                                     \
+    }
+
+FETCH_SIXTEEN(u32,
+              _mm512_storeu_si512(d + i, _mm512_mask_i32gather_epi32(_mm512_setzero_si512(),
+                                                                     there, x, array, 4));)
+FETCH_SIXTEEN(u64, {
+    const __m512i none = _mm512_setzero_si512();
+    _mm512_storeu_si512(d + i, _mm512_mask_i32gather_epi64(
+                                   none, (__mmask8)there, _mm512_castsi512_si256(x), array, 8));
+    _mm512_storeu_si512(d + i + 8,
+                        _mm512_mask_i32gather_epi64(none, (__mmask8)(there >> 8),
+                                                    _mm512_extracti64x4_epi64(x, 1), array, 8));
+})
+
+#define FETCHES                                                                                \
+    {                                                                                          \
+        fetch_u8, fetch_u16, fetch_sixteen_u32, fetch_sixteen_u64, fetch_u128                  \
+    }
+#else
+#define FETCHES OF_INTEGERS(fetch)
+#endif
+
 /* ---- scans ---- */
 
 #ifdef __AVX512F__
