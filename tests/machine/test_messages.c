@@ -206,6 +206,34 @@ static void what_shares_the_destination_stays(void **state)
     support_machine_destroy(m);
 }
 
+/* Places and numbers of every length; nothing beside them changes. */
+static void places_and_numbers_fill_what_they_should(void **state)
+{
+    enum { FREE = 64, LANES = 67 };
+    static _Alignas(64) unsigned char to[LANES * 16 + 2 * FREE], should[sizeof to];
+    const struct tables t = tables_here();
+    const unsigned char element[16] = {1, 2, 3, 250, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16};
+    (void)state;
+    for (size_t n = 0; n <= LANES; n++)
+        for (int k = 0; k < t.count; k++)
+            for (size_t bytes = 1; bytes <= 32; bytes *= 2) {
+                memset(to, 0xee, sizeof to);
+                memset(should, 0xee, sizeof should);
+                for (uint32_t i = 0; i < n; i++) {
+                    const uint32_t place = UINT32_MAX - 100 + i;
+                    if (bytes < 32)
+                        memcpy(should + FREE + i * bytes, element, bytes);
+                    else
+                        memcpy(should + FREE + i * sizeof place, &place, sizeof place);
+                }
+                if (bytes < 32)
+                    t.of[k]->fill(to + FREE, element, bytes, n);
+                else
+                    t.of[k]->count((uint32_t *)(void *)(to + FREE), UINT32_MAX - 100, (int)n);
+                assert_memory_equal(to, should, sizeof to);
+            }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -214,6 +242,7 @@ int main(void)
         cmocka_unit_test(addresses_become_indices_alike),
         cmocka_unit_test(ranks_are_put_alike),
         cmocka_unit_test(what_is_stored_past_the_caches_is_the_same),
+        cmocka_unit_test(places_and_numbers_fill_what_they_should),
         cmocka_unit_test(what_shares_the_destination_stays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

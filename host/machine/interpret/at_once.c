@@ -7,7 +7,6 @@
  *     key:  MUL (place, number)          a block of places, the loop, the next block */
 #include "interpret/at_once.h"
 
-#include "base/arrays.h"
 #include "base/errors.h"
 #include "base/scalar.h"
 #include "base/types.h"
@@ -179,7 +178,7 @@ static void operand_run(struct doing *d, const struct machine_value *v, void *to
 {
     int used = d->used;
     if (v->op == NODE_CONSTANT) {
-        array_fill(to, &v->imm, type_bytes(v->type), (size_t)d->lanes);
+        d->table->fill(to, &v->imm, type_bytes(v->type), (size_t)d->lanes);
     } else if (is_place(v)) {
         place_run(d, v, to);
     } else {

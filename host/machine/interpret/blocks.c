@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/arrays.h"
 #include "interpret/generate.h"
+#include "interpret/lanes.h"
 #include "values/values.h"
 
 enum { LINE = 64, ROOM_LEAST_BYTES = 32 << 10 };
@@ -66,7 +66,7 @@ static bool room_ready(struct blocks_registers *room, const struct byte_code *p)
 static void fill(void *to, struct machine_scalar x, int bytes, int lanes)
 {
     const uint64_t raw[2] = {x.lo, x.hi};
-    array_fill(to, raw, (size_t)bytes, (size_t)lanes);
+    lanes_table()->fill(to, raw, (size_t)bytes, (size_t)lanes);
 }
 
 /* Places that are the same for all blocks. */

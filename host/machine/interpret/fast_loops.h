@@ -469,7 +469,9 @@ LOOP(draw, u32)
     }
 
 const struct lanes_table TABLE =
-    {.aim = aim,
+    {.count = count,
+     .fill = fill,
+     .aim = aim,
      .pick = pick,
      .greatest = greatest,
      .pack = pack,

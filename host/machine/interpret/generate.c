@@ -1,6 +1,8 @@
 /* generate.c - see generate.h. */
 #include "interpret/generate.h"
 
+#include "interpret/lanes.h"
+
 /* Along an axis that is not the last. */
 static uint32_t coordinate(const struct vpset *s, uint64_t row, int axis)
 {
@@ -16,16 +18,13 @@ void generate_row(const struct vpset *s, int axis, uint64_t row, int x, uint32_t
                      : along  ? 0
                               : coordinate(s, row, axis);
     if (!along) {
-        for (int i = 0; i < lanes; i++)
-            to[i] = first;
+        lanes_table()->fill(to, &first, sizeof first, (size_t)lanes);
         return;
     }
     while (lanes > 0) { /* as far as the row goes, then from its beginning */
         const int from = generate_wrapped(x, s->width), left = s->width - from,
                   part = left < lanes ? left : lanes;
-        const uint32_t begin = first + (uint32_t)from;
-        for (int i = 0; i < part; i++)
-            to[i] = begin + (uint32_t)i;
+        lanes_table()->count(to, first + (uint32_t)from, part);
         to += part;
         x += part;
         lanes -= part;

@@ -81,6 +81,10 @@ lanes_function *lanes_find_conversion(int op, enum lanes_class from, enum lanes_
 /* Lane by lane, any operation: the slow twin of all loops. lane_by_folding.c */
 lanes_function lane_each;
 
+/* n numbers of 32 bits: first, and one more each time. */
+typedef void lanes_count_function(uint32_t *to, uint32_t first, int n);
+/* n elements of so many bytes that are all the same. */
+typedef void lanes_fill_function(void *to, const void *element, size_t bytes, size_t n);
 /* Of n processors' indices those from `first` on, `count` of them, where the context (NULL: everywhere) holds: `place` and `lane`
  * become their indices, so much further, and their lanes, one after the other. n is 512 at most; both have room for 16 more. Returns how many. */
 struct lanes_pick {
@@ -151,6 +155,8 @@ typedef void lanes_settle_function(void);
 struct lanes_table {
     lanes_function *of[LANES_OP_COUNT][LANES_CLASSES];
     lanes_function *convert[NODE_OP_COUNT][LANES_CLASSES][LANES_CLASSES];
+    lanes_count_function *count;
+    lanes_fill_function *fill;
     lanes_aim_function *aim;
     lanes_pick_function *pick;
     lanes_greatest_function *greatest;

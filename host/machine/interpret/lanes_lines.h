@@ -1,6 +1,39 @@
 /* lanes_lines.h - lines and messages as vectors: a part of lanes_kernel.h. The slow twins are the loops of ops/near_loops.c, and
  * the tables without vectors of 16 numbers. */
 
+/* ---- places and numbers ---- */
+
+static void count(u32 *to, u32 first, int n)
+{
+    for (int i = 0; i < n; i++)
+        to[i] = first + (u32)i;
+}
+
+#define FILL(T)                                                                                \
+    {                                                                                          \
+        T x, *d = to;                                                                          \
+        memcpy(&x, element, sizeof x);                                                         \
+        for (size_t i = 0; i < n; i++)                                                         \
+            d[i] = x;                                                                          \
+        break;                                                                                 \
+    }
+
+static void fill(void *to, const void *element, size_t bytes, size_t n)
+{
+    switch (bytes) {
+    case 1:
+        FILL(u8)
+    case 2:
+        FILL(u16)
+    case 4:
+        FILL(u32)
+    case 8:
+        FILL(u64)
+    default:
+        FILL(u128)
+    }
+}
+
 /* ---- messages ---- */
 
 #define AIM(T)                                                                                 \
