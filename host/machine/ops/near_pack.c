@@ -18,6 +18,8 @@ struct packing {
     char *to;
     size_t bytes, count;
     int parts;
+    const char *old;               /* of packs: what lies behind them; NULL: a number, */
+    uint64_t fill[2];              /* ... this one */
     uint32_t number, first, mask;  /* of ranks */
     size_t begins[PARTS_MOST + 1]; /* how many are active before each part */
 };
@@ -52,6 +54,20 @@ static void part_pack(void *of, int part, int worker)
     lanes_table()->pack(p->from + first * p->bytes, p->context + first,
                         first_of(p, part + 1) - first, p->bytes, p->to + begin * p->bytes,
                         p->begins[part + 1] - begin);
+}
+
+/* What lies behind all that is packed: of `old`. */
+static void part_rest(void *of, int part, int worker)
+{
+    const struct packing *p = of;
+    const size_t packed = p->begins[p->parts], rest = p->count - packed,
+                 first = packed + rest * (size_t)part / (size_t)p->parts,
+                 end = packed + rest * (size_t)(part + 1) / (size_t)p->parts;
+    (void)worker;
+    if (p->old)
+        memcpy(p->to + first * p->bytes, p->old + first * p->bytes, (end - first) * p->bytes);
+    else
+        array_fill(p->to + first * p->bytes, p->fill, p->bytes, end - first);
 }
 
 static void part_number(void *of, int part, int worker)
@@ -89,18 +105,14 @@ void near_pack(struct crew *crew, int parts, const struct vpset *s, size_t bytes
     struct packing p = {.context = (const uint8_t *)context->host + column,
                         .from = (const char *)from->host + halo,
                         .to = (char *)out->host + halo,
+                        .old = old->buffer ? (const char *)old->buffer->host + halo : NULL,
+                        .fill = {old->imm.lo, old->imm.hi},
                         .bytes = bytes,
                         .count = width,
                         .parts = parts < PARTS_MOST ? parts : PARTS_MOST};
     parts_count(crew, &p);
     crew_run(crew, p.parts, part_pack, &p);
-    const size_t packed = p.begins[p.parts];
-    if (old->buffer)
-        memcpy(p.to + packed * bytes, (const char *)old->buffer->host + halo + packed * bytes,
-               (width - packed) * bytes);
-    else
-        array_fill(p.to + packed * bytes, (const uint64_t[2]){old->imm.lo, old->imm.hi}, bytes,
-                   width - packed);
+    crew_run(crew, p.parts, part_rest, &p);
     row_repeat(p.to, width * bytes, halo);
 }
 
