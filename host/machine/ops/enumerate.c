@@ -29,7 +29,6 @@ static struct device_buffer *room_for(struct machine *m, const struct vpset *s,
 {
     if (!gather_is_own(m, f, offset, old))
         return message_array(m, s, old->type);
-    known_addresses_changed(m, old->buffer);
     device_buffer_ref(old->buffer);
     return old->buffer;
 }
