@@ -131,6 +131,7 @@ struct lanes_scan {
     const uint8_t *context, *bits; /* NULL: all are active; no segments */
     int op;
     bool exclusive, starts;
+    bool streams; /* past the caches, where a line of them begins: see lanes_settle */
     uint32_t none, flip, cut;
 };
 typedef uint32_t lanes_scan_function(const struct lanes_scan *s, size_t n, uint32_t before);

@@ -300,19 +300,31 @@ SCANNED __m512i scan_sixteen(const struct lanes_scan *s, const int op, const boo
     return _mm512_xor_si512(_mm512_and_si512(v, cut), flip);
 }
 
+/* Fewer than sixteen, from there on. */
+SCANNED void scan_few(const struct lanes_scan *s, const int op, const bool masked,
+                      const bool segmented, size_t at, size_t n, __m512i *carry)
+{
+    const __mmask16 there = (__mmask16)((1u << n) - 1);
+    _mm512_mask_storeu_epi32(s->out + at, there,
+                             scan_sixteen(s, op, masked, segmented, at, there, carry));
+}
+
 SCANNED u32 scan_by(const struct lanes_scan *s, const int op, const bool masked,
                     const bool segmented, size_t n, u32 before)
 {
+    const size_t line = 64 / sizeof *s->out, into = (uintptr_t)s->out / sizeof *s->out % line;
     __m512i carry = _mm512_set1_epi32((i32)before);
-    size_t i = 0;
+    size_t i = s->streams && into && n >= line ? line - into : 0;
+    if (i)
+        scan_few(s, op, masked, segmented, 0, i, &carry);
+    for (; s->streams && i + 16 <= n; i += 16)
+        _mm512_stream_si512((__m512i *)(void *)(s->out + i),
+                            scan_sixteen(s, op, masked, segmented, i, (__mmask16)~0, &carry));
     for (; i + 16 <= n; i += 16)
         _mm512_storeu_si512(s->out + i,
                             scan_sixteen(s, op, masked, segmented, i, (__mmask16)~0, &carry));
-    if (i < n) {
-        const __mmask16 there = (__mmask16)((1u << (n - i)) - 1);
-        _mm512_mask_storeu_epi32(s->out + i, there,
-                                 scan_sixteen(s, op, masked, segmented, i, there, &carry));
-    }
+    if (i < n)
+        scan_few(s, op, masked, segmented, i, n - i, &carry);
     return (u32)_mm512_cvtsi512_si32(carry);
 }
 

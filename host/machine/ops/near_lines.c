@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/arrays.h"
+#include "interpret/lanes.h"
 #include "ops/near_loops.h"
 
 /* The other end of the row whose column 0 is at that element, on both sides. */
@@ -88,6 +89,8 @@ static void part_scan(void *of, int part, int worker)
             stretch_of(s, s->row, begin, begin + (left < s->chunk ? left : s->chunk));
         (s->writes ? s->loops->scan : s->loops->sum)(&one, &s->chunks[i]);
     }
+    if (s->j->streams)
+        lanes_table()->settle();
 }
 
 /* Lines along rows, one after the other, each in chunks. False: no memory, or one chunk is all. */

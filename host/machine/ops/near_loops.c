@@ -214,6 +214,7 @@ static bool vectors_u32(const struct stretch *s, u32 *acc)
         .op = ops[j->op],
         .exclusive = j->exclusive,
         .starts = j->starts,
+        .streams = j->streams,
         .none = (u32)j->identity.lo,
         .flip = (u32)j->flip.lo,
         .cut = (u32)j->cut.lo};
@@ -302,33 +303,33 @@ INTEGERS_LINES(u128, line_u128, 1)
 INTEGERS_LINES(u32, lines_u32, LOOPS_LANES)
 INTEGERS_LINES(u64, lines_u64, LOOPS_LANES)
 
-/* Numbers side by side, in any order. */
+/* n numbers side by side from that element on, in any order, where the context (NULL: everywhere) holds. */
 #define SUM_OF(T)                                                                              \
-    static T sum_##T(const T *p, size_t n, int op, T acc, T flip)                              \
+    static T sum_##T(const struct line_scan *j, const T *in, const unsigned char *context,     \
+                     size_t n)                                                                 \
     {                                                                                          \
-        switch (op) {                                                                          \
-        case LINES_ADD:                                                                        \
-            for (size_t i = 0; i < n; i++)                                                     \
-                acc = join_##T(LINES_ADD, acc, p[i] ^ flip);                                   \
-            return acc;                                                                        \
-        case LINES_MIN:                                                                        \
-            for (size_t i = 0; i < n; i++)                                                     \
-                acc = join_##T(LINES_MIN, acc, p[i] ^ flip);                                   \
-            return acc;                                                                        \
-        case LINES_OR:                                                                         \
-            for (size_t i = 0; i < n; i++)                                                     \
-                acc = join_##T(LINES_OR, acc, p[i] ^ flip);                                    \
-            return acc;                                                                        \
-        default:                                                                               \
-            for (size_t i = 0; i < n; i++)                                                     \
-                acc = join_##T(LINES_XOR, acc, p[i] ^ flip);                                   \
-            return acc;                                                                        \
-        }                                                                                      \
+        static const int ops[] = {                                                             \
+            [LINES_ADD] = 3, [LINES_MIN] = 4, [LINES_OR] = 1, [LINES_XOR] = 2};                \
+        const struct lanes_sum s = {.op = ops[j->op],                                          \
+                                    .element = sizeof(T),                                      \
+                                    .plain = true,                                             \
+                                    .none = j->identity.lo,                                    \
+                                    .flip = j->flip.lo};                                       \
+        return (T)lanes_table()->sum(&s, in, context, n);                                      \
     }
 
 SUM_OF(u32)
 SUM_OF(u64)
-SUM_OF(u128)
+
+static u128 sum_u128(const struct line_scan *j, const u128 *in, const unsigned char *context,
+                     size_t n)
+{
+    const u128 none = number_u128(j->identity), flip = number_u128(j->flip);
+    u128 acc = none;
+    for (size_t i = 0; i < n; i++)
+        acc = join_u128(j->op, acc, !context || context[i] ? in[i] ^ flip : none);
+    return acc;
+}
 
 /* What a chunk comes to depends on its last segment alone: the stretch from there on, or all of it. */
 static struct stretch segment_last(const struct stretch *s)
@@ -361,10 +362,12 @@ static struct stretch segment_last(const struct stretch *s)
         bool has[1] = {false};                                                                 \
         int first[1] = {INT32_MAX};                                                            \
         (void)out;                                                                             \
-        if (!j->context && !j->bits && j->op != LINES_COPY)                                    \
-            acc[0] =                                                                           \
-                sum_##T(in + (s->step > 0 ? s->at : s->at - (size_t)(s->end - s->begin) + 1),  \
-                        (size_t)(s->end - s->begin), j->op, none, flip);                       \
+        const size_t n = (size_t)(s->end - s->begin),                                          \
+                     least = s->step > 0 ? s->at : s->at - n + 1;                              \
+        if (!j->bits && j->op != LINES_COPY)                                                   \
+            acc[0] = sum_##T(                                                                  \
+                j, in + least,                                                                 \
+                j->context ? (const unsigned char *)j->context->host + least : NULL, n);       \
         else                                                                                   \
             INTEGERS_BY_OP(T, 1, false)                                                        \
         *c = (struct chunk){.first = first[0], .total_has = has[0]};                           \

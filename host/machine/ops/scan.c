@@ -451,19 +451,21 @@ struct machine_value *scan_where(struct machine *m, const struct machine_scan *h
     if (!out)
         return NULL;
     struct lines l = lines_of(s, how->axis, how->downward);
-    struct line_scan j = {.element = f.element,
-                          .op = f.op,
-                          .exclusive = how->exclusive,
-                          .starts = how->segments == MACHINE_START_BIT,
-                          .backward =
-                              bits && how->segments == MACHINE_SEGMENT_BIT && how->downward,
-                          .identity = f.identity,
-                          .flip = f.flip,
-                          .cut = f.cut,
-                          .in = values[0]->buffer,
-                          .context = masked ? values[masked]->buffer : NULL,
-                          .bits = bits ? values[bits]->buffer : NULL,
-                          .out = out};
+    struct line_scan j = {
+        .element = f.element,
+        .op = f.op,
+        .exclusive = how->exclusive,
+        .streams = m->device->shape.streams && 2 * (double)s->count * (double)f.element->bytes >
+                                                   m->device->shape.stream_lanes_bytes,
+        .starts = how->segments == MACHINE_START_BIT,
+        .backward = bits && how->segments == MACHINE_SEGMENT_BIT && how->downward,
+        .identity = f.identity,
+        .flip = f.flip,
+        .cut = f.cut,
+        .in = values[0]->buffer,
+        .context = masked ? values[masked]->buffer : NULL,
+        .bits = bits ? values[bits]->buffer : NULL,
+        .out = out};
     if (scan_lines(m, &l, &j)) {
         device_buffer_unref(m, out);
         return NULL;

@@ -28,6 +28,7 @@ struct line_scan {
     const struct element *element;
     int op; /* enum lines_op */
     bool exclusive;
+    bool streams;          /* results are stored past the caches */
     bool starts, backward; /* segments begin in active processors only; after a 1, not at it */
     struct machine_scalar identity, flip, cut;
     const struct device_buffer *in, *context, *bits; /* NULL: no context, all processors are
