@@ -119,7 +119,7 @@ static void turns(const struct sheet *s, int count)
 /* Waits until the background has compiled all kernels. */
 static void wait_for(const struct sheet *s)
 {
-    for (int i = 0; s->m->plans->improving; i++) {
+    for (int i = 0; s->m->plans->improving || choice_is_awaited(s->m); i++) {
         assert_true(i < 60000);
         usleep(1000);
         plans_see_to(s->m);

@@ -7,9 +7,6 @@
 #include "build/background.h"
 #include "build/plans.h"
 
-/* A node and a shift take the search some 150 ns together: 2.5 ms. */
-enum { LONG = 1 << 14 };
-
 void choice_free(struct choice *c)
 {
     if (!c)
@@ -25,7 +22,7 @@ bool choice_takes_long(struct machine *m, const struct plan_request *q)
     size_t shifts = 0;
     for (int i = 0; i < q->reach->count; i++)
         shifts += q->reach->nodes[i]->op == NODE_SHIFT && !q->reach->nodes[i]->buffer;
-    return shifts * (size_t)q->reach->count > LONG && background_on(m);
+    return shifts * (size_t)q->reach->count > m->device->shape.choose_aside && background_on(m);
 }
 
 static struct choice *choice_make(const struct machine *m, const struct plan_request *q,
@@ -55,8 +52,10 @@ static void choose(void *of)
 }
 
 /* What is done becomes the plan's. */
-static void choosing_end(struct choosing *s)
+static void choosing_end(struct machine *m)
 {
+    struct choosing *s = &m->plans->choosing;
+    m->plans->rehearsals_chosen += s->plan->empty;
     aside_end(&s->aside);
     choice_free(s->plan->choice);
     s->plan->choice = s->choice;
@@ -80,7 +79,7 @@ bool choice_is_awaited(struct machine *m)
     if (s->plan && aside_is_lost(&s->aside))
         choosing_stop(m);
     if (aside_is_done(&s->aside))
-        choosing_end(s);
+        choosing_end(m);
     return s->plan != NULL;
 }
 

@@ -154,5 +154,10 @@ uint32_t plan_version(struct machine *m, const struct plan *p)
 
 bool plan_waits(const struct machine *m, const struct plan *p)
 {
-    return p == m->plans->improving;
+    return p == m->plans->improving || p->undecided;
+}
+
+bool plan_wants_rehearsal(struct machine *m, const struct plan *p)
+{
+    return p->undecided && !choice_is_awaited(m);
 }

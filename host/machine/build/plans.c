@@ -177,18 +177,25 @@ static bool plan_fill(struct machine *m, struct plan *p, const struct plan_reque
     return made != NULL;
 }
 
-/* Prepares a plan's kernels without running it. NULL: impossible; an error may be set. */
-static struct plan *plan_rehearse(struct machine *m, struct plan *p,
-                                  const struct plan_request *q, uint64_t hash)
+/* Prepares a plan's kernels without running it. What a large one stores is chosen in a thread; then it has to be rehearsed again. NULL:
+ * impossible; an error may be set. */
+static struct plan *plan_rehearse(struct machine *m, struct plan *p, struct plan_request *q,
+                                  uint64_t hash)
 {
-    if (p)
+    if (p && !p->undecided)
         return p;
-    if (!(p = calloc(1, sizeof *p)))
-        return NULL;
-    p->empty = true;
-    p->quality = BOXED;
-    if (!plan_keep(m, p, q, hash))
-        return NULL;
+    if (!p) {
+        if (!(p = calloc(1, sizeof *p)))
+            return NULL;
+        p->empty = true;
+        p->quality = BOXED;
+        if (!plan_keep(m, p, q, hash))
+            return NULL;
+    }
+    p->undecided = !choice_is_at_hand(m, p, q, true);
+    if (p->undecided)
+        return p;
+    q->choice = p->choice;
     bool made = background_on(m) ? improve_begin(m, p, q, BOXED) : plan_fill(m, p, q);
     p->hopeless = !made && q->use == PLAN_TO_REHEARSE_TURNS;
     return p;

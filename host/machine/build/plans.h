@@ -73,6 +73,7 @@ struct plan {
     struct plan *better;        /* the plan whose kernels are being compiled, and which replaces
                           * this one */
     bool empty;                 /* without kernels, except those of a better plan */
+    bool undecided;             /* it is rehearsed, and not known yet what it stores */
     bool gone;                  /* its kernels had to go; they are on disk */
     bool hopeless;              /* of many turns that do not fit one kernel */
     struct plan *next;
@@ -110,6 +111,7 @@ struct plans {
     struct background *background; /* background.c; NULL: not used yet */
     struct plan *improving;        /* the plan whose better kernels are being compiled */
     struct choosing choosing;      /* what a plan stores, in a thread */
+    uint64_t rehearsals_chosen;    /* ... of rehearsals, so far */
     struct plan_family **families; /* families.c; NULL: none yet */
     int families_count;
     struct describing describing;
@@ -154,8 +156,10 @@ void plans_forget_oldest(struct machine *m);
 uint32_t plan_version(struct machine *m, const struct plan *p);
 /* Whether it has kernels, or is to get some, in a child after fork(), where none runs. */
 bool plan_is_of_parent(const struct machine *m, const struct plan *p);
-/* Whether its kernels are still being compiled in the background. */
+/* Whether its kernels are still being compiled in the background, or chosen. */
 bool plan_waits(const struct machine *m, const struct plan *p);
+/* Whether it was rehearsed, and should be again, since now its kernels can be requested. */
+bool plan_wants_rehearsal(struct machine *m, const struct plan *p);
 /* Whether its kernels are final, and as many turns take a kernel or more of each VP set for
  * each turn. */
 bool plan_saves_nothing(const struct plan *p, int turns);

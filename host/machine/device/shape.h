@@ -64,6 +64,9 @@ struct device_shape {
     int kernels_ahead, kernels_ahead_building;
     /* A text of so many bytes is loaded from the driver's cache by a thread: that takes over 10 milliseconds. */
     size_t load_aside_bytes;
+    /* What a graph of so many nodes times shifts stores is chosen by a thread: a node and a shift take the search some 150 ns together,
+     * so many 2.5 ms. */
+    size_t choose_aside;
     /* The front end's own threads, in nanoseconds: for a byte that is moved, and for an element. */
     double move_ns, reduce_ns, rank_ns, send_ns, reshape_ns, scan_ns, scan_vector_ns, fill_ns;
     int rank_alone_most;     /* longer lines are ranked by all threads together */

@@ -76,11 +76,12 @@ static bool become_thorough(struct machine *m, struct edge *e)
     if (turns < 2 || m->run->turns_in_row < 2 * turns) /* the program looks too often for it
                                                         * to pay */
         return false;
-    if (!e->rehearsed_thorough && background_on(m)) {
+    const struct plan *thorough = e->rehearsed_thorough;
+    if (thorough ? plan_wants_rehearsal(m, thorough) : background_on(m)) {
         e->wants_thorough = true;
         return false;
     }
-    if (e->rehearsed_thorough && plan_waits(m, e->rehearsed_thorough))
+    if (thorough && plan_waits(m, thorough))
         return false;
     p->thorough = true;
     p->built_at = m->run->flushes;
@@ -189,7 +190,7 @@ enum loop_turns turns_see_to(struct machine *m)
 {
     struct replay *p = m->run->replay;
     struct edge *e = p->edge;
-    if (!e->rehearsed && !background_busy(m)) {
+    if ((!e->rehearsed || plan_wants_rehearsal(m, e->rehearsed)) && !background_busy(m)) {
         if (!rehearse_or_perform(m, RUN_REHEARSING_TURNS, &e->rehearsed))
             return TURNS_PERFORMED;
         if (!e->rehearsed)
