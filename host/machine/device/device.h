@@ -22,6 +22,9 @@ struct rows {
 
 struct chunk;
 
+/* In the queue, between as many kernels as the front end may be ahead. */
+enum { FENCES = 4 };
+
 /* What commands are given. */
 struct device_memory {
     cl_mem mem;          /* NULL: no command has needed it yet */
@@ -77,11 +80,15 @@ struct device {
     struct awake *awake; /* NULL: processors may halt between kernels */
     struct crew
         *crew; /* as many threads as units, for what the front end does; NULL: it is alone */
-    struct aside code;      /* fetches the machine's own code */
-    bool queued;            /* commands that nobody has waited for may be in the queue */
-    bool keeps_programs;    /* on disk */
-    cl_event fence;         /* see device_pace(); NULL: none */
-    uint64_t fence_kernels; /* run before it */
+    struct aside code;   /* fetches the machine's own code */
+    bool queued;         /* commands that nobody has waited for may be in the queue */
+    bool keeps_programs; /* on disk */
+    struct fence {
+        cl_event reached;
+        uint64_t kernels; /* run before it */
+    } fences
+        [FENCES]; /* see device_pace(): those that nobody has waited for, the oldest first */
+    int fences_count;
 };
 
 enum machine_status device_open(struct machine *m, const struct machine_config *config);

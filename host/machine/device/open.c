@@ -170,8 +170,8 @@ void device_close(struct machine *m)
     if (d->queue && ours)
         clFinish(d->queue);
     aside_end(&d->code);
-    if (d->fence)
-        clReleaseEvent(d->fence);
+    for (int i = 0; i < d->fences_count && ours; i++)
+        clReleaseEvent(d->fences[i].reached);
     crew_destroy(d->crew);
     awake_destroy(d->awake);
     device_pool_empty(d);

@@ -206,23 +206,46 @@ enum machine_status device_settle(struct machine *m)
     return m->device->queued ? device_settle_for(m, "waiting for the device") : MACHINE_OK;
 }
 
-/* A fence is put behind so many kernels, and the one before it waited for. */
+static cl_int fence_put(struct device *d)
+{
+    struct fence *f = &d->fences[d->fences_count];
+    f->kernels = d->kernels_run;
+    const cl_int error = clEnqueueMarkerWithWaitList(d->queue, 0, NULL, &f->reached);
+    d->fences_count += !error;
+    return error;
+}
+
+static cl_int oldest_wait(struct device *d)
+{
+    const cl_int error = clWaitForEvents(1, &d->fences[0].reached);
+    clReleaseEvent(d->fences[0].reached);
+    memmove(d->fences, d->fences + 1, (size_t)--d->fences_count * sizeof *d->fences);
+    return error;
+}
+
+static bool is_ahead(const struct device *d, uint64_t kernels)
+{
+    return d->fences_count &&
+           (d->fences_count == FENCES || d->kernels_run - d->fences[0].kernels >= kernels);
+}
+
+/* There are several fences, so that one wait is for a part of these kernels only. */
 enum machine_status device_pace(struct machine *m, uint64_t ahead)
 {
     struct device *d = m->device;
-    if (d->kernels_run - d->fence_kernels < ahead || !device_is_ours(d))
+    const uint64_t newest = d->fences_count ? d->fences[d->fences_count - 1].kernels : 0;
+    if (d->kernels_run - newest < ahead / FENCES || !device_is_ours(d))
         return MACHINE_OK;
-    cl_event reached = d->fence;
-    cl_int error = clEnqueueMarkerWithWaitList(d->queue, 0, NULL, &d->fence);
-    if (error)
-        d->fence = NULL;
-    d->fence_kernels = d->kernels_run;
-    if (!reached)
-        return device_check(m, error, "waiting for the device");
-    double start = device_wait_begin(m);
-    error |= clWaitForEvents(1, &reached);
-    clReleaseEvent(reached);
-    return device_wait_end(m, error, start, "waiting for the device");
+    if (is_ahead(d, ahead)) {
+        double start = device_wait_begin(m);
+        cl_int error = CL_SUCCESS;
+        while (!error && is_ahead(d, ahead))
+            error = oldest_wait(d);
+        enum machine_status status = device_wait_end(m, error, start, "waiting for the device");
+        if (status)
+            return status;
+    }
+    return device_check(m, fence_put(d), "waiting for the device");
 }
 
 enum machine_status device_launch(struct machine *m, struct device_kernel *kernel, cl_int error,
