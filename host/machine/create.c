@@ -136,6 +136,7 @@ void machine_leave(struct machine *m)
     if (m && pthread_equal(m->owner, pthread_self())) {
         choosing_stop(m);
         background_leave(m);
+        aside_end(&m->device->code);
     }
     if (m && m->device->queue && device_is_ours(m->device) && m->inside == 0 &&
         pthread_equal(m->owner, pthread_self())) {
