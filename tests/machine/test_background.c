@@ -53,7 +53,7 @@ static void begin(struct sheet *s, const struct looped *p, const char *backgroun
     assert_ok(machine_create(&config, &s->m), s->m);
     s->m->device->shape.load_aside_bytes =
         keeps ? 64 << 10 : 0; /* by a thread, or by the caller */
-    if (!keeps)
+    if (!keeps && !p->looks)
         s->m->device->shape.choose_aside = 0;
     int set = machine_vpset_create(s->m, dimensions, 2);
     machine_vpset_select(s->m, set);

@@ -147,9 +147,9 @@ bool plan_is_of_parent(const struct machine *m, const struct plan *p)
     return kernels && !device_is_ours(m->device);
 }
 
-uint32_t plan_version(struct machine *m, const struct plan *p)
+bool plan_may_run(struct machine *m, const struct plan *p, uint32_t version)
 {
-    return plan_is_due(m, p) || plan_is_of_parent(m, p) ? UINT32_MAX : p->version;
+    return p->version == version && !plan_is_due(m, p) && !plan_is_of_parent(m, p);
 }
 
 bool plan_waits(const struct machine *m, const struct plan *p)

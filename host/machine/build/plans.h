@@ -153,7 +153,9 @@ struct plan *plan_get(struct machine *m, const struct plan_request *q);
 /* Whether there are so many, or so many kernels, that the oldest should go; they go, all but those used lately. Nobody else may know the plans any more. */
 bool plans_are_many(const struct machine *m);
 void plans_forget_oldest(struct machine *m);
-uint32_t plan_version(struct machine *m, const struct plan *p);
+/* Whether it can run as it did in that version, without being asked for. Not where better kernels are due: whether they are can change
+ * at any moment, since a thread chooses what it stores. */
+bool plan_may_run(struct machine *m, const struct plan *p, uint32_t version);
 /* Whether it has kernels, or is to get some, in a child after fork(), where none runs. */
 bool plan_is_of_parent(const struct machine *m, const struct plan *p);
 /* Whether its kernels are still being compiled in the background, or chosen. */

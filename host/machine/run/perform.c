@@ -12,7 +12,7 @@ bool perform_deed(struct machine *m, const struct deed *d, int to)
     struct replay *p = m->run->replay;
     struct state *s = &p->states[p->active], *t = &p->states[to];
     plans_see_to(m);
-    if (!d->plan || plan_version(m, d->plan) != d->version)
+    if (!d->plan || !plan_may_run(m, d->plan, d->version))
         return false;
     graph_give_back(m);
     if (d->nodes_count + t->buffers_count + d->spare_count > p->scratch_capacity) {

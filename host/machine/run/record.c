@@ -133,7 +133,7 @@ void record_evaluates(struct machine *m, struct plan *plan, struct machine_value
         .calls_count = p->log_count,
         .alone = due,
         .deed = {.plan = plan,
-                 .version = plan_version(m, plan),
+                 .version = plan->version,
                  .stores = m->run->stores - p->from_stores,
                  .nodes_count = count,
                  .from = array_zeroed((size_t)count, sizeof *e.deed.from),
