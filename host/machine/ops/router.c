@@ -357,7 +357,7 @@ enum machine_status machine_send(struct machine *m, uint32_t dest,
     const struct field *f = field_find(m, dest, &offset);
     struct message g = {0};
     struct machine_value *old = machine_field_value(m, dest, source->type, MACHINE_EVERYWHERE);
-    struct machine_value *notification = NULL, *out = NULL;
+    struct machine_value *const before = old, *notification = NULL, *out = NULL;
     if (!old)
         return m->status;
     if (combiner == MACHINE_COMBINE_OVERWRITE && message_fills(m, send_address, to.vpset)) {
@@ -378,9 +378,13 @@ enum machine_status machine_send(struct machine *m, uint32_t dest,
         g.over = message_over(m, &g, f, offset);
         out = transmit(m, &g, combiner, notify ? &notification : NULL);
     }
-    if (!out)
-        return m->status;
-    enum machine_status status = machine_field_store(m, dest, out, MACHINE_EVERYWHERE);
+    enum machine_status status = m->status;
+    if (!out) {
+        if (old != before)
+            machine_field_store(m, dest, before, MACHINE_EVERYWHERE);
+        return status;
+    }
+    status = machine_field_store(m, dest, out, MACHINE_EVERYWHERE);
     if (!status && notify)
         status = machine_field_store(m, notify, notification, MACHINE_EVERYWHERE);
     return status;
