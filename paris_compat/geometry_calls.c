@@ -207,21 +207,17 @@ unsigned int CM_geometry_axis_on_chip_pos(CM_geometry_id_t geometry, unsigned in
     return 0;
 }
 
-static unsigned int off_chip_bits(CM_geometry_id_t geometry, const struct paris_geometry *g,
-                                  unsigned int axis)
+/* Where a length is no power of two, no bits of the processor's number are an axis's. */
+static unsigned int off_chip_bits(const struct paris_geometry *g, unsigned int axis)
 {
-    unsigned int vps = CM_geometry_axis_vp_ratio(geometry, axis);
-    if (g->layout.powers)
-        return g->layout.node[axis];
-    uint64_t left = ((uint64_t)g->dimensions[axis] + vps - 1) / vps;
-    return left > 1 ? paris_count_bits(left) : 0;
+    return g->layout.powers ? g->layout.node[axis] : 0;
 }
 
 unsigned int CM_geometry_axis_off_chip_bits(CM_geometry_id_t geometry, unsigned int axis)
 {
     paris_the.call = "CM_geometry_axis_off_chip_bits";
     const struct paris_geometry *g = geometry_axis(geometry, axis);
-    return g ? off_chip_bits(geometry, g, axis) : 0;
+    return g ? off_chip_bits(g, axis) : 0;
 }
 
 unsigned int CM_geometry_axis_off_chip_pos(CM_geometry_id_t geometry, unsigned int axis)
@@ -230,7 +226,7 @@ unsigned int CM_geometry_axis_off_chip_pos(CM_geometry_id_t geometry, unsigned i
     const struct paris_geometry *g = geometry_axis(geometry, axis);
     unsigned int position = 0;
     for (unsigned int i = axis + 1; g && i < (unsigned int)g->rank; i++)
-        position += off_chip_bits(geometry, g, i);
+        position += off_chip_bits(g, i);
     return position;
 }
 
