@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/code_pages.h"
 #include "base/errors.h"
 #include "build/background.h"
 #include "build/plans.h"
@@ -108,6 +109,8 @@ enum machine_status machine_create(const struct machine_config *config, struct m
         status = machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for an empty machine");
     if (!status && m->watch)
         be_watched(m);
+    if (!status)
+        code_pages_near();
     return status;
 }
 

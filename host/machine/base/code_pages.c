@@ -15,7 +15,9 @@ enum {
     LINE_BYTES = 64,
     PIECE_BYTES = 128 << 10,
     MOST_ON_A_SIDE =
-        2 << 20 /* the machine and C/Paris are linked one after the other, and have less */
+        2 << 20, /* the machine and C/Paris are linked one after the other, and have less */
+    NEAR_ON_A_SIDE =
+        448 << 10 /* what almost any call needs, and less than a processor's own cache */
 };
 
 struct search {
@@ -92,6 +94,15 @@ static void fetch(void *nothing)
     (void)nothing;
     for (int i = 0; i < count; i++)
         range_fetch(&ranges[i]);
+}
+
+void code_pages_near(void)
+{
+    struct code_range ranges[CODE_RANGES_MOST];
+    if (code_pages_find(NEAR_ON_A_SIDE, ranges))
+        for (const volatile char *line = ranges[0].begin; line < ranges[0].end;
+             line += LINE_BYTES)
+            (void)*line;
 }
 
 void code_pages_begin(struct aside *a)
