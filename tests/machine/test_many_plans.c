@@ -134,6 +134,18 @@ static uint32_t all_kernels(struct machine *m, uint32_t f, uint32_t x, const cha
     return x;
 }
 
+/* A field of numbers; x: the third of them. */
+static uint32_t numbers(struct machine *m, uint32_t *x)
+{
+    struct machine_scalar read;
+    assert_true(support_set(m, 1, 5) > 0);
+    const uint32_t f = support_field(m, MACHINE_UINT(32), 1);
+    assert_ok(machine_field_read(m, f, MACHINE_UINT(32), 2, &read), m);
+    machine_begin(m);
+    *x = (uint32_t)read.lo;
+    return f;
+}
+
 /* Kernels that had to go are loaded from the driver's cache, not compiled. What runs all the time stays. */
 static void compiled_kernels_stay_bounded(void **state)
 {
@@ -143,12 +155,9 @@ static void compiled_kernels_stay_bounded(void **state)
     if (kernels_wanted == KERNELS_FEW)
         setenv("LUTETIA_KERNELS", "16", 1);
     struct machine *m = support_machine(0);
-    assert_true(support_set(m, 1, 5) > 0);
-    const uint32_t f = support_field(m, MACHINE_UINT(32), 1);
-    struct machine_scalar read;
-    assert_ok(machine_field_read(m, f, MACHINE_UINT(32), 2, &read), m);
-    machine_begin(m);
-    uint32_t x = loop(m, f, (uint32_t)read.lo);
+    uint32_t x;
+    const uint32_t f = numbers(m, &x);
+    x = loop(m, f, x);
     x = all_kernels(m, f, x, "compiled");
     const int there = compiled();
     const uint64_t built = m->device->kernels_built;
@@ -168,13 +177,10 @@ static void a_process_has_so_many_kernels(void **state)
     struct machine_stats stats[2];
     setenv("LUTETIA_KERNELS_EVER", "5", 1); /* other cases have started more */
     struct machine *m = support_machine(0);
-    assert_true(support_set(m, 1, 5) > 0);
-    const uint32_t f = support_field(m, MACHINE_UINT(32), 1);
-    struct machine_scalar read;
-    assert_ok(machine_field_read(m, f, MACHINE_UINT(32), 2, &read), m);
-    machine_begin(m);
+    uint32_t x;
+    const uint32_t f = numbers(m, &x);
     machine_stats_get(m, &stats[0]);
-    loop(m, f, (uint32_t)read.lo);
+    loop(m, f, x);
     machine_stats_get(m, &stats[1]);
     assert_int_equal(stats[0].kernels_built, stats[1].kernels_built);
     assert_true(stats[0].interpreted < stats[1].interpreted);

@@ -2,9 +2,9 @@
 #include "base/arrays.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/errors.h"
+#include "base/fill.h"
 
 void *array_more(void *old, int *capacity, size_t element, bool *failed)
 {
@@ -44,30 +44,7 @@ uint64_t words_hash(const uint32_t *words, size_t count)
     return hash;
 }
 
-#define FILL(T)                                                                                \
-    do {                                                                                       \
-        T x, *d = to;                                                                          \
-        memcpy(&x, element, sizeof x);                                                         \
-        for (size_t i = 0; i < count; i++)                                                     \
-            d[i] = x;                                                                          \
-    } while (0)
-
 void array_fill(void *to, const void *element, size_t bytes, size_t count)
 {
-    switch (bytes) {
-    case 1:
-        memset(to, *(const unsigned char *)element, count);
-        break;
-    case 2:
-        FILL(uint16_t);
-        break;
-    case 4:
-        FILL(uint32_t);
-        break;
-    case 8:
-        FILL(uint64_t);
-        break;
-    default:
-        FILL(unsigned __int128);
-    }
+    fill_elements(to, element, bytes, count);
 }

@@ -2,7 +2,8 @@
 #include "base/aside.h"
 
 #include <signal.h>
-#include <unistd.h>
+
+#include "base/process.h"
 
 static void *run(void *of)
 {
@@ -17,7 +18,7 @@ bool aside_begin(struct aside *a, aside_work *work, void *context)
     sigset_t all, before;
     a->work = work;
     a->context = context;
-    a->owner = getpid();
+    a->owner = process_now();
     atomic_store(&a->done, false);
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -33,7 +34,7 @@ bool aside_is_done(const struct aside *a)
 
 bool aside_is_lost(const struct aside *a)
 {
-    return a->begun && a->owner != getpid();
+    return a->begun && a->owner != process_now();
 }
 
 void aside_wait(struct aside *a)

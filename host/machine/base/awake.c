@@ -23,6 +23,7 @@
 #endif
 
 #include "base/clock.h"
+#include "base/process.h"
 #include "latency.h"
 
 enum { PROCESSORS_MOST = 16, RESTS = 64, LOOKS_NS = 20000000 };
@@ -79,7 +80,7 @@ struct awake *awake_create(const char *path, bool threads)
         return NULL;
     }
     a->file = file;
-    a->owner = getpid();
+    a->owner = process_now();
     atomic_store(&a->users, 1);
     for (size_t i = 0; i < CPU_SETSIZE && (file < 0 || !a->count); i++)
         if (CPU_ISSET(i, &set))
@@ -209,7 +210,7 @@ void awake_for(struct awake *a, double seconds)
         return;
     atomic_store(&a->until_ns, now_ns() + (int64_t)(seconds * 1e9));
     bool good = a->file < 0 ? !atomic_load(&a->sleeping) : atomic_load(&a->held);
-    if ((a->started && good) || !a->count || a->owner != getpid())
+    if ((a->started && good) || !a->count || a->owner != process_now())
         return;
     if (a->file >= 0)
         ask(a, true);
@@ -226,7 +227,7 @@ void awake_destroy(struct awake *a)
     struct timespec end;
     if (!a)
         return;
-    if (a->owner != getpid()) { /* the threads are another process's */
+    if (a->owner != process_now()) { /* the threads are another process's */
         if (a->file >= 0)
             close(a->file);
         free(a);

@@ -19,9 +19,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #include "base/clock.h"
+#include "base/process.h"
 
 enum { RESTS = 16 };          /* from one look at the clock to the next */
 enum { PARTS_EACH = 8 };      /* for each thread, at most */
@@ -173,7 +173,7 @@ struct crew *crew_create(int threads)
     pthread_mutex_init(&c->lock, NULL);
     pthread_cond_init(&c->work, NULL);
     c->size = threads < CREW_MOST ? threads : CREW_MOST;
-    c->owner = getpid();
+    c->owner = process_now();
     c->alone_next = ALONE_LEAST;
     return c;
 }
@@ -215,7 +215,7 @@ static void was_late(struct crew *c, bool late)
 
 void crew_run(struct crew *c, int parts, crew_part *function, void *context)
 {
-    if (!c || parts < 2 || parts > PARTS_MOST || c->owner != getpid()) {
+    if (!c || parts < 2 || parts > PARTS_MOST || c->owner != process_now()) {
         for (int i = 0; i < parts; i++)
             function(context, i, 0);
         return;
@@ -240,7 +240,7 @@ void crew_run(struct crew *c, int parts, crew_part *function, void *context)
 
 bool crew_errand(struct crew *c, crew_errand_work *function, void *context)
 {
-    if (!c || c->owner != getpid())
+    if (!c || c->owner != process_now())
         return false;
     if (c->started < c->size - 1)
         threads_start(c);
@@ -279,7 +279,7 @@ void crew_destroy(struct crew *c)
 {
     if (!c)
         return;
-    bool here = c->owner == getpid();
+    bool here = c->owner == process_now();
     atomic_store(&c->ends, true);
     if (here)
         wake(c);

@@ -34,6 +34,7 @@
 #include <unistd.h>
 
 #include "base/arrays.h"
+#include "base/process.h"
 #include "build/compiler.h"
 #include "build/loading.h"
 #include "build/plans.h"
@@ -96,7 +97,7 @@ static bool compiler_find(char path[PATH_MAX])
 /* The child that starts the process exits at once; the program may have reaped it itself. */
 static void child_reap(struct background *b, bool kill_it)
 {
-    if (!b->child || b->owner != getpid())
+    if (!b->child || b->owner != process_now())
         return;
     pid_t ended = waitpid(b->child, NULL, WNOHANG);
     if (!ended && kill_it) { /* the child exists, and is ours */
@@ -111,7 +112,7 @@ static void child_reap(struct background *b, bool kill_it)
 static void compiler_end(struct background *b)
 {
     if (b->socket >= 0) {
-        if (b->owner == getpid()) /* a child of a fork may have it, too */
+        if (b->owner == process_now()) /* a child of a fork may have it, too */
             shutdown(b->socket, SHUT_RDWR);
         close(b->socket);
     }
@@ -128,7 +129,7 @@ static pid_t compiler_spawn(const char *path, int end)
     posix_spawnattr_t how;
     sigset_t none, usual;
     pid_t process = 0;
-    snprintf(owner, sizeof owner, "%d", (int)getpid());
+    snprintf(owner, sizeof owner, "%d", (int)process_now());
     sigemptyset(&none);
     sigemptyset(&usual);
     sigaddset(&usual, SIGCHLD); /* the process has children of its own: linkers */
@@ -239,7 +240,7 @@ static struct background *background_of(struct machine *m)
 {
     struct background *b = m->plans->background;
     if (!b && (b = m->plans->background = calloc(1, sizeof *b))) {
-        b->owner = getpid();
+        b->owner = process_now();
         b->socket = -1;
         b->lost = !driver_keeps(m->device) || !compiler_find(b->path);
     }
@@ -252,7 +253,7 @@ bool background_on(struct machine *m)
         !device_is_ours(m->device))
         return false;
     struct background *b = background_of(m);
-    return b && !b->lost && b->owner == getpid();
+    return b && !b->lost && b->owner == process_now();
 }
 
 bool background_busy(const struct machine *m)
@@ -463,7 +464,7 @@ enum background_state background_take(struct machine *m)
     bool waits = false, loaded = false;
     if (now - b->looked_s < LOOK_EVERY_S)
         return BACKGROUND_WAITS;
-    if (b->lost || b->owner != getpid() || !compiler_attend(m, b, now))
+    if (b->lost || b->owner != process_now() || !compiler_attend(m, b, now))
         return background_lose(b);
     for (int i = 0; i < b->count; i++) {
         struct item *item = &b->items[i];

@@ -55,12 +55,10 @@ static bool launch_add(struct machine *m, struct plan *p, const struct plan_grap
 {
     int set_id = g->nodes[stores[0]].set;
     const struct vpset *set = &m->values->sets[set_id];
-    struct device_shape shape = m->device->shape;
-    shape.streams = shape.streams && !on_device(m);
-    struct byte_code *program =
-        plan_launches_grow(p)
-            ? byte_code_make(&shape, g, stores, count, set, m->values->processors_log2)
-            : NULL;
+    struct byte_code *program = plan_launches_grow(p)
+                                    ? byte_code_make(&m->device->shape, g, stores, count, set,
+                                                     m->values->processors_log2, !on_device(m))
+                                    : NULL;
     struct device_code *code =
         program && on_device(m) ? device_code_make(m, &m->plans->device_kernels, program, set)
                                 : NULL;

@@ -80,6 +80,11 @@ static double *cost_in(struct device_shape *shape, enum machine_cost cost)
     return &shape->launch_ns;
 }
 
+bool shape_streams_lanes(const struct device_shape *shape, double bytes)
+{
+    return shape->streams && bytes > shape->stream_lanes_bytes;
+}
+
 uint64_t shape_work(const struct device_shape *shape, uint64_t processors)
 {
     return processors > shape->work_least ? processors : shape->work_least;

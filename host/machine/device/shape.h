@@ -98,6 +98,9 @@ struct device_shape shape_by_driver(bool is_cpu, const char *platform);
 /* Bits of a digit that lines of that length are sorted by; at most 11. */
 int shape_sort_digit(const struct device_shape *shape, int length);
 
+/* Whether the interpreter stores past the caches what takes so many bytes, with all that is read. */
+bool shape_streams_lanes(const struct device_shape *shape, double bytes);
+
 /* What a kernel's run on so many processors counts as, where it is asked how much a plan has run. */
 uint64_t shape_work(const struct device_shape *shape, uint64_t processors);
 

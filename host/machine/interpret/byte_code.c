@@ -533,7 +533,7 @@ static bool are_streamed(const struct making *k)
     for (int i = 0; i < k->g->count; i++)
         if (k->needed[i] && !k->g->nodes[i].constant && (k->output[i] || loads(k, i)))
             bytes += (double)type_bytes(k->g->nodes[i].type) * (double)k->set->count;
-    return k->shape->streams && bytes > k->shape->stream_lanes_bytes;
+    return shape_streams_lanes(k->shape, bytes);
 }
 
 void byte_code_free(struct byte_code *p)
@@ -550,7 +550,7 @@ void byte_code_free(struct byte_code *p)
 
 struct byte_code *byte_code_make(const struct device_shape *shape, const struct plan_graph *g,
                                  const int *stores, int count, const struct vpset *set,
-                                 int processors_log2)
+                                 int processors_log2, bool streams)
 {
     size_t nodes = (size_t)g->count;
     struct byte_code *p = calloc(1, sizeof *p);
@@ -568,7 +568,7 @@ struct byte_code *byte_code_make(const struct device_shape *shape, const struct 
     bool good = p && k.place && k.owner && k.last && k.needed && k.output;
     if (good) {
         find_needed(&k, stores, count);
-        p->streams = k.streams = are_streamed(&k);
+        p->streams = k.streams = streams && are_streamed(&k);
         for (int i = 0; i < g->count && !p->failed; i++)
             if (k.needed[i])
                 node_compute(&k, i);

@@ -10,6 +10,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/fill.h"
 #include "base/scalar.h"
 
 typedef uint8_t u8;

@@ -135,9 +135,18 @@ struct lanes_scan {
     uint32_t none, flip, cut;
 };
 typedef uint32_t lanes_scan_function(const struct lanes_scan *s, size_t n, uint32_t before);
+/* As in kernels/reduce.cl. */
+enum reduction_op {
+    REDUCE_AND,
+    REDUCE_OR,
+    REDUCE_XOR,
+    REDUCE_ADD,
+    REDUCE_LEAST,
+    REDUCE_GREATEST
+};
 /* Whole numbers joined with one another, where the context (NULL: everywhere) holds. */
 struct lanes_sum {
-    int op;         /* 0 and, 1 or, 2 exclusive or, 3 add, 4 least, 5 greatest */
+    enum reduction_op op;
     size_t element; /* bytes: 1, 2, 4 or 8 */
     bool
         plain; /* they are as long as the result, or added without a sign; else they are made longer */

@@ -9,29 +9,9 @@ static void count(u32 *to, u32 first, int n)
         to[i] = first + (u32)i;
 }
 
-#define FILL(T)                                                                                \
-    {                                                                                          \
-        T x, *d = to;                                                                          \
-        memcpy(&x, element, sizeof x);                                                         \
-        for (size_t i = 0; i < n; i++)                                                         \
-            d[i] = x;                                                                          \
-        break;                                                                                 \
-    }
-
 static void fill(void *to, const void *element, size_t bytes, size_t n)
 {
-    switch (bytes) {
-    case 1:
-        FILL(u8)
-    case 2:
-        FILL(u16)
-    case 4:
-        FILL(u32)
-    case 8:
-        FILL(u64)
-    default:
-        FILL(u128)
-    }
+    fill_elements(to, element, bytes, n);
 }
 
 /* ---- messages ---- */

@@ -66,7 +66,8 @@ SUM_BY(sum_greatest, u8, u16, u32, JOIN_GREATEST)
 
 static u64 sum(const struct lanes_sum *s, const void *numbers, const u8 *context, size_t n)
 {
-    static lanes_sum_function *const of[] = {sum_and, sum_or,    sum_xor,
-                                             sum_add, sum_least, sum_greatest};
+    static lanes_sum_function *const of[] = {
+        [REDUCE_AND] = sum_and, [REDUCE_OR] = sum_or,       [REDUCE_XOR] = sum_xor,
+        [REDUCE_ADD] = sum_add, [REDUCE_LEAST] = sum_least, [REDUCE_GREATEST] = sum_greatest};
     return of[s->op](s, numbers, context, n);
 }

@@ -11,11 +11,7 @@
 #include "run/evaluate.h"
 #include "run/materialise.h"
 #include "values/graph.h"
-
-static bool is_everywhere(const struct machine_value *context)
-{
-    return context->op == NODE_CONSTANT && context->imm.lo;
-}
+#include "values/make.h"
 
 /* Whether the front end sends to that set by itself, if its arrays are its own. */
 static bool is_near(const struct machine *m, const struct vpset *to)
@@ -43,7 +39,7 @@ bool message_fills(struct machine *m, struct machine_value *address, int to_set)
         known_addresses_find(m, address_whole(m, to_set, address), to_set);
     return k && k->there && k->distinct && m->device->is_pocl && is_near(m, to) &&
            m->values->sets[from_set].count == to->count &&
-           is_everywhere(m->memory->flags[from_set].of[MACHINE_CONTEXT].value);
+           value_is_one_bit(m->memory->flags[from_set].of[MACHINE_CONTEXT].value);
 }
 
 bool message_make(struct machine *m, struct message *g, struct machine_value *address,
@@ -77,7 +73,7 @@ bool message_make(struct machine *m, struct message *g, struct machine_value *ad
             wanted[count++] = all[i];
     if (count && evaluate_values(m, wanted, count, false))
         return false;
-    g->all = !g->context || is_everywhere(g->context);
+    g->all = !g->context || value_is_one_bit(g->context);
     g->address = materialise(m, g->from_set, address);
     if (g->address && source) /* a number that is sent may do as it is */
         g->source =

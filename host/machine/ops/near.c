@@ -138,9 +138,9 @@ bool near_read(struct machine *m, int set, const struct machine_value *v, uint64
         memcpy(&none, &w->identity.lo, sizeof none);                                           \
         for (int lane = 0; lane < LANES; lane++)                                               \
             sums[lane] = none;                                                                 \
-        if (w->op == 3)                                                                        \
+        if (w->op == REDUCE_ADD)                                                               \
             FLOATS_LOOP(type, JOIN_ADD)                                                        \
-        else if (w->op == 4)                                                                   \
+        else if (w->op == REDUCE_LEAST)                                                        \
             FLOATS_LOOP(type, JOIN_LEAST)                                                      \
         else                                                                                   \
             FLOATS_LOOP(type, JOIN_GREATEST)                                                   \
@@ -153,19 +153,20 @@ FLOATS(run_doubles, double)
 
 /* ---- of pairs of 64 bits ---- */
 
-static u128 joined_wide(int op, u128 a, u128 x)
+static u128 joined_wide(enum reduction_op op, u128 a, u128 x)
 {
     switch (op) {
-    case 0:
+    case REDUCE_AND:
         return JOIN_AND(a, x);
-    case 1:
+    case REDUCE_OR:
         return JOIN_OR(a, x);
-    case 2:
+    case REDUCE_XOR:
         return JOIN_XOR(a, x);
-    case 3:
+    case REDUCE_ADD:
         return JOIN_ADD(a, x);
-    case 4:
+    case REDUCE_LEAST:
         return JOIN_LEAST(a, x);
+    case REDUCE_GREATEST:
     default:
         return JOIN_GREATEST(a, x);
     }

@@ -5,6 +5,7 @@
 #define LUTETIA_MACHINE_NEAR_H
 
 #include "device/device.h"
+#include "interpret/lanes.h"
 #include "values/values.h"
 
 /* Whether the front end does it by itself: it can look at arrays such as this one, and the device has done all that is in its
@@ -17,9 +18,9 @@ void near_end(struct machine *m, const char *what, double start);
 bool near_read(struct machine *m, int set, const struct machine_value *v, uint64_t index,
                struct machine_scalar *out);
 
-/* What is reduced: 0 and, 1 or, 2 exclusive or, 3 add, 4 least, 5 greatest, of numbers that are in memory. */
+/* What is reduced, of numbers that are in memory. */
 struct near_sum {
-    int op;
+    enum reduction_op op;
     bool is_float;
     int width;    /* of integers: what is read of an element */
     bool plain;   /* ... they are as long as the result, or added without a sign */

@@ -303,14 +303,17 @@ INTEGERS_LINES(u128, line_u128, 1)
 INTEGERS_LINES(u32, lines_u32, LOOPS_LANES)
 INTEGERS_LINES(u64, lines_u64, LOOPS_LANES)
 
+static const enum reduction_op reductions[] = {[LINES_ADD] = REDUCE_ADD,
+                                               [LINES_MIN] = REDUCE_LEAST,
+                                               [LINES_OR] = REDUCE_OR,
+                                               [LINES_XOR] = REDUCE_XOR};
+
 /* n numbers side by side from that element on, in any order, where the context (NULL: everywhere) holds. */
 #define SUM_OF(T)                                                                              \
     static T sum_##T(const struct line_scan *j, const T *in, const unsigned char *context,     \
                      size_t n)                                                                 \
     {                                                                                          \
-        static const int ops[] = {                                                             \
-            [LINES_ADD] = 3, [LINES_MIN] = 4, [LINES_OR] = 1, [LINES_XOR] = 2};                \
-        const struct lanes_sum s = {.op = ops[j->op],                                          \
+        const struct lanes_sum s = {.op = reductions[j->op],                                   \
                                     .element = sizeof(T),                                      \
                                     .plain = true,                                             \
                                     .none = j->identity.lo,                                    \

@@ -231,37 +231,35 @@ enum machine_status machine_field_write(struct machine *m, uint32_t field,
 
 /* ---- reductions ---- */
 
-enum { AND, OR, XOR, ADD, LEAST, GREATEST };
-
 struct reduction_info {
-    int op;
+    enum reduction_op op;
     bool is_float, is_signed;
 };
 
 static const struct reduction_info reductions[] = {
-    [MACHINE_REDUCE_AND] = {AND, false, false},
-    [MACHINE_REDUCE_OR] = {OR, false, false},
-    [MACHINE_REDUCE_XOR] = {XOR, false, false},
-    [MACHINE_REDUCE_ADD] = {ADD, false, false},
-    [MACHINE_REDUCE_UMIN] = {LEAST, false, false},
-    [MACHINE_REDUCE_UMAX] = {GREATEST, false, false},
-    [MACHINE_REDUCE_SMIN] = {LEAST, false, true},
-    [MACHINE_REDUCE_SMAX] = {GREATEST, false, true},
-    [MACHINE_REDUCE_FADD] = {ADD, true, false},
-    [MACHINE_REDUCE_FMIN] = {LEAST, true, false},
-    [MACHINE_REDUCE_FMAX] = {GREATEST, true, false},
+    [MACHINE_REDUCE_AND] = {REDUCE_AND, false, false},
+    [MACHINE_REDUCE_OR] = {REDUCE_OR, false, false},
+    [MACHINE_REDUCE_XOR] = {REDUCE_XOR, false, false},
+    [MACHINE_REDUCE_ADD] = {REDUCE_ADD, false, false},
+    [MACHINE_REDUCE_UMIN] = {REDUCE_LEAST, false, false},
+    [MACHINE_REDUCE_UMAX] = {REDUCE_GREATEST, false, false},
+    [MACHINE_REDUCE_SMIN] = {REDUCE_LEAST, false, true},
+    [MACHINE_REDUCE_SMAX] = {REDUCE_GREATEST, false, true},
+    [MACHINE_REDUCE_FADD] = {REDUCE_ADD, true, false},
+    [MACHINE_REDUCE_FMIN] = {REDUCE_LEAST, true, false},
+    [MACHINE_REDUCE_FMAX] = {REDUCE_GREATEST, true, false},
 };
 
 static struct machine_scalar identity_of(const struct reduction_info *info,
                                          struct machine_type type)
 {
     struct machine_scalar x = {0, 0};
-    if (info->is_float && info->op != ADD) {
+    if (info->is_float && info->op != REDUCE_ADD) {
         if (type.width == 32)
-            x.lo = info->op == LEAST ? 0x7f800000u : 0xff800000u;
+            x.lo = info->op == REDUCE_LEAST ? 0x7f800000u : 0xff800000u;
         else
-            x.lo = info->op == LEAST ? 0x7ff0000000000000u : 0xfff0000000000000u;
-    } else if (info->op == AND || (info->op == LEAST && !info->is_float)) {
+            x.lo = info->op == REDUCE_LEAST ? 0x7ff0000000000000u : 0xfff0000000000000u;
+    } else if (info->op == REDUCE_AND || (info->op == REDUCE_LEAST && !info->is_float)) {
         x = scalar_ones(type.width);
     }
     return x;
@@ -283,11 +281,13 @@ static double as_double(uint64_t bits)
 }
 
 #define COMBINE_FLOATS(type, from, to)                                                         \
-    static struct machine_scalar combine_##type(int op, struct machine_scalar a,               \
+    static struct machine_scalar combine_##type(enum reduction_op op, struct machine_scalar a, \
                                                 struct machine_scalar b)                       \
     {                                                                                          \
         type x = from(a.lo), y = from(b.lo);                                                   \
-        type r = op == ADD ? x + y : op == LEAST ? (y < x ? y : x) : (y > x ? y : x);          \
+        type r = op == REDUCE_ADD     ? x + y                                                  \
+                 : op == REDUCE_LEAST ? (y < x ? y : x)                                        \
+                                      : (y > x ? y : x);                                       \
         to bits;                                                                               \
         memcpy(&bits, &r, sizeof bits);                                                        \
         return (struct machine_scalar){bits, 0};                                               \
@@ -296,28 +296,29 @@ static double as_double(uint64_t bits)
 COMBINE_FLOATS(float, as_float, uint32_t)
 COMBINE_FLOATS(double, as_double, uint64_t)
 
-static struct machine_scalar combine_bits(int op, struct machine_scalar a,
+static struct machine_scalar combine_bits(enum reduction_op op, struct machine_scalar a,
                                           struct machine_scalar b)
 {
     bool less = a.hi < b.hi || (a.hi == b.hi && a.lo < b.lo);
     switch (op) {
-    case AND:
+    case REDUCE_AND:
         return (struct machine_scalar){a.lo & b.lo, a.hi & b.hi};
-    case OR:
+    case REDUCE_OR:
         return (struct machine_scalar){a.lo | b.lo, a.hi | b.hi};
-    case XOR:
+    case REDUCE_XOR:
         return (struct machine_scalar){a.lo ^ b.lo, a.hi ^ b.hi};
-    case ADD:
+    case REDUCE_ADD:
         return (struct machine_scalar){a.lo + b.lo, a.hi + b.hi + (a.lo + b.lo < a.lo)};
-    case LEAST:
+    case REDUCE_LEAST:
         return less ? a : b;
+    case REDUCE_GREATEST:
     default:
         return less ? b : a;
     }
 }
 
-static struct machine_scalar combine(int op, struct machine_type type, struct machine_scalar a,
-                                     struct machine_scalar b)
+static struct machine_scalar combine(enum reduction_op op, struct machine_type type,
+                                     struct machine_scalar a, struct machine_scalar b)
 {
     if (type.kind == MACHINE_BITS)
         return combine_bits(op, a, b);
@@ -325,7 +326,7 @@ static struct machine_scalar combine(int op, struct machine_type type, struct ma
 }
 
 /* Runs' numbers joined, each with its neighbour, until one is left. */
-static struct machine_scalar join_runs(int op, struct machine_type type,
+static struct machine_scalar join_runs(enum reduction_op op, struct machine_type type,
                                        struct machine_scalar *sums, size_t count)
 {
     while (count > 1) {
@@ -349,7 +350,7 @@ static struct machine_value *made_longer(struct machine_value *v)
 
 static bool is_everywhere(const struct machine_value *context)
 {
-    return !context || (value_is_number(context) && context->imm.lo);
+    return !context || value_is_one_bit(context);
 }
 
 /* On the front end: of numbers in memory that are few, or were only made longer since, in processors that a context in memory
@@ -371,7 +372,7 @@ static bool reduce_near(struct machine *m, const struct vpset *s, struct machine
     if (!in->buffer || (in->type.kind == MACHINE_FLOAT) != w.is_float ||
         (!all && !context->buffer))
         return false;
-    w.plain = in == v || (info->op == ADD && !w.extends);
+    w.plain = in == v || (info->op == REDUCE_ADD && !w.extends);
     w.width = in->type.width;
     w.element = type_bytes(in->type);
     w.numbers = in->buffer;
@@ -387,7 +388,7 @@ static bool reduce_near(struct machine *m, const struct vpset *s, struct machine
 }
 
 static enum machine_status reduce_buffer(struct machine *m, const struct vpset *s,
-                                         struct machine_value *v, int op,
+                                         struct machine_value *v, enum reduction_op op,
                                          struct machine_scalar identity,
                                          struct machine_scalar *out)
 {

@@ -455,8 +455,8 @@ struct machine_value *scan_where(struct machine *m, const struct machine_scan *h
         .element = f.element,
         .op = f.op,
         .exclusive = how->exclusive,
-        .streams = m->device->shape.streams && 2 * (double)s->count * (double)f.element->bytes >
-                                                   m->device->shape.stream_lanes_bytes,
+        .streams = shape_streams_lanes(&m->device->shape,
+                                       2 * (double)s->count * (double)f.element->bytes),
         .starts = how->segments == MACHINE_START_BIT,
         .backward = bits && how->segments == MACHINE_SEGMENT_BIT && how->downward,
         .identity = f.identity,
