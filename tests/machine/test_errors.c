@@ -1,4 +1,8 @@
 /* test_errors.c - a wrong call gives a status and one clear line, and changes nothing in the machine. */
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/arrays.h"
 #include "support.h"
 
 static struct machine *machine;
@@ -247,14 +251,52 @@ static void values_of_two_sets_do_not_mix(void **state)
     support_failed(machine, MACHINE_BAD_ARGUMENT, "");
 }
 
+/* What the program printed comes out, and then the line. */
+static void no_memory_for_tables_ends_with_a_line(void **state)
+{
+    (void)state;
+#ifdef __SANITIZE_ADDRESS__
+    skip(); /* it reports what cannot be allocated by itself */
+#endif
+    char said[200] = "";
+    int ends[2], status;
+    assert_int_equal(pipe(ends), 0);
+    fflush(stdout);
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (!child) {
+        dup2(ends[1], STDOUT_FILENO);
+        dup2(ends[1], STDERR_FILENO);
+        close(ends[1]);
+        printf("printed before; ");
+        array_zeroed(SIZE_MAX / 4, 2);
+        _exit(0);
+    }
+    close(ends[1]);
+    FILE *from = fdopen(ends[0], "r");
+    assert_non_null(from);
+    assert_non_null(fgets(said, sizeof said, from));
+    assert_non_null(strstr(said, "printed before; lutetia: not enough memory"));
+    assert_null(fgets(said, sizeof said, from));
+    fclose(from);
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), EXIT_FAILURE);
+}
+
 int main(void)
 {
 #define CASE(test) cmocka_unit_test_setup_teardown(test, setup, teardown)
     const struct CMUnitTest tests[] = {
-        CASE(device_that_is_not_there_is_refused), CASE(settings_that_are_nonsense_are_refused),
-        CASE(devices_are_listed_in_order),         CASE(vpset_of_bad_shape_is_refused),
-        CASE(field_that_cannot_be_is_refused),     CASE(field_that_is_gone_is_refused),
-        CASE(access_beyond_the_field_is_refused),  CASE(operation_on_wrong_types_is_refused),
+        cmocka_unit_test(no_memory_for_tables_ends_with_a_line),
+        CASE(device_that_is_not_there_is_refused),
+        CASE(settings_that_are_nonsense_are_refused),
+        CASE(devices_are_listed_in_order),
+        CASE(vpset_of_bad_shape_is_refused),
+        CASE(field_that_cannot_be_is_refused),
+        CASE(field_that_is_gone_is_refused),
+        CASE(access_beyond_the_field_is_refused),
+        CASE(operation_on_wrong_types_is_refused),
         CASE(values_of_two_sets_do_not_mix),
     };
 

@@ -22,14 +22,14 @@ void *array_grown(void *old, int *capacity, size_t element)
 {
     bool failed = false;
     void *new = array_more(old, capacity, element, &failed);
-    INVARIANT(!failed);
+    NEEDS_MEMORY(!failed);
     return new;
 }
 
 void *array_zeroed(size_t count, size_t element)
 {
     void *new = calloc(count ? count : 1, element);
-    INVARIANT(new != NULL);
+    NEEDS_MEMORY(new);
     return new;
 }
 

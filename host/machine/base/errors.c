@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include "base/parts.h"
 
@@ -11,6 +12,15 @@ _Noreturn void machine_invariant_failed(const char *what, const char *file, int 
 {
     fprintf(stderr, "lutetia: broken invariant: %s (%s:%d)\n", what, file, line);
     abort();
+}
+
+/* Any thread may come here, so nothing is waited for; but what the program has printed is not lost. */
+_Noreturn void machine_memory_failed(void)
+{
+    fflush(NULL);
+    fprintf(stderr, "lutetia: not enough memory for the machine's own tables: take fewer "
+                    "processors, or leave the program more memory\n");
+    _exit(EXIT_FAILURE);
 }
 
 enum machine_status machine_fail(struct machine *m, enum machine_status status,

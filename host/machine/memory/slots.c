@@ -87,7 +87,7 @@ static struct slot *slot_insert(struct machine *m, struct field *f, uint32_t off
     if (f->slots_count == f->slots_capacity) {
         int capacity = f->slots_capacity ? 2 * f->slots_capacity : 2;
         struct slot *slots = realloc(f->slots, (size_t)capacity * sizeof *slots);
-        INVARIANT(slots != NULL);
+        NEEDS_MEMORY(slots);
         f->slots = slots;
         f->slots_capacity = capacity;
     }
@@ -140,7 +140,7 @@ void field_slots_put(struct machine *m, struct field *f, uint32_t from, uint32_t
     while (f->slots_count + count > f->slots_capacity) {
         int capacity = f->slots_capacity ? 2 * f->slots_capacity : 2;
         struct slot *grown = realloc(f->slots, (size_t)capacity * sizeof *grown);
-        INVARIANT(grown != NULL);
+        NEEDS_MEMORY(grown);
         f->slots = grown;
         f->slots_capacity = capacity;
     }

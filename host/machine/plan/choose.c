@@ -51,7 +51,7 @@ static bool is_stopped(const struct search *s)
 static double descend(struct search *s, double best)
 {
     struct gain *gains = malloc(((size_t)s->shifts_count + 1) * sizeof *gains);
-    INVARIANT(gains != NULL);
+    NEEDS_MEMORY(gains);
     bool changed = true;
     s->first = false;
     for (int round = 0; round < 2 && changed; round++) {
@@ -115,7 +115,7 @@ static int turns_most(const struct plan_graph *g, const struct vpset *set,
         return 2 * shape->turns;
     int(*reach)[2] = calloc((size_t)g->count, sizeof *reach),
     most = 1; /* to the left, to the right */
-    INVARIANT(reach != NULL);
+    NEEDS_MEMORY(reach);
     for (int i = 0; i < g->count; i++) {
         const struct plan_node *n = &g->nodes[i];
         for (int k = 0; !n->leaf && k < node_ops[n->op].inputs; k++)
@@ -147,7 +147,7 @@ void plan_choose(struct plan_graph *g, const struct vpset *sets,
     size_t count = (size_t)g->count;
     struct search s = {.g = g, .sets = sets, .shape = shape};
     bool *barrier = calloc(count, sizeof *barrier);
-    INVARIANT(barrier != NULL);
+    NEEDS_MEMORY(barrier);
     substitutes_find(g);
     search_begin(&s);
     double all = barriers_everywhere(&s), best = descend(&s, all);

@@ -314,7 +314,7 @@ double cost_of(struct search *s)
 static void find_light(struct search *s)
 {
     double *weight = calloc((size_t)s->g->count, sizeof *weight);
-    INVARIANT(weight != NULL);
+    NEEDS_MEMORY(weight);
     for (int i = 0; i < s->g->count; i++) {
         const struct plan_node *n = &s->g->nodes[i];
         weight[i] = n->constant ? 0 : n->leaf ? 1 : s->facts[i].operations;
@@ -370,9 +370,9 @@ void search_begin(struct search *s)
     s->visits = calloc(s->visits_size, sizeof *s->visits);
     s->offsets = calloc(OFFSETS_MAX, sizeof *s->offsets);
     s->array = calloc(count, sizeof *s->array);
-    INVARIANT(s->barrier && s->light && s->earliest && s->facts && s->computed && s->shifts &&
-              s->stages.nodes && s->stages.begins && s->loaded && s->visits && s->offsets &&
-              s->array);
+    NEEDS_MEMORY(s->barrier && s->light && s->earliest && s->facts && s->computed &&
+                 s->shifts && s->stages.nodes && s->stages.begins && s->loaded && s->visits &&
+                 s->offsets && s->array);
     s->offsets_count = 1;
     find_facts(s);
     find_light(s);

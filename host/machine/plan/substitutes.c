@@ -48,7 +48,7 @@ void substitutes_find(struct plan_graph *g)
     enum { UNSEEN = -1 };
     struct conditions *where = malloc((size_t)g->count * sizeof *where);
     int32_t *select = malloc((size_t)g->count * sizeof *select); /* of a node: its select */
-    INVARIANT(where && select);
+    NEEDS_MEMORY(where && select);
     for (int i = 0; i < g->count; i++) {
         where[i].count = g->nodes[i].target ? 0 : UNSEEN;
         select[i] = -1;

@@ -41,7 +41,7 @@ void graph_finish(struct machine *m)
 static struct machine_value *node_new(struct machine *m)
 {
     struct machine_value *v = calloc(1, sizeof *v);
-    INVARIANT(v != NULL);
+    NEEDS_MEMORY(v);
     m->values->live++;
     return v;
 }
@@ -61,7 +61,7 @@ static struct machine_value *node_new(struct machine *m)
             m->values->blocks = array_grown(m->values->blocks, &m->values->blocks_capacity,
                                             sizeof *m->values->blocks);
         struct machine_value *block = calloc(NODES_IN_BLOCK, sizeof *block);
-        INVARIANT(block != NULL);
+        NEEDS_MEMORY(block);
         m->values->blocks[m->values->blocks_count++] = block;
         for (int i = 0; i < NODES_IN_BLOCK; i++) {
             block[i].next = m->values->free;
@@ -121,7 +121,7 @@ static void table_grow(struct machine *m)
 {
     uint32_t size = m->values->table_size * 2;
     struct machine_value **table = calloc(size, sizeof *table);
-    INVARIANT(table != NULL);
+    NEEDS_MEMORY(table);
     for (uint32_t i = 0; i < m->values->table_size; i++)
         for (struct machine_value *v = m->values->table[i], *next; v; v = next) {
             next = v->next;
