@@ -124,6 +124,14 @@ struct paris_state {
 };
 extern struct paris_state paris_the;
 
+/* Makes the machine. False: that cannot be; paris_error() has the reason. */
+bool paris_machine_make(void);
+/* paris_reset() with as many processors. */
+bool paris_reset_to(unsigned int processors);
+void paris_machine_forget(void);
+/* Performs something on the first machine of a process, which was made just now, and empties it: warm_up.c. False: no memory. */
+bool paris_warm_up(void);
+
 /* ---- the way an instruction goes ---- */
 
 /* Tells the error handler "<call>: <message>". */

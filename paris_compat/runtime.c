@@ -11,9 +11,7 @@ unsigned int CM_physical_processors_length = 0;
 static struct machine_config config_now;
 static bool config_given;
 
-/* ---- the machine ---- */
-
-static void machine_forget(void)
+void paris_machine_forget(void)
 {
     paris_sets_forget();
     paris_explain_end(paris_the.machine);
@@ -31,8 +29,7 @@ static void leave(void)
     paris_explain_write();
 }
 
-/* False: no machine; paris_error() has the reason. */
-static bool machine_make(void)
+bool paris_machine_make(void)
 {
     if (!config_given)
         config_now = machine_config_default();
@@ -61,7 +58,7 @@ static bool machine_make(void)
 
 struct machine *paris_machine(void)
 {
-    if (!paris_the.machine && !machine_make()) {
+    if (!paris_the.machine && !paris_machine_make()) {
         paris_error_print();
         exit(1);
     }
@@ -73,67 +70,13 @@ bool paris_reset(const struct machine_config *config)
     config_given = config != NULL;
     if (config)
         config_now = *config;
-    machine_forget();
-    return machine_make();
+    paris_machine_forget();
+    return paris_machine_make();
 }
 
-/* ---- as programs say it ---- */
-
-unsigned int CM_attach(void)
+bool paris_reset_to(unsigned int processors)
 {
-    paris_the.call = "CM_attach";
-    if (!paris_the.machine && !machine_make()) {
-        paris_error_print();
-        return 0;
-    }
-    paris_the.attached = true;
-    return CM_physical_processors_limit;
-}
-
-unsigned int CM_attach_to_processors(unsigned int count)
-{
-    paris_the.call = "CM_attach_to_processors";
-    if (count == 0 || (count & (count - 1)) || count > 1u << 30) {
-        paris_fail("count (%u): must be a power of two up to 2^30", count);
-        return 0;
-    }
-    if (paris_the.machine && CM_physical_processors_limit == count)
-        return CM_attach();
     struct machine_config config = config_given ? config_now : machine_config_default();
-    config.processors_count = (int)count;
-    return paris_reset(&config) ? CM_physical_processors_limit : 0;
-}
-
-int CM_attached(void)
-{
-    return paris_the.attached;
-}
-
-void CM_detach(void)
-{
-    machine_forget();
-}
-
-void CM_init(void)
-{
-    struct machine *m = paris_machine();
-    paris_the.call = "CM_init";
-    paris_the.attached = true;
-    machine_begin(m);
-    if (!paris_the.pristine)
-        paris_sets_reset();
-}
-
-void CM_cold_boot(void)
-{
-    CM_init();
-}
-
-void CM_warm_boot(void)
-{
-    struct machine *m = paris_machine();
-    machine_instruction(m, "CM_warm_boot");
-    paris_the.call = "CM_warm_boot";
-    if (machine_finish(m) != MACHINE_OK)
-        paris_fail_machine();
+    config.processors_count = (int)processors;
+    return paris_reset(&config);
 }

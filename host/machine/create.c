@@ -10,6 +10,7 @@
 #include "forks.h"
 #include "measure/copies.h"
 #include "memory/memory.h"
+#include "run/at_once_when.h"
 #include "run/evaluate.h"
 #include "run/replay.h"
 #include "values/graph.h"
@@ -19,7 +20,7 @@ struct machine_config machine_config_default(void)
     return (struct machine_config){.device = NULL, .processors_count = 0, .eager = -1};
 }
 
-static enum machine_status set_processors(struct machine *m, int wanted)
+static enum machine_status processors_choose(struct machine *m, int wanted, int *out)
 {
     long count = wanted;
     if (count == 0 && m->settings.processors != SETTING_FREE)
@@ -30,19 +31,23 @@ static enum machine_status set_processors(struct machine *m, int wanted)
         return machine_fail(
             m, MACHINE_BAD_ARGUMENT,
             "the number of processors must be a power of two from 1 to 2^30 (is %ld)", count);
-    m->values->processors_count = (int)count;
-    m->values->processors_log2 = __builtin_ctzl((unsigned long)count);
+    *out = (int)count;
     return MACHINE_OK;
 }
+
+/* What a machine holds above its device. */
+struct content {
+    struct values values;
+    struct plans plans;
+    struct memory memory;
+    struct run run;
+};
 
 /* A machine and all its layers, allocated in one piece. */
 struct machine_layers {
     struct machine machine; /* first: the whole is freed by this address */
     struct device device;
-    struct values values;
-    struct plans plans;
-    struct memory memory;
-    struct run run;
+    struct content content;
 };
 
 /* Written here: pages of calloc()'s may be given only when the program's first calls look at them, which takes them some microseconds. */
@@ -71,18 +76,51 @@ static void be_watched(struct machine *m)
         copies_ready(m, sums);
 }
 
+/* The content of a machine that has done nothing yet; it was zero. */
+static void content_begin(struct machine *m, int processors)
+{
+    m->values->processors_count = processors;
+    m->values->processors_log2 = __builtin_ctzl((unsigned long)processors);
+    m->values->sets_count = 1;
+    m->memory->next_base = 64;
+    m->values->epoch = 1;
+    m->values->random_seed = 1;
+    evaluate_init(m);
+}
+
+static enum machine_status content_tables(struct machine *m)
+{
+    return graph_init(m) && record_init(m)
+               ? MACHINE_OK
+               : machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for an empty machine");
+}
+
+static void content_finish(struct machine *m)
+{
+    m->run->calls_noted = 0; /* nothing reads the noted calls' results any more */
+    m->run->flush_due = false;
+    background_finish(m);
+    watch_leave(m);
+    record_finish(m);
+    fields_finish(m);
+    vpsets_finish(m);
+    plans_finish(m);
+    graph_finish(m);
+}
+
 enum machine_status machine_create(const struct machine_config *config, struct machine **out)
 {
     struct machine_layers *layers = layers_allocate();
     struct machine *m = layers ? &layers->machine : NULL;
+    int processors = 0;
     *out = m;
     if (!m)
         return MACHINE_NO_MEMORY;
     m->device = &layers->device;
-    m->values = &layers->values;
-    m->plans = &layers->plans;
-    m->memory = &layers->memory;
-    m->run = &layers->run;
+    m->values = &layers->content.values;
+    m->plans = &layers->content.plans;
+    m->memory = &layers->content.memory;
+    m->run = &layers->content.run;
     enum machine_status status = settings_read(m);
     if (status)
         return status;
@@ -93,20 +131,15 @@ enum machine_status machine_create(const struct machine_config *config, struct m
     if (!watch_open(m, config))
         return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for an empty machine");
     m->owner = pthread_self();
-    m->values->sets_count = 1;
-    m->memory->next_base = 64;
-    m->values->epoch = 1;
-    evaluate_init(m);
-    m->values->random_seed = 1;
-    status = set_processors(m, config->processors_count);
+    status = processors_choose(m, config->processors_count, &processors);
     if (status)
         return status;
+    content_begin(m, processors);
     status = device_open(m, config);
     if (!status)
         forks_machine_made(m);
     /* After the driver, which takes milliseconds and all of the caches: so they are near when the program begins. */
-    if (!status && !(graph_init(m) && record_init(m)))
-        status = machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for an empty machine");
+    status = status ? status : content_tables(m);
     if (!status && m->watch)
         be_watched(m);
     if (!status)
@@ -119,19 +152,29 @@ void machine_destroy(struct machine *m)
     if (!m)
         return;
     forks_machine_gone(m);
-    m->run->calls_noted = 0; /* nothing reads the noted calls' results any more */
-    m->run->flush_due = false;
-    background_finish(m);
-    watch_leave(m);
-    record_finish(m);
-    fields_finish(m);
-    vpsets_finish(m);
-    plans_finish(m);
-    graph_finish(m);
+    content_finish(m);
     watch_close(m);
     device_close(m);
     free(m->plans->dump_dir);
     free(m);
+}
+
+bool machine_warms_up(const struct machine *m)
+{
+    return m->settings.warm_up && at_once_may(m) == AT_ONCE_SOMETIMES &&
+           device_is_ours(m->device) && !m->settings.eager && !m->plans->dump_dir;
+}
+
+enum machine_status machine_empty(struct machine *m)
+{
+    struct content *c = &((struct machine_layers *)m)->content;
+    const int processors = m->values->processors_count;
+    char *dump_dir = m->plans->dump_dir;
+    content_finish(m);
+    memset(c, 0, sizeof *c);
+    m->plans->dump_dir = dump_dir;
+    content_begin(m, processors);
+    return content_tables(m);
 }
 
 void machine_leave(struct machine *m)

@@ -1,5 +1,4 @@
-/* machine.h - a Connection Machine: virtual processors, bit-addressed fields, and a lazy value
- * graph.
+/* machine.h - a Connection Machine: virtual processors, bit-addressed fields, and a lazy value graph.
  *
  *     struct machine *m;
  *     struct machine_config config = machine_config_default();
@@ -13,9 +12,8 @@
  *     machine_field_store(m, f, machine_binary(m, MACHINE_FADD, x, x), MACHINE_WHERE_ACTIVE);
  *     machine_field_download(m, f, MACHINE_F32, host_array);
  *
- * No call between create and download computes: each call records what a value now is. Values
- * that are observed are computed by as few generated kernels as the cost model allows.  See
- * docs/engine.md.
+ * No call between create and download computes: each call records what a value now is. Values that are observed are computed by as few
+ * generated kernels as the cost model allows. See docs/engine.md.
  *
  * Values. A `struct machine_value *` is one number for each virtual processor of a VP set, or
  * one number for all of them (a constant). It is immutable and borrowed: valid until the next
@@ -136,16 +134,18 @@ struct machine_config {
 };
 struct machine_config machine_config_default(void);
 
-/* Owns: after a failure *out may be set, for its error text; machine_destroy() frees it
- * then, too. */
+/* Owns: after a failure *out may be set, for its error text; machine_destroy() frees it then, too. */
 enum machine_status machine_create(const struct machine_config *config, struct machine **out);
 void machine_destroy(struct machine *m); /* NULL is fine */
 
-/* For exit handlers: waits for running kernels, which still use the driver and their
- * buffers, and releases nothing. Returns at once where waiting is impossible: in another
- * thread, or if the exit comes from inside an evaluation (a compiler called exit()). NULL is
- * fine. */
+/* For exit handlers: waits for running kernels, which still use the driver and their buffers, and releases nothing. Returns at once where
+ * waiting is impossible: in another thread, or if the exit comes from inside an evaluation (a compiler called exit()). NULL is fine. */
 void machine_leave(struct machine *m);
+
+/* Whether it pays to perform something and to empty the machine before the program begins: nothing is compiled for it, and nobody watches. */
+bool machine_warms_up(const struct machine *m);
+/* Destroys all VP sets, fields, values and plans: the machine is as it was made. */
+enum machine_status machine_empty(struct machine *m);
 
 enum machine_status machine_status_last(const struct machine *m);
 const char *machine_error(const struct machine *m); /* the last failure, one line; "" if none */

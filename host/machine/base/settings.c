@@ -58,6 +58,7 @@ static const struct setting {
     {SETTING(INTERPRET, interpret), 1, 0, 3, 0, "0, 1, 2 or 3"},
     {SETTING(NUMBERS, numbers), SETTING_FREE, 0, 1, 0, "0 or 1"},
     {SETTING(AT_ONCE, at_once), 1, 0, 2, 0, "0, 1 or 2"},
+    {SETTING(WARM_UP, warm_up), 1, 0, 1, 0, "0 or 1"},
     {SETTING(KERNELS, kernels), 512, 1, 1 << 20, 0, "a number from 1 to 2^20"},
     {SETTING(KERNELS_EVER, kernels_ever), 8192, 0, 1 << 20, 0, "a number up to 2^20"},
     {SETTING(BACKGROUND, background), 1, 0, 1, 0, "0 or 1"},

@@ -18,6 +18,7 @@ struct settings {
     uint64_t numbers; /* numbers in kernels are arguments: 0 never, 1 where they can be */
     uint64_t
         at_once; /* operations of small sets are computed when called: 0 never, 1 where nothing repeats, 2 always */
+    uint64_t warm_up;    /* machines may perform something before the program does */
     uint64_t background; /* better kernels are compiled while others run */
     uint64_t kernels;    /* in memory at most, in units: device/programs.c */
     uint64_t
