@@ -215,6 +215,8 @@ bool device_is_near(struct machine *m, const struct device_buffer *b);
 void device_stays_awake(struct machine *m);
 /* In how many parts the crew does what takes one thread so long. LUTETIA_NEAR=2: in several, however short. */
 int device_parts(const struct machine *m, double seconds);
+/* The same of work that is shared out at other costs. */
+int device_parts_at(const struct machine *m, double seconds, const struct crew_costs *costs);
 
 /* Copies arrays of the front end's, by the crew where they are long. */
 void device_move(struct machine *m, void *to, const void *from, size_t bytes);

@@ -35,13 +35,16 @@ void device_stays_awake(struct machine *m)
     awake_for(m->device->awake, AWAKE_S);
 }
 
-int device_parts(const struct machine *m, double seconds)
+int device_parts_at(const struct machine *m, double seconds, const struct crew_costs *costs)
 {
     if (m->settings.near > 1)
         return PARTS_FORCED;
-    return m->settings.near
-               ? crew_parts(m->device->crew, 1e9 * seconds, &m->device->shape.share)
-               : 1;
+    return m->settings.near ? crew_parts(m->device->crew, 1e9 * seconds, costs) : 1;
+}
+
+int device_parts(const struct machine *m, double seconds)
+{
+    return device_parts_at(m, seconds, &m->device->shape.share);
 }
 
 /* Bytes copied, or all filled with a pattern. */

@@ -69,6 +69,8 @@ struct device_shape {
     size_t choose_aside;
     /* The front end's own threads, in nanoseconds: for a byte that is moved, and for an element. */
     double move_ns, reduce_ns, rank_ns, send_ns, reshape_ns, scan_ns, scan_vector_ns, fill_ns;
+    double
+        scan_cut_ns; /* a line that takes one thread so long is cut for several, even if they sleep */
     int rank_alone_most;     /* longer lines are ranked by all threads together */
     struct crew_costs share; /* which work threads share out */
     /* The interpreter, in nanoseconds for a lane: a step that is a loop, for each unit of an operation's cost on top, a gather on

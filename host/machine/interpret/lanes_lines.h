@@ -243,8 +243,8 @@ SCANNED __m512i scan_join(const int op, __m512i a, __m512i b)
 /* v joined with what is k lanes before, but not across a lane where a segment begins; begins: such lanes, or lanes that are joined
  * with all since one. */
 #define SCAN_JOIN_BEFORE(k)                                                                    \
-    v = _mm512_mask_mov_epi32(scan_join(op, v, _mm512_alignr_epi32(v, none, 16 - (k))),        \
-                              segmented ? (__mmask16)begins : (__mmask16)0, v);                \
+    joined = scan_join(op, v, _mm512_alignr_epi32(v, none, 16 - (k)));                         \
+    v = segmented ? _mm512_mask_mov_epi32(joined, (__mmask16)begins, v) : joined;              \
     begins = segmented ? begins | begins << (k) : 0
 
 /* Sixteen of them; carry: all lanes the number before. */
@@ -253,7 +253,8 @@ SCANNED __m512i scan_sixteen(const struct lanes_scan *s, const int op, const boo
 {
     const __m512i none = _mm512_set1_epi32((i32)s->none),
                   flip = _mm512_set1_epi32((i32)s->flip), cut = _mm512_set1_epi32((i32)s->cut),
-                  before = *carry;
+                  last = _mm512_set1_epi32(15), before = *carry;
+    __m512i joined;
     __mmask16 active = there;
     u32 begins = 0;
     if (masked) {
@@ -271,8 +272,14 @@ SCANNED __m512i scan_sixteen(const struct lanes_scan *s, const int op, const boo
     SCAN_JOIN_BEFORE(2);
     SCAN_JOIN_BEFORE(4);
     SCAN_JOIN_BEFORE(8);
-    v = _mm512_mask_mov_epi32(scan_join(op, v, before), (__mmask16)begins, v);
-    *carry = _mm512_permutexvar_epi32(_mm512_set1_epi32(15), v);
+    joined = scan_join(op, v, before);
+    if (segmented) {
+        v = _mm512_mask_mov_epi32(joined, (__mmask16)begins, v);
+        *carry = _mm512_permutexvar_epi32(last, v);
+    } else { /* the next sixteen wait for one operation only */
+        *carry = scan_join(op, before, _mm512_permutexvar_epi32(last, v));
+        v = joined;
+    }
     if (s->exclusive) {
         v = _mm512_alignr_epi32(v, before, 15);
         v = _mm512_mask_mov_epi32(v, first, none);

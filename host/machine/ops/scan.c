@@ -11,6 +11,7 @@
  */
 #include "ops/scan.h"
 
+#include <math.h>
 #include <stdio.h>
 
 #include "base/errors.h"
@@ -163,6 +164,20 @@ static double elements_of(const struct lines *l)
     return (double)lines_count(l) * (double)l->length;
 }
 
+/* How many parts to make of lines. Those that are fewer than the threads are cut, and then read twice (near_lines.c): that pays where the threads
+ * are at work anyway, and have parts of the line in their caches; else in long loops, or for more threads than two. */
+static int parts_of(const struct machine *m, const struct lines *l, const struct line_scan *j)
+{
+    const struct device_shape *shape = &m->device->shape;
+    const size_t threads = (size_t)crew_size(m->device->crew);
+    const bool vectors = near_loops_by_vectors(j, (ptrdiff_t)l->step);
+    const double ns = vectors ? shape->scan_vector_ns : shape->scan_ns;
+    struct crew_costs costs = shape->share;
+    if (lines_count(l) < threads)
+        costs.asleep = vectors && threads < 3 ? INFINITY : shape->scan_cut_ns;
+    return device_parts_at(m, 1e-9 * ns * elements_of(l), &costs);
+}
+
 static enum machine_status scan_lines(struct machine *m, const struct lines *l,
                                       const struct line_scan *j)
 {
@@ -170,11 +185,7 @@ static enum machine_status scan_lines(struct machine *m, const struct lines *l,
     int run = run_of(m, l, e), runs = (l->length - 1) / run + 1;
     double start;
     if (near_begin(m, j->out, &start)) {
-        const struct device_shape *shape = &m->device->shape;
-        const double ns = near_loops_by_vectors(j, (ptrdiff_t)l->step) ? shape->scan_vector_ns
-                                                                       : shape->scan_ns;
-        int parts = device_parts(m, 1e-9 * ns * elements_of(l));
-        near_lines_scan(m->device->crew, parts, l, j, run);
+        near_lines_scan(m->device->crew, parts_of(m, l, j), l, j, run);
         near_end(m, "scanning", start);
         return MACHINE_OK;
     }
