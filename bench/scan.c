@@ -1,6 +1,6 @@
 /* scan.c - `lutetia bench scan` and `lutetia bench rank`: scans and ranks of one line of
- * processors, beside plain C on one thread in the same run. Results are compared first,
- * except floats, which are added in another order. */
+ * processors, beside plain C on one thread in the same run: after a pause of some milliseconds, when caches hold other things and
+ * threads sleep, and sixteen in a row. Results are compared first, except floats, which are added in another order. */
 #include "bench.h"
 
 #include <stdint.h>
@@ -91,7 +91,7 @@ struct match {
 };
 static const struct match scans[] = {
     {"scan u_add", "sum", scan_work, plain_scan, true},
-    {"scan u_add segments", "segments", segments_work, plain_segments, true},
+    {"scan u_add", "segments", segments_work, plain_segments, true},
     {"scan f_add", "floats", floats_work, plain_floats, false},
 };
 static const struct match ranks[] = {{"u_rank", "rank", rank_work, plain_rank, true}};
@@ -148,6 +148,23 @@ static void line_finish(struct line *l)
     free(l->begins);
 }
 
+/* Many together: what one takes that follows the last at once. */
+enum { IN_A_ROW = 16 };
+
+struct row {
+    struct line *line;
+    bench_work *work;
+};
+
+static bool row_work(void *context)
+{
+    const struct row *row = context;
+    bool ok = true;
+    for (int i = 0; ok && i < IN_A_ROW; i++)
+        ok = row->work(row->line);
+    return ok;
+}
+
 static bool match_measure(struct bench_report *r, const struct bench_options *o, struct line *l,
                           const struct match *match)
 {
@@ -159,14 +176,20 @@ static bool match_measure(struct bench_report *r, const struct bench_options *o,
                                                l->mine) != MACHINE_OK ||
                         memcmp(l->mine, l->out, l->count * 4) != 0))
         return bench_fail("%s of %zu differs from plain C", match->what, l->count);
+    char ours_in_a_row[48];
+    snprintf(ours_in_a_row, sizeof ours_in_a_row, "%s, in a row", match->what);
+    struct row rows[] = {{l, match->ours}, {l, match->plain}};
     struct bench_contender contenders[] = {
         {.what = match->what, .work = match->ours, .context = l},
         {.what = "plain C", .work = match->plain, .context = l},
+        {.what = ours_in_a_row, .work = row_work, .context = &rows[0]},
+        {.what = "plain C, in a row", .work = row_work, .context = &rows[1]},
     };
-    if (!bench_measure_in_turns(contenders, 2, o->repeat_count))
+    if (!bench_measure_in_turns(contenders, 4, o->repeat_count))
         return false;
-    for (int i = 0; i < 2; i++)
-        bench_report_add(r, contenders[i].what, of_case, contenders[i].seconds, 1e3, "ms");
+    for (int i = 0; i < 4; i++)
+        bench_report_add(r, contenders[i].what, of_case, contenders[i].seconds,
+                         i < 2 ? 1e3 : 1e3 / IN_A_ROW, "ms");
     return true;
 }
 
