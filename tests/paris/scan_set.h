@@ -109,7 +109,7 @@ static void numbers_random(number *n, int count, int width, bool floats)
             device_integers(some, width);
         n[i] = some[i % COUNT];
         /* few NaNs and infinities: after the first one a sum shows nothing more */
-        if (floats && device_random() % 8)
+        if (floats && device_random() % (count > 4000 ? 1000u : 8u))
             n[i] = oracle_float_bits(width, (double)(int64_t)device_random() / 3e18);
     }
 }

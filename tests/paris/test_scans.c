@@ -152,6 +152,24 @@ static void long_lines_are_the_oracles(void **unused)
     }
 }
 
+/* Floats in so many runs that some are scanned beside one another, and some are left. */
+static void lines_of_many_runs_are_the_oracles(void **unused)
+{
+    (void)unused;
+    static const int lengths[] = {4097, 5800};
+    for (int k = 0; k < 2; k++) {
+        struct set s = set_new(1, &lengths[k]);
+        for (int turn = 0; turn < 3; turn++) {
+            set_masks(&s, turn, turn == 1 ? 3000 : 7);
+            for (int r = 0; r < ROWS_COUNT; r++)
+                if (strcmp(rows[r].op, "add") == 0 || strcmp(rows[r].op, "multiply") == 0)
+                    for (int width = 32; rows[r].letter == 'f' && width <= 64; width += 32)
+                        try_row(&s, &rows[r], SCAN, width);
+        }
+        set_free(&s);
+    }
+}
+
 /* Integers in one line, so long that sums are carried from run to run and ranks have many chunks of keys. */
 static void a_very_long_line_is_right(void **unused)
 {
@@ -550,6 +568,7 @@ int main(void)
         cmocka_unit_test(every_operation_is_the_oracles),
         cmocka_unit_test(any_rank_of_geometry_is_the_oracles),
         cmocka_unit_test(long_lines_are_the_oracles),
+        cmocka_unit_test(lines_of_many_runs_are_the_oracles),
         cmocka_unit_test(a_very_long_line_is_right),
         cmocka_unit_test(ranks_are_the_oracles),
         cmocka_unit_test(ranks_of_a_very_long_line_are_right),

@@ -87,7 +87,13 @@ static void part_scan(void *of, int part, int worker)
         int begin = (int)i * s->chunk, left = s->l->length - begin;
         const struct stretch one =
             stretch_of(s, s->row, begin, begin + (left < s->chunk ? left : s->chunk));
-        (s->writes ? s->loops->scan : s->loops->sum)(&one, &s->chunks[i]);
+        if (!s->writes && s->loops->sums && i + LOOPS_RUNS <= end &&
+            left >= LOOPS_RUNS * s->chunk) {
+            s->loops->sums(&one, &s->chunks[i]);
+            i += LOOPS_RUNS - 1;
+        } else {
+            (s->writes ? s->loops->scan : s->loops->sum)(&one, &s->chunks[i]);
+        }
     }
     if (s->j->streams)
         lanes_table()->settle();

@@ -113,26 +113,31 @@ ALWAYS struct flags flags_at(const unsigned char *context, const unsigned char *
     size_t at = s->at, back = s->begin ? whole : 0;                                            \
     (void)context, (void)bits, (void)starts
 
-/* n lines, from what acc says on; first: where a segment first begins in each; write: what has been combined, to out. */
+/* n lines, or LOOPS_RUNS runs of one line, from what acc says on; first: where a segment first begins in each; write: what has been
+ * combined, to out (of runs as it is: what finishes them makes NaNs the NaN). */
 #define SCAN_OF(T)                                                                             \
     ALWAYS void scan_##T(const struct stretch *s, int op, bool masked, bool segmented,         \
                          bool exclusive, bool write, int n, T *acc, int *first)                \
     {                                                                                          \
         NUMBERS(T);                                                                            \
         STRETCH;                                                                               \
+        const bool runs = n == LOOPS_RUNS;                                                     \
+        const int run = runs ? end - s->begin : 0;                                             \
+        const size_t apart = runs ? (size_t)run * step : 1;                                    \
         for (int k = s->begin; k < end; k++, at += step, back = whole)                         \
             for (int i = 0; i < n; i++) {                                                      \
-                const size_t here = at + (size_t)i;                                            \
-                const struct flags f =                                                         \
-                    flags_at(context, bits, here, back, masked, segmented, starts);            \
+                const size_t here = at + (size_t)i * apart;                                    \
+                const int place = k + i * run;                                                 \
+                const struct flags f = flags_at(context, bits, here, runs && i ? whole : back, \
+                                                masked, segmented, starts);                    \
                 if (segmented && ((T)0.5 != 0 || !write)) /* of floats; of a chunk */          \
-                    first[i] = f.begins && k < first[i] ? k : first[i];                        \
+                    first[i] = f.begins && place < first[i] ? place : first[i];                \
                 const T old = or_##T(f.begins, none, acc[i]), own = take_##T(in[here], flip),  \
                         joined = join_##T(op, old, or_##T(!f.active, none, own)),              \
                         shown = exclusive ? old : joined;                                      \
                 acc[i] = joined;                                                               \
                 if (write)                                                                     \
-                    out[here] = show_##T(shown, flip, cut);                                    \
+                    out[here] = runs ? shown : show_##T(shown, flip, cut);                     \
             }                                                                                  \
     }
 
@@ -426,10 +431,20 @@ INTEGERS_CHUNKS(u128)
         NUMBERS(T);                                                                            \
         (void)in;                                                                              \
         size_t at = s->at;                                                                     \
+        const int count = s->end - s->begin, before = first[0] - s->begin;                     \
+        T *run = out + at;                                                                     \
+        if (N == 1 && s->step == 1 && j->op == LINES_ADD) { /* by vectors */                   \
+            for (int k = 0; k < (before < count ? before : count); k++)                        \
+                run[k] = show_##T(carry[0] + run[k], flip, cut);                               \
+            for (int k = before; k < count; k++)                                               \
+                run[k] = show_##T(run[k], flip, cut);                                          \
+            return;                                                                            \
+        }                                                                                      \
         for (int k = s->begin; k < s->end; k++, at += (size_t)s->step)                         \
             for (int i = 0; i < N; i++) {                                                      \
-                const T v = out[at + (size_t)i], joined = join_##T(j->op, carry[i], v);        \
-                out[at + (size_t)i] = k < first[i] ? show_##T(joined, flip, cut) : v;          \
+                const T v = out[at + (size_t)i];                                               \
+                out[at + (size_t)i] =                                                          \
+                    show_##T(k < first[i] ? join_##T(j->op, carry[i], v) : v, flip, cut);      \
             }                                                                                  \
     }
 
@@ -437,6 +452,41 @@ FLOATS_FINISH(f32, 1)
 FLOATS_FINISH(f64, 1)
 FLOATS_FINISH(f32, 16)
 FLOATS_FINISH(f64, 16)
+
+/* Some runs of one line: each by itself, and then what goes before each. */
+#define FLOATS_RUNS(T)                                                                         \
+    static void runs_##T(const struct stretch *s, T *total, int *begins)                       \
+    {                                                                                          \
+        NUMBERS(T);                                                                            \
+        T acc[LOOPS_RUNS]; /* of its own, so that it need not be in memory */                  \
+        int first[LOOPS_RUNS];                                                                 \
+        (void)in, (void)out;                                                                   \
+        const size_t all = LOOPS_RUNS * (size_t)(s->end - s->begin);                           \
+        for (size_t i = all; s->step == 1 && i < 2 * all; i += LINE_BYTES / sizeof(T)) {       \
+            __builtin_prefetch(in + s->at + i);                                                \
+            __builtin_prefetch(out + s->at + i, 1);                                            \
+        }                                                                                      \
+        FLOATS_RUN(T, LOOPS_RUNS, true);                                                       \
+        memcpy(total, acc, sizeof acc);                                                        \
+        memcpy(begins, first, sizeof first);                                                   \
+    }                                                                                          \
+    static T runs_finish_##T(const struct stretch *first_run, T carry)                         \
+    {                                                                                          \
+        struct stretch s = *first_run;                                                         \
+        const int run = s.end - s.begin;                                                       \
+        T acc[LOOPS_RUNS];                                                                     \
+        int first[LOOPS_RUNS];                                                                 \
+        runs_##T(first_run, acc, first);                                                       \
+        for (int i = 0; i < LOOPS_RUNS; i++) {                                                 \
+            finish_##T##_1(&s, &carry, &first[i]);                                             \
+            carry = first[i] < s.end ? acc[i] : join_##T(s.j->op, carry, acc[i]);              \
+            s.begin += run, s.end += run, s.at += (size_t)(run * s.step);                      \
+        }                                                                                      \
+        return carry;                                                                          \
+    }
+
+FLOATS_RUNS(f32)
+FLOATS_RUNS(f64)
 
 #define FLOATS_LINES(T, NAME, N)                                                               \
     static void NAME(const struct stretch *all, int run, size_t line)                          \
@@ -448,6 +498,11 @@ FLOATS_FINISH(f64, 16)
         (void)in, (void)out;                                                                   \
         for (int i = 0; i < N; i++)                                                            \
             carry[i] = none;                                                                   \
+        for (; N == 1 && !j->sums && all->end - s->begin >= LOOPS_RUNS * run;                  \
+             s->begin += LOOPS_RUNS * run, s->at += (size_t)(LOOPS_RUNS * run * s->step)) {    \
+            s->end = s->begin + run;                                                           \
+            carry[0] = runs_finish_##T(s, carry[0]);                                           \
+        }                                                                                      \
         for (; s->begin < all->end; s->begin += run, s->at += (size_t)(run * s->step)) {       \
             s->end = all->end - s->begin < run ? all->end : s->begin + run;                    \
             if (j->sums) {                                                                     \
@@ -481,6 +536,16 @@ FLOATS_LINES(f64, lines_f64, 16)
         *c = (struct chunk){.first = first[0]};                                                \
         c->total.as_##T = acc[0];                                                              \
     }                                                                                          \
+    static void chunk_sums_##T(const struct stretch *s, struct chunk *c)                       \
+    {                                                                                          \
+        T acc[LOOPS_RUNS];                                                                     \
+        int first[LOOPS_RUNS];                                                                 \
+        runs_##T(s, acc, first);                                                               \
+        for (int i = 0; i < LOOPS_RUNS; i++) {                                                 \
+            c[i] = (struct chunk){.first = first[i]};                                          \
+            c[i].total.as_##T = acc[i];                                                        \
+        }                                                                                      \
+    }                                                                                          \
     static void chunk_join_##T(const struct line_scan *j, struct chunk *c, int count)          \
     {                                                                                          \
         T carry = number_##T(j->identity);                                                     \
@@ -500,11 +565,11 @@ FLOATS_CHUNKS(f64)
 
 /* For elements as in kernels/scan.cl. */
 static const struct loops loops[] = {
-    {line_u32, lines_u32, chunk_sum_u32, chunk_scan_u32, chunk_join_u32},
-    {line_u64, lines_u64, chunk_sum_u64, chunk_scan_u64, chunk_join_u64},
-    {line_u128, NULL, chunk_sum_u128, chunk_scan_u128, chunk_join_u128},
-    {line_f32, lines_f32, chunk_sum_f32, chunk_scan_f32, chunk_join_f32},
-    {line_f64, lines_f64, chunk_sum_f64, chunk_scan_f64, chunk_join_f64},
+    {line_u32, lines_u32, chunk_sum_u32, chunk_scan_u32, chunk_join_u32, NULL},
+    {line_u64, lines_u64, chunk_sum_u64, chunk_scan_u64, chunk_join_u64, NULL},
+    {line_u128, NULL, chunk_sum_u128, chunk_scan_u128, chunk_join_u128, NULL},
+    {line_f32, lines_f32, chunk_sum_f32, chunk_scan_f32, chunk_join_f32, chunk_sums_f32},
+    {line_f64, lines_f64, chunk_sum_f64, chunk_scan_f64, chunk_join_f64, chunk_sums_f64},
 };
 
 const struct loops *near_loops_of(const struct element *e)

@@ -8,9 +8,11 @@
 
 #include "ops/scan.h"
 
-enum { LOOPS_LANES = 16 };
+/* Neighbouring lines at a time; runs of floats of one line at a time, since an addition takes as long as some of them beside one another. */
+enum { LOOPS_LANES = 16, LOOPS_RUNS = 8 };
 
-/* The lines that are scanned together, and how far: elements begin to end of each. */
+/* The lines that are scanned together, and how far: elements begin to end of each. Of LOOPS_RUNS runs, the first, and the next ones of as many
+ * elements. */
 struct stretch {
     const struct line_scan *j;
     size_t at; /* of element begin */
@@ -38,11 +40,12 @@ typedef void loops_chunk(const struct stretch *s, struct chunk *c);
 typedef void loops_join(const struct line_scan *j, struct chunk *c, int count);
 
 /* Of chunks: `sum` what each comes to (a chunk of floats, which is a run, is written, too), `join` what goes before each, `scan`
- * the elements. */
+ * the elements; `sums` does what `sum` does of LOOPS_RUNS of them that are as long as the first. */
 struct loops {
     loops_lines *one, *many; /* many NULL: only one at a time */
     loops_chunk *sum, *scan;
     loops_join *join;
+    loops_chunk *sums; /* NULL: only one at a time */
 };
 const struct loops *near_loops_of(const struct element *e);
 /* Whether a line that goes on by so much is scanned by vectors. */
