@@ -221,13 +221,17 @@ const struct bench_row *bench_report_find(const struct bench_report *r, const ch
 void bench_report_print(const struct bench_report *r, const char *yardstick, FILE *out)
 {
     fprintf(out, "%s on %s, %d threads\n", r->name, r->device, r->threads_count);
-    fprintf(out, "%-26s %-16s %10s %10s  %-14s %s\n", "", "", "median", "best", "unit",
+    int width = 16; /* of the cases */
+    for (int i = 0; i < r->rows_count; i++)
+        if ((int)strlen(r->rows[i].of_case) > width)
+            width = (int)strlen(r->rows[i].of_case);
+    fprintf(out, "%-26s %-*s %10s %10s  %-14s %s\n", "", width, "", "median", "best", "unit",
             yardstick);
     for (int i = 0; i < r->rows_count; i++) {
         const struct bench_row *row = &r->rows[i];
         const struct bench_row *peer = bench_report_find(r, yardstick, row->of_case);
-        fprintf(out, "%-26s %-16s %10.3f %10.3f  %-14s", row->what, row->of_case, row->value,
-                row->min, row->unit);
+        fprintf(out, "%-26s %-*s %10.3f %10.3f  %-14s", row->what, width, row->of_case,
+                row->value, row->min, row->unit);
         if (peer && peer->value > 0 && !strcmp(peer->unit, row->unit))
             fprintf(out, " %.2fx", row->value / peer->value);
         putc('\n', out);

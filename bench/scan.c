@@ -176,19 +176,19 @@ static bool match_measure(struct bench_report *r, const struct bench_options *o,
                                                l->mine) != MACHINE_OK ||
                         memcmp(l->mine, l->out, l->count * 4) != 0))
         return bench_fail("%s of %zu differs from plain C", match->what, l->count);
-    char ours_in_a_row[48];
-    snprintf(ours_in_a_row, sizeof ours_in_a_row, "%s, in a row", match->what);
+    char of_row[32];
+    snprintf(of_row, sizeof of_row, "%s %zu in a row", match->name, l->count);
     struct row rows[] = {{l, match->ours}, {l, match->plain}};
     struct bench_contender contenders[] = {
         {.what = match->what, .work = match->ours, .context = l},
         {.what = "plain C", .work = match->plain, .context = l},
-        {.what = ours_in_a_row, .work = row_work, .context = &rows[0]},
-        {.what = "plain C, in a row", .work = row_work, .context = &rows[1]},
+        {.what = match->what, .work = row_work, .context = &rows[0]},
+        {.what = "plain C", .work = row_work, .context = &rows[1]},
     };
     if (!bench_measure_in_turns(contenders, 4, o->repeat_count))
         return false;
     for (int i = 0; i < 4; i++)
-        bench_report_add(r, contenders[i].what, of_case, contenders[i].seconds,
+        bench_report_add(r, contenders[i].what, i < 2 ? of_case : of_row, contenders[i].seconds,
                          i < 2 ? 1e3 : 1e3 / IN_A_ROW, "ms");
     return true;
 }

@@ -15,7 +15,7 @@ static bool begin(bool made)
 
 static bool attach(void)
 {
-    return (paris_the.machine || begin(paris_machine_make())) && (paris_the.attached = true);
+    return paris_the.machine || begin(paris_machine_make());
 }
 
 unsigned int CM_attach(void)
@@ -42,7 +42,7 @@ unsigned int CM_attach_to_processors(unsigned int count)
 
 int CM_attached(void)
 {
-    return paris_the.attached;
+    return paris_the.machine != NULL;
 }
 
 void CM_detach(void)

@@ -113,8 +113,7 @@ struct paris_state {
     struct machine *machine;
     const char *call; /* the name of the instruction under way, for messages */
     unsigned int safety;
-    bool lenient; /* accept what the real machine accepted: safety.c */
-    bool attached;
+    bool lenient;                      /* accept what the real machine accepted: safety.c */
     bool pristine;                     /* nothing allocated since CM_init */
     struct paris_geometry *geometries; /* by id - 1 */
     int geometries_count;

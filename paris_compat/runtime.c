@@ -17,7 +17,6 @@ void paris_machine_forget(void)
     paris_explain_end(paris_the.machine);
     machine_destroy(paris_the.machine);
     paris_the.machine = NULL;
-    paris_the.attached = false;
     CM_physical_processors_limit = 0;
     CM_physical_processors_length = 0;
 }
@@ -47,7 +46,6 @@ bool paris_machine_make(void)
     paris_explain_begin(m);
     paris_the.machine = m;
     paris_safety_begin(m);
-    paris_the.attached = true;
     CM_physical_processors_limit = (unsigned int)machine_processors_count(m);
     CM_physical_processors_length = 0;
     while ((1u << CM_physical_processors_length) < CM_physical_processors_limit)

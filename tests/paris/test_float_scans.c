@@ -43,6 +43,7 @@ static void sums_in_runs(const struct set *s, const struct scan_case *c, number 
 static void a_very_long_line_of_floats_is_right(void **unused)
 {
     (void)unused;
+    device_seed(3);
     int length = 70001;
     struct set s = set_new(1, &length);
     for (int turn = 0; turn < 48; turn++) {
@@ -68,16 +69,8 @@ static void a_very_long_line_of_floats_is_right(void **unused)
     set_free(&s);
 }
 
-static int start(void **unused)
-{
-    (void)unused;
-    device_start(-1);
-    device_seed(3);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_very_long_line_of_floats_is_right)};
-    return cmocka_run_group_tests(tests, start, NULL);
+    return cmocka_run_group_tests(tests, device_setup, NULL);
 }
