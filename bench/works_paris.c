@@ -16,7 +16,7 @@ struct work_paris {
     CM_geometry_id_t geometry, bins_geometry;
     CM_vp_set_id_t set, bins_set;
     CM_field_id_t in, odd, f[FIELDS], bit, array, bins, bins_odd;
-    uint32_t *words; /* on the front end */
+    uint32_t *words, *moved; /* on the front end; moved: what a transposition comes to */
 };
 
 /* ---- making ---- */
@@ -123,6 +123,7 @@ struct work_paris *work_paris_create(enum work w, int n)
     while (p->side * p->side < n)
         p->side++;
     p->words = malloc((size_t)n * sizeof *p->words);
+    p->moved = malloc((size_t)n * sizeof *p->moved);
     int lengths[2] = {w == WORK_SCANS ? n / WORK_ROW : p->side,
                       w == WORK_SCANS ? WORK_ROW : p->side};
     p->geometry = w == WORK_SCANS || w == WORK_TRANSPOSITION
@@ -137,9 +138,10 @@ struct work_paris *work_paris_create(enum work w, int n)
     for (int i = 0; i < FIELDS; i++)
         p->f[i] = CM_allocate_heap_field(LONG);
     odd_make(p->geometry, p->odd, p->f[0]);
-    if (p->words && work_prepare(p))
+    const bool has_memory = p->words && p->moved;
+    if (has_memory && work_prepare(p))
         return p;
-    if (!p->words)
+    if (!has_memory)
         bench_fail("no memory for %d words", n);
     work_paris_destroy(p);
     return NULL;
@@ -156,6 +158,7 @@ void work_paris_destroy(struct work_paris *p)
         CM_deallocate_geometry(p->bins_geometry);
     }
     free(p->words);
+    free(p->moved);
     free(p);
 }
 
@@ -191,13 +194,11 @@ static uint32_t transposition(const struct work_paris *p, uint32_t turn)
     int start[2] = {0, 0}, end[2] = {p->side, p->side}, axes[2] = {0, 1};
     CM_vector_t from = {.ints = start}, to = {.ints = end}, axis = {.ints = axes};
     CM_field_id_t x = p->f[1], y = p->f[2];
-    for (int i = 0; i < p->n; i++)
-        p->words[i] = work_word((uint32_t)i);
     CM_u_write_to_news_array_1L(p->words, from, from, to, axis, x, WORD, 2, to, CM_32_bit);
     CM_u_add_constant_2_1L(x, turn, WORD);
     CM_send_1L(y, p->f[0], x, WORD, CM_no_field);
-    CM_u_read_from_news_array_1L(p->words, from, from, to, axis, y, WORD, 2, to, CM_32_bit);
-    return work_weighed(p->words, p->n, 1);
+    CM_u_read_from_news_array_1L(p->moved, from, from, to, axis, y, WORD, 2, to, CM_32_bit);
+    return work_weighed(p->moved, p->n, 1);
 }
 
 static uint32_t sort(const struct work_paris *p, uint32_t turn)

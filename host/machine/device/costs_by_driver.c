@@ -16,10 +16,10 @@
     .scan_cut_ns = 1e6, .fill_ns = 0.2, .wait_ns = 12e3, .text_ns = 1e6, .compile_ns = 1e8,    \
     .compile_op_ns = 2e6, .kernel_part = 0.4, .turns_from_ns = 4e3, .scan_run_least = 65536,   \
     .sort_short = 64, .rank_alone_most = 1 << 14, .share = {5e3, 30e3, 150e3, 2e3},            \
-    .loop_ns = 0.04, .loop_cost_ns = 0.01, .gather_ns = 0.5, .ahead_from = 1 << 18,            \
-    .each_math_ns = 15, .each_ns = 8, .short_ns = 10e3, .at_once_lanes = 4096,                 \
-    .work_least = 8192, .load_aside_bytes = 64 << 10, .choose_aside = 1 << 14,                 \
-    .stream_lanes_bytes = 24 << 20
+    .loop_ns = 0.04, .loop_cost_ns = 0.01, .gather_ns = 0.5, .pick_ns = 0.4,                   \
+    .ahead_from = 1 << 18, .each_math_ns = 15, .each_ns = 8, .short_ns = 10e3,                 \
+    .at_once_lanes = 4096, .work_least = 8192, .load_aside_bytes = 64 << 10,                   \
+    .choose_aside = 1 << 14, .stream_lanes_bytes = 24 << 20
 /* ... and all of CPUs, whose units are few and have long work-items. */
 #define ROW_CPU                                                                                \
     ROW_USUAL, .call_columns = 4096, .call_processors = 512, .scatter_units = 8,               \

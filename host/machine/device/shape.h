@@ -74,8 +74,8 @@ struct device_shape {
     int rank_alone_most;     /* longer lines are ranked by all threads together */
     struct crew_costs share; /* which work threads share out */
     /* The interpreter, in nanoseconds for a lane: a step that is a loop, for each unit of an operation's cost on top, a gather on
-     * top; a step lane by lane, of floats' functions and of all else. */
-    double loop_ns, loop_cost_ns, gather_ns, each_math_ns, each_ns;
+     * top, a pick on top; a step lane by lane, of floats' functions and of all else. */
+    double loop_ns, loop_cost_ns, gather_ns, pick_ns, each_math_ns, each_ns;
     double
         step_ns; /* ... a step of the device's own interpreter (kernels/interpret.cl), for a processor */
     uint64_t

@@ -182,20 +182,27 @@ static void generate(const struct run *r, const struct lanes_step *step, const s
 
 /* The same lines of an array for the next block: a block's part is too short for the processor to see where a stream goes on. (A call of a
  * function that does nothing else would be left out.) */
+static inline __attribute__((always_inline)) void fetch(const struct run *r, int place,
+                                                        int lanes, bool written)
+{
+    const int bytes = lanes * r->p->places[place].bytes;
+    const char *next = (const char *)r->room->at[place] + bytes;
+    for (int i = 0; i < bytes; i += LINE)
+        if (written)
+            __builtin_prefetch(next + i, 1, 2);
+        else
+            __builtin_prefetch(next + i, 0, 2);
+}
+
 static inline __attribute__((always_inline)) void
 fetch_ahead(const struct run *r, const struct lanes_step *s, int lanes)
 {
-    for (int k = 0; k < 4; k++) {
-        if (!(s->ahead >> k & 1))
-            continue;
-        int place = k == 3 ? s->to : s->in[k], bytes = lanes * r->p->places[place].bytes;
-        const char *next = (const char *)r->room->at[place] + bytes;
-        for (int i = 0; i < bytes; i += LINE)
-            if (k == 3)
-                __builtin_prefetch(next + i, 1, 2);
-            else
-                __builtin_prefetch(next + i, 0, 2);
-    }
+    for (int k = 0; k < 4; k++)
+        if (s->ahead >> k & 1)
+            fetch(r, k == 3 ? s->to : s->in[k], lanes, k == 3);
+    for (int k = 0; s->ahead & AHEAD_LIST && k < s->detail; k++)
+        if (r->p->places[s->list[2 * k + 1]].kind == PLACE_ARRAY)
+            fetch(r, s->list[2 * k + 1], lanes, false);
 }
 
 static void block_run(const struct run *r, const struct block *b)

@@ -7,6 +7,8 @@
 #include "base/arrays.h"
 #include "base/scalar.h"
 #include "device/shape.h"
+#include "interpret/node_loops.h"
+#include "interpret/picks.h"
 
 enum { NO_PLACE = -1 };
 
@@ -21,64 +23,11 @@ struct making {
     int *owner; /* the node whose place it shares; most: itself */
     int *last;  /* of an owner: the last node that takes it */
     bool *needed, *output;
+    struct picks *picks;
     bool streams;             /* what is stored goes past the caches */
     int *idle[LANES_CLASSES]; /* registers in use no more: places */
     int idle_count[LANES_CLASSES], idle_capacity[LANES_CLASSES];
 };
-
-/* ---- stages ---- */
-
-/* What a chain of shifts begins with. */
-static int root_of(const struct plan_graph *g, int node)
-{
-    while (g->nodes[node].op == NODE_SHIFT && !g->nodes[node].leaf)
-        node = g->nodes[node].in[0];
-    return node;
-}
-
-/* Each stage makes it anew: it is read from what is stored anyway, or is a cheap function of places. Were that stored, later
- * plans would find it in memory, and no kernel of theirs could tell from a test of coordinates which rows it concerns. */
-static bool is_free(const struct plan_node *n)
-{
-    return n->op == NODE_SHIFT || n->generator <= GENERATOR_CHEAP;
-}
-
-static bool computes(const struct plan_node *n)
-{
-    return !n->leaf && !n->constant;
-}
-
-void byte_code_stages(struct plan_graph *g)
-{
-    for (int i = 0; i < g->count; i++) {
-        struct plan_node *n = &g->nodes[i];
-        n->stage = 0;
-        n->stored = n->target;
-        for (int k = 0; k < 3; k++)
-            n->instead[k] = -1;
-        if (!computes(n))
-            continue;
-        if (n->op == NODE_SHIFT) {
-            struct plan_node *root = &g->nodes[root_of(g, i)];
-            n->stage = computes(root) ? root->stage + 1 : 0;
-            root->stored = root->stored || computes(root);
-            continue;
-        }
-        for (int k = 0; k < node_ops[n->op].inputs; k++) {
-            const struct plan_node *in = &g->nodes[n->in[k]];
-            if (computes(in) && in->stage > n->stage)
-                n->stage = in->stage;
-        }
-    }
-    for (int i = 0; i < g->count; i++) {
-        const struct plan_node *n = &g->nodes[i];
-        for (int k = 0; computes(n) && n->op != NODE_SHIFT && k < node_ops[n->op].inputs; k++) {
-            struct plan_node *in = &g->nodes[n->in[k]];
-            if (computes(in) && in->stage < n->stage && !is_free(in))
-                in->stored = true;
-        }
-    }
-}
 
 /* ---- places ---- */
 
@@ -294,56 +243,6 @@ static void step_joined(struct making *k, const struct plan_node *n, int to, con
     register_put(k, b);
 }
 
-static bool is_short(struct machine_type t)
-{
-    return t.s <= 24 && t.e <= 9;
-}
-
-/* Floats of other formats: what is not as with doubles, but for being rounded again. */
-static bool is_soft(const struct plan_node *n, struct machine_type from)
-{
-    struct machine_type t = n->type.s ? n->type : from;
-    if (!t.s)
-        return false;
-    switch (n->op) {
-    case MACHINE_FADD:
-    case MACHINE_FSUB:
-    case MACHINE_FMUL:
-    case MACHINE_FDIV:
-    case MACHINE_FSQRT:
-        return !is_short(t);
-    case NODE_OVERFLOW_FADD:
-    case NODE_OVERFLOW_FSUB:
-    case NODE_OVERFLOW_FMUL:
-    case NODE_OVERFLOW_FDIV:
-    case NODE_PACK:
-    case NODE_UNPACK:
-        return true;
-    case NODE_U_TO_F:
-    case NODE_S_TO_F:
-        return from.width > 32;
-    default:
-        return false;
-    }
-}
-
-static bool rounds(const struct plan_node *n)
-{
-    return n->type.s && n->op != MACHINE_FNEG && n->op != MACHINE_FABS &&
-           n->op != MACHINE_FMIN && n->op != MACHINE_FMAX && n->op != NODE_SELECT;
-}
-
-static lanes_function *loop_of(const struct plan_node *n, struct machine_type from)
-{
-    enum lanes_class a = lanes_class_of(from), to = lanes_class_of(n->type);
-    if (is_soft(n, from))
-        return NULL;
-    if (n->op == NODE_SELECT)
-        return lanes_find(n->op, lanes_bits_of(to));
-    lanes_function *loop = lanes_find_conversion(n->op, a, to);
-    return loop ? loop : lanes_find(n->op, a);
-}
-
 /* What is in an array at a place: nobody's lanes in particular, so the array is taken as it is. */
 static void step_fetched(struct making *k, const struct plan_node *n, int to, const int in[3])
 {
@@ -361,6 +260,61 @@ static void step_fetched(struct making *k, const struct plan_node *n, int to, co
     k->p->lane_s += 1e-9 * k->shape->gather_ns;
 }
 
+/* An element of the array in each processor: the index is one of 32 bits. */
+static void step_picked(struct making *k, const struct plan_node *n, int to,
+                        const struct pick *pick)
+{
+    struct machine_type from = k->g->nodes[pick->index].type, index = MACHINE_UINT(32);
+    enum lanes_class c = lanes_bits_of(lanes_class_of(n->type));
+    int at = k->place[pick->index],
+        widened = lanes_class_of(from) == LANES_U32 ? NO_PLACE : register_get(k, LANES_U32);
+    if (widened != NO_PLACE)
+        step_resized(k, at = widened, index, k->place[pick->index], from, 0);
+    uint16_t *list = malloc((2 * (size_t)pick->count + 1) * sizeof *list);
+    if (!list) {
+        k->p->failed = true;
+        return;
+    }
+    for (int i = 0; i < pick->count; i++) {
+        list[2 * i] = (uint16_t)k->place[pick->keys[i]];
+        list[2 * i + 1] = (uint16_t)k->place[pick->values[i]];
+    }
+    list[2 * pick->count] = (uint16_t)k->place[pick->rest];
+    struct lanes_step *s = step_add(k, lanes_find(LANES_PICK, c), LANES_PICK, to);
+    s->in[0] = (uint16_t)at;
+    s->from = from;
+    s->type = n->type;
+    s->detail = pick->count;
+    s->list = list;
+    if (k->p->failed) /* nobody has the list */
+        free(list);
+    k->p->lane_s += 1e-9 * k->shape->pick_ns;
+    if (widened != NO_PLACE)
+        register_put(k, widened);
+}
+
+/* A choice within a choice that leaves the same as it is: one choice, where both bits hold. */
+static void step_chosen(struct making *k, const struct plan_node *n, int to,
+                        const struct plan_node *inner)
+{
+    const struct machine_type bit = MACHINE_UINT(1);
+    int both = register_get(k, LANES_U8);
+    struct lanes_step *s = step_add(k, lanes_find(MACHINE_AND, LANES_U8), MACHINE_AND, both);
+    s->in[0] = (uint16_t)k->place[n->in[0]];
+    s->in[1] = (uint16_t)k->place[inner->in[0]];
+    s->from = s->type = bit;
+    s->mask = 1;
+    s = step_add(k, lanes_find(NODE_SELECT, lanes_bits_of(lanes_class_of(n->type))),
+                 NODE_SELECT, to);
+    s->in[0] = (uint16_t)both;
+    s->in[1] = (uint16_t)k->place[inner->in[1]];
+    s->in[2] = (uint16_t)k->place[n->in[2]];
+    s->from = bit;
+    s->type = n->type;
+    s->mask = mask_of(n->type);
+    register_put(k, both);
+}
+
 static void step_operation(struct making *k, const struct plan_node *n, int to, const int in[3])
 {
     struct machine_type from = k->g->nodes[n->in[0]].type;
@@ -369,7 +323,7 @@ static void step_operation(struct making *k, const struct plan_node *n, int to, 
         step_joined(k, n, to, in);
         return;
     }
-    lanes_function *loop = loop_of(n, from);
+    lanes_function *loop = node_loop(n, from);
     struct lanes_step *s = step_add(k, loop ? loop : lane_each, n->op, to);
     for (int i = 0; i < node_ops[n->op].inputs; i++)
         s->in[i] = (uint16_t)in[i];
@@ -379,9 +333,9 @@ static void step_operation(struct making *k, const struct plan_node *n, int to, 
     if (node_ops[n->op].fold == FOLD_SHIFT) /* all by one number? */
         s->detail = k->g->nodes[n->in[1]].constant;
     s->mask = mask_of(n->type);
-    if (rounds(n))
-        step_one(k, is_short(n->type) ? lanes_find(LANES_FIT, c) : NULL, LANES_FIT, to, n->type,
-                 to, n->type, 0);
+    if (node_rounds(n))
+        step_one(k, type_is_short(n->type) ? lanes_find(LANES_FIT, c) : NULL, LANES_FIT, to,
+                 n->type, to, n->type, 0);
     if (n->maybe_nan && n->op != NODE_SELECT)
         step_one(k, lanes_find(LANES_CANONICAL, c), LANES_CANONICAL, to, n->type, to, n->type,
                  0);
@@ -401,8 +355,35 @@ static bool takes(const struct plan_node *n, int j)
     return n->op != NODE_GATHER || j != 1;
 }
 
+enum { OPERANDS_MOST = 2 * PICK_MOST + 2 };
+
+/* The nodes that a node's steps take lane by lane. Returns how many. */
+static int operands_find(const struct making *k, int node, const struct pick *pick,
+                         int operands[OPERANDS_MOST])
+{
+    const struct plan_node *n = &k->g->nodes[node];
+    const int inner = pick ? -1 : picks_inner(k->picks, node);
+    int count = 0;
+    if (pick) {
+        operands[count++] = pick->index;
+        operands[count++] = pick->rest;
+        for (int i = 0; i < pick->count; i++) {
+            operands[count++] = pick->keys[i];
+            operands[count++] = pick->values[i];
+        }
+        return count;
+    }
+    for (int j = 0; j < node_ops[n->op].inputs; j++)
+        if (takes(n, j) && n->in[j] != inner)
+            operands[count++] = n->in[j];
+    for (int j = 0; inner >= 0 && j < 2; j++)
+        operands[count++] = k->g->nodes[inner].in[j];
+    return count;
+}
+
 static void find_needed(struct making *k, const int *stores, int count)
 {
+    int operands[OPERANDS_MOST];
     const struct plan_graph *g = k->g;
     for (int i = 0; i < count; i++)
         k->needed[stores[i]] = k->output[stores[i]] = true;
@@ -412,8 +393,8 @@ static void find_needed(struct making *k, const int *stores, int count)
         k->place[i] = NO_PLACE;
         if (!k->needed[i] || n->constant || loads(k, i) || n->op == NODE_SHIFT)
             continue;
-        for (int j = 0; j < node_ops[n->op].inputs; j++)
-            k->needed[n->in[j]] = k->needed[n->in[j]] || takes(n, j);
+        for (int j = operands_find(k, i, picks_find(k->picks, i), operands); j--;)
+            k->needed[operands[j]] = true;
     }
     for (int i = 0; i < g->count; i++) {
         const struct plan_node *n = &g->nodes[i];
@@ -421,9 +402,8 @@ static void find_needed(struct making *k, const int *stores, int count)
             continue;
         if (n->op == NODE_REINTERPRET && !k->output[i])
             k->owner[i] = k->owner[n->in[0]];
-        for (int j = 0; j < node_ops[n->op].inputs; j++)
-            if (takes(n, j))
-                k->last[k->owner[n->in[j]]] = i;
+        for (int j = operands_find(k, i, picks_at(k->picks, i), operands); j--;)
+            k->last[k->owner[operands[j]]] = i;
     }
 }
 
@@ -458,7 +438,9 @@ static void step_streamed(struct making *k, int node)
 static void node_compute(struct making *k, int node)
 {
     const struct plan_node *n = &k->g->nodes[node];
-    int in[3] = {0, 0, 0};
+    const struct pick *pick = picks_at(k->picks, node);
+    const int inner = picks_inner(k->picks, node);
+    int in[3] = {0, 0, 0}, operands[OPERANDS_MOST];
     if (n->constant || loads(k, node)) {
         k->place[node] = place_given(k, node);
         return;
@@ -485,15 +467,19 @@ static void node_compute(struct making *k, int node)
         step_fetched(k, n, to, in);
     } else if (n->op == NODE_REINTERPRET) {
         step_copied(k, to, n->type, in[0]);
+    } else if (pick) {
+        step_picked(k, n, to, pick);
+    } else if (inner >= 0) {
+        step_chosen(k, n, to, &k->g->nodes[inner]);
     } else {
         step_operation(k, n, to, in);
     }
     step_streamed(k, node);
     k->p->ops++;
     k->p->cost += node_cost(n->op, n->type);
-    for (int j = 0; j < node_ops[n->op].inputs; j++) {
-        int owner = takes(n, j) ? k->owner[n->in[j]] : node;
-        if (owner != node && k->last[owner] == node) {
+    for (int j = operands_find(k, node, pick, operands); j--;) {
+        int owner = k->owner[operands[j]];
+        if (k->last[owner] == node) {
             k->last[owner] = -1; /* once, if it is two operands */
             register_put(k, k->place[owner]);
         }
@@ -514,6 +500,12 @@ static void arrays_ahead(struct byte_code *p)
     for (int i = 0; taken && i < p->steps_count; i++) {
         struct lanes_step *s = &p->steps[i];
         int inputs = s->run ? operands_of(s) : 0;
+        for (int k = 0; s->list && k < s->detail; k++) {
+            bool *known = &taken[s->list[2 * k + 1]];
+            if (p->places[s->list[2 * k + 1]].kind == PLACE_ARRAY && !*known)
+                s->ahead |= AHEAD_LIST;
+            *known = true;
+        }
         for (int k = 0; k < 4; k++) {
             int place = k == 3 ? s->to : s->in[k];
             if (s->op != LANES_STREAM && (k < inputs || k == 3) &&
@@ -542,6 +534,8 @@ void byte_code_free(struct byte_code *p)
         return;
     for (int i = 0; i < p->places_count; i++)
         free(p->places[i].further);
+    for (int i = 0; i < p->steps_count; i++)
+        free(p->steps[i].list);
     free(p->places);
     free(p->steps);
     free(p->arguments);
@@ -550,7 +544,7 @@ void byte_code_free(struct byte_code *p)
 
 struct byte_code *byte_code_make(const struct device_shape *shape, const struct plan_graph *g,
                                  const int *stores, int count, const struct vpset *set,
-                                 int processors_log2, bool streams)
+                                 int processors_log2, bool at_hand)
 {
     size_t nodes = (size_t)g->count;
     struct byte_code *p = calloc(1, sizeof *p);
@@ -564,11 +558,12 @@ struct byte_code *byte_code_make(const struct device_shape *shape, const struct 
                        .owner = calloc(nodes, sizeof *k.owner),
                        .last = calloc(nodes, sizeof *k.last),
                        .needed = calloc(nodes, sizeof *k.needed),
-                       .output = calloc(nodes, sizeof *k.output)};
-    bool good = p && k.place && k.owner && k.last && k.needed && k.output;
+                       .output = calloc(nodes, sizeof *k.output),
+                       .picks = picks_create(g, g->nodes[stores[0]].stage, at_hand)};
+    bool good = p && k.place && k.owner && k.last && k.needed && k.output && k.picks;
     if (good) {
         find_needed(&k, stores, count);
-        p->streams = k.streams = streams && are_streamed(&k);
+        p->streams = k.streams = at_hand && are_streamed(&k);
         for (int i = 0; i < g->count && !p->failed; i++)
             if (k.needed[i])
                 node_compute(&k, i);
@@ -585,6 +580,7 @@ struct byte_code *byte_code_make(const struct device_shape *shape, const struct 
     free(k.last);
     free(k.needed);
     free(k.output);
+    picks_free(k.picks);
     if (!good) {
         byte_code_free(p);
         return NULL;

@@ -53,10 +53,11 @@ struct byte_code {
 
 /* Decides what is stored and in which stage (plan_node.stage, stored): what neighbours look at, and what a later stage does. */
 void byte_code_stages(struct plan_graph *g);
-/* What stores those nodes, all of that stage and set. shape: what steps cost. streams: it may store past the caches. NULL: no memory. */
+/* What stores those nodes, all of that stage and set. shape: what steps cost. at_hand: the front end's threads perform it, which may store past the caches, and
+ * pick. NULL: no memory. */
 struct byte_code *byte_code_make(const struct device_shape *shape, const struct plan_graph *g,
                                  const int *stores, int count, const struct vpset *set,
-                                 int processors_log2, bool streams);
+                                 int processors_log2, bool at_hand);
 void byte_code_free(struct byte_code *p);
 
 #endif

@@ -430,6 +430,7 @@ LOOP(draw, u32)
 }
 
 #include "interpret/lanes_lines.h"
+#include "interpret/lanes_picks.h"
 #include "interpret/lanes_sums.h"
 
 /* ---- the table ---- */
@@ -555,6 +556,7 @@ const struct lanes_table TABLE =
              [LANES_COPY] = OF_INTEGERS(copy),
              [LANES_STREAM] = OF_INTEGERS(stream),
              [LANES_FETCH] = FETCHES,
+             [LANES_PICK] = OF_INTEGERS(pick),
              [LANES_JOIN] = OF_INTEGERS(join),
              [LANES_CANONICAL] = OF_FLOATS(canonical),
              [LANES_FIT] = {[LANES_F64] = fit_f64},

@@ -53,6 +53,7 @@ enum lanes_op {
     LANES_FIT,                  /* `to`, doubles, rounded to the format of type */
     LANES_FETCH, /* in: places of 32 bits; an array, which is not the lanes'; how many places there are. 0 where there is none */
     LANES_PLACE, /* a row-major index becomes a send address: PLOG2 is detail, the ratio is mask */
+    LANES_PICK, /* in: an index of 32 bits; the operands of `list` that it names: see lanes_picks.h */
     LANES_DRAW, /* a row-major index becomes a random number: see NODE_RANDOM */
     LANES_OP_COUNT
 };
@@ -71,7 +72,10 @@ struct lanes_step {
     uint8_t
         ahead; /* of arrays that no step before has taken: bit k of in[k], bit 3 of `to`: see blocks.c */
     lanes_wide mask; /* the bits of the result that may be 1 */
+    uint16_t *
+        list; /* of a pick: places of `detail` keys and values in turn, and of what is left; NULL */
 };
+enum { AHEAD_LIST = 16 }; /* ... of values in `list` */
 
 /* Of operands of that class; of a select and of what is beside the graph, of that result. NULL: there is no loop. */
 lanes_function *lanes_find(int op, enum lanes_class c);

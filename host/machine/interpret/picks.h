@@ -1,0 +1,31 @@
+/* picks.h - chains of choices that byte code performs as one step.
+ *
+ *     select (i == 0, a, select (i == 1, b, ... rest))     a pick: for each lane the array that i names, as CM_aref wants it
+ *     select (c, select (d, a, rest), rest)                 an inner choice: select (c & d, a, rest)
+ *
+ * A compiler finds the second itself; of the first it makes as many choices as there are, in registers. */
+#ifndef LUTETIA_MACHINE_PICKS_H
+#define LUTETIA_MACHINE_PICKS_H
+
+#include "plan/plan.h"
+
+enum { PICK_LEAST = 6, PICK_MOST = 64 };
+
+/* The first key that is as the index gives the value. All are nodes; keys are constants. */
+struct pick {
+    int index, rest, count;
+    int keys[PICK_MOST], values[PICK_MOST];
+};
+
+struct picks;
+
+/* wanted: else there are only inner choices. NULL: no memory. */
+struct picks *picks_create(const struct plan_graph *g, int stage, bool wanted);
+void picks_free(struct picks *p);
+/* Is this node one? Only who asks from the last node to the first gets the longest. NULL: no. */
+const struct pick *picks_find(struct picks *p, int node);
+const struct pick *picks_at(const struct picks *p, int node); /* found before */
+/* The node of the inner choice, which nobody else takes; -1: there is none. */
+int picks_inner(const struct picks *p, int node);
+
+#endif
