@@ -4,6 +4,7 @@
 #include <user_folder.h>
 
 #include <sched.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -12,18 +13,21 @@ enum { PLATFORMS_MAX = 16 };
 
 /* PoCL makes as many threads as there are processors, and ties thread n to processor n. If
  * one of these processors is not available to this process, PoCL would end the program, so
- * threads are not tied then. */
+ * threads are not tied then, and there are only as many as processors that are available. */
 static void pocl_threads_tie(void)
 {
     cpu_set_t ours;
+    char count[16];
     long processors = sysconf(_SC_NPROCESSORS_CONF);
     if (getenv("POCL_MAX_PTHREAD_COUNT") || processors < 2 || processors > CPU_SETSIZE ||
         sched_getaffinity(0, sizeof ours, &ours))
         return;
-    for (long i = 0; i < processors; i++)
-        if (!CPU_ISSET((size_t)i, &ours))
-            return;
-    setenv("POCL_AFFINITY", "1", 0);
+    if (CPU_COUNT(&ours) >= processors) {
+        setenv("POCL_AFFINITY", "1", 0);
+        return;
+    }
+    snprintf(count, sizeof count, "%d", CPU_COUNT(&ours));
+    setenv("POCL_MAX_PTHREAD_COUNT", count, 0);
 }
 
 /* PoCL loads files of its cache as code. Without HOME it would use a folder with a fixed

@@ -27,7 +27,8 @@ struct opencl_device {
  * processor each (POCL_AFFINITY=1) if there are enough processors, unless that variable,
  * POCL_MAX_PTHREAD_COUNT or an affinity of the process says otherwise. Otherwise the system
  * often wakes two threads on one processor, and a kernel of a few milliseconds ends before
- * one of them is moved. */
+ * one of them is moved. A process that may run on fewer processors than there are has as many
+ * threads as these. */
 int opencl_devices(struct opencl_device out[static OPENCL_DEVICES_MAX],
                    cl_platform_id *without);
 

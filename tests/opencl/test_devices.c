@@ -75,8 +75,15 @@ static int threads_tied(void)
     return tied;
 }
 
-/* Opens a device in a child process. Returns 1 where its threads are bound to processors, else 0. Threads bind themselves when
- * they begin. */
+static cl_uint units_of(cl_device_id device)
+{
+    cl_uint units = 0;
+    clGetDeviceInfo(device, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
+    return units;
+}
+
+/* Opens a device in a child process. Returns 1 where its threads are bound to processors, else 0; 2 where a process of one processor has
+ * several of them. Threads bind themselves when they begin. */
 static int tied_in_child(const char *name, const char *value, bool one_processor)
 {
     pid_t pid = fork();
@@ -101,9 +108,9 @@ static int tied_in_child(const char *name, const char *value, bool one_processor
             _exit(77);
         for (int i = 0; i < 50 && !tied; i++, usleep(10000))
             tied = threads_tied();
-        if (one_processor) /* all threads are on the one processor: checks that none was moved off it */
-            tied = getenv("POCL_AFFINITY") != NULL;
         (void)context;
+        if (one_processor) /* all threads are on the one processor: checks that none was moved off it */
+            _exit(getenv("POCL_AFFINITY") != NULL ? 1 : units_of(all[0].id) != 1 ? 2 : 0);
         _exit(tied > 0);
     }
     int status = 0;
