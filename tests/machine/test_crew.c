@@ -15,6 +15,7 @@
 
 #include <cmocka.h>
 
+#include "base/clock.h"
 #include "base/crew.h"
 
 enum { PARTS_MOST = 100, JOBS = 3000, THREADS = 4 };
@@ -178,6 +179,61 @@ static void short_work_is_not_shared_out_after_a_late_part(void **unused)
     crew_destroy(crew);
 }
 
+/* Long enough for a thread that slept to wake. */
+static void part_waits(void *context, int part, int worker)
+{
+    const double end = clock_s() + 50e-6;
+    (void)context;
+    (void)part;
+    (void)worker;
+    while (clock_s() < end)
+        continue;
+}
+
+/* Runs jobs until it has been measured how far the threads are apart. False: it never is, since none looks for work while the caller
+ * runs (there is one processor, or others' programs are on it). */
+static bool trip_measured(struct crew *crew)
+{
+    const double end = clock_s() + 2;
+    while (crew_trip(crew) == 0 && clock_s() < end) {
+        crew_run(crew, 8, part_waits, NULL);
+        usleep(1000);
+    }
+    assert_true(crew_trip(crew) >= 0 && crew_trip(crew) < 1e6);
+    return crew_trip(crew) > 0;
+}
+
+static void short_work_is_not_shared_out_between_threads_apart(void **unused)
+{
+    (void)unused;
+    const struct crew_costs
+        near = {.awake = 100, .asleep = 100, .apart = 1000, .part = 10, .trip = 1e6},
+        apart = {.awake = 100, .asleep = 100, .apart = 1000, .part = 10, .trip = 1e-3};
+    for (int threads = 2; threads <= 4; threads += 2) {
+        struct crew *crew = crew_create(threads);
+        assert_true(crew_trip(crew) == 0);
+        assert_true(crew_parts(crew, 999, &apart) > 1); /* nothing is known yet */
+        if (!trip_measured(crew)) {
+            crew_destroy(crew);
+            print_message("no thread looked for work while the caller ran: skipped\n");
+            skip();
+        }
+        bool alone = false;
+        for (int i = 0; i < 100 && !alone; i++) { /* until the measurement is a new one */
+            alone = crew_parts(crew, 499, &apart) == 1;
+            crew_run(crew, 8, part_waits, NULL);
+            usleep(alone ? 0 : 6000);
+        }
+        assert_true(alone);
+        assert_true(crew_parts(crew, 1000 * 2 / threads, &apart) > 1); /* long enough */
+        assert_true(crew_parts(crew, 499, &near) > 1);
+        usleep(30000);
+        assert_true(crew_parts(crew, 499, &apart) > 1); /* after a while it is tried again */
+        crew_destroy(crew);
+    }
+    assert_true(crew_trip(NULL) == 0);
+}
+
 /* ---- errands ---- */
 
 static atomic_int errands_done, errands_dropped;
@@ -259,6 +315,7 @@ int main(void)
         cmocka_unit_test(no_thread_takes_a_signal),
         cmocka_unit_test(short_work_is_not_shared_out),
         cmocka_unit_test(short_work_is_not_shared_out_after_a_late_part),
+        cmocka_unit_test(short_work_is_not_shared_out_between_threads_apart),
         cmocka_unit_test(errands_are_done_beside_jobs),
         cmocka_unit_test(errands_hold_up_nobody),
         cmocka_unit_test(without_threads_there_are_no_errands),

@@ -6,6 +6,10 @@
  * job cannot take a part of a new one. What the job is stays as it is until all its parts are done, and is looked at only with a
  * part in hand.
  *
+ * In a virtual machine the host may run two processors far apart, and move them from second to second: what one has written is then
+ * four times as long on its way to the other. So now and then, after a job, the caller throws a ball, and a thread that looks for work throws it
+ * back. While it takes long, short work is not shared out; after a while it is tried again.
+ *
  * Errands are in a row of few places, behind the lock; a thread that finds no part takes the first.
  *
  *     caller     writes the job | ticket = job 7, 0 to 4 | takes 0, 1 .............. waits until none is undone
@@ -19,6 +23,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/clock.h"
 #include "base/process.h"
@@ -34,6 +39,10 @@ enum {
 static const double LOOKS_S = 50e-6; /* how long before a thread sleeps */
 /* A part is late when the caller waits longer than this, and longer than half of what it did itself. */
 static const double LATE_S = 30e-6;
+
+/* A ball is thrown so many times in a row, and the least time counts. It is caught within so many looks. */
+enum { BATCHES = 3, THROWS = 4, CATCH_LOOKS = 200 };
+static const double BETWEEN_BALLS_S = 5e-3, APART_S = 20e-3;
 
 enum { ERRANDS_MOST = 8 };
 
@@ -56,6 +65,9 @@ struct crew {
     _Atomic int errands_count;
     struct errand errands[ERRANDS_MOST]; /* behind the lock */
     _Atomic bool ends;
+    _Alignas(64) _Atomic uint32_t ball; /* odd: it is on its way to a thread */
+    _Alignas(64) double thrown_s;       /* when it was last thrown */
+    double trip_ns;
     crew_part *function;
     void *context;
     int size, started; /* started: threads, without the caller */
@@ -123,6 +135,42 @@ static bool errand_take(struct crew *c, bool wanted)
     return e.work;
 }
 
+/* For any thread; whoever is first throws it back. */
+static void ball_return(struct crew *c)
+{
+    uint32_t ball = atomic_load(&c->ball);
+    if (ball & 1)
+        atomic_compare_exchange_strong(&c->ball, &ball, ball + 1);
+}
+
+/* False: no thread looks for work just now. */
+static bool ball_throw(struct crew *c)
+{
+    uint32_t ball = atomic_load(&c->ball) + 1;
+    atomic_store(&c->ball, ball);
+    for (int i = 0; i < CATCH_LOOKS; i++) {
+        if (atomic_load(&c->ball) != ball)
+            return true;
+        rest();
+    }
+    return !atomic_compare_exchange_strong(&c->ball, &ball, ball + 1);
+}
+
+static void trip_measure(struct crew *c, double now)
+{
+    double least = 1;
+    c->thrown_s = now;
+    for (int batch = 0; batch < BATCHES; batch++) {
+        const double start = clock_s();
+        for (int i = 0; i < THROWS; i++)
+            if (!ball_throw(c))
+                return;
+        const double trip = (clock_s() - start) / THROWS;
+        least = trip < least ? trip : least;
+    }
+    c->trip_ns = 1e9 * least;
+}
+
 static bool is_wanted(const struct crew *c)
 {
     return atomic_load(&c->errands_count) || has_parts(atomic_load(&c->ticket)) ||
@@ -135,13 +183,14 @@ static bool is_done(const struct crew *c)
 }
 
 /* Looks for so long whether it is so. */
-static bool look(const struct crew *c, bool (*is_so)(const struct crew *c))
+static bool look(struct crew *c, bool (*is_so)(const struct crew *c))
 {
     const double start = clock_s();
     do
         for (int i = 0; i < RESTS; i++) {
             if (is_so(c))
                 return true;
+            ball_return(c);
             rest();
         }
     while (clock_s() - start < LOOKS_S);
@@ -167,9 +216,10 @@ static void *work(void *of)
 
 struct crew *crew_create(int threads)
 {
-    struct crew *c = threads > 1 ? calloc(1, sizeof *c) : NULL;
+    struct crew *c = threads > 1 ? aligned_alloc(_Alignof(struct crew), sizeof *c) : NULL;
     if (!c)
         return NULL;
+    memset(c, 0, sizeof *c);
     pthread_mutex_init(&c->lock, NULL);
     pthread_cond_init(&c->work, NULL);
     c->size = threads < CREW_MOST ? threads : CREW_MOST;
@@ -235,7 +285,10 @@ void crew_run(struct crew *c, int parts, crew_part *function, void *context)
     const double done = clock_s();
     while (!look(c, is_done))
         sched_yield();
-    was_late(c, clock_s() - done > LATE_S + (done - start) / 2);
+    const double end = clock_s();
+    was_late(c, end - done > LATE_S + (done - start) / 2);
+    if (end - c->thrown_s > BETWEEN_BALLS_S && !atomic_load(&c->sleeping))
+        trip_measure(c, end);
 }
 
 bool crew_errand(struct crew *c, crew_errand_work *function, void *context)
@@ -266,8 +319,16 @@ int crew_parts(struct crew *c, double work, const struct crew_costs *costs)
     }
     if (work < costs->asleep && (c->started < c->size - 1 || atomic_load(&c->sleeping)))
         return 1;
+    if (c->trip_ns > costs->trip && work < costs->apart * 2 / c->size &&
+        clock_s() - c->thrown_s < APART_S)
+        return 1;
     double parts = work / costs->part, most = (double)(PARTS_EACH * c->size);
     return (int)(parts < most ? parts : most);
+}
+
+double crew_trip(const struct crew *c)
+{
+    return c ? c->trip_ns : 0;
 }
 
 int crew_size(const struct crew *c)

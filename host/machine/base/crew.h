@@ -25,18 +25,22 @@ typedef void crew_errand_work(void *context, bool wanted);
 
 /* For so many threads, the caller among them; none begins before there is work. NULL: no memory, or only one. */
 struct crew *crew_create(int threads);
-/* The least work that is shared out, in nanoseconds: where a thread looks for work; where all sleep, and one must be woken; where one
- * was late a short time ago, since others' programs run on its processor; and the least part of it. */
+/* In nanoseconds. The least work that is shared out: where a thread looks for work; where all sleep, and one must be woken; where one
+ * was late a short time ago, since others' programs run on its processor; between two threads that are apart, and the more threads
+ * the less. The least part of it. How long a word may be on its way to a thread and back; beyond, they are apart. */
 struct crew_costs {
-    double awake, asleep, late, part;
+    double awake, asleep, late, apart, part, trip;
 };
 /* How many parts to make of work that takes one thread so long, in nanoseconds; 1: it is not shared out. */
 int crew_parts(struct crew *crew, double work, const struct crew_costs *costs);
-/* crew NULL: the caller does all. Returns when all parts are done. One caller at a time. */
+/* crew NULL: the caller does all. Returns when all parts are done. One caller at a time. Now and then it measures how far threads are
+ * apart. */
 void crew_run(struct crew *crew, int parts, crew_part *function, void *context);
 /* What a thread does by the way, while there is nothing to share out; nobody waits for it. False: there is no thread for it, or enough of
  * such work already. */
 bool crew_errand(struct crew *crew, crew_errand_work *work, void *context);
+/* How long a word was on its way to a thread and back when it was last measured, in nanoseconds; 0: it never was. */
+double crew_trip(const struct crew *crew);
 /* How many may be at work. */
 int crew_size(const struct crew *crew);
 void crew_destroy(struct crew *crew);

@@ -15,7 +15,13 @@
     .send_ns = 1.2, .reshape_ns = 2, .scan_ns = 0.6, .scan_vector_ns = 0.12,                   \
     .scan_cut_ns = 1e6, .fill_ns = 0.2, .wait_ns = 12e3, .text_ns = 1e6, .compile_ns = 1e8,    \
     .compile_op_ns = 2e6, .kernel_part = 0.4, .turns_from_ns = 4e3, .scan_run_least = 65536,   \
-    .sort_short = 64, .rank_alone_most = 1 << 14, .share = {5e3, 30e3, 150e3, 2e3},            \
+    .sort_short = 64, .rank_alone_most = 1 << 14,                                              \
+    .share = {.awake = 5e3,                                                                    \
+              .asleep = 30e3,                                                                  \
+              .late = 150e3,                                                                   \
+              .apart = 150e3,                                                                  \
+              .part = 2e3,                                                                     \
+              .trip = 260},                                                                    \
     .loop_ns = 0.04, .loop_cost_ns = 0.01, .gather_ns = 0.5, .pick_ns = 0.4,                   \
     .ahead_from = 1 << 18, .each_math_ns = 15, .each_ns = 8, .short_ns = 10e3,                 \
     .at_once_lanes = 4096, .work_least = 8192, .load_aside_bytes = 64 << 10,                   \
