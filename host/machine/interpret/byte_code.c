@@ -486,20 +486,13 @@ static void node_compute(struct making *k, int node)
     }
 }
 
-static int operands_of(const struct lanes_step *s)
-{
-    if (s->op < NODE_OP_COUNT)
-        return node_ops[s->op].inputs;
-    return s->op == LANES_FETCH ? 3 : s->op == LANES_JOIN || s->op == LANES_DRAW ? 2 : 1;
-}
-
 /* Which step is the first that takes an array. */
 static void arrays_ahead(struct byte_code *p)
 {
     bool *taken = calloc((size_t)p->places_count, sizeof *taken);
     for (int i = 0; taken && i < p->steps_count; i++) {
         struct lanes_step *s = &p->steps[i];
-        int inputs = s->run ? operands_of(s) : 0;
+        int inputs = s->run ? lanes_inputs(s->op) : 0;
         for (int k = 0; s->list && k < s->detail; k++) {
             bool *known = &taken[s->list[2 * k + 1]];
             if (p->places[s->list[2 * k + 1]].kind == PLACE_ARRAY && !*known)

@@ -193,19 +193,10 @@ static int family_of(const struct lanes_step *s)
     return s->op < NODE_OP_COUNT ? node_ops[s->op].spell : SPELL_CONVERSION;
 }
 
-static int inputs_of(const struct lanes_step *s)
-{
-    if (!s->run)
-        return 0; /* a coordinate or an index */
-    return s->op < NODE_OP_COUNT                        ? node_ops[s->op].inputs
-           : s->op == LANES_FETCH                       ? 3
-           : s->op == LANES_JOIN || s->op == LANES_DRAW ? 2
-                                                        : 1;
-}
-
 static void step_encode(struct encoding *e, const struct lanes_step *s)
 {
-    int inputs = inputs_of(s);
+    int inputs = s->run ? lanes_inputs(s->op) : 0; /* none: a coordinate or an index */
+    INVARIANT(s->op != LANES_PICK);
     word_add(e, s->op);
     word_add(e, e->at[s->to]);
     for (int k = 0; k < 3; k++) {

@@ -278,11 +278,6 @@ static wide lane_get(const void *from, size_t bytes, int i)
     return x;
 }
 
-static int operands(int op)
-{
-    return op < NODE_OP_COUNT ? node_ops[op].inputs : op == LANES_JOIN ? 2 : 1;
-}
-
 /* The type of an operand: a select's first is a bit; a count is of 32 bits. */
 static size_t operand_bytes(const struct lanes_step *s, int k)
 {
@@ -296,7 +291,7 @@ static size_t operand_bytes(const struct lanes_step *s, int k)
 void lane_each(const struct lanes_step *s, void *const *at, int n)
 {
     size_t to_bytes = lanes_bytes(lanes_class_of(s->type)), bytes[3] = {0};
-    int count = operands(s->op);
+    int count = lanes_inputs(s->op);
     const void *in[3] = {NULL};
     for (int k = 0; k < count; k++) {
         in[k] = at[s->in[k]];

@@ -77,6 +77,15 @@ struct lanes_step {
 };
 enum { AHEAD_LIST = 16 }; /* ... of values in `list` */
 
+/* How many of in[] an operation takes; a pick takes those of its list, too. */
+static inline int lanes_inputs(int op)
+{
+    return op < NODE_OP_COUNT                     ? node_ops[op].inputs
+           : op == LANES_FETCH                    ? 3
+           : op == LANES_JOIN || op == LANES_DRAW ? 2
+                                                  : 1;
+}
+
 /* Of operands of that class; of a select and of what is beside the graph, of that result. NULL: there is no loop. */
 lanes_function *lanes_find(int op, enum lanes_class c);
 /* Conversions: NODE_ZERO_EXTEND (and EXTRACT), SIGN_EXTEND, U_TO_F, S_TO_F, F_TO_U, F_TO_S, F_TO_F. */

@@ -77,8 +77,8 @@ const struct pick *picks_find(struct picks *p, int node)
     const struct plan_node *nodes = p->g->nodes;
     struct pick found = {.rest = node};
     int key;
-    if (!p->wanted || !is_computed(p, node, NODE_SELECT))
-        return NULL;
+    if (p->of[node] || !p->wanted || !is_computed(p, node, NODE_SELECT))
+        return p->of[node];
     while (found.count < PICK_MOST && (!found.count || is_inner(p, found.rest))) {
         const int index = compared(p, found.rest, &key);
         if (index < 0 || (found.count && index != found.index))
