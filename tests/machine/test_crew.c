@@ -213,6 +213,7 @@ static void short_work_is_not_shared_out_between_threads_apart(void **unused)
         struct crew *crew = crew_create(threads);
         assert_true(crew_trip(crew) == 0);
         assert_true(crew_parts(crew, 999, &apart) > 1); /* nothing is known yet */
+        crew_meet(crew);
         if (!trip_measured(crew)) {
             crew_destroy(crew);
             print_message("no thread looked for work while the caller ran: skipped\n");
@@ -231,6 +232,7 @@ static void short_work_is_not_shared_out_between_threads_apart(void **unused)
         assert_true(crew_parts(crew, 499, &apart) > 1); /* after a while it is tried again */
         crew_destroy(crew);
     }
+    crew_meet(NULL);
     assert_true(crew_trip(NULL) == 0);
 }
 

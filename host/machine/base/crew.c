@@ -44,6 +44,10 @@ static const double LATE_S = 30e-6;
 enum { BATCHES = 3, THROWS = 4, CATCH_LOOKS = 200 };
 static const double BETWEEN_BALLS_S = 5e-3, APART_S = 20e-3;
 
+/* Of a meeting: parts take so long, and there are so many tries. */
+enum { MEETINGS = 5 };
+static const double WAIT_S = 10e-6;
+
 enum { ERRANDS_MOST = 8 };
 
 struct errand {
@@ -289,6 +293,23 @@ void crew_run(struct crew *c, int parts, crew_part *function, void *context)
     was_late(c, end - done > LATE_S + (done - start) / 2);
     if (end - c->thrown_s > BETWEEN_BALLS_S && !atomic_load(&c->sleeping))
         trip_measure(c, end);
+}
+
+/* Long enough for a thread to come, if it comes at all. */
+static void part_wait(void *context, int part, int worker)
+{
+    const double end = clock_s() + WAIT_S;
+    (void)context;
+    (void)part;
+    (void)worker;
+    while (clock_s() < end)
+        rest();
+}
+
+void crew_meet(struct crew *c)
+{
+    for (int i = 0; c && i < MEETINGS && c->trip_ns == 0; i++)
+        crew_run(c, 2 * c->size, part_wait, NULL);
 }
 
 bool crew_errand(struct crew *c, crew_errand_work *function, void *context)

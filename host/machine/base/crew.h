@@ -36,6 +36,8 @@ int crew_parts(struct crew *crew, double work, const struct crew_costs *costs);
 /* crew NULL: the caller does all. Returns when all parts are done. One caller at a time. Now and then it measures how far threads are
  * apart. */
 void crew_run(struct crew *crew, int parts, crew_part *function, void *context);
+/* Begins the threads, and measures how far they are apart, if one comes within a fraction of a millisecond. NULL is fine. */
+void crew_meet(struct crew *crew);
 /* What a thread does by the way, while there is nothing to share out; nobody waits for it. False: there is no thread for it, or enough of
  * such work already. */
 bool crew_errand(struct crew *crew, crew_errand_work *work, void *context);

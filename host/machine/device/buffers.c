@@ -178,6 +178,7 @@ struct device_buffer *device_rows_get(struct machine *m, struct rows rows)
     if (w) {
         b = &w->buffer;
         b->memory = &w->memory;
+        b->fresh = true;
         if (!chunk_take(d, rows, b))
             error = own_memory_get(m, b, rows, whole);
     }

@@ -137,6 +137,8 @@ static enum machine_status choose_and_open(struct machine *m,
     if (error)
         return device_check(m, error, "a command queue cannot be made");
     chunks_begin(d);
+    if (m->settings.near && device_is_ours(d))
+        crew_meet(d->crew); /* else the first work that is shared out waits for them */
     return device_programs_begin(d)
                ? MACHINE_OK
                : machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for the kernel cache");

@@ -28,6 +28,7 @@ struct run {
     const struct vpset *set;
     struct device_buffer *const *buffers;
     struct blocks_registers *room; /* of this thread */
+    uint8_t ahead;                 /* which arrays are fetched before their block's turn */
 };
 
 void blocks_room_free(struct blocks_room *room)
@@ -197,10 +198,13 @@ static inline __attribute__((always_inline)) void fetch(const struct run *r, int
 static inline __attribute__((always_inline)) void
 fetch_ahead(const struct run *r, const struct lanes_step *s, int lanes)
 {
-    for (int k = 0; k < 4; k++)
-        if (s->ahead >> k & 1)
-            fetch(r, k == 3 ? s->to : s->in[k], lanes, k == 3);
-    for (int k = 0; s->ahead & AHEAD_LIST && k < s->detail; k++)
+    const int ahead = s->ahead & r->ahead;
+    for (int k = 0; k < 3; k++)
+        if (ahead >> k & 1)
+            fetch(r, s->in[k], lanes, false);
+    if (ahead & AHEAD_TO)
+        fetch(r, s->to, lanes, true);
+    for (int k = 0; ahead & AHEAD_LIST && k < s->detail; k++)
         if (r->p->places[s->list[2 * k + 1]].kind == PLACE_ARRAY)
             fetch(r, s->list[2 * k + 1], lanes, false);
 }
@@ -215,7 +219,7 @@ static void block_run(const struct run *r, const struct block *b)
             s->run(s, r->room->at, b->lanes);
         else
             generate(r, s, b);
-        if (s->ahead && goes_on)
+        if (s->ahead & r->ahead && goes_on)
             fetch_ahead(r, s, b->lanes);
     }
 }
@@ -288,12 +292,28 @@ static void part_run(void *of, int part, int worker)
         lanes_table()->settle();
 }
 
+/* All arrays if they are in no cache; else results whose memory is new. */
+static uint8_t arrays_to_fetch(const struct byte_code *p, struct device_buffer *const *buffers)
+{
+    uint8_t ahead = p->far ? AHEAD_ALL : 0;
+    for (int i = 0; i < p->arguments_count; i++) {
+        struct device_buffer *b = buffers[p->arguments[i].node];
+        if (p->arguments[i].kind != ARGUMENT_OUTPUT || !b->fresh)
+            continue;
+        b->fresh = false;
+        ahead |= AHEAD_TO;
+    }
+    return ahead;
+}
+
 bool blocks_run(struct blocks_room *room, struct crew *crew, int parts,
                 const struct byte_code *p, const struct vpset *set,
                 struct device_buffer *const *buffers, struct machine_value *const *nodes)
 {
     struct share s = {
-        .run = {.p = p, .set = set, .buffers = buffers}, .room = room, .nodes = nodes};
+        .run = {.p = p, .set = set, .buffers = buffers, .ahead = arrays_to_fetch(p, buffers)},
+        .room = room,
+        .nodes = nodes};
     bool are_short = set->pitch <= BLOCK_LANES;
     uint64_t most = are_short ? set->pitch * set->rows : (uint64_t)set->width,
              at_once = are_short ? BLOCK_LANES / set->pitch : 1;

@@ -563,7 +563,8 @@ struct byte_code *byte_code_make(const struct device_shape *shape, const struct 
         for (int i = 0; i < p->arguments_count; i++)
             p->lane_bytes += (int)type_bytes(g->nodes[p->arguments[i].node].type);
         good = !p->failed && p->places_count <= UINT16_MAX;
-        if (good && set->count >= shape->ahead_from)
+        p->far = set->count >= shape->ahead_from;
+        if (good && set->width > BLOCK_LANES)
             arrays_ahead(p);
     }
     for (int c = 0; c < LANES_CLASSES; c++)

@@ -46,6 +46,7 @@ struct byte_code {
     int ops, cost;  /* as of struct kernel_text */
     double lane_s;  /* how long a lane takes, about */
     int lane_bytes; /* of arrays, that it reads and writes */
+    bool far;       /* its arrays are in no cache */
     bool moves;     /* there is a MOVED */
     bool streams;   /* it stores past the caches */
     bool failed;    /* no memory */

@@ -69,13 +69,12 @@ struct lanes_step {
     struct machine_type type; /* of the result */
     int32_t detail;
     uint8_t axis;
-    uint8_t
-        ahead; /* of arrays that no step before has taken: bit k of in[k], bit 3 of `to`: see blocks.c */
+    uint8_t ahead;   /* arrays that no step before has taken: bit k of in[k], and those below */
     lanes_wide mask; /* the bits of the result that may be 1 */
-    uint16_t *
-        list; /* of a pick: places of `detail` keys and values in turn, and of what is left; NULL */
+    uint16_t *list;  /* of a pick: places of `detail` keys and values in turn, and of what is
+                     * left; NULL */
 };
-enum { AHEAD_LIST = 16 }; /* ... of values in `list` */
+enum { AHEAD_TO = 8, AHEAD_LIST = 16, AHEAD_ALL = 31 }; /* of `to`; of values in `list` */
 
 /* How many of in[] an operation takes; a pick takes those of its list, too. */
 static inline int lanes_inputs(int op)
