@@ -4,6 +4,7 @@
 #include <user_folder.h>
 
 #include <sched.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,16 +19,18 @@ static void pocl_threads_tie(void)
 {
     cpu_set_t ours;
     char count[16];
+    bool all = true;
     long processors = sysconf(_SC_NPROCESSORS_CONF);
     if (getenv("POCL_MAX_PTHREAD_COUNT") || processors < 2 || processors > CPU_SETSIZE ||
         sched_getaffinity(0, sizeof ours, &ours))
         return;
-    if (CPU_COUNT(&ours) >= processors) {
-        setenv("POCL_AFFINITY", "1", 0);
-        return;
-    }
+    for (long i = 0; i < processors; i++)
+        all = all && CPU_ISSET((size_t)i, &ours);
     snprintf(count, sizeof count, "%d", CPU_COUNT(&ours));
-    setenv("POCL_MAX_PTHREAD_COUNT", count, 0);
+    if (all)
+        setenv("POCL_AFFINITY", "1", 0);
+    else
+        setenv("POCL_MAX_PTHREAD_COUNT", count, 0);
 }
 
 /* PoCL loads files of its cache as code. Without HOME it would use a folder with a fixed

@@ -12,7 +12,7 @@ static void messages_are_picked_alike(void **state)
     static uint32_t index[MOST], place[MOST + 16];
     static uint16_t lane[MOST + 16];
     static uint8_t context[MOST];
-    const struct lanes_pick p = {index, 70, 9000, 3};
+    const struct lanes_filter p = {index, 70, 9000, 3};
     const struct lanes_rows rows = {37, 16, 91};
     struct tables t = tables_here();
     (void)state;
@@ -26,7 +26,7 @@ static void messages_are_picked_alike(void **state)
                 index[i] = x % 9 ? x % 10000 : x;
                 context[i] = x >> 20 & 1;
             }
-            size_t picked = t.of[k / 2]->pick(&p, masked ? context : NULL, n, place, lane);
+            size_t picked = t.of[k / 2]->filter(&p, masked ? context : NULL, n, place, lane);
             for (size_t i = 0; i < picked; i++)
                 place[i] -= 3;
             t.of[k / 2]->places(place, picked, &rows);

@@ -36,7 +36,7 @@ struct device_buffer {
     size_t bytes, first; /* see struct rows */
     void *host;    /* where it is for the front end; NULL: the device has memory of its own */
     uint32_t refs; /* a buffer goes back to the pool at 0; the queue is in order, so at once */
-    bool fresh;    /* nobody has written it yet, or by a kernel: its memory is in no cache */
+    bool fresh;    /* no byte code has written it yet, so its memory may be in no cache */
     uint32_t mark, number; /* of the last walk that came by: run/states.c */
 };
 

@@ -99,13 +99,13 @@ typedef void lanes_count_function(uint32_t *to, uint32_t first, int n);
 typedef void lanes_fill_function(void *to, const void *element, size_t bytes, size_t n);
 /* Of n processors' indices those from `first` on, `count` of them, where the context (NULL: everywhere) holds: `place` and `lane`
  * become their indices, so much further, and their lanes, one after the other. n is 512 at most; both have room for 16 more. Returns how many. */
-struct lanes_pick {
+struct lanes_filter {
     const uint32_t *index;
     uint32_t first, count;
-    uint32_t further; /* added to what is picked */
+    uint32_t further; /* added to each of these indices */
 };
-typedef size_t lanes_pick_function(const struct lanes_pick *p, const uint8_t *context, int n,
-                                   uint32_t *place, uint16_t *lane);
+typedef size_t lanes_filter_function(const struct lanes_filter *p, const uint8_t *context,
+                                     int n, uint32_t *place, uint16_t *lane);
 /* Addresses of 1, 2, 4, 8 or 16 bytes each become indices: the bits of mask, and `nobody` where that is greater or the context (NULL: everywhere) does
  * not hold. */
 struct lanes_aim {
@@ -180,7 +180,7 @@ struct lanes_table {
     lanes_count_function *count;
     lanes_fill_function *fill;
     lanes_aim_function *aim;
-    lanes_pick_function *pick;
+    lanes_filter_function *filter;
     lanes_greatest_function *greatest;
     lanes_pack_function *pack;
     lanes_ranks_function *ranks;

@@ -46,7 +46,8 @@ static void aim(const struct lanes_aim *a, int n, u32 *restrict index)
         index[i] = context[i] ? index[i] : nobody;
 }
 
-static size_t pick(const struct lanes_pick *p, const u8 *context, int n, u32 *place, u16 *lane)
+static size_t filter(const struct lanes_filter *p, const u8 *context, int n, u32 *place,
+                     u16 *lane)
 {
     const u32 *index = p->index, first = p->first, count = p->count, further = p->further;
     size_t picked = 0;

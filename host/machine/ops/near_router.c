@@ -41,10 +41,10 @@ static void hops_find(const struct near_route *r, const struct range *to, size_t
     uint32_t index[BLOCK];
     const struct vpset *s = r->to;
     const unsigned char *context = r->context ? r->context->host : NULL;
-    const struct lanes_pick p = {index, (uint32_t)to->first, (uint32_t)(to->end - to->first),
-                                 s->rows == 1 ? (uint32_t)s->halo : 0};
+    const struct lanes_filter p = {index, (uint32_t)to->first, (uint32_t)(to->end - to->first),
+                                   s->rows == 1 ? (uint32_t)s->halo : 0};
     near_addresses(r, at, n, index);
-    h->count = r->lanes->pick(&p, context ? context + at : NULL, n, h->place, h->lane);
+    h->count = r->lanes->filter(&p, context ? context + at : NULL, n, h->place, h->lane);
     if (s->rows > 1)
         r->lanes->places(h->place, h->count,
                          &(struct lanes_rows){(uint32_t)s->width, (uint32_t)s->halo,
