@@ -6,9 +6,9 @@
  * job cannot take a part of a new one. What the job is stays as it is until all its parts are done, and is looked at only with a
  * part in hand.
  *
- * In a virtual machine the host may run two processors far apart, and move them from second to second: what one has written is then
- * four times as long on its way to the other. So now and then, after a job, the caller throws a ball, and a thread that looks for work throws it
- * back. While it takes long, short work is not shared out; after a while it is tried again.
+ * In a virtual machine the host may run two processors far apart, and move them from second to second: what one processor has written
+ * is then four times as long on its way to the other. So now and then, after a job, the caller sends a ping, and a thread that looks for work answers
+ * it. While the round trip takes long, short work is not shared out; after a while the caller tries again.
  *
  * Errands are in a row of few places, behind the lock; a thread that finds no part takes the first.
  *
@@ -40,9 +40,9 @@ static const double LOOKS_S = 50e-6; /* how long before a thread sleeps */
 /* A part is late when the caller waits longer than this, and longer than half of what it did itself. */
 static const double LATE_S = 30e-6;
 
-/* A ball is thrown so many times in a row, and the least time counts. It is caught within so many looks. */
-enum { BATCHES = 3, THROWS = 4, CATCH_LOOKS = 200 };
-static const double BETWEEN_BALLS_S = 5e-3, APART_S = 20e-3;
+/* A batch is so many pings, and the least time of a batch counts. A thread that looks for work answers within so many looks of the caller. */
+enum { BATCHES = 3, PINGS = 4, ANSWER_LOOKS = 200 };
+static const double BETWEEN_PINGS_S = 5e-3, APART_S = 20e-3;
 
 /* Of a meeting: parts take so long, and there are so many tries. */
 enum { MEETINGS = 5 };
@@ -69,8 +69,8 @@ struct crew {
     _Atomic int errands_count;
     struct errand errands[ERRANDS_MOST]; /* behind the lock */
     _Atomic bool ends;
-    _Alignas(64) _Atomic uint32_t ball; /* odd: it is on its way to a thread */
-    _Alignas(64) double thrown_s;       /* when it was last thrown */
+    _Alignas(64) _Atomic uint32_t ping; /* odd: nobody has answered it yet */
+    _Alignas(64) double pinged_s;       /* when the caller sent the last batch */
     double trip_ns;
     crew_part *function;
     void *context;
@@ -139,37 +139,37 @@ static bool errand_take(struct crew *c, bool wanted)
     return e.work;
 }
 
-/* For any thread; whoever is first throws it back. */
-static void ball_return(struct crew *c)
+/* For any thread; the first one's answer counts. */
+static void ping_answer(struct crew *c)
 {
-    uint32_t ball = atomic_load(&c->ball);
-    if (ball & 1)
-        atomic_compare_exchange_strong(&c->ball, &ball, ball + 1);
+    uint32_t ping = atomic_load(&c->ping);
+    if (ping & 1)
+        atomic_compare_exchange_strong(&c->ping, &ping, ping + 1);
 }
 
 /* False: no thread looks for work just now. */
-static bool ball_throw(struct crew *c)
+static bool ping_send(struct crew *c)
 {
-    uint32_t ball = atomic_load(&c->ball) + 1;
-    atomic_store(&c->ball, ball);
-    for (int i = 0; i < CATCH_LOOKS; i++) {
-        if (atomic_load(&c->ball) != ball)
+    uint32_t ping = atomic_load(&c->ping) + 1;
+    atomic_store(&c->ping, ping);
+    for (int i = 0; i < ANSWER_LOOKS; i++) {
+        if (atomic_load(&c->ping) != ping)
             return true;
         rest();
     }
-    return !atomic_compare_exchange_strong(&c->ball, &ball, ball + 1);
+    return !atomic_compare_exchange_strong(&c->ping, &ping, ping + 1);
 }
 
 static void trip_measure(struct crew *c, double now)
 {
     double least = 1;
-    c->thrown_s = now;
+    c->pinged_s = now;
     for (int batch = 0; batch < BATCHES; batch++) {
         const double start = clock_s();
-        for (int i = 0; i < THROWS; i++)
-            if (!ball_throw(c))
+        for (int i = 0; i < PINGS; i++)
+            if (!ping_send(c))
                 return;
-        const double trip = (clock_s() - start) / THROWS;
+        const double trip = (clock_s() - start) / PINGS;
         least = trip < least ? trip : least;
     }
     c->trip_ns = 1e9 * least;
@@ -194,7 +194,7 @@ static bool look(struct crew *c, bool (*is_so)(const struct crew *c))
         for (int i = 0; i < RESTS; i++) {
             if (is_so(c))
                 return true;
-            ball_return(c);
+            ping_answer(c);
             rest();
         }
     while (clock_s() - start < LOOKS_S);
@@ -291,7 +291,7 @@ void crew_run(struct crew *c, int parts, crew_part *function, void *context)
         sched_yield();
     const double end = clock_s();
     was_late(c, end - done > LATE_S + (done - start) / 2);
-    if (end - c->thrown_s > BETWEEN_BALLS_S && !atomic_load(&c->sleeping))
+    if (end - c->pinged_s > BETWEEN_PINGS_S && !atomic_load(&c->sleeping))
         trip_measure(c, end);
 }
 
@@ -341,7 +341,7 @@ int crew_parts(struct crew *c, double work, const struct crew_costs *costs)
     if (work < costs->asleep && (c->started < c->size - 1 || atomic_load(&c->sleeping)))
         return 1;
     if (c->trip_ns > costs->trip && work < costs->apart * 2 / c->size &&
-        clock_s() - c->thrown_s < APART_S)
+        clock_s() - c->pinged_s < APART_S)
         return 1;
     double parts = work / costs->part, most = (double)(PARTS_EACH * c->size);
     return (int)(parts < most ? parts : most);
