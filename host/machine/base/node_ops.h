@@ -122,7 +122,7 @@ static inline bool op_has(int op, enum op_flags flag)
 /* Whether operand k is looked at where the operation's processor is; else anywhere. */
 static inline bool op_reads_own(int op, int k)
 {
-    return op != NODE_SHIFT && !(op == NODE_GATHER && k == 1);
+    return op != NODE_SHIFT && op != NODE_CROSS && !(op == NODE_GATHER && k == 1);
 }
 
 static inline bool op_is_math(int op)

@@ -54,7 +54,7 @@ static enum machine_cut why_of(const struct describing *e, const struct plan_gra
         return MACHINE_CUT_LIVE;
     for (int i = 0; i < g->count; i++) {
         const struct plan_node *n = &g->nodes[i];
-        if (n->op == NODE_SHIFT && !n->leaf && n->in[0] == node &&
+        if ((n->op == NODE_SHIFT || n->op == NODE_CROSS) && !n->leaf && n->in[0] == node &&
             n->stage > g->nodes[node].stage)
             return MACHINE_CUT_NEIGHBOURS;
     }

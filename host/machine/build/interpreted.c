@@ -25,7 +25,8 @@ static bool is_known(const struct machine_value *v)
 {
     if (v->op == NODE_GATHER)
         return v->in[1]->buffer != NULL;
-    return v->op == NODE_SHIFT || !node_ops[v->op].inputs || op_has(v->op, OP_ALONE);
+    return v->op == NODE_SHIFT || v->op == NODE_CROSS || !node_ops[v->op].inputs ||
+           op_has(v->op, OP_ALONE);
 }
 
 /* Whether the device performs byte code, not the front end, which cannot look into its memory. */
@@ -86,6 +87,8 @@ static bool launch_add(struct machine *m, struct plan *p, const struct plan_grap
     p->work += shape_work(&m->device->shape, set->count);
     p->bytes += set->count * (uint64_t)program->lane_bytes;
     p->looks_around = p->looks_around || program->moves;
+    p->crosses = p->crosses || program->crosses;
+    p->each = p->each || program->each;
     p->predicted_s +=
         code ? device_code_time_s(m, code, set) : program->lane_s * (double)set->count;
     return true;
@@ -147,6 +150,12 @@ double plan_waits_for_memory(const struct machine *m, const struct plan *p)
     return shape->byte_ns * (double)p->bytes / (TRAFFIC_PART * compute_ns);
 }
 
+/* Kernels would store what is crossed in a block, and load it again. That gains nothing, where byte code has loops. */
+static bool is_best(const struct plan *p)
+{
+    return p->crosses && !p->each;
+}
+
 struct plan *interpreted_at_hand(struct machine *m, const struct plan_request *q)
 {
     struct plan_request asked = *q;
@@ -161,7 +170,7 @@ struct plan *interpreted_make(struct machine *m, const struct plan_request *q)
     double start = watch_clock(m);
     struct plan *p = could_be(m, q) ? plan_interpreted(m, q) : NULL;
     if (!p || m->settings.interpret > 1 || !device_takes_kernels(m) ||
-        p->predicted_s < 1e-9 * m->device->shape.text_ns)
+        p->predicted_s < 1e-9 * m->device->shape.text_ns || is_best(p))
         return p;
     const bool slow = choice_takes_long(m, q) && p->predicted_s <= compile_time(m, p);
     struct plan *better = slow ? NULL : interpreted_at_hand(m, q);
@@ -193,7 +202,7 @@ static bool pays_family(const struct machine *m, const struct plan *p)
 bool interpreted_is_due(const struct machine *m, const struct plan *p)
 {
     const struct device_shape *shape = &m->device->shape;
-    if (m->settings.interpret != 1 || !p->runs)
+    if (m->settings.interpret != 1 || !p->runs || is_best(p))
         return false;
     if (interpreted_asks(p) && p->spent_s > 1e-9 * shape->text_ns)
         return true;

@@ -442,6 +442,25 @@ static void emit_gather(struct emitter *e, char *out, size_t size, const struct 
     e->cost += node_cost(n->op, n->type);
 }
 
+/* What is in memory at the place of the processor whose index differs in the node's bits, for each lane: all these are in the row. */
+static void emit_cross(struct emitter *e, char *out, size_t size, const struct plan_node *n,
+                       int row, int dx)
+{
+    const int array = input_of(e, plan_input(e->g, n, 0, e->stage)), reach = abs(dx);
+    e->reach = reach > e->reach ? reach : e->reach;
+    text_put(&e->body,
+             "        const VU i%d = (column(x + (%d), W) ^ (VU)((uint)(" NUMBER_INT
+             "))) + (VU)((uint)(r%d * PITCH + HALO));\n"
+             "        const int w%d = IN_A_ROW(i%d, (VU)(UINT_MAX));\n",
+             e->names, dx, n->detail, row, e->names, e->names);
+    snprintf(out, size, "GATHER(%c, %s, %s, b%d, i%d, (VU)(UINT_MAX), i%d, w%d)",
+             spell_letter(n->type), memory_kind(n->type), memory_type(n->type), array, e->names,
+             e->names, e->names);
+    e->ops++;
+    e->loads++;
+    e->cost += node_cost(n->op, n->type);
+}
+
 /* What a node computes of its operands. */
 static void emit_operation(struct emitter *e, char *out, size_t size, const struct plan_node *n,
                            int row, int dx, bool canonical)
@@ -521,6 +540,8 @@ struct operand emit_value(struct emitter *e, int node, int row, int dx, bool can
         snprintf(expression, sizeof expression, "CANON_%c(%s)", type[1], a.text);
     } else if (n->op == NODE_GATHER) {
         emit_gather(e, expression, sizeof expression, n, row, dx);
+    } else if (n->op == NODE_CROSS) {
+        emit_cross(e, expression, sizeof expression, n, row, dx);
     } else if (node_ops[n->op].inputs == 0) {
         emit_generated(e, expression, sizeof expression, n, node, row, dx);
         e->cost += node_cost(n->op, n->type);

@@ -76,7 +76,8 @@ static void places_begin(const struct run *r, struct machine_value *const *nodes
     for (int i = 0; i < r->p->places_count; i++) {
         const struct place *place = &r->p->places[i];
         void *at = (char *)r->room->memory + place->offset;
-        if (place->kind == PLACE_ARRAY || place->kind == PLACE_MOVED)
+        if (place->kind == PLACE_ARRAY || place->kind == PLACE_MOVED ||
+            place->kind == PLACE_CROSSED)
             continue;
         if (place->kind == PLACE_NUMBER)
             fill(at, nodes[place->node]->imm, place->bytes, lanes);
@@ -164,6 +165,9 @@ static void places_move(const struct run *r, const struct block *b)
                              (ptrdiff_t)(b->rows ? -r->set->halo : b->x) * place->bytes;
         else if (place->kind == PLACE_MOVED)
             r->room->at[i] = moved(r, place, b);
+        else if (place->kind == PLACE_CROSSED) /* rows are long: values/places.c */
+            r->room->at[i] = row_begin(r, place, b->row) +
+                             (size_t)((uint32_t)b->x ^ place->across) * place->bytes;
     }
 }
 

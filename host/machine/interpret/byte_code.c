@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/arrays.h"
+#include "base/errors.h"
 #include "base/scalar.h"
 #include "device/shape.h"
 #include "interpret/node_loops.h"
@@ -115,6 +116,17 @@ static int place_moved(struct making *k, int node)
                                        .further = further});
 }
 
+/* An array's other blocks, whose processors' indices differ in these bits. */
+static int place_crossed(struct making *k, int node, uint32_t across)
+{
+    argument_add(k->p, ARGUMENT_INPUT, node);
+    return place_add(k->p, (struct place){.kind = PLACE_CROSSED,
+                                          .bytes = (uint8_t)lanes_bytes(
+                                              lanes_class_of(k->g->nodes[node].type)),
+                                          .node = node,
+                                          .across = across});
+}
+
 /* What is not computed here. */
 static int place_given(struct making *k, int node)
 {
@@ -152,6 +164,7 @@ static struct lanes_step *step_add(struct making *k, lanes_function *run, int op
         return &none;
     struct lanes_step *s = &p->steps[p->steps_count++];
     p->lane_s += 1e-9 * step_ns(k->shape, run, op);
+    p->each = p->each || run == lane_each;
     *s = (struct lanes_step){
         .run = run, .op = (uint16_t)op, .to = (uint16_t)to, .mask = ~(lanes_wide)0};
     return s;
@@ -349,10 +362,11 @@ static bool loads(const struct making *k, int node)
     return plan_loads(&k->g->nodes[node], k->stage);
 }
 
-/* Whether it takes operand j lane by lane; else whole, from memory. */
+/* Whether it takes operand j lane by lane; else from memory. */
 static bool takes(const struct plan_node *n, int j)
 {
-    return n->op != NODE_GATHER || j != 1;
+    return !(n->op == NODE_GATHER && j == 1) &&
+           !(n->op == NODE_CROSS && n->detail >= CROSS_NEAR);
 }
 
 enum { OPERANDS_MOST = 2 * PICK_MOST + 2 };
@@ -423,6 +437,23 @@ static int place_of_result(struct making *k, int node)
                : register_get(k, lanes_class_of(k->g->nodes[node].type));
 }
 
+/* Other blocks, and within a block other lanes. */
+static void node_cross(struct making *k, int node, int from)
+{
+    const struct plan_node *n = &k->g->nodes[node];
+    const enum lanes_class c = lanes_bits_of(lanes_class_of(n->type));
+    const int within = n->detail % CROSS_NEAR, op = within ? LANES_CROSS : LANES_COPY;
+    if (!takes(n, 0)) {
+        INVARIANT(loads(k, n->in[0]));
+        from = place_crossed(k, n->in[0], (uint32_t)(n->detail - within));
+    }
+    k->p->crosses = k->p->crosses || !loads(k, n->in[0]);
+    k->place[node] = from;
+    if (within || k->output[node])
+        step_one(k, lanes_find(op, c), op, k->place[node] = place_of_result(k, node), n->type,
+                 from, n->type, within);
+}
+
 /* A block of results from a register to the array, past the caches. */
 static void step_streamed(struct making *k, int node)
 {
@@ -435,11 +466,31 @@ static void step_streamed(struct making *k, int node)
         register_put(k, k->place[node]);
 }
 
+/* A node's steps into its place: all but what only names another place. */
+static void node_steps(struct making *k, int node, const int in[3])
+{
+    const struct plan_node *n = &k->g->nodes[node];
+    const struct pick *pick = picks_at(k->picks, node);
+    const int inner = picks_inner(k->picks, node), to = place_of_result(k, node);
+    k->place[node] = to;
+    if (node_ops[n->op].inputs == 0)
+        step_generated(k, n, node, to);
+    else if (n->op == NODE_GATHER)
+        step_fetched(k, n, to, in);
+    else if (n->op == NODE_REINTERPRET)
+        step_copied(k, to, n->type, in[0]);
+    else if (pick)
+        step_picked(k, n, to, pick);
+    else if (inner >= 0)
+        step_chosen(k, n, to, &k->g->nodes[inner]);
+    else
+        step_operation(k, n, to, in);
+}
+
 static void node_compute(struct making *k, int node)
 {
     const struct plan_node *n = &k->g->nodes[node];
     const struct pick *pick = picks_at(k->picks, node);
-    const int inner = picks_inner(k->picks, node);
     int in[3] = {0, 0, 0}, operands[OPERANDS_MOST];
     if (n->constant || loads(k, node)) {
         k->place[node] = place_given(k, node);
@@ -460,20 +511,10 @@ static void node_compute(struct making *k, int node)
         k->place[node] = in[0];
         return;
     }
-    int to = k->place[node] = place_of_result(k, node);
-    if (node_ops[n->op].inputs == 0) {
-        step_generated(k, n, node, to);
-    } else if (n->op == NODE_GATHER) {
-        step_fetched(k, n, to, in);
-    } else if (n->op == NODE_REINTERPRET) {
-        step_copied(k, to, n->type, in[0]);
-    } else if (pick) {
-        step_picked(k, n, to, pick);
-    } else if (inner >= 0) {
-        step_chosen(k, n, to, &k->g->nodes[inner]);
-    } else {
-        step_operation(k, n, to, in);
-    }
+    if (n->op == NODE_CROSS)
+        node_cross(k, node, in[0]);
+    else
+        node_steps(k, node, in);
     step_streamed(k, node);
     k->p->ops++;
     k->p->cost += node_cost(n->op, n->type);
@@ -484,31 +525,6 @@ static void node_compute(struct making *k, int node)
             register_put(k, k->place[owner]);
         }
     }
-}
-
-/* Which step is the first that takes an array. */
-static void arrays_ahead(struct byte_code *p)
-{
-    bool *taken = calloc((size_t)p->places_count, sizeof *taken);
-    for (int i = 0; taken && i < p->steps_count; i++) {
-        struct lanes_step *s = &p->steps[i];
-        int inputs = s->run ? lanes_inputs(s->op) : 0;
-        for (int k = 0; s->list && k < s->detail; k++) {
-            bool *known = &taken[s->list[2 * k + 1]];
-            if (p->places[s->list[2 * k + 1]].kind == PLACE_ARRAY && !*known)
-                s->ahead |= AHEAD_LIST;
-            *known = true;
-        }
-        for (int k = 0; k < 4; k++) {
-            int place = k == 3 ? s->to : s->in[k];
-            if (s->op != LANES_STREAM && (k < inputs || k == 3) &&
-                p->places[place].kind == PLACE_ARRAY && !taken[place]) {
-                taken[place] = true;
-                s->ahead |= (uint8_t)(1u << k);
-            }
-        }
-    }
-    free(taken);
 }
 
 /* Whether the arrays are so large that nothing of them is in the caches when somebody looks at them next. */
@@ -565,7 +581,7 @@ struct byte_code *byte_code_make(const struct device_shape *shape, const struct 
         good = !p->failed && p->places_count <= UINT16_MAX;
         p->far = set->count >= shape->ahead_from;
         if (good && set->width > BLOCK_LANES)
-            arrays_ahead(p);
+            byte_code_ahead(p);
     }
     for (int c = 0; c < LANES_CLASSES; c++)
         free(k.idle[c]);

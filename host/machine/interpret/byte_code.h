@@ -3,6 +3,8 @@
  *     place    what an operand is           moves from block to block?
  *     ARRAY    a part of an array           yes
  *     MOVED    of an array, NEWS further    yes; a register where rows have to be put together
+ *     CROSSED  of an array, where the       yes
+ *              index differs in some bits
  *     REGISTER lanes in the nearest cache   no
  *     NUMBER   a register full of a number  no
  *     DRAW     a random draw's key, limit   no
@@ -14,13 +16,16 @@
 
 #include "codegen/codegen.h"
 #include "interpret/lanes.h"
+#include "values/places.h"
 
-/* Lanes of a block, at most: a register is up to 4 KiB (of wide ones 8), a few of which are in use. */
-enum { BLOCK_LANES = 512 };
+/* Lanes of a block, at most: a register is up to 4 KiB (of wide ones 8), a few of which are in use. What a near cross looks at is in
+ * the block. */
+enum { BLOCK_LANES = CROSS_NEAR };
 
 enum place_kind {
     PLACE_ARRAY,
     PLACE_MOVED,
+    PLACE_CROSSED,
     PLACE_REGISTER,
     PLACE_NUMBER,
     PLACE_DRAW,
@@ -33,6 +38,7 @@ struct place {
     int32_t node;     /* of an array, whole or not, a number, a draw */
     size_t offset;    /* of a register among the registers */
     int32_t *further; /* of a MOVED: along each axis; owned */
+    uint32_t across;  /* of a CROSSED: the bits, multiples of BLOCK_LANES */
 };
 
 struct byte_code {
@@ -48,6 +54,8 @@ struct byte_code {
     int lane_bytes; /* of arrays, that it reads and writes */
     bool far;       /* its arrays are in no cache */
     bool moves;     /* there is a MOVED */
+    bool crosses;   /* lanes of a computed block are crossed */
+    bool each;      /* there is a step lane by lane */
     bool streams;   /* it stores past the caches */
     bool failed;    /* no memory */
 };
@@ -59,6 +67,8 @@ void byte_code_stages(struct plan_graph *g);
 struct byte_code *byte_code_make(const struct device_shape *shape, const struct plan_graph *g,
                                  const int *stores, int count, const struct vpset *set,
                                  int processors_log2, bool at_hand);
+/* Lets each array be fetched ahead by the first step that takes it. */
+void byte_code_ahead(struct byte_code *p);
 void byte_code_free(struct byte_code *p);
 
 #endif

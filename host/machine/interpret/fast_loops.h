@@ -429,6 +429,7 @@ LOOP(draw, u32)
             (u64)(((u128)mixed(a[i] * UINT64_C(0x9e3779b97f4a7c15) + key) * limit) >> 64);
 }
 
+#include "interpret/lanes_cross.h"
 #include "interpret/lanes_lines.h"
 #include "interpret/lanes_picks.h"
 #include "interpret/lanes_sums.h"
@@ -557,6 +558,7 @@ const struct lanes_table TABLE =
              [LANES_STREAM] = OF_INTEGERS(stream),
              [LANES_FETCH] = FETCHES,
              [LANES_PICK] = OF_INTEGERS(pick),
+             [LANES_CROSS] = OF_INTEGERS(cross),
              [LANES_JOIN] = OF_INTEGERS(join),
              [LANES_CANONICAL] = OF_FLOATS(canonical),
              [LANES_FIT] = {[LANES_F64] = fit_f64},

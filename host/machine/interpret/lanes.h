@@ -54,7 +54,8 @@ enum lanes_op {
     LANES_FETCH, /* in: places of 32 bits; an array, which is not the lanes'; how many places there are. 0 where there is none */
     LANES_PLACE, /* a row-major index becomes a send address: PLOG2 is detail, the ratio is mask */
     LANES_PICK, /* in: an index of 32 bits; the operands of `list` that it names: see lanes_picks.h */
-    LANES_DRAW, /* a row-major index becomes a random number: see NODE_RANDOM */
+    LANES_CROSS, /* in: an aligned run of CROSS_NEAR lanes, or several: those whose numbers differ in the bits of detail */
+    LANES_DRAW,  /* a row-major index becomes a random number: see NODE_RANDOM */
     LANES_OP_COUNT
 };
 

@@ -43,7 +43,7 @@ static bool is_own_leaf(const struct machine *m, const struct machine_value *v)
 bool gather_is_own(const struct machine *m, const struct field *f, uint32_t offset,
                    const struct machine_value *v)
 {
-    return v->op == NODE_BUFFER && v->buffer->host && v->buffer->refs == 1 &&
+    return v->op == NODE_BUFFER && v->buffer->host && v->buffer->refs == 1 && !v->own_address &&
            v->refs <= gather_borrowed(m, v) + (uint32_t)field_holds(f, offset, v);
 }
 

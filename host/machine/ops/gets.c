@@ -3,6 +3,7 @@
 
 #include "ops/index.h"
 #include "values/graph.h"
+#include "values/places.h"
 
 struct machine_value *gets_node(struct machine *m, struct machine_value *address,
                                 struct machine_value *source, int set)
@@ -18,6 +19,53 @@ struct machine_value *gets_node(struct machine *m, struct machine_value *address
                                 .set = (uint16_t)m->values->set_current,
                                 .in = {place, source, index_number(m, places)}};
     return graph_node(m, &key);
+}
+
+static bool is_own_index(const struct machine_value *v, const struct vpset *s)
+{
+    return v->op == NODE_INDEX || (v->op == NODE_COORDINATE && s->rank == 1);
+}
+
+/* What has all of so many low bits of a value. */
+static const struct machine_value *bare(const struct machine_value *v, int bits)
+{
+    while (!v->buffer && !v->own_address) {
+        const bool cuts =
+            v->op == NODE_ZERO_EXTEND || (v->op == NODE_EXTRACT && v->detail == 0);
+        if (!(cuts && v->type.width >= bits) &&
+            !(v->op == NODE_CONCAT && v->in[0]->type.width >= bits))
+            break;
+        v = v->in[0];
+    }
+    return v;
+}
+
+bool gets_cross(struct machine *m, const struct machine_value *address, int set, uint32_t *bits)
+{
+    const struct vpset *s = &m->values->sets[set];
+    const int length = machine_address_bits(m, set);
+    uint64_t differ = 0;
+    if (set != m->values->set_current || !m->device->is_pocl || m->settings.interpret == 3)
+        return false;
+    const struct machine_value *v = bare(address, length);
+    while (!v->buffer && v->op == MACHINE_XOR && v->type.width >= length) {
+        const int k = v->in[1]->op == NODE_CONSTANT;
+        if (v->in[k]->op != NODE_CONSTANT)
+            return false;
+        differ ^= v->in[k]->imm.lo;
+        v = bare(v->in[1 - k], length);
+    }
+    if (v->set != set || v->type.width < length)
+        return false;
+    differ &= (UINT64_C(1) << length) - 1;
+    if (index_is_address(s)) {
+        *bits = (uint32_t)differ;
+        return is_own_index(v, s) && places_cross_can(s, *bits);
+    }
+    if (!s->layout.blocks || !v->own_address)
+        return false;
+    *bits = (uint32_t)machine_layout_index(&s->layout, differ);
+    return places_cross_can(s, *bits);
 }
 
 bool gets_can(const struct machine *m, const struct machine_value *source, int set)

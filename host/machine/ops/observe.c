@@ -182,7 +182,7 @@ struct machine_value *observe_own(struct machine *m, const struct field *f, uint
                                   struct machine_value *v)
 {
     /* the slot's reference, and those of this call */
-    if (v->op != NODE_BUFFER || v->refs > gather_borrowed(m, v) + 1 ||
+    if (v->op != NODE_BUFFER || v->own_address || v->refs > gather_borrowed(m, v) + 1 ||
         !field_holds(f, offset, v))
         return own_copy(m, f->vpset, v);
     known_addresses_changed(m, v->buffer);

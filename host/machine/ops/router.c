@@ -27,6 +27,7 @@
 #include "run/materialise.h"
 #include "values/graph.h"
 #include "values/make.h"
+#include "values/places.h"
 
 enum { NO_PROCESSOR = -2 };
 
@@ -445,8 +446,12 @@ struct machine_value *machine_get(struct machine *m, struct machine_value *send_
     if (gets_can(m, v, from.vpset)) {
         while (v->op == NODE_REINTERPRET && !v->buffer) /* the same bits are in memory */
             v = v->in[0];
-        v = materialise(m, from.vpset, v);
-        v = v ? gets_node(m, send_address, v, from.vpset) : NULL;
+        uint32_t bits = 0;
+        const bool crosses = gets_cross(m, send_address, from.vpset, &bits);
+        if (!crosses || (v->op != NODE_CONSTANT && (bits >= CROSS_NEAR || node_is_cheap(v))))
+            v = materialise(m, from.vpset, v);
+        if (v)
+            v = crosses ? places_cross(m, v, bits) : gets_node(m, send_address, v, from.vpset);
         return machine_reinterpret(m, v, type);
     }
     struct message g = {0};

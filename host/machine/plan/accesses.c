@@ -185,7 +185,9 @@ bool accesses_holds_bits(const struct plan_graph *g, int node)
     if (!n->maybe_nan)
         return true;
     if (n->leaf || n->op != NODE_SELECT)
-        return n->op == NODE_SHIFT && !n->leaf ? accesses_holds_bits(g, n->in[0]) : n->leaf;
+        return (n->op == NODE_SHIFT || n->op == NODE_CROSS) && !n->leaf
+                   ? accesses_holds_bits(g, n->in[0])
+                   : n->leaf;
     return accesses_holds_bits(g, n->in[1]) || accesses_holds_bits(g, n->in[2]);
 }
 
@@ -211,7 +213,8 @@ static void operate(struct accesses *a, const struct plan_node *n, int row, int 
 {
     uint32_t in[3] = {0};
     int inputs = node_ops[n->op].inputs;
-    INVARIANT(n->op != NODE_GATHER); /* choose.c: kernels that are asked about have none */
+    INVARIANT(n->op != NODE_GATHER &&
+              n->op != NODE_CROSS); /* choose.c: kernels that are asked about have none */
     for (int k = 0; k < inputs; k++) {
         bool want = n->op == NODE_SELECT ? canonical : n->op == NODE_REINTERPRET;
         in[k] = walk(a, plan_input(a->g, n, k, a->stage), row, dx, want);
@@ -271,9 +274,9 @@ void accesses_find_bits(const struct plan_graph *g, bool *bits_matter)
 {
     for (int i = g->count - 1; i >= 0; i--) {
         const struct plan_node *n = &g->nodes[i];
-        bool bits =
-            n->op == NODE_REINTERPRET ||
-            ((n->op == NODE_SELECT || n->op == NODE_SHIFT) && (n->target || bits_matter[i]));
+        bool bits = n->op == NODE_REINTERPRET ||
+                    ((n->op == NODE_SELECT || n->op == NODE_SHIFT || n->op == NODE_CROSS) &&
+                     (n->target || bits_matter[i]));
         for (int k = 0; bits && !n->leaf && k < node_ops[n->op].inputs; k++) {
             bits_matter[n->in[k]] = true;
             if (n->instead[k] >= 0)

@@ -9,6 +9,8 @@
  *
  *     water --shift--> ... flux ==barrier?== shift --> new water        stage 0 | stage 1
  *
+ * A cross loads what is in memory, so there is a barrier between it and a value that is computed, always.
+ *
  * The cost of a choice is estimated as
  *
  *     for each kernel: N * (max(c, b) + min(c, b) / 4) + launch
@@ -91,7 +93,7 @@ static const struct vpset *could_be_strips(const struct plan_graph *g, const str
         return NULL;
     for (int i = 0; i < g->count; i++) {
         const struct plan_node *n = &g->nodes[i];
-        if (n->op == NODE_GATHER && !n->leaf) /* it looks anywhere */
+        if ((n->op == NODE_GATHER || n->op == NODE_CROSS) && !n->leaf) /* it looks anywhere */
             return NULL;
         if (!n->set || (n->constant && !n->leaf))
             continue;

@@ -155,6 +155,8 @@ int cost_assign(struct search *s)
                 in->stage = needed;
         }
     }
+    for (int c = 0; c < s->crossed_count; c++)
+        g->nodes[s->crossed[c]].stored = true;
     /* Now all stages are known. What neighbours load comes first, for it may replace others. */
     for (int c = s->shifts_count - 1; c >= 0; c--)
         if (s->barrier[s->shifts[c]])
@@ -328,6 +330,8 @@ static void find_light(struct search *s)
         }
         s->light[i] = (light && weight[i] <= LIGHT) || n->generator <= GENERATOR_CHEAP;
     }
+    for (int c = 0; c < s->crossed_count; c++)
+        s->light[s->crossed[c]] = false;
     free(weight);
 }
 
@@ -349,6 +353,9 @@ static void find_facts(struct search *s)
         s->computed[s->computed_count++] = i;
         if (n->op == NODE_SHIFT)
             s->shifts[s->shifts_count++] = i;
+        s->barrier[i] = n->op == NODE_CROSS && !s->g->nodes[n->in[0]].leaf;
+        if (s->barrier[i])
+            s->crossed[s->crossed_count++] = n->in[0];
     }
 }
 
@@ -364,6 +371,7 @@ void search_begin(struct search *s)
     s->facts = calloc(count, sizeof *s->facts);
     s->computed = calloc(count, sizeof *s->computed);
     s->shifts = calloc(count, sizeof *s->shifts);
+    s->crossed = calloc(count, sizeof *s->crossed);
     s->stages.nodes = calloc(count, sizeof *s->stages.nodes);
     s->stages.begins = calloc(count + 2, sizeof *s->stages.begins);
     s->loaded = calloc(count, sizeof *s->loaded);
@@ -371,8 +379,8 @@ void search_begin(struct search *s)
     s->offsets = calloc(OFFSETS_MAX, sizeof *s->offsets);
     s->array = calloc(count, sizeof *s->array);
     NEEDS_MEMORY(s->barrier && s->light && s->earliest && s->facts && s->computed &&
-                 s->shifts && s->stages.nodes && s->stages.begins && s->loaded && s->visits &&
-                 s->offsets && s->array);
+                 s->shifts && s->crossed && s->stages.nodes && s->stages.begins && s->loaded &&
+                 s->visits && s->offsets && s->array);
     s->offsets_count = 1;
     find_facts(s);
     find_light(s);
@@ -386,6 +394,7 @@ void search_finish(struct search *s)
     free(s->facts);
     free(s->computed);
     free(s->shifts);
+    free(s->crossed);
     free(s->stages.nodes);
     free(s->stages.begins);
     free(s->loaded);

@@ -33,12 +33,13 @@ struct search {
     struct plan_graph *g;
     const struct vpset *sets;
     const struct device_shape *shape;
-    bool *barrier; /* of shift nodes */
+    bool *barrier; /* of shift nodes, and of crosses */
     bool *light;   /* never stored: computed wherever it is needed */
     int *earliest;
     struct search_node *facts;
     int *computed, computed_count; /* nodes that are neither leaves nor numbers */
     int *shifts, shifts_count;     /* ... and shifts */
+    int *crossed, crossed_count;   /* ... and looked at by a cross */
     struct stage_lists stages;
     int *loaded, loads_stamp; /* stamp: counted in this kernel's bytes already */
     struct visit *visits;

@@ -54,6 +54,29 @@ struct machine_value *machine_shift(struct machine *m, struct machine_value *a, 
     return graph_node(m, &key);
 }
 
+bool places_cross_can(const struct vpset *s, uint32_t bits)
+{
+    const uint32_t width = (uint32_t)s->width, whole = bits | (CROSS_NEAR - 1);
+    return bits <= INT32_MAX && width % (UINT32_C(2) << (31 - __builtin_clz(whole))) == 0;
+}
+
+struct machine_value *places_cross(struct machine *m, struct machine_value *a, uint32_t bits)
+{
+    if (!a || a->op == NODE_CONSTANT || !bits)
+        return a;
+    if (!a->buffer && a->op == NODE_CROSS && (uint32_t)a->detail < CROSS_NEAR &&
+        bits < CROSS_NEAR)
+        return places_cross(m, a->in[0], bits ^ (uint32_t)a->detail);
+    if (!a->buffer && a->op == NODE_REINTERPRET)
+        return machine_reinterpret(m, places_cross(m, a->in[0], bits), a->type);
+    struct machine_value key = {.op = NODE_CROSS,
+                                .type = a->type,
+                                .set = a->set,
+                                .detail = (int32_t)bits,
+                                .in = {a, NULL, NULL}};
+    return graph_node(m, &key);
+}
+
 static struct machine_value *generated(struct machine *m, int op, int axis, int detail,
                                        int width, struct machine_scalar imm)
 {
@@ -81,10 +104,14 @@ struct machine_value *machine_coordinate(struct machine *m, int axis, int width)
 struct machine_value *machine_self_address(struct machine *m, int width)
 {
     const struct vpset *s = vpset_get(m, m->values->set_current);
-    if (s && s->layout.blocks)
-        return machine_resize(
+    if (s && s->layout.blocks) {
+        struct machine_value *v = machine_resize(
             m, machine_layout_address_value(m, &s->layout, machine_self_index(m, 32)), width,
             false);
+        if (v)
+            v->own_address = true;
+        return v;
+    }
     if (s && (s->layout.order == MACHINE_SEND_ORDER || s->ratio == 1))
         return machine_self_index(m, width);
     return generated(m, NODE_SEND_ADDRESS, 0, 0, width, (struct machine_scalar){0, 0});

@@ -19,7 +19,9 @@ struct machine_value {
     uint16_t height;   /* longest path to something materialised */
     bool interned;
     bool kept : 1; /* kept by a state: see run/replay.h. Not counted as pending */
-    bool told : 1; /* observers have been told its fate */
+    bool
+        own_address : 1; /* each processor's send address, in memory, too: nobody writes over it */
+    bool told : 1;       /* observers have been told its fate */
     int32_t detail;
     uint32_t refs;
     uint32_t hash;
