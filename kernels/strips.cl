@@ -108,9 +108,9 @@ inline int pieces_each(const struct row_ahead *ahead, int turns)
 #ifdef ABOVE
 /* Rows around strips, which are written in place: see borders.cl. */
 #define BORDERS (get_global_size(1) * (ABOVE + BELOW))
-inline size_t border_row(int y, int top, int bottom)
+inline size_t border_row(int y, int top, int bottom, int down) /* down: the strip's number */
 {
-    return get_global_id(1) * (ABOVE + BELOW) +
+    return (size_t)down * (ABOVE + BELOW) +
            (size_t)((y < top ? y - top : y - bottom) + ABOVE);
 }
 #endif

@@ -67,6 +67,7 @@ static const struct setting {
      "a width and a height from 1 to 1024, as 64x16"},
     {SETTING(IN_PLACE, in_place), SETTING_FREE, 0, 1, 0, "0 or 1"},
     {SETTING(NARROW, narrow), 1, 0, 1, 0, "0 or 1"},
+    {SETTING(CLAIMS, claims), 1, 0, 1, 0, "0 or 1"},
     {SETTING(KEEPS_NAN, keeps_nan), SETTING_FREE, 0, 1, 0, "0 or 1"},
     {SETTING(SCATTER, scatter), SETTING_FREE, 0, 1, 0, "0 or 1"},
     {SETTING(AWAKE, awake), SETTING_FREE, 0, 1, 0, "0 or 1"},

@@ -28,6 +28,7 @@ struct settings {
     uint64_t strips, in_place, scatter, gather, narrow, keeps_nan;
     uint64_t
         awake; /* processors do not halt while there is work: base/awake.h; free: in a virtual machine, where the system may be asked */
+    uint64_t claims;  /* device_shape.claims */
     uint64_t near;    /* the front end looks at memory that is its own by itself */
     uint64_t lenient; /* what is past a field's end is what lies after it: access/beyond.h */
     uint64_t tile;    /* width << 16 | height */

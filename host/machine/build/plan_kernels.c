@@ -131,12 +131,12 @@ static int kernel_want(struct machine *m, const struct vpset *set, const struct 
     memset(arguments, '4', numbers);
     for (int i = 0; i < k->arguments_count; i++) {
         const struct kernel_argument *a = &k->arguments[i];
-        arguments[numbers + (size_t)i] = a->kind == ARGUMENT_INPUT ||
-                                                 a->kind == ARGUMENT_OUTPUT ||
-                                                 a->kind == ARGUMENT_SCRATCH
-                                             ? 'm'
-                                         : a->kind != ARGUMENT_BORDERS && a->size == 8 ? '8'
-                                                                                       : '4';
+        arguments[numbers + (size_t)i] =
+            a->kind == ARGUMENT_INPUT || a->kind == ARGUMENT_OUTPUT ||
+                    a->kind == ARGUMENT_SCRATCH || a->kind == ARGUMENT_CLAIMS
+                ? 'm'
+            : a->kind != ARGUMENT_BORDERS && a->size == 8 ? '8'
+                                                          : '4';
     }
     arguments[count] = '\0';
     const struct background_wish wish = {.parts = parts,
@@ -301,6 +301,7 @@ static bool plan_build(struct machine *m, struct plan *p, const struct plan_grap
                                                        .tile_width = k->tile_width,
                                                        .tile_height = k->tile_height,
                                                        .in_place = k->in_place,
+                                                       .claims = k->claims,
                                                        .arguments = k->arguments,
                                                        .arguments_count = k->arguments_count};
     launch_takes(&p->launches[p->launches_count - 1], kernel);

@@ -132,6 +132,8 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
     const struct vpset *s = &m->values->sets[l->set];
     struct device_buffer *scratch = NULL;
     size_t run = plan_run_columns(m, l->vector);
+    if (l->claims && !device_claims_ready(m))
+        return m->status;
     size_t global[2] = {((size_t)s->width + run - 1) / run, (size_t)s->rows},
            local[2] = {(size_t)l->group, 1};
     if (l->group) {
@@ -154,6 +156,7 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
             return status;
         }
     }
+    const int claim = l->claims ? device_claim(m->device, global[0] * global[1]) : 0;
     cl_kernel kernel = l->kernel->cl;
     cl_int fixed[5] = {s->width, (cl_int)s->pitch, (cl_int)run, m->values->processors_log2,
                        (cl_int)s->ratio};
@@ -169,6 +172,10 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
         const struct kernel_argument *a = &l->arguments[i];
         if (a->kind == ARGUMENT_SCRATCH)
             error |= device_argument(kernel, at, scratch);
+        else if (a->kind == ARGUMENT_CLAIMS)
+            error |= device_argument(kernel, at, m->device->claims.buffer);
+        else if (a->kind == ARGUMENT_CLAIM)
+            error |= clSetKernelArg(kernel, at, sizeof claim, &claim);
         else if (a->kind == ARGUMENT_BORDERS)
             error |= clSetKernelArg(kernel, at, sizeof(cl_uint), &in_place);
         else if (a->kind == ARGUMENT_NUMBER)
@@ -182,6 +189,8 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
         watch_launch(m, l->note);
     enum machine_status status = device_launch(
         m, l->kernel, error, 2, global, l->group ? local : NULL, "a kernel cannot be started");
+    if (claim && !status)
+        device_claimed(m->device);
     if (scratch)
         device_buffer_unref(m, scratch); /* the queue is in order */
     return status;

@@ -31,6 +31,7 @@ struct launch {
     int strip_margin, strip_columns;
     int group, tile_width, tile_height; /* group 0: not in tiles */
     struct in_place in_place;
+    bool claims; /* two of its arguments are the device's claims */
     struct kernel_argument *arguments;
     int arguments_count;
 };

@@ -27,7 +27,9 @@ enum kernel_argument_kind {
     ARGUMENT_SECOND,
     ARGUMENT_BORDERS, /* of strips: which arrays are written in place */
     ARGUMENT_SCRATCH, /* of strips */
-    ARGUMENT_NUMBER   /* of no node: see numbers.h */
+    ARGUMENT_CLAIMS,  /* the device's, and what it is told: see claims.cl */
+    ARGUMENT_CLAIM,
+    ARGUMENT_NUMBER /* of no node: see numbers.h */
 };
 
 struct kernel_argument {
@@ -44,6 +46,7 @@ struct kernel_text {
     int arguments_count;
     int vector;
     bool wide, soft, formats, wraps, math;
+    bool claims;        /* work-groups claim their places: claims.h */
     bool has_boxes;     /* has boxes, or would have them if requested */
     int ops, loads;     /* emitted */
     size_t strip_bytes; /* memory that each strip needs; 0: not in strips */

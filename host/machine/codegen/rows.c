@@ -14,6 +14,7 @@
 
 #include "base/types.h"
 #include "codegen/body.h"
+#include "codegen/claims.h"
 #include "codegen/numbers.h"
 #include "kernels.h"
 #include "plan/lanes.h"
@@ -66,7 +67,7 @@ static void header(struct emitter *e, struct text *t)
             text_put(t, ",\n    const __global %s *restrict b%d", memory_type(type), input++);
         else if (arg->kind == ARGUMENT_OUTPUT)
             text_put(t, ",\n    __global %s *restrict o%d", memory_type(type), output++);
-        else
+        else if (!claims_declare(t, arg))
             emit_number(t, e->g, arg, &constant);
     }
     text_put(t, NUMBER_PARAMETERS ")\n{\n");
@@ -119,16 +120,22 @@ static bool rows_kernel(const struct plan_graph *g, const int *stores, int store
     out->soft = e->soft;
     out->formats = e->formats;
     out->math = e->math;
+    out->claims = shape->claims && out->vector > 1;
+    if (out->claims)
+        claims_add(&e->arguments, &e->failed);
     struct text t = {0};
     if (e->integers)
         text_put(&t, "%s", kernel_integers_cl);
+    if (out->claims)
+        text_put(&t, "%s", kernel_claims_cl);
     header(e, &t);
-    text_put(&t, "    const int row = get_global_id(1);\n    const int r0 = row;\n");
+    text_put(&t, "%s    const int row = down;\n    const int r0 = row;\n",
+             claims_place(out->claims));
     emit_axes(e, &t);
     text_put(&t, "%s%s%s", e->rows.data ? e->rows.data : "",
              e->pointers.data ? e->pointers.data : "",
              e->constants.data ? e->constants.data : "");
-    text_put(&t, "    const int begin = get_global_id(0) * RUN, end = min(begin + RUN, W);\n");
+    text_put(&t, "    const int begin = across * RUN, end = min(begin + RUN, W);\n");
     out->has_boxes = (e->row_tests.data || e->column_tests.data) && out->vector > 1;
     emit_loop(e, &t, out->has_boxes && g->boxes);
     text_put(&t, "}\n");

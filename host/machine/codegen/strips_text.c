@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/types.h"
+#include "codegen/claims.h"
 #include "codegen/strips.h"
 #include "kernels.h"
 #include "plan/lanes.h"
@@ -21,6 +22,8 @@ static void collect_arguments(struct strips *s)
     if (s->in_place.pairs_count)
         emit_argument(&s->arguments, ARGUMENT_BORDERS, 0, 4, &s->failed);
     emit_argument(&s->arguments, ARGUMENT_SCRATCH, 0, 0, &s->failed);
+    if (s->shape->claims)
+        claims_add(&s->arguments, &s->failed);
 }
 
 static void kernel_head(struct strips *s, struct text *t)
@@ -42,19 +45,20 @@ static void kernel_head(struct strips *s, struct text *t)
             text_put(t, ",\n    uint borders");
         else if (a->kind == ARGUMENT_SCRATCH)
             text_put(t, ",\n    __global uchar *scratch");
+        else if (claims_declare(t, a))
+            continue;
         else
             emit_number(t, s->g, a, &constant);
     }
     text_put(
         t,
-        ")\n{\n"
-        "    const int top = get_global_id(1) * RUN, bottom = min(top + RUN, D0);\n"
-        "    const int first = get_global_id(0) * COLUMNS;\n"
-        "    const int last = get_global_id(0) + 1 == get_global_size(0) ? W : first + "
-        "COLUMNS;\n"
-        "    __global uchar *const near = scratch + (get_global_id(1) * get_global_size(0) +\n"
-        "        get_global_id(0)) * (size_t)(NEAR * %d);\n",
-        s->memory + 8);
+        ")\n{\n%s"
+        "    const int top = down * RUN, bottom = min(top + RUN, D0);\n"
+        "    const int first = across * COLUMNS;\n"
+        "    const int last = across + 1 == get_global_size(0) ? W : first + COLUMNS;\n"
+        "    __global uchar *const near = scratch + (down * get_global_size(0) + across) *\n"
+        "        (size_t)(NEAR * %d);\n",
+        claims_place(s->shape->claims), s->memory + 8);
     if (s->in_place.pairs_count)
         text_put(t,
                  "    const __global uchar *const around = scratch + get_global_size(1) * "
@@ -109,8 +113,8 @@ static int row_places(const struct strips *s, const struct pass *pass, struct te
             text_put(
                 t,
                 "                const bool out%d = y + (%d) < top || y + (%d) >= bottom;\n"
-                "                const size_t copy%d = border_row(y + (%d), top, bottom) * "
-                "PITCH;\n",
+                "                const size_t copy%d = border_row(y + (%d), top, bottom, "
+                "down) * PITCH;\n",
                 row, down, down, row, down);
     }
     return lowest;
@@ -196,7 +200,7 @@ static void kernel_text(struct strips *s, struct text *t)
     if (s->in_place.pairs_count)
         text_put(t, "#define ABOVE %d\n#define BELOW %d\n", s->in_place.above,
                  s->in_place.below);
-    text_put(t, "%s", kernel_strips_cl);
+    text_put(t, "%s%s", s->shape->claims ? kernel_claims_cl : "", kernel_strips_cl);
     text_put(t, "enum { NEAR = %d, MARGIN = %d }; /* columns of a ring's row, and beyond */\n",
              strips_near_columns(s, strips_columns(s)), s->margin);
     edges_text(s, t);
@@ -238,6 +242,7 @@ static void describe(const struct strips *s, const struct device_shape *shape,
             bytes += (double)(s->set->pitch * s->set->rows) *
                      (double)type_bytes(s->g->nodes[s->arguments.list[i].node].type);
     out->vector = s->vector;
+    out->claims = s->shape->claims;
     out->strip_columns = strips_columns(s);
     out->in_place = s->in_place;
     out->in_place.pays = bytes > shape->in_place_bytes;

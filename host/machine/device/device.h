@@ -77,6 +77,11 @@ struct device {
     uint64_t kernels_built, kernels_built_background, kernels_run;
     double busy_s; /* time spent waiting for the device */
     const char *options;
+    struct claims {
+        struct device_buffer *buffer; /* NULL: not needed yet */
+        size_t lots;
+        unsigned turn;   /* which set is the next kernel's */
+    } claims;            /* which thread computes what: claims.c */
     bool is_pocl;        /* on a CPU */
     struct awake *awake; /* NULL: processors may halt between kernels */
     struct crew
@@ -101,6 +106,15 @@ static inline bool device_is_ours(const struct device *d)
 {
     return d->process == process_now();
 }
+
+/* ---- claims.c ---- */
+
+/* Claims are there for kernels that take some. False: error set. */
+bool device_claims_ready(struct machine *m);
+/* What such a kernel of so many work-groups is told; 0: it claims nothing. */
+int device_claim(const struct device *d, size_t places);
+/* It has been started, and was told another number than 0. */
+void device_claimed(struct device *d);
 
 /* ---- check.c ---- */
 

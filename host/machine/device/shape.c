@@ -124,6 +124,7 @@ struct device_shape shape_of(const struct device *d, const struct settings *s)
         shape.keeps_nan = s->keeps_nan != 0;
 #endif
         shape.op_ns /= shape.vector;
+        shape.claims = shape.vector > 1 && d->units > 1 && d->is_pocl && s->claims;
     }
     shape_tiles(d, s, &shape);
     return shape;

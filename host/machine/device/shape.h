@@ -19,6 +19,7 @@ struct device_shape {
     int strips_each; /* for each unit */
     int units;       /* that compute at the same time */
     bool narrow;     /* kernels may have lanes of 8 or 16 bits */
+    bool claims;     /* a thread computes the same places in each kernel: kernels/claims.cl */
     bool keeps_nan;  /* see enum op_nan */
     bool streams;    /* large arrays are stored past the caches */
     /* The cost model, in nanoseconds. */

@@ -1,0 +1,34 @@
+/* claims.c - the claims of kernels/claims.cl, by which a thread of the device computes the same places in each kernel. */
+#include "base/parts.h"
+#include "device/device.h"
+
+enum { LOTS_MOST = 64, APART = 16, OF = 80, WORDS = OF + 2 * LOTS_MOST * APART };
+/* Both numbers of a lot's claims have 16 bits, also if each work-group tries in vain first. */
+enum { PLACES_MOST = 1 << 15 };
+
+bool device_claims_ready(struct machine *m)
+{
+    struct claims *c = &m->device->claims;
+    cl_int words[WORDS] = {m->device->units < LOTS_MOST ? m->device->units : LOTS_MOST};
+    if (c->buffer)
+        return true;
+    c->lots = (size_t)words[0];
+    c->buffer = device_buffer_get(m, sizeof words);
+    if (!c->buffer ||
+        !device_write(m, c->buffer, 0, words, sizeof words, "the claims of places"))
+        return c->buffer != NULL;
+    device_buffer_unref(m, c->buffer);
+    c->buffer = NULL;
+    return false;
+}
+
+int device_claim(const struct device *d, size_t places)
+{
+    const size_t lots = d->claims.lots, length = (places + lots - 1) / lots;
+    return places > 1 && places < PLACES_MOST ? (int)(length << 1 | d->claims.turn) : 0;
+}
+
+void device_claimed(struct device *d)
+{
+    d->claims.turn ^= 1;
+}
