@@ -173,7 +173,7 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
         if (a->kind == ARGUMENT_SCRATCH)
             error |= device_argument(kernel, at, scratch);
         else if (a->kind == ARGUMENT_CLAIMS)
-            error |= device_argument(kernel, at, m->device->claims.buffer);
+            error |= clSetKernelArg(kernel, at, sizeof(cl_mem), &m->device->claims.memory);
         else if (a->kind == ARGUMENT_CLAIM)
             error |= clSetKernelArg(kernel, at, sizeof claim, &claim);
         else if (a->kind == ARGUMENT_BORDERS)

@@ -9,17 +9,14 @@ enum { PLACES_MOST = 1 << 15 };
 bool device_claims_ready(struct machine *m)
 {
     struct claims *c = &m->device->claims;
-    cl_int words[WORDS] = {m->device->units < LOTS_MOST ? m->device->units : LOTS_MOST};
-    if (c->buffer)
+    cl_int words[WORDS] = {m->device->units < LOTS_MOST ? m->device->units : LOTS_MOST},
+           error = CL_SUCCESS;
+    if (c->memory)
         return true;
     c->lots = (size_t)words[0];
-    c->buffer = device_buffer_get(m, sizeof words);
-    if (!c->buffer ||
-        !device_write(m, c->buffer, 0, words, sizeof words, "the claims of places"))
-        return c->buffer != NULL;
-    device_buffer_unref(m, c->buffer);
-    c->buffer = NULL;
-    return false;
+    c->memory = clCreateBuffer(m->device->context, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR,
+                               sizeof words, words, &error);
+    return device_check(m, error, "memory for the claims of places") == MACHINE_OK;
 }
 
 int device_claim(const struct device *d, size_t places)

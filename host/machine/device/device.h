@@ -78,7 +78,7 @@ struct device {
     double busy_s; /* time spent waiting for the device */
     const char *options;
     struct claims {
-        struct device_buffer *buffer; /* NULL: not needed yet */
+        cl_mem memory; /* NULL: not needed yet */
         size_t lots;
         unsigned turn;   /* which set is the next kernel's */
     } claims;            /* which thread computes what: claims.c */

@@ -176,8 +176,8 @@ void device_close(struct machine *m)
         clReleaseEvent(d->fences[i].reached);
     crew_destroy(d->crew);
     awake_destroy(d->awake);
-    if (d->claims.buffer)
-        device_buffer_unref(m, d->claims.buffer);
+    if (d->claims.memory && ours)
+        clReleaseMemObject(d->claims.memory);
     device_pool_empty(d);
     free(d->pool);
     device_programs_finish(d);
