@@ -96,9 +96,6 @@ LOADS_OF(ulong)
 LOADS_OF(float)
 LOADS_OF(double)
 
-int CHANGING atomic_add(volatile __global int *, int);
-int CHANGING atomic_xchg(volatile __global int *, int);
-int CHANGING atomic_cmpxchg(volatile __global int *, int, int);
 int CHANGING atomic_max(volatile __global int *, int);
 uint CHANGING atomic_max(volatile __global uint *, uint);
 

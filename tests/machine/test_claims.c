@@ -19,15 +19,6 @@ static int min(int a, int b)
 }
 
 #define __global
-#define atomic_add(at, x) __atomic_fetch_add(at, x, __ATOMIC_SEQ_CST)
-#define atomic_xchg(at, x) __atomic_exchange_n(at, x, __ATOMIC_SEQ_CST)
-
-static int atomic_cmpxchg(volatile int *at, int old, int new)
-{
-    __atomic_compare_exchange_n(at, &old, new, 0, __ATOMIC_SEQ_CST, __ATOMIC_SEQ_CST);
-    return old;
-}
-
 #define inline static inline
 #include "../../kernels/claims.cl"
 #undef inline
