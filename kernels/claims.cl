@@ -46,7 +46,8 @@ inline int claim_place(volatile __global int *claims, int claim, int places)
     int lot = claims_lot(claims + CLAIMS_THREADS, lots), place = 0;
     for (int i = 0; i < lots; i++) { /* there are as many places as work-groups */
         const int first = lot * length, end = min(first + length, places),
-                  claimed = __sync_fetch_and_add(&claims[set + CLAIMS_APART * lot], i ? 1 << 16 : 1),
+                  claimed =
+                      __sync_fetch_and_add(&claims[set + CLAIMS_APART * lot], i ? 1 << 16 : 1),
                   front = claimed & 0xffff, back = claimed >> 16;
         if (front + back < end - first) {
             place = i ? end - 1 - back : first + front;

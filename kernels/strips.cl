@@ -110,8 +110,7 @@ inline int pieces_each(const struct row_ahead *ahead, int turns)
 #define BORDERS (get_global_size(1) * (ABOVE + BELOW))
 inline size_t border_row(int y, int top, int bottom, int down) /* down: the strip's number */
 {
-    return (size_t)down * (ABOVE + BELOW) +
-           (size_t)((y < top ? y - top : y - bottom) + ABOVE);
+    return (size_t)down * (ABOVE + BELOW) + (size_t)((y < top ? y - top : y - bottom) + ABOVE);
 }
 #endif
 

@@ -66,7 +66,7 @@ static void each_place_is_claimed_once(void **state)
     static struct kernel k;
     unsigned int seed = 1;
     (void)state;
-    for (int round = 0; round < 400; round++) {
+    for (int round = 0; round < 150; round++) {
         const int threads = 1 + rand_r(&seed) % THREADS_MOST, lots = 1 + rand_r(&seed) % 9;
         pthread_barrier_t begin;
         claims_begin(lots);

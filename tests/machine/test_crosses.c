@@ -265,7 +265,7 @@ static const struct tier {
 } tiers[] = {{"2", "0", 1}, {"2", "1", 1}, {"1", "1", 1}, {"3", "1", 10}, {"0", "1", 10}};
 enum { TIERS = sizeof tiers / sizeof *tiers };
 
-static int programs = 126;
+static int programs = 63;
 
 static void programs_come_to_the_same_in_every_tier(void **state)
 {
