@@ -1,10 +1,10 @@
 /* claims.cl - which work-group computes what: a part of kernels in rows and strips for CPUs of several threads, before them.
  *
- * What a thread has stored is in the caches of its processor, and the next kernel reads it at the same place. So a thread does the
- * same places in each kernel. The places (rows' runs of columns, or strips) are shared out in lots, one for each thread. A work-group
- * does not know beforehand which thread runs it, so it claims a place when it begins: the next of its thread's lot, or the last of
- * another's where that is empty. There are two sets of claims; kernels take them in turn, and who gets the first place
- * clears the other set, which the kernel before has used and the next one will.
+ * What a thread has stored is in the caches of its processor, and the next kernel reads it at the same place. So a thread computes the
+ * same places in each kernel. A place is a run of columns of a row, or a strip. The places are shared out in lots, one for each thread.
+ * A work-group does not know beforehand which thread runs it, so it claims a place when it begins: the next of its thread's lot, or the
+ * last of another lot where that is empty. There are two sets of claims, which kernels take in turn. The work-group that gets the first
+ * place clears the other set: the kernel before has used it, and the next one will.
  *
  *     claims      lots | ... | the threads of the lots | of each lot: claimed from the front, and from the end << 16 | likewise
  *     claim       places of a lot << 1 | which set

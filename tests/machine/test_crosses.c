@@ -265,6 +265,38 @@ static const struct tier {
 } tiers[] = {{"2", "0", 1}, {"2", "1", 1}, {"1", "1", 1}, {"3", "1", 10}, {"0", "1", 10}};
 enum { TIERS = sizeof tiers / sizeof *tiers };
 
+/* NaNs of the program beside that of an operation: what is stored of the first has their bits, however it is come by. */
+static void a_crossed_nan_keeps_its_bits(void **state)
+{
+    enum { COUNT = 1024, ACROSS = 5 };
+    static const int line[] = {COUNT};
+    static const char *const interpret[] = {"2", "2", "0"}, *const gather[] = {"0", "1", "1"};
+    static uint32_t in[COUNT], out[COUNT];
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        struct machine *m = machine_as(interpret[i], gather[i]);
+        const int set = set_make(m, false, 1, line);
+        for (uint32_t n = 0; n < COUNT; n++)
+            in[n] = UINT32_C(0x7f800001) + 977 * n; /* most of them signal */
+        uint32_t x = machine_field_allocate(m, set, 32, MACHINE_HEAP),
+                 y = machine_field_allocate(m, set, 32, MACHINE_HEAP);
+        assert_ok(machine_field_upload(m, x, MACHINE_F32, in), m);
+        struct machine_value *a = support_value(m, x, MACHINE_F32),
+                             *sum = machine_binary(m, MACHINE_FADD, a, a),
+                             *odd = machine_extract(m, own(m, 32), 0, 1),
+                             *both = machine_select(m, odd, a, sum),
+                             *at = machine_binary(m, MACHINE_XOR, own(m, 32),
+                                                  number(m, 32, ACROSS));
+        assert_ok(machine_field_store(m, y, both, MACHINE_EVERYWHERE), m);
+        struct machine_value *got = machine_get(m, at, y, MACHINE_F32);
+        assert_ok(machine_field_store(m, y, got, MACHINE_EVERYWHERE), m);
+        assert_ok(machine_field_download(m, y, MACHINE_F32, out), m);
+        for (uint32_t n = 0; n < COUNT; n++)
+            assert_int_equal(out[n], (n ^ ACROSS) % 2 ? in[n ^ ACROSS] : UINT32_C(0xffc00000));
+        support_machine_destroy(m);
+    }
+}
+
 static int programs = 63;
 
 static void programs_come_to_the_same_in_every_tier(void **state)
@@ -304,6 +336,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(a_cross_stays_in_its_row),
         cmocka_unit_test(own_addresses_with_some_bits_turned_are_found),
         cmocka_unit_test(own_addresses_are_known_until_they_are_overwritten),
+        cmocka_unit_test(a_crossed_nan_keeps_its_bits),
         cmocka_unit_test(programs_come_to_the_same_in_every_tier),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -87,8 +87,6 @@ static bool launch_add(struct machine *m, struct plan *p, const struct plan_grap
     p->work += shape_work(&m->device->shape, set->count);
     p->bytes += set->count * (uint64_t)program->lane_bytes;
     p->looks_around = p->looks_around || program->moves;
-    p->crosses = p->crosses || program->crosses;
-    p->each = p->each || program->each;
     p->predicted_s +=
         code ? device_code_time_s(m, code, set) : program->lane_s * (double)set->count;
     return true;
@@ -153,7 +151,12 @@ double plan_waits_for_memory(const struct machine *m, const struct plan *p)
 /* Kernels would store what is crossed in a block, and load it again. That gains nothing, where byte code has loops. */
 static bool is_best(const struct plan *p)
 {
-    return p->crosses && !p->each;
+    bool crosses = false, each = false;
+    for (int i = 0; i < p->launches_count; i++) {
+        crosses = crosses || p->launches[i].program->crosses;
+        each = each || p->launches[i].program->each;
+    }
+    return crosses && !each;
 }
 
 struct plan *interpreted_at_hand(struct machine *m, const struct plan_request *q)

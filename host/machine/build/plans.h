@@ -64,13 +64,11 @@ struct plan {
     double spent_s;     /* ... by these */
     bool asked;         /* ... whether its kernels are at hand */
     bool looks_around;  /* ... it reads neighbours, so strips and turns of loops may pay */
-    bool crosses,
-        each; /* ... lanes of computed blocks are crossed; there are steps lane by lane */
-    bool only_at_hand;          /* while it is made: nothing is compiled */
-    bool later;                 /* its kernels are compiled in the background */
-    bool lifted;                /* kernels take numbers as arguments: codegen/numbers.h */
-    bool written;               /* while it is made: none does */
-    uint64_t asked_of;          /* its family's lifted kernels when it was last asked */
+    bool only_at_hand;  /* while it is made: nothing is compiled */
+    bool later;         /* its kernels are compiled in the background */
+    bool lifted;        /* kernels take numbers as arguments: codegen/numbers.h */
+    bool written;       /* while it is made: none does */
+    uint64_t asked_of;  /* its family's lifted kernels when it was last asked */
     struct plan_family *family; /* NULL: unknown */
     struct choice *choice;      /* what it would store with kernels; NULL: not known */
     struct plan *better;        /* the plan whose kernels are being compiled, and which replaces

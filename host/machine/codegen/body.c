@@ -424,41 +424,42 @@ static void spell_operation(struct emitter *e, char *out, size_t size,
     }
 }
 
-/* What is in memory at that place, for each lane. */
-static void emit_gather(struct emitter *e, char *out, size_t size, const struct plan_node *n,
-                        int row, int dx)
+/* What is in an array at each lane's place; 0 where that is not below count. */
+static void emit_fetched(struct emitter *e, char *out, size_t size, const struct plan_node *n,
+                         int array, const char *place, const char *count)
 {
-    struct operand place = emit_value(e, plan_input(e->g, n, 0, e->stage), row, dx, false),
-                   count = emit_value(e, n->in[2], row, dx, false);
     text_put(&e->body,
-             "        const VU j%d = INSIDE(%s, %s);\n"
-             "        const int w%d = IN_A_ROW(%s, %s);\n",
-             e->names, place.text, count.text, e->names, place.text, count.text);
-    snprintf(out, size, "GATHER(%c, %s, %s, b%d, %s, %s, j%d, w%d)", spell_letter(n->type),
-             memory_kind(n->type), memory_type(n->type), input_of(e, n->in[1]), place.text,
-             count.text, e->names, e->names);
+             "        const VU i%d = %s, j%d = INSIDE(i%d, %s);\n"
+             "        const int w%d = IN_A_ROW(i%d, %s);\n",
+             e->names, place, e->names, e->names, count, e->names, e->names, count);
+    snprintf(out, size, "GATHER(%c, %s, %s, b%d, i%d, %s, j%d, w%d)", spell_letter(n->type),
+             memory_kind(n->type), memory_type(n->type), input_of(e, array), e->names, count,
+             e->names, e->names);
     e->ops++;
     e->loads++;
     e->cost += node_cost(n->op, n->type);
 }
 
-/* What is in memory at the place of the processor whose index differs in the node's bits, for each lane: all these are in the row. */
+static void emit_gather(struct emitter *e, char *out, size_t size, const struct plan_node *n,
+                        int row, int dx)
+{
+    struct operand place = emit_value(e, plan_input(e->g, n, 0, e->stage), row, dx, false),
+                   count = emit_value(e, n->in[2], row, dx, false);
+    emit_fetched(e, out, size, n, n->in[1], place.text, count.text);
+}
+
+/* Of the processor whose index differs in the node's bits, which is in the row. */
 static void emit_cross(struct emitter *e, char *out, size_t size, const struct plan_node *n,
                        int row, int dx)
 {
-    const int array = input_of(e, plan_input(e->g, n, 0, e->stage)), reach = abs(dx);
+    char place[160];
+    const int reach = abs(dx);
     e->reach = reach > e->reach ? reach : e->reach;
-    text_put(&e->body,
-             "        const VU i%d = (column(x + (%d), W) ^ (VU)((uint)(" NUMBER_INT
-             "))) + (VU)((uint)(r%d * PITCH + HALO));\n"
-             "        const int w%d = IN_A_ROW(i%d, (VU)(UINT_MAX));\n",
-             e->names, dx, n->detail, row, e->names, e->names);
-    snprintf(out, size, "GATHER(%c, %s, %s, b%d, i%d, (VU)(UINT_MAX), i%d, w%d)",
-             spell_letter(n->type), memory_kind(n->type), memory_type(n->type), array, e->names,
-             e->names, e->names);
-    e->ops++;
-    e->loads++;
-    e->cost += node_cost(n->op, n->type);
+    snprintf(place, sizeof place,
+             "(column(x + (%d), W) ^ (VU)((uint)(" NUMBER_INT
+             "))) + (VU)((uint)(r%d * PITCH + HALO))",
+             dx, n->detail, row);
+    emit_fetched(e, out, size, n, plan_input(e->g, n, 0, e->stage), place, "(VU)(UINT_MAX)");
 }
 
 /* What a node computes of its operands. */
@@ -516,8 +517,9 @@ struct operand emit_value(struct emitter *e, int node, int row, int dx, bool can
     }
     /* Where another stage already has this value in a variable, that is reused as it was stored (NaNs canonical or not, as
      * bits_matter says): never a second copy that was made canonical in another way. */
-    bool loads = plan_loads(n, e->stage), kept = loads && in_variables(e, node, row);
-    canonical = n->maybe_nan && (kept ? e->together->bits_matter[node] : canonical && !loads);
+    bool loads = plan_loads(n, e->stage), kept = loads && in_variables(e, node, row),
+         stored = loads || n->op == NODE_CROSS; /* what a cross looks at is in memory */
+    canonical = n->maybe_nan && (kept ? e->together->bits_matter[node] : canonical && !stored);
     int known = variable_find(e, node, row, dx, canonical);
     if (known >= 0)
         return named(known);

@@ -2,7 +2,7 @@
  *
  * The text depends only on the graph: constants and lengths of axes are arguments. The shape is
  *
- *     row = get_global_id(1); rows at other offsets; a pointer for each array and row
+ *     row = the work-group's, see claims.h; rows at other offsets; a pointer for each array and row
  *     for (x in this run of columns, VECTOR at a time)   the last vector overlaps the one before it
  *         variables, stores
  *

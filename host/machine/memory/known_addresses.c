@@ -76,15 +76,13 @@ void known_ranks_note(struct machine *m, struct machine_value *rank,
 }
 
 /* The same numbers of fewer or more bits, which have room for all ranks. */
-static const struct machine_value *same_ranks(const struct machine *m,
-                                              const struct machine_value *v)
+static const struct machine_value *same_ranks(const struct machine *m, struct machine_value *v)
 {
     const uint64_t last = m->values->sets[m->memory->ranks.rank->set].count - 1;
-    while (!v->buffer &&
-           (v->op == NODE_ZERO_EXTEND || (v->op == NODE_EXTRACT && v->detail == 0)) &&
-           (v->type.width >= 32 || last >> v->type.width == 0))
-        v = v->in[0];
-    return v;
+    int bits = 0;
+    while (last >> bits)
+        bits++;
+    return graph_low_bits(v, bits);
 }
 
 void machine_layout_note(struct machine *m, const struct machine_layout *layout,

@@ -26,34 +26,20 @@ static bool is_own_index(const struct machine_value *v, const struct vpset *s)
     return v->op == NODE_INDEX || (v->op == NODE_COORDINATE && s->rank == 1);
 }
 
-/* What has all of so many low bits of a value. */
-static const struct machine_value *bare(const struct machine_value *v, int bits)
-{
-    while (!v->buffer && !v->own_address) {
-        const bool cuts =
-            v->op == NODE_ZERO_EXTEND || (v->op == NODE_EXTRACT && v->detail == 0);
-        if (!(cuts && v->type.width >= bits) &&
-            !(v->op == NODE_CONCAT && v->in[0]->type.width >= bits))
-            break;
-        v = v->in[0];
-    }
-    return v;
-}
-
-bool gets_cross(struct machine *m, const struct machine_value *address, int set, uint32_t *bits)
+bool gets_cross(struct machine *m, struct machine_value *address, int set, uint32_t *bits)
 {
     const struct vpset *s = &m->values->sets[set];
     const int length = machine_address_bits(m, set);
     uint64_t differ = 0;
     if (set != m->values->set_current || !m->device->is_pocl || m->settings.interpret == 3)
         return false;
-    const struct machine_value *v = bare(address, length);
+    struct machine_value *v = index_address_bare(address, length);
     while (!v->buffer && v->op == MACHINE_XOR && v->type.width >= length) {
         const int k = v->in[1]->op == NODE_CONSTANT;
         if (v->in[k]->op != NODE_CONSTANT)
             return false;
         differ ^= v->in[k]->imm.lo;
-        v = bare(v->in[1 - k], length);
+        v = index_address_bare(v->in[1 - k], length);
     }
     if (v->set != set || v->type.width < length)
         return false;

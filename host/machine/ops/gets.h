@@ -7,9 +7,8 @@
 /* Whether a get of that value of a set is an operation. Where each instruction is executed by itself it is not: kernels that fetch
  * are at hand. */
 bool gets_can(const struct machine *m, const struct machine_value *source, int set);
-/* Whether what is got is a cross (values/places.h), since each processor's address is its own but for some bits; these bits of the index. */
-bool gets_cross(struct machine *m, const struct machine_value *address, int set,
-                uint32_t *bits);
+/* Whether a get by these addresses is a cross (values/places.h): each processor's address is its own but for some bits. *bits: those of the index. */
+bool gets_cross(struct machine *m, struct machine_value *address, int set, uint32_t *bits);
 /* What the processors of the current set get of those of a set, source in memory. NULL: error set. */
 struct machine_value *gets_node(struct machine *m, struct machine_value *address,
                                 struct machine_value *source, int set);

@@ -1,6 +1,7 @@
 /* index.c - see index.h. */
 #include "ops/index.h"
 
+#include "values/graph.h"
 #include "values/make.h"
 
 #define INDEX_NOBODY 0xf0000000u /* more than any place, and a halo more is no less */
@@ -54,6 +55,14 @@ static struct machine_value *index_sum(struct machine *m, struct machine_value *
     const struct machine_type type = MACHINE_UINT(INDEX_BITS);
     x = times == 1 ? x : make_operation(m, MACHINE_MUL, type, x, index_number(m, times));
     return x && y ? make_operation(m, MACHINE_ADD, type, x, y) : NULL;
+}
+
+struct machine_value *index_address_bare(struct machine_value *address, int bits)
+{
+    struct machine_value *v = graph_low_bits(address, bits);
+    while (!v->buffer && v->op == NODE_CONCAT && v->in[0]->type.width >= bits)
+        v = graph_low_bits(v->in[0], bits);
+    return v;
 }
 
 bool index_is_address(const struct vpset *s)

@@ -8,6 +8,8 @@
 enum { INDEX_BITS = 32 };
 
 struct machine_value *index_number(struct machine *m, uint64_t x);
+/* Only so many low bits of an address count: the value that has them. */
+struct machine_value *index_address_bare(struct machine_value *address, int bits);
 /* Whether a send address is the row-major index. */
 bool index_is_address(const struct vpset *s);
 /* The row-major index of the processor at an address; of none, what is no index. */

@@ -19,16 +19,13 @@ static bool is_near(const struct machine *m, const struct vpset *to)
     return m->settings.near && (uint64_t)to->rows * to->pitch < UINT32_MAX;
 }
 
-/* Only the low bits of an address count. So what they are part of serves as well, where an address is an index. */
+/* Where an address is an index, what has its low bits serves as well. */
 static struct machine_value *address_whole(struct machine *m, int to_set,
                                            struct machine_value *address)
 {
-    const int bits = machine_address_bits(m, to_set);
-    while (index_is_address(&m->values->sets[to_set]) && !address->buffer &&
-           address->op == NODE_EXTRACT && address->detail == 0 && address->type.width >= bits &&
-           address->in[0]->type.kind == MACHINE_BITS)
-        address = address->in[0];
-    return address;
+    return index_is_address(&m->values->sets[to_set])
+               ? index_address_bare(address, machine_address_bits(m, to_set))
+               : address;
 }
 
 bool message_fills(struct machine *m, struct machine_value *address, int to_set)

@@ -238,6 +238,15 @@ struct machine_value *graph_find(struct machine *m, const struct machine_value *
     return find(m, key, hash_of(key));
 }
 
+struct machine_value *graph_low_bits(struct machine_value *v, int bits)
+{
+    while (!v->buffer &&
+           (v->op == NODE_ZERO_EXTEND || (v->op == NODE_EXTRACT && v->detail == 0)) &&
+           v->type.width >= bits && v->in[0]->type.kind == MACHINE_BITS)
+        v = v->in[0];
+    return v;
+}
+
 struct machine_value *graph_node(struct machine *m, const struct machine_value *key)
 {
     uint32_t hash = hash_of(key);

@@ -13,6 +13,8 @@ struct machine_value *graph_buffer_node(struct machine *m, struct machine_type t
                                         struct device_buffer *buffer);
 /* The same if there is one, else NULL. */
 struct machine_value *graph_find(struct machine *m, const struct machine_value *key);
+/* What v is made of by leaving out or adding high bits, as far as at least so many low ones stay. */
+struct machine_value *graph_low_bits(struct machine_value *v, int bits);
 /* What follows from its operation and operands: which NaNs it may hold, and its cost where nothing is read from memory. */
 void graph_derive_nan(const struct machine *m, struct machine_value *v);
 uint8_t graph_generator(const struct machine_value *v);

@@ -105,11 +105,11 @@ struct machine_value *machine_self_address(struct machine *m, int width)
 {
     const struct vpset *s = vpset_get(m, m->values->set_current);
     if (s && s->layout.blocks) {
-        struct machine_value *v = machine_resize(
-            m, machine_layout_address_value(m, &s->layout, machine_self_index(m, 32)), width,
-            false);
+        struct machine_value *whole = machine_layout_address_value(m, &s->layout,
+                                                                   machine_self_index(m, 32)),
+                             *v = machine_resize(m, whole, width, false);
         if (v)
-            v->own_address = true;
+            whole->own_address = v->own_address = true;
         return v;
     }
     if (s && (s->layout.order == MACHINE_SEND_ORDER || s->ratio == 1))
