@@ -5,6 +5,7 @@
 
 #include "interpret/byte_code.h"
 #include "tables.h"
+#include "values/places.h"
 #include "values/values.h"
 
 static uint32_t chance = 1;
@@ -29,10 +30,11 @@ static void each_lane_is_the_one_across(void **state)
     for (int i = 0; i < t.count; i++)
         for (int c = 0; c < LANES_INTEGERS; c++)
             for (int bits = 0; bits < CROSS_NEAR; bits++) {
-                void *at[] = {from, to};
+                uint32_t number[] = {(uint32_t)bits | (below(2) << 20)};
+                void *at[] = {from, to, number};
                 const size_t bytes = lanes_bytes((enum lanes_class)c);
                 const int n = bits % 3 ? CROSS_NEAR : LANES;
-                const struct lanes_step s = {.op = LANES_CROSS, .to = 1, .detail = bits};
+                const struct lanes_step s = {.op = LANES_CROSS, .to = 1, .in = {0, 2}};
                 memset(to, 0x55, sizeof to);
                 t.of[i]->of[LANES_CROSS][c](&s, at, n);
                 for (int k = 0; k < n; k++)
@@ -107,7 +109,7 @@ static int crossed(struct machine *m, uint32_t field, struct machine_value *addr
 {
     struct machine_value *v = machine_get(m, address, field, MACHINE_UINT(32));
     assert_non_null(v);
-    return v->op == NODE_CROSS ? v->detail : -1;
+    return v->op == NODE_CROSS ? (int)v->in[1]->imm.lo : -1;
 }
 
 static void own_addresses_with_some_bits_turned_are_found(void **state)

@@ -30,6 +30,11 @@ enum node_op {
     NODE_OP_COUNT
 };
 
+/* A cross within an aligned run of so many processors: what it looks at may wait to be computed. */
+enum { CROSS_NEAR = 512 };
+/* The bits of a cross: all below CROSS_NEAR; none; some. */
+enum cross_kind { CROSS_LANES, CROSS_BLOCKS, CROSS_BOTH };
+
 enum op_takes {
     TAKES_BITS,
     TAKES_FLOATS,
@@ -122,7 +127,7 @@ static inline bool op_has(int op, enum op_flags flag)
 /* Whether operand k is looked at where the operation's processor is; else anywhere. */
 static inline bool op_reads_own(int op, int k)
 {
-    return op != NODE_SHIFT && op != NODE_CROSS && !(op == NODE_GATHER && k == 1);
+    return op != NODE_SHIFT && !(op == NODE_CROSS && k == 0) && !(op == NODE_GATHER && k == 1);
 }
 
 static inline bool op_is_math(int op)

@@ -49,7 +49,7 @@ void dump_graph(struct machine *m, int number, const struct plan_graph *g)
         if (n->op == NODE_SHIFT && !n->leaf)
             fprintf(f, " axis %d by %d", n->axis, n->detail);
         if (n->op == NODE_CROSS && !n->leaf)
-            fprintf(f, " bits %#x", (unsigned)n->detail);
+            fprintf(f, " kind %d", n->detail);
         for (int k = 0; !n->leaf && k < node_ops[n->op].inputs; k++)
             fprintf(f, " %d", n->in[k]);
         if (!n->leaf && !n->constant)

@@ -15,8 +15,7 @@
 /* Which kind of number the node's detail is; MACHINE_NUMBERS: it is none, and belongs to what the node does. */
 static enum machine_number detail_is(const struct machine_value *v)
 {
-    const bool is_distance = v->op == NODE_SHIFT || v->op == NODE_CROSS;
-    return is_distance && !v->buffer             ? MACHINE_NUMBER_DISTANCE
+    return v->op == NODE_SHIFT && !v->buffer     ? MACHINE_NUMBER_DISTANCE
            : v->op == NODE_EXTRACT && !v->buffer ? MACHINE_NUMBER_POSITION
                                                  : MACHINE_NUMBERS;
 }

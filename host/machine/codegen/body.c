@@ -448,17 +448,17 @@ static void emit_gather(struct emitter *e, char *out, size_t size, const struct 
     emit_fetched(e, out, size, n, n->in[1], place.text, count.text);
 }
 
-/* Of the processor whose index differs in the node's bits, which is in the row. */
+/* Of the processor whose index differs in a number's bits, which is in the row. */
 static void emit_cross(struct emitter *e, char *out, size_t size, const struct plan_node *n,
                        int row, int dx)
 {
-    char place[160];
+    char place[120];
     const int reach = abs(dx);
+    const struct operand bits = emit_value(e, n->in[1], row, dx, false);
     e->reach = reach > e->reach ? reach : e->reach;
     snprintf(place, sizeof place,
-             "(column(x + (%d), W) ^ (VU)((uint)(" NUMBER_INT
-             "))) + (VU)((uint)(r%d * PITCH + HALO))",
-             dx, n->detail, row);
+             "(column(x + (%d), W) ^ %s) + (VU)((uint)(r%d * PITCH + HALO))", dx, bits.text,
+             row);
     emit_fetched(e, out, size, n, plan_input(e->g, n, 0, e->stage), place, "(VU)(UINT_MAX)");
 }
 

@@ -94,11 +94,6 @@ static bool operation_can(const struct lanes_table *t, const struct machine_valu
 
 /* ---- a block ---- */
 
-static lanes_wide mask_of(struct machine_type t)
-{
-    return t.width == 64 ? UINT64_MAX : (UINT64_C(1) << t.width) - 1;
-}
-
 static void *register_get(struct doing *d)
 {
     INVARIANT(d->used < REGISTERS);
@@ -111,7 +106,7 @@ static void resize(const struct doing *d, void *to, struct machine_type type, vo
 {
     void *const at[2] = {in, to};
     const struct lanes_step s = {
-        .op = NODE_ZERO_EXTEND, .to = 1, .from = from, .type = type, .mask = mask_of(type)};
+        .op = NODE_ZERO_EXTEND, .to = 1, .from = from, .type = type, .mask = lanes_mask(type)};
     d->table->convert[NODE_ZERO_EXTEND][lanes_class_of(from)][lanes_class_of(type)](&s, at,
                                                                                     d->lanes);
 }
@@ -135,7 +130,7 @@ static struct lanes_step step_of(const struct machine_value *v)
                            .in = {0, 1, 2},
                            .from = v->in[0]->type,
                            .type = v->type,
-                           .mask = mask_of(v->type)};
+                           .mask = lanes_mask(v->type)};
     if (v->op == NODE_EXTRACT)
         s.detail = v->detail;
     else if (v->op == NODE_CONCAT)

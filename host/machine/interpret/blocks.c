@@ -76,6 +76,8 @@ static void places_begin(const struct run *r, struct machine_value *const *nodes
     for (int i = 0; i < r->p->places_count; i++) {
         const struct place *place = &r->p->places[i];
         void *at = (char *)r->room->memory + place->offset;
+        if (place->kind == PLACE_CROSSED)
+            *(uint32_t *)at = (uint32_t)nodes[place->bits]->imm.lo / BLOCK_LANES * BLOCK_LANES;
         if (place->kind == PLACE_ARRAY || place->kind == PLACE_MOVED ||
             place->kind == PLACE_CROSSED)
             continue;
@@ -156,6 +158,13 @@ static void *moved(const struct run *r, const struct place *place, const struct 
     return together;
 }
 
+/* Another block of the row: rows are long where there are crosses (values/places.c). */
+static void *crossed(const struct run *r, const struct place *place, const struct block *b)
+{
+    const uint32_t *bits = (const void *)((char *)r->room->memory + place->offset);
+    return row_begin(r, place, b->row) + (size_t)((uint32_t)b->x ^ *bits) * place->bytes;
+}
+
 static void places_move(const struct run *r, const struct block *b)
 {
     for (int i = 0; i < r->p->places_count; i++) {
@@ -165,9 +174,8 @@ static void places_move(const struct run *r, const struct block *b)
                              (ptrdiff_t)(b->rows ? -r->set->halo : b->x) * place->bytes;
         else if (place->kind == PLACE_MOVED)
             r->room->at[i] = moved(r, place, b);
-        else if (place->kind == PLACE_CROSSED) /* rows are long: values/places.c */
-            r->room->at[i] = row_begin(r, place, b->row) +
-                             (size_t)((uint32_t)b->x ^ place->across) * place->bytes;
+        else if (place->kind == PLACE_CROSSED)
+            r->room->at[i] = crossed(r, place, b);
     }
 }
 

@@ -6,7 +6,6 @@
 
 #include "base/arrays.h"
 #include "base/errors.h"
-#include "base/scalar.h"
 #include "device/shape.h"
 #include "interpret/node_loops.h"
 #include "interpret/picks.h"
@@ -116,15 +115,16 @@ static int place_moved(struct making *k, int node)
                                        .further = further});
 }
 
-/* An array's other blocks, whose processors' indices differ in these bits. */
-static int place_crossed(struct making *k, int node, uint32_t across)
+/* An array's other blocks, whose processors' indices differ in a number's bits. */
+static int place_crossed(struct making *k, int node, int bits)
 {
     argument_add(k->p, ARGUMENT_INPUT, node);
     return place_add(k->p, (struct place){.kind = PLACE_CROSSED,
                                           .bytes = (uint8_t)lanes_bytes(
                                               lanes_class_of(k->g->nodes[node].type)),
                                           .node = node,
-                                          .across = across});
+                                          .offset = room(k->p, LANES_U8),
+                                          .bits = bits});
 }
 
 /* What is not computed here. */
@@ -170,22 +170,18 @@ static struct lanes_step *step_add(struct making *k, lanes_function *run, int op
     return s;
 }
 
-static lanes_wide mask_of(struct machine_type t)
-{
-    struct machine_scalar ones = scalar_ones(t.width);
-    return (lanes_wide)ones.hi << 64 | ones.lo;
-}
-
 /* One operand, of one type, becomes another. */
-static void step_one(struct making *k, lanes_function *run, int op, int to,
-                     struct machine_type type, int in, struct machine_type from, int detail)
+static struct lanes_step *step_one(struct making *k, lanes_function *run, int op, int to,
+                                   struct machine_type type, int in, struct machine_type from,
+                                   int detail)
 {
     struct lanes_step *s = step_add(k, run ? run : lane_each, op, to);
     s->in[0] = (uint16_t)in;
     s->from = from;
     s->type = type;
     s->detail = detail;
-    s->mask = mask_of(type);
+    s->mask = lanes_mask(type);
+    return s;
 }
 
 /* Bits of one width as those of another, from bit `down` on. */
@@ -324,7 +320,7 @@ static void step_chosen(struct making *k, const struct plan_node *n, int to,
     s->in[2] = (uint16_t)k->place[n->in[2]];
     s->from = bit;
     s->type = n->type;
-    s->mask = mask_of(n->type);
+    s->mask = lanes_mask(n->type);
     register_put(k, both);
 }
 
@@ -345,7 +341,7 @@ static void step_operation(struct making *k, const struct plan_node *n, int to, 
     s->detail = n->op == NODE_EXTRACT ? n->detail : 0;
     if (node_ops[n->op].fold == FOLD_SHIFT) /* all by one number? */
         s->detail = k->g->nodes[n->in[1]].constant;
-    s->mask = mask_of(n->type);
+    s->mask = lanes_mask(n->type);
     if (node_rounds(n))
         step_one(k, type_is_short(n->type) ? lanes_find(LANES_FIT, c) : NULL, LANES_FIT, to,
                  n->type, to, n->type, 0);
@@ -365,8 +361,8 @@ static bool loads(const struct making *k, int node)
 /* Whether it takes operand j lane by lane; else from memory. */
 static bool takes(const struct plan_node *n, int j)
 {
-    return !(n->op == NODE_GATHER && j == 1) &&
-           !(n->op == NODE_CROSS && n->detail >= CROSS_NEAR);
+    const bool crosses = n->detail == CROSS_LANES || (j == 1 && n->detail == CROSS_BOTH);
+    return n->op == NODE_GATHER ? j != 1 : n->op != NODE_CROSS || crosses;
 }
 
 enum { OPERANDS_MOST = 2 * PICK_MOST + 2 };
@@ -438,20 +434,19 @@ static int place_of_result(struct making *k, int node)
 }
 
 /* Other blocks, and within a block other lanes. */
-static void node_cross(struct making *k, int node, int from)
+static void node_cross(struct making *k, int node, const int in[3])
 {
     const struct plan_node *n = &k->g->nodes[node];
     const enum lanes_class c = lanes_bits_of(lanes_class_of(n->type));
-    const int within = n->detail % CROSS_NEAR, op = within ? LANES_CROSS : LANES_COPY;
-    if (!takes(n, 0)) {
-        INVARIANT(loads(k, n->in[0]));
-        from = place_crossed(k, n->in[0], (uint32_t)(n->detail - within));
-    }
-    k->p->crosses = k->p->crosses || !loads(k, n->in[0]);
-    k->place[node] = from;
-    if (within || k->output[node])
-        step_one(k, lanes_find(op, c), op, k->place[node] = place_of_result(k, node), n->type,
-                 from, n->type, within);
+    const int op = n->detail == CROSS_BLOCKS ? LANES_COPY : LANES_CROSS;
+    INVARIANT(takes(n, 0) || loads(k, n->in[0]));
+    const int from = takes(n, 0) ? in[0] : place_crossed(k, n->in[0], n->in[1]);
+    const bool names = op == LANES_COPY && !k->output[node];
+    k->p->crosses |= !loads(k, n->in[0]);
+    const int to = k->place[node] = names ? from : place_of_result(k, node);
+    if (!names)
+        step_one(k, lanes_find(op, c), op, to, n->type, from, n->type, 0)->in[1] =
+            (uint16_t)in[1];
 }
 
 /* A block of results from a register to the array, past the caches. */
@@ -512,7 +507,7 @@ static void node_compute(struct making *k, int node)
         return;
     }
     if (n->op == NODE_CROSS)
-        node_cross(k, node, in[0]);
+        node_cross(k, node, in);
     else
         node_steps(k, node, in);
     step_streamed(k, node);

@@ -16,7 +16,6 @@
 
 #include "codegen/codegen.h"
 #include "interpret/lanes.h"
-#include "values/places.h"
 
 /* Lanes of a block, at most: a register is up to 4 KiB (of wide ones 8), a few of which are in use. What a near cross looks at is in
  * the block. */
@@ -38,7 +37,7 @@ struct place {
     int32_t node;     /* of an array, whole or not, a number, a draw */
     size_t offset;    /* of a register among the registers */
     int32_t *further; /* of a MOVED: along each axis; owned */
-    uint32_t across;  /* of a CROSSED: the bits, multiples of BLOCK_LANES */
+    int32_t bits;     /* of a CROSSED: the number of them, a node */
 };
 
 struct byte_code {

@@ -43,6 +43,11 @@ static inline enum lanes_class lanes_bits_of(enum lanes_class c)
     return c == LANES_F32 ? LANES_U32 : c == LANES_F64 ? LANES_U64 : c;
 }
 size_t lanes_bytes(enum lanes_class c);
+/* The bits of a type. */
+static inline lanes_wide lanes_mask(struct machine_type type)
+{
+    return ~(lanes_wide)0 >> (128 - type.width);
+}
 
 /* Operations of the interpreter beside those of the graph. */
 enum lanes_op {
@@ -54,7 +59,7 @@ enum lanes_op {
     LANES_FETCH, /* in: places of 32 bits; an array, which is not the lanes'; how many places there are. 0 where there is none */
     LANES_PLACE, /* a row-major index becomes a send address: PLOG2 is detail, the ratio is mask */
     LANES_PICK, /* in: an index of 32 bits; the operands of `list` that it names: see lanes_picks.h */
-    LANES_CROSS, /* in: an aligned run of CROSS_NEAR lanes, or several: those whose numbers differ in the bits of detail */
+    LANES_CROSS, /* in: an aligned run of CROSS_NEAR lanes, or several; bits, of 32. The lanes whose numbers differ in those below CROSS_NEAR */
     LANES_DRAW,  /* a row-major index becomes a random number: see NODE_RANDOM */
     LANES_OP_COUNT
 };
@@ -80,10 +85,10 @@ enum { AHEAD_TO = 8, AHEAD_LIST = 16, AHEAD_ALL = 31 }; /* of `to`; of values in
 /* How many of in[] an operation takes; a pick takes those of its list, too. */
 static inline int lanes_inputs(int op)
 {
-    return op < NODE_OP_COUNT                     ? node_ops[op].inputs
-           : op == LANES_FETCH                    ? 3
-           : op == LANES_JOIN || op == LANES_DRAW ? 2
-                                                  : 1;
+    return op < NODE_OP_COUNT                                          ? node_ops[op].inputs
+           : op == LANES_FETCH                                         ? 3
+           : op == LANES_JOIN || op == LANES_DRAW || op == LANES_CROSS ? 2
+                                                                       : 1;
 }
 
 /* Of operands of that class; of a select and of what is beside the graph, of that result. NULL: there is no loop. */

@@ -1,7 +1,9 @@
-/* lanes_cross.h - the loop of a near cross, included by fast_loops.h: each lane takes the one whose number differs in the bits of
- * detail, all in an aligned run of CROSS_NEAR lanes. n: a multiple of CROSS_NEAR.
+/* lanes_cross.h - the loop of a near cross, included by fast_loops.h: each lane takes the one whose number differs in these bits, all
+ * in an aligned run of CROSS_NEAR lanes. n: a multiple of CROSS_NEAR.
  *
- *     detail 18, vectors of 16 lanes:   vector i takes vector i ^ 1, and of it lane k takes lane k ^ 2 */
+ *     bits 18, vectors of 16 lanes:   vector i takes vector i ^ 1, and of it lane k takes lane k ^ 2 */
+
+#define CROSS_BITS ((int)(*(const u32 *)at[s->in[1]] % CROSS_NEAR))
 
 /* Each by itself. */
 #define CROSS_EACH(T)                                                                          \
@@ -9,7 +11,7 @@
     {                                                                                          \
         TO(T);                                                                                 \
         IN(T, 0, a);                                                                           \
-        const int bits = s->detail;                                                            \
+        const int bits = CROSS_BITS;                                                           \
         EACH d[i] = a[i ^ bits];                                                               \
     }
 /* So many lanes at once: EXPRESSION is the vector v's, its lanes crossed by `low`, for which index is made before. */
@@ -18,7 +20,7 @@
     {                                                                                          \
         TO(T);                                                                                 \
         IN(T, 0, a);                                                                           \
-        const int low = s->detail % (LANES), high = s->detail - low;                           \
+        const int bits = CROSS_BITS, low = bits % (LANES), high = bits - low;                  \
         const VECTOR index = INDEX;                                                            \
         for (int i = 0; i < n; i += (LANES)) {                                                 \
             const VECTOR v = LOAD((const void *)(a + (i ^ high)));                             \

@@ -26,6 +26,24 @@ static bool is_own_index(const struct machine_value *v, const struct vpset *s)
     return v->op == NODE_INDEX || (v->op == NODE_COORDINATE && s->rank == 1);
 }
 
+static bool has_functions(const struct machine *m, struct machine_value *v, int *budget)
+{
+    if (node_is_leaf(v) || v->mark == m->values->mark)
+        return false;
+    v->mark = m->values->mark;
+    bool has = op_is_math(v->op) || --*budget < 0;
+    for (int i = 0; i < node_ops[v->op].inputs && !has; i++)
+        has = has_functions(m, v->in[i], budget);
+    return has;
+}
+
+bool gets_has_functions(struct machine *m, struct machine_value *v)
+{
+    int budget = 2048;
+    m->values->mark++;
+    return has_functions(m, v, &budget);
+}
+
 bool gets_cross(struct machine *m, struct machine_value *address, int set, uint32_t *bits)
 {
     const struct vpset *s = &m->values->sets[set];

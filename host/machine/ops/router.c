@@ -447,7 +447,8 @@ struct machine_value *machine_get(struct machine *m, struct machine_value *send_
         while (v->op == NODE_REINTERPRET && !v->buffer) /* the same bits are in memory */
             v = v->in[0];
         uint32_t bits = 0;
-        const bool crosses = gets_cross(m, send_address, from.vpset, &bits);
+        const bool crosses =
+            !gets_has_functions(m, v) && gets_cross(m, send_address, from.vpset, &bits);
         if (!crosses || (v->op != NODE_CONSTANT && (bits >= CROSS_NEAR || node_is_cheap(v))))
             v = materialise(m, from.vpset, v);
         if (v)

@@ -64,17 +64,20 @@ struct machine_value *places_cross(struct machine *m, struct machine_value *a, u
 {
     if (!a || a->op == NODE_CONSTANT || !bits)
         return a;
-    if (!a->buffer && a->op == NODE_CROSS && (uint32_t)a->detail < CROSS_NEAR &&
-        bits < CROSS_NEAR)
-        return places_cross(m, a->in[0], bits ^ (uint32_t)a->detail);
+    if (!a->buffer && a->op == NODE_CROSS && a->detail == CROSS_LANES && bits < CROSS_NEAR)
+        return places_cross(m, a->in[0], bits ^ (uint32_t)a->in[1]->imm.lo);
     if (!a->buffer && a->op == NODE_REINTERPRET)
         return machine_reinterpret(m, places_cross(m, a->in[0], bits), a->type);
+    struct machine_value *number =
+        machine_constant(m, MACHINE_UINT(32), (struct machine_scalar){bits, 0});
     struct machine_value key = {.op = NODE_CROSS,
                                 .type = a->type,
                                 .set = a->set,
-                                .detail = (int32_t)bits,
-                                .in = {a, NULL, NULL}};
-    return graph_node(m, &key);
+                                .detail = bits < CROSS_NEAR   ? CROSS_LANES
+                                          : bits % CROSS_NEAR ? CROSS_BOTH
+                                                              : CROSS_BLOCKS,
+                                .in = {a, number, NULL}};
+    return number ? graph_node(m, &key) : NULL;
 }
 
 static struct machine_value *generated(struct machine *m, int op, int axis, int detail,

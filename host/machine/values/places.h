@@ -4,9 +4,6 @@
 
 #include "values/geometry.h"
 
-/* An aligned run of so many processors: what a cross fetches within it may wait to be computed. */
-enum { CROSS_NEAR = 512 };
-
 /* Whether a cross by these bits of the index stays in a row of the set, and lies in whole runs. */
 bool places_cross_can(const struct vpset *s, uint32_t bits);
 /* A cross: the value that the processor has whose index differs in these bits. a: in memory, if bits are not all below CROSS_NEAR. NULL: error set. */
