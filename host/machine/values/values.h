@@ -19,7 +19,8 @@ struct machine_value {
     uint16_t height;   /* longest path to something materialised */
     bool interned;
     bool kept : 1; /* kept by a state: see run/replay.h. Not counted as pending */
-    bool own_address : 1; /* it is each processor's own send address; no field writes over its array */
+    bool
+        own_address : 1; /* it is each processor's own send address; no field writes over its array */
     bool told : 1;       /* observers have been told its fate */
     int32_t detail;
     uint32_t refs;
