@@ -200,7 +200,7 @@ bool machine_cache_folder(char out[static MACHINE_CACHE_FOLDER_MAX], const char 
 int machine_processors_count(const struct machine *m);
 const char *machine_device_name(const struct machine *m);
 
-/* The knobs and costs in effect: what the environment forces (docs/engine.md), else config's or the
+/* The knobs and costs in effect: what the environment forces (docs/engine-reference.md), else config's or the
  * stored tuning, else the usual values. No knob is -1, no cost 0. */
 struct machine_tuning machine_tuning_get(const struct machine *m);
 /* Measures the costs on the machine's device, in a few seconds, by programs of its own. 0: could not be measured. Called
@@ -229,7 +229,7 @@ struct machine_stats {
     uint64_t kernels_in_place;  /* of these: over old values that nobody wants any more */
     uint64_t kernels_in_strips; /* of these: several stages at once */
     uint64_t kernels_in_tiles;  /* likewise, in local memory */
-    double predicted_s;  /* what evaluations take by the cost model: see docs/engine.md */
+    double predicted_s;  /* what evaluations take by the cost model: docs/engine-reference.md */
     uint64_t bytes_held; /* device memory in use by values */
     double busy_s;       /* time in which the front end waited for the device */
 };

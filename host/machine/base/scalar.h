@@ -7,7 +7,7 @@
 
 #include "machine.h"
 
-/* *The* NaN, which operations give: see docs/engine.md. */
+/* *The* NaN, which operations give: see docs/engine-reference.md. */
 #define NAN_32 0xffc00000u
 #define NAN_64 UINT64_C(0xfff8000000000000)
 

@@ -1,6 +1,6 @@
 /* settings.c - environment variables that force the engine's decisions.
  *
- * Each variable is a row of the table; docs/engine.md explains them. A variable that is
+ * Each variable is a row of the table; docs/engine-reference.md explains them. A variable that is
  * empty counts as not set. With an invalid value no machine is created.
  */
 #include <errno.h>
