@@ -4,7 +4,7 @@
  *
  *     LUTETIA STATE 1                    the version of this format
  *     model 1                            the greatest version of its sheets' models
- *     program 0.1.0
+ *     program X.Y.Z                      that wrote it
  *     bytes 123456                       of the whole file
  *     checksum 1a2b3c4d                  CRC-32 of all from byte 512 on, then of this, with these digits 0
  *     sheets 1 2 5                       their numbers
