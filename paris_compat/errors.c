@@ -3,12 +3,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "call_line.h"
 #include "paris_state.h"
 #include "visible_text.h"
 
 struct paris_state paris_the = {.call = "Paris"};
 
-static char error_text[1024];
+static char error_text[1400];
 static unsigned int error_status; /* the CM_error_... that belongs to error_text */
 static void (*error_handler)(const char *message);
 
@@ -22,9 +23,11 @@ void paris_error_print(void)
 
 PARIS_PRINTF(2, 0) static void fail(unsigned int status, const char *format, va_list args)
 {
-    char text[sizeof error_text - 128];
+    char text[1000];
+    const char *line = paris_call_line();
     vsnprintf(text, sizeof text, format, args);
-    snprintf(error_text, sizeof error_text, "%.100s: %s", paris_the.call, text);
+    snprintf(error_text, sizeof error_text, "%.200s%s%.100s: %s", line, *line ? ": " : "",
+             paris_the.call, text);
     error_status = status;
     if (paris_the.machine)
         machine_call_failed(paris_the.machine);

@@ -10,6 +10,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "call_line.h"
 #include "paris_state.h"
 #include "visible_text.h"
 
@@ -57,6 +58,7 @@ bool paris_let_pass(const char *format, ...)
     if (!paris_the.lenient)
         return false;
     if (!said) {
+        const char *place = paris_call_line();
         char text[400], line[2 * sizeof text];
         va_list args;
         va_start(args, format);
@@ -65,9 +67,9 @@ bool paris_let_pass(const char *format, ...)
         visible_text(line, sizeof line, text);
         fflush(stdout);
         fprintf(stderr,
-                "%s: %s. This and more of the kind is let pass (said once); "
+                "%s%s%s: %s. This and more of the kind is let pass (said once); "
                 "CM_set_safety_mode (1) makes it an error\n",
-                paris_the.call, line);
+                place, *place ? ": " : "", paris_the.call, line);
     }
     return said = true;
 }

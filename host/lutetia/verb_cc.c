@@ -5,6 +5,11 @@
  * there; an installed one uses the library installed with it. All other arguments are passed to
  * the compiler.
  *
+ * -g1 is taken unless the arguments choose debug information: the library's complaints then begin
+ * with the source's line (paris_compat/call_line.c). In gnu89 a function without declaration
+ * returns an int, so a program without <cm/paris.h> would read 0 where the machine returns a
+ * double; the compiler warns of each.
+ *
  * A program is linked into a part file, which is renamed when it is complete, because
  * linkers overwrite an existing file. The linker's output is the part file's descriptor,
  * /proc/self/fd/N: the linker obeys its last -o. The compiler still knows the program's name,
@@ -250,16 +255,47 @@ static int program_link(struct compiler_line *line)
     return status;
 }
 
+/* Do the arguments make a program? */
+static bool line_links(int argc, char **argv)
+{
+    return !any_is(argc, argv, "-c") && !any_is(argc, argv, "-S") &&
+           !any_is(argc, argv, "-E") && !any_is(argc, argv, "-fsyntax-only") &&
+           !any_is(argc, argv, "-M") && !any_is(argc, argv, "-MM") &&
+           !any_is(argc, argv, "-###") && !any_is(argc, argv, "-v") &&
+           !any_starts_with(argc, argv, "--version") &&
+           !any_starts_with(argc, argv, "-print") && !any_starts_with(argc, argv, "-dump");
+}
+
+/* Refuses options that no program on libparis can be linked with. */
+static int impossible_refuse(int argc, char **argv)
+{
+    static const struct {
+        const char *option, *why;
+    } refused[] = {
+        {"-static", "libparis is a shared library, since OpenCL loads its driver while the "
+                    "program runs"},
+        {"-m32", "libparis and the OpenCL driver are made for 64 bits"},
+    };
+    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++)
+        if (any_is(argc, argv, refused[i].option))
+            return fail("cc", "%s cannot be done: %s; leave it out", refused[i].option,
+                        refused[i].why);
+    return EXIT_SUCCESS;
+}
+
 int verb_cc(int argc, char **argv)
 {
     if (argc < 2 || any_is(argc, argv, "--help") || any_is(argc, argv, "-h")) {
         fputs("usage: lutetia cc prog.c... [-o prog] [options of the C compiler]\n\n"
               "Compiles C/Paris programs and links them with libparis; CC names the compiler "
               "(cc).\n"
-              "-std=gnu89 is taken unless a -std is given.\n",
+              "-std=gnu89 is taken unless a -std is given, and -g1 unless a -g is.\n",
               argc < 2 ? stderr : stdout);
         return argc < 2 ? EXIT_USAGE : EXIT_SUCCESS;
     }
+    int status = impossible_refuse(argc, argv);
+    if (status != EXIT_SUCCESS)
+        return status;
     char home[4096];
     ssize_t length = readlink("/proc/self/exe", home, sizeof home - 1);
     home[length > 0 ? length : 0] = '\0';
@@ -274,25 +310,25 @@ int verb_cc(int argc, char **argv)
                     home);
 
     char *include_flag, *library_flag, *runtime_flag;
-    struct compiler_line line = {calloc((size_t)argc + 12, sizeof(char *)), 0};
+    struct compiler_line line = {calloc((size_t)argc + 14, sizeof(char *)), 0};
     if (!line.arguments || asprintf(&include_flag, "-I%s", include) < 0 ||
         asprintf(&library_flag, "-L%s", library) < 0 ||
         asprintf(&runtime_flag, "-Wl,-rpath,%s", library) < 0)
         return fail("cc", "no memory");
     char *compiler = getenv("CC");
     static char cc[] = "cc", gnu89[] = "-std=gnu89", paris[] = "-lparis", math[] = "-lm";
+    static char lines[] = "-g1", undeclared[] = "-Wimplicit-function-declaration";
     line_add(&line, compiler && *compiler ? compiler : cc);
-    if (!any_starts_with(argc, argv, "-std="))
+    if (!any_starts_with(argc, argv, "-std=")) {
         line_add(&line, gnu89);
+        line_add(&line, undeclared);
+    }
+    if (!any_starts_with(argc, argv, "-g"))
+        line_add(&line, lines);
     line_add(&line, include_flag);
     for (int i = 1; i < argc; i++)
         line_add(&line, argv[i]);
-    bool links =
-        !any_is(argc, argv, "-c") && !any_is(argc, argv, "-S") && !any_is(argc, argv, "-E") &&
-        !any_is(argc, argv, "-fsyntax-only") && !any_is(argc, argv, "-M") &&
-        !any_is(argc, argv, "-MM") && !any_is(argc, argv, "-###") &&
-        !any_is(argc, argv, "-v") && !any_starts_with(argc, argv, "--version") &&
-        !any_starts_with(argc, argv, "-print") && !any_starts_with(argc, argv, "-dump");
+    bool links = line_links(argc, argv);
     if (links) {
         line_add(&line, library_flag);
         line_add(&line, runtime_flag);
@@ -302,7 +338,7 @@ int verb_cc(int argc, char **argv)
     fflush(NULL);
     if (!links || any_starts_with(argc, argv, "@"))
         compiler_become(&line);
-    int status = program_link(&line);
+    status = program_link(&line);
     free(include_flag);
     free(library_flag);
     free(runtime_flag);
