@@ -1,6 +1,8 @@
 /* main.c - the table of verbs. */
+#include "help.h"
 #include "lutetia.h"
 
+#include <script.h>
 #include <streams.h>
 
 #include <stdio.h>
@@ -42,10 +44,35 @@ static void help(FILE *out)
         snprintf(left, sizeof left, "%s %s", verbs[i].name, verbs[i].arguments);
         fprintf(out, "  %-28s %s\n", left, verbs[i].help);
     }
-    fputs("\n`lutetia VERB --help` says more.  LUTETIA_DEVICE chooses a device (part of its "
-          "name, or "
-          "its number);\nLUTETIA_EAGER=1 computes each instruction at once.\n",
+    fputs("\n`lutetia VERB --help` and `man lutetia-VERB` say more.  LUTETIA_DEVICE chooses a "
+          "device (part of\nits name, or its number); `lutetia info --variables` lists all "
+          "variables of the environment.\n",
           out);
+}
+
+static void script_function_print(const char *type, const char *name)
+{
+    printf("script\t%s\t%s\n", type, name);
+}
+
+/* All that the verbs' helps say, as a table: manual pages and completions are made of it. */
+static int help_table(void)
+{
+    static char ask[] = "--help";
+    int status = EXIT_SUCCESS;
+    help_as_table();
+    puts("version\t" LUTETIA_VERSION);
+    help_print("", NULL, NULL);
+    for (int i = 0; i < VERBS_COUNT && status == EXIT_SUCCESS; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "%s", verbs[i].name);
+        printf("verb\t%s\t%s\t%s\n", name, verbs[i].arguments, verbs[i].help);
+        char *argv[] = {name, ask, NULL};
+        status = verbs[i].run(2, argv);
+    }
+    help_environment();
+    script_functions_list(script_function_print);
+    return status;
 }
 
 /* Runs the verb and returns its status; *name gets its name. */
@@ -61,6 +88,8 @@ static int verb_run_named(int argc, char **argv, const char **name)
     }
     if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 ||
         strcmp(argv[1], "help") == 0) {
+        if (argc > 2 && strcmp(argv[2], "--table") == 0)
+            return help_table();
         help(stdout);
         return EXIT_SUCCESS;
     }

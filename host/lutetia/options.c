@@ -218,17 +218,3 @@ int options_own(const struct option_row *rows, int argc, char **argv)
     }
     return i < argc ? i : argc;
 }
-
-void options_help(const struct option_row *rows)
-{
-    for (const struct option_row *row = rows; row->name; row++) {
-        char left[64];
-        if (row->letter)
-            snprintf(left, sizeof left, "-%c, --%s %s", row->letter, row->name,
-                     row->value ? row->value : "");
-        else
-            snprintf(left, sizeof left, "--%s %s", row->name, row->value ? row->value : "");
-        printf("  %-26s %s\n", left, row->help);
-    }
-    printf("  %-26s %s\n", "-h, --help", "this text");
-}

@@ -63,7 +63,4 @@ bool options_parse(const char *verb, const struct option_row *rows, int argc, ch
  * line of another program. */
 int options_own(const struct option_row *rows, int argc, char **argv);
 
-/* One line for each option, on the standard output. */
-void options_help(const struct option_row *rows);
-
 #endif

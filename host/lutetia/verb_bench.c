@@ -1,4 +1,5 @@
 /* verb_bench.c - `lutetia bench NAME`: runs the benchmarks, which are a program of their own (bench/lutetia_bench.c). */
+#include "help.h"
 #include "lutetia.h"
 
 #include <program.h>
@@ -15,6 +16,8 @@ int verb_bench(int argc, char **argv)
 {
     (void)argc;
     char path[PATH_MAX];
+    if (help_is_table()) /* the program itself lists its benchmarks */
+        return help_print("bench", NULL, NULL);
     if (!program_find(path, here, LUTETIA_LIBEXECDIR "/lutetia/lutetia-bench",
                       "bench/lutetia-bench"))
         return fail("bench", "the program lutetia-bench is not beside lutetia; install or "

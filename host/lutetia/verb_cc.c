@@ -16,6 +16,7 @@
  * from which it derives the names of other files (dependencies, profiles, ...). If the
  * compiler does not link, or its arguments are in a file, it runs without a part file.
  */
+#include "help.h"
 #include "lutetia.h"
 
 #include <output_file.h>
@@ -285,14 +286,12 @@ static int impossible_refuse(int argc, char **argv)
 
 int verb_cc(int argc, char **argv)
 {
-    if (argc < 2 || any_is(argc, argv, "--help") || any_is(argc, argv, "-h")) {
-        fputs("usage: lutetia cc prog.c... [-o prog] [options of the C compiler]\n\n"
-              "Compiles C/Paris programs and links them with libparis; CC names the compiler "
-              "(cc).\n"
-              "-std=gnu89 is taken unless a -std is given, and -g1 unless a -g is.\n",
-              argc < 2 ? stderr : stdout);
-        return argc < 2 ? EXIT_USAGE : EXIT_SUCCESS;
+    if (argc < 2) {
+        help_usage(stderr, "cc", NULL);
+        return EXIT_USAGE;
     }
+    if (any_is(argc, argv, "--help") || any_is(argc, argv, "-h"))
+        return help_print("cc", NULL, NULL);
     int status = impossible_refuse(argc, argv);
     if (status != EXIT_SUCCESS)
         return status;

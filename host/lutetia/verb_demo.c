@@ -1,5 +1,6 @@
 /* verb_demo.c - `lutetia demo`: paints the demonstration page, with a strip of its stages and a view of its water. */
 #include "demo_page.h"
+#include "help.h"
 #include "lutetia.h"
 #include "options.h"
 #include "sheet_picture.h"
@@ -123,19 +124,15 @@ static int demo_prepare(struct demo *demo)
 int verb_demo(int argc, char **argv)
 {
     struct demo demo = {.dir = "demo"};
-    const struct option_row rows[] = {
-        {"out", 'o', OPTION_TEXT, "DIR", "where the pictures go (demo)", &demo.dir, 0, 0, 0},
-        {0}};
+    const struct option_row rows[] = {{"out", 'o', OPTION_TEXT, "DIR",
+                                       "folder that the pictures are written to (demo)",
+                                       &demo.dir, 0, 0, 0},
+                                      {0}};
     struct option_words words;
     if (!options_parse("demo", rows, argc, argv, &words))
         return EXIT_USAGE;
-    if (words.help) {
-        puts("usage: lutetia demo [options]\n\nPaints the demonstration page: page.png, "
-             "stages.png, "
-             "water.png.\n");
-        options_help(rows);
-        return EXIT_SUCCESS;
-    }
+    if (words.help)
+        return help_print("demo", rows, NULL);
     if (words.count)
         return fail_usage("demo", "there is nothing to do with '%.60s'", words.words[0]);
 

@@ -6,6 +6,7 @@
  * of ours; then they are printed, or moved to their place. A C file is compiled as by
  * `lutetia cc` first, into the same folder.
  */
+#include "help.h"
 #include "lutetia.h"
 #include "options.h"
 
@@ -197,24 +198,17 @@ static int json_check(const char *path)
 int verb_explain(int argc, char **argv)
 {
     struct explain e = {.json = NULL};
-    const struct option_row rows[] = {
-        {"json", 0, OPTION_TEXT, "FILE", "the same as JSON", &e.json, 0, 0, 0}, {0}};
+    const struct option_row rows[] = {{"json", 0, OPTION_TEXT, "FILE",
+                                       "also write the report as JSON there", &e.json, 0, 0, 0},
+                                      {0}};
     struct option_words words;
     int own = options_own(rows, argc, argv);
     if (own < argc && strcmp(argv[own], "--") == 0)
         own++;
     if (!options_parse("explain", rows, own, argv, &words))
         return EXIT_USAGE;
-    if (words.help) {
-        puts("usage: lutetia explain [--json FILE] prog [args...]\n"
-             "       lutetia explain [--json FILE] prog.c [args...]\n\n"
-             "Runs a C/Paris program, and says what its machine recorded, what vanished and "
-             "why, "
-             "where it was cut\nand why, and what each kernel took beside what it could "
-             "have.\n");
-        options_help(rows);
-        return EXIT_SUCCESS;
-    }
+    if (words.help)
+        return help_print("explain", rows, NULL);
     if (own == argc)
         return fail_usage("explain", "no program; `lutetia explain prog` or `lutetia explain "
                                      "prog.c` runs one");

@@ -1,4 +1,5 @@
 /* verb_font.c - `lutetia font FILE`: a specimen of a font, a glyph at each level of the pipeline, and filters. */
+#include "help.h"
 #include "lutetia.h"
 #include "options.h"
 #include "type_common.h"
@@ -21,37 +22,34 @@ static int font_options(struct font_verb *v, int argc, char **argv, bool *help)
 {
     const struct option_row rows[] = {
         {"out", 'o', OPTION_TEXT, "FILE", "the picture, PNG (out.png)", &v->out_path, 0, 0, 0},
-        {"face", 0, OPTION_INTEGER, "N", "of a collection (0)", &v->face, 0, 65535, 0},
-        {"axes", 0, OPTION_TEXT, "A=V,..", "a variable font's axes: wght=700,wdth=80", &v->axes,
-         0, 0, 0},
-        {"text", 0, OPTION_TEXT, "TEXT", "of the specimen's lines", &v->text, 0, 0, 0},
-        {"glyph", 0, OPTION_TEXT, "C", "this one at each level: a character, or U+0041",
-         &v->glyph, 0, 0, 0},
-        {"size", 0, OPTION_NUMBER, "PX", "of its gray level (12.25)", &v->size_px, 0.5, 200, 0},
-        {"em", 0, OPTION_INTEGER, "N", "pixels to its master's em (860)", &v->em_px, 16, 4096,
+        {"face", 0, OPTION_INTEGER, "N", "which face of a collection (0)", &v->face, 0, 65535,
          0},
-        {"master-out", 0, OPTION_TEXT, "FILE", "writes the master, PNG: to be retouched",
-         &v->master_out, 0, 0, 0},
-        {"master", 0, OPTION_TEXT, "FILE", "takes this one, PNG: it has been retouched",
+        {"axes", 0, OPTION_TEXT, "A=V,..",
+         "positions of a variable font's axes: wght=700,wdth=80", &v->axes, 0, 0, 0},
+        {"text", 0, OPTION_TEXT, "TEXT", "text of the specimen's lines", &v->text, 0, 0, 0},
+        {"glyph", 0, OPTION_TEXT, "C", "draw this glyph at each level: a character, or U+0041",
+         &v->glyph, 0, 0, 0},
+        {"size", 0, OPTION_NUMBER, "PX", "size of the glyph in gray (12.25)", &v->size_px, 0.5,
+         200, 0},
+        {"em", 0, OPTION_INTEGER, "N", "pixels to the em of the glyph's master (860)",
+         &v->em_px, 16, 4096, 0},
+        {"master-out", 0, OPTION_TEXT, "FILE",
+         "write the glyph's master as PNG, to be retouched", &v->master_out, 0, 0, 0},
+        {"master", 0, OPTION_TEXT, "FILE", "take this master, a PNG that was retouched",
          &v->master_in, 0, 0, 0},
         {"merge", 0, OPTION_INTEGER, "N",
-         "joins rectangles whose sides differ by up to N pixels", &v->merge, 1, 4096, 0},
-        {"filter", 0, OPTION_TEXT, "F", "its name, as for type (gaussian-fast)", &v->filter, 0,
-         0, 0},
-        {"show-filter", 0, OPTION_FLAG, NULL, "the filter itself: its plot and what is known",
-         &v->show_filter, 0, 0, 0},
+         "join rectangles whose sides differ by up to N pixels", &v->merge, 1, 4096, 0},
+        {"filter", 0, OPTION_TEXT, "F", "the filter's name (gaussian-fast)", &v->filter, 0, 0,
+         0},
+        {"show-filter", 0, OPTION_FLAG, NULL,
+         "draw the filter itself: its plot and what is known of it", &v->show_filter, 0, 0, 0},
         {0}};
     struct option_words words;
     if (!options_parse("font", rows, argc, argv, &words))
         return EXIT_USAGE;
     *help = words.help;
-    if (words.help) {
-        puts("usage: lutetia font FILE [options]           a specimen\n"
-             "       lutetia font FILE --glyph C [options] outline, master, rectangles, gray\n"
-             "       lutetia font --show-filter [--filter F] [-o FILE]\n");
-        options_help(rows);
-        return EXIT_SUCCESS;
-    }
+    if (words.help)
+        return help_print("font", rows, NULL);
     if (words.count > 1)
         return fail_usage("font", "there is one font (then came '%.60s')", words.words[1]);
     v->file = words.count ? words.words[0] : NULL;

@@ -1,4 +1,5 @@
 /* verb_info.c - `lutetia info`: lists devices, fonts and caches. */
+#include "help.h"
 #include "lutetia.h"
 #include "options.h"
 
@@ -41,20 +42,24 @@ static void fields_print(int width, int height)
 int verb_info(int argc, char **argv)
 {
     int size[2] = {1024, 1024};
-    const struct option_row rows[] = {{"paper", 0, OPTION_SIZE, "WxH",
-                                       "whose fibers to describe (1024x1024)", size,
-                                       PAPER_SIDE_MIN, PAPER_SIDE_MAX, 0},
-                                      {0}};
+    bool variables = false;
+    const struct option_row rows[] = {
+        {"paper", 0, OPTION_SIZE, "WxH", "whose fibers to describe (1024x1024)", size,
+         PAPER_SIDE_MIN, PAPER_SIDE_MAX, 0},
+        {"variables", 0, OPTION_FLAG, NULL, "list the variables of the environment that count",
+         &variables, 0, 0, 0},
+        {0}};
     struct option_words words;
     if (!options_parse("info", rows, argc, argv, &words))
         return EXIT_USAGE;
-    if (words.help) {
-        puts("usage: lutetia info [options]\n");
-        options_help(rows);
-        return EXIT_SUCCESS;
-    }
+    if (words.help)
+        return help_print("info", rows, NULL);
     if (words.count)
         return fail_usage("info", "there is nothing to say about '%.60s'", words.words[0]);
+    if (variables) {
+        help_environment();
+        return EXIT_SUCCESS;
+    }
 
     puts("lutetia " LUTETIA_VERSION);
     puts("OpenCL devices:");

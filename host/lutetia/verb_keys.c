@@ -1,4 +1,5 @@
 /* verb_keys.c - `lutetia keys`: letters that the keys of a song play, as a sheet of moments, a line, frames or a film. */
+#include "help.h"
 #include "keys_live.h"
 #include "lutetia.h"
 #include "options.h"
@@ -87,19 +88,6 @@ static int options_check(struct keys_work *w, const struct option_words *words,
     return EXIT_SUCCESS;
 }
 
-static void usage(const struct option_row *rows)
-{
-    puts("usage: lutetia keys [options]\n"
-         "       lutetia keys SONG.mid [options]\n");
-    options_help(rows);
-    puts("\nA key is a letter, its velocity and aftertouch how large it is, its release how "
-         "it goes. Without a song there\nis a window, where what the MIDI server hears plays "
-         "(`lutetia midi serve`), and where there is none the\ncomputer's own keyboard. "
-         "SONG.mid is a Standard MIDI File; `lutetia midi record` makes one of what is "
-         "played.\nA --map that ends in .lua is a script that turns any message into any "
-         "control.");
-}
-
 static int options_read(struct keys_work *w, int argc, char **argv, const char **song,
                         bool *help)
 {
@@ -108,55 +96,62 @@ static int options_read(struct keys_work *w, int argc, char **argv, const char *
          "its letters go to the keys played, from the lowest (note names)", &w->text, 0, 0, 0},
         {"map", 0, OPTION_TEXT, "FILE",
          "what a key plays: lines like 'c4 A'; or a script, .lua", &w->map, 0, 0, 0},
-        {"param", 0, OPTION_TEXTS, "KEY=VALUE", "for the map's param()", &w->live.params, 0, 0,
-         0},
-        {"set", 's', OPTION_TEXTS, "NAME=VALUE", "a control, in a window and through a map",
-         &w->sets, 0, 0, 0},
+        {"param", 0, OPTION_TEXTS, "KEY=VALUE",
+         "a parameter of the --map's script; as often as wanted", &w->live.params, 0, 0, 0},
+        {"set", 's', OPTION_TEXTS, "NAME=VALUE",
+         "a control and its value, in a window and through a map; as often as wanted", &w->sets,
+         0, 0, 0},
         {"range", 0, OPTION_TEXT, "C3-C5", "the keys that have places in a window (c3-c5)",
          &w->range_text, 0, 0, 0},
         {"server", 0, OPTION_TEXT, "ADDRESS", "a MIDI server's socket (the user's own)",
          &w->live.server, 0, 0, 0},
-        {"device", 0, OPTION_TEXT, "NAME", "one of the server's devices (all)", &w->live.device,
-         0, 0, 0},
+        {"device", 0, OPTION_TEXT, "NAME", "the server's device that is heard (all)",
+         &w->live.device, 0, 0, 0},
         {"filter", 0, OPTION_TEXT, "WORDS",
-         "what is heard of it: channels=1, transpose=12, ...", &w->live.filters, 0, 0, 0},
+         "filters of what is heard: channels=1, transpose=12, ...", &w->live.filters, 0, 0, 0},
         {"wet", 0, OPTION_FLAG, NULL, "print the letters on wet paper, in ink", &w->wet, 0, 0,
          0},
-        {"stock", 0, OPTION_TEXT, "NAME", "the paper (cold press)", &w->stock, 0, 0, 0},
+        {"stock", 0, OPTION_TEXT, "NAME", "the kind of paper, with --wet (cold press)",
+         &w->stock, 0, 0, 0},
         {"pigment", 0, OPTION_TEXTS, "NAME",
-         "of the ink; of several a map chooses (french ultramarine, ...)", &w->pigments, 0, 0,
-         0},
-        {"theme", 0, OPTION_TEXT, "light|dark|FILE", "colours of a window", &w->theme, 0, 0, 0},
+         "a pigment of the ink, with --wet; of several a map chooses (french ultramarine, ...)",
+         &w->pigments, 0, 0, 0},
+        {"theme", 0, OPTION_TEXT, "light|dark|FILE", "colours of a window: a name, or a file",
+         &w->theme, 0, 0, 0},
         {"poster", 'o', OPTION_TEXT, "FILE", "one line along which time runs, PNG (out.png)",
          &w->poster, 0, 0, 0},
-        {"sheet", 0, OPTION_TEXT, "FILE", "twenty moments, PNG", &w->sheet, 0, 0, 0},
+        {"sheet", 0, OPTION_TEXT, "FILE", "twenty moments of it, PNG", &w->sheet, 0, 0, 0},
         {"still", 0, OPTION_TEXT, "FILE", "the moment --at, PNG", &w->still, 0, 0, 0},
-        {"at", 0, OPTION_NUMBER, "S", "of --still (0)", &w->at_s, 0, 36000, 0},
-        {"frames", 0, OPTION_TEXT, "DIR", "all moments, as numbered PNG", &w->frames, 0, 0, 0},
+        {"at", 0, OPTION_NUMBER, "S", "the moment of --still (0)", &w->at_s, 0, 36000, 0},
+        {"frames", 0, OPTION_TEXT, "DIR", "all moments as numbered pictures in this folder",
+         &w->frames, 0, 0, 0},
         {"video", 0, OPTION_TEXT, "FILE", "a film with its sound in it (.mp4, .webm, ...)",
          &w->video, 0, 0, 0},
-        {"silent", 0, OPTION_FLAG, NULL, "no sound in the film", &w->silent, 0, 0, 0},
-        {"sound", 0, OPTION_TEXT, "FILE.wav", "the song as sound, as long as the film",
+        {"silent", 0, OPTION_FLAG, NULL, "the film has no sound", &w->silent, 0, 0, 0},
+        {"sound", 0, OPTION_TEXT, "FILE.wav", "write the song as sound, as long as the film",
          &w->sound, 0, 0, 0},
-        {"fps", 0, OPTION_INTEGER, "N", "frames a second (30)", &w->fps, 1, 240, 0},
-        {"picture", 0, OPTION_SIZE, "WxH", "of a moment or a window, even (960x360)",
+        {"fps", 0, OPTION_INTEGER, "N", "frames a second of the film (30)", &w->fps, 1, 240, 0},
+        {"picture", 0, OPTION_SIZE, "WxH", "size of a moment or a window, even (960x360)",
          w->picture, 2, 8192, 0},
         {"font", 0, OPTION_TEXT, "F",
-         "a font file, its name, or a family (EBGaramond12-Regular)", &w->font, 0, 0, 0},
-        {"axes", 0, OPTION_TEXT, "A=V,..", "a variable font's axes: wght=700", &w->axes, 0, 0,
-         0},
-        {"size", 0, OPTION_NUMBERS, "PX,PX", "least and most, of the em (0, and as fits)",
+         "the font: a file, the name of one, or a family (EBGaramond12-Regular)", &w->font, 0,
+         0, 0},
+        {"axes", 0, OPTION_TEXT, "A=V,..", "positions of a variable font's axes: wght=700",
+         &w->axes, 0, 0, 0},
+        {"size", 0, OPTION_NUMBERS, "PX,PX", "least and most size of the em (0, and as fits)",
          w->size_px, 0, 4000, 2},
         {"second", 0, OPTION_NUMBER, "PX", "length of a second on the poster (160)",
          &w->second_px, 10, 20000, 0},
-        {"step", 0, OPTION_NUMBER, "PX", "from key to key on the poster, upwards (12)",
+        {"step", 0, OPTION_NUMBER, "PX", "distance from key to key on the poster, upwards (12)",
          &w->type.step_px, 0, 1000, 0},
-        {"attack", 0, OPTION_NUMBER, "S", "until a letter is as large as its velocity (0.03)",
-         &w->def.attack_s, 0, 10, 0},
-        {"release", 0, OPTION_NUMBER, "S", "until it is a third, once let go (0.25)",
+        {"attack", 0, OPTION_NUMBER, "S",
+         "time until a letter is as large as its velocity says (0.03)", &w->def.attack_s, 0, 10,
+         0},
+        {"release", 0, OPTION_NUMBER, "S",
+         "time until a letter is a third of it, once the key is let go (0.25)",
          &w->def.release_s, 0, 60, 0},
-        {"pressure", 0, OPTION_NUMBER, "P", "what aftertouch adds, 0..1 (1)", &w->def.pressure,
-         0, 1, 0},
+        {"pressure", 0, OPTION_NUMBER, "P", "how much aftertouch adds, 0..1 (1)",
+         &w->def.pressure, 0, 1, 0},
         {0}};
     struct option_words words;
     if (!options_parse("keys", rows, argc, argv, &words))
@@ -164,8 +159,7 @@ static int options_read(struct keys_work *w, int argc, char **argv, const char *
     *help = words.help;
     if (!words.help)
         return options_check(w, &words, song);
-    usage(rows);
-    return EXIT_SUCCESS;
+    return help_print("keys", rows, NULL);
 }
 
 /* ---- what is played ---- */

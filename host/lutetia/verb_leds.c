@@ -12,6 +12,7 @@
  * standard output then says that the window is ready, and closing the window interrupts that
  * process.
  */
+#include "help.h"
 #include "leds_window.h"
 #include "lutetia.h"
 #include "options.h"
@@ -463,19 +464,6 @@ static int leds_run(struct leds *leds, int argc, char **argv)
     return picture_write(leds, leds->out_path ? leds->out_path : "leds.png");
 }
 
-static const char usage[] =
-    "usage: lutetia leds [options] prog [arguments]\n"
-    "       lutetia leds [options] recording (- is the standard input)\n"
-    "       lutetia leds [options] --pattern random\n\n"
-    "Runs a C/Paris program and shows the machine's lights as CM_latch_leds sets "
-    "them, in a\n"
-    "window or in PNG pictures. Closing the window, or Esc in it, stops the program. "
-    "A\n"
-    "recording stops and goes on with Space, steps with a full stop, slows with - and\n"
-    "quickens with =.\n"
-    "LUTETIA_LEDS=window ./prog shows them, too; LUTETIA_LEDS=FILE ./prog leaves a "
-    "recording.\n";
-
 /* Checks the options together. 0: they can be combined; else the exit status. */
 static int words_check(const struct leds *leds, int argc, char **argv)
 {
@@ -501,41 +489,42 @@ int verb_leds(int argc, char **argv)
     struct leds leds = {.view = "cube", .size = {960, 960}, .every = 1, .brightness = 1};
     const struct option_row rows[] = {
         {"window", 0, OPTION_FLAG, NULL,
-         "show them as they change (so it is where there is a display, without -o and "
-         "--frames)",
+         "show the lights as they change; without -o and --frames it is so where there is a "
+         "display",
          &leds.window_wanted, 0, 0, 0},
         {"close", 0, OPTION_FLAG, NULL, "the window closes when the program has ended",
          &leds.close_at_end, 0, 0, 0},
         {"out", 'o', OPTION_TEXT, "FILE",
          "the picture of the last lights (leds.png, where no window shows them)",
          &leds.out_path, 0, 0, 0},
-        {"frames", 0, OPTION_TEXT, "DIR", "write a picture for each latch there",
-         &leds.frames_dir, 0, 0, 0},
-        {"every", 0, OPTION_INTEGER, "N", "only for each Nth (1)", &leds.every, 1, 1e9, 0},
+        {"frames", 0, OPTION_TEXT, "DIR",
+         "write a numbered picture for each latch into this folder", &leds.frames_dir, 0, 0, 0},
+        {"every", 0, OPTION_INTEGER, "N", "write only each Nth latch (1)", &leds.every, 1, 1e9,
+         0},
         {"fps", 0, OPTION_NUMBER, "F",
-         "instead: as many for each second that the program ran; in a window at most (30)",
+         "instead, write so many for each second that the program ran; in a window the most a "
+         "second (30)",
          &leds.fps, 0.001, 1000, 0},
-        {"size", 0, OPTION_SIZE, "WxH", "of a picture (960x960)", leds.size,
+        {"size", 0, OPTION_SIZE, "WxH", "size of a picture (960x960)", leds.size,
          FRONT_PANEL_SIDE_MIN, FRONT_PANEL_SIDE_MAX, 0},
-        {"view", 0, OPTION_TEXT, "VIEW", "cube, front (its four doors) or door (the first)",
+        {"view", 0, OPTION_TEXT, "VIEW",
+         "what is seen: cube, front (its four doors), or door, the first of them (cube)",
          &leds.view, 0, 0, 0},
-        {"brightness", 0, OPTION_NUMBER, "B", "of the lights, 0..10 (1)", &leds.brightness, 0,
-         10, 0},
+        {"brightness", 0, OPTION_NUMBER, "B", "brightness of the lights, 0..10 (1)",
+         &leds.brightness, 0, 10, 0},
         {"pattern", 0, OPTION_TEXT, "NAME",
-         "no program: the machine's own: random, noise or on", &leds.pattern, 0, 0, 0},
+         "the machine's own pattern instead of a program: random, noise or on", &leds.pattern,
+         0, 0, 0},
         {"count", 0, OPTION_INTEGER, "N",
-         "steps of the pattern, --fps a second in a window (64; there 10, until it is closed)",
+         "steps of the pattern, in a window --fps a second (64; there until it is closed)",
          &leds.count, 1, 1e6, 0},
         {0}};
     int own = options_own(rows, argc, argv);
     struct option_words words;
     if (!options_parse("leds", rows, own, argv, &words))
         return EXIT_USAGE;
-    if (words.help) {
-        puts(usage);
-        options_help(rows);
-        return EXIT_SUCCESS;
-    }
+    if (words.help)
+        return help_print("leds", rows, NULL);
     argc -= own;
     argv += own;
     if (argc > 0 && strcmp(argv[0], "--") == 0) {

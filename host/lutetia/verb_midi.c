@@ -1,4 +1,5 @@
 /* verb_midi.c - `lutetia midi`: the server of instruments, and small programs that use it. */
+#include "help.h"
 #include "lutetia.h"
 #include "options.h"
 
@@ -425,17 +426,13 @@ static const struct {
 
 enum { VERBS_COUNT = sizeof verbs / sizeof *verbs };
 
-static void midi_help(FILE *out, const struct option_row *rows)
+/* The table, as the help has it. */
+static const struct help_command *commands(void)
 {
-    fputs("usage: lutetia midi VERB ...\n\n", out);
-    for (int i = 0; i < VERBS_COUNT; i++) {
-        char left[64];
-        snprintf(left, sizeof left, "%s %s", verbs[i].name, verbs[i].arguments);
-        fprintf(out, "  %-34s %s\n", left, verbs[i].help);
-    }
-    fputc('\n', out);
-    if (out == stdout)
-        options_help(rows);
+    static struct help_command out[VERBS_COUNT + 1];
+    for (int i = 0; i < VERBS_COUNT; i++)
+        out[i] = (struct help_command){verbs[i].name, verbs[i].arguments, verbs[i].help};
+    return out;
 }
 
 int verb_midi(int argc, char **argv)
@@ -444,38 +441,39 @@ int verb_midi(int argc, char **argv)
     struct midi_verb v = {.name = "midi"};
     const struct option_row rows[] = {
         {"server", 's', OPTION_TEXT, "ADDRESS",
-         "the server's socket, or 127.0.0.1:PORT; else this user's", &v.address, 0, 0, 0},
+         "the server's socket, or 127.0.0.1:PORT (this user's socket)", &v.address, 0, 0, 0},
         {"device", 'd', OPTION_TEXT, "NAME",
-         "monitor, record: of this one alone; send, play: to this one", &v.device, 0, 0, 0},
+         "monitor, record: only what comes from this device; send, play: to which device",
+         &v.device, 0, 0, 0},
         {"filter", 'f', OPTION_TEXT, "FILTERS",
-         "monitor, record: like 'drop=clock channels=1-4 thin=20'", &v.filters, 0, 0, 0},
+         "monitor, record: filters of what arrives, as 'drop=clock channels=1-4'", &v.filters,
+         0, 0, 0},
         {"count", 'n', OPTION_INTEGER, "N", "monitor, record: end after so many messages",
          &v.count, 1, 1e9, 0},
         {"seconds", 't', OPTION_NUMBER, "S",
          "monitor, record, play, render: end after so long; send: hold notes so long",
          &v.seconds, 0.001, 1e7, 0},
         {"tcp", 0, OPTION_INTEGER, "PORT",
-         "serve: listen at 127.0.0.1:PORT, too, for who knows LUTETIA_MIDI_TOKEN", &v.tcp_port,
+         "serve: also listen at 127.0.0.1:PORT, for who knows LUTETIA_MIDI_TOKEN", &v.tcp_port,
          1, 65535, 0},
         {"usual-priority", 0, OPTION_FLAG, NULL,
-         "serve: not in real time, even where that is allowed", &v.usual_priority, 0, 0, 0},
+         "serve: do not run in real time, even where that is allowed", &v.usual_priority, 0, 0,
+         0},
         {"may-sleep", 0, OPTION_FLAG, NULL,
-         "serve: processors may sleep between messages, even where they can be kept awake",
+         "serve: let processors sleep between messages, even where they can be kept awake",
          &v.may_sleep, 0, 0, 0},
-        {"output", 'o', OPTION_TEXT, "FILE.wav", "render: what is written (out.wav)", &v.output,
-         0, 0, 0},
+        {"output", 'o', OPTION_TEXT, "FILE.wav", "render: the file that is written (out.wav)",
+         &v.output, 0, 0, 0},
         {"soundfont", 0, OPTION_TEXT, "FILE",
-         "render: the instruments; else LUTETIA_SOUNDFONT, or the distribution's", &v.font, 0,
-         0, 0},
+         "render: the instruments, an SF2 file (LUTETIA_SOUNDFONT, or the distribution's)",
+         &v.font, 0, 0, 0},
         {0}};
     if (argc < 2) {
-        midi_help(stderr, rows);
+        help_usage(stderr, "midi", commands());
         return EXIT_USAGE;
     }
-    if (!strcmp(argv[1], "--help") || !strcmp(argv[1], "-h")) {
-        midi_help(stdout, rows);
-        return EXIT_SUCCESS;
-    }
+    if (!strcmp(argv[1], "--help") || !strcmp(argv[1], "-h"))
+        return help_print("midi", rows, commands());
     int i = 0;
     while (i < VERBS_COUNT && strcmp(verbs[i].name, argv[1]) != 0)
         i++;
@@ -488,9 +486,7 @@ int verb_midi(int argc, char **argv)
     v.name = name;
     if (!options_parse(name, rows, argc - 1, argv + 1, &v.words))
         return EXIT_USAGE;
-    if (v.words.help) {
-        midi_help(stdout, rows);
-        return EXIT_SUCCESS;
-    }
+    if (v.words.help)
+        return help_print("midi", rows, commands());
     return verbs[i].run(&v);
 }

@@ -1,5 +1,6 @@
 /* verb_paint.c - `lutetia paint`: type or a bitmap in ink on wet paper. */
 #include "verb_paint.h"
+#include "help.h"
 
 #include <display.h>
 #include <face.h>
@@ -136,68 +137,76 @@ static int paint_options(struct paint *paint, int argc, char **argv, bool *help)
     const struct option_row rows[] = {
         {"out", 'o', OPTION_TEXT, "FILE", "the picture, PNG (out.png)", &paint->out_path, 0, 0,
          0},
-        {"font", 0, OPTION_TEXT, "F", "a font file, or a font file's name", &paint->font, 0, 0,
-         0},
-        {"size", 0, OPTION_NUMBER, "PX", "of the em (so that the line fills the paper)",
+        {"font", 0, OPTION_TEXT, "F",
+         "the font: a file, the name of one, or a family (EBGaramond12-Regular)", &paint->font,
+         0, 0, 0},
+        {"size", 0, OPTION_NUMBER, "PX", "size of the em (so that the line fills the paper)",
          &paint->size_px, 1, 8192, 0},
-        {"filter", 0, OPTION_TEXT, "F", "of the type, as lutetia type has them (box)",
-         &paint->filter, 0, 0, 0},
+        {"filter", 0, OPTION_TEXT, "F", "filter of the type (box)", &paint->filter, 0, 0, 0},
         {"angle", 0, OPTION_NUMBER, "DEG", "turns the type counterclockwise (0)",
          &paint->angle_deg, -3600, 3600, 0},
-        {"model", 0, OPTION_TEXT, "MODEL", "full or thesis (full)", &paint->model, 0, 0, 0},
-        {"stock", 0, OPTION_TEXT, "NAME", "full: the paper's kind (cold press)", &paint->stock,
+        {"model", 0, OPTION_TEXT, "MODEL", "the model of paper, full or thesis (full)",
+         &paint->model, 0, 0, 0},
+        {"stock", 0, OPTION_TEXT, "NAME", "full: the kind of paper (cold press)", &paint->stock,
          0, 0, 0},
-        {"deckle", 0, OPTION_FLAG, NULL, "full: the edges of handmade paper, on a ground",
-         &paint->deckled, 0, 0, 0},
-        {"ground", 0, OPTION_NUMBERS, "R,G,B", "its colour, 0..1", paint->ground, 0, 1, 3},
+        {"deckle", 0, OPTION_FLAG, NULL,
+         "full: give the sheet the edges of handmade paper, on a ground", &paint->deckled, 0, 0,
+         0},
+        {"ground", 0, OPTION_NUMBERS, "R,G,B", "full: colour of the ground, each 0..1",
+         paint->ground, 0, 1, 3},
         {"pigment", 0, OPTION_TEXTS, "NAME=A",
-         "full: of the type, -4..4; any number (french ultramarine=1.2)", &paint->pigments, 0,
-         0, 0},
-        {"ink", 0, OPTION_NUMBERS, "C,M,Y", "or cyan, magenta, yellow of the type, 0..1",
-         paint->ink, 0, 1, 3},
+         "full: a pigment of the type and how much, -4..4; as often as wanted (french "
+         "ultramarine=1.2)",
+         &paint->pigments, 0, 0, 0},
+        {"ink", 0, OPTION_NUMBERS, "C,M,Y",
+         "cyan, magenta and yellow of the type, each 0..1; instead of pigments", paint->ink, 0,
+         1, 3},
         {"water", 0, OPTION_NUMBER, "W",
          "water put on with the type, 0..1 (full 0.75; thesis 0.8)", &paint->water, 0, 1, 0},
         {"wet", 0, OPTION_NUMBER, "W",
          "water on the whole sheet before, 0..1 (full 0; thesis 0.25)", &paint->wet, 0, 1, 0},
         {"pool", 0, OPTION_LIST, "X,Y,W,H,A",
-         "water of amount A/100 in a rectangle; any number", &paint->pools, -side, side, 5},
-        {"image", 0, OPTION_TEXT, "FILE", "screen a gray PNG instead of type: black is ink",
+         "puts water of amount A/100 into a rectangle; as often as wanted", &paint->pools,
+         -side, side, 5},
+        {"image", 0, OPTION_TEXT, "FILE", "screen a gray PNG instead of type; black is ink",
          &paint->image_path, 0, 0, 0},
-        {"paper", 0, OPTION_SIZE, "WxH", "fibers (1024x640)", paint->size, PAPER_SIDE_MIN, side,
-         0},
-        {"absorbency", 0, OPTION_NUMBER, "A", "thesis: of the paper, 0..0.25 (0.18)",
+        {"paper", 0, OPTION_SIZE, "WxH", "fibers of the sheet (1024x640)", paint->size,
+         PAPER_SIDE_MIN, side, 0},
+        {"absorbency", 0, OPTION_NUMBER, "A", "thesis: absorbency of the paper, 0..0.25 (0.18)",
          &paint->absorbency, 0, PAPER_ABSORBENCY_MAX, 0},
-        {"steps", 0, OPTION_INTEGER, "N", "cycles (full 400; thesis 200)", &paint->steps, 0,
-         1e6, 0},
+        {"steps", 0, OPTION_INTEGER, "N", "cycles to compute (full 400; thesis 200)",
+         &paint->steps, 0, 1e6, 0},
         {"gravity", 0, OPTION_NUMBER, "G",
-         "downwards: full -1..1 (0); thesis 0.5..2, 1 is none", &paint->gravity, -1, pull, 0},
-        {"gravity-x", 0, OPTION_NUMBER, "G", "to the right, as gravity", &paint->gravity_x, -1,
+         "pull downwards: full -1..1 (0); thesis 0.5..2, where 1 is none", &paint->gravity, -1,
          pull, 0},
+        {"gravity-x", 0, OPTION_NUMBER, "G", "pull to the right, as --gravity",
+         &paint->gravity_x, -1, pull, 0},
         {"humidity", 0, OPTION_NUMBER, "H",
          "water that dries in a cycle, 0..1 (full the air's; thesis 0.0004)", &paint->humidity,
          0, 1, 0},
         {"weights", 0, OPTION_NUMBERS, "C,M,Y",
          "thesis: how easily pigments move, 0..1 (1,0.35,0.7)", paint->weights, 0, 1, 3},
-        {"seed", 0, OPTION_INTEGER, "S", "of the paper (1990)", &paint->seed, 0, 2147483647, 0},
-        {"light", 0, OPTION_NUMBER, "L", "full: on the paper's relief, 0..4 (1.2)",
-         &paint->light, 0, 4, 0},
-        {"view", 0, OPTION_TEXT, "VIEW", "color, water, or full: wet, with light on the water",
+        {"seed", 0, OPTION_INTEGER, "S",
+         "seed of the paper: another number, another sheet (1990)", &paint->seed, 0, 2147483647,
+         0},
+        {"light", 0, OPTION_NUMBER, "L",
+         "full: strength of the light on the paper's relief, 0..4 (1.2)", &paint->light, 0, 4,
+         0},
+        {"view", 0, OPTION_TEXT, "VIEW",
+         "what is seen: color, water, or (full) wet, with light on the water (color)",
          &paint->view, 0, 0, 0},
-        {"frames", 0, OPTION_TEXT, "DIR", "write pictures on the way there", &paint->frames_dir,
-         0, 0, 0},
-        {"every", 0, OPTION_INTEGER, "N", "cycles from one of them to the next (10)",
-         &paint->every, 1, 1e6, 0},
+        {"frames", 0, OPTION_TEXT, "DIR",
+         "also write numbered pictures into this folder while it dries", &paint->frames_dir, 0,
+         0, 0},
+        {"every", 0, OPTION_INTEGER, "N",
+         "cycles from one picture of --frames to the next (10)", &paint->every, 1, 1e6, 0},
         {0}};
     struct option_words words;
     if (!options_parse("paint", rows, argc, argv, &words))
         return EXIT_USAGE;
     *help = words.help;
-    if (words.help) {
-        puts("usage: lutetia paint \"Text\" [options]\n       lutetia paint --image FILE "
-             "[options]\n");
-        options_help(rows);
-        return EXIT_SUCCESS;
-    }
+    if (words.help)
+        return help_print("paint", rows, NULL);
     return words_take(paint, &words);
 }
 

@@ -1,4 +1,5 @@
 /* verb_run.c - `lutetia run script.lua`: a script of papers, once or for each value of a sweep. */
+#include "help.h"
 #include "lutetia.h"
 #include "options.h"
 #include "run.h"
@@ -23,48 +24,43 @@ struct options {
 static int options_read(struct options *o, int argc, char **argv, struct option_words *words)
 {
     const struct option_row rows[] = {
-        {"out", 'o', OPTION_TEXT, "DIR", "where pictures go (.)", &o->out, 0, 0, 0},
-        {"in", 0, OPTION_TEXT, "DIR", "where pictures come from (the script's folder)", &o->in,
-         0, 0, 0},
-        {"seed", 0, OPTION_INTEGER, "S", "of papers and of math.random (1990)", &o->seed, 0,
-         2147483647, 0},
+        {"out", 'o', OPTION_TEXT, "DIR", "folder that pictures and papers are written to (.)",
+         &o->out, 0, 0, 0},
+        {"in", 0, OPTION_TEXT, "DIR",
+         "folder that pictures are read from (the script's folder)", &o->in, 0, 0, 0},
+        {"seed", 0, OPTION_INTEGER, "S", "seed of papers and of math.random (1990)", &o->seed,
+         0, 2147483647, 0},
         {"sweep", 0, OPTION_TEXT, "KEY=LIST",
-         "run once for each value: a,b,c or 1..5; several, after ';'; each in a folder of its "
-         "own",
-         &o->sweep, 0, 0, 0},
+         "run once for each value of a parameter, each in a folder of its own", &o->sweep, 0, 0,
+         0},
         {"jobs", 'j', OPTION_INTEGER, "N", "runs of a sweep at a time (1)", &o->jobs, 1,
          JOBS_MOST, 0},
         {"save", 0, OPTION_TEXT, "FILE",
-         "save all papers with what was done to them at the end", &o->save, 0, 0, 0},
+         "save all papers, with what was done to them, at the end", &o->save, 0, 0, 0},
         {"resume", 0, OPTION_TEXT, "FILE", "go on where a run was saved", &o->resume, 0, 0, 0},
         {"video", 0, OPTION_TEXT, "FILE", "film the first paper: .mp4 (with ffmpeg), .y4m",
          &o->video, 0, 0, 0},
         {"frames", 0, OPTION_TEXT, "DIR",
-         "the same as pictures of 16 bits: colour, water, masking fluid", &o->frames, 0, 0, 0},
-        {"fps", 0, OPTION_INTEGER, "N", "frames in a second of the film (30)", &o->fps, 1, 240,
-         0},
+         "film the first paper as numbered pictures of 16 bits: colour, water, masking fluid",
+         &o->frames, 0, 0, 0},
+        {"fps", 0, OPTION_INTEGER, "N", "frames a second of the film (30)", &o->fps, 1, 240, 0},
         {"every", 0, OPTION_INTEGER, "N", "steps from frame to frame (4)", &o->every, 1,
          1000000, 0},
-        {"camera", 0, OPTION_NUMBERS, "X,Y,W,H", "what the film shows, in fibers (all)",
-         &o->camera, 0, 16384, 4},
+        {"camera", 0, OPTION_NUMBERS, "X,Y,W,H",
+         "the part of the paper that the film shows, in fibers (all)", &o->camera, 0, 16384, 4},
         {"timeout", 0, OPTION_NUMBER, "S", "seconds that a run may take; 0: any (600)",
          &o->timeout_s, 0, 1e6, 0},
-        {"memory", 0, OPTION_INTEGER, "MB", "that papers, masks and Lua may take (4096)",
-         &o->memory_mb, 1, 1 << 20, 0},
-        {"quiet", 'q', OPTION_FLAG, "", "no progress line", &o->quiet, 0, 0, 0},
-        {"trust", 0, OPTION_FLAG, "", "no sandbox: files, processes, all of Lua's library",
-         &o->trusted, 0, 0, 0},
+        {"memory", 0, OPTION_INTEGER, "MB",
+         "megabytes that papers, masks and Lua may take (4096)", &o->memory_mb, 1, 1 << 20, 0},
+        {"quiet", 'q', OPTION_FLAG, "", "show no progress line", &o->quiet, 0, 0, 0},
+        {"trust", 0, OPTION_FLAG, "",
+         "run without the sandbox: files, processes, all of Lua's library", &o->trusted, 0, 0,
+         0},
         {0}};
     if (!options_parse("run", rows, argc, argv, words))
         return EXIT_USAGE;
-    if (words->help) {
-        puts("usage: lutetia run SCRIPT.lua [key=value...] [options]\n");
-        options_help(rows);
-        puts("\nA script reads key=value by param(\"key\", default). docs/scripts.md says what "
-             "it can "
-             "do.");
-        return EXIT_SUCCESS;
-    }
+    if (words->help)
+        return help_print("run", rows, NULL);
     if (words->count < 1)
         return fail_usage("run", "name a script: lutetia run SCRIPT.lua [key=value...]");
     for (int i = 1; i < words->count; i++)

@@ -1,4 +1,5 @@
 /* verb_set.c - `lutetia set`: a text as pages: columns, notes, words divided, text around and inside shapes, vertical lines. */
+#include "help.h"
 #include "lutetia.h"
 #include "options.h"
 #include "type_common.h"
@@ -32,40 +33,41 @@ static int set_options(struct set *s, int argc, char **argv, const char **path, 
     const struct option_row rows[] = {
         {"out", 'o', OPTION_TEXT, "FILE", "the picture: .png, .svg or .pdf (page.png)",
          &s->out_path, 0, 0, 0},
-        {"page", 0, OPTION_INTEGER, "N", "which page (1)", &s->page, 1, 99999, 0},
-        {"all", 0, OPTION_FLAG, NULL, "all pages: page-1.png, page-2.png, ..", &s->all, 0, 0,
+        {"page", 0, OPTION_INTEGER, "N", "which page is drawn (1)", &s->page, 1, 99999, 0},
+        {"all", 0, OPTION_FLAG, NULL, "draw all pages: page-1.png, page-2.png, ..", &s->all, 0,
+         0, 0},
+        {"font", 0, OPTION_TEXT, "F",
+         "the font: a file, the name of one, or a family (DejaVuSerif)", &s->font, 0, 0, 0},
+        {"italic", 0, OPTION_TEXT, "F", "font of *slanted* words (the family's)", &s->italic, 0,
+         0, 0},
+        {"bold", 0, OPTION_TEXT, "F", "font of **bold** words (the family's)", &s->bold, 0, 0,
          0},
-        {"font", 0, OPTION_TEXT, "F", "a font file, its name, or a family (DejaVuSerif)",
-         &s->font, 0, 0, 0},
-        {"italic", 0, OPTION_TEXT, "F", "of *slanted* words (the family's)", &s->italic, 0, 0,
-         0},
-        {"bold", 0, OPTION_TEXT, "F", "of **bold** words (the family's)", &s->bold, 0, 0, 0},
-        {"size", 0, OPTION_NUMBER, "PX", "of the em (16)", &s->size_px, 1, 1000, 0},
-        {"leading", 0, OPTION_NUMBER, "L", "from line to line, of the size (the font's)",
+        {"size", 0, OPTION_NUMBER, "PX", "size of the em (16)", &s->size_px, 1, 1000, 0},
+        {"leading", 0, OPTION_NUMBER, "L", "distance of lines, of the size (the font's)",
          &s->leading, 0.1, 10, 0},
-        {"paper", 0, OPTION_SIZE, "WxH", "the page's pixels (600x840)", s->page_px, 16, 16384,
+        {"paper", 0, OPTION_SIZE, "WxH", "size of the page (600x840)", s->page_px, 16, 16384,
          0},
-        {"margin", 0, OPTION_NUMBER, "PX", "around the page's text (60)", &s->margin_px, 0,
-         8000, 0},
-        {"columns", 0, OPTION_INTEGER, "N", "side by side (1)", &s->columns, 1, PAGE_FRAMES_MAX,
-         0},
-        {"gap", 0, OPTION_NUMBER, "PX", "between columns (24)", &s->gap_px, 0, 8000, 0},
+        {"margin", 0, OPTION_NUMBER, "PX", "margin around the page's text (60)", &s->margin_px,
+         0, 8000, 0},
+        {"columns", 0, OPTION_INTEGER, "N", "number of columns (1)", &s->columns, 1,
+         PAGE_FRAMES_MAX, 0},
+        {"gap", 0, OPTION_NUMBER, "PX", "space between columns (24)", &s->gap_px, 0, 8000, 0},
         {"notes", 0, OPTION_NUMBER, "PX",
-         "a margin at the right, or below vertical lines, for [>notes] (0)", &s->notes_px, 0,
-         8000, 0},
+         "width of the margin for [>notes], at the right or below vertical lines (0)",
+         &s->notes_px, 0, 8000, 0},
         {"align", 0, OPTION_TEXT, "A", "left, right, center or justify (justify)", &s->align, 0,
          0, 0},
-        {"indent", 0, OPTION_NUMBER, "EM", "of paragraphs' first lines (1.2)", &s->indent_em, 0,
-         20, 0},
-        {"hyphenate", 0, OPTION_FLAG, NULL, "words are divided, by --language (en)",
+        {"indent", 0, OPTION_NUMBER, "EM", "indent of paragraphs' first lines (1.2)",
+         &s->indent_em, 0, 20, 0},
+        {"hyphenate", 0, OPTION_FLAG, NULL, "divide words, by the rules of --language (en)",
          &s->hyphenate, 0, 0, 0},
-        {"language", 0, OPTION_TEXT, "L", "of the text: fr", &s->language, 0, 0, 0},
-        {"features", 0, OPTION_TEXT, "F,..", "OpenType features: onum,-liga", &s->features, 0,
-         0, 0},
-        {"protrude", 0, OPTION_NUMBER, "P", "0..1: signs stand in the margins (0)",
+        {"language", 0, OPTION_TEXT, "L", "language of the text: fr", &s->language, 0, 0, 0},
+        {"features", 0, OPTION_TEXT, "F,..", "OpenType features to switch: onum,-liga",
+         &s->features, 0, 0, 0},
+        {"protrude", 0, OPTION_NUMBER, "P", "how far signs stand in the margins, 0..1 (0)",
          &s->protrude, 0, 1, 0},
-        {"expand", 0, OPTION_NUMBER, "P", "0..0.05: letters are widened (0)", &s->expand, 0,
-         0.05, 0},
+        {"expand", 0, OPTION_NUMBER, "P", "how far letters are widened, 0..0.05 (0)",
+         &s->expand, 0, 0.05, 0},
         {"tolerance", 0, OPTION_NUMBER, "B", "the badness that a line may have (200)",
          &s->tolerance, 0, 10000, 0},
         {"vertical", 0, OPTION_FLAG, NULL, "lines go down, from the right to the left",
@@ -74,26 +76,22 @@ static int set_options(struct set *s, int argc, char **argv, const char **path, 
          "text goes around this ellipse; as often as wanted", &s->around, -16384, 16384, 4},
         {"inside", 0, OPTION_LIST, "X,Y,RX,RY", "text stays inside of this ellipse", &s->inside,
          -16384, 16384, 4},
-        {"ink", 0, OPTION_NUMBERS, "R,G,B", "0..1 (0,0,0)", s->ink, 0, 1, 3},
-        {"filter", 0, OPTION_TEXT, "F", "of the letters (gaussian-fast)", &s->filter, 0, 0, 0},
+        {"ink", 0, OPTION_NUMBERS, "R,G,B", "colour of the ink, each 0..1 (0,0,0)", s->ink, 0,
+         1, 3},
+        {"filter", 0, OPTION_TEXT, "F", "filter of the letters (gaussian-fast)", &s->filter, 0,
+         0, 0},
         {"darken", 0, OPTION_NUMBER, "PX",
-         "widens the stems of small type; 0: not (by their width)", &s->darken_px, 0, 2, 0},
-        {"statistics", 0, OPTION_FLAG, NULL, "says what was set", &s->statistics, 0, 0, 0},
+         "widens the stems of small type; 0: does not (as their width needs)", &s->darken_px, 0,
+         2, 0},
+        {"statistics", 0, OPTION_FLAG, NULL, "also print what was set", &s->statistics, 0, 0,
+         0},
         {0}};
     struct option_words words;
     if (!options_parse("set", rows, argc, argv, &words))
         return EXIT_USAGE;
     *help = words.help;
-    if (words.help) {
-        puts("usage: lutetia set FILE [options]\n");
-        options_help(rows);
-        puts("\nIn the text: a blank line ends a paragraph, # begins a heading, *slanted*, "
-             "**bold**,\n"
-             "[^a note at the foot], [>a note in the margin]; a backslash at a line's end "
-             "keeps\n"
-             "it, and before a sign makes that a letter. FILE may be - for what is piped in.");
-        return EXIT_SUCCESS;
-    }
+    if (words.help)
+        return help_print("set", rows, NULL);
     if (words.count != 1)
         return fail_usage("set",
                           words.count ? "there is one text (then came '%.60s')"

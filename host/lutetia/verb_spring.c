@@ -1,4 +1,5 @@
 /* verb_spring.c - `lutetia spring`: words on springs, in a window, in stills and in films. */
+#include "help.h"
 #include "live.h"
 #include "lutetia.h"
 #include "options.h"
@@ -93,102 +94,86 @@ static int spring_check(struct spring *s, const struct option_words *words)
     return EXIT_SUCCESS;
 }
 
-static void usage(const struct option_row *rows)
-{
-    puts("usage: lutetia spring \"word\" [options]\n"
-         "       lutetia spring --network FILE [options]\n\n"
-         "A word whose letters hang on masses and springs, in a window: drag a mass or a\n"
-         "letter, tack with Shift, cut with the right button; Tab shows the controls, ? the\n"
-         "keys. With --still, --video or --frames there is no window, and no display is "
-         "needed.\n");
-    options_help(rows);
-}
-
-/* "NAME" of every preset, for the help. */
-static const char *presets_text(char *text, size_t room)
-{
-    text[0] = '\0';
-    for (int i = 0; i < dyn_presets_count; i++) {
-        size_t used = strlen(text);
-        snprintf(text + used, room - used, "%s%s", i ? ", " : "", dyn_presets[i].name);
-    }
-    return text;
-}
-
 static int spring_options(struct spring *s, int argc, char **argv, bool *help)
 {
-    char names[200];
-    const char *presets = presets_text(names, sizeof names);
     const struct option_row rows[] = {
-        {"preset", 'p', OPTION_TEXT, "NAME", presets, &s->scene.preset, 0, 0, 0},
-        {"set", 's', OPTION_TEXTS, "NAME=VALUE", "a control, as often as wanted", &s->sets, 0,
-         0, 0},
-        {"controls", 0, OPTION_FLAG, NULL, "print the table of controls", &s->controls, 0, 0,
-         0},
-        {"network", 0, OPTION_TEXT, "FILE", "masses and springs from a file, not a word",
+        {"preset", 'p', OPTION_TEXT, "NAME", "masses, springs and controls by a name",
+         &s->scene.preset, 0, 0, 0},
+        {"set", 's', OPTION_TEXTS, "NAME=VALUE", "a control and its value; as often as wanted",
+         &s->sets, 0, 0, 0},
+        {"controls", 0, OPTION_FLAG, NULL, "print the table of controls, and end", &s->controls,
+         0, 0, 0},
+        {"network", 0, OPTION_TEXT, "FILE", "masses and springs from a file, instead of a word",
          &s->scene.network, 0, 0, 0},
-        {"font", 0, OPTION_TEXT, "FONT", "a file, its name, or a family (DejaVuSans)",
-         &s->scene.font, 0, 0, 0},
-        {"at", 0, OPTION_NUMBERS, "X,Y", "where the baseline begins, in ems (0,2); floor: 0",
-         s->scene.at, -1000, 1000, 2},
-        {"turn", 0, OPTION_NUMBER, "DEGREES", "the baseline goes up to the right",
-         &s->scene.turn, -360, 360, 0},
-        {"column", 0, OPTION_NUMBER, "EMS", "lines are broken to be that long",
-         &s->scene.column, 0, 1000, 0},
-        {"circle", 0, OPTION_NUMBER, "RADIUS", "the baseline goes round a circle",
-         &s->scene.circle, 0, 1000, 0},
-        {"script", 0, OPTION_TEXT, "FILE", "clamps lead masses", &s->scene.script, 0, 0, 0},
-        {"map", 0, OPTION_TEXT, "FILE.lua", "a script: what is played, to controls",
-         &s->live_options.map, 0, 0, 0},
-        {"param", 0, OPTION_TEXTS, "KEY=VALUE", "its param()s", &s->live_options.params, 0, 0,
+        {"font", 0, OPTION_TEXT, "FONT",
+         "the font: a file, the name of one, or a family (DejaVuSans)", &s->scene.font, 0, 0,
          0},
-        {"song", 0, OPTION_TEXT, "FILE.mid", "what is played (what the server hears)",
-         &s->song_path, 0, 0, 0},
-        {"server", 0, OPTION_TEXT, "ADDRESS", "a MIDI server's socket (the user's own)",
+        {"at", 0, OPTION_NUMBERS, "X,Y",
+         "where the baseline begins, in ems above the floor (0,2)", s->scene.at, -1000, 1000,
+         2},
+        {"turn", 0, OPTION_NUMBER, "DEGREES", "turns the baseline counterclockwise",
+         &s->scene.turn, -360, 360, 0},
+        {"column", 0, OPTION_NUMBER, "EMS", "break lines to be at most that long",
+         &s->scene.column, 0, 1000, 0},
+        {"circle", 0, OPTION_NUMBER, "RADIUS",
+         "bend the baseline around a circle of this radius, in ems", &s->scene.circle, 0, 1000,
+         0},
+        {"script", 0, OPTION_TEXT, "FILE", "a file of clamps that lead masses",
+         &s->scene.script, 0, 0, 0},
+        {"map", 0, OPTION_TEXT, "FILE.lua", "a script that turns what is played into controls",
+         &s->live_options.map, 0, 0, 0},
+        {"param", 0, OPTION_TEXTS, "KEY=VALUE",
+         "a parameter of the --map's script; as often as wanted", &s->live_options.params, 0, 0,
+         0},
+        {"song", 0, OPTION_TEXT, "FILE.mid",
+         "the song that is played (what the MIDI server hears)", &s->song_path, 0, 0, 0},
+        {"server", 0, OPTION_TEXT, "ADDRESS", "the MIDI server's socket (the user's own)",
          &s->live_options.server, 0, 0, 0},
-        {"theme", 0, OPTION_TEXT, "light|dark|FILE", "colours and widths", &s->scene.theme, 0,
-         0, 0},
-        {"size", 0, OPTION_SIZE, "WxH", "pixels of the window or the picture (1280x720)",
-         s->size, 16, 8192, 0},
-        {"view", 0, OPTION_NUMBERS, "X0,Y0,X1,Y1", "the part of the world that is seen",
+        {"theme", 0, OPTION_TEXT, "light|dark|FILE", "colours and widths: a name, or a file",
+         &s->scene.theme, 0, 0, 0},
+        {"size", 0, OPTION_SIZE, "WxH", "size of the window or the picture (1280x720)", s->size,
+         16, 8192, 0},
+        {"view", 0, OPTION_NUMBERS, "X0,Y0,X1,Y1", "the part of the world that is seen, in ems",
          s->scene.view, -1e6, 1e6, 4},
-        {"still", 0, OPTION_TEXT, "FILE", "a picture of the moment after --seconds",
+        {"still", 0, OPTION_TEXT, "FILE", "write a picture of the moment after --seconds",
          &s->film.still, 0, 0, 0},
         {"strip", 0, OPTION_SIZE, "CxR", "the still has so many columns and rows of moments",
          s->film.strip, 1, 100, 0},
-        {"video", 0, OPTION_TEXT, "FILE", "a film", &s->film.video, 0, 0, 0},
-        {"frames", 0, OPTION_TEXT, "DIR", "a folder of pictures", &s->frames, 0, 0, 0},
-        {"seconds", 0, OPTION_NUMBER, "S", "how long (5)", &s->film.seconds, 0, 3600, 0},
+        {"video", 0, OPTION_TEXT, "FILE", "write a film (.mp4 with ffmpeg; .y4m)",
+         &s->film.video, 0, 0, 0},
+        {"frames", 0, OPTION_TEXT, "DIR", "write numbered pictures into this folder",
+         &s->frames, 0, 0, 0},
+        {"seconds", 0, OPTION_NUMBER, "S", "how long it moves (5)", &s->film.seconds, 0, 3600,
+         0},
         {"fps", 0, OPTION_INTEGER, "N", "pictures a second (30)", &s->film.fps, 1, 240, 0},
         {"way", 0, OPTION_TEXT, "exact|egl|osmesa",
-         "how pictures are drawn: filtered, or by OpenGL", &s->way, 0, 0, 0},
-        {"wet", 0, OPTION_FLAG, NULL, "over wet paper, on which letters leave tracks",
-         &s->is_wet, 0, 0, 0},
-        {"pigment", 0, OPTION_TEXT, "NAME", "of the tracks (french ultramarine)",
+         "how pictures are drawn: filtered, or by OpenGL (exact)", &s->way, 0, 0, 0},
+        {"wet", 0, OPTION_FLAG, NULL,
+         "hang the word over wet paper, on which letters leave tracks", &s->is_wet, 0, 0, 0},
+        {"pigment", 0, OPTION_TEXT, "NAME", "pigment of the tracks (french ultramarine)",
          &s->wet_def.pigment, 0, 0, 0},
-        {"every", 0, OPTION_NUMBER, "S", "a track's prints are so far apart (0.1)",
+        {"every", 0, OPTION_NUMBER, "S", "time between a track's prints (0.1)",
          &s->wet_def.every_s, 0.001, 60, 0},
-        {"filter", 0, OPTION_TEXT, "NAME", "of exact pictures (gaussian-fast)", &s->film.filter,
+        {"filter", 0, OPTION_TEXT, "NAME", "filter of exact pictures (gaussian-fast)",
+         &s->film.filter, 0, 0, 0},
+        {"sound", 0, OPTION_TEXT, "FILE.wav", "write what is heard in the film", &s->sound_path,
          0, 0, 0},
-        {"sound", 0, OPTION_TEXT, "FILE.wav", "what is heard in the film", &s->sound_path, 0, 0,
-         0},
-        {"silent", 0, OPTION_FLAG, NULL, "no sound in the film", &s->silent, 0, 0, 0},
-        {"save", 0, OPTION_TEXT, "FILE", "masses and springs at the end; Control S", &s->save,
-         0, 0, 0},
-        {"session", 0, OPTION_TEXT, "FILE", "what is done in the window", &s->session, 0, 0, 0},
+        {"silent", 0, OPTION_FLAG, NULL, "the film has no sound", &s->silent, 0, 0, 0},
+        {"save", 0, OPTION_TEXT, "FILE", "write masses and springs at the end, or at Control S",
+         &s->save, 0, 0, 0},
+        {"session", 0, OPTION_TEXT, "FILE", "record what is done in the window", &s->session, 0,
+         0, 0},
         {"replay", 0, OPTION_TEXT, "FILE", "do a session again, in a window or a film",
          &s->replay, 0, 0, 0},
-        {"record", 0, OPTION_TEXT, "FILE", "where V in the window records (spring.mp4)",
+        {"record", 0, OPTION_TEXT, "FILE", "the film that V in the window records (spring.mp4)",
          &s->window.record_path, 0, 0, 0},
         {0}};
     struct option_words words;
     if (!options_parse("spring", rows, argc, argv, &words))
         return EXIT_USAGE;
     *help = words.help;
-    if (words.help) {
-        usage(rows);
-        return EXIT_SUCCESS;
-    }
+    if (words.help)
+        return help_print("spring", rows, NULL);
     return spring_check(s, &words);
 }
 

@@ -7,6 +7,7 @@
  * usual value. Another value is chosen if it is clearly better, and its best time is better,
  * too.
  */
+#include "help.h"
 #include "lutetia.h"
 #include "options.h"
 #include "tune_work.h"
@@ -400,20 +401,14 @@ int verb_tune(int argc, char **argv)
     const char *json_path = NULL;
     const struct option_row rows[] = {
         {"dry-run", 0, OPTION_FLAG, NULL, "measure, and keep nothing", &dry, 0, 0, 0},
-        {"json", 0, OPTION_TEXT, "FILE", "write what was tried there, too", &json_path, 0, 0,
+        {"json", 0, OPTION_TEXT, "FILE", "also write what was tried there", &json_path, 0, 0,
          0},
         {0}};
     struct option_words words;
     if (!options_parse("tune", rows, argc, argv, &words))
         return EXIT_USAGE;
-    if (words.help) {
-        puts("usage: lutetia tune [options]\n\n"
-             "Measures, in less than a minute, how generated code runs fastest on the device "
-             "that LUTETIA_DEVICE\nchooses, and keeps that for all programs to come. Results "
-             "are the same bits with and without.\n");
-        options_help(rows);
-        return EXIT_SUCCESS;
-    }
+    if (words.help)
+        return help_print("tune", rows, NULL);
     if (words.count)
         return fail_usage("tune", "there is nothing to do with '%.60s'", words.words[0]);
     if (forced_check() != EXIT_SUCCESS)

@@ -1,4 +1,5 @@
 /* verb_type.c - `lutetia type`: text as a picture, at any size, place, angle and distortion. */
+#include "help.h"
 #include "lutetia.h"
 #include "options.h"
 #include "type_common.h"
@@ -39,84 +40,84 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
     const struct option_row rows[] = {
         {"out", 'o', OPTION_TEXT, "FILE", "the picture: .png, .svg or .pdf (out.png)",
          &t->out_path, 0, 0, 0},
-        {"font", 0, OPTION_TEXT, "F", "a font file, its name, or a family (DejaVuSans)",
-         &t->font, 0, 0, 0},
-        {"face", 0, OPTION_INTEGER, "N", "of a collection (0)", &t->face, 0, 65535, 0},
-        {"axes", 0, OPTION_TEXT, "A=V,..", "a variable font's axes: wght=700,wdth=80", &t->axes,
-         0, 0, 0},
-        {"size", 0, OPTION_NUMBER, "PX", "of the em; any fraction (48)", &t->size_px, 0.1,
+        {"font", 0, OPTION_TEXT, "F",
+         "the font: a file, the name of one, or a family (DejaVuSans)", &t->font, 0, 0, 0},
+        {"face", 0, OPTION_INTEGER, "N", "which face of a collection (0)", &t->face, 0, 65535,
+         0},
+        {"axes", 0, OPTION_TEXT, "A=V,..",
+         "positions of a variable font's axes: wght=700,wdth=80", &t->axes, 0, 0, 0},
+        {"size", 0, OPTION_NUMBER, "PX", "size of the em, any fraction (48)", &t->size_px, 0.1,
          10000, 0},
-        {"filter", 0, OPTION_TEXT, "F", "its name, or auto for the display (gaussian-fast)",
-         &t->filter, 0, 0, 0},
-        {"display", 0, OPTION_TEXT, "D", "that auto chooses for: lcd, crt or print (lcd)",
-         &t->display, 0, 0, 0},
+        {"filter", 0, OPTION_TEXT, "F",
+         "the filter's name, or auto for the display (gaussian-fast)", &t->filter, 0, 0, 0},
+        {"display", 0, OPTION_TEXT, "D",
+         "the display that auto chooses a filter for: lcd, crt or print (lcd)", &t->display, 0,
+         0, 0},
         {"place", 0, OPTION_NUMBERS, "X,Y", "moves the text by parts of a pixel (0,0)",
          t->place, -1000, 1000, 2},
-        {"rotate", 0, OPTION_NUMBER, "DEG", "counterclockwise (0)", &t->rotate, -3600, 3600, 0},
-        {"shear", 0, OPTION_NUMBER, "S", "to the right for each pixel up (0)", &t->shear, -10,
-         10, 0},
-        {"corners", 0, OPTION_LIST, "X,Y,..", "of the distorted text: eight numbers, pixels,",
-         &t->corners, -far, far, 8},
-        {"warp", 0, OPTION_TEXT, "KIND", "projective or bilinear, with --corners (projective)",
-         &t->warp, 0, 0, 0},
-        {"ink", 0, OPTION_NUMBERS, "R,G,B", "0..1 (0,0,0)", t->ink, 0, 1, 3},
+        {"rotate", 0, OPTION_NUMBER, "DEG", "turns the text counterclockwise (0)", &t->rotate,
+         -3600, 3600, 0},
+        {"shear", 0, OPTION_NUMBER, "S", "moves each pixel up so far to the right (0)",
+         &t->shear, -10, 10, 0},
+        {"corners", 0, OPTION_LIST, "X,Y,..",
+         "distorts the text: where its four corners go, eight numbers in pixels", &t->corners,
+         -far, far, 8},
+        {"warp", 0, OPTION_TEXT, "KIND",
+         "the map between --corners: projective or bilinear (projective)", &t->warp, 0, 0, 0},
+        {"ink", 0, OPTION_NUMBERS, "R,G,B", "colour of the ink, each 0..1 (0,0,0)", t->ink, 0,
+         1, 3},
         {"cover", 0, OPTION_NUMBER, "C", "how much ink covers of what is below, 0..1 (1)",
          &t->more.cover, 0, 1, 0},
         {"gradient", 0, OPTION_LIST, "X,Y,X,Y",
-         "ink along a way, pixels from the first baseline", &t->more.gradient, -far, far, 4},
-        {"radial", 0, OPTION_LIST, "X,Y,R", "ink from a place outwards", &t->more.radial, -far,
-         far, 3},
+         "a gradient along this way, in pixels from the beginning of the first baseline",
+         &t->more.gradient, -far, far, 4},
+        {"radial", 0, OPTION_LIST, "X,Y,R",
+         "a gradient outwards from this place, to this radius", &t->more.radial, -far, far, 3},
         {"stop", 0, OPTION_LIST, "AT,R,G,B,C",
-         "a colour of these, and its cover, 0..1; up to 8", &t->more.stops, 0, 1, 5},
-        {"texture", 0, OPTION_TEXT, "FILE", "a PNG as ink, repeated", &t->more.picture, 0, 0,
-         0},
-        {"mix-numbers", 0, OPTION_FLAG, NULL, "ink is mixed as numbers, not as light",
+         "a colour of the gradient, and how it covers, each 0..1; up to 8 times",
+         &t->more.stops, 0, 1, 5},
+        {"texture", 0, OPTION_TEXT, "FILE", "a PNG that is repeated as ink", &t->more.picture,
+         0, 0, 0},
+        {"mix-numbers", 0, OPTION_FLAG, NULL, "mix ink as numbers, not as light",
          &t->more.numbers, 0, 0, 0},
-        {"gamma", 0, OPTION_NUMBER, "G", "light is mixed by this power; 1: not at all (sRGB's)",
-         &t->gamma, 0.2, 5, 0},
+        {"gamma", 0, OPTION_NUMBER, "G",
+         "the power by which light is mixed; 1: not at all (sRGB's)", &t->gamma, 0.2, 5, 0},
         {"darken", 0, OPTION_NUMBER, "PX",
-         "widens the stems of small type; 0: not (by their width)", &t->darken_px, 0, 2, 0},
-        {"stripes", 0, OPTION_FLAG, NULL, "for a display with RGB stripes", &t->stripes, 0, 0,
-         0},
-        {"features", 0, OPTION_TEXT, "F,..", "OpenType features: -liga,ss01,kern=0",
+         "widens the stems of small type; 0: does not (as their width needs)", &t->darken_px, 0,
+         2, 0},
+        {"stripes", 0, OPTION_FLAG, NULL,
+         "draw for a display with stripes of red, green and blue", &t->stripes, 0, 0, 0},
+        {"features", 0, OPTION_TEXT, "F,..", "OpenType features to switch: -liga,ss01,kern=0",
          &t->features, 0, 0, 0},
-        {"language", 0, OPTION_TEXT, "L", "of the text: fr", &t->language, 0, 0, 0},
+        {"language", 0, OPTION_TEXT, "L", "language of the text: fr", &t->language, 0, 0, 0},
         {"right-to-left", 0, OPTION_FLAG, NULL, "lines run to the left", &t->to_left, 0, 0, 0},
-        {"spacing", 0, OPTION_NUMBER, "PX", "added between letters (0)", &t->spacing_px, -1000,
-         1000, 0},
-        {"leading", 0, OPTION_NUMBER, "L", "from line to line, of the size (the font's)",
+        {"spacing", 0, OPTION_NUMBER, "PX", "space that is added between letters (0)",
+         &t->spacing_px, -1000, 1000, 0},
+        {"leading", 0, OPTION_NUMBER, "L", "distance of lines, of the size (the font's)",
          &t->leading, 0.1, 10, 0},
-        {"width", 0, OPTION_NUMBER, "PX", "lines are broken to fit (only at line ends)",
+        {"width", 0, OPTION_NUMBER, "PX", "break lines to fit this width (only at line ends)",
          &t->width_px, 1, 1e6, 0},
         {"align", 0, OPTION_TEXT, "A", "left, right, center or justify (as the text runs)",
          &t->align, 0, 0, 0},
-        {"margin", 0, OPTION_NUMBER, "PX", "around the text (8)", &t->margin_px, 0, 4096, 0},
-        {"no-fallback", 0, OPTION_FLAG, NULL, "no other font for what this one has not",
-         &t->no_fallback, 0, 0, 0},
-        {"compare", 0, OPTION_FLAG, NULL, "beside FreeType and the exact gray, enlarged",
-         &t->compare, 0, 0, 0},
+        {"margin", 0, OPTION_NUMBER, "PX", "margin around the text (8)", &t->margin_px, 0, 4096,
+         0},
+        {"no-fallback", 0, OPTION_FLAG, NULL,
+         "take no other font for characters that this one lacks", &t->no_fallback, 0, 0, 0},
+        {"compare", 0, OPTION_FLAG, NULL,
+         "draw the text by FreeType and in exact gray beside it, enlarged", &t->compare, 0, 0,
+         0},
         {"zoom", 0, OPTION_INTEGER, "N", "how much --compare enlarges (8)", &t->zoom, 1, 64, 0},
-        {"gl", 0, OPTION_FLAG, NULL, "drawn by OpenGL, without a window, as on a display",
+        {"gl", 0, OPTION_FLAG, NULL, "draw by OpenGL, without a window, as on a display",
          &t->gl, 0, 0, 0},
-        {"statistics", 0, OPTION_FLAG, NULL, "says what was drawn and kept", &t->statistics, 0,
-         0, 0},
+        {"statistics", 0, OPTION_FLAG, NULL, "also print what was drawn and kept",
+         &t->statistics, 0, 0, 0},
         {0}};
     struct option_words words;
     if (!options_parse("type", rows, argc, argv, &words))
         return EXIT_USAGE;
     *help = words.help;
-    if (words.help) {
-        puts("usage: lutetia type \"Text\" [options]\n");
-        options_help(rows);
-        fputs("\nFilters: ", stdout);
-        for (const char *const *name = font_filter_names(); *name; name++)
-            printf("%s, ", *name);
-        puts("each with :radius;\ngaussian:sigma,radius; samples:radius,s0,s1,.. and "
-             "round:radius,s0,s1,.. from the centre outwards; @FILE reads such words from a "
-             "file.\n--corners: where the upper left, upper right, lower right and lower left "
-             "corners of the box around the\ntext, turned and sheared, go.");
-        return EXIT_SUCCESS;
-    }
+    if (words.help)
+        return help_print("type", rows, NULL);
     if (words.count != 1)
         return fail_usage("type",
                           words.count ? "there is one text; put it in quotes (then came "

@@ -1,4 +1,5 @@
 /* verb_voice.c - `lutetia voice`: letters that a voice plays, as a poster, a sheet of moments, frames or a film with the voice in it. */
+#include "help.h"
 #include "lutetia.h"
 #include "options.h"
 #include "type_common.h"
@@ -82,55 +83,51 @@ static int options_read(struct voice_work *w, int argc, char **argv, bool *help)
         {"poster", 'o', OPTION_TEXT, "FILE", "one line along which time runs, PNG (out.png)",
          &w->poster, 0, 0, 0},
         {"sheet", 0, OPTION_TEXT, "FILE", "twenty moments of it, PNG", &w->sheet, 0, 0, 0},
-        {"envelope", 0, OPTION_TEXT, "FILE", "how loud it is, PNG", &w->envelope, 0, 0, 0},
+        {"envelope", 0, OPTION_TEXT, "FILE", "a plot of how loud it is, PNG", &w->envelope, 0,
+         0, 0},
         {"still", 0, OPTION_TEXT, "FILE", "the moment --at, PNG", &w->still, 0, 0, 0},
-        {"at", 0, OPTION_NUMBER, "S", "of --still (where it is loudest)", &w->at_s, 0, 1800, 0},
-        {"frames", 0, OPTION_TEXT, "DIR", "all moments, as numbered PNG", &w->frames, 0, 0, 0},
+        {"at", 0, OPTION_NUMBER, "S", "the moment of --still (where it is loudest)", &w->at_s,
+         0, 1800, 0},
+        {"frames", 0, OPTION_TEXT, "DIR", "all moments as numbered pictures in this folder",
+         &w->frames, 0, 0, 0},
         {"video", 0, OPTION_TEXT, "FILE", "a film with the voice in it (.mp4, .webm, ...)",
          &w->video, 0, 0, 0},
-        {"fps", 0, OPTION_INTEGER, "N", "frames a second (30)", &w->fps, 1, 240, 0},
-        {"picture", 0, OPTION_SIZE, "WxH", "of a moment, even (960x540)", w->picture, 2, 8192,
-         0},
-        {"cry", 0, OPTION_FLAG, NULL, "a cry of our own making, in place of a file", &w->cry, 0,
-         0, 0},
+        {"fps", 0, OPTION_INTEGER, "N", "frames a second of the film (30)", &w->fps, 1, 240, 0},
+        {"picture", 0, OPTION_SIZE, "WxH", "size of a moment, even (960x540)", w->picture, 2,
+         8192, 0},
+        {"cry", 0, OPTION_FLAG, NULL,
+         "hear a cry of the program's own making, in place of a file", &w->cry, 0, 0, 0},
         {"microphone", 0, OPTION_TEXT, "jack|pulse|any",
-         "in place of a file: a window, or pictures of --seconds", &w->microphone, 0, 0, 0},
-        {"seconds", 0, OPTION_NUMBER, "S", "of a microphone (5)", &w->seconds, 0.5, 1800, 0},
-        {"map", 0, OPTION_TEXT, "P=F,..", "what plays what (size=envelope)", &w->map, 0, 0, 0},
+         "hear a microphone, in place of a file: in a window, or for --seconds", &w->microphone,
+         0, 0, 0},
+        {"seconds", 0, OPTION_NUMBER, "S", "how long a microphone is heard (5)", &w->seconds,
+         0.5, 1800, 0},
+        {"map", 0, OPTION_TEXT, "P=F,..",
+         "which property is tied to which feature (size=envelope)", &w->map, 0, 0, 0},
         {"font", 0, OPTION_TEXT, "F",
-         "a font file, its name, or a family (EBGaramond12-Regular)", &w->font, 0, 0, 0},
-        {"axes", 0, OPTION_TEXT, "A=V,..", "a variable font's axes: wght=700", &w->axes, 0, 0,
-         0},
-        {"size", 0, OPTION_NUMBERS, "PX,PX", "least and most, of the em (as fits)", w->size_px,
-         0, 4000, 2},
+         "the font: a file, the name of one, or a family (EBGaramond12-Regular)", &w->font, 0,
+         0, 0},
+        {"axes", 0, OPTION_TEXT, "A=V,..", "positions of a variable font's axes: wght=700",
+         &w->axes, 0, 0, 0},
+        {"size", 0, OPTION_NUMBERS, "PX,PX", "least and most size of the em (as fits)",
+         w->size_px, 0, 4000, 2},
         {"rise", 0, OPTION_NUMBER, "EM", "how far the baseline is played (0.6)", &w->rise_em, 0,
          10, 0},
-        {"slant", 0, OPTION_NUMBER, "S", "the most, pixels to the right for each up (0.4)",
-         &w->slant, -2, 2, 0},
+        {"slant", 0, OPTION_NUMBER, "S",
+         "the most slant, pixels to the right for each up (0.4)", &w->slant, -2, 2, 0},
         {"second", 0, OPTION_NUMBER, "PX", "length of a second on the poster (480)",
          &w->second_px, 10, 20000, 0},
-        {"paper", 0, OPTION_NUMBERS, "R,G,B", "0..1 (1,1,1)", w->paper, 0, 1, 3},
-        {"inks", 0, OPTION_NUMBERS, "R,G,B,R,G,B", "the ink, and the one at a feature's end",
-         w->inks, 0, 1, 6},
+        {"paper", 0, OPTION_NUMBERS, "R,G,B", "colour of the paper, each 0..1 (1,1,1)",
+         w->paper, 0, 1, 3},
+        {"inks", 0, OPTION_NUMBERS, "R,G,B,R,G,B",
+         "colour of the ink, and of the one at a feature's end", w->inks, 0, 1, 6},
         {0}};
     struct option_words words;
     if (!options_parse("voice", rows, argc, argv, &words))
         return EXIT_USAGE;
     *help = words.help;
-    if (words.help) {
-        puts("usage: lutetia voice SOUND \"Text\" [options]\n"
-             "       lutetia voice --cry \"Text\" [options]\n"
-             "       lutetia voice --microphone any \"Text\" [options]\n");
-        options_help(rows);
-        puts("\nSOUND is a file (WAV, FLAC, ...). A text of one word is played as it is; more "
-             "words "
-             "are spread over\nthe sounds that begin in it.  --map ties size, weight, slant, "
-             "baseline "
-             "and ink to envelope, level,\npitch, clarity, open, front (a vowel's two "
-             "formants), "
-             "vowel (ink only) or nothing.");
-        return EXIT_SUCCESS;
-    }
+    if (words.help)
+        return help_print("voice", rows, NULL);
     return words_take(w, &words);
 }
 

@@ -1,6 +1,8 @@
 /* open.c - opens the whole library: all functions, and the types that they belong to. */
 #include "script_internal.h"
 
+#include <string.h>
+
 const struct script_functions script_functions[] = {
     {NULL, script_sandbox_functions, false},
     {NULL, script_song_functions, false},
@@ -28,6 +30,14 @@ const struct script_functions script_functions[] = {
     {script_network_type, script_network_word_methods, false},
     {script_network_type, script_network_key_methods, false},
     {NULL, NULL, false}};
+
+void script_functions_list(void (*each)(const char *type, const char *name))
+{
+    static const char before[] = "lutetia ";
+    for (const struct script_functions *f = script_functions; f->functions; f++)
+        for (const luaL_Reg *row = f->functions; row->name && !f->operators; row++)
+            each(f->of ? f->of + strlen(before) : "", row->name);
+}
 
 /* A metatable's __index is the table of methods or, for papers, a function with that table
  * as upvalue. */

@@ -96,4 +96,8 @@ struct script_host {
 enum script_status script_run(const struct script_config *config,
                               const struct script_host *host);
 
+/* Calls each() for every function that the library has for scripts: its name, and the type that it belongs to ("paper",
+ * "brush"; "" for functions that stand by themselves). Threads: any. */
+void script_functions_list(void (*each)(const char *type, const char *name));
+
 #endif

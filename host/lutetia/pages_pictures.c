@@ -1,0 +1,212 @@
+/* pages_pictures.c - the pages of the verbs that make pictures. */
+#include "pages.h"
+
+#include <filter.h>
+#include <sheet.h>
+#include <word.h>
+
+#include <stdio.h>
+#include <string.h>
+
+static void preset_names(char *text, size_t room)
+{
+    text[0] = '\0';
+    for (int i = 0; i < dyn_presets_count; i++) {
+        size_t used = strlen(text);
+        snprintf(text + used, room - used, "%s%s", i ? ", " : "", dyn_presets[i].name);
+    }
+}
+
+#define FONTS                                                                                  \
+    "A font is a file's name with its folder, a font file's name without ending among the "    \
+    "installed ones (EBGaramond12-Italic), or a family (\"DejaVu Sans\")."
+#define FILTERS                                                                                \
+    "A filter is one of the names above, each with :RADIUS if wanted (cone:2); "               \
+    "gaussian:SIGMA,RADIUS; samples:RADIUS,S0,S1,.. and round:RADIUS,S0,S1,.. give it from "   \
+    "the centre outwards; @FILE reads such words from a file."
+
+const struct page pages_of_pictures[] = {
+    {.verb = "paint",
+     .usages = "\"Text\" [options]\n--image FILE [options]",
+     .about =
+         "Sets a line of type, or screens a picture, in ink on wet watercolour paper, and lets "
+         "water and pigments move. Each fiber of the paper is a processor of the machine; one "
+         "fiber is a pixel of the picture.\n"
+         "The same command gives the same picture, to the bit, on every device. With --model "
+         "thesis the paper is that of Small's thesis of 1990: inks of cyan, magenta and "
+         "yellow. "
+         "Options that say \"full\" or \"thesis\" belong to that model alone.",
+     .notes = FONTS "\n" FILTERS,
+     .values = {{.option = "model", .words = "full, thesis"},
+                {.option = "stock", .fill = paper_stock_names},
+                {.option = "pigment", .fill = paper_pigment_names, .suffix = "="},
+                {.option = "view", .words = "color, water, wet"},
+                {.option = "filter", .list = font_filter_names}},
+     .examples =
+         {{"lutetia paint \"Paris\" -o paris.png", "a word in ultramarine, to paris.png"},
+          {"lutetia paint \"Paris\" --stock rough --pigment \"phthalo green=0.6\" --pigment "
+           "\"burnt umber=0.3\" --gravity 0.6 -o drips.png",
+           "two pigments that run down rough paper"},
+          {"lutetia paint \"Paris\" --deckle --paper 480x320 -o sheet.png",
+           "a small handmade sheet with its edges"},
+          {"lutetia paint \"Wet\" --model thesis --steps 100 -o thesis.png",
+           "the paper of the thesis"}},
+     .see = "lutetia-run(1), lutetia-type(1), lutetia-info(1)"},
+    {.verb = "type",
+     .usages = "\"Text\" [options]",
+     .about =
+         "Sets a text in gray letters at any size, at any fraction of a pixel, at any angle "
+         "and "
+         "distortion, with any filter, and writes it as PNG, SVG or PDF, as the ending of "
+         "--out "
+         "says. Light is mixed as light. A \"\\n\" that the shell makes a line feed begins a "
+         "line.",
+     .notes = FONTS "\n" FILTERS
+                    "\nWith --corners the upper left, upper right, lower right and lower left "
+                    "corners of the box around the text, turned and sheared, go to these "
+                    "places.",
+     .values = {{.option = "filter", .list = font_filter_names},
+                {.option = "display", .words = "lcd, crt, print"},
+                {.option = "warp", .words = "projective, bilinear"},
+                {.option = "align", .words = "left, right, center, justify"}},
+     .examples =
+         {{"lutetia type \"Wet Fonts\" --font EBGaramond12-Italic --size 72.25 --rotate 8 "
+           "-o type.png",
+           "a line, turned by 8 degrees"},
+          {"lutetia type \"Ag&\" --compare -o compare.png",
+           "beside FreeType and the exact coverage, enlarged"},
+          {"lutetia type \"Ag\" --filter cone:2 -o soft.png", "with a wider filter"}},
+     .see = "lutetia-set(1), lutetia-font(1), lutetia-paint(1)"},
+    {.verb = "set",
+     .usages = "FILE [options]",
+     .about =
+         "Sets a text as pages: paragraphs divided into lines by their badness, words "
+         "divided, columns, notes at the foot and in the margin, around and inside shapes. "
+         "The ending of --out says the kind of file: .png, .svg or .pdf. FILE may be - for "
+         "what is piped in.",
+     .notes =
+         "In the text a blank line ends a paragraph; # begins a heading; *slanted* and "
+         "**bold** words; [^a note at the foot]; [>a note in the margin]. A backslash at a "
+         "line's end keeps it, and before a sign makes that a letter.\n" FONTS "\n" FILTERS,
+     .values = {{.option = "align", .words = "left, right, center, justify"},
+                {.option = "filter", .list = font_filter_names}},
+     .examples = {{"lutetia set letter.txt --hyphenate --columns 2 -o letter.pdf",
+                   "two columns, as PDF"},
+                  {"echo 'A *short* page.' | lutetia set - -o page.png", "what is piped in"},
+                  {"lutetia set letter.txt --around 300,400,120,80 -o around.png",
+                   "text that leaves an ellipse free"}},
+     .see = "lutetia-type(1), lutetia-font(1)"},
+    {.verb = "font",
+     .usages = "FILE [options]\nFILE --glyph C [options]\n--show-filter [--filter F] [-o FILE]",
+     .about =
+         "Draws a specimen of a font; or one glyph at each level of the font pipeline: its "
+         "outline, the master, the rectangles that it is summed from, and its gray; or a "
+         "filter.\n"
+         "A master may be written, retouched in a paint program, and taken again.",
+     .notes = FONTS "\n" FILTERS,
+     .values = {{.option = "filter", .list = font_filter_names}},
+     .examples = {{"lutetia font DejaVuSans -o specimen.png", "a specimen"},
+                  {"lutetia font DejaVuSans --glyph '&' -o levels.png",
+                   "one glyph at each level"},
+                  {"lutetia font --show-filter --filter gaussian-fast -o filter.png",
+                   "a filter"}},
+     .see = "lutetia-type(1), lutetia-set(1)"},
+    {.verb = "spring",
+     .usages = "\"word\" [options]\n--network FILE [options]",
+     .about =
+         "A word whose letters hang on masses and springs: it falls, swings and breaks. "
+         "Without "
+         "--still, --video and --frames there is a window; with them no display is needed.\n"
+         "In the window a mass or a letter is dragged with the mouse; Shift pins it, the right "
+         "button cuts a spring. Tab shows sliders for everything that can be adjusted, ? shows "
+         "the keys, V records a film, Esc ends.",
+     .notes =
+         "--controls lists the controls that --set changes, with their ranges and what they "
+         "do. A --map is a script in Lua with a function for each message of an instrument; "
+         "lutetia-scripts(7) describes the language.\n" FONTS,
+     .values = {{.option = "preset", .fill = preset_names},
+                {.option = "theme", .words = "light, dark"},
+                {.option = "way", .words = "exact, egl, osmesa"},
+                {.option = "pigment", .fill = paper_pigment_names},
+                {.option = "filter", .list = font_filter_names}},
+     .examples =
+         {{"lutetia spring breakdown --preset breakdown", "in a window"},
+          {"lutetia spring breakdown --preset breakdown --set collide=on --still "
+           "breakdown.png --strip 2x4 --seconds 2 --size 1200x1000 --view -1,-0.4,7.2,3.05",
+           "eight moments in one picture, without a display"},
+          {"lutetia spring --controls", "what can be adjusted"}},
+     .see = "lutetia-keys(1), lutetia-run(1), lutetia-scripts(7)"},
+    {.verb = "voice",
+     .usages = "SOUND \"Text\" [options]\n--cry \"Text\" [options]\n--microphone any \"Text\" "
+               "[options]",
+     .about = "A voice sets the size, place and colour of letters. SOUND is a file (WAV, FLAC, "
+              "...). "
+              "With none of --poster, --sheet, --envelope, --still, --frames and --video the "
+              "poster is "
+              "written, to out.png; with a microphone there is a window instead.\n"
+              "A text of one word is played as it is; more words are spread over the sounds "
+              "that begin "
+              "in it.",
+     .notes =
+         "--map ties properties of letters to features of the voice: size, weight, slant, "
+         "baseline and ink to envelope, level, pitch, clarity, open, front (a vowel's two "
+         "formants), vowel (ink only) or nothing, as in size=envelope,baseline=pitch.\n" FONTS,
+     .values = {{.option = "microphone", .words = "jack, pulse, any"}},
+     .examples = {{"lutetia voice --cry \"Aagh\" --map baseline=pitch,ink=open -o cry.png",
+                   "a cry of the program's own making"},
+                  {"lutetia voice speech.wav \"To be or not\" --video speech.mp4",
+                   "a film with the voice as its sound (needs ffmpeg)"},
+                  {"lutetia voice --microphone any \"Aagh\"", "what a microphone hears"}},
+     .see = "lutetia-keys(1), lutetia-type(1)"},
+    {.verb = "keys",
+     .usages = "[options]\nSONG.mid [options]",
+     .about =
+         "A key is a letter: its velocity and aftertouch are how large it is, its release how "
+         "it "
+         "goes. With SONG.mid, a Standard MIDI File, a poster is written to out.png unless "
+         "other "
+         "pictures are asked for; `lutetia midi record` makes such a file of what is played.\n"
+         "Without a song there is a window, where what the MIDI server hears plays (`lutetia "
+         "midi "
+         "serve`); where there is no server the computer's own keyboard plays.",
+     .notes =
+         "A --map that ends in .lua is a script that turns any message into any control; "
+         "lutetia-scripts(7) describes the language. Another one has a line for each key, as "
+         "'c4 A'.\n" FONTS,
+     .values = {{.option = "stock", .fill = paper_stock_names},
+                {.option = "pigment", .fill = paper_pigment_names},
+                {.option = "theme", .words = "light, dark"}},
+     .examples = {{"lutetia keys song.mid -o poster.png", "each note as a letter along a line"},
+                  {"lutetia keys song.mid --wet --still wet.png --at 4",
+                   "printed on wet paper, after four seconds"},
+                  {"lutetia keys song.mid --video song.mp4", "a film with its sound"},
+                  {"lutetia keys --text \"page\" --range c3-c5", "a window that is played"}},
+     .see = "lutetia-midi(1), lutetia-voice(1), lutetia-spring(1)"},
+    {.verb = "run",
+     .usages = "SCRIPT.lua [key=value...] [options]",
+     .about = "Runs a script in Lua that makes papers, inks, masks, brushes, springs and time. "
+              "lutetia-scripts(7) describes the language. key=value are the script's own "
+              "parameters.\n"
+              "Scripts run in a sandbox: they read pictures in --in, write pictures and saved "
+              "papers in "
+              "--out, and reach nothing else. The same script with the same seed gives the "
+              "same bits.",
+     .notes =
+         "A --sweep is KEY=a,b,c, or 1..5 for whole numbers, or 0..1/5 for five numbers from 0 "
+         "to 1; several of them, separated by semicolons, give all combinations. Each run "
+         "writes into a folder of its own, KEY-value.\n"
+         "Ctrl-C stops a run; with --save the papers are saved then, too, and --resume "
+         "continues them.",
+     .examples = {{"lutetia run rain.lua word=Paris -o pictures", "a script with a parameter"},
+                  {"lutetia run rain.lua --sweep \"word=Wet,Dry\" -j 2 -o both",
+                   "two runs at a time"},
+                  {"lutetia run rain.lua --video rain.mp4", "a film of the first paper"}},
+     .files = "/usr/share/doc/lutetia/examples/scripts: scripts to begin with",
+     .see = "lutetia-scripts(7), lutetia-paint(1)"},
+    {.verb = "demo",
+     .usages = "[options]",
+     .about = "Paints the demonstration page and writes three pictures: page.png, the page; "
+              "stages.png, how it was painted; water.png, the water on it.",
+     .examples = {{"lutetia demo -o pictures", "into the folder pictures, which is made"}},
+     .see = "lutetia-paint(1), lutetia-run(1)"},
+    {0}};
