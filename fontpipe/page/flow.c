@@ -5,12 +5,11 @@
  * where fewer stand here than fit, it is broken again for the slots that it gets. */
 #include "page_internal.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { TRIES = 4, CHAIN_MAX = 4, EMPTY_PAGES_MAX = 2 };
+enum { CHAIN_MAX = 4, EMPTY_PAGES_MAX = 2 };
 
 const struct page_template *flow_template(const struct page_text *t, int page)
 {
@@ -104,23 +103,39 @@ static bool is_uniform(const struct page_text *t, int flow, double *width)
     return true;
 }
 
-/* Breaks the paragraph for the slots from here on, of which at most `limit` are in this frame. */
-static enum font_status break_here(struct filling *f, struct paragraph *p, int limit)
+/* Whether the lines from `from` on are of these widths already. */
+static bool rest_fits(const struct paragraph *p, int from, const double *widths, int count)
+{
+    for (int i = from; i < p->lines_count; i++)
+        if (p->lines[i].width_px != widths[i - from < count ? i - from : count - 1])
+            return false;
+    return true;
+}
+
+/* Breaks the paragraph, from line `from` on, for the slots from here on, of which at most `limit` are in this frame. *here: of how many
+ * slots in this frame that knew; -1: all slots are alike. What goes on behind another frame's lines is broken anew only where notes or keeps
+ * have left it other slots than were foreseen there. */
+static enum font_status break_here(struct filling *f, struct paragraph *p, int from, int limit,
+                                   int *here)
 {
     struct slot slot;
     double width;
     const double narrow =
         1; /* slots are no narrower than that, whatever the paragraph leaves blank */
     enum font_status status = set_analyse(f->t, p);
+    *here = -1;
     if (status != FONT_OK)
         return status;
     if (is_uniform(f->t, f->flow, &width)) {
+        if (from)
+            return FONT_OK;
         slot = (struct slot){.u1 = width};
         double widths[2] = {fmax(narrow, paragraph_measure(p, &slot, true)),
                             fmax(narrow, paragraph_measure(p, &slot, false))};
         return lines_break(f->t, p, widths, widths[0] == widths[1] ? 1 : 2);
     }
     for (int wanted = 16;; wanted *= 4) {
+        const struct page_template *template = f->template;
         struct walk w = {.t = f->t,
                          .template = f->template,
                          .flow = f->flow,
@@ -132,15 +147,22 @@ static enum font_status break_here(struct filling *f, struct paragraph *p, int l
         if (!array_reserve(&f->widths, &f->widths_capacity, wanted, sizeof *f->widths))
             return font_fail(FONT_NO_MEMORY, "no memory for a page");
         bool more = limit != 0 || walk_on(&w);
+        *here = 0;
         while (more && count < wanted && (more = walk_next(&w, p->leading_px, &slot))) {
-            f->widths[count] = fmax(narrow, paragraph_measure(p, &slot, count == 0));
+            f->widths[count] = fmax(narrow, paragraph_measure(p, &slot, from + count == 0));
+            *here += w.page == f->number && w.frame == f->frame;
             if (++count == limit)
                 more = walk_on(&w);
         }
         if (!count)
-            f->widths[count++] = fmax(narrow, frame_measure(&f->template->frames[f->frame]));
-        status = lines_break(f->t, p, f->widths, count);
-        if (status != FONT_OK || p->lines_count <= count || !more)
+            f->widths[count++] = fmax(narrow, frame_measure(&template->frames[f->frame]));
+        if (!from)
+            status = lines_break(f->t, p, f->widths, count);
+        else if (more && p->lines_count - from > count)
+            continue;
+        else if (!rest_fits(p, from, f->widths, count))
+            status = lines_break_rest(f->t, p, from, f->widths, count);
+        if (status != FONT_OK || p->lines_count - from <= count || !more)
             return status;
     }
 }
@@ -275,6 +297,18 @@ static bool slot_add(struct page *page, struct slot slot)
     return true;
 }
 
+/* Of what is seen of lines begin..end. */
+static uint32_t lines_hash(const struct paragraph *p, int begin, int end)
+{
+    uint32_t hash = 0;
+    for (int i = begin; i < end; i++) {
+        const struct line *l = &p->lines[i];
+        const int seen[] = {(int)hash, l->begin, l->end, l->ink_end, l->hyphen, l->last};
+        hash = font_hash(seen, sizeof seen);
+    }
+    return hash;
+}
+
 static bool piece_add(struct page *page, struct paragraph *p, int begin, int end, int frame,
                       const struct slot *slots)
 {
@@ -283,8 +317,13 @@ static bool piece_add(struct page *page, struct paragraph *p, int begin, int end
     if (!array_reserve(&page->pieces, &page->pieces_capacity, page->pieces_count + 1,
                        sizeof *page->pieces))
         return false;
-    page->pieces[page->pieces_count++] =
-        (struct piece){p, begin, end, page->slots_count, frame};
+    page->pieces[page->pieces_count++] = (struct piece){.paragraph = p,
+                                                        .begin = begin,
+                                                        .end = end,
+                                                        .slots_begin = page->slots_count,
+                                                        .frame = frame,
+                                                        .lines_hash = lines_hash(p, begin, end),
+                                                        .breakings = p->breakings};
     for (int i = 0; i < end - begin; i++) {
         struct slot s = slots[i];
         bool first = begin + i == 0;
@@ -307,7 +346,7 @@ static enum font_status note_place(struct filling *f, struct paragraph *p, doubl
     for (int i = 0; i < p->lines_count; i++)
         f->slots[i] =
             (struct slot){u0, u1, v + p->manner.before_px + i * p->leading_px, f->frame};
-    p->first_page = p->last_page = f->number;
+    p->first_page = f->number;
     return piece_add(f->page, p, 0, p->lines_count, f->frame, f->slots)
                ? FONT_OK
                : font_fail(FONT_NO_MEMORY, "no memory for a page");
@@ -373,31 +412,28 @@ static enum font_status feet_place(struct filling *f)
 static enum font_status paragraph_place(struct filling *f, struct paragraph *p,
                                         struct cursor *cursor, bool *full)
 {
-    int from = cursor->line, fit = 0, stand = 0, limit = -1;
+    int from = cursor->line, fit = 0, stand = 0, limit = -1, here = 0;
     enum font_status status = FONT_OK;
     *full = p->manner.begins_column && !from && !f->top;
     if (*full)
         return FONT_OK;
     if (!from && !f->top)
         f->v += p->manner.before_px;
-    for (int tries = 0; status == FONT_OK && tries < TRIES; tries++) {
-        if (!from)
-            status = break_here(f, p, limit);
+    for (;;) { /* until as many stand here as it was broken for: ever fewer */
+        status = break_here(f, p, from, limit, &here);
         if (status == FONT_OK)
             status = lines_fit(f, p, from, &fit);
         if (status == FONT_OK)
             status = lines_keep(f, p, from, limit >= 0 && limit < fit ? limit : fit, &stand);
-        double width;
-        if (from || stand == fit || stand == limit || is_uniform(f->t, f->flow, &width))
+        if (status != FONT_OK)
+            return status;
+        if (stand == p->lines_count - from || stand >= here)
             break;
         limit = stand;
     }
-    if (status != FONT_OK)
-        return status;
     *full = stand < p->lines_count - from;
     if (!from)
         p->first_page = f->number;
-    p->last_page = f->number;
     if (!stand)
         return FONT_OK;
     double end = f->slots[stand - 1].v + p->leading_px;
@@ -407,6 +443,7 @@ static enum font_status paragraph_place(struct filling *f, struct paragraph *p,
     f->v = end + (*full ? 0 : p->manner.after_px);
     f->top = false;
     cursor->line = from + stand;
+    cursor->letter = *full ? p->lines[cursor->line].begin : 0;
     return status;
 }
 
@@ -424,44 +461,89 @@ static enum font_status frame_fill(struct filling *f, struct cursor *cursor)
     return status == FONT_OK ? feet_place(f) : status;
 }
 
-/* ---- pages ---- */
+/* ---- pages ----
+ *
+ * A page is what its starts give, the ends of the page before it, and the paragraphs that it looks at: those between its starts and its
+ * ends, and a few behind them. So it is filled again where its starts are others, where one of those paragraphs has changed, and where
+ * another page has broken one of them anew: a paragraph has one set of lines, whichever page asked last. */
+
+/* Pages that looked at number `at` of a flow are to be filled anew; all_behind: those that looked at any behind it, too. */
+static void pages_forget(struct page_text *t, int flow, int at, bool all_behind)
+{
+    for (int k = 0; k < t->pages_count; k++) {
+        struct page *page = &t->pages[k];
+        if (!page->filled || page->ends[flow].at + CHAIN_MAX < at ||
+            (!all_behind && page->starts[flow].at > at))
+            continue;
+        page->filled = false;
+        t->pages_good = k < t->pages_good ? k : t->pages_good;
+    }
+}
 
 void flow_changed(struct page_text *t, const struct paragraph *p)
 {
     if (p->flow < 0 && p->owner >= 0 && t->by_id[p->owner])
         p = t->by_id[p->owner];
-    if (p->first_page < 0 || p->first_page > t->pages_filled)
-        return;
-    int from =
-        p->first_page > 0 ? p->first_page - 1 : 0; /* it may now fit on the page before */
-    t->pages_good = from < t->pages_good ? from : t->pages_good;
-    t->dirty_until = p->last_page > t->dirty_until ? p->last_page : t->dirty_until;
+    if (p->flow >= 0)
+        pages_forget(t, p->flow, p->at, false);
 }
 
-void flow_changed_from(struct page_text *t, int page)
+void flow_moved(struct page_text *t, int flow, int at)
 {
-    t->pages_good = page < t->pages_good ? (page > 0 ? page : 0) : t->pages_good;
-    t->dirty_until = INT_MAX;
+    pages_forget(t, flow, at, true);
 }
 
-static bool ends_same(const struct cursor *a, const struct cursor *b)
+void flow_changed_all(struct page_text *t)
+{
+    for (int k = 0; k < t->pages_count; k++)
+        t->pages[k].filled = false;
+    t->pages_good = 0;
+}
+
+static bool cursors_same(const struct cursor *a, const struct cursor *b)
 {
     for (int i = 0; i < FLOWS_MAX; i++)
-        if (a[i].at != b[i].at || a[i].line != b[i].line)
+        if (a[i].at != b[i].at || a[i].line != b[i].line || a[i].letter != b[i].letter)
             return false;
+    return true;
+}
+
+static const struct cursor *page_starts(const struct page_text *t, int number)
+{
+    static const struct cursor first[FLOWS_MAX];
+    return number > 0 ? t->pages[number - 1].ends : first;
+}
+
+/* Whether it is still what it would be if it were filled now. */
+static bool page_holds(const struct page_text *t, int number)
+{
+    const struct page *page = &t->pages[number];
+    if (!page->filled || !cursors_same(page->starts, page_starts(t, number)))
+        return false;
+    for (int i = 0; i < page->pieces_count; i++) {
+        struct piece *piece = &page->pieces[i];
+        const struct paragraph *p = piece->paragraph;
+        if (piece->breakings == p->breakings)
+            continue;
+        if (piece->end > p->lines_count ||
+            lines_hash(p, piece->begin, piece->end) != piece->lines_hash)
+            return false;
+        piece->breakings = p->breakings;
+    }
     return true;
 }
 
 static enum font_status page_fill(struct page_text *t, int number)
 {
     struct page *page = &t->pages[number];
-    struct cursor starts[FLOWS_MAX] = {{0}}, ends[FLOWS_MAX];
+    struct cursor ends[FLOWS_MAX];
     struct filling f = {.t = t, .page = page, .number = number};
     enum font_status status = FONT_OK;
     f.template = flow_template(t, number);
-    if (number > 0)
-        memcpy(starts, t->pages[number - 1].ends, sizeof starts);
-    memcpy(ends, starts, sizeof ends);
+    memcpy(page->starts, page_starts(t, number), sizeof page->starts);
+    memcpy(ends, page->starts, sizeof ends);
+    page->filled = false;
+    t->last_filled = -1;
     page->pieces_count = page->slots_count = 0;
     for (int i = 0; i < f.template->frames_count && status == FONT_OK; i++) {
         f.frame = i;
@@ -473,26 +555,33 @@ static enum font_status page_fill(struct page_text *t, int number)
     free(f.slots);
     if (status != FONT_OK)
         return status;
-    bool same = page->filled && number >= t->dirty_until && ends_same(page->ends, ends);
     bool over = true;
     for (int i = 0; i < FLOWS_MAX; i++)
         over = over && ends[i].at >= t->flows[i].count;
-    memcpy(page->starts, starts, sizeof starts);
     memcpy(page->ends, ends, sizeof ends);
     /* A page on which nothing fits is followed by others like it: it is the last. */
-    page->last = over || (number >= t->templates_count - 1 && ends_same(starts, ends));
+    page->last = over || (number >= t->templates_count - 1 && cursors_same(page->starts, ends));
     page->filled = true;
+    t->last_filled = number;
     t->stats.pages_filled++;
-    if (same) {
-        t->pages_good = t->pages_filled;
-    } else {
-        t->pages_good = number + 1;
-        t->pages_filled =
-            page->last || t->pages_filled < number + 1 ? number + 1 : t->pages_filled;
-    }
-    if (same || page->last)
-        t->dirty_until = -1;
     return FONT_OK;
+}
+
+/* The page to begin at, so that this one can be filled. What goes on from page to page may be broken anew on each of them, for what is
+ * left of it, where lines differ: then it is done again from the page on which it begins, so that it never matters what was looked at before. */
+static int page_begin(const struct page_text *t, int number)
+{
+    if (t->last_filled == number - 1)
+        return number;
+    const struct cursor *starts = page_starts(t, number);
+    for (int i = 0; number > 0 && i < FLOWS_MAX; i++) {
+        double width;
+        if (starts[i].line && !is_uniform(t, i, &width)) {
+            starts = page_starts(t, --number);
+            i = -1;
+        }
+    }
+    return number;
 }
 
 enum font_status flow_fill(struct page_text *t, int number)
@@ -512,9 +601,19 @@ enum font_status flow_fill(struct page_text *t, int number)
                 return font_fail(FONT_NO_MEMORY, "no memory for pages");
             t->pages[t->pages_count++] = (struct page){0};
         }
-        enum font_status status = page_fill(t, next);
-        if (status != FONT_OK)
-            return status;
+        if (!page_holds(t, next)) {
+            int begin = page_begin(t, next);
+            if (begin < next) {
+                for (int k = begin; k < next; k++)
+                    t->pages[k].filled = false;
+                t->pages_good = begin;
+                continue;
+            }
+            enum font_status status = page_fill(t, next);
+            if (status != FONT_OK)
+                return status;
+        }
+        t->pages_good = next + 1;
     }
     return FONT_OK;
 }

@@ -20,8 +20,10 @@ struct filling {
     int *letters; /* behind which each place is: the number of the letter after it */
     bool *hyphens;
     int count, capacity_places, capacity_letters, capacity_hyphens;
-    double least; /* the narrowest line */
+    double least;    /* the narrowest line */
+    int kept, begin; /* lines that stay, and the letter behind them */
     bool ragged;
+    bool hyphens_too; /* words may be divided by their patterns */
 };
 
 static void filling_finish(struct filling *f)
@@ -84,7 +86,7 @@ static int end_penalty(const struct filling *f, int i, bool letters_too, bool *h
         bool seen = l->character == '-' || l->character == 0x2010 || *hyphen;
         return 1 + (seen ? HYPHEN_PENALTY : 0);
     }
-    if (l->hyphen) {
+    if (l->hyphen && f->hyphens_too) {
         *hyphen = true;
         return 1 + HYPHEN_PENALTY;
     }
@@ -125,10 +127,10 @@ static bool places_make(struct filling *f, bool anywhere)
     int ink_end = 0;
     f->count = 0;
     struct break_place start = {.penalty = 0};
-    if (p->count && p->manner.protrude > 0)
-        start.next.px += hang(f, 0, false);
-    bool ok = place_add(f, start, 0, false);
-    for (int i = 0; ok && i < p->count; i++) {
+    if (f->begin < p->count && p->manner.protrude > 0)
+        start.next.px += hang(f, f->begin, false);
+    bool ok = place_add(f, start, f->begin, false);
+    for (int i = f->begin; ok && i < p->count; i++) {
         const struct letter *l = &p->letters[i];
         bool hyphen, last = i + 1 == p->count;
         sum_add(f, &sum, l);
@@ -198,9 +200,9 @@ static bool lines_take(struct filling *f, const int *chosen, int count, const do
 static bool lines_fill(struct filling *f, const double *widths, int widths_count)
 {
     struct paragraph *p = f->p;
-    for (int begin = 0; begin < p->count;) {
-        double width =
-            widths[p->lines_count < widths_count ? p->lines_count : widths_count - 1];
+    for (int begin = f->begin; begin < p->count;) {
+        int line = p->lines_count - f->kept;
+        double width = widths[line < widths_count ? line : widths_count - 1];
         double pen = 0;
         int end = p->count, allowed = begin, cluster = begin;
         bool forced = true;
@@ -252,6 +254,7 @@ static bool passes_run(struct filling *f, const double *widths, int widths_count
                                       : BREAK_INFINITE;
         rules.emergency_px = (f->ragged ? ragged_ems : pass == 2 ? loose_ems : 0) * em;
         rules.must = pass == 2;
+        f->hyphens_too = pass > 0;
         if (pass == 1)
             words_hyphenate(f->t, p);
         if (pass == 1 && !p->manner.hyphenate && p->manner.tolerance <= first_tolerance)
@@ -265,7 +268,6 @@ static bool passes_run(struct filling *f, const double *widths, int widths_count
              breaks_find(f->places, f->count, widths, widths_count, &rules, chosen, &count,
                          NULL);
         if (ok && count) {
-            p->lines_count = p->overfull = 0;
             ok = lines_take(f, chosen, count, widths, widths_count, &rules);
         }
     }
@@ -275,7 +277,7 @@ static bool passes_run(struct filling *f, const double *widths, int widths_count
 
 static bool widths_same(const struct paragraph *p, const double *widths, int count)
 {
-    if (!p->broken)
+    if (!p->broken || !p->widths_count)
         return false;
     for (int i = 0; i < p->widths_count || i < count; i++)
         if (p->widths[i < p->widths_count ? i : p->widths_count - 1] !=
@@ -284,32 +286,51 @@ static bool widths_same(const struct paragraph *p, const double *widths, int cou
     return true;
 }
 
+/* Breaks what follows the first `kept` lines. */
+static enum font_status rest_break(struct page_text *t, struct paragraph *p, int kept,
+                                   const double *widths, int count)
+{
+    struct filling f = {.t = t, .p = p, .least = widths[0], .kept = kept};
+    bool ok = true;
+    f.begin = kept ? p->lines[kept].begin : 0;
+    f.ragged = p->manner.align != FONT_ALIGN_JUSTIFY;
+    for (int i = 0; i < count; i++)
+        f.least = fmin(f.least, widths[i]);
+    t->stats.lines_overfull -= p->overfull;
+    p->overfull = 0;
+    for (int i = 0; i < kept; i++)
+        p->overfull += p->lines[i].ratio < -1 - 1e-9;
+    p->lines_count = kept;
+    if (!p->count)
+        ok = line_add(p, (struct line){.width_px = widths[0], .last = true});
+    else if (has_tab(p))
+        ok = lines_fill(&f, widths, count);
+    else
+        ok = passes_run(&f, widths, count);
+    t->stats.lines_overfull += p->overfull;
+    t->stats.paragraphs_broken++;
+    p->breakings++;
+    filling_finish(&f);
+    p->broken = ok;
+    return ok ? FONT_OK : font_fail(FONT_NO_MEMORY, "no memory for a paragraph");
+}
+
 enum font_status lines_break(struct page_text *t, struct paragraph *p, const double *widths,
                              int count)
 {
     enum font_status status = set_analyse(t, p);
     if (status != FONT_OK || widths_same(p, widths, count))
         return status;
-    struct filling f = {.t = t, .p = p, .least = widths[0]};
-    f.ragged = p->manner.align != FONT_ALIGN_JUSTIFY;
-    for (int i = 0; i < count; i++)
-        f.least = fmin(f.least, widths[i]);
-    bool ok = array_reserve(&p->widths, &p->widths_capacity, count, sizeof *p->widths);
-    if (ok) {
-        memcpy(p->widths, widths, (size_t)count * sizeof *widths);
-        p->widths_count = count;
-        t->stats.lines_overfull -= p->overfull;
-        p->lines_count = p->overfull = 0;
-        if (!p->count)
-            ok = line_add(p, (struct line){.width_px = widths[0], .last = true});
-        else if (has_tab(p))
-            ok = lines_fill(&f, widths, count);
-        else
-            ok = passes_run(&f, widths, count);
-        t->stats.lines_overfull += p->overfull;
-        t->stats.paragraphs_broken++;
-    }
-    filling_finish(&f);
-    p->broken = ok;
-    return ok ? FONT_OK : font_fail(FONT_NO_MEMORY, "no memory for a paragraph");
+    if (!array_reserve(&p->widths, &p->widths_capacity, count, sizeof *p->widths))
+        return font_fail(FONT_NO_MEMORY, "no memory for a paragraph");
+    memcpy(p->widths, widths, (size_t)count * sizeof *widths);
+    p->widths_count = count;
+    return rest_break(t, p, 0, widths, count);
+}
+
+enum font_status lines_break_rest(struct page_text *t, struct paragraph *p, int kept,
+                                  const double *widths, int count)
+{
+    p->widths_count = 0; /* the whole is no longer as it was broken for them */
+    return rest_break(t, p, kept, widths, count);
 }

@@ -104,8 +104,9 @@ struct paragraph {
     double *widths; /* that lines were broken for */
     int widths_count, widths_capacity;
     int overfull;
-    int first_page, last_page; /* that it was placed on when pages were last filled; -1: none */
-    int owner;                 /* of a note: the paragraph that it belongs to; -1 */
+    uint32_t breakings; /* how often its lines have been made */
+    int first_page;     /* that it was placed on when pages were last filled; -1: none */
+    int owner;          /* of a note: the paragraph that it belongs to; -1 */
 };
 
 /* A piece of a line that text can stand in: the box of a line in a frame, or of what obstacles leave of it. */
@@ -118,11 +119,14 @@ struct slot {
 struct piece {
     struct paragraph *paragraph;
     int begin, end, slots_begin, frame;
+    uint32_t lines_hash; /* of the lines as they were placed */
+    uint32_t breakings;  /* of the paragraph, when that was last looked at */
 };
 
 struct cursor {
-    int at;   /* of the flow's paragraphs */
-    int line; /* of it that comes next */
+    int at;     /* of the flow's paragraphs */
+    int line;   /* of it that comes next */
+    int letter; /* that line's first */
 };
 
 struct page {
@@ -130,7 +134,8 @@ struct page {
     struct piece *pieces;
     struct slot *slots;
     int pieces_count, pieces_capacity, slots_count, slots_capacity;
-    bool filled, last;
+    bool filled; /* its pieces and its ends are what its starts give */
+    bool last;
 };
 
 struct flow {
@@ -169,9 +174,8 @@ struct page_text {
     int templates_count;
     struct page *pages;
     int pages_count, pages_capacity;
-    int pages_good;   /* so many of them are as the text is now */
-    int pages_filled; /* and so many were, before it changed */
-    int dirty_until;  /* the last page of them that a change may be on */
+    int pages_good;  /* so many of them are as the text is now */
+    int last_filled; /* the page of them that was filled last; -1: none was */
     struct page_stats stats;
     hb_buffer_t *buffer;
 };
@@ -197,6 +201,9 @@ enum font_status set_shape(struct page_text *t, const struct paragraph *p,
 /* lines.c: breaks the paragraph for lines of these widths, the last for all after it. */
 enum font_status lines_break(struct page_text *t, struct paragraph *p, const double *widths,
                              int count);
+/* The same of what follows the first `kept` of its lines, which stay: widths are of the lines behind them. */
+enum font_status lines_break_rest(struct page_text *t, struct paragraph *p, int kept,
+                                  const double *widths, int count);
 
 /* Where the pen is behind a tab that it comes to at `pen`, in a line that ends before the letter `end`. */
 double signs_tab(const struct page_text *t, const struct paragraph *p, int tab, int end,
@@ -251,8 +258,10 @@ double frame_depth(const struct page_frame *f);
 
 /* flow.c */
 enum font_status flow_fill(struct page_text *t, int page);
-void flow_changed(struct page_text *t, const struct paragraph *p); /* pages from its first on */
-void flow_changed_from(struct page_text *t, int page);             /* all pages from there on */
+void flow_changed(struct page_text *t, const struct paragraph *p); /* pages that looked at it */
+/* A flow's paragraphs from number `at` on have other numbers. */
+void flow_moved(struct page_text *t, int flow, int at);
+void flow_changed_all(struct page_text *t);
 const struct page_template *flow_template(const struct page_text *t, int page);
 
 /* layout.c: the line that a byte is in (before: where one ends and the next begins there, the one that ends), its page, its slot. */

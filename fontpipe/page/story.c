@@ -18,7 +18,7 @@ enum font_status page_text_create(struct page_text **out)
     if (!t)
         return no_memory();
     t->buffer = hb_buffer_create();
-    t->dirty_until = -1;
+    t->last_filled = -1;
     return FONT_OK;
 }
 
@@ -274,7 +274,6 @@ static enum font_status paragraph_make(struct page_text *t, const char *utf8, si
                             .style = style,
                             .flow = -1,
                             .first_page = -1,
-                            .last_page = -1,
                             .owner = -1};
     p->text = malloc(bytes + 1);
     if (!p->text || !array_reserve(&p->spans, &p->spans_capacity, 1, sizeof *p->spans) ||
@@ -289,14 +288,6 @@ static enum font_status paragraph_make(struct page_text *t, const char *utf8, si
     t->by_id[t->ids_count++] = p;
     *out = p;
     return FONT_OK;
-}
-
-/* Pages from the one on which the flow's paragraph before number `at` ends. */
-static void flow_moved(struct page_text *t, int flow, int at)
-{
-    const struct flow *f = &t->flows[flow];
-    int page = at > 0 && at - 1 < f->count ? f->paragraphs[at - 1]->last_page : 0;
-    flow_changed_from(t, page > 0 ? page - 1 : page);
 }
 
 enum font_status page_paragraph_add(struct page_text *t, int flow, int at, const char *utf8,

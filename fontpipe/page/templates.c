@@ -127,6 +127,6 @@ enum font_status page_templates_set(struct page_text *t, const struct page_templ
         p->vertical = !p->vertical;
         set_forget(p);
     }
-    flow_changed_from(t, 0);
+    flow_changed_all(t);
     return FONT_OK;
 }

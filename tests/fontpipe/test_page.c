@@ -122,13 +122,15 @@ static const char *const words[] = {"water",
                                     "\xf0\x9f\x98\x80\xf0\x9f\x87\xa9\xf0\x9f\x87\xaa",
                                     "\xe4\xb8\x80\xe4\xba\x8c\xe4\xb8\x89",
                                     "\xff"};
-enum { WORDS = sizeof words / sizeof *words };
+enum { WORDS = sizeof words / sizeof *words, WORDS_NEAR = 8 };
+/* So many of them are used: the first few need no other font than the styles', of which some are large. */
+static uint32_t words_used = WORDS;
 
 static size_t random_text(uint32_t *seed, char *out, int count)
 {
     size_t bytes = 0;
     for (int i = 0; i < count; i++) {
-        const char *w = words[random_next(seed) % WORDS];
+        const char *w = words[random_next(seed) % words_used];
         memcpy(out + bytes, w, strlen(w));
         bytes += strlen(w);
         if (i + 1 < count)
@@ -200,12 +202,15 @@ static struct page_manner random_manner(uint32_t *seed)
 
 /* ---- edited texts against texts set anew ---- */
 
+enum { NOTES = 3 };
+
 struct model {
     int id;
     char *text;
     int bytes, first_style;
     uint8_t *styles; /* of each byte */
     struct page_manner manner;
+    int notes[NOTES], notes_count; /* where: each says the word of its number */
 };
 enum { MODELS = 60, MODEL_BYTES = 4000 };
 
@@ -248,6 +253,18 @@ static int random_boundary(uint32_t *seed, const struct model *m)
     return at;
 }
 
+/* A note at the foot of its column. */
+static void note_put(struct page_text *t, int id, int byte)
+{
+    static const char text[] =
+        "of the note, which says so much that it has one line or has several lines";
+    struct page_manner manner = page_manner_default();
+    int note;
+    manner.leading_px = 13;
+    assert_font(
+        page_note_add(t, id, byte, PAGE_NOTE_FOOT, text, sizeof text - 1, 0, &manner, &note));
+}
+
 static void model_replace(struct page_text *t, struct model *m, uint32_t *seed)
 {
     char put[400];
@@ -263,6 +280,11 @@ static void model_replace(struct page_text *t, struct model *m, uint32_t *seed)
     if (m->bytes - (b - a) + bytes > MODEL_BYTES)
         return;
     assert_font(page_text_replace(t, m->id, a, b - a, put, (size_t)bytes));
+    for (int i = 0; i < m->notes_count; i++)
+        if (m->notes[i] >= b && m->notes[i] > a)
+            m->notes[i] += bytes - (b - a);
+        else if (m->notes[i] > a)
+            m->notes[i] = a;
     uint8_t style = m->styles[a > 0 ? a - 1 : 0];
     memmove(m->text + a + bytes, m->text + b, (size_t)(m->bytes - b));
     memmove(m->styles + a + bytes, m->styles + b, (size_t)(m->bytes - b));
@@ -287,6 +309,19 @@ static void model_add(struct page_text *t, struct model *models, int *count, uin
     ++*count;
 }
 
+static void model_note(struct page_text *t, struct model *m, uint32_t *seed)
+{
+    if (m->notes_count == NOTES)
+        return;
+    int byte = random_boundary(seed, m), at = m->notes_count++;
+    while (at > 0 && m->notes[at - 1] > byte) {
+        m->notes[at] = m->notes[at - 1];
+        at--;
+    }
+    m->notes[at] = byte;
+    note_put(t, m->id, byte);
+}
+
 static struct page_text *text_from(const struct model *models, int count, bool shaped)
 {
     struct page_text *t = text_begin();
@@ -302,6 +337,8 @@ static struct page_text *text_from(const struct model *models, int count, bool s
             assert_font(page_paragraph_style(t, id, begin, end, m->styles[begin]));
             begin = end;
         }
+        for (int k = 0; k < m->notes_count; k++)
+            note_put(t, id, m->notes[k]);
     }
     columns_set(t, shaped);
     return t;
@@ -312,6 +349,8 @@ static void model_change(struct page_text *t, struct model *models, int *count, 
     struct model *m = &models[random_next(seed) % (uint32_t)*count];
     struct font_layout layout;
     uint32_t what = random_next(seed) % 10;
+    if (random_next(seed) % 16 == 0)
+        model_note(t, m, seed);
     if (what == 0 && *count < MODELS) {
         model_add(t, models, count, seed);
     } else if (what == 1 && *count > 5) {
@@ -341,6 +380,14 @@ static void model_change(struct page_text *t, struct model *models, int *count, 
     }
 }
 
+static void models_free(struct model *models, int count)
+{
+    for (int i = 0; i < count; i++) {
+        free(models[i].text);
+        free(models[i].styles);
+    }
+}
+
 static void edited_is_as_from_scratch(void **state)
 {
     (void)state;
@@ -361,12 +408,49 @@ static void edited_is_as_from_scratch(void **state)
             pages_compare(t, fresh, turn);
             page_text_destroy(fresh);
         }
-        for (int i = 0; i < count; i++) {
-            free(models[i].text);
-            free(models[i].styles);
-        }
+        models_free(models, count);
         page_text_destroy(t);
     }
+}
+
+/* Each edit is followed by a look at some page, and all other pages are left as they are: runs of 3 to 26 edits, of which each page is
+ * compared at the end. LUTETIA_PAGE_RUNS says how many runs; every third has a shape that lines go around. */
+static void pages_left_unfilled_are_not_stale(void **state)
+{
+    (void)state;
+    const char *asked = getenv("LUTETIA_PAGE_RUNS");
+    int runs = asked ? atoi(asked) : 100;
+    for (int run = 0; run < runs; run++) {
+        static struct model models[MODELS + 1];
+        uint32_t seed = 1234567u + (uint32_t)run * 2654435761u;
+        bool shaped = run % 3 == 2;
+        int count = 0, pages;
+        words_used = run % 30 == 0 ? WORDS : WORDS_NEAR;
+        struct page_text *t = text_begin();
+        columns_set(t, shaped);
+        for (int i = 0; i < 14; i++)
+            model_add(t, models, &count, &seed);
+        if (run % 2)
+            assert_font(page_count(t, &pages));
+        for (int edits = 3 + (int)(random_next(&seed) % 24); edits > 0; edits--) {
+            struct font_layout layout;
+            struct page_place place = {models[random_next(&seed) % (uint32_t)count].id, 0};
+            int page;
+            model_change(t, models, &count, &seed);
+            uint32_t look = random_next(&seed) % 3;
+            if (look == 0 && page_layout(t, (int)(random_next(&seed) % 5), &layout) == FONT_OK)
+                font_layout_finish(&layout);
+            else if (look == 1 && page_find(t, place, &page) == FONT_OK &&
+                     page_layout(t, page, &layout) == FONT_OK)
+                font_layout_finish(&layout);
+        }
+        struct page_text *fresh = text_from(models, count, shaped);
+        pages_compare(t, fresh, run);
+        page_text_destroy(fresh);
+        models_free(models, count);
+        page_text_destroy(t);
+    }
+    words_used = WORDS;
 }
 
 /* ---- pointing ---- */
@@ -524,6 +608,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(paragraphs_are_broken_best),
         cmocka_unit_test(edited_is_as_from_scratch),
+        cmocka_unit_test(pages_left_unfilled_are_not_stale),
         cmocka_unit_test(carets_and_hits_agree),
         cmocka_unit_test(places_are_hit_again),
         cmocka_unit_test(selections_add_up),

@@ -407,6 +407,88 @@ static void text_keeps_off_shapes(void **state)
     }
 }
 
+/* How far the page's glyphs stand out of the column, or into the box that lines go around. */
+static double stands_out(const struct font_layout *l, const struct page_frame *frame,
+                         const double *box, double leading)
+{
+    double most = 0;
+    for (int i = 0; i < l->glyphs_count; i++) {
+        const struct font_placed *g = &l->glyphs[i];
+        struct font_face_info info;
+        font_face_describe(g->face, &info);
+        double scale = (double)g->size_px / info.units_per_em, end = glyph_end(g);
+        double top = g->y_px - leading / 2 - (info.ascender + info.descender) * scale / 2;
+        most = fmax(most, fmax(frame->x - g->x_px, end - frame->x - frame->width));
+        if (g->size_px > 12 && top < box[3] - 0.01 && top + leading > box[1] + 0.01 &&
+            end - g->x_px > 0)
+            most = fmax(most, fmin(end - box[0], box[2] - g->x_px));
+    }
+    return most;
+}
+
+/* Notes shorten the column while it is filled, keeps send lines on: what then goes around a box must be broken for what it gets. */
+static void notes_and_keeps_beside_shapes(void **state)
+{
+    (void)state;
+    static const char *const some[] = {"the ", "of ",     "human ",  "family ",
+                                       "a ",   "rights ", "paper, ", "extraordinary "};
+    uint32_t seed = 3;
+    for (int turn = 0; turn < 25; turn++) {
+        struct fixture f;
+        struct page_frame frames[2] = {{.x = 20, .y = 20, .width = 210, .height = 380},
+                                       {.x = 250, .y = 20, .width = 210, .height = 380}};
+        double x = 20 + 20 * (turn % 4), y = 30 + 17 * (turn % 17), w = 240;
+        const double box[4] = {x, y, x + w, y + 60 + 7 * (turn % 9)};
+        const double corners[8] = {box[0], box[1], box[2], box[1],
+                                   box[2], box[3], box[0], box[3]};
+        const struct page_shape shape = {.points = corners, .points_count = 4, .least_px = 60};
+        begin(&f, frames, 2, &shape);
+        struct page_style small = page_style_default();
+        int fine, note;
+        small.font = "DejaVuSerif";
+        small.size_px = 10;
+        assert_font(page_style_add(f.text, &small, &fine));
+        struct page_manner m = manner_of(FONT_ALIGN_JUSTIFY), foot = m;
+        foot.leading_px = 13;
+        m.hyphenate = true;
+        for (int i = 0; i < 4; i++) {
+            char text[4000] = "";
+            for (int k = 20 + (int)(random_next(&seed) % 150); k > 0; k--)
+                strcat(text, some[random_next(&seed) % 8]);
+            m.orphans = m.widows = 1 + (int)(random_next(&seed) % 3);
+            m.keep_together = random_next(&seed) % 4 == 0;
+            m.keep_with_next = random_next(&seed) % 4 == 0;
+            int id = add(&f, text, &m);
+            for (int k = 0; k < 2; k++) {
+                int byte = (int)(random_next(&seed) % strlen(text));
+                assert_font(page_note_add(f.text, id, byte, PAGE_NOTE_FOOT, some[k],
+                                          strlen(some[k]), fine, &foot, &note));
+            }
+        }
+        int pages;
+        assert_font(page_count(f.text, &pages));
+        for (int k = 0; k < pages; k++) {
+            const struct font_layout *l = look(&f, k);
+            for (int c = 0; c < 2; c++) {
+                struct font_layout part = *l;
+                struct font_placed *glyphs =
+                    calloc((size_t)l->glyphs_count + 1, sizeof *glyphs);
+                part.glyphs = glyphs;
+                part.glyphs_count = 0;
+                for (int i = 0; i < l->glyphs_count; i++)
+                    if ((l->glyphs[i].x_px > 240) == c)
+                        glyphs[part.glyphs_count++] = l->glyphs[i];
+                double most = stands_out(&part, &frames[c], box, m.leading_px);
+                if (most > 3) /* an overfull line may be a little */
+                    fail_msg("turn %d, page %d, column %d: a glyph stands out by %g px", turn,
+                             k, c, most);
+                free(glyphs);
+            }
+        }
+        end(&f);
+    }
+}
+
 static void tabs_are_stops(void **state)
 {
     (void)state;
@@ -503,6 +585,7 @@ int main(void)
         cmocka_unit_test(notes_go_with_their_lines),
         cmocka_unit_test(notes_stand_under_vertical_lines),
         cmocka_unit_test(text_keeps_off_shapes),
+        cmocka_unit_test(notes_and_keeps_beside_shapes),
         cmocka_unit_test(tabs_are_stops),
         cmocka_unit_test(lines_go_down),
         cmocka_unit_test(thai_words_are_broken),
