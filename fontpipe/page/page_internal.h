@@ -2,7 +2,7 @@
  *
  *     page_text -> flows -> paragraphs -> letters, shaped runs        set.c: once for each change of the text
  *                                      -> lines                       lines.c: once for each change of widths
- *               -> pages: which lines of which paragraphs, where      flow.c: from the first that has changed */
+ *               -> pages: which lines of which paragraphs, where      flow.c; pages.c: those that need it */
 #ifndef LUTETIA_PAGE_INTERNAL_H
 #define LUTETIA_PAGE_INTERNAL_H
 
@@ -257,12 +257,22 @@ double frame_measure(const struct page_frame *f);
 double frame_depth(const struct page_frame *f);
 
 /* flow.c */
+enum { FLOW_CHAIN_MAX = 4 }; /* paragraphs that one kept with the next looks at */
+const struct page_template *flow_template(const struct page_text *t, int page);
+/* Fills the page's frames from *ends on, which become those of the page. */
+enum font_status flow_frames_fill(struct page_text *t, struct page *page, int number,
+                                  struct cursor *ends);
+/* Whether all of the flow's lines are of one width. */
+bool flow_uniform(const struct page_text *t, int flow, double *width);
+/* Of what is seen of lines begin..end. */
+uint32_t flow_lines_hash(const struct paragraph *p, int begin, int end);
+
+/* pages.c: pages up to this one are as the text is now. */
 enum font_status flow_fill(struct page_text *t, int page);
 void flow_changed(struct page_text *t, const struct paragraph *p); /* pages that looked at it */
 /* A flow's paragraphs from number `at` on have other numbers. */
 void flow_moved(struct page_text *t, int flow, int at);
 void flow_changed_all(struct page_text *t);
-const struct page_template *flow_template(const struct page_text *t, int page);
 
 /* layout.c: the line that a byte is in (before: where one ends and the next begins there, the one that ends), its page, its slot. */
 int layout_line(const struct paragraph *p, int byte, bool before);
