@@ -2,6 +2,7 @@
 """Makes the public header, the entry points, the tests' table and the reference page of instructions.tab.
 
     generate.py header instructions.tab paris.h paris.h.in
+    generate.py python instructions.tab OUTPUT paris.h.in SONAME
     generate.py entries|tests|tests_floats|integers|fuzz|reference instructions.tab OUTPUT
 
 Each row becomes a list of Function, by a shape of table/*.py; the outputs are so many ways of printing these.
@@ -10,7 +11,7 @@ import sys
 
 sys.dont_write_bytecode = True
 
-from table import along_axes, basic, complex, floats, integers, router
+from table import along_axes, basic, complex, floats, integers, python, router
 from table.function import call
 from table.fuzz import fuzz
 
@@ -196,6 +197,8 @@ def main():
     sections = read_table(table)
     if kind == "header":
         text = header(sections, sys.argv[4])
+    elif kind == "python":
+        text = python.names(sections, open(sys.argv[4]).read(), sys.argv[5])
     else:
         text = {"entries": entries, "tests": tests, "tests_floats": lambda all: tests(all, True),
                 "integers": integer_tests, "fuzz": fuzz, "reference": reference}[kind](sections)

@@ -1,0 +1,240 @@
+#!/usr/bin/env python3
+"""Tests the Python module `paris`.
+
+    test_paris.py LUTETIA RANDOM HEADERS DATA [PROGRAMS]
+
+LUTETIA is the command, RANDOM the generator of random programs (test_random), HEADERS the folder of <cm/paris.h>, DATA a library
+with data_real() and data_word(), the generator's data. Each random program is compiled as C and performed by Python; both print
+the same. 77: NumPy is not installed.
+"""
+import ctypes
+import io
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+try:
+    import numpy as np
+except ImportError:
+    print("skipped: NumPy is not installed for this python3")
+    sys.exit(77)
+import paris
+from paris import *
+from paris._names import CALLS, CONSTANTS, VARIABLES
+
+LUTETIA, RANDOM, HEADERS, DATA = map(os.path.abspath, sys.argv[1:5])
+PROGRAMS = int(sys.argv[5]) if len(sys.argv) > 5 else 20
+C_TYPES = {"v": "void", "i": "int", "u": "unsigned int", "l": "long", "m": "unsigned long", "d": "double", "c": "CM_complex_t",
+           "V": "CM_vector_t", "R": "const void *", "W": "void *", "A": "CM_axis_descriptor_t *",
+           "H": "void (*) (const char *)"}
+
+
+def signatures_are_the_headers():
+    """A C compiler compares each name's types with the header's; and no name of the header is missing."""
+    lines = ["#include <cm/paris.h>"]
+    for name, letters in CALLS.items():
+        arguments = ", ".join(C_TYPES[x] for x in letters[1:]) or "void"
+        lines.append(f'_Static_assert (__builtin_types_compatible_p (__typeof__ ({name}), {C_TYPES[letters[0]]} ({arguments})), "{name}");')
+    lines += [f'_Static_assert ({name} == {value}, "{name}");' for name, value in CONSTANTS.items()]
+    lines += [f'_Static_assert (__builtin_types_compatible_p (__typeof__ ({name}), {C_TYPES[x]}), "{name}");' for name, x in VARIABLES.items()]
+    made = subprocess.run(["cc", "-std=gnu17", "-fsyntax-only", "-I" + HEADERS, "-x", "c", "-"], input="\n".join(lines), text=True, capture_output=True)
+    assert made.returncode == 0, made.stderr[:3000]
+    header = open(os.path.join(HEADERS, "cm/paris.h")).read()
+    declared = set(re.findall(r"^extern [\w *]+?\**(CM_\w+) \(", header, re.M))
+    assert declared == set(CALLS), declared ^ set(CALLS)
+    defined = set(re.findall(r"^#define (CM_\w+) \w", header, re.M))
+    assert defined == set(CONSTANTS), defined ^ set(CONSTANTS)
+    for name in CALLS:
+        getattr(paris, name)
+
+
+def set_make(*lengths):
+    CM_set_vp_set(CM_allocate_vp_set(CM_create_geometry(lengths, len(lengths))))
+
+
+def address_of(place):
+    geometry, address = CM_vp_set_geometry(paris.CM_current_vp_set), 0
+    for axis, coordinate in enumerate(place):
+        address = CM_fe_deposit_news_coordinate(geometry, address, axis, coordinate)
+    return address
+
+
+def arrays_are_fields():
+    """Each type and several ranks: every element stands where the calls for one processor find it."""
+    rng = np.random.default_rng(1)
+    for lengths in ((7,), (3, 5), (4, 1, 6), (2, 3, 2, 2)):
+        set_make(*lengths)
+        assert paris.shape() == lengths
+        for kind in "?", "u1", "u2", "u4", "u8", "i1", "i2", "i4", "i8", "f4", "f8", "c8", "c16":
+            dtype = np.dtype(kind)
+            values = rng.integers(-120, 120, lengths)
+            array = (values % 2 if kind == "?" else values % 200 if kind[0] == "u" else values).astype(dtype)
+            field = CM_allocate_heap_field(1 if kind == "?" else dtype.itemsize * 8)
+            paris.write(field, array)
+            for place in np.ndindex(*lengths):
+                a, n = address_of(place), dtype.itemsize * 8
+                if kind == "f4":
+                    got = CM_f_read_from_processor_1L(a, field, 23, 8)
+                elif kind == "f8":
+                    got = CM_f_read_from_processor_1L(a, field, 52, 11)
+                elif kind == "c8":
+                    got = CM_c_read_from_processor_1L(a, field, 23, 8)
+                elif kind == "c16":
+                    got = CM_c_read_from_processor_1L(a, field, 52, 11)
+                elif kind[0] == "i":
+                    got = CM_s_read_from_processor_1L(a, field, min(n, 32))
+                else:
+                    got = CM_u_read_from_processor_1L(a, field, 1 if kind == "?" else min(n, 32))
+                assert got == array[place], (kind, place, got, array[place])
+            back = paris.read(field, dtype)
+            assert back.dtype == dtype and (back == array).all(), (kind, back, array)
+            into = np.zeros(lengths, dtype)
+            assert paris.read(field, dtype, out=into) is into and (into == array).all()
+            CM_deallocate_heap_field(field)
+
+
+def parts_and_turned_arrays():
+    set_make(6, 9)
+    field = CM_allocate_heap_field(32)
+    whole = np.arange(54, dtype="u4").reshape(6, 9)
+    paris.write(field, whole.T.copy().T)  # in Fortran's order
+    assert (paris.read(field, "u4") == whole).all()
+    assert (paris.read(field, "u4", at=(2, 3), shape=(3, 4)) == whole[2:5, 3:7]).all()
+    assert (paris.read(field, "u4", at=(2, 3)) == whole[2:, 3:]).all()
+    paris.write(field, np.full((2, 2), 1000, "u4"), at=(4, 0))
+    whole[4:6, 0:2] = 1000
+    assert (paris.read(field, "u4") == whole).all()
+    # A context does not matter; lengths shorter than the element do.
+    CM_clear_context()
+    paris.write(field, whole + 1)
+    CM_set_context()
+    assert (paris.read(field, "u4") == whole + 1).all()
+    narrow = CM_allocate_heap_field(5)
+    paris.write(narrow, whole)
+    assert (paris.read(narrow, "u1") == whole % 32).all()
+    signed = CM_allocate_heap_field(12)
+    paris.write(signed, whole.astype("i4") - 700)
+    assert (paris.read(signed, "i2") == whole.astype("i4") - 700).all()
+    half = CM_allocate_heap_field(16)
+    paris.write(half, np.full((6, 9), 0.5, "f4"), length=(10, 5))
+    assert (paris.read(half, "f4", length=(10, 5)) == 0.5).all()
+
+
+def raises(kind, words, call, *arguments, **more):
+    try:
+        call(*arguments, **more)
+    except kind as error:
+        assert words in str(error), (words, str(error))
+        return error
+    raise AssertionError(f"{call.__name__}{arguments} was let pass")
+
+
+def errors_are_exceptions():
+    set_make(4, 4)
+    field = CM_allocate_heap_field(8)
+    paris.write(field, np.arange(16, dtype="u1").reshape(4, 4))
+    error = raises(paris.Error, "CM_u_add_2_1L: ", CM_u_add_2_1L, field, CM_no_field, 8)
+    assert error.status == CM_error_call
+    raises(paris.Error, "", CM_u_move_constant_1L, field, 1, 2000)
+    raises(paris.Error, "end_vector", paris.write, field, np.zeros((5, 4), "u1"))
+    raises(ValueError, "2 axes", paris.write, field, np.zeros(4, "u1"))
+    raises(ValueError, "2 axes", paris.read, field, "u1", at=(1,), shape=(1, 1))
+    raises(TypeError, "float16", paris.write, field, np.zeros((4, 4), "f2"))
+    raises(TypeError, ">u4", paris.write, field, np.zeros((4, 4), ">u4"))
+    raises(ValueError, "out must have", paris.read, field, "u1", out=np.zeros((4, 3), "u1"))
+    raises(ctypes.ArgumentError, "contiguous", CM_u_read_from_news_array_1L, np.zeros((4, 8), "u1")[:, ::2], [0, 0], [0, 0], [4, 4], [0, 1], field, 8, 2, [4, 4], CM_8_bit)
+    frozen = np.zeros((4, 4), "u1")
+    frozen.flags.writeable = False
+    raises(ctypes.ArgumentError, "written", CM_u_read_from_news_array_1L, frozen, [0, 0], [0, 0], [4, 4], [0, 1], field, 8, 2, [4, 4], CM_8_bit)
+    paris.write(field, frozen + np.arange(16, dtype="u1").reshape(4, 4))
+    raises(ctypes.ArgumentError, "", CM_u_add_2_1L, field, 1.5, 8)
+    raises(ctypes.ArgumentError, "", CM_u_add_2_1L, field, 1 << 40, 8)
+    raises(AttributeError, "CM_such", getattr, paris, "CM_such")
+    assert (paris.read(field, "u1") == np.arange(16).reshape(4, 4)).all()  # nothing of it had an effect
+
+
+def data_of(path):
+    library = ctypes.CDLL(path)
+    library.data_real.restype, library.data_real.argtypes = ctypes.c_double, [ctypes.c_uint32, ctypes.c_uint64]
+    library.data_word.restype, library.data_word.argtypes = ctypes.c_uint64, [ctypes.c_uint32, ctypes.c_uint64]
+    return library
+
+
+def to_python(source):
+    """The body of main() of a random program, line by line: calls, assignments, loops over processors, prints."""
+    out, body = [], source[source.index("int main (void)"):]
+    indent = "    "
+    for line in body.splitlines()[2:-1]:
+        line = line.strip()
+        line = re.sub(r"\b(\d+)u\b", r"\1", line).replace("HUGE_VAL", "inf").replace("NAN", "nan")
+        if m := re.fullmatch(r"int (lengths\d+)\[\] = \{(.*)\};", line):
+            out.append(f"    {m[1]} = [{m[2]}]")
+        elif not line or line.startswith(("CM_field_id_t f", "CM_vp_set_id_t ", "int n;", "{ /*", "return", "unsigned ")) and "(" not in line.split("/*")[0]:
+            continue
+        elif m := re.fullmatch(r"\{ int n; for \(n = 0; n < (\d+); n\+\+\) printf \(\"(%\w+)\\n\", (.*)\); \}", line):
+            out.append(f"    for n in range({m[1]}):\n        show('{m[2]}', {m[3]})")
+        elif m := re.fullmatch(r"for \(n = 0; n < (\d+); n\+\+\)", line):
+            out.append(f"    for n in range({m[1]}):")
+            indent = "        "
+        elif line in "{}":
+            indent = "    "
+        elif m := re.fullmatch(r"printf \(\"(%\w+)\\n\", (.*)\);", line):
+            out.append(f"{indent}show('{m[1]}', {m[2]})")
+        elif line.endswith(";"):
+            out.append(indent + line[:-1])
+            indent = "    "
+        else:
+            raise AssertionError(f"a line of a random program is not understood: {line}")
+    return "def program():\n" + "\n".join(out) + "\n"
+
+
+def random_program_is_cs(seed, folder, data):
+    source = subprocess.run([RANDOM, "--print", str(seed)], capture_output=True, text=True, check=True).stdout
+    declared = "#include <stdint.h>\nuint64_t data_word (uint32_t stream, uint64_t index);\ndouble data_real (uint32_t stream, uint64_t index);\n"
+    open(os.path.join(folder, "program.c"), "w").write(declared + source)
+    subprocess.run([LUTETIA, "cc", "-std=gnu17", "-w", "program.c", "-o", "program", DATA, "-Wl,-rpath," + os.path.dirname(DATA)], cwd=folder, check=True)
+    expected = subprocess.run(["./program"], cwd=folder, capture_output=True, text=True)
+    shown = io.StringIO()
+    printf = ctypes.CDLL(None).snprintf
+
+    def show(form, value):
+        text = ctypes.create_string_buffer(400)
+        printf(text, 400, (form + "\n").encode(), ctypes.c_double(value) if form[-1] in "agef" else ctypes.c_ulong(value & 0xffffffffffffffff))
+        shown.write(text.value.decode())
+
+    def address(vp_set, n):
+        geometry, a = CM_vp_set_geometry(vp_set), 0
+        for axis in range(CM_geometry_rank(geometry) - 1, -1, -1):
+            length = CM_geometry_axis_length(geometry, axis)
+            a = CM_fe_deposit_news_coordinate(geometry, a, axis, n % length)
+            n //= length
+        return a
+
+    names = {name: getattr(paris, name) for name in [*CALLS, *CONSTANTS]}
+    text = to_python(source)
+    text = re.sub(r"\bCM_current_vp_set\b", "paris.CM_current_vp_set", text)
+    environment = names | {"paris": paris, "show": show, "address": address, "inf": float("inf"), "nan": float("nan"),
+                           "data_real": data.data_real, "data_word": data.data_word}
+    exec(text, environment)
+    failed = None
+    try:
+        environment["program"]()
+    except paris.Error as error:
+        failed = str(error)
+    assert (failed is None) == (expected.returncode == 0), (seed, failed, expected.stderr)
+    assert shown.getvalue() == expected.stdout, (seed, shown.getvalue(), expected.stdout)
+    return len(expected.stdout.splitlines())
+
+
+CM_attach_to_processors(16)
+CM_init()
+signatures_are_the_headers()
+arrays_are_fields()
+parts_and_turned_arrays()
+errors_are_exceptions()
+with tempfile.TemporaryDirectory() as folder:
+    data = data_of(DATA)
+    lines = sum(random_program_is_cs(seed, folder, data) for seed in range(1, PROGRAMS + 1))
+    assert lines > PROGRAMS  # they print something
