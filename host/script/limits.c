@@ -69,3 +69,41 @@ void script_memory_give(struct script *script, double bytes)
 {
     script->memory_bytes -= (size_t)bytes;
 }
+
+/* ---- memory for a while ---- */
+
+struct hold {
+    struct script *script;
+    double bytes;
+};
+
+static const char hold_type[] = "lutetia hold";
+
+static int hold_end(lua_State *L)
+{
+    struct hold *hold = luaL_checkudata(L, 1, hold_type);
+    script_memory_give(hold->script, hold->bytes);
+    hold->bytes = 0;
+    return 0;
+}
+
+void script_memory_hold(lua_State *L, double bytes, const char *what)
+{
+    struct hold *hold = lua_newuserdatauv(L, sizeof *hold, 0);
+    *hold = (struct hold){.script = script_of(L)};
+    luaL_setmetatable(L, hold_type);
+    script_memory_take(L, bytes, what);
+    hold->bytes = bytes;
+}
+
+void script_memory_release(lua_State *L, int index)
+{
+    struct hold *hold = luaL_checkudata(L, index, hold_type);
+    script_memory_give(hold->script, hold->bytes);
+    hold->bytes = 0;
+}
+
+void script_limits_open(lua_State *L)
+{
+    script_type_open(L, hold_type, hold_end);
+}

@@ -426,12 +426,13 @@ int script_mask_text_push(lua_State *L, int index)
     /* The most memory for drawing a letter at its place in the picture; only the picture's
      * memory stays counted. */
     double work = 16 * line.size_px * line.size_px + 64 * (double)strlen(line.text);
-    script_memory_take(L, work, "a text");
+    script_memory_hold(L, work, "a text");
+    const int hold = lua_gettop(L);
     line.pixels_max = fmax(1, script_memory_left(script));
     struct script_mask *mask = script_mask_new(L); /* takes over the screen's gray values */
     struct paper_screen screen;
     enum paper_status status = paper_line_screen(&line, &screen, NULL);
-    script_memory_give(script, work);
+    script_memory_release(L, hold);
     if (status != PAPER_OK)
         luaL_error(L, "%s", paper_error());
     mask->bytes = (double)screen.width_px * screen.height_px;

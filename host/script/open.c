@@ -57,6 +57,7 @@ static void functions_open(lua_State *L, const struct script_functions *f)
 int script_open(lua_State *L)
 {
     script_sandbox_open(L);
+    script_limits_open(L);
     script_call_open(L);
     script_mask_open(L);
     script_paper_open(L);
@@ -65,6 +66,7 @@ int script_open(lua_State *L)
     script_stroke_open(L);
     script_picture_open(L);
     script_springs_open(L);
+    script_song_open(L);
     for (const struct script_functions *f = script_functions; f->functions; f++)
         functions_open(L, f);
     return 0;

@@ -150,16 +150,16 @@ static int make_page(lua_State *L)
     lua_settop(L, 2);
     const char *text = luaL_checklstring(L, 1, &bytes);
     wanted_read(L, 2, &w);
-    struct script *script = script_of(L);
     double work = LETTER_BYTES * (double)bytes + 16 * w.setup.size_px * w.setup.size_px;
-    script_memory_take(L, work, "a page");
+    script_memory_hold(L, work, "a page");
+    const int hold = lua_gettop(L);
     struct script_mask *mask = script_mask_gray_new(
         L, floor(w.setup.width_px), floor(w.setup.height_px), floor(w.x), floor(w.y));
     struct font_cover cover = {mask->width, mask->height, mask->width, mask->gray};
     font_simd_plain_here(true); /* a sheet is the same on every processor */
     enum font_status status = page_cover(&w, text, bytes, &cover, &pages);
     font_simd_plain_here(false);
-    script_memory_give(script, work);
+    script_memory_release(L, hold);
     if (status != FONT_OK)
         luaL_error(L, "%s", font_error());
     lua_pushinteger(L, pages);

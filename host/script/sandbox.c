@@ -87,55 +87,6 @@ void script_hook_set(lua_State *L)
     lua_sethook(L, hook, LUA_MASKCOUNT, 1000);
 }
 
-/* setmetatable: as Lua's, but without finalizers. A finalizer runs during any allocation,
- * and Lua calls no hook there, so only the end of the process could stop it. Lua looks for
- * __gc only in setmetatable; a __gc added to the metatable later is never called. */
-static int set_metatable(lua_State *L)
-{
-    lua_settop(L, 2);
-    luaL_checktype(L, 1, LUA_TTABLE); /* here, where the script's line is known */
-    luaL_argexpected(L, lua_isnil(L, 2) || lua_istable(L, 2), 2, "nil or table");
-    if (lua_istable(L, 2)) {
-        lua_pushliteral(L, "__gc");
-        if (lua_rawget(L, 2) != LUA_TNIL)
-            luaL_error(L, "a script's tables have no __gc; local x <close> = ... is closed "
-                          "where its block ends");
-        lua_pop(L, 1);
-    }
-    lua_pushvalue(L, lua_upvalueindex(1));
-    lua_insert(L, 1);
-    lua_call(L, 2, 1);
-    return 1;
-}
-
-/* coroutine.resume: as Lua's, but a coroutine that failed is closed at once, which releases
- * its pins. The coroutine stays on the stack, because code that runs while it is closed may
- * drop the last reference. */
-static int resume(lua_State *L)
-{
-    lua_State *other = lua_tothread(L, 1);
-    luaL_argexpected(L, other, 1, "coroutine");
-    lua_pushvalue(L, 1);
-    lua_insert(L, 1);
-    lua_pushvalue(L, lua_upvalueindex(1));
-    lua_insert(L, 2);
-    lua_call(L, lua_gettop(L) - 2, LUA_MULTRET);
-    if (lua_status(other) != LUA_OK && lua_status(other) != LUA_YIELD) {
-        lua_resetthread(other);
-        lua_settop(other, 0); /* the error was moved here before */
-    }
-    return lua_gettop(L) - 1;
-}
-
-/* Replaces a function of the table on the top; the new function has the old one as its
- * upvalue. */
-static void replace(lua_State *L, const char *name, lua_CFunction function)
-{
-    lua_getfield(L, -1, name);
-    lua_pushcclosure(L, function, 1);
-    lua_setfield(L, -2, name);
-}
-
 /* print: as Lua's, to the host's function. */
 static int print(lua_State *L)
 {
@@ -146,7 +97,7 @@ static int print(lua_State *L)
     for (int i = 1; i <= count; i++) {
         if (i > 1)
             luaL_addchar(&line, '\t');
-        luaL_tolstring(L, i, NULL);
+        script_text_push(L, i);
         luaL_addvalue(&line);
     }
     luaL_addchar(&line, '\n');
@@ -336,20 +287,12 @@ void script_sandbox_open(lua_State *L)
             lua_pushnil(L);
             lua_setglobal(L, taken[i]);
         }
-        lua_pushglobaltable(L);
-        replace(L, "setmetatable", set_metatable);
-        lua_getglobal(L, "string");
-        lua_pushnil(L);
-        lua_setfield(L, -2, "dump");
-        lua_pop(L, 2);
     }
-    lua_getglobal(L, "coroutine");
-    replace(L, "resume", resume);
-    lua_pop(L, 1);
     lua_getglobal(L, "math");
     lua_getfield(L, -1, "randomseed");
     lua_pushinteger(L, (lua_Integer)script->config->seed);
     lua_call(L, 1, 0);
     lua_pop(L, 1);
+    script_lua_functions_open(L);
     script_hook_set(L);
 }

@@ -42,6 +42,8 @@ struct script {
     bool memory_short;          /* an allocation of Lua's was refused */
     bool
         answers; /* it is asked again and again, and each answer has its own time (script_map.h) */
+    const char *stack_begin; /* where the C stack was when the script began; NULL: not known */
+    lua_Integer objects_numbered;
     bool over; /* only finalizers run, which can no longer call the library */
     bool asked[SCRIPT_WORDS_MAX], words_checked;
     int papers_made;
@@ -68,6 +70,10 @@ void script_check(lua_State *L); /* level 1 */
  * nothing. */
 void script_memory_take(lua_State *L, double bytes, const char *what);
 void script_memory_give(struct script *script, double bytes);
+/* Counts memory for a while: pushes what gives it back when it is released, or collected after an error. */
+void script_memory_hold(lua_State *L, double bytes, const char *what);
+void script_memory_release(lua_State *L, int index);
+void script_limits_open(lua_State *L);
 /* The memory that may still be allocated. */
 double script_memory_left(const struct script *script);
 
@@ -210,6 +216,8 @@ void script_midi_push(lua_State *L, const struct midi_message *m);
 
 /* Makes the metatable of a kind of userdata; gc may be NULL. */
 void script_type_open(lua_State *L, const char *name, lua_CFunction gc);
+/* Hides the metatable on the top, and the functions in it, from scripts. */
+void script_metatable_hide(lua_State *L);
 /* Raises an error that names the methods in the table on the top. */
 void script_method_unknown(lua_State *L, const char *type, const char *name);
 /* Makes the metatables of the library's types, without their methods. */
@@ -221,6 +229,7 @@ void script_brush_open(lua_State *L);
 void script_stroke_open(lua_State *L);
 void script_picture_open(lua_State *L);
 void script_springs_open(lua_State *L);
+void script_song_open(lua_State *L);
 
 extern const char script_mask_type[], script_papers_type[], script_paper_type[],
     script_brush_type[], script_picture_type[], script_spring_type[], script_network_type[];
@@ -246,6 +255,10 @@ extern const struct script_functions script_functions[];
 
 /* Opens the whole library, in the sandbox unless the script is trusted. */
 int script_open(lua_State *L);
+/* Replaces functions of Lua's own library by some that are safe for untrusted scripts (lua_functions.c). */
+void script_lua_functions_open(lua_State *L);
+/* Pushes the value at an index as a text, as tostring() does. An object has a number there, not its address. */
+void script_text_push(lua_State *L, int index);
 /* Removes what reaches outside of the script, seeds math.random, and makes pairs() ordered. */
 void script_sandbox_open(lua_State *L);
 

@@ -51,10 +51,12 @@ void script_midi_push(lua_State *L, const struct midi_message *m)
 
 /* ---- songs ---- */
 
+static const char song_type[] = "lutetia song";
+
 /* A song lives in a box, and is gone with it. */
 static int song_gc(lua_State *L)
 {
-    struct midi_song **box = lua_touserdata(L, 1);
+    struct midi_song **box = luaL_checkudata(L, 1, song_type);
     midi_song_destroy(*box);
     *box = NULL;
     return 0;
@@ -64,10 +66,7 @@ static struct midi_song **song_box(lua_State *L)
 {
     struct midi_song **box = lua_newuserdatauv(L, sizeof *box, 0);
     *box = NULL;
-    lua_createtable(L, 0, 1);
-    lua_pushcfunction(L, song_gc);
-    lua_setfield(L, -2, "__gc");
-    lua_setmetatable(L, -2);
+    luaL_setmetatable(L, song_type);
     return box;
 }
 
@@ -100,6 +99,11 @@ static int song(lua_State *L)
     midi_song_destroy(*box);
     *box = NULL;
     return 1;
+}
+
+void script_song_open(lua_State *L)
+{
+    script_type_open(L, song_type, song_gc);
 }
 
 const luaL_Reg script_song_functions[] = {{"song", song}, {NULL, NULL}};

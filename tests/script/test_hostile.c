@@ -184,7 +184,42 @@ static const struct {
     {"local mt = {} local t = setmetatable({}, mt) mt.__gc = close t = nil litter() litter() "
      "open()",
      NULL, OPEN, false},
-    {"getmetatable('').__gc = close litter() open()", NULL, OPEN, false},
+    {"getmetatable('').__gc = close litter() open()", "index a boolean value", "", false},
+    /* no metatable is reached, nor a function in one, nor an address (security.md 1) */
+    {"print(getmetatable(spring), getmetatable(''), getmetatable(spring.network()))", NULL,
+     "false\tfalse\tfalse\n", false},
+    {"spring[1], spring[{}], spring[true], spring.last = 1, 1, 1, 1; print(spring.nothing)",
+     "spring has no 'nothing'; it has last, network, word", "", false},
+    {"for i = 1, 1000 do spring['n' .. i] = i end spring.nothing()", "it has ", "", false},
+    {"local t = {} assert(tostring(t) == tostring(t) and tostring(t) ~= tostring({})) "
+     "for _, x in ipairs{t, print, p, m, paper, coroutine.create(print)} do "
+     "  local s = tostring(x) assert(s == ('%s'):format(x) and #s:match(': (%d+)$') < 4, s) "
+     "  assert(('%p'):format(x) == s:match('%d+$') and not ('%p|%s'):format(x, x):find('0x')) "
+     "end "
+     "print(('%p %5p|%-6s|%s %d%%'):format('a', 1, {} and 'x', nil, 3))",
+     NULL, "(null) (null)|x     |nil 3%\n", false},
+    {"local a, b = math.randomseed() local x = math.random(1 << 40) math.randomseed() "
+     "print(a, b, x == math.random(1 << 40))",
+     NULL, "1990\t0\ttrue\n", false},
+    {"print(('%s %s'):format(1))", "bad argument #2 to 'format'", "", false},
+    {"print(('%'):format(1))", "invalid conversion", "", false},
+    {"print(('%p'):rep(99):format(table.unpack({p, p, p, p}, 1, 99)):sub(1, 2))", NULL, NULL,
+     false},
+    /* coroutines that close each other do not overflow the C stack */
+    {"local co = {} for i = 1, 15000 do co[i] = coroutine.create(function() "
+     "local x <close> = setmetatable({}, {__close = function() "
+     "if co[i + 1] then coroutine.close(co[i + 1]) end end}) coroutine.yield() end) "
+     "coroutine.resume(co[i]) end print(coroutine.close(co[1]))",
+     NULL, NULL, false},
+    {"local co = {} for i = 15000, 1, -1 do co[i] = coroutine.wrap(function() "
+     "local x <close> = setmetatable({}, {__close = function() "
+     "if co[i + 1] then co[i + 1]() end end}) error('x') end) end print(pcall(co[1]))",
+     NULL, NULL, false},
+    {"local co = {} for i = 15000, 1, -1 do co[i] = coroutine.create(function() "
+     "local x <close> = setmetatable({}, {__close = function() "
+     "if co[i + 1] then coroutine.resume(co[i + 1]) end end}) error('x') end) end "
+     "print(coroutine.resume(co[1]))",
+     NULL, NULL, false},
     {"setmetatable(p, {})", "table expected", "", false},
     {"setmetatable({}, 5)", "nil or table expected", "", false},
     {"print(getmetatable(p), getmetatable(m), getmetatable(b), getmetatable(q), "
