@@ -53,11 +53,6 @@ static bool by_unibreak(const uint32_t *characters, int count, const char *langu
 
 /* ---- ICU ---- */
 
-/* Its functions have its version in their names, as the library has in its own: those that the headers are of. */
-#define TEXT_OF(x) #x
-#define TEXT(x) TEXT_OF(x)
-#define VERSIONED(name) name TEXT(U_ICU_VERSION_SUFFIX)
-
 enum { LANGUAGES_MAX = 16 };
 
 static struct {
@@ -78,17 +73,37 @@ static int iterators_count;
 static pthread_mutex_t icu_lock = PTHREAD_MUTEX_INITIALIZER;
 static pthread_once_t icu_once = PTHREAD_ONCE_INIT;
 
+/* Its functions have its version in their names, as the library has in its own. What we call is in all, so that of the headers is only
+ * tried first. */
+static bool icu_load(int version)
+{
+    static const struct {
+        const char *name;
+        size_t at;
+    } called[] = {{"ubrk_open", offsetof(__typeof__(icu), open)},
+                  {"ubrk_close", offsetof(__typeof__(icu), close)},
+                  {"ubrk_setText", offsetof(__typeof__(icu), text_set)},
+                  {"ubrk_next", offsetof(__typeof__(icu), next)},
+                  {"ubrk_getRuleStatus", offsetof(__typeof__(icu), status)}};
+    enum { CALLED = sizeof called / sizeof *called };
+    struct library_function functions[CALLED];
+    char names[CALLED][32], file[32];
+    const char *missing;
+    for (int i = 0; i < CALLED; i++) {
+        snprintf(names[i], sizeof names[i], "%s_%d", called[i].name, version);
+        functions[i] = (struct library_function){names[i], called[i].at};
+    }
+    snprintf(file, sizeof file, "libicuuc.so.%d", version);
+    return library_load_exactly(file, functions, CALLED, &icu, &missing);
+}
+
 static void icu_begin(void)
 {
-    static const struct library_function functions[] = {
-        {VERSIONED("ubrk_open"), offsetof(__typeof__(icu), open)},
-        {VERSIONED("ubrk_close"), offsetof(__typeof__(icu), close)},
-        {VERSIONED("ubrk_setText"), offsetof(__typeof__(icu), text_set)},
-        {VERSIONED("ubrk_next"), offsetof(__typeof__(icu), next)},
-        {VERSIONED("ubrk_getRuleStatus"), offsetof(__typeof__(icu), status)}};
-    const char *missing;
-    icu_there = library_load("libicuuc.so." U_ICU_VERSION_SHORT, functions,
-                             sizeof functions / sizeof *functions, &icu, &missing);
+    int versions[8];
+    icu_there = icu_load(U_ICU_VERSION_MAJOR_NUM);
+    for (size_t i = 0, n = icu_there ? 0 : library_versions("libicuuc.so.", versions, 8);
+         i < n && !icu_there; i++)
+        icu_there = icu_load(versions[i]);
 }
 
 static void icu_end(void) __attribute__((destructor));

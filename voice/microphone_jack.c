@@ -1,7 +1,7 @@
 /* microphone_jack.c - a port of JACK's that hears. */
 #include "microphone_internal.h"
 
-#include <dlfcn.h>
+#include <library.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@ enum { NO_START = 1, PORT_IN = 1, PORT_OUT = 2, PORT_PHYSICAL = 4 };
 
 /* The functions that we call, as JACK declares them. */
 struct jack {
-    void *library, *client, *port;
+    void *client, *port;
     void *(*client_open)(const char *name, int options, int *status, ...);
     int (*client_close)(void *client);
     int (*activate)(void *client);
@@ -53,29 +53,26 @@ static void shut_down(void *context)
     atomic_store(&m->gone, true);
 }
 
-static bool functions_find(struct jack *j)
+static bool jack_load(struct jack *j)
 {
-    const struct {
-        const char *name;
-        void *at;
-    } all[] = {{"jack_client_open", &j->client_open},
-               {"jack_client_close", &j->client_close},
-               {"jack_activate", &j->activate},
-               {"jack_connect", &j->connect},
-               {"jack_port_register", &j->port_register},
-               {"jack_port_name", &j->port_name},
-               {"jack_port_get_buffer", &j->port_get_buffer},
-               {"jack_get_ports", &j->get_ports},
-               {"jack_free", &j->free},
-               {"jack_set_process_callback", &j->set_process_callback},
-               {"jack_on_shutdown", &j->on_shutdown},
-               {"jack_get_sample_rate", &j->get_sample_rate},
-               {"jack_set_error_function", &j->set_error_function},
-               {"jack_set_info_function", &j->set_info_function}};
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
-        if (!(*(void **)all[i].at = dlsym(j->library, all[i].name)))
-            return false;
-    return true;
+    static const struct library_function functions[] = {
+        {"jack_client_open", offsetof(struct jack, client_open)},
+        {"jack_client_close", offsetof(struct jack, client_close)},
+        {"jack_activate", offsetof(struct jack, activate)},
+        {"jack_connect", offsetof(struct jack, connect)},
+        {"jack_port_register", offsetof(struct jack, port_register)},
+        {"jack_port_name", offsetof(struct jack, port_name)},
+        {"jack_port_get_buffer", offsetof(struct jack, port_get_buffer)},
+        {"jack_get_ports", offsetof(struct jack, get_ports)},
+        {"jack_free", offsetof(struct jack, free)},
+        {"jack_set_process_callback", offsetof(struct jack, set_process_callback)},
+        {"jack_on_shutdown", offsetof(struct jack, on_shutdown)},
+        {"jack_get_sample_rate", offsetof(struct jack, get_sample_rate)},
+        {"jack_set_error_function", offsetof(struct jack, set_error_function)},
+        {"jack_set_info_function", offsetof(struct jack, set_info_function)}};
+    const char *missing;
+    return library_load("libjack.so.0", functions, sizeof functions / sizeof *functions, j,
+                        &missing);
 }
 
 /* The first port that captures, where there is a sound card. */
@@ -99,9 +96,7 @@ static void jack_close(struct microphone *m)
 bool microphone_jack_open(struct microphone *m, char *why, size_t room)
 {
     struct jack *j = calloc(1, sizeof *j);
-    if (j)
-        j->library = dlopen("libjack.so.0", RTLD_NOW | RTLD_LOCAL);
-    if (!j || !j->library || !functions_find(j)) {
+    if (!j || !jack_load(j)) {
         snprintf(why, room, "JACK is not installed: install libjack-jackd2-0");
         free(j);
         return false;

@@ -4,9 +4,9 @@
 
 #include <sndfile.h>
 
-#include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <library.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,24 +17,21 @@
 enum { FRAMES_AT_ONCE = 4096, CHANNELS_MAX = 64 };
 
 struct sndfile {
-    SNDFILE *(*open_fd)(int, int, SF_INFO *, int);
-    sf_count_t (*readf_float)(SNDFILE *, float *, sf_count_t);
-    int (*close)(SNDFILE *);
+    SNDFILE *(*sf_open_fd)(int, int, SF_INFO *, int);
+    sf_count_t (*sf_readf_float)(SNDFILE *, float *, sf_count_t);
+    int (*sf_close)(SNDFILE *);
 };
 
-/* False: libsndfile is not installed. */
+/* False: libsndfile is not installed. It stays loaded for the next sound. */
 static bool sndfile_load(struct sndfile *out)
 {
-    static const char *const names[] = {"sf_open_fd", "sf_readf_float", "sf_close"};
-    void *const functions[] = {&out->open_fd, &out->readf_float, &out->close};
-    void *library = dlopen("libsndfile.so.1", RTLD_NOW | RTLD_LOCAL);
-    bool there = library != NULL;
-    for (int i = 0; i < 3 && there; i++) {
-        void *function = dlsym(library, names[i]);
-        memcpy(functions[i], &function, sizeof function);
-        there = function != NULL;
-    }
-    return there; /* libsndfile stays loaded for the next sound */
+    static const struct library_function functions[] = {
+        LIBRARY_FUNCTION(struct sndfile, sf_open_fd),
+        LIBRARY_FUNCTION(struct sndfile, sf_readf_float),
+        LIBRARY_FUNCTION(struct sndfile, sf_close)};
+    const char *missing;
+    return library_load("libsndfile.so.1", functions, sizeof functions / sizeof *functions, out,
+                        &missing);
 }
 
 /* Appends the rest of the file. False: no memory, or the sound is too long: then *too_long
@@ -47,7 +44,7 @@ static bool frames_read(const struct sndfile *library, SNDFILE *file, const SF_I
     bool memory = frames != NULL;
     *too_long = false;
     while (memory && !*too_long) {
-        sf_count_t count = library->readf_float(file, frames, FRAMES_AT_ONCE);
+        sf_count_t count = library->sf_readf_float(file, frames, FRAMES_AT_ONCE);
         if (count <= 0)
             break;
         *too_long = out->count + (size_t)count > most;
@@ -98,7 +95,7 @@ bool voice_sound_read(const char *path, struct voice_sound *out, char *why, size
         close(descriptor);
         return refuse(out, why, room, path, "sounds need libsndfile: install libsndfile1");
     }
-    SNDFILE *file = library.open_fd(descriptor, SFM_READ, &info, 0);
+    SNDFILE *file = library.sf_open_fd(descriptor, SFM_READ, &info, 0);
     if (!file) {
         close(descriptor);
         return refuse(out, why, room, path,
@@ -108,7 +105,7 @@ bool voice_sound_read(const char *path, struct voice_sound *out, char *why, size
                 info.samplerate >= VOICE_RATE_MIN && info.samplerate <= VOICE_RATE_MAX;
     out->rate_hz = info.samplerate;
     bool done = good && frames_read(&library, file, &info, out, &too_long);
-    library.close(file);
+    library.sf_close(file);
     close(descriptor);
     if (!good)
         return refuse(

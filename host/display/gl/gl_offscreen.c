@@ -8,6 +8,8 @@
 #include "gl_offscreen.h"
 #include "display_internal.h"
 
+#include <library.h>
+
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <GL/gl.h>
@@ -15,7 +17,6 @@
 #ifdef LUTETIA_OSMESA
 #include <GL/osmesa.h>
 #endif
-#include <dlfcn.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -59,10 +60,10 @@ typedef void (*function)(void);
 
 #ifdef LUTETIA_OSMESA
 struct osmesa {
-    OSMesaContext (*CreateContextExt)(GLenum, GLint, GLint, GLint, OSMesaContext);
-    GLboolean (*MakeCurrent)(OSMesaContext, void *, GLenum, GLsizei, GLsizei);
-    void (*DestroyContext)(OSMesaContext);
-    function (*GetProcAddress)(const char *);
+    OSMesaContext (*OSMesaCreateContextExt)(GLenum, GLint, GLint, GLint, OSMesaContext);
+    GLboolean (*OSMesaMakeCurrent)(OSMesaContext, void *, GLenum, GLsizei, GLsizei);
+    void (*OSMesaDestroyContext)(OSMesaContext);
+    function (*OSMesaGetProcAddress)(const char *);
     OSMesaContext context;
     uint8_t unused[4]; /* OSMesa's own target, of one pixel */
 };
@@ -82,15 +83,15 @@ struct gl_offscreen {
 
 function gl_offscreen_function(const char *name)
 {
-    static function (*find)(const char *);
-    if (!find) {
-        void *library = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
-        void *symbol = library ? dlsym(library, "eglGetProcAddress") : NULL;
-        if (!symbol)
-            return NULL;
-        memcpy(&find, &symbol, sizeof find);
-    }
-    return find(name);
+    static struct {
+        function (*eglGetProcAddress)(const char *);
+    } egl;
+    static const struct library_function functions[] = {
+        LIBRARY_FUNCTION(egl, eglGetProcAddress)};
+    const char *missing;
+    return egl.eglGetProcAddress || library_load("libEGL.so.1", functions, 1, &egl, &missing)
+               ? egl.eglGetProcAddress(name)
+               : NULL;
 }
 
 static bool functions_find(struct functions *f, function (*find)(const char *name))
@@ -138,21 +139,14 @@ static enum display_status egl_make(struct gl_offscreen *s)
 #ifdef LUTETIA_OSMESA
 static bool osmesa_load(struct osmesa *o)
 {
-    static void *library;
-    if (!library)
-        library = dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_LOCAL);
-    bool all = library != NULL;
-#define FIND_OSMESA(member)                                                                    \
-    if (all) {                                                                                 \
-        void *symbol = dlsym(library, "OSMesa" #member);                                       \
-        memcpy(&o->member, &symbol, sizeof o->member);                                         \
-        all = symbol != NULL;                                                                  \
-    }
-    FIND_OSMESA(CreateContextExt)
-    FIND_OSMESA(MakeCurrent)
-    FIND_OSMESA(DestroyContext)
-    FIND_OSMESA(GetProcAddress)
-    return all;
+    static const struct library_function functions[] = {
+        LIBRARY_FUNCTION(struct osmesa, OSMesaCreateContextExt),
+        LIBRARY_FUNCTION(struct osmesa, OSMesaMakeCurrent),
+        LIBRARY_FUNCTION(struct osmesa, OSMesaDestroyContext),
+        LIBRARY_FUNCTION(struct osmesa, OSMesaGetProcAddress)};
+    const char *missing;
+    return library_load("libOSMesa.so.8", functions, sizeof functions / sizeof *functions, o,
+                        &missing);
 }
 
 static enum display_status osmesa_make(struct gl_offscreen *s)
@@ -161,10 +155,11 @@ static enum display_status osmesa_make(struct gl_offscreen *s)
     if (!osmesa_load(o))
         return display_fail(
             DISPLAY_NO_WINDOW,
-            "no OpenGL by OSMesa: libOSMesa.so.8 is missing; install libosmesa6");
-    s->function = o->GetProcAddress;
-    o->context = o->CreateContextExt(OSMESA_RGBA, 0, 0, 0, NULL);
-    if (!o->context || !o->MakeCurrent(o->context, o->unused, GL_UNSIGNED_BYTE, 1, 1) ||
+            "no OpenGL by OSMesa: libOSMesa.so.8 is missing; install libosmesa6, or "
+            "draw by EGL where Mesa no longer has it");
+    s->function = o->OSMesaGetProcAddress;
+    o->context = o->OSMesaCreateContextExt(OSMESA_RGBA, 0, 0, 0, NULL);
+    if (!o->context || !o->OSMesaMakeCurrent(o->context, o->unused, GL_UNSIGNED_BYTE, 1, 1) ||
         !functions_find(&s->f, s->function))
         return display_fail(DISPLAY_NO_WINDOW,
                             "no OpenGL by OSMesa: it makes no context of OpenGL 3");
@@ -175,8 +170,8 @@ static void osmesa_end(struct osmesa *o)
 {
     if (!o->context)
         return;
-    o->MakeCurrent(NULL, NULL, 0, 0, 0);
-    o->DestroyContext(o->context);
+    o->OSMesaMakeCurrent(NULL, NULL, 0, 0, 0);
+    o->OSMesaDestroyContext(o->context);
 }
 #else
 static enum display_status osmesa_make(struct gl_offscreen *s)
@@ -184,7 +179,8 @@ static enum display_status osmesa_make(struct gl_offscreen *s)
     (void)s;
     return display_fail(DISPLAY_NO_WINDOW,
                         "no OpenGL by OSMesa: this lutetia was built without "
-                        "it (libosmesa6-dev was not there)");
+                        "it (libosmesa6-dev was not there, and Mesa has none since 25.1); "
+                        "draw by EGL");
 }
 #endif
 

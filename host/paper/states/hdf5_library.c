@@ -16,8 +16,8 @@ static const struct library_function symbols[] = {HDF5_NAMES(HDF5_ROW)};
 enum paper_status hdf5_load(const char *path)
 {
     const char *missing = NULL;
-    if (hdf5.open ||
-        library_load(HDF5_FILE, symbols, sizeof symbols / sizeof *symbols, &hdf5, &missing))
+    if (hdf5.open || library_load_exactly(HDF5_FILE, symbols, sizeof symbols / sizeof *symbols,
+                                          &hdf5, &missing))
         return PAPER_OK;
     return missing ? paper_fail(PAPER_BAD_ARGUMENT,
                                 "%s: saved states are HDF5's, and the " HDF5_FILE

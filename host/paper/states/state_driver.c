@@ -108,6 +108,10 @@ static herr_t driver_write(H5FD_t *file, H5FD_mem_t type, hid_t how, haddr_t at,
 int64_t state_file_open(int descriptor)
 {
     static const H5FD_class_t driver = {
+#ifdef H5FD_CLASS_VERSION /* since 1.14 */
+        .version = H5FD_CLASS_VERSION,
+        .value = H5_VFD_RESERVED, /* the first that is not the library's own */
+#endif
         .name = "descriptor",
         .maxaddr = INT64_MAX,
         .fc_degree = H5F_CLOSE_WEAK,
