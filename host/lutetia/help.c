@@ -139,6 +139,8 @@ static const char *kind_name(enum option_kind kind)
         return "flag";
     case OPTION_TEXT:
         return "text";
+    case OPTION_PNG:
+        return "png";
     case OPTION_INTEGER:
         return "integer";
     case OPTION_NUMBER:

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 enum { SHOWN_MAX = 60 }; /* characters of a wrong value that a message shows */
 
@@ -53,6 +54,14 @@ static bool numbers_read(const struct option_row *row, const char *text, double 
     return true;
 }
 
+/* A name for a PNG: it ends in .png, or has no ending. */
+static bool png_named(const char *text)
+{
+    const char *slash = strrchr(text, '/'), *name = slash ? slash + 1 : text;
+    const char *ending = strrchr(name, '.');
+    return *text && (!ending || ending == name || strcasecmp(ending, ".png") == 0);
+}
+
 static bool value_take(const struct option_row *row, const char *text)
 {
     const char *end = "";
@@ -67,6 +76,9 @@ static bool value_take(const struct option_row *row, const char *text)
     case OPTION_TEXT:
         *(const char **)row->target = text;
         return *text != '\0';
+    case OPTION_PNG:
+        *(const char **)row->target = text;
+        return png_named(text);
     case OPTION_INTEGER:
         if (!integer_read(row, text, &end, &integer) || *end)
             return false;
@@ -117,6 +129,10 @@ static bool value_wrong(const char *verb, const struct option_row *row, const ch
     case OPTION_FLAG:
     case OPTION_TEXT:
         fail_usage(verb, "--%s needs a value: %s", row->name, row->value);
+        return false;
+    case OPTION_PNG:
+        fail_usage(verb, "--%s names a picture, and pictures are PNG: FILE.png (got '%.*s')",
+                   row->name, SHOWN_MAX, text);
         return false;
     case OPTION_INTEGER:
         shape = "must be a whole number in";

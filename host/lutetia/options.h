@@ -18,6 +18,8 @@
 enum option_kind {
     OPTION_FLAG,    /* bool */
     OPTION_TEXT,    /* const char *: the argument itself, not empty */
+    OPTION_PNG,     /* const char *: the name of a picture to be written, which no ending of
+                       another format ends */
     OPTION_INTEGER, /* int within least..most */
     OPTION_NUMBER,  /* double within least..most; NaN and infinity are not */
     OPTION_NUMBERS, /* double[count], separated by commas, each within least..most */

@@ -19,7 +19,8 @@ static int pigment_add(const char *text, struct paper_sheet_config *config, doub
     const struct paper_pigment *pigment = paper_pigment_find(name);
     if (!pigment) {
         paper_pigment_names(known, sizeof known);
-        return fail_usage("paint", "--pigment: there is no '%.60s'; there are %s", text, known);
+        return fail_usage("paint", "--pigment: there is no '%.*s'; there are %s",
+                          (int)(length < 60 ? length : 60), text, known);
     }
     const double value = equals ? strtod(equals + 1, &end) : AMOUNT_USUAL;
     if (equals && (end == equals + 1 || *end || !(fabs(value) <= 4)))

@@ -21,7 +21,7 @@ struct font_verb {
 static int font_options(struct font_verb *v, int argc, char **argv, bool *help)
 {
     const struct option_row rows[] = {
-        {"out", 'o', OPTION_TEXT, "FILE", "the picture, PNG (out.png)", &v->out_path, 0, 0, 0},
+        {"out", 'o', OPTION_PNG, "FILE", "the picture, PNG (out.png)", &v->out_path, 0, 0, 0},
         {"face", 0, OPTION_INTEGER, "N", "which face of a collection (0)", &v->face, 0, 65535,
          0},
         {"axes", 0, OPTION_TEXT, "A=V,..",
@@ -33,7 +33,7 @@ static int font_options(struct font_verb *v, int argc, char **argv, bool *help)
          200, 0},
         {"em", 0, OPTION_INTEGER, "N", "pixels to the em of the glyph's master (860)",
          &v->em_px, 16, 4096, 0},
-        {"master-out", 0, OPTION_TEXT, "FILE",
+        {"master-out", 0, OPTION_PNG, "FILE",
          "write the glyph's master as PNG, to be retouched", &v->master_out, 0, 0, 0},
         {"master", 0, OPTION_TEXT, "FILE", "take this master, a PNG that was retouched",
          &v->master_in, 0, 0, 0},

@@ -494,7 +494,7 @@ int verb_leds(int argc, char **argv)
          &leds.window_wanted, 0, 0, 0},
         {"close", 0, OPTION_FLAG, NULL, "the window closes when the program has ended",
          &leds.close_at_end, 0, 0, 0},
-        {"out", 'o', OPTION_TEXT, "FILE",
+        {"out", 'o', OPTION_PNG, "FILE",
          "the picture of the last lights (leds.png, where no window shows them)",
          &leds.out_path, 0, 0, 0},
         {"frames", 0, OPTION_TEXT, "DIR",

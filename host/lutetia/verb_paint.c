@@ -135,7 +135,7 @@ static int paint_options(struct paint *paint, int argc, char **argv, bool *help)
 {
     const double side = PAPER_SIDE_MAX, pull = PAPER_GRAVITY_MAX;
     const struct option_row rows[] = {
-        {"out", 'o', OPTION_TEXT, "FILE", "the picture, PNG (out.png)", &paint->out_path, 0, 0,
+        {"out", 'o', OPTION_PNG, "FILE", "the picture, PNG (out.png)", &paint->out_path, 0, 0,
          0},
         {"font", 0, OPTION_TEXT, "F",
          "the font: a file, the name of one, or a family (EBGaramond12-Regular)", &paint->font,

@@ -135,7 +135,7 @@ static int spring_options(struct spring *s, int argc, char **argv, bool *help)
          16, 8192, 0},
         {"view", 0, OPTION_NUMBERS, "X0,Y0,X1,Y1", "the part of the world that is seen, in ems",
          s->scene.view, -1e6, 1e6, 4},
-        {"still", 0, OPTION_TEXT, "FILE", "write a picture of the moment after --seconds",
+        {"still", 0, OPTION_PNG, "FILE", "write a picture of the moment after --seconds",
          &s->film.still, 0, 0, 0},
         {"strip", 0, OPTION_SIZE, "CxR", "the still has so many columns and rows of moments",
          s->film.strip, 1, 100, 0},

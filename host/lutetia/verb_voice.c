@@ -80,12 +80,12 @@ static int words_take(struct voice_work *w, const struct option_words *words)
 static int options_read(struct voice_work *w, int argc, char **argv, bool *help)
 {
     const struct option_row rows[] = {
-        {"poster", 'o', OPTION_TEXT, "FILE", "one line along which time runs, PNG (out.png)",
+        {"poster", 'o', OPTION_PNG, "FILE", "one line along which time runs, PNG (out.png)",
          &w->poster, 0, 0, 0},
-        {"sheet", 0, OPTION_TEXT, "FILE", "twenty moments of it, PNG", &w->sheet, 0, 0, 0},
-        {"envelope", 0, OPTION_TEXT, "FILE", "a plot of how loud it is, PNG", &w->envelope, 0,
-         0, 0},
-        {"still", 0, OPTION_TEXT, "FILE", "the moment --at, PNG", &w->still, 0, 0, 0},
+        {"sheet", 0, OPTION_PNG, "FILE", "twenty moments of it, PNG", &w->sheet, 0, 0, 0},
+        {"envelope", 0, OPTION_PNG, "FILE", "a plot of how loud it is, PNG", &w->envelope, 0, 0,
+         0},
+        {"still", 0, OPTION_PNG, "FILE", "the moment --at, PNG", &w->still, 0, 0, 0},
         {"at", 0, OPTION_NUMBER, "S", "the moment of --still (where it is loudest)", &w->at_s,
          0, 1800, 0},
         {"frames", 0, OPTION_TEXT, "DIR", "all moments as numbered pictures in this folder",
