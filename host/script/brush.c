@@ -117,6 +117,14 @@ static struct paper_dip dip_of(lua_State *L)
     return (struct paper_dip){.number = brush_at(L, 1)->number, .part = 1, .side = {-1, 1}};
 }
 
+static bool amounts_none(const double *amount)
+{
+    for (int i = 0; i <= PAPER_PIGMENTS_MAX; i++)
+        if (amount[i] != 0)
+            return false;
+    return true;
+}
+
 /* brush:dip({water = 1, ["burnt umber"] = 0.5} [, {part =, side = {from, to}}]) */
 static int brush_dip(lua_State *L)
 {
@@ -126,6 +134,11 @@ static int brush_dip(lua_State *L)
     script_fields_options(L, 3, "dip", &paper_dip_members, NULL);
     script_fields_read(L, 3, "dip", &paper_dip_members, &d);
     script_paper_check(L, paper_sheet_dip(paper->sheet, &d));
+    brush_at(L, 1)->dipped = true;
+    if (amounts_none(d.amount))
+        script_note_once(L, SCRIPT_DIPPED_IN_NOTHING,
+                         "dip: the brush takes nothing, since water and pigments are 0; "
+                         "brush:wipe() dries it");
     return 0;
 }
 
@@ -136,6 +149,7 @@ static int brush_rinse(lua_State *L)
     struct paper_dip d = dip_of(L);
     d.amount[0] = lua_isnil(L, 2) ? 1 : script_arg_at(L, 2, "rinse's water", 0, 1);
     script_paper_check(L, paper_sheet_dip(paper->sheet, &d));
+    brush_at(L, 1)->dipped = true;
     return 0;
 }
 

@@ -44,6 +44,14 @@ void script_note_where(lua_State *L, const char *text)
     lua_pop(L, 1);
 }
 
+void script_note_once(lua_State *L, enum script_once what, const char *text)
+{
+    struct script *script = script_of(L);
+    if (!(script->notes_told >> what & 1))
+        script_note_where(L, text);
+    script->notes_told |= 1u << what;
+}
+
 void script_progress_tell(const struct script *script, const struct script_progress *progress)
 {
     if (script->host->progress)

@@ -138,8 +138,8 @@ static const struct script_mask *all_over(lua_State *L, const struct script_mask
     return made;
 }
 
-bool script_mask_screen(lua_State *L, int index, int width, int height,
-                        struct paper_screen *screen, int *x, int *y)
+bool script_mask_screen_quietly(lua_State *L, int index, int width, int height,
+                                struct paper_screen *screen, int *x, int *y)
 {
     struct script_mask *mask = luaL_checkudata(L, index, script_mask_type);
     *screen = (struct paper_screen){0};
@@ -178,6 +178,19 @@ bool script_mask_screen(lua_State *L, int index, int width, int height,
     script_mask_drawn_join(kept, mask, NULL, 0);
     script_mask_drawing_tell(kept, screen);
     return true;
+}
+
+bool script_mask_screen(lua_State *L, int index, int width, int height,
+                        struct paper_screen *screen, int *x, int *y)
+{
+    const struct script_mask *mask = luaL_checkudata(L, index, script_mask_type);
+    const bool some = script_mask_screen_quietly(L, index, width, height, screen, x, y);
+    if (some ? *x >= width || *y >= height || *x + screen->width_px <= 0 ||
+                   *y + screen->height_px <= 0
+             : mask->points != NULL)
+        script_note_once(L, SCRIPT_OFF_PAPER,
+                         "this mask lies off the paper, or is empty: nothing happens there");
+    return some;
 }
 
 bool script_mask_place(lua_State *L, int index, const struct paper_sheet *sheet,

@@ -331,7 +331,8 @@ static int paper_put_type(lua_State *L)
         script_mask_text_fit(L, 2, config_of(paper)->width, config_of(paper)->height,
                              paper_sheet_margin(config_of(paper)));
     int made = script_mask_text_push(L, 2);
-    if (screen_read(L, lua_gettop(L) - made + 1, paper, &screen, &x, &y)) {
+    if (script_mask_screen_quietly(L, lua_gettop(L) - made + 1, config_of(paper)->width,
+                                   config_of(paper)->height, &screen, &x, &y)) {
         off_sheet_tell(L, config_of(paper), &screen, x, y);
         script_paper_check(L, usual ? paper_sheet_put_charged(
                                           paper->sheet, &screen, x, y, amount,

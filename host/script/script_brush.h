@@ -8,6 +8,7 @@
 struct script_brush {
     int number;
     double width;
+    bool dipped; /* into anything, or rinsed */
 };
 
 #endif

@@ -51,6 +51,7 @@ struct script {
                                                     * operations */
     struct script_paper *first_paper, *last_paper; /* open papers, by number */
     int papers_open;
+    unsigned notes_told;             /* a bit for each enum script_once */
     long steps_done, steps_expected; /* of the whole script; expected 0: not given */
     struct script_watchdog watchdog;
 };
@@ -103,6 +104,9 @@ void script_error_tell(const struct script *script, const char *text);
 void script_note_tell(const struct script *script, const char *text);
 /* The same, with the script's line. */
 void script_note_where(lua_State *L, const char *text);
+/* What is said once in a script, the first time that it happens: it is no error, and seldom meant. */
+enum script_once { SCRIPT_OFF_PAPER, SCRIPT_NOT_DIPPED, SCRIPT_DIPPED_IN_NOTHING };
+void script_note_once(lua_State *L, enum script_once what, const char *text);
 /* NULL: the work is over. */
 void script_progress_tell(const struct script *script, const struct script_progress *progress);
 
@@ -171,6 +175,9 @@ struct script_mask;
  * there. The screen belongs to the state and stays on the stack. */
 bool script_mask_screen(lua_State *L, int index, int width, int height,
                         struct paper_screen *screen, int *x, int *y);
+/* The same, and a mask that lies off the paper is not noted. */
+bool script_mask_screen_quietly(lua_State *L, int index, int width, int height,
+                                struct paper_screen *screen, int *x, int *y);
 /* Gets the mask in the field "mask" of the options at index, kept on the stack; if missing:
  * everywhere. False: it covers nothing. */
 bool script_mask_place(lua_State *L, int index, const struct paper_sheet *sheet,

@@ -134,6 +134,35 @@ static void values_and_type_beyond_are_said(void **state)
         strstr(s.notes, "script.lua:4: mask: 8 of its 16 values were not within 0..1"));
 }
 
+/* Paint that goes nowhere is said once, and only then. */
+static void paint_that_goes_nowhere_is_said(void **state)
+{
+    (void)state;
+    struct scripted s = {.config = scripted_config()};
+    assert_int_equal(scripted_run(&s, "local p = paper{width = 40, height = 30}\n"
+                                      "p:put(rect(35, 25, 20, 20), {water = 1})\n"
+                                      "p:put(ellipse(0, 0, 5), {water = 1})\n"
+                                      "local b = p:brush{width = 5}\n"
+                                      "b:dip{water = 1}\n"
+                                      "p:stroke{brush = b, points = {{10, 10}, {20, 20}}}\n"
+                                      "local c = p:brush{width = 5}\n"
+                                      "c:rinse()\n"
+                                      "p:stroke{brush = c, points = {{10, 10}, {20, 20}}}\n"),
+                     SCRIPT_OK);
+    assert_string_equal(s.notes, "");
+    assert_int_equal(scripted_run(&s, "local p = paper{width = 40, height = 30}\n"
+                                      "p:put(rect(40, 0, 20, 20), {water = 1})\n"
+                                      "local b = p:brush{width = 5}\n"
+                                      "p:stroke{brush = b, points = {{10, 10}, {20, 20}}}\n"
+                                      "b:dip{water = 0}\n"
+                                      "p:blot(ellipse(100, 100, 5), 1)\n"),
+                     SCRIPT_OK);
+    assert_non_null(strstr(s.notes, "script.lua:2: this mask lies off the paper"));
+    assert_non_null(strstr(s.notes, "script.lua:4: stroke: this brush is dry"));
+    assert_non_null(strstr(s.notes, "script.lua:5: dip: the brush takes nothing"));
+    assert_null(strstr(s.notes, "script.lua:6"));
+}
+
 /* A layer reads back the values of masks, which are n / 255. */
 static void masks_are_scaled_and_shifted_in_value(void **state)
 {
@@ -448,6 +477,7 @@ int main(void)
         cmocka_unit_test(type_needs_no_options),
         cmocka_unit_test(wrong_names_and_numbers_are_answered),
         cmocka_unit_test(values_and_type_beyond_are_said),
+        cmocka_unit_test(paint_that_goes_nowhere_is_said),
         cmocka_unit_test(masks_are_scaled_and_shifted_in_value),
         cmocka_unit_test(the_history_tells_what_was_put),
         cmocka_unit_test(what_the_state_takes_is_limited),
