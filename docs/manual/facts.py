@@ -38,6 +38,7 @@ class Facts:
     verbs: list = field(default_factory=list)
     environment: list = field(default_factory=list)  # (name, value, group, what it does)
     exits: list = field(default_factory=list)        # (status, meaning)
+    devices: list = field(default_factory=list)      # (kind and argument, what it is) of the MIDI server
     scripts: list = field(default_factory=list)      # (type or "", function) of the library for Lua
 
 
@@ -80,6 +81,9 @@ def read(lutetia, bench):
             facts.exits.append(tuple(parts))
         else:
             raise ValueError(f"a fact of an unknown kind: {line}")
+    for line in output_of(lutetia, "midi", "devices", "kinds").splitlines():
+        if found := re.match(r"  (\S+) +(.*)", line):
+            facts.devices.append(found.groups())
     of_bench = next(v for v in facts.verbs if v.name == "bench")
     for line in output_of(bench, "--help").splitlines():
         if found := re.match(r"  (\S+) +(.*)", line):

@@ -121,6 +121,10 @@ def command_page(facts, verb, edition):
         for name, arguments, text in verb.commands:
             page.item(f"{BOLD}{literal(name)}{ROMAN} {ITALIC}{literal(arguments)}{ROMAN}".replace(f" {ITALIC}{ROMAN}", ""),
                       sentence(text))
+    if verb.name == "midi":
+        page.section_begin("DEVICES")
+        for kind, text in facts.devices:
+            page.item(BOLD + literal(kind) + ROMAN, sentence(text))
     page.section_begin("OPTIONS")
     for option in verb.options:
         page.item(option_term(option), option_texts(option))

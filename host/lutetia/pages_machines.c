@@ -85,11 +85,13 @@ const struct page pages_of_machines[] = {
          "them and listen to them through it. The other verbs are such programs. Where no "
          "server "
          "runs they say so.\n"
-         "Devices are written [NAME=]KIND[:ARGUMENT], where NAME is what programs call one: "
-         "raw:/dev/snd/midiC1D0, serial:/dev/ttyUSB0, pty:LINK, loop, file:SONG.mid, jack, "
-         "alsa, "
-         "and sound, a synthesizer (FluidSynth) through the loudspeakers, or sound:FILE.wav. "
-         "`lutetia midi devices kinds` lists the kinds.\n"
+         "Devices are written [NAME=]KIND[:ARGUMENT], where NAME is what programs call one, as "
+         "in "
+         "keys=raw:/dev/snd/midiC1D0; `lutetia midi devices kinds` lists the kinds. The kind "
+         "sound is "
+         "a synthesizer that is heard; where the computer has no sound, sound:FILE.wav writes "
+         "what "
+         "would be heard.\n"
          "A song is heard without a server, too: `lutetia midi render` writes it as a WAV "
          "file.",
      .notes =

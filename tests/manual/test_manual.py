@@ -110,6 +110,12 @@ class Manual(unittest.TestCase):
             for name, section in re.findall(r"\b((?:lutetia|CM_|paris)[\w-]*)\(([137])\)", plain(page)):
                 self.assertIn(f"{name}.{section}", there, page)
 
+    def test_devices_are_those_of_the_server(self):
+        kinds = re.findall(r"^  ([a-z]+)", said(LUTETIA, "midi", "devices", "kinds").stdout, re.M)
+        self.assertGreater(len(kinds), 5)
+        for kind in kinds:
+            self.assertRegex(plain(MAN / "man1/lutetia-midi.1"), rf"(?m)^{kind}(:|$)")
+
     def test_scripts_functions_are_described(self):
         text = SCRIPTS.read_text()
         table = [line.split("\t") for line in said(LUTETIA, "help", "--table").stdout.splitlines() if line.startswith("script\t")]
