@@ -207,16 +207,19 @@ static double level_at(const struct voice *v, double time_s)
     return sqrt(sum / weights);
 }
 
-/* The mean square of differences between neighbours of the lower-rate stream. */
-static double upper_energy(const struct voice *v, double time_s)
+/* The mean square of differences between neighbours of the lower-rate stream. *part: of the most that it could be. */
+static double upper_energy(const struct voice *v, double time_s, double *part)
 {
     int count = (int)fmax(2, LEVEL_S * v->low_hz);
     long first = lround(time_s * v->low_hz) - count / 2;
-    double sum = 0;
+    double sum = 0, all = 0;
     for (int i = 0; i < count; i++) {
-        double d = (double)(sample(&v->low, first + i) - sample(&v->low, first + i - 1));
+        double x = (double)sample(&v->low, first + i),
+               d = x - (double)sample(&v->low, first + i - 1);
         sum += d * d;
+        all += x * x;
     }
+    *part = all > 0 ? fmin(1, sum / (4 * all)) : 0;
     return sum / count;
 }
 
@@ -279,9 +282,9 @@ static bool frame_make(struct voice *v, double time_s)
     f->envelope = v->envelope;
     if (f->level > v->def.silence)
         pitch_and_vowel(v, f);
-    double least = fmax(1e-12, v->def.silence * v->def.silence);
-    attack_decide(v, log(fmax(least, f->level * f->level)),
-                  log(fmax(least / 4, upper_energy(v, time_s))));
+    double least = fmax(1e-12, v->def.silence * v->def.silence),
+           upper = upper_energy(v, time_s, &f->bright);
+    attack_decide(v, log(fmax(least, f->level * f->level)), log(fmax(least / 4, upper)));
     return true;
 }
 

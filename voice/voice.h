@@ -49,6 +49,7 @@ struct voice_frame {
     double envelope;      /* 0..1 */
     double pitch_hz;      /* 0: none */
     double clarity;       /* 0 noise .. 1 periodic */
+    double bright;        /* 0 all energy is in low frequencies .. 1 in those near 5 kHz */
     double formant_hz[2]; /* 0: none */
     bool attack;
 };

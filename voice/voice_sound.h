@@ -16,7 +16,7 @@
 #include <stddef.h>
 
 /* The longest sound, and the rates that sounds may have. */
-enum { VOICE_SECONDS_MAX = 1800, VOICE_RATE_MIN = 4000, VOICE_RATE_MAX = 384000 };
+enum { VOICE_SECONDS_MAX = 5400, VOICE_RATE_MIN = 4000, VOICE_RATE_MAX = 384000 };
 
 struct voice_sound {
     float *samples;

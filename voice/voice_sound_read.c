@@ -113,7 +113,7 @@ bool voice_sound_read(const char *path, struct voice_sound *out, char *why, size
             "a sound must have 1 to 64 channels and 4,000 to 384,000 samples a second");
     if (!done)
         return refuse(out, why, room, path,
-                      too_long ? "the sound is longer than half an hour" : "no memory");
+                      too_long ? "the sound is longer than an hour and a half" : "no memory");
     if (out->count == 0)
         return refuse(out, why, room, path, "there is no sound in it");
     return true;

@@ -137,16 +137,18 @@ const struct page pages_of_pictures[] = {
           {"lutetia spring --controls", "what can be adjusted"}},
      .see = "lutetia-keys(1), lutetia-run(1), lutetia-scripts(7)"},
     {.verb = "voice",
-     .usages = "SOUND \"Text\" [options]\n--cry \"Text\" [options]\n--microphone any \"Text\" "
+     .usages = "SOUND \"Text\" [options]\nSOUND --transcript FILE [options]\n--cry \"Text\" "
+               "[options]\n--microphone any \"Text\" "
                "[options]",
-     .about = "A voice sets the size, place and colour of letters. SOUND is a file (WAV, FLAC, "
-              "...). "
-              "With none of --poster, --sheet, --envelope, --still, --frames and --video the "
-              "poster is "
-              "written, to out.png; with a microphone there is a window instead.\n"
-              "A text of one word is played as it is; more words are spread over the sounds "
-              "that begin "
-              "in it.",
+     .about =
+         "A voice sets the size, place and colour of letters. SOUND is a file (WAV, FLAC, "
+         "...). "
+         "With none of --poster, --sheet, --envelope, --still, --frames and --video the "
+         "poster is "
+         "written, to out.png; with a microphone there is a window instead.\n"
+         "A text of one word is played as it is. Of several words each is shown while it is "
+         "said: they are found in the voice by their letters, whatever the language, or by "
+         "the times of --transcript.",
      .notes =
          "--map ties properties of letters to features of the voice: size, weight, slant, "
          "baseline and ink to envelope, level, pitch, clarity, open, front (a vowel's two "

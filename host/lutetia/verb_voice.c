@@ -4,11 +4,13 @@
 #include "options.h"
 #include "type_common.h"
 #include "voice_live.h"
+#include "voice_poster.h"
 
 #include <display.h>
 #include <output_file.h>
 #include <video.h>
 #include <voice.h>
+#include <voice_align.h>
 #include <voice_cry.h>
 #include <voice_picture.h>
 #include <voice_sound.h>
@@ -27,10 +29,10 @@ enum { SHEET_COLUMNS = 5, SHEET_ROWS = 4, LABEL_PX = 11 };
 struct voice_work {
     const char *sound_path, *text, *font, *axes, *map;
     const char *poster, *sheet, *envelope, *still, *frames, *video;
-    const char *microphone;
+    const char *microphone, *transcript;
     double seconds;
     bool cry;
-    double size_px[2], rise_em, slant, paper[3], inks[9], second_px, at_s;
+    double size_px[2], rise_em, slant, paper[3], inks[9], second_px, line_px, at_s;
     int picture[2], fps;
     struct voice_type_def def;
     struct voice_def hearing;
@@ -40,6 +42,8 @@ struct voice_work {
     int heard_count;
     struct voice_score score;
     struct voice_words words;
+    struct voice_transcript cues;
+    struct voice_timing timing;
     struct font_face *face;
 };
 
@@ -48,21 +52,26 @@ static bool pictures_wanted(const struct voice_work *w)
     return w->poster || w->sheet || w->envelope || w->still || w->frames || w->video;
 }
 
+/* How many words the command line has: a sound, unless another is given; a text, unless there is a transcript. */
 static int words_take(struct voice_work *w, const struct option_words *words)
 {
-    int wanted = w->cry || w->microphone ? 1 : 2;
+    const bool heard = !w->cry && !w->microphone, written = !w->transcript;
     if (w->cry && w->microphone)
         return fail_usage("voice", "--cry or --microphone, not both");
-    if (words->count != wanted)
-        return fail_usage("voice",
-                          words->count < wanted
-                              ? (wanted == 1 ? "give a text" : "give a sound and a text")
-                              : "there is one %s; put it in quotes (then came '%.60s')",
-                          wanted == 1 ? "text, and no sound with --cry or --microphone"
-                                      : "sound and one text",
-                          words->count ? words->words[words->count - 1] : "");
-    w->sound_path = wanted == 1 ? NULL : words->words[0];
-    w->text = words->words[wanted - 1];
+    if (w->transcript && !heard)
+        return fail_usage("voice", "a transcript is of a sound in a file: give that");
+    if (words->count < heard + written)
+        return fail_usage("voice", !heard     ? "give a text"
+                                   : !written ? "give a sound"
+                                              : "give a sound and a text");
+    if (words->count > heard + written)
+        return fail_usage("voice", "there is one %s; put it in quotes (then came '%.60s')",
+                          !heard     ? "text, and no sound with --cry or --microphone"
+                          : !written ? "sound, and its text is in the transcript"
+                                     : "sound and one text",
+                          words->words[words->count - 1]);
+    w->sound_path = heard ? words->words[0] : NULL;
+    w->text = written ? words->words[words->count - 1] : NULL;
     if (w->picture[0] % 2 || w->picture[1] % 2)
         return fail_usage("voice", "--picture must be even (got %dx%d)", w->picture[0],
                           w->picture[1]);
@@ -87,7 +96,7 @@ static int options_read(struct voice_work *w, int argc, char **argv, bool *help)
          0},
         {"still", 0, OPTION_PNG, "FILE", "the moment --at, PNG", &w->still, 0, 0, 0},
         {"at", 0, OPTION_NUMBER, "S", "the moment of --still (where it is loudest)", &w->at_s,
-         0, 1800, 0},
+         0, VOICE_SECONDS_MAX, 0},
         {"frames", 0, OPTION_TEXT, "DIR", "all moments as numbered pictures in this folder",
          &w->frames, 0, 0, 0},
         {"video", 0, OPTION_TEXT, "FILE", "a film with the voice in it (.mp4, .webm, ...)",
@@ -102,6 +111,9 @@ static int options_read(struct voice_work *w, int argc, char **argv, bool *help)
          0, 0, 0},
         {"seconds", 0, OPTION_NUMBER, "S", "how long a microphone is heard (5)", &w->seconds,
          0.5, 1800, 0},
+        {"transcript", 0, OPTION_TEXT, "FILE",
+         "the text, with its times in the sound: subtitles, SRT or WebVTT", &w->transcript, 0,
+         0, 0},
         {"map", 0, OPTION_TEXT, "P=F,..",
          "which property is tied to which feature (size=envelope)", &w->map, 0, 0, 0},
         {"font", 0, OPTION_TEXT, "F",
@@ -117,6 +129,8 @@ static int options_read(struct voice_work *w, int argc, char **argv, bool *help)
          "the most slant, pixels to the right for each up (0.4)", &w->slant, -2, 2, 0},
         {"second", 0, OPTION_NUMBER, "PX", "length of a second on the poster (480)",
          &w->second_px, 10, 20000, 0},
+        {"line", 0, OPTION_NUMBER, "PX", "the longest line of the poster (as fits)",
+         &w->line_px, 100, DISPLAY_SIDE_MAX, 0},
         {"paper", 0, OPTION_NUMBERS, "R,G,B", "colour of the paper, each 0..1 (1,1,1)",
          w->paper, 0, 1, 3},
         {"inks", 0, OPTION_NUMBERS, "R,G,B,R,G,B",
@@ -167,10 +181,39 @@ static int sound_take(struct voice_work *w)
     return w->sound.samples ? EXIT_SUCCESS : fail("voice", "no memory for a cry");
 }
 
+/* Finds when the text's words are said. */
+static int text_hear(struct voice_work *w)
+{
+    bool empty;
+    if (!voice_words_make(w->text, &w->words, &empty))
+        return empty ? fail_usage("voice", "the text is empty: there is nothing to play")
+                     : fail("voice", "no memory");
+    const bool known = w->transcript != NULL;
+    return (known ? voice_align_cues(&w->words, &w->cues, w->heard, w->heard_count,
+                                     w->hearing.silence, &w->timing)
+                  : voice_align(&w->words, w->heard, w->heard_count, w->hearing.silence,
+                                &w->timing))
+               ? EXIT_SUCCESS
+               : fail("voice", "no memory for the times of words");
+}
+
+static int transcript_take(struct voice_work *w)
+{
+    char why[300];
+    if (!w->transcript)
+        return EXIT_SUCCESS;
+    if (!voice_transcript_read(w->transcript, &w->cues, why, sizeof why))
+        return fail("voice", "%s", why);
+    w->text = w->cues.text;
+    return EXIT_SUCCESS;
+}
+
 static int hear(struct voice_work *w)
 {
     bool empty;
-    int status = sound_take(w);
+    int status = transcript_take(w);
+    if (status == EXIT_SUCCESS)
+        status = sound_take(w);
     if (status != EXIT_SUCCESS)
         return status;
     if (!voice_frames(&w->hearing, w->sound.samples, w->sound.count, w->sound.rate_hz,
@@ -180,10 +223,7 @@ static int hear(struct voice_work *w)
         return empty ? fail("voice", "%s: nothing can be heard in it",
                             w->sound_path ? w->sound_path : "the microphone")
                      : fail("voice", "no memory for the sound");
-    if (!voice_words_make(w->text, &w->words, &empty))
-        return empty ? fail_usage("voice", "the text is empty: there is nothing to play")
-                     : fail("voice", "no memory");
-    return EXIT_SUCCESS;
+    return text_hear(w);
 }
 
 /* ---- type ---- */
@@ -206,10 +246,10 @@ static int size_fit(struct voice_work *w)
     double widest = 0.1;
     if (font_shaper_create(w->face, &shaper) != FONT_OK)
         return fail_font("voice");
-    for (int i = 0; i < w->score.begins; i++) {
+    for (int i = 0; i < w->words.count; i++) {
         struct font_layout layout = {0};
         int begin, end;
-        voice_words_at(&w->words, &w->score, w->score.begin_s[i], &begin, &end);
+        voice_word_bytes(&w->words, i, &begin, &end);
         if (font_shaper_layout(shaper, w->text + begin, (size_t)(end - begin), 100, NULL,
                                &layout) == FONT_OK)
             widest = fmax(widest, layout.width_px / 100);
@@ -275,55 +315,25 @@ static int player_make(const struct voice_work *w, double scale, struct voice_ty
     struct voice_type_def def = w->def;
     def.size_px[0] *= scale;
     def.size_px[1] *= scale;
-    return voice_type_create(&def, w->face, &w->words, &w->score, out) == FONT_OK
+    return voice_type_create(&def, w->face, &w->words, &w->timing, &w->score, out) == FONT_OK
                ? EXIT_SUCCESS
                : fail_font("voice");
 }
 
 /* ---- pictures ---- */
 
-/* Crops rows at the top and bottom, up to `margin` pixels from the ink. */
-static void rows_cut(struct display_image *image, int margin)
-{
-    size_t row = 3 * (size_t)image->width_px;
-    int top = 0, bottom = image->height_px;
-    while (top < bottom && memcmp(image->pixels + row * (size_t)top, image->pixels, row) == 0)
-        top++;
-    while (bottom > top &&
-           memcmp(image->pixels + row * (size_t)(bottom - 1), image->pixels, row) == 0)
-        bottom--;
-    if (top == bottom)
-        return;
-    top = top > margin ? top - margin : 0;
-    bottom = bottom + margin < image->height_px ? bottom + margin : image->height_px;
-    memmove(image->pixels, image->pixels + row * (size_t)top, row * (size_t)(bottom - top));
-    image->height_px = bottom - top;
-}
-
 static int poster_write(const struct voice_work *w)
 {
+    const bool rises = w->def.mapping.feature[TYPE_BASELINE] != VOICE_NOTHING;
+    const struct voice_poster_def def = {.path = w->poster,
+                                         .size_px = w->size_px[1],
+                                         .rise_px = rises ? w->rise_em * w->size_px[1] : 0,
+                                         .second_px = w->second_px,
+                                         .line_px = w->line_px};
     struct voice_type *type;
-    struct display_image image = {0};
-    double most = w->size_px[1], margin = ceil(0.25 * most),
-           rise =
-               w->def.mapping.feature[TYPE_BASELINE] != VOICE_NOTHING ? w->rise_em * most : 0;
-    double width = 0;
     int status = player_make(w, 1, &type);
-    if (status == EXIT_SUCCESS && voice_type_line_width(type, w->second_px, &width) != FONT_OK)
-        status = fail_font("voice");
-    if (status == EXIT_SUCCESS) /* keep a row of paper above and below the ink */
-        status = type_image_create("voice", ceil(width + 2 * margin),
-                                   ceil(2 * margin + 1.7 * most + rise), &image);
-    struct font_picture picture = type_picture(&image);
-    if (status == EXIT_SUCCESS &&
-        voice_type_line(type, w->second_px, margin, margin + 1.1 * most + rise, &picture) !=
-            FONT_OK)
-        status = fail_font("voice");
-    if (status == EXIT_SUCCESS) {
-        rows_cut(&image, (int)margin);
-        status = type_image_write("voice", w->poster, &image);
-    }
-    display_image_destroy(&image);
+    if (status == EXIT_SUCCESS)
+        status = voice_poster_write(type, &def);
     voice_type_destroy(type);
     return status;
 }
@@ -567,6 +577,8 @@ int verb_voice(int argc, char **argv)
     status = w.microphone && !pictures_wanted(&w) ? live_play(&w) : pictures_write(&w);
     font_face_close(w.face);
     voice_words_finish(&w.words);
+    voice_timing_finish(&w.timing);
+    voice_transcript_finish(&w.cues);
     voice_score_finish(&w.score);
     free(w.heard);
     voice_sound_finish(&w.sound);

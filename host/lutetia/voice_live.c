@@ -126,7 +126,7 @@ static int types_make(struct voice_live *v)
 {
     int status = size_fit(v);
     for (int i = 0; i < v->words_count && status == EXIT_SUCCESS; i++)
-        if (voice_type_create(&v->type, v->def->face, &v->words[i].words, &v->score,
+        if (voice_type_create(&v->type, v->def->face, &v->words[i].words, NULL, &v->score,
                               &v->words[i].type) != FONT_OK)
             status = fail_font("voice");
     return status;

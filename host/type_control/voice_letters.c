@@ -122,48 +122,84 @@ void voice_words_finish(struct voice_words *words)
     *words = (struct voice_words){0};
 }
 
-/* The words of a sound: first..last, inclusive. */
-static void words_of(const struct voice_words *w, const struct voice_score *s, int sound,
-                     int *first, int *last)
+/* Scripts whose letters join or are reordered, and those that run to the left. */
+static const uint32_t joining[][2] = {
+    {0x590, 0x8ff},   {0x900, 0x109f},  {0x1780, 0x18af}, {0x1900, 0x1aff}, {0x1b00, 0x1c4f},
+    {0xa800, 0xa87f}, {0xa880, 0xaaff}, {0xfb1d, 0xfdff}, {0xfe70, 0xfefc}, {0x10800, 0x11fff}};
+static const uint32_t leftward[][2] = {
+    {0x590, 0x8ff}, {0xfb1d, 0xfdff}, {0xfe70, 0xfefc}, {0x10800, 0x10fff}, {0x1e800, 0x1efff}};
+
+static bool within(uint32_t c, const uint32_t (*ranges)[2], size_t count)
 {
-    *first = (int)((int64_t)sound * w->count / s->begins);
-    *last = (int)((int64_t)(sound + 1) * w->count / s->begins) - 1;
-    if (*last < *first)
-        *last = *first;
+    for (size_t i = 0; i < count; i++)
+        if (c >= ranges[i][0] && c <= ranges[i][1])
+            return true;
+    return false;
 }
 
-void voice_words_at(const struct voice_words *w, const struct voice_score *s, double time_s,
-                    int *begin, int *end)
+bool voice_word_joins(const struct voice_words *words, int word)
 {
-    int first, last;
-    words_of(w, s, voice_score_sound(s, time_s), &first, &last);
-    *begin = w->letters[w->first[first]].before;
-    *end = w->letters[w->first[last + 1] - 1].after;
+    int begin, end;
+    voice_word_bytes(words, word, &begin, &end);
+    for (const char *at = words->text + begin; at < words->text + end;) {
+        uint32_t c;
+        font_utf8_next(&at, words->text + end, &c);
+        if (within(c, joining, sizeof joining / sizeof *joining))
+            return true;
+    }
+    return false;
 }
 
-/* The sounds that show the same first word as this one: from..to, inclusive. */
-static void sounds_alike(const struct voice_words *w, const struct voice_score *s, int sound,
-                         int *from, int *to)
+bool voice_words_to_left(const struct voice_words *words)
 {
-    int first, last, other;
-    words_of(w, s, sound, &first, &last);
-    *from = *to = sound;
-    while (*from > 0 && (words_of(w, s, *from - 1, &other, &last), other == first))
-        --*from;
-    while (*to + 1 < s->begins && (words_of(w, s, *to + 1, &other, &last), other == first))
-        ++*to;
+    for (int i = 0; i < words->letters_count; i++) {
+        const char *at = words->text + words->letters[i].begin;
+        uint32_t c;
+        font_utf8_next(&at, words->text + words->letters[i].end, &c);
+        if (within(c, leftward, sizeof leftward / sizeof *leftward))
+            return true;
+        if (c >= 0x41 && !is_punctuation(c))
+            return false;
+    }
+    return false;
 }
 
-int voice_letter_at(const struct voice_words *w, const struct voice_score *s, double time_s,
-                    double *until_s)
+void voice_word_bytes(const struct voice_words *words, int word, int *begin, int *end)
 {
-    int sound = voice_score_sound(s, time_s), first, last, from, to;
-    words_of(w, s, sound, &first, &last);
-    sounds_alike(w, s, sound, &from, &to);
-    double start = s->begin_s[from], stop = to + 1 < s->begins ? s->begin_s[to + 1] : s->end_s;
-    int begin = w->first[first], count = w->first[last + 1] - begin;
-    double part = stop > start ? (time_s - start) / (stop - start) : 0;
-    int number = (int)fmin(count - 1, fmax(0, floor(part * count)));
-    *until_s = start + (stop - start) * (number + 1) / count;
-    return begin + number;
+    *begin = words->letters[words->first[word]].before;
+    *end = words->letters[words->first[word + 1] - 1].after;
+}
+
+/* ---- times ---- */
+
+/* The last span that begins by then; -1: none. */
+static int span_before(const struct voice_span *spans, int count, double time_s)
+{
+    int low = -1, high = count;
+    while (high - low > 1) {
+        const int middle = low + (high - low) / 2;
+        if (spans[middle].begin_s <= time_s)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+int voice_word_at(const struct voice_timing *t, double time_s)
+{
+    const int word = span_before(t->words, t->words_count, time_s),
+              sound = span_before(t->sounds, t->sounds_count, time_s);
+    return word >= 0 && time_s < t->words[word].end_s && sound >= 0 &&
+                   time_s < t->sounds[sound].end_s
+               ? word
+               : -1;
+}
+
+void voice_timing_finish(struct voice_timing *timing)
+{
+    free(timing->words);
+    free(timing->letters);
+    free(timing->sounds);
+    *timing = (struct voice_timing){0};
 }

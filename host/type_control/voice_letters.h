@@ -1,10 +1,8 @@
 /* voice_letters.h - which letters of a text a moment of a voice shows.
  *
- * A text of one word is shown as a whole, as long as the voice sounds. Several words are
- * distributed over the sounds: with more words than sounds, each sound shows several; with
- * fewer, each word lasts for several sounds. Along a line words are prolonged: their letters
- * share their sounds' time, and a letter is repeated as long as its share lasts
- * ("Aaaaagggh"). Punctuation is set once, with the letter beside it.
+ * A word is shown while it is said (voice_align.h finds when), and nothing in a silence. A text of one word is shown as a whole, as long
+ * as the voice sounds. Along a line words are prolonged: a letter is repeated as long as its time lasts ("Aaaaagggh"). Punctuation is set
+ * once, with the letter beside it.
  */
 #ifndef LUTETIA_VOICE_LETTERS_H
 #define LUTETIA_VOICE_LETTERS_H
@@ -30,11 +28,27 @@ struct voice_words {
 bool voice_words_make(const char *text, struct voice_words *out, bool *empty);
 void voice_words_finish(struct voice_words *words);
 
-/* The bytes of the text that are shown at that time. */
-void voice_words_at(const struct voice_words *words, const struct voice_score *score,
-                    double time_s, int *begin, int *end);
-/* The letter for a time on the line, and the end of its share of the time. */
-int voice_letter_at(const struct voice_words *words, const struct voice_score *score,
-                    double time_s, double *until_s);
+/* Whether a word's letters join, or stand in another order than they are said (Arabic, Devanagari): it is then set as a whole. */
+bool voice_word_joins(const struct voice_words *words, int word);
+/* Whether the text runs to the left: the first word with letters of a direction says. */
+bool voice_words_to_left(const struct voice_words *words);
+
+struct voice_span {
+    double begin_s, end_s;
+};
+
+struct voice_timing {
+    struct voice_span *words;   /* ascending; none overlaps the next */
+    struct voice_span *letters; /* of a word: within it, one after the other */
+    int words_count, letters_count;
+    struct voice_span *sounds; /* what is heard of the voice, ascending, with silence between */
+    int sounds_count;
+};
+void voice_timing_finish(struct voice_timing *timing); /* an empty one is fine */
+
+/* The word that is said at that time; -1: none. */
+int voice_word_at(const struct voice_timing *timing, double time_s);
+/* The bytes of the text that a word is shown as. */
+void voice_word_bytes(const struct voice_words *words, int word, int *begin, int *end);
 
 #endif

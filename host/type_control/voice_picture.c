@@ -15,7 +15,9 @@ struct voice_type {
     struct voice_type_def def;
     struct font_face *face;
     const struct voice_words *words;
+    const struct voice_timing *timing;
     const struct voice_score *score;
+    bool to_left;
     struct font_shaper *shaper;
     struct font_painter *painter;
     struct font_axis weight, slant; /* tag "": the font lacks the axis */
@@ -51,6 +53,7 @@ static bool axis_find(const struct font_face *face, const char *tag, struct font
 
 enum font_status voice_type_create(const struct voice_type_def *def, struct font_face *face,
                                    const struct voice_words *words,
+                                   const struct voice_timing *timing,
                                    const struct voice_score *score, struct voice_type **out)
 {
     struct voice_type *t = calloc(1, sizeof *t);
@@ -61,6 +64,8 @@ enum font_status voice_type_create(const struct voice_type_def *def, struct font
     t->def = *def;
     t->face = face;
     t->words = words;
+    t->timing = timing;
+    t->to_left = voice_words_to_left(words);
     t->score = score;
     for (int i = 0; i < 256; i++)
         t->light[i] = font_light(i / 255.0, 0);
@@ -122,7 +127,7 @@ static void ink_at(const struct voice_type *t, double time_s, double ink[3])
 
 /* ---- drawing ---- */
 
-static void paper_fill(const struct voice_type *t, struct font_picture *picture)
+void voice_type_paper(const struct voice_type *t, struct font_picture *picture)
 {
     for (int y = 0; y < picture->height_px; y++)
         for (int x = 0; x < picture->width_px; x++)
@@ -211,11 +216,16 @@ enum font_status voice_type_moment(struct voice_type *t, double time_s,
     struct font_layout layout = {0};
     struct font_map map;
     double ink[3], size = voice_type_size(t, time_s);
+    const int word = t->timing ? voice_word_at(t->timing, time_s) : 0;
     int begin, end;
-    paper_fill(t, picture);
-    if (size < 0.5) /* nothing is heard */
+    voice_type_paper(t, picture);
+    if (size < 0.5 || word < 0) /* nothing is heard */
         return FONT_OK;
-    voice_words_at(t->words, t->score, time_s, &begin, &end);
+    voice_word_bytes(t->words, word, &begin, &end);
+    if (!t->timing) {
+        begin = t->words->letters[0].before;
+        end = t->words->letters[t->words->letters_count - 1].after;
+    }
     enum font_status status = instrument_set(t, time_s, &map);
     if (status == FONT_OK)
         status = font_shaper_layout(t->shaper, t->words->text + begin, (size_t)(end - begin),
@@ -234,16 +244,16 @@ enum font_status voice_type_moment(struct voice_type *t, double time_s,
     return status;
 }
 
+/* ---- lines ---- */
+
 /* The present position on a line, and its time. */
 struct line {
-    double x, time_s;
-    double until_s;               /* the end of the letter's share of the time */
-    int letter;                   /* -1: none yet */
-    struct font_picture *picture; /* NULL: only the line's length is computed */
-    double baseline_px;
+    double x, time_s, second_px;
+    double origin_px, baseline_px;
+    struct font_picture *picture; /* NULL: it is only measured */
 };
 
-/* Sets some bytes of the text as at that moment; the line advances by their width. */
+/* Sets bytes of the text at the line's position, and moves the position on. Nothing else on the line is of that time. */
 static enum font_status bytes_set(struct voice_type *t, struct line *line, int begin, int end)
 {
     struct font_layout layout = {0};
@@ -256,86 +266,157 @@ static enum font_status bytes_set(struct voice_type *t, struct line *line, int b
         status = font_shaper_layout(t->shaper, t->words->text + begin, (size_t)(end - begin),
                                     voice_type_size(t, line->time_s), NULL, &layout);
     if (status == FONT_OK && line->picture) {
+        const double x = t->to_left ? line->origin_px - line->x - layout.width_px
+                                    : line->origin_px + line->x;
         ink_at(t, line->time_s, ink);
         status =
-            layout_draw(t, &layout, &map, line->x,
-                        line->baseline_px - baseline_rise(t, line->time_s), ink, line->picture);
+            layout_draw(t, &layout, &map, x, line->baseline_px - baseline_rise(t, line->time_s),
+                        ink, line->picture);
     }
     line->x += layout.width_px;
     font_layout_finish(&layout);
     return status;
 }
 
-/* Ends the letter before: sets what follows it, a space at a word's end, and what precedes
- * the next. */
-static enum font_status letter_change(struct voice_type *t, struct line *line, int letter)
+static bool audible(const struct voice_type *t, double time_s)
 {
-    const struct voice_letter *next = &t->words->letters[letter], *last = NULL;
-    enum font_status status = FONT_OK;
-    if (line->letter >= 0)
-        last = &t->words->letters[line->letter];
-    line->letter = letter;
-    if (last)
-        status = bytes_set(t, line, last->end, last->after);
-    if (last && last->word != next->word)
-        line->x += WORD_SPACE_EM * voice_type_size(t, line->time_s);
-    if (status == FONT_OK)
-        status = bytes_set(t, line, next->before, next->begin);
-    return status;
+    return voice_score_at(t->score, VOICE_ENVELOPE, time_s) >= t->def.silence;
 }
 
-/* Sets one letter, or a piece of silence. A letter lasts as long as its width corresponds
- * to, but not longer than its share of the time. So each letter is set at least once, and
- * where many letters share a short time, the line becomes longer. */
-static enum font_status letter_set(struct voice_type *t, struct line *line, double second_px)
+static double loudest_in(const struct voice_type *t, struct voice_span span)
 {
-    double size = voice_type_size(t, line->time_s);
-    enum font_status status = FONT_OK;
-    int letter = voice_letter_at(t->words, t->score, line->time_s, &line->until_s);
-    if (voice_score_at(t->score, VOICE_ENVELOPE, line->time_s) < t->def.silence || size < 0.5) {
+    double best_s = span.begin_s, best = -1;
+    for (double at = span.begin_s; at < span.end_s; at += SILENT_STEP_S) {
+        const double level = voice_score_at(t->score, VOICE_ENVELOPE, at);
+        if (level > best) {
+            best = level;
+            best_s = at;
+        }
+    }
+    return best_s;
+}
+
+/* Moves over silence, at most up to a time. */
+static void silence_go(const struct voice_type *t, struct line *line, double until_s)
+{
+    while (line->time_s < until_s && !audible(t, line->time_s)) {
         line->time_s += SILENT_STEP_S;
-        line->x += SILENT_STEP_S * second_px;
-        return FONT_OK;
+        line->x += SILENT_STEP_S * line->second_px;
     }
-    if (letter != line->letter)
-        status = letter_change(t, line, letter);
-    double begun = line->x;
+}
+
+/* Sets a letter once, and again as often as its width corresponds to its time. A letter that cannot be heard is as large as its loudest
+ * moment. So each letter is set, and where many letters share a short time, the line becomes longer. */
+static enum font_status letter_set(struct voice_type *t, struct line *line, int letter)
+{
     const struct voice_letter *l = &t->words->letters[letter];
-    if (status == FONT_OK)
+    const struct voice_span span = t->timing->letters[letter];
+    enum font_status status = bytes_set(t, line, l->before, l->begin);
+    bool set = false;
+    while (status == FONT_OK) {
+        silence_go(t, line, span.end_s);
+        const bool late = line->time_s >= span.end_s;
+        if (late && set)
+            break;
+        if (late)
+            line->time_s = loudest_in(t, span);
+        const double begun = line->x;
         status = bytes_set(t, line, l->begin, l->end);
-    double lasts = fmax(line->x - begun, 1) / second_px, left = line->until_s - line->time_s;
-    line->time_s += fmax(1e-4, fmin(lasts, left + 1e-6));
+        const double lasts = fmax(line->x - begun, 1) / line->second_px;
+        line->time_s += lasts;
+        if (late || line->time_s + lasts / 2 > span.end_s)
+            line->time_s = span.end_s;
+        set = true;
+    }
+    if (status == FONT_OK) { /* what follows is as large as the letter's end */
+        line->time_s = fmax(span.begin_s, span.end_s - SILENT_STEP_S);
+        status = bytes_set(t, line, l->end, l->after);
+        line->time_s = span.end_s;
+    }
     return status;
 }
 
-static enum font_status line_go(struct voice_type *t, double second_px, struct line *line)
+static enum font_status whole_set(struct voice_type *t, struct line *line, int word)
+{
+    const struct voice_span span = t->timing->words[word];
+    const double begun = line->x;
+    int begin, end;
+    voice_word_bytes(t->words, word, &begin, &end);
+    line->time_s = loudest_in(t, span);
+    enum font_status status = bytes_set(t, line, begin, end);
+    line->x = fmax(line->x, begun + (span.end_s - span.begin_s) * line->second_px);
+    line->time_s = span.end_s;
+    return status;
+}
+
+/* Moves from one word's end to the next one's beginning: as long as the silence, and a space at least. */
+static void space_go(const struct voice_type *t, struct line *line, int word)
+{
+    const struct voice_span *words = t->timing->words;
+    const double quiet_s = words[word].begin_s - words[word - 1].end_s,
+                 size = voice_type_size(t, loudest_in(t, words[word - 1]));
+    line->x += fmax(WORD_SPACE_EM * size, quiet_s * line->second_px);
+    line->time_s = words[word].begin_s;
+}
+
+static enum font_status word_set(struct voice_type *t, struct line *line, int word)
 {
     enum font_status status = FONT_OK;
-    line->time_s = t->score->begin_s[0];
-    line->letter = -1;
-    while (line->time_s < t->score->end_s && status == FONT_OK)
-        status = letter_set(t, line, second_px);
-    if (status == FONT_OK && line->letter >= 0) {
-        const struct voice_letter *last = &t->words->letters[line->letter];
-        status = bytes_set(t, line, last->end, last->after);
-    }
+    line->time_s = t->timing->words[word].begin_s;
+    if (t->to_left || voice_word_joins(t->words, word))
+        return whole_set(t, line, word);
+    for (int i = t->words->first[word]; i < t->words->first[word + 1] && status == FONT_OK; i++)
+        status = letter_set(t, line, i);
     return status;
 }
 
-enum font_status voice_type_line_width(struct voice_type *t, double second_px, double *width_px)
+enum font_status voice_type_lines(struct voice_type *t, double second_px, double most_px,
+                                  struct voice_line **lines, int *count)
 {
-    struct line line = {0};
-    enum font_status status = line_go(t, second_px, &line);
-    *width_px = line.x;
+    struct line line = {.second_px = second_px};
+    enum font_status status = FONT_OK;
+    *count = 0;
+    *lines = malloc(sizeof **lines * (size_t)t->words->count);
+    if (!*lines)
+        return FONT_NO_MEMORY;
+    for (int word = 0; word < t->words->count && status == FONT_OK; word++) {
+        const double ended = line.x;
+        if (word > 0)
+            space_go(t, &line, word);
+        const double begins = line.x;
+        status = word_set(t, &line, word);
+        if (*count == 0 || line.x > most_px) { /* another line begins with this word */
+            if (*count > 0)
+                (*lines)[*count - 1].width_px = ended;
+            line.x -= begins;
+            (*lines)[(*count)++] = (struct voice_line){.first_word = word};
+        }
+        (*lines)[*count - 1].end_word = word + 1;
+    }
+    (*lines)[*count - 1].width_px = line.x;
     return status;
 }
 
-enum font_status voice_type_line(struct voice_type *t, double second_px, double margin_px,
+enum font_status voice_type_line(struct voice_type *t, double second_px,
+                                 const struct voice_line *which, double x_px,
                                  double baseline_px, struct font_picture *picture)
 {
-    struct line line = {.x = margin_px, .picture = picture, .baseline_px = baseline_px};
-    paper_fill(t, picture);
-    return line_go(t, second_px, &line);
+    struct line line = {.second_px = second_px,
+                        .origin_px = x_px,
+                        .baseline_px = baseline_px,
+                        .picture = picture};
+    enum font_status status = FONT_OK;
+    for (int word = which->first_word; word < which->end_word && status == FONT_OK; word++) {
+        if (word > which->first_word)
+            space_go(t, &line, word);
+        status = word_set(t, &line, word);
+    }
+    return status;
+}
+
+bool voice_type_to_left(const struct voice_type *t)
+{
+    return t->to_left;
 }
 
 /* ---- the envelope ---- */
@@ -348,7 +429,7 @@ void voice_type_envelope(const struct voice_type *t, double margin_px,
     double width = picture->width_px - 2 * margin_px,
            height = picture->height_px - 3 * margin_px;
     double bottom = picture->height_px - 2 * margin_px, seconds = fmax(s->seconds, 1e-6);
-    paper_fill(t, picture);
+    voice_type_paper(t, picture);
     for (int x = 0; x < picture->width_px; x++) {
         double tops[PARTS];
         for (int k = 0; k < PARTS; k++) {

@@ -92,6 +92,34 @@ static void film_and_its_sound(void **state)
         ink_is_in(again, 320, 180);
 }
 
+/* A transcript's words, and as many pages as their lines need. */
+static void transcript_is_pages(void **state)
+{
+    (void)state;
+    const char *film = scratch_path("pages.y4m"), *sound = scratch_path("pages.wav"),
+               *cues = scratch_path("pages.srt"), *poster = scratch_path("pages.png"),
+               *second = scratch_path("pages-2.png");
+    FILE *file = fopen(cues, "w");
+    assert_non_null(file);
+    fputs("1\n00:00:00,500 --> 00:00:02,000\none two\n\n2\n00:00:02,000 --> "
+          "00:00:04,000\nthree\n",
+          file);
+    fclose(file);
+    struct child child = {.arguments = {"", "", "--cry", "Aagh", "--video", film, "--fps", "10",
+                                        "--picture", "64x36"},
+                          .variables = {"PATH=/nowhere"}};
+    run(&child, 0, "has no sound in it; that is");
+    unlink(second);
+    struct child pages = {.arguments = {"", "", sound, "--transcript", cues, "-o", poster,
+                                        "--line", "4000", "--second", "4000", "--size",
+                                        "1200,1200", "--map", "size=nothing"}};
+    run(&pages, reads ? 0 : 1, reads ? "has " : "this build reads no sounds");
+    if (!reads)
+        return;
+    ink_is_in(poster, 0, 0);
+    ink_is_in(second, 0, 0);
+}
+
 static void what_is_wrong_is_said(void **state)
 {
     (void)state;
@@ -117,6 +145,10 @@ static void what_is_wrong_is_said(void **state)
         {{"--cry", "x", "--map", "size=loud"}, 2, "there are nothing, envelope"},
         {{"--cry", "x", "--map", "weight=pitch"}, 2, "no axis of weight"},
         {{"--cry", "x", "--picture", "33x20"}, 2, "must be even"},
+        {{"--cry", "x", "--transcript", text}, 2, "a transcript is of a sound"},
+        {{text, "x", "--transcript", text}, 2, "its text is in the transcript"},
+        {{text, "--transcript", "/no/such.srt"}, 1, "/no/such.srt: cannot read"},
+        {{text, "--transcript", text}, 1, "no cue"},
         {{"--cry", "x", "--size", "9,3"}, 2, "the least and the most"},
         {{"--cry", "x", "--font", "no-such-font"}, 1, "no-such-font"},
         {{"--cry", "x", "--video", "/no/such/film.mp4"}, 1, "/no/such/film"},
@@ -141,9 +173,9 @@ static void what_is_wrong_is_said(void **state)
 int main(int argc, char **argv)
 {
     reads = argc > 1 && strcmp(argv[1], "reads") == 0;
-    const struct CMUnitTest tests[] = {cmocka_unit_test(cry_is_pictures),
-                                       cmocka_unit_test(film_and_its_sound),
-                                       cmocka_unit_test(what_is_wrong_is_said)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cry_is_pictures), cmocka_unit_test(film_and_its_sound),
+        cmocka_unit_test(transcript_is_pages), cmocka_unit_test(what_is_wrong_is_said)};
     lutetia = getenv("LUTETIA");
     if (!lutetia) {
         fputs("set LUTETIA to the command\n", stderr);

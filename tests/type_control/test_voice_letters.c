@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include <voice_align.h>
 #include <voice_cry.h>
 #include <voice_picture.h>
 
@@ -35,45 +36,63 @@ static void cry(void)
     free(samples);
 }
 
-/* A score with sounds at given times. */
-static struct voice_score sounds(double *begin_s, int count, double end_s)
+/* Periodic bursts of half a second, with a silence after each. */
+enum { BURST = 50, GAP = 50 };
+
+static void bursts_time(const char *text, int count, struct voice_words *words,
+                        struct voice_timing *timing)
 {
-    return (struct voice_score){.begin_s = begin_s, .begins = count, .end_s = end_s};
+    static struct voice_frame played[16 * (BURST + GAP)];
+    bool empty;
+    for (int i = 0; i < count * (BURST + GAP); i++) {
+        const bool heard = i % (BURST + GAP) < BURST;
+        played[i] = (struct voice_frame){.time_s = i / 100.0,
+                                         .level = heard ? 0.1 : 0,
+                                         .envelope = heard ? 0.1 : 0,
+                                         .pitch_hz = heard ? 120 : 0};
+    }
+    assert_true(voice_words_make(text, words, &empty));
+    assert_true(voice_align(words, played, count * (BURST + GAP), 0.004, timing));
 }
 
-static void shown(const struct voice_words *words, const struct voice_score *s, double time_s,
-                  const char *expected)
+/* What is shown in each burst, by |, and in no silence. */
+static void shown(const char *text, int count, const char *expected)
 {
-    int begin, end;
-    char text[100];
-    voice_words_at(words, s, time_s, &begin, &end);
-    snprintf(text, sizeof text, "%.*s", end - begin, words->text + begin);
-    assert_string_equal(text, expected);
+    struct voice_words words;
+    struct voice_timing timing;
+    char found[300] = "";
+    bursts_time(text, count, &words, &timing);
+    for (int i = 0; i < count; i++) {
+        for (int k = 2, last = -1; k < BURST - 2; k++) {
+            const int word = voice_word_at(&timing, i + k / 100.0);
+            int begin, end;
+            if (word == last)
+                continue;
+            assert_true(word >= 0);
+            voice_word_bytes(&words, word, &begin, &end);
+            snprintf(found + strlen(found), sizeof found - strlen(found), "%s%.*s",
+                     last >= 0 ? " " : "", end - begin, text + begin);
+            last = word;
+        }
+        strcat(found, "|");
+        for (int k = BURST + 2; k < BURST + GAP - 2; k++)
+            assert_int_equal(voice_word_at(&timing, i + k / 100.0), -1);
+    }
+    assert_string_equal(found, expected);
+    voice_timing_finish(&timing);
+    voice_words_finish(&words);
 }
 
 static void words_are_spread_over_sounds(void **state)
 {
     (void)state;
-    double begin_s[4] = {0, 1, 2, 3};
-    struct voice_score four = sounds(begin_s, 4, 4), one = sounds(begin_s, 1, 4);
     struct voice_words words;
     bool empty;
-    assert_true(voice_words_make("Aagh", &words, &empty));
-    shown(&words, &four, 0.5, "Aagh");
-    shown(&words, &four, 3.9, "Aagh");
-    voice_words_finish(&words);
-    assert_true(voice_words_make("  The  sea,\nthe open \"sea\"! ", &words, &empty));
-    assert_int_equal(words.count, 5);
-    shown(&words, &four, 0.5, "The");
-    shown(&words, &four, 1.5, "sea,");
-    shown(&words, &four, 2.5, "the");
-    shown(&words, &four, 3.5, "open \"sea\"!");
-    shown(&words, &one, 3.5, "The  sea,\nthe open \"sea\"!");
-    voice_words_finish(&words);
-    assert_true(voice_words_make("oh dear", &words, &empty));
-    shown(&words, &four, 1.5, "oh");
-    shown(&words, &four, 2.5, "dear");
-    voice_words_finish(&words);
+    shown("Aagh", 4, "Aagh|Aagh|Aagh|Aagh|");
+    shown("elephant. Why", 2, "elephant.|Why|");
+    shown("  one,\n\"two\"!  three. four ", 4, "one,|\"two\"!|three.|four|");
+    shown("we saw. They all left, and then? No", 4, "we saw.|They all left,|and then?|No|");
+    shown("oh. oh", 4, "oh.|oh.|oh|oh|");
     assert_false(voice_words_make(" \t\xe2\x80\x83", &words, &empty));
     assert_true(empty);
 }
@@ -81,33 +100,54 @@ static void words_are_spread_over_sounds(void **state)
 static void letters_share_the_time(void **state)
 {
     (void)state;
-    double begin_s[2] = {1, 3}, until_s;
-    struct voice_score two = sounds(begin_s, 2, 5);
     struct voice_words words;
+    struct voice_timing timing;
     bool empty;
-    /* one word is spread over both sounds, a second for each letter */
-    assert_true(voice_words_make("\xc2\xab"
-                                 "Aa\xcc\x81gh!\xc2\xbb",
-                                 &words, &empty));
+    /* one word is spread over both sounds, a quarter of a second for each letter, and none is in the silence */
+    bursts_time("\xc2\xab"
+                "Aa\xcc\x81gh!\xc2\xbb",
+                2, &words, &timing);
     assert_int_equal(words.letters_count, 4);
     for (int i = 0; i < 4; i++) {
-        assert_int_equal(voice_letter_at(&words, &two, 1.5 + i, &until_s), i);
-        assert_true(fabs(until_s - (2 + i)) < 1e-9);
+        const double from_s = i / 2 + i % 2 * 0.25;
+        assert_true(fabs(timing.letters[i].begin_s - from_s) < 0.011);
+        assert_true(fabs(timing.letters[i].end_s - from_s - 0.25) < 0.011);
     }
     const struct voice_letter *l = words.letters;
     assert_true(l[0].before == 0 && l[0].begin == 2 &&
                 l[0].end == 3);                     /* the quotation mark goes before */
     assert_true(l[1].begin == 3 && l[1].end == 6);  /* with its accent */
     assert_true(l[3].end == 8 && l[3].after == 11); /* "!»" comes after */
+    voice_timing_finish(&timing);
     voice_words_finish(&words);
-    assert_true(
-        voice_words_make("wow !!!", &words, &empty)); /* nothing but punctuation is letters */
+    bursts_time("wow !!!", 2, &words, &timing); /* nothing but punctuation is letters */
     assert_int_equal(words.letters_count, 6);
-    assert_int_equal(voice_letter_at(&words, &two, 4.9, &until_s), 5);
+    assert_true(timing.letters[5].end_s <= 1.51 && timing.letters[5].begin_s > 1);
+    voice_timing_finish(&timing);
     voice_words_finish(&words);
     assert_true(voice_words_make("\xff\xfe\x80", &words, &empty)); /* no UTF-8: as many signs */
     assert_true(words.letters_count >= 1 && words.letters[words.letters_count - 1].after == 3);
     voice_words_finish(&words);
+}
+
+static void joined_words_are_whole(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        bool joins, to_left;
+    } texts[] = {{"Aagh!", false, false},
+                 {"\xd8\xa7\xd9\x84\xd8\xa8\xd8\xa7\xd8\xa8", true, true},
+                 {"\xe0\xa4\xb9\xe0\xa4\xbf\xe0\xa4\xa8", true, false},
+                 {"\xd0\x94\xd0\xb0", false, false}};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        struct voice_words words;
+        bool empty;
+        assert_true(voice_words_make(texts[i].text, &words, &empty));
+        assert_int_equal(voice_word_joins(&words, 0), texts[i].joins);
+        assert_int_equal(voice_words_to_left(&words), texts[i].to_left);
+        voice_words_finish(&words);
+    }
 }
 
 static void mappings_are_read(void **state)
@@ -179,7 +219,9 @@ static void heights_follow_the_envelope(void **state)
     int count = 0;
     bool empty;
     assert_int_equal(font_face_open("DejaVuSans", 0, &face), FONT_OK);
+    struct voice_timing timing;
     assert_true(voice_words_make("H", &words, &empty));
+    assert_true(voice_align(&words, frames, frames_count, 0.004, &timing));
     def.size_px[0] = 8;
     def.size_px[1] = 220;
     for (int played = 0; played < 2; played++) {
@@ -189,10 +231,14 @@ static void heights_follow_the_envelope(void **state)
             def.size_px[1] = 60;
             def.rise_em = 2;
         }
-        assert_int_equal(voice_type_create(&def, face, &words, &score, &type), FONT_OK);
+        assert_int_equal(voice_type_create(&def, face, &words, &timing, &score, &type),
+                         FONT_OK);
         count = 0;
         for (int i = 0; i < MOMENTS; i++) {
             double time_s = i * score.seconds / MOMENTS;
+            if (played &&
+                voice_word_at(&timing, time_s) < 0) /* nothing is shown in a silence */
+                continue;
             assert_int_equal(voice_type_moment(type, time_s, &picture), FONT_OK);
             heights[count] = ink_height(&middles[count]);
             envelope[count] = voice_score_at(&score, VOICE_ENVELOPE, time_s);
@@ -205,6 +251,7 @@ static void heights_follow_the_envelope(void **state)
             assert_true(correlation(heights, envelope, count) > 0.99);
         voice_type_destroy(type);
     }
+    voice_timing_finish(&timing);
     voice_words_finish(&words);
     font_face_close(face);
 }
@@ -238,38 +285,64 @@ static void sounds_begin_where_they_rise(void **state)
     voice_score_finish(&made);
 }
 
+/* Lines of a text in the cry: their widths are added. */
+static double lines_of(const struct voice_type_def *def, struct font_face *face,
+                       const char *text, double second_px, double most_px, int *lines_count,
+                       bool draw)
+{
+    struct voice_words words;
+    struct voice_timing timing;
+    struct voice_type *type;
+    struct voice_line *lines;
+    double width = 0, middle;
+    bool empty;
+    int word = 0;
+    assert_true(voice_words_make(text, &words, &empty));
+    assert_true(voice_align(&words, frames, frames_count, 0.004, &timing));
+    assert_int_equal(voice_type_create(def, face, &words, &timing, &score, &type), FONT_OK);
+    assert_int_equal(voice_type_lines(type, second_px, most_px, &lines, lines_count), FONT_OK);
+    for (int i = 0; i < *lines_count; i++) {
+        assert_int_equal(lines[i].first_word, word);
+        assert_true(lines[i].end_word > word);
+        assert_true(lines[i].width_px <= most_px || lines[i].end_word == word + 1);
+        word = lines[i].end_word;
+        width += lines[i].width_px;
+    }
+    assert_int_equal(word, words.count);
+    if (draw) {
+        voice_type_paper(type, &picture);
+        assert_int_equal(voice_type_line(type, second_px, lines, 10, 100, &picture), FONT_OK);
+        assert_true(ink_height(&middle) > 20);
+    }
+    free(lines);
+    voice_type_destroy(type);
+    voice_timing_finish(&timing);
+    voice_words_finish(&words);
+    return width;
+}
+
 static void every_letter_is_on_the_line(void **state)
 {
     (void)state;
+    static const char fox[] = "the quick brown fox jumps over the lazy dog and the quick "
+                              "brown fox jumps over the lazy dog";
     struct voice_type_def def = voice_type_def_default();
-    struct voice_type *type;
-    struct voice_words words;
     struct font_face *face;
-    double narrow, wide, longer;
-    bool empty;
+    int count;
     assert_int_equal(font_face_open("DejaVuSans", 0, &face), FONT_OK);
     def.size_px[0] = 4;
     def.size_px[1] = 40;
-    assert_true(voice_words_make("Aagh", &words, &empty));
-    assert_int_equal(voice_type_create(&def, face, &words, &score, &type), FONT_OK);
-    assert_int_equal(voice_type_line_width(type, 100, &narrow), FONT_OK);
-    assert_int_equal(voice_type_line_width(type, 200, &wide), FONT_OK);
-    double seconds = score.end_s - score.begin_s[0];
+    const double narrow = lines_of(&def, face, "Aagh", 100, 1e6, &count, false),
+                 wide = lines_of(&def, face, "Aagh", 200, 1e6, &count, false);
+    const double seconds = score.end_s - score.begin_s[0];
     assert_true(fabs(narrow - 100 * seconds) < 60 && fabs(wide - 200 * seconds) < 60);
-    voice_type_destroy(type);
-    voice_words_finish(&words);
     /* more letters than fit into the time */
-    assert_true(voice_words_make("the quick brown fox jumps over the lazy dog and the quick "
-                                 "brown fox jumps over the lazy dog",
-                                 &words, &empty));
-    assert_int_equal(voice_type_create(&def, face, &words, &score, &type), FONT_OK);
-    assert_int_equal(voice_type_line_width(type, 10, &longer), FONT_OK);
+    const double longer = lines_of(&def, face, fox, 10, 1e6, &count, true);
+    assert_int_equal(count, 1);
     assert_true(longer > 3 * 10 * seconds);
-    assert_int_equal(voice_type_line(type, 10, 10, 100, &picture), FONT_OK);
-    double middle;
-    assert_true(ink_height(&middle) > 20);
-    voice_type_destroy(type);
-    voice_words_finish(&words);
+    /* and broken into lines, nothing but the spaces between them is lost */
+    const double broken = lines_of(&def, face, fox, 10, 200, &count, true);
+    assert_true(count >= 4 && broken < longer && broken > longer - 30 * count);
     font_face_close(face);
 }
 
@@ -314,7 +387,7 @@ static void vowels_are_inks(void **state)
     assert_true(voice_score_make(said, said_count, 0.03, &spoken, &empty));
     def.inks[0][0] = 1; /* [a] is red */
     assert_true(voice_mapping_read(&def.mapping, "ink=vowel", (char[200]){0}, 200));
-    assert_int_equal(voice_type_create(&def, face, &words, &spoken, &type), FONT_OK);
+    assert_int_equal(voice_type_create(&def, face, &words, NULL, &spoken, &type), FONT_OK);
     assert_int_equal(voice_type_moment(type, 0.25, &picture), FONT_OK);
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++)
@@ -336,6 +409,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(words_are_spread_over_sounds),
         cmocka_unit_test(letters_share_the_time),
+        cmocka_unit_test(joined_words_are_whole),
         cmocka_unit_test(mappings_are_read),
         cmocka_unit_test(heights_follow_the_envelope),
         cmocka_unit_test(sounds_begin_where_they_rise),
