@@ -32,6 +32,8 @@ const struct environment_row environment_rows[] = {
      "info` "
      "(the first)"},
     {"LUTETIA_PROCESSORS", "N", USER, "how many physical processors, a power of two (65536)"},
+    {"LUTETIA_MEMORY", "N", USER,
+     "bytes that the machine's arrays may take together (15 of 16 parts of what is available)"},
     {"LUTETIA_TUNED", "0", USER, "what `lutetia tune` kept for the device is ignored"},
     {"LUTETIA_VERBOSE", "1", USER,
      "says so when what `lutetia tune` kept is ignored: it is damaged, or of another driver"},

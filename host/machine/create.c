@@ -208,5 +208,6 @@ void machine_stats_get(const struct machine *m, struct machine_stats *out)
                                .kernels_in_tiles = m->plans->kernels_in_tiles,
                                .predicted_s = m->plans->predicted_s,
                                .bytes_held = m->device->held_bytes,
+                               .bytes_peak = m->device->peak_bytes,
                                .busy_s = m->device->busy_s};
 }

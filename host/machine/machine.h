@@ -229,9 +229,9 @@ struct machine_stats {
     uint64_t kernels_in_place;  /* of these: over old values that nobody wants any more */
     uint64_t kernels_in_strips; /* of these: several stages at once */
     uint64_t kernels_in_tiles;  /* likewise, in local memory */
-    double predicted_s;  /* what evaluations take by the cost model: docs/engine-reference.md */
-    uint64_t bytes_held; /* device memory in use by values */
-    double busy_s;       /* time in which the front end waited for the device */
+    double predicted_s; /* what evaluations take by the cost model: docs/engine-reference.md */
+    uint64_t bytes_held, bytes_peak; /* device memory in use by values: now, at most so far */
+    double busy_s;                   /* time in which the front end waited for the device */
 };
 void machine_stats_get(const struct machine *m, struct machine_stats *out);
 

@@ -76,6 +76,7 @@ static const struct setting {
     {SETTING(GATHER, gather), 1, 0, 1, 0, "0 or 1"},
     {SETTING(PROCESSORS, processors), SETTING_FREE, 1, 1 << 30, 0,
      "a power of two from 1 to 2^30"},
+    {SETTING(MEMORY, memory), SETTING_FREE, 1, UINT64_MAX - 1, 0, "a number of bytes"},
     {SETTING(TUNED, tuned), 1, 0, 1, 0, "0 or 1"},
     {SETTING(KEEP, keep), SETTING_FREE, 0, 1, 0, "0 or 1"},
     {SETTING(VERBOSE, verbose), 0, 0, 1, 0, "0 or 1"},

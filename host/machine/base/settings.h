@@ -33,6 +33,7 @@ struct settings {
     uint64_t lenient; /* what is past a field's end is what lies after it: access/beyond.h */
     uint64_t tile;    /* width << 16 | height */
     uint64_t processors;
+    uint64_t memory;  /* bytes that arrays may take together; free: what the device has */
     uint64_t tuned;   /* 0: a stored tuning is ignored */
     uint64_t keep;    /* keep programs on disk */
     uint64_t verbose; /* warn on the standard error about a stored tuning that is ignored */

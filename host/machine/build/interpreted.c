@@ -148,12 +148,13 @@ double plan_waits_for_memory(const struct machine *m, const struct plan *p)
     return shape->byte_ns * (double)p->bytes / (TRAFFIC_PART * compute_ns);
 }
 
-/* Kernels would store what is crossed in a block, and load it again. That gains nothing, where byte code has loops. */
+/* Kernels would store what is crossed in a block, and load it again; they do not see which gets are of lines that are spread. That gains nothing, where byte
+ * code has loops. */
 static bool is_best(const struct plan *p)
 {
     bool crosses = false, each = false;
     for (int i = 0; i < p->launches_count; i++) {
-        crosses = crosses || p->launches[i].program->crosses;
+        crosses = crosses || p->launches[i].program->crosses || p->launches[i].program->lines;
         each = each || p->launches[i].program->each;
     }
     return crosses && !each;

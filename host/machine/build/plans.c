@@ -98,6 +98,14 @@ int plan_turns(const struct machine *m, const struct plan *p)
                : 1;
 }
 
+uint64_t plan_stores_bytes(const struct plan *p)
+{
+    uint64_t bytes = 0;
+    for (int i = 0; i < p->stored_count; i++)
+        bytes += p->arrays[i].rows.bytes;
+    return bytes;
+}
+
 const int *plan_stored(const struct plan *p, int *count)
 {
     *count = p->stored_count;

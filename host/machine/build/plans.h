@@ -177,6 +177,8 @@ void plans_see_to(struct machine *m);
  * arrays were evaluated together. 0: its arrays are in the caches, it reads neighbours, or it has kernels. */
 double plan_waits_for_memory(const struct machine *m, const struct plan *p);
 const int *plan_stored(const struct plan *p, int *count);
+/* Of all that it stores together. */
+uint64_t plan_stores_bytes(const struct plan *p);
 /* How many of it may be cheaper in one kernel; 1: one. */
 int plan_turns(const struct machine *m, const struct plan *p);
 

@@ -101,6 +101,10 @@ static struct device_buffer *buffer_begin(struct device *d, struct device_buffer
     b->first = rows.first;
     b->refs = 1;
     d->held_bytes += rows.bytes;
+    if (d->held_bytes > d->peak_bytes)
+        d->peak_bytes = d->held_bytes;
+    if (rows.bytes > d->largest_bytes)
+        d->largest_bytes = rows.bytes;
     return b;
 }
 
@@ -156,6 +160,26 @@ struct buffer_whole {
     struct device_memory memory;
 };
 
+static bool fits(const struct device *d, size_t bytes)
+{
+    return d->held_bytes + bytes <= d->memory_bytes;
+}
+
+/* The error that so many bytes more do not fit: what holds the others, and what to do. */
+static void no_room(struct machine *m, size_t bytes)
+{
+    struct device *d = m->device;
+    char holders[512] = "";
+    device_pool_empty(d);
+    if (d->name_holders)
+        d->name_holders(m, holders, sizeof holders);
+    machine_fail(m, MACHINE_NO_MEMORY,
+                 "%.1f MB more for one field do not fit in the memory of %s (%.1f MB, %.1f in "
+                 "use%s%s): deallocate fields, or take smaller VP sets or shorter fields",
+                 1e-6 * (double)bytes, d->name, 1e-6 * (double)d->memory_bytes,
+                 1e-6 * (double)d->held_bytes, *holders ? ", by " : "", holders);
+}
+
 struct device_buffer *device_rows_get(struct machine *m, struct rows rows)
 {
     struct device *d = m->device;
@@ -164,13 +188,12 @@ struct device_buffer *device_rows_get(struct machine *m, struct rows rows)
     if (b)
         return buffer_begin(d, b, rows);
     size_t whole = rows.bytes + skew_room(&d->shape, rows.bytes) + 2 * DEVICE_GUARD_BYTES;
-    if (whole > d->memory_max_alloc_bytes || d->held_bytes + whole > d->memory_bytes) {
+    if (!fits(d, rows.bytes) && d->make_room && d->make_room(m) && (b = pool_take(d, rows)))
+        return buffer_begin(d, b, rows);
+    if (d->held_bytes + d->pool_bytes + rows.bytes > d->memory_bytes)
         device_pool_empty(d);
-        machine_fail(
-            m, MACHINE_NO_MEMORY,
-            "%.1f MB more for one field do not fit in the memory of %s (%.0f MB, %.0f in use)",
-            1e-6 * (double)whole, d->name, 1e-6 * (double)d->memory_bytes,
-            1e-6 * (double)d->held_bytes);
+    if (whole > d->memory_max_alloc_bytes || !fits(d, rows.bytes)) {
+        no_room(m, rows.bytes);
         return NULL;
     }
     struct buffer_whole *w = calloc(1, sizeof *w);

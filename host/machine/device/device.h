@@ -66,6 +66,10 @@ struct device {
     struct device_buffer **pool;
     int pool_count, pool_capacity;
     uint64_t pool_bytes, held_bytes;
+    uint64_t peak_bytes, largest_bytes; /* the most that was held; of one array */
+    /* Called when memory is short: whether some has become free. NULL: nothing can. And the names of what holds most, for the message. */
+    bool (*make_room)(struct machine *m);
+    void (*name_holders)(const struct machine *m, char *out, size_t size);
     struct chunk *small, *middle, *next[CHUNKS_AHEAD]; /* that arrays are parts of: chunks.h */
     int next_count;
     uint64_t expected_bytes;        /* see device_expect() */

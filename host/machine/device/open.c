@@ -76,6 +76,21 @@ static enum machine_status choose(struct machine *m, const struct machine_config
     return MACHINE_OK;
 }
 
+/* What arrays may take of so much memory that the front end and other programs use, too: what is available now, but for a part. */
+static uint64_t memory_left(uint64_t bytes)
+{
+    enum { PART = 16 };
+    unsigned long long kb;
+    char line[128];
+    FILE *file = fopen("/proc/meminfo", "r");
+    while (file && fgets(line, sizeof line, file))
+        if (sscanf(line, "MemAvailable: %llu kB", &kb) == 1 && kb << 10 < bytes)
+            bytes = kb << 10;
+    if (file)
+        fclose(file);
+    return bytes - bytes / PART;
+}
+
 /* Asks the driver for the device's properties. */
 static enum machine_status ask(struct machine *m)
 {
@@ -102,8 +117,10 @@ static enum machine_status ask(struct machine *m)
     if (d->is_pocl && d->units > 1 && awake)
         d->awake =
             awake_create(awake == 1 || awake_is_virtual() ? LATENCY_PATH : NULL, awake == 1);
-    d->memory_bytes = d->is_cpu ? memory / 2 : memory; /* on a CPU the front end uses the
-                                                        * same memory */
+    d->memory_bytes =
+        m->settings.memory != SETTING_FREE ? m->settings.memory
+        : d->is_cpu ? memory_left(memory) /* the front end and others use the same memory */
+                    : memory;
     d->memory_max_alloc_bytes = max_alloc;
     if (!doubles)
         return machine_fail(m, MACHINE_NO_DEVICE,

@@ -183,12 +183,13 @@ static void places_move(const struct run *r, const struct block *b)
 
 static void generate(const struct run *r, const struct lanes_step *step, const struct block *b)
 {
+    const int lanes = step->one ? 1 : b->lanes;
     uint32_t *to = r->room->at[step->to];
     const int axis = step->op == NODE_INDEX ? -1 : step->axis;
     if (!b->rows)
-        generate_row(r->set, axis, b->row, b->x, to, b->lanes);
+        generate_row(r->set, axis, b->row, b->x, to, lanes);
     else
-        generate_lanes(r->set, axis, b->row * r->set->pitch, to, b->lanes);
+        generate_lanes(r->set, axis, b->row * r->set->pitch, to, lanes);
 }
 
 /* ---- blocks ---- */
@@ -228,7 +229,7 @@ static void block_run(const struct run *r, const struct block *b)
     for (int i = 0; i < r->p->steps_count; i++) {
         const struct lanes_step *s = &r->p->steps[i];
         if (s->run)
-            s->run(s, r->room->at, b->lanes);
+            s->run(s, r->room->at, s->one ? 1 : b->lanes);
         else
             generate(r, s, b);
         if (s->ahead & r->ahead && goes_on)

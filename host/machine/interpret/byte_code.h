@@ -56,6 +56,7 @@ struct byte_code {
     bool crosses;   /* lanes of a computed block are crossed */
     bool each;      /* there is a step lane by lane */
     bool streams;   /* it stores past the caches */
+    bool lines;     /* it gets from places that are the same or go up by one along a row */
     bool failed;    /* no memory */
 };
 
@@ -68,6 +69,8 @@ struct byte_code *byte_code_make(const struct device_shape *shape, const struct 
                                  int processors_log2, bool at_hand);
 /* Lets each array be fetched ahead by the first step that takes it. */
 void byte_code_ahead(struct byte_code *p);
+/* Of a set whose blocks are parts of rows: what is the same along a row is computed for one lane of a block. */
+void byte_code_along(struct byte_code *p, const struct vpset *set);
 void byte_code_free(struct byte_code *p);
 
 #endif

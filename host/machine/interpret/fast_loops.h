@@ -136,12 +136,22 @@ typedef double f64;
         IN(T, 2, b);                                                                           \
         EACH d[i] = c[i] ? a[i] : b[i];                                                        \
     }                                                                                          \
+    LOOP(repeat, T)                                                                            \
+    {                                                                                          \
+        TO(T);                                                                                 \
+        const T first = d[0];                                                                  \
+        EACH d[i] = first;                                                                     \
+    }                                                                                          \
     LOOP(fetch, T)                                                                             \
     {                                                                                          \
         TO(T);                                                                                 \
         IN(u32, 0, place);                                                                     \
         IN(T, 1, array);                                                                       \
         const u32 count = *(const u32 *)at[s->in[2]];                                          \
+        if (s->in_a_row && place[0] < count && count - place[0] >= (u32)n) {                   \
+            memcpy(d, array + place[0], (size_t)n * sizeof *d);                                \
+            return;                                                                            \
+        }                                                                                      \
         EACH                                                                                   \
         {                                                                                      \
             const bool there = place[i] < count;                                               \
@@ -557,6 +567,7 @@ const struct lanes_table TABLE =
              [LANES_COPY] = OF_INTEGERS(copy),
              [LANES_STREAM] = OF_INTEGERS(stream),
              [LANES_FETCH] = FETCHES,
+             [LANES_REPEAT] = OF_INTEGERS(repeat),
              [LANES_PICK] = OF_INTEGERS(pick),
              [LANES_CROSS] = OF_INTEGERS(cross),
              [LANES_JOIN] = OF_INTEGERS(join),

@@ -60,7 +60,8 @@ enum lanes_op {
     LANES_PLACE, /* a row-major index becomes a send address: PLOG2 is detail, the ratio is mask */
     LANES_PICK, /* in: an index of 32 bits; the operands of `list` that it names: see lanes_picks.h */
     LANES_CROSS, /* in: an aligned run of CROSS_NEAR lanes, or several; bits, of 32. The lanes whose numbers differ in those below CROSS_NEAR */
-    LANES_DRAW,  /* a row-major index becomes a random number: see NODE_RANDOM */
+    LANES_REPEAT, /* `to`: all lanes as the first */
+    LANES_DRAW,   /* a row-major index becomes a random number: see NODE_RANDOM */
     LANES_OP_COUNT
 };
 
@@ -75,6 +76,8 @@ struct lanes_step {
     struct machine_type type; /* of the result */
     int32_t detail;
     uint8_t axis;
+    bool one;        /* lanes of a block are all the same: only the first is computed */
+    bool in_a_row;   /* of a fetch: its places go up by one */
     uint8_t ahead;   /* arrays that no step before has taken: bit k of in[k], and those below */
     lanes_wide mask; /* the bits of the result that may be 1 */
     uint16_t *list;  /* of a pick: places of `detail` keys and values in turn, and of what is

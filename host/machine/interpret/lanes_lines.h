@@ -191,7 +191,7 @@ static inline void fetch_ahead(const u32 *place, const void *array, u32 count, s
         const u32 count = *(const u32 *)at[s->in[2]];                                          \
         const __m512i most = _mm512_set1_epi32((i32)count);                                    \
         const int whole = n / 16 * 16;                                                         \
-        if (count < FETCH_FAR_BYTES / sizeof(T) || count > INT32_MAX) {                        \
+        if (s->in_a_row || count < FETCH_FAR_BYTES / sizeof(T) || count > INT32_MAX) {         \
             fetch_##T(s, at, n);                                                               \
             return;                                                                            \
         }                                                                                      \

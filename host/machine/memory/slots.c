@@ -17,6 +17,7 @@
 void slot_set(struct machine *m, struct slot *slot, struct machine_value *v)
 {
     graph_ref(v);
+    v->stored = true;
     values_before_change(m);
     if (slot->value && m->watch && slot->value != v && !node_is_leaf(slot->value) &&
         !node_is_cheap(slot->value))

@@ -4,10 +4,7 @@
  * maximum of any type become a minimum of unsigned integers in another order; "and" becomes
  * "or" of complements; elements have 32, 64 or 128 bits. Integers of more than 16 bits are used
  * as they are in memory. Other conversions are ordinary values, which are fused with the
- * operations around them.
- *
- * Long lines are divided into runs: see kernels/scan.cl. For floats machine_scan() specifies
- * the length of a run; for other types it depends on the device.
+ * operations around them. Long lines are divided into runs: see kernels/scan.cl. For floats machine_scan() specifies the length of a run; else the device does.
  */
 #include "ops/scan.h"
 
@@ -22,13 +19,12 @@
 #include "ops/near.h"
 #include "ops/near_lines.h"
 #include "ops/near_loops.h"
+#include "ops/spreads.h"
 #include "run/materialise.h"
 #include "values/graph.h"
 
 enum { RUN_FLOATS = 512, LANES = 16 };
-
 enum { JOINS, FINISHES, FILLS };
-
 enum { UINT32, UINT64, UINT128, FLOAT32, FLOAT64 };
 
 static const struct element elements[] = {
@@ -302,11 +298,6 @@ static struct machine_value *float_unordered(struct machine *m, struct machine_v
     return machine_reinterpret(m, bits, width == 32 ? MACHINE_F32 : MACHINE_F64);
 }
 
-struct machine_value *in_memory(struct machine_value *v)
-{
-    return v->op == NODE_REINTERPRET && !v->buffer && v->in[0]->buffer ? v->in[0] : v;
-}
-
 static bool op_fits(enum machine_scan_op c, struct machine_type type)
 {
     bool of_floats = c == MACHINE_SCAN_FADD || c == MACHINE_SCAN_FMUL ||
@@ -577,6 +568,9 @@ struct machine_value *machine_spread_coordinate(struct machine *m, int axis, int
         return NULL;
     if (coordinate < 0 || coordinate >= s->dimensions[axis])
         return wrong(m, "there is no such coordinate on the axis");
+    struct machine_value *spread = spreads_axis(m, axis, coordinate, value);
+    if (spread || m->status)
+        return spread;
     struct lines l = lines_of(s, axis, false);
     struct origin from = {l.base + (cl_ulong)coordinate * (cl_ulong)l.step, l.inner_stride,
                           l.outer_stride};
@@ -591,6 +585,9 @@ struct machine_value *machine_spread_index(struct machine *m, uint64_t index,
         return NULL;
     if (index >= s->count)
         return wrong(m, "there is no such processor");
+    struct machine_value *spread = spreads_index(m, index, value);
+    if (spread || m->status)
+        return spread;
     uint64_t width = (uint64_t)s->width;
     struct lines l = lines_of(s, s->rank - 1, false);
     struct origin from = {index / width * s->pitch + l.base + index % width, 0, 0};

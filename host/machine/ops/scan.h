@@ -59,8 +59,11 @@ struct machine_value *scan_boundaries(struct machine *m, const struct machine_sc
 /* false: error set. */
 bool scan_arguments_good(struct machine *m, const struct vpset *s, int axis,
                          const struct machine_value *value, const struct machine_value *bits);
-/* Returns the value, or a value already in memory with the same bits. */
-struct machine_value *in_memory(struct machine_value *v);
+/* Returns the value, or one that has the same bits in memory, so that these are stored once. */
+static inline struct machine_value *in_memory(struct machine_value *v)
+{
+    return v->op == NODE_REINTERPRET && !v->buffer ? v->in[0] : v;
+}
 /* Bits that sort like the floats; NaNs become `nan`. */
 struct machine_value *float_order(struct machine *m, struct machine_value *v, uint64_t nan);
 

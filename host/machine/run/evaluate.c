@@ -15,6 +15,7 @@
 #include "run/pending.h"
 #include "run/replay.h"
 #include "run/roll.h"
+#include "run/room.h"
 #include "values/graph.h"
 #include "watch/watch.h"
 
@@ -94,6 +95,7 @@ void evaluate_init(struct machine *m)
 {
     if (m->settings.flush_after == SETTING_FREE)
         m->settings.flush_after = PENDING_MANY;
+    room_init(m);
     m->run->trace_power = 1;
     for (int i = 0; i < TRACE_LENGTH; i++)
         m->run->trace_power *= TRACE_FACTOR;
@@ -123,12 +125,15 @@ enum machine_status evaluate_after_store(struct machine *m, struct machine_value
     m->run->trace_hash =
         m->run->trace_hash * TRACE_FACTOR + what - *oldest * m->run->trace_power;
     *oldest = what;
+    if (room_is_short(m) && room_make(m))
+        return MACHINE_OK;
     if (history_in_loop(m) && v->height < HEIGHT_MOST && m->values->pending < PENDING_MOST)
         return MACHINE_OK;
     bool again = m->run->flush_hash && m->run->trace_hash == m->run->flush_hash &&
                  m->values->pending >= pending_least(m);
-    bool many = m->values->pending >=
-                (m->run->flush_hash ? 5 * m->settings.flush_after : m->settings.flush_after);
+    bool many = m->values->pending >= (m->run->flush_hash ? 5 * m->settings.flush_after
+                                                          : m->settings.flush_after) ||
+                room_is_wanted(m);
     if (!again && !many && v->height < HEIGHT_MOST)
         return MACHINE_OK;
     if (m->run->sliced &&

@@ -23,6 +23,7 @@
 #include "memory/memory.h"
 #include "run/pending.h"
 #include "run/replay.h"
+#include "run/room.h"
 #include "run/slices.h"
 #include "values/graph.h"
 #include "watch/watch.h"
@@ -303,11 +304,14 @@ static void wait_longer(struct machine *m, const struct evaluation *e)
 static enum machine_status perform(struct machine *m, struct evaluation *e,
                                    const struct wish *w, enum run_why why)
 {
-    record_evaluates(m, e->plan, e->reach.nodes, e->reach.count, e->buffers, why == RUN_DUE);
+    const bool recorded = !m->run->in_pieces;
+    if (recorded)
+        record_evaluates(m, e->plan, e->reach.nodes, e->reach.count, e->buffers,
+                         why == RUN_DUE);
     enum machine_status status = second_half(m, e);
-    if (status)
+    if (recorded && status)
         record_failed(m);
-    else
+    else if (recorded)
         record_evaluated(m, e->buffers, w->values, w->count, why == RUN_DUE);
     if (!status && why == RUN_DUE)
         wait_longer(m, e);
@@ -317,7 +321,49 @@ static enum machine_status perform(struct machine *m, struct evaluation *e,
     return status;
 }
 
-enum machine_status evaluation_run(struct machine *m, const struct wish *wish, enum run_why why)
+/* One value, and nothing else. */
+static enum machine_status evaluate_piece(struct machine *m, struct machine_value *v)
+{
+    struct evaluation e;
+    const struct wish wish = {&v, 1, WISH_VALUES};
+    graph_ref(v);
+    enum machine_status status = first_half(m, &e, &wish, PLAN_TO_RUN);
+    if (!status && e.plan)
+        status = perform(m, &e, &wish, RUN_LOOKED);
+    release(m, &e);
+    graph_unref(m, v);
+    return status;
+}
+
+/* Memory is short: what was stored into a field or flag first is computed first, by itself. Nothing is left to compute. */
+static enum machine_status evaluate_in_pieces(struct machine *m, const struct wish *wish)
+{
+    enum machine_status status = MACHINE_OK;
+    struct machine_value *v;
+    record_impure(m);
+    m->run->in_pieces = true;
+    while (!status && (v = pieces_next(m, wish->values, wish->count)))
+        status = evaluate_piece(m, v);
+    for (int i = 0; i < wish->count && !status; i++) /* slices */
+        if (!node_is_leaf(wish->values[i]))
+            status = evaluate_piece(m, wish->values[i]);
+    m->run->in_pieces = false;
+    m->run->flush_hash = 0;
+    if (!status)
+        m->run->stores_evaluated = m->run->stores;
+    room_measure(m);
+    return status;
+}
+
+/* Whether there is room for all that a plan stores. */
+static bool has_room(const struct machine *m, const struct plan *p)
+{
+    return m->settings.eager || room_has(m, plan_stores_bytes(p));
+}
+
+/* All at once. *short_of_memory: in pieces it may be possible, and nothing has been done. */
+static enum machine_status evaluate_whole(struct machine *m, const struct wish *wish,
+                                          enum run_why why, bool *short_of_memory)
 {
     struct wish w = *wish;
     struct evaluation e;
@@ -327,15 +373,36 @@ enum machine_status evaluation_run(struct machine *m, const struct wish *wish, e
     }
     enum plan_use use = use_of(m->run->mode);
     enum machine_status status = first_half(m, &e, &w, use);
+    *short_of_memory = !status && e.plan && plan_use_runs(use) && !has_room(m, e.plan);
     if (w.what != WISH_VALUES)
         m->run->stores_evaluated = m->run->stores;
     m->run->flush_hash = 0; /* the observer now decides when to evaluate */
     if (!plan_use_runs(use))
         m->run->rehearsed = e.plan;
-    else if (!status && e.plan)
+    else if (!status && e.plan && !*short_of_memory)
         status = perform(m, &e, &w, why);
-    if (status && w.what != WISH_VALUES)
+    *short_of_memory =
+        *short_of_memory || (status == MACHINE_NO_MEMORY && e.plan && !m->settings.eager);
+    if (w.what != WISH_VALUES)
+        room_measure(m);
+    if ((status || *short_of_memory) && w.what != WISH_VALUES)
         m->run->stores_evaluated = m->run->stores - 1; /* not yet */
     release(m, &e);
+    return status;
+}
+
+enum machine_status evaluation_run(struct machine *m, const struct wish *wish, enum run_why why)
+{
+    bool short_of_memory = true;
+    enum machine_status status = MACHINE_OK;
+    m->run->evaluating = true;
+    if (!m->run->in_pieces)
+        status = evaluate_whole(m, wish, why, &short_of_memory);
+    if (short_of_memory) {
+        if (status)
+            machine_error_clear(m);
+        status = evaluate_in_pieces(m, wish);
+    }
+    m->run->evaluating = false;
     return status;
 }

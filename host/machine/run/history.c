@@ -13,6 +13,7 @@
 #include "memory/memory.h"
 #include "run/pending.h"
 #include "run/replay.h"
+#include "run/room.h"
 
 /* A window's hash is a polynomial in it; a call that leaves the window has been multiplied
  * WINDOW times. */
@@ -123,7 +124,7 @@ bool history_turn_ends(const struct machine *m)
     if (!history_in_loop(m) || !m->values->pending)
         return false;
     struct history *h = &m->run->replay->history;
-    if (m->values->pending < pending_least(m) && !is_one_by_one(h))
+    if (m->values->pending < pending_least(m) && !room_is_wanted(m) && !is_one_by_one(h))
         return false;
     return (h->count - turns_end(m)) % h->period == 0;
 }

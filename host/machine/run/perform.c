@@ -5,6 +5,7 @@
 #include "base/errors.h"
 #include "memory/memory.h"
 #include "run/replay.h"
+#include "run/room.h"
 #include "values/graph.h"
 
 bool perform_deed(struct machine *m, const struct deed *d, int to)
@@ -12,7 +13,8 @@ bool perform_deed(struct machine *m, const struct deed *d, int to)
     struct replay *p = m->run->replay;
     struct state *s = &p->states[p->active], *t = &p->states[to];
     plans_see_to(m);
-    if (!d->plan || !plan_may_run(m, d->plan, d->version))
+    if (!d->plan || !plan_may_run(m, d->plan, d->version) ||
+        !room_has(m, plan_stores_bytes(d->plan)))
         return false;
     graph_give_back(m);
     if (d->nodes_count + t->buffers_count + d->spare_count > p->scratch_capacity) {
@@ -29,7 +31,10 @@ bool perform_deed(struct machine *m, const struct deed *d, int to)
     for (int i = 0; i < d->spare_count; i++)
         spare[i] = s->buffers[d->spare[i]];
     const struct fates fates = {d->dies, d->kept, spare, d->spare_count};
-    if (plan_run(m, d->plan, buffers, d->values, &fates))
+    m->run->evaluating = true;
+    enum machine_status status = plan_run(m, d->plan, buffers, d->values, &fates);
+    m->run->evaluating = false;
+    if (status)
         return false; /* the attempt will be repeated, and report the error then */
     for (int k = 0; k < t->buffers_count; k++) {
         next[k] = d->next[k] >= 0 ? s->buffers[d->next[k]] : buffers[~d->next[k]];

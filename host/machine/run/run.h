@@ -64,8 +64,13 @@ struct run {
     uint64_t roll_after; /* pending values before roll_waiting() is tried again */
     bool flush_due;      /* an evaluation is due before the next instruction */
     enum run_mode mode;
-    struct plan *rehearsed;           /* by the last rehearsal; NULL: nothing to compute */
-    uint64_t flush_place;             /* trace_hash where it became due */
+    struct plan *rehearsed; /* by the last rehearsal; NULL: nothing to compute */
+    uint64_t room_held;     /* arrays that are held are to take no more */
+    uint64_t
+        room_bytes; /* arrays that are held, and those that may have to be stored, are to take no more: see room.c */
+    bool evaluating;      /* an evaluation is under way, or foreseen calls are */
+    bool in_pieces;       /* ... of all, what was stored first before the rest, by itself */
+    uint64_t flush_place; /* trace_hash where it became due */
     enum machine_status flush_status; /* of a failed evaluation: returned by the next store */
     uint64_t stores, stores_evaluated, flushes, calls_foreseen;
 };

@@ -223,6 +223,22 @@ static bool is_pending(const struct machine_value *v)
     return v->op != NODE_CONSTANT && v->op != NODE_SLICE;
 }
 
+/* Neighbours look at what is computed, so that may have to be stored. */
+static uint32_t waiting_kb(const struct machine *m, const struct machine_value *v)
+{
+    if ((v->op != NODE_SHIFT && v->op != NODE_CROSS) || node_is_leaf(v->in[0]) ||
+        node_is_cheap(v->in[0]))
+        return 0;
+    return (uint32_t)(m->values->sets[v->set].count * type_bytes(v->type) >> 10);
+}
+
+/* It waits to be computed, or does so no more. */
+static void pend(struct machine *m, const struct machine_value *v, bool waits)
+{
+    m->values->pending += waits ? 1 : UINT64_MAX;
+    m->values->pending_kb += waits ? v->waiting_kb : -(uint64_t)v->waiting_kb;
+}
+
 static struct machine_value *find(struct machine *m, const struct machine_value *key,
                                   uint32_t hash)
 {
@@ -265,7 +281,9 @@ struct machine_value *graph_node(struct machine *m, const struct machine_value *
     v->refs = 0;
     v->hash = hash;
     v->mark = 0;
-    v->kept = v->told = false;
+    v->kept = v->told = v->stored = false;
+    v->serial = ++m->values->serial;
+    v->waiting_kb = waiting_kb(m, v);
     v->buffer = NULL;
     for (int i = 0; i < 3; i++)
         if (v->in[i])
@@ -276,7 +294,7 @@ struct machine_value *graph_node(struct machine *m, const struct machine_value *
     m->values->table[hash & (m->values->table_size - 1)] = v;
     m->values->table_count++;
     if (is_pending(v))
-        m->values->pending++;
+        pend(m, v, true);
     return graph_borrow(m, v);
 }
 
@@ -305,7 +323,7 @@ void graph_release(struct machine *m, struct machine_value *v)
                 watch_vanished(m, v->op);
             table_remove(m, v);
             if (is_pending(v) && !v->buffer && !v->kept)
-                m->values->pending--;
+                pend(m, v, false);
         }
         if (v->buffer)
             device_buffer_unref(m, v->buffer);
@@ -330,7 +348,7 @@ void graph_keep(struct machine *m, struct machine_value *v, bool kept)
         return;
     v->kept = kept;
     if (v->interned && is_pending(v) && !v->buffer)
-        m->values->pending += kept ? UINT64_MAX : 1;
+        pend(m, v, !kept);
 }
 
 /* Called before a node changes; fails for nodes that a state keeps. */
@@ -370,7 +388,7 @@ void graph_become(struct machine *m, struct machine_value *v, const struct machi
     memcpy(in, v->in, sizeof in);
     table_remove(m, v);
     if (is_pending(v))
-        m->values->pending--;
+        pend(m, v, false);
     v->op = key->op;
     v->axis = key->axis;
     v->detail = key->detail;
@@ -380,8 +398,10 @@ void graph_become(struct machine *m, struct machine_value *v, const struct machi
         if ((v->in[i] = key->in[i]))
             graph_ref(v->in[i]);
     derive(m, v, m->values->epoch);
+    v->serial = ++m->values->serial;
+    v->waiting_kb = waiting_kb(m, v);
     if (is_pending(v))
-        m->values->pending++;
+        pend(m, v, true);
     v->interned = true;
     v->next = m->values->table[v->hash & (m->values->table_size - 1)];
     m->values->table[v->hash & (m->values->table_size - 1)] = v;
@@ -398,7 +418,7 @@ void graph_materialised(struct machine *m, struct machine_value *v,
     let_go(m, v);
     v->buffer = buffer;
     if (is_pending(v))
-        m->values->pending--;
+        pend(m, v, false);
     if (node_is_cheap(v) || v->op == NODE_SLICE)
         return; /* stays in the table: an equal node will be the same one */
     graph_forget(m, v);

@@ -22,12 +22,16 @@ struct machine_value {
     bool
         own_address : 1; /* it is each processor's own send address; no field writes over its array */
     bool told : 1;       /* observers have been told its fate */
+    bool stored : 1; /* it has been put into a field or flag */
     int32_t detail;
     uint32_t refs;
     uint32_t hash;
-    uint32_t mark;  /* of the last walk that came by: values.mark */
-    uint32_t birth; /* the evaluation before which its oldest part still to compute was made */
-    uint32_t local; /* index in the evaluation at hand */
+    uint32_t mark;   /* of the last walk that came by: values.mark */
+    uint32_t birth;  /* the evaluation before which its oldest part still to compute was made */
+    uint32_t local;  /* index in the evaluation at hand */
+    uint32_t serial; /* order of making; operands are older */
+    uint32_t
+        waiting_kb; /* what it may have to be stored in before it is computed: see waiting_kb() */
     struct machine_value *next; /* in its hash chain, or in the free list */
     struct machine_value *in[3];
     struct machine_scalar imm;
@@ -49,6 +53,8 @@ struct values {
     void **blocks;              /* of nodes */
     int blocks_count, blocks_capacity;
     uint64_t live, pending;          /* nodes; those of them that wait to be computed */
+    uint64_t pending_kb;             /* what these may have to be stored in, in all */
+    uint32_t serial;                 /* of the node made last */
     struct machine_value **borrowed; /* until the next instruction */
     int borrowed_count, borrowed_capacity;
     struct machine_value **release_stack;

@@ -1,0 +1,146 @@
+/* along.c - what is the same along a row: see byte_code.h.
+ *
+ *     number, coordinate of another axis        the same
+ *     an operation on what is the same          the same: a step for one lane, of which all make use as it is
+ *     a get from a place that is the same       likewise: the spread of a column
+ *     coordinate of the last axis, index        goes up by one; so does what is the same, added to it
+ *     a get from places that go up by one       a copy: the spread of a row
+ *     anything else                             differs
+ *
+ * Where a step for all lanes takes a register of which one lane is known, a step before it repeats that lane. Blocks of several rows are left as they are. */
+#include <stdlib.h>
+
+#include "base/arrays.h"
+#include "interpret/byte_code.h"
+#include "values/geometry.h"
+
+enum along {
+    DIFFERS,
+    GOES_UP,
+    REPEATED,
+    ONE
+}; /* REPEATED, ONE: the same, in all lanes; in the first one */
+
+struct along_row {
+    struct byte_code *p;
+    const struct vpset *set;
+    struct lanes_step *steps; /* the new ones */
+    int count, capacity;
+    uint8_t *is; /* of each place: enum along */
+    int spared;  /* steps for one lane */
+};
+
+static bool is_same(const struct along_row *a, int place)
+{
+    return a->is[place] >= REPEATED;
+}
+
+static void step_put(struct along_row *a, const struct lanes_step *s)
+{
+    if (a->count == a->capacity)
+        a->steps = array_more(a->steps, &a->capacity, sizeof *a->steps, &a->p->failed);
+    if (!a->p->failed)
+        a->steps[a->count++] = *s;
+}
+
+/* All lanes of the place are there from now on. */
+static void repeat(struct along_row *a, int place)
+{
+    const int bytes = a->p->places[place].bytes;
+    const enum lanes_class c = bytes == 1   ? LANES_U8
+                               : bytes == 2 ? LANES_U16
+                               : bytes == 4 ? LANES_U32
+                               : bytes == 8 ? LANES_U64
+                                            : LANES_U128;
+    if (a->is[place] != ONE)
+        return;
+    const struct lanes_step step = {.run = lanes_find(LANES_REPEAT, c),
+                                    .op = LANES_REPEAT,
+                                    .to = (uint16_t)place,
+                                    .in = {(uint16_t)place, 0, 0}};
+    step_put(a, &step);
+    a->is[place] = REPEATED;
+}
+
+/* How many places a step takes lane by lane, the k-th of them. */
+static int taken(const struct lanes_step *s)
+{
+    return s->list ? 2 * s->detail + 2 : !s->run ? 0 : lanes_inputs(s->op);
+}
+
+static int taken_place(const struct lanes_step *s, int k)
+{
+    return !s->list ? s->in[k] : k == 0 ? s->in[0] : s->list[k - 1];
+}
+
+/* Operand k is not looked at lane by lane. */
+static bool is_apart(const struct lanes_step *s, int k)
+{
+    return (s->op == LANES_FETCH && k > 0) || (s->op == LANES_CROSS && k == 1) ||
+           (s->op == LANES_DRAW && k == 1);
+}
+
+static bool adds_to_columns(const struct along_row *a, const struct lanes_step *s)
+{
+    return s->op == MACHINE_ADD && s->type.kind == MACHINE_BITS && s->type.width == 32 &&
+           ((a->is[s->in[0]] == GOES_UP && is_same(a, s->in[1])) ||
+            (a->is[s->in[1]] == GOES_UP && is_same(a, s->in[0])));
+}
+
+static void step_look(struct along_row *a, struct lanes_step s)
+{
+    enum along result = DIFFERS;
+    const bool is_register = a->p->places[s.to].kind == PLACE_REGISTER;
+    if (!s.run) {
+        const bool up = s.op == NODE_INDEX || s.axis == a->set->rank - 1;
+        result = up ? GOES_UP : ONE;
+    } else {
+        bool same = is_register && s.op != LANES_CROSS && s.op != LANES_STREAM;
+        for (int k = 0; k < taken(&s) && same; k++)
+            same = is_apart(&s, k) || is_same(a, taken_place(&s, k));
+        if (same)
+            result = ONE;
+        else if (adds_to_columns(a, &s))
+            result = GOES_UP;
+        else if (s.op == LANES_FETCH && a->is[s.in[0]] == GOES_UP)
+            s.in_a_row = true;
+    }
+    if (!is_register && result != DIFFERS)
+        result = DIFFERS; /* an array needs all lanes */
+    for (int k = 0; k < taken(&s) && result != ONE; k++)
+        if (!is_apart(&s, k))
+            repeat(a, taken_place(&s, k));
+    s.one = result == ONE;
+    a->spared += s.one;
+    a->p->lines = a->p->lines || (s.op == LANES_FETCH && (s.one || s.in_a_row));
+    a->is[s.to] = (uint8_t)result;
+    step_put(a, &s);
+}
+
+void byte_code_along(struct byte_code *p, const struct vpset *set)
+{
+    struct along_row a = {.p = p, .set = set};
+    bool any = false;
+    for (int i = 0; i < p->steps_count; i++)
+        any = any || p->steps[i].op == LANES_FETCH ||
+              (!p->steps[i].run && p->steps[i].op == NODE_COORDINATE &&
+               p->steps[i].axis != set->rank - 1);
+    if (!any || set->pitch <= BLOCK_LANES)
+        return;
+    a.is = calloc((size_t)p->places_count + 1, 1);
+    p->failed = p->failed || !a.is;
+    for (int i = 0; i < p->places_count && !p->failed; i++)
+        a.is[i] = p->places[i].kind == PLACE_NUMBER ? REPEATED : DIFFERS;
+    for (int i = 0; i < p->steps_count && !p->failed; i++)
+        step_look(&a, p->steps[i]);
+    free(a.is);
+    if (p->failed) {
+        free(a.steps);
+        return;
+    }
+    p->lane_s *= 1 - (double)a.spared / (double)a.count;
+    free(p->steps);
+    p->steps = a.steps;
+    p->steps_count = a.count;
+    p->steps_capacity = a.capacity;
+}
