@@ -12,6 +12,8 @@
  * key, it keeps the mean velocity between the last two; later it starts at rest.
  *
  * Source: Catmull and Rom, A class of local interpolating splines, 1974.
+ *
+ * Errors, ownership and threads: as network.h says; clamps belong to one thread at a time, too.
  */
 #ifndef LUTETIA_DYN_CLAMPS_H
 #define LUTETIA_DYN_CLAMPS_H
@@ -24,6 +26,7 @@ enum { DYN_KEYS_MAX = 1000000 };
 
 struct dyn_clamps;
 
+/* Without keys. Errors: NO_MEMORY; *out is then NULL. Owns: the caller destroys *out. */
 enum dyn_status dyn_clamps_create(struct dyn_clamps **out);
 void dyn_clamps_destroy(struct dyn_clamps *c); /* NULL is fine */
 
@@ -43,7 +46,8 @@ enum dyn_status dyn_clamps_step(const struct dyn_clamps *c, struct dyn_network *
 /* The place of a clamped mass at a time. False: it is not clamped then. */
 bool dyn_clamps_at(const struct dyn_clamps *c, int mass, double time_s, double *x, double *y);
 
-/* As text: `clamps 1`, then lines `key MASS TIME X Y` and `free MASS TIME`, then `end`. Errors: as dyn_network_read() and _write(). */
+/* As text: `clamps 1`, then lines `key MASS TIME X Y` and `free MASS TIME`, then `end`. Errors: as dyn_network_read() and
+ * dyn_network_write(). Owns: the caller destroys *out. */
 enum dyn_status dyn_clamps_parse(const char *text, size_t bytes, const char *name,
                                  struct dyn_clamps **out);
 enum dyn_status dyn_clamps_read(const char *path, struct dyn_clamps **out);

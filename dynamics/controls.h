@@ -5,6 +5,10 @@
  *     const struct dyn_control *c = dyn_control_find("gravity");
  *     if (c && dyn_control_write(c, &world, 3.7) == DYN_OK)
  *         dyn_network_world_set(network, &world);
+ *
+ * Errors: functions that can fail return a status, or NULL, and leave one line in dyn_error().
+ *
+ * Ownership: tables and their texts are the library's, and constant. Threads: any.
  */
 #ifndef LUTETIA_DYN_CONTROLS_H
 #define LUTETIA_DYN_CONTROLS_H
@@ -38,12 +42,13 @@ struct dyn_world {
     double speed_limit, clank_speed, safety, integrator;
 };
 
+/* Each control at its usual value. */
 struct dyn_world dyn_world_usual(void);
 
 extern const struct dyn_control dyn_controls[]; /* the rows of struct dyn_world */
 extern const int dyn_controls_count;
 
-/* NULL: there is no control of that name, and dyn_error() lists the names. */
+/* NULL: there is no control of that name, and dyn_error() lists the names. A row of the table, valid for ever. */
 const struct dyn_control *dyn_control_find(const char *name);
 
 /* Checks that the value is in the range, and whole where required. Errors: BAD_ARGUMENT,

@@ -1,7 +1,9 @@
 /* energy.h - a network's energy, by kind.
  *
  *     struct dyn_energy e = dyn_network_energy(network);
- *     double all = e.motion + e.gravity + e.springs + e.pulls; */
+ *     double all = e.motion + e.gravity + e.springs + e.pulls;
+ *
+ * Errors, ownership and threads: as network.h says. */
 #ifndef LUTETIA_DYN_ENERGY_H
 #define LUTETIA_DYN_ENERGY_H
 
@@ -16,6 +18,7 @@ struct dyn_energy {
     double pulls;   /* potential, of the hand's springs */
 };
 
+/* Of the present state. */
 struct dyn_energy dyn_network_energy(const struct dyn_network *n);
 
 #endif

@@ -4,6 +4,8 @@
  *     struct dyn_event events[64];
  *     for (int count; (count = dyn_events_take(network, events, 64)) > 0;)
  *         play(events, count);
+ *
+ * Errors, ownership and threads: as network.h says.
  */
 #ifndef LUTETIA_DYN_EVENTS_H
 #define LUTETIA_DYN_EVENTS_H
@@ -35,7 +37,7 @@ enum { DYN_EVENTS_MAX = 4096 };
 int dyn_events_take(struct dyn_network *n, struct dyn_event *out, int most);
 long long dyn_events_lost(const struct dyn_network *n);
 
-/* "clank" and so on. */
+/* "clank" and so on: a constant, valid for ever; never NULL. */
 const char *dyn_event_name(enum dyn_event_kind kind);
 
 /* A clank's loudness as a MIDI velocity, 1..127: 20 for each unit/s. Source: the thesis,

@@ -26,7 +26,9 @@
  * A mass is free, or stuck (tacked to its place), or held (by a hand), or both; only a free one
  * moves.
  *
- * Threads. A network belongs to one thread at a time.
+ * Errors: functions that can fail return a status and leave one line in dyn_error(). Others cannot fail.
+ *
+ * Ownership: what is passed is copied, and stays the caller's. Threads: a network belongs to one thread at a time.
  */
 #ifndef LUTETIA_DYN_NETWORK_H
 #define LUTETIA_DYN_NETWORK_H
@@ -74,6 +76,7 @@ struct dyn_mass dyn_mass_usual(void);
 struct dyn_spring dyn_spring_usual(void);
 #define DYN_REST_AS_PLACED (-1.0)
 
+/* An empty network in a world of usual values. Errors: NO_MEMORY; *out is then NULL. Owns: the caller destroys *out. */
 enum dyn_status dyn_network_create(struct dyn_network **out);
 void dyn_network_destroy(struct dyn_network *n); /* NULL is fine */
 
@@ -92,6 +95,7 @@ enum dyn_status dyn_spring_add(struct dyn_network *n, const struct dyn_spring *s
  * counts are at most the present ones. */
 void dyn_network_truncate(struct dyn_network *n, int masses_count, int springs_count);
 
+/* How many there are, broken springs too. */
 int dyn_masses_count(const struct dyn_network *n);
 int dyn_springs_count(const struct dyn_network *n);
 
@@ -104,7 +108,7 @@ enum dyn_status dyn_mass_set(struct dyn_network *n, int index, const struct dyn_
 enum dyn_status dyn_spring_set(struct dyn_network *n, int index,
                                const struct dyn_spring *spring);
 
-/* The states of all masses; valid until one is added. */
+/* The states of all masses; valid until one is added; NULL before the first. */
 const struct dyn_state *dyn_network_states(const struct dyn_network *n);
 
 /* (length - rest length) / rest length, with the world's rest scale; 0 for a broken spring
@@ -116,11 +120,12 @@ int dyn_network_nearest(const struct dyn_network *n, double x, double y, double 
 /* The unbroken spring nearest to the point, likewise. */
 int dyn_network_nearest_spring(const struct dyn_network *n, double x, double y, double within);
 
-/* The common parameters. Errors: BAD_ARGUMENT: a value outside of its control's range;
- * nothing changes. */
+/* The common parameters; never NULL, valid as long as the network. Errors: BAD_ARGUMENT: a value
+ * outside of its control's range; nothing changes. */
 const struct dyn_world *dyn_network_world(const struct dyn_network *n);
 enum dyn_status dyn_network_world_set(struct dyn_network *n, const struct dyn_world *world);
 
+/* The time that has been stepped through, from 0 or from what was set. */
 double dyn_network_time_s(const struct dyn_network *n);
 void dyn_network_time_set(struct dyn_network *n, double time_s);
 

@@ -8,6 +8,8 @@
  *         die(dyn_error());                      // word.springs:12: a spring cannot go from mass 3 to itself
  *
  * Everything is written except waiting events.
+ *
+ * Errors, ownership and threads: as network.h says.
  */
 #ifndef LUTETIA_DYN_NETWORK_FILE_H
 #define LUTETIA_DYN_NETWORK_FILE_H
@@ -17,10 +19,11 @@
 #include <stdio.h>
 
 /* Errors: BAD_FILE: the file cannot be read, or a line is wrong (with the file's name and
- * the line's number); TOO_LARGE, NO_MEMORY. *out is then NULL. */
+ * the line's number); TOO_LARGE, NO_MEMORY. *out is then NULL. Owns: the caller destroys *out. */
 enum dyn_status dyn_network_read(const char *path, struct dyn_network **out);
 
-/* The same for a text in memory; name: used in errors. */
+/* The same for a text in memory; name: used in errors. Errors: as dyn_network_read(). Owns: the
+ * caller destroys *out. */
 enum dyn_status dyn_network_parse(const char *text, size_t bytes, const char *name,
                                   struct dyn_network **out);
 

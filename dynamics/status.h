@@ -3,7 +3,9 @@
  *     if (dyn_network_create(&network) != DYN_OK)
  *         die(dyn_error());
  *
- * Threads. dyn_error() belongs to the thread that failed.
+ * Errors: a function that can fail returns a status; dyn_error() then has one line: what is wrong, and where.
+ *
+ * Ownership: the message is the library's. Threads: any; the message belongs to the thread that failed.
  */
 #ifndef LUTETIA_DYN_STATUS_H
 #define LUTETIA_DYN_STATUS_H
@@ -16,7 +18,7 @@ enum dyn_status {
     DYN_NO_MEMORY
 };
 
-/* Detail of this thread's last failure, one line; "" if there was none.
+/* Detail of this thread's last failure, one line; "" if there was none, never NULL.
  * Owns: the library; valid until this thread's next failure. */
 const char *dyn_error(void);
 

@@ -35,6 +35,8 @@
  * restitution and clank that are the world's. See docs/springs.md.
  *
  * AVX-512, AVX2 and plain C give the same bits.
+ *
+ * Errors, ownership and threads: as network.h says.
  */
 #ifndef LUTETIA_DYN_STEP_H
 #define LUTETIA_DYN_STEP_H
@@ -48,7 +50,7 @@ enum { DYN_PARTS_MAX = 1024 };
 enum dyn_status dyn_network_step(struct dyn_network *n, double dt_s, int count);
 
 /* For steps of dt_s with the present parameters: the number of parts, and of softened
- * springs. */
+ * springs. Errors: BAD_ARGUMENT (dt_s as above), NO_MEMORY. */
 struct dyn_plan {
     double stable_s; /* the longest stable part; INFINITY without springs */
     int parts, softened;
@@ -58,8 +60,10 @@ enum dyn_status dyn_network_plan(struct dyn_network *n, double dt_s, struct dyn_
 enum dyn_simd { DYN_SIMD_PLAIN, DYN_SIMD_AVX2, DYN_SIMD_AVX512 };
 
 /* From now on all threads use the best of the variants up to `most` that this processor
- * supports. Returns it. At first it is the fastest: AVX2 where AVX-512 is computed in halves. */
+ * supports. Returns it. At first it is the fastest: AVX2 where AVX-512 is computed in halves. Threads: not
+ * while another one steps. */
 enum dyn_simd dyn_simd_use(enum dyn_simd most);
+/* "AVX2" and so on: a constant, valid for ever; never NULL. */
 const char *dyn_simd_name(enum dyn_simd simd);
 
 #endif

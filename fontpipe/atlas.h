@@ -27,7 +27,11 @@
  *
  * A glyph's place between pixels is rounded to one of `places` in each direction.
  *
- * Threads. An atlas belongs to one thread at a time. */
+ * Errors: functions that can fail return a status and leave one line in font_error(). Others cannot fail.
+ *
+ * Ownership: faces are borrowed, and must outlive the atlas; what else is passed is copied.
+ *
+ * Threads: an atlas belongs to one thread at a time. */
 #ifndef LUTETIA_FONT_ATLAS_H
 #define LUTETIA_FONT_ATLAS_H
 
@@ -41,9 +45,11 @@ struct font_atlas_def {
     double darken_px;          /* as font_painter_def has it */
     size_t edges_budget_bytes; /* of edges that are kept besides */
 };
+/* Four pages of 1024 x 1024, "gaussian-fast". */
 struct font_atlas_def font_atlas_def_default(void);
 
 struct font_atlas;
+/* Errors: BAD_ARGUMENT (a number out of its range, no such filter), NO_MEMORY. Owns: the caller destroys *out. */
 enum font_status font_atlas_create(const struct font_atlas_def *def, struct font_atlas **out);
 void font_atlas_destroy(struct font_atlas *atlas); /* NULL is fine */
 
@@ -81,7 +87,7 @@ enum font_status font_atlas_layout(struct font_atlas *atlas, const struct font_l
                                    int *count);
 
 int font_atlas_pages(const struct font_atlas *atlas); /* that there are so far */
-/* Shape: height_px rows of width_px bytes. Owned by the atlas, which writes into it. */
+/* Shape: height_px rows of width_px bytes; valid as long as the atlas, which writes into it. NULL: there is no such page. */
 const uint8_t *font_atlas_pixels(const struct font_atlas *atlas, int page);
 
 /* What of a page was written since it was last asked; false: nothing. */
@@ -95,6 +101,7 @@ struct font_atlas_stats {
     int glyphs_count, shelves_count;
     size_t bytes; /* of pages */
 };
+/* Since it was created. */
 void font_atlas_stats_get(const struct font_atlas *atlas, struct font_atlas_stats *out);
 
 #endif

@@ -1,5 +1,9 @@
 /* colour.h - glyphs that have colours of their own: layers of outlines (COLR 0), graphs of paints (COLR 1) and pictures (CBDT, sbix), as
- * FreeType reads them, and SVG, as librsvg draws it. What has none is drawn as its outline. */
+ * FreeType reads them, and SVG, as librsvg draws it. What has none is drawn as its outline.
+ *
+ * Errors: functions that can fail return a status and leave one line in font_error(). Others cannot fail.
+ *
+ * Ownership: what is passed stays the caller's. Threads: a face belongs to one thread at a time. */
 #ifndef LUTETIA_FONT_COLOUR_H
 #define LUTETIA_FONT_COLOUR_H
 
@@ -14,6 +18,7 @@ enum font_colour {
     FONT_COLOUR_PAINTS,
     FONT_COLOUR_SVG /* only where there is librsvg */
 };
+/* The kind of colours that the glyph has. */
 enum font_colour font_colour_of(struct font_face *face, uint32_t glyph);
 /* Whether nothing is seen of a glyph that the font has in colours alone: because they are not drawn (not `coloured`), or
  * there is no library for them. */

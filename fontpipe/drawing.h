@@ -8,8 +8,10 @@
  * as they are), so that the text can be looked for and copied; others are paths. A pixel is 1/96 inch in SVG, and 0.75 points in PDF. Inks
  * keep their translucency; gradients are gradients, and pictures as ink are patterns. Who shows the file mixes numbers, not light.
  *
- * Errors: BAD_ARGUMENT (an ink that font_ink_check() refuses, a distortion that sends a letter beyond the horizon), BAD_FILE where the file cannot be
- * written, NO_MEMORY. */
+ * Ownership: what is passed stays the caller's. Threads: the layout's faces belong to one thread at a time.
+ *
+ * Errors: functions return a status and leave one line in font_error(): BAD_ARGUMENT (an ink that font_ink_check() refuses, a
+ * distortion that sends a letter beyond the horizon), BAD_FILE where the file cannot be written, NO_MEMORY. */
 #ifndef LUTETIA_FONT_DRAWING_H
 #define LUTETIA_FONT_DRAWING_H
 
@@ -26,6 +28,8 @@ struct font_drawing {
     size_t bytes;
 };
 
+/* The layout, its origin at (x, y), through `map` (NULL: as it is), as the whole of a file; the caller closes the file. Errors:
+ * BAD_ARGUMENT, BAD_FILE, NO_MEMORY, TOO_LARGE. */
 enum font_status font_drawing_svg(const struct font_drawing *drawing,
                                   const struct font_layout *layout, const struct font_map *map,
                                   double x_px, double y_px, FILE *file);

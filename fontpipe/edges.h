@@ -12,7 +12,11 @@
  * they are wrong by below a tenth of a 255th each; horizontal lines are their two ends; vertical ones are nothing
  * at all. For filters that are areas they are arcs instead (arcs.h). See docs/fonts.md.
  *
- * Threads. Building writes the edges alone; drawing reads them. */
+ * Errors: functions that can fail return a status and leave one line in font_error(). Others cannot fail.
+ *
+ * Ownership: edges' arrays are their own; font_edges_finish() frees them. What is passed stays the caller's.
+ *
+ * Threads: building writes the edges alone; drawing reads them. */
 #ifndef LUTETIA_FONT_EDGES_H
 #define LUTETIA_FONT_EDGES_H
 
@@ -48,7 +52,7 @@ struct font_map font_map_shear(double x_per_y);
 enum font_status font_map_corners(enum font_map_kind kind, double x0, double y0, double x1,
                                   double y1, const struct font_point corners[4],
                                   struct font_map *out);
-/* `second` of any kind after an affine `first`. */
+/* `second` of any kind after an affine `first`. Errors: BAD_ARGUMENT (`first` is not affine). */
 enum font_status font_map_compose(const struct font_map *first, const struct font_map *second,
                                   struct font_map *out);
 /* False if the point has no picture. jacobian: xx, xy, yx, yy. */
@@ -74,6 +78,7 @@ struct font_edges {
     int nodes_capacity, lines_capacity;
 };
 
+/* Frees the arrays, and leaves no edges. */
 void font_edges_finish(struct font_edges *e);
 
 /* Replaces what the edges hold. The outline must be prepared. filter: whose smoothness says how finely.
@@ -81,7 +86,8 @@ void font_edges_finish(struct font_edges *e);
  * TOO_LARGE (past FONT_SIDE_MAX pixels, or too many edges), NO_MEMORY; the edges are then empty. */
 enum font_status font_edges_build(struct font_edges *e, const struct font_outline *outline,
                                   const struct font_map *map, const struct font_filter *filter);
-/* The same as nodes and lines, whatever the filter, never as arcs: what OpenCL draws, and what arcs are tested against. */
+/* The same as nodes and lines, whatever the filter, never as arcs: what OpenCL draws, and what arcs are tested against.
+ * Errors: as font_edges_build(). */
 enum font_status font_edges_build_tabled(struct font_edges *e,
                                          const struct font_outline *outline,
                                          const struct font_map *map,

@@ -9,7 +9,11 @@
  *     font_outline_finish(&outline);
  *     font_face_close(face);
  *
- * Threads. A face belongs to one thread at a time; faces are independent of each other. */
+ * Errors: functions that can fail return a status and leave one line in font_error(). Others cannot fail.
+ *
+ * Ownership: what is passed is copied, and stays the caller's.
+ *
+ * Threads: a face belongs to one thread at a time; faces are independent of each other. */
 #ifndef LUTETIA_FONT_FACE_H
 #define LUTETIA_FONT_FACE_H
 
@@ -22,16 +26,19 @@ struct font_face;
 
 /* A path, or a font file's name without folder and ending, looked for where the system keeps fonts, or a family as
  * fontconfig knows it ("DejaVu Sans:bold"). index: of the face in a collection, 0 otherwise.
- * Errors: BAD_FILE, NO_MEMORY, BAD_ARGUMENT for an index the file has not. */
+ * Errors: BAD_FILE, NO_MEMORY, BAD_ARGUMENT for an index the file has not. Owns: the caller closes *out. */
 enum font_status font_face_open(const char *name, int index, struct font_face **out);
-/* Also such as have nothing but pictures in colours (colour.h): their glyphs have no outlines. */
+/* Also such as have nothing but pictures in colours (colour.h): their glyphs have no outlines. Errors: as font_face_open(). Owns:
+ * the caller closes *out. */
 enum font_status font_face_open_coloured(const char *name, int index, struct font_face **out);
 /* The file of such a name, or NULL; index (may be NULL) becomes a family's in a collection if it is 0. Owns: the caller
- * frees it. */
+ * frees it. Threads: any. */
 char *font_face_find(const char *name, int *index);
-/* The first of the names, NULL-ended, whose font there is, else the first name. Owns: nothing, it is one of the names. */
+/* The first of the names, NULL-ended, whose font there is, else the first name, never NULL. Owns: the caller, it is one of
+ * the names. Threads: any. */
 const char *font_face_first(const char *const *names);
-/* The same from memory, which is copied. */
+/* The same as font_face_open() and font_face_open_coloured(), from memory, which is copied. Errors: as font_face_open(). Owns: the
+ * caller closes *out. */
 enum font_status font_face_open_memory(const void *bytes, size_t count, int index,
                                        struct font_face **out);
 enum font_status font_face_open_memory_coloured(const void *bytes, size_t count, int index,
@@ -44,6 +51,7 @@ struct font_face_info {
     double units_per_em, ascender, descender, line_height; /* descender is negative */
     double underline_y, underline_height;
 };
+/* Its texts are valid as long as the face. */
 void font_face_describe(const struct font_face *face, struct font_face_info *out);
 
 /* How heavy, slanted and wide a face is, as fontconfig counts (FC_WEIGHT, FC_SLANT, FC_WIDTH); a variable one as its axes are
@@ -61,9 +69,10 @@ uint32_t font_face_glyph(const struct font_face *face, uint32_t character);
  * Errors: NO_GLYPH for an index the font has not or that is a bitmap, BAD_FILE for a damaged one. */
 enum font_status font_face_outline(struct font_face *face, uint32_t glyph,
                                    struct font_outline *out);
-/* The same before it is prepared: for emboldening. */
+/* The same before it is prepared: for emboldening. Errors: as font_face_outline(). Owns: the caller finishes *out. */
 enum font_status font_face_outline_raw(struct font_face *face, uint32_t glyph,
                                        struct font_outline *out);
+/* How far the glyph moves the pen, in the font's units. Errors: NO_GLYPH, BAD_FILE. */
 enum font_status font_face_advance(struct font_face *face, uint32_t glyph, double *advance);
 /* What the font's own pair table adds between two glyphs (Type 1 and old TrueType); 0 without one. */
 double font_face_kerning(struct font_face *face, uint32_t left, uint32_t right);
@@ -78,13 +87,14 @@ struct font_axis {
     const char *name; /* owned by the face */
     double least, most, usual, value;
 };
+/* Axis number `axis` from 0. Errors: BAD_ARGUMENT for one that there is not. */
 enum font_status font_face_axis(const struct font_face *face, int axis, struct font_axis *out);
 /* Sets one axis; beyond its ends the end is taken. Errors: BAD_ARGUMENT for a tag that the font has not. */
 enum font_status font_face_axis_set(struct font_face *face, const char *tag, double value);
 /* Several: "wght=700,wdth=80"; NULL or "": none. Errors: BAD_ARGUMENT, also for what does not read so. */
 enum font_status font_face_axes_set(struct font_face *face, const char *axes);
 
-/* The font's file in memory, for shaping. Owned by the face. */
+/* The font's file in memory, for shaping; never NULL, valid as long as the face. */
 const void *font_face_bytes(const struct font_face *face, size_t *count);
 /* Differs between any two settings of axes of any two faces open; of one of the face's last 64 settings it is what it was then. */
 uint64_t font_face_version(const struct font_face *face);

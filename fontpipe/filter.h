@@ -17,7 +17,11 @@
  * Between the positions they are interpolated. Source: Naiman and Fournier, Rectangular convolution for fast
  * filtering of characters, SIGGRAPH 1987, for the tables; docs/fonts.md for what is done with them.
  *
- * Threads. A filter is read only once it is made; any number of threads may use it. */
+ * Errors: functions that can fail return a status and leave one line in font_error(). Others cannot fail.
+ *
+ * Ownership: what is passed is copied; a filter's texts are valid as long as the filter.
+ *
+ * Threads: a filter is read only once it is made; any number of threads may use it. */
 #ifndef LUTETIA_FONT_FILTER_H
 #define LUTETIA_FONT_FILTER_H
 
@@ -33,9 +37,10 @@ enum { FONT_FILTER_RADIUS_MAX = 4, FONT_FILTER_SAMPLES_MAX = 256 };
 
 /* One of font_filter_names(), with `:RADIUS` (0.25..4 pixels) if wanted; gaussian:SIGMA,RADIUS; samples:RADIUS,S0,S1,... (of h:
  * a product) and round:RADIUS,S0,S1,... (of f along a radius), 2..256 samples from the centre outwards.
- * Errors: BAD_ARGUMENT, NO_MEMORY. A filter whose integral is not positive is refused. */
+ * Errors: BAD_ARGUMENT, NO_MEMORY. A filter whose integral is not positive is refused. Owns: the caller destroys *out. */
 enum font_status font_filter_create_named(const char *name, struct font_filter **out);
-const char *const *font_filter_names(void);           /* the simple ones; NULL ends them */
+/* The simple ones; NULL ends them; constants, valid for ever. */
+const char *const *font_filter_names(void);
 void font_filter_destroy(struct font_filter *filter); /* NULL is fine */
 
 /* What is known of a filter once its table is made. */
@@ -68,7 +73,8 @@ double font_filter_edge(const struct font_filter *filter, double u);
 enum font_display { FONT_DISPLAY_LCD, FONT_DISPLAY_CRT, FONT_DISPLAY_PRINT };
 /* Names the filter that shows lines of this width best: of the usual ones the one with the least sum of squares of the
  * contrast that a line loses, through the display's own spot, and of how unevenly it shows as it moves
- * between pixels. detail_px: the smallest detail, a stem or a hairline. */
+ * between pixels. detail_px: the smallest detail, a stem or a hairline. Never NULL;
+ * a constant, valid for ever. */
 const char *font_filter_choose(double detail_px, enum font_display display);
 
 #endif

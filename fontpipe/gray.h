@@ -9,7 +9,11 @@
  * A pixel is 255 times the filter's integral over the ink, rounded; what a filter with negative lobes takes beyond 0 and
  * 255 is cut off. The picture is as large as the ink and the filter's radius around it.
  *
- * Threads. A struct font_gray belongs to one thread at a time; its memory is used again by the next drawing. */
+ * Errors: functions that can fail return a status and leave one line in font_error(). Others cannot fail.
+ *
+ * Ownership: a picture's memory is its own, and is used again by the next drawing; font_gray_finish() frees it.
+ *
+ * Threads: a struct font_gray belongs to one thread at a time. */
 #ifndef LUTETIA_FONT_GRAY_H
 #define LUTETIA_FONT_GRAY_H
 
@@ -31,18 +35,19 @@ struct font_gray {
     size_t memory_bytes, work_bytes;
 };
 
+/* Frees its memory, and makes it empty. */
 void font_gray_finish(struct font_gray *gray);
 
 /* x_px, y_px: where the glyph's origin is, 0..1 or any other number below FONT_SIDE_MAX; left_px and top_px count from
  * there. Errors: BAD_ARGUMENT, NO_MEMORY, TOO_LARGE past FONT_SIDE_MAX pixels a side; the picture is then empty. */
 enum font_status font_gray_draw(struct font_gray *gray, const struct font_edges *edges,
                                 const struct font_filter *filter, double x_px, double y_px);
-/* The same, and gray->exact. */
+/* The same, and gray->exact. Errors: as font_gray_draw(). */
 enum font_status font_gray_draw_exact(struct font_gray *gray, const struct font_edges *edges,
                                       const struct font_filter *filter, double x_px,
                                       double y_px);
 
-/* Where the picture will be, without drawing it. */
+/* Where the picture will be, without drawing it. Errors: BAD_ARGUMENT, TOO_LARGE. */
 enum font_status font_gray_place(struct font_gray *gray, const struct font_edges *edges,
                                  const struct font_filter *filter, double x_px, double y_px);
 
@@ -53,6 +58,7 @@ enum font_simd font_simd_use(enum font_simd most);
 /* On this thread the plain ones alone, whatever the processor has: the others round the last bit otherwise, and with these
  * pictures are the same everywhere. */
 void font_simd_plain_here(bool plain);
+/* "AVX2" and so on: a constant, valid for ever; never NULL. */
 const char *font_simd_name(enum font_simd simd);
 
 #endif

@@ -6,7 +6,11 @@
  * Places are in pixels of the layout: (0, 0) is its origin. They are not turned with a map of the text.
  *
  *     struct font_ink sky = {.kind = FONT_INK_LINEAR, .y1 = 100, .stops_count = 2,
- *                            .stops = {{0, {0.2, 0.4, 0.9, 1}}, {1, {1, 1, 1, 0}}}};  */
+ *                            .stops = {{0, {0.2, 0.4, 0.9, 1}}, {1, {1, 1, 1, 0}}}};
+ *
+ * Errors: functions that can fail return a status and leave one line in font_error(). Others cannot fail.
+ *
+ * Ownership: a picture's pixels are borrowed as long as the ink is used. Threads: any. */
 #ifndef LUTETIA_FONT_INK_H
 #define LUTETIA_FONT_INK_H
 
@@ -39,6 +43,7 @@ struct font_ink {
     bool numbers; /* mixed with what is below as sRGB's numbers; else as light */
 };
 
+/* A colour, sRGB numbers 0..1, and how much it covers. */
 struct font_ink font_ink_plain(double red, double green, double blue, double cover);
 /* Errors: BAD_ARGUMENT for what cannot be drawn. */
 enum font_status font_ink_check(const struct font_ink *ink);

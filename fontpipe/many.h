@@ -14,7 +14,9 @@
  * part of its or its platform's name or its number, as it does for the machine. A work-item is a glyph, with
  * vectors of eight: made for processors with vector units, as PoCL drives them; other devices run it too.
  *
- * Threads. One thread at a time. */
+ * Errors: functions that can fail return a status and leave one line in font_error(). Others cannot fail.
+ *
+ * Ownership: what is passed is copied to the device. Threads: one thread at a time. */
 #ifndef LUTETIA_FONT_MANY_H
 #define LUTETIA_FONT_MANY_H
 
@@ -30,10 +32,11 @@ struct font_many_job {
 enum { FONT_MANY_WIDTH_MAX = 1024 };
 
 /* device: as LUTETIA_DEVICE, which NULL looks at. The filter is copied to the device.
- * Errors: NO_DEVICE, DEVICE_FAILED with the compiler's log's first line, NO_MEMORY. */
+ * Errors: NO_DEVICE, DEVICE_FAILED with the compiler's log's first line, NO_MEMORY. Owns: the caller destroys *out. */
 enum font_status font_many_create(const char *device, const struct font_filter *filter,
                                   struct font_many **out);
 void font_many_destroy(struct font_many *many); /* NULL is fine */
+/* The device's name; never NULL, valid as long as *many. */
 const char *font_many_device(const struct font_many *many);
 
 /* Keeps edges, made by font_edges_build_tabled(), and returns their number, from 0 on; -1 with font_error() set. They go to the device with the next

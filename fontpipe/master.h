@@ -12,7 +12,13 @@
  * one of the picture's leave an error of a 255th. Edges made from the outline are both faster and exact; a master can be
  * retouched.
  *
- * Units. Master pixels, y downwards, (0, 0) the pixel right of and below the glyph's origin. */
+ * Units. Master pixels, y downwards, (0, 0) the pixel right of and below the glyph's origin.
+ *
+ * Errors: functions that can fail return a status and leave one line in font_error(). Others cannot fail.
+ *
+ * Ownership: a master's and the rectangles' arrays are their own; their finish() frees them.
+ *
+ * Threads: each belongs to one thread at a time while it is changed; any number may read. */
 #ifndef LUTETIA_FONT_MASTER_H
 #define LUTETIA_FONT_MASTER_H
 
@@ -33,12 +39,14 @@ struct font_master {
 
 enum { FONT_MASTER_EM_MAX = 16384 };
 
+/* Frees its bits, and makes it empty. */
 void font_master_finish(struct font_master *m);
 /* A pixel is black if its centre is inside. The outline is prepared.
  * Errors: BAD_ARGUMENT (em 1..FONT_MASTER_EM_MAX), TOO_LARGE, NO_MEMORY; the master is then empty. */
 enum font_status font_master_make(struct font_master *m, const struct font_outline *outline,
                                   int em_px);
-bool font_master_at(const struct font_master *m, int x, int y); /* white outside */
+/* Whether the pixel is black; outside all are white. */
+bool font_master_at(const struct font_master *m, int x, int y);
 /* Blackens or whitens a rectangle; what lies outside the master's box is not changed. */
 void font_master_fill(struct font_master *m, int x, int y, int width, int height, bool black);
 long font_master_ink(const struct font_master *m); /* black pixels */
@@ -76,12 +84,13 @@ struct font_rectangles {
     bool columns; /* cut along columns, not along rows */
 };
 
+/* Frees the rectangles, and leaves none. */
 void font_rectangles_finish(struct font_rectangles *r);
 /* Runs of black that are the same in rows that follow each other are one rectangle; or in columns, where that makes fewer.
  * None overlap. Errors: NO_MEMORY. */
 enum font_status font_rectangles_make(struct font_rectangles *r, const struct font_master *m);
 /* Cuts into rows alone. These are more rectangles, but those of neighbouring rows are alike, as
- * merging needs them. */
+ * merging needs them. Errors: NO_MEMORY. */
 enum font_status font_rectangles_make_rows(struct font_rectangles *r,
                                            const struct font_master *m);
 /* Joins rectangles that follow each other, down the rows or along the columns as they were cut, and whose sides differ by at

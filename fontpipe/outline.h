@@ -17,7 +17,13 @@
  * Prepared. What is filled afterwards must be covered once: font_outline_prepare() looks for parts that are
  * covered twice (contours that overlap or cross themselves, as variable fonts have them) and replaces such an
  * outline by the boundary of what the rule fills. Most outlines have none and stay as they are. A prepared outline is
- * not written to: adding to it or emboldening it makes it one that is not prepared. */
+ * not written to: adding to it or emboldening it makes it one that is not prepared.
+ *
+ * Errors: functions that can fail return a status and leave one line in font_error(). Others cannot fail.
+ *
+ * Ownership: an outline's arrays are its own; font_outline_finish() frees them.
+ *
+ * Threads: an outline belongs to one thread at a time while it is changed; any number may read a prepared one. */
 #ifndef LUTETIA_FONT_OUTLINE_H
 #define LUTETIA_FONT_OUTLINE_H
 
@@ -67,6 +73,7 @@ struct font_outline {
 enum { FONT_SEGMENTS_MAX = 100000 };
 
 void font_outline_finish(struct font_outline *o); /* frees; zeros it */
+/* Replaces what *to holds. Errors: NO_MEMORY. */
 enum font_status font_outline_copy(const struct font_outline *from, struct font_outline *to);
 
 /* Errors: TOO_LARGE past FONT_SEGMENTS_MAX, NO_MEMORY, BAD_ARGUMENT for numbers that are not finite or
@@ -81,11 +88,12 @@ enum font_status font_outline_close(struct font_outline *o);
 
 /* See above. Errors: TOO_LARGE for outlines that cross too often, NO_MEMORY; the outline is as it was. */
 enum font_status font_outline_prepare(struct font_outline *o, enum font_fill rule);
-/* The same by strips alone (fill.c), whatever the outline: slower, what font_outline_prepare() is tested against. */
+/* The same by strips alone (fill.c), whatever the outline: slower, what font_outline_prepare() is tested against.
+ * Errors: as font_outline_prepare(). */
 enum font_status font_outline_prepare_by_strips(struct font_outline *o, enum font_fill rule);
 
 /* Moves the outline outwards by half of the amounts on each side: what stem darkening asks for, and fake bold.
- * Units: the font's. Before it is prepared. */
+ * Units: the font's. Before it is prepared. Errors: BAD_ARGUMENT, TOO_LARGE, NO_MEMORY. */
 enum font_status font_outline_embolden(struct font_outline *o, double x, double y);
 
 /* Where the curve is at t, and how fast it goes there. */

@@ -17,7 +17,9 @@
  * Stem darkening. Small type on screens looks thin; stems get wider by up to `darken_px` at small sizes: all of it up
  * to 12 px, none from 36 px on.
  *
- * Threads. A painter belongs to one thread at a time. */
+ * Errors: functions that can fail return a status and leave one line in font_error(). Others cannot fail.
+ *
+ * Ownership: faces and pictures are borrowed; what else is passed is copied. Threads: a painter belongs to one thread at a time. */
 #ifndef LUTETIA_FONT_PAINT_H
 #define LUTETIA_FONT_PAINT_H
 
@@ -41,12 +43,15 @@ struct font_painter_def {
     int places; /* a pixel is divided into so many for keeping glyphs; 0: glyphs are drawn where they are */
     size_t budget_bytes; /* of what is kept */
 };
+/* Black ink by "gaussian-fast", in linear light; 16 MiB of kept glyphs. */
 struct font_painter_def font_painter_def_default(void);
 
 struct font_painter;
+/* Errors: BAD_ARGUMENT (a number out of its range, no such filter), NO_MEMORY. Owns: the caller destroys *out. */
 enum font_status font_painter_create(const struct font_painter_def *def,
                                      struct font_painter **out);
 void font_painter_destroy(struct font_painter *painter); /* NULL is fine */
+/* The painter's filter; never NULL, valid as long as the painter. */
 const struct font_filter *font_painter_filter(const struct font_painter *painter);
 
 /* Draws the layout with its origin at (x, y), through `map`, which takes pixels to pixels (NULL: as it is); a glyph is
@@ -57,7 +62,7 @@ enum font_status font_painter_layout(struct font_painter *painter,
                                      struct font_picture *picture);
 
 /* The part of each pixel that the layout covers, of 255, added to what is covered already: a letter takes its part of what
- * is left. No ink, light or stripes. As font_painter_layout() otherwise. */
+ * is left. No ink, light or stripes. As font_painter_layout() otherwise. Errors: as font_painter_layout(). */
 struct font_cover {
     int width_px, height_px, pitch; /* pitch: bytes from row to row */
     uint8_t *gray;
@@ -68,12 +73,13 @@ enum font_status font_painter_cover(struct font_painter *painter,
                                     struct font_cover *cover);
 
 /* One glyph at a size, through a map that takes pixels to pixels (NULL: as it is), its origin at (x_px, y_px), 0..1; the edges
- * are kept. *gray: the painter's, valid until it draws again. */
+ * are kept. *gray: the painter's, valid until it draws again. Errors: as font_painter_layout(). */
 enum font_status font_painter_glyph(struct font_painter *painter, struct font_face *face,
                                     uint32_t glyph, double size_px, const struct font_map *map,
                                     double x_px, double y_px, const struct font_gray **gray);
 
-/* The box around all the ink of a layout drawn so, with the filter's reach: in pixels. Empty: x1 < x0. */
+/* The box around all the ink of a layout drawn so, with the filter's reach: in pixels. Empty: x1 < x0. Errors:
+ * as font_painter_layout(). */
 enum font_status font_painter_measure(struct font_painter *painter,
                                       const struct font_layout *layout,
                                       const struct font_map *map, double x_px, double y_px,
@@ -85,6 +91,7 @@ struct font_tile {
     uint8_t *
         rgba; /* sRGB numbers and cover, not multiplied; rows without gaps. Owns: the caller frees it */
 };
+/* Whether it is such a glyph. */
 bool font_painter_is_picture(const struct font_placed *glyph);
 /* Glyph i, placed as font_painter_layout() would in a picture of that size; only the tile's part within it. ink: sRGB numbers, of glyphs
  * that have none of the layout's. Errors: NO_GLYPH for one without a picture; those of maps and of reading it. */
@@ -99,6 +106,7 @@ struct font_painter_stats {
     size_t kept_bytes;
     int kept_count;
 };
+/* Since it was created. */
 void font_painter_stats_get(const struct font_painter *painter, struct font_painter_stats *out);
 
 #endif

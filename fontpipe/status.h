@@ -3,7 +3,9 @@
  *     if (font_face_open("DejaVuSans.ttf", 0, &face) != FONT_OK)
  *         die(font_error());
  *
- * Threads. font_error() belongs to the thread that failed. */
+ * Errors: a function that can fail returns a status; font_error() then has one line: what is wrong, and where.
+ *
+ * Ownership: the message is the library's. Threads: any; the message belongs to the thread that failed. */
 #ifndef LUTETIA_FONT_STATUS_H
 #define LUTETIA_FONT_STATUS_H
 
@@ -19,7 +21,7 @@ enum font_status {
     FONT_FULL           /* an atlas: all of it is in use */
 };
 
-/* Detail of this thread's last failure, one line; "" if there was none.
+/* Detail of this thread's last failure, one line; "" if there was none, never NULL.
  * Owns: the library; valid until this thread's next failure. */
 const char *font_error(void);
 

@@ -16,7 +16,11 @@
  * where a word is longer than the line, between two letters. White space at the end of such a line stands in the
  * margin; a soft hyphen that ends it is seen. Places are fractions of pixels; nothing is rounded.
  *
- * Threads. A shaper and its faces belong to one thread at a time. */
+ * Errors: functions that can fail return a status and leave one line in font_error(). Others cannot fail.
+ *
+ * Ownership: faces are borrowed; what else is passed is copied. A layout's arrays are its own.
+ *
+ * Threads: a shaper and its faces belong to one thread at a time. */
 #ifndef LUTETIA_FONT_TEXT_H
 #define LUTETIA_FONT_TEXT_H
 
@@ -26,7 +30,7 @@
 struct font_map;
 struct font_shaper;
 
-/* face: borrowed, must outlive the shaper; the first choice for every character. */
+/* face: borrowed, must outlive the shaper; the first choice for every character. Errors: NO_MEMORY. Owns: the caller destroys *out. */
 enum font_status font_shaper_create(struct font_face *face, struct font_shaper **out);
 void font_shaper_destroy(struct font_shaper *shaper); /* NULL is fine */
 /* Characters that no font has as outlines are looked for in fonts of colours, too: for whoever draws by font_painter_layout(),

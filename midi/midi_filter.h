@@ -25,6 +25,10 @@
  * set before a note arrive before it. Switches (pedals), parameter numbers and banks are never
  * thinned. A value that was held back keeps its original time.
  *
+ * Errors: functions that can fail return a status and leave one line in midi_error().
+ *
+ * Ownership: what is passed is copied; messages that pass are the chain's, valid during the call.
+ *
  * Threads: a chain belongs to one at a time.
  */
 #ifndef LUTETIA_MIDI_FILTER_H
@@ -35,10 +39,11 @@
 struct midi_chain;
 
 /* Parses the text's links; an empty text passes everything. Errors: BAD_ARGUMENT, with the
- * known names; NO_MEMORY. */
+ * known names; NO_MEMORY. Owns: the caller destroys *out. */
 enum midi_status midi_chain_create(const char *text, struct midi_chain **out);
 void midi_chain_destroy(struct midi_chain *chain); /* takes NULL */
 
+/* Calls `take` for what passes, none, one or several messages. */
 void midi_chain_take(struct midi_chain *chain, const struct midi_message *m, midi_take *take,
                      void *context);
 /* The time at which a value that is held back is due; UINT64_MAX: none. */

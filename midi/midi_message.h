@@ -17,6 +17,10 @@
  * Between two pieces of one system exclusive only real-time messages (f8 to ff) may come.
  *
  * Source: The Complete MIDI 1.0 Detailed Specification, table of status bytes.
+ *
+ * Errors: functions that can fail return a status and leave one line in midi_error().
+ *
+ * Ownership: messages are values, and point to nothing. Threads: any.
  */
 #ifndef LUTETIA_MIDI_MESSAGE_H
 #define LUTETIA_MIDI_MESSAGE_H
@@ -77,7 +81,7 @@ struct midi_row {
     uint8_t data_count; /* bytes that follow */
 };
 
-/* The row of a status byte, 0x80 to 0xff; NULL for data bytes. */
+/* The row of a status byte, 0x80 to 0xff; NULL for data bytes. All rows; never NULL. They are constants, valid for ever. */
 const struct midi_row *midi_row_of(uint8_t status);
 const struct midi_row *midi_rows(int *count);
 
@@ -96,7 +100,7 @@ int midi_message_channel(const struct midi_message *m);
 bool midi_message_good(const struct midi_message *m);
 /* Whether another piece of the system exclusive follows. */
 bool midi_message_open(const struct midi_message *m);
-/* Times left out. */
+/* Whether all but their times is equal. */
 bool midi_message_equal(const struct midi_message *a, const struct midi_message *b);
 
 /* Whether it is a note-on with a velocity above 0; whether it ends a note: a note-off, or a

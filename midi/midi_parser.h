@@ -14,8 +14,10 @@
  *   - what is undefined (f4, f5, f9, fd), data without a status, an f7 without a beginning, and a message broken off by
  *     another are dropped and counted.
  *
- * A message's time is that of the read which brought its last byte. The parser allocates no
- * memory.
+ * A message's time is that of the read which brought its last byte.
+ *
+ * Errors: none; what cannot be parsed is counted. Ownership: the parser is the caller's, and allocates no
+ * memory. Threads: a parser belongs to one thread at a time, in which messages are taken.
  */
 #ifndef LUTETIA_MIDI_PARSER_H
 #define LUTETIA_MIDI_PARSER_H
@@ -45,6 +47,7 @@ struct midi_parser {
 
 typedef void midi_take(void *context, const struct midi_message *message);
 
+/* As before the first byte. */
 void midi_parser_init(struct midi_parser *p);
 /* Calls `take` for each message that these bytes complete, in order. */
 void midi_parser_take(struct midi_parser *p, uint64_t time_ns, const uint8_t *bytes,

@@ -22,6 +22,12 @@
  * holds for all tracks.
  *
  * Source: Standard MIDI-File Format Spec. 1.1.
+ *
+ * Errors: functions that can fail return a status and leave one line in midi_error().
+ *
+ * Ownership: what is passed is copied; an event's bytes are the song's, valid until an event is added.
+ *
+ * Threads: a song belongs to one thread at a time; those that only look sort its events first.
  */
 #ifndef LUTETIA_MIDI_SONG_H
 #define LUTETIA_MIDI_SONG_H
@@ -66,19 +72,22 @@ struct midi_song_def {
 };
 struct midi_song_def midi_song_def_default(void); /* format 1, MIDI_DIVISION_USUAL */
 
+/* An empty song. Errors: BAD_ARGUMENT (a format or division that cannot be), NO_MEMORY; *out is then NULL. Owns: the
+ * caller destroys *out. */
 enum midi_status midi_song_create(const struct midi_song_def *def, struct midi_song **out);
 void midi_song_destroy(struct midi_song *song); /* takes NULL */
 
 /* ---- files ---- */
 
-/* Errors: BAD_FILE, IO_FAILED, NO_MEMORY; *out is then NULL. */
+/* Errors: BAD_FILE, IO_FAILED, NO_MEMORY; *out is then NULL. Owns: the caller destroys *out. */
 enum midi_status midi_song_read(const char *path, struct midi_song **out);
-/* name: used in errors. */
+/* The same of bytes in memory; name: used in errors. Errors: BAD_FILE, NO_MEMORY; *out is then NULL. Owns: the caller
+ * destroys *out. */
 enum midi_status midi_song_parse(const char *name, const uint8_t *bytes, size_t count,
                                  struct midi_song **out);
 /* Writes a whole file or none. Errors: IO_FAILED, NO_MEMORY. */
 enum midi_status midi_song_write(struct midi_song *song, const char *path);
-/* Owns: the caller frees *bytes. */
+/* The file as bytes. Errors: NO_MEMORY. Owns: the caller frees *bytes. */
 enum midi_status midi_song_bytes(struct midi_song *song, uint8_t **bytes, size_t *count);
 
 /* ---- what is in it ---- */
@@ -89,6 +98,7 @@ struct midi_song_info {
     uint32_t end_tick;
     uint64_t end_ns; /* when the last track ends */
 };
+/* Of the song as it is now. */
 struct midi_song_info midi_song_info(struct midi_song *song);
 /* Range: index is below events_count. */
 struct midi_song_event midi_song_event(struct midi_song *song, size_t index);
@@ -97,6 +107,7 @@ struct midi_song_event midi_song_event(struct midi_song *song, size_t index);
 void midi_song_play(const struct midi_song_event *e, struct midi_parser *parser,
                     midi_take *take, void *context);
 
+/* By the tempo map. */
 uint64_t midi_song_time_ns(struct midi_song *song, uint32_t tick);
 uint32_t midi_song_tick(struct midi_song *song, uint64_t time_ns); /* the nearest */
 
@@ -111,7 +122,8 @@ enum midi_status midi_song_add(struct midi_song *song, const struct midi_song_ev
  * real-time and common messages, which are left out. Errors: those of midi_song_add(). */
 enum midi_status midi_song_record(struct midi_song *song, int track,
                                   const struct midi_message *m, uint64_t begin_ns);
-/* Ends the track at that time or at its last event, whichever is later. */
+/* Ends the track at that time or at its last event, whichever is later. Errors: BAD_ARGUMENT (no such
+ * track), NO_MEMORY. */
 enum midi_status midi_song_end(struct midi_song *song, int track, uint32_t tick);
 
 #ifdef __cplusplus

@@ -5,6 +5,9 @@
  *     printf("p99 %.0f us\n", midi_histogram_part(&h, 0.99) / 1e3);
  *
  * A histogram's bins are 1/16 of an octave wide: its results are exact to 4.5%.
+ *
+ * Errors: none. Ownership: a histogram is the caller's, and points to nothing. Threads: any; a histogram
+ * belongs to one at a time.
  */
 #ifndef LUTETIA_MIDI_TIME_H
 #define LUTETIA_MIDI_TIME_H
@@ -20,6 +23,7 @@ struct midi_histogram { /* zeros: empty */
     uint32_t bins[MIDI_BINS];
 };
 
+/* Counts one duration. */
 void midi_histogram_add(struct midi_histogram *h, uint64_t ns);
 /* The quantile `part` (0..1); 0 if the histogram is empty. The largest value is exact. */
 double midi_histogram_part(const struct midi_histogram *h, double part);

@@ -176,7 +176,12 @@ with certainty; a program that calls one does not link.
 def reference(sections):
     out = ["# Paris, instruction by instruction", "",
            "Generated from `paris_compat/instructions.tab`. Context: an instruction changes dest, test and overflow "
-           "only in active processors; `always` forms change dest in all. `constant` is spelt `const` too.", ""]
+           "only in active processors; `always` forms change dest in all. `constant` is spelt `const` too.", "",
+           "Errors, ownership and threads are the same for all. *Errors*: a wrong call has no effect and is explained in one "
+           "line to the error handler (`CM_set_error_handler`), which by default prints it and exits; if the handler "
+           "returns, so does the call, with 0 in place of an id or a number. *Ownership*: fields, VP sets and geometries "
+           "belong to the machine; ids name them until they are deallocated. Arrays and texts that are passed stay the "
+           "caller's, and are read or written during the call alone. *Threads*: all calls belong to one thread.", ""]
     for title, rows in sections:
         out += [f"## {title}", ""] + ([along_axes.NOTES[title]] if title in along_axes.NOTES else [])
         for cells, functions in rows:

@@ -15,9 +15,11 @@
  * In parts in which masses bounce, the machine waits while the front end reads them, makes the bounces with the library's
  * function and writes them back.
  *
- * The network's parameters are copied at creation; later changes have no effect.
+ * Errors: functions that can fail return a status and leave one line in dyn_error().
  *
- * Threads. All calls of Paris and of this header are made by one thread.
+ * Ownership: the network's parameters are copied at creation; later changes have no effect.
+ *
+ * Threads: all calls of Paris and of this header are made by one thread.
  */
 #ifndef LUTETIA_DYN_MACHINE_H
 #define LUTETIA_DYN_MACHINE_H
@@ -28,7 +30,7 @@ struct dyn_machine;
 
 /* Errors: BAD_ARGUMENT (no masses or no springs; another integrator than symplectic; a hand
  * pulls; dt_s as in step.h), NO_MEMORY. Errors of the machine are BAD_ARGUMENT, too, with
- * the machine's message. */
+ * the machine's message. Owns: the caller destroys *out. */
 enum dyn_status dyn_machine_create(struct dyn_network *n, double dt_s,
                                    struct dyn_machine **out);
 void dyn_machine_destroy(struct dyn_machine *m); /* NULL is fine */

@@ -27,6 +27,10 @@
  * dent or sides that cross. Smooth is projective at and above DYN_QUAD_PROJECTIVE_FROM,
  * bilinear at and below DYN_QUAD_BILINEAR_TO, and the share goes as a smoothstep between
  * them: points and their speeds are continuous while corners move.
+ *
+ * Errors: functions that can fail return false, and leave no message.
+ *
+ * Ownership: a map is the caller's, and points to nothing. Threads: any.
  */
 #ifndef LUTETIA_DYN_QUAD_H
 #define LUTETIA_DYN_QUAD_H

@@ -15,6 +15,8 @@
  *
  * Source: Erin Catto, Fast and simple physics using sequential impulses, 2006, for the
  * bounce.
+ *
+ * Errors, ownership and threads: as word.h says.
  */
 #ifndef LUTETIA_DYN_COLLIDE_H
 #define LUTETIA_DYN_COLLIDE_H

@@ -32,6 +32,12 @@
  * straight or along a path.
  *
  * Source: the thesis, section 2.3.
+ *
+ * Errors: functions that can fail return a status and leave one line in dyn_error(). Others cannot fail.
+ *
+ * Ownership: what is passed is copied, but for the shaper and its faces, which must outlive the word.
+ *
+ * Threads: a word, its network and its shaper belong to one thread at a time.
  */
 #ifndef LUTETIA_DYN_WORD_H
 #define LUTETIA_DYN_WORD_H
@@ -59,6 +65,7 @@ struct dyn_word_style {
 
 extern const struct dyn_control dyn_word_controls[]; /* the rows of struct dyn_word_style */
 extern const int dyn_word_controls_count;
+/* Each control at its usual value. */
 struct dyn_word_style dyn_word_style_usual(void);
 
 /* Styles and worlds by name. */
@@ -89,6 +96,7 @@ struct dyn_word_def {
     int path_count; /* 0: straight */
     struct dyn_word_style style;
 };
+/* Without text and shaper; the style of dyn_word_style_usual(). */
 struct dyn_word_def dyn_word_def_usual(void);
 
 /* A circle as a path, clockwise from that angle in degrees (90: its top), once round. */
@@ -98,7 +106,8 @@ void dyn_path_circle(double x, double y, double radius, double from_degrees,
 struct dyn_word;
 
 /* Errors: BAD_ARGUMENT (a text without ink or that cannot be shaped, a number outside of its
- * range, a path without a length), TOO_LARGE, NO_MEMORY; the network is unchanged. */
+ * range, a path without a length), TOO_LARGE, NO_MEMORY; the network is unchanged. Owns: the caller
+ * destroys *out. */
 enum dyn_status dyn_word_create(struct dyn_network *n, const struct dyn_word_def *def,
                                 struct dyn_word **out);
 void dyn_word_destroy(struct dyn_word *word); /* NULL is fine; masses and springs stay in the
@@ -120,6 +129,7 @@ struct dyn_letter {
  * are only drawn. glyphs: both together. */
 int dyn_word_letters_count(const struct dyn_word *word);
 int dyn_word_glyphs_count(const struct dyn_word *word);
+/* Glyph `index`, which must be one of the word; never NULL, valid as long as the word. */
 const struct dyn_letter *dyn_word_letter(const struct dyn_word *word, int index);
 
 /* The places of the letter's corners, in the order of its masses. */
@@ -141,6 +151,7 @@ struct dyn_word_range {
 struct dyn_word_range dyn_word_range(const struct dyn_word *word);
 enum dyn_part dyn_word_part(const struct dyn_word *word, int index);
 
+/* The style that the word has now. */
 struct dyn_word_style dyn_word_style_get(const struct dyn_word *word);
 /* Applies the style to the word's masses and springs; box and tacks stay. Errors:
  * BAD_ARGUMENT. */

@@ -19,15 +19,18 @@
  *     page_text_replace(text, id, 3, 3, "a", 1);       // "In a beginning": that paragraph alone is set anew
  *
  * Pages are set when they are asked for: a page needs those before it, as far as they have changed since. Places in pages are
- * pixels from the upper left, y downwards. Errors are fontpipe's, their words in font_error().
+ * pixels from the upper left, y downwards.
  *
- * Threads. A text belongs to one thread at a time. */
+ * Errors: functions that can fail return a status of fontpipe's and leave one line in font_error(); what was there stays.
+ *
+ * Ownership: what is passed is copied, but for shapes' points. Threads: a text belongs to one thread at a time. */
 #ifndef LUTETIA_PAGE_H
 #define LUTETIA_PAGE_H
 
 #include "text.h"
 
 struct page_text;
+/* Without paragraphs, styles and templates. Errors: NO_MEMORY. Owns: the caller destroys *out. */
 enum font_status page_text_create(struct page_text **out);
 void page_text_destroy(struct page_text *text); /* NULL is fine */
 /* As font_shaper_colour(), of all faces of styles that are made from now on. */
@@ -46,6 +49,7 @@ struct page_style {
     bool inked;        /* in `ink`; else whoever draws says */
     struct font_ink ink;
 };
+/* DejaVu Serif at 16 pixels, without ink. */
 struct page_style page_style_default(void);
 /* Texts are copied. Errors: BAD_FILE for a font that there is not, BAD_ARGUMENT. */
 enum font_status page_style_add(struct page_text *text, const struct page_style *style,
@@ -79,6 +83,7 @@ struct page_manner {
         tabs[PAGE_TABS_MAX]; /* a tab goes to the next; behind the last, every four ems */
     int tabs_count;
 };
+/* From where the direction of the text begins, without hyphens, two lines at least in a column. */
 struct page_manner page_manner_default(void);
 
 /* A paragraph before the one that is number `at` of its flow (-1: as the last), all in one style. *id names it ever after. Line ends
@@ -89,19 +94,21 @@ enum font_status page_paragraph_add(struct page_text *text, int flow, int at, co
 enum font_status page_paragraph_remove(struct page_text *text, int id);
 enum font_status page_paragraph_manner(struct page_text *text, int id,
                                        const struct page_manner *manner);
-/* Bytes begin..end of it in another style. */
+/* Bytes begin..end of it in another style. Errors: BAD_ARGUMENT (no such paragraph, style or range), NO_MEMORY. */
 enum font_status page_paragraph_style(struct page_text *text, int id, int begin, int end,
                                       int style);
 /* Takes `removed` bytes out at a byte and puts others there, in the style of the letter before. Errors: BAD_ARGUMENT where that would cut
  * a character in two. */
 enum font_status page_text_replace(struct page_text *text, int id, int byte, int removed,
                                    const char *utf8, size_t bytes);
+/* Its text, valid until the paragraph is changed; NULL: there is no such paragraph. */
 const char *page_paragraph_text(const struct page_text *text, int id, size_t *bytes);
 int page_paragraph_at(const struct page_text *text, int flow,
                       int at); /* its id; -1: there is none */
 
 /* A note to a place, set where the page's template has room for such: at the foot of the column that the place is in, or in its
- * margin. Its paragraph has an id, and is changed as others are; it goes with the letter before its place. */
+ * margin. Its paragraph has an id, and is changed as others are; it goes with the letter before its place. Errors: BAD_ARGUMENT,
+ * TOO_LARGE, NO_MEMORY. */
 enum page_note { PAGE_NOTE_FOOT, PAGE_NOTE_MARGIN };
 enum font_status page_note_add(struct page_text *text, int id, int byte, enum page_note kind,
                                const char *utf8, size_t bytes, int style,
@@ -112,7 +119,8 @@ enum font_status page_note_add(struct page_text *text, int id, int byte, enum pa
 struct page_place {
     int paragraph, byte;
 };
-/* A place that stays at its letter when text around it is changed. after: it stays behind what is put in exactly there. */
+/* A place that stays at its letter when text around it is changed. after: it stays behind what is put in exactly there. Errors:
+ * BAD_ARGUMENT, NO_MEMORY. */
 enum font_status page_mark_add(struct page_text *text, struct page_place place, bool after,
                                int *mark);
 /* False: it has gone with its paragraph. */
@@ -161,12 +169,13 @@ enum font_status page_templates_set(struct page_text *text,
 /* All of a page: glyphs in its pixels, each with its size, ink and map; clusters are bytes of the glyph's paragraph. Errors: NO_MEMORY,
  * BAD_ARGUMENT for a page that there is not. Owns: the caller finishes *out. */
 enum font_status page_layout(struct page_text *text, int page, struct font_layout *out);
-/* The same with what the page says, paragraph after paragraph: clusters are then bytes of that. Owns: the caller frees *utf8. */
+/* The same with what the page says, paragraph after paragraph: clusters are then bytes of that. Errors: as page_layout().
+ * Owns: the caller finishes *out and frees *utf8. */
 enum font_status page_layout_text(struct page_text *text, int page, struct font_layout *out,
                                   char **utf8, size_t *bytes);
-/* How many pages all of the text needs: sets them. */
+/* How many pages all of the text needs: sets them. Errors: as page_layout(). */
 enum font_status page_count(struct page_text *text, int *count);
-/* Where a letter is: its page, and the number of its line there. */
+/* The page on which a letter is. Errors: BAD_ARGUMENT for no place; as page_layout(). */
 enum font_status page_find(struct page_text *text, struct page_place place, int *page);
 
 struct page_stats {
@@ -174,6 +183,7 @@ struct page_stats {
     size_t bytes;
     int lines_overfull; /* of all paragraphs that are set: what no rule could fit */
 };
+/* Since it was created. */
 void page_stats_get(const struct page_text *text, struct page_stats *out);
 
 /* ---- pointing ---- */
@@ -191,7 +201,7 @@ enum font_status page_caret_get(struct page_text *text, struct page_place place,
 enum font_status page_hit(struct page_text *text, int page, double x, double y,
                           struct page_place *place, bool *before);
 /* The boxes of what lies between two places of one flow, on a page: those of each line, which touch where the text does. *count: how
- * many there are; at most boxes_max are written. */
+ * many there are; at most boxes_max are written. Errors: BAD_ARGUMENT for no place; as page_layout(). */
 enum font_status page_select(struct page_text *text, struct page_place from,
                              struct page_place to, int page, struct page_box *boxes,
                              int boxes_max, int *count);

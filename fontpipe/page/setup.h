@@ -7,7 +7,9 @@
  *
  * A blank line ends a paragraph; other line ends are spaces, but for those behind a backslash. `# ` begins a heading, `## ` a smaller
  * one. *slanted*, **bold**. [^a note] is set at the foot of the column, with a number, and [>a note] in the margin. A backslash before
- * a sign makes it a letter. */
+ * a sign makes it a letter.
+ *
+ * Errors: as page.h says. Ownership: what is passed is copied, but for shapes' points. Threads: as page.h says. */
 #ifndef LUTETIA_PAGE_SETUP_H
 #define LUTETIA_PAGE_SETUP_H
 
@@ -32,6 +34,7 @@ struct page_setup {
     bool inked;
     struct font_ink ink;
 };
+/* One justified column of DejaVu Serif on a page of 600 x 840. */
 struct page_setup page_setup_default(void);
 
 /* Sequences that are not UTF-8 become U+FFFD. Errors: those of page.h. Owns: the caller destroys *out, which is NULL on failure. */

@@ -13,7 +13,7 @@
  * sheet and brushes together lose nothing (docs/paper.md). The result depends only on the
  * arguments: the same calls make the same bits.
  *
- * Errors and threads: as sheet.h says; these take sheets with parts only.
+ * Errors, ownership and threads: as sheet.h says; these take sheets with parts only.
  */
 #ifndef LUTETIA_PAPER_BRUSH_H
 #define LUTETIA_PAPER_BRUSH_H
@@ -50,6 +50,7 @@ struct paper_brush {
     uint64_t seed;    /* for the positions of the bristles */
     bool mirrored;    /* left and right of the tuft exchanged */
 };
+/* A round brush of 160 bristles, 20 fibers wide, number 0. */
 struct paper_brush paper_brush_default(void);
 
 struct paper_dip {
@@ -92,12 +93,12 @@ enum paper_status paper_sheet_stroke(struct paper_sheet *sheet,
                                      const struct paper_stroke *stroke, int *steps);
 
 /* The amount of a substance (0 water, 1 + a pigment's number) in brush `number`, in units;
- * exact. */
+ * exact. Errors: BAD_ARGUMENT (no such brush or substance), NO_MEMORY, MACHINE_FAILED. */
 enum paper_status paper_sheet_brush_total(struct paper_sheet *sheet, int number, int substance,
                                           double *total);
 
 /* Long operations call `due` between steps, and end early with PAPER_OK if it returns true;
- * NULL: no call. */
+ * NULL: no call. Owns: the caller, of what `context` is; it is needed until another `due` is given. */
 void paper_sheet_stop_when(struct paper_sheet *sheet, bool (*due)(void *context),
                            void *context);
 
@@ -105,9 +106,10 @@ void paper_sheet_stop_when(struct paper_sheet *sheet, bool (*due)(void *context)
 
 /* Position, pressure and tilt at a time: a cubic spline through the samples' positions,
  * linear between their pressures and tilts. *cursor begins as 0 and speeds up calls with
- * growing times. */
+ * growing times. Threads: any. */
 struct paper_stroke_sample paper_stroke_at(const struct paper_stroke *stroke, double time_s,
                                            int *cursor);
+/* Whether a stroke can be drawn, without a sheet. Errors: BAD_ARGUMENT. Threads: any. */
 enum paper_status paper_stroke_check(const struct paper_stroke *stroke);
 
 #endif

@@ -6,7 +6,11 @@
  *     paper_drawing_join (&bytes, '-');
  *     screen.drawing = &(struct paper_drawing){bytes.at, bytes.count, 1};
  *
- * A drawing is a row of bytes that is read from the left: shapes, and what is done with the last of them. */
+ * A drawing is a row of bytes that is read from the left: shapes, and what is done with the last of them.
+ *
+ * Errors: shapes are added without a status: where there is no memory, the bytes say so (events: bytes.h).
+ *
+ * Ownership: arguments stay the caller's, but for a drawing's bytes, which its screen only points to. Threads: any. */
 #ifndef LUTETIA_PAPER_DRAWING_H
 #define LUTETIA_PAPER_DRAWING_H
 

@@ -20,7 +20,7 @@
  *
  * A moment is given by its time: the number of steps since the sheet was made.
  *
- * Errors and threads: as paper.h says.
+ * Errors, ownership and threads: as paper.h says.
  */
 #ifndef LUTETIA_PAPER_HISTORY_H
 #define LUTETIA_PAPER_HISTORY_H
@@ -31,6 +31,7 @@
  * are then computed from the beginning). Errors: BAD_ARGUMENT unless the sheet is as it was
  * made, NO_MEMORY. */
 enum paper_status paper_history_begin(struct paper_sheet *sheet, double budget_bytes);
+/* Whether the sheet records. */
 bool paper_history_has(const struct paper_sheet *sheet);
 
 /* The number of operations done, and of undone operations that can be redone. */

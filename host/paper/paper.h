@@ -14,9 +14,12 @@
  * one virtual processor for each fiber; docs/paper.md describes it.  x grows to the right and y
  * downwards, both in fibers.
  *
- * Errors. Functions that can fail return a status and leave one line in paper_error();
- * unless stated otherwise, a failed call changes nothing. Threads. Paris has one machine:
- * all papers belong to one thread at a time.
+ * Errors: functions that can fail return a status and leave one line in paper_error();
+ * unless stated otherwise, a failed call changes nothing. Other functions cannot fail.
+ *
+ * Ownership: arguments stay the caller's, and nothing is kept of them after the call.
+ *
+ * Threads: Paris has one machine, so all papers and sheets belong to one thread at a time.
  */
 #ifndef LUTETIA_PAPER_H
 #define LUTETIA_PAPER_H
@@ -36,8 +39,8 @@ enum paper_status {
     PAPER_BAD_FILE /* not a saved state, or a damaged one */
 };
 
-/* Detail of the last failure, one line without a newline; "" if there was none.
- * Owns: the library; valid until the next failure. */
+/* Detail of this thread's last failure, one line without a newline; "" if there was none,
+ * never NULL. Owns: the library; valid until the next failure. */
 const char *paper_error(void);
 
 /* ---- the sheet ---- */
@@ -60,6 +63,7 @@ struct paper_config {
                                   * uniform, 1..64 */
     uint64_t seed;               /* the same seed gives the same sheet on every device */
 };
+/* 1024 x 1024 fibers of warm white; the seed is always the same. */
 struct paper_config paper_config_default(void);
 
 struct paper;
@@ -70,6 +74,7 @@ struct paper;
 enum paper_status paper_create(const struct paper_config *config, struct paper **out);
 void paper_destroy(struct paper *p); /* NULL is fine */
 
+/* In fibers. */
 int paper_width(const struct paper *p);
 int paper_height(const struct paper *p);
 
@@ -154,6 +159,7 @@ struct paper_line {
  * caller destroys *screen. */
 enum paper_status paper_line_screen(const struct paper_line *line, struct paper_screen *screen,
                                     uint32_t *missing);
+/* Frees what the screen points to, but not its drawing, and makes it zeros; zeros are fine. */
 void paper_screen_destroy(struct paper_screen *screen);
 
 /* ---- time ---- */
@@ -164,6 +170,7 @@ struct paper_weather {
     double humidity; /* water that every fiber loses in a cycle, 0..1 */
     double molecular_weight[3]; /* mobility of cyan, magenta and yellow, 0..1 */
 };
+/* No gravity, 0.0004 of water dries in a cycle. */
 struct paper_weather paper_weather_default(void);
 
 /* Goes one cycle: water and pigments spread along x, then along y; then fibers lose the

@@ -7,8 +7,10 @@
  *         follow(lines.line[i].points, lines.line[i].points_count);
  *     paper_lines_destroy(&lines);
  *
- * Errors: BAD_ARGUMENT; the message gives the character of a path or the line of a file.
- * Threads. Any.
+ * Errors: functions that can fail return a status, leave one line in paper_error(), which gives
+ * the character of a path or the line of a file, and make what they hand out zeros.
+ *
+ * Ownership: arguments stay the caller's. Threads: any.
  */
 #ifndef LUTETIA_PAPER_PATH_H
 #define LUTETIA_PAPER_PATH_H
@@ -25,13 +27,14 @@ struct paper_lines {
 void paper_lines_destroy(struct paper_lines *lines); /* zeros are fine */
 
 /* An SVG path (all commands of SVG 1.1, 8.3), each of its sub-paths a line; curves become
- * chords that deviate from them by at most tolerance. Owns: the caller destroys *lines,
- * which is zeros after an error. */
+ * chords that deviate from them by at most tolerance. Errors: BAD_ARGUMENT, NO_MEMORY. Owns: the
+ * caller destroys *lines. */
 enum paper_status paper_path_parse(const char *path, double tolerance,
                                    struct paper_lines *lines);
 
 /* All <path> elements of an SVG file that are drawn (not those in <defs> and the like), transformed by their and their groups'
- * transform attributes, in user units. `name` is for messages. */
+ * transform attributes, in user units. `name` is for messages.
+ * Errors: BAD_ARGUMENT (also a file that cannot be read), NO_MEMORY. Owns: the caller destroys *lines. */
 enum paper_status paper_svg_parse(const char *bytes, size_t count, const char *name,
                                   double tolerance, struct paper_lines *lines);
 enum paper_status paper_svg_read(const char *file, double tolerance, struct paper_lines *lines);
@@ -39,7 +42,7 @@ enum paper_status paper_svg_read(const char *file, double tolerance, struct pape
 /* Recorded samples: a line of text each, time, x, y [, pressure [, tilt x, tilt y]],
  * separated by commas, semicolons, tabs or spaces; empty lines, lines that begin with #, and
  * a first line of names are skipped. The default pressure is 0.5. The first time need not be
- * 0. Owns: the caller frees *samples. */
+ * 0. Errors: as paper_svg_parse(). Owns: the caller frees *samples. */
 enum paper_status paper_samples_parse(const char *bytes, size_t count, const char *name,
                                       struct paper_stroke_sample **samples, int *samples_count);
 enum paper_status paper_samples_read(const char *file, struct paper_stroke_sample **samples,

@@ -17,7 +17,7 @@
  * of paper.h, to the bit. With parts, amounts are in grains, PAPER_GRAINS to the unit: whole
  * numbers in floats, so flows between fibers are exact, and totals never drift.
  *
- * Errors and threads: as paper.h says.
+ * Errors, ownership and threads: as paper.h says.
  */
 #ifndef LUTETIA_PAPER_SHEET_H
 #define LUTETIA_PAPER_SHEET_H
@@ -40,11 +40,11 @@ struct paper_pigment {
 };
 
 /* The twelve pigments of Curtis et al. 1997 and the thesis's cyan, magenta, yellow, by name
- * or by number from 0; NULL: none. */
+ * or by number from 0; NULL: none. They are constants of the library, valid for ever. */
 const struct paper_pigment *paper_pigment_find(const char *name);
 const struct paper_pigment *paper_pigment_number(int number);
 #define PAPER_PIGMENT_USUAL "french ultramarine" /* of what is painted without naming one */
-/* Their names, "quinacridone rose, indian red, ...". */
+/* Their names, "quinacridone rose, indian red, ...", cut where there is no room. */
 void paper_pigment_names(char *text, size_t room);
 
 /* K and S of a layer of one unit with these colours over white and over black, in linear
@@ -76,9 +76,11 @@ struct paper_stock {
         [2]; /* length of fibers along x and along y, along which the paper is uniform, 1..64 */
 };
 
-/* "cold press", "hot press", "rough", "blotting", "glass", "laid", "xuan"; by name or by number from 0; NULL: none. */
+/* "cold press", "hot press", "rough", "blotting", "glass", "laid", "xuan"; by name or by number from 0; NULL: none.
+ * They are constants of the library, valid for ever. */
 const struct paper_stock *paper_stock_find(const char *name);
 const struct paper_stock *paper_stock_number(int number);
+/* Their names, "cold press, hot press, ...". */
 void paper_stock_names(char *text, size_t room);
 
 /* The edges of a handmade sheet: fibers seep under the frame of the mould, the deckle. Lengths in fibers. */
@@ -124,6 +126,7 @@ struct paper_air {     /* conditions that may change at any time */
     double settling;   /* factor on density and lifting, 0..10 */
     struct paper_weather thesis; /* without parts */
 };
+/* Calm air over a flat sheet, for all parts; and the weather of paper_weather_default(). */
 struct paper_air paper_air_default(void);
 
 /* Versions of the model. No version ever changes, to the bit: a change that would give other
@@ -145,6 +148,7 @@ struct paper_sheet_config {
         deckled; /* in version 3, with fibers, no torus: the sheet has such edges. Else it is cut at the picture's border */
     struct paper_deckle deckle;
 };
+/* A sheet of the usual model with all parts, without pigments. */
 struct paper_sheet_config paper_sheet_config_default(void);
 /* Fibers along the picture's borders where the sheet may end or be thin: 0 without a deckle. */
 double paper_sheet_margin(const struct paper_sheet_config *config);
@@ -228,16 +232,21 @@ enum paper_status paper_sheet_blot(struct paper_sheet *sheet, const struct paper
 enum paper_status paper_sheet_resist(struct paper_sheet *sheet,
                                      const struct paper_screen *screen, int x, int y, bool on);
 
-/* Dries the whole sheet at once; pigments stay, and are fixed if there is fixing. */
+/* Dries the whole sheet at once; pigments stay, and are fixed if there is fixing. Errors:
+ * NO_MEMORY, MACHINE_FAILED. */
 enum paper_status paper_sheet_dry(struct paper_sheet *sheet);
-/* Dries everything and seals the pigments under a varnish: they become part of the paper's colour. */
+/* Dries everything and seals the pigments under a varnish: they become part of the paper's
+ * colour. Errors: as paper_sheet_dry(). */
 enum paper_status paper_sheet_seal(struct paper_sheet *sheet);
 
-/* Sets the air; goes one step of time. A step is computed when something of the sheet is read, or by paper_sheet_finish().
- * Errors: BAD_ARGUMENT, NO_MEMORY, MACHINE_FAILED. */
+/* Sets the air. Errors: BAD_ARGUMENT, NO_MEMORY, MACHINE_FAILED. */
 enum paper_status paper_sheet_air(struct paper_sheet *sheet, const struct paper_air *air);
+/* The air that the sheet has now, never NULL; valid until the sheet's air changes, or the sheet is destroyed. */
 const struct paper_air *paper_sheet_get_air(const struct paper_sheet *sheet);
+/* Goes one step of time. Errors: as paper_sheet_air(). */
 enum paper_status paper_sheet_step(struct paper_sheet *sheet);
+/* Waits until all steps have been computed; else a step is computed when something of the sheet is read. Errors: NO_MEMORY,
+ * MACHINE_FAILED. */
 enum paper_status paper_sheet_finish(struct paper_sheet *sheet);
 /* Where water flows, steps are computed only in boxes around what can change, if they take less than half of the sheet. The bits are
  * the same. Their sides are a few multiples of `unit` fibers, 4..4096: 64 unless told; 0: there are none. No event: it is not

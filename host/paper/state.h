@@ -18,7 +18,7 @@
  * writes is accepted: no links to other places, no data kept elsewhere, no other filters and
  * types. The process's output is checked like all untrusted data before it is used.
  *
- * Errors and threads: as paper.h says.
+ * Errors, ownership and threads: as paper.h says.
  */
 #ifndef LUTETIA_PAPER_STATE_H
 #define LUTETIA_PAPER_STATE_H
@@ -50,6 +50,7 @@ void paper_state_close(struct paper_state *state); /* NULL is fine */
  * (default: 3 GB); beyond it, NO_MEMORY. The sheet that is made is not counted. */
 void paper_state_limit(struct paper_state *state, double bytes);
 
+/* How many sheets there are; the number, in its program, of the sheet at that index from 0. */
 int paper_state_count(const struct paper_state *state);
 int paper_state_number(const struct paper_state *state, int index);
 

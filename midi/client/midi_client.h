@@ -16,7 +16,9 @@
  * reports it (MIDI_CLIENT_GONE). It reconnects as soon as possible, listens to the same devices
  * again, and reports it (MIDI_CLIENT_BACK).
  *
- * Threads: a client belongs to one at a time.
+ * Errors: functions that can fail return a status and leave one line in midi_error().
+ *
+ * Ownership: what is passed is copied. Threads: a client belongs to one at a time.
  */
 #ifndef LUTETIA_MIDI_CLIENT_H
 #define LUTETIA_MIDI_CLIENT_H
@@ -58,7 +60,8 @@ struct midi_client_event {
     char text[160];
 };
 
-/* Connects, and checks that the other side is this user's (or root's). Errors: NO_SERVER, REFUSED, NO_MEMORY. */
+/* Connects, and checks that the other side is this user's (or root's). Errors: NO_SERVER, REFUSED,
+ * NO_MEMORY. Owns: the caller closes *out. */
 enum midi_status midi_client_open(const struct midi_client_def *def, struct midi_client **out);
 void midi_client_close(struct midi_client *client); /* takes NULL */
 
@@ -72,7 +75,7 @@ enum midi_status midi_client_command(struct midi_client *client, const char *com
                                      char *reply, size_t room);
 /* The number of a device; -1: there is no device of that name. */
 int midi_client_device(const struct midi_client *client, const char *name);
-/* The name of a device; NULL: there is no device of that number. */
+/* The name of a device, valid until the next call of midi_client_next(); NULL: there is no device of that number. */
 const char *midi_client_device_name(const struct midi_client *client, int device);
 
 /* Sends to a device; time_ns 0: now. Blocks while the device is slower than the caller, as
