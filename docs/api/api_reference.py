@@ -74,16 +74,15 @@ class Header:
         self.scan(re.sub(r"\\\n", " ", text[head.end():]))
 
     def scan(self, text):
+        text = re.sub(r"^#ifdef __cplusplus\n.*?^#endif$", "#", text, flags=re.MULTILINE | re.DOTALL)
         text = re.sub(r"^[ \t]*#.*$", "#", text, flags=re.MULTILINE)
-        text = re.sub(r'extern "C" \{|^\}$', "#", text, flags=re.MULTILINE)
-        at, comment, fresh = 0, None, False
+        at, comment = 0, None
         while at < len(text):
             if text[at] in "#":
                 comment, at = None, at + 1
             elif text[at] == "\n":
-                blank = re.match(r"\n[ \t]*\n", text[at:])
-                if blank:
-                    comment = None if not fresh else None
+                if re.match(r"\n[ \t]*\n", text[at:]):
+                    comment = None
                 at += 1
             elif text[at].isspace():
                 at += 1
