@@ -1,6 +1,7 @@
 /* spring_sound.c - see spring_sound.h. */
 #include "spring_sound.h"
 
+#include <live_sound.h>
 #include <midi_internal.h>
 #include <sound.h>
 #include <sound_events.h>
@@ -8,7 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { AT_ONCE = 64, LOUDEST = 127, CLANK_PER_SPEED = 20 };
+enum { AT_ONCE = 64 };
 
 struct spring_sound {
     struct sound_def def;
@@ -54,33 +55,17 @@ int spring_sound_count(const struct spring_sound *s)
     return s->count;
 }
 
-/* A clank's strength is a speed; the usual strength of other sounds is 1. */
-static int velocity_of(enum sound_kind kind, double strength)
-{
-    if (kind == SOUND_CLANK)
-        return (int)fmin(LOUDEST, CLANK_PER_SPEED * strength);
-    return (int)(LOUDEST * (1 - exp(-1.5 * fmax(strength, 0))));
-}
-
 static enum midi_status sounds_take(struct spring_sound *s, struct stage *stage)
 {
     const struct stage_actor actor = stage_actor(stage);
     const struct font_box box = actor.kind->extent(actor.self);
-    const double width = fmax(box.x1 - box.x0, 1e-9);
     struct stage_sound heard[AT_ONCE];
+    struct sound_event e;
     enum midi_status status = MIDI_OK;
     for (int count; (count = actor.kind->heard(actor.self, heard, AT_ONCE)) > 0;)
         for (int i = 0; i < count && status == MIDI_OK; i++) {
-            const int kind = sound_kind_read(heard[i].name);
-            if (kind < 0)
+            if (!live_sound_event(&heard[i], &box, &e))
                 continue;
-            const double across = fmin(fmax((heard[i].x - box.x0) / width, 0), 1);
-            const struct sound_event e = {
-                .kind = (enum sound_kind)kind,
-                .time_s = fmax(heard[i].time_s, 0),
-                .velocity = velocity_of((enum sound_kind)kind, heard[i].strength),
-                .height = 0.25 + 0.5 * across,
-                .side = 1.4 * (across - 0.5)};
             status = sound_event_add(s->song, &e);
             s->count++;
         }

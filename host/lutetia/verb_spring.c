@@ -8,6 +8,7 @@
 #include "spring_wet.h"
 #include "type_common.h"
 
+#include <live_sound.h>
 #include <stage_film.h>
 #include <stage_window.h>
 #include <word.h>
@@ -33,6 +34,8 @@ struct spring {
     struct live_options live_options;
     struct midi_song *song;
     struct live live;
+    const char *play;
+    struct live_sound *sound;
 };
 
 static int fail_stage(void)
@@ -65,7 +68,10 @@ static int spring_check(struct spring *s, const struct option_words *words)
         return fail_usage("spring", "--strip is for a --still");
     if (s->live_options.map && s->replay)
         return fail_usage("spring", "a session says what is done: --replay has no --map");
-    if (!s->live_options.map && (s->song_path || s->live_options.server))
+    const bool pictures = s->film.still || s->film.video || s->frames;
+    if (s->play && pictures)
+        return fail_usage("spring", "--play is for the window: a film has its sound in it");
+    if (!s->live_options.map && (s->song_path || (s->live_options.server && !s->play)))
         return fail_usage("spring", "what is played goes through a --map FILE.lua");
     if (!s->live_options.map && s->live_options.params.count)
         return fail_usage("spring", "--param is for a --map FILE.lua");
@@ -158,7 +164,11 @@ static int spring_options(struct spring *s, int argc, char **argv, bool *help)
          &s->film.filter, 0, 0, 0},
         {"sound", 0, OPTION_TEXT, "FILE.wav", "write what is heard in the film", &s->sound_path,
          0, 0, 0},
-        {"silent", 0, OPTION_FLAG, NULL, "the film has no sound", &s->silent, 0, 0, 0},
+        {"silent", 0, OPTION_FLAG, NULL, "the window or the film has no sound", &s->silent, 0,
+         0, 0},
+        {"play", 0, OPTION_TEXT, "DEVICE",
+         "send what is heard in the window to this device of the MIDI server", &s->play, 0, 0,
+         0},
         {"save", 0, OPTION_TEXT, "FILE", "write masses and springs at the end, or at Control S",
          &s->save, 0, 0, 0},
         {"session", 0, OPTION_TEXT, "FILE", "record what is done in the window", &s->session, 0,
@@ -301,11 +311,35 @@ static int film_make(struct spring *s, struct stage *stage)
     return status == STAGE_OK ? EXIT_SUCCESS : fail_stage();
 }
 
+static void sounds_play(void *context, struct stage *stage)
+{
+    struct spring *s = context;
+    live_sound_take(s->sound, stage);
+}
+
+/* A window without sound is a window; a device that is asked for must be there. */
+static int window_sound(struct spring *s)
+{
+    const struct live_sound_def def = {
+        .synth = !s->silent, .server = s->live_options.server, .device = s->play};
+    if (s->silent && !s->play)
+        return EXIT_SUCCESS;
+    enum midi_status status = live_sound_open(&def, &s->sound);
+    s->window.after = sounds_play;
+    s->window.after_context = s;
+    if (status == MIDI_OK)
+        return EXIT_SUCCESS;
+    if (s->play)
+        return fail("spring", "--play: %s", midi_error());
+    tell("spring", "the window is silent: %s", midi_error());
+    return EXIT_SUCCESS;
+}
+
 static int window_run(struct spring *s, struct stage *stage)
 {
     s->window.save_path = s->save ? s->save : "spring.springs";
     s->live.verb = "spring";
-    if (map_begin(s, stage) != EXIT_SUCCESS)
+    if (map_begin(s, stage) != EXIT_SUCCESS || window_sound(s) != EXIT_SUCCESS)
         return EXIT_FAILED;
     return live_window(&s->live, stage, &s->window,
                        "run it where there is a desktop, or take --still FILE or --video FILE");
@@ -357,6 +391,7 @@ int verb_spring(int argc, char **argv)
         type_text_check("spring", s.scene.font, scene.face, s.scene.text);
     status = spring_run(&s, scene.stage);
     live_end(&s.live);
+    live_sound_close(s.sound);
     spring_wet_destroy(s.wet);
     midi_song_destroy(s.song);
     spring_scene_finish(&scene);

@@ -385,6 +385,8 @@ enum stage_status stage_window_turn(struct stage_window *w)
         w->def.before ? w->def.before(w->def.context, w->stage, began_s) : STAGE_OK;
     if (status == STAGE_OK)
         status = stage_frame(w->stage, began_s, NULL);
+    if (status == STAGE_OK && w->def.after)
+        w->def.after(w->def.after_context, w->stage);
     if (status == STAGE_OK)
         status = frame_draw(w, began_s);
     recording_add(w, began_s);

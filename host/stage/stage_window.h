@@ -35,6 +35,9 @@ struct stage_window_def {
     enum stage_status (*before)(void *context, struct stage *stage, double now_s);
     bool (*key)(void *context, const struct input_event *event);
     void *context;
+    /* After a turn's steps, before they are drawn: whoever lets hear what happened in them. NULL: nobody does. */
+    void (*after)(void *after_context, struct stage *stage);
+    void *after_context;
 };
 struct stage_window_def stage_window_def_default(void);
 

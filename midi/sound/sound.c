@@ -16,6 +16,8 @@
 
 enum { SECONDS_MAX = 36000 };
 
+enum { PERIODS = 8 }; /* blocks that wait to be heard: 12 ms in all */
+
 struct sound {
     const struct fluid *fluid;
     void *settings, *synth, *driver, *renderer;
@@ -71,6 +73,8 @@ static enum midi_status settings_make(struct sound *s, const struct sound_def *d
     f->fluid_settings_setint(s->settings, "synth.chorus.active", def->room);
     f->fluid_settings_setint(s->settings, "synth.lock-memory", 0);
     f->fluid_settings_setint(s->settings, "audio.period-size", SOUND_BLOCK);
+    f->fluid_settings_setint(s->settings, "audio.periods", PERIODS);
+    f->fluid_settings_setint(s->settings, "audio.jack.autoconnect", 1);
     f->fluid_settings_setint(s->settings, "audio.realtime-prio", 0);
     f->fluid_settings_setstr(s->settings, "audio.file.type", "wav");
     f->fluid_settings_setstr(s->settings, "audio.file.format", "s16");
@@ -162,6 +166,31 @@ enum midi_status sound_listen(struct sound *s, const char *driver)
                            "no sound comes out of %s: is a sound server running? A file can "
                            "take it: sound:NAME.wav",
                            driver ? driver : "this machine");
+}
+
+/* Whether a sound server of PulseAudio's kind listens: its library would start one otherwise, which nobody ends. */
+static bool pulse_there(void)
+{
+    char path[200];
+    const char *folder = getenv("XDG_RUNTIME_DIR");
+    if (getenv("PULSE_SERVER"))
+        return true;
+    if (folder)
+        snprintf(path, sizeof path, "%s/pulse/native", folder);
+    else
+        snprintf(path, sizeof path, "/run/user/%ld/pulse/native", (long)getuid());
+    return access(path, W_OK) == 0 || access("/run/pulse/native", W_OK) == 0;
+}
+
+enum midi_status sound_listen_any(struct sound *s)
+{
+    static const char *const drivers[] = {"jack", "pulseaudio", "alsa"};
+    for (size_t i = 0; i < sizeof drivers / sizeof *drivers; i++)
+        if ((strcmp(drivers[i], "pulseaudio") != 0 || pulse_there()) &&
+            sound_listen(s, drivers[i]) == MIDI_OK)
+            return MIDI_OK;
+    return midi_fail(MIDI_NO_DEVICE,
+                     "no sound comes out of this machine: JACK, PulseAudio or ALSA is needed");
 }
 
 void sound_message(struct sound *s, const struct midi_message *m)

@@ -38,6 +38,8 @@ void sound_destroy(struct sound *sound); /* takes NULL */
 /* Plays through a driver of FluidSynth (pulseaudio, alsa, jack, ...; NULL: its default), or,
  * if the name ends with .wav, into that file, in real time. Errors: NO_DEVICE, IO_FAILED. */
 enum midi_status sound_listen(struct sound *sound, const char *driver);
+/* The same through JACK, PulseAudio or ALSA, the first that works. Errors: NO_DEVICE. */
+enum midi_status sound_listen_any(struct sound *sound);
 /* Ignores messages without sound. Threads: any. */
 void sound_message(struct sound *sound, const struct midi_message *m);
 

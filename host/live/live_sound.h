@@ -1,0 +1,45 @@
+/* live_sound.h - what a stage's actor lets hear, heard at once: by a synthesizer, and by a device of the MIDI server.
+ *
+ *     struct live_sound_def def = {.synth = true};
+ *     struct live_sound *sound;
+ *     if (live_sound_open(&def, &sound) != MIDI_OK)
+ *         say(midi_error());                                  // silent, then
+ *     stage_frame(stage, now_s, NULL);
+ *     live_sound_take(sound, stage);                          // after each frame
+ *     live_sound_close(sound);
+ *
+ * A thread of its own plays, so neither a slow device nor a sound server that hangs holds up the stage. What it cannot take in time is
+ * dropped, and counted.
+ *
+ * Threads: whose thread the stage is.
+ */
+#ifndef LUTETIA_LIVE_SOUND_H
+#define LUTETIA_LIVE_SOUND_H
+
+#include <midi_status.h>
+#include <sound_events.h>
+#include <stage.h>
+
+struct live_sound_def {
+    bool synth;
+    /* A driver of FluidSynth, or a name that ends with .wav; NULL: JACK, PulseAudio or ALSA, the first that works. */
+    const char *driver;
+    const char *server, *device; /* a device of the MIDI server; device NULL: none */
+};
+
+struct live_sound;
+/* Errors: NO_DEVICE (no sound, FluidSynth or such a device), NO_SERVER, NO_MEMORY, IO_FAILED. Owns: the caller closes *out. */
+enum midi_status live_sound_open(const struct live_sound_def *def, struct live_sound **out);
+void live_sound_close(struct live_sound *sound); /* ends all notes; NULL is fine */
+
+/* Plays what the stage's actor has let hear since the last call. NULL is fine. */
+void live_sound_take(struct live_sound *sound, struct stage *stage);
+long live_sound_played(const struct live_sound *sound); /* events so far */
+long live_sound_dropped(const struct live_sound *sound);
+
+/* A sound of the stage's actor as an event of sound_events.h: a clank's velocity is its speed, as MIDI has it (20 for each unit a
+ * second), high and low, left and right are where it happens. `extent`: of the actor. False: it is no sound of those. */
+bool live_sound_event(const struct stage_sound *heard, const struct font_box *extent,
+                      struct sound_event *out);
+
+#endif

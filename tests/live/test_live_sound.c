@@ -1,0 +1,200 @@
+/* test_live_sound.c - what happens on a stage is heard at once: by the synthesizer, and by a device of the MIDI server. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <live_sound.h>
+#include <midi_message.h>
+#include <midi_time.h>
+
+#include "../display/scratch.h"
+#include "../midi/server_support.h"
+#include "../midi/wav.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+/* ---- an actor that clanks when it is told to ---- */
+
+struct clanker {
+    int clanks; /* that nobody has heard */
+    double strength;
+};
+
+static struct font_box clanker_extent(void *actor)
+{
+    (void)actor;
+    return (struct font_box){0, 0, 4, 1};
+}
+
+static int clanker_heard(void *actor, struct stage_sound *out, int most)
+{
+    struct clanker *c = actor;
+    int count = 0;
+    for (; count < most && c->clanks > 0; c->clanks--)
+        out[count++] =
+            (struct stage_sound){.name = "clank", .strength = c->strength, .x = 2, .y = 0};
+    return count;
+}
+
+static enum stage_status clanker_step(void *actor, double dt_s)
+{
+    (void)actor, (void)dt_s;
+    return STAGE_OK;
+}
+
+static const struct stage_control *clanker_controls(void *actor, int *count)
+{
+    (void)actor;
+    *count = 0;
+    return NULL;
+}
+
+static void clanker_draw(void *actor, const struct stage_look *look,
+                         struct stage_draw_list *list)
+{
+    (void)actor, (void)look, (void)list;
+}
+
+static struct stage *clanker_stage(struct clanker *clanker)
+{
+    static const struct stage_actor_kind kind = {.name = "clanker",
+                                                 .controls = clanker_controls,
+                                                 .step = clanker_step,
+                                                 .draw = clanker_draw,
+                                                 .extent = clanker_extent,
+                                                 .heard = clanker_heard};
+    struct stage_def def = stage_def_default();
+    struct stage *stage;
+    def.actor = (struct stage_actor){&kind, clanker};
+    assert_int_equal(stage_create(&def, &stage), STAGE_OK);
+    return stage;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* ---- cases ---- */
+
+/* The synthesizer plays into a file in real time, whose beginning is when it was opened. */
+static void clanks_are_heard_at_once(void **state)
+{
+    (void)state;
+    enum { CLANKS = 9 };
+    struct clanker clanker = {0, 5};
+    struct stage *stage = clanker_stage(&clanker);
+    const char *path = scratch_path("heard.wav");
+    const struct live_sound_def def = {.synth = true, .driver = path};
+    struct live_sound *sound;
+    double played_s[CLANKS], heard_s[2 * CLANKS], late_s[CLANKS];
+    const enum midi_status status = live_sound_open(&def, &sound);
+    if (status == MIDI_NO_DEVICE) { /* no FluidSynth, or no SoundFont */
+        stage_destroy(stage);
+        skip();
+    }
+    assert_int_equal(status, MIDI_OK);
+    const uint64_t began_ns = midi_now_ns();
+    for (int i = 0; i < CLANKS; i++) {
+        usleep((useconds_t)(250000 + i * 7919 % 17 * 1000));
+        clanker.clanks = 1;
+        played_s[i] = (double)(midi_now_ns() - began_ns) / 1e9;
+        live_sound_take(sound, stage);
+    }
+    usleep(300000);
+    assert_int_equal(live_sound_played(sound), CLANKS);
+    assert_int_equal(live_sound_dropped(sound), 0);
+    live_sound_close(sound);
+    struct wav wav = wav_read(path);
+    const int heard = wav_onsets(&wav, heard_s, 2 * CLANKS);
+    free(wav.samples);
+    assert_int_equal(heard, CLANKS);
+    for (int i = 0; i < CLANKS; i++)
+        late_s[i] = heard_s[i] - played_s[i];
+    qsort(late_s, CLANKS, sizeof *late_s, ascending);
+    printf("a clank is heard after %.1f ms; %.1f to %.1f\n", 1e3 * late_s[CLANKS / 2],
+           1e3 * late_s[0], 1e3 * late_s[CLANKS - 1]);
+    if (late_s[CLANKS / 2] > 0.02)
+        fail_msg("half of the clanks are heard after %g s", late_s[CLANKS / 2]);
+    stage_destroy(stage);
+}
+
+static void note_is(const uint8_t *bytes, uint8_t status, uint8_t data)
+{
+    assert_int_equal(bytes[0], status);
+    assert_int_equal(bytes[2], data);
+}
+
+/* The device gets the sounds of the channels, then each note and its end. */
+static void clanks_are_sent(void **state)
+{
+    (void)state;
+    struct instrument synth = instrument_plug("keys");
+    struct served served = served_begin(one_device(&synth), 0, NULL);
+    struct midi_client *c = client_of(&served, "waits", NULL);
+    struct clanker clanker = {0, 3.2};
+    struct stage *stage = clanker_stage(&clanker);
+    const struct live_sound_def def = {.server = served.path, .device = "keys"};
+    struct live_sound_def wrong = def;
+    struct live_sound *sound;
+    uint8_t bytes[32];
+    wait_up(c, "keys");
+    silence_skip(&synth);
+    assert_int_equal(live_sound_open(&def, &sound), MIDI_OK);
+    assert_int_equal(instrument_hear(&synth, bytes, 8, 2000), 8); /* four programs */
+    assert_int_equal(bytes[0], MIDI_PROGRAM);
+    clanker.clanks = 1;
+    live_sound_take(sound, stage);
+    assert_int_equal(instrument_hear(&synth, bytes, 6, 2000), 6);
+    note_is(bytes, MIDI_CONTROL, 64); /* in the middle */
+    note_is(bytes + 3, MIDI_NOTE_ON, 64);
+    assert_int_equal(instrument_hear(&synth, bytes + 6, 3, 2000), 3);
+    note_is(bytes + 6, MIDI_NOTE_OFF, 64);
+    assert_int_equal(bytes[7], bytes[4]);
+    /* at the end all notes end, without waiting */
+    clanker.clanks = 3;
+    live_sound_take(sound, stage);
+    live_sound_close(sound);
+    assert_int_equal(instrument_hear(&synth, bytes, 25, 2000), 25);
+    note_is(bytes + 18, MIDI_NOTE_OFF, 64); /* and two more, of running status */
+    wrong.device = "trumpet";
+    assert_int_equal(live_sound_open(&wrong, &sound), MIDI_NO_DEVICE);
+    assert_null(sound);
+    stage_destroy(stage);
+    midi_client_close(c);
+    served_end(&served);
+    instrument_unplug(&synth);
+}
+
+/* More than can wait is dropped, whole notes at once, and nothing blocks. */
+static void floods_are_dropped(void **state)
+{
+    (void)state;
+    struct clanker clanker = {5000, 1};
+    struct stage *stage = clanker_stage(&clanker);
+    const struct live_sound_def def = {0};
+    struct live_sound *sound;
+    assert_int_equal(live_sound_open(&def, &sound), MIDI_OK);
+    live_sound_take(sound, stage);
+    assert_int_equal(live_sound_played(sound) + live_sound_dropped(sound), 5000);
+    assert_true(live_sound_played(sound) > 300 && live_sound_dropped(sound) > 0);
+    live_sound_close(sound);
+    live_sound_close(NULL);
+    live_sound_take(NULL, stage);
+    stage_destroy(stage);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(clanks_are_heard_at_once),
+                                       cmocka_unit_test(clanks_are_sent),
+                                       cmocka_unit_test(floods_are_dropped)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
