@@ -155,9 +155,9 @@ class House:
     def check_names(self, document, at, span):
         for found in NAME.finditer(span):
             name, more = found.groups()
-            if PLACEHOLDER.search(re.sub(r"^(CM|PARIS|MACHINE|NODE|LUTETIA)_", "", name)) and name not in self.words:
-                if not name.isupper():
-                    continue  # verb_NAME
+            if name not in self.words and ("NAME" in name.split("_") or not name.isupper() and PLACEHOLDER.search(
+                    re.sub(r"^(CM|PARIS|MACHINE|NODE|LUTETIA)_", "", name))):
+                continue  # verb_NAME, SHEET_EVENT_NAME
             if name in ELSEWHERE["names"] or VARIABLE.fullmatch(name) or name in self.ends:
                 continue
             if more or name.endswith("_"):
