@@ -8,6 +8,7 @@
 #include "video.h"
 
 #include "display_internal.h"
+#include "video_check.h"
 
 #include <output_file.h>
 
@@ -29,10 +30,14 @@ enum { SIDE_MOST = 16384, FPS_MOST = 240 };
 static const struct container {
     const char *ending, *format;
     bool sounds; /* it can hold sound */
+    bool
+        counts; /* each picture is in it, at whatever rate: a .gif's times are hundredths of a second */
 } containers[] = {
-    {".mp4", "mp4", true},   {".m4v", "mp4", true},  {".mkv", "matroska", true},
-    {".webm", "webm", true}, {".mov", "mov", true},  {".avi", "avi", true},
-    {".ogv", "ogg", true},   {".gif", "gif", false}, {".y4m", NULL, false},
+    {".mp4", "mp4", true, true},      {".m4v", "mp4", true, true},
+    {".mkv", "matroska", true, true}, {".webm", "webm", true, true},
+    {".mov", "mov", true, true},      {".avi", "avi", true, true},
+    {".ogv", "ogg", true, true},      {".gif", "gif", false, false},
+    {".y4m", NULL, false, false},
 };
 enum { CONTAINERS = sizeof containers / sizeof *containers, OURS = CONTAINERS - 1 };
 
@@ -351,6 +356,25 @@ enum display_status video_add(struct video *v, const uint8_t *rgb)
     return DISPLAY_OK;
 }
 
+/* A full disk is the likely reason: what can be written now says so. */
+static bool film_is_whole(const struct video *v, char said[200])
+{
+    const struct video_held held = {.format = v->container->format,
+                                    .frames = v->frames,
+                                    .exactly = v->container->counts,
+                                    .sounds = v->sound >= 0};
+    const int file = fileno(v->out.stream);
+    char wrong[150];
+    if (video_read_back(file, &held, wrong, sizeof wrong))
+        return true;
+    const off_t end = lseek(file, 0, SEEK_END);
+    static const uint8_t more[1 << 16];
+    errno = 0;
+    const bool full = end >= 0 && pwrite(file, more, sizeof more, end) != sizeof more && errno;
+    snprintf(said, 200, "%s", full ? output_file_explain(errno) : wrong);
+    return false;
+}
+
 enum display_status video_finish(struct video *v)
 {
     char said[200];
@@ -367,6 +391,8 @@ enum display_status video_finish(struct video *v)
         int error = fclose(v->file) == 0 ? 0 : errno;
         v->file = NULL;
         bool encoded = encoder_end(v, said);
+        if (encoded && !error)
+            encoded = film_is_whole(v, said);
         if (!encoded || error) {
             status = display_fail(DISPLAY_IO_FAILED, "%s: cannot write: %s", v->path,
                                   encoded ? output_file_explain(error) : said);

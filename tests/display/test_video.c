@@ -21,6 +21,11 @@ static void check(enum display_status status)
         fail_msg("status %d: %s", (int)status, display_error());
 }
 
+/* What the script that plays ffmpeg does when the film is read back: a line for each picture. */
+static const char lines_all[] =
+    "/bin/grep -a '^FRAME' /proc/self/fd/3 | /bin/sed 's/.*/0, 0/'; echo '1, 0'";
+static const char *read_back = lines_all;
+
 /* Sets a PATH that holds only this script as ffmpeg (NULL: nothing). Its last argument is the file. */
 static void encoder_put(const char *script)
 {
@@ -33,7 +38,10 @@ static void encoder_put(const char *script)
     if (script) {
         FILE *file = fopen(path, "w");
         assert_non_null(file);
-        fprintf(file, "#!/bin/sh\nfor file; do :; done\n%s\n", script);
+        fprintf(file,
+                "#!/bin/sh\ncase \"$*\" in *framecrc*) %s; exit ;; esac\n"
+                "for file; do :; done\n%s\n",
+                read_back, script);
         fclose(file);
         chmod(path, 0700);
     }
@@ -161,6 +169,36 @@ static void encoders_that_fail_are_reported(void **state)
     assert_non_null(strstr(film_fail("exec /no/such/program"), "ffmpeg"));
 }
 
+/* An encoder that ends well is no proof: a film without its end, its index or its pictures does not take the old one's place. */
+static void films_are_read_back(void **state)
+{
+    (void)state;
+    static const char encodes[] = "exec /bin/cat >\"$file\"";
+    static const struct {
+        const char *read_back, *says;
+    } rows[] = {{"echo '0, 0'", "1 pictures of 20"},
+                {"exit 0", "0 pictures of 20"},
+                {"echo '#tb 0: 1/25'; echo 'moov atom not found' >&2; exit 1", "moov atom"},
+                {"/bin/seq -f '0, %g' 20; echo 'File ended prematurely' >&2", "prematurely"},
+                {"/bin/seq -f '0, %g' 20; exit 3", "cannot be read back"},
+                {"kill -9 $$", "cannot be read back"}};
+    FILE *old = fopen(scratch_path("fails.mp4"), "w");
+    assert_non_null(old);
+    fputs("old", old);
+    fclose(old);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        read_back = rows[i].read_back;
+        const char *said = film_fail(encodes);
+        if (!strstr(said, rows[i].says))
+            fail_msg("%s: %s", rows[i].read_back, said);
+        size_t count;
+        const uint8_t *bytes = file_read(scratch_path("fails.mp4"), &count);
+        assert_true(bytes && count == 3 && memcmp(bytes, "old", 3) == 0);
+    }
+    read_back = lines_all;
+    unlink(scratch_path("fails.mp4"));
+}
+
 static void what_cannot_be_is_refused(void **state)
 {
     (void)state;
@@ -228,6 +266,7 @@ int main(void)
         cmocka_unit_test(without_an_encoder_it_is_a_y4m),
         cmocka_unit_test(an_encoder_gets_all_of_it),
         cmocka_unit_test(encoders_that_fail_are_reported),
+        cmocka_unit_test(films_are_read_back),
         cmocka_unit_test(what_cannot_be_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
