@@ -60,6 +60,10 @@ enum display_status display_png_write_16(const char *path, int width_px, int hei
  * Errors: BAD_FILE, IO_FAILED, NO_MEMORY; *image is then zeros.
  * Owns: the caller destroys *image. */
 enum display_status display_png_read_gray(const char *path, struct display_image *image);
+/* The memory that reading a PNG file takes, by its header alone: the image of 1 or 3 channels, and what it is read by. 0 if the file
+ * is no PNG, which reading it will say. */
+double display_png_bytes(const char *path, int channels);
+
 /* The same as 8-bit red, green, blue. */
 enum display_status display_png_read_rgb(const char *path, struct display_image *image);
 

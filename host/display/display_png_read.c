@@ -5,6 +5,7 @@
 #include "display_internal.h"
 
 #include <input_file.h>
+#include <patience.h>
 
 #include <errno.h>
 #include <png.h>
@@ -99,6 +100,8 @@ static int png_decode(png_structp png, png_infop info, struct png_source *source
     }
     for (int pass = 0; pass < passes; pass++)
         for (size_t y = 0; y < height; y++) {
+            if (patience_over())
+                png_error(png, "it takes too long");
             uint8_t *row = source->rows + (passes > 1 ? y * row_bytes : 0);
             png_read_row(png, row, NULL);
             uint8_t *out = source->image.pixels +
@@ -110,6 +113,26 @@ static int png_decode(png_structp png, png_infop info, struct png_source *source
         }
     png_read_end(png, NULL);
     return 1;
+}
+
+double display_png_bytes(const char *path, int channels)
+{
+    /* signature, then IHDR: length, kind, width, height, depth, colour, compression, filter, interlacing */
+    enum { WIDTH = 16, HEIGHT = 20, DEPTH = 24, INTERLACED = 28, HEADER = 29, PLANES = 4 };
+    uint8_t header[HEADER];
+    FILE *file = input_file_open(path, NULL);
+    const bool read = file && fread(header, 1, sizeof header, file) == sizeof header;
+    if (file)
+        fclose(file);
+    if (!read)
+        return 0;
+    double side[2] = {0, 0};
+    for (int i = 0; i < 4; i++) {
+        side[0] = 256 * side[0] + header[WIDTH + i];
+        side[1] = 256 * side[1] + header[HEIGHT + i];
+    }
+    const double rows = header[INTERLACED] ? side[1] : 4, wide = header[DEPTH] > 8 ? 2 : 1;
+    return side[0] * side[1] * channels + side[0] * rows * PLANES * wide;
 }
 
 static enum display_status read_as(const char *path, int channels, struct display_image *image)

@@ -4,6 +4,7 @@
 #include "display_internal.h"
 
 #include <output_file.h>
+#include <patience.h>
 
 #include <errno.h>
 #include <png.h>
@@ -85,8 +86,11 @@ static int png_encode(struct png_sink *sink, const struct png_source *image)
     if (image->bytes == 2 && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__)
         png_set_swap(png);
     size_t row_bytes = (size_t)image->width_px * (size_t)image->channels * (size_t)image->bytes;
-    for (int y = 0; y < image->height_px; y++)
+    for (int y = 0; y < image->height_px; y++) {
+        if (patience_over())
+            png_error(png, "it takes too long");
         png_write_row(png, image->pixels + (size_t)y * row_bytes);
+    }
     png_write_end(png, info);
     png_destroy_write_struct(&png, &info);
     return 1;

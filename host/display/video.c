@@ -24,7 +24,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { SIDE_MOST = 16384, FPS_MOST = 240 };
+enum { SIDE_MOST = 16384, FPS_MOST = 240, GIF_FPS_MOST = 50 };
 
 /* The endings of names, with ffmpeg's name of the container; NULL: written by us. */
 static const struct container {
@@ -45,7 +45,7 @@ struct video {
     char *path; /* the file's final name */
     struct output_file out;
     const struct container *container;
-    int width, height;
+    int width, height, fps;
     int sound; /* a descriptor of a WAV file; -1: it is silent */
     long frames;
     FILE *file;      /* out's stream, or the pipe to ffmpeg */
@@ -294,6 +294,7 @@ enum display_status video_create_with_sound(const char *path, int width_px, int 
         return display_fail(DISPLAY_NO_MEMORY, "no memory for a video");
     v->width = width_px;
     v->height = height_px;
+    v->fps = fps;
     v->sound = -1;
     enum display_status status = name_make(v, path);
     if (status == DISPLAY_OK && sound >= 0 && v->container->sounds) {
@@ -361,7 +362,7 @@ static bool film_is_whole(const struct video *v, char said[200])
 {
     const struct video_held held = {.format = v->container->format,
                                     .frames = v->frames,
-                                    .exactly = v->container->counts,
+                                    .exactly = v->container->counts || v->fps <= GIF_FPS_MOST,
                                     .sounds = v->sound >= 0};
     const int file = fileno(v->out.stream);
     char wrong[150];

@@ -64,6 +64,14 @@ static void lines_count(FILE *lines, long count[2], char *said, size_t room)
     }
 }
 
+/* A .gif ends with a semicolon. */
+static bool gif_ended(int file)
+{
+    char last = 0;
+    const off_t end = lseek(file, 0, SEEK_END);
+    return end > 0 && pread(file, &last, 1, end - 1) == 1 && last == ';';
+}
+
 bool video_read_back(int file, const struct video_held *held, char *said, size_t room)
 {
     int ends[2], status = 0;
@@ -90,7 +98,7 @@ bool video_read_back(int file, const struct video_held *held, char *said, size_t
             return false;
     if (*said)
         return false;
-    const bool all = held->exactly ? count[0] == held->frames : count[0] > 0;
+    const bool all = held->exactly ? count[0] == held->frames : count[0] > 0 && gif_ended(file);
     if (!lines || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
         snprintf(said, room, "it cannot be read back");
     else if (!all)

@@ -3,6 +3,7 @@
 #include "run.h"
 
 #include <history.h>
+#include <resident.h>
 #include <visible_text.h>
 
 #include <stdio.h>
@@ -149,6 +150,20 @@ static void overdue(void *context)
     _exit(stopped ? EXIT_INTERRUPTED : EXIT_FAILED);
 }
 
+static void overfull(void *context)
+{
+    static const char text[] =
+        "lutetia run: the script took more memory than --memory allows; ended\n";
+    (void)context;
+    ssize_t written = write(STDERR_FILENO, text, sizeof text - 1);
+    (void)written;
+    _exit(EXIT_FAILED);
+}
+
+/* What the compiler of kernels, its threads and PoCL's may take besides: more ends in an error of memory, wherever it is asked
+ * for. */
+#define SYSTEM_MORE_BYTES 2e9
+
 int run_script(struct run *run)
 {
     const struct script_host host = {.context = run,
@@ -160,8 +175,11 @@ int run_script(struct run *run)
                                      .step = step,
                                      .film = camera,
                                      .finish = finish,
-                                     .overdue = overdue};
+                                     .overdue = overdue,
+                                     .overfull = overfull};
     run->config.words = run->words;
+    run->config.patient = run->save || run->film.video || run->film.folder;
+    resident_limit((double)run->config.memory_bytes + SYSTEM_MORE_BYTES);
     enum script_status status = script_run(&run->config, &host);
     return status == SCRIPT_OK       ? EXIT_SUCCESS
            : status == SCRIPT_FAILED ? EXIT_FAILED

@@ -1,6 +1,9 @@
 /* limits.c - a script's limits: time, the host's wish to stop, and memory. */
 #include "script_internal.h"
 
+#include <resident.h>
+
+#include <malloc.h>
 #include <stdio.h>
 
 /* ---- time ---- */
@@ -15,9 +18,31 @@ bool script_due(const struct script *script)
     return script_interrupted(script) || late(script);
 }
 
+/* Collects garbage, which may be what is too much: C's memory is not seen by Lua's collector. */
+static void overfull_check(lua_State *L, int level)
+{
+    struct script *script = script_of(L);
+    if (!atomic_load(&script->watchdog.overfull))
+        return;
+    lua_gc(L, LUA_GCCOLLECT);
+    malloc_trim(0);
+    const double more = script_overfull_bytes(script);
+    atomic_store(&script->watchdog.overfull, false);
+    if (more <= 0)
+        return;
+    luaL_where(L, level);
+    char text[128];
+    snprintf(text, sizeof text, "not enough memory: %.0f MB more than --memory allows (%.0f)",
+             more * 1e-6, (double)script->config->memory_bytes * 1e-6);
+    lua_pushstring(L, text);
+    lua_concat(L, 2);
+    lua_error(L);
+}
+
 void script_stop_if_due(lua_State *L, int level)
 {
     const struct script *script = script_of(L);
+    overfull_check(L, level);
     char text[96];
     if (script_interrupted(script))
         snprintf(text, sizeof text, "interrupted");
@@ -41,7 +66,36 @@ void script_check(lua_State *L)
     script_stop_if_due(L, 1);
 }
 
+static bool impatient(void *context)
+{
+    const struct script *script = context;
+    return atomic_load(&script->watchdog.overfull) || script_due(script);
+}
+
+void script_patience_begin(struct script *script)
+{
+    script->before = patience_set((struct patience){impatient, script});
+}
+
+void script_patience_end(struct script *script)
+{
+    patience_set(script->before);
+}
+
+int script_fail(lua_State *L, const char *text)
+{
+    script_check(L);
+    return luaL_error(L, "%s", text);
+}
+
 /* ---- memory ---- */
+
+double script_overfull_bytes(const struct script *script)
+{
+    const double allowed = (double)script->config->memory_bytes + SCRIPT_BESIDES_BYTES +
+                           (script->papers_made > 0 ? SCRIPT_MACHINE_BYTES : 0);
+    return resident_own_bytes() - script->watchdog.own_before_bytes - allowed;
+}
 
 double script_memory_left(const struct script *script)
 {

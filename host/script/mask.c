@@ -108,7 +108,7 @@ struct script_mask *script_mask_grayed(lua_State *L, int index)
     int x, y;
     if (paper_polygon_screen(shifted->points, shifted->points_count, made->width, made->height,
                              &screen, &x, &y) != PAPER_OK)
-        luaL_error(L, "%s", paper_error());
+        script_fail(L, paper_error());
     for (int row = 0; row < screen.height_px; row++)
         memcpy(made->gray + (size_t)(row + y) * (size_t)made->width + x,
                screen.gray + (size_t)row * (size_t)screen.width_px, (size_t)screen.width_px);
@@ -131,10 +131,12 @@ static const struct script_mask *all_over(lua_State *L, const struct script_mask
                                           int width, int height)
 {
     struct script_mask *made = script_mask_gray_new(L, width, height, 0, 0);
-    for (int y = 0; y < made->height; y++)
+    for (int y = 0; y < made->height; y++) {
+        script_check(L);
         for (int x = 0; x < made->width; x++)
             made->gray[(size_t)y * (size_t)made->width + (size_t)x] =
                 (uint8_t)script_mask_gray_at(mask, x, y);
+    }
     return made;
 }
 
@@ -164,7 +166,7 @@ bool script_mask_screen_quietly(lua_State *L, int index, int width, int height,
     struct script_mask *kept = script_mask_new(L); /* takes over the gray values */
     if (paper_polygon_screen(mask->points, mask->points_count, width, height, screen, x, y) !=
         PAPER_OK)
-        luaL_error(L, "%s", paper_error());
+        script_fail(L, paper_error());
     kept->gray = screen->gray;
     if (!screen->gray)
         return false;
@@ -447,7 +449,7 @@ int script_mask_text_push(lua_State *L, int index)
     enum paper_status status = paper_line_screen(&line, &screen, NULL);
     script_memory_release(L, hold);
     if (status != PAPER_OK)
-        luaL_error(L, "%s", paper_error());
+        script_fail(L, paper_error());
     mask->bytes = (double)screen.width_px * screen.height_px;
     script->memory_bytes += (size_t)mask->bytes; /* within pixels_max */
     mask->gray = screen.gray;
@@ -512,18 +514,22 @@ static int make_image(lua_State *L)
     const char *path = script_path(L, script_of(L)->config->in_folder, name, "image");
     struct script_mask *mask = script_mask_new(L);
     struct display_image image;
+    script_memory_hold(L, display_png_bytes(path, 1), "an image");
+    const int hold = lua_gettop(L);
     if (display_png_read_gray(path, &image) != DISPLAY_OK)
-        luaL_error(L, "%s", display_error());
+        script_fail(L, display_error());
     mask->gray = image.pixels;
     mask->width = image.width_px;
     mask->height = image.height_px;
     mask->x = (int)x;
     mask->y = (int)y;
     size_t count = (size_t)mask->width * (size_t)mask->height;
+    script_memory_release(L, hold);
     for (size_t i = 0; i < count; i++)
         mask->gray[i] = (uint8_t)(255 - mask->gray[i]);
     script_memory_take(L, (double)count, "an image");
     mask->bytes = (double)count;
+    lua_settop(L, hold - 1);
     return 1;
 }
 

@@ -37,7 +37,8 @@ static int transformed(lua_State *L, const double m[6])
     }
     struct script_mask *made = script_mask_gray_new(L, x2 - x1, y2 - y1, x1, y1);
     made->outside = mask->outside;
-    for (int row = 0; row < made->height; row++)
+    for (int row = 0; row < made->height; row++) {
+        script_check(L);
         for (int column = 0; column < made->width; column++) {
             double px = column + made->x + 0.5 - m[2], py = row + made->y + 0.5 - m[5];
             double x = (m[4] * px - m[1] * py) / det - mask->x - 0.5;
@@ -51,6 +52,7 @@ static int transformed(lua_State *L, const double m[6])
             made->gray[(size_t)row * (size_t)made->width + (size_t)column] =
                 (uint8_t)lround(sum);
         }
+    }
     return 1;
 }
 
@@ -103,8 +105,11 @@ static int mask_count(lua_State *L, char operation)
     struct script_mask *made =
         script_mask_gray_new(L, mask->width, mask->height, mask->x, mask->y);
     made->outside = table[mask->outside];
-    for (size_t i = 0; made->gray && i < (size_t)made->width * (size_t)made->height; i++)
+    for (size_t i = 0; made->gray && i < (size_t)made->width * (size_t)made->height; i++) {
+        if (i % 65536 == 0)
+            script_check(L);
         made->gray[i] = table[mask->gray[i]];
+    }
     script_mask_drawn_join(made, mask, NULL, 0);
     if (made->drawn.count > 0)
         paper_drawing_number(&made->drawn, operation, number, first);
@@ -145,13 +150,15 @@ static int mask_join(lua_State *L, char operation)
     }
     struct script_mask *made = script_mask_gray_new(L, x2 - x1, y2 - y1, x1, y1);
     made->outside = (uint8_t)paper_gray_join(operation, a->outside, b->outside);
-    for (int y = y1; y < y2 && made->gray; y++)
+    for (int y = y1; y < y2 && made->gray; y++) {
+        script_check(L);
         for (int x = x1; x < x2; x++) {
             int value = paper_gray_join(operation, script_mask_gray_at(a, x, y),
                                         script_mask_gray_at(b, x, y));
             made->gray[(size_t)(y - y1) * (size_t)made->width + (size_t)(x - x1)] =
                 (uint8_t)value;
         }
+    }
     script_mask_drawn_join(made, a, b, operation);
     return 1;
 }
@@ -209,12 +216,15 @@ static int mask_soften(lua_State *L)
     uint8_t *scratch = lua_newuserdatauv(
         L, (size_t)(made->width > made->height ? made->width : made->height), 0);
     for (int pass = 0; pass < 3; pass++) {
-        for (int y = 0; y < made->height; y++)
+        for (int y = 0; y < made->height; y++) {
+            script_check(L);
             box_pass(made->gray + (size_t)y * width, scratch, made->width, 1, box,
                      made->outside);
-        for (int x = 0; x < made->width; x++)
+        }
+        for (int x = 0; x < made->width; x++) {
+            script_check(L);
             box_pass(made->gray + x, scratch, made->height, width, box, made->outside);
-        script_check(L);
+        }
     }
     lua_pop(L, 1);
     return 1;

@@ -161,7 +161,7 @@ static int make_page(lua_State *L)
     font_simd_plain_here(false);
     script_memory_release(L, hold);
     if (status != FONT_OK)
-        luaL_error(L, "%s", font_error());
+        script_fail(L, font_error());
     lua_pushinteger(L, pages);
     script_check(L);
     return 2;

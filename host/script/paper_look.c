@@ -217,7 +217,7 @@ static void frame_write(lua_State *L, const char *path, int width, int height, i
                                                                  .pixels = bytes});
     }
     if (status != DISPLAY_OK)
-        luaL_error(L, "%s", display_error());
+        script_fail(L, display_error());
 }
 
 /* paper:frame("name.png" [, {show=, layer=, pigment=, low=, high=, bits=, light=, scale=, ground=}]) */

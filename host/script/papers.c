@@ -12,7 +12,7 @@ void script_paper_check(lua_State *L, enum paper_status status)
 {
     if (status != PAPER_OK) {
         script_check(L); /* after Ctrl-C, that is the reason of the failure */
-        luaL_error(L, "%s", paper_error());
+        script_fail(L, paper_error());
     }
 }
 
@@ -42,10 +42,13 @@ struct script_paper *script_paper_new(lua_State *L)
     return paper;
 }
 
+/* What a paper of any size takes besides: the machine's arrays are not smaller than some pages. */
+enum { BESIDES_BYTES = 512 << 10 };
+
 void script_paper_room_take(lua_State *L, struct script_paper *paper, double width,
                             double height, int pigments)
 {
-    double bytes = paper_sheet_bytes(width, height, pigments);
+    double bytes = paper_sheet_bytes(width, height, pigments) + BESIDES_BYTES;
     double there = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
     if (bytes > there) {
         char text[128];

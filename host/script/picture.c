@@ -59,11 +59,15 @@ static int make_picture(lua_State *L)
         struct display_image image;
         *read = (struct script_picture){.script = script_of(L)};
         luaL_setmetatable(L, script_picture_type);
+        script_memory_hold(L, display_png_bytes(path, 3), "a picture");
+        const int hold = lua_gettop(L);
         if (display_png_read_rgb(path, &image) != DISPLAY_OK)
-            luaL_error(L, "%s", display_error());
+            script_fail(L, display_error());
         read->rgb = image.pixels;
         read->width = image.width_px;
         read->height = image.height_px;
+        script_memory_release(L, hold);
+        lua_settop(L, hold - 1);
         double bytes = 3.0 * read->width * read->height;
         script_memory_take(L, bytes, "a picture");
         read->bytes = bytes;

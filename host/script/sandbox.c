@@ -76,10 +76,9 @@ static void hook(lua_State *L, lua_Debug *event)
     struct script *script = script_of(L);
     script_at_work(script, false); /* the hook runs only in Lua code, not during a paper's
                                     * work */
-    if (script_due(script)) {
+    if (script_due(script))
         lua_sethook(L, hook, LUA_MASKCOUNT, 1);
-        script_stop_if_due(L, 0);
-    }
+    script_stop_if_due(L, 0);
 }
 
 void script_hook_set(lua_State *L)

@@ -16,7 +16,7 @@ struct script_config script_config_default(const char *path)
                                   .in_folder = ".",
                                   .out_folder = ".",
                                   .timeout_s = 600,
-                                  .grace_s = 3,
+                                  .grace_s = 1,
                                   .memory_bytes = (size_t)4 << 30,
                                   .seed = 1990};
 }
@@ -163,7 +163,9 @@ enum script_status script_run(const struct script_config *config,
         lua_close(L);
         return SCRIPT_FAILED;
     }
+    script_patience_begin(self);
     enum script_status status = perform(self, L);
+    script_patience_end(self);
     script_watchdog_pause(self, true);
     status = finish(self, status);
     script_watchdog_pause(self, false);

@@ -37,17 +37,18 @@ struct script_config {
     const char *out_folder; /* for files that it writes */
     bool trusted;           /* no sandbox: Lua's whole library, and any file names */
     double timeout_s;       /* 0: any */
-    double grace_s;      /* seconds between the time at which the script should have stopped and
-                  * overdue(); 30 times that while papers are at work */
-    int papers_max;      /* the most papers open at a time; 0: any number */
-    size_t memory_bytes; /* the most memory of papers, masks and Lua together */
-    uint64_t seed;       /* for papers and math.random */
+    bool patient;   /* what papers at work are doing is worth waiting for: it will be saved */
+    double grace_s; /* seconds between the time at which the script should have stopped and
+                  * overdue(); 30 times that while papers are at work and it is patient */
+    int papers_max; /* the most papers open at a time; 0: any number */
+    size_t memory_bytes;         /* the most memory of papers, masks and Lua together */
+    uint64_t seed;               /* for papers and math.random */
     const char *const *words;    /* key=value, for param(); of equal keys the last one counts */
     int words_count;             /* up to SCRIPT_WORDS_MAX */
     struct paper_state *resumed; /* papers that were saved by the same script; NULL: none */
 };
 
-/* Defaults: files in the current folder, 600 s and 3 s of grace, 4 GiB, seed 1990. */
+/* Defaults: files in the current folder, 600 s and 1 s of grace, 4 GiB, seed 1990. */
 struct script_config script_config_default(const char *path);
 
 /* Work that takes many steps. `total` is what is known at the moment. */
@@ -86,6 +87,9 @@ struct script_host {
      * can be saved. Returns the run's status. */
     enum script_status (*finish)(void *context, const struct paper_state_sheet *papers,
                                  int count, enum script_status status);
+    /* Called when the process takes more memory than the script may and does not stop taking: the host should end it. Called by the
+     * separate thread; there is none if overdue is NULL. */
+    void (*overfull)(void *context);
     /* Called when the script should have stopped seconds ago and has not: the host should
      * end the process. Called by a separate thread, which also calls interrupted(). If
      * overdue is NULL there is no such thread. */

@@ -14,6 +14,7 @@
 #include <lauxlib.h>
 #include <lua.h>
 #include <members.h>
+#include <patience.h>
 
 #include <pthread.h>
 #include <stdatomic.h>
@@ -29,9 +30,12 @@ struct script_watchdog {
     pthread_mutex_t lock;
     pthread_cond_t changed;
     bool running, over, paused; /* under the lock */
+    double own_before_bytes;    /* what the process took when the script began */
     double grace_from_s;        /* under the lock: the grace period begins at this time at
                                  * the earliest */
     atomic_bool at_work;
+    atomic_bool
+        overfull; /* the process takes more than the script may; looked at by the script */
 };
 
 struct script {
@@ -40,6 +44,7 @@ struct script {
     double began_s, deadline_s; /* by script_clock_s(); deadline 0: none */
     size_t memory_bytes;        /* taken */
     bool memory_short;          /* an allocation of Lua's was refused */
+    struct patience before;     /* of the thread, before the script (limits.c) */
     bool
         answers; /* it is asked again and again, and each answer has its own time (script_map.h) */
     const char *stack_begin; /* where the C stack was when the script began; NULL: not known */
@@ -64,7 +69,12 @@ double script_clock_s(void);
 
 /* Whether time is up, or the host wants the script to stop. */
 bool script_due(const struct script *script);
-/* If so, raises an error, located at level 0, the function that runs, or 1, its caller. */
+/* Libraries that the script calls ask the script's limits from here on (patience.h), until the end. */
+void script_patience_begin(struct script *script);
+void script_patience_end(struct script *script);
+/* Raises the error of a library that has failed, or what made it give up. */
+int script_fail(lua_State *L, const char *text);
+/* If it is due, or the process takes too much memory, raises an error, located at level 0, the function that runs, or 1, its caller. */
 void script_stop_if_due(lua_State *L, int level);
 void script_check(lua_State *L); /* level 1 */
 /* Counts memory that is not Lua's. If there is not enough, raises an error and counts
@@ -77,6 +87,13 @@ void script_memory_release(lua_State *L, int index);
 void script_limits_open(lua_State *L);
 /* The memory that may still be allocated. */
 double script_memory_left(const struct script *script);
+
+/* What the process takes besides what is counted: C's libraries, what is freed and not given back; and, where there are
+ * papers, the machine and the compiler of kernels. */
+#define SCRIPT_BESIDES_BYTES ((double)(48 << 20))
+#define SCRIPT_MACHINE_BYTES ((double)(192 << 20))
+/* How much more than that and the script's memory the process takes; negative: it takes less. */
+double script_overfull_bytes(const struct script *script);
 
 /* Starts the watchdog: if the script goes on for some seconds after it should have stopped,
  * the host's overdue() is called. Does nothing if the host has no such function. False: no

@@ -26,7 +26,8 @@ struct script_network {
     struct dyn_clamps *clamps;    /* NULL: no keys */
     int words_count, fonts_count;
     bool collide;
-    double bytes, keys_bytes;
+    double bytes, keys_bytes; /* taken; of bytes, for fonts and what draws letters: */
+    double besides_bytes;
 };
 
 /* Pushes one with an empty network. */
@@ -36,6 +37,9 @@ struct script_network *script_network_at(lua_State *L, int index);
 int script_network_mass_at(lua_State *L, const struct script_network *s, int index);
 /* Raises an error with the library's message, if there is one. */
 void script_dyn_check(lua_State *L, enum dyn_status status);
+/* Take memory before a font is opened, and before letters are drawn. */
+void script_network_font_take(lua_State *L, struct script_network *s);
+void script_network_painter_take(lua_State *L, struct script_network *s);
 /* Counts the memory that the network has allocated since. */
 void script_network_count(lua_State *L, struct script_network *s);
 /* Pops a control's value: a number, a text or a boolean. */

@@ -4,7 +4,11 @@
 #include <midi_message.h>
 #include <midi_song.h>
 
+#include <sys/stat.h>
+
 enum { EVENT_BYTES = 400 /* of a message as a table */ };
+/* Bytes of a song for each of its file's: the shortest event has two, and its place in the song and in its order has 64. */
+#define FILE_FACTOR 33.0
 
 /* ---- messages ---- */
 
@@ -77,8 +81,12 @@ static int song(lua_State *L)
     const char *path =
         script_path(L, script_of(L)->config->in_folder, luaL_checkstring(L, 1), "song");
     struct midi_song **box = song_box(L);
+    struct stat status;
+    script_memory_hold(L, stat(path, &status) == 0 ? FILE_FACTOR * (double)status.st_size : 0,
+                       "a song");
+    const int hold = lua_gettop(L);
     if (midi_song_read(path, box) != MIDI_OK)
-        luaL_error(L, "%s", midi_error());
+        script_fail(L, midi_error());
     const struct midi_song_info info = midi_song_info(*box);
     if ((double)info.events_count * EVENT_BYTES > script_memory_left(script_of(L)))
         luaL_error(L, "not enough memory for a song of %d events", (int)info.events_count);
@@ -91,6 +99,8 @@ static int song(lua_State *L)
         const bool two = midi_row_of(e.bytes[0])->data_count > 1;
         const struct midi_message m =
             midi_message_make(e.time_ns, e.bytes[0], e.bytes[1], two ? e.bytes[2] : 0);
+        if (i % 1024 == 0)
+            script_check(L);
         script_midi_push(L, &m);
         lua_rawseti(L, -2, ++count);
     }
@@ -98,6 +108,7 @@ static int song(lua_State *L)
     lua_setfield(L, -2, "seconds");
     midi_song_destroy(*box);
     *box = NULL;
+    script_memory_release(L, hold);
     return 1;
 }
 

@@ -16,13 +16,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Bytes for each mass and spring, with their copies for steps. */
-enum { MASS_BYTES = 300, SPRING_BYTES = 200, STEPS_MOST = 1000000 };
+/* Bytes for each mass and spring, with their copies for steps; for a network, a font as it is open, and what
+ * draws letters. */
+enum {
+    MASS_BYTES = 300,
+    SPRING_BYTES = 200,
+    NETWORK_BYTES = 4096,
+    FONT_BYTES = 900000,
+    PAINTER_BYTES = 160000,
+    STEPS_MOST = 1000000
+};
 
 void script_dyn_check(lua_State *L, enum dyn_status status)
 {
     if (status != DYN_OK)
-        luaL_error(L, "%s", dyn_error());
+        script_fail(L, dyn_error());
 }
 
 static int network_gc(lua_State *L)
@@ -47,6 +55,8 @@ struct script_network *script_network_new(lua_State *L)
     struct script_network *s = lua_newuserdatauv(L, sizeof *s, 1);
     *s = (struct script_network){.script = script_of(L)};
     luaL_setmetatable(L, script_network_type);
+    script_memory_take(L, NETWORK_BYTES, "a network");
+    s->bytes = NETWORK_BYTES;
     script_dyn_check(L, dyn_network_create(&s->network));
     return s;
 }
@@ -59,9 +69,27 @@ struct script_network *script_network_at(lua_State *L, int index)
     return s;
 }
 
+static void more_take(lua_State *L, struct script_network *s, double bytes, const char *what)
+{
+    script_memory_take(L, bytes, what);
+    s->bytes += bytes;
+    s->besides_bytes += bytes;
+}
+
+void script_network_font_take(lua_State *L, struct script_network *s)
+{
+    more_take(L, s, FONT_BYTES, "a font");
+}
+
+void script_network_painter_take(lua_State *L, struct script_network *s)
+{
+    more_take(L, s, PAINTER_BYTES, "letters");
+}
+
 void script_network_count(lua_State *L, struct script_network *s)
 {
-    double bytes = (double)MASS_BYTES * dyn_masses_count(s->network) +
+    double bytes = NETWORK_BYTES + s->besides_bytes +
+                   (double)MASS_BYTES * dyn_masses_count(s->network) +
                    (double)SPRING_BYTES * dyn_springs_count(s->network);
     if (bytes > s->bytes)
         script_memory_take(L, bytes - s->bytes, "a network");
@@ -123,7 +151,7 @@ void script_network_set(lua_State *L, struct script_network *s, const char *name
     const struct dyn_control *of_style = style_find(name);
     const struct dyn_control *control = of_style ? of_style : dyn_control_find(name);
     if (!control)
-        luaL_error(L, "%s", dyn_error());
+        script_fail(L, dyn_error());
     lua_pushvalue(L, index);
     double value = script_control_pop(L, control);
     if (!of_style) {
@@ -318,7 +346,7 @@ static int network_get(lua_State *L)
     const struct script_network *s = script_network_at(L, 1);
     const struct dyn_control *control = dyn_control_find(luaL_checkstring(L, 2));
     if (!control)
-        luaL_error(L, "%s", dyn_error());
+        script_fail(L, dyn_error());
     lua_pushnumber(L, dyn_control_read(control, dyn_network_world(s->network)));
     return 1;
 }
@@ -331,7 +359,7 @@ static int network_set_mass(lua_State *L)
     int index = lua_isnil(L, 2) ? DYN_ALL : script_network_mass_at(L, s, 2);
     const struct dyn_control *field = dyn_mass_field_find(luaL_checkstring(L, 3));
     if (!field)
-        luaL_error(L, "%s", dyn_error());
+        script_fail(L, dyn_error());
     script_dyn_check(L, dyn_mass_write(s->network, index, field, script_control_pop(L, field)));
     return 0;
 }
@@ -343,7 +371,7 @@ static int network_set_spring(lua_State *L)
     int index = lua_isnil(L, 2) ? DYN_ALL : spring_at(L, s, 2);
     const struct dyn_control *field = dyn_spring_field_find(luaL_checkstring(L, 3));
     if (!field)
-        luaL_error(L, "%s", dyn_error());
+        script_fail(L, dyn_error());
     script_dyn_check(L,
                      dyn_spring_write(s->network, index, field, script_control_pop(L, field)));
     return 0;

@@ -37,11 +37,12 @@ static struct font_shaper *shaper_of(lua_State *L, struct script_network *s, con
                    SCRIPT_FONTS_OF_NETWORK);
     if (strchr(name, '/') && !script_of(L)->config->trusted)
         luaL_error(L, "word font must be a font's name, not a file (got '%s')", name);
+    script_network_font_take(L, s);
     if (font_face_open(name, 0, &font->face) != FONT_OK)
-        luaL_error(L, "%s", font_error());
+        script_fail(L, font_error());
     if (font_shaper_create(font->face, &font->shaper) != FONT_OK) {
         font_face_close(font->face);
-        luaL_error(L, "%s", font_error());
+        script_fail(L, font_error());
     }
     strcpy(font->name, name);
     s->fonts_count++;
@@ -251,7 +252,7 @@ static bool letter_draw(lua_State *L, struct script_network *s, const struct dyn
     enum font_status status =
         font_painter_glyph(s->painter, l->face, l->glyph, px, &map, 0, 0, gray);
     if (status == FONT_NO_MEMORY)
-        luaL_error(L, "%s", font_error());
+        script_fail(L, font_error());
     return status == FONT_OK && (*gray)->width_px > 0;
 }
 
@@ -303,8 +304,10 @@ static int network_mask(lua_State *L)
         script_arg_number(L, 2, "mask", "y", 0, -SCRIPT_PLACE_MAX, SCRIPT_PLACE_MAX)};
     struct font_box box = {INFINITY, INFINITY, -INFINITY, -INFINITY}, again = box;
     struct font_painter_def def = font_painter_def_default();
+    if (!s->painter)
+        script_network_painter_take(L, s);
     if (!s->painter && font_painter_create(&def, &s->painter) != FONT_OK)
-        luaL_error(L, "%s", font_error());
+        script_fail(L, font_error());
     letters_go(L, s, &view, &box, NULL);
     if (!(box.x1 > box.x0)) {
         script_mask_new(L); /* no letter is visible */

@@ -8,12 +8,16 @@
  */
 #include "script_internal.h"
 
+#include <resident.h>
+
 #include <time.h>
 
-#define LOOK_S 0.25
+#define LOOK_S 0.02 /* a process takes some 20 MB in that time */
 #define PATIENCE                                                                               \
-    30 /* the factor of the grace period while papers are at work: kernels may have to be
+    30 /* the factor of the grace period while papers are at work that would be lost: kernels may have to be
         * compiled */
+#define OVERFULL_MORE_BYTES                                                                    \
+    ((double)(12 << 20)) /* what is over is told; so much more is ended */
 
 /* Whether the script should have stopped, and since when this is known. */
 static bool overdue(struct script *script, double *since_s)
@@ -28,7 +32,8 @@ static bool overdue(struct script *script, double *since_s)
         *since_s = script_interrupted(script) ? now : script->deadline_s;
     if (*since_s < w->grace_from_s)
         *since_s = w->grace_from_s;
-    double grace_s = script->config->grace_s * (atomic_load(&w->at_work) ? PATIENCE : 1);
+    double grace_s = script->config->grace_s *
+                     (atomic_load(&w->at_work) && script->config->patient ? PATIENCE : 1);
     return now - *since_s > grace_s;
 }
 
@@ -45,7 +50,14 @@ static void *watch(void *context)
         until.tv_sec += until.tv_nsec / 1000000000;
         until.tv_nsec %= 1000000000;
         pthread_cond_timedwait(&w->changed, &w->lock, &until);
-        if (!w->over && !w->paused && overdue(script, &since_s))
+        if (w->over || w->paused)
+            continue;
+        const double more = script_overfull_bytes(script);
+        if (more > 0)
+            atomic_store(&w->overfull, true);
+        if (more > OVERFULL_MORE_BYTES && script->host->overfull)
+            script->host->overfull(script->host->context);
+        if (overdue(script, &since_s))
             script->host->overdue(script->host->context);
     }
     pthread_mutex_unlock(&w->lock);
@@ -55,6 +67,7 @@ static void *watch(void *context)
 bool script_watchdog_start(struct script *script)
 {
     struct script_watchdog *w = &script->watchdog;
+    w->own_before_bytes = resident_own_bytes();
     if (!script->host->overdue)
         return true;
     pthread_condattr_t attributes;

@@ -23,7 +23,7 @@ static void check(enum display_status status)
 
 /* What the script that plays ffmpeg does when the film is read back: a line for each picture. */
 static const char lines_all[] =
-    "/bin/grep -a '^FRAME' /proc/self/fd/3 | /bin/sed 's/.*/0, 0/'; echo '1, 0'";
+    "/bin/grep -ao FRAME /proc/self/fd/3 | /bin/sed 's/.*/0, 0/'; echo '1, 0'";
 static const char *read_back = lines_all;
 
 /* Sets a PATH that holds only this script as ffmpeg (NULL: nothing). Its last argument is the file. */

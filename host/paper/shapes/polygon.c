@@ -8,6 +8,8 @@
 
 #include "base/base.h"
 
+#include <patience.h>
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -64,12 +66,14 @@ static enum paper_status polygon_fill(const double *points, int count, int left,
     screen->gray = malloc(width * (size_t)screen->height_px);
     enum paper_status status = PAPER_OK;
     if (!crossings || !cover || !screen->gray) {
-        free(screen->gray);
-        screen->gray = NULL;
         status = paper_fail(PAPER_NO_MEMORY, "no memory for a shape of %dx%d", screen->width_px,
                             screen->height_px);
     }
     for (int row = 0; row < screen->height_px && status == PAPER_OK; row++) {
+        if (patience_over()) {
+            status = paper_fail(PAPER_MACHINE_FAILED, "stopped");
+            break;
+        }
         for (size_t x = 0; x < width; x++)
             cover[x] = 0;
         for (int sub = 0; sub < SUBROWS; sub++) {
@@ -84,6 +88,10 @@ static enum paper_status polygon_fill(const double *points, int count, int left,
     }
     free(crossings);
     free(cover);
+    if (status != PAPER_OK) {
+        free(screen->gray);
+        screen->gray = NULL;
+    }
     return status;
 }
 

@@ -4,11 +4,13 @@
 
 #include "base/base.h"
 
+#include <patience.h>
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { GRID = 33, STEPS_MAX = 40, N = PAPER_PIGMENTS_MAX };
+enum { GRID = 33, STEPS_MAX = 40, PIXELS_ASK = 256, N = PAPER_PIGMENTS_MAX };
 #define Q_LEAST 2e-3 /* as in model/view.c */
 
 struct paper_separation paper_separation_of(const struct paper_sheet_config *config)
@@ -248,8 +250,11 @@ enum paper_status paper_separate(const struct paper_separation *s, const uint8_t
                       .known = calloc(points, 1)};
     enum paper_status status = PAPER_OK;
     if (t.amount && t.known)
-        for (size_t i = 0; i < pixels; i++)
+        for (size_t i = 0; i < pixels && status == PAPER_OK; i++) {
             pixel_separate(&t, rgb + 3 * i, i, amount);
+            if (i % PIXELS_ASK == 0 && patience_over())
+                status = paper_fail(PAPER_MACHINE_FAILED, "stopped");
+        }
     else
         status = paper_fail(PAPER_NO_MEMORY, "no memory to separate colours");
     free(t.amount);
