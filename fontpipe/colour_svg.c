@@ -66,17 +66,9 @@ bool font_colour_svg_drawn(void)
 
 static hb_blob_t *document_of(struct font_face *face, uint32_t glyph)
 {
-    FT_Face ft = font_face_freetype(face);
-    size_t count;
-    if (!FT_HAS_SVG(ft))
+    if (!FT_HAS_SVG(font_face_freetype(face)))
         return NULL;
-    const char *bytes = font_face_bytes(face, &count);
-    hb_blob_t *whole =
-        hb_blob_create(bytes, (unsigned)count, HB_MEMORY_MODE_READONLY, NULL, NULL);
-    hb_face_t *hb = hb_face_create(whole, (unsigned)(ft->face_index & 0xffff));
-    hb_blob_t *document = hb_ot_color_glyph_reference_svg(hb, glyph);
-    hb_face_destroy(hb);
-    hb_blob_destroy(whole);
+    hb_blob_t *document = hb_ot_color_glyph_reference_svg(font_face_harfbuzz(face), glyph);
     if (hb_blob_get_length(document))
         return document;
     hb_blob_destroy(document);

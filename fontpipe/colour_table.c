@@ -3,21 +3,10 @@
 
 #include <math.h>
 
-#include <ft2build.h>
-#include FT_FREETYPE_H
-
 hb_blob_t *font_colour_table(struct font_face *face, const char tag[5])
 {
-    size_t count;
-    const char *bytes = font_face_bytes(face, &count);
-    hb_blob_t *whole =
-        hb_blob_create(bytes, (unsigned)count, HB_MEMORY_MODE_READONLY, NULL, NULL);
-    hb_face_t *hb =
-        hb_face_create(whole, (unsigned)(font_face_freetype(face)->face_index & 0xffff));
-    hb_blob_t *table = hb_face_reference_table(hb, HB_TAG(tag[0], tag[1], tag[2], tag[3]));
-    hb_face_destroy(hb);
-    hb_blob_destroy(whole);
-    return table;
+    return hb_face_reference_table(font_face_harfbuzz(face),
+                                   HB_TAG(tag[0], tag[1], tag[2], tag[3]));
 }
 
 struct font_colr font_colour_colr(hb_blob_t *table)

@@ -1,6 +1,5 @@
 /* face.c - see face.h. Files are read whole: FreeType and HarfBuzz look at the same bytes. */
-#include "face.h"
-#include "internal.h"
+#include "face_internal.h"
 
 #include <input_file.h>
 
@@ -15,38 +14,15 @@
 #include <ft2build.h>
 #include FT_FREETYPE_H
 #include FT_FONT_FORMATS_H
-#include FT_MULTIPLE_MASTERS_H
-#include FT_OUTLINE_H
 #include FT_TRUETYPE_TABLES_H
 
 #include <fontconfig/fcfreetype.h> /* after both */
 
-enum { FILE_BYTES_MAX = 1 << 29, AXES_MAX = 64, SETTINGS_KEPT = 64 };
-
-/* How the axes were set before: with the version that it had. */
-struct setting {
-    FT_Fixed values[AXES_MAX];
-    uint64_t version;
-};
-
-struct font_face {
-    FT_Library library;
-    FT_Face ft;
-    FT_MM_Var *axes;
-    FT_Fixed values[AXES_MAX];
-    int axes_count;
-    unsigned char *bytes;
-    size_t bytes_count;
-    char *path;
-    uint64_t version;
-    struct setting *settings; /* the last SETTINGS_KEPT, around; NULL until one is set */
-    int settings_count, settings_next;
-};
+enum { FILE_BYTES_MAX = 1 << 29 };
 
 static _Atomic uint64_t versions;
 
-static enum font_status face_fail(const struct font_face *face, const char *what,
-                                  FT_Error error)
+enum font_status font_face_fail(const struct font_face *face, const char *what, int error)
 {
     const char *reason = FT_Error_String(error);
     char number[32];
@@ -63,7 +39,8 @@ static enum font_status axes_read(struct font_face *face)
 {
     if (!FT_HAS_MULTIPLE_MASTERS(face->ft) || FT_Get_MM_Var(face->ft, &face->axes))
         return FONT_OK; /* no axes, or none that can be read: the font as it is */
-    face->axes_count = face->axes->num_axis > AXES_MAX ? AXES_MAX : (int)face->axes->num_axis;
+    face->axes_count =
+        face->axes->num_axis > FACE_AXES_MAX ? FACE_AXES_MAX : (int)face->axes->num_axis;
     for (int i = 0; i < face->axes_count; i++)
         face->values[i] = face->axes->axis[i].def;
     return FONT_OK;
@@ -107,7 +84,7 @@ static enum font_status face_begin(char *path, unsigned char *bytes, size_t coun
     if (index < 0 || FT_ERROR_BASE(error) == FT_Err_Invalid_Argument) {
         status = font_fail(FONT_BAD_ARGUMENT, "%s has no face %d", path, index);
     } else if (error) {
-        status = face_fail(face, "not a font that can be read", error);
+        status = font_face_fail(face, "not a font that can be read", error);
     } else if (!(FT_IS_SCALABLE(face->ft) || (pictures && has_pictures(face->ft))) ||
                face->ft->units_per_EM == 0) {
         status = font_fail(FONT_BAD_FILE, "%s has no outlines, only bitmaps", path);
@@ -210,6 +187,7 @@ void font_face_close(struct font_face *face)
 {
     if (!face)
         return;
+    font_face_harfbuzz_finish(face);
     if (face->axes)
         FT_Done_MM_Var(face->library, face->axes);
     if (face->ft)
@@ -282,107 +260,7 @@ uint32_t font_face_glyph(const struct font_face *face, uint32_t character)
     return FT_Get_Char_Index(face->ft, character);
 }
 
-/* ---- outlines ---- */
-
-struct take {
-    struct font_outline *outline;
-    enum font_status status;
-};
-
-static int take_move(const FT_Vector *to, void *context)
-{
-    struct take *t = context;
-    t->status = font_outline_move(t->outline, (double)to->x, (double)to->y);
-    return t->status != FONT_OK;
-}
-
-static int take_line(const FT_Vector *to, void *context)
-{
-    struct take *t = context;
-    t->status = font_outline_line(t->outline, (double)to->x, (double)to->y);
-    return t->status != FONT_OK;
-}
-
-static int take_quad(const FT_Vector *c, const FT_Vector *to, void *context)
-{
-    struct take *t = context;
-    t->status =
-        font_outline_quad(t->outline, (double)c->x, (double)c->y, (double)to->x, (double)to->y);
-    return t->status != FONT_OK;
-}
-
-static int take_cubic(const FT_Vector *c0, const FT_Vector *c1, const FT_Vector *to,
-                      void *context)
-{
-    struct take *t = context;
-    t->status = font_outline_cubic(t->outline, (double)c0->x, (double)c0->y, (double)c1->x,
-                                   (double)c1->y, (double)to->x, (double)to->y);
-    return t->status != FONT_OK;
-}
-
-/* Loads the glyph into FreeType's slot, in the font's units. */
-static enum font_status glyph_load(struct font_face *face, uint32_t glyph)
-{
-    if (glyph >= (uint32_t)face->ft->num_glyphs)
-        return font_fail(FONT_NO_GLYPH, "%s has no glyph %u", face->path, (unsigned)glyph);
-    FT_Error error = FT_Load_Glyph(face->ft, glyph,
-                                   FT_LOAD_NO_SCALE | FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP |
-                                       FT_LOAD_IGNORE_TRANSFORM);
-    if (error)
-        return face_fail(face, "a glyph cannot be read", error);
-    return FONT_OK;
-}
-
-enum font_status font_face_outline_raw(struct font_face *face, uint32_t glyph,
-                                       struct font_outline *out)
-{
-    static const FT_Outline_Funcs funcs = {take_move, take_line, take_quad, take_cubic, 0, 0};
-    *out = (struct font_outline){0};
-    enum font_status status = glyph_load(face, glyph);
-    if (status != FONT_OK)
-        return status;
-    FT_GlyphSlot slot = face->ft->glyph;
-    if (slot->format != FT_GLYPH_FORMAT_OUTLINE)
-        return font_fail(FONT_NO_GLYPH, "%s: glyph %u has no outline", face->path,
-                         (unsigned)glyph);
-    struct take take = {out, FONT_OK};
-    if (!array_reserve(&out->segments, &out->segments_capacity,
-                       slot->outline.n_points + slot->outline.n_contours,
-                       sizeof *out->segments))
-        return font_fail(FONT_NO_MEMORY, "no memory for an outline");
-    FT_Error error = FT_Outline_Decompose(&slot->outline, &funcs, &take);
-    if (take.status == FONT_OK && error)
-        take.status = face_fail(face, "a glyph's outline is damaged", error);
-    if (take.status == FONT_OK)
-        take.status = font_outline_close(out);
-    out->units_per_em = face->ft->units_per_EM;
-    out->advance = (double)slot->advance.x;
-    if (take.status != FONT_OK)
-        font_outline_finish(out);
-    return take.status;
-}
-
-enum font_status font_face_outline(struct font_face *face, uint32_t glyph,
-                                   struct font_outline *out)
-{
-    enum font_status status = font_face_outline_raw(face, glyph, out);
-    if (status == FONT_OK)
-        status = font_outline_prepare(
-            out, face->ft->glyph->outline.flags & FT_OUTLINE_EVEN_ODD_FILL ? FONT_EVEN_ODD
-                                                                           : FONT_NONZERO);
-    if (status != FONT_OK)
-        font_outline_finish(out);
-    return status;
-}
-
-enum font_status font_face_advance(struct font_face *face, uint32_t glyph, double *advance)
-{
-    *advance = 0;
-    enum font_status status = glyph_load(face, glyph);
-    if (status == FONT_OK)
-        *advance = (double)face->ft->glyph->advance.x;
-    return status;
-}
+/* ---- measures ---- */
 
 double font_face_kerning(struct font_face *face, uint32_t left, uint32_t right)
 {
@@ -444,11 +322,11 @@ static void version_find(struct font_face *face)
     face->version = ++versions;
     if (!face->settings)
         return; /* no memory: it will only not be found again */
-    struct setting *s = &face->settings[face->settings_next];
+    struct font_setting *s = &face->settings[face->settings_next];
     memcpy(s->values, face->values, sizeof s->values);
     s->version = face->version;
-    face->settings_next = (face->settings_next + 1) % SETTINGS_KEPT;
-    if (face->settings_count < SETTINGS_KEPT)
+    face->settings_next = (face->settings_next + 1) % FACE_SETTINGS_KEPT;
+    if (face->settings_count < FACE_SETTINGS_KEPT)
         face->settings_count++;
 }
 
@@ -457,7 +335,7 @@ static void version_keep_first(struct font_face *face)
 {
     if (face->settings)
         return;
-    face->settings = calloc(SETTINGS_KEPT, sizeof *face->settings);
+    face->settings = calloc(FACE_SETTINGS_KEPT, sizeof *face->settings);
     if (face->settings) {
         memcpy(face->settings[0].values, face->values, sizeof face->values);
         face->settings[0].version = face->version;
@@ -484,7 +362,7 @@ enum font_status font_face_axis_set(struct font_face *face, const char *tag, dou
         FT_Set_Var_Design_Coordinates(face->ft, (FT_UInt)face->axes_count, face->values);
     if (error) {
         face->values[i] = before;
-        return face_fail(face, "its axes cannot be set", error);
+        return font_face_fail(face, "its axes cannot be set", error);
     }
     version_find(face);
     return FONT_OK;

@@ -1,5 +1,5 @@
-/* face.h - fonts: TrueType, CFF, Type 1, collections, variable fonts. FreeType reads the files and gives outlines in
- * the font's units; it draws nothing.
+/* face.h - fonts: TrueType, CFF, Type 1, collections, variable fonts, WOFF. FreeType reads the files, HarfBuzz and
+ * FreeType give outlines in the font's units, in doubles; neither draws.
  *
  *     struct font_face *face;
  *     if (font_face_open("EBGaramond12-Regular", 0, &face) != FONT_OK)

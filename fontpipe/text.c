@@ -148,12 +148,7 @@ static bool has_tables(hb_face_t *face)
 
 static void shaped_make(struct font_shaped_face *f, const struct font_face_info *info)
 {
-    size_t count;
-    const void *bytes = font_face_bytes(f->face, &count);
-    hb_blob_t *blob =
-        hb_blob_create(bytes, (unsigned)count, HB_MEMORY_MODE_READONLY, NULL, NULL);
-    hb_face_t *face = hb_face_create(blob, (unsigned)info->index);
-    hb_face_set_upem(face, (unsigned)info->units_per_em);
+    hb_face_t *face = font_face_harfbuzz(f->face);
     f->hb = hb_font_create(face);
     if (has_tables(face)) {
         hb_ot_font_set_funcs(f->hb);
@@ -163,8 +158,6 @@ static void shaped_make(struct font_shaped_face *f, const struct font_face_info 
         hb_font_funcs_destroy(funcs);
     }
     hb_font_set_scale(f->hb, (int)info->units_per_em, (int)info->units_per_em);
-    hb_face_destroy(face);
-    hb_blob_destroy(blob);
     f->units_per_em = info->units_per_em;
 }
 
@@ -177,16 +170,7 @@ void font_shaped_refresh(struct font_shaped_face *f)
     font_face_describe(f->face, &info);
     if (!f->hb)
         shaped_make(f, &info);
-    hb_variation_t variations[64];
-    int n = 0;
-    struct font_axis axis;
-    for (; n < info.axes_count && n < 64; n++) {
-        if (font_face_axis(f->face, n, &axis) != FONT_OK)
-            break;
-        variations[n] = (hb_variation_t){hb_tag_from_string(axis.tag, 4), (float)axis.value};
-    }
-    if (n)
-        hb_font_set_variations(f->hb, variations, (unsigned)n);
+    font_face_harfbuzz_variations(f->face, f->hb);
     f->version = font_face_version(f->face);
 }
 

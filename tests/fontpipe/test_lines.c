@@ -260,6 +260,82 @@ static void random_text_is_set(void **state)
     end(&f);
 }
 
+static unsigned get(const uint8_t *p, int bytes)
+{
+    unsigned n = 0;
+    for (int i = 0; i < bytes; i++)
+        n = n << 8 | p[i];
+    return n;
+}
+
+static void put(uint8_t *p, size_t value)
+{
+    for (int i = 0; i < 4; i++)
+        p[i] = (uint8_t)(value >> (24 - 8 * i));
+}
+
+/* The font as WOFF, its tables as they are (which WOFF allows). */
+static uint8_t *woff_make(const uint8_t *font, size_t bytes, size_t *out_bytes)
+{
+    enum { HEAD = 44, ROW = 20, SFNT_HEAD = 12, SFNT_ROW = 16 };
+    size_t tables = get(font + 4, 2), at = HEAD + ROW * tables, unpacked = SFNT_HEAD;
+    uint8_t *out = calloc(1, 2 * bytes + at);
+    assert_non_null(out);
+    for (size_t i = 0; i < tables; i++) {
+        const uint8_t *row = font + SFNT_HEAD + SFNT_ROW * i;
+        uint8_t *to = out + HEAD + ROW * i;
+        size_t count = get(row + 12, 4);
+        memcpy(to, row, 4);
+        put(to + 4, at);
+        put(to + 8, count);
+        put(to + 12, count);
+        memcpy(to + 16, row + 4, 4);
+        memcpy(out + at, font + get(row + 8, 4), count);
+        at += (count + 3) / 4 * 4;
+        unpacked += SFNT_ROW + (count + 3) / 4 * 4;
+    }
+    memcpy(out, "wOFF", 4);
+    memcpy(out + 4, font, 4);
+    put(out + 8, at);
+    put(out + 12, tables << 16);
+    put(out + 16, unpacked);
+    *out_bytes = at;
+    return out;
+}
+
+/* Packed fonts are shaped as others are: with kerning, ligatures and marks. */
+static void packed_fonts_are_shaped(void **state)
+{
+    (void)state;
+    static const char text[] = "AVATAR, office, e\xcc\x81l\xc3\xa8ve To. fjord";
+    static const char *const names[] = {"DejaVuSans", "EBGaramond12-Regular"};
+    for (int n = 0; n < 2; n++) {
+        struct fixture plain, packed = {0};
+        size_t bytes, woff_bytes;
+        begin(&plain, names[n]);
+        const uint8_t *font = font_face_bytes(plain.face, &bytes);
+        uint8_t *woff = woff_make(font, bytes, &woff_bytes);
+        assert_font(font_face_open_memory(woff, woff_bytes, 0, &packed.face));
+        packed.shaper = shaper_make(packed.face);
+        const struct font_layout *a = set(&plain, text, NULL), *b = set(&packed, text, NULL);
+        assert_int_equal(a->glyphs_count, b->glyphs_count);
+        assert_true(a->glyphs_count < (int)strlen(text)); /* something is joined */
+        for (int i = 0; i < a->glyphs_count; i++) {
+            struct font_outline p, q;
+            assert_int_equal(a->glyphs[i].glyph, b->glyphs[i].glyph);
+            assert_true(a->glyphs[i].x_px == b->glyphs[i].x_px);
+            assert_font(font_face_outline(plain.face, a->glyphs[i].glyph, &p));
+            assert_font(font_face_outline(packed.face, a->glyphs[i].glyph, &q));
+            assert_int_equal(p.segments_count, q.segments_count);
+            font_outline_finish(&p);
+            font_outline_finish(&q);
+        }
+        free(woff);
+        end(&plain);
+        end(&packed);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -270,6 +346,7 @@ int main(void)
         cmocka_unit_test(lines_to_the_left_begin_at_the_right),
         cmocka_unit_test(a_width_that_cannot_be_is_refused),
         cmocka_unit_test(random_text_is_set),
+        cmocka_unit_test(packed_fonts_are_shaped),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -337,6 +337,35 @@ static void collections_have_faces(void **state)
     free(ttc);
 }
 
+/* A point between two others that curves lean to is where it is, at half a unit, too. */
+static void points_between_are_halfway(void **state)
+{
+    (void)state;
+    struct font_face *face = face_open("DejaVuSans");
+    int halves = 0;
+    for (uint32_t glyph = 0; glyph < 300; glyph++) {
+        struct font_outline o;
+        if (font_face_outline_raw(face, glyph, &o) != FONT_OK)
+            continue;
+        for (int i = 0; i + 1 < o.segments_count; i++) {
+            const struct font_segment *a = &o.segments[i], *b = a + 1;
+            if (a->degree != 2 || b->degree != 2 || a->contour != b->contour)
+                continue;
+            for (int axis = 0; axis < 2; axis++) {
+                double p = axis ? a->p[2].y : a->p[2].x;
+                double q = axis ? a->p[1].y + b->p[1].y : a->p[1].x + b->p[1].x;
+                if (p == floor(p))
+                    continue;
+                assert_true(p == q / 2);
+                halves++;
+            }
+        }
+        font_outline_finish(&o);
+    }
+    assert_true(halves > 1000);
+    font_face_close(face);
+}
+
 /* The table of one axis, `wght`. */
 static void axis_make(uint8_t *fvar)
 {
@@ -447,6 +476,12 @@ static void axes_move_outlines(void **state)
         font_outline_finish(&o);
     }
     assert_true(left[1] - left[0] == 50 && left[2] - left[0] == 100);
+    /* 2 of 500 are 66 of 16384, as the format has it; nothing is rounded to units. */
+    struct font_outline fine;
+    assert_font(font_face_axis_set(face, "wght", 402));
+    assert_font(font_face_outline(face, font_face_glyph(face, 'l'), &fine));
+    assert_true(fabs(fine.box.x0 - left[0] - 100 * 66 / 16384.0) < 1e-4);
+    font_outline_finish(&fine);
     assert_font(font_face_axis_set(face, "wght", 400));
     assert_true(font_face_version(face) == first);
     /* Two hundred settings have different versions; the last ones get their old versions when they are set again. */
@@ -528,6 +563,7 @@ int main(void)
         cmocka_unit_test(each_kind_of_font_is_read),
         cmocka_unit_test(what_is_no_font_is_said),
         cmocka_unit_test(collections_have_faces),
+        cmocka_unit_test(points_between_are_halfway),
         cmocka_unit_test(axes_move_outlines),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
