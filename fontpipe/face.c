@@ -22,19 +22,6 @@ enum { FILE_BYTES_MAX = 1 << 29 };
 
 static _Atomic uint64_t versions;
 
-enum font_status font_face_fail(const struct font_face *face, const char *what, int error)
-{
-    const char *reason = FT_Error_String(error);
-    char number[32];
-    if (!reason) {
-        snprintf(number, sizeof number, "FreeType error %d", error);
-        reason = number;
-    }
-    return font_fail(FT_ERROR_BASE(error) == FT_Err_Out_Of_Memory ? FONT_NO_MEMORY
-                                                                  : FONT_BAD_FILE,
-                     "%s: %s: %s", face->path, what, reason);
-}
-
 static enum font_status axes_read(struct font_face *face)
 {
     if (!FT_HAS_MULTIPLE_MASTERS(face->ft) || FT_Get_MM_Var(face->ft, &face->axes))
@@ -269,27 +256,6 @@ double font_face_kerning(struct font_face *face, uint32_t left, uint32_t right)
         FT_Get_Kerning(face->ft, left, right, FT_KERNING_UNSCALED, &kerning))
         return 0;
     return (double)kerning.x;
-}
-
-double font_face_stem(struct font_face *face)
-{
-    static const uint32_t letters[] = {'l', 'I', 'i', 'o'};
-    for (size_t i = 0; i < sizeof letters / sizeof *letters; i++) {
-        struct font_outline outline;
-        uint32_t glyph = font_face_glyph(face, letters[i]);
-        if (!glyph || font_face_outline_raw(face, glyph, &outline) != FONT_OK)
-            continue;
-        struct font_box box = font_outline_box(&outline);
-        double area = 0, height = box.y1 - box.y0, units = outline.units_per_em;
-        for (int k = 0; k < outline.segments_count; k++)
-            for (int n = 0; n < outline.segments[k].degree; n++)
-                area += 0.5 * (outline.segments[k].p[n].x * outline.segments[k].p[n + 1].y -
-                               outline.segments[k].p[n + 1].x * outline.segments[k].p[n].y);
-        font_outline_finish(&outline);
-        if (height > 0 && units > 0)
-            return fabs(area) / height / units;
-    }
-    return 1.0 / 12;
 }
 
 /* ---- axes ---- */

@@ -19,76 +19,6 @@
 
 /* ---- HarfBuzz ---- */
 
-/* A table that FreeType finds: of a packed file (WOFF), unpacked. */
-static hb_blob_t *table_unpack(hb_face_t *hb, hb_tag_t tag, void *data)
-{
-    FT_Face ft = data;
-    FT_ULong length = 0;
-    (void)hb;
-    if (tag == HB_TAG_NONE || FT_Load_Sfnt_Table(ft, tag, 0, NULL, &length) || !length ||
-        length > INT32_MAX)
-        return NULL;
-    char *bytes = malloc(length);
-    if (!bytes || FT_Load_Sfnt_Table(ft, tag, 0, (FT_Byte *)bytes, &length)) {
-        free(bytes);
-        return NULL;
-    }
-    return hb_blob_create(bytes, (unsigned)length, HB_MEMORY_MODE_WRITABLE, bytes, free);
-}
-
-static bool is_packed(const struct font_face *face)
-{
-    return face->bytes_count >= 4 &&
-           (memcmp(face->bytes, "wOFF", 4) == 0 || memcmp(face->bytes, "wOF2", 4) == 0);
-}
-
-/* Whether its tables are listed in another order than that of their tags: HarfBuzz would find few of them. */
-static bool is_disordered(const struct font_face *face)
-{
-    enum { HEAD = 12, ROW = 16 };
-    const unsigned char *b = face->bytes;
-    if (face->bytes_count < HEAD || !FT_IS_SFNT(face->ft) || memcmp(b, "ttcf", 4) == 0)
-        return false;
-    size_t rows = (size_t)(b[4] << 8 | b[5]);
-    for (size_t i = 1; i < rows && HEAD + ROW * (i + 1) <= face->bytes_count; i++)
-        if (memcmp(b + HEAD + ROW * (i - 1), b + HEAD + ROW * i, 4) > 0)
-            return true;
-    return false;
-}
-
-struct hb_face_t *font_face_harfbuzz(struct font_face *face)
-{
-    if (face->hb_face)
-        return face->hb_face;
-    if (is_packed(face) || is_disordered(face)) {
-        face->hb_face = hb_face_create_for_tables(table_unpack, face->ft, NULL);
-    } else {
-        hb_blob_t *blob = hb_blob_create((const char *)face->bytes, (unsigned)face->bytes_count,
-                                         HB_MEMORY_MODE_READONLY, NULL, NULL);
-        face->hb_face = hb_face_create(blob, (unsigned)(face->ft->face_index & 0xffff));
-        hb_blob_destroy(blob);
-    }
-    hb_face_set_upem(face->hb_face, face->ft->units_per_EM);
-    hb_face_set_glyph_count(face->hb_face, (unsigned)face->ft->num_glyphs);
-    return face->hb_face;
-}
-
-void font_face_harfbuzz_variations(const struct font_face *face, struct hb_font_t *font)
-{
-    hb_variation_t variations[FACE_AXES_MAX];
-    for (int i = 0; i < face->axes_count; i++)
-        variations[i] = (hb_variation_t){(hb_tag_t)face->axes->axis[i].tag,
-                                         (float)((double)face->values[i] / 65536)};
-    if (face->axes_count)
-        hb_font_set_variations(font, variations, (unsigned)face->axes_count);
-}
-
-void font_face_harfbuzz_finish(struct font_face *face)
-{
-    hb_font_destroy(face->hb_font);
-    hb_face_destroy(face->hb_face);
-}
-
 /* A font in the font's units, with the axes as they are set. */
 static hb_font_t *font_here(struct font_face *face)
 {
@@ -366,4 +296,25 @@ enum font_status font_face_advance(struct font_face *face, uint32_t glyph, doubl
     if (status == FONT_OK)
         *advance = (double)face->ft->glyph->advance.x;
     return status;
+}
+
+double font_face_stem(struct font_face *face)
+{
+    static const uint32_t letters[] = {'l', 'I', 'i', 'o'};
+    for (size_t i = 0; i < sizeof letters / sizeof *letters; i++) {
+        struct font_outline outline;
+        uint32_t glyph = font_face_glyph(face, letters[i]);
+        if (!glyph || font_face_outline_raw(face, glyph, &outline) != FONT_OK)
+            continue;
+        struct font_box box = font_outline_box(&outline);
+        double area = 0, height = box.y1 - box.y0, units = outline.units_per_em;
+        for (int k = 0; k < outline.segments_count; k++)
+            for (int n = 0; n < outline.segments[k].degree; n++)
+                area += 0.5 * (outline.segments[k].p[n].x * outline.segments[k].p[n + 1].y -
+                               outline.segments[k].p[n + 1].x * outline.segments[k].p[n].y);
+        font_outline_finish(&outline);
+        if (height > 0 && units > 0)
+            return fabs(area) / height / units;
+    }
+    return 1.0 / 12;
 }

@@ -23,7 +23,7 @@ uint32_t font_hash(const void *key, size_t bytes_count);
 struct font_face;
 struct FT_FaceRec_;
 struct FT_FaceRec_ *font_face_freetype(struct font_face *face);
-/* face_outline.c: HarfBuzz's, borrowed while the face is open; of WOFF's files, too. And the face's axes, for a font of it. */
+/* face_harfbuzz.c: HarfBuzz's, borrowed while the face is open; of WOFF's files, too. And the face's axes, for a font of it. */
 struct hb_face_t;
 struct hb_font_t;
 struct hb_face_t *font_face_harfbuzz(struct font_face *face);
