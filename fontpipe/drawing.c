@@ -9,11 +9,70 @@ void drawn_finish(struct drawn *d)
 {
     free(d->glyphs);
     free(d->of);
+    free(d->texts);
     font_painter_destroy(d->painter);
     *d = (struct drawn){0};
 }
 
-enum font_status drawn_find(const struct font_layout *layout, struct drawn *out)
+static int clusters_compare(const void *a, const void *b)
+{
+    size_t p = *(const size_t *)a, q = *(const size_t *)b;
+    return (p > q) - (p < q);
+}
+
+/* A cluster's text goes up to the next cluster that stands anywhere: in lines that go to the left, and where letters change places, that is
+ * none of its neighbours. */
+static bool texts_find(const struct font_drawing *d, const struct font_layout *layout,
+                       struct drawn *out)
+{
+    const struct font_placed *g = layout->glyphs;
+    int n = layout->glyphs_count;
+    size_t *clusters = malloc(((size_t)n + 1) * sizeof *clusters);
+    out->texts = calloc((size_t)n + 1, sizeof *out->texts);
+    for (int i = 0; clusters && i < n; i++)
+        clusters[i] = (size_t)g[i].cluster;
+    if (clusters)
+        qsort(clusters, (size_t)n, sizeof *clusters, clusters_compare);
+    for (int i = 0; clusters && out->texts && i < n; i++) {
+        struct drawn_text *t = &out->texts[i];
+        size_t begin = (size_t)g[i].cluster, end = d->bytes;
+        int low = 0, high = n; /* the first that is behind it, by halves */
+        while (low < high) {
+            int half = (low + high) / 2;
+            if (clusters[half] > begin)
+                high = half;
+            else
+                low = half + 1;
+        }
+        if (low < n && clusters[low] < end)
+            end = clusters[low];
+        t->begins = i == 0 || g[i - 1].line != g[i].line || g[i - 1].cluster != g[i].cluster;
+        t->ends = i + 1 == n || g[i + 1].line != g[i].line || g[i + 1].cluster != g[i].cluster;
+        t->line_ends = i + 1 == n || g[i + 1].line != g[i].line;
+        if (!d->text || begin >= d->bytes)
+            continue;
+        /* White space at a line's end is not seen, and belongs to no letter. */
+        while (end > begin && (d->text[end - 1] == '\n' || d->text[end - 1] == '\r'))
+            end--;
+        while (end > begin + 1 && d->text[end - 1] == ' ')
+            end--;
+        t->begin = begin;
+        t->end = end;
+    }
+    bool good = clusters && out->texts;
+    for (int i = 0, first = 0; good && i < n; i++) {
+        first = out->texts[i].begins ? i : first;
+        for (int k = first; out->texts[i].ends && k <= i; k++) {
+            out->texts[k].at = k - first;
+            out->texts[k].of = i - first + 1;
+        }
+    }
+    free(clusters);
+    return good;
+}
+
+enum font_status drawn_find(const struct font_drawing *d, const struct font_layout *layout,
+                            struct drawn *out)
 {
     enum { BUCKETS = 1024 };
     int heads[BUCKETS], *next = malloc(((size_t)layout->glyphs_count + 1) * sizeof *next);
@@ -34,18 +93,15 @@ enum font_status drawn_find(const struct font_layout *layout, struct drawn *out)
             good = array_reserve(&out->glyphs, &out->capacity, k + 1, sizeof *out->glyphs);
             if (!good)
                 break;
-            out->glyphs[out->count++] =
-                (struct drawn_glyph){.face = g->face,
-                                     .glyph = g->glyph,
-                                     .first = i,
-                                     .picture = font_painter_is_picture(g)};
+            out->glyphs[out->count++] = (struct drawn_glyph){
+                .face = g->face, .glyph = g->glyph, .picture = font_painter_is_picture(g)};
             next[k] = heads[bucket];
             heads[bucket] = k;
         }
         out->of[i] = k;
     }
     free(next);
-    if (good)
+    if (good && texts_find(d, layout, out))
         return FONT_OK;
     drawn_finish(out);
     return font_fail(FONT_NO_MEMORY, "no memory for a drawing");
@@ -98,29 +154,6 @@ bool drawn_flat(const struct font_ink *ink, double rgba[4])
             rgba[c] = (double)anywhere[c];
     }
     return flat;
-}
-
-void drawn_text(const struct font_drawing *d, const struct font_layout *layout, int i,
-                size_t *begin, size_t *end)
-{
-    const struct font_placed *g = layout->glyphs;
-    *begin = *end = 0;
-    if (!d->text || (size_t)g[i].cluster >= d->bytes ||
-        (i > 0 && g[i - 1].line == g[i].line && g[i - 1].cluster == g[i].cluster))
-        return;
-    size_t next = d->bytes;
-    /* Clusters rise or fall along a line, and the next one in the text is among the neighbours. */
-    for (int step = -1; step <= 1; step += 2)
-        for (int k = i + step; k >= 0 && k < layout->glyphs_count; k += step)
-            if (g[k].cluster != g[i].cluster) {
-                if (g[k].cluster > g[i].cluster && (size_t)g[k].cluster < next)
-                    next = (size_t)g[k].cluster;
-                break;
-            }
-    *begin = (size_t)g[i].cluster;
-    *end = next;
-    while (*end > *begin && (d->text[*end - 1] == '\n' || d->text[*end - 1] == '\r'))
-        --*end;
 }
 
 /* ---- paths ---- */

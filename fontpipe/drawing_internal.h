@@ -10,15 +10,23 @@
 struct drawn_glyph {
     struct font_face *face;
     uint32_t glyph;
-    int first;      /* the layout's first that is it */
-    int font, code; /* PDF: of which font which letter */
-    bool picture;   /* it has no outline */
+    bool picture; /* it has no outline */
+};
+
+/* The bytes of the text that a glyph's cluster shows: up to the next cluster's, wherever that stands. All glyphs of a cluster on one line
+ * have the same; a sign that is not in the text has none. */
+struct drawn_text {
+    size_t begin, end;
+    bool begins, ends; /* it is the first, and the last, of its cluster's glyphs there */
+    bool line_ends;    /* it is the last of its line's */
+    int at, of;        /* which of its cluster's glyphs there it is, of how many */
 };
 
 struct drawn {
     struct drawn_glyph *glyphs;
     int *of; /* of each of the layout's glyphs: which */
     int count, capacity;
+    struct drawn_text *texts;     /* of each of the layout's glyphs */
     struct font_painter *painter; /* once there is a picture */
 };
 
@@ -40,7 +48,8 @@ typedef enum font_status drawn_put(const struct font_drawing *d,
 enum font_status drawn_spread(const struct font_drawing *d, const struct font_layout *layout,
                               const struct font_map *map, double x, double y, FILE *file,
                               drawn_put *put);
-enum font_status drawn_find(const struct font_layout *layout, struct drawn *out);
+enum font_status drawn_find(const struct font_drawing *d, const struct font_layout *layout,
+                            struct drawn *out);
 void drawn_finish(struct drawn *drawn);
 
 /* The outline as a path, its points through a map (NULL: as they are), curves cut finely where the map distorts. pdf: its operators,
@@ -56,12 +65,23 @@ bool drawn_flat(const struct font_ink *ink, double rgba[4]);
 enum font_status drawn_ink_tile(const struct font_ink *ink, struct font_tile *out);
 /* drawing_pdf_ink.c: a gradient as a shading, its places as they are: its colours, or its cover as a gray. */
 void drawn_pdf_shading(const struct font_ink *ink, bool cover, FILE *file);
+/* Whether it is a gradient that lets something through. */
+bool drawn_translucent(const struct font_ink *ink);
+/* drawing_pdf_text.c: the text in UTF-16, as hexadecimal digits. */
+void drawn_pdf_utf16(const char *text, size_t begin, size_t end, FILE *file);
+/* How many letters the cluster has, if they are several that go to the left; else 0. */
+int drawn_pdf_leftward(const struct font_drawing *d, const struct drawn_text *text);
+/* What of them the glyph itself shows, cut off the text's end: *letters of them, 0 for nothing. Glyphs stand from the left to the right,
+ * the cluster's last letters with its first glyph. */
+void drawn_pdf_share(const struct font_drawing *d, const struct drawn_text *text, size_t *end,
+                     int *letters);
+/* Before a glyph and behind it: where its cluster is told as a whole what it says, that. */
+void drawn_pdf_said_begin(const struct font_drawing *d, const struct drawn_text *text,
+                          FILE *file);
+void drawn_pdf_said_end(const struct font_drawing *d, const struct drawn_text *text,
+                        FILE *file);
 /* A glyph's ink; own: room for the drawing's. */
 const struct font_ink *drawn_ink(const struct font_drawing *d, const struct font_layout *layout,
                                  int i, struct font_ink *own);
 enum font_status drawn_inks_check(const struct font_layout *layout);
-/* The bytes of the text that the layout's glyph i shows: up to the next cluster's. Only the first glyph of a cluster has any. */
-void drawn_text(const struct font_drawing *d, const struct font_layout *layout, int i,
-                size_t *begin, size_t *end);
-
 #endif

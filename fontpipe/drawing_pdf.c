@@ -9,13 +9,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LETTERS_MAX = 255, FIRST_CODE = 1 };
+enum { LETTERS_MAX = 255, FIRST_CODE = 1, BUCKETS = 1024 };
 
 static const double point_px = 0.75; /* points in a pixel */
 
 struct pdf_font {
     struct font_face *face;
-    int count, glyphs[LETTERS_MAX]; /* of the drawn */
+    int count, letters[LETTERS_MAX]; /* of the document's */
+};
+
+/* A glyph with a text: of which font which letter. The same glyph may show other text elsewhere. */
+struct pdf_letter {
+    int drawn; /* which of the drawn */
+    size_t begin, end;
+    int parts; /* it has so much of the glyph's width; the first of them is drawn */
+    bool blank;
+    int font, code, next;
 };
 
 /* Colours and cover, packed. */
@@ -29,6 +38,9 @@ struct pdf {
     const struct font_drawing *d;
     const struct font_layout *layout;
     struct drawn drawn;
+    struct pdf_letter *letters;
+    int letters_count, letters_capacity;
+    int heads[BUCKETS]; /* of chains of letters: plus 1 */
     struct pdf_font *fonts;
     int fonts_count, fonts_capacity;
     struct pdf_picture *pictures;
@@ -45,26 +57,58 @@ static enum font_status no_memory(void)
     return font_fail(FONT_NO_MEMORY, "no memory for a drawing");
 }
 
-static bool fonts_find(struct pdf *p)
+/* Gives a letter its place in a font of its face that has room. */
+static bool letter_place(struct pdf *p, int letter)
 {
-    for (int k = 0; k < p->drawn.count; k++) {
-        struct drawn_glyph *g = &p->drawn.glyphs[k];
-        int i = p->fonts_count - 1;
-        while (i >= 0 && (p->fonts[i].face != g->face || p->fonts[i].count == LETTERS_MAX))
-            i--;
-        if (i < 0) {
-            if (!array_reserve(&p->fonts, &p->fonts_capacity, p->fonts_count + 1,
-                               sizeof *p->fonts))
-                return false;
-            i = p->fonts_count++;
-            p->fonts[i].face = g->face;
-            p->fonts[i].count = 0;
-        }
-        g->font = i;
-        g->code = p->fonts[i].count;
-        p->fonts[i].glyphs[p->fonts[i].count++] = k;
+    struct pdf_letter *l = &p->letters[letter];
+    struct font_face *face = p->drawn.glyphs[l->drawn].face;
+    int i = p->fonts_count - 1;
+    while (i >= 0 && (p->fonts[i].face != face || p->fonts[i].count == LETTERS_MAX))
+        i--;
+    if (i < 0) {
+        if (!array_reserve(&p->fonts, &p->fonts_capacity, p->fonts_count + 1, sizeof *p->fonts))
+            return false;
+        i = p->fonts_count++;
+        p->fonts[i].face = face;
+        p->fonts[i].count = 0;
     }
+    l->font = i;
+    l->code = p->fonts[i].count;
+    p->fonts[i].letters[p->fonts[i].count++] = letter;
     return true;
+}
+
+static bool letter_same(const struct pdf *p, const struct pdf_letter *a,
+                        const struct pdf_letter *b)
+{
+    size_t bytes = a->end - a->begin;
+    return a->drawn == b->drawn && a->parts == b->parts && a->blank == b->blank &&
+           bytes == b->end - b->begin &&
+           (!bytes || memcmp(p->d->text + a->begin, p->d->text + b->begin, bytes) == 0);
+}
+
+/* The number of such a letter, made if there is none yet; -1: no memory. */
+static int letter_find(struct pdf *p, struct pdf_letter wanted)
+{
+    enum { TEXT_MAX = 64 };
+    if (wanted.end - wanted.begin > TEXT_MAX || !p->d->text)
+        wanted.end = wanted.begin;
+    size_t bytes = wanted.end - wanted.begin;
+    const uint32_t key[2] = {(uint32_t)wanted.drawn,
+                             bytes ? font_hash(p->d->text + wanted.begin, bytes) : 0};
+    uint32_t bucket = font_hash(key, sizeof key) % BUCKETS;
+    int k = p->heads[bucket] - 1;
+    while (k >= 0 && !letter_same(p, &p->letters[k], &wanted))
+        k = p->letters[k].next;
+    if (k >= 0)
+        return k;
+    k = p->letters_count;
+    if (!array_reserve(&p->letters, &p->letters_capacity, k + 1, sizeof *p->letters))
+        return -1;
+    wanted.next = p->heads[bucket] - 1;
+    p->letters[p->letters_count++] = wanted;
+    p->heads[bucket] = k + 1;
+    return letter_place(p, k) ? k : -1;
 }
 
 /* Begins the next object; they are numbered from 1 on. */
@@ -161,18 +205,6 @@ static bool pattern_object(struct pdf *p, int ink, int *number)
     return good;
 }
 
-/* Whether it is a gradient that lets something through. */
-static bool translucent(const struct font_ink *ink)
-{
-    double flat[4];
-    if (ink->kind == FONT_INK_PICTURE || drawn_flat(ink, flat))
-        return false;
-    for (int i = 0; i < ink->stops_count; i++)
-        if (ink->stops[i].rgba[3] < 1)
-            return true;
-    return false;
-}
-
 /* How much a gradient covers, as the light of a group of its own. */
 static bool mask_object(struct pdf *p, int ink, int *number)
 {
@@ -214,7 +246,7 @@ static enum font_status inks_objects(struct pdf *p, int *numbers)
             picture_free(&picture);
             free(tile.rgba);
             status = good ? FONT_OK : no_memory();
-        } else if (translucent(ink) && !mask_object(p, i, &numbers[i])) {
+        } else if (drawn_translucent(ink) && !mask_object(p, i, &numbers[i])) {
             status = no_memory();
         }
     }
@@ -226,7 +258,7 @@ static void inks_put(const struct pdf *p, const int *numbers)
 {
     bool masks = false;
     for (int i = 0; i < p->layout->inks_count; i++)
-        masks = masks || translucent(&p->layout->inks[i]);
+        masks = masks || drawn_translucent(&p->layout->inks[i]);
     fputs(" /ExtGState <<", p->f);
     for (int i = 0; i < 256; i++)
         if (p->covers[i])
@@ -266,7 +298,7 @@ static void ink_put(struct pdf *p, int i, FILE *f)
     p->covers[cover] = true;
     if (flat)
         fprintf(f, "%.5g %.5g %.5g rg /A%d gs\n", c[0], c[1], c[2], cover);
-    else if (translucent(ink))
+    else if (drawn_translucent(ink))
         fprintf(f, "/Pattern cs /P%d scn /M%d gs\n", number, number);
     else
         fprintf(f, "/Pattern cs /P%d scn /A%d gs\n", number, cover);
@@ -293,12 +325,52 @@ static enum font_status picture_put(struct pdf *p, int i, const struct font_map 
     return good ? FONT_OK : no_memory();
 }
 
+/* A glyph with the text that it shows: the first of its cluster has all of that. Letters that go to the left are parts of its width, the last
+ * of them at the left, since programs put what they find in that order. */
+static enum font_status text_put(struct pdf *p, int i, const struct font_map *whole, FILE *f)
+{
+    const struct font_placed *g = &p->layout->glyphs[i];
+    const struct drawn_text *t = &p->drawn.texts[i];
+    struct font_face_info info;
+    double advance = 0;
+    font_face_describe(g->face, &info);
+    int leftward = p->d->text ? drawn_pdf_leftward(p->d, t) : 0, parts = 1, letters = 0;
+    size_t end = t->begins ? t->end : t->begin;
+    if (leftward)
+        drawn_pdf_share(p->d, t, &end, &letters);
+    if (letters > 1) {
+        (void)font_face_advance(g->face, g->glyph, &advance);
+        parts = letters;
+    }
+    const double em = info.units_per_em * point_px, *m = whole->m;
+    for (int k = 0; k < parts; k++) {
+        size_t begin = leftward && !letters ? end : t->begin;
+        if (leftward && letters)
+            for (begin = end - 1; ((unsigned char)p->d->text[begin] & 0xc0) == 0x80;)
+                begin--;
+        int letter = letter_find(p, (struct pdf_letter){.drawn = p->drawn.of[i],
+                                                        .begin = begin,
+                                                        .end = end,
+                                                        .parts = parts,
+                                                        .blank = k > 0});
+        if (letter < 0)
+            return no_memory();
+        double along = advance * k / parts;
+        fprintf(f, "BT /F%d 1 Tf %.7g %.7g %.7g %.7g %.7g %.7g Tm <%02x> Tj ET\n",
+                p->letters[letter].font, m[0] * em, -m[3] * em, m[1] * em, -m[4] * em,
+                (m[2] + m[0] * along) * point_px,
+                (p->d->height_px - m[5] - m[3] * along) * point_px,
+                (unsigned)(p->letters[letter].code + FIRST_CODE));
+        end = begin;
+    }
+    return FONT_OK;
+}
+
 static enum font_status letter_put(struct pdf *p, int i, const struct font_map *map, double x,
                                    double y, FILE *f)
 {
     const struct font_placed *g = &p->layout->glyphs[i];
     const struct drawn_glyph *drawn = &p->drawn.glyphs[p->drawn.of[i]];
-    struct font_face_info info;
     struct font_map whole;
     double height = p->d->height_px;
     enum font_status status = drawn_map(p->layout, i, map, x, y, &whole);
@@ -316,13 +388,7 @@ static enum font_status letter_put(struct pdf *p, int i, const struct font_map *
     /* Programs that show PDF do not clip patterns to the letters of such fonts: those are paths. */
     if (drawn->picture ||
         (whole.kind == FONT_AFFINE && drawn_flat(drawn_ink(p->d, p->layout, i, &own), flat))) {
-        font_face_describe(g->face, &info);
-        double em = info.units_per_em * point_px;
-        const double *m = whole.m;
-        fprintf(f, "BT /F%d 1 Tf %.7g %.7g %.7g %.7g %.7g %.7g Tm <%02x> Tj ET\n", drawn->font,
-                m[0] * em, -m[3] * em, m[1] * em, -m[4] * em, m[2] * point_px,
-                (height - m[5]) * point_px, (unsigned)(drawn->code + FIRST_CODE));
-        return FONT_OK;
+        return text_put(p, i, &whole, f);
     }
     struct font_outline outline;
     status = font_face_outline_raw(g->face, g->glyph, &outline);
@@ -337,8 +403,9 @@ static enum font_status letter_put(struct pdf *p, int i, const struct font_map *
 
 /* ---- fonts ---- */
 
-static enum font_status glyph_put(struct pdf *p, const struct drawn_glyph *g)
+static enum font_status glyph_put(struct pdf *p, const struct pdf_letter *letter)
 {
+    const struct drawn_glyph *g = &p->drawn.glyphs[letter->drawn];
     char *bytes = NULL;
     size_t count = 0;
     FILE *f = open_memstream(&bytes, &count);
@@ -346,14 +413,15 @@ static enum font_status glyph_put(struct pdf *p, const struct drawn_glyph *g)
     if (!f)
         return no_memory();
     enum font_status status = FONT_OK;
-    if (g->picture) { /* nothing, that has the text */
+    bool nothing = g->picture || letter->blank;
+    if (nothing) { /* but it has the text */
         double advance = 0;
         (void)font_face_advance(g->face, g->glyph, &advance);
         fprintf(f, "%.7g 0 0 0 0 0 d1\n", advance);
     } else {
         status = font_face_outline_raw(g->face, g->glyph, &outline);
     }
-    if (status == FONT_OK && !g->picture) {
+    if (status == FONT_OK && !nothing) {
         struct font_box box = font_outline_box(&outline);
         fprintf(f, "%.7g 0 %.7g %.7g %.7g %.7g d1\n", outline.advance, box.x0, box.y0, box.x1,
                 box.y1);
@@ -368,21 +436,7 @@ static enum font_status glyph_put(struct pdf *p, const struct drawn_glyph *g)
     return status;
 }
 
-static void utf16_put(const char *text, size_t begin, size_t end, FILE *f)
-{
-    const char *at = text + begin, *last = text + end;
-    while (at < last) {
-        uint32_t c;
-        font_utf8_next(&at, last, &c);
-        if (c > 0xffff)
-            fprintf(f, "%04X%04X", (unsigned)(0xd800 + ((c - 0x10000) >> 10)),
-                    (unsigned)(0xdc00 + ((c - 0x10000) & 0x3ff)));
-        else
-            fprintf(f, "%04X", (unsigned)c);
-    }
-}
-
-/* Which text each letter of the font shows, as it was when it was first used. */
+/* Which text each letter of the font shows. */
 static enum font_status texts_put(struct pdf *p, const struct pdf_font *font)
 {
     char *bytes = NULL;
@@ -394,12 +448,12 @@ static enum font_status texts_put(struct pdf *p, const struct pdf_font *font)
           "/CMapName /Lutetia def\n1 begincodespacerange\n<00> <FF>\nendcodespacerange\n",
           f);
     for (int i = 0; i < font->count; i++) {
-        size_t begin, end;
-        drawn_text(p->d, p->layout, p->drawn.glyphs[font->glyphs[i]].first, &begin, &end);
-        if (begin == end || end - begin > 64)
+        size_t begin = p->letters[font->letters[i]].begin,
+               end = p->letters[font->letters[i]].end;
+        if (begin == end)
             continue;
         fprintf(f, "1 beginbfchar\n<%02X> <", (unsigned)(i + FIRST_CODE));
-        utf16_put(p->d->text, begin, end, f);
+        drawn_pdf_utf16(p->d->text, begin, end, f);
         fputs(">\nendbfchar\n", f);
     }
     fputs("endcmap\nCMapName currentdict /CMap defineresource pop\nend\nend", f);
@@ -416,7 +470,7 @@ static enum font_status font_put(struct pdf *p, const struct pdf_font *font, int
     font_face_describe(font->face, &info);
     int letters = p->objects + 1;
     for (int i = 0; i < font->count && status == FONT_OK; i++)
-        status = glyph_put(p, &p->drawn.glyphs[font->glyphs[i]]);
+        status = glyph_put(p, &p->letters[font->letters[i]]);
     if (status == FONT_OK)
         status = texts_put(p, font);
     if (status == FONT_OK && !object_begin(p))
@@ -437,9 +491,10 @@ static enum font_status font_put(struct pdf *p, const struct pdf_font *font, int
         fprintf(p->f, " /g%d", i);
     fputs("] >>\n/Widths [", p->f);
     for (int i = 0; i < font->count; i++) {
+        const struct pdf_letter *l = &p->letters[font->letters[i]];
         double advance = 0;
-        font_face_advance(font->face, p->drawn.glyphs[font->glyphs[i]].glyph, &advance);
-        fprintf(p->f, " %.6g", advance);
+        font_face_advance(font->face, p->drawn.glyphs[l->drawn].glyph, &advance);
+        fprintf(p->f, " %.6g", advance / l->parts);
     }
     fputs(" ] >>\nendobj\n", p->f);
     return FONT_OK;
@@ -496,12 +551,13 @@ static enum font_status spread_put(const struct font_drawing *d,
     struct pdf p = {.d = d, .layout = layout, .x = x, .y = y};
     char *content = NULL, *whole = NULL;
     size_t content_bytes = 0, whole_bytes = 0;
-    enum font_status status = drawn_find(layout, &p.drawn);
-    if (status == FONT_OK && !fonts_find(&p))
-        status = no_memory();
+    enum font_status status = drawn_find(d, layout, &p.drawn);
     FILE *f = status == FONT_OK ? open_memstream(&content, &content_bytes) : NULL;
-    for (int i = 0; f && i < layout->glyphs_count && status == FONT_OK; i++)
+    for (int i = 0; f && i < layout->glyphs_count && status == FONT_OK; i++) {
+        drawn_pdf_said_begin(d, &p.drawn.texts[i], f);
         status = letter_put(&p, i, map, x, y, f);
+        drawn_pdf_said_end(d, &p.drawn.texts[i], f);
+    }
     if (status == FONT_OK && !f)
         status = no_memory();
     if (f && fclose(f) != 0 && status == FONT_OK)
@@ -520,6 +576,7 @@ static enum font_status spread_put(const struct font_drawing *d,
     free(content);
     free(whole);
     free(p.fonts);
+    free(p.letters);
     for (int i = 0; i < p.pictures_count; i++)
         picture_free(&p.pictures[i]);
     free(p.pictures);

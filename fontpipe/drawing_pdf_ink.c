@@ -48,3 +48,14 @@ void drawn_pdf_shading(const struct font_ink *ink, bool cover, FILE *f)
     stops_put(ink, cover, f);
     fputs(" >>", f);
 }
+
+bool drawn_translucent(const struct font_ink *ink)
+{
+    double flat[4];
+    if (ink->kind == FONT_INK_PICTURE || drawn_flat(ink, flat))
+        return false;
+    for (int i = 0; i < ink->stops_count; i++)
+        if (ink->stops[i].rgba[3] < 1)
+            return true;
+    return false;
+}

@@ -153,27 +153,63 @@ static enum font_status outlines_put(const struct drawn *drawn, FILE *f)
     return FONT_OK;
 }
 
-/* The text itself, unseen, each piece where it stands: programs find it and copy it. */
+/* Where glyph i's origin is; false: beyond the horizon. */
+static bool origin_of(const struct font_layout *layout, int i, const struct font_map *map,
+                      double x, double y, struct font_point *out)
+{
+    struct font_map pixels;
+    struct font_point at = {0, 0};
+    double gx, gy, jacobian[4];
+    if (font_placed_map(layout, i, map, x, y, &pixels, &gx, &gy) != FONT_OK ||
+        !font_map_point(&pixels, at, &at, jacobian))
+        return false;
+    *out = (struct font_point){gx + at.x, gy + at.y};
+    return true;
+}
+
+/* What glyphs first..end say, which are of one line: from its left end to its right one. */
+static void line_put(const struct font_drawing *d, const struct font_layout *layout,
+                     const struct drawn *drawn, int first, int end, const struct font_map *map,
+                     double x, double y, FILE *f)
+{
+    size_t from = d->bytes, to = 0;
+    struct font_point a = {0, 0}, b = {0, 0}, at;
+    bool any = false;
+    for (int i = first; i < end; i++) {
+        const struct drawn_text *t = &drawn->texts[i];
+        if (t->begin == t->end || !origin_of(layout, i, map, x, y, &at))
+            continue;
+        from = t->begin < from ? t->begin : from;
+        to = t->end > to ? t->end : to;
+        if (!any)
+            a = b = at;
+        a = at.x < a.x ? at : a;
+        b = at.x > b.x ? at : b;
+        any = true;
+    }
+    if (!any)
+        return;
+    fprintf(f, "<text x=\"%.7g\" y=\"%.7g\" font-size=\"%.6g\" xml:space=\"preserve\"", a.x,
+            a.y, font_placed_size(layout, &layout->glyphs[first]));
+    if (b.x > a.x && fabs(b.y - a.y) < 1e-3 * (b.x - a.x))
+        fprintf(f, " textLength=\"%.7g\" lengthAdjust=\"spacingAndGlyphs\"",
+                b.x - a.x + 0.5 * font_placed_size(layout, &layout->glyphs[first]));
+    fputs(">", f);
+    text_put(d->text, from, to, f);
+    fputs("</text>\n", f);
+}
+
+/* The text itself, unseen, each line where it stands: programs find it and copy it. */
 static void words_put(const struct font_drawing *d, const struct font_layout *layout,
-                      const struct font_map *map, double x, double y, FILE *f)
+                      const struct drawn *drawn, const struct font_map *map, double x, double y,
+                      FILE *f)
 {
     fputs("<g opacity=\"0\" font-family=\"sans-serif\">\n", f);
-    for (int i = 0; i < layout->glyphs_count; i++) {
-        struct font_map pixels;
-        size_t begin, end;
-        double gx, gy;
-        drawn_text(d, layout, i, &begin, &end);
-        if (begin == end || font_placed_map(layout, i, map, x, y, &pixels, &gx, &gy) != FONT_OK)
-            continue;
-        struct font_point at = {0, 0};
-        double jacobian[4];
-        if (!font_map_point(&pixels, at, &at, jacobian))
-            continue;
-        fprintf(f, "<text x=\"%.7g\" y=\"%.7g\" font-size=\"%.6g\" xml:space=\"preserve\">",
-                gx + at.x, gy + at.y, font_placed_size(layout, &layout->glyphs[i]));
-        text_put(d->text, begin, end, f);
-        fputs("</text>\n", f);
-    }
+    for (int first = 0, i = 1; i <= layout->glyphs_count; i++)
+        if (i == layout->glyphs_count || layout->glyphs[i].line != layout->glyphs[first].line) {
+            line_put(d, layout, drawn, first, i, map, x, y, f);
+            first = i;
+        }
     fputs("</g>\n", f);
 }
 
@@ -182,7 +218,7 @@ static enum font_status spread_put(const struct font_drawing *d,
                                    double x, double y, FILE *f)
 {
     struct drawn drawn = {0};
-    enum font_status status = drawn_find(layout, &drawn);
+    enum font_status status = drawn_find(d, layout, &drawn);
     if (status != FONT_OK)
         return status;
     fprintf(f,
@@ -205,7 +241,7 @@ static enum font_status spread_put(const struct font_drawing *d,
         status = letter_put(d, layout, &drawn, i, map, x, y, f);
     fputs("</g>\n", f);
     if (d->text)
-        words_put(d, layout, map, x, y, f);
+        words_put(d, layout, &drawn, map, x, y, f);
     fputs("</svg>\n", f);
     drawn_finish(&drawn);
     return status == FONT_OK && ferror(f)

@@ -1,0 +1,146 @@
+/* test_words.c - what another program reads in our PDF are the words that were set: where lines go to the left, where letters change places, where
+ * words are divided. */
+#include "support.h"
+
+#include <drawing.h>
+#include <page.h>
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Articles of the Universal Declaration of Human Rights, and words with hyphens. */
+static const struct {
+    const char *language, *font, *text;
+    int right_to_left;
+    double width_px;
+    bool spaced; /* its words are apart */
+} cases[] = {
+    {"en", "DejaVuSerif",
+     "A co-operation of the extraordinarily uncharacteristic conscience, notwithstanding the "
+     "incomprehensible responsibilities and co-operation of it all, incomprehensibly "
+     "responsible.",
+     0, 130, true},
+    {"en", "EBGaramond12-Regular",
+     "The office of a co-operative first finds the difficult affluent waffles, "
+     "notwithstanding the self-sufficient ones.",
+     0, 110, true},
+    {"he", "DejaVuSans",
+     "אדם בעולם ועוד כמה מילים כדי שהשורה תישבר פעם אחת לפחות כל בני אדם נולדו בני חורין "
+     "ושווים",
+     1, 330, true},
+    {"ar", "DejaVuSans",
+     "يولد جميع الناس أحرارا متساوين في الكرامة والحقوق وقد وهبوا عقلا وضميرا وعليهم أن يعامل "
+     "بعضهم بعضا بروح الإخاء",
+     1, 330, true},
+    {"hi", "DejaVuSans",
+     "सभी मनुष्यों को गौरव और अधिकारों के मामले में जन्मजात स्वतन्त्रता और समानता प्राप्त है। उन्हें बुद्धि "
+     "और अन्तरात्मा की देन प्राप्त है",
+     0, 230, true},
+    {"th", "DejaVuSans", "มนุษย์ทั้งปวงเกิดมามีอิสระและเสมอภาคกันในเกียรติศักดิ์และสิทธิ ต่างมีเหตุผลและมโนธรรม",
+     0, 230, false},
+};
+
+/* The text as PDF, in a narrow column, as pdftotext reads it. Owns: the caller frees it. */
+static char *read_back(int n, bool *whole)
+{
+    struct page_text *t;
+    struct page_style style = page_style_default();
+    struct page_manner manner = page_manner_default();
+    struct page_template page = {.width_px = 400, .height_px = 900, .frames_count = 1};
+    struct font_layout layout;
+    int roman, id;
+    char *said, folder[] = "/tmp/lutetia-words-XXXXXX", path[64], command[128];
+    size_t bytes;
+    page.frames[0] =
+        (struct page_frame){.x = 20, .y = 20, .width = cases[n].width_px, .height = 860};
+    style.font = cases[n].font;
+    style.language = cases[n].language;
+    manner.align = FONT_ALIGN_JUSTIFY;
+    manner.hyphenate = true;
+    manner.right_to_left = cases[n].right_to_left;
+    assert_font(page_text_create(&t));
+    assert_font(page_style_add(t, &style, &roman));
+    assert_font(page_paragraph_add(t, 0, -1, cases[n].text, strlen(cases[n].text), roman,
+                                   &manner, &id));
+    assert_font(page_templates_set(t, &page, 1));
+    assert_font(page_layout_text(t, 0, &layout, &said, &bytes));
+    assert_true(layout.glyphs[layout.glyphs_count - 1].line > 0);
+    *whole = layout.missing_count == 0;
+    const struct font_drawing d = {
+        .width_px = 400, .height_px = 900, .text = said, .bytes = bytes};
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/words.pdf", folder);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_font(font_drawing_pdf(&d, &layout, NULL, 0, 0, file));
+    fclose(file);
+    snprintf(command, sizeof command, "pdftotext -enc UTF-8 %s -", path);
+    FILE *pipe = popen(command, "r");
+    char *out = calloc(1, 20000);
+    assert_non_null(pipe);
+    assert_non_null(out);
+    assert_true(fread(out, 1, 19999, pipe) > 0);
+    assert_int_equal(pclose(pipe), 0);
+    unlink(path);
+    rmdir(folder);
+    free(said);
+    font_layout_finish(&layout);
+    page_text_destroy(t);
+    return out;
+}
+
+/* The letters, one space for what is white between them (spaced) or none; without signs of direction and joiners, which programs put in. */
+static void tidy(const char *text, bool spaced, char *out)
+{
+    bool gap = false, any = false;
+    for (const char *at = text, *end = text + strlen(text); at < end;) {
+        const char *from = at;
+        uint32_t c;
+        font_utf8_next(&at, end, &c);
+        if ((c >= 0x200e && c <= 0x200f) || (c >= 0x202a && c <= 0x202e) || c == 0x2060)
+            continue;
+        if (c <= ' ') {
+            gap = true;
+            continue;
+        }
+        if (gap && any && spaced)
+            *out++ = ' ';
+        gap = false;
+        any = true;
+        memcpy(out, from, (size_t)(at - from));
+        out += at - from;
+    }
+    *out = '\0';
+}
+
+/* As tidy() leaves it, but what is behind a hyphen at a line's end goes on: "co-" and "operation". */
+static void hyphens_join(char *text)
+{
+    for (char *at; (at = strstr(text, "- "));)
+        memmove(at + 1, at + 2, strlen(at + 2) + 1);
+}
+
+static void words_come_back(void **state)
+{
+    (void)state;
+    if (system("command -v pdftotext >/dev/null"))
+        skip();
+    for (int n = 0; n < (int)(sizeof cases / sizeof *cases); n++) {
+        static char want[20000], have[20000];
+        bool whole;
+        char *got = read_back(n, &whole);
+        tidy(cases[n].text, cases[n].spaced, want);
+        tidy(got, cases[n].spaced, have);
+        hyphens_join(have);
+        if (whole && strcmp(want, have) != 0)
+            fail_msg("case %d (%s): set\n%s\nread\n%s", n, cases[n].language, want, have);
+        free(got);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(words_come_back)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
