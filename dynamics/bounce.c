@@ -9,11 +9,12 @@
 
 enum { MEET_ROUNDS = 6, TURN_ROUNDS = 2, LEAPS_MOST = 8 };
 
-/* What becomes of a mass that bounces, across the side (positive inwards). */
+/* The motion of a mass that bounces, across the side (positive inwards). */
 struct dyn_met {
-    double place, speed;           /* at the part's end, from the side; in its middle */
-    double r;                      /* the fraction of the part before it bounces */
-    double jump_speed, jump_place; /* of those that hang on it: times h2 K/m, h3 K/m */
+    double place, speed; /* at the part's end, from the side; in its middle */
+    double r;            /* the fraction of the part before it bounces */
+    double jump_speed,
+        jump_place; /* jumps of the masses that hang on it: times h2 K/m, h3 K/m */
     double grip,
         heard; /* by how much friction can change the speed along; how fast it leaves */
 };

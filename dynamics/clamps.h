@@ -30,8 +30,9 @@ struct dyn_clamps;
 enum dyn_status dyn_clamps_create(struct dyn_clamps **out);
 void dyn_clamps_destroy(struct dyn_clamps *c); /* NULL is fine */
 
-/* Keys may come in any order; a second one for the same mass and time replaces the first. Errors: BAD_ARGUMENT (numbers outside of their
- * ranges: places as masses have them, times -1e12..1e12), TOO_LARGE past DYN_KEYS_MAX, NO_MEMORY; nothing changes. */
+/* Keys may come in any order; a second one for the same mass and time replaces the first.
+ * Errors: BAD_ARGUMENT (numbers outside of their ranges: places as masses have them, times
+ * -1e12..1e12), TOO_LARGE past DYN_KEYS_MAX, NO_MEMORY; nothing changes. */
 enum dyn_status dyn_clamps_key(struct dyn_clamps *c, int mass, double time_s, double x,
                                double y);
 enum dyn_status dyn_clamps_free(struct dyn_clamps *c, int mass, double time_s);
@@ -46,8 +47,8 @@ enum dyn_status dyn_clamps_step(const struct dyn_clamps *c, struct dyn_network *
 /* The place of a clamped mass at a time. False: it is not clamped then. */
 bool dyn_clamps_at(const struct dyn_clamps *c, int mass, double time_s, double *x, double *y);
 
-/* As text: `clamps 1`, then lines `key MASS TIME X Y` and `free MASS TIME`, then `end`. Errors: as dyn_network_read() and
- * dyn_network_write(). Owns: the caller destroys *out. */
+/* As text: `clamps 1`, then lines `key MASS TIME X Y` and `free MASS TIME`, then `end`. Errors:
+ * as dyn_network_read() and dyn_network_write(). Owns: the caller destroys *out. */
 enum dyn_status dyn_clamps_parse(const char *text, size_t bytes, const char *name,
                                  struct dyn_clamps **out);
 enum dyn_status dyn_clamps_read(const char *path, struct dyn_clamps **out);

@@ -48,7 +48,8 @@ struct dyn_world dyn_world_usual(void);
 extern const struct dyn_control dyn_controls[]; /* the rows of struct dyn_world */
 extern const int dyn_controls_count;
 
-/* NULL: there is no control of that name, and dyn_error() lists the names. A row of the table, valid for ever. */
+/* NULL: there is no control of that name, and dyn_error() lists the names. A row of the table,
+ * valid for ever. */
 const struct dyn_control *dyn_control_find(const char *name);
 
 /* Checks that the value is in the range, and whole where required. Errors: BAD_ARGUMENT,

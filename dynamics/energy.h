@@ -12,13 +12,13 @@
 /* kg units2/s2. */
 struct dyn_energy {
     double motion; /* kinetic, of masses that are free */
-    double
-        gravity; /* potential, against the floor's height (0 without a floor), of masses that are free */
+    /* potential, against the floor's height (0 without a floor), of masses that are free */
+    double gravity;
     double springs; /* potential, of springs that are not broken */
     double pulls;   /* potential, of the hand's springs */
 };
 
-/* Of the present state. */
+/* The energy of the present state. */
 struct dyn_energy dyn_network_energy(const struct dyn_network *n);
 
 #endif

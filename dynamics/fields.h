@@ -10,9 +10,11 @@
 
 enum { DYN_ALL = -1 };
 
-extern const struct dyn_control dyn_mass_fields[]; /* of the numbers of struct dyn_mass */
+extern const struct dyn_control
+    dyn_mass_fields[]; /* a row for each number of struct dyn_mass */
 extern const int dyn_mass_fields_count;
-extern const struct dyn_control dyn_spring_fields[]; /* of struct dyn_spring */
+extern const struct dyn_control
+    dyn_spring_fields[]; /* a row for each number of struct dyn_spring */
 extern const int dyn_spring_fields_count;
 
 /* NULL: there is no field of that name, and dyn_error() lists the names. */

@@ -19,21 +19,23 @@
 
 enum { DYN_PULLS_MAX = 32 };
 
-/* Holds the mass at the point, from now on; called again, moves it. A held mass does not
- * move by itself. Errors: BAD_ARGUMENT (no such mass, or a place that is not a number within the
+/* Holds the mass at the point, from now on; called again, moves it. A held mass does not move
+ * by itself. Errors: BAD_ARGUMENT (no such mass, or a place that is not a number within the
  * field's range). */
 enum dyn_status dyn_mass_hold(struct dyn_network *n, int mass, double x, double y);
 /* Releases a held mass: a twang, if one of its springs is strained by more than a fiftieth.
  * Errors: BAD_ARGUMENT (no such mass). */
 enum dyn_status dyn_mass_release(struct dyn_network *n, int mass);
 
-/* Pulls the mass to the point by a spring of that constant and zero length, damped to a
- * third of the critical damping. A mass has one pull: a second begin moves it. Errors:
- * as dyn_mass_hold(); TOO_LARGE past DYN_PULLS_MAX; to move a pull that there is not is BAD_ARGUMENT. */
+/* Pulls the mass to the point by a spring of that constant and zero length, damped to a third
+ * of the critical damping. A mass has one pull: a second begin moves it. Errors: as
+ * dyn_mass_hold(); TOO_LARGE past DYN_PULLS_MAX; to move a pull that there is not is
+ * BAD_ARGUMENT. */
 enum dyn_status dyn_pull_begin(struct dyn_network *n, int mass, double x, double y,
                                double constant);
 enum dyn_status dyn_pull_move(struct dyn_network *n, int mass, double x, double y);
-/* Ends the pull, if there is one, with a twang as for a release. Errors: as dyn_mass_release(). */
+/* Ends the pull, if there is one, with a twang as for a release. Errors: as
+ * dyn_mass_release(). */
 enum dyn_status dyn_pull_end(struct dyn_network *n, int mass);
 
 /* Tacks the mass where it is: a click, unless it is tacked already; ends a pull or hold on
@@ -48,7 +50,8 @@ enum dyn_status dyn_mass_place(struct dyn_network *n, int mass, double x, double
 /* Moves the mass to the point and tacks it: to shape a word. Errors: as dyn_mass_hold(). */
 enum dyn_status dyn_mass_clamp(struct dyn_network *n, int mass, double x, double y);
 
-/* Cuts the spring: a snap, unless it is broken already. Errors: BAD_ARGUMENT (no such spring). */
+/* Cuts the spring: a snap, unless it is broken already. Errors: BAD_ARGUMENT (no such
+ * spring). */
 enum dyn_status dyn_spring_cut(struct dyn_network *n, int spring);
 /* Cuts all springs that the line between the two points crosses; *cut: how many. Errors:
  * BAD_ARGUMENT (a point that is not finite). */

@@ -15,10 +15,9 @@
  * one load, and adds a force by one load and store, where separate arrays of x, y, vx and vy
  * would take four. Vectors are transposed between the two forms in registers.
  *
- * Arrays of masses are padded to a whole number of vectors of 8, with at least one dummy
- * mass: number masses_count, which is fixed, and is both ends of the springs that pad the
- * last vector.
- */
+ * Arrays of masses are padded to a whole number of vectors of 8, with at least one dummy mass:
+ * number masses_count, which is fixed, and is both ends of the springs that pad the last
+ * vector. */
 #ifndef LUTETIA_DYN_INTERNAL_H
 #define LUTETIA_DYN_INTERNAL_H
 
@@ -75,8 +74,9 @@ struct dyn_pull {
     double x, y, constant, damping;
 };
 
-/* A mass's force is so many times its number from the first force, in bytes, and its state twice as far from the first state.
- * Springs keep that instead of the number, which costs no operation when they read a state or add a force. */
+/* A mass's force is so many times its number from the first force, in bytes, and its state
+ * twice as far from the first state. Springs keep that instead of the number, which costs no
+ * operation when they read a state or add a force. */
 enum {
     DYN_FORCE_BYTES = sizeof(struct dyn_force),
     DYN_MASSES_MOST = INT32_MAX / DYN_FORCE_BYTES
@@ -85,7 +85,7 @@ _Static_assert(sizeof(struct dyn_state) == 2 * DYN_FORCE_BYTES, "a state is two 
 
 /* The springs that are not broken; count is a multiple of 8. */
 struct dyn_packed {
-    int32_t *at[2];                 /* where their masses' forces are */
+    int32_t *at[2];                 /* the places of their masses' forces */
     double *k, *k_rest, *c, *limit; /* limit: the length at which it breaks */
     int32_t *which;                 /* the spring's number; -1 for padding */
     int count;
@@ -98,7 +98,8 @@ static inline int dyn_packed_end(const struct dyn_packed *s, int end, int spring
     return (int)((uint32_t)s->at[end][spring] / DYN_FORCE_BYTES);
 }
 
-/* A mass of more restitution bounces again and again; others rest where a leap would be shorter than a part. */
+/* A mass of more restitution bounces again and again; others rest where a leap would be shorter
+ * than a part. */
 #define DYN_ELASTIC 0.95
 
 /* A mass that has met a side in this part: bounce.h. */
@@ -108,7 +109,7 @@ struct dyn_bounce {
     double gained[2]; /* what its velocity gained in the part */
 };
 
-/* Of each mass i, which of the packed springs it has: at[from[i]] .. at[from[i + 1] - 1]. */
+/* Mass i has the packed springs at[from[i]] .. at[from[i + 1] - 1]. */
 struct dyn_ends {
     int32_t *from, *at;
     int from_capacity, at_capacity;
@@ -122,7 +123,7 @@ struct dyn_prepared {
     struct dyn_bounce *bounces; /* room for as many as there can be in a part */
     struct dyn_met *met;
     int bounces_capacity, met_capacity;
-    double pull_soft[DYN_PULLS_MAX]; /* of the pulls' strength */
+    double pull_soft[DYN_PULLS_MAX]; /* the part of each pull's strength that is left */
     double dt_s, h;
     struct dyn_plan plan;
     /* One block each, cut up. */
@@ -135,7 +136,7 @@ struct dyn_network {
     double time_s;
     int masses_count, springs_count;
     size_t masses_capacity, springs_capacity, ends_capacity, flags_capacity, holds_capacity;
-    /* Of masses. */
+    /* A number for each mass. */
     struct dyn_state *state;
     struct dyn_force *force; /* zeros between steps */
     size_t state_capacity, force_capacity;
@@ -143,7 +144,7 @@ struct dyn_network {
     uint8_t *hold;
     int32_t *degree; /* springs on it */
     size_t degree_capacity;
-    /* Of springs. */
+    /* A number for each spring. */
     int32_t (*end)[2];
     double *spring_field; /* SPRING_PARAMETERS rows of springs_capacity */
     uint8_t *broken;
@@ -205,7 +206,7 @@ struct dyn_job {
     const double *kick, *keep, *push_x, *push_y, *restitution, *friction;
     int masses; /* a multiple of 8 */
     struct dyn_packed springs;
-    double h, dt_s; /* of a part, of a step */
+    double h, dt_s; /* the length of a part, and of a step */
     double least_x, most_x, least_y,
         most_y; /* the places of the sides; infinite where there are none */
     double slow_speed, clank_speed, speed_limit;
@@ -214,7 +215,7 @@ struct dyn_job {
     bool verlet;      /* kick, keep and push are for half of h */
     int parts, steps; /* parts in each of the steps */
     bool stop; /* stop after the step in which it was set; `steps` holds the remaining steps */
-    double time_s; /* of the part's end */
+    double time_s; /* the time at the part's end */
     struct dyn_network *network;
     void (*bounce)(struct dyn_job *job); /* makes them, at the part's end */
     void (*on_snap)(struct dyn_job *job, int packed, double length);

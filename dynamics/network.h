@@ -26,10 +26,11 @@
  * A mass is free, or stuck (tacked to its place), or held (by a hand), or both; only a free one
  * moves.
  *
- * Errors: functions that can fail return a status and leave one line in dyn_error(). Others cannot fail.
+ * Errors: functions that can fail return a status and leave one line in dyn_error(). Others
+ * cannot fail.
  *
- * Ownership: what is passed is copied, and stays the caller's. Threads: a network belongs to one thread at a time.
- */
+ * Ownership: what is passed is copied, and stays the caller's. Threads: a network belongs to
+ * one thread at a time. */
 #ifndef LUTETIA_DYN_NETWORK_H
 #define LUTETIA_DYN_NETWORK_H
 
@@ -47,9 +48,9 @@ struct dyn_mass {
     double x, y, vx, vy;
     double mass;
     double drag;        /* kg/s; added to the world's drag */
-    double gravity;     /* of the world's */
+    double gravity;     /* factor of the world's gravity */
     double restitution; /* factor of the world's restitution; the product is at most 1 */
-    double friction;    /* of the world's */
+    double friction;    /* factor of the world's friction */
     unsigned hold;      /* bits of enum dyn_hold */
 };
 
@@ -76,7 +77,8 @@ struct dyn_mass dyn_mass_usual(void);
 struct dyn_spring dyn_spring_usual(void);
 #define DYN_REST_AS_PLACED (-1.0)
 
-/* An empty network in a world of usual values. Errors: NO_MEMORY; *out is then NULL. Owns: the caller destroys *out. */
+/* An empty network in a world of usual values. Errors: NO_MEMORY; *out is then NULL. Owns: the
+ * caller destroys *out. */
 enum dyn_status dyn_network_create(struct dyn_network **out);
 void dyn_network_destroy(struct dyn_network *n); /* NULL is fine */
 
@@ -120,8 +122,8 @@ int dyn_network_nearest(const struct dyn_network *n, double x, double y, double 
 /* The unbroken spring nearest to the point, likewise. */
 int dyn_network_nearest_spring(const struct dyn_network *n, double x, double y, double within);
 
-/* The common parameters; never NULL, valid as long as the network. Errors: BAD_ARGUMENT: a value
- * outside of its control's range; nothing changes. */
+/* The common parameters; never NULL, valid as long as the network. Errors: BAD_ARGUMENT: a
+ * value outside of its control's range; nothing changes. */
 const struct dyn_world *dyn_network_world(const struct dyn_network *n);
 enum dyn_status dyn_network_world_set(struct dyn_network *n, const struct dyn_world *world);
 

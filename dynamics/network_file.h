@@ -9,8 +9,7 @@
  *
  * Everything is written except waiting events.
  *
- * Errors, ownership and threads: as network.h says.
- */
+ * Errors, ownership and threads: as network.h says. */
 #ifndef LUTETIA_DYN_NETWORK_FILE_H
 #define LUTETIA_DYN_NETWORK_FILE_H
 
@@ -18,8 +17,8 @@
 
 #include <stdio.h>
 
-/* Errors: BAD_FILE: the file cannot be read, or a line is wrong (with the file's name and
- * the line's number); TOO_LARGE, NO_MEMORY. *out is then NULL. Owns: the caller destroys *out. */
+/* Errors: BAD_FILE: the file cannot be read, or a line is wrong (with the file's name and the
+ * line's number); TOO_LARGE, NO_MEMORY. *out is then NULL. Owns: the caller destroys *out. */
 enum dyn_status dyn_network_read(const char *path, struct dyn_network **out);
 
 /* The same for a text in memory; name: used in errors. Errors: as dyn_network_read(). Owns: the

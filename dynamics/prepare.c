@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of what would just be stable, where masses bounce and lose nothing. */
+/* The part of a stable step that is taken where masses bounce and lose nothing. */
 #define ELASTIC_PART (1.0 / 32)
 
 enum { MASS_ROWS = 10, SPRING_ROWS = 4, SPRING_NUMBERS = 3 };

@@ -12,7 +12,7 @@
 enum { DYN_READER_LINE_BYTES = 1000 };
 
 struct dyn_reader {
-    const char *name; /* of the file, for errors */
+    const char *name; /* the file's name, for errors */
     long line;
     char text[DYN_READER_LINE_BYTES + 1]; /* the line's words, separated by zeros */
     char *next;                           /* the next unread word */

@@ -3,10 +3,11 @@
  *     if (dyn_network_create(&network) != DYN_OK)
  *         die(dyn_error());
  *
- * Errors: a function that can fail returns a status; dyn_error() then has one line: what is wrong, and where.
+ * Errors: a function that can fail returns a status; dyn_error() then has one line: what is
+ * wrong, and where.
  *
- * Ownership: the message is the library's. Threads: any; the message belongs to the thread that failed.
- */
+ * Ownership: the message is the library's. Threads: any; the message belongs to the thread that
+ * failed. */
 #ifndef LUTETIA_DYN_STATUS_H
 #define LUTETIA_DYN_STATUS_H
 

@@ -2,7 +2,8 @@
  *
  *     dyn_network_step(network, 1.0 / 60, 1);
  *
- * Forces. A spring between a and b with d = b - a, of length l, and dv the difference of their velocities, pulls a towards b with
+ * Forces. A spring between a and b with d = b - a, of length l, and dv the difference of their
+ * velocities, pulls a towards b with
  *     F = k (l - rest) + c (dv . d) / l
  * and b towards a. A mass has its weight, m g, and the air's drag, b (wind - v).
  *
@@ -23,12 +24,12 @@
  * If a mass can bounce with a restitution above 0.95, h is at most a 32nd of that least: then
  * only the length of parts decides how energy is kept.
  *
- * Sides. A mass that is below the floor and moves down bounces as bounce.h says: at the place and
- * the speed of the smooth motion on which the parts' places lie. If it is slower than gravity
- * makes a mass in two parts, or its springs both turned it round and brought it there in one
- * part, and its restitution is at most 0.95, it comes to rest.
- * Friction reduces the tangential velocity by at most the coefficient of friction times the
- * change of the normal velocity. Walls and ceiling act in the same way.
+ * Sides. A mass that is below the floor and moves down bounces as bounce.h says: at the place
+ * and the speed of the smooth motion on which the parts' places lie. If it is slower than
+ * gravity makes a mass in two parts, or its springs both turned it round and brought it there
+ * in one part, and its restitution is at most 0.95, it comes to rest. Friction reduces the
+ * tangential velocity by at most the coefficient of friction times the change of the normal
+ * velocity. Walls and ceiling act in the same way.
  *
  * Thesis: the listing in its appendix 7.1, operation for operation, in doubles: one part;
  * floor, gravity and drag; no wind, walls, friction, damping of springs or pulls, and a
@@ -36,8 +37,7 @@
  *
  * AVX-512, AVX2 and plain C give the same bits.
  *
- * Errors, ownership and threads: as network.h says.
- */
+ * Errors, ownership and threads: as network.h says. */
 #ifndef LUTETIA_DYN_STEP_H
 #define LUTETIA_DYN_STEP_H
 
@@ -60,8 +60,8 @@ enum dyn_status dyn_network_plan(struct dyn_network *n, double dt_s, struct dyn_
 enum dyn_simd { DYN_SIMD_PLAIN, DYN_SIMD_AVX2, DYN_SIMD_AVX512 };
 
 /* From now on all threads use the best of the variants up to `most` that this processor
- * supports. Returns it. At first it is the fastest: AVX2 where AVX-512 is computed in halves. Threads: not
- * while another one steps. */
+ * supports. Returns it. At first it is the fastest: AVX2 where AVX-512 is computed in halves.
+ * Threads: not while another one steps. */
 enum dyn_simd dyn_simd_use(enum dyn_simd most);
 /* "AVX2" and so on: a constant, valid for ever; never NULL. */
 const char *dyn_simd_name(enum dyn_simd simd);

@@ -61,8 +61,9 @@ static void bounces_note(struct dyn_job *job, int i, enum dyn_side side, unsigne
     }
 }
 
-/* Stops at one side, or at the plane's edge, what does not bounce, and notes what does: p is the place across it and
- * v the velocity, t the velocity along it. inwards: 1 if p grows inwards, else -1. */
+/* Stops at one side, or at the plane's edge, what does not bounce, and notes what does: p is
+ * the place across it and v the velocity, t the velocity along it. inwards: 1 if p grows
+ * inwards, else -1. */
 INLINE void side_meet(struct dyn_job *job, int i, enum dyn_side side, double at, int inwards,
                       lanes *p, lanes *v, lanes *t, struct lanes_force gained)
 {

@@ -2,8 +2,8 @@
  * step_kernel.h.
  *
  *     memory      x0 y0 vx0 vy0   x1 y1 vx1 vy1   ...          fx0 fy0   fx1 fy1   ...
- *     lanes       x0 x1 ...   y0 y1 ...   vx0 vx1 ...   vy0 vy1 ...        fx0 fx1 ...   fy0 fy1 ...
- */
+ *     lanes       x0 x1 ...   y0 y1 ...   vx0 vx1 ...   vy0 vy1 ...        fx0 fx1 ...   fy0 fy1
+ * ... */
 #ifndef LUTETIA_DYN_TURN_H
 #define LUTETIA_DYN_TURN_H
 
@@ -17,7 +17,7 @@ struct lanes_force {
     lanes x, y;
 };
 
-/* Of the mass whose force is there: struct dyn_packed. */
+/* The state of the mass whose force is there: struct dyn_packed. */
 INLINE const struct dyn_state *state_at(const struct dyn_state *first, int32_t at)
 {
     return (const void *)((const char *)first + 2 * (ptrdiff_t)at);
@@ -187,10 +187,10 @@ INLINE void forces_clear(struct dyn_force *force)
 
 #endif
 
-/* Adds forces to the first ends and subtracts them from the second, one spring after the
- * other, so that the order of a mass's forces does not depend on LANES. Where springs often have
- * the first end of the one before, its sum is carried in a register: a load of what was just
- * stored is slow. c: NULL where they do not. */
+/* Adds forces to the first ends and subtracts them from the second, one spring after the other,
+ * so that the order of a mass's forces does not depend on LANES. Where springs often have the
+ * first end of the one before, its sum is carried in a register: a load of what was just stored
+ * is slow. c: NULL where they do not. */
 #if LANES > 1
 
 struct carried {

@@ -24,7 +24,8 @@ static CM_field_id_t real_field(void)
     return CM_allocate_heap_field(REAL_BITS);
 }
 
-/* Makes a field of the current set from an array of doubles. A number that all have is in no memory. */
+/* Makes a field of the current set from an array of doubles. A number that all have is in no
+ * memory. */
 static CM_field_id_t real_of(const double *values, int count)
 {
     CM_field_id_t field = real_field();
@@ -38,7 +39,7 @@ static CM_field_id_t real_of(const double *values, int count)
     return field;
 }
 
-/* What slots are found with. */
+/* The arrays with which slots are found. */
 struct slots_room {
     int32_t *degrees, *which; /* as many as masses */
     int32_t *sends;           /* as many as springs, and one */
@@ -126,7 +127,7 @@ static void slots_make(struct dyn_masses *m, struct dyn_springs *s,
         room->degrees[order->end[end][i]]++;
     m->slots[end] = slots_needed(room->degrees, m->count);
     for (int k = 0; k < m->slots[end]; k++) {
-        /* Of each mass, its k-th spring. */
+        /* The k-th spring of each mass. */
         memset(room->degrees, 0, (size_t)m->count * sizeof *room->degrees);
         for (int i = 0; i < m->count; i++)
             room->which[i] = s->count;
@@ -154,7 +155,8 @@ static void slots_make(struct dyn_masses *m, struct dyn_springs *s,
     }
 }
 
-/* With one more at the end, which pulls at nothing: both its ends are one mass, so it has no length. */
+/* With one more at the end, which pulls at nothing: both its ends are one mass, so it has no
+ * length. */
 static CM_field_id_t real_of_springs(const double *values, const struct dyn_order *order,
                                      double *row)
 {
@@ -300,7 +302,7 @@ enum dyn_status dyn_machine_create(struct dyn_network *n, double dt_s, struct dy
 static void set_free(CM_vp_set_id_t set, CM_geometry_id_t geometry)
 {
     if (set)
-        CM_deallocate_vp_set(set); /* its fields go too */
+        CM_deallocate_vp_set(set); /* the set's fields go with it */
     if (geometry)
         CM_deallocate_geometry(geometry);
 }

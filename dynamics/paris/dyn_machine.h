@@ -7,20 +7,21 @@
  *         die(dyn_error());
  *     dyn_machine_destroy(machine);
  *
- * It makes the symplectic step of step.h, in doubles, in the same parts: each spring gets the states of its two masses and finds its
- * force; each mass gets the forces of its springs, adds them, moves and meets the sides. A mass of very many springs has no room for
- * the addresses of all: the forces of the rest are sent to it. Springs break. What differs from dyn_network_step(): the order in
- * which a mass's forces are added (first those of springs whose first end it is); nothing is heard.
+ * It makes the symplectic step of step.h, in doubles, in the same parts: each spring gets the
+ * states of its two masses and finds its force; each mass gets the forces of its springs, adds
+ * them, moves and meets the sides. A mass of very many springs has no room for the addresses of
+ * all: the forces of the rest are sent to it. Springs break. What differs from
+ * dyn_network_step(): the order in which a mass's forces are added (first those of springs
+ * whose first end it is); nothing is heard.
  *
- * In parts in which masses bounce, the machine waits while the front end reads them, makes the bounces with the library's
- * function and writes them back.
+ * In parts in which masses bounce, the machine waits while the front end reads them, makes the
+ * bounces with the library's function and writes them back.
  *
  * Errors: functions that can fail return a status and leave one line in dyn_error().
  *
  * Ownership: the network's parameters are copied at creation; later changes have no effect.
  *
- * Threads: all calls of Paris and of this header are made by one thread.
- */
+ * Threads: all calls of Paris and of this header are made by one thread. */
 #ifndef LUTETIA_DYN_MACHINE_H
 #define LUTETIA_DYN_MACHINE_H
 

@@ -1,9 +1,10 @@
 /* dyn_machine_order.c - which processor has which spring: see dyn_machine_program.h.
  *
- * A get whose addresses go up by one from processor to processor is a load of a whole vector. So the springs of a block of
- * masses are dealt out in rounds: first one of each mass, then a second one of each, and so on, always to the mass with the
- * higher number, the nearest first. In a network that has some order, neighbours' springs of the same round go to neighbours.
- * A block's masses stay in the caches for all rounds. */
+ * A get whose addresses go up by one from processor to processor is a load of a whole vector.
+ * So the springs of a block of masses are dealt out in rounds: first one of each mass, then a
+ * second one of each, and so on, always to the mass with the higher number, the nearest first.
+ * In a network that has some order, neighbours' springs of the same round go to neighbours. A
+ * block's masses stay in the caches for all rounds. */
 #include "dyn_machine_program.h"
 
 #include <stdlib.h>

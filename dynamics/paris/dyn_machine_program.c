@@ -3,7 +3,8 @@
 
 #include <internal.h>
 
-/* What a spring needs for a while: fields that are new each time are in no memory unless they are looked at. */
+/* What a spring needs for a while: fields that are new each time are in no memory unless they
+ * are looked at. */
 struct between {
     CM_field_id_t force[2], d[STATES], other, length, inverse, pull;
 };
@@ -45,7 +46,7 @@ static void ends_get(const struct dyn_springs *s, const struct dyn_masses *m,
     }
 }
 
-/* Where the length is beyond the limit the spring breaks: it has no strength any more. */
+/* A spring whose length is beyond the limit breaks: it has no strength any more. */
 static void long_ones_break(const struct dyn_springs *s, const struct between *b)
 {
     if (!s->any_breaks)
@@ -119,7 +120,8 @@ static void forces_send(const struct dyn_springs *s, const struct dyn_masses *m,
 
 /* ---- masses ---- */
 
-/* Each mass gets the forces of its springs: a get is as fast as a load from memory, where many that send to one are not. */
+/* Each mass gets the forces of its springs: a get is as fast as a load from memory, where many
+ * that send to one are not. */
 static void forces_get(const struct between *b, const struct dyn_masses *m)
 {
     CM_field_id_t got = real_for_a_while();

@@ -9,10 +9,11 @@ enum { REAL_S = 52, REAL_E = 11, REAL_BITS = 64, ADDRESS_BITS = 32 };
 #define REAL REAL_S, REAL_E
 #define DYN_MACHINE_NEVER 1e200 /* the limit of springs that do not break */
 
-/* Of a mass, in the order of struct dyn_state. */
+/* The numbers of a mass, in the order of struct dyn_state. */
 enum { STATE_X, STATE_Y, STATE_VX, STATE_VY, STATES };
 
-/* Springs that a mass gets the forces of: those of which it is the first end, and those of which it is the second. */
+/* Springs that a mass gets the forces of: those of which it is the first end, and those of
+ * which it is the second. */
 enum { SLOTS_MOST = 8 };
 
 struct dyn_masses {
@@ -31,8 +32,8 @@ struct dyn_masses {
 struct dyn_springs {
     CM_geometry_id_t geometry;
     CM_vp_set_id_t set;
-    int count;                /* of the network's; one more pulls at nothing */
-    CM_field_id_t address[2]; /* of its masses */
+    int count;                /* the network's springs; one more pulls at nothing */
+    CM_field_id_t address[2]; /* the addresses of its masses */
     CM_field_id_t sends[2];   /* 1: the mass has no slot left for it, so the force is sent */
     bool any_sends[2];
     CM_field_id_t k, k_rest, c, limit;
@@ -40,7 +41,8 @@ struct dyn_springs {
     bool any_breaks;      /* else limit and broken are nobody's */
 };
 
-/* Which spring a processor has, of the packed ones, and its masses, that of the lower number first. */
+/* Which spring a processor has, of the packed ones, and its masses, that of the lower number
+ * first. */
 struct dyn_order {
     int count;
     int32_t *packed, *end[2];
@@ -58,9 +60,9 @@ struct dyn_machine {
     double *values;               /* room for all that it needs of the masses */
     int parts;
     double dt_s;
-    uint32_t *broken;          /* of each spring, as it was read last */
-    int32_t *which;            /* of each spring: its number in the network */
-    struct dyn_order order;    /* of each spring: which of the packed ones it is */
+    uint32_t *broken;          /* each spring's bit, as it was read last */
+    int32_t *which;            /* each spring's number in the network */
+    struct dyn_order order;    /* each spring's place among the packed ones */
     int of_masses, of_springs; /* the network's counts */
     int steps;                 /* steps since the network's time was read */
 };

@@ -44,7 +44,7 @@ double dyn_quad_condition(const double corners[4][2])
     return all_finite(corners) ? weights(corners, t) : 0;
 }
 
-/* Of what is bilinear. */
+/* The share of the bilinear map. */
 static double share(double condition)
 {
     double t = (DYN_QUAD_PROJECTIVE_FROM - condition) /

@@ -23,15 +23,14 @@
  *   Smooth: w_i goes from one to the other with the condition.
  *
  * The condition is the least t_i over the greatest, where the quad's own sense counts as
- * positive: 1 a parallelogram, 0 three corners in a line or less than a quad, negative a
- * dent or sides that cross. Smooth is projective at and above DYN_QUAD_PROJECTIVE_FROM,
- * bilinear at and below DYN_QUAD_BILINEAR_TO, and the share goes as a smoothstep between
- * them: points and their speeds are continuous while corners move.
+ * positive: 1 a parallelogram, 0 three corners in a line or less than a quad, negative a dent
+ * or sides that cross. Smooth is projective at and above DYN_QUAD_PROJECTIVE_FROM, bilinear at
+ * and below DYN_QUAD_BILINEAR_TO, and the share goes as a smoothstep between them: points and
+ * their speeds are continuous while corners move.
  *
  * Errors: functions that can fail return false, and leave no message.
  *
- * Ownership: a map is the caller's, and points to nothing. Threads: any.
- */
+ * Ownership: a map is the caller's, and points to nothing. Threads: any. */
 #ifndef LUTETIA_DYN_QUAD_H
 #define LUTETIA_DYN_QUAD_H
 
@@ -52,12 +51,13 @@ struct dyn_quad_map {
 /* -1..1; 0 if a corner is not finite. */
 double dyn_quad_condition(const double corners[4][2]);
 
-/* False: a corner is not finite, or PROJECTIVE is asked for and the quad is not strictly convex. */
+/* False: a corner is not finite, or PROJECTIVE is asked for and the quad is not strictly
+ * convex. */
 bool dyn_quad_make(struct dyn_quad_map *map, enum dyn_quad_kind kind,
                    const double corners[4][2]);
 
-/* jacobian: dx/du, dx/dv, dy/du, dy/dv; NULL is fine. False: the point is at or beyond the map's horizon (never within the
- * square). */
+/* jacobian: dx/du, dx/dv, dy/du, dy/dv; NULL is fine. False: the point is at or beyond the
+ * map's horizon (never within the square). */
 bool dyn_quad_point(const struct dyn_quad_map *map, double u, double v, double *x, double *y,
                     double jacobian[4]);
 
@@ -65,16 +65,16 @@ bool dyn_quad_point(const struct dyn_quad_map *map, double u, double v, double *
  * there is one. False: none was found. */
 bool dyn_quad_inverse(const struct dyn_quad_map *map, double x, double y, double *u, double *v);
 
-/* As polynomials: x w, y w and w are c[.][0] + c[.][1] u + c[.][2] v + c[.][3] u v. The last are 0 for w where the kind is
- * BILINEAR, and for all where it is PROJECTIVE. */
+/* As polynomials: x w, y w and w are c[.][0] + c[.][1] u + c[.][2] v + c[.][3] u v. The last
+ * are 0 for w where the kind is BILINEAR, and for all where it is PROJECTIVE. */
 void dyn_quad_coefficients(const struct dyn_quad_map *map, double c[3][4]);
 
 /* Rows: (u, v, 0, 1) times m is (x w, y w, 0, w). Of a PROJECTIVE map. */
 void dyn_quad_matrix(const struct dyn_quad_map *map, double m[4][4]);
 
-/* The same matrix, up to its scale, as the thesis makes it: homogeneous, shear, scale and translation, multiplied. False: one of the
- * numbers it divides by is 0, as with a quad turned by 90 degrees.
- * Source: the thesis, section 2.2 and appendix 7.2. */
+/* The same matrix, up to its scale, as the thesis makes it: homogeneous, shear, scale and
+ * translation, multiplied. False: one of the numbers it divides by is 0, as with a quad turned
+ * by 90 degrees. Source: the thesis, section 2.2 and appendix 7.2. */
 bool dyn_quad_thesis(const double corners[4][2], double m[4][4]);
 
 #endif

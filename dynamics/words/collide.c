@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PUSH 0.5        /* of the depth, each time */
+#define PUSH 0.5        /* the part of the depth that is undone each time */
 enum { ROUNDS = 4 };    /* a letter between others is pushed by all of them */
 #define SLOW_SPEED 0.25 /* approaching speeds below this do not bounce, units/s */
 

@@ -99,7 +99,8 @@ static struct dyn_place middle_of(const struct dyn_word *word, const struct dyn_
                               places[i].y + (l->y0 + l->y1) / 2};
 }
 
-/* The letter of the mark's cluster; or the nearest, for an accent may be of another face than its letter. */
+/* The letter of the mark's cluster; or the nearest, for an accent may be of another face than
+ * its letter. */
 static int letter_below(const struct dyn_word *word, const struct dyn_place *places, int mark)
 {
     struct dyn_place at = middle_of(word, places, mark);

@@ -45,7 +45,7 @@ struct dyn_place dyn_path_place(const struct dyn_path *path, double x, double y)
     while (i < path->count - 1 && (path->at[i] <= x || path->at[i] == path->at[i - 1]))
         i++;
     while (i > 1 && path->at[i] == path->at[i - 1])
-        i--; /* its end may stand still */
+        i--; /* a path's end may stand still */
     const double *a = path->points[i - 1], *b = path->points[i];
     double length = path->at[i] - path->at[i - 1];
     double ux = (b[0] - a[0]) / length, uy = (b[1] - a[1]) / length;

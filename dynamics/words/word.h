@@ -15,9 +15,9 @@
  *     }
  *     dyn_word_destroy(word);
  *
- * Text is shaped and broken into lines by fontpipe; each glyph that has ink, and is no mark on another, is a letter: four
- * masses at its box's corners, springs along its sides and diagonals, and a pair of springs to
- * the next letter of its line. Lines hang from each other:
+ * Text is shaped and broken into lines by fontpipe; each glyph that has ink, and is no mark on
+ * another, is a letter: four masses at its box's corners, springs along its sides and
+ * diagonals, and a pair of springs to the next letter of its line. Lines hang from each other:
  *
  *       3-------2 ~~~~ 3-------2          0 1 2 3   masses of a letter: its box's corners, as numbered in a quad
  *       | \   / |      |       |          - | \     sides and diagonals
@@ -33,23 +33,25 @@
  *
  * Source: the thesis, section 2.3.
  *
- * Errors: functions that can fail return a status and leave one line in dyn_error(). Others cannot fail.
+ * Errors: functions that can fail return a status and leave one line in dyn_error(). Others
+ * cannot fail.
  *
- * Ownership: what is passed is copied, but for the shaper and its faces, which must outlive the word.
+ * Ownership: what is passed is copied, but for the shaper and its faces, which must outlive the
+ * word.
  *
- * Threads: a word, its network and its shaper belong to one thread at a time.
- */
+ * Threads: a word, its network and its shaper belong to one thread at a time. */
 #ifndef LUTETIA_DYN_WORD_H
 #define LUTETIA_DYN_WORD_H
 
 #include <network.h>
 #include <text.h>
 
-/* EM: as wide as the letter's advance without its margins, as high as the capital M. INK: around its ink. */
+/* EM: as wide as the letter's advance without its margins, as high as the capital M. INK:
+ * around its ink. */
 enum dyn_box { DYN_BOX_EM, DYN_BOX_INK };
 
-/* Which corners are tacked: the first letter's upper left one; that and the last letter's upper right one; all upper ones of
- * the first line; all lower ones of the last line. */
+/* Which corners are tacked: the first letter's upper left one; that and the last letter's upper
+ * right one; all upper ones of the first line; all lower ones of the last line. */
 enum dyn_tack { DYN_TACK_NONE, DYN_TACK_FIRST, DYN_TACK_ENDS, DYN_TACK_TOP, DYN_TACK_BOTTOM };
 
 /* All members are doubles, so that the table can describe them. */
@@ -86,7 +88,7 @@ struct dyn_word_def {
     const char *text;           /* UTF-8, ended by a 0 */
     struct font_shaper *shaper; /* borrowed; its faces must outlive the word */
     double size;                /* size of an em, in units: 0.01..1000 */
-    double x, y;                /* where the first baseline begins */
+    double x, y;                /* the place where the first baseline begins */
     double width; /* width of the column to which lines are broken; 0: only at newlines */
     enum font_align align;
     const char *features; /* as in font_text_options; NULL is fine */
@@ -106,8 +108,8 @@ void dyn_path_circle(double x, double y, double radius, double from_degrees,
 struct dyn_word;
 
 /* Errors: BAD_ARGUMENT (a text without ink or that cannot be shaped, a number outside of its
- * range, a path without a length), TOO_LARGE, NO_MEMORY; the network is unchanged. Owns: the caller
- * destroys *out. */
+ * range, a path without a length), TOO_LARGE, NO_MEMORY; the network is unchanged. Owns: the
+ * caller destroys *out. */
 enum dyn_status dyn_word_create(struct dyn_network *n, const struct dyn_word_def *def,
                                 struct dyn_word **out);
 void dyn_word_destroy(struct dyn_word *word); /* NULL is fine; masses and springs stay in the
@@ -116,7 +118,7 @@ void dyn_word_destroy(struct dyn_word *word); /* NULL is fine; masses and spring
 struct dyn_letter {
     struct font_face *face;
     uint32_t glyph;
-    double size; /* of an em, in units */
+    double size; /* the length of an em, in units */
     double x0, y0, x1,
         y1;      /* the box in the glyph's own coordinates: units from its origin, y upwards */
     int link[2]; /* springs to the next letter of its line, below and above; -1: last letter */
@@ -125,8 +127,8 @@ struct dyn_letter {
     int line;
 };
 
-/* After the letters come the marks that stand on letters, accents and such: they have their letter's masses and its box, and
- * are only drawn. glyphs: both together. */
+/* After the letters come the marks that stand on letters, accents and such: they have their
+ * letter's masses and its box, and are only drawn. glyphs: both together. */
 int dyn_word_letters_count(const struct dyn_word *word);
 int dyn_word_glyphs_count(const struct dyn_word *word);
 /* Glyph `index`, which must be one of the word; never NULL, valid as long as the word. */

@@ -11,7 +11,7 @@ struct dyn_word {
     int letters_count, marks_count, letters_capacity;
     struct dyn_word_style style;
     struct dyn_word_range range;
-    uint8_t *part; /* of each spring */
+    uint8_t *part; /* the kind of each spring */
     int parts_capacity;
 };
 
@@ -20,9 +20,10 @@ static inline int dyn_glyphs(const struct dyn_word *word)
     return word->letters_count + word->marks_count;
 }
 
-/* letters.c: makes the letters of the text, with their boxes, without masses, and the marks. place: each
- * letter's origin, in units from the beginning of the first baseline, y upwards; the caller
- * frees it. A mark's mass[0] is the number of its letter until dyn_marks_stand() gives it the letter's masses. */
+/* letters.c: makes the letters of the text, with their boxes, without masses, and the marks.
+ * place: each letter's origin, in units from the beginning of the first baseline, y upwards;
+ * the caller frees it. A mark's mass[0] is the number of its letter until dyn_marks_stand()
+ * gives it the letter's masses. */
 struct dyn_place {
     double x, y;
 };

@@ -7,8 +7,8 @@
  *     static const struct {
  *         struct event_kind kind;
  *         enum my_status (*perform)(struct my_thing *, const void *arguments);
- *     } rows[] = {[MY_PUSH] = {{"push", "a push's ", sizeof(struct my_push), &push_members}, thing_push}, ...};
- */
+ *     } rows[] = {[MY_PUSH] = {{"push", "a push's ", sizeof(struct my_push), &push_members}, thing_push},
+ * ...}; */
 #ifndef LUTETIA_EVENTS_KINDS_H
 #define LUTETIA_EVENTS_KINDS_H
 

@@ -18,7 +18,7 @@ struct event_record {
     int steps;      /* that it takes */
     uint8_t *bytes; /* the arguments, deflated if stored < raw */
     size_t raw, stored;
-    uint64_t digest; /* of the arguments; 0 in records that were read from a file */
+    uint64_t digest; /* digest of the arguments; 0 in records that were read from a file */
 };
 
 struct event_log { /* {0}: empty. Owns: event_log_free() */
@@ -27,7 +27,8 @@ struct event_log { /* {0}: empty. Owns: event_log_free() */
     double bytes; /* that it takes */
 };
 
-/* False: no memory. Owns: a log takes it over, or the caller frees it by event_record_free(). */
+/* False: no memory. Owns: a log takes it over, or the caller frees it by
+ * event_record_free(). */
 bool event_record_make(struct event_record *record, int number, const struct event_kind *kind,
                        const void *arguments, const void *context);
 void event_record_free(struct event_record *record);
@@ -45,7 +46,8 @@ bool event_log_append(struct event_log *log, struct event_record record);
 /* Splits a record: the first part takes `steps`, the second the rest. Only the arguments of
  * kinds without any may be split so: the second part has none. False: no memory. */
 bool event_log_split(struct event_log *log, int at, int steps);
-/* Undoes a split: records at - 1 and at, the second of which has no arguments, are one again. */
+/* Undoes a split: records at - 1 and at, the second of which has no arguments, are one
+ * again. */
 void event_log_join(struct event_log *log, int at);
 /* Removes the records from `count` on. */
 void event_log_cut(struct event_log *log, int count);

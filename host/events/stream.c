@@ -62,7 +62,8 @@ void event_pass_text(struct event_stream *s, char *text, size_t size)
         memcpy(text, bytes, size);
 }
 
-/* Arrays of floats are kept as they are: low byte first here and on every machine this runs on. */
+/* Arrays of floats are kept as they are: low byte first here and on every machine this runs
+ * on. */
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "low byte first");
 void *event_pass_array(struct event_stream *s, const void *array, size_t size)
 {

@@ -32,7 +32,7 @@ static DIR *folder_open(int in, const char *name)
     return list;
 }
 
-/* What is in one of the folders of two letters: counted, or added to the list. */
+/* Counts the files of one of the folders of two letters, or adds them to the list. */
 static int programs_of(int cache, const char *letters, struct oldest *o)
 {
     char path[64];

@@ -1,11 +1,13 @@
-/* kept_kernels.h - PoCL's cache of kernels does not grow without end: PoCL itself never removes any. */
+/* kept_kernels.h - PoCL's cache of kernels does not grow without end: PoCL itself never removes
+ * any. */
 #ifndef LUTETIA_OPENCL_KEPT_KERNELS_H
 #define LUTETIA_OPENCL_KEPT_KERNELS_H
 
 enum { KEPT_KERNELS_MOST = 8192 }; /* programs; some 100 kB each */
 
-/* Removes the programs that were used last longest ago from PoCL's cache in that folder, until so many are left; none that was used in the
- * last hour, which some process may be about to load. Returns how many. */
+/* Removes the programs that were used last longest ago from PoCL's cache in that folder, until
+ * so many are left; none that was used in the last hour, which some process may be about to
+ * load. Returns how many. */
 int kept_kernels_trim(const char *folder, int most, double unused_s);
 
 #endif

@@ -9,8 +9,7 @@
  *     if (kit_leave() != KIT_OK)           and the first complaint is what the caller hears
  *         die(kit_error());
  *
- * Threads. All calls of Paris and of this header are made by one thread.
- */
+ * Threads. All calls of Paris and of this header are made by one thread. */
 #ifndef LUTETIA_PARIS_KIT_H
 #define LUTETIA_PARIS_KIT_H
 
@@ -19,7 +18,7 @@
 enum kit_status {
     KIT_OK = 0,
     KIT_NO_DEVICE,     /* the machine could not be attached */
-    KIT_NO_MEMORY,     /* of the front end or of the device */
+    KIT_NO_MEMORY,     /* the front end's, or the device's */
     KIT_DEVICE_FAILED, /* it reported an error while running */
     KIT_WRONG_CALL     /* the program called Paris as it may not */
 };

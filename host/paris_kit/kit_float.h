@@ -1,4 +1,5 @@
-/* kit_float.h - the Paris calls on single floats under short names: d is where the result goes, a and b are fields, n is a number.
+/* kit_float.h - the Paris calls on single floats under short names: d is where the result goes,
+ * a and b are fields, n is a number.
  *
  *     kit_f_times(t, absorbency, 0.5);
  *     kit_f_add(water, water, t);

@@ -8,7 +8,8 @@
  *     kit_grid_widen(&g);
  *     kit_grid_free(&g);
  *
- * NEWS axis 0 is y and axis 1 is x. Between kit_enter() and kit_leave(), but for kit_grid_free(). */
+ * NEWS axis 0 is y and axis 1 is x. Between kit_enter() and kit_leave(), but for
+ * kit_grid_free(). */
 #ifndef LUTETIA_PARIS_KIT_GRID_H
 #define LUTETIA_PARIS_KIT_GRID_H
 
@@ -18,10 +19,10 @@ enum { KIT_AXIS_Y = 0, KIT_AXIS_X = 1 };
 
 struct kit_grid {
     int width, height;
-    int x_bits, y_bits; /* of coordinates */
+    int x_bits, y_bits; /* the length of a coordinate */
     CM_vp_set_id_t vp_set;
     CM_geometry_id_t geometry;
-    CM_field_id_t x_coord, y_coord; /* of x_bits, y_bits: unsigned */
+    CM_field_id_t x_coord, y_coord; /* unsigned, of x_bits and y_bits */
     CM_field_id_t context;          /* the context that kit_grid_narrow() saved; 1 bit */
 };
 
@@ -46,8 +47,8 @@ void kit_grid_u_write(const struct kit_grid *g, CM_field_id_t d, unsigned bits,
 void kit_grid_u_read(const struct kit_grid *g, void *numbers, CM_field_id_t a, unsigned bits,
                      unsigned type);
 
-/* A part of a field: processors x1 <= x < x1 + width and so on; they lie in the front end's rows from column `column` and row `row` on.
- * As above otherwise; bits = 0: single floats. */
+/* A part of a field: processors x1 <= x < x1 + width and so on; they lie in the front end's
+ * rows from column `column` and row `row` on. As above otherwise; bits = 0: single floats. */
 struct kit_block {
     int x1, y1, width, height;
     int column, row, array_width, array_height;
