@@ -220,6 +220,74 @@ bool options_parse(const char *verb, const struct option_row *rows, int argc, ch
         }
         if (!value_take(row, value))
             return value_wrong(verb, row, value);
+        if (row - rows < OPTION_ROWS_MAX)
+            words->given[row - rows] = true;
+    }
+    return true;
+}
+
+/* ---- options without effect ---- */
+
+/* Whether the option, or a word, of that name is given. */
+static bool is_given(const struct option_row *rows, const struct option_words *words,
+                     const char *name, size_t length)
+{
+    if (length == 4 && memcmp(name, "WORD", 4) == 0)
+        return words->count > 0;
+    for (int i = 0; rows[i].name; i++)
+        if (strlen(rows[i].name) == length && memcmp(rows[i].name, name, length) == 0)
+            return words->given[i];
+    return false;
+}
+
+/* Whether one of the alternatives is there. */
+static bool has_effect(const struct option_row *rows, const struct option_words *words,
+                       const char *needs)
+{
+    bool all = true;
+    for (const char *at = needs;; at++) {
+        const bool not = *at == '!';
+        const char *name = at + not ;
+        const size_t length = strcspn(name, "|+");
+        all = all && is_given(rows, words, name, length) != not ;
+        at = name + length;
+        if (*at == '+')
+            continue;
+        if (all || !*at)
+            return all;
+        all = true;
+    }
+}
+
+/* "goes with --still or --video"; or, where nothing else helps, "does not go with a word". */
+static void needs_text(const char *needs, char *out, size_t room)
+{
+    size_t used = (size_t)snprintf(out, room, "it goes with");
+    const size_t begun = used;
+    for (const char *at = needs; *at; at += strcspn(at, "|"), at += *at == '|') {
+        const size_t length = strcspn(at, "|+");
+        if (*at != '!' && used < room)
+            used += (size_t)snprintf(out + used, room - used, "%s %s%.*s",
+                                     used > begun ? " or" : "",
+                                     memcmp(at, "WORD", 4) == 0 ? "" : "--", (int)length, at);
+    }
+    if (used == begun)
+        snprintf(out, room,
+                 strstr(needs, "!WORD") ? "it is for a window, without a file"
+                                        : "it is for a window, without pictures");
+}
+
+bool options_effects(const char *verb, const struct option_row *rows,
+                     const struct option_need *needs, const struct option_words *words)
+{
+    for (; needs->name; needs++) {
+        char text[200];
+        if (!is_given(rows, words, needs->name, strlen(needs->name)) ||
+            has_effect(rows, words, needs->needs))
+            continue;
+        needs_text(needs->needs, text, sizeof text);
+        fail_usage(verb, "--%s has no effect here: %s", needs->name, text);
+        return false;
     }
     return true;
 }

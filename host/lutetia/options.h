@@ -28,7 +28,12 @@ enum option_kind {
     OPTION_TEXTS    /* struct option_texts: TEXT as often as wanted */
 };
 
-enum { OPTION_LIST_MAX = 64, OPTION_NUMBERS_MAX = 8, OPTION_WORDS_MAX = 64 };
+enum {
+    OPTION_LIST_MAX = 64,
+    OPTION_NUMBERS_MAX = 8,
+    OPTION_WORDS_MAX = 64,
+    OPTION_ROWS_MAX = 96
+};
 
 struct option_list {
     double numbers[OPTION_LIST_MAX][OPTION_NUMBERS_MAX];
@@ -54,12 +59,24 @@ struct option_row {
 struct option_words {
     const char *words[OPTION_WORDS_MAX];
     int count;
-    bool help; /* --help or -h was given; other options were not read */
+    bool help;                   /* --help or -h was given; other options were not read */
+    bool given[OPTION_ROWS_MAX]; /* of the rows, in their order */
+};
+
+/* With what else an option has an effect. Alternatives are separated by |, what an alternative needs by +: NAME is an option that is
+ * given, WORD a word; !NAME and !WORD are not given. {"fps", "frames|video+!silent"} */
+struct option_need {
+    const char *name; /* NULL ends the table */
+    const char *needs;
 };
 
 /* Fills the targets. False: an error was printed, in one line. */
 bool options_parse(const char *verb, const struct option_row *rows, int argc, char **argv,
                    struct option_words *words);
+
+/* After options_parse(). False: an option was given that would have no effect; an error was printed, in one line. */
+bool options_effects(const char *verb, const struct option_row *rows,
+                     const struct option_need *needs, const struct option_words *words);
 
 /* How many of argv are options of these rows, before the first word. The rest is the command
  * line of another program. */

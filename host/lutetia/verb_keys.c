@@ -88,6 +88,17 @@ static int options_check(struct keys_work *w, const struct option_words *words,
     return EXIT_SUCCESS;
 }
 
+#define MOMENTS "sheet|still|frames|video|sound|!WORD"
+#define POSTER "poster|WORD+!sheet+!still+!frames+!video+!sound"
+
+/* With what an option has an effect. The poster is made of a song where nothing else is asked for. */
+static const struct option_need needs[] = {
+    {"param", "map"},       {"set", "!WORD|map|wet"}, {"range", "!WORD|map|wet"},
+    {"server", "!WORD"},    {"device", "!WORD"},      {"filter", "!WORD"},
+    {"theme", "!WORD|map"}, {"at", "still"},          {"fps", "video|frames|sound"},
+    {"silent", "video"},    {"second", POSTER},       {"attack", MOMENTS},
+    {"release", MOMENTS},   {"step", POSTER},         {0}};
+
 static int options_read(struct keys_work *w, int argc, char **argv, const char **song,
                         bool *help)
 {
@@ -157,9 +168,10 @@ static int options_read(struct keys_work *w, int argc, char **argv, const char *
     if (!options_parse("keys", rows, argc, argv, &words))
         return EXIT_USAGE;
     *help = words.help;
-    if (!words.help)
-        return options_check(w, &words, song);
-    return help_print("keys", rows, NULL);
+    if (words.help)
+        return help_print("keys", rows, NULL);
+    return options_effects("keys", rows, needs, &words) ? options_check(w, &words, song)
+                                                        : EXIT_USAGE;
 }
 
 /* ---- what is played ---- */

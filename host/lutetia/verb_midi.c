@@ -435,6 +435,36 @@ static const struct help_command *commands(void)
     return out;
 }
 
+/* Whether the help says that an option is for this verb: "monitor, record: only ...; send: ..."; without verbs it is for all. */
+static bool option_is_for(const char *help, const char *verb)
+{
+    bool named = false;
+    const size_t length = strlen(verb);
+    for (const char *part = help; part; part = strchr(part, ';'), part += part != NULL) {
+        const char *colon = strstr(part, ": ");
+        while (*part == ' ')
+            part++;
+        for (const char *at = part; colon && at < colon;
+             at += strcspn(at, ", "), at += strspn(at, ", ")) {
+            const size_t word = strcspn(at, ",: ");
+            if (word == length && memcmp(at, verb, length) == 0)
+                return true;
+            named = true;
+        }
+    }
+    return !named;
+}
+
+static int effects_check(const char *name, const char *verb, const struct option_row *rows,
+                         const struct option_words *words)
+{
+    for (int i = 0; rows[i].name; i++)
+        if (words->given[i] && !option_is_for(rows[i].help, verb))
+            return fail_usage(name, "--%s has no effect here: it is for '%s'", rows[i].name,
+                              rows[i].help);
+    return EXIT_SUCCESS;
+}
+
 int verb_midi(int argc, char **argv)
 {
     static char name[32];
@@ -488,5 +518,6 @@ int verb_midi(int argc, char **argv)
         return EXIT_USAGE;
     if (v.words.help)
         return help_print("midi", rows, commands());
-    return verbs[i].run(&v);
+    return effects_check(name, verbs[i].name, rows, &v.words) == EXIT_SUCCESS ? verbs[i].run(&v)
+                                                                              : EXIT_USAGE;
 }

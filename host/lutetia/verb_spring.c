@@ -68,9 +68,6 @@ static int spring_check(struct spring *s, const struct option_words *words)
         return fail_usage("spring", "--strip is for a --still");
     if (s->live_options.map && s->replay)
         return fail_usage("spring", "a session says what is done: --replay has no --map");
-    const bool pictures = s->film.still || s->film.video || s->frames;
-    if (s->play && pictures)
-        return fail_usage("spring", "--play is for the window: a film has its sound in it");
     if (!s->live_options.map && (s->song_path || (s->live_options.server && !s->play)))
         return fail_usage("spring", "what is played goes through a --map FILE.lua");
     if (!s->live_options.map && s->live_options.params.count)
@@ -99,6 +96,20 @@ static int spring_check(struct spring *s, const struct option_words *words)
                           s->size[1]);
     return EXIT_SUCCESS;
 }
+
+#define WINDOW "!still+!video+!frames"
+#define FILM "still|video|frames"
+
+/* With what an option has an effect. */
+static const struct option_need needs[] = {{"record", WINDOW},
+                                           {"play", WINDOW},
+                                           {"session", "replay|!still+!video+!frames"},
+                                           {"fps", "video|frames|sound|song|wet|strip"},
+                                           {"silent", "video|!still+!frames"},
+                                           {"way", FILM},
+                                           {"filter", FILM},
+                                           {"seconds", FILM},
+                                           {0}};
 
 static int spring_options(struct spring *s, int argc, char **argv, bool *help)
 {
@@ -184,7 +195,8 @@ static int spring_options(struct spring *s, int argc, char **argv, bool *help)
     *help = words.help;
     if (words.help)
         return help_print("spring", rows, NULL);
-    return spring_check(s, &words);
+    return options_effects("spring", rows, needs, &words) ? spring_check(s, &words)
+                                                          : EXIT_USAGE;
 }
 
 /* ---- what is done ---- */

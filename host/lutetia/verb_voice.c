@@ -86,6 +86,13 @@ static int words_take(struct voice_work *w, const struct option_words *words)
     return EXIT_SUCCESS;
 }
 
+#define POSTER "poster|!sheet+!envelope+!still+!frames+!video+!microphone"
+
+/* With what an option has an effect. The poster is made where no other picture is asked for. */
+static const struct option_need needs[] = {
+    {"at", "still"},  {"fps", "video|frames"}, {"seconds", "microphone"}, {"rise", "map"},
+    {"slant", "map"}, {"second", POSTER},      {"line", POSTER},          {0}};
+
 static int options_read(struct voice_work *w, int argc, char **argv, bool *help)
 {
     const struct option_row rows[] = {
@@ -142,7 +149,7 @@ static int options_read(struct voice_work *w, int argc, char **argv, bool *help)
     *help = words.help;
     if (words.help)
         return help_print("voice", rows, NULL);
-    return words_take(w, &words);
+    return options_effects("voice", rows, needs, &words) ? words_take(w, &words) : EXIT_USAGE;
 }
 
 /* ---- hearing ---- */
