@@ -67,7 +67,8 @@ def made(verb, words):
     with open(os.path.join(folder, "letters"), "w") as out:
         out.write("c4 Q\n")
     done = subprocess.run([lutetia] + verb.split() + words, cwd=folder, capture_output=True, timeout=100,
-                          env=dict(os.environ, PATH="/nowhere"))
+                          env={name: value for name, value in os.environ.items()
+                               if name not in ("LUTETIA_INTERPRET", "LUTETIA_BACKGROUND")})  # wet paper is interpreted at first
     digest = hashlib.sha256(done.stdout)
     for where, folders, files in os.walk(folder):
         folders.sort()
