@@ -10,11 +10,16 @@ static int byte_of(double number)
     return (int)lrint(255 * fmin(1, fmax(0, number)));
 }
 
+/* XML has neither C0's characters nor U+FFFE and U+FFFF, by whatever name. */
 static void text_put(const char *text, size_t begin, size_t end, FILE *f)
 {
     for (size_t i = begin; i < end; i++) {
         unsigned char c = (unsigned char)text[i];
-        if (c == '<' || c == '>' || c == '&' || c == '"')
+        if (c == 0xef && end - i >= 3 && (unsigned char)text[i + 1] == 0xbf &&
+            (unsigned char)text[i + 2] >= 0xbe) {
+            fputc(' ', f);
+            i += 2;
+        } else if (c == '<' || c == '>' || c == '&' || c == '"')
             fprintf(f, "&#%d;", c);
         else
             fputc(c < ' ' ? ' ' : c, f);

@@ -13,7 +13,7 @@ static void said(void *context, const char *text)
     if (live->window)
         stage_window_say(live->window, text);
     else
-        fprintf(stderr, "lutetia %s: %s\n", live->verb, text);
+        tell(live->verb, "%s", text);
 }
 
 int live_begin(const char *verb, const struct live_options *options, struct midi_song *song,

@@ -102,17 +102,22 @@ static bool any_is(int argc, char **argv, const char *argument)
 
 /* ---- the program, whole under its name ---- */
 
-/* Finds the option for the program's name: "-o" with the name behind it, or "-oNAME"; -1:
- * none. */
-static int output_find(const struct compiler_line *line)
+/* The program's name: behind "-o" or "--output", or in one word with it, as "-oNAME" and "--output=NAME"; the last one counts.
+ * NULL: none. */
+static const char *output_find(const struct compiler_line *line)
 {
-    int found = -1;
-    for (int i = 1; i < line->count; i++)
-        if (strncmp(line->arguments[i], "-o", 2) == 0 &&
-            (line->arguments[i][2] || i + 1 < line->count)) {
-            found = i;
-            i += !line->arguments[i][2];
-        }
+    static const char word[] = "--output";
+    const char *found = NULL;
+    for (int i = 1; i < line->count; i++) {
+        const char *one = line->arguments[i];
+        const bool alone = strcmp(one, "-o") == 0 || strcmp(one, word) == 0;
+        if (alone && i + 1 < line->count)
+            found = line->arguments[++i];
+        else if (strncmp(one, word, sizeof word - 1) == 0 && one[sizeof word - 1] == '=')
+            found = one + sizeof word;
+        else if (strncmp(one, "-o", 2) == 0 && one[2])
+            found = one + 2;
+    }
     return found;
 }
 
@@ -224,10 +229,7 @@ static int program_make(struct compiler_line *line, int program, const char *nam
 
 static int program_link(struct compiler_line *line)
 {
-    int at = output_find(line);
-    const char *name = at < 0                   ? "a.out"
-                       : line->arguments[at][2] ? line->arguments[at] + 2
-                                                : line->arguments[at + 1];
+    const char *asked = output_find(line), *name = asked ? asked : "a.out";
     struct output_file out, former;
     if (!output_file_open(&out, name))
         return fail("cc", "%s: cannot write: %s", name, out.why);

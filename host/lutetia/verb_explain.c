@@ -10,6 +10,7 @@
 #include "lutetia.h"
 #include "options.h"
 
+#include <input_file.h>
 #include <output_file.h>
 
 #include <errno.h>
@@ -113,7 +114,7 @@ static int pour(const char *from, const char *out)
     char bytes[1 << 14];
     size_t count;
     struct output_file file = {0};
-    FILE *in = fopen(from, "rb"), *to = stdout;
+    FILE *in = input_file_open(from, NULL), *to = stdout;
     if (out)
         to = output_file_open(&file, out) ? file.stream : NULL;
     errno = 0;

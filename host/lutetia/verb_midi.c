@@ -7,7 +7,9 @@
 #include <midi_server.h>
 #include <midi_song.h>
 #include <midi_time.h>
+#include <patience.h>
 #include <sound.h>
+#include <visible_text.h>
 
 #include <glob.h>
 #include <poll.h>
@@ -51,10 +53,18 @@ static void serve_stop(int signal_number)
     midi_server_stop(serving);
 }
 
+/* What devices, programs and servers are called, and what they say, is shown and does nothing to the terminal. */
+static const char *shown(const char *text)
+{
+    static char line[4 * MIDI_TEXT_MAX];
+    visible_text(line, sizeof line, text);
+    return line;
+}
+
 static void serve_log(void *context, const char *line)
 {
     (void)context;
-    printf("%s\n", line);
+    printf("%s\n", shown(line));
     fflush(stdout);
 }
 
@@ -99,8 +109,21 @@ static void kinds_print(void)
     if (glob("/dev/snd/midi*", 0, NULL, &found) == 0) {
         puts("\nThis machine has");
         for (size_t i = 0; i < found.gl_pathc; i++)
-            printf("  raw:%s\n", found.gl_pathv[i]);
+            printf("  raw:%s\n", shown(found.gl_pathv[i]));
         globfree(&found);
+    }
+}
+
+/* Text of many lines, piece by piece: a byte takes 4 at most, and no piece ends within a character. */
+static void visible_print(const char *text)
+{
+    enum { PIECE = 1000 };
+    char out[4 * PIECE + 1];
+    for (size_t rest = strlen(text), count; rest > 0; text += count, rest -= count) {
+        count = rest < PIECE ? rest : PIECE;
+        while (count > PIECE / 2 && count < rest && ((unsigned char)text[count] & 0xc0) == 0x80)
+            count--;
+        fwrite(out, 1, visible_text_lines(out, sizeof out, text, count), stdout);
     }
 }
 
@@ -112,7 +135,7 @@ static int command_print(const struct midi_verb *v, const char *command)
     if (status != EXIT_SUCCESS)
         return status;
     if (midi_client_command(client, command, text, sizeof text) == MIDI_OK)
-        fputs(text, stdout);
+        visible_print(text);
     else
         status = fail_midi(v);
     midi_client_close(client);
@@ -160,17 +183,17 @@ static void event_print(const struct midi_client *client, const struct midi_clie
         const char *name = midi_client_device_name(client, e->device);
         midi_message_text(&e->message, text);
         printf("%10.6f %-12s %s\n", ((double)e->message.time_ns - (double)begin_ns) / 1e9,
-               name ? name : "?", text);
+               name ? shown(name) : "?", text);
         break;
     }
     case MIDI_CLIENT_DEVICE:
-        printf("%10.6f (device %s)\n", now_s, e->text);
+        printf("%10.6f (device %s)\n", now_s, shown(e->text));
         break;
     case MIDI_CLIENT_LOST:
         printf("%10.6f (%u messages lost: too slow)\n", now_s, e->lost);
         break;
     case MIDI_CLIENT_GONE:
-        printf("%10.6f (%s; trying again)\n", now_s, e->text);
+        printf("%10.6f (%s; trying again)\n", now_s, shown(e->text));
         break;
     case MIDI_CLIENT_BACK:
         printf("%10.6f (the server is back)\n", now_s);
@@ -388,6 +411,12 @@ static int play_do(struct midi_verb *v)
 
 /* ---- render ---- */
 
+static bool pressed(void *context)
+{
+    (void)context;
+    return interrupted();
+}
+
 static int render_do(struct midi_verb *v)
 {
     struct sound_def def = sound_def_default();
@@ -398,12 +427,15 @@ static int render_do(struct midi_verb *v)
     def.room = true;
     if (midi_song_read(v->words.words[0], &song) != MIDI_OK)
         return fail_midi(v);
-    int status =
-        sound_render(&def, song, v->seconds, v->output ? v->output : "out.wav") == MIDI_OK
-            ? EXIT_SUCCESS
-            : fail_midi(v);
+    const char *out = v->output ? v->output : "out.wav";
+    interrupt_catch();
+    patience_set((struct patience){pressed, NULL});
+    int status = EXIT_SUCCESS;
+    if (sound_render(&def, song, v->seconds, out) != MIDI_OK)
+        status = interrupted() ? EXIT_SUCCESS : fail_midi(v);
+    patience_set((struct patience){NULL, NULL});
     midi_song_destroy(song);
-    return status;
+    return interrupt_report(v->name, status, out);
 }
 
 /* ---- the verb ---- */

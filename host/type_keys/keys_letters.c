@@ -3,7 +3,8 @@
 
 #include <text.h>
 
-#include <errno.h>
+#include <input_file.h>
+
 #include <stdio.h>
 #include <string.h>
 
@@ -68,9 +69,10 @@ bool keys_letters_text(const struct keys_score *score, const char *text,
 bool keys_letters_file(const char *path, struct keys_letters *out, char *why, size_t room)
 {
     char line[256];
-    FILE *file = fopen(path, "r");
+    const char *wrong = "";
+    FILE *file = input_file_open(path, &wrong);
     if (!file) {
-        snprintf(why, room, "%s: %s", path, strerror(errno));
+        snprintf(why, room, "%s: cannot read: %s", path, wrong);
         return false;
     }
     bool good = true;

@@ -20,7 +20,7 @@ enum { READ_BYTES = 1024 };
 
 struct stream {
     struct server_watch watch;
-    bool linked; /* the pseudo-terminal's other end has its link */
+    char linked[128]; /* the pseudo-terminal's other end, where that has its link */
 };
 
 static void stream_ready(struct server_watch *w, uint32_t events)
@@ -169,12 +169,21 @@ static enum midi_status serial_open(struct server_device *d)
 
 /* ---- a pseudo-terminal of our own ---- */
 
+/* Whether there is a link of that name, and it leads there: whatever else has the name is not ours to remove. */
+static bool links_to(const char *name, const char *there, bool begins)
+{
+    char target[256];
+    const ssize_t count = readlink(name, target, sizeof target - 1);
+    target[count > 0 ? count : 0] = '\0';
+    return count > 0 &&
+           (begins ? strncmp(target, there, strlen(there)) : strcmp(target, there)) == 0;
+}
+
 /* The pseudo-terminal exists while the device is away, which is while nobody has the other
  * end open. */
 static enum midi_status pty_create(struct server_device *d)
 {
     char other[128];
-    struct stat there;
     const int file = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
     int slave = -1;
     if (file >= 0 && grantpt(file) == 0 && unlockpt(file) == 0 &&
@@ -193,13 +202,13 @@ static enum midi_status pty_create(struct server_device *d)
     if (status != MIDI_OK)
         return status;
     struct stream *s = d->own;
-    if (lstat(d->argument, &there) == 0 && S_ISLNK(there.st_mode))
+    if (links_to(d->argument, "/dev/pts/", true))
         unlink(d->argument); /* a link left by a killed server */
     if (symlink(other, d->argument) != 0)
         return midi_fail(MIDI_BAD_ARGUMENT,
                          "%s: cannot be made a link to the pseudo-terminal: %s", d->argument,
                          strerror(errno));
-    s->linked = true;
+    snprintf(s->linked, sizeof s->linked, "%s", other);
     return MIDI_OK;
 }
 
@@ -227,7 +236,7 @@ static void pty_close(struct server_device *d)
 static void pty_finish(struct server_device *d)
 {
     const struct stream *s = d->own;
-    if (s && s->linked)
+    if (s && *s->linked && links_to(d->argument, s->linked, false))
         unlink(d->argument);
     stream_close(d);
 }

@@ -4,7 +4,9 @@
 
 #include <midi_internal.h>
 
+#include <input_file.h>
 #include <output_file.h>
+#include <patience.h>
 
 #include <errno.h>
 #include <fcntl.h>
@@ -54,7 +56,7 @@ enum midi_status sound_font_find(const char *font, const char **found)
 static bool font_good(const char *path)
 {
     char head[12] = "";
-    FILE *file = fopen(path, "rb");
+    FILE *file = input_file_open(path, NULL);
     const bool read = file && fread(head, 1, sizeof head, file) == sizeof head;
     if (file)
         fclose(file);
@@ -132,22 +134,13 @@ void sound_destroy(struct sound *s)
     free(s);
 }
 
-static bool can_be_written(const char *path)
-{
-    const int file = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-    if (file < 0)
-        return false;
-    close(file);
-    return true;
-}
-
 enum midi_status sound_listen(struct sound *s, const char *driver)
 {
     const size_t count = driver ? strlen(driver) : 0;
     const bool file = count > 4 && !strcmp(driver + count - 4, ".wav");
-    if (file && !can_be_written(driver))
-        return midi_fail(MIDI_IO_FAILED, "%s: cannot write: %s; the folder must exist", driver,
-                         strerror(errno));
+    const char *wrong = file ? output_file_wrong(driver) : NULL; /* FluidSynth follows links */
+    if (wrong)
+        return midi_fail(MIDI_IO_FAILED, "%s: cannot write: %s", driver, wrong);
     if (file)
         s->fluid->fluid_settings_setstr(s->settings, "audio.file.name", driver);
     else
@@ -250,6 +243,8 @@ static enum midi_status blocks_render(struct sound *s, struct midi_song *song, i
             midi_song_play(&e, &parser, render_take, s);
             next++;
         }
+        if (patience_over())
+            return midi_fail(MIDI_IO_FAILED, "stopped");
         if (s->fluid->fluid_file_renderer_process_block(s->renderer) != 0)
             return midi_fail(MIDI_IO_FAILED, "sound cannot be written: is the disk full?");
     }

@@ -155,6 +155,17 @@ static const char *attribute(const XML_Char **attributes, const char *name)
     return NULL;
 }
 
+/* Entities of a DOCTYPE can name each other, so deep that expat overflows the stack; no path needs any. */
+static void doctype_begin(void *context, const XML_Char *name, const XML_Char *system,
+                          const XML_Char *public, int internal)
+{
+    (void)name;
+    (void)system;
+    (void)public;
+    (void)internal;
+    reading_fail(context, PAPER_BAD_ARGUMENT, "it has a DOCTYPE; remove that");
+}
+
 static void element_begin(void *context, const XML_Char *name, const XML_Char **attributes)
 {
     static const char *const hiding[] = {"defs",   "clipPath", "mask", "symbol",
@@ -208,6 +219,7 @@ enum paper_status paper_svg_parse(const char *bytes, size_t count, const char *n
     *r = (struct reading){
         .parser = parser, .name = name, .tolerance = tolerance, .lines = lines};
     XML_SetUserData(parser, r);
+    XML_SetStartDoctypeDeclHandler(parser, doctype_begin);
     XML_SetElementHandler(parser, element_begin, element_end);
     if (count > PAPER_FILE_MAX)
         r->status = paper_fail(PAPER_BAD_ARGUMENT, "%s: an SVG file has up to %d bytes", name,

@@ -1,0 +1,186 @@
+"""test_outside.py LUTETIA: what comes from outside, and what is written, beside pictures and scripts.
+
+Servers whose replies hold escapes, links and files in the place of the server's links and sounds, pipes and devices as maps and
+SoundFonts, drawings with a DOCTYPE, text that XML has not, a compiler's long options, Ctrl-C while a song is rendered.
+(security.md 5, 6, 7, 11, 12)
+"""
+import os
+import pathlib
+import re
+import signal
+import socket
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+import xml.etree.ElementTree
+
+LUTETIA = ""
+SECONDS = 30
+BAD = re.compile(rb"[\x00-\x08\x0b-\x1f\x7f]|\xc2[\x80-\x9f]|\xe2\x80\xae")
+SONG = b"MThd\0\0\0\6\0\0\0\1\0\x60MTrk\0\0\0\x0c\0\x90\x3c\x40\x60\x80\x3c\x40\0\xff\x2f\0"
+ESCAPES = b"\x1b]0;owned\x07\x1b[31mred\x9b31m\xc2\x9b31m\xe2\x80\xaeabc"
+
+
+def frame(kind, payload=b"", device=255, number=0):
+    return struct.pack("<HBBIQ", len(payload), kind, device, number, 0) + payload
+
+
+class EvilServer:
+    """Speaks the protocol of the MIDI server to one client after another; all of its texts hold escapes."""
+
+    def __init__(self):
+        self.listener = socket.create_server(("127.0.0.1", 0))
+        self.port = self.listener.getsockname()[1]
+        threading.Thread(target=self.serve, daemon=True).start()
+
+    def serve(self):
+        while True:
+            try:
+                client = self.listener.accept()[0]
+            except OSError:
+                return
+            threading.Thread(target=self.answer, args=(client,), daemon=True).start()
+
+    @staticmethod
+    def answer(client):
+        got = b""
+        while True:
+            try:
+                more = client.recv(65536)
+                got += more
+                while len(got) >= 16 and len(got) >= 16 + struct.unpack("<H", got[:2])[0]:
+                    count, kind, _, number, _ = struct.unpack("<HBBIQ", got[:16])
+                    got = got[16 + count:]
+                    if kind == 1:
+                        client.sendall(frame(16, b"lutetia-midi 1") + frame(17, ESCAPES + b" loop in,out up", device=0))
+                    if kind == 2:
+                        client.sendall(frame(19, ESCAPES + b" out up\n" + b"\xc2\x9b" * 3000 + b"\n", number=number))
+            except OSError:
+                return
+            if not more:
+                return
+
+
+class Outside(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory(prefix="lutetia-outside-")
+        self.at = pathlib.Path(self.folder.name)
+        (self.at / "song.mid").write_bytes(SONG)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def run_it(self, *arguments, status=None, **variables):
+        done = subprocess.run([LUTETIA, *arguments], cwd=self.at, stdin=subprocess.DEVNULL, capture_output=True, timeout=SECONDS,
+                              check=False, env=dict(os.environ, **variables))
+        if status is not None:
+            self.assertEqual(done.returncode, status, done.stderr)
+        self.assertIsNone(BAD.search(done.stdout + done.stderr), done.stdout + done.stderr)
+        return done
+
+    def refused(self, *arguments):
+        done = self.run_it(*arguments, status=1)
+        self.assertEqual(done.stderr.count(b"\n"), 1, done.stderr)
+        return done.stderr
+
+    def test_replies_do_nothing_to_the_terminal(self):
+        server = EvilServer()
+        for verb in ("devices", "status"):
+            done = self.run_it("midi", verb, "--server", "127.0.0.1:%d" % server.port, LUTETIA_MIDI_TOKEN="x", status=0)
+            self.assertIn(b"out up", done.stdout)
+            self.assertIn(rb"\x1b", done.stdout)
+        server.listener.close()
+
+    def serve(self, device):
+        child = subprocess.Popen([LUTETIA, "midi", "serve", device, "--server", "./s", "--usual-priority", "--may-sleep"], cwd=self.at,
+                                 stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        words = child.stdout.readline()
+        return child, words
+
+    def end(self, child):
+        child.terminate()
+        words = child.communicate(timeout=SECONDS)[0]
+        return child.returncode, words
+
+    def test_links_that_are_not_the_servers_stay(self):
+        (self.at / "data").write_text("data")
+        os.symlink("data", self.at / "link")
+        self.end(self.serve("x=pty:link")[0])
+        self.assertEqual(os.readlink(self.at / "link"), "data")
+        self.assertEqual((self.at / "data").read_text(), "data")
+        # its own it makes, replaces after a server that was killed, and removes; but not a file that has come in its place
+        os.symlink("/dev/pts/999", self.at / "own")
+        child, _ = self.serve("x=pty:own")
+        self.assertTrue(os.readlink(self.at / "own").startswith("/dev/pts/"))
+        self.end(child)
+        self.assertFalse(os.path.lexists(self.at / "own"))
+        child, _ = self.serve("x=pty:own")
+        (self.at / "own").unlink()
+        (self.at / "own").write_text("mine")
+        self.end(child)
+        self.assertEqual((self.at / "own").read_text(), "mine")
+
+    def test_a_servers_sound_follows_no_link(self):
+        os.symlink("target", self.at / "link.wav")
+        os.mkfifo(self.at / "pipe.wav")
+        for name in ("link.wav", "pipe.wav"):
+            child, words = self.serve("x=sound:" + name)
+            if b"FluidSynth" in words or b"SoundFont" in words:
+                self.skipTest("there is no synthesizer")
+            self.assertIn(b"cannot write", words)
+            child.communicate(timeout=SECONDS)
+            self.assertEqual(child.returncode, 1)
+        self.assertFalse((self.at / "target").exists())
+
+    def test_pipes_and_devices_are_neither_maps_nor_soundfonts(self):
+        os.mkfifo(self.at / "pipe")
+        for name in ("pipe", "/dev/zero", "/etc"):
+            self.refused("keys", "song.mid", "--map", name, "-o", "p.png")
+            self.refused("midi", "render", "song.mid", "--soundfont", name, "-o", "p.wav")
+
+    def test_a_long_option_names_the_program(self):
+        (self.at / "p.c").write_text("int main(void) { return 0; }\n")
+        for option in (["--output=prog"], ["--output", "prog"], ["-oprog"], ["-o", "prog"]):
+            (self.at / "a.out").write_text("precious")
+            self.run_it("cc", "p.c", *option, status=0)
+            self.assertEqual((self.at / "a.out").read_text(), "precious")
+            (self.at / "prog").unlink()
+
+    def test_text_in_a_drawing_is_xml(self):
+        self.run_it("type", "a\ufffeb\uffffc", "-o", "n.svg", status=0)
+        self.assertIn("a b c", "".join(xml.etree.ElementTree.parse(self.at / "n.svg").itertext()).replace("\n", ""))
+
+    def test_drawings_have_no_doctype(self):
+        count = 60000
+        chain = "".join('<!ENTITY e%d "&e%d;">' % (i, i - 1) for i in range(1, count))
+        (self.at / "chain.svg").write_text('<!DOCTYPE svg [<!ENTITY e0 "M0 0L1 1">%s]>\n<svg><path d="&e%d;"/></svg>\n' %
+                                           (chain, count - 1))
+        (self.at / "s.lua").write_text("local p = paper{width = 16, height = 16}\n"
+                                       "p:stroke{brush = p:brush{width = 2}, svg = 'chain.svg'}\n")
+        self.assertIn(b"DOCTYPE", self.refused("run", "s.lua", "-q"))
+
+    def test_ctrl_c_leaves_no_part_of_a_sound(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            (self.at / "w.wav").write_text("before")
+            child = subprocess.Popen([LUTETIA, "midi", "render", "song.mid", "-t", "5000", "-o", "w.wav"], cwd=self.at,
+                                     stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+            for _ in range(200):
+                if any(name.endswith(".part") for name in os.listdir(self.at)) or child.poll() is not None:
+                    break
+                time.sleep(0.05)
+            if child.poll() is not None and b"ound" in child.stdout.read():
+                self.skipTest("there is no synthesizer")
+            child.send_signal(number)
+            words = child.communicate(timeout=SECONDS)[0]
+            self.assertNotEqual(child.returncode, 0, words)
+            self.assertEqual([name for name in os.listdir(self.at) if name.endswith(".part")], [], words)
+            self.assertEqual((self.at / "w.wav").read_text(), "before")
+
+
+if __name__ == "__main__":
+    LUTETIA = os.path.abspath(sys.argv.pop(1))
+    unittest.main()
