@@ -92,6 +92,33 @@ static bool token_right(const struct midi_server *s, const char *said)
     return !differs && count > 0;
 }
 
+/* Who has come by TCP and has not shown the token is a stranger: another user, perhaps. */
+static bool is_stranger(const struct server_client *c)
+{
+    return c->tcp && !c->greeted;
+}
+
+/* Strangers, or all others. */
+static int clients_count(const struct midi_server *s, bool strangers)
+{
+    int count = 0;
+    for (const struct server_client *c = s->clients; c; c = c->next)
+        count += !c->dead && is_stranger(c) == strangers;
+    return count;
+}
+
+/* Strangers have few places, and none of the owner's. The one that has waited longest leaves: who knows the token says so at once. */
+static void strangers_bound(struct midi_server *s)
+{
+    enum { STRANGERS_MAX = 8 };
+    struct server_client *oldest = NULL;
+    for (struct server_client *c = s->clients; c; c = c->next)
+        if (!c->dead && is_stranger(c))
+            oldest = c; /* new ones come first in the list */
+    if (clients_count(s, true) > STRANGERS_MAX)
+        client_end(oldest, "there are others who wait");
+}
+
 static enum client_verdict greet(struct midi_server *s, struct server_client *c, char *text)
 {
     char *rest = text;
@@ -102,6 +129,10 @@ static enum client_verdict greet(struct midi_server *s, struct server_client *c,
     }
     if (c->tcp && !token_right(s, rest ? rest : "")) {
         client_end(c, "the token is not right");
+        return CLIENT_ENDS;
+    }
+    if (c->tcp && clients_count(s, false) >= SERVER_CLIENTS_MAX) {
+        client_end(c, "the server has as many clients as it can");
         return CLIENT_ENDS;
     }
     for (size_t i = 0; name[i] && i + 1 < sizeof c->name; i++) /* for terminals */
@@ -175,10 +206,11 @@ static void accept_ready(struct server_watch *w, uint32_t events)
     s->clients_count++;
     if (!ours)
         client_end(c, "this server is another user's");
-    else if (s->clients_count > SERVER_CLIENTS_MAX)
+    else if (clients_count(s, false) > SERVER_CLIENTS_MAX)
         client_end(c, "the server has as many clients as it can");
     else if (!client_begin(c))
         client_end(c, "no memory");
+    strangers_bound(s);
 }
 
 /* ---- now and then ---- */

@@ -2,7 +2,7 @@
 
 Servers whose replies hold escapes, links and files in the place of the server's links and sounds, pipes and devices as maps and
 SoundFonts, drawings with a DOCTYPE, text that XML has not, a compiler's long options, Ctrl-C while a song is rendered.
-(security.md 5, 6, 7, 11, 12)
+(security.md 5, 6, 7, 11, 12, 20, 21, 22)
 """
 import os
 import pathlib
@@ -105,6 +105,20 @@ class Outside(unittest.TestCase):
         child.terminate()
         words = child.communicate(timeout=SECONDS)[0]
         return child.returncode, words
+
+    def test_strangers_take_no_places(self):
+        port = socket.create_server(("127.0.0.1", 0)).getsockname()[1]
+        child = subprocess.Popen([LUTETIA, "midi", "serve", "loop", "--server", "./s", "--tcp", str(port), "--usual-priority",
+                                  "--may-sleep"], cwd=self.at, env=dict(os.environ, LUTETIA_MIDI_TOKEN="known"),
+                                 stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        self.assertIn(b"listening", child.stdout.readline())
+        strangers = [socket.create_connection(("127.0.0.1", port)) for _ in range(300)]
+        self.run_it("midi", "status", "--server", "./s", status=0)
+        self.run_it("midi", "status", "--server", "127.0.0.1:%d" % port, LUTETIA_MIDI_TOKEN="known", status=0)
+        self.run_it("midi", "status", "--server", "127.0.0.1:%d" % port, LUTETIA_MIDI_TOKEN="guessed", status=1)
+        for stranger in strangers:
+            stranger.close()
+        self.assertEqual(self.end(child)[0], 0)
 
     def test_links_that_are_not_the_servers_stay(self):
         (self.at / "data").write_text("data")
