@@ -251,28 +251,44 @@ static enum midi_status blocks_render(struct sound *s, struct midi_song *song, i
     return MIDI_OK;
 }
 
-enum midi_status sound_render(const struct sound_def *def, struct midi_song *song,
-                              double seconds, const char *path)
+/* Into a file that is there, by a name that FluidSynth opens; `path` is what errors call it. */
+static enum midi_status render_into(const struct sound_def *def, struct midi_song *song,
+                                    double seconds, const char *name, const char *path)
 {
-    struct output_file out;
     struct sound *s;
-    if (!(seconds > 0))
-        seconds = (double)midi_song_info(song).end_ns / 1e9 + def->tail_s;
-    if (!(seconds > 0 && seconds <= SECONDS_MAX))
-        return midi_fail(MIDI_BAD_ARGUMENT, "sound is rendered for at most %d hours",
-                         SECONDS_MAX / 3600);
     enum midi_status status = sound_create(def, &s);
     if (status != MIDI_OK)
         return status;
-    if (!output_file_open(&out, path)) {
-        sound_destroy(s);
-        return midi_fail(MIDI_IO_FAILED, "%s: cannot write: %s", path, out.why);
-    }
-    s->fluid->fluid_settings_setstr(s->settings, "audio.file.name", out.part);
+    s->fluid->fluid_settings_setstr(s->settings, "audio.file.name", name);
     s->renderer = s->fluid->new_fluid_file_renderer(s->synth);
     status = s->renderer ? blocks_render(s, song, def->rate_hz, seconds)
                          : midi_fail(MIDI_IO_FAILED, "%s: FluidSynth cannot write it", path);
     sound_destroy(s); /* destroying it writes the file's header */
+    return status;
+}
+
+/* How long the song takes, unless it is asked for less or more. */
+static enum midi_status seconds_find(const struct sound_def *def, struct midi_song *song,
+                                     double *seconds)
+{
+    if (!(*seconds > 0))
+        *seconds = (double)midi_song_info(song).end_ns / 1e9 + def->tail_s;
+    if (*seconds > 0 && *seconds <= SECONDS_MAX)
+        return MIDI_OK;
+    return midi_fail(MIDI_BAD_ARGUMENT, "sound is rendered for at most %d hours",
+                     SECONDS_MAX / 3600);
+}
+
+enum midi_status sound_render(const struct sound_def *def, struct midi_song *song,
+                              double seconds, const char *path)
+{
+    struct output_file out;
+    enum midi_status status = seconds_find(def, song, &seconds);
+    if (status != MIDI_OK)
+        return status;
+    if (!output_file_open(&out, path))
+        return midi_fail(MIDI_IO_FAILED, "%s: cannot write: %s", path, out.why);
+    status = render_into(def, song, seconds, out.part, path);
     if (status != MIDI_OK)
         output_file_abandon(&out);
     else if (!output_file_commit(&out))
@@ -280,21 +296,27 @@ enum midi_status sound_render(const struct sound_def *def, struct midi_song *son
     return status;
 }
 
+/* The file has no name, so nothing is left of it, however the process ends. */
 enum midi_status sound_render_open(const struct sound_def *def, struct midi_song *song,
                                    double seconds, int *file)
 {
-    char folder[] = "/tmp/lutetia-sound-XXXXXX", path[64];
+    static const char what[] = "a sound in the temporary folder";
+    char name[40];
     *file = -1;
-    if (!mkdtemp(folder))
-        return midi_fail(MIDI_IO_FAILED, "no folder can be made in /tmp: %s", strerror(errno));
-    snprintf(path, sizeof path, "%s/sound.wav", folder);
-    enum midi_status status = sound_render(def, song, seconds, path);
+    enum midi_status status = seconds_find(def, song, &seconds);
+    if (status != MIDI_OK)
+        return status;
+    FILE *held = tmpfile();
+    if (!held)
+        return midi_fail(MIDI_IO_FAILED, "no file can be made in the temporary folder: %s",
+                         strerror(errno));
+    snprintf(name, sizeof name, "/proc/self/fd/%d", fileno(held));
+    status = render_into(def, song, seconds, name, what);
     if (status == MIDI_OK) {
-        *file = open(path, O_RDONLY | O_CLOEXEC);
+        *file = open(name, O_RDONLY | O_CLOEXEC);
         if (*file < 0)
-            status = midi_fail(MIDI_IO_FAILED, "%s: %s", path, strerror(errno));
+            status = midi_fail(MIDI_IO_FAILED, "%s: %s", what, strerror(errno));
     }
-    unlink(path);
-    rmdir(folder);
+    fclose(held);
     return status;
 }
