@@ -7,8 +7,9 @@
  */
 #include "explain.h"
 
+#include <growing_file.h>
+
 #include <errno.h>
-#include <fcntl.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -75,7 +76,7 @@ bool paris_explain_wanted(void)
         o->file = -1;
         if (!path || !*path)
             continue;
-        o->file = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+        o->file = growing_file_open(path);
         if (o->file < 0)
             complain(o, "open");
     }

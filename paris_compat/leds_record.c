@@ -8,8 +8,9 @@
  * `lutetia leds FILE` makes pictures of it. LUTETIA_LEDS=window: the file is a pipe to
  * `lutetia leds` (leds_window.c); a file of that name is ./window.
  */
+#include <growing_file.h>
+
 #include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -63,7 +64,7 @@ static bool file_open(void)
         file = paris_lights_window_open();
         failed = file < 0;
     } else {
-        file = open(getenv("LUTETIA_LEDS"), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+        file = growing_file_open(getenv("LUTETIA_LEDS"));
         if (file < 0)
             fail("open");
     }

@@ -164,6 +164,14 @@ class Outside(unittest.TestCase):
             self.assertEqual((self.at / "a.out").read_text(), "precious")
             (self.at / "prog").unlink()
 
+    def test_traces_follow_no_link(self):
+        (self.at / "precious").write_text("precious")
+        os.symlink("precious", self.at / "link")
+        self.run_it("paint", "A", "--steps", "1", "--paper", "32x32", "-o", "t.png", LUTETIA_TRACE="link")
+        self.assertEqual((self.at / "precious").read_text(), "precious")
+        self.run_it("paint", "A", "--steps", "1", "--paper", "32x32", "-o", "t.png", LUTETIA_TRACE="trace", status=0)
+        self.assertTrue((self.at / "trace").read_text().startswith("["))
+
     def test_text_in_a_drawing_is_xml(self):
         self.run_it("type", "a\ufffeb\uffffc", "-o", "n.svg", status=0)
         self.assertIn("a b c", "".join(xml.etree.ElementTree.parse(self.at / "n.svg").itertext()).replace("\n", ""))

@@ -5,8 +5,9 @@
  */
 #include "watch/trace.h"
 
+#include <growing_file.h>
+
 #include <errno.h>
-#include <fcntl.h>
 #include <pthread.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -123,7 +124,7 @@ static double now_s(void)
 static bool file_open(const char *path)
 {
     struct stat status;
-    int file = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    int file = growing_file_open(path);
     if (file < 0) {
         if (!trace.refused || strcmp(trace.refused, path) != 0)
             complain(path, "open");
