@@ -162,9 +162,20 @@ static void window_linger(struct leds *leds)
         turn(leds, 0.1);
 }
 
+enum { PICTURES_MOST = 100000 };
+
 /* With --fps: writes the previous frame for the times before this frame. */
 static void time_fill(struct leds *leds, uint64_t until_us)
 {
+    /* a recording of a kilobyte can say that a thousand years have gone by */
+    if ((double)until_us * 1e-6 * leds->fps > PICTURES_MOST) {
+        leds->status =
+            fail("leds",
+                 "--frames: until light %llu, after %.4g s, it is more than %d "
+                 "pictures; take a lower --fps",
+                 (unsigned long long)leds->taken, (double)until_us * 1e-6, PICTURES_MOST);
+        return;
+    }
     while (go_on(leds) && (double)leds->written / leds->fps * 1e6 < (double)until_us) {
         leds->status = frame_write(leds);
         progress_line(leds);

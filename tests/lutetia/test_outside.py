@@ -172,6 +172,12 @@ class Outside(unittest.TestCase):
         self.run_it("paint", "A", "--steps", "1", "--paper", "32x32", "-o", "t.png", LUTETIA_TRACE="trace", status=0)
         self.assertTrue((self.at / "trace").read_text().startswith("["))
 
+    def test_a_short_recording_fills_no_disk(self):
+        (self.at / "endless.leds").write_bytes(b"lutetia leds 1 4096\n" + struct.pack("<Q", 0) + b"\0" * 512 +
+                                               struct.pack("<Q", 1 << 62) + b"\1" * 512)
+        self.assertIn(b"--fps", self.refused("leds", "endless.leds", "--frames", "pictures", "--fps", "30"))
+        self.assertLess(len(os.listdir(self.at / "pictures")), 3)
+
     def test_text_in_a_drawing_is_xml(self):
         self.run_it("type", "a\ufffeb\uffffc", "-o", "n.svg", status=0)
         self.assertIn("a b c", "".join(xml.etree.ElementTree.parse(self.at / "n.svg").itertext()).replace("\n", ""))
