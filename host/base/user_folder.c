@@ -18,6 +18,20 @@
 
 /* ---- is it ours alone? ---- */
 
+/* Whether a user of another number has that group as his first: a group's list of members has no such users. */
+static bool first_group_of_another(gid_t group, uid_t user)
+{
+    static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+    bool found = false;
+    pthread_mutex_lock(&lock); /* getpwent() has one place in the list */
+    setpwent();
+    for (const struct passwd *one; !found && (one = getpwent());)
+        found = one->pw_gid == group && one->pw_uid != user;
+    endpwent();
+    pthread_mutex_unlock(&lock);
+    return found;
+}
+
 /* Many systems give each user a group of the same name, with only that user in it, and let
  * it write. Such a group counts as the user. */
 static bool group_is_ours(gid_t group)
@@ -33,7 +47,7 @@ static bool group_is_ours(gid_t group)
     for (char **member = entry.gr_mem; *member; member++)
         if (strcmp(*member, user.pw_name) != 0)
             return false;
-    return true;
+    return !first_group_of_another(group, user.pw_uid);
 }
 
 /* If root lets a group write to a folder (as to /usr/local in some systems), that is root's
