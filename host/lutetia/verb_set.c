@@ -236,7 +236,13 @@ static int pages_draw(struct set *s, struct page_text *text)
     if (s->all || s->statistics) {
         if (page_count(text, &count) != FONT_OK)
             return fail_font("set");
+        if (s->all)
+            interrupt_catch(); /* no page is left half written */
         for (int i = 0; s->all && i < count && status == EXIT_SUCCESS; i++) {
+            if (interrupted()) {
+                fail("set", "interrupted before page %d of %d", i + 1, count);
+                return EXIT_INTERRUPTED;
+            }
             char *name = numbered(s->out_path, i + 1);
             status = name ? page_draw(s, text, i, name) : fail("set", "no memory");
             free(name);

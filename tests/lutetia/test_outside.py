@@ -191,6 +191,20 @@ class Outside(unittest.TestCase):
                                        "p:stroke{brush = p:brush{width = 2}, svg = 'chain.svg'}\n")
         self.assertIn(b"DOCTYPE", self.refused("run", "s.lua", "-q"))
 
+    def test_ctrl_c_leaves_no_part_of_a_page(self):
+        (self.at / "long.txt").write_text("A marsh and a town. " * 200000)
+        child = subprocess.Popen([LUTETIA, "set", "long.txt", "--all", "-o", "page.png"], cwd=self.at, stdin=subprocess.DEVNULL,
+                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        for _ in range(400):
+            if (self.at / "page-2.png").exists() or child.poll() is not None:
+                break
+            time.sleep(0.05)
+        child.send_signal(signal.SIGINT)
+        words = child.communicate(timeout=SECONDS)[0]
+        self.assertEqual(child.returncode, 130, words)
+        self.assertIn(b"interrupted", words)
+        self.assertEqual([name for name in os.listdir(self.at) if name.endswith(".part")], [])
+
     def test_ctrl_c_leaves_no_part_of_a_sound(self):
         for number in (signal.SIGINT, signal.SIGTERM):
             (self.at / "w.wav").write_text("before")
