@@ -432,7 +432,7 @@ static int render_do(struct midi_verb *v)
     patience_set((struct patience){pressed, NULL});
     int status = EXIT_SUCCESS;
     if (sound_render(&def, song, v->seconds, out) != MIDI_OK)
-        status = interrupted() ? EXIT_SUCCESS : fail_midi(v);
+        status = interrupted() ? EXIT_FAILED : fail_midi(v);
     patience_set((struct patience){NULL, NULL});
     midi_song_destroy(song);
     return interrupt_report(v->name, status, out);

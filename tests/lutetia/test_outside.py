@@ -98,8 +98,17 @@ class Outside(unittest.TestCase):
     def serve(self, device):
         child = subprocess.Popen([LUTETIA, "midi", "serve", device, "--server", "./s", "--usual-priority", "--may-sleep"], cwd=self.at,
                                  stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        words = child.stdout.readline()
-        return child, words
+        return child, self.listening(child)
+
+    @staticmethod
+    def listening(child):
+        """What the server says until it listens, or ends."""
+        words = b""
+        for line in child.stdout:
+            words += line
+            if b"listening" in line:
+                break
+        return words
 
     def end(self, child):
         child.terminate()
@@ -111,7 +120,7 @@ class Outside(unittest.TestCase):
         child = subprocess.Popen([LUTETIA, "midi", "serve", "loop", "--server", "./s", "--tcp", str(port), "--usual-priority",
                                   "--may-sleep"], cwd=self.at, env=dict(os.environ, LUTETIA_MIDI_TOKEN="known"),
                                  stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        self.assertIn(b"listening", child.stdout.readline())
+        self.assertIn(b"listening", self.listening(child))
         strangers = [socket.create_connection(("127.0.0.1", port)) for _ in range(300)]
         self.run_it("midi", "status", "--server", "./s", status=0)
         self.run_it("midi", "status", "--server", "127.0.0.1:%d" % port, LUTETIA_MIDI_TOKEN="known", status=0)
@@ -175,12 +184,13 @@ class Outside(unittest.TestCase):
     def test_a_short_recording_fills_no_disk(self):
         (self.at / "endless.leds").write_bytes(b"lutetia leds 1 4096\n" + struct.pack("<Q", 0) + b"\0" * 512 +
                                                struct.pack("<Q", 1 << 62) + b"\1" * 512)
-        self.assertIn(b"--fps", self.refused("leds", "endless.leds", "--frames", "pictures", "--fps", "30"))
+        self.assertIn(b"--fps", self.refused("leds", "--frames", "pictures", "--fps", "30", "endless.leds"))
         self.assertLess(len(os.listdir(self.at / "pictures")), 3)
 
     def test_text_in_a_drawing_is_xml(self):
         self.run_it("type", "a\ufffeb\uffffc", "-o", "n.svg", status=0)
-        self.assertIn("a b c", "".join(xml.etree.ElementTree.parse(self.at / "n.svg").itertext()).replace("\n", ""))
+        words = "".join(xml.etree.ElementTree.parse(self.at / "n.svg").getroot().itertext())
+        self.assertEqual("".join(words.split()), "abc")
 
     def test_drawings_have_no_doctype(self):
         count = 60000
@@ -188,11 +198,11 @@ class Outside(unittest.TestCase):
         (self.at / "chain.svg").write_text('<!DOCTYPE svg [<!ENTITY e0 "M0 0L1 1">%s]>\n<svg><path d="&e%d;"/></svg>\n' %
                                            (chain, count - 1))
         (self.at / "s.lua").write_text("local p = paper{width = 16, height = 16}\n"
-                                       "p:stroke{brush = p:brush{width = 2}, svg = 'chain.svg'}\n")
+                                       "local b = p:brush{width = 2} b:dip{water = 1} p:stroke{brush = b, svg = 'chain.svg'}\n")
         self.assertIn(b"DOCTYPE", self.refused("run", "s.lua", "-q"))
 
     def test_ctrl_c_leaves_no_part_of_a_page(self):
-        (self.at / "long.txt").write_text("A marsh and a town. " * 200000)
+        (self.at / "long.txt").write_text(("A marsh and a town. " * 100 + "\n\n") * 2000)
         child = subprocess.Popen([LUTETIA, "set", "long.txt", "--all", "-o", "page.png"], cwd=self.at, stdin=subprocess.DEVNULL,
                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         for _ in range(400):
