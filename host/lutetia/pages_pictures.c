@@ -183,6 +183,7 @@ const struct page pages_of_pictures[] = {
                    "printed on wet paper, after four seconds"},
                   {"lutetia keys song.mid --video song.mp4", "a film with its sound"},
                   {"lutetia keys --text \"page\" --range c3-c5", "a window that is played"}},
+     .files = "/usr/share/doc/lutetia/examples/scripts/played.mid: a song to begin with",
      .see = "lutetia-midi(1), lutetia-voice(1), lutetia-spring(1)"},
     {.verb = "run",
      .usages = "SCRIPT.lua [key=value...] [options]",

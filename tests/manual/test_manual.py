@@ -131,6 +131,18 @@ class Manual(unittest.TestCase):
             self.assertIn(f"\n{name}={value}\n", main)
             self.assertIn(f"  {name}={value} ", info)
 
+    def test_variables_that_the_code_reads_are_in_the_table(self):
+        root, names = SCRIPTS.resolve().parent.parent, set()
+        for folder in ("host", "midi", "paris_compat", "voice", "fontpipe", "dynamics"):
+            for path in (root / folder).rglob("*.c"):
+                text = path.read_text()
+                names |= set(re.findall(r'(?:getenv\(|variable = )"(LUTETIA_\w+)"', text))
+                if path.name == "settings.c":
+                    names |= {"LUTETIA_" + name for name in re.findall(r"\{(?:SETTING|KNOB)(?:_READ)?\((\w+),", text)}
+        self.assertGreater(len(names), 30)
+        rows = [line.split("\t") for line in said(LUTETIA, "help", "--table").stdout.splitlines()]
+        self.assertEqual(names - {row[1] for row in rows if row[0] == "environment"}, set(), "host/lutetia/environment.c lacks these")
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])
