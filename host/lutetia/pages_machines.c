@@ -119,6 +119,7 @@ const struct page pages_of_machines[] = {
                   {"lutetia midi send 'note-on 1 c4 100' -t 1 -d keys",
                    "one note, for a second"}},
      .files =
+         "/usr/share/doc/lutetia/examples/scripts/played.mid: a song to begin with\n"
          "$XDG_RUNTIME_DIR/lutetia-midi: the server's socket; without XDG_RUNTIME_DIR "
          "/tmp/lutetia-UID/lutetia-midi\n"
          "~/.config/lutetia-midi.conf: DEVICES=\"keys=raw:/dev/snd/midiC1D0\", what the user "
