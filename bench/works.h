@@ -1,5 +1,5 @@
 /* works.h - the programs of `lutetia bench families`: what C/Paris was used for outside of stencils, each in Paris and in plain
- * C. All are of whole numbers, and come to the same number.
+ * C. All come to the same number: results are added as whole numbers, floats by their bits.
  *
  *     histogram      seven histograms of 1,024 bins, by sends that add
  *     transposition  of an array on the front end, rows and columns in Gray code: there, by a send, and back
@@ -7,7 +7,10 @@
  *     list ranking   weights to the end of a list, by pointer jumping; in plain C from sublist to sublist
  *     scans          24 segmented scans along rows of 1,000, sums and maxima
  *     wide numbers   numbers of 512 bits: a sum with carries, and its product with a word
- *     byte code      a program and an array for each processor */
+ *     byte code      a program and an array for each processor
+ *     product        of two matrices of single floats, by spreads: a column of one and a row of the other for each step
+ *     elimination    of a matrix of doubles, by spreads, without looking for pivots
+ *     red and black  sweeps of Gauss and Seidel in three dimensions, one colour after the other, by contexts; the walls are fixed */
 #ifndef LUTETIA_BENCH_WORKS_H
 #define LUTETIA_BENCH_WORKS_H
 
@@ -22,6 +25,9 @@ enum work {
     WORK_SCANS,
     WORK_WIDE,
     WORK_CODE,
+    WORK_PRODUCT,
+    WORK_ELIMINATION,
+    WORK_RED_BLACK,
     WORKS_COUNT
 };
 
@@ -33,7 +39,8 @@ enum {
     WORK_SEGMENT = 37,
     WORK_LIMBS = 16,
     WORK_CELLS = 16, /* of a processor's array, and of its program */
-    WORK_STEPS = 16
+    WORK_STEPS = 16,
+    WORK_SWEEPS = 10
 };
 
 extern const char *const work_names[WORKS_COUNT];
@@ -47,6 +54,22 @@ static inline uint32_t work_word(uint32_t i)
     z = (z ^ z >> 16) * 0x85ebca6bu;
     z = (z ^ z >> 13) * 0xc2b2ae35u;
     return z ^ z >> 16;
+}
+
+/* The sides of the box of red and black: 2 k, 2 k - 3 and k. */
+static inline void work_box(int n, int sides[3])
+{
+    int k = 2;
+    while (2 * k * (2 * k - 3) * k < n)
+        k++;
+    sides[0] = 2 * k;
+    sides[1] = 2 * k - 3;
+    sides[2] = k;
+}
+/* From 0 to 1, with few bits. */
+static inline float work_part(uint32_t word)
+{
+    return (float)(word & 4095) / 4096;
 }
 
 /* A list of all n: who follows whom; the last one follows itself. Returns the first. */

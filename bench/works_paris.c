@@ -8,7 +8,7 @@
 #include "paris_internal.h"
 #include <cm/paris.h>
 
-enum { WORD = 32, LONG = 64, FIELDS = 8 };
+enum { WORD = 32, LONG = 64, FIELDS = 8, S = 23, E = 8, LONG_S = 52, LONG_E = 11 };
 
 struct work_paris {
     enum work work;
@@ -68,8 +68,53 @@ static bool list_make(const struct work_paris *p)
         machine_field_upload(paris_machine(), p->in, MACHINE_UINT(WORD), p->words));
 }
 
+/* 12 bits of what it begins with, as a float from 0 to 1. */
+static void part_make(const struct work_paris *p, CM_field_id_t dest, unsigned int shift)
+{
+    CM_f_u_float_2_2L(dest, p->in + shift, 12, S, E);
+    CM_f_multiply_constant_2_1L(dest, 1.0 / 4096, S, E);
+}
+
+static void elimination_prepare(const struct work_paris *p)
+{
+    CM_f_u_float_2_2L(p->f[0], p->in, 12, LONG_S, LONG_E);
+    CM_f_multiply_constant_2_1L(p->f[0], 1.0 / 4096, LONG_S, LONG_E);
+    CM_my_news_coordinate_1L(p->f[5], 0, WORD);
+    CM_my_news_coordinate_1L(p->f[6], 1, WORD);
+    CM_u_eq_1L(p->f[5], p->f[6], WORD);
+    CM_logand_context_with_test();
+    CM_f_add_constant_2_1L(p->f[0], p->side, LONG_S, LONG_E);
+    CM_set_context();
+}
+
+/* array: a bit where a processor is no wall and red, one where it is black. */
+static void red_black_prepare(struct work_paris *p, const int sides[3])
+{
+    p->array = CM_allocate_heap_field(2);
+    part_make(p, p->f[0], 0);
+    part_make(p, p->f[1], 12);
+    CM_u_move_zero_1L(p->f[6], WORD);
+    CM_set_bit(p->array);
+    for (unsigned int a = 0; a < 3; a++) {
+        CM_my_news_coordinate_1L(p->f[5], a, WORD);
+        CM_u_add_2_1L(p->f[6], p->f[5], WORD);
+        CM_u_eq_constant_1L(p->f[5], 0, WORD);
+        CM_logand_context_with_test();
+        CM_clear_bit(p->array);
+        CM_set_context();
+        CM_u_eq_constant_1L(p->f[5], (unsigned int)sides[a] - 1, WORD);
+        CM_logand_context_with_test();
+        CM_clear_bit(p->array);
+        CM_set_context();
+    }
+    CM_lognot_2_1L(p->array + 1, p->f[6], 1);
+    CM_logand_2_1L(p->array + 1, p->array, 1);
+    CM_logand_2_1L(p->array, p->f[6], 1);
+}
+
 static bool work_prepare(struct work_paris *p)
 {
+    int sides[3];
     bool good = upload(p, p->in, 0);
     switch (p->work) {
     case WORK_HISTOGRAM:
@@ -105,11 +150,50 @@ static bool work_prepare(struct work_paris *p)
         for (unsigned int k = 0; good && k < 2 * WORK_CELLS; k++)
             good = upload(p, p->array + (WORK_CELLS + k) * WORD, k * (uint32_t)p->n);
         break;
+    case WORK_PRODUCT:
+        part_make(p, p->f[0], 0);
+        part_make(p, p->f[1], 12);
+        break;
+    case WORK_ELIMINATION:
+        elimination_prepare(p);
+        break;
+    case WORK_RED_BLACK:
+        work_box(p->n, sides);
+        red_black_prepare(p, sides);
+        break;
     case WORK_SORT:
     case WORKS_COUNT:
         break;
     }
     return good;
+}
+
+static CM_geometry_id_t geometry_make(const struct work_paris *p)
+{
+    int lengths[3] = {p->side, p->side, 0};
+    unsigned int rank = 2;
+    switch (p->work) {
+    case WORK_SCANS:
+        lengths[0] = p->n / WORK_ROW;
+        lengths[1] = WORK_ROW;
+        break;
+    case WORK_RED_BLACK:
+        work_box(p->n, lengths);
+        rank = 3;
+        break;
+    case WORK_TRANSPOSITION:
+    case WORK_PRODUCT:
+    case WORK_ELIMINATION:
+        break;
+    case WORK_HISTOGRAM:
+    case WORK_SORT:
+    case WORK_RANKING:
+    case WORK_WIDE:
+    case WORK_CODE:
+    case WORKS_COUNT:
+        return line_make((unsigned int)p->n);
+    }
+    return CM_create_geometry((CM_vector_t){.ints = lengths}, rank);
 }
 
 struct work_paris *work_paris_create(enum work w, int n)
@@ -124,11 +208,7 @@ struct work_paris *work_paris_create(enum work w, int n)
         p->side++;
     p->words = malloc((size_t)n * sizeof *p->words);
     p->moved = malloc((size_t)n * sizeof *p->moved);
-    int lengths[2] = {w == WORK_SCANS ? n / WORK_ROW : p->side,
-                      w == WORK_SCANS ? WORK_ROW : p->side};
-    p->geometry = w == WORK_SCANS || w == WORK_TRANSPOSITION
-                      ? CM_create_geometry((CM_vector_t){.ints = lengths}, 2)
-                      : line_make((unsigned int)n);
+    p->geometry = geometry_make(p);
     p->set = CM_allocate_vp_set(p->geometry);
     CM_set_vp_set(p->set);
     CM_set_context();
@@ -332,10 +412,68 @@ static uint32_t code(const struct work_paris *p, uint32_t turn)
     return weighed(p->f[1], p->odd);
 }
 
+static uint32_t product(const struct work_paris *p, uint32_t turn)
+{
+    CM_field_id_t sum = p->f[2], column = p->f[3], row = p->f[4];
+    CM_f_move_constant_1L(sum, turn, S, E);
+    for (unsigned int k = 0; k < (unsigned int)p->side; k++) {
+        CM_spread_with_copy_1L(column, p->f[0], 1, WORD, k);
+        CM_spread_with_copy_1L(row, p->f[1], 0, WORD, k);
+        CM_f_multiply_2_1L(column, row, S, E);
+        CM_f_add_2_1L(sum, column, S, E);
+    }
+    return weighed(sum, p->odd);
+}
+
+static uint32_t elimination(const struct work_paris *p, uint32_t turn)
+{
+    CM_field_id_t a = p->f[1], row = p->f[2], column = p->f[3], pivot = p->f[4];
+    CM_f_add_constant_3_1L(a, p->f[0], turn, LONG_S, LONG_E);
+    for (unsigned int k = 0; k + 1 < (unsigned int)p->side; k++) {
+        CM_spread_with_copy_1L(row, a, 0, LONG, k);
+        CM_spread_with_copy_1L(pivot, row, 1, LONG, k);
+        CM_u_gt_constant_1L(p->f[5], k, WORD);
+        CM_logand_context_with_test();
+        CM_u_eq_constant_1L(p->f[6], k, WORD);
+        CM_logand_context_with_test();
+        CM_f_divide_2_1L(a, pivot, LONG_S, LONG_E);
+        CM_set_context();
+        CM_spread_with_copy_1L(column, a, 1, LONG, k);
+        CM_u_gt_constant_1L(p->f[5], k, WORD);
+        CM_logand_context_with_test();
+        CM_u_gt_constant_1L(p->f[6], k, WORD);
+        CM_logand_context_with_test();
+        CM_f_multiply_2_1L(column, row, LONG_S, LONG_E);
+        CM_f_subtract_2_1L(a, column, LONG_S, LONG_E);
+        CM_set_context();
+    }
+    return weighed(a, p->odd) + weighed(a + WORD, p->odd);
+}
+
+static uint32_t red_black(const struct work_paris *p, uint32_t turn)
+{
+    CM_field_id_t u = p->f[2], sum = p->f[3], other = p->f[4];
+    CM_f_add_constant_3_1L(u, p->f[0], turn, S, E);
+    for (int s = 0; s < 2 * WORK_SWEEPS; s++) {
+        CM_load_context(p->array + (unsigned int)s % 2);
+        CM_f_move_1L(sum, p->f[1], S, E);
+        for (unsigned int a = 0; a < 3; a++) {
+            CM_get_from_news_1L(other, u, a, CM_upward, WORD);
+            CM_f_add_2_1L(sum, other, S, E);
+            CM_get_from_news_1L(other, u, a, CM_downward, WORD);
+            CM_f_add_2_1L(sum, other, S, E);
+        }
+        CM_f_multiply_constant_3_1L(u, sum, 1.0 / 6, S, E);
+        CM_set_context();
+    }
+    return weighed(u, p->odd);
+}
+
 uint32_t work_paris_run(struct work_paris *p, uint32_t turn)
 {
     uint32_t (*const runs[WORKS_COUNT])(const struct work_paris *, uint32_t) = {
-        histogram, transposition, sort, ranking, scans, wide, code};
+        histogram, transposition, sort,    ranking,     scans,
+        wide,      code,          product, elimination, red_black};
     CM_set_vp_set(p->set);
     return runs[p->work](p, turn);
 }

@@ -7,7 +7,8 @@
 enum { SUBLISTS = 64 };
 
 const char *const work_names[WORKS_COUNT] = {
-    "histogram", "transposition", "sort", "list ranking", "scans", "wide numbers", "byte code"};
+    "histogram",    "transposition", "sort",    "list ranking", "scans",
+    "wide numbers", "byte code",     "product", "elimination",  "red and black"};
 
 struct work_plain {
     enum work work;
@@ -22,6 +23,12 @@ int work_size(enum work w, bool small)
         return small ? 7 * WORK_ROW : 1000 * WORK_ROW;
     case WORK_WIDE:
         return small ? 1000 : 500000;
+    case WORK_PRODUCT:
+        return small ? 40 * 40 : 600 * 600;
+    case WORK_ELIMINATION:
+        return small ? 30 * 30 : 500 * 500;
+    case WORK_RED_BLACK:
+        return small ? 12 * 9 * 6 : 200 * 197 * 100;
     case WORK_HISTOGRAM:
     case WORK_TRANSPOSITION:
     case WORK_SORT:
@@ -61,7 +68,7 @@ struct work_plain *work_plain_create(enum work w, int n, int threads)
         p->side++;
     p->in = malloc(words * sizeof *p->in);
     p->out = malloc(words * sizeof *p->out);
-    p->limbs = malloc((w == WORK_WIDE ? 2 * WORK_LIMBS : 1) * (size_t)n * sizeof *p->limbs);
+    p->limbs = malloc((w == WORK_WIDE ? 2 * WORK_LIMBS : 2) * (size_t)n * sizeof *p->limbs);
     if (!p->in || !p->out || !p->limbs) {
         work_plain_destroy(p);
         return NULL;
@@ -285,9 +292,85 @@ static uint32_t code(struct work_plain *p, uint32_t turn)
     return result;
 }
 
+/* The limbs are floats: a matrix, and what is computed. */
+static uint32_t product(struct work_plain *p, uint32_t turn)
+{
+    const int side = p->side;
+    float *c = (float *)p->out;
+    const uint32_t *words = p->in;
+    float *b = (float *)p->limbs, *a = b + p->n;
+    for (int i = 0; i < p->n; i++) {
+        a[i] = work_part(words[i]);
+        b[i] = work_part(words[i] >> 12);
+    }
+#pragma omp parallel for num_threads(p->threads)
+    for (int i = 0; i < side; i++) {
+        float *restrict row = c + i * side;
+        for (int j = 0; j < side; j++)
+            row[j] = (float)turn;
+        for (int k = 0; k < side; k++) {
+            const float x = a[i * side + k];
+            const float *restrict other = b + k * side;
+            for (int j = 0; j < side; j++)
+                row[j] += x * other[j];
+        }
+    }
+    return work_weighed(p->out, p->n, p->threads);
+}
+
+static uint32_t elimination(struct work_plain *p, uint32_t turn)
+{
+    const int side = p->side;
+    double *a = (double *)p->limbs;
+    uint32_t result = 0;
+    for (int i = 0; i < p->n; i++)
+        a[i] = (double)work_part(p->in[i]) + (i % (side + 1) ? 0.0 : side) + (double)turn;
+    for (int k = 0; k < side - 1; k++)
+#pragma omp parallel for num_threads(p->threads)
+        for (int i = k + 1; i < side; i++) {
+            double *restrict row = a + i * side;
+            const double *restrict other = a + k * side;
+            const double by = row[k] /= other[k];
+            for (int j = k + 1; j < side; j++)
+                row[j] -= by * other[j];
+        }
+    for (int i = 0; i < p->n; i++)
+        result += (p->limbs[2 * i] + p->limbs[2 * i + 1]) * (2 * (uint32_t)i + 1);
+    return result;
+}
+
+static void half_sweep(float *u, const float *f, const int d[3], int colour, int threads)
+{
+    const int y = d[2], x = d[1] * d[2];
+    const float sixth = (float)(1.0 / 6);
+#pragma omp parallel for num_threads(threads)
+    for (int i = 1; i < d[0] - 1; i++)
+        for (int j = 1; j < d[1] - 1; j++)
+            for (int k = 1 + (i + j + colour) % 2; k < d[2] - 1; k += 2) {
+                const int at = (i * d[1] + j) * d[2] + k;
+                float *q = u + at;
+                *q = (f[at] + q[x] + q[-x] + q[y] + q[-y] + q[1] + q[-1]) * sixth;
+            }
+}
+
+static uint32_t red_black(struct work_plain *p, uint32_t turn)
+{
+    float *u = (float *)p->out, *f = (float *)p->limbs;
+    int d[3];
+    work_box(p->n, d);
+    for (int i = 0; i < p->n; i++) {
+        u[i] = work_part(p->in[i]) + (float)turn;
+        f[i] = work_part(p->in[i] >> 12);
+    }
+    for (int s = 0; s < 2 * WORK_SWEEPS; s++)
+        half_sweep(u, f, d, s % 2, p->threads);
+    return work_weighed(p->out, p->n, p->threads);
+}
+
 uint32_t work_plain_run(struct work_plain *p, uint32_t turn)
 {
     uint32_t (*const runs[WORKS_COUNT])(struct work_plain *, uint32_t) = {
-        histogram, transposition, sort, ranking, scans, wide, code};
+        histogram, transposition, sort,    ranking,     scans,
+        wide,      code,          product, elimination, red_black};
     return runs[p->work](p, turn);
 }

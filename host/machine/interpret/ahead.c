@@ -9,6 +9,8 @@ void byte_code_ahead(struct byte_code *p)
     for (int i = 0; taken && i < p->steps_count; i++) {
         struct lanes_step *s = &p->steps[i];
         int inputs = s->run ? lanes_inputs(s->op) : 0;
+        if (s->op == LANES_GUARD)
+            continue;
         for (int k = 0; s->list && k < s->detail; k++) {
             bool *known = &taken[s->list[2 * k + 1]];
             if (p->places[s->list[2 * k + 1]].kind == PLACE_ARRAY && !*known)

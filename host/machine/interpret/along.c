@@ -3,7 +3,7 @@
  *     number, coordinate of another axis        the same
  *     an operation on what is the same          the same: a step for one lane, of which all make use as it is
  *     a get from a place that is the same       likewise: the spread of a column
- *     coordinate of the last axis, index        goes up by one; so does what is the same, added to it
+ *     coordinate of the last axis, index        goes up by one; so does what is the same, added to it: likewise
  *     a get from places that go up by one       a copy: the spread of a row
  *     anything else                             differs
  *
@@ -14,12 +14,8 @@
 #include "interpret/byte_code.h"
 #include "values/geometry.h"
 
-enum along {
-    DIFFERS,
-    GOES_UP,
-    REPEATED,
-    ONE
-}; /* REPEATED, ONE: the same, in all lanes; in the first one */
+/* In the first lane alone (ONE), or in all. */
+enum along { DIFFERS, GOES_UP_ONE, GOES_UP, REPEATED, ONE };
 
 struct along_row {
     struct byte_code *p;
@@ -52,65 +48,50 @@ static void repeat(struct along_row *a, int place)
                                : bytes == 4 ? LANES_U32
                                : bytes == 8 ? LANES_U64
                                             : LANES_U128;
-    if (a->is[place] != ONE)
+    const bool up = a->is[place] == GOES_UP_ONE;
+    if (a->is[place] != ONE && !up)
         return;
     const struct lanes_step step = {.run = lanes_find(LANES_REPEAT, c),
                                     .op = LANES_REPEAT,
                                     .to = (uint16_t)place,
-                                    .in = {(uint16_t)place, 0, 0}};
+                                    .in = {(uint16_t)place, 0, 0},
+                                    .detail = up};
     step_put(a, &step);
-    a->is[place] = REPEATED;
+    a->is[place] = up ? GOES_UP : REPEATED;
 }
 
-/* How many places a step takes lane by lane, the k-th of them. */
-static int taken(const struct lanes_step *s)
+static bool goes_up(const struct along_row *a, int place)
 {
-    return s->list ? 2 * s->detail + 2 : !s->run ? 0 : lanes_inputs(s->op);
-}
-
-static int taken_place(const struct lanes_step *s, int k)
-{
-    return !s->list ? s->in[k] : k == 0 ? s->in[0] : s->list[k - 1];
-}
-
-/* Operand k is not looked at lane by lane. */
-static bool is_apart(const struct lanes_step *s, int k)
-{
-    return (s->op == LANES_FETCH && k > 0) || (s->op == LANES_CROSS && k == 1) ||
-           (s->op == LANES_DRAW && k == 1);
+    return a->is[place] == GOES_UP_ONE || a->is[place] == GOES_UP;
 }
 
 static bool adds_to_columns(const struct along_row *a, const struct lanes_step *s)
 {
     return s->op == MACHINE_ADD && s->type.kind == MACHINE_BITS && s->type.width == 32 &&
-           ((a->is[s->in[0]] == GOES_UP && is_same(a, s->in[1])) ||
-            (a->is[s->in[1]] == GOES_UP && is_same(a, s->in[0])));
+           ((goes_up(a, s->in[0]) && is_same(a, s->in[1])) ||
+            (goes_up(a, s->in[1]) && is_same(a, s->in[0])));
+}
+
+/* What the step's result is, if that is a register. */
+static enum along result_of(const struct along_row *a, const struct lanes_step *s)
+{
+    if (!s->run)
+        return s->op == NODE_INDEX || s->axis == a->set->rank - 1 ? GOES_UP_ONE : ONE;
+    bool same = s->op != LANES_CROSS && s->op != LANES_STREAM;
+    for (int k = 0; k < lanes_taken(s) && same; k++)
+        same = lanes_is_apart(s, k) || is_same(a, lanes_taken_place(s, k));
+    return same ? ONE : adds_to_columns(a, s) ? GOES_UP_ONE : DIFFERS;
 }
 
 static void step_look(struct along_row *a, struct lanes_step s)
 {
-    enum along result = DIFFERS;
-    const bool is_register = a->p->places[s.to].kind == PLACE_REGISTER;
-    if (!s.run) {
-        const bool up = s.op == NODE_INDEX || s.axis == a->set->rank - 1;
-        result = up ? GOES_UP : ONE;
-    } else {
-        bool same = is_register && s.op != LANES_CROSS && s.op != LANES_STREAM;
-        for (int k = 0; k < taken(&s) && same; k++)
-            same = is_apart(&s, k) || is_same(a, taken_place(&s, k));
-        if (same)
-            result = ONE;
-        else if (adds_to_columns(a, &s))
-            result = GOES_UP;
-        else if (s.op == LANES_FETCH && a->is[s.in[0]] == GOES_UP)
-            s.in_a_row = true;
-    }
-    if (!is_register && result != DIFFERS)
-        result = DIFFERS; /* an array needs all lanes */
-    for (int k = 0; k < taken(&s) && result != ONE; k++)
-        if (!is_apart(&s, k))
-            repeat(a, taken_place(&s, k));
-    s.one = result == ONE;
+    const enum along result =
+        a->p->places[s.to].kind == PLACE_REGISTER ? result_of(a, &s) : DIFFERS;
+    s.one = result != DIFFERS;
+    s.in_a_row = !s.one && s.op == LANES_FETCH && goes_up(a, s.in[0]);
+    for (int k = 0; k < lanes_taken(&s) && !s.one; k++)
+        if (!lanes_is_apart(&s, k) && !(s.in_a_row && k == 0))
+            repeat(a, lanes_taken_place(&s, k));
     a->spared += s.one;
     a->p->lines = a->p->lines || (s.op == LANES_FETCH && (s.one || s.in_a_row));
     a->is[s.to] = (uint8_t)result;

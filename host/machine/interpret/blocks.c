@@ -222,12 +222,32 @@ fetch_ahead(const struct run *r, const struct lanes_step *s, int lanes)
             fetch(r, s->list[2 * k + 1], lanes, false);
 }
 
+static bool holds_nowhere(const uint8_t *bits, int n)
+{
+    uint8_t any = 0;
+    int i = 0;
+    for (; i + LINE <= n && !any; i += LINE)
+        for (int k = 0; k < LINE; k++)
+            any |= bits[i + k];
+    for (; i < n && !any; i++)
+        any |= bits[i];
+    return !any;
+}
+
 static void block_run(const struct run *r, const struct block *b)
 {
     const bool goes_on = !b->rows && b->x + b->lanes < r->set->width;
     places_move(r, b);
     for (int i = 0; i < r->p->steps_count; i++) {
         const struct lanes_step *s = &r->p->steps[i];
+        if (s->op == LANES_GUARD) {
+            const bool nowhere =
+                holds_nowhere(r->room->at[s->in[0]], s->one ? 1 : b->lanes) &&
+                (s->in[1] == s->in[0] ||
+                 holds_nowhere(r->room->at[s->in[1]], s->in_a_row ? 1 : b->lanes));
+            i += nowhere ? s->detail : 0;
+            continue;
+        }
         if (s->run)
             s->run(s, r->room->at, s->one ? 1 : b->lanes);
         else

@@ -575,8 +575,10 @@ struct byte_code *byte_code_make(const struct device_shape *shape, const struct 
             p->lane_bytes += (int)type_bytes(g->nodes[p->arguments[i].node].type);
         good = !p->failed && p->places_count <= UINT16_MAX;
         p->far = set->count >= shape->ahead_from;
-        if (good && at_hand)
+        if (good && at_hand) {
             byte_code_along(p, set);
+            byte_code_guards(p);
+        }
         good = good && !p->failed;
         if (good && set->width > BLOCK_LANES)
             byte_code_ahead(p);

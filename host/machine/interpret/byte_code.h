@@ -71,6 +71,8 @@ struct byte_code *byte_code_make(const struct device_shape *shape, const struct 
 void byte_code_ahead(struct byte_code *p);
 /* Of a set whose blocks are parts of rows: what is the same along a row is computed for one lane of a block. */
 void byte_code_along(struct byte_code *p, const struct vpset *set);
+/* What only a selection takes, where its bit holds, is left out of blocks where the bit holds nowhere. */
+void byte_code_guards(struct byte_code *p);
 void byte_code_free(struct byte_code *p);
 
 #endif

@@ -31,8 +31,8 @@ typedef double f64;
 #define TO(T) T *restrict d = at[s->to]
 #define IN(T, k, name) const T *name = at[s->in[k]]
 
+#include "interpret/lanes_masks.h"
 /* ---- bits ---- */
-
 #define ONE(NAME, T, EXPRESSION)                                                               \
     LOOP(NAME, T)                                                                              \
     {                                                                                          \
@@ -134,13 +134,18 @@ typedef double f64;
         IN(u8, 0, c);                                                                          \
         IN(T, 1, a);                                                                           \
         IN(T, 2, b);                                                                           \
+        if (mask_is_even(c, n)) {                                                              \
+            memcpy(d, c[0] ? a : b, (size_t)n * sizeof *d);                                    \
+            return;                                                                            \
+        }                                                                                      \
         EACH d[i] = c[i] ? a[i] : b[i];                                                        \
     }                                                                                          \
     LOOP(repeat, T)                                                                            \
     {                                                                                          \
         TO(T);                                                                                 \
         const T first = d[0];                                                                  \
-        EACH d[i] = first;                                                                     \
+        const T up = (T)s->detail;                                                             \
+        EACH d[i] = (T)(first + (T)i * up);                                                    \
     }                                                                                          \
     LOOP(fetch, T)                                                                             \
     {                                                                                          \
@@ -148,8 +153,13 @@ typedef double f64;
         IN(u32, 0, place);                                                                     \
         IN(T, 1, array);                                                                       \
         const u32 count = *(const u32 *)at[s->in[2]];                                          \
-        if (s->in_a_row && place[0] < count && count - place[0] >= (u32)n) {                   \
-            memcpy(d, array + place[0], (size_t)n * sizeof *d);                                \
+        if (s->in_a_row) {                                                                     \
+            const u32 from = place[0];                                                         \
+            const bool all = from < count && count - from >= (u32)n;                           \
+            if (all)                                                                           \
+                memcpy(d, array + from, (size_t)n * sizeof *d);                                \
+            for (u32 k = 0; k < (u32)n && !all; k++)                                           \
+                d[k] = from + k < count ? array[from + k] : 0;                                 \
             return;                                                                            \
         }                                                                                      \
         EACH                                                                                   \

@@ -60,8 +60,10 @@ enum lanes_op {
     LANES_PLACE, /* a row-major index becomes a send address: PLOG2 is detail, the ratio is mask */
     LANES_PICK, /* in: an index of 32 bits; the operands of `list` that it names: see lanes_picks.h */
     LANES_CROSS, /* in: an aligned run of CROSS_NEAR lanes, or several; bits, of 32. The lanes whose numbers differ in those below CROSS_NEAR */
-    LANES_REPEAT, /* `to`: all lanes as the first */
-    LANES_DRAW,   /* a row-major index becomes a random number: see NODE_RANDOM */
+    LANES_REPEAT, /* `to`: all lanes as the first, each so much more as `detail` says */
+    LANES_GUARD, /* in: two bits, of which `one` and `in_a_row` say whether only their first lanes are there. Where neither holds in a lane, the next
+                  * `detail` steps are left out: guards.c */
+    LANES_DRAW,  /* a row-major index becomes a random number: see NODE_RANDOM */
     LANES_OP_COUNT
 };
 
@@ -77,7 +79,7 @@ struct lanes_step {
     int32_t detail;
     uint8_t axis;
     bool one;        /* lanes of a block are all the same: only the first is computed */
-    bool in_a_row;   /* of a fetch: its places go up by one */
+    bool in_a_row;   /* of a fetch: its places go up by one, and only the first is looked at */
     uint8_t ahead;   /* arrays that no step before has taken: bit k of in[k], and those below */
     lanes_wide mask; /* the bits of the result that may be 1 */
     uint16_t *list;  /* of a pick: places of `detail` keys and values in turn, and of what is
@@ -92,6 +94,21 @@ static inline int lanes_inputs(int op)
            : op == LANES_FETCH                                         ? 3
            : op == LANES_JOIN || op == LANES_DRAW || op == LANES_CROSS ? 2
                                                                        : 1;
+}
+
+/* The places that a step takes lane by lane, and some that it takes otherwise: how many; the k-th; whether that is one of the others. */
+static inline int lanes_taken(const struct lanes_step *s)
+{
+    return s->list ? 2 * s->detail + 2 : !s->run ? 0 : lanes_inputs(s->op);
+}
+static inline int lanes_taken_place(const struct lanes_step *s, int k)
+{
+    return !s->list ? s->in[k] : k == 0 ? s->in[0] : s->list[k - 1];
+}
+static inline bool lanes_is_apart(const struct lanes_step *s, int k)
+{
+    return (s->op == LANES_FETCH && k > 0) || (s->op == LANES_CROSS && k == 1) ||
+           (s->op == LANES_DRAW && k == 1);
 }
 
 /* Of operands of that class; of a select and of what is beside the graph, of that result. NULL: there is no loop. */
