@@ -9,6 +9,7 @@
 #include "run/evaluate.h"
 #include "run/notes.h"
 #include "values/graph.h"
+#include "values/make.h"
 #include "values/rules.h"
 
 /* ---- flags ---- */
@@ -94,8 +95,11 @@ static void overflow_remember(struct machine *m, struct vpset *s, int node,
     settle(m);
     values_before_change(m);
     struct machine_value *context = flags_of(m, s)->of[MACHINE_CONTEXT].value;
-    if (flags_of(m, s)->overflow.op && flags_of(m, s)->overflow.context != context)
+    if (flags_of(m, s)->overflow.op && flags_of(m, s)->overflow.context != context) {
         flag_resolved(m, s, MACHINE_OVERFLOW);
+        if (!value_is_one_bit(context))
+            flags_of(m, s)->overflow_needed = true;
+    }
     slot_accessed(m, &flags_of(m, s)->of[MACHINE_OVERFLOW], true);
     graph_ref(a);
     if (b)

@@ -260,15 +260,23 @@ static void release(struct machine *m, struct evaluation *e)
 
 /* ---- both halves, recorded between them and after them ---- */
 
-/* For evaluations that leave nothing to compute: computes recorded overflows, too. */
-static void resolve_overflows(struct machine *m)
+/* Computes recorded overflows, too: all of them; or those that will probably be needed, because the context changes before they are overwritten. Later their
+ * operands would have to be kept, and computed again. */
+static void resolve_overflows(struct machine *m, bool all)
 {
     struct replay *p = m->run->replay;
-    p->depth++; /* these belong to the calls before */
-    for (int i = 1; i < m->values->sets_count; i++)
-        if (m->values->sets[i].used)
+    if (p)
+        p->depth++; /* these belong to the calls before */
+    for (int i = 1; i < m->values->sets_count; i++) {
+        struct flags *f = &m->memory->flags[i];
+        const bool needed =
+            f->overflow.op && f->overflow_needed && f->overflow.context->op != NODE_CONSTANT;
+        if (m->values->sets[i].used && (all || needed))
             flag_resolved(m, &m->values->sets[i], MACHINE_OVERFLOW);
-    p->depth--;
+        f->overflow_needed = false;
+    }
+    if (p)
+        p->depth--;
 }
 
 static enum plan_use use_of(enum run_mode mode)
@@ -369,7 +377,9 @@ static enum machine_status evaluate_whole(struct machine *m, const struct wish *
     struct evaluation e;
     if (m->run->replay && m->run->replay->thorough) {
         w.what = WISH_ALL;
-        resolve_overflows(m);
+        resolve_overflows(m, true);
+    } else if (w.what == WISH_LIVE && m->run->stores != m->run->stores_evaluated) {
+        resolve_overflows(m, false);
     }
     enum plan_use use = use_of(m->run->mode);
     enum machine_status status = first_half(m, &e, &w, use);
