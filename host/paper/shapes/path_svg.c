@@ -28,14 +28,23 @@ struct reading {
     enum paper_status status;
 };
 
+/* Expat 2.9 has this function with another type, and warns of the old one. */
+static unsigned long line_of(XML_Parser parser)
+{
+#if XML_MAJOR_VERSION > 2 || (XML_MAJOR_VERSION == 2 && XML_MINOR_VERSION >= 9)
+    return (unsigned long)XML_GetCurrentLineNumber64(parser);
+#else
+    return (unsigned long)XML_GetCurrentLineNumber(parser);
+#endif
+}
+
 static void reading_fail(struct reading *r, enum paper_status status, const char *what)
 {
     if (r->status != PAPER_OK)
         return;
     char said[400]; /* a copy, because the message may be paper_error() itself */
     snprintf(said, sizeof said, "%s", what);
-    r->status = paper_fail(status, "%s:%lu: %s", r->name,
-                           (unsigned long)XML_GetCurrentLineNumber(r->parser), said);
+    r->status = paper_fail(status, "%s:%lu: %s", r->name, line_of(r->parser), said);
     XML_StopParser(r->parser, XML_FALSE);
 }
 
