@@ -35,6 +35,21 @@ enum {
     SMALL_STEPS = 1000
 };
 
+static int calls_timed(void)
+{
+    return bench_many(CALLS_TIMED, 10 * CALLS_IN_TURN);
+}
+
+static int looks_count(void)
+{
+    return bench_many(LOOKS, 20);
+}
+
+static int small_steps(void)
+{
+    return bench_many(SMALL_STEPS, STEPS_BETWEEN);
+}
+
 /* ---- the program ---- */
 
 void calls_init(struct calls *c, int width, int height)
@@ -135,14 +150,15 @@ static bool cost_measure(struct bench_report *r, const struct calls *c, int repe
     double *total = calloc((size_t)repeat_count, sizeof *total), ignored;
     bool ok = (recorded && total) || bench_fail("no memory for %d times", repeat_count);
     for (int i = 0; ok && i < 3; i++)
-        calls_make(c, CALLS_TIMED, &ignored, &ignored);
+        calls_make(c, calls_timed(), &ignored, &ignored);
     for (int i = 0; ok && i < repeat_count; i++)
-        calls_make(c, CALLS_TIMED, &recorded[i], &total[i]);
+        calls_make(c, calls_timed(), &recorded[i], &total[i]);
     if (ok) {
         bench_report_add(r, "recorded", "65536 processors",
-                         bench_sample_of(recorded, repeat_count), 1e6 / CALLS_TIMED, "us/call");
+                         bench_sample_of(recorded, repeat_count), 1e6 / calls_timed(),
+                         "us/call");
         bench_report_add(r, "to the end", "65536 processors",
-                         bench_sample_of(total, repeat_count), 1e6 / CALLS_TIMED, "us/call");
+                         bench_sample_of(total, repeat_count), 1e6 / calls_timed(), "us/call");
     }
     free(recorded);
     free(total);
@@ -177,12 +193,13 @@ static bool look_measure(struct bench_report *r, const char *name, const char *o
         return bench_fail("no memory for %d times", repeat_count);
     for (int k = -1; k < repeat_count; k++) {
         double start = bench_now_s();
-        for (unsigned int i = 0; i < LOOKS; i++)
+        for (unsigned int i = 0; i < (unsigned)looks_count(); i++)
             call(c, i);
         if (k >= 0)
             times[k] = bench_now_s() - start;
     }
-    bench_report_add(r, name, of_case, bench_sample_of(times, repeat_count), 1e6 / LOOKS, "us");
+    bench_report_add(r, name, of_case, bench_sample_of(times, repeat_count),
+                     1e6 / looks_count(), "us");
     free(times);
     return true;
 }
@@ -215,13 +232,13 @@ static bool small_steps_measure(struct bench_report *r, int repeat_count)
         listing_allocate(&listing);
     for (int k = -1; k < repeat_count && ok; k++) {
         double start = bench_now_s();
-        ok = bench_machine_steps(listing_once, &listing, SMALL_STEPS, STEPS_BETWEEN);
+        ok = bench_machine_steps(listing_once, &listing, small_steps(), STEPS_BETWEEN);
         if (k >= 0)
             times[k] = bench_now_s() - start;
     }
     if (ok)
         bench_report_add(r, "diffusion step", "1024 processors",
-                         bench_sample_of(times, repeat_count), 1e6 / SMALL_STEPS, "us");
+                         bench_sample_of(times, repeat_count), 1e6 / small_steps(), "us");
     free(times);
     return ok;
 }
@@ -255,9 +272,9 @@ static void growth_add(struct bench_report *r, const char *of_case, struct held 
 static void growth_measure(struct bench_report *r, const struct calls *c)
 {
     double ignored;
-    calls_make(c, CALLS_GROWTH / 10, &ignored, &ignored);
+    calls_make(c, bench_many(CALLS_GROWTH, CALLS_TIMED) / 10, &ignored, &ignored);
     struct held before = held_now();
-    calls_make(c, CALLS_GROWTH, &ignored, &ignored);
+    calls_make(c, bench_many(CALLS_GROWTH, CALLS_TIMED), &ignored, &ignored);
     growth_add(r, "million calls", before);
 }
 

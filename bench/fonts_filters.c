@@ -185,7 +185,7 @@ static bool contend(struct contest *c, struct contender *all, int count)
             return false;
         all[k].rounds = 1 + (int)fmin(20, 1e-3 / fmax(seconds, 1e-6));
     }
-    for (int i = 0; i < TURNS; i++)
+    for (int i = 0; i < bench_many(TURNS, 1); i++)
         for (int k = 0; k < count; k++)
             if (!turn(c, &all[k], all[k].rounds, &all[k].turns[i]))
                 return false;
@@ -221,7 +221,7 @@ static bool face_run(struct contest *c, const char *name, int s, struct totals *
         return false;
     double yardstick = 0;
     for (int k = 0; k < count; k++) {
-        struct bench_sample one = bench_sample_of(all[k].turns, TURNS);
+        struct bench_sample one = bench_sample_of(all[k].turns, bench_many(TURNS, 1));
         t->seconds[k].median += one.median / LETTERS;
         t->seconds[k].min += one.min / LETTERS;
         if (k == 0)

@@ -27,6 +27,13 @@ const char *bench_error(void)
     return bench_last_error.text;
 }
 
+bool bench_quick;
+
+int bench_many(int usual, int enough)
+{
+    return bench_quick && enough < usual ? enough : usual;
+}
+
 /* ---- timing ---- */
 
 static double clock_s(clockid_t clock)
@@ -80,6 +87,7 @@ static void wait_for_rest(void)
 
 bool bench_measure_in_turns(struct bench_contender *contenders, int count, int repeat_count)
 {
+    repeat_count = bench_many(repeat_count, 1);
     double *seconds = malloc((size_t)repeat_count * (size_t)count * sizeof *seconds);
     bool ok = true;
     if (!seconds)
@@ -87,7 +95,7 @@ bool bench_measure_in_turns(struct bench_contender *contenders, int count, int r
     for (int i = -1; i < repeat_count; i++) /* -1 warms up */
         for (int k = 0; ok && k < count; k++) {
             struct bench_contender *c = &contenders[k];
-            if (count > 1)
+            if (count > 1 && !bench_quick)
                 wait_for_rest();
             ok = !c->ready || c->ready(c->context);
             double start = bench_now_s();
@@ -148,6 +156,7 @@ struct bench_copy {
 struct bench_copy *bench_copy_create(size_t bytes)
 {
     struct bench_copy *c = calloc(1, sizeof *c);
+    bytes = bench_quick && bytes > 1 << 20 ? 1 << 20 : bytes;
     if (c) {
         c->count = bytes / sizeof(float) / 16 * 16;
         c->from = aligned_alloc(4096, (bytes + 4095) / 4096 * 4096);

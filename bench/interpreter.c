@@ -348,7 +348,7 @@ int bench_interpreter_main(int argc, char **argv)
     if (status >= 0)
         return status;
     bool ok = true;
-    for (int i = 0; ok && i < SIZES_COUNT; i++)
+    for (int i = 0; ok && i < bench_many(SIZES_COUNT, 2); i++)
         ok = size_measure(&report, sizes[i], options.repeat_count);
     return bench_options_finish(&options, &report, "plain C", ok);
 }

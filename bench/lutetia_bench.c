@@ -1,11 +1,15 @@
 /* lutetia_bench.c - the benchmarks, a program of its own that `lutetia bench NAME` runs: the peers' libraries would make
  * each start of the command slower. */
 #include "bench.h"
+#include "harness.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <streams.h>
 #include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <visible_text.h>
 
 static const struct {
@@ -38,24 +42,73 @@ static const struct {
 
 enum { BENCHES_COUNT = sizeof benches / sizeof *benches, EXIT_USAGE = 2 };
 
+static int place_of(const char *name)
+{
+    for (int i = 0; i < BENCHES_COUNT; i++)
+        if (strcmp(name, benches[i].name) == 0)
+            return i;
+    char visible[400];
+    visible_text(visible, sizeof visible, name);
+    fprintf(stderr,
+            "lutetia bench: there is no benchmark '%.60s'; `lutetia bench --help` lists them\n",
+            visible);
+    return -1;
+}
+
+/* In a process of its own, as it would be alone. */
+static bool tried(int i)
+{
+    char name[32], quick[] = "--quick";
+    char *argv[] = {name, quick, NULL};
+    int status = -1;
+    snprintf(name, sizeof name, "%s", benches[i].name);
+    printf("== %s\n", name);
+    fflush(stdout);
+    pid_t child = fork();
+    if (child == 0) {
+        bench_quick = true;
+        /* fonts has small sizes of its own */
+        status = benches[i].run(strcmp(name, "fonts") == 0 ? 2 : 1, argv);
+        exit(fflush(stdout) == 0 ? status : EXIT_FAILURE);
+    }
+    if (child < 0)
+        fprintf(stderr, "lutetia bench: no process for %s: %s\n", name, strerror(errno));
+    while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR)
+        ;
+    bool good = child > 0 && WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS;
+    if (!good)
+        fprintf(stderr, "lutetia bench: %s failed\n", name);
+    return good;
+}
+
+/* --quick [NAME...]: those, or all. */
+static int all_tried(int argc, char **argv)
+{
+    int failed = 0;
+    for (int k = 0; k < argc; k++)
+        if (place_of(argv[k]) < 0)
+            return EXIT_USAGE;
+    for (int k = 0; k < (argc ? argc : BENCHES_COUNT); k++)
+        failed += !tried(argc ? place_of(argv[k]) : k);
+    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+}
+
 static int bench(int argc, char **argv)
 {
     if (argc < 2 || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0) {
         FILE *out = argc < 2 ? stderr : stdout;
-        fputs("usage: lutetia bench NAME [options]\n\n", out);
+        fputs("usage: lutetia bench NAME [options]\n"
+              "       lutetia bench --quick [NAME...]   tries those, or all; the numbers mean "
+              "nothing\n\n",
+              out);
         for (int i = 0; i < BENCHES_COUNT; i++)
             fprintf(out, "  %-12s %s\n", benches[i].name, benches[i].help);
         return argc < 2 ? EXIT_USAGE : EXIT_SUCCESS;
     }
-    for (int i = 0; i < BENCHES_COUNT; i++)
-        if (strcmp(argv[1], benches[i].name) == 0)
-            return benches[i].run(argc - 1, argv + 1);
-    char name[400];
-    visible_text(name, sizeof name, argv[1]);
-    fprintf(stderr,
-            "lutetia bench: there is no benchmark '%.60s'; `lutetia bench --help` lists them\n",
-            name);
-    return EXIT_USAGE;
+    if (strcmp(argv[1], "--quick") == 0)
+        return all_tried(argc - 2, argv + 2);
+    int i = place_of(argv[1]);
+    return i < 0 ? EXIT_USAGE : benches[i].run(argc - 1, argv + 1);
 }
 
 int main(int argc, char **argv)

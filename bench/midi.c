@@ -58,6 +58,11 @@ static void busy_end(struct busy *b)
 
 enum { P50, P99, READ_P99, PARTS };
 
+static uint32_t notes(void)
+{
+    return (uint32_t)bench_many(NOTES, 20);
+}
+
 /* A round: its notes, a millisecond apart; what all listeners took for them, and what of it went by until the server's read, in us. */
 static bool round_measure(struct midi_scene *s, uint32_t from, double part_us[PARTS])
 {
@@ -67,7 +72,7 @@ static bool round_measure(struct midi_scene *s, uint32_t from, double part_us[PA
         memset(&s->shared->listeners[i].took, 0, sizeof s->shared->listeners[i].took);
         memset(&s->shared->listeners[i].read, 0, sizeof s->shared->listeners[i].read);
     }
-    for (uint32_t i = 0; i < NOTES; i++) {
+    for (uint32_t i = 0; i < notes(); i++) {
         if (!midi_scene_play(s, from + i))
             return bench_fail("the instrument cannot write");
         due_ns += APART_US * UINT64_C(1000);
@@ -77,7 +82,7 @@ static bool round_measure(struct midi_scene *s, uint32_t from, double part_us[PA
             ppoll(NULL, 0, &left, NULL);
         }
     }
-    if (!midi_scene_wait(s, from + NOTES))
+    if (!midi_scene_wait(s, from + notes()))
         return false;
     memset(&all, 0, sizeof all);
     memset(&read, 0, sizeof read);
@@ -125,7 +130,7 @@ static bool case_measure(struct bench_report *r, enum midi_player player,
     bool ok = midi_scene_begin(&scene, &def) && midi_scene_listeners(&scene, LISTENERS, 0);
     ok = ok && round_measure(&scene, 0, one); /* warm */
     for (int i = 0; ok && i < rounds; i++) {
-        ok = round_measure(&scene, (uint32_t)(i + 1) * NOTES, one);
+        ok = round_measure(&scene, (uint32_t)(i + 1) * notes(), one);
         for (int part = 0; ok && part < PARTS; part++)
             us[part * rounds + i] = one[part];
     }

@@ -236,7 +236,7 @@ int bench_model_main(int argc, char **argv)
     fprintf(stderr, "model: costs ...\n");
     bool ok = costs_report(&report);
     for (int i = 0; ok && i < options.sizes_count; i++)
-        for (int p = 0; ok && p < model_programs_count(); p++) {
+        for (int p = 0; ok && p < bench_many(model_programs_count(), 1); p++) {
             struct model_result results[MODEL_FORMS];
             int width = options.sizes[i][0], height = options.sizes[i][1];
             char of_case[32], what[32];

@@ -95,6 +95,18 @@ static bool options_parse(struct bench_options *o, int argc, char **argv)
     return true;
 }
 
+/* Of `lutetia bench --quick`: one small size, once. */
+static void quicken(struct bench_options *o)
+{
+    const int side = o->lines ? 4096 : 64;
+    o->repeat_count = 1;
+    if (o->sizes_count) {
+        o->sizes_count = 1;
+        o->sizes[0][0] = side > o->size_least ? side : o->size_least;
+        o->sizes[0][1] = o->lines ? 1 : o->sizes[0][0];
+    }
+}
+
 int bench_options_parse(struct bench_options *o, int argc, char **argv)
 {
     for (int i = 1; i < argc; i++)
@@ -102,6 +114,8 @@ int bench_options_parse(struct bench_options *o, int argc, char **argv)
             usage_print(o, stdout);
             return 0;
         }
+    if (bench_quick)
+        quicken(o);
     if (options_parse(o, argc, argv))
         return -1;
     fprintf(stderr, "lutetia bench %s: %s; --help lists the options\n", o->name, bench_error());

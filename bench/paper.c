@@ -187,11 +187,13 @@ int bench_paper_main(int argc, char **argv)
         return status;
     struct bench_copy *copy = bench_copy_create(COPY_BYTES);
     bool ok = copy != NULL;
-    for (int model = PAPER_MODEL_VERSION; model >= 1; model--)
+    for (int model = PAPER_MODEL_VERSION; model >= (bench_quick ? PAPER_MODEL_VERSION : 1);
+         model--)
         for (int i = 0; ok && i < options.sizes_count; i++)
             ok = size_measure(&report, &options, model, options.sizes[i][0],
                               options.sizes[i][1], copy);
-    ok = ok && size_measure(&report, &options, 0, 1024, 1024, copy);
+    ok = ok &&
+         size_measure(&report, &options, 0, bench_many(1024, 64), bench_many(1024, 64), copy);
     for (int i = 0; ok && i < options.sizes_count; i++)
         ok = options.sizes[i][0] * options.sizes[i][1] < WORD_LEAST ||
              paper_word_measure(&report, &options, options.sizes[i][0], options.sizes[i][1],

@@ -261,9 +261,10 @@ static bool grid_measure(struct bench_report *r, int repeats)
 {
     static const struct engine *const engines[] = {&ours, &plain, &chipmunk, &box2d};
     struct springs_scene s;
-    bool ok = springs_scene_grid(&s, SIDE, SIDE) && agree(&s, &plain, 1e-9) &&
-              engines_measure(r, &s, engines, 4, STEPS, repeats, "100x100", false) &&
-              errors_measure(r, &s, engines, 4);
+    bool ok =
+        springs_scene_grid(&s, SIDE, SIDE) && agree(&s, &plain, 1e-9) &&
+        engines_measure(r, &s, engines, 4, bench_many(STEPS, 2), repeats, "100x100", false) &&
+        errors_measure(r, &s, engines, 4);
     springs_scene_finish(&s);
     return ok;
 }
@@ -272,8 +273,9 @@ static bool word_measure(struct bench_report *r, int repeats)
 {
     static const struct engine *const engines[] = {&ours, &plain};
     struct springs_scene s;
-    bool ok = springs_scene_word(&s, LETTERS) && agree(&s, &plain, 1e-9) &&
-              engines_measure(r, &s, engines, 2, WORD_STEPS, repeats, "word", true);
+    bool ok =
+        springs_scene_word(&s, LETTERS) && agree(&s, &plain, 1e-9) &&
+        engines_measure(r, &s, engines, 2, bench_many(WORD_STEPS, 20), repeats, "word", true);
     springs_scene_finish(&s);
     return ok;
 }

@@ -210,7 +210,7 @@ static bool command_measure(const struct start_command *c, struct place *place,
     struct caches caches;
     if (!command_run(c->words, place, &times[WARM], &times[WARM_CPU]))
         return false;
-    if (!c->kernels)
+    if (!c->kernels || bench_quick)
         return true;
     bool ok = caches_empty(&caches, place) &&
               command_run(c->words, place, &times[COLD], &times[COLD_CPU]);
@@ -231,7 +231,7 @@ static bool all_measure(struct bench_report *r, struct place *place, int repeat_
         for (int i = 0; ok && i < COMMANDS_COUNT; i++)
             ok = command_measure(&commands[i], place, times[i * repeat_count + turn]);
     for (int i = 0; ok && i < COMMANDS_COUNT; i++)
-        for (int t = 0; t < (commands[i].kernels ? TIMES : COLD); t++) {
+        for (int t = 0; t < (commands[i].kernels && !bench_quick ? TIMES : COLD); t++) {
             char what[32];
             snprintf(what, sizeof what, "%s%s", commands[i].what, times_named[t]);
             for (int turn = 0; turn < repeat_count; turn++)

@@ -11,6 +11,16 @@
 
 enum { WORDS = 200000, PARAGRAPH_WORDS = 110, EDITS = 101 };
 
+static int words_least(void)
+{
+    return bench_many(WORDS, 2200);
+}
+
+static int edits(void)
+{
+    return bench_many(EDITS, 3);
+}
+
 struct book {
     struct page_text *text;
     int middle, pages; /* the paragraph in the middle */
@@ -31,7 +41,7 @@ static bool paragraphs_add(struct book *b, const char *const *words, uint32_t wo
     manner.align = FONT_ALIGN_JUSTIFY;
     manner.hyphenate = true;
     manner.indent_px = 14;
-    for (int p = 0; p < WORDS / PARAGRAPH_WORDS; p++) {
+    for (int p = 0; p < words_least() / PARAGRAPH_WORDS; p++) {
         size_t bytes = 0;
         int id;
         for (int w = 0; w < PARAGRAPH_WORDS; w++) {
@@ -43,7 +53,7 @@ static bool paragraphs_add(struct book *b, const char *const *words, uint32_t wo
         }
         if (page_paragraph_add(b->text, 0, -1, text, bytes - 1, style, &manner, &id) != FONT_OK)
             return font_wrong();
-        if (p == WORDS / PARAGRAPH_WORDS / 2)
+        if (p == words_least() / PARAGRAPH_WORDS / 2)
             b->middle = id;
     }
     return true;
@@ -96,11 +106,11 @@ bool bench_text_edit(struct bench_report *report, const char *const *words,
     bool ok = book_make(&b, words, words_count);
     if (ok && page_find(b.text, (struct page_place){b.middle, 200}, &page) != FONT_OK)
         ok = font_wrong();
-    for (int i = -1; ok && i < EDITS - 1; i++) /* -1 warms up */
+    for (int i = -1; ok && i < edits() - 1; i++) /* -1 warms up */
         ok = edit(&b, i + 2, page, &seconds[i + 1]);
     /* Inserts and removes a long word: the number of lines changes, and all later pages are
      * filled again. */
-    for (int i = 0; ok && i < EDITS; i++) {
+    for (int i = 0; ok && i < edits(); i++) {
         static const char longer[] =
             "a line that is put in and taken out again so that all pages that are "
             "behind it move by a line, each of them anew ";
@@ -117,9 +127,9 @@ bool bench_text_edit(struct bench_report *report, const char *const *words,
         struct page_stats stats;
         page_stats_get(b.text, &stats);
         bench_report_add(report, "edit, page seen", "200,000 words",
-                         bench_sample_of(seconds, EDITS), 1e6, "us");
+                         bench_sample_of(seconds, edits()), 1e6, "us");
         bench_report_add(report, "edit, all pages", "200,000 words",
-                         bench_sample_of(line_s, EDITS), 1e6, "us");
+                         bench_sample_of(line_s, edits()), 1e6, "us");
         bench_report_add(report, "from scratch", "200,000 words",
                          (struct bench_sample){b.whole_s, b.whole_s}, 1e3, "ms");
         double bytes = (double)stats.bytes;

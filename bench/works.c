@@ -69,14 +69,17 @@ bool works_same(enum work w, int n, int turns)
     return ok;
 }
 
-/* A cold process. */
+/* A cold process: `which` is the work's number, and SMALL where it is only tried. */
+#define SMALL "s"
 static int cold_run(const char *which, const char *path)
 {
-    int w = atoi(which);
+    char *end;
+    long w = strtol(which, &end, 10);
     if (w < 0 || w >= WORKS_COUNT)
         return EXIT_FAILURE;
     CM_init();
-    struct on_paris p = {.of = work_paris_create((enum work)w, work_size((enum work)w, false))};
+    struct on_paris p = {
+        .of = work_paris_create((enum work)w, work_size((enum work)w, !strcmp(end, SMALL)))};
     struct machine_stats stats;
     double start = bench_now_s();
     if (!p.of || !paris_work(&p))
@@ -89,7 +92,7 @@ static int cold_run(const char *which, const char *path)
 
 static bool work_measure(struct bench_report *r, enum work w, int repeat_count)
 {
-    int n = work_size(w, false);
+    int n = work_size(w, bench_quick);
     char which[8];
     struct cold cold = {0};
     struct in_c plain[2] = {{.of = work_plain_create(w, n, 1)},
@@ -100,7 +103,7 @@ static bool work_measure(struct bench_report *r, enum work w, int repeat_count)
         {.what = "plain C", .work = plain_work, .context = &plain[0]},
         {.what = "plain C, two threads", .work = plain_work, .context = &plain[1]},
     };
-    snprintf(which, sizeof which, "%d", w);
+    snprintf(which, sizeof which, "%d%s", w, bench_quick ? SMALL : "");
     bool ok = (plain[0].of && plain[1].of) || bench_fail("no memory for %d words", n);
     ok = ok && cold_measure("families", which, &cold) &&
          (cold.result == work_plain_run(plain[0].of, 1) ||
@@ -134,7 +137,7 @@ int bench_families_main(int argc, char **argv)
     if (status >= 0)
         return status;
     bool ok = true;
-    for (int w = 0; ok && w < WORKS_COUNT; w++)
+    for (int w = 0; ok && w < bench_many(WORKS_COUNT, 2); w++)
         ok = work_measure(&report, (enum work)w, options.repeat_count);
     return bench_options_finish(&options, &report, "plain C", ok);
 }
