@@ -174,10 +174,20 @@ static bool plain(uint32_t c)
            c == '(' || c == ')' || c == ';' || c == ':' || c == '!' || c == '?' || c == '\'';
 }
 
+/* Do both say the same here? Since Unicode 15.1 a line may end between a quotation mark and an opening bracket, if there is white space. */
+static bool plain_at(const uint32_t *characters, int at)
+{
+    int before = at - 1;
+    while (before >= 0 && characters[before] == ' ')
+        before--;
+    return plain(characters[at]) && !(characters[at] == '(' && before >= 0 && before < at - 1 &&
+                                      characters[before] == '\'');
+}
+
 bool font_breaks_find(const uint32_t *characters, int count, const char *language, char *breaks)
 {
     int first = 0; /* white space at the beginning is no plain text */
-    while (first < count && plain(characters[first]) && characters[0] != ' ')
+    while (first < count && plain_at(characters, first) && characters[0] != ' ')
         first++;
     if (first < count) {
         pthread_once(&icu_once, icu_begin);

@@ -9,7 +9,8 @@ struct hdf5 hdf5;
 
 #define HDF5_SYMBOL(name)                                                                      \
     SYMBOL_TEXT(H5##name) /* some names are macros for names with a version */
-#define SYMBOL_TEXT(name) #name
+#define SYMBOL_TEXT(name) SYMBOL_TEXT_OF(name)
+#define SYMBOL_TEXT_OF(name) #name
 #define HDF5_ROW(name) {HDF5_SYMBOL(name), offsetof(struct hdf5, name)},
 static const struct library_function symbols[] = {HDF5_NAMES(HDF5_ROW)};
 
