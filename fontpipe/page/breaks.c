@@ -17,6 +17,7 @@ enum fitness { VERY_LOOSE, LOOSE, DECENT, TIGHT, FITNESSES };
 
 struct node {
     int place, line, fitness, before; /* before: a node's number */
+    int ladder;                       /* flagged ends in a row, up to this one */
     double demerits;
     bool active;
 };
@@ -98,7 +99,7 @@ static bool candidate_keep(struct nodes *n, int first_new, struct node node, int
         struct node *o = &n->items[i];
         bool alike =
             o->line == node.line || (o->line >= widths_count && node.line >= widths_count);
-        if (!alike || o->fitness != node.fitness)
+        if (!alike || o->fitness != node.fitness || o->ladder != node.ladder)
             continue;
         if (node.demerits < o->demerits) {
             node.active = true;
@@ -130,9 +131,13 @@ static bool place_try(const struct search *s, struct nodes *n, int b)
         double width = width_of(s->widths, s->widths_count, a.line);
         double r = breaks_ratio(from, to, width, s->rules, last);
         bool gone = r < -1 || ends;
-        if (r >= -1 && badness_of(r) <= s->rules->tolerance) {
-            struct node next = {
-                .place = b, .line = a.line + 1, .before = number, .active = true};
+        int ladder = s->rules->ladder_max && to->flagged ? a.ladder + 1 : 0;
+        if (r >= -1 && badness_of(r) <= s->rules->tolerance && ladder <= s->rules->ladder_max) {
+            struct node next = {.place = b,
+                                .line = a.line + 1,
+                                .before = number,
+                                .ladder = ladder,
+                                .active = true};
             next.demerits =
                 a.demerits + breaks_demerits(from, to, r, a.fitness, &next.fitness, last);
             if (!candidate_keep(n, first_new, next, s->widths_count))

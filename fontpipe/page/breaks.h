@@ -24,6 +24,7 @@ struct break_rules {
     double tolerance;    /* the badness that a line may have */
     double emergency_px; /* stretch that each line has besides */
     bool last_fills;     /* the last line need not reach the end */
+    int ladder_max;      /* so many flagged ends in a row at most; 0: any number */
     bool
         must; /* where no line is good enough, one that is too long is taken; else breaks_find() fails */
 };

@@ -1,7 +1,7 @@
 /* lines.c - a paragraph broken into lines: see page_internal.h.
  *
- * In three passes, as TeX does it: without dividing words; with them divided; and with any looseness, where a line that nothing fits is
- * too long. Paragraphs with tabs are filled line by line, since what a tab takes depends on what stands before it. */
+ * In passes, as TeX does it: without dividing words; with them divided; with ever more looseness; and with any, where a line that nothing
+ * fits is too long. At most three lines in a row end in hyphens, but for the last pass. Paragraphs with tabs are filled line by line, since what a tab takes depends on what stands before it. */
 #include "page_internal.h"
 
 #include <linebreak.h>
@@ -11,7 +11,12 @@
 
 enum { HYPHEN_PENALTY = 50, LETTER_PENALTY = 3000, SOFT_HYPHEN = 0xad };
 
-static const double first_tolerance = 100, ragged_ems = 2, loose_ems = 3;
+static const double first_tolerance = 100, ragged_ems = 2;
+
+/* The passes: what stretch each line has besides its spaces', in ems. It makes a line less bad, and a hyphen costs what it did: with much of
+ * it at once words would hardly be divided, and lines be loose. So there is as little of it as there can be. */
+static const double loose_ems[] = {0, 0, 0.25, 0.5, 0.75, 1, 1.5, 2, 3, 3};
+enum { PASSES = sizeof loose_ems / sizeof *loose_ems, LADDER_MAX = 3 };
 
 struct filling {
     struct page_text *t;
@@ -247,20 +252,24 @@ static bool passes_run(struct filling *f, const double *widths, int widths_count
     const double em = f->t->styles[p->style]->look.size_px;
     int count = 0, *chosen = NULL;
     bool ok = true;
-    for (int pass = 0; ok && !count && pass < 3; pass++) {
-        struct break_rules rules = {.last_fills = true};
-        rules.tolerance = pass == 0   ? fmin(first_tolerance, p->manner.tolerance)
-                          : pass == 1 ? p->manner.tolerance
-                                      : BREAK_INFINITE;
-        rules.emergency_px = (f->ragged ? ragged_ems : pass == 2 ? loose_ems : 0) * em;
-        rules.must = pass == 2;
+    for (int pass = 0; ok && !count && pass < PASSES; pass++) {
+        const bool last = pass + 1 == PASSES;
+        struct break_rules rules = {.last_fills = true, .ladder_max = last ? 0 : LADDER_MAX};
+        rules.tolerance = pass == 0 ? fmin(first_tolerance, p->manner.tolerance)
+                          : last    ? BREAK_INFINITE
+                                    : p->manner.tolerance;
+        rules.emergency_px = (f->ragged ? ragged_ems : loose_ems[pass]) * em;
+        rules.must = last;
         f->hyphens_too = pass > 0;
         if (pass == 1)
             words_hyphenate(f->t, p);
         if (pass == 1 && !p->manner.hyphenate && p->manner.tolerance <= first_tolerance)
             continue;
-        ok = places_make(f, false);
-        if (ok && pass == 2 && too_long(f)) /* such words may be broken at any letter */
+        if (pass > 1 && !last && (f->ragged || too_long(f)))
+            continue; /* looser lines are no help */
+        if (pass < 2 || last)
+            ok = places_make(f, false);
+        if (ok && last && too_long(f)) /* such words may be broken at any letter */
             ok = places_make(f, true);
         free(chosen);
         chosen = calloc((size_t)f->count, sizeof *chosen);

@@ -85,6 +85,8 @@ struct page_manner {
 };
 /* From where the direction of the text begins, without hyphens, two lines at least in a column. */
 struct page_manner page_manner_default(void);
+/* Whether there are patterns by which words of the language are divided (NULL: English); else `hyphenate` divides none. */
+bool page_language_divides(const char *language);
 
 /* A paragraph before the one that is number `at` of its flow (-1: as the last), all in one style. *id names it ever after. Line ends
  * in the text are kept within the paragraph. Errors: BAD_ARGUMENT, TOO_LARGE past a million characters, NO_MEMORY. */

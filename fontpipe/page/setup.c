@@ -1,8 +1,10 @@
 /* setup.c - see setup.h. */
 #include "setup.h"
 
+#include "emphasis.h"
 #include "page_internal.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -211,42 +213,55 @@ static int note_end(const char *s, int at, int end)
     return at < end ? at : end;
 }
 
+static bool is_blank(char c)
+{
+    return c == ' ' || c == '\n' || c == '\t';
+}
+
+static bool note_take(struct making *m, const char *s, int *at, int end, enum look now)
+{
+    bool margin = s[*at + 1] == '>' && m->setup->notes_px > 0;
+    int last = note_end(s, *at + 2, end);
+    if (!margin && !number_add(m, ++m->number, RAISED, now))
+        return false;
+    if (!array_reserve(&m->notes, &m->notes_capacity, m->notes_count + 1, sizeof *m->notes))
+        return false;
+    m->notes[m->notes_count].byte = m->count;
+    m->notes[m->notes_count].from = *at + 2;
+    m->notes[m->notes_count].end = last;
+    m->notes[m->notes_count].number = m->number;
+    m->notes[m->notes_count++].margin = margin;
+    *at = last;
+    return true;
+}
+
 /* Reads s[at..end) with its signs; notes are kept for later where there may be some. */
 static bool signs_read(struct making *m, const char *s, int at, int end, enum look plain,
                        enum look italic, enum look bold, bool notes)
 {
-    bool slanted = false, heavy = false, ok = true;
-    for (; ok && at < end; at++) {
-        enum look now = heavy ? bold : slanted ? italic : plain;
+    struct emphasis e = {false, false};
+    bool ok = true;
+    for (const int from = at; ok && at < end; at++) {
+        enum look now = e.heavy ? bold : e.slanted ? italic : plain;
         if (s[at] == '\\' && at + 1 < end) {
             at++;
             ok = letter_add(m, s[at]); /* a line end, too */
-        } else if (s[at] == '*') {
-            bool two = at + 1 < end && s[at + 1] == '*';
-            at += two;
-            heavy = two ? !heavy : heavy;
-            slanted = two ? slanted : !slanted;
-            ok = look_set(m, heavy ? bold : slanted ? italic : plain);
+        } else if (s[at] == '*' || s[at] == '_') {
+            int n = emphasis_take(s, from, at, end, &e), run = emphasis_run(s, at, end);
+            for (int k = 0; ok && !n && k < run; k++)
+                ok = letter_add(m, s[at]);
+            if (n)
+                ok = look_set(m, e.heavy ? bold : e.slanted ? italic : plain);
+            at += (n ? n : run) - 1;
         } else if (notes && s[at] == '[' && at + 1 < end &&
                    (s[at + 1] == '^' || s[at + 1] == '>')) {
-            bool margin = s[at + 1] == '>' && m->setup->notes_px > 0;
-            int last = note_end(s, at + 2, end);
-            if (!margin)
-                ok = number_add(m, ++m->number, RAISED, now);
-            ok = ok && array_reserve(&m->notes, &m->notes_capacity, m->notes_count + 1,
-                                     sizeof *m->notes);
-            if (ok) {
-                m->notes[m->notes_count].byte = m->count;
-                m->notes[m->notes_count].from = at + 2;
-                m->notes[m->notes_count].end = last;
-                m->notes[m->notes_count].number = m->number;
-                m->notes[m->notes_count++].margin = margin;
-            }
-            at = last;
+            ok = note_take(m, s, &at, end, now);
         } else if (s[at] == '\n') {
             if (m->count && m->letters[m->count - 1] != ' ')
                 ok = letter_add(m, ' ');
-        } else if (s[at] != '\r') {
+            while (at + 1 < end && is_blank(s[at + 1]))
+                at++;
+        } else {
             ok = letter_add(m, s[at]);
         }
     }
@@ -313,23 +328,119 @@ static enum font_status notes_make(struct making *m, const char *s, int id)
     return status;
 }
 
-static enum font_status paragraph_make(struct making *m, const char *s, int begin, int end)
+/* ---- kinds of paragraphs ---- */
+
+/* Whether a line s[at..end) is three signs and more of a kind, with blanks between: what parts the text, as `* * *`. */
+static bool is_rule(const char *s, int at, int end)
+{
+    char sign = '\0';
+    int count = 0;
+    for (; at < end; at++) {
+        if (is_blank(s[at]))
+            continue;
+        if ((s[at] != '*' && s[at] != '-' && s[at] != '_') || (sign && s[at] != sign))
+            return false;
+        sign = s[at];
+        count++;
+    }
+    return count >= 3;
+}
+
+/* How long the sign of a list's item is: "- ", "* ", "+ ", "12. ", "1) "; 0: it is none. */
+static int item_sign(const char *s, int at, int end)
+{
+    int n = 0;
+    while (at + n < end && n < 4 && isdigit((unsigned char)s[at + n]))
+        n++;
+    bool sign = n ? at + n < end && (s[at + n] == '.' || s[at + n] == ')')
+                  : at < end && (s[at] == '-' || s[at] == '*' || s[at] == '+');
+    return sign && at + n + 1 < end && s[at + n + 1] == ' ' ? n + 2 : 0;
+}
+
+static int line_end(const char *s, int at, int bytes)
+{
+    const char *end = at < bytes ? memchr(s + at, '\n', (size_t)(bytes - at)) : NULL;
+    return end ? (int)(end - s) : bytes;
+}
+
+static int blanks_skip(const char *s, int at, int end)
+{
+    while (at < end && (s[at] == ' ' || s[at] == '\t'))
+        at++;
+    return at;
+}
+
+enum kind { TEXT, RULE, ITEM, QUOTE };
+
+static enum kind kind_of(const char *s, int at, int end)
+{
+    at = blanks_skip(s, at, end);
+    return is_rule(s, at, end)        ? RULE
+           : item_sign(s, at, end)    ? ITEM
+           : at < end && s[at] == '>' ? QUOTE
+                                      : TEXT;
+}
+
+static struct page_manner kind_manner(const struct making *m, enum kind kind, enum look look)
+{
+    struct page_manner manner = manner_of(m, look, !m->behind_head && kind == TEXT);
+    double em = m->setup->size_px;
+    if (kind == RULE) {
+        manner.align = FONT_ALIGN_CENTER;
+        manner.before_px = manner.after_px = 0.6 * em;
+        manner.hyphenate = false;
+    } else if (kind == ITEM) {
+        manner.left_px = 1.6 * em;
+        manner.indent_px = -em;
+    } else if (kind == QUOTE) {
+        manner.left_px = manner.right_px = 1.6 * em;
+    }
+    return manner;
+}
+
+/* Its letters; a quote's without the signs at its lines' beginnings. */
+static bool kind_read(struct making *m, char *s, int begin, int end, enum kind kind,
+                      enum look look)
+{
+    static const char rule[] = "* * *", bullet[] = "\xe2\x80\xa2\xe2\x80\x82";
+    int sign = kind == ITEM ? item_sign(s, begin, end) : 0;
+    bool ok = true;
+    m->count = m->spans_count = m->notes_count = 0;
+    if (kind == RULE) {
+        for (int i = 0; ok && rule[i]; i++)
+            ok = letter_add(m, rule[i]);
+        return ok;
+    }
+    for (int i = 0; ok && sign == 2 && bullet[i]; i++)
+        ok = letter_add(m, bullet[i]);
+    for (int i = 0; ok && sign > 2 && i < sign; i++)
+        ok = letter_add(m, s[begin + i]);
+    for (int at = begin; kind == QUOTE && at < end; at = line_end(s, at, end) + 1) {
+        int first = blanks_skip(s, at, end);
+        for (int i = at; i <= first && i < end && s[first] == '>'; i++)
+            s[i] = ' ';
+    }
+    begin = blanks_skip(s, begin + sign, end);
+    return ok && signs_read(m, s, begin, end, look, look == ROMAN ? ITALIC : look,
+                            look == ROMAN ? BOLD : look, true);
+}
+
+static enum font_status paragraph_make(struct making *m, char *s, int begin, int end)
 {
     enum look look = ROMAN;
+    enum kind kind = kind_of(s, begin, line_end(s, begin, end));
     int id;
+    begin = blanks_skip(s, begin, end);
     if (begin + 1 < end && s[begin] == '#' && (s[begin + 1] == ' ' || s[begin + 1] == '#')) {
         look = s[begin + 1] == '#' ? SMALL_HEAD : HEAD;
         while (begin < end && (s[begin] == '#' || s[begin] == ' '))
             begin++;
     }
-    m->count = m->spans_count = m->notes_count = 0;
-    if (!signs_read(m, s, begin, end, look, look == ROMAN ? ITALIC : look,
-                    look == ROMAN ? BOLD : look, true) ||
-        !letter_add(m, '\0'))
+    if (!kind_read(m, s, begin, end, kind, look) || !letter_add(m, '\0'))
         return font_fail(FONT_NO_MEMORY, "no memory for a text");
     m->count--;
-    const struct page_manner manner = manner_of(m, look, !m->behind_head);
-    m->behind_head = look != ROMAN;
+    const struct page_manner manner = kind_manner(m, kind, look);
+    m->behind_head = look != ROMAN || kind == RULE;
     enum font_status status = page_paragraph_add(m->text, 0, -1, m->letters, (size_t)m->count,
                                                  m->styles[look], &manner, &id);
     if (status == FONT_OK)
@@ -337,32 +448,53 @@ static enum font_status paragraph_make(struct making *m, const char *s, int begi
     return status == FONT_OK ? notes_make(m, s, id) : status;
 }
 
+/* Where the paragraph that begins at `at` ends: before a blank line, an item of a list, a line of signs; a quote before what is none. */
+static int paragraph_end(const char *s, int at, int bytes)
+{
+    enum kind kind = kind_of(s, at, line_end(s, at, bytes));
+    int end = line_end(s, at, bytes);
+    while (kind != RULE && end < bytes) {
+        int next = line_end(s, end + 1, bytes);
+        enum kind of = kind_of(s, end + 1, next);
+        if (blanks_skip(s, end + 1, next) == next || of == RULE || of == ITEM ||
+            (of == QUOTE) != (kind == QUOTE))
+            break;
+        end = next;
+    }
+    return end;
+}
+
 /* Paragraphs are what blank lines stand between. */
-static enum font_status text_read(struct making *m, const char *s, int bytes)
+static enum font_status text_read(struct making *m, char *s, int bytes)
 {
     enum font_status status = FONT_OK;
     m->behind_head = true;
-    for (int at = 0; at < bytes && status == FONT_OK;) {
-        while (at < bytes && (s[at] == '\n' || s[at] == '\r' || s[at] == ' '))
+    for (int at = 0; status == FONT_OK;) {
+        while (at < bytes && is_blank(s[at]))
             at++;
-        int end = at;
-        while (end < bytes) {
-            const char *line = memchr(s + end, '\n', (size_t)(bytes - end));
-            int next = line ? (int)(line - s) + 1 : bytes, blank = next;
-            while (blank < bytes && (s[blank] == ' ' || s[blank] == '\r'))
-                blank++;
-            end = next;
-            if (blank >= bytes || s[blank] == '\n')
-                break;
-        }
-        int last = end;
-        while (last > at && (s[last - 1] == '\n' || s[last - 1] == '\r'))
-            last--;
-        if (last > at)
-            status = paragraph_make(m, s, at, last);
+        if (at == bytes)
+            break;
+        int end = paragraph_end(s, at, bytes);
+        status = paragraph_make(m, s, at, end);
         at = end;
     }
     return status;
+}
+
+/* The text without a mark of byte order before it, its lines' ends all of one kind. Owns: the caller frees it; NULL: no memory. */
+static char *text_tidy(const char *utf8, size_t *bytes)
+{
+    char *out = malloc(*bytes + 1);
+    size_t n = 0, at = *bytes >= 3 && memcmp(utf8, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+    for (; out && at < *bytes; at++) {
+        if (utf8[at] == '\r' && at + 1 < *bytes && utf8[at + 1] == '\n')
+            continue;
+        out[n++] = utf8[at] == '\r' ? '\n' : utf8[at];
+    }
+    if (out)
+        out[n] = '\0';
+    *bytes = n;
+    return out;
 }
 
 enum font_status page_setup_make(const struct page_setup *setup, const char *utf8, size_t bytes,
@@ -370,7 +502,7 @@ enum font_status page_setup_make(const struct page_setup *setup, const char *utf
 {
     enum { BYTES_MAX = 1 << 28 };
     struct making m = {.setup = setup};
-    char *mended = NULL;
+    char *mended = NULL, *tidy = NULL;
     *out = NULL;
     if (bytes > BYTES_MAX)
         return font_fail(FONT_TOO_LARGE, "a text is at most %d bytes (got %zu)", BYTES_MAX,
@@ -380,6 +512,8 @@ enum font_status page_setup_make(const struct page_setup *setup, const char *utf
         status = font_utf8_mend(utf8, bytes, &mended, &bytes);
         utf8 = mended;
     }
+    if (status == FONT_OK && !(tidy = text_tidy(utf8, &bytes)))
+        status = font_fail(FONT_NO_MEMORY, "no memory for a text");
     if (status == FONT_OK && setup->colour)
         page_text_colour(m.text);
     if (status == FONT_OK)
@@ -387,11 +521,12 @@ enum font_status page_setup_make(const struct page_setup *setup, const char *utf
     if (status == FONT_OK)
         status = template_make(&m);
     if (status == FONT_OK)
-        status = text_read(&m, utf8, (int)bytes);
+        status = text_read(&m, tidy, (int)bytes);
     free(m.letters);
     free(m.spans);
     free(m.notes);
     free(mended);
+    free(tidy);
     if (status == FONT_OK)
         *out = m.text;
     else

@@ -6,8 +6,9 @@
  *     page_setup_make(&setup, "# In the marsh\n\nThe *water* rises[^By night.].", 45, &text);
  *
  * A blank line ends a paragraph; other line ends are spaces, but for those behind a backslash. `# ` begins a heading, `## ` a smaller
- * one. *slanted*, **bold**. [^a note] is set at the foot of the column, with a number, and [>a note] in the margin. A backslash before
- * a sign makes it a letter.
+ * one; `- ` and `1. ` an item of a list, `> ` a quote; `* * *` alone on its line parts the text. *slanted* and _slanted_, **bold**: signs
+ * that nothing closes are letters, and those with blanks on both sides. [^a note] is set at the foot of the column, with a number, and
+ * [>a note] in the margin. A backslash before a sign makes it a letter. Lines end in LF, CR or both.
  *
  * Errors: as page.h says. Ownership: what is passed is copied, but for shapes' points. Threads: as page.h says. */
 #ifndef LUTETIA_PAGE_SETUP_H

@@ -99,6 +99,11 @@ static HyphenDict *patterns_of(const char *language)
     return found;
 }
 
+bool page_language_divides(const char *language)
+{
+    return patterns_of(language ? language : "en") != NULL;
+}
+
 static locale_t lower_locale(void)
 {
     static locale_t locale;

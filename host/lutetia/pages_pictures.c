@@ -85,7 +85,8 @@ const struct page pages_of_pictures[] = {
          "The ending of --out says the kind of file: .png, .svg or .pdf. FILE may be - for "
          "what is piped in.",
      .notes =
-         "In the text a blank line ends a paragraph; # begins a heading; *slanted* and "
+         "In the text a blank line ends a paragraph; # begins a heading, - or 1. an item of a "
+         "list, > a quote, and * * * parts the text; *slanted* or _slanted_ and "
          "**bold** words; [^a note at the foot]; [>a note in the margin]. A backslash at a "
          "line's end keeps it, and before a sign makes that a letter.\n" FONTS "\n" FILTERS,
      .values = {{.option = "align", .words = "left, right, center, justify"},

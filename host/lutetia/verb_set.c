@@ -330,6 +330,11 @@ int verb_set(int argc, char **argv)
     int damaged = status == EXIT_SUCCESS ? font_utf8_damaged(text, bytes) : 0;
     if (damaged)
         tell("set", "the text is not UTF-8 in %d places; U+FFFD stands there", damaged);
+    if (status == EXIT_SUCCESS && s.hyphenate && !page_language_divides(s.language))
+        tell("set",
+             "there are no patterns to divide words of '%.20s' by (packages hyphen-..., as "
+             "hyphen-fr): none is divided",
+             s.language ? s.language : "en");
     if (status == EXIT_SUCCESS)
         type_missing_tell("set", s.font, &s.lacking);
     page_text_destroy(pages);

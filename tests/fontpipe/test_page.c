@@ -20,7 +20,8 @@ struct way {
 };
 
 /* Tries all ways to break from a place on. */
-static void ways_try(struct way *w, int from, int line, int fitness, double demerits)
+static void ways_try(struct way *w, int from, int line, int fitness, int ladder,
+                     double demerits)
 {
     if (from == w->count - 1) {
         w->best = fmin(w->best, demerits);
@@ -31,10 +32,13 @@ static void ways_try(struct way *w, int from, int line, int fitness, double deme
         double width = w->widths[line < w->widths_count ? line : w->widths_count - 1];
         double r = breaks_ratio(&w->places[from], &w->places[to], width, w->rules, last);
         int next;
-        if (r >= -1 && fmin(100 * fabs(r * r * r), BREAK_INFINITE) <= w->rules->tolerance) {
+        int ladders = w->places[to].flagged ? ladder + 1 : 0;
+        bool high = w->rules->ladder_max && ladders > w->rules->ladder_max;
+        if (r >= -1 && !high &&
+            fmin(100 * fabs(r * r * r), BREAK_INFINITE) <= w->rules->tolerance) {
             double more =
                 breaks_demerits(&w->places[from], &w->places[to], r, fitness, &next, last);
-            ways_try(w, to, line + 1, next, demerits + more);
+            ways_try(w, to, line + 1, next, ladders, demerits + more);
         }
         if (!last && w->places[to].penalty <= -BREAK_INFINITE)
             return;
@@ -56,7 +60,7 @@ static void paragraphs_are_broken_best(void **state)
         for (int i = 1; i < count; i++) {
             sum.px += 10 + 40 * random_unit(&seed);
             places[i].end = sum;
-            if (random_unit(&seed) < 0.3) {
+            if (random_unit(&seed) < (turn % 7 == 0 ? 0.8 : 0.3)) {
                 places[i].flagged = true;
                 places[i].penalty = 50;
                 places[i].end.px += 4;
@@ -73,13 +77,14 @@ static void paragraphs_are_broken_best(void **state)
             widths[i] = 70 + 60 * random_unit(&seed);
         struct break_rules rules = {.tolerance = turn % 3 ? 500 : BREAK_INFINITE,
                                     .emergency_px = turn % 2 ? 0 : 12,
-                                    .last_fills = turn % 5 != 0};
+                                    .last_fills = turn % 5 != 0,
+                                    .ladder_max = turn % 7 == 0 ? 1 + turn % 3 : 0};
         int widths_count = 1 + turn % 3;
         double demerits = 0;
         assert_true(breaks_find(places, count, widths, widths_count, &rules, chosen, &lines,
                                 &demerits));
         struct way way = {places, widths, count, widths_count, &rules, INFINITY};
-        ways_try(&way, 0, 0, 2, 0);
+        ways_try(&way, 0, 0, 2, 0, 0);
         assert_int_equal(lines > 0, isfinite(way.best));
         if (!lines)
             continue;
@@ -89,6 +94,47 @@ static void paragraphs_are_broken_best(void **state)
         assert_int_equal(chosen[lines - 1], count - 1);
     }
     assert_true(found > 1000);
+}
+
+/* In a narrow column words are divided, rather than that spaces become wide; never in more than three lines in a row. */
+static void narrow_columns_are_divided(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "The water of a marsh carries pigment through the fibers of a sheet; what it leaves at "
+        "its rim dries dark, and extraordinary hyphenation demonstrates itself wherever a "
+        "representative of communication finds no satisfactory arrangement within the "
+        "measurement of a newspaper's column.";
+    struct page_text *t = page_text_begin();
+    struct page_template page = {.width_px = 170, .height_px = 480, .frames_count = 1};
+    struct page_manner m = page_manner_default();
+    int pages, id, lines = 0, divided = 0;
+    page.frames[0] = (struct page_frame){.x = 10, .y = 10, .width = 130, .height = 460};
+    m.align = FONT_ALIGN_JUSTIFY;
+    m.hyphenate = true;
+    assert_font(page_templates_set(t, &page, 1));
+    for (int i = 0; i < 6; i++)
+        assert_font(page_paragraph_add(t, 0, -1, text + 4 * i, sizeof text - 1 - 4 * (size_t)i,
+                                       0, &m, &id));
+    assert_font(page_count(t, &pages));
+    for (int k = 0, ladder = 0; k < pages; k++) {
+        struct font_layout l;
+        assert_font(page_layout(t, k, &l));
+        for (int i = 0; i < l.glyphs_count; i++) {
+            const struct font_placed *g = &l.glyphs[i];
+            bool last = i + 1 == l.glyphs_count || g[1].line != g->line;
+            bool hyphen = g->glyph == font_face_glyph(g->face, '-') ||
+                          g->glyph == font_face_glyph(g->face, 0x2010);
+            lines += last;
+            divided += last && hyphen;
+            ladder = last ? (hyphen ? ladder + 1 : 0) : ladder;
+            assert_true(ladder <= 3);
+        }
+        font_layout_finish(&l);
+    }
+    print_message("%d of %d lines are divided\n", divided, lines);
+    assert_true(4 * divided > lines);
+    page_text_destroy(t);
 }
 
 /* ---- pointing ---- */
@@ -244,8 +290,11 @@ static void marks_stay_at_their_letters(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(paragraphs_are_broken_best),  cmocka_unit_test(carets_and_hits_agree),
-        cmocka_unit_test(places_are_hit_again),        cmocka_unit_test(selections_add_up),
+        cmocka_unit_test(paragraphs_are_broken_best),
+        cmocka_unit_test(narrow_columns_are_divided),
+        cmocka_unit_test(carets_and_hits_agree),
+        cmocka_unit_test(places_are_hit_again),
+        cmocka_unit_test(selections_add_up),
         cmocka_unit_test(marks_stay_at_their_letters),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

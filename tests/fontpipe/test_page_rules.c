@@ -143,7 +143,10 @@ static void words_are_divided_by_patterns(void **state)
                                         "car\001ries",
                                         "fibers",
                                         "wher\001ever",
-                                        "news\001pa\001per"};
+                                        "news\001pa\001per",
+                                        "col\001umn",
+                                        "wa\001ter",
+                                        "it\001self"};
     for (int i = 1; i + 1 < l->glyphs_count; i++) {
         if (l->glyphs[i].line == l->glyphs[i + 1].line ||
             l->glyphs[i].glyph != font_face_glyph(l->glyphs[i].face, 0x2010))
