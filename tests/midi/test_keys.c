@@ -92,6 +92,18 @@ static void letters_go_to_keys(void **unused)
     assert_string_equal(l.of[67], "o\xcc\x81");
     assert_string_equal(l.of[61], "");
     assert_false(keys_letters_text(&s, " \n\t", &l));
+    /* Arabic: from the highest key, each letter as its neighbours in the word have it. Bab: beh alef beh, then meem alone */
+    assert_true(keys_letters_text(&s, "\u0628\u0627\u0628 \u0645", &l));
+    assert_string_equal(l.of[72], "\u0628\u200d"); /* initial */
+    assert_string_equal(l.of[67], "\u200d\u0627"); /* final: an alef joins nothing after it */
+    assert_string_equal(l.of[64], "\u0628");       /* so this beh is alone */
+    assert_string_equal(l.of[60], "\u0645");
+    /* Devanagari: a conjunct and its vowel sign are one letter: ksha, hi, sta */
+    assert_true(
+        keys_letters_text(&s, "\u0915\u094d\u0937\u0939\u093f\u0938\u094d\u0924\u0940", &l));
+    assert_string_equal(l.of[60], "\u0915\u094d\u0937");
+    assert_string_equal(l.of[64], "\u0939\u093f");
+    assert_string_equal(l.of[67], "\u0938\u094d\u0924\u0940");
     const char *path = scratch_path("map");
     FILE *file = fopen(path, "w");
     fputs("# keys\nc4 Ag\n\n72 z\n", file);
