@@ -43,8 +43,19 @@ bool voice_sound_write(int descriptor, const struct voice_sound *sound)
         uint16_t block, bits;
         char data[4];
         uint32_t bytes;
-    } head = {"RIFF", 36 + bytes, "WAVE", "fmt ", 16,     1,    1,
-              rate,   2 * rate,   2,      16,     "data", bytes};
+    } head = {{'R', 'I', 'F', 'F'},
+              36 + bytes,
+              {'W', 'A', 'V', 'E'},
+              {'f', 'm', 't', ' '},
+              16,
+              1,
+              1,
+              rate,
+              2 * rate,
+              2,
+              16,
+              {'d', 'a', 't', 'a'},
+              bytes};
     _Static_assert(sizeof head == 44, "as in files");
     int16_t some[SAMPLES_AT_ONCE];
     bool done = all_written(descriptor, &head, sizeof head);

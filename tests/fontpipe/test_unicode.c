@@ -83,31 +83,43 @@ static void directions_are_unicodes(void **state)
     assert_int_equal(wrong, 0);
 }
 
-/* The rules of UAX 14 by which ICU differs from Unicode 15's file; NOT_A_RULE: any other difference. The file uses another
+/* The rules of UAX 14, and a class, by which ICU differs from the file of Unicode 15 or 15.1; NOT_A_RULE: any other difference. The file uses another
  * rule for numbers than the standard (its example 7). */
-enum rule { LB15C, LB20A, LB25, RULES_COUNT, NOT_A_RULE = RULES_COUNT };
+enum rule { LB15C, LB20A, LB21A, LB25, BALINESE, RULES_COUNT, NOT_A_RULE = RULES_COUNT };
 static const char *const rule_names[] = {
     "LB15c (Unicode 16): a line may end before \" .3\"",
     "LB20a (15.1): a hyphen at a word's beginning stays with it",
-    "LB25: a point or comma stays with the digit after it"};
+    "LB21a (16): a line may end between a hyphen and a Hebrew letter, after another",
+    "LB25: a point or comma stays with the digit after it",
+    "the class of Balinese digits (16)"};
 
 static bool digit(uint32_t c)
 {
     return c >= '0' && c <= '9';
 }
 
+static bool hebrew(uint32_t c)
+{
+    return c >= 0x5d0 && c <= 0x5ea;
+}
+
 static enum rule rule_of(const uint32_t *text, int n, int place, bool wanted)
 {
-    uint32_t next = text[place + 1];
+    const uint32_t next = text[place + 1], balinese = 0x1b50;
+    int base = place; /* what marks belong to */
+    while (base > 0 && text[base] == 0x308)
+        base--;
+    if (text[base] == balinese || next == balinese)
+        return BALINESE;
+    if (!wanted && text[place] == ' ' && next == '.' && place + 2 < n && digit(text[place + 2]))
+        return LB15C;
+    if (!wanted && text[place] == '-' && place > 0 && hebrew(text[place - 1]) && hebrew(next))
+        return LB21A;
     if (!wanted)
-        return text[place] == ' ' && next == '.' && place + 2 < n && digit(text[place + 2])
-                   ? LB15C
-                   : NOT_A_RULE;
-    while (place > 0 && text[place] == 0x308)
-        place--;
-    if ((text[place] == '.' || text[place] == ',') && digit(next))
+        return NOT_A_RULE;
+    if ((text[base] == '.' || text[base] == ',') && digit(next))
         return LB25;
-    return text[place] == '-' && place == 0 && !digit(next) ? LB20A : NOT_A_RULE;
+    return text[base] == '-' && base == 0 && !digit(next) ? LB20A : NOT_A_RULE;
 }
 
 static void line_ends_are_unicodes(void **state)
@@ -157,7 +169,8 @@ static void line_ends_are_unicodes(void **state)
         print_message("  and %ld by %s\n", by[i], rule_names[i]);
     assert_true(cases > 7000);
     assert_int_equal(wrong, 0);
-    assert_true(by[LB15C] <= 2 && by[LB20A] <= 10 && by[LB25] <= 20);
+    assert_true(by[LB15C] <= 2 && by[LB20A] <= 10 && by[LB21A] <= 2 && by[LB25] <= 20 &&
+                by[BALINESE] <= 12);
 }
 
 /* libunibreak breaks plain text, so that ICU need not be loaded; it must agree with ICU. */
