@@ -23,6 +23,7 @@ int bench_midi_main(int argc, char **argv);
 int bench_springs_main(int argc, char **argv);
 int bench_interpreter_main(int argc, char **argv);
 int bench_families_main(int argc, char **argv);
+int bench_memory_main(int argc, char **argv);
 int bench_start_main(int argc, char **argv);
 int bench_model_main(int argc, char **argv);
 

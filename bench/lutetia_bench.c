@@ -29,7 +29,9 @@ static const struct {
     {"interpreter", bench_interpreter_main,
      "programs of vector operations that do not repeat, beside plain C"},
     {"families", bench_families_main,
-     "histogram, transposition, sort, lists, scans, wide numbers, byte code, beside plain C"},
+     "histogram, transposition, sort, lists, scans, wide numbers, byte code, linear algebra, "
+     "beside plain C"},
+    {"memory", bench_memory_main, "the most bytes that those programs' arrays take at once"},
     {"fonts", bench_fonts_main, "glyphs in gray, beside FreeType and stb_truetype"},
     {"text", bench_text_main, "justified lines, beside Pango"},
     {"springs", bench_springs_main, "masses and springs, beside plain C, Chipmunk and Box2D"},

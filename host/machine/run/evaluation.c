@@ -273,6 +273,8 @@ static void resolve_overflows(struct machine *m, bool all)
             f->overflow.op && f->overflow_needed && f->overflow.context->op != NODE_CONSTANT;
         if (m->values->sets[i].used && (all || needed))
             flag_resolved(m, &m->values->sets[i], MACHINE_OVERFLOW);
+        if (needed) /* and it is no temporary: a part of it is older */
+            f->of[MACHINE_OVERFLOW].overwritten_first = false;
         f->overflow_needed = false;
     }
     if (p)
