@@ -53,7 +53,7 @@ int fail_usage(const char *verb, const char *format, ...) __attribute__((format(
 
 /* ---- Ctrl-C ---- */
 
-/* From now on SIGINT and SIGTERM only set a flag; a second one ends the program at once. */
+/* From now on SIGINT, SIGTERM and, unless it is ignored, SIGHUP only set a flag; a second one ends the program at once. */
 void interrupt_catch(void);
 bool interrupted(void);
 

@@ -217,7 +217,7 @@ static void fine_screens_have_larger_windows(void **state)
     screen_dpi(0);
 }
 
-/* Closing the window, and Ctrl-C. */
+/* Closing the window, Ctrl-C, and a terminal that hangs up: what was done in the window is saved each time. */
 static void windows_end(void **state)
 {
     (void)state;
@@ -226,10 +226,18 @@ static void windows_end(void **state)
     pid_t pid = start(arguments);
     screen_close(window_of());
     ends_with(pid, 0);
-    pid = start(arguments);
-    window_of();
-    kill(pid, SIGINT);
-    ends_with(pid, 0);
+    static const int signals[] = {SIGINT, SIGHUP};
+    for (size_t i = 0; i < sizeof signals / sizeof *signals; i++) {
+        const char *session = scratch_path("ended.session");
+        const char *saving[10] = {"end", "--session", session};
+        memcpy(saving + 3, scene, sizeof scene);
+        unlink(session);
+        pid = start(saving);
+        window_of();
+        kill(pid, signals[i]);
+        ends_with(pid, 0);
+        assert_int_equal(access(session, R_OK), 0);
+    }
 }
 
 int main(void)
