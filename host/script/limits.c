@@ -66,6 +66,12 @@ void script_check(lua_State *L)
     script_stop_if_due(L, 1);
 }
 
+void script_check_row(lua_State *L, int row)
+{
+    if (row % 32 == 0)
+        script_check(L);
+}
+
 static bool impatient(void *context)
 {
     const struct script *script = context;

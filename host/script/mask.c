@@ -132,7 +132,7 @@ static const struct script_mask *all_over(lua_State *L, const struct script_mask
 {
     struct script_mask *made = script_mask_gray_new(L, width, height, 0, 0);
     for (int y = 0; y < made->height; y++) {
-        script_check(L);
+        script_check_row(L, y);
         for (int x = 0; x < made->width; x++)
             made->gray[(size_t)y * (size_t)made->width + (size_t)x] =
                 (uint8_t)script_mask_gray_at(mask, x, y);

@@ -38,7 +38,7 @@ static int transformed(lua_State *L, const double m[6])
     struct script_mask *made = script_mask_gray_new(L, x2 - x1, y2 - y1, x1, y1);
     made->outside = mask->outside;
     for (int row = 0; row < made->height; row++) {
-        script_check(L);
+        script_check_row(L, row);
         for (int column = 0; column < made->width; column++) {
             double px = column + made->x + 0.5 - m[2], py = row + made->y + 0.5 - m[5];
             double x = (m[4] * px - m[1] * py) / det - mask->x - 0.5;
@@ -151,7 +151,7 @@ static int mask_join(lua_State *L, char operation)
     struct script_mask *made = script_mask_gray_new(L, x2 - x1, y2 - y1, x1, y1);
     made->outside = (uint8_t)paper_gray_join(operation, a->outside, b->outside);
     for (int y = y1; y < y2 && made->gray; y++) {
-        script_check(L);
+        script_check_row(L, y - y1);
         for (int x = x1; x < x2; x++) {
             int value = paper_gray_join(operation, script_mask_gray_at(a, x, y),
                                         script_mask_gray_at(b, x, y));
@@ -217,12 +217,12 @@ static int mask_soften(lua_State *L)
         L, (size_t)(made->width > made->height ? made->width : made->height), 0);
     for (int pass = 0; pass < 3; pass++) {
         for (int y = 0; y < made->height; y++) {
-            script_check(L);
+            script_check_row(L, y);
             box_pass(made->gray + (size_t)y * width, scratch, made->width, 1, box,
                      made->outside);
         }
         for (int x = 0; x < made->width; x++) {
-            script_check(L);
+            script_check_row(L, x);
             box_pass(made->gray + x, scratch, made->height, width, box, made->outside);
         }
     }

@@ -77,6 +77,8 @@ int script_fail(lua_State *L, const char *text);
 /* If it is due, or the process takes too much memory, raises an error, located at level 0, the function that runs, or 1, its caller. */
 void script_stop_if_due(lua_State *L, int level);
 void script_check(lua_State *L); /* level 1 */
+/* The same for a loop's row of that number: a row takes about as long as a look, so it is done for each thirty-second one. */
+void script_check_row(lua_State *L, int row);
 /* Counts memory that is not Lua's. If there is not enough, raises an error and counts
  * nothing. */
 void script_memory_take(lua_State *L, double bytes, const char *what);

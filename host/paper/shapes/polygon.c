@@ -70,7 +70,7 @@ static enum paper_status polygon_fill(const double *points, int count, int left,
                             screen->height_px);
     }
     for (int row = 0; row < screen->height_px && status == PAPER_OK; row++) {
-        if (patience_over()) {
+        if (row % 32 == 31 && patience_over()) {
             status = paper_fail(PAPER_MACHINE_FAILED, "stopped");
             break;
         }
