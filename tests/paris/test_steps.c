@@ -407,9 +407,10 @@ static void as_many_turns_as_can_be_are_one_kernel(void **state)
         coupled_turn(s, i == 3);
         coupled_turn_wanted(s);
     }
+    const uint64_t of_turns = kernels_run() - before; /* each look at a sheet takes one more */
     for (int k = 0; k < 2; k++)
         expect(&s[k]);
-    assert_true(kernels_run() - before <= 160 / 4);
+    assert_true(of_turns <= 160 / 4);
 }
 
 static struct device_buffer *buffer_of(CM_field_id_t id)
