@@ -94,7 +94,7 @@ double script_memory_left(const struct script *script);
  * papers, the machine and the compiler of kernels. */
 #define SCRIPT_BESIDES_BYTES ((double)(48 << 20))
 #define SCRIPT_MACHINE_BYTES ((double)(192 << 20))
-/* How much more than that and the script's memory the process takes; negative: it takes less. */
+/* How much more than that and the script's memory the process takes; negative: it takes less, or it does not tell. */
 double script_overfull_bytes(const struct script *script);
 
 /* Starts the watchdog: if the script goes on for some seconds after it should have stopped,

@@ -122,6 +122,9 @@ def by_chance(chance):
 
 def main():
     lutetia = os.path.abspath(sys.argv[1])
+    if b"__asan_init" in pathlib.Path(lutetia).read_bytes() or b"__tsan_init" in pathlib.Path(lutetia).read_bytes():
+        print("skipped: a sanitizer takes memory and time of its own")
+        sys.exit(77)
     seconds = float(sys.argv[2]) if len(sys.argv) > 2 else 0
     chance = random.Random(int(sys.argv[3]) if len(sys.argv) > 3 else 36)
     with tempfile.TemporaryDirectory(prefix="lutetia-limits-") as folder:

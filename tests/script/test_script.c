@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include <history.h>
+#include <script_map.h>
 
 #include <unistd.h>
 
@@ -468,6 +469,45 @@ static void nothing_is_shared_between_runs(void **state)
     assert_string_equal(s.prints, "192.0\n");
 }
 
+/* ---- maps ---- */
+
+static void map_tell(void *context, const char *text)
+{
+    scripted_append(context, text, strlen(text));
+}
+
+static void map_overdue(void *context)
+{
+    (void)context;
+    abort();
+}
+
+/* The process is its host's: what that takes is not the map's. */
+static void a_map_does_not_pay_for_its_host(void **state)
+{
+    (void)state;
+    enum { MORE_BYTES = 300 << 20 };
+    static char told[SCRIPTED_TEXT_MAX];
+    const char *path = scratch_path("map.lua");
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    fputs("function message(m) for i = 1, 100000 do end end", file);
+    fclose(file);
+    const struct script_map_def def = {
+        .path = path, .tell = map_tell, .overdue = map_overdue, .context = told};
+    const struct midi_message note = midi_message_make(0, MIDI_NOTE_ON, 60, 64);
+    struct script_map *map;
+    assert_int_equal(script_map_open(&def, &map), SCRIPT_OK);
+    char *more = malloc(MORE_BYTES);
+    assert_non_null(more);
+    memset(more, 1, MORE_BYTES);
+    for (int i = 0; i < 200; i++) /* the watchdog looks during some of them */
+        if (!script_map_message(map, &note) && strstr(told, "memory"))
+            fail_msg("%s", told);
+    script_map_close(map);
+    free(more);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -488,6 +528,7 @@ int main(void)
         cmocka_unit_test(what_was_stopped_is_computed_for_the_end),
         cmocka_unit_test(papers_without_end_are_saved),
         cmocka_unit_test(nothing_is_shared_between_runs),
+        cmocka_unit_test(a_map_does_not_pay_for_its_host),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
