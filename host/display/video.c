@@ -36,7 +36,7 @@ static const struct container {
     {".mp4", "mp4", true, true},      {".m4v", "mp4", true, true},
     {".mkv", "matroska", true, true}, {".webm", "webm", true, true},
     {".mov", "mov", true, true},      {".avi", "avi", true, true},
-    {".ogv", "ogg", true, true},      {".gif", "gif", false, false},
+    {".ogv", "ogg", true, false},     {".gif", "gif", false, false},
     {".y4m", NULL, false, false},
 };
 enum { CONTAINERS = sizeof containers / sizeof *containers, OURS = CONTAINERS - 1 };
@@ -360,10 +360,11 @@ enum display_status video_add(struct video *v, const uint8_t *rgb)
 /* A full disk is the likely reason: what can be written now says so. */
 static bool film_is_whole(const struct video *v, char said[200])
 {
-    const struct video_held held = {.format = v->container->format,
-                                    .frames = v->frames,
-                                    .exactly = v->container->counts || v->fps <= GIF_FPS_MOST,
-                                    .sounds = v->sound >= 0};
+    const struct video_held held = {
+        .format = v->container->format,
+        .frames = v->frames,
+        .exactly = v->container->counts || (v->fps <= GIF_FPS_MOST && !v->container->sounds),
+        .sounds = v->sound >= 0};
     const int file = fileno(v->out.stream);
     char wrong[150];
     if (video_read_back(file, &held, wrong, sizeof wrong))

@@ -10,6 +10,7 @@
 #include <fcntl.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/types.h>
 #include <sys/wait.h>
@@ -64,12 +65,24 @@ static void lines_count(FILE *lines, long count[2], char *said, size_t room)
     }
 }
 
-/* A .gif ends with a semicolon. */
-static bool gif_ended(int file)
+/* Where pictures cannot be counted: a .gif ends with a semicolon, and the last page of an .ogv says that it is the last. */
+static bool film_ended(int file, const char *format)
 {
-    char last = 0;
-    const off_t end = lseek(file, 0, SEEK_END);
-    return end > 0 && pread(file, &last, 1, end - 1) == 1 && last == ';';
+    enum { TAIL = 1 << 17, FLAGS = 5, LAST = 4 };
+    static const char page[] = "OggS";
+    const off_t end = lseek(file, 0, SEEK_END), from = end > TAIL ? end - TAIL : 0;
+    char *tail = end > 0 ? malloc(TAIL) : NULL;
+    const ssize_t count = tail ? pread(file, tail, TAIL, from) : 0;
+    bool ended = false;
+    if (count == end - from && strcmp(format, "gif") == 0)
+        ended = tail[count - 1] == ';';
+    for (ssize_t at = count - FLAGS - 1; at >= 0 && strcmp(format, "ogg") == 0; at--)
+        if (memcmp(tail + at, page, sizeof page - 1) == 0) {
+            ended = (tail[at + FLAGS] & LAST) != 0;
+            break;
+        }
+    free(tail);
+    return ended;
 }
 
 bool video_read_back(int file, const struct video_held *held, char *said, size_t room)
@@ -98,7 +111,8 @@ bool video_read_back(int file, const struct video_held *held, char *said, size_t
             return false;
     if (*said)
         return false;
-    const bool all = held->exactly ? count[0] == held->frames : count[0] > 0 && gif_ended(file);
+    const bool all = held->exactly ? count[0] == held->frames
+                                   : count[0] > 0 && film_ended(file, held->format);
     if (!lines || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
         snprintf(said, room, "it cannot be read back");
     else if (!all)

@@ -9,8 +9,9 @@
 struct video_held {
     const char *format; /* ffmpeg's name of the container */
     long frames;        /* pictures */
-    bool exactly; /* no more and no fewer; else at least one, and the last byte is a .gif's */
-    bool sounds;  /* there is sound, too */
+    bool
+        exactly; /* no more and no fewer; else at least one, and the end of a .gif or an .ogv */
+    bool sounds; /* there is sound, too */
 };
 
 /* Whether ffmpeg finds the film in the open file: its index, all of its pictures, and no end too soon. That an encoder ended well
