@@ -132,8 +132,7 @@ enum machine_status machine_field_store(struct machine *m, uint32_t field,
     if (value->set && value->set != f->vpset)
         return machine_fail(m, MACHINE_BAD_ARGUMENT,
                             "the value and the field belong to different VP sets");
-    if (value->op == NODE_REINTERPRET && !value->buffer)
-        value = value->in[0]; /* the same bits: a float that is moved as bits stays a float */
+    value = graph_same_bits(m, value); /* a float that is moved as bits stays a float */
     if (!alias_bring(m, f, true,
                      scope == MACHINE_EVERYWHERE && offset == 0 &&
                          value->type.width == f->bits))

@@ -1,6 +1,7 @@
 /* plan_graph.c - the graph of a request, and the arrays that a plan of it stores: what kernels and byte code have in common. */
 #include <stdlib.h>
 
+#include "base/errors.h"
 #include "build/plans.h"
 
 bool plan_graph_init(struct plan_graph *g, const struct plan_request *q)
@@ -21,8 +22,10 @@ bool plan_graph_init(struct plan_graph *g, const struct plan_request *q)
                                 .constant = v->op == NODE_CONSTANT && !v->buffer,
                                 .set = v->set,
                                 .detail = v->detail};
-        for (int k = 0; !v->buffer && k < node_ops[v->op].inputs; k++)
+        for (int k = 0; !v->buffer && k < node_ops[v->op].inputs; k++) {
+            INVARIANT(v->in[k]->local < (uint32_t)i); /* operands before users, so no circle */
             n->in[k] = (int32_t)v->in[k]->local;
+        }
     }
     for (int i = 0; g->nodes && i < t->count; i++)
         g->nodes[t->values[i]->local].target = true;

@@ -43,6 +43,14 @@ static int place_add(struct byte_code *p, struct place place)
     return p->places_count++;
 }
 
+/* The place of a node's values. No place is read before it is set. */
+static int place_read(const struct making *k, int node)
+{
+    const int place = k->place[node];
+    INVARIANT(k->p->failed || (place >= 0 && place < k->p->places_count));
+    return place;
+}
+
 /* Room for a block of lanes; each begins a line of the caches. */
 static size_t room(struct byte_code *p, enum lanes_class c)
 {
@@ -275,20 +283,20 @@ static void step_picked(struct making *k, const struct plan_node *n, int to,
 {
     struct machine_type from = k->g->nodes[pick->index].type, index = MACHINE_UINT(32);
     enum lanes_class c = lanes_bits_of(lanes_class_of(n->type));
-    int at = k->place[pick->index],
+    int at = place_read(k, pick->index),
         widened = lanes_class_of(from) == LANES_U32 ? NO_PLACE : register_get(k, LANES_U32);
     if (widened != NO_PLACE)
-        step_resized(k, at = widened, index, k->place[pick->index], from, 0);
+        step_resized(k, at = widened, index, place_read(k, pick->index), from, 0);
     uint16_t *list = malloc((2 * (size_t)pick->count + 1) * sizeof *list);
     if (!list) {
         k->p->failed = true;
         return;
     }
     for (int i = 0; i < pick->count; i++) {
-        list[2 * i] = (uint16_t)k->place[pick->keys[i]];
-        list[2 * i + 1] = (uint16_t)k->place[pick->values[i]];
+        list[2 * i] = (uint16_t)place_read(k, pick->keys[i]);
+        list[2 * i + 1] = (uint16_t)place_read(k, pick->values[i]);
     }
-    list[2 * pick->count] = (uint16_t)k->place[pick->rest];
+    list[2 * pick->count] = (uint16_t)place_read(k, pick->rest);
     struct lanes_step *s = step_add(k, lanes_find(LANES_PICK, c), LANES_PICK, to);
     s->in[0] = (uint16_t)at;
     s->from = from;
@@ -309,15 +317,15 @@ static void step_chosen(struct making *k, const struct plan_node *n, int to,
     const struct machine_type bit = MACHINE_UINT(1);
     int both = register_get(k, LANES_U8);
     struct lanes_step *s = step_add(k, lanes_find(MACHINE_AND, LANES_U8), MACHINE_AND, both);
-    s->in[0] = (uint16_t)k->place[n->in[0]];
-    s->in[1] = (uint16_t)k->place[inner->in[0]];
+    s->in[0] = (uint16_t)place_read(k, n->in[0]);
+    s->in[1] = (uint16_t)place_read(k, inner->in[0]);
     s->from = s->type = bit;
     s->mask = 1;
     s = step_add(k, lanes_find(NODE_SELECT, lanes_bits_of(lanes_class_of(n->type))),
                  NODE_SELECT, to);
     s->in[0] = (uint16_t)both;
-    s->in[1] = (uint16_t)k->place[inner->in[1]];
-    s->in[2] = (uint16_t)k->place[n->in[2]];
+    s->in[1] = (uint16_t)place_read(k, inner->in[1]);
+    s->in[2] = (uint16_t)place_read(k, n->in[2]);
     s->from = bit;
     s->type = n->type;
     s->mask = lanes_mask(n->type);
@@ -456,9 +464,9 @@ static void step_streamed(struct making *k, int node)
     if (!k->output[node] || !k->streams)
         return;
     step_one(k, lanes_find(LANES_STREAM, lanes_bits_of(lanes_class_of(type))), LANES_STREAM,
-             place_of_array(k, node), type, k->place[node], type, 0);
+             place_of_array(k, node), type, place_read(k, node), type, 0);
     if (k->last[node] <= node) /* nobody else takes it */
-        register_put(k, k->place[node]);
+        register_put(k, place_read(k, node));
 }
 
 /* A node's steps into its place: all but what only names another place. */
@@ -500,8 +508,10 @@ static void node_compute(struct making *k, int node)
         }
         return;
     }
-    for (int j = 0; j < node_ops[n->op].inputs; j++)
-        in[j] = takes(n, j) ? k->place[n->in[j]] : 0;
+    /* Steps of several nodes find their operands themselves: the nodes in between have no places. */
+    const bool of_one = !pick && picks_inner(k->picks, node) < 0;
+    for (int j = 0; of_one && j < node_ops[n->op].inputs; j++)
+        in[j] = takes(n, j) ? place_read(k, n->in[j]) : 0;
     if (k->owner[node] != node) {
         k->place[node] = in[0];
         return;
@@ -517,7 +527,7 @@ static void node_compute(struct making *k, int node)
         int owner = k->owner[operands[j]];
         if (k->last[owner] == node) {
             k->last[owner] = -1; /* once, if it is two operands */
-            register_put(k, k->place[owner]);
+            register_put(k, place_read(k, owner));
         }
     }
 }

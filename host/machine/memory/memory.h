@@ -5,7 +5,7 @@
 #include "base/parts.h"
 #include "memory/known_addresses.h"
 #include "memory/lifetimes.h"
-#include "values/values.h"
+#include "values/graph.h"
 
 /* A part of a field, or a flag, with its value. */
 struct slot {
@@ -77,6 +77,14 @@ struct memory {
 static inline struct flags *flags_of(const struct machine *m, const struct vpset *s)
 {
     return &m->memory->flags[s - m->values->sets];
+}
+
+/* A flag's value, held until the next instruction: evaluations may put another in its place. Overflow: what is recorded
+ * is not part of it. */
+static inline struct machine_value *flag_held(struct machine *m, int set,
+                                              enum machine_flag flag)
+{
+    return graph_borrow(m, m->memory->flags[set].of[flag].value);
 }
 
 /* ---- lifetimes.c ---- */

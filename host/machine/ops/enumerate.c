@@ -43,7 +43,7 @@ static struct machine_value *ranks_near(struct machine *m, const struct machine_
     const struct field *f = old ? field_find(m, dest, &offset) : NULL;
     if (!f || f->vpset != set)
         return NULL;
-    struct machine_value *wanted[2] = {m->memory->flags[set].of[MACHINE_CONTEXT].value, old};
+    struct machine_value *wanted[2] = {flag_held(m, set, MACHINE_CONTEXT), old};
     if (!materialise_all(m, set, wanted, old->op == NODE_CONSTANT && !old->buffer ? 1 : 2))
         return NULL;
     const struct machine_value *context = wanted[0];

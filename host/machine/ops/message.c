@@ -44,10 +44,10 @@ bool message_make(struct machine *m, struct message *g, struct machine_value *ad
                   int to_set, bool under_context, bool combines)
 {
     /* A reinterpreted value has the same bits in memory, so its source serves as well. */
-    while (source && source->op == NODE_REINTERPRET && !source->buffer && !combines)
-        source = source->in[0];
-    while (other && other->op == NODE_REINTERPRET && !other->buffer && !combines)
-        other = other->in[0];
+    if (source && !combines)
+        source = graph_same_bits(m, source);
+    if (other && !combines)
+        other = graph_same_bits(m, other);
     g->from_set = m->values->set_current;
     g->to_set = to_set;
     const bool is_index = !index_is_address(&m->values->sets[to_set]);
@@ -59,9 +59,9 @@ bool message_make(struct machine *m, struct message *g, struct machine_value *ad
         address = index_of_address(m, to_set, address);
     if (!address)
         return false;
-    g->context = under_context
-                     ? m->memory->flags[m->values->set_current].of[MACHINE_CONTEXT].value
-                     : NULL;
+    graph_borrow(m, address); /* it may be a part of what was given, or be known */
+    graph_borrow(m, given);
+    g->context = under_context ? flag_held(m, m->values->set_current, MACHINE_CONTEXT) : NULL;
     struct machine_value *wanted[4];
     int count = 0;
     struct machine_value *const all[4] = {address, source, g->fills ? NULL : other, g->context};
@@ -174,23 +174,16 @@ enum machine_status message_send_near(struct machine *m, const struct message *g
     return MACHINE_OK;
 }
 
-static struct machine_value *same_bits(struct machine_value *v)
-{
-    while (v->op == NODE_REINTERPRET && !v->buffer)
-        v = v->in[0];
-    return v;
-}
-
 struct machine_value *message_pack(struct machine *m, struct machine_value *source,
                                    struct machine_value *old)
 {
     const int set = m->values->set_current;
     const struct machine_type type = source->type;
-    const struct machine_value *context = m->memory->ranks.context;
+    const struct machine_value *context = graph_borrow(m, m->memory->ranks.context);
     struct machine_value *wanted[2];
     int count = 0;
-    source = same_bits(source);
-    old = same_bits(old);
+    source = graph_same_bits(m, source);
+    old = graph_same_bits(m, old);
     if (!node_is_leaf(source))
         wanted[count++] = source;
     if (!node_is_leaf(old))

@@ -510,7 +510,7 @@ enum machine_status machine_reduce(struct machine *m, enum machine_reduction op,
     const struct reduction_info *info = &reductions[op];
     struct machine_type type = value->type;
     struct machine_scalar identity = identity_of(info, type);
-    struct machine_value *context = flags_of(m, s)->of[MACHINE_CONTEXT].value;
+    struct machine_value *context = flag_held(m, m->values->set_current, MACHINE_CONTEXT);
     if (!reduce_near(m, s, value, context, info, identity, out) &&
         !(brought_near(m, value, context) &&
           reduce_near(m, s, value, context, info, identity, out)) &&

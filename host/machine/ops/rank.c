@@ -37,7 +37,7 @@ static bool words_add(struct machine *m, struct words *w, struct machine_value *
             machine_resize(m, machine_extract(m, key, at, bits), 32, false);
         if (!word)
             return false;
-        w->values[w->count] = in_memory(word);
+        w->values[w->count] = in_memory(m, word);
         w->bits[w->count++] = at + 32 < key->type.width ? 32 : last;
     }
     return key != NULL;
@@ -77,7 +77,7 @@ static bool words_of(struct machine *m, const struct machine_scan *how,
                      struct machine_value *key, struct words *w)
 {
     const struct vpset *s = &m->values->sets[m->values->set_current];
-    struct machine_value *context = flags_of(m, s)->of[MACHINE_CONTEXT].value;
+    struct machine_value *context = flag_held(m, m->values->set_current, MACHINE_CONTEXT);
     int length = s->dimensions[how->axis];
     struct machine_value *inactive = machine_unary(m, MACHINE_NOT, context);
     if (!key || !inactive)

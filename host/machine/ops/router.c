@@ -444,8 +444,7 @@ struct machine_value *machine_get(struct machine *m, struct machine_value *send_
     if (!v)
         return NULL;
     if (gets_can(m, v, from.vpset)) {
-        while (v->op == NODE_REINTERPRET && !v->buffer) /* the same bits are in memory */
-            v = v->in[0];
+        v = graph_same_bits(m, v); /* they are what is in memory */
         uint32_t bits = 0;
         const bool crosses =
             !gets_has_functions(m, v) && gets_cross(m, send_address, from.vpset, &bits);

@@ -318,7 +318,7 @@ static struct machine_value *formed(struct machine *m, enum machine_scan_op c,
         f->op = c == MACHINE_SCAN_FADD ? LINES_ADD : LINES_MULTIPLY;
         if (f->op == LINES_MULTIPLY)
             f->identity.lo = single ? 0x3f800000u : 0x3ff0000000000000u;
-        return v ? in_memory(v) : NULL;
+        return v ? in_memory(m, v) : NULL;
     }
     f->element = bits_element(f->width);
     f->cut = scalar_ones(f->width);
@@ -367,7 +367,7 @@ static struct machine_value *formed(struct machine *m, enum machine_scan_op c,
         f->op = LINES_COPY;
         break;
     }
-    v = v ? in_memory(v) : NULL;
+    v = v ? in_memory(m, v) : NULL;
     return v && type_bytes(v->type) != f->element->bytes ? machine_resize(m, v, 32, false) : v;
 }
 
@@ -417,12 +417,12 @@ static bool is_constant(const struct machine_value *v, uint64_t bits)
 
 struct machine_value *scan_boundaries(struct machine *m, const struct machine_scan *how)
 {
-    const struct vpset *s = &m->values->sets[m->values->set_current];
     struct machine_value *bits = how->bits;
     if (how->segments == MACHINE_UNSEGMENTED || !bits)
         return NULL;
     if (how->segments == MACHINE_START_BIT)
-        return machine_binary(m, MACHINE_AND, bits, flags_of(m, s)->of[MACHINE_CONTEXT].value);
+        return machine_binary(m, MACHINE_AND, bits,
+                              flag_held(m, m->values->set_current, MACHINE_CONTEXT));
     return bits;
 }
 
@@ -482,7 +482,8 @@ struct machine_value *machine_scan(struct machine *m, const struct machine_scan 
                                    struct machine_value *value)
 {
     struct vpset *s = vpset_get(m, m->values->set_current);
-    return s ? scan_where(m, how, value, flags_of(m, s)->of[MACHINE_CONTEXT].value) : NULL;
+    return s ? scan_where(m, how, value, flag_held(m, m->values->set_current, MACHINE_CONTEXT))
+             : NULL;
 }
 
 /* ---- spreads ---- */
@@ -500,7 +501,7 @@ struct machine_value *machine_spread(struct machine *m, enum machine_scan_op op,
     if (!axes)
         return value;
     struct form f;
-    struct machine_value *context = flags_of(m, s)->of[MACHINE_CONTEXT].value;
+    struct machine_value *context = flag_held(m, m->values->set_current, MACHINE_CONTEXT);
     struct machine_value *values[2] = {formed(m, op, value, &f), context};
     bool masked = !is_constant(context, 1);
     if (!values[0] || !materialise_all(m, m->values->set_current, values, 1 + masked))

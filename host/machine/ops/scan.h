@@ -3,7 +3,7 @@
 #define LUTETIA_MACHINE_SCAN_H
 
 #include "device/call.h"
-#include "values/values.h"
+#include "values/graph.h"
 
 /* Lines of elements in a buffer: see kernels/scan.cl. */
 struct lines {
@@ -60,9 +60,9 @@ struct machine_value *scan_boundaries(struct machine *m, const struct machine_sc
 bool scan_arguments_good(struct machine *m, const struct vpset *s, int axis,
                          const struct machine_value *value, const struct machine_value *bits);
 /* Returns the value, or one that has the same bits in memory, so that these are stored once. */
-static inline struct machine_value *in_memory(struct machine_value *v)
+static inline struct machine_value *in_memory(struct machine *m, struct machine_value *v)
 {
-    return v->op == NODE_REINTERPRET && !v->buffer ? v->in[0] : v;
+    return v->op == NODE_REINTERPRET && !v->buffer ? graph_borrow(m, v->in[0]) : v;
 }
 /* Bits that sort like the floats; NaNs become `nan`. */
 struct machine_value *float_order(struct machine *m, struct machine_value *v, uint64_t nan);

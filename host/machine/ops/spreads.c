@@ -153,7 +153,7 @@ static struct machine_value *spread_value(struct machine *m, const struct spread
     if (spread || m->status)
         return spread;
     const struct machine_type type = v->type;
-    v = materialise(m, from->set, in_memory(v));
+    v = materialise(m, from->set, in_memory(m, v));
     return v ? machine_reinterpret(m, of_array(m, from, v), type) : NULL;
 }
 

@@ -51,12 +51,16 @@ static bool reach_room(struct reach *r)
     return !failed;
 }
 
-/* Depth first; HEIGHT_MOST limits the recursion. */
+/* Depth first; HEIGHT_MOST limits the recursion. No value is part of itself, and none that was let go of is reached. */
 static bool reach_from(struct machine *m, struct reach *r, struct machine_value *v)
 {
-    if (v->mark == m->values->mark)
+    INVARIANT(v->refs);
+    if (v->mark == m->values->mark) {
+        INVARIANT(v->local != NODE_UNDER_WAY);
         return true;
+    }
     v->mark = m->values->mark;
+    v->local = NODE_UNDER_WAY;
     if (v->op == NODE_SLICE && !v->buffer && !slice_unpack(m, v))
         return false;
     int inputs = v->buffer ? 0 : node_ops[v->op].inputs;

@@ -100,6 +100,7 @@ void materialise_put(unsigned char *to, struct machine_scalar x, size_t element)
 
 struct machine_value *materialise(struct machine *m, int set, struct machine_value *v)
 {
+    graph_borrow(m, v);
     if (v->op == NODE_CONSTANT && !v->buffer) {
         size_t element = type_bytes(v->type);
         unsigned char pattern[16];

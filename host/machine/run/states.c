@@ -85,10 +85,15 @@ static void say(struct walk *w, uint32_t word)
 
 static void walk_node(struct machine *m, struct walk *w, struct machine_value *v)
 {
-    if (v->mark == m->values->mark)
+    INVARIANT(v->refs);
+    if (v->mark == m->values->mark) {
+        INVARIANT(v->local != NODE_UNDER_WAY);
         return;
+    }
     v->mark = m->values->mark;
+    v->local = NODE_UNDER_WAY;
     bool leaf = is_leaf(v);
+    INVARIANT(!leaf || v->buffer);
     int inputs = leaf ? 0 : node_ops[v->op].inputs;
     for (int i = 0; i < inputs; i++)
         walk_node(m, w, v->in[i]);
@@ -188,6 +193,7 @@ static void template_copy(struct machine *m, struct state *s, const struct walk 
         struct machine_value key = *v;
         bool same = true;
         for (int k = 0; k < (is_leaf(v) ? 0 : node_ops[v->op].inputs); k++) {
+            INVARIANT(v->in[k]->local < (uint32_t)i); /* inputs before users */
             key.in[k] = copies[v->in[k]->local];
             same = same && key.in[k] == v->in[k];
         }
@@ -261,7 +267,7 @@ static void put_root(struct root_visit *visit, struct machine_value **place, uin
     struct machine_value *old = *place;
     *place = visit->values[visit->count++];
     if (*place)
-        graph_ref(*place);
+        graph_ref(*place); /* the machine's; the state keeps its own */
     if (old)
         graph_unref(visit->m, old);
 }

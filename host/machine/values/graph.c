@@ -34,9 +34,10 @@ void graph_finish(struct machine *m)
     free(m->values->release_stack);
 }
 
-/* Freed nodes are reused at once. A fuzzing build allocates each separately, so that ASan
- * finds uses after release. */
-#ifdef LUTETIA_FUZZ
+/* A node that was let go of has no references and no array, and is reused after the instruction, not within it: what
+ * still points to it then finds a node without references, which is checked wherever a reference is taken, and not another
+ * value. Under ASan each node is allocated separately, so that every use after release is found. */
+#if defined(LUTETIA_FUZZ) || defined(__SANITIZE_ADDRESS__)
 
 static struct machine_value *node_new(struct machine *m)
 {
@@ -50,6 +51,11 @@ static void node_free(struct machine *m, struct machine_value *v)
 {
     free(v);
     m->values->live--;
+}
+
+static void nodes_reuse(struct machine *m)
+{
+    (void)m;
 }
 
 #else
@@ -76,9 +82,23 @@ static struct machine_value *node_new(struct machine *m)
 
 static void node_free(struct machine *m, struct machine_value *v)
 {
-    v->next = m->values->free;
-    m->values->free = v;
+    v->refs = 0;
+    v->buffer = NULL;
+    v->next = m->values->let_go;
+    if (!v->next)
+        m->values->let_go_first = v;
+    m->values->let_go = v;
     m->values->live--;
+}
+
+/* Puts the nodes that the instruction has let go of before the free ones, as they are in the list. */
+static void nodes_reuse(struct machine *m)
+{
+    if (!m->values->let_go)
+        return;
+    m->values->let_go_first->next = m->values->free;
+    m->values->free = m->values->let_go;
+    m->values->let_go = NULL;
 }
 
 #endif
@@ -94,6 +114,7 @@ void graph_give_back(struct machine *m)
     for (int i = 0; i < m->values->borrowed_count; i++)
         graph_unref(m, m->values->borrowed[i]);
     m->values->borrowed_count = 0;
+    nodes_reuse(m);
 }
 
 static uint32_t hash_of(const struct machine_value *k)
@@ -263,6 +284,22 @@ struct machine_value *graph_low_bits(struct machine_value *v, int bits)
     return v;
 }
 
+/* A new node's one reference is that of the instruction. */
+static struct machine_value *handed_out(struct machine *m, struct machine_value *v)
+{
+    if (m->values->borrowed_count == m->values->borrowed_capacity)
+        graph_borrowed_grow(m);
+    m->values->borrowed[m->values->borrowed_count++] = v;
+    return v;
+}
+
+struct machine_value *graph_same_bits(struct machine *m, struct machine_value *v)
+{
+    while (v->op == NODE_REINTERPRET && !v->buffer)
+        v = v->in[0];
+    return graph_borrow(m, v);
+}
+
 struct machine_value *graph_node(struct machine *m, const struct machine_value *key)
 {
     uint32_t hash = hash_of(key);
@@ -278,7 +315,7 @@ struct machine_value *graph_node(struct machine *m, const struct machine_value *
     struct machine_value *v = node_new(m);
     *v = *key;
     v->origin = v->op;
-    v->refs = 0;
+    v->refs = 1;
     v->hash = hash;
     v->mark = 0;
     v->kept = v->told = v->stored = false;
@@ -295,7 +332,7 @@ struct machine_value *graph_node(struct machine *m, const struct machine_value *
     m->values->table_count++;
     if (is_pending(v))
         pend(m, v, true);
-    return graph_borrow(m, v);
+    return handed_out(m, v);
 }
 
 struct machine_value *graph_buffer_node(struct machine *m, struct machine_type type, int set,
@@ -308,8 +345,9 @@ struct machine_value *graph_buffer_node(struct machine *m, struct machine_type t
                                 .generator = GENERATOR_NONE,
                                 .set = (uint16_t)set,
                                 .strange_nan = type.kind == MACHINE_FLOAT,
+                                .refs = 1,
                                 .buffer = buffer};
-    return graph_borrow(m, v);
+    return handed_out(m, v);
 }
 
 /* Iterative: chains can be long. */

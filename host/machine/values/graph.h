@@ -2,6 +2,7 @@
 #ifndef LUTETIA_MACHINE_GRAPH_H
 #define LUTETIA_MACHINE_GRAPH_H
 
+#include "base/errors.h"
 #include "values/values.h"
 
 bool graph_init(struct machine *m);
@@ -28,6 +29,7 @@ void graph_forget(struct machine *m, struct machine_value *v);
 
 static inline void graph_ref(struct machine_value *v)
 {
+    INVARIANT(v->refs); /* a value that was let go of is not taken up again */
     v->refs++;
 }
 /* Releases a node whose last reference is gone. */
@@ -39,16 +41,21 @@ static inline void graph_unref(struct machine *m, struct machine_value *v)
 }
 /* Makes room for one more borrowed value. */
 void graph_borrowed_grow(struct machine *m);
-/* A reference that lasts until the next instruction. */
+/* A reference that lasts until the next instruction. Every value that an instruction uses after an evaluation needs
+ * one: the evaluation lets go of the operands of what it computes, and a state that is entered puts nodes of its own in
+ * the place of what fields and flags held. */
 static inline struct machine_value *graph_borrow(struct machine *m, struct machine_value *v)
 {
     struct values *all = m->values;
+    INVARIANT(v->refs);
     if (all->borrowed_count == all->borrowed_capacity)
         graph_borrowed_grow(m);
     all->borrowed[all->borrowed_count++] = v;
     v->refs++;
     return v;
 }
+/* The value of which v is the same bits as another type, borrowed: where only bits count, its array serves as well. */
+struct machine_value *graph_same_bits(struct machine *m, struct machine_value *v);
 void graph_give_back(struct machine *m); /* releases everything that was borrowed */
 
 /* Whether it is a state's own. */

@@ -6,6 +6,9 @@
 #include "base/parts.h"
 #include "values/geometry.h"
 
+/* A walk that meets such a node again has gone in a circle. */
+#define NODE_UNDER_WAY UINT32_MAX
+
 struct machine_value {
     uint8_t op;
     uint8_t origin; /* its original op; op becomes NODE_BUFFER once it is computed */
@@ -26,12 +29,13 @@ struct machine_value {
     int32_t detail;
     uint32_t refs;
     uint32_t hash;
-    uint32_t mark;   /* of the last walk that came by: values.mark */
-    uint32_t birth;  /* the evaluation before which its oldest part still to compute was made */
-    uint32_t local;  /* index in the evaluation at hand */
+    uint32_t mark;  /* of the last walk that came by: values.mark */
+    uint32_t birth; /* the evaluation before which its oldest part still to compute was made */
+    /* Index in the evaluation at hand; NODE_UNDER_WAY: its operands are being walked. */
+    uint32_t local;
     uint32_t serial; /* order of making; operands are older */
-    uint32_t
-        waiting_kb; /* what it may have to be stored in before it is computed: see waiting_kb() */
+    /* What it may have to be stored in before it is computed: see waiting_kb(). */
+    uint32_t waiting_kb;
     struct machine_value *next; /* in its hash chain, or in the free list */
     struct machine_value *in[3];
     struct machine_scalar imm;
@@ -50,7 +54,9 @@ struct values {
     struct machine_value **table;
     uint32_t table_size, table_count;
     struct machine_value *free; /* nodes that are in use no more */
-    void **blocks;              /* of nodes */
+    /* Nodes that the instruction has let go of, the last one first; they are reused after it. */
+    struct machine_value *let_go, *let_go_first;
+    void **blocks; /* of nodes */
     int blocks_count, blocks_capacity;
     uint64_t live, pending;          /* nodes; those of them that wait to be computed */
     uint64_t pending_kb;             /* what these may have to be stored in, in all */
