@@ -26,7 +26,7 @@ static long sign_extend(uint64_t bits, unsigned int len)
 /* Programs of 1990 keep results in 32 bits. */
 static bool result_fits(const struct paris_instruction *self, bool fits)
 {
-    if (!paris_the.safety || self->op == 1 || fits)
+    if (!paris_the.safety || strstr(self->name, "_long") || fits)
         return true;
     paris_fail("the result does not fit in 32 bits: use the _long_1L form");
     return false;

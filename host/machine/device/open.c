@@ -122,6 +122,7 @@ static enum machine_status ask(struct machine *m)
         : d->is_cpu ? memory_left(memory) /* the front end and others use the same memory */
                     : memory;
     d->memory_max_alloc_bytes = max_alloc;
+    d->has_double = doubles != 0;
     if (!doubles)
         return machine_fail(m, MACHINE_NO_DEVICE,
                             "%s has no double precision, which the machine needs", d->name);

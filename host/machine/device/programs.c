@@ -145,6 +145,21 @@ static cl_program build_without_header(const struct device *d,
     return NULL;
 }
 
+/* The whole log on one line, however long: a driver gives none of it to a buffer that is too short. NULL: there is none. */
+static char *device_build_log(cl_program program, cl_device_id id)
+{
+    size_t bytes = 0;
+    if (clGetProgramBuildInfo(program, id, CL_PROGRAM_BUILD_LOG, 0, NULL, &bytes))
+        return NULL;
+    char *log = calloc(1, bytes + 1);
+    if (log && clGetProgramBuildInfo(program, id, CL_PROGRAM_BUILD_LOG, bytes, log, NULL))
+        log[0] = '\0';
+    for (char *c = log; c && *c; c++)
+        if (*c == '\n')
+            *c = ' ';
+    return log;
+}
+
 /* PoCL's compiler writes to its cache, and ends the process if it cannot. Returns the folder
  * if it lacks room for a kernel. */
 static const char *full_folder(const struct device *d)
@@ -201,13 +216,10 @@ static cl_program build(struct machine *m, const char *const parts[DEVICE_PARTS]
     }
     error = clBuildProgram(program, 1, &d->id, options, NULL, NULL);
     if (error) {
-        char log[900] = "";
-        clGetProgramBuildInfo(program, d->id, CL_PROGRAM_BUILD_LOG, sizeof log - 1, log, NULL);
-        for (char *c = log; *c; c++)
-            if (*c == '\n')
-                *c = ' ';
+        char *log = device_build_log(program, d->id);
         machine_fail(m, MACHINE_BUILD_FAILED, "a kernel did not compile on %s (%d): %s",
-                     d->name, error, log);
+                     d->name, error, log ? log : "");
+        free(log);
         if (getenv("LUTETIA_DUMP"))
             fprintf(stderr, "%s\n%s\n", options, parts[DEVICE_PARTS - 1]);
         clReleaseProgram(program);
