@@ -82,16 +82,13 @@ static void flags_store(CM_field_id_t to)
     CM_store_overflow_always(to + 2);
 }
 
-/* False: the sum is another. */
-static bool perform(const struct slot_step *s)
+/* Of each processor by itself. */
+static void operate(const struct slot_step *s, CM_field_id_t to, CM_field_id_t a,
+                    CM_field_id_t b)
 {
     const unsigned int n = (unsigned int)s->length, k = (unsigned int)s->shorter;
     const unsigned int sig = n == 32 ? 23 : 52, exp = n == 32 ? 8 : 11;
-    const CM_field_id_t to = at(s->to), a = at(s->a), b = at(s->b);
-    const unsigned int direction = s->upward ? CM_upward : CM_downward,
-                       inclusion = s->inclusive ? CM_inclusive : CM_exclusive;
-    CM_set_vp_set(sets[s->set]);
-    switch (s->kind) {
+    switch ((int)s->kind) {
     case SLOT_MOVE:
         CM_u_move_2L(to, a, n, k);
         break;
@@ -122,6 +119,17 @@ static bool perform(const struct slot_step *s)
     case SLOT_FMULTIPLY:
         CM_f_multiply_3_1L(to, a, b, sig, exp);
         break;
+    case SLOT_SWAP:
+        CM_swap_2_1L(to, a, n);
+        break;
+    }
+}
+
+static void set_flags(const struct slot_step *s, CM_field_id_t to, CM_field_id_t a,
+                      CM_field_id_t b)
+{
+    const unsigned int n = (unsigned int)s->length;
+    switch ((int)s->kind) {
     case SLOT_LESS:
         CM_u_lt_1L(a, b, n);
         break;
@@ -143,6 +151,17 @@ static bool perform(const struct slot_step *s)
     case SLOT_ALL:
         CM_set_context();
         break;
+    }
+}
+
+/* What looks at other processors. False: the sum is another. */
+static bool communicate(const struct slot_step *s, CM_field_id_t to, CM_field_id_t a,
+                        CM_field_id_t b)
+{
+    const unsigned int n = (unsigned int)s->length, k = (unsigned int)s->shorter;
+    const unsigned int direction = s->upward ? CM_upward : CM_downward,
+                       inclusion = s->inclusive ? CM_inclusive : CM_exclusive;
+    switch ((int)s->kind) {
     case SLOT_NEWS:
         CM_get_from_news_1L(to, a, 0, direction, n);
         break;
@@ -167,8 +186,6 @@ static bool perform(const struct slot_step *s)
     case SLOT_ENUMERATE:
         CM_enumerate_1L(to, 0, n, direction, inclusion, CM_none, CM_no_field);
         break;
-    case SLOT_SUM:
-        return CM_global_u_add_long_1L(a, n) == memory.sum;
     case SLOT_WRITE:
         CM_u_write_to_processor_1L((CM_sendaddr_t)s->vp, to,
                                    slot_number(s->number, s->vp, s->length), n);
@@ -176,13 +193,20 @@ static bool perform(const struct slot_step *s)
     case SLOT_WRITE_ALL:
         write_all(s);
         break;
-    case SLOT_SWAP:
-        CM_swap_2_1L(to, a, n);
-        break;
-    case SLOT_KINDS:
-        break;
+    case SLOT_SUM:
+        return CM_global_u_add_long_1L(a, n) == memory.sum;
     }
     return true;
+}
+
+/* False: the sum is another. */
+static bool perform(const struct slot_step *s)
+{
+    const CM_field_id_t to = at(s->to), a = at(s->a), b = at(s->b);
+    CM_set_vp_set(sets[s->set]);
+    operate(s, to, a, b);
+    set_flags(s, to, a, b);
+    return communicate(s, to, a, b);
 }
 
 /* ---- looks ---- */

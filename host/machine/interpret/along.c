@@ -125,3 +125,17 @@ void byte_code_along(struct byte_code *p, const struct vpset *set)
     p->steps_count = a.count;
     p->steps_capacity = a.capacity;
 }
+
+void byte_code_free(struct byte_code *p)
+{
+    if (!p)
+        return;
+    for (int i = 0; i < p->places_count; i++)
+        free(p->places[i].further);
+    for (int i = 0; i < p->steps_count; i++)
+        free(p->steps[i].list);
+    free(p->places);
+    free(p->steps);
+    free(p->arguments);
+    free(p);
+}

@@ -542,20 +542,6 @@ static bool are_streamed(const struct making *k)
     return shape_streams_lanes(k->shape, bytes);
 }
 
-void byte_code_free(struct byte_code *p)
-{
-    if (!p)
-        return;
-    for (int i = 0; i < p->places_count; i++)
-        free(p->places[i].further);
-    for (int i = 0; i < p->steps_count; i++)
-        free(p->steps[i].list);
-    free(p->places);
-    free(p->steps);
-    free(p->arguments);
-    free(p);
-}
-
 struct byte_code *byte_code_make(const struct device_shape *shape, const struct plan_graph *g,
                                  const int *stores, int count, const struct vpset *set,
                                  int processors_log2, bool at_hand)
