@@ -29,7 +29,7 @@ static const struct tier {
 };
 enum { TIERS = sizeof tiers / sizeof *tiers, CHUNK = 64 };
 
-static int programs_count = 200, first_program = 1, only_tier = -1;
+static int programs_count = 200, first_program = 401, only_tier = -1;
 static struct slot_program program;
 static struct slot_memory memory;
 static CM_vp_set_id_t sets[SLOT_SETS];

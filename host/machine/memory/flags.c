@@ -26,12 +26,16 @@ struct machine_value *flag_resolved(struct machine *m, struct vpset *s, enum mac
     struct lazy_overflow *o = &flags_of(m, s)->overflow;
     if (flag == MACHINE_OVERFLOW && o->op) {
         struct slot *slot = &flags_of(m, s)->of[MACHINE_OVERFLOW];
+        const int current = m->values->set_current;
+        m->values->set_current =
+            (int)(s - m->values->sets); /* an overflow of numbers is this set's */
         struct machine_value *new =
             o->op == NODE_SELECT ? o->a : make_overflow(m, (enum node_op)o->op, o->a, o->b);
         struct machine_value *all =
             new ? machine_select(m, o->context, new, slot->value) : NULL;
         if (all)
             slot_set(m, slot, all);
+        m->values->set_current = current;
         flag_overflow_clear(m, o);
     }
     return flags_of(m, s)->of[flag].value;
