@@ -321,6 +321,7 @@ TO_BITS_OF(f32) TO_BITS_OF(f64)
         IN(FROM, 0, a);                                                                        \
         EACH d[i] = (F)a[i];                                                                   \
     }
+FLOAT_TO_FLOAT(f32, f32)
 FLOAT_TO_FLOAT(f32, f64) FLOAT_TO_FLOAT(f64, f32) FLOAT_TO_FLOAT(f64, f64)
 
 /* ---- floats ---- */
@@ -593,7 +594,7 @@ const struct lanes_table TABLE =
          [NODE_S_TO_F] = ROWS_TO_FLOATS(s_to_f),
          [NODE_F_TO_U] = ROWS_OF_FLOATS(f_to_u),
          [NODE_F_TO_S] = ROWS_OF_FLOATS(f_to_s),
-         [NODE_F_TO_F - NODE_CONSTANT] =
-             {[LANES_F32] = {[LANES_F64] = f_to_f_f32_f64},
+         [NODE_F_TO_F] =
+             {[LANES_F32] = {[LANES_F32] = f_to_f_f32_f32, [LANES_F64] = f_to_f_f32_f64},
               [LANES_F64] = {[LANES_F32] = f_to_f_f64_f32, [LANES_F64] = f_to_f_f64_f64}},
      }};
