@@ -66,13 +66,14 @@ struct dyn_world dyn_world_usual(void)
 
 const struct dyn_control *dyn_control_find(const char *name)
 {
-    char all[400] = "";
+    char all[400] = ""; /* as many names as there is room for */
     size_t length = 0;
     for (int i = 0; i < dyn_controls_count; i++) {
         if (strcmp(dyn_controls[i].name, name) == 0)
             return &dyn_controls[i];
-        length +=
-            (size_t)snprintf(all + length, sizeof all - length, " %s", dyn_controls[i].name);
+        if (length + 1 + strlen(dyn_controls[i].name) < sizeof all)
+            length += (size_t)snprintf(all + length, sizeof all - length, " %s",
+                                       dyn_controls[i].name);
     }
     dyn_fail(DYN_BAD_ARGUMENT, "there is no control '%.40s'; there are%s", name, all);
     return NULL;
