@@ -45,6 +45,9 @@ bool font_text_invisible(uint32_t character);
 bool font_text_mark(uint32_t character);
 bool font_text_white(uint32_t character);
 bool font_text_ends_line(uint32_t character);
+/* text_lines.c: a feature's text, like kern=0, of that length. False: it is none. HarfBuzz since 10 takes any signs for a name; these are letters,
+ * digits and low lines. */
+bool font_feature_read(const char *text, int length, hb_feature_t *out);
 /* Common and inherited characters go with those before them, at the beginning with those behind. */
 void font_scripts_choose(const uint32_t *characters, int count, hb_script_t *scripts);
 /* line_ends.c: where lines may end (UAX 14), by libunibreak's signs, of the place behind each character. False: no memory. */

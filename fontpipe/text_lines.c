@@ -146,6 +146,19 @@ struct shaping {
     bool trims; /* white space at the end of a line is left out */
 };
 
+bool font_feature_read(const char *text, int length, hb_feature_t *out)
+{
+    if (!hb_feature_from_string(text, length, out))
+        return false;
+    for (int byte = 0; byte < 4; byte++) { /* names that are shorter end in spaces */
+        const char c = (char)(out->tag >> 8 * byte & 0xff);
+        if (!(c >= '0' && c <= '9') && !(c >= 'A' && c <= 'Z') && !(c >= 'a' && c <= 'z') &&
+            c != '_' && c != ' ')
+            return false;
+    }
+    return true;
+}
+
 static enum font_status features_read(struct shaping *g)
 {
     const char *at = g->options->features;
@@ -153,7 +166,7 @@ static enum font_status features_read(struct shaping *g)
         const char *end = strchr(at, ',');
         int length = end ? (int)(end - at) : (int)strlen(at);
         if (g->features_count == FEATURES_MAX ||
-            !hb_feature_from_string(at, length, &g->features[g->features_count++]))
+            !font_feature_read(at, length, &g->features[g->features_count++]))
             return font_fail(FONT_BAD_ARGUMENT,
                              "there is no feature '%.*s'; they are like kern=0, -liga, ss01",
                              length > 40 ? 40 : length, at);

@@ -147,7 +147,7 @@ static enum font_status features_read(struct style *s)
         const char *end = strchr(at, ',');
         int length = end ? (int)(end - at) : (int)strlen(at);
         if (s->features_count == MAX ||
-            !hb_feature_from_string(at, length, &s->hb_features[s->features_count++]))
+            !font_feature_read(at, length, &s->hb_features[s->features_count++]))
             return font_fail(FONT_BAD_ARGUMENT,
                              "there is no feature '%.*s'; they are like kern=0, -liga, ss01",
                              length > 40 ? 40 : length, at);
