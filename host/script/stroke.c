@@ -360,10 +360,6 @@ static int paper_stroke(lua_State *L)
     luaL_checktype(L, 2, LUA_TTABLE);
     script_arg_options(L, 2, "stroke", keys);
     const struct script_brush *brush = brush_read(L);
-    if (!brush->dipped)
-        script_note_once(L, SCRIPT_NOT_DIPPED,
-                         "stroke: this brush is dry, since it was not dipped; "
-                         "brush:dip{water = 1, ...} comes first");
     d.stroke.number = brush->number;
     d.stroke.pace = script_arg_number(L, 2, "stroke", "pace", 30, 0, 10000);
     d.speed = script_arg_number(L, 2, "stroke", "speed", 200 + 12 * brush->width, 0.1, 1e6);
@@ -401,6 +397,10 @@ static int paper_stroke(lua_State *L)
             recording_add(L, &d, text);
     }
     strokes_paint(L, paper, &d);
+    if (!brush->dipped)
+        script_note_once(L, SCRIPT_NOT_DIPPED,
+                         "stroke: this brush is dry, since it was not dipped; "
+                         "brush:dip{water = 1, ...} comes first");
     return 0;
 }
 
