@@ -104,7 +104,7 @@ static bool answer(struct script_map *map, lua_CFunction function, void *argumen
     lua_State *L = map->L;
     map->script.deadline_s = script_clock_s() + answer_s;
     map->script.memory_short = false;
-    map->script.stack_begin = (const char *)&L;
+    map->script.stack_begin = __builtin_frame_address(0);
     script_hook_set(L);
     script_watchdog_pause(&map->script, false);
     lua_pushcfunction(L, script_message);

@@ -142,7 +142,7 @@ enum script_status script_run(const struct script_config *config,
     struct script script = {.config = config, .host = host, .began_s = script_clock_s()},
                   *self = &script;
     char text[128];
-    script.stack_begin = text;
+    script.stack_begin = __builtin_frame_address(0);
     if (config->words_count > SCRIPT_WORDS_MAX) {
         snprintf(text, sizeof text, "a script takes up to %d key=value", SCRIPT_WORDS_MAX);
         script_error_tell(self, text);
