@@ -12,9 +12,11 @@
 
 #include <dlfcn.h>
 #include <execinfo.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/auxv.h>
 #include <unistd.h>
 
 #ifdef LUTETIA_HAS_LIBDW
@@ -124,17 +126,26 @@ static Dwarf_Line *line_of(Dwarf_Addr address)
     return module ? line_in(module, address) : NULL;
 }
 
-/* The address that the first function outside the library will return to; 0: none is found. */
+/* The address that the first function outside the library will return to; 0: none is found, or the
+ * library is part of the program. The uppermost frames may be a sanitizer's, which takes the place
+ * of backtrace(). */
 static uintptr_t caller_find(void)
 {
     void *frames[FRAMES];
-    Dl_info here, there;
+    Dl_info here, there, program;
     int count = backtrace(frames, FRAMES);
-    if (!dladdr(__extension__(void *) caller_find, &here))
+    bool inside = false;
+    if (!dladdr(__extension__(void *) caller_find, &here) ||
+        !dladdr((void *)(uintptr_t)getauxval(AT_ENTRY), &program) ||
+        program.dli_fbase == here.dli_fbase)
         return 0;
-    for (int i = 0; i < count; i++)
-        if (dladdr(frames[i], &there) && there.dli_fbase != here.dli_fbase)
+    for (int i = 0; i < count; i++) {
+        if (!dladdr(frames[i], &there))
+            continue;
+        if (inside && there.dli_fbase != here.dli_fbase)
             return (uintptr_t)frames[i];
+        inside = inside || there.dli_fbase == here.dli_fbase;
+    }
     return 0;
 }
 
