@@ -10,6 +10,9 @@
 
 /* An answer takes no longer, nor does the file's reading; and all of the map takes no more memory. */
 static const double answer_s = 0.1;
+/* A map that is cut off ends the performance, so it gets longer than a script: one call of C with much memory may take some
+ * seconds on a busy computer. */
+static const double grace_s = 10;
 static const size_t memory_bytes = (size_t)64 << 20;
 
 struct script_map {
@@ -184,6 +187,7 @@ static void map_configure(struct script_map *map, const struct script_map_def *d
     map->def = *def;
     map->config = script_config_default(def->path);
     map->config.timeout_s = answer_s;
+    map->config.grace_s = grace_s;
     map->config.memory_bytes = memory_bytes;
     map->config.words = def->words;
     map->config.words_count = def->words_count;
