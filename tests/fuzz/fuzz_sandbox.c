@@ -303,12 +303,13 @@ static bool stop(void *context)
 static void walked(uint64_t seed, time_t until)
 {
     struct walk w = {.random = sample_mixed(seed), .config = script_config_default("walk")};
-    const char begin = 0;
     w.config.in_folder = w.config.out_folder = scratch_dir;
     const struct script_host host = {.interrupted = stop};
     struct script *script = &w.script;
-    *script = (struct script){
-        .config = &w.config, .host = &host, .began_s = script_clock_s(), .stack_begin = &begin};
+    *script = (struct script){.config = &w.config,
+                              .host = &host,
+                              .began_s = script_clock_s(),
+                              .stack_begin = __builtin_frame_address(0)};
     lua_State *L = w.L = lua_newstate(script_allocate, script);
     memcpy(lua_getextraspace(L), &script, sizeof script);
     lua_pushcfunction(L, opened);
