@@ -60,6 +60,8 @@ int live_window(struct live *live, struct stage *stage, struct stage_window_def 
     if (status != STAGE_OK)
         return fail(live->verb, "%s", stage_error());
     live->window = window;
+    if (live->note[0])
+        tell(live->verb, "%s", live->note);
     if (live->source && live_source_by_computer(live->source))
         stage_window_say(window, "no MIDI server: the computer's keys play, from Z and from Q");
     while (status == STAGE_OK && stage_window_open(window) && !interrupted())

@@ -18,6 +18,7 @@ struct live {
     struct live_player *player;
     const char *verb;
     struct stage_window *window; /* where lines are said; NULL: standard error */
+    char note[400];              /* told once the window is open; empty: nothing */
 };
 
 /* song: NULL: live. lowest: the computer's lowest key. An exit status; what is wrong has been

@@ -343,7 +343,7 @@ static int window_sound(struct spring *s)
         return EXIT_SUCCESS;
     if (s->play)
         return fail("spring", "--play: %s", midi_error());
-    tell("spring", "the window is silent: %s", midi_error());
+    snprintf(s->live.note, sizeof s->live.note, "the window is silent: %s", midi_error());
     return EXIT_SUCCESS;
 }
 

@@ -24,7 +24,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { RATE_HZ = 48000, PITCH_HZ = 220, SECONDS = 3 };
+enum { RATE_HZ = 48000, PITCH_HZ = 220, SECONDS = 5 };
 
 static char socket_option[300], server_address[300];
 
@@ -117,42 +117,58 @@ static size_t hear(struct microphone *m, float *samples, size_t count)
     return at;
 }
 
+/* Plays, and hears two seconds from the sound's beginning on. The share of frames that have its pitch; 0: it did not come. */
+static double share_heard(struct microphone *m)
+{
+    enum { COUNT = 2 * RATE_HZ };
+    float *samples = calloc(COUNT, sizeof *samples);
+    struct voice_frame *frames = NULL;
+    int count = 0, right = 0;
+    const uint64_t lost = microphone_lost(m);
+    const double until_s = clock_now_s() + 10;
+    const pid_t player = player_begin();
+    bool came = false;
+    while (!came && clock_now_s() < until_s && hear(m, samples, 480) == 480)
+        came = fabsf(samples[100]) >= 0.01f || fabsf(samples[300]) >= 0.01f;
+    if (came && hear(m, samples, COUNT) == COUNT && microphone_lost(m) == lost) {
+        const struct voice_def def = voice_def_default();
+        assert_true(voice_frames(&def, samples, COUNT, RATE_HZ, &frames, &count));
+        for (int i = 10; i < count - 10; i++)
+            right +=
+                fabs(frames[i].pitch_hz - PITCH_HZ) < 0.02 * PITCH_HZ && frames[i].level > 0.1;
+    }
+    kill(player, SIGKILL);
+    waitpid(player, NULL, 0);
+    free(frames);
+    free(samples);
+    return count > 20 ? (double)right / (count - 20) : 0;
+}
+
+/* A busy machine may leave some out: then it is played again. */
 static void what_is_played_is_heard(void **unused)
 {
     (void)unused;
-    enum { COUNT = 2 * RATE_HZ };
     const pid_t pulseaudio = pulseaudio_begin();
     struct microphone *m = microphone_wait(pulseaudio);
+    float rest[480];
     if (!m) {
         print_message("no PulseAudio server can be started here\n");
         skip();
     }
-    float *samples = calloc(COUNT, sizeof *samples);
-    struct voice_frame *frames;
-    int count;
     assert_int_equal(microphone_rate_hz(m), RATE_HZ);
-    const pid_t player = player_begin();
-    do /* until it arrives */
-        assert_true(hear(m, samples, 480) == 480);
-    while (fabsf(samples[100]) < 0.01f && fabsf(samples[300]) < 0.01f);
-    assert_int_equal(hear(m, samples, COUNT), COUNT);
-    assert_int_equal(microphone_lost(m), 0);
-    const struct voice_def def = voice_def_default();
-    assert_true(voice_frames(&def, samples, COUNT, RATE_HZ, &frames, &count));
-    int right = 0;
-    for (int i = 10; i < count - 10; i++)
-        right += fabs(frames[i].pitch_hz - PITCH_HZ) < 0.02 * PITCH_HZ && frames[i].level > 0.1;
-    assert_true(right > 0.8 * (count - 20)); /* a busy machine may leave some out */
-    kill(player, SIGKILL);
-    waitpid(player, NULL, 0);
+    double share = 0;
+    for (int attempt = 0; attempt < 4 && share <= 0.8; attempt++) {
+        const double heard = share_heard(m);
+        print_message("%.0f%% of the frames were heard\n", 100 * heard);
+        share = heard > share ? heard : share;
+    }
+    assert_true(share > 0.8);
     kill(pulseaudio, SIGKILL);
     waitpid(pulseaudio, NULL, 0);
     const double until_s = clock_now_s() + 5;
     while (!microphone_gone(m) && clock_now_s() < until_s)
-        (void)microphone_take(m, samples, COUNT);
+        (void)microphone_take(m, rest, 480);
     assert_true(microphone_gone(m));
-    free(frames);
-    free(samples);
     microphone_close(m);
     while (waitpid(-1, NULL, WNOHANG) > 0)
         continue;
