@@ -1,5 +1,6 @@
 """totals.py TESTLOG.json: reads the log of `meson test` and prints `N passed, N failed[, N skipped]`.
 
+Before it, a line each: what failed, and what was skipped with its reason, the last line that it printed before it was.
 Counts the cases of cmocka programs, which have many each. Any other test counts as one, and so does a program that ended
 before its total. Ends with 1 if anything failed.
 """
@@ -29,6 +30,18 @@ def cases(test):
     return found
 
 
+def reason(test, name):
+    """The last line that the test, or this case of it, printed before it was skipped."""
+    text = test.get("stdout", "") if name else test.get("stdout", "") + "\n" + test.get("stderr", "")
+    if name:
+        begin = text.find("] " + name + "\n")
+        text = text[begin + len(name) + 3:]
+        end = re.search(r"^\[ *SKIPPED *\] " + name + "$", text, re.MULTILINE)
+        text = text[:end.start()] if end else text
+    said = [line.strip() for line in text.splitlines() if line.strip() and not line.startswith("[")]
+    return said[-1] if said else "no reason was printed"
+
+
 def main(path):
     totals = {"passed": 0, "failed": 0, "skipped": 0}
     with open(path, encoding="utf-8") as log:
@@ -38,6 +51,8 @@ def main(path):
                 totals[outcome] += 1
                 if outcome == "failed":
                     print("FAILED %s %s" % (test["name"], name))
+                elif outcome == "skipped":
+                    print("skipped %s: %s" % ((test["name"] + " " + name).strip(), reason(test, name)))
     skipped = ", %d skipped" % totals["skipped"] if totals["skipped"] else ""
     print("%d passed, %d failed%s" % (totals["passed"], totals["failed"], skipped))
     return 1 if totals["failed"] or not totals["passed"] else 0

@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "../skip.h"
 #include "harness.h"
 #include "peer.h"
 #include "peers.h"
@@ -39,7 +40,7 @@ static void peer_agrees(const char *script, const char *argument)
     struct bench_peer *p = bench_peer_start(&scene, script, argument, &missing);
 
     if (!p && missing)
-        skip();
+        skip_because("the peer is not installed");
     if (!p)
         fail_msg("%s", bench_error());
     struct diffusion_openmp *o = diffusion_openmp_create(&scene);
@@ -96,7 +97,7 @@ static void end_in_between_is_told(void **state)
 
     (void)state;
     if (!p) /* it may have ended before the scene was sent */
-        skip();
+        skip_because("the peer ended before the scene was sent");
     assert_false(bench_peer_steps(p, 1));
     assert_string_equal(bench_error(), "a peer in Python has ended");
     bench_peer_stop(p);

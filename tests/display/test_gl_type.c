@@ -9,6 +9,8 @@
 
 #include <cmocka.h>
 
+#include "../skip.h"
+
 #include <gl_offscreen.h>
 #include <gl_type.h>
 
@@ -145,9 +147,8 @@ static void pictures_are_as_painted(void **state)
     assert_int_equal(font_shaper_layout(s.shaper, frogs, strlen(frogs), 40, NULL, &s.layout),
                      FONT_OK);
     if (s.layout.missing_count) {
-        print_message("there is no font of pictures in colours (fonts-noto-color-emoji)\n");
         stage_close(&s);
-        skip();
+        skip_because("there is no font of pictures in colours (fonts-noto-color-emoji)");
     }
     const struct font_ink half = font_ink_plain(0.2, 0.4, 0, 0.5);
     s.layout.glyphs[5].ink = font_layout_ink_add(&s.layout, &half);

@@ -15,6 +15,7 @@
 #include <network.h>
 #include <step.h>
 
+#include "../skip.h"
 #include "sample.h"
 #include "thesis_oracle.h"
 
@@ -198,8 +199,7 @@ static void thesis_step_has_the_listings_bits(void **unused)
 static void thesis_step_has_the_listings_bits(void **unused)
 {
     (void)unused;
-    print_message("skipped: the thesis's text is not in ../shared/thesis.txt\n");
-    skip();
+    skip_because("the thesis's text is not in ../shared/thesis.txt");
 }
 #endif
 

@@ -1,5 +1,6 @@
 /* test_colour.c - glyphs with their own colours: pictures (Noto Color Emoji, where it is installed) and layers (a font made
  * here), beside glyphs without. */
+#include "../skip.h"
 #include "support.h"
 
 #include <drawing.h>
@@ -52,11 +53,10 @@ static void frog_lay(struct font_face *face, struct font_shaper **s, double size
     font_shaper_colour(*s);
     assert_font(font_shaper_layout(*s, frog, strlen(frog), size_px, NULL, l));
     if (l->missing_count) {
-        print_message("there is no font of pictures in colours (fonts-noto-color-emoji)\n");
         font_layout_finish(l);
         font_shaper_destroy(*s);
         font_face_close(face);
-        skip();
+        skip_because("there is no font of pictures in colours (fonts-noto-color-emoji)");
     }
 }
 

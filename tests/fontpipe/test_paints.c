@@ -1,5 +1,6 @@
 /* test_paints.c - graphs of paints (COLR 1) and SVG in fonts made here, beside what their colours must be by their
  * definitions. */
+#include "../skip.h"
 #include "support.h"
 
 #include "made_font.h"
@@ -395,9 +396,8 @@ static void svg_is_drawn(void **state)
     const struct made_table tables[] = {{"SVG ", table, made_svg(text, base, base, table)}};
     struct font_face *face = face_make(tables, 1);
     if (font_colour_of(face, base) != FONT_COLOUR_SVG) {
-        print_message("there is no librsvg\n");
         font_face_close(face);
-        skip();
+        skip_because("there is no librsvg");
     }
     assert_int_equal(font_colour_of(face, letter), FONT_COLOUR_NONE);
     draw(0, face, base, NULL, 1);

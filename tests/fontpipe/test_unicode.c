@@ -1,5 +1,6 @@
 /* test_unicode.c - compares directions and line breaks with Unicode's test files (Debian's unicode-data), and shaping with
  * hb-shape (libharfbuzz-bin). Skips the cases where these are not installed. */
+#include "../skip.h"
 #include "support.h"
 
 #include <text.h>
@@ -41,7 +42,7 @@ static void directions_are_unicodes(void **state)
     char line[LINE_MAX_BYTES];
     long cases = 0, wrong = 0;
     if (!file)
-        skip();
+        skip_because("unicode-data is not installed");
     while (fgets(line, sizeof line, file)) {
         int characters[CHARACTERS], direction[2], wanted_base[2], levels[CHARACTERS],
             order[CHARACTERS], base;
@@ -131,7 +132,7 @@ static void line_ends_are_unicodes(void **state)
     if (!file || !font_breaks_by_icu(NULL, 0, "en", breaks)) {
         if (file)
             fclose(file);
-        skip();
+        skip_because("unicode-data or ICU is not installed");
     }
     while (fgets(line, sizeof line, file)) {
         uint32_t text[CHARACTERS];
@@ -181,7 +182,7 @@ static void plain_text_needs_no_icu(void **state)
     uint32_t seed = 14, text[16];
     char plain[16], icu[16];
     if (!font_breaks_by_icu(NULL, 0, "en", icu))
-        skip();
+        skip_because("ICU is not installed");
     for (int n = 0; n < 300000; n++) {
         int count = 1 + (int)(random_next(&seed) % 12);
         for (int i = 0; i < count; i++) {
@@ -232,7 +233,7 @@ static void words_of_south_east_asia_are_found(void **state)
         while (at < end)
             assert_true(font_utf8_next(&at, end, &text[n++]));
         if (!font_breaks_by_icu(text, n, cases[c].language, breaks))
-            skip();
+            skip_because("ICU is not installed");
         assert_true(font_breaks_find(text, n, cases[c].language, breaks));
         for (int i = 0; i + 1 < n; i++) {
             bool wanted = false;
@@ -275,7 +276,7 @@ static void glyphs_are_hb_shapes(void **state)
         if (pclose(pipe) != 0 || !bytes) {
             font_shaper_destroy(s);
             font_face_close(face);
-            skip();
+            skip_because("hb-shape is not installed");
         }
         assert_font(font_shaper_layout(s, cases[i].text, strlen(cases[i].text),
                                        info.units_per_em, NULL, &l));

@@ -1,5 +1,6 @@
 /* test_words.c - what another program reads in our PDF are the words that were set: where lines go to the left, where letters change places, where
  * words are divided. */
+#include "../skip.h"
 #include "support.h"
 
 #include <drawing.h>
@@ -125,7 +126,7 @@ static void words_come_back(void **state)
 {
     (void)state;
     if (system("command -v pdftotext >/dev/null"))
-        skip();
+        skip_because("pdftotext is not installed");
     for (int n = 0; n < (int)(sizeof cases / sizeof *cases); n++) {
         static char want[20000], have[20000];
         bool whole;

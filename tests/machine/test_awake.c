@@ -16,6 +16,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "../skip.h"
 #include "base/awake.h"
 #include "base/clock.h"
 
@@ -77,7 +78,7 @@ static void threads_are_last_and_end(void **unused)
     if (processors() < 2)
         assert_null(a);
     if (!a || !is_allowed()) /* there are more processors than it is for */
-        skip();
+        skip_because("this is not for so many processors, or so few");
     assert_int_equal(threads_last(), 0);
     awake_for(a, 30);
     double deadline = clock_s() + 20;
@@ -96,7 +97,7 @@ static void after_that_nobody_looks(void **unused)
     (void)unused;
     struct awake *a = awake_create(NULL, true);
     if (!a)
-        skip();
+        skip_because("this is not for so many processors, or so few");
     for (int turn = 0; turn < 3; turn++) {
         awake_for(a, 30);
         pause_s(0.02);
@@ -119,7 +120,7 @@ static void a_child_has_no_threads(void **unused)
     (void)unused;
     struct awake *a = awake_create(NULL, true);
     if (!a)
-        skip();
+        skip_because("this is not for so many processors, or so few");
     awake_for(a, 30);
     pid_t child = fork();
     if (!child) {
@@ -163,7 +164,7 @@ static void the_system_is_asked_and_told_when_it_is_over(void **unused)
     assert_true(file >= 0);
     struct awake *a = awake_create(path, false);
     if (!a) /* there are other numbers of processors than it is for */
-        skip();
+        skip_because("this is not for so many processors, or so few");
     assert_int_equal(asked(file), -1);
     awake_for(a, 30);
     assert_int_equal(asked(file), 0);

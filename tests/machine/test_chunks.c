@@ -1,5 +1,6 @@
 /* test_chunks.c - arrays that are parts of chunks, beside those that have memory of their own: none overlaps another, each begins where
  * it should, and commands see what the front end has written. */
+#include "../skip.h"
 #include "support.h"
 
 #include "base/parts.h"
@@ -38,7 +39,7 @@ static void arrays_overlap_nowhere(void **unused)
     struct machine *m = support_machine(0);
     struct array arrays[ARRAYS] = {{0}};
     if (!m->device->is_pocl)
-        skip();
+        skip_because("the device is not PoCL's");
     srand(5);
     for (int round = 0; round < ROUNDS; round++) {
         struct array *a = &arrays[rand() % ARRAYS];
@@ -70,7 +71,7 @@ static void commands_see_the_same_memory(void **unused)
     (void)unused;
     struct machine *m = support_machine(0);
     if (!m->device->is_pocl)
-        skip();
+        skip_because("the device is not PoCL's");
     for (int i = 0; i < KINDS; i++) {
         const struct rows rows = {sizes[i], 0};
         struct device_buffer *from = device_rows_get(m, rows), *to = device_rows_get(m, rows);

@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <sys/resource.h>
 
+#include "../skip.h"
 #include "base/code_pages.h"
 
 enum { PAGE_BYTES = 4096 };
@@ -63,7 +64,7 @@ static void fetched_pages_are_there(void **unused)
     struct code_range r[CODE_RANGES_MOST];
     code_pages_begin(&fetching);
     if (!fetching.begun)
-        skip(); /* one processor */
+        skip_because("there is one processor only");
     aside_end(&fetching);
     const int count = code_pages_find(64 << 10, r);
     const long before = faults();

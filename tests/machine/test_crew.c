@@ -15,6 +15,7 @@
 
 #include <cmocka.h>
 
+#include "../skip.h"
 #include "base/clock.h"
 #include "base/crew.h"
 
@@ -216,8 +217,7 @@ static void short_work_is_not_shared_out_between_threads_apart(void **unused)
         crew_meet(crew);
         if (!trip_measured(crew)) {
             crew_destroy(crew);
-            print_message("no thread looked for work while the caller ran: skipped\n");
-            skip();
+            skip_because("no thread looked for work while the caller ran");
         }
         bool alone = false;
         for (int i = 0; i < 100 && !alone; i++) { /* until the measurement is a new one */

@@ -2,6 +2,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "../skip.h"
 #include "base/arrays.h"
 #include "support.h"
 
@@ -256,7 +257,7 @@ static void no_memory_for_tables_ends_with_a_line(void **state)
 {
     (void)state;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    skip(); /* they report what cannot be allocated by themselves */
+    skip_because("a sanitizer reports by itself what cannot be allocated");
 #endif
     char said[200] = "";
     int ends[2], status;

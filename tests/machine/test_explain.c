@@ -1,5 +1,6 @@
 /* test_explain.c - machine_explain() on programs whose kernels, bytes and values that are never stored are known by
  * hand. */
+#include "../skip.h"
 #include "machine_explained.h"
 #include "support.h"
 
@@ -267,7 +268,7 @@ static void strips_keep_rows_in_no_array(void **state)
     v = machine_unary(machine, MACHINE_FLN, v);
     const struct machine_explained_kernel *k = neighbours_of(v);
     if (k->stages == 1)
-        skip(); /* a device without vectors has no strips */
+        skip_because("this device has no vectors, so no strips");
     assert_is_kept_near(k);
     assert_int_equal(k->plan.chosen, MACHINE_PLAN_STRIPS);
     assert_true(k->predicted_s > 0 && k->plan.cost_s[MACHINE_PLAN_ROWS] > 0);
@@ -380,7 +381,7 @@ static void bound_is_measured_when_asked_for(void **state)
     assert_non_null(x);
     assert_int_equal(x->kernels_count, 1); /* copies are not counted as its own */
     if (!x->kernels[0].runs_timed)
-        skip(); /* a device without timestamps */
+        skip_because("this device has no timestamps");
     assert_true(x->kernels[0].copy_s > 0);
     assert_int_equal(x->copy_bytes, 12 * COUNT);
     assert_true(x->copy_bytes_per_s > 1e6 && x->copy_bytes_per_s < 1e13);

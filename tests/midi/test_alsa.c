@@ -1,5 +1,6 @@
 /* test_alsa.c - the server's port of ALSA's sequencer. Where libasound.so.2 is sequencer_twin.c, messages go to a port and
  * come back. With the real library and a kernel without a sequencer, the device reports that. */
+#include "../skip.h"
 #include "server_support.h"
 
 #include <setjmp.h>
@@ -54,7 +55,7 @@ static void messages_go_through_the_sequencer(void **unused)
     enum { PIECES = 21 }; /* more than the server's coder holds */
     struct midi_message m, piece;
     if (!library_installed())
-        skip();
+        skip_because("libasound is not installed");
     struct served s = served_begin((const char *[]){"seq=alsa:20:0", NULL}, 0, NULL);
     struct midi_client *c = client_of(&s, "listener", "");
     wait_up(c, "seq");
@@ -92,7 +93,7 @@ static void a_port_that_goes_is_connected_again(void **unused)
     (void)unused;
     const struct midi_message unplugs = midi_message_make(0, 0x90, 127, 127);
     if (!library_installed())
-        skip();
+        skip_because("libasound is not installed");
     struct served s = served_begin((const char *[]){"seq=alsa:20:0", NULL}, 0, NULL);
     struct midi_client *c = client_of(&s, "listener", "");
     wait_up(c, "seq");
@@ -113,7 +114,7 @@ static void a_port_that_is_not_there_is_named(void **unused)
     (void)unused;
     char text[1000];
     if (!library_installed())
-        skip();
+        skip_because("libasound is not installed");
     struct served s =
         served_begin((const char *[]){"seq=alsa:Piano", "open=alsa", NULL}, 0, NULL);
     struct midi_client *c = client_of(&s, "look", NULL);
@@ -130,7 +131,7 @@ static void without_a_sequencer_that_is_said(void **unused)
     (void)unused;
     char text[1000];
     if (!library_installed() || access("/dev/snd/seq", F_OK) == 0)
-        skip();
+        skip_because("libasound is not installed, or there is a sequencer");
     struct served s = served_begin((const char *[]){"alsa", NULL}, 0, NULL);
     struct midi_client *c = client_of(&s, "look", NULL);
     assert_int_equal(midi_client_command(c, "devices", text, sizeof text), MIDI_OK);

@@ -15,6 +15,7 @@
 
 #include "../display/scratch.h"
 #include "../lutetia/child.h"
+#include "../skip.h"
 #include "server_support.h"
 #include "wav.h"
 
@@ -67,7 +68,7 @@ static void films_sound_when_letters_hit(void **unused)
     int events_count;
     double heard_s[32];
     if (!able())
-        skip();
+        skip_because("FluidSynth or a SoundFont is not installed");
     const double first_s = first_clank_s(SECONDS, &events_count);
     assert_true(first_s > 0 && events_count > 3);
     char still[300], sound[300];
@@ -98,7 +99,7 @@ static void songs_are_rendered(void **unused)
     (void)unused;
     double heard_s[8];
     if (!able())
-        skip();
+        skip_because("FluidSynth or a SoundFont is not installed");
     char song_path[300], sound[300];
     snprintf(song_path, sizeof song_path, "%s", scratch_path("song.mid"));
     snprintf(sound, sizeof sound, "%s", scratch_path("song.wav"));
@@ -145,7 +146,7 @@ static void letters_and_sound_come_together(void **unused)
     enum { FPS = 30, WIDTH = 96, HEIGHT = 48 };
     double heard_s[8];
     if (!able() || system("command -v ffmpeg >/dev/null") != 0)
-        skip();
+        skip_because("FluidSynth, a SoundFont or ffmpeg is not installed");
     char song_path[300], film[300], raw[300], sound[300], command[1400];
     snprintf(song_path, sizeof song_path, "%s", scratch_path("keys.mid"));
     snprintf(film, sizeof film, "%s", scratch_path("keys.mp4"));
@@ -185,7 +186,7 @@ static void a_device_sounds(void **unused)
     double heard_s[8];
     char device[320], sound[300];
     if (!able())
-        skip();
+        skip_because("FluidSynth or a SoundFont is not installed");
     snprintf(sound, sizeof sound, "%s", scratch_path("live.wav"));
     snprintf(device, sizeof device, "synth=sound:%s", sound);
     struct served s = served_begin((const char *[]){device, NULL}, 0, NULL);

@@ -13,6 +13,7 @@
 #include <jack_library.h>
 #include <midi_time.h>
 
+#include "../skip.h"
 #include "server_support.h"
 
 #include <fcntl.h>
@@ -74,16 +75,14 @@ static void messages_go_through_jack(void **unused)
     setenv("JACK_DEFAULT_SERVER", server_name, 1);
     setenv("JACK_NO_START_SERVER", "1", 1);
     if (jack_load(&jack) != MIDI_OK) {
-        print_message("%s\n", midi_error());
-        skip();
+        skip_because("%s", midi_error());
     }
     const pid_t jackd = jackd_begin();
     void *patch = jack_client(jack, jackd);
     if (!patch) {
         kill(jackd, SIGKILL);
         waitpid(jackd, NULL, 0);
-        print_message("no JACK server can be started here\n");
-        skip();
+        skip_because("no JACK server can be started here");
     }
     struct served s = served_begin((const char *[]){"jack", NULL}, 0, NULL);
     struct midi_client *c = client_of(&s, "listener", "");
@@ -131,7 +130,7 @@ static void without_a_server_that_is_said(void **unused)
     char text[1000];
     setenv("JACK_DEFAULT_SERVER", "lutetia-none", 1);
     if (jack_load(&jack) != MIDI_OK)
-        skip();
+        skip_because("%s", midi_error());
     struct served s = served_begin((const char *[]){"jack", NULL}, 0, NULL);
     struct midi_client *c = client_of(&s, "look", NULL);
     assert_int_equal(midi_client_command(c, "devices", text, sizeof text), MIDI_OK);

@@ -12,6 +12,7 @@
 
 #include "../display/scratch.h"
 #include "../sample.h"
+#include "../skip.h"
 #include "song_support.h"
 #include "taken.h"
 
@@ -319,8 +320,7 @@ static void others_read_what_we_write(void **unused)
     (void)unused;
     char command[2000], csv[400], mid[400], back[400];
     if (!have("midicsv") || !have("csvmidi")) {
-        print_message("midicsv is not installed\n");
-        skip();
+        skip_because("midicsv is not installed");
     }
     struct midi_song *song = plain_song(40), *theirs;
     snprintf(mid, sizeof mid, "%s", scratch_path("ours.mid"));
@@ -351,8 +351,7 @@ static void fluidsynth_plays_what_we_write(void **unused)
     static const char font[] = "/usr/share/sounds/sf2/TimGM6mb.sf2";
     char command[2000], wav[600], mid[600];
     if (!have("fluidsynth") || access(font, R_OK) != 0) {
-        print_message("fluidsynth or its SoundFont is not installed\n");
-        skip();
+        skip_because("fluidsynth or its SoundFont is not installed");
     }
     struct midi_song *song = plain_song(8);
     snprintf(mid, sizeof mid, "%s", scratch_path("played.mid"));
@@ -382,8 +381,7 @@ static void we_read_what_others_write(void **unused)
     static const char folder[] = "/usr/share/doc/abcmidi/examples";
     char command[2000];
     if (!have("abc2midi") || access(folder, R_OK) != 0) {
-        print_message("abcmidi is not installed, or its examples are not\n");
-        skip();
+        skip_because("abcmidi is not installed, or its examples are not");
     }
     (void)scratch_path("x");
     snprintf(command, sizeof command,

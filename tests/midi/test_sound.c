@@ -14,6 +14,7 @@
 #include <sound_events.h>
 
 #include "../display/scratch.h"
+#include "../skip.h"
 #include "wav.h"
 
 #include <math.h>
@@ -45,7 +46,7 @@ static void bounces_are_onsets(void **unused)
 {
     (void)unused;
     if (!able())
-        skip();
+        skip_because("FluidSynth or a SoundFont is not installed");
     static const double starts_s[2] = {0.1, 0.3337};
     for (int kind = 0; kind < SOUND_KINDS; kind++)
         for (int start = 0; start < 2; start++) {
@@ -89,7 +90,7 @@ static void the_same_song_is_the_same_sound(void **unused)
 {
     (void)unused;
     if (!able())
-        skip();
+        skip_because("FluidSynth or a SoundFont is not installed");
     struct wav w[2];
     for (int i = 0; i < 2; i++) {
         struct sound_def def = sound_def_default();
@@ -131,7 +132,7 @@ static void what_is_missing_is_named(void **unused)
     def.rate_hz = 1;
     assert_int_equal(sound_create(&def, &sound), MIDI_BAD_ARGUMENT);
     if (fluid_load(&fluid) != MIDI_OK)
-        skip();
+        skip_because("FluidSynth is not installed");
     const char *text = scratch_path("font.sf2");
     FILE *file = fopen(text, "w");
     fputs("no font", file);
@@ -141,7 +142,7 @@ static void what_is_missing_is_named(void **unused)
     assert_int_equal(sound_create(&def, &sound), MIDI_NO_DEVICE);
     assert_non_null(strstr(midi_error(), "no SoundFont, or a damaged one"));
     if (!able())
-        skip();
+        skip_because("there is no SoundFont");
     struct midi_song *song = sound_events_song();
     def.font = NULL;
     assert_int_equal(sound_render(&def, song, 1, "/nowhere/out.wav"), MIDI_IO_FAILED);

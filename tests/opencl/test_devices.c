@@ -1,5 +1,6 @@
 /* Devices: a number or part of a name chooses one. Each of PoCL's threads is bound to a processor unless the environment says
  * otherwise. (security.md 15) */
+#include "../skip.h"
 #include "devices.h"
 
 #include <setjmp.h>
@@ -126,8 +127,7 @@ static void threads_have_a_processor_each_unless_told(void **state)
     assert_int_equal(0, sched_getaffinity(0, sizeof ours, &ours));
     long processors = sysconf(_SC_NPROCESSORS_CONF);
     if (processors < 2 || CPU_COUNT(&ours) != processors) {
-        print_message("one processor, or not all are ours: skipped\n");
-        skip();
+        skip_because("one processor, or not all are ours");
     }
     assert_int_equal(1, tied_in_child(NULL, NULL, false));
     assert_int_equal(0, tied_in_child("POCL_AFFINITY", "0", false));

@@ -13,6 +13,7 @@
 
 #include "../display/scratch.h"
 #include "../lutetia/child.h"
+#include "../skip.h"
 #include "clock.h"
 #include "xvfb.h"
 
@@ -267,13 +268,13 @@ static void sound_goes_through_jack(void **unused)
     snprintf(server_name, sizeof server_name, "lutetia-v%d", (int)getpid());
     setenv("JACK_DEFAULT_SERVER", server_name, 1);
     if (jack_load(&player.jack) != MIDI_OK)
-        skip();
+        skip_because("%s", midi_error());
     const pid_t jackd = jackd_begin();
     if (!player_begin(jackd)) {
         kill(jackd, SIGKILL);
         waitpid(jackd, NULL, 0);
         leftovers_remove();
-        skip();
+        skip_because("no JACK server can be started here");
     }
     what_is_played_is_heard();
     recordings_become_pictures();

@@ -11,6 +11,7 @@
 #include <voice.h>
 
 #include "../display/scratch.h"
+#include "../skip.h"
 #include "clock.h"
 
 #include <fcntl.h>
@@ -152,8 +153,7 @@ static void what_is_played_is_heard(void **unused)
     struct microphone *m = microphone_wait(pulseaudio);
     float rest[480];
     if (!m) {
-        print_message("no PulseAudio server can be started here\n");
-        skip();
+        skip_because("no PulseAudio server can be started here");
     }
     assert_int_equal(microphone_rate_hz(m), RATE_HZ);
     double share = 0;
