@@ -252,8 +252,8 @@ static int record_loop(const struct midi_verb *v, struct midi_client *client,
         if (midi_client_next(client, LOOK_MS, &e) != MIDI_OK)
             return fail_midi(v);
         if (e.kind == MIDI_CLIENT_LOST || e.kind == MIDI_CLIENT_GONE)
-            fprintf(stderr, "lutetia %s: %s\n", v->name,
-                    e.kind == MIDI_CLIENT_LOST ? "some messages were lost" : e.text);
+            tell(v->name, "%s",
+                 e.kind == MIDI_CLIENT_LOST ? "some messages were lost" : e.text);
         if (e.kind != MIDI_CLIENT_MESSAGE)
             continue;
         enum midi_status status = MIDI_OK;

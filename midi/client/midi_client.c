@@ -2,6 +2,7 @@
  * command waits for its reply, other frames are queued, too. */
 #include "midi_client.h"
 #include "midi_connect.h"
+#include "midi_proof.h"
 #include "midi_wire.h"
 
 #include <midi_internal.h>
@@ -34,6 +35,7 @@ struct midi_client {
     char name[NAME_MAX_BYTES], address[256], token[128];
     bool usual, stays;
     int file; /* -1: gone */
+    int port; /* TCP; 0: a socket whose owner was checked */
     uint64_t retry_ns;
     uint8_t in[MIDI_WIRE_HEAD + MIDI_WIRE_REPLY_MAX + 16384];
     size_t in_count;
@@ -47,9 +49,15 @@ struct midi_client {
     /* the command whose reply is awaited */
     uint32_t command, sent;
     bool welcome, replied, refused;
+    /* while it connects over TCP: what the server asked, and must show */
+    bool challenged, shown;
+    char challenge[MIDI_PROOF_DIGITS + 1];
+    struct midi_proof proof;
     char *reply;
     size_t reply_room;
     char farewell[160]; /* the server's last message */
+    char why[160];      /* the connection ended before the welcome, ... */
+    bool strange;       /* ... for who answered is no server */
 };
 
 struct midi_client_def midi_client_def_default(const char *name)
@@ -122,6 +130,10 @@ static void gone(struct midi_client *c, const char *why)
     close(c->file);
     c->file = -1;
     c->in_count = 0;
+    if (!c->welcome) { /* connect_to() tells it */
+        snprintf(c->why, sizeof c->why, "%s", why);
+        return;
+    }
     c->retry_ns = midi_now_ns() + RETRY_MS * UINT64_C(1000000);
     for (int i = 0; i < MIDI_WIRE_DEVICES; i++) {
         struct released r = {c, i};
@@ -158,10 +170,38 @@ static void device_take(struct midi_client *c, const struct midi_wire_frame *f)
     memcpy(e->text, text, sizeof text);
 }
 
+static bool challenge_take(struct midi_client *c, const struct midi_wire_frame *f)
+{
+    if (!c->port || c->challenged || f->count != MIDI_PROOF_DIGITS)
+        return false;
+    payload_text(f, c->challenge, sizeof c->challenge);
+    c->challenged = strlen(c->challenge) == MIDI_PROOF_DIGITS;
+    return c->challenged;
+}
+
+/* Over TCP, who welcomes must know the token. */
+static bool welcome_take(struct midi_client *c, const struct midi_wire_frame *f)
+{
+    char text[sizeof MIDI_PROOF_GREETING "\n" + MIDI_PROOF_DIGITS];
+    static const char proved[] = MIDI_PROOF_GREETING "\n";
+    payload_text(f, text, sizeof text);
+    if (c->welcome || f->count != strlen(text))
+        return false;
+    if (!c->port)
+        c->welcome = !strcmp(text, MIDI_WIRE_GREETING);
+    else
+        c->welcome = c->shown && !strncmp(text, proved, sizeof proved - 1) &&
+                     midi_proof_right(&c->proof, c->token, "server", text + sizeof proved - 1);
+    return c->welcome;
+}
+
 /* Handles a frame. False: it was malformed, or the server ends the connection. */
 static bool frame_take(struct midi_client *c, const struct midi_wire_frame *f)
 {
     struct midi_client_event *e;
+    if (!c->welcome && f->kind != MIDI_WIRE_CHALLENGE && f->kind != MIDI_WIRE_WELCOME &&
+        f->kind != MIDI_WIRE_ERROR)
+        return false; /* nothing is believed before */
     switch (f->kind) {
     case MIDI_WIRE_MIDI:
         e = event_add(c);
@@ -185,10 +225,10 @@ static bool frame_take(struct midi_client *c, const struct midi_wire_frame *f)
             e->lost = f->number;
         }
         return true;
+    case MIDI_WIRE_CHALLENGE:
+        return challenge_take(c, f);
     case MIDI_WIRE_WELCOME:
-        c->welcome = f->count == strlen(MIDI_WIRE_GREETING) &&
-                     !memcmp(f->payload, MIDI_WIRE_GREETING, f->count);
-        return c->welcome;
+        return welcome_take(c, f);
     case MIDI_WIRE_REPLY:
     case MIDI_WIRE_ERROR:
         if (f->number != c->command && f->number)
@@ -205,6 +245,15 @@ static bool frame_take(struct midi_client *c, const struct midi_wire_frame *f)
     }
 }
 
+static const char *stranger(struct midi_client *c)
+{
+    c->strange = true;
+    return c->port && !c->welcome
+               ? "what answers there has not shown that it knows the token; it may be another "
+                 "user's"
+               : "what answers there is no MIDI server";
+}
+
 /* Takes the frames that have come, and calls gone() if they are malformed. */
 static void frames_take(struct midi_client *c)
 {
@@ -212,11 +261,11 @@ static void frames_take(struct midi_client *c)
     size_t at = 0;
     for (size_t used; (used = midi_wire_read(c->in + at, c->in_count - at, &f)); at += used)
         if (!frame_take(c, &f)) {
-            gone(c, "what answers there is no MIDI server");
+            gone(c, stranger(c));
             return;
         }
     if (!at && c->in_count == sizeof c->in) {
-        gone(c, "what answers there is no MIDI server");
+        gone(c, stranger(c));
         return;
     }
     memmove(c->in, c->in + at, c->in_count - at);
@@ -260,6 +309,12 @@ static bool wait_for(struct midi_client *c, short events, uint64_t until_ns)
 
 /* ---- what is sent ---- */
 
+static enum midi_status gone_fail(const struct midi_client *c)
+{
+    return midi_fail(c->strange ? MIDI_REFUSED : MIDI_NO_SERVER, "%s",
+                     c->why[0] ? c->why : "the server is gone");
+}
+
 static enum midi_status frame_send(struct midi_client *c, const struct midi_wire_frame *f)
 {
     uint8_t bytes[MIDI_WIRE_HEAD + MIDI_WIRE_TEXT_MAX];
@@ -275,7 +330,7 @@ static enum midi_status frame_send(struct midi_client *c, const struct midi_wire
         else if (errno != EINTR)
             refused(c, errno);
     }
-    return c->file >= 0 ? MIDI_OK : midi_fail(MIDI_NO_SERVER, "the server is gone");
+    return c->file >= 0 ? MIDI_OK : gone_fail(c);
 }
 
 static enum midi_status text_send(struct midi_client *c, uint8_t kind, const char *text)
@@ -312,8 +367,9 @@ static enum midi_status reply_wait(struct midi_client *c, const bool *done, cons
                          text[0] ? text : "the server refuses, and does not say why");
     if (*done)
         return MIDI_OK;
-    return midi_fail(MIDI_NO_SERVER,
-                     c->file < 0 ? "the server is gone" : "the server does not answer");
+    if (c->file >= 0)
+        return midi_fail(MIDI_NO_SERVER, "the server does not answer");
+    return gone_fail(c);
 }
 
 static enum midi_status command(struct midi_client *c, const char *text, char *reply,
@@ -347,21 +403,48 @@ static enum midi_status listen_say(struct midi_client *c, const struct listen_to
 
 /* ---- connecting ---- */
 
-static enum midi_status connect_to(struct midi_client *c)
+/* Says hello; over TCP, shows that the token is known, and asks the server to. *why: room for its refusal. */
+static enum midi_status greet(struct midi_client *c, const char *why)
 {
-    char hello[400], why[200] = "";
-    enum midi_status status = midi_connect(c->usual ? NULL : c->address, &c->file);
-    if (status != MIDI_OK)
-        return status;
-    snprintf(hello, sizeof hello, "%s\n%s\n%s", MIDI_WIRE_GREETING, c->name, c->token);
-    c->in_count = 0;
-    c->farewell[0] = '\0';
-    c->welcome = false;
-    c->reply = why;
-    c->reply_room = sizeof why;
+    char hello[400], nonce[MIDI_PROOF_DIGITS + 1], code[MIDI_PROOF_DIGITS + 1];
+    enum midi_status status;
+    if (!c->port) {
+        snprintf(hello, sizeof hello, "%s\n%s\n", MIDI_WIRE_GREETING, c->name);
+        status = text_send(c, MIDI_WIRE_HELLO, hello);
+        return status == MIDI_OK || c->refused ? reply_wait(c, &c->welcome, why) : status;
+    }
+    if (!c->token[0])
+        return midi_fail(MIDI_REFUSED,
+                         "%s: over TCP a server wants its token "
+                         "(LUTETIA_MIDI_TOKEN)",
+                         c->address);
+    if (!midi_proof_nonce(nonce))
+        return midi_fail(MIDI_IO_FAILED, "no random numbers: %s", strerror(errno));
+    snprintf(hello, sizeof hello, "%s\n%s\n%s", MIDI_PROOF_GREETING, c->name, nonce);
     status = text_send(c, MIDI_WIRE_HELLO, hello);
     if (status == MIDI_OK || c->refused)
-        status = reply_wait(c, &c->welcome, why);
+        status = reply_wait(c, &c->challenged, why);
+    if (status != MIDI_OK)
+        return status;
+    midi_proof_begin(&c->proof, c->port, hello, c->challenge);
+    midi_proof_code(&c->proof, c->token, "client", code);
+    c->shown = true;
+    status = text_send(c, MIDI_WIRE_PROOF, code);
+    return status == MIDI_OK || c->refused ? reply_wait(c, &c->welcome, why) : status;
+}
+
+static enum midi_status connect_to(struct midi_client *c)
+{
+    char why[200] = "";
+    enum midi_status status = midi_connect(c->usual ? NULL : c->address, &c->file, &c->port);
+    if (status != MIDI_OK)
+        return status;
+    c->in_count = 0;
+    c->farewell[0] = c->why[0] = '\0';
+    c->welcome = c->challenged = c->shown = c->strange = false;
+    c->reply = why;
+    c->reply_room = sizeof why;
+    status = greet(c, why);
     c->reply_room = 0;
     for (int i = 0; status == MIDI_OK && i < c->listens_count; i++)
         status = listen_say(c, &c->listens[i]);

@@ -41,7 +41,8 @@ static enum midi_status unix_connect(const char *path, int *file)
     return MIDI_OK;
 }
 
-static enum midi_status tcp_connect(const char *address, const char *port_text, int *file)
+static enum midi_status tcp_connect(const char *address, const char *port_text, int *file,
+                                    int *port_out)
 {
     struct sockaddr_in name = {.sin_family = AF_INET};
     const bool local =
@@ -52,6 +53,7 @@ static enum midi_status tcp_connect(const char *address, const char *port_text, 
     if (!local || *end || port < 1 || port > 65535)
         return midi_fail(MIDI_BAD_ARGUMENT,
                          "%s: an address is a socket's path, or 127.0.0.1:PORT", address);
+    *port_out = (int)port;
     name.sin_port = htons((uint16_t)port);
     name.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     *file = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
@@ -61,12 +63,13 @@ static enum midi_status tcp_connect(const char *address, const char *port_text, 
     return MIDI_OK;
 }
 
-enum midi_status midi_connect(const char *address, int *file)
+enum midi_status midi_connect(const char *address, int *file, int *port_out)
 {
     char usual[108];
     const char *why;
     enum midi_status status;
     *file = -1;
+    *port_out = 0;
     if (!address) {
         if (!midi_wire_usual_path(usual, &why))
             return midi_fail(MIDI_REFUSED, "%s: %s", usual, why);
@@ -74,7 +77,7 @@ enum midi_status midi_connect(const char *address, int *file)
     }
     const char *port = strrchr(address, ':');
     if (address[0] != '/' && address[0] != '.' && port)
-        status = tcp_connect(address, port + 1, file);
+        status = tcp_connect(address, port + 1, file, port_out);
     else
         status = unix_connect(address, file);
     if (status != MIDI_OK && *file >= 0) {

@@ -27,11 +27,12 @@ enum {
 
 enum midi_wire_kind {
     MIDI_WIRE_HELLO =
-        1, /* client: the greeting, a line with its name, a line with the token (TCP) */
+        1, /* client: the greeting, a line with its name; over TCP, see midi_proof.h */
     MIDI_WIRE_COMMAND = 2, /* client: words; number: chosen by the client, and repeated in
                             * the reply */
     MIDI_WIRE_MIDI =
         3, /* both: a message to or from the device; number: counts a client's messages from 0 */
+    MIDI_WIRE_PROOF = 4,    /* client, over TCP: it knows the token */
     MIDI_WIRE_WELCOME = 16, /* server: the greeting */
     MIDI_WIRE_DEVICE =
         17, /* server: a device exists, has come or gone: "NAME KIND in|out|in,out up|down" */
@@ -39,7 +40,8 @@ enum midi_wire_kind {
         18, /* server: the client was too slow, and `number` messages were dropped */
     MIDI_WIRE_REPLY = 19, /* server: the answer to a command */
     MIDI_WIRE_ERROR =
-        20 /* server: a command was wrong (its number), or (device 0) the connection ends */
+        20, /* server: a command was wrong (its number), or (number 0) the connection ends */
+    MIDI_WIRE_CHALLENGE = 21 /* server, over TCP: what the proofs are of */
 };
 
 struct midi_wire_frame {

@@ -10,7 +10,6 @@
 
 #include <errno.h>
 #include <sched.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,19 +17,6 @@
 #include <unistd.h>
 
 enum { HOUSEKEEPING_MS = 500, REAL_TIME_PRIORITY = 40 };
-
-__attribute__((format(printf, 2, 3))) static void tell(struct midi_server *s,
-                                                       const char *format, ...)
-{
-    char line[400];
-    va_list arguments;
-    if (!s->log)
-        return;
-    va_start(arguments, format);
-    vsnprintf(line, sizeof line, format, arguments);
-    va_end(arguments);
-    s->log(s->context, line);
-}
 
 /* ---- devices ---- */
 
@@ -45,7 +31,8 @@ static void device_announce(const struct midi_server *s, struct server_client *c
 static void device_changed(struct server_device *d)
 {
     struct midi_server *s = d->owner;
-    tell(s, d->up ? "device %s is there" : "device %s is away: %s", d->name, d->why);
+    log_tell(&s->lines, d->up ? "device %s is there" : "device %s is away: %s", d->name,
+             d->why);
     if (!d->up)
         route_device_away(s, d->number);
     for (struct server_client *c = s->clients; c; c = c->next)
@@ -82,16 +69,6 @@ static enum midi_status device_add(struct midi_server *s, const char *spec)
 
 /* ---- clients ---- */
 
-/* Compares in a time that does not depend on how many characters are right. */
-static bool token_right(const struct midi_server *s, const char *said)
-{
-    const size_t count = strlen(s->token);
-    unsigned int differs = strlen(said) != count;
-    for (size_t i = 0; i < count && i < strlen(said); i++)
-        differs |= (unsigned int)(s->token[i] ^ said[i]);
-    return !differs && count > 0;
-}
-
 /* Who has come by TCP and has not shown the token is a stranger: another user, perhaps. */
 static bool is_stranger(const struct server_client *c)
 {
@@ -119,46 +96,93 @@ static void strangers_bound(struct midi_server *s)
         client_end(oldest, "there are others who wait");
 }
 
-static enum client_verdict greet(struct midi_server *s, struct server_client *c, char *text)
+static enum client_verdict ends(struct server_client *c, const char *why)
 {
-    char *rest = text;
-    const char *greeting = strsep(&rest, "\n"), *name = strsep(&rest, "\n");
-    if (strcmp(greeting, MIDI_WIRE_GREETING) != 0 || !name) {
-        client_end(c, "the greeting must be: " MIDI_WIRE_GREETING ", a line with a name");
-        return CLIENT_ENDS;
+    client_end(c, why);
+    return CLIENT_ENDS;
+}
+
+static enum client_verdict welcome(struct midi_server *s, struct server_client *c)
+{
+    char text[sizeof MIDI_PROOF_GREETING "\n" + MIDI_PROOF_DIGITS] = MIDI_WIRE_GREETING;
+    if (c->tcp && clients_count(s, false) >= SERVER_CLIENTS_MAX)
+        return ends(c, "the server has as many clients as it can");
+    if (c->tcp) {
+        static const char proved[] = MIDI_PROOF_GREETING "\n";
+        memcpy(text, proved, sizeof proved);
+        midi_proof_code(&c->proof, s->token, "server", text + sizeof proved - 1);
     }
-    if (c->tcp && !token_right(s, rest ? rest : "")) {
-        client_end(c, "the token is not right");
-        return CLIENT_ENDS;
-    }
-    if (c->tcp && clients_count(s, false) >= SERVER_CLIENTS_MAX) {
-        client_end(c, "the server has as many clients as it can");
-        return CLIENT_ENDS;
-    }
-    for (size_t i = 0; name[i] && i + 1 < sizeof c->name; i++) /* for terminals */
-        c->name[i] = (char)((unsigned char)name[i] < 0x20 || name[i] == 0x7f ? '?' : name[i]);
     c->greeted = true;
-    (void)client_put_text(c, MIDI_WIRE_WELCOME, MIDI_WIRE_NO_DEVICE, 0, MIDI_WIRE_GREETING);
+    (void)client_put_text(c, MIDI_WIRE_WELCOME, MIDI_WIRE_NO_DEVICE, 0, text);
     for (int i = 0; i < s->devices_count; i++)
         device_announce(s, c, i);
     client_flush(c);
     return CLIENT_GOES_ON;
 }
 
+/* Over TCP: the hello has a nonce, and is answered by another one. */
+static enum client_verdict challenge(struct midi_server *s, struct server_client *c,
+                                     const char *hello, const char *nonce)
+{
+    char ours[MIDI_PROOF_DIGITS + 1];
+    if (!nonce || strlen(nonce) != MIDI_PROOF_DIGITS)
+        return ends(c, "the greeting must be: " MIDI_PROOF_GREETING
+                       ", a line with a name, a line with 64 digits by chance");
+    if (!midi_proof_nonce(ours))
+        return ends(c, "the server has no random numbers");
+    midi_proof_begin(&c->proof, s->tcp_port, hello, ours);
+    c->challenged = true;
+    (void)client_put_text(c, MIDI_WIRE_CHALLENGE, MIDI_WIRE_NO_DEVICE, 0, ours);
+    client_flush(c);
+    return CLIENT_GOES_ON;
+}
+
+static enum client_verdict greet(struct midi_server *s, struct server_client *c,
+                                 const char *hello)
+{
+    char text[MIDI_WIRE_TEXT_MAX + 1];
+    snprintf(text, sizeof text, "%s", hello);
+    char *rest = text;
+    const char *greeting = strsep(&rest, "\n"), *name = strsep(&rest, "\n");
+    if (c->tcp && !strcmp(greeting, MIDI_WIRE_GREETING))
+        return ends(c, "this client is too old: over TCP the server does not take a token any "
+                       "more, but asks "
+                       "for a proof that it is known (" MIDI_PROOF_GREETING ")");
+    if (strcmp(greeting, c->tcp ? MIDI_PROOF_GREETING : MIDI_WIRE_GREETING) != 0 || !name)
+        return ends(c, c->tcp ? "the greeting must be: " MIDI_PROOF_GREETING
+                                ", a line with a name, a line with 64 digits by chance"
+                              : "the greeting must be: " MIDI_WIRE_GREETING
+                                ", a line with a name");
+    for (size_t i = 0; name[i] && i + 1 < sizeof c->name; i++) /* for terminals */
+        c->name[i] = (char)((unsigned char)name[i] < 0x20 || name[i] == 0x7f ? '?' : name[i]);
+    return c->tcp ? challenge(s, c, hello, rest) : welcome(s, c);
+}
+
+static enum client_verdict prove(struct midi_server *s, struct server_client *c,
+                                 const char *code)
+{
+    if (!midi_proof_right(&c->proof, s->token, "client", code))
+        return ends(c, "the token is not right");
+    return welcome(s, c);
+}
+
 static enum client_verdict frame_take(struct server_client *c, const struct midi_wire_frame *f)
 {
     struct midi_server *s = c->owner;
     char text[MIDI_WIRE_TEXT_MAX + 1];
-    if (c->greeted != (f->kind != MIDI_WIRE_HELLO)) {
-        client_end(c, c->greeted ? "a second greeting" : "a greeting must come first");
-        return CLIENT_ENDS;
-    }
+    const bool greets = f->kind == MIDI_WIRE_HELLO || f->kind == MIDI_WIRE_PROOF;
+    if (c->greeted == greets || (greets && c->challenged != (f->kind == MIDI_WIRE_PROOF)))
+        return ends(c, !greets                       ? "a greeting must come first"
+                       : c->greeted || c->challenged ? "a second greeting"
+                                                     : "a greeting must come first");
     if (f->kind == MIDI_WIRE_MIDI)
         return route_message(s, c, f);
     memcpy(text, f->payload, f->count);
     text[f->count] = '\0';
     if (f->kind == MIDI_WIRE_HELLO)
         return greet(s, c, text);
+    if (f->kind == MIDI_WIRE_PROOF)
+        return prove(s, c, text);
     command_do(s, c, f->number, text);
     return CLIENT_GOES_ON;
 }
@@ -238,7 +262,9 @@ static void second_fire(struct server_timer *t, uint64_t now_ns)
         client_look(c, now_ns);
         if (c->dead && !was_dead) {
             s->dropped++;
-            tell(s, "client %u %s is dropped: it does nothing", c->number, c->name);
+            if (!is_stranger(c)) /* who may write no line */
+                log_tell(&s->lines, "client %u %s is dropped: it does nothing", c->number,
+                         c->name);
         }
         if (!c->dead && c->waits_for >= 0) /* a system exclusive that is never ended */
             route_drained(s->devices[c->waits_for]);
@@ -269,7 +295,7 @@ static void real_time_begin(struct midi_server *s, bool wanted)
     else
         snprintf(s->real_time, sizeof s->real_time,
                  "usual priority: real time is not allowed (%s; `ulimit -r`)", strerror(errno));
-    tell(s, "%s", s->real_time);
+    log_tell(&s->lines, "%s", s->real_time);
 }
 
 static void awake_set(struct midi_server *s, bool wanted)
@@ -281,7 +307,7 @@ static void awake_set(struct midi_server *s, bool wanted)
         snprintf(s->sleep, sizeof s->sleep, "%s",
                  wanted ? "processors are kept awake while messages come"
                         : "processors may sleep");
-    tell(s, "%s", s->sleep);
+    log_tell(&s->lines, "%s", s->sleep);
 }
 
 static enum midi_status listen_begin(struct midi_server *s, const struct midi_server_def *def)
@@ -293,6 +319,7 @@ static enum midi_status listen_begin(struct midi_server *s, const struct midi_se
         return midi_fail(MIDI_BAD_ARGUMENT, "a token has at most %zu bytes",
                          sizeof s->token - 1);
     snprintf(s->token, sizeof s->token, "%s", def->token ? def->token : "");
+    s->tcp_port = def->tcp_port;
     if (!def->path) {
         if (!midi_wire_usual_path(s->path, &why))
             return midi_fail(MIDI_REFUSED, "%s: %s", s->path, why);
@@ -317,8 +344,7 @@ enum midi_status midi_server_create(const struct midi_server_def *def, struct mi
     *out = NULL;
     if (!s)
         return midi_fail(MIDI_NO_MEMORY, "no memory for a MIDI server");
-    s->log = def->log;
-    s->context = def->context;
+    log_begin(&s->lines, def->log, def->context);
     s->began_ns = s->rates_ns = midi_now_ns();
     s->lock = s->awake.file = -1;
     s->unix_watch = (struct server_watch){-1, accept_ready, s};
@@ -340,6 +366,12 @@ enum midi_status midi_server_create(const struct midi_server_def *def, struct mi
         midi_server_destroy(s);
         return status;
     }
+    enum { TOKEN_BYTES_GOOD = 16 };
+    if (def->tcp_port && strlen(s->token) < TOKEN_BYTES_GOOD)
+        log_tell(&s->lines,
+                 "the token is short: who has the port can try tokens; take %d characters by "
+                 "chance",
+                 TOKEN_BYTES_GOOD);
     real_time_begin(s, def->real_time);
     awake_set(s, def->awake);
     *out = s;
@@ -362,7 +394,7 @@ void midi_server_destroy(struct midi_server *s)
 {
     if (!s)
         return;
-    s->log = NULL;
+    log_begin(&s->lines, NULL, NULL);
     for (int i = 0; i < s->devices_count; i++)
         if (s->devices[i]->up)
             route_device_away(s, i);

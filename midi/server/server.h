@@ -5,6 +5,7 @@
 #include "device.h"
 #include "server_awake.h"
 #include "server_client.h"
+#include "server_log.h"
 
 enum { SERVER_CLIENTS_MAX = 64, SERVER_TOKEN_BYTES = 128 };
 
@@ -27,12 +28,12 @@ struct midi_server {
     uint64_t messages; /* both ways, but for active sensing */
     struct server_awake awake;
     char token[SERVER_TOKEN_BYTES], path[108];
+    int tcp_port;
+    struct server_log lines;
     char real_time[160], sleep[160]; /* for people: what was asked for, and what is allowed */
     /* sockets */
     struct server_watch unix_watch, tcp_watch, stop_watch;
     int lock;
-    void (*log)(void *context, const char *line);
-    void *context;
 };
 
 #endif

@@ -243,7 +243,7 @@ static void frames_take(struct server_client *c)
             (void)midi_wire_read(c->in + at, c->in_count - at, &f);
             if (f.count > MIDI_WIRE_TEXT_MAX ||
                 (f.kind != MIDI_WIRE_HELLO && f.kind != MIDI_WIRE_COMMAND &&
-                 f.kind != MIDI_WIRE_MIDI)) {
+                 f.kind != MIDI_WIRE_MIDI && f.kind != MIDI_WIRE_PROOF)) {
                 client_end(c, "that is no frame of lutetia-midi");
                 return;
             }

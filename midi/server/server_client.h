@@ -14,6 +14,7 @@
 
 #include <midi_filter.h>
 #include <midi_notes.h>
+#include <midi_proof.h>
 #include <midi_time.h>
 #include <midi_wire.h>
 
@@ -37,6 +38,9 @@ struct server_client {
     struct server_loop *loop;
     uint32_t number;
     bool tcp, greeted, dead;
+    bool
+        challenged; /* over TCP: it has said hello, and was asked to show that it knows the token */
+    struct midi_proof proof;
     char name[CLIENT_NAME_BYTES];
     uint64_t came_ns,
         progress_ns; /* progress: when it last read something, or had nothing to read */

@@ -18,19 +18,19 @@ import time
 import unittest
 import xml.etree.ElementTree
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "midi"))
+import wire  # pylint: disable=wrong-import-position
+
 LUTETIA = ""
 SECONDS = 30
 BAD = re.compile(rb"[\x00-\x08\x0b-\x1f\x7f]|\xc2[\x80-\x9f]|\xe2\x80\xae")
 SONG = b"MThd\0\0\0\6\0\0\0\1\0\x60MTrk\0\0\0\x0c\0\x90\x3c\x40\x60\x80\x3c\x40\0\xff\x2f\0"
+TOKEN = b"x"
 ESCAPES = b"\x1b]0;owned\x07\x1b[31mred\x9b31m\xc2\x9b31m\xe2\x80\xaeabc"
 
 
-def frame(kind, payload=b"", device=255, number=0):
-    return struct.pack("<HBBIQ", len(payload), kind, device, number, 0) + payload
-
-
 class EvilServer:
-    """Speaks the protocol of the MIDI server to one client after another; all of its texts hold escapes."""
+    """Speaks the protocol of the MIDI server to one client after another, and knows the token; all of its texts hold escapes."""
 
     def __init__(self):
         self.listener = socket.create_server(("127.0.0.1", 0))
@@ -45,24 +45,22 @@ class EvilServer:
                 return
             threading.Thread(target=self.answer, args=(client,), daemon=True).start()
 
-    @staticmethod
-    def answer(client):
-        got = b""
-        while True:
-            try:
-                more = client.recv(65536)
-                got += more
-                while len(got) >= 16 and len(got) >= 16 + struct.unpack("<H", got[:2])[0]:
-                    count, kind, _, number, _ = struct.unpack("<HBBIQ", got[:16])
-                    got = got[16 + count:]
-                    if kind == 1:
-                        client.sendall(frame(16, b"lutetia-midi 1") + frame(17, ESCAPES + b" loop in,out up", device=0))
-                    if kind == 2:
-                        client.sendall(frame(19, ESCAPES + b" out up\n" + b"\xc2\x9b" * 3000 + b"\n", number=number))
-            except OSError:
-                return
-            if not more:
-                return
+    def answer(self, client):
+        hello = challenge = b""
+        for kind, payload, number in wire.Frames(client):
+            if kind == wire.HELLO:
+                hello, challenge = payload, wire.nonce()
+                client.sendall(wire.frame(wire.CHALLENGE, challenge))
+            if kind == wire.PROOF:
+                proof = wire.code(TOKEN, b"server", self.port, hello, challenge)
+                client.sendall(wire.frame(wire.WELCOME, b"lutetia-midi 2\n" + proof) +
+                               wire.frame(wire.DEVICE, ESCAPES + b" loop in,out up", device=0))
+            if kind == wire.COMMAND:
+                client.sendall(wire.frame(wire.REPLY, ESCAPES + b" out up\n" + b"\xc2\x9b" * 3000 + b"\n", number=number))
+                if payload.startswith(b"listen"):
+                    client.sendall(wire.frame(wire.LOST, number=3) + wire.frame(wire.ERROR, ESCAPES))
+                    client.close()
+                    return
 
 
 class Outside(unittest.TestCase):
@@ -90,9 +88,12 @@ class Outside(unittest.TestCase):
     def test_replies_do_nothing_to_the_terminal(self):
         server = EvilServer()
         for verb in ("devices", "status"):
-            done = self.run_it("midi", verb, "--server", "127.0.0.1:%d" % server.port, LUTETIA_MIDI_TOKEN="x", status=0)
+            done = self.run_it("midi", verb, "--server", "127.0.0.1:%d" % server.port, LUTETIA_MIDI_TOKEN=TOKEN.decode(), status=0)
             self.assertIn(b"out up", done.stdout)
             self.assertIn(rb"\x1b", done.stdout)
+        for verb in (["record", "r.mid"], ["monitor"]): # the server is gone at once, and says why
+            done = self.run_it("midi", *verb, "--server", "127.0.0.1:%d" % server.port, "-t", "0.5", LUTETIA_MIDI_TOKEN=TOKEN.decode())
+            self.assertIn(rb"\x1b", done.stdout + done.stderr)
         server.listener.close()
 
     def serve(self, device):
@@ -116,7 +117,8 @@ class Outside(unittest.TestCase):
         return child.returncode, words
 
     def test_strangers_take_no_places(self):
-        port = socket.create_server(("127.0.0.1", 0)).getsockname()[1]
+        with socket.create_server(("127.0.0.1", 0)) as listener:
+            port = listener.getsockname()[1]
         child = subprocess.Popen([LUTETIA, "midi", "serve", "loop", "--server", "./s", "--tcp", str(port), "--usual-priority",
                                   "--may-sleep"], cwd=self.at, env=dict(os.environ, LUTETIA_MIDI_TOKEN="known"),
                                  stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
