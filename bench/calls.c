@@ -18,6 +18,7 @@
 
 #include "bench.h"
 #include "harness.h"
+#include "input_file.h"
 #include "listing.h"
 #include "of_machine.h"
 #include "paris_internal.h"
@@ -132,7 +133,7 @@ static void calls_make(const struct calls *c, int calls_count, double *recorded_
 size_t calls_resident_bytes(void)
 {
     unsigned long all, resident;
-    FILE *f = fopen("/proc/self/statm", "r");
+    FILE *f = input_file_open("/proc/self/statm", NULL);
     int got = f ? fscanf(f, "%lu %lu", &all, &resident) : 0;
     if (f)
         fclose(f);

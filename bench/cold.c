@@ -11,6 +11,11 @@
 #include <unistd.h>
 
 #include "harness.h"
+#include "input_file.h"
+#include "output_file.h"
+#include "user_folder.h"
+
+enum { COLD_FOLDER = 512 };
 
 extern char **environ;
 
@@ -53,17 +58,20 @@ static char **environment_of(char *cache, char *driver)
 
 bool cold_tell(const char *path, const struct cold *c)
 {
-    FILE *file = fopen(path, "w");
-    bool written = file && fprintf(file, "%.9f %.0f %u", c->seconds, c->kernels, c->result) > 0;
-    return file && fclose(file) == 0 && written;
+    struct output_file out;
+    if (!output_file_open(&out, path))
+        return false;
+    fprintf(out.stream, "%.9f %.0f %u", c->seconds, c->kernels, c->result);
+    return output_file_commit(&out);
 }
 
 bool cold_measure(const char *bench, const char *what, struct cold *out)
 {
-    char folder[] = "/tmp/lutetia-cold-XXXXXX", cache[64], driver[64], path[64];
+    char folder[COLD_FOLDER], cache[COLD_FOLDER + 32], driver[COLD_FOLDER + 32],
+        path[COLD_FOLDER + 32];
     char name[] = "lutetia-bench", flag[] = COLD_FLAG, of[32], which[32];
-    if (!mkdtemp(folder))
-        return bench_fail("no folder can be made in /tmp");
+    if (!user_folder_temporary("cold", folder, sizeof folder))
+        return bench_fail("%s: no folder can be made", folder);
     snprintf(cache, sizeof cache, "XDG_CACHE_HOME=%s", folder);
     snprintf(driver, sizeof driver, "POCL_CACHE_DIR=%s/pocl", folder);
     snprintf(path, sizeof path, "%s/times", folder);
@@ -78,7 +86,7 @@ bool cold_measure(const char *bench, const char *what, struct cold *out)
     ok = environment &&
          !posix_spawn(&pid, "/proc/self/exe", NULL, NULL, arguments, environment) &&
          waitpid(pid, &status, 0) == pid && WIFEXITED(status) && WEXITSTATUS(status) == 0;
-    FILE *file = ok ? fopen(path, "r") : NULL;
+    FILE *file = ok ? input_file_open(path, NULL) : NULL;
     unsigned result = 0;
     ok = (file && fscanf(file, "%lf %lf %u", &out->seconds, &out->kernels, &result) == 3) ||
          bench_fail("a cold run of %s did not succeed", what);

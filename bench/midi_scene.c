@@ -2,6 +2,7 @@
 #include "midi_scene.h"
 #include "harness.h"
 #include "latency.h"
+#include "user_folder.h"
 
 #include <midi_client.h>
 #include <midi_server.h>
@@ -170,9 +171,8 @@ bool midi_scene_begin(struct midi_scene *s, const struct midi_scene_def *def)
 {
     *s = (struct midi_scene){
         .def = *def, .port = -1, .server = -1, .encoder = {.running_status = true}};
-    snprintf(s->folder, sizeof s->folder, "/tmp/lutetia-midi-XXXXXX");
-    if (!mkdtemp(s->folder))
-        return bench_fail("no folder can be made in /tmp");
+    if (!user_folder_temporary("midi", s->folder, sizeof s->folder))
+        return bench_fail("%s: no folder can be made", s->folder);
     snprintf(s->link, sizeof s->link, "%s/keys", s->folder);
     snprintf(s->path, sizeof s->path, "%s/socket", s->folder);
     s->shared = mmap(NULL, sizeof *s->shared, PROT_READ | PROT_WRITE,

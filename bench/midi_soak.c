@@ -1,6 +1,7 @@
 /* midi_soak.c - see midi_soak.h. */
 #include "midi_soak.h"
 #include "harness.h"
+#include "input_file.h"
 #include "midi_scene.h"
 
 #include <midi_client.h>
@@ -53,7 +54,7 @@ static double server_kib(const struct midi_scene *s)
     char path[64];
     long all = 0, resident = 0;
     snprintf(path, sizeof path, "/proc/%ld/statm", (long)s->server);
-    FILE *file = fopen(path, "r");
+    FILE *file = input_file_open(path, NULL);
     if (!file || fscanf(file, "%ld %ld", &all, &resident) != 2)
         resident = 0;
     if (file)

@@ -8,6 +8,7 @@
 #include <paper.h>
 #include <sheet.h>
 
+#include "input_file.h"
 #include "paris_internal.h"
 
 enum {
@@ -193,7 +194,7 @@ bool paper_poster_measure(struct bench_report *r)
 /* The most that the process had in memory, bytes; 0: the system does not say. */
 static double most_in_memory(void)
 {
-    FILE *f = fopen("/proc/self/status", "r");
+    FILE *f = input_file_open("/proc/self/status", NULL);
     char line[256];
     double kilobytes = 0;
     while (f && fgets(line, sizeof line, f))

@@ -24,13 +24,16 @@
 
 #include "bench.h"
 #include "cold.h"
+#include "input_file.h"
 #include "listing.h"
 #include "of_machine.h"
+#include "output_file.h"
 #include "paris_internal.h"
 #include "program.h"
 #include "programs.h"
 #include "scene.h"
 #include "start_calls.h"
+#include "user_folder.h"
 
 enum { REPEAT_MIN = 3, COMMAND_WORDS = 12, STEPS = 400, STEPS_FIRST = 2, SIDE = 512, RUNS = 5 };
 static const char STEPS_INTO[] =
@@ -78,26 +81,28 @@ static const struct start_command {
 
 enum { COMMANDS_COUNT = sizeof commands / sizeof *commands };
 
+enum { PLACE_BYTES = 512 };
+
 struct place {
-    char folder[64], picture[96], script[96], life[96];
+    char folder[PLACE_BYTES], picture[PLACE_BYTES + 32], script[PLACE_BYTES + 32],
+        life[PLACE_BYTES + 32];
 };
 
 static bool file_make(const char *folder, const char *name, const char *text)
 {
-    char path[128];
+    char path[PLACE_BYTES + 64];
+    struct output_file out;
     snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "w");
-    bool written = file && fputs(text, file) >= 0;
-    if (file && fclose(file) != 0)
-        written = false;
-    return written || bench_fail("%s: cannot write", path);
+    if (!output_file_open(&out, path))
+        return bench_fail("%s: cannot write: %s", path, out.why);
+    fputs(text, out.stream);
+    return output_file_commit(&out) || bench_fail("%s: cannot write: %s", path, out.why);
 }
 
 static bool place_make(struct place *place)
 {
-    snprintf(place->folder, sizeof place->folder, "/tmp/lutetia-start-XXXXXX");
-    if (!mkdtemp(place->folder))
-        return bench_fail("no folder can be made in /tmp");
+    if (!user_folder_temporary("start", place->folder, sizeof place->folder))
+        return bench_fail("%s: no folder can be made", place->folder);
     snprintf(place->picture, sizeof place->picture, "%s/picture.png", place->folder);
     snprintf(place->script, sizeof place->script, "%s/start.lua", place->folder);
     snprintf(place->life, sizeof place->life, "%s/life", place->folder);
@@ -160,7 +165,7 @@ static const char *const cache_names[CACHE_NAMES] = {"XDG_CACHE_HOME", "POCL_CAC
 /* Caches as they were, and the folder of those that are used instead. */
 struct caches {
     char *kept[CACHE_NAMES];
-    char folder[96];
+    char folder[PLACE_BYTES + 32];
 };
 
 static void variable_put(const char *name, char *value)
@@ -180,7 +185,7 @@ static char *variable_kept(const char *name)
 
 static bool caches_empty(struct caches *c, const struct place *place)
 {
-    char driver[128];
+    char driver[PLACE_BYTES + 64];
     snprintf(c->folder, sizeof c->folder, "%s/cache", place->folder);
     snprintf(driver, sizeof driver, "%s/pocl", c->folder);
     for (int i = 0; i < CACHE_NAMES; i++)
@@ -248,9 +253,11 @@ static bool all_measure(struct bench_report *r, struct place *place, int repeat_
 
 static bool times_write(const char *path, double longest_s, double all_s)
 {
-    FILE *file = fopen(path, "w");
-    bool ok = file && fprintf(file, "%.6f %.6f", longest_s, all_s) > 0;
-    return file && fclose(file) == 0 && ok;
+    struct output_file out;
+    if (!output_file_open(&out, path))
+        return false;
+    fprintf(out.stream, "%.6f %.6f", longest_s, all_s);
+    return output_file_commit(&out);
 }
 
 static bool calls_run(const char *path)
@@ -300,7 +307,7 @@ static bool steps_of(struct place *place, const char *what, const char *backgrou
     bool ok = caches_empty(&caches, place) && command_run(words, place, &ignored, &ignored);
     caches_back(&caches);
     variable_put("LUTETIA_BACKGROUND", kept);
-    FILE *file = ok ? fopen(place->picture, "r") : NULL;
+    FILE *file = ok ? input_file_open(place->picture, NULL) : NULL;
     if (ok && !(file && fscanf(file, "%lf %lf", &out[0], &out[1]) == 2))
         ok = bench_fail("%s: no times are in it", place->picture);
     if (file)

@@ -5,6 +5,8 @@
  */
 #include "midi_song_internal.h"
 
+#include <input_file.h>
+
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
@@ -267,8 +269,6 @@ static enum midi_status file_read(const char *path, int file, uint8_t **bytes, s
     struct stat about;
     if (fstat(file, &about) != 0)
         return midi_fail(MIDI_IO_FAILED, "%s: %s", path, strerror(errno));
-    if (!S_ISREG(about.st_mode))
-        return midi_fail(MIDI_IO_FAILED, "%s: not a file", path);
     if (about.st_size > SONG_BYTES_MAX)
         return midi_fail(MIDI_BAD_FILE, "%s: a MIDI file has at most %d MiB", path,
                          SONG_BYTES_MAX >> 20);
@@ -291,9 +291,10 @@ enum midi_status midi_song_read(const char *path, struct midi_song **out)
     uint8_t *bytes = NULL;
     size_t count = 0;
     *out = NULL;
-    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    const char *why;
+    int file = input_file_descriptor(path, &why);
     if (file < 0)
-        return midi_fail(MIDI_IO_FAILED, "%s: %s", path, strerror(errno));
+        return midi_fail(MIDI_IO_FAILED, "%s: %s", path, why);
     enum midi_status status = file_read(path, file, &bytes, &count);
     if (status == MIDI_OK)
         status = midi_song_parse(path, bytes, count, out);

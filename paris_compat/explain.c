@@ -7,9 +7,10 @@
  */
 #include "explain.h"
 
+#include <exit_status.h>
 #include <growing_file.h>
+#include <part_files.h>
 
-#include <errno.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,7 +20,7 @@ static struct output {
     const char *variable;
     void (*print)(FILE *out, const struct machine_explained *x);
     const char *before, *between, *after;
-    int file; /* -1: none */
+    struct growing_file file;
     char *text;
     size_t length;
 } outputs[] = {
@@ -41,13 +42,15 @@ static volatile sig_atomic_t interrupts;
 
 static void complain(const struct output *o, const char *what)
 {
-    fprintf(stderr, "%s: cannot %s %s: %s; name a file that can be written\n", o->variable,
-            what, getenv(o->variable), strerror(errno));
+    fprintf(stderr, "%s: cannot %s %s: %s\n", o->variable, what, getenv(o->variable),
+            o->file.why);
+    exit_status_fail();
 }
 
 static void interrupt(int number)
 {
-    (void)number;
+    if (interrupts)
+        part_files_die(number);
     interrupts = 1;
 }
 
@@ -61,9 +64,9 @@ static void between(void)
  * which passes the signal on to the one before it. */
 static void interrupt_catch(void)
 {
-    struct sigaction now,
-        ours = {.sa_handler = interrupt, .sa_flags = (int)(SA_RESETHAND | SA_RESTART)};
-    if (sigaction(SIGINT, NULL, &now) == 0 && now.sa_handler == SIG_DFL)
+    struct sigaction now, ours = {.sa_handler = interrupt, .sa_flags = SA_RESTART};
+    if (sigaction(SIGINT, NULL, &now) == 0 &&
+        (now.sa_handler == SIG_DFL || now.sa_handler == part_files_die))
         sigaction(SIGINT, &ours, NULL);
 }
 
@@ -73,17 +76,13 @@ bool paris_explain_wanted(void)
     for (int i = 0; i < OUTPUTS_COUNT && first; i++) {
         struct output *o = &outputs[i];
         const char *path = getenv(o->variable);
-        o->file = -1;
-        if (!path || !*path)
-            continue;
-        o->file = growing_file_open(path);
-        if (o->file < 0)
+        if (path && *path && !growing_file_open(&o->file, path))
             complain(o, "open");
     }
     if (first)
         owner = getpid();
     for (int i = 0; i < OUTPUTS_COUNT; i++)
-        wanted = wanted || outputs[i].file >= 0;
+        wanted = wanted || outputs[i].file.is_open;
     if (first && wanted)
         interrupt_catch();
     return wanted && owner == getpid();
@@ -106,7 +105,7 @@ void paris_explain_end(struct machine *m)
         struct output *o = &outputs[i];
         char *text = NULL;
         size_t length = 0;
-        FILE *f = o->file >= 0 ? open_memstream(&text, &length) : NULL;
+        FILE *f = o->file.is_open ? open_memstream(&text, &length) : NULL;
         if (!f)
             continue;
         fputs(o->text ? o->between : o->before, f);
@@ -121,34 +120,23 @@ void paris_explain_end(struct machine *m)
     }
 }
 
-static bool bytes_write(int file, const char *bytes, size_t count)
-{
-    while (count > 0) {
-        ssize_t done = write(file, bytes, count);
-        if (done < 0 && errno == EINTR)
-            continue;
-        if (done <= 0)
-            return false;
-        bytes += done;
-        count -= (size_t)done;
-    }
-    return true;
-}
-
 void paris_explain_write(void)
 {
     if (owner != getpid())
         return;
     for (int i = 0; i < OUTPUTS_COUNT; i++) {
         struct output *o = &outputs[i];
-        if (o->file >= 0 && o->text &&
-            !(bytes_write(o->file, o->text, o->length) &&
-              bytes_write(o->file, o->after, strlen(o->after))))
+        bool good = true;
+        const size_t after = strlen(o->after);
+        char *all = o->text ? realloc(o->text, o->length + after + 1) : NULL;
+        if (all) {
+            memcpy(all + o->length, o->after, after + 1);
+            o->text = all;
+            good = growing_file_append(&o->file, all, o->length + after, NULL, 0);
+        }
+        if (!good || !growing_file_close(&o->file))
             complain(o, "write to");
-        if (o->file >= 0)
-            close(o->file);
         free(o->text);
-        o->file = -1;
         o->text = NULL;
         o->length = 0;
     }

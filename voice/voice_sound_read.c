@@ -6,6 +6,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <input_file.h>
 #include <library.h>
 #include <math.h>
 #include <stdio.h>
@@ -78,19 +79,15 @@ static bool refuse(struct voice_sound *out, char *why, size_t room, const char *
 
 bool voice_sound_read(const char *path, struct voice_sound *out, char *why, size_t room)
 {
-    struct stat status;
     SF_INFO info = {0};
     struct sndfile library;
     bool too_long;
     *out = (struct voice_sound){0};
-    /* O_NONBLOCK: does not wait for a pipe's other end */
-    int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    int descriptor = input_file_descriptor(path, NULL);
     if (descriptor < 0)
-        return refuse(out, why, room, path, strerror(errno));
-    if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) {
-        close(descriptor);
-        return refuse(out, why, room, path, "a sound must be a regular file");
-    }
+        return refuse(out, why, room, path,
+                      errno == ENOTSUP || errno == EISDIR ? "a sound must be a regular file"
+                                                          : strerror(errno));
     if (!sndfile_load(&library)) {
         close(descriptor);
         return refuse(out, why, room, path, "sounds need libsndfile: install libsndfile1");

@@ -1,6 +1,8 @@
 /* confine.c - see confine.h. */
 #include "confine.h"
 
+#include "input_file.h"
+
 #include <errno.h>
 #include <seccomp.h>
 #include <signal.h>
@@ -20,7 +22,7 @@ void confine_resources(pid_t parent, unsigned cpu_seconds, unsigned long long me
     setrlimit(RLIMIT_CORE, &none);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(LUTETIA_FUZZ)
     long pages = 0;
-    FILE *sizes = memory_bytes ? fopen("/proc/self/statm", "r") : NULL;
+    FILE *sizes = memory_bytes ? input_file_open("/proc/self/statm", NULL) : NULL;
     if (sizes && fscanf(sizes, "%ld", &pages) == 1) {
         rlim_t most = (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE) + memory_bytes;
         setrlimit(RLIMIT_AS, &(struct rlimit){most, most});

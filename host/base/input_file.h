@@ -12,6 +12,7 @@
 #ifndef LUTETIA_INPUT_FILE_H
 #define LUTETIA_INPUT_FILE_H
 
+#include <fcntl.h>
 #include <stdio.h>
 
 /* Returns NULL if the file cannot be read; errno and *why (the reason in words; may be NULL)
@@ -20,5 +21,12 @@ FILE *input_file_open(const char *path, const char **why);
 
 /* The same as a descriptor; negative if the file cannot be read. */
 int input_file_descriptor(const char *path, const char **why);
+
+/* The same, and the name itself may be no link (ELOOP): for files in folders of our own. */
+int input_file_descriptor_no_link(const char *path, const char **why);
+
+/* Opens a folder, within the folder `in` (AT_FDCWD: the current one), to read its names and to open what is in it. No link. Negative:
+ * errno says why. */
+int input_folder_descriptor(int in, const char *path);
 
 #endif

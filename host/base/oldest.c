@@ -2,6 +2,7 @@
 #include "oldest.h"
 
 #include "array.h"
+#include "input_file.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -38,7 +39,7 @@ static bool tree_remove(int folder, const char *name, int depth)
         return true;
     if ((errno != EISDIR && errno != EPERM) || depth == 0)
         return false;
-    int inner = openat(folder, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    int inner = input_folder_descriptor(folder, name);
     DIR *list = inner >= 0 ? fdopendir(inner) : NULL;
     if (!list) {
         if (inner >= 0)

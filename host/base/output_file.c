@@ -1,6 +1,9 @@
 /* output_file.c - see output_file.h. */
 #include "output_file.h"
 
+#include "input_file.h"
+#include "part_files.h"
+
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -79,9 +82,9 @@ static void part_sweep(int folder, const char *name)
 
 void output_file_sweep(int folder_descriptor)
 {
-    int again = openat(folder_descriptor, ".",
-                       O_RDONLY | O_DIRECTORY | O_CLOEXEC); /* a description of its own, with
-                                                             * its own position */
+    int again =
+        input_folder_descriptor(folder_descriptor, "."); /* a description of its own, with
+                                                                  * its own position */
     DIR *names = again < 0 ? NULL : fdopendir(again);
     if (!names) {
         if (again >= 0)
@@ -159,23 +162,41 @@ static int target_check(const struct output_file *out)
     return S_ISDIR(status.st_mode) ? EISDIR : S_ISLNK(status.st_mode) ? ELOOP : ENOTSUP;
 }
 
+/* Finds another name for a part file, and notes it. */
+static char *part_name_make(const struct output_file *out, int *noted)
+{
+    unsigned long long number;
+    char *name = NULL;
+    if (getrandom(&number, sizeof number, 0) != sizeof number)
+        return NULL;
+    if (asprintf(&name, ".%s.%016llx%s", out->name, number, part_end) < 0) {
+        errno = ENOMEM;
+        return NULL;
+    }
+    *noted = part_file_note(out->folder, name);
+    return name;
+}
+
+/* Forgets and frees the name of a part file. */
+static void part_name_drop(struct output_file *out)
+{
+    part_file_forget(out->noted);
+    free(out->part_name);
+    out->part_name = NULL;
+    out->noted = 0;
+}
+
 /* Makes the part file and locks it. Returns its descriptor, or -1 with errno. Between making
  * and locking, another process that sweeps may take the file for a dead process's and remove
  * its name; then another part file is made. */
 static int part_make(struct output_file *out)
 {
     for (int i = 0; i < TRIES; i++) {
-        unsigned long long number;
         struct stat status;
-        if (getrandom(&number, sizeof number, 0) != sizeof number)
+        part_name_drop(out);
+        out->part_name = part_name_make(out, &out->noted);
+        if (!out->part_name)
             return -1;
-        free(out->part_name);
-        out->part_name = NULL;
-        if (asprintf(&out->part_name, ".%s.%016llx%s", out->name, number, part_end) < 0) {
-            out->part_name = NULL;
-            errno = ENOMEM;
-            return -1;
-        }
         int file = openat(out->folder, out->part_name,
                           O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
         if (file < 0 && errno == EEXIST)
@@ -193,7 +214,7 @@ static int part_make(struct output_file *out)
 
 bool output_file_open(struct output_file *out, const char *path)
 {
-    *out = (struct output_file){.folder = -1};
+    *out = (struct output_file){.folder = -1, .former = -1};
     int error = path_split(out, path);
     if (!error)
         error = target_check(out);
@@ -208,8 +229,7 @@ bool output_file_open(struct output_file *out, const char *path)
             unlinkat(out->folder, out->part_name, 0);
             close(file);
         }
-        free(out->part_name);
-        out->part_name = NULL;
+        part_name_drop(out);
         return output_fail(out, error);
     }
     free(out->part);
@@ -224,7 +244,7 @@ bool output_file_open(struct output_file *out, const char *path)
 
 const char *output_file_wrong(const char *path)
 {
-    struct output_file out = {.folder = -1};
+    struct output_file out = {.folder = -1, .former = -1};
     int error = path_split(&out, path);
     if (!error)
         error = target_check(&out);
@@ -234,25 +254,85 @@ const char *output_file_wrong(const char *path)
     return error ? output_file_explain(error) : NULL;
 }
 
-/* Frees the memory, and removes the part file if it has not been renamed. */
+/* Frees the memory, and removes the part file if it has not been renamed, or what had the name if it is kept. */
 static void output_release(struct output_file *out)
 {
     if (out->part_name)
         unlinkat(out->folder, out->part_name, 0);
+    if (out->former_name)
+        unlinkat(out->folder, out->former_name, 0);
+    part_file_forget(out->noted);
+    part_file_forget(out->former_noted);
     if (out->stream)
         fclose(out->stream);
+    if (out->former >= 0)
+        close(out->former);
     if (out->folder >= 0)
         close(out->folder);
     free(out->part);
     free(out->part_name);
+    free(out->former_name);
     free(out->name);
-    *out = (struct output_file){.folder = -1};
+    *out = (struct output_file){.folder = -1, .former = -1};
+}
+
+/* Whether that name is this open file's. */
+static bool is_name_of(int folder, const char *name, int file)
+{
+    struct stat named, opened;
+    return fstatat(folder, name, &named, AT_SYMLINK_NOFOLLOW) == 0 &&
+           fstat(file, &opened) == 0 && named.st_dev == opened.st_dev &&
+           named.st_ino == opened.st_ino;
+}
+
+/* The file has appeared, and is given up: what had the name has it again, unless another process has put a file there since. */
+static void former_return(struct output_file *out)
+{
+    if (out->part_name || !out->stream ||
+        !is_name_of(out->folder, out->name, fileno(out->stream)))
+        return;
+    if (!out->former_name)
+        unlinkat(out->folder, out->name, 0);
+    else if (renameat(out->folder, out->former_name, out->folder, out->name) == 0) {
+        free(out->former_name);
+        out->former_name = NULL;
+    }
+}
+
+/* Keeps what has the name, under a part file's name and with a lock, so that nobody sweeps it. Where that cannot be (it is not ours to
+ * read or to link; another process is writing it), it is not kept. */
+static void former_keep(struct output_file *out)
+{
+    out->former = openat(out->folder, out->name,
+                         O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    if (out->former < 0 || flock(out->former, LOCK_SH | LOCK_NB) != 0)
+        return;
+    out->former_name = part_name_make(out, &out->former_noted);
+    if (!out->former_name ||
+        (linkat(out->folder, out->name, out->folder, out->former_name, 0) == 0 &&
+         is_name_of(out->folder, out->former_name, out->former)))
+        return;
+    unlinkat(out->folder, out->former_name, 0);
+    part_file_forget(out->former_noted);
+    free(out->former_name);
+    out->former_name = NULL;
+    out->former_noted = 0;
 }
 
 void output_file_abandon(struct output_file *out)
 {
-    if (out->name || out->stream)
-        output_release(out);
+    if (!out->name && !out->stream)
+        return;
+    former_return(out);
+    output_release(out);
+}
+
+void output_file_let_go(struct output_file *out)
+{
+    free(out->part_name);
+    free(out->former_name);
+    out->part_name = out->former_name = NULL;
+    output_release(out);
 }
 
 /* A stream remembers that a write failed, but not the errno. Writing another byte fails for
@@ -269,14 +349,15 @@ static int write_error(FILE *stream)
  * left to the system. */
 static void folder_sync(int folder)
 {
-    int again = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    int again = input_folder_descriptor(folder, ".");
     if (again >= 0) {
         fsync(again);
         close(again);
     }
 }
 
-bool output_file_commit(struct output_file *out)
+/* Brings the bytes to the disk; returns errno. */
+static int bytes_sync(struct output_file *out)
 {
     int error = ferror(out->stream) ? write_error(out->stream) : 0;
     errno = 0;
@@ -284,15 +365,41 @@ bool output_file_commit(struct output_file *out)
         error = errno ? errno : EIO;
     if (!error && fsync(fileno(out->stream)) != 0 && errno != EINVAL)
         error = errno; /* EINVAL: the file system has no fsync() */
-    if (!error)
-        error = target_check(out);
+    return error;
+}
+
+/* Gives the part file its name; returns errno. */
+static int part_rename(struct output_file *out)
+{
+    int error = target_check(out);
     if (!error && renameat(out->folder, out->part_name, out->folder, out->name) != 0)
         error = errno;
     if (error)
-        return output_fail(out, error);
-    free(out->part_name);
-    out->part_name = NULL;
+        return error;
+    part_name_drop(out);
     folder_sync(out->folder);
+    return 0;
+}
+
+bool output_file_appear(struct output_file *out)
+{
+    int error = bytes_sync(out);
+    if (!error)
+        error = target_check(out);
+    if (error)
+        return output_fail(out, error);
+    former_keep(out);
+    error = part_rename(out);
+    return !error || output_fail(out, error);
+}
+
+bool output_file_commit(struct output_file *out)
+{
+    int error = bytes_sync(out);
+    if (!error && out->part_name)
+        error = part_rename(out);
+    if (error)
+        return output_fail(out, error);
     output_release(out);
     return true;
 }

@@ -21,7 +21,7 @@
  *
  * The writer holds a lock (flock) on its part file. A part file without a lock belongs to a
  * dead process. When a process opens its first file in a folder, it removes this user's
- * unlocked part files there.
+ * unlocked part files there. A signal that ends the process removes its part files (part_files.h).
  *
  * Threads: functions for different files may run at the same time.
  */
@@ -39,8 +39,10 @@ struct output_file {
         *why;  /* after a failure: what was wrong, and what to do where there is something */
     int error; /* after a failure: errno */
     /* private */
-    char *name, *part_name; /* both within the folder */
-    int folder;
+    char *name, *part_name;  /* both within the folder */
+    char *former_name;       /* after output_file_appear(): what had the name before */
+    int folder, former;      /* former: what had the name, locked; -1 */
+    int noted, former_noted; /* part_file_note() */
 };
 
 /* Begins a file. False if it cannot be written there; nothing is left to release. A path
@@ -51,6 +53,13 @@ bool output_file_open(struct output_file *out, const char *path);
 /* Ends the file and renames it. False if a write failed, before or now: the old file of that
  * name is untouched, and the part file is removed. Releases everything either way. */
 bool output_file_commit(struct output_file *out);
+
+/* Gives the file its name while it goes on being written. What had the name is kept under a part file's name until the end: a commit
+ * removes it, and if that fails, or the file is abandoned, it has its name again. False as for output_file_commit(). */
+bool output_file_appear(struct output_file *out);
+
+/* In a forked child: closes its parent's file, and leaves all names as they are. */
+void output_file_let_go(struct output_file *out);
 
 /* Gives up: removes the part file and leaves the old file of that name untouched. Does
  * nothing to a file that was committed, abandoned, or not opened (all zero). */

@@ -1,7 +1,8 @@
 /* resident.c - see resident.h; Linux tells it in /proc/self/statm, in pages: size, resident, shared, text, 0, data, 0. */
 #include "resident.h"
 
-#include <fcntl.h>
+#include "input_file.h"
+
 #include <stdio.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -13,7 +14,7 @@ struct pages {
 static bool pages_read(struct pages *pages)
 {
     char text[200];
-    const int file = open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+    const int file = input_file_descriptor("/proc/self/statm", NULL);
     const ssize_t count = file < 0 ? -1 : read(file, text, sizeof text - 1);
     if (file >= 0)
         close(file);

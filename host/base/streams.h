@@ -16,6 +16,9 @@
  * main(). */
 void streams_fill(void);
 
+/* Opens /dev/null, with O_RDONLY, O_WRONLY or O_RDWR; negative: errno says why. */
+int streams_nowhere(int mode);
+
 /* Flushes the standard output. False if something printed was not written (a full disk, a
  * closed pipe). */
 bool streams_end(void);

@@ -1,6 +1,8 @@
 /* user_folder.c - see user_folder.h. */
 #include "user_folder.h"
 
+#include "input_file.h"
+
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -141,8 +143,6 @@ void user_folder_make(const char *path)
 
 enum { TRIES = 16 };
 
-static const char temporary_begin[] = "lutetia-cache-";
-
 static struct {
     pthread_mutex_t lock;
     char path[USER_FOLDER_MAX / 2];
@@ -171,17 +171,16 @@ static void temporary_remove(void)
         tree_remove(temporary.path);
 }
 
-/* Removes the temporary folders of this user's dead processes. */
-static void temporaries_sweep(const char *where)
+/* Removes the temporary folders of that kind of this user's dead processes. */
+static void temporaries_sweep(const char *where, const char *begin)
 {
     DIR *names = opendir(where);
     for (struct dirent *e; names && (e = readdir(names));) {
         char path[PATH_MAX];
         struct stat status;
-        if (strncmp(e->d_name, temporary_begin, sizeof temporary_begin - 1) != 0)
+        if (strncmp(e->d_name, begin, strlen(begin)) != 0)
             continue;
-        int folder =
-            openat(dirfd(names), e->d_name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+        int folder = input_folder_descriptor(dirfd(names), e->d_name);
         if (folder < 0)
             continue;
         if (fstat(folder, &status) == 0 && status.st_uid == geteuid() &&
@@ -194,31 +193,46 @@ static void temporaries_sweep(const char *where)
         closedir(names);
 }
 
-/* Makes and locks a temporary folder. Between making and locking, another process that
- * sweeps may take it for a dead process's and remove it; then another folder is made. */
-static bool temporary_make(void)
+/* Makes and locks a temporary folder; its descriptor, which holds the lock, stays open. Between making
+ * and locking, another process that sweeps may take it for a dead process's and remove it; then another folder is made. */
+static int locked_make(const char *kind, char *path, size_t room)
 {
+    char begin[32];
     const char *where = getenv("TMPDIR");
-    if (!where || *where != '/' || strlen(where) > sizeof temporary.path / 2)
+    if (!where || *where != '/' || strlen(where) > room / 2)
         where = "/tmp";
-    temporaries_sweep(where);
+    snprintf(begin, sizeof begin, "lutetia-%s-", kind);
+    temporaries_sweep(where, begin);
     for (int i = 0; i < TRIES; i++) {
         struct stat status;
-        snprintf(temporary.path, sizeof temporary.path, "%s/%sXXXXXX", where, temporary_begin);
-        if (!mkdtemp(temporary.path))
-            return false;
-        temporary.held = open(temporary.path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-        if (temporary.held >= 0 && flock(temporary.held, LOCK_EX) == 0 &&
-            fstat(temporary.held, &status) == 0 && status.st_nlink > 0) {
-            temporary.owner = getpid();
-            atexit(temporary_remove);
-            return true;
-        }
-        if (temporary.held >= 0)
-            close(temporary.held);
-        rmdir(temporary.path);
+        snprintf(path, room, "%s/%sXXXXXX", where, begin);
+        if (!mkdtemp(path))
+            return -1;
+        const int held = input_folder_descriptor(AT_FDCWD, path);
+        if (held >= 0 && flock(held, LOCK_EX) == 0 && fstat(held, &status) == 0 &&
+            status.st_nlink > 0)
+            return held;
+        if (held >= 0)
+            close(held);
+        rmdir(path);
     }
-    return false;
+    errno = EEXIST;
+    return -1;
+}
+
+bool user_folder_temporary(const char *kind, char *path, size_t room)
+{
+    return locked_make(kind, path, room) >= 0;
+}
+
+static bool temporary_make(void)
+{
+    temporary.held = locked_make("cache", temporary.path, sizeof temporary.path);
+    if (temporary.held < 0)
+        return false;
+    temporary.owner = getpid();
+    atexit(temporary_remove);
+    return true;
 }
 
 /* A forked child uses its parent's folder, which exists as long as the parent does. */

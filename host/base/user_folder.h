@@ -20,6 +20,7 @@
 #define LUTETIA_USER_FOLDER_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 enum { USER_FOLDER_MAX = 512 };
 
@@ -29,6 +30,10 @@ enum { USER_FOLDER_MAX = 512 };
  * until the thread's next call, or NULL. Threads: any. The temporary folder is the same for
  * every call of a process, with the names below it. */
 bool user_cache_folder(const char *name, char out[static USER_FOLDER_MAX], const char **why);
+
+/* Makes a private folder in the temporary folder: /tmp/lutetia-KIND-XXXXXX, in TMPDIR if that is set. The caller removes it. Those of this
+ * user's dead processes are removed, a lock tells which. False: errno says why, and the path what was tried. */
+bool user_folder_temporary(const char *kind, char *path, size_t room);
 
 /* Checks that nobody but this user (and root) can put or change a file in the folder.
  * Returns NULL if so, else the reason in a few words. */

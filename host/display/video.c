@@ -11,6 +11,7 @@
 #include "video_check.h"
 
 #include <output_file.h>
+#include <streams.h>
 
 #include <errno.h>
 #include <fcntl.h>
@@ -83,7 +84,7 @@ _Noreturn static void encoder_become(const struct video *v, int input, int fps)
     char rate[16], output[32], sound[32];
     char *words[WORDS_MAX]; /* which execvp() does not change */
     int count = 0;
-    int nowhere = open("/dev/null", O_WRONLY), complaint = dup(fileno(v->complaint)),
+    int nowhere = streams_nowhere(O_WRONLY), complaint = dup(fileno(v->complaint)),
         file = dup(fileno(v->out.stream)), wav = v->sound >= 0 ? dup(v->sound) : -1;
     snprintf(rate, sizeof rate, "%d", fps);
     snprintf(output, sizeof output, "/proc/self/fd/%d", OUTPUT);

@@ -6,6 +6,8 @@
  *     1,     0,     0,  1024,    341, 0x5c2a1b3d */
 #include "video_check.h"
 
+#include <streams.h>
+
 #include <errno.h>
 #include <fcntl.h>
 #include <stdint.h>
@@ -39,7 +41,7 @@ _Noreturn static void reader_become(int file, int output, const char *format)
                                  "framecrc",
                                  "-",
                                  NULL};
-    const int nowhere = open("/dev/null", O_RDONLY), film = fcntl(file, F_DUPFD, FILM + 1),
+    const int nowhere = streams_nowhere(O_RDONLY), film = fcntl(file, F_DUPFD, FILM + 1),
               pipe = fcntl(output, F_DUPFD, FILM + 1);
     dup2(nowhere, STDIN_FILENO);
     dup2(pipe, STDOUT_FILENO);

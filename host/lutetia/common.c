@@ -3,6 +3,7 @@
 
 #include <display.h>
 #include <paris_internal.h>
+#include <part_files.h>
 #include <visible_text.h>
 
 #include <errno.h>
@@ -60,9 +61,11 @@ int fail_usage(const char *verb, const char *format, ...)
 
 static volatile sig_atomic_t interrupt_flag;
 
+/* The second one ends the program at once. */
 static void interrupt_take(int signal_number)
 {
-    (void)signal_number;
+    if (interrupt_flag)
+        part_files_die(signal_number);
     interrupt_flag = 1;
 }
 
@@ -72,8 +75,7 @@ static void interrupt_take(int signal_number)
 void interrupt_catch(void)
 {
     /* SA_RESTART: compilers fail if a system call is interrupted */
-    struct sigaction action = {.sa_handler = interrupt_take,
-                               .sa_flags = (int)(SA_RESETHAND | SA_RESTART)};
+    struct sigaction action = {.sa_handler = interrupt_take, .sa_flags = SA_RESTART};
     sigset_t interrupt;
     sigemptyset(&interrupt);
     sigaddset(&interrupt, SIGINT);

@@ -19,6 +19,7 @@
 #include "help.h"
 #include "lutetia.h"
 
+#include <input_file.h>
 #include <output_file.h>
 
 #include <elf.h>
@@ -188,7 +189,7 @@ static bool former_keep(struct output_file *former, const char *name)
     char buffer[1 << 16];
     struct stat status;
     *former = (struct output_file){0};
-    FILE *program = fopen(name, "rb");
+    FILE *program = input_file_open(name, NULL);
     if (!program)
         return true; /* nothing is there, or nothing that this user can read */
     bool kept = output_file_open(former, name);

@@ -12,6 +12,7 @@
 
 #include <input_file.h>
 #include <output_file.h>
+#include <user_folder.h>
 
 #include <errno.h>
 #include <fcntl.h>
@@ -33,10 +34,7 @@ struct explain {
 
 static bool folder_open(struct explain *e)
 {
-    const char *base = getenv("TMPDIR");
-    int length = snprintf(e->folder, sizeof e->folder, "%s/lutetia-explain-XXXXXX",
-                          base && *base ? base : "/tmp");
-    if (length < 0 || (size_t)length >= sizeof e->folder || !mkdtemp(e->folder)) {
+    if (!user_folder_temporary("explain", e->folder, sizeof e->folder)) {
         fail("explain", "%s: cannot make a folder there: %s; name another one in TMPDIR",
              e->folder, strerror(errno));
         return false;

@@ -18,8 +18,10 @@
 #include "options.h"
 
 #include <front_panel.h>
+#include <input_file.h>
 #include <light_recording.h>
 #include <paris_internal.h>
+#include <streams.h>
 #include <window.h>
 
 #include <errno.h>
@@ -340,23 +342,22 @@ static int from_program(struct leds *leds, char **arguments)
 static bool is_recording(const char *path)
 {
     char begins[8] = "";
-    struct stat status;
-    int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    int descriptor = input_file_descriptor(path, NULL);
     if (descriptor < 0)
         return false;
-    bool is = fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) &&
-              ((read(descriptor, begins, sizeof begins) == (ssize_t)sizeof begins &&
-                memcmp(begins, LIGHT_RECORDING_LINE, sizeof begins) == 0) ||
-               access(path, X_OK) != 0);
+    bool is = (read(descriptor, begins, sizeof begins) == (ssize_t)sizeof begins &&
+               memcmp(begins, LIGHT_RECORDING_LINE, sizeof begins) == 0) ||
+              access(path, X_OK) != 0;
     close(descriptor);
     return is;
 }
 
 static int from_file(struct leds *leds, const char *path)
 {
-    int descriptor = open(path, O_RDONLY | O_CLOEXEC);
+    const char *why;
+    int descriptor = input_file_descriptor(path, &why);
     if (descriptor < 0)
-        return fail("leds", "%s: cannot open: %s", path, strerror(errno));
+        return fail("leds", "%s: cannot open: %s", path, why);
     int status = from_descriptor(leds, descriptor, path, false);
     close(descriptor);
     return status;
@@ -368,7 +369,7 @@ static int from_file(struct leds *leds, const char *path)
 static int from_input(struct leds *leds)
 {
     int status = from_descriptor(leds, STDIN_FILENO, "the standard input", leds->watched != 0);
-    int nowhere = leds->watched ? open("/dev/null", O_RDWR) : -1;
+    int nowhere = leds->watched ? streams_nowhere(O_RDWR) : -1;
     if (nowhere >= 0) { /* close the output, so that a process waiting for its end goes on */
         dup2(nowhere, STDIN_FILENO);
         dup2(nowhere, STDOUT_FILENO);

@@ -87,6 +87,9 @@ static int serve_do(struct midi_verb *v)
         return fail_midi(v);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+    struct sigaction hangup;
+    if (sigaction(SIGHUP, NULL, &hangup) == 0 && hangup.sa_handler != SIG_IGN) /* nohup */
+        sigaction(SIGHUP, &action, NULL);
     printf("listening at %s\n", midi_server_path(serving));
     fflush(stdout);
     midi_server_run(serving);

@@ -7,11 +7,11 @@
 #include "kept_kernels.h"
 
 #include <dirent.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "input_file.h"
 #include "oldest.h"
 
 enum { FIRST_LETTERS = 2, LETTERS_LEAST = 30 };
@@ -25,7 +25,7 @@ static bool is_name(const char *name, size_t least, size_t most)
 
 static DIR *folder_open(int in, const char *name)
 {
-    int folder = openat(in, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    int folder = input_folder_descriptor(in, name);
     DIR *list = folder >= 0 ? fdopendir(folder) : NULL;
     if (folder >= 0 && !list)
         close(folder);

@@ -33,6 +33,8 @@ NESTED = re.compile(r"\{[^{}]*\}")
 ARGUMENTS = re.compile(r"\([^()]+\)")
 TOUR_LINE = re.compile(r"^ {4}([a-z][\w/]*)/(?: |$)", re.MULTILINE)
 KEYWORDS = {"void", "int", "char", "float", "double", "return", "sizeof"}
+OPENERS = re.compile(r"(?<![\w.])(?<!->)((?:fopen|freopen)(?:64)?|fopencookie|open(?:at)?(?:64)?|openat2|creat(?:64)?|mk(?:d|s|os)temps?(?:64)?"
+                     r"|mkostemps|tmpfile(?:64)?|tempnam|tmpnam|memfd_create|shm_open|FT_New_Face)\s*\(")
 CALLED = re.compile(r"\b([A-Za-z_]\w*)\s*\(")
 PROTOTYPE = re.compile(r"\b([A-Za-z_]\w*)\s*\([^;{}]*\)\s*;")
 VARIABLE = re.compile(r"\b([A-Za-z_]\w*)(?:\[[^\]\n]*\])*\s*[=,;]")
@@ -46,7 +48,7 @@ class TableError(Exception):
 class Table:
     """The rows of layers.txt."""
 
-    KINDS = {"include": 2, "call": 2, "circle": 1, "length": (1, 2), "namesake": 1}
+    KINDS = {"include": 2, "call": 2, "opens": 2, "circle": 1, "length": (1, 2), "namesake": 1}
 
     def __init__(self, text, name):
         self.name = name
@@ -55,6 +57,7 @@ class Table:
         self.prefixes = {}  # of functions that macros define -> folder
         self.doors = []     # headers, or folders of headers, that outsiders call through
         self.only = {}      # beginning of an outside header's name -> folders that may include it
+        self.opens = {}     # (file, function that opens files) -> line of the row
         self.flat = {}      # (file,) or (file, function) -> line of the row
         self.known = {}     # an offence -> line of the row
         for number, line in enumerate(text.splitlines(), 1):
@@ -86,6 +89,10 @@ class Table:
             if len(rest) not in (1, 2):
                 raise TableError("'table' wants FILE [FUNCTION]")
             self.flat[tuple(rest)] = number
+        elif kind == "opens":
+            if len(rest) < 3:
+                raise TableError("'opens' wants FILE FUNCTION and the reason")
+            self.opens[tuple(rest[:2])] = number
         elif kind == "offends":
             what = rest[0] if rest else ""
             count = self.KINDS.get(what)
@@ -97,7 +104,7 @@ class Table:
                 raise TableError("a second row for the same offence")
             self.known[tuple(rest)] = number
         else:
-            raise TableError("unknown row '%s' (folder, door, header, names, only, table, offends)" % kind)
+            raise TableError("unknown row '%s' (folder, door, header, names, only, table, opens, offends)" % kind)
 
     def reach(self, folder, way=()):
         """The folders that a folder may use; None: all."""
@@ -291,6 +298,7 @@ class House:
             self.check_includes(file)
             self.check_uses(file)
             self.check_lengths(file)
+            self.check_opens(file)
         self.check_circles()
         self.check_namesakes()
         if self.tour is not None:
@@ -300,6 +308,11 @@ class House:
                 self.problems.append("%s:%d: 'table %s' is short or gone: remove the row"
                                      % (self.table.name, number, " ".join(row)))
             self.offences.pop(("length",) + row, None)
+        for row, number in self.table.opens.items():
+            if ("opens",) + row not in self.offences:
+                self.problems.append("%s:%d: 'opens %s' opens nothing, or is gone: remove the row"
+                                     % (self.table.name, number, " ".join(row)))
+            self.offences.pop(("opens",) + row, None)
         for row, number in self.table.known.items():
             if row not in self.offences:
                 self.problems.append("%s:%d: 'offends %s' offends no longer: remove the row"
@@ -394,6 +407,14 @@ class House:
             if last - first + 1 > FUNCTION_LINES:
                 self.offend(("length", file.path, name), file, first,
                             "%s() has %d lines; at most %d" % (name, last - first + 1, FUNCTION_LINES))
+
+    def check_opens(self, file):
+        """Files are opened by the few functions that the rows `opens` name; not so in tests and examples, programs of their own."""
+        if self.table.reached[self.row_of[file.path]] is None or file.path.endswith(".cl"):
+            return
+        for match in OPENERS.finditer(file.code):
+            self.offend(("opens", file.path, match.group(1)), file, file.code.count("\n", 0, match.start()) + 1,
+                        "calls %s(): files are read by input_file.h, and written by output_file.h and growing_file.h" % match.group(1))
 
     def check_circles(self):
         """Each file in a circle of uses is an offence: finds strongly connected components of several files by Tarjan's algorithm."""

@@ -143,6 +143,17 @@ class Layers(unittest.TestCase):
         self.wrong({"base/b.c": "#include <CL/cl.h>\n", "tests/t.c": "#include <CL/cl.h>\n", "low/l.c": "#include <CL/cl.h>\n"},
                    rows, "low/l.c:1: includes <CL/cl.h>, which only base may")
 
+    def test_files_are_opened_by_those_who_are_named(self):
+        rows = ROWS + "opens base/b.c open the one that opens\n"
+        files = {"base/b.c": "int b(const char *p)\n{\n    return open(p, 0);\n}\n"}
+        self.clean(files, rows)
+        self.clean({**files, "tests/t.c": "int t = fopen(0, 0);\n",
+                    "low/l.c": 'int l = s->open(1) + s.fopen(2) + reopen(3) + is_open; /* open(4) */ char *p = "creat(";\n'}, rows)
+        for name in ("fopen", "open", "openat", "creat", "mkstemp", "mkostemps", "mkdtemp", "freopen", "tmpfile", "open64", "memfd_create"):
+            self.wrong({**files, "low/l.c": "int l(void)\n{\n    return %s (0);\n}\n" % name}, rows, "low/l.c:3: calls %s()" % name)
+        self.wrong({}, rows, "'opens base/b.c open' opens nothing, or is gone")
+        self.refused(ROWS + "opens base/b.c open\n", "'opens' wants FILE FUNCTION and the reason")
+
     def test_two_files_in_a_circle_are_wrong(self):
         self.wrong({"low/a.c": function("a", 4, body="    b();\n"), "low/b.c": function("b", 4, body="    a();\n")}, ROWS,
                    "low/a.c:1: is in a circle of 2 files: low/a.c low/b.c low/a.c", "low/b.c:1: is in a circle")

@@ -431,7 +431,7 @@ static void a_dump_that_cannot_be_is_said_once(void **state)
                                         "--font", "DejaVuSerif", "-o",
                                         scratch_path("last.png")},
                           .variables = {"LUTETIA_DUMP=/proc/none"}};
-    run(&child, 0);
+    run(&child, 1);
     assert_non_null(strstr(child.errors, "LUTETIA_DUMP: cannot write /proc/none"));
     assert_int_equal(lines_in(child.errors), 1);
     assert_int_equal(unlink(scratch_path("last.png")), 0);

@@ -134,6 +134,7 @@ def killed_program_leaves_a_trace(folder):
     process.communicate()
     events = load_cut(path)
     assert len(named(events, "reading a processor")) >= 1
+    assert json.load(open(path)), "the file has its bracket at any moment but that of a write"
     nested(events, 1), nested(events, 2)
 
 
@@ -141,7 +142,7 @@ def trace_that_cannot_be_written_is_said_once(folder):
     for path, why in ((f"{folder}/no/such/trace.json", "No such file"), ("/dev/full", "No space")):
         for mode in "3", "twice":
             result = run(EXPLAINED, mode, LUTETIA_TRACE=path)
-            assert result.returncode == 0 and result.stdout.startswith("water "), result
+            assert result.returncode == 1 and result.stdout.startswith("water "), result
             one_line(result.stderr, "LUTETIA_TRACE", path, why)
 
 
@@ -233,7 +234,7 @@ def wrong_arguments_are_one_line(folder):
     one_line(result.stderr, "status 3")
     assert set(os.listdir(folder)) == before, "something was left behind"
     result = run(EXPLAINED, "1", LUTETIA_EXPLAIN=f"{folder}/no/such/file")
-    assert result.returncode == 0 and result.stdout == "water 0.5\n"
+    assert result.returncode == 1 and result.stdout == "water 0.5\n"
     one_line(result.stderr, "LUTETIA_EXPLAIN", "No such file")
 
 

@@ -1,47 +1,69 @@
 /* dump.c - writes graphs and kernels to files (LUTETIA_DUMP). */
-#include <errno.h>
+#include <exit_status.h>
+#include <output_file.h>
+
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 
 #include "build/plans.h"
 
-/* NULL: the file cannot be written. This is reported once, and the program goes on without
- * dumps. */
-static FILE *dump_open(struct machine *m, int number, const char *suffix)
+enum { PATH_BYTES = 600 };
+
+/* A file that cannot be written is reported once; the program goes on without dumps, and does not end with 0. */
+static void dump_fail(struct machine *m, const char *path, const char *why)
 {
-    char path[600];
+    fprintf(stderr, "LUTETIA_DUMP: cannot write %s: %s\n", path, why);
+    exit_status_fail();
+    free(m->plans->dump_dir);
+    m->plans->dump_dir = NULL;
+}
+
+static void path_make(char path[static PATH_BYTES], const struct machine *m, int number,
+                      const char *suffix)
+{
+    snprintf(path, PATH_BYTES, "%s/%04d%s", m->plans->dump_dir, number, suffix);
+}
+
+static bool dump_open(struct machine *m, int number, const char *suffix,
+                      struct output_file *out)
+{
+    char path[PATH_BYTES];
     mkdir(m->plans->dump_dir, 0777);
-    snprintf(path, sizeof path, "%s/%04d%s", m->plans->dump_dir, number, suffix);
-    FILE *f = fopen(path, "w");
-    if (!f) {
-        fprintf(stderr,
-                "LUTETIA_DUMP: cannot write %s: %s; name a folder that can be written\n", path,
-                strerror(errno));
-        free(m->plans->dump_dir);
-        m->plans->dump_dir = NULL;
-    }
-    return f;
+    path_make(path, m, number, suffix);
+    if (output_file_open(out, path))
+        return true;
+    dump_fail(m, path, out->why);
+    return false;
+}
+
+static void dump_close(struct machine *m, int number, const char *suffix,
+                       struct output_file *out)
+{
+    char path[PATH_BYTES];
+    path_make(path, m, number, suffix);
+    if (!output_file_commit(out))
+        dump_fail(m, path, out->why);
 }
 
 void dump_text(struct machine *m, int number, const char *suffix, const char *options,
                const char *text)
 {
-    FILE *f = dump_open(m, number, suffix);
-    if (!f)
+    struct output_file out;
+    if (!dump_open(m, number, suffix, &out))
         return;
     if (options)
-        fprintf(f, "/* %s */\n", options);
-    fputs(text, f);
-    fclose(f);
+        fprintf(out.stream, "/* %s */\n", options);
+    fputs(text, out.stream);
+    dump_close(m, number, suffix, &out);
 }
 
 void dump_graph(struct machine *m, int number, const struct plan_graph *g)
 {
-    FILE *f = dump_open(m, number, ".graph");
-    if (!f)
+    struct output_file out;
+    if (!dump_open(m, number, ".graph", &out))
         return;
+    FILE *f = out.stream;
     for (int i = 0; i < g->count; i++) {
         const struct plan_node *n = &g->nodes[i];
         fprintf(f, "%4d %-14s %s%d", i, n->leaf ? "buffer" : node_ops[n->op].name,
@@ -57,5 +79,5 @@ void dump_graph(struct machine *m, int number, const struct plan_graph *g)
                     n->target ? ", asked for" : "");
         fprintf(f, "\n");
     }
-    fclose(f);
+    dump_close(m, number, ".graph", &out);
 }

@@ -20,6 +20,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "input_file.h"
 #include "oldest.h"
 #include "output_file.h"
 #include "user_folder.h"
@@ -39,7 +40,7 @@ static void sweep_once(const char *path)
     static atomic_flag swept = ATOMIC_FLAG_INIT;
     if (atomic_flag_test_and_set(&swept))
         return;
-    int folder = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NOFOLLOW);
+    int folder = input_folder_descriptor(AT_FDCWD, path);
     if (folder < 0)
         return;
     output_file_sweep(folder);
@@ -55,7 +56,7 @@ static bool is_program(const char *name)
 
 int cache_trim(const char *path, int most, double unused_s)
 {
-    int folder = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NOFOLLOW), count = 0;
+    int folder = input_folder_descriptor(AT_FDCWD, path), count = 0;
     DIR *list = folder >= 0 ? fdopendir(folder) : NULL;
     struct oldest o = {.folder = folder};
     for (const struct dirent *e; list && (e = readdir(list));)
@@ -98,12 +99,7 @@ bool machine_cache_folder(char out[static MACHINE_CACHE_FOLDER_MAX], const char 
 
 FILE *cache_file_read(const char *path)
 {
-    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
-    struct stat status;
-    if (file >= 0 && (fstat(file, &status) != 0 || !S_ISREG(status.st_mode))) {
-        close(file);
-        return NULL;
-    }
+    int file = input_file_descriptor_no_link(path, NULL);
     FILE *f = file >= 0 ? fdopen(file, "rb") : NULL;
     if (!f && file >= 0)
         close(file);

@@ -11,6 +11,7 @@
 #include "device/chunks.h"
 #include "device/tuning.h"
 #include "devices.h"
+#include "input_file.h"
 #include "latency.h"
 
 int machine_devices_list(void (*each)(void *context, int index, const char *platform,
@@ -82,7 +83,7 @@ static uint64_t memory_left(uint64_t bytes)
     enum { PART = 16 };
     unsigned long long kb;
     char line[128];
-    FILE *file = fopen("/proc/meminfo", "r");
+    FILE *file = input_file_open("/proc/meminfo", NULL);
     while (file && fgets(line, sizeof line, file))
         if (sscanf(line, "MemAvailable: %llu kB", &kb) == 1 && kb << 10 < bytes)
             bytes = kb << 10;

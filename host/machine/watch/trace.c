@@ -1,19 +1,18 @@
 /* trace.c - writes the file of trace.h.
  *
- * Events are collected in a buffer and written by pwrite() at known offsets, so that later
- * events overwrite the closing bracket.
+ * Events are collected in a buffer and written in pieces; each piece takes the place of the closing bracket that was behind the one
+ * before, and has another behind it. So the file can be loaded whenever the program ends.
  */
 #include "watch/trace.h"
 
+#include <exit_status.h>
 #include <growing_file.h>
 
-#include <errno.h>
 #include <pthread.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <sys/types.h>
 #include <time.h>
 #include <unistd.h>
@@ -22,50 +21,38 @@ enum { BUFFER_BYTES = 1 << 16, EVENT_BYTES = 2048, NAME_BYTES = 512 };
 
 static struct {
     pthread_mutex_t lock;
-    int file;             /* -1: none */
+    struct growing_file file;
     char *path, *refused; /* refused: the last path that could not be opened, which has been
                            * reported */
     pid_t owner;          /* the process that opened the file: forked children must not write */
-    bool seekable, failed, full;
-    off_t end; /* the file's length without the bracket */
+    bool failed, full;
     char buffer[BUFFER_BYTES];
     size_t length;
     double began_s;
     int machines, open_count;
     long events;
-} trace = {.lock = PTHREAD_MUTEX_INITIALIZER, .file = -1};
+} trace = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
 static void complain(const char *path, const char *what)
 {
-    fprintf(stderr, "LUTETIA_TRACE: cannot %s %s: %s; name a file that can be written\n", what,
-            path, strerror(errno));
+    fprintf(stderr, "LUTETIA_TRACE: cannot %s %s: %s\n", what, path, trace.file.why);
+    exit_status_fail();
 }
 
 static bool bytes_write(const char *bytes, size_t count)
 {
-    off_t at = trace.end;
-    while (count > 0) {
-        ssize_t done = trace.seekable ? pwrite(trace.file, bytes, count, at)
-                                      : write(trace.file, bytes, count);
-        if (done < 0 && errno == EINTR)
-            continue;
-        if (done <= 0) {
-            if (!trace.failed)
-                complain(trace.path, "write to");
-            trace.failed = true;
-            return false;
-        }
-        bytes += done;
-        at += done;
-        count -= (size_t)done;
-    }
-    trace.end = at;
-    return true;
+    static const char bracket[] = "\n]\n";
+    if (growing_file_append(&trace.file, bytes, count, bracket, sizeof bracket - 1))
+        return true;
+    if (!trace.failed)
+        complain(trace.path, "write to");
+    trace.failed = true;
+    return false;
 }
 
 static bool ours(void)
 {
-    return trace.file >= 0 && !trace.failed && trace.owner == getpid();
+    return trace.file.is_open && !trace.failed && trace.owner == getpid();
 }
 
 static void flush(void)
@@ -121,26 +108,35 @@ static double now_s(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+/* When the program ends. */
+static void file_close(void)
+{
+    pthread_mutex_lock(&trace.lock);
+    flush();
+    if (!growing_file_close(&trace.file))
+        complain(trace.path, "write to");
+    pthread_mutex_unlock(&trace.lock);
+}
+
 static bool file_open(const char *path)
 {
-    struct stat status;
-    int file = growing_file_open(path);
-    if (file < 0) {
+    static bool registered;
+    if (!growing_file_close(&trace.file))
+        complain(trace.path, "write to");
+    free(trace.path);
+    trace.path = NULL;
+    if (!growing_file_open(&trace.file, path)) {
         if (!trace.refused || strcmp(trace.refused, path) != 0)
             complain(path, "open");
         free(trace.refused);
         trace.refused = strdup(path);
         return false;
     }
-    if (trace.file >= 0)
-        close(trace.file);
-    free(trace.path);
-    trace.file = file;
+    if (!registered)
+        registered = atexit(file_close) == 0;
     trace.path = strdup(path);
     trace.owner = getpid();
-    trace.seekable = fstat(file, &status) == 0 && S_ISREG(status.st_mode);
     trace.failed = trace.full = false;
-    trace.end = 0;
     trace.length = 0;
     trace.machines = 0;
     trace.events = 0;
@@ -151,7 +147,7 @@ static bool file_open(const char *path)
 int trace_open(const char *path)
 {
     pthread_mutex_lock(&trace.lock);
-    bool same = trace.file >= 0 && trace.path && strcmp(trace.path, path) == 0;
+    bool same = trace.path && strcmp(trace.path, path) == 0;
     int machine = 0;
     if (!same && trace.open_count > 0)
         fprintf(stderr, "LUTETIA_TRACE: %s: this process already writes %s\n", path,
@@ -220,18 +216,9 @@ void trace_flush(void)
     pthread_mutex_unlock(&trace.lock);
 }
 
-static void leave(void)
-{
-    flush();
-    if (ours() && trace.seekable && bytes_write("\n]\n", 3))
-        trace.end -= 3;
-}
-
 void trace_leave(void)
 {
-    pthread_mutex_lock(&trace.lock);
-    leave();
-    pthread_mutex_unlock(&trace.lock);
+    trace_flush();
 }
 
 void trace_close(int machine)
@@ -239,7 +226,7 @@ void trace_close(int machine)
     if (!machine)
         return;
     pthread_mutex_lock(&trace.lock);
-    leave(); /* the file stays open: another machine's events may follow */
+    flush(); /* the file stays open: another machine's events may follow */
     trace.open_count--;
     pthread_mutex_unlock(&trace.lock);
 }

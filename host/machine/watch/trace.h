@@ -8,8 +8,8 @@
  *     trace_close(machine);
  *
  * A process has one file, in which each machine is a process of the trace. Only whole events
- * are written, and the format allows the closing bracket to be missing. So a killed program
- * leaves a file that can be loaded, up to the last flush. Threads. Any.
+ * are written, and a closing bracket behind them. So a killed program leaves a file that can be loaded, up to the last flush
+ * (growing_file.h). Where the file cannot be written, a line says so, and the process does not end with 0. Threads. Any.
  */
 #ifndef LUTETIA_MACHINE_TRACE_H
 #define LUTETIA_MACHINE_TRACE_H

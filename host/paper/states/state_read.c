@@ -12,6 +12,8 @@
 #include "states/hdf5_library.h"
 #include "states/state_internal.h"
 
+#include <input_file.h>
+
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -263,14 +265,11 @@ enum paper_status paper_state_open(const char *path, struct paper_state **out)
     state->pipe = -1;
     state->memory_bytes = STATE_MEMORY_BYTES;
     enum paper_status status;
-    struct stat found_file = {0};
-    /* no waiting for pipes */
-    int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    int descriptor = input_file_descriptor(path, NULL);
     state->descriptor = descriptor;
-    bool there = descriptor >= 0 && fstat(descriptor, &found_file) == 0;
-    bool regular = there && S_ISREG(found_file.st_mode);
-    ssize_t read_count = regular ? pread(descriptor, header, STATE_HEADER_BYTES, 0) : -1;
-    if (there && !regular)
+    ssize_t read_count =
+        descriptor >= 0 ? pread(descriptor, header, STATE_HEADER_BYTES, 0) : -1;
+    if (descriptor < 0 && (errno == ENOTSUP || errno == EISDIR))
         status = paper_fail(PAPER_BAD_ARGUMENT, "%s: cannot read: it is no regular file", path);
     else if (read_count < 0)
         status = paper_fail(PAPER_BAD_ARGUMENT, "%s: cannot read: %s", path, strerror(errno));

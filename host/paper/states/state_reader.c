@@ -10,6 +10,7 @@
 #include "states/state_internal.h"
 
 #include <confine.h>
+#include <streams.h>
 
 #include <fcntl.h>
 #include <stdlib.h>
@@ -51,7 +52,7 @@ _Noreturn static void reader_fail(int descriptor, char kind, const char *what)
 /* Messages that libraries print when they crash are discarded. */
 static void reader_confine(const struct state_reading *reading)
 {
-    int nowhere = open("/dev/null", O_WRONLY);
+    int nowhere = streams_nowhere(O_WRONLY);
     if (nowhere >= 0) {
         dup2(nowhere, STDOUT_FILENO);
         dup2(nowhere, STDERR_FILENO);
