@@ -6,7 +6,8 @@
  *
  *     slot_program_make (&p, seed);
  *     slot_memory_init (&memory, &p);
- *     slot_step_perform (&memory, &p, &p.steps[i]);      number slot_bits (&memory, field, vp, 0, 32) */
+ *     slot_step_perform (&memory, &p.steps[i]);
+ *     number x = slot_bits (&memory, field, vp, 0, 32) */
 #ifndef PARIS_TESTS_SLOT_PROGRAMS_H
 #define PARIS_TESTS_SLOT_PROGRAMS_H
 
@@ -54,6 +55,18 @@ enum slot_kind {
     SLOT_WRITE,     /* one processor */
     SLOT_WRITE_ALL, /* whatever the context */
     SLOT_SWAP,
+    SLOT_FMAX,
+    SLOT_FMOVE,
+    SLOT_FLESS,
+    SLOT_ADDRESS, /* my_news_coordinate */
+    SLOT_SEND,    /* these two combine with logxor where two messages meet */
+    SLOT_SEND_FADD,
+    SLOT_FRANK,
+    SLOT_SCAN_COPY,
+    SLOT_SCAN_MAX,
+    SLOT_SPREAD,
+    SLOT_SPREAD_ADD,
+    SLOT_GREATEST, /* to the front end */
     SLOT_KINDS
 };
 
@@ -68,11 +81,19 @@ struct slot_step {
     struct slot_part to, a, b;
     int length, shorter; /* of `to`; of the source where that is another */
     int upward, inclusive, vp;
+    int smode; /* of ranks and scans, as in <cm/paris.h> */
+    struct slot_part bit;
     uint64_t number; /* of SLOT_WRITE; the seed of SLOT_WRITE_ALL */
 };
 
 /* How much is looked at. */
-enum slot_look { SLOT_LOOK_ALWAYS, SLOT_LOOK_TURNS, SLOT_LOOK_SOME, SLOT_LOOK_END };
+enum slot_look {
+    SLOT_LOOK_ALWAYS, /* at everything after each step */
+    SLOT_LOOK_TURNS,
+    SLOT_LOOK_SOME,  /* at a field after every third step */
+    SLOT_LOOK_PARTS, /* at up to 64 bits of a field after each step */
+    SLOT_LOOK_END
+};
 
 struct slot_program {
     int ratio[SLOT_SETS], bits[SLOT_FIELDS + 1], set[SLOT_FIELDS + 1];
@@ -90,7 +111,8 @@ struct slot_memory {
     unsigned char context[SLOT_SETS][SLOT_VPS], test[SLOT_SETS][SLOT_VPS],
         overflow[SLOT_SETS][SLOT_VPS];
     const struct slot_program *of;
-    uint64_t sum; /* of the last SLOT_SUM */
+    uint64_t seen; /* by the front end, of the last SLOT_SUM or SLOT_GREATEST */
+    bool collides; /* two messages of the last send have met */
 };
 
 void slot_program_make(struct slot_program *p, uint64_t seed);
@@ -101,6 +123,7 @@ int slot_vps(const struct slot_program *p, int set);
 int slot_address_bits(const struct slot_program *p, int set);
 /* What SLOT_WRITE_ALL writes into that processor. */
 uint64_t slot_number(uint64_t seed, int vp, int length);
+bool slot_sends(enum slot_kind kind);
 const char *slot_kind_name(enum slot_kind kind);
 
 #endif

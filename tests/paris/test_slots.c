@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "paris_internal.h"
+#include "sample.h"
 #include "slot_programs.h"
 #include <cm/paris.h>
 
@@ -122,6 +123,15 @@ static void operate(const struct slot_step *s, CM_field_id_t to, CM_field_id_t a
     case SLOT_SWAP:
         CM_swap_2_1L(to, a, n);
         break;
+    case SLOT_FMAX:
+        CM_f_max_3_1L(to, a, b, sig, exp);
+        break;
+    case SLOT_FMOVE:
+        CM_f_move_1L(to, a, sig, exp);
+        break;
+    case SLOT_ADDRESS:
+        CM_my_news_coordinate_1L(to, 0, n);
+        break;
     }
 }
 
@@ -132,6 +142,9 @@ static void set_flags(const struct slot_step *s, CM_field_id_t to, CM_field_id_t
     switch ((int)s->kind) {
     case SLOT_LESS:
         CM_u_lt_1L(a, b, n);
+        break;
+    case SLOT_FLESS:
+        CM_f_lt_1L(a, b, n == 32 ? 23 : 52, n == 32 ? 8 : 11);
         break;
     case SLOT_STORE_TEST:
         CM_store_test(to);
@@ -154,16 +167,17 @@ static void set_flags(const struct slot_step *s, CM_field_id_t to, CM_field_id_t
     }
 }
 
-/* What looks at other processors. False: the sum is another. */
-static bool communicate(const struct slot_step *s, CM_field_id_t to, CM_field_id_t a,
-                        CM_field_id_t b)
+/* Messages. */
+static void send(const struct slot_step *s, CM_field_id_t to, CM_field_id_t a, CM_field_id_t b)
 {
-    const unsigned int n = (unsigned int)s->length, k = (unsigned int)s->shorter;
-    const unsigned int direction = s->upward ? CM_upward : CM_downward,
-                       inclusion = s->inclusive ? CM_inclusive : CM_exclusive;
-    switch ((int)s->kind) {
-    case SLOT_NEWS:
-        CM_get_from_news_1L(to, a, 0, direction, n);
+    const unsigned int n = (unsigned int)s->length;
+    const bool one_by_one = s->kind == SLOT_SEND || s->kind == SLOT_SEND_FADD;
+    switch ((int)(one_by_one && memory.collides ? SLOT_SEND_XOR : s->kind)) {
+    case SLOT_SEND:
+        CM_send_1L(to, b, a, n, CM_no_field);
+        break;
+    case SLOT_SEND_FADD:
+        CM_send_with_f_add_1L(to, b, a, n == 32 ? 23 : 52, n == 32 ? 8 : 11, CM_no_field);
         break;
     case SLOT_SEND_MAX:
         CM_send_with_s_max_1L(to, b, a, n, CM_no_field);
@@ -174,17 +188,56 @@ static bool communicate(const struct slot_step *s, CM_field_id_t to, CM_field_id
     case SLOT_SEND_XOR:
         CM_send_with_logxor_1L(to, b, a, n, CM_no_field);
         break;
-    case SLOT_GET:
-        CM_get_1L(to, b, a, n);
-        break;
+    }
+}
+
+/* Along the axis. */
+static void scan(const struct slot_step *s, CM_field_id_t to, CM_field_id_t a)
+{
+    const unsigned int n = (unsigned int)s->length, k = (unsigned int)s->shorter;
+    const unsigned int direction = s->upward ? CM_upward : CM_downward,
+                       inclusion = s->inclusive ? CM_inclusive : CM_exclusive,
+                       smode = (unsigned int)s->smode;
+    const CM_field_id_t bit = s->smode ? at(s->bit) : CM_no_field;
+    switch ((int)s->kind) {
     case SLOT_RANK:
-        CM_u_rank_2L(to, a, 0, n, k, direction, CM_none, CM_no_field);
+        CM_u_rank_2L(to, a, 0, n, k, direction, smode, bit);
+        break;
+    case SLOT_FRANK:
+        CM_f_rank_2L(to, a, 0, n, k == 32 ? 23 : 52, k == 32 ? 8 : 11, direction, smode, bit);
         break;
     case SLOT_SCAN:
-        CM_scan_with_u_add_1L(to, a, 0, n, direction, inclusion, CM_none, CM_no_field);
+        CM_scan_with_u_add_1L(to, a, 0, n, direction, inclusion, smode, bit);
+        break;
+    case SLOT_SCAN_COPY:
+        CM_scan_with_copy_1L(to, a, 0, n, direction, inclusion, smode, bit);
+        break;
+    case SLOT_SCAN_MAX:
+        CM_scan_with_s_max_1L(to, a, 0, n, direction, inclusion, smode, bit);
         break;
     case SLOT_ENUMERATE:
-        CM_enumerate_1L(to, 0, n, direction, inclusion, CM_none, CM_no_field);
+        CM_enumerate_1L(to, 0, n, direction, inclusion, smode, bit);
+        break;
+    case SLOT_SPREAD:
+        CM_spread_with_copy_1L(to, a, 0, n, (unsigned int)s->vp);
+        break;
+    case SLOT_SPREAD_ADD:
+        CM_spread_with_u_add_1L(to, a, 0, n);
+        break;
+    }
+}
+
+/* What else looks at other processors, or is seen by the front end. False: it sees another number. */
+static bool communicate(const struct slot_step *s, CM_field_id_t to, CM_field_id_t a,
+                        CM_field_id_t b)
+{
+    const unsigned int n = (unsigned int)s->length;
+    switch ((int)s->kind) {
+    case SLOT_NEWS:
+        CM_get_from_news_1L(to, a, 0, s->upward ? CM_upward : CM_downward, n);
+        break;
+    case SLOT_GET:
+        CM_get_1L(to, b, a, n);
         break;
     case SLOT_WRITE:
         CM_u_write_to_processor_1L((CM_sendaddr_t)s->vp, to,
@@ -194,18 +247,23 @@ static bool communicate(const struct slot_step *s, CM_field_id_t to, CM_field_id
         write_all(s);
         break;
     case SLOT_SUM:
-        return CM_global_u_add_long_1L(a, n) == memory.sum;
+        return CM_global_u_add_long_1L(a, n) == memory.seen;
+    case SLOT_GREATEST:
+        return CM_global_u_max_long_1L(a, n) == memory.seen;
     }
     return true;
 }
 
-/* False: the sum is another. */
+/* False: the front end sees another number. */
 static bool perform(const struct slot_step *s)
 {
     const CM_field_id_t to = at(s->to), a = at(s->a), b = at(s->b);
     CM_set_vp_set(sets[s->set]);
     operate(s, to, a, b);
     set_flags(s, to, a, b);
+    if (slot_sends(s->kind))
+        send(s, to, a, b);
+    scan(s, to, a);
     return communicate(s, to, a, b);
 }
 
@@ -274,11 +332,23 @@ static const char *all_agrees(bool aliased)
 
 /* ---- programs ---- */
 
-static const char *look(const struct slot_step *s, int step, bool aliased)
+/* Whether up to 64 bits of a field agree, others after each step. */
+static bool part_agrees(int turn, int step)
+{
+    const uint64_t any = sample_mixed((uint64_t)turn * SLOT_STEPS + (uint64_t)step);
+    const int field = (int)(any % SLOT_FIELDS), from = (int)(any / SLOT_FIELDS % 3) * 24;
+    const int rest = program.bits[field] - from;
+    CM_set_vp_set(sets[program.set[field]]);
+    return rest <= 0 || bits_agree(field, from, rest < CHUNK ? rest : CHUNK, fields[field]);
+}
+
+static const char *look(const struct slot_step *s, int turn, int step, bool aliased)
 {
     const bool last = step == program.steps_count - 1;
     if (program.look == SLOT_LOOK_ALWAYS || (program.look == SLOT_LOOK_TURNS && last))
         return all_agrees(aliased);
+    if (program.look == SLOT_LOOK_PARTS)
+        return part_agrees(turn, step) ? NULL : "a part of a field";
     return program.look == SLOT_LOOK_SOME && step % 3 == 1 && !field_agrees(s->to.field)
                ? "a field"
                : NULL;
@@ -309,7 +379,7 @@ static bool program_run(int seed, const struct tier *t)
         for (int i = 0; i < program.steps_count; i++) {
             const struct slot_step *s = &program.steps[i];
             slot_step_perform(&memory, s);
-            wrong = perform(s) ? look(s, i, aliased) : "a sum";
+            wrong = perform(s) ? look(s, turn, i, aliased) : "what the front end sees";
             if (wrong) {
                 print_error("program %d, %s, turn %d, after step %d (%s): %s is wrong\n", seed,
                             t->name, turn, i, slot_kind_name(s->kind), wrong);
