@@ -108,7 +108,7 @@ enum midi_status device_start(struct server_device *d)
     midi_parser_init(&d->parser);
     d->encoder = (struct midi_encoder){.running_status = true};
     d->out_count = d->out_first = 0;
-    d->sounding = (struct midi_notes){0};
+    d->sounding = d->played = (struct midi_notes){0};
     d->up = true;
     d->why[0] = '\0';
     d->counts.opened++;
@@ -136,7 +136,7 @@ void device_down(struct server_device *d, const char *why)
     d->kind->close(d);
     d->out_count = 0;
     d->more_wanted = false;
-    d->sounding = (struct midi_notes){0};
+    d->sounding = d->played = (struct midi_notes){0};
     retry_set(d);
     d->changed(d);
     d->drained(d); /* clients that wait for it need not wait any longer */
@@ -151,7 +151,8 @@ void device_destroy(struct server_device *d)
         midi_notes_release(&d->sounding, midi_now_ns(), put_take, d);
         for (;;) {
             device_write_out(d);
-            if (!d->up || !d->out_count || midi_now_ns() > until_ns)
+            if (!d->up || midi_now_ns() > until_ns ||
+                (!d->out_count && !(d->kind->busy && d->kind->busy(d))))
                 break;
             poll(NULL, 0, 2);
         }
@@ -181,6 +182,31 @@ void device_read_end(struct server_device *d)
     d->read(d);
 }
 
+void device_lost(struct server_device *d, uint32_t in, uint32_t out)
+{
+    if (!in && !out)
+        return;
+    if (in) /* the middle of a message, perhaps */
+        midi_parser_end(&d->parser, midi_now_ns(), received_take, d);
+    d->counts.lost += (uint64_t)in + out;
+    d->ends_again = true;
+    d->lost(d, in, out);
+}
+
+void device_look(struct server_device *d)
+{
+    if (!d->ends_again || !d->up)
+        return;
+    d->ends_again = false;
+    struct midi_notes ended = d->played;
+    ended.pedals &= (uint16_t)~d->sounding.pedals;
+    for (int i = 0; i < MIDI_CHANNELS; i++)
+        for (int k = 0; k < 2; k++)
+            ended.on[i][k] &= ~d->sounding.on[i][k];
+    midi_notes_release(&ended, midi_now_ns(), put_take, d);
+    device_write_out(d);
+}
+
 /* ---- out ---- */
 
 bool device_has_room(const struct server_device *d)
@@ -203,6 +229,9 @@ bool device_put(struct server_device *d, const struct midi_message *m)
     d->out_count += count;
     d->counts.out++;
     midi_notes_take(&d->sounding, m);
+    d->played.pedals |= d->sounding.pedals;
+    for (int k = 0; k < 2 && midi_message_channel(m) >= 0; k++)
+        d->played.on[midi_message_channel(m)][k] |= d->sounding.on[midi_message_channel(m)][k];
     return true;
 }
 

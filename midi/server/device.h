@@ -35,6 +35,8 @@ struct device_kind {
     /* Writes as many of the bytes as is possible now; if not all, device_write_out() must be
      * called later. */
     size_t (*write)(struct server_device *d, const uint8_t *bytes, size_t count);
+    /* Whether what write() took has not all left yet, so that closing would lose it; may be NULL. */
+    bool (*busy)(const struct server_device *d);
     void (*more)(struct server_device *d,
                  bool wanted); /* call device_write_out() when the device can take bytes; may
                                 * be NULL */
@@ -42,6 +44,7 @@ struct device_kind {
 
 struct device_counts {
     uint64_t in, out, refused; /* refused: messages of programs while it was away */
+    uint64_t lost;             /* messages that came, or went, and did not arrive */
     uint32_t opened;
 };
 
@@ -60,13 +63,16 @@ struct server_device {
     void (*received)(struct server_device *d, const struct midi_message *m);
     void (*read)(struct server_device *d);    /* after all messages of a read */
     void (*changed)(struct server_device *d); /* it came or went */
+    void (*lost)(struct server_device *d, uint32_t in,
+                 uint32_t out);               /* so many messages, and nobody knows which */
     void (*drained)(struct server_device *d); /* there is room again */
     /* out */
     struct midi_encoder encoder;
     uint8_t out[DEVICE_OUT_BYTES];
     size_t out_first, out_count;
     bool more_wanted, writing; /* within a write, whose messages may be heard and answered */
-    struct midi_notes sounding;
+    struct midi_notes sounding, played; /* now, and ever since it was opened */
+    bool ends_again; /* messages were lost: the ends of notes may be among them */
     struct server_timer retry;
 };
 
@@ -87,11 +93,16 @@ void device_message(struct server_device *d,
                     const struct midi_message *m); /* one that is whole */
 void device_read_end(struct server_device *d);
 void device_write_out(struct server_device *d);
+/* So many messages are lost, and nobody knows which: that is told, what sounds because of those that came ends, and soon the ends of
+ * the notes that were played are sent again. */
+void device_lost(struct server_device *d, uint32_t in, uint32_t out);
 /* Marks the device as away; it is tried again soon. */
 void device_down(struct server_device *d, const char *why);
 
 /* ---- for the server ---- */
 
+/* Called twice a second: sends the ends of notes again, after a loss. */
+void device_look(struct server_device *d);
 /* Whether there is room for a message of a program. */
 bool device_has_room(const struct server_device *d);
 /* False: the device is not up, or cannot play. device_write_out() sends what was put. */

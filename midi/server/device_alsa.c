@@ -69,8 +69,11 @@ static void events_read(struct server_device *d)
     int error = 0;
     for (int i = 0; i < EVENTS_TOGETHER; i++) {
         error = a->alsa->snd_seq_event_input(a->sequencer, &e);
-        if (error == -ENOSPC) /* the kernel's queue was full: some events are lost */
+        if (error ==
+            -ENOSPC) { /* the kernel's queue was full: some events are lost, one at least */
+            device_lost(d, 1, 0);
             continue;
+        }
         if (error < 0 || !e)
             break;
         if (peer_leaves(a, e)) {

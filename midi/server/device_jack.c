@@ -4,7 +4,9 @@
  *                                events to write      <- said  <-
  *
  * A received event keeps its time within the period. Events to send are written at the
- * beginning of the next period.
+ * beginning of the next period; what does not fit goes into the one after it, and who sends more than that waits, as for a serial line.
+ * What JACK or the ring of what was heard has no room for, and periods that were missed, are counted: the server tells it, and ends the
+ * notes whose ends may be among what is lost, at both sides.
  */
 #include "device_kinds.h"
 #include "jack_library.h"
@@ -13,13 +15,18 @@
 #include <midi_internal.h>
 #include <midi_time.h>
 
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/eventfd.h>
 #include <unistd.h>
 
-enum { EVENT_BYTES_MAX = 8192 };
+enum {
+    EVENT_BYTES_MAX = 8192,
+    SAID_USUAL =
+        4096 /* bytes of the ring of what is to be said: further messages wait at their senders */
+};
 
 struct jack_device {
     const struct jack_library *jack;
@@ -28,7 +35,11 @@ struct jack_device {
     struct server_watch watch;
     struct message_ring heard, said;
     _Atomic bool gone;
-    struct midi_parser parser; /* of output: JACK takes whole messages */
+    _Atomic bool wanted;                /* the loop waits for room in `said` */
+    _Atomic bool quiet;                 /* nothing was said in the last period */
+    uint32_t last_frame;                /* process()'s own */
+    _Atomic uint32_t in_lost, out_lost; /* and not yet told */
+    struct midi_parser parser;          /* of output: JACK takes whole messages */
     uint8_t sysex[EVENT_BYTES_MAX];
     size_t sysex_count;
     uint8_t event[EVENT_BYTES_MAX]; /* process()'s own */
@@ -41,29 +52,74 @@ static void wake(const struct jack_device *j)
     (void)written;
 }
 
-/* Runs on JACK's thread: never blocks or allocates. */
-static int process(uint32_t frames, void *context)
+/* ---- JACK's thread: never blocks or allocates ---- */
+
+/* Periods for which this thread was too late: what came in them is gone, and who was to read what was said in the last one may not
+ * have. Each counts as a message. */
+static uint32_t periods_missed(struct jack_device *j, uint32_t frames)
 {
-    struct jack_device *j = context;
+    const uint32_t now = j->jack->jack_last_frame_time(j->client), before = j->last_frame;
+    const uint32_t ahead = now - before;
+    j->last_frame = now;
+    if (!before || ahead <= frames || ahead > UINT32_MAX / 2)
+        return 0;
+    return (ahead - 1) / frames;
+}
+
+/* Whether there is something for the loop. */
+static bool period_hear(struct jack_device *j, uint32_t frames)
+{
     const struct jack_library *jack = j->jack;
     void *in = jack->jack_port_get_buffer(j->in, frames);
-    void *out = jack->jack_port_get_buffer(j->out, frames);
     const uint64_t now_ns = midi_now_ns();
     const uint64_t ago = jack->jack_frames_since_cycle_start(j->client);
     const uint32_t count = jack->jack_midi_get_event_count(in);
+    uint32_t lost = jack->jack_midi_get_lost_event_count(in) + periods_missed(j, frames);
     struct jack_event e;
-    for (uint32_t i = 0; i < count; i++)
-        if (jack->jack_midi_event_get(&e, in, i) == 0) {
-            /* events are of the previous period, and so that old */
-            const uint64_t old = (uint64_t)frames + ago - (e.time < frames ? e.time : 0);
-            (void)ring_put(&j->heard, now_ns - old * 1000000000 / j->rate_hz, e.buffer, e.size);
-        }
-    if (count)
-        wake(j);
-    jack->jack_midi_clear_buffer(out);
+    for (uint32_t i = 0; i < count; i++) {
+        if (jack->jack_midi_event_get(&e, in, i) != 0)
+            continue;
+        /* events are of the previous period, and so that old */
+        const uint64_t old = (uint64_t)frames + ago - (e.time < frames ? e.time : 0);
+        lost += e.size > EVENT_BYTES_MAX ||
+                !ring_put(&j->heard, now_ns - old * 1000000000 / j->rate_hz, e.buffer, e.size);
+    }
+    j->in_lost += lost;
+    return count || lost;
+}
+
+/* Whether something was taken from the ring. */
+static bool period_say(struct jack_device *j, uint32_t frames)
+{
+    const struct jack_library *jack = j->jack;
+    void *out = jack->jack_port_get_buffer(j->out, frames);
     uint64_t time_ns;
-    for (size_t bytes; (bytes = ring_take(&j->said, &time_ns, j->event, sizeof j->event)) > 0;)
-        (void)jack->jack_midi_event_write(out, 0, j->event, bytes);
+    bool said = false, taken = false;
+    jack->jack_midi_clear_buffer(out);
+    for (size_t bytes;
+         (bytes = ring_look(&j->said, &time_ns, j->event, sizeof j->event)) > 0;) {
+        const bool fits = jack->jack_midi_event_write(out, 0, j->event, bytes) == 0;
+        if (!fits && said)
+            break; /* the period is full: the next one takes it */
+        if (!fits) /* no period is as long */
+            j->out_lost++;
+        said = said || fits;
+        if (said)
+            j->quiet = false;
+        (void)ring_take(&j->said, &time_ns, j->event, sizeof j->event);
+        taken = true;
+    }
+    if (!taken)
+        j->quiet = true;
+    return taken;
+}
+
+static int process(uint32_t frames, void *context)
+{
+    struct jack_device *j = context;
+    const bool heard = period_hear(j, frames), said = period_say(j, frames);
+    if (heard || (said && (j->wanted || j->out_lost)))
+        wake(j);
     return 0;
 }
 
@@ -73,6 +129,8 @@ static void shut_down(void *context)
     j->gone = true;
     wake(j);
 }
+
+/* ---- the loop's thread ---- */
 
 static void jack_ready(struct server_watch *w, uint32_t events)
 {
@@ -86,6 +144,8 @@ static void jack_ready(struct server_watch *w, uint32_t events)
     for (size_t size; (size = ring_take(&j->heard, &time_ns, bytes, sizeof bytes)) > 0;)
         device_input(d, time_ns, bytes, size);
     device_read_end(d);
+    device_lost(d, atomic_exchange(&j->in_lost, 0), atomic_exchange(&j->out_lost, 0));
+    device_write_out(d);
     if (j->gone)
         device_down(d, "the JACK server is gone");
 }
@@ -144,25 +204,45 @@ static void jack_close(struct server_device *d)
 static void say(void *context, const struct midi_message *m)
 {
     struct jack_device *j = context;
+    bool good = true;
     if (midi_message_kind(m) != MIDI_KIND_SYSEX) {
-        (void)ring_put(&j->said, 0, m->bytes, m->count);
-        return;
+        good = ring_put(&j->said, 0, m->bytes, m->count);
+    } else {
+        if (m->bytes[0] == MIDI_SYSEX)
+            j->sysex_count = 0;
+        if (j->sysex_count + m->count <= sizeof j->sysex)
+            memcpy(j->sysex + j->sysex_count, m->bytes, m->count);
+        j->sysex_count += m->count;
+        if (!midi_message_open(m)) /* JACK's buffer cannot hold longer ones */
+            good = j->sysex_count <= sizeof j->sysex &&
+                   ring_put(&j->said, 0, j->sysex, j->sysex_count);
     }
-    if (m->bytes[0] == MIDI_SYSEX)
-        j->sysex_count = 0;
-    if (j->sysex_count + m->count <= sizeof j->sysex)
-        memcpy(j->sysex + j->sysex_count, m->bytes, m->count);
-    j->sysex_count += m->count;
-    if (!midi_message_open(m) &&
-        j->sysex_count <= sizeof j->sysex) /* JACK's buffer cannot hold longer ones */
-        (void)ring_put(&j->said, 0, j->sysex, j->sysex_count);
+    j->out_lost += !good;
 }
 
 static size_t jack_write(struct server_device *d, const uint8_t *bytes, size_t count)
 {
     struct jack_device *j = d->own;
-    midi_parser_take(&j->parser, 0, bytes, count, say, j);
-    return count;
+    size_t taken = 0;
+    for (; taken < count && ring_used(&j->said) < SAID_USUAL; taken++)
+        midi_parser_take(&j->parser, 0, bytes + taken, 1, say, j);
+    if (j->out_lost)
+        wake(j);
+    return taken;
+}
+
+static void jack_more(struct server_device *d, bool wanted)
+{
+    struct jack_device *j = d->own;
+    j->wanted = wanted;
+    if (wanted && ring_used(&j->said) < SAID_USUAL) /* a period has come in between */
+        wake(j);
+}
+
+static bool jack_busy(const struct server_device *d)
+{
+    const struct jack_device *j = d->own;
+    return !j->gone && (ring_used(&j->said) > 0 || !j->quiet);
 }
 
 const struct device_kind device_kind_jack = {
@@ -175,4 +255,6 @@ const struct device_kind device_kind_jack = {
     .open = jack_open,
     .close = jack_close,
     .write = jack_write,
+    .busy = jack_busy,
+    .more = jack_more,
 };

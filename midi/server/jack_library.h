@@ -34,7 +34,9 @@ struct jack_library {
     void (*jack_on_shutdown)(void *client, void (*gone)(void *context), void *context);
     uint32_t (*jack_get_sample_rate)(void *client);
     uint32_t (*jack_frames_since_cycle_start)(const void *client);
+    uint32_t (*jack_last_frame_time)(const void *client);
     uint32_t (*jack_midi_get_event_count)(void *buffer);
+    uint32_t (*jack_midi_get_lost_event_count)(void *buffer);
     int (*jack_midi_event_get)(struct jack_event *event, void *buffer, uint32_t index);
     void (*jack_midi_clear_buffer)(void *buffer);
     int (*jack_midi_event_write)(void *buffer, uint32_t time, const unsigned char *bytes,

@@ -1,7 +1,7 @@
 /* message_ring.c - see message_ring.h. */
 #include "message_ring.h"
 
-enum { HEAD = 10 }; /* the time, and the number of bytes that follow */
+enum { HEAD = RING_HEAD }; /* the time, and the number of bytes that follow */
 
 static void byte_put(struct message_ring *r, uint32_t at, uint64_t value, int count)
 {
@@ -33,7 +33,7 @@ bool ring_put(struct message_ring *r, uint64_t time_ns, const uint8_t *bytes, si
     return true;
 }
 
-size_t ring_take(struct message_ring *r, uint64_t *time_ns, uint8_t *bytes, size_t room)
+size_t ring_look(const struct message_ring *r, uint64_t *time_ns, uint8_t *bytes, size_t room)
 {
     const uint32_t taken = atomic_load_explicit(&r->taken, memory_order_relaxed);
     if (taken == atomic_load_explicit(&r->put, memory_order_acquire))
@@ -42,6 +42,19 @@ size_t ring_take(struct message_ring *r, uint64_t *time_ns, uint8_t *bytes, size
     const size_t count = byte_get(r, taken + 8, 2);
     for (size_t i = 0; i < count && i < room; i++)
         bytes[i] = r->bytes[(taken + HEAD + i) % RING_BYTES];
-    atomic_store_explicit(&r->taken, taken + HEAD + (uint32_t)count, memory_order_release);
+    return count;
+}
+
+size_t ring_take(struct message_ring *r, uint64_t *time_ns, uint8_t *bytes, size_t room)
+{
+    const size_t count = ring_look(r, time_ns, bytes, room);
+    if (count)
+        atomic_fetch_add_explicit(&r->taken, HEAD + (uint32_t)count, memory_order_release);
     return count < room ? count : room;
+}
+
+size_t ring_used(const struct message_ring *r)
+{
+    const uint32_t taken = atomic_load_explicit(&r->taken, memory_order_acquire);
+    return atomic_load_explicit(&r->put, memory_order_acquire) - taken;
 }

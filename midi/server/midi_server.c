@@ -42,6 +42,19 @@ static void device_changed(struct server_device *d)
         }
 }
 
+static void device_loses(struct server_device *d, uint32_t in, uint32_t out)
+{
+    struct midi_server *s = d->owner;
+    if (in)
+        log_tell(&s->lines, "device %s: %u messages that came are lost; notes are ended",
+                 d->name, in);
+    if (out)
+        log_tell(&s->lines, "device %s: %u messages are longer than it takes, and lost",
+                 d->name, out);
+    if (in)
+        route_device_lost(s, d->number, in);
+}
+
 static enum midi_status device_add(struct midi_server *s, const char *spec)
 {
     struct server_device *d;
@@ -62,6 +75,7 @@ static enum midi_status device_add(struct midi_server *s, const char *spec)
     d->received = route_received;
     d->read = route_read;
     d->changed = device_changed;
+    d->lost = device_loses;
     d->drained = route_drained;
     s->devices[s->devices_count++] = d;
     return device_start(d);
@@ -269,6 +283,8 @@ static void second_fire(struct server_timer *t, uint64_t now_ns)
         if (!c->dead && c->waits_for >= 0) /* a system exclusive that is never ended */
             route_drained(s->devices[c->waits_for]);
     }
+    for (int i = 0; i < s->devices_count; i++)
+        device_look(s->devices[i]);
     clients_sweep(s);
     rates_take(s, now_ns);
     awake_look(&s->awake, s->messages, now_ns);

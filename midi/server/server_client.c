@@ -199,6 +199,13 @@ static void losses_tell(struct server_client *c)
         client_release(c, i);
 }
 
+void client_lose(struct server_client *c, uint32_t count)
+{
+    c->lost += count;
+    c->lost_untold += count;
+    client_flush(c);
+}
+
 static bool written(struct server_client *c)
 {
     const size_t to_end = CLIENT_OUT_BYTES - c->out_first;

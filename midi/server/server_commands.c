@@ -160,11 +160,12 @@ static void status_do(struct midi_server *s, struct server_client *c, char *text
         say(r,
             "device %s%s%s: in %llu (%.0f/s, %llu stray bytes), out %llu (%.0f/s, %llu "
             "refused), "
-            "came %u times\n",
+            "lost %llu, came %u times\n",
             line, d->up ? "" : ", ", d->why, (unsigned long long)d->counts.in, s->in_hz[i],
             (unsigned long long)(d->parser.counts.stray + d->parser.counts.broken),
             (unsigned long long)d->counts.out, s->out_hz[i],
-            (unsigned long long)d->counts.refused, d->counts.opened);
+            (unsigned long long)d->counts.refused, (unsigned long long)d->counts.lost,
+            d->counts.opened);
     }
     for (const struct server_client *one = s->clients; one; one = one->next)
         if (one->greeted && !one->dead)

@@ -69,6 +69,13 @@ void route_hear(struct midi_server *s, struct server_client *c, int device,
     thinned_set(s);
 }
 
+void route_device_lost(struct midi_server *s, int device, uint32_t count)
+{
+    for (struct server_client *c = s->clients; c; c = c->next)
+        if (c->hears[device])
+            client_lose(c, count);
+}
+
 void route_device_away(struct midi_server *s, int device)
 {
     s->owners[device] = NULL;
