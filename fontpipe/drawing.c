@@ -167,7 +167,11 @@ static bool point_of(const struct font_map *map, struct font_point p, struct fon
 
 static void point_put(FILE *f, bool pdf, const char *before, struct font_point p)
 {
-    fprintf(f, pdf ? "%s%.7g %.7g" : "%s%.7g,%.7g", before, p.x, p.y);
+    if (pdf) /* which has no exponents */
+        fprintf(f, "%s%.7g %.7g", before, fabs(p.x) < 1e-4 ? 0 : p.x,
+                fabs(p.y) < 1e-4 ? 0 : p.y);
+    else
+        fprintf(f, "%s%.7g,%.7g", before, p.x, p.y);
 }
 
 /* One curve, from where the pen is. A curve of degree 2 is one of degree 3 in PDF. */

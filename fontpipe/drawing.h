@@ -4,8 +4,8 @@
  *     font_drawing_svg(&d, &layout, NULL, 0, 0, file);
  *
  * Outlines are the fonts': no filter, no pixels. In SVG each letter's outline is a path that is there once and used wherever it
- * stands, under its own map; what maps distort is a path of its own. In PDF letters that are not distorted are glyphs of fonts (Type 3: outlines
- * as they are), so that the text can be looked for and copied; others are paths. A pixel is 1/96 inch in SVG, and 0.75 points in PDF. Inks
+ * stands, under its own map; what maps distort is a path of its own. In PDF letters that are not distorted are glyphs of embedded fonts; others
+ * are paths, with their text unseen over them. document.h has PDF of more pages than one. A pixel is 1/96 inch in SVG, and 0.75 points in PDF. Inks
  * keep their translucency; gradients are gradients, and pictures as ink are patterns. Who shows the file mixes numbers, not light.
  *
  * Ownership: what is passed stays the caller's. Threads: the layout's faces belong to one thread at a time.
@@ -26,6 +26,10 @@ struct font_drawing {
     const char
         *text; /* that the layout's clusters are bytes of; NULL: none is written with it */
     size_t bytes;
+    const struct font_passage
+        *passages; /* by where they begin, of PDF; NULL: the text is one paragraph */
+    int passages_count;
+    const char *title, *language; /* of a PDF of its own: as document.h has them */
 };
 
 /* The layout, its origin at (x, y), through `map` (NULL: as it is), as the whole of a file; the caller closes the file. Errors:

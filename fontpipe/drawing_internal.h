@@ -1,4 +1,4 @@
-/* drawing_internal.h - what drawing.c, drawing_picture.c, drawing_svg.c and drawing_pdf.c share. */
+/* drawing_internal.h - what drawing.c, drawing_picture.c, drawing_svg.c and the PDF's files share. */
 #ifndef LUTETIA_FONT_DRAWING_INTERNAL_H
 #define LUTETIA_FONT_DRAWING_INTERNAL_H
 
@@ -63,23 +63,8 @@ enum font_status drawn_map(const struct font_layout *layout, int i, const struct
 bool drawn_flat(const struct font_ink *ink, double rgba[4]);
 /* An ink's picture, opaque. Owns: the caller frees out->rgba. */
 enum font_status drawn_ink_tile(const struct font_ink *ink, struct font_tile *out);
-/* drawing_pdf_ink.c: a gradient as a shading, its places as they are: its colours, or its cover as a gray. */
-void drawn_pdf_shading(const struct font_ink *ink, bool cover, FILE *file);
 /* Whether it is a gradient that lets something through. */
 bool drawn_translucent(const struct font_ink *ink);
-/* drawing_pdf_text.c: the text in UTF-16, as hexadecimal digits. */
-void drawn_pdf_utf16(const char *text, size_t begin, size_t end, FILE *file);
-/* How many letters the cluster has, if they are several that go to the left; else 0. */
-int drawn_pdf_leftward(const struct font_drawing *d, const struct drawn_text *text);
-/* What of them the glyph itself shows, cut off the text's end: *letters of them, 0 for nothing. Glyphs stand from the left to the right,
- * the cluster's last letters with its first glyph. */
-void drawn_pdf_share(const struct font_drawing *d, const struct drawn_text *text, size_t *end,
-                     int *letters);
-/* Before a glyph and behind it: where its cluster is told as a whole what it says, that. */
-void drawn_pdf_said_begin(const struct font_drawing *d, const struct drawn_text *text,
-                          FILE *file);
-void drawn_pdf_said_end(const struct font_drawing *d, const struct drawn_text *text,
-                        FILE *file);
 /* A glyph's ink; own: room for the drawing's. */
 const struct font_ink *drawn_ink(const struct font_drawing *d, const struct font_layout *layout,
                                  int i, struct font_ink *own);

@@ -124,6 +124,23 @@ enum font_status font_shaper_layout(struct font_shaper *shaper, const char *text
                                     struct font_layout *out);
 void font_layout_finish(struct font_layout *layout);
 
+/* What a passage of the text is, for who reads a PDF aloud or makes other things of it. ARTIFACT: nothing of the text's own, as a page's
+ * number. */
+enum font_role {
+    FONT_ROLE_PARAGRAPH,
+    FONT_ROLE_HEADING,
+    FONT_ROLE_ITEM,
+    FONT_ROLE_QUOTE,
+    FONT_ROLE_NOTE,
+    FONT_ROLE_ARTIFACT
+};
+struct font_passage {
+    size_t begin, end; /* bytes of the text */
+    enum font_role role;
+    int level;     /* of a heading, from 1 */
+    int paragraph; /* passages of the same one, on other pages too, are one */
+};
+
 /* The next character of UTF-8; *text moves on. false: it was damaged, and U+FFFD is what stands for it. text < end. */
 bool font_utf8_next(const char **text, const char *end, uint32_t *character);
 /* How many sequences are not UTF-8; and the text with U+FFFD in place of each. Owns: the caller frees *out. Errors: NO_MEMORY. */

@@ -21,23 +21,47 @@ struct output {
     int *inks; /* of the layout, by style; 0: not yet */
     struct font_map last;
     int last_number;
-    /* What the page says, where it is asked for: paragraphs' texts; the one that is written begins at `begin`. */
-    char *said;
-    int said_count, said_capacity, begin;
-    bool says;
+    /* What the page says, where it is asked for; the lines that are written are the paragraph's bytes from `from` on, and begin at `begin`. */
+    struct page_said *said;
+    int said_capacity, passages_capacity, begin, from, end;
 };
 
-static bool paragraph_say(struct output *o, const struct paragraph *p)
+/* The first byte of a line, or of what follows the last. */
+static int line_byte(const struct paragraph *p, int line)
 {
-    if (!o->says)
+    int letter = line < p->lines_count ? p->lines[line].begin : p->count;
+    return letter < p->count ? p->letters[letter].byte : p->bytes;
+}
+
+/* Says a piece's lines. */
+static bool piece_say(struct output *o, const struct piece *piece)
+{
+    const struct paragraph *p = piece->paragraph;
+    struct page_said *said = o->said;
+    o->from = line_byte(p, piece->begin);
+    o->end = line_byte(p, piece->end);
+    o->begin = 0;
+    if (!said) {
+        o->from = 0;
+        o->end = p->bytes;
         return true;
-    if (!array_reserve(&o->said, &o->said_capacity, o->said_count + p->bytes + 2, 1))
+    }
+    int bytes = o->end - o->from, begin = (int)said->bytes;
+    if (!array_reserve(&said->utf8, &o->said_capacity, begin + bytes + 2, 1) ||
+        !array_reserve(&said->passages, &o->passages_capacity, said->passages_count + 1,
+                       sizeof *said->passages))
         return false;
-    o->begin = o->said_count;
-    memcpy(o->said + o->begin, p->text, (size_t)p->bytes);
-    o->said_count += p->bytes;
-    o->said[o->said_count++] = '\n';
-    o->said[o->said_count] = '\0';
+    o->begin = begin;
+    memcpy(said->utf8 + begin, p->text + o->from, (size_t)bytes);
+    said->bytes += (size_t)bytes;
+    said->utf8[said->bytes++] = '\n';
+    said->utf8[said->bytes] = '\0';
+    said->passages[said->passages_count++] =
+        (struct font_passage){.begin = (size_t)begin,
+                              .end = said->bytes,
+                              .role = p->flow < 0 ? FONT_ROLE_NOTE : p->manner.role,
+                              .level = p->manner.level,
+                              .paragraph = p->id};
     return true;
 }
 
@@ -90,7 +114,8 @@ static bool line_put(struct output *o, const struct paragraph *p, const struct s
         *to = (struct font_placed){
             .face = face,
             .glyph = g->glyph,
-            .cluster = o->begin + (g->letter >= 0 ? p->letters[g->letter].byte : p->bytes),
+            .cluster =
+                o->begin + (g->letter >= 0 ? p->letters[g->letter].byte : o->end) - o->from,
             .line = line,
             .size_px = (float)style->look.size_px,
             .ink = ink_of(o, run->style),
@@ -112,7 +137,7 @@ static enum font_status page_put(struct page_text *t, int page, struct output *o
     int line = 0;
     for (int i = 0; ok && status == FONT_OK && i < from->pieces_count; i++) {
         const struct piece *piece = &from->pieces[i];
-        ok = paragraph_say(o, piece->paragraph);
+        ok = piece_say(o, piece);
         for (int k = piece->begin; ok && status == FONT_OK && k < piece->end; k++) {
             const struct slot *slot = &from->slots[piece->slots_begin + k - piece->begin];
             status = line_set(t, piece->paragraph, &piece->paragraph->lines[k],
@@ -148,21 +173,26 @@ enum font_status page_layout(struct page_text *t, int page, struct font_layout *
     return page_output(t, page, &o);
 }
 
-enum font_status page_layout_text(struct page_text *t, int page, struct font_layout *out,
-                                  char **utf8, size_t *bytes)
+enum font_status page_layout_said(struct page_text *t, int page, struct font_layout *out,
+                                  struct page_said *said)
 {
-    struct output o = {.t = t, .out = out, .says = true};
+    struct output o = {.t = t, .out = out, .said = said};
+    *said = (struct page_said){0};
     enum font_status status = page_output(t, page, &o);
-    if (status == FONT_OK && !o.said && !(o.said = calloc(1, 1)))
-        status = font_fail(FONT_NO_MEMORY, "no memory for a page");
-    if (status != FONT_OK) {
-        free(o.said);
-        o.said = NULL;
+    if (status == FONT_OK && !said->utf8 && !(said->utf8 = calloc(1, 1))) {
         font_layout_finish(out);
+        status = font_fail(FONT_NO_MEMORY, "no memory for a page");
     }
-    *utf8 = o.said;
-    *bytes = (size_t)o.said_count;
+    if (status != FONT_OK)
+        page_said_finish(said);
     return status;
+}
+
+void page_said_finish(struct page_said *said)
+{
+    free(said->utf8);
+    free(said->passages);
+    *said = (struct page_said){0};
 }
 
 enum font_status page_count(struct page_text *t, int *count)

@@ -78,6 +78,9 @@ struct page_manner {
     double
         tolerance; /* the badness a line may have before words are hyphenated more freely; 200 */
     bool keep_together, keep_with_next, begins_column;
+    enum font_role
+        role;  /* what it is, for who reads a PDF; a note is one whatever stands here */
+    int level; /* of a heading, from 1 */
     int orphans, widows; /* the fewest lines at the end and at the beginning of a column; 2 */
     struct page_tab
         tabs[PAGE_TABS_MAX]; /* a tab goes to the next; behind the last, every four ems */
@@ -171,10 +174,18 @@ enum font_status page_templates_set(struct page_text *text,
 /* All of a page: glyphs in its pixels, each with its size, ink and map; clusters are bytes of the glyph's paragraph. Errors: NO_MEMORY,
  * BAD_ARGUMENT for a page that there is not. Owns: the caller finishes *out. */
 enum font_status page_layout(struct page_text *text, int page, struct font_layout *out);
-/* The same with what the page says, paragraph after paragraph: clusters are then bytes of that. Errors: as page_layout().
- * Owns: the caller finishes *out and frees *utf8. */
-enum font_status page_layout_text(struct page_text *text, int page, struct font_layout *out,
-                                  char **utf8, size_t *bytes);
+/* What a page says, line after line of its paragraphs, and what each passage of that is. */
+struct page_said {
+    char *utf8;
+    size_t bytes;
+    struct font_passage *passages;
+    int passages_count;
+};
+/* The same with what the page says: clusters are then bytes of that. Errors: as page_layout(). Owns: the caller finishes *out
+ * and *said. */
+enum font_status page_layout_said(struct page_text *text, int page, struct font_layout *out,
+                                  struct page_said *said);
+void page_said_finish(struct page_said *said);
 /* How many pages all of the text needs: sets them. Errors: as page_layout(). */
 enum font_status page_count(struct page_text *text, int *count);
 /* The page on which a letter is. Errors: BAD_ARGUMENT for no place; as page_layout(). */

@@ -297,6 +297,8 @@ static struct page_manner manner_of(const struct making *m, enum look look, bool
         manner.before_px = s->size_px * (look == HEAD ? 1.4 : 0.9);
         manner.after_px = s->size_px * (look == HEAD ? 0.6 : 0.3);
         manner.keep_with_next = manner.keep_together = true;
+        manner.role = FONT_ROLE_HEADING;
+        manner.level = look == HEAD ? 1 : 2;
     } else if (look == ROMAN && indented) {
         manner.indent_px = s->indent_em * size;
     }
@@ -386,13 +388,16 @@ static struct page_manner kind_manner(const struct making *m, enum kind kind, en
     struct page_manner manner = manner_of(m, look, !m->behind_head && kind == TEXT);
     double em = m->setup->size_px;
     if (kind == RULE) {
+        manner.role = FONT_ROLE_ARTIFACT;
         manner.align = FONT_ALIGN_CENTER;
         manner.before_px = manner.after_px = 0.6 * em;
         manner.hyphenate = false;
     } else if (kind == ITEM) {
+        manner.role = FONT_ROLE_ITEM;
         manner.left_px = 1.6 * em;
         manner.indent_px = -em;
     } else if (kind == QUOTE) {
+        manner.role = FONT_ROLE_QUOTE;
         manner.left_px = manner.right_px = 1.6 * em;
     }
     return manner;

@@ -4,7 +4,9 @@
 #include "options.h"
 #include "type_common.h"
 
+#include <document.h>
 #include <input_file.h>
+#include <output_file.h>
 #include <setup.h>
 
 #include <math.h>
@@ -15,7 +17,7 @@
 enum { TEXT_BYTES_MAX = 64 << 20, ROUND_CORNERS = 72 };
 
 struct set {
-    const char *out_path, *font, *italic, *bold, *language, *features, *filter, *align;
+    const char *out_path, *font, *italic, *bold, *language, *features, *filter, *align, *title;
     double size_px, leading, margin_px, gap_px, notes_px, indent_em, protrude, expand,
         tolerance;
     double ink[3], darken_px;
@@ -31,11 +33,15 @@ struct set {
 static int set_options(struct set *s, int argc, char **argv, const char **path, bool *help)
 {
     const struct option_row rows[] = {
-        {"out", 'o', OPTION_TEXT, "FILE", "the picture: .png, .svg or .pdf (page.png)",
-         &s->out_path, 0, 0, 0},
-        {"page", 0, OPTION_INTEGER, "N", "which page is drawn (1)", &s->page, 1, 99999, 0},
-        {"all", 0, OPTION_FLAG, NULL, "draw all pages: page-1.png, page-2.png, ..", &s->all, 0,
-         0, 0},
+        {"out", 'o', OPTION_TEXT, "FILE",
+         "a page as picture, .png or .svg, or all of them as one .pdf (page.png)", &s->out_path,
+         0, 0, 0},
+        {"page", 0, OPTION_INTEGER, "N", "which page is drawn (1; of a PDF all)", &s->page, 1,
+         99999, 0},
+        {"all", 0, OPTION_FLAG, NULL,
+         "draw all pages, each in a file: page-1.png, page-2.png, ..", &s->all, 0, 0, 0},
+        {"title", 0, OPTION_TEXT, "T", "title of a PDF (the first heading)", &s->title, 0, 0,
+         0},
         {"font", 0, OPTION_TEXT, "F",
          "the font: a file, the name of one, or a family (DejaVuSerif)", &s->font, 0, 0, 0},
         {"italic", 0, OPTION_TEXT, "F", "font of *slanted* words (the family's)", &s->italic, 0,
@@ -162,7 +168,6 @@ static int shapes_make(struct set *s)
     return EXIT_SUCCESS;
 }
 
-/* As SVG or PDF, with what the page says. */
 static void lacking_add(struct set *s, const struct font_layout *layout)
 {
     for (int i = 0; i < layout->missing_count && i < FONT_MISSING_MAX; i++)
@@ -170,22 +175,101 @@ static void lacking_add(struct set *s, const struct font_layout *layout)
     s->lacking.missing_count += layout->missing_count > FONT_MISSING_MAX; /* more than named */
 }
 
+/* What PDF and SVG are made of. Owns: the caller finishes both. */
+static int page_said(struct set *s, struct page_text *text, int page,
+                     struct font_layout *layout, struct page_said *said,
+                     struct font_drawing *drawing)
+{
+    if (page_layout_said(text, page, layout, said) != FONT_OK)
+        return fail_font("set");
+    lacking_add(s, layout);
+    *drawing = (struct font_drawing){.width_px = s->page_px[0],
+                                     .height_px = s->page_px[1],
+                                     .ink = {s->ink[0], s->ink[1], s->ink[2]},
+                                     .text = said->utf8,
+                                     .bytes = said->bytes,
+                                     .passages = said->passages,
+                                     .passages_count = said->passages_count,
+                                     .language = s->language    ? s->language
+                                                 : s->hyphenate ? "en"
+                                                                : NULL};
+    return EXIT_SUCCESS;
+}
+
+/* The title of a PDF: what was asked for, else the first heading. Owns: the caller frees it; NULL: there is none. */
+static char *title_of(const struct set *s, const struct page_said *said)
+{
+    for (int i = 0; !s->title && i < said->passages_count; i++) {
+        const struct font_passage *p = &said->passages[i];
+        if (p->role == FONT_ROLE_HEADING) /* without the end of its line */
+            return strndup(said->utf8 + p->begin, p->end - p->begin - 1);
+    }
+    return s->title ? strdup(s->title) : NULL;
+}
+
 static int page_write(struct set *s, struct page_text *text, int page, const char *path)
 {
     struct font_layout layout;
-    char *said;
-    size_t bytes;
-    if (page_layout_text(text, page, &layout, &said, &bytes) != FONT_OK)
-        return fail_font("set");
-    lacking_add(s, &layout);
-    const struct font_drawing drawing = {.width_px = s->page_px[0],
-                                         .height_px = s->page_px[1],
-                                         .ink = {s->ink[0], s->ink[1], s->ink[2]},
-                                         .text = said,
-                                         .bytes = bytes};
-    int status = type_drawing_write("set", path, &drawing, &layout, NULL, 0, 0);
+    struct page_said said;
+    struct font_drawing drawing;
+    int status = page_said(s, text, page, &layout, &said, &drawing);
+    if (status != EXIT_SUCCESS)
+        return status;
+    char *title = title_of(s, &said);
+    drawing.title = title;
+    status = type_drawing_write("set", path, &drawing, &layout, NULL, 0, 0);
     font_layout_finish(&layout);
-    free(said);
+    page_said_finish(&said);
+    free(title);
+    return status;
+}
+
+/* All pages as one PDF, its title the first one's. */
+static int book_make(struct set *s, struct page_text *text, int count,
+                     struct font_document **book)
+{
+    int status = EXIT_SUCCESS;
+    for (int i = 0; i < count && status == EXIT_SUCCESS; i++) {
+        struct font_layout layout;
+        struct page_said said;
+        struct font_drawing drawing;
+        if (interrupted()) {
+            fail("set", "interrupted at page %d of %d", i + 1, count);
+            return EXIT_INTERRUPTED;
+        }
+        status = page_said(s, text, i, &layout, &said, &drawing);
+        if (status != EXIT_SUCCESS)
+            return status;
+        if (!*book) {
+            char *title = title_of(s, &said);
+            const struct font_document_def def = {.title = title, .language = drawing.language};
+            if (font_document_create(&def, book) != FONT_OK)
+                status = fail_font("set");
+            free(title);
+        }
+        if (status == EXIT_SUCCESS &&
+            font_document_page(*book, &drawing, &layout, NULL, 0, 0) != FONT_OK)
+            status = fail_font("set");
+        font_layout_finish(&layout);
+        page_said_finish(&said);
+    }
+    return status;
+}
+
+static int book_write(struct set *s, struct page_text *text, int count)
+{
+    struct font_document *book = NULL;
+    struct output_file out;
+    int status = book_make(s, text, count, &book);
+    if (status == EXIT_SUCCESS && !output_file_open(&out, s->out_path)) {
+        status = fail("set", "%s: cannot write: %s", s->out_path, out.why);
+    } else if (status == EXIT_SUCCESS && font_document_write(book, out.stream) != FONT_OK) {
+        output_file_abandon(&out);
+        status = fail_font("set");
+    } else if (status == EXIT_SUCCESS && !output_file_commit(&out)) {
+        status = fail("set", "%s: cannot write: %s", s->out_path, out.why);
+    }
+    font_document_destroy(book);
     return status;
 }
 
@@ -230,26 +314,37 @@ static char *numbered(const char *path, int number)
     return name;
 }
 
+/* Each in a file of its own. */
+static int pages_draw_each(struct set *s, struct page_text *text, int count)
+{
+    int status = EXIT_SUCCESS;
+    interrupt_catch(); /* no page is left half written */
+    for (int i = 0; i < count && status == EXIT_SUCCESS; i++) {
+        if (interrupted()) {
+            fail("set", "interrupted before page %d of %d", i + 1, count);
+            return EXIT_INTERRUPTED;
+        }
+        char *name = numbered(s->out_path, i + 1);
+        status = name ? page_draw(s, text, i, name) : fail("set", "no memory");
+        free(name);
+    }
+    return status;
+}
+
 static int pages_draw(struct set *s, struct page_text *text)
 {
-    int count, status = EXIT_SUCCESS;
-    if (s->all || s->statistics) {
-        if (page_count(text, &count) != FONT_OK)
-            return fail_font("set");
-        if (s->all)
-            interrupt_catch(); /* no page is left half written */
-        for (int i = 0; s->all && i < count && status == EXIT_SUCCESS; i++) {
-            if (interrupted()) {
-                fail("set", "interrupted before page %d of %d", i + 1, count);
-                return EXIT_INTERRUPTED;
-            }
-            char *name = numbered(s->out_path, i + 1);
-            status = name ? page_draw(s, text, i, name) : fail("set", "no memory");
-            free(name);
-        }
+    bool book = type_out_of(s->out_path) == TYPE_OUT_PDF && !s->page && !s->all;
+    int count = 0, status = EXIT_SUCCESS;
+    if ((s->all || s->statistics || book) && page_count(text, &count) != FONT_OK)
+        return fail_font("set");
+    if (book) {
+        interrupt_catch();
+        status = book_write(s, text, count);
+    } else if (s->all) {
+        status = pages_draw_each(s, text, count);
+    } else {
+        status = page_draw(s, text, s->page ? s->page - 1 : 0, s->out_path);
     }
-    if (!s->all)
-        status = page_draw(s, text, s->page - 1, s->out_path);
     if (status == EXIT_SUCCESS && s->statistics) {
         struct page_stats stats;
         page_stats_get(text, &stats);
@@ -292,8 +387,7 @@ int verb_set(int argc, char **argv)
                      .tolerance = usual.tolerance,
                      .page_px = {600, 840},
                      .darken_px = FONT_DARKEN_BY_STEM,
-                     .columns = 1,
-                     .page = 1};
+                     .columns = 1};
     int status = set_options(&s, argc, argv, &path, &help);
     if (status != EXIT_SUCCESS || help)
         return status;

@@ -220,7 +220,9 @@ static int type_draw(const struct type *t, struct font_painter *painter,
                                              .height_px = ceil(y + box.y1 + t->margin_px + 1),
                                              .ink = {t->ink[0], t->ink[1], t->ink[2]},
                                              .text = t->text,
-                                             .bytes = strlen(t->text)};
+                                             .bytes = strlen(t->text),
+                                             .title = t->text,
+                                             .language = t->language};
         return type_drawing_write("type", t->out_path, &drawing, layout, map, x + t->place[0],
                                   y + t->place[1]);
     }

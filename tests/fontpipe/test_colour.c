@@ -1,6 +1,7 @@
 /* test_colour.c - glyphs with their own colours: pictures (Noto Color Emoji, where it is installed) and layers (a font made
  * here), beside glyphs without. */
 #include "../skip.h"
+#include "pdf_unpack.h"
 #include "support.h"
 
 #include <drawing.h>
@@ -229,6 +230,12 @@ static int drawing_has(const struct font_layout *l, bool pdf, const char *word)
     assert_non_null(f);
     assert_font((pdf ? font_drawing_pdf : font_drawing_svg)(&d, l, NULL, 20, 110, f));
     fclose(f);
+    if (pdf) {
+        char *text = pdf_unpacked(bytes, count);
+        free(bytes);
+        bytes = text;
+        count = strlen(text);
+    }
     for (const char *at = bytes;
          (at = memmem(at, count - (size_t)(at - bytes), word, strlen(word))); at++)
         found++;

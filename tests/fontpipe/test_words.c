@@ -40,6 +40,41 @@ static const struct {
      0, 230, true},
     {"th", "DejaVuSans", "มนุษย์ทั้งปวงเกิดมามีอิสระและเสมอภาคกันในเกียรติศักดิ์และสิทธิ ต่างมีเหตุผลและมโนธรรม",
      0, 230, false},
+    {"he", "DejaVuSans",
+     "כל בני אדם נולדו בני חורין ושווים בערכם ובזכויותיהם. כולם חוננו בתבונה ובמצפון, לפיכך "
+     "חובה עליהם "
+     "לנהוג איש ברעהו ברוח של אחווה.",
+     1, 330, true},
+    {"ru", "DejaVuSerif",
+     "Все люди рождаются свободными и равными в своем достоинстве и правах. Они наделены "
+     "разумом и "
+     "совестью и должны поступать в отношении друг друга в духе братства.",
+     0, 240, true},
+    {"ka", "DejaVuSans",
+     "ყველა ადამიანი იბადება თავისუფალი და თანასწორი თავისი ღირსებითა და უფლებებით. მათ "
+     "მინიჭებული "
+     "აქვთ გონება და სინდისი",
+     0, 300, true},
+    {"lo", "DejaVuSans",
+     "ມະນຸດທຸກຄົນເກີດມາມີສິດເສລີພາບ ແລະ ສະເໝີໜ້າກັນໃນທາງກຽດຕິສັກ ແລະ ທາງສິດດ້ວຍມະນຸດມີສະຕິສຳປັດຊັນຍະ", 0, 300,
+     false},
+    /* Where a font has them. */
+    {"km", "DejaVuSans",
+     "មនុស្សទាំងអស់កើតមកមានសេរីភាព និងភាពស្មើៗគ្នាក្នុងសេចក្ដីថ្លៃថ្នូរនិងសិទ្ធិ។ "
+     "មនុស្សគ្រប់រូបមានវិចារណញ្ញាណនិងមនសិការ ហើយត្រូវប្រព្រឹត្តចំពោះគ្នា",
+     0, 300, false},
+    {"bn", "DejaVuSans",
+     "সমস্ত মানুষ স্বাধীনভাবে সমান মর্যাদা এবং অধিকার নিয়ে জন্মগ্রহণ করে। তাঁদের বিবেক এবং বুদ্ধি আছে; "
+     "সুতরাং "
+     "সকলেরই একে অপরের প্রতি ভ্রাতৃত্বসুলভ মনোভাব নিয়ে আচরণ করা উচিত।",
+     0, 330, true},
+    {"ta", "DejaVuSans",
+     "மனிதப் பிறிவியினர் சகலரும் சுதந்திரமாகவே பிறக்கின்றனர்; அவர்கள் மதிப்பிலும், உரிமைகளிலும் சமமானவர்கள்",
+     0, 360, true},
+    {"my", "DejaVuSans",
+     "လူတိုင်းသည် တူညီ လွတ်လပ်သော ဂုဏ်သိက္ခာဖြင့် လည်းကောင်း၊ တူညီလွတ်လပ်သော အခွင့်အရေးများဖြင့် လည်းကောင်း၊ "
+     "မွေးဖွားလာသူများ ဖြစ်သည်။",
+     0, 300, false},
 };
 
 /* The text as PDF, in a narrow column, as pdftotext reads it. Owns: the caller frees it. */
@@ -51,8 +86,8 @@ static char *read_back(int n, bool *whole)
     struct page_template page = {.width_px = 400, .height_px = 900, .frames_count = 1};
     struct font_layout layout;
     int roman, id;
-    char *said, folder[] = "/tmp/lutetia-words-XXXXXX", path[64], command[128];
-    size_t bytes;
+    struct page_said said;
+    char folder[] = "/tmp/lutetia-words-XXXXXX", path[64], command[128];
     page.frames[0] =
         (struct page_frame){.x = 20, .y = 20, .width = cases[n].width_px, .height = 860};
     style.font = cases[n].font;
@@ -65,11 +100,15 @@ static char *read_back(int n, bool *whole)
     assert_font(page_paragraph_add(t, 0, -1, cases[n].text, strlen(cases[n].text), roman,
                                    &manner, &id));
     assert_font(page_templates_set(t, &page, 1));
-    assert_font(page_layout_text(t, 0, &layout, &said, &bytes));
+    assert_font(page_layout_said(t, 0, &layout, &said));
     assert_true(layout.glyphs[layout.glyphs_count - 1].line > 0);
     *whole = layout.missing_count == 0;
-    const struct font_drawing d = {
-        .width_px = 400, .height_px = 900, .text = said, .bytes = bytes};
+    const struct font_drawing d = {.width_px = 400,
+                                   .height_px = 900,
+                                   .text = said.utf8,
+                                   .bytes = said.bytes,
+                                   .passages = said.passages,
+                                   .passages_count = said.passages_count};
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/words.pdf", folder);
     FILE *file = fopen(path, "w");
@@ -85,7 +124,7 @@ static char *read_back(int n, bool *whole)
     assert_int_equal(pclose(pipe), 0);
     unlink(path);
     rmdir(folder);
-    free(said);
+    page_said_finish(&said);
     font_layout_finish(&layout);
     page_text_destroy(t);
     return out;

@@ -1,0 +1,120 @@
+/* pdf_text.c - what glyphs say, in PDF's words: see pdf_internal.h. */
+#include "pdf_internal.h"
+
+#include <fribidi.h>
+
+void pdf_utf16_put(const char *text, size_t begin, size_t end, FILE *f)
+{
+    const char *at = text + begin, *last = text + end;
+    while (at < last) {
+        uint32_t c;
+        font_utf8_next(&at, last, &c);
+        if (c > 0xffff)
+            fprintf(f, "%04X%04X", (unsigned)(0xd800 + ((c - 0x10000) >> 10)),
+                    (unsigned)(0xdc00 + ((c - 0x10000) & 0x3ff)));
+        else
+            fprintf(f, "%04X", (unsigned)c);
+    }
+}
+
+/* A hyphen of the text itself where a line ends. Programs take such a hyphen for one that was put in, and leave it out. */
+static bool is_hard_hyphen(const struct font_drawing *d, const struct drawn_text *t)
+{
+    return t->line_ends && t->end > t->begin && d->text[t->end - 1] == '-';
+}
+
+/* How many letters it has; whether any goes to the left. */
+static int letters_see(const struct font_drawing *d, const struct drawn_text *t, bool *left)
+{
+    const char *at = d->text + t->begin, *end = d->text + t->end;
+    int count = 0;
+    *left = false;
+    for (; at < end; count++) {
+        uint32_t c;
+        font_utf8_next(&at, end, &c);
+        *left = *left || FRIBIDI_IS_RTL(fribidi_get_bidi_type(c));
+    }
+    return count;
+}
+
+bool pdf_is_leftward(const struct font_drawing *d, const struct drawn_text *t)
+{
+    bool left;
+    letters_see(d, t, &left);
+    return left;
+}
+
+int pdf_leftward(const struct font_drawing *d, const struct drawn_text *t)
+{
+    bool left;
+    int count = letters_see(d, t, &left);
+    return left && count > 1 ? count : 0;
+}
+
+bool pdf_is_weak(const struct font_drawing *d, const struct drawn_text *t)
+{
+    const char *at = d->text + t->begin, *end = d->text + t->end;
+    uint32_t c;
+    if (at >= end)
+        return false;
+    font_utf8_next(&at, end, &c);
+    FriBidiCharType type = fribidi_get_bidi_type(c);
+    return at == end &&
+           (type == FRIBIDI_TYPE_CS || type == FRIBIDI_TYPE_ES || type == FRIBIDI_TYPE_ET);
+}
+
+static size_t letter_before(const struct font_drawing *d, size_t end)
+{
+    do
+        end--;
+    while (((unsigned char)d->text[end] & 0xc0) == 0x80);
+    return end;
+}
+
+void pdf_share(const struct font_drawing *d, const struct drawn_text *t, size_t *end,
+               int *letters)
+{
+    int count = pdf_leftward(d, t);
+    *end = t->end;
+    for (int k = 0; k < t->at && k < count; k++)
+        *end = letter_before(d, *end);
+    *letters = t->at >= count ? 0 : t->at + 1 == t->of ? count - t->at : 1;
+}
+
+/* Whether the glyphs of a cluster are told as a whole what they say: where there are several of them, in whatever order; where they are a sign that
+ * is not in the text (a hyphen); and where a line ends in a hyphen that is. */
+static bool is_said(const struct font_drawing *d, const struct drawn_text *t)
+{
+    return d->text && (!t->begins || !t->ends || t->begin == t->end || is_hard_hyphen(d, t));
+}
+
+/* The others of a cluster's glyphs that go to the left have all of its text. */
+static bool is_over(const struct font_drawing *d, const struct drawn_text *t, int leftward)
+{
+    return d->text && leftward && t->at >= leftward;
+}
+
+bool pdf_said_begins(const struct font_drawing *d, const struct drawn_text *t)
+{
+    int leftward = d->text ? pdf_leftward(d, t) : 0;
+    return leftward ? is_over(d, t, leftward) : is_said(d, t) && t->begins;
+}
+
+bool pdf_said_ends(const struct font_drawing *d, const struct drawn_text *t)
+{
+    int leftward = d->text ? pdf_leftward(d, t) : 0;
+    return leftward ? is_over(d, t, leftward) : is_said(d, t) && t->ends;
+}
+
+void pdf_said_begin(const struct font_drawing *d, const struct drawn_text *t, FILE *f)
+{
+    fputs("/Span << /ActualText <FEFF", f);
+    if (!pdf_leftward(d, t)) {
+        if (t->begin == t->end)
+            fputs("002D", f);
+        pdf_utf16_put(d->text, t->begin, t->end, f);
+        if (is_hard_hyphen(d, t))
+            fputs("2060", f); /* a word joiner behind it */
+    }
+    fputs("> >> BDC\n", f);
+}
