@@ -55,11 +55,34 @@ static void folder_close(const struct explain *e)
 
 /* Waits for the child and returns its status. Ctrl-C on the terminal is for the child to
  * handle. */
+static volatile sig_atomic_t ended_by, child_now;
+
+/* SIGTERM and SIGHUP are passed on, so that the child ends, and the folder is removed. */
+static void pass_on(int number)
+{
+    ended_by = number;
+    if (child_now)
+        kill((pid_t)child_now, number);
+}
+
+static void ends_pass_on(bool on)
+{
+    static const int numbers[] = {SIGTERM, SIGHUP};
+    struct sigaction ours = {.sa_handler = on ? pass_on : SIG_DFL, .sa_flags = SA_RESTART}, now;
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        if (sigaction(numbers[i], NULL, &now) == 0 && now.sa_handler != SIG_IGN) /* nohup */
+            sigaction(numbers[i], &ours, NULL);
+}
+
 static int child_wait(pid_t child)
 {
     int status = 0;
+    child_now = (sig_atomic_t)child;
+    if (ended_by)
+        kill(child, ended_by);
     while (waitpid(child, &status, 0) != child)
         ;
+    child_now = 0;
     return status;
 }
 
@@ -78,6 +101,7 @@ static int compile(const struct explain *e, const char *source)
     if (child < 0)
         return fail("explain", "no process: %s", strerror(errno));
     if (child == 0) {
+        ends_pass_on(false);
         char *line[] = {strdup("cc"), strdup(source),          strdup("-O2"),
                         strdup("-o"), strdup(e->program_path), NULL};
         _exit(verb_cc(5, line));
@@ -92,6 +116,7 @@ static int compile(const struct explain *e, const char *source)
 _Noreturn static void become(const struct explain *e, const char *program, char **arguments)
 {
     signal(SIGINT, SIG_DFL);
+    ends_pass_on(false);
     setenv("LUTETIA_EXPLAIN", e->text_path, 1);
     setenv("LUTETIA_EXPLAIN_JSON", e->json_path, 1);
     /* A program in the current folder needs no ./ before its name. */
@@ -175,6 +200,8 @@ static int explain(struct explain *e, char **arguments)
     }
     if (status != EXIT_SUCCESS)
         return status;
+    if (ended_by)
+        return fail("explain", "ended by signal %d", (int)ended_by);
     fflush(NULL);
     pid_t child = fork();
     if (child < 0)
@@ -213,9 +240,10 @@ int verb_explain(int argc, char **argv)
                                      "prog.c` runs one");
     if (e.json && json_check(e.json) != EXIT_SUCCESS)
         return EXIT_FAILED;
+    signal(SIGINT, SIG_IGN);
+    ends_pass_on(true);
     if (!folder_open(&e))
         return EXIT_FAILED;
-    signal(SIGINT, SIG_IGN);
     int status = explain(&e, argv + own);
     folder_close(&e);
     return status;
