@@ -188,6 +188,12 @@ def scripts_page(facts, source, edition):
 
 # ---- the instructions ----
 
+# What a row's types are called, where rows of one title are together on a page.
+TYPES = {"f": "floats", "su": "integers", "u": "unsigned integers", "s": "signed integers", "c": "complex numbers"}
+NAME_ROOM = 90  # characters of what a page's NAME says
+SEE_MOST = 8
+
+
 def families(sections):
     """[(page's name, [(section's title, cells, functions)])]: rows of one name together, calls by their section."""
     out = {}
@@ -196,10 +202,12 @@ def families(sections):
         for cells, functions in rows:
             if cells[0] == "call":
                 name = first
+            elif cells[2] == "-":
+                name = functions[0].name
             elif cells[0] == "combine":
                 name = f"CM_scan_with_{cells[2]}"
             else:
-                name = "CM_" + (cells[2] if cells[2] != "-" else cells[0])
+                name = "CM_" + cells[2]
             out.setdefault(name, []).append((title, cells, functions))
     return out
 
@@ -210,18 +218,109 @@ def prototype(generate, function):
     return textwrap.wrap(text, 84, subsequent_indent="        ", break_long_words=False, break_on_hyphens=False)
 
 
-def family_page(generate, name, rows, edition):
+def operands_read(path):
+    """{operand, or "type operand": what it is}, in the order of operands.md."""
+    rows = [roff.cells(line) for line in path.read_text().splitlines() if line.startswith("| `")]
+    return {name.strip("`"): text for name, text in rows}
+
+
+def parameters(function):
+    """[(type, name)]; a row of `call` has them as it writes them."""
+    if not function.params or function.params[0][0]:
+        return function.params
+    out = []
+    for text in re.sub(r"\(\*(\w+)\) \(.*\)", r"\1", function.params[0][1]).split(", "):
+        kind, name = re.fullmatch(r"(.*?[ *])?(\w+)", text).groups()
+        out += [] if name == "void" else [(kind.strip(), name)]
+    return out
+
+
+def operands_used(rows, texts):
+    """[(names, what they are)] of a page, in the order of operands.md."""
+    used = {}
+    all_names = {name for _, _, functions in rows for function in functions for _, name in parameters(function)}
+    for _, _, functions in rows:
+        for function in functions:
+            for kind, name in parameters(function):
+                kind = kind.replace("const ", "")
+                key = f"{kind} {name}" if f"{kind} {name}" in texts else name
+                if name == "source" and "source1" in all_names:
+                    key = "source beside source1"
+                if key not in texts:
+                    raise KeyError(f"{function.name}: docs/manual/operands.md does not say what `{name}` ({kind}) is")
+                if name not in used.setdefault(texts[key], []):
+                    used[texts[key]].append(name)
+    return [(used[text], text) for text in dict.fromkeys(texts.values()) if text in used]
+
+
+def lower(text):
+    """The first letter small, but of NEWS."""
+    return text if text[1:2].isupper() else text[:1].lower() + text[1:]
+
+
+def first_clause(text):
+    """Up to the first semicolon or colon that is not in brackets; an explanation in brackets at its end is left out."""
+    text = re.sub(r"(?<! not) \([^()]*\)$", "", re.split(r";|(?<! ):(?= |$)", re.sub(r"\([^()]*[:;][^()]*\)", "", text))[0].strip())
+    return "" if text.startswith(("the same", "another spelling")) else text
+
+
+def in_short(rows):
+    """What the rows do, if it is short; else the sections that they are in."""
+    said = [(cells[0], first_clause(cells[5])) for _, cells, _ in rows if cells[0] != "call"]
+    does = list(dict.fromkeys(text for shape, text in said if text and shape not in ("global", "globalflag")))
+    text = "; ".join(map(lower, does))
+    if text and said[0][0] == "combine":
+        text = "scans, spreads and reductions along axes: " + text
+    if text and len(text) <= NAME_ROOM:
+        return text
+    return "; ".join(lower(title) for title in dict.fromkeys(title for title, _, _ in rows))
+
+
+def row_titles(rows):
+    """A title for each row: its section's, with the types where several rows have the same."""
+    titles = [title for title, _, _ in rows]
+    return [f"{title}: {TYPES[cells[1]]}" if titles.count(title) > 1 and cells[1] in TYPES else title for title, cells, _ in rows]
+
+
+def forms(page, functions):
+    """Functions of a row that each do something else: an item for all that do the same."""
+    same = {}
+    for function in functions:
+        same.setdefault(function.doc, []).append(f"{BOLD}{literal(function.name)}{ROMAN}")
+    for text, names in same.items():
+        page.item(", ".join(names), sentence(text))
+
+
+def context(rows):
+    """What the context has to do with it; "" of calls that touch no field."""
+    functions = [f for _, _, fs in rows for f in fs]
+    if all(cells[:3] == ["flag", "-", "context"] or cells[0] == "globalflag" for _, cells, _ in rows):
+        return "Operations on the context are done in all processors, active or not."
+    if all("whatever the context" in cells[5] or cells[0] == "cfrontend" for _, cells, _ in rows if cells[0] != "call") and \
+            rows[0][1][0] != "call":
+        return "The context does not matter." if rows[0][1][0] != "cfrontend" else \
+            "Arrays and single processors: it does not matter. Neighbours: dest changes only in active processors."
+    writes = any(name == "dest" for f in functions for _, name in parameters(f)) or \
+        any(cells[0] in ("compare", "ccompare", "float_test", "flag") for _, cells, _ in rows)
+    if not writes:
+        return ""
+    always = any("_always" in f.name for f in functions)
+    return "Destinations and flags change only in active processors" + \
+        ("; `always` forms change dest in all of them." if always else ".")
+
+
+def family_page(generate, name, rows, others, texts, edition):
     page = Page(name, 3, edition, LIBRARY)
     is_calls = rows[0][1][0] == "call"
-    titles = list(dict.fromkeys(title for title, _, _ in rows))
+    titles = row_titles(rows)
     page.section_begin("NAME")
-    names = [f.name for _, _, functions in rows for f in functions] if is_calls else [name]
-    what = "; ".join(t[0].lower() + t[1:] for t in titles)
-    page.add(f"{', '.join(names)} \\- {prose(what)}")
+    named = is_calls or rows[0][1][2] == "-"
+    names = [f.name for _, _, functions in rows for f in functions] if named else [name]
+    page.add(f"{', '.join(names)} \\- {literal(in_short(rows))}")
     page.section_begin("SYNOPSIS")
     page.add(".nf", f"{BOLD}#include <cm/paris.h>{ROMAN}", "")
     at = None
-    for title, cells, functions in rows:
+    for title, (_, cells, functions) in zip(titles, rows):
         if not is_calls and len(rows) > 1:
             page.add(*([""] if at else []), f"/* {literal(title)} */")
         at = title
@@ -230,23 +329,53 @@ def family_page(generate, name, rows, edition):
                 page.add(*(BOLD + literal(line) + ROMAN for line in prototype(generate, function)))
     page.add(".fi")
     page.section_begin("DESCRIPTION")
-    for title, cells, functions in rows:
+    for title, (_, cells, functions) in zip(titles, rows):
         if is_calls:
-            page.item(f"{BOLD}{literal(functions[0].name)}{ROMAN}", sentence(cells[2]))
+            page.item(f"{BOLD}{literal(functions[0].name)}{ROMAN}", sentence(documents(cells[2])))
             continue
         if len(rows) > 1:
             page.subsection(title)
-        page.paragraph(sentence(cells[5]) + (" Sets overflow." if "overflow" in cells[4].split() else ""))
+        page.paragraph(sentence(documents(cells[5])) + (" Sets overflow." if "overflow" in cells[4].split() else ""))
+        if len({f.doc for f in functions}) > 1:
+            forms(page, [f for f in functions if "_const_" not in f.name])
     if not is_calls:
-        page.paragraph("A name with `constant` is spelt with `const`, too. Other forms of names, and what lengths and operands "
-                       "are, paris(7) tells.")
-    page.section_begin("CONTEXT")
-    page.paragraph("Destinations and flags change only in active processors; `always` forms change dest in all of them.")
+        page.paragraph("The parts of a name, such as `_2_1L`, `constant` (also spelt `const`) and `always`, are explained in "
+                       "paris(7).")
+    operands = operands_used(rows, texts)
+    if operands:
+        page.section_begin("OPERANDS")
+        for names, text in operands:
+            page.item(", ".join(f"{ITALIC}{literal(n)}{ROMAN}" for n in names), sentence(text))
+    notes = [generate.along_axes.NOTES[t] for t in dict.fromkeys(t for t, _, _ in rows) if t in generate.along_axes.NOTES]
+    if notes:
+        page.section_begin("NOTES")
+        for text in notes:
+            page.paragraph(re.sub(r"\*(\w+)\*", r"\1", " ".join(text.split())))
+    if about := context(rows):
+        page.section_begin("CONTEXT")
+        page.paragraph(about)
     page.section_begin("ERRORS")
     page.paragraph("A wrong call has no effect, and is explained in one line to the error handler; see "
                    "CM_set_error_handler(3) and CM_error_status(3).")
-    page.see_also(["paris(7)", "lutetia-cc(1)"])
+    page.see_also(["paris(7)", "lutetia-cc(1)"] + [f"{other}(3)" for other in others])
     return page.text()
+
+
+def documents(text):
+    """Where a document is once it is installed."""
+    return re.sub(r"\bdocs/([\w-]+\.md)", r"/usr/share/doc/lutetia/\1", text)
+
+
+def neighbours(pages):
+    """{page's name: those of the same sections that follow and precede it most nearly}"""
+    names = list(pages)
+    out = {}
+    for at, name in enumerate(names):
+        titles = {title for title, _, _ in pages[name]}
+        near = sorted((abs(i - at), other) for i, other in enumerate(names)
+                      if other != name and titles & {title for title, _, _ in pages[other]})
+        out[name] = sorted(other for _, other in near[:SEE_MOST])
+    return out
 
 
 def paris_page(sections, source, edition):
@@ -283,8 +412,9 @@ def main():
     (out / "man7/lutetia-scripts.7").write_text(scripts_page(facts, source, edition))
     (out / "man7/paris.7").write_text(paris_page(sections, source, edition))
     pages = families(sections)
+    others, texts = neighbours(pages), operands_read(source / "docs/manual/operands.md")
     for name, rows in pages.items():
-        (out / f"man3/{name}.3").write_text(family_page(generate, name, rows, edition))
+        (out / f"man3/{name}.3").write_text(family_page(generate, name, rows, others[name], texts, edition))
     for name, rows in pages.items():
         for function in (f for _, _, functions in rows for f in functions):
             link = out / f"man3/{function.name}.3"

@@ -113,10 +113,12 @@ def convert(types, name, op, flags, doc):
 
 
 TRUTH = {}
+WORDS = {}  # what a logical operation does, with {0} and {1} for its operands
 
 
 def logical(_, name, op, flags, doc):
     TRUTH[name] = op
+    WORDS[name] = doc.removeprefix("dest = ").replace("source1", "{0}").replace("source2", "{1}")
     for always in (False, True):
         def make(suffix, const, params, args, **test):
             return instruction(f"CM_{name}{const}{mid(always)}_{suffix}", params, doc, "paris_logical", args,
@@ -165,15 +167,15 @@ def flag(_, name, op, flags, doc):
                    op="invert")
         yield make(f"CM_load_{name}{a}", [SOURCE], f"{name} = source, one bit", "paris_flag_load",
                    ["source"], op="load", operands=1)
-        yield make(f"CM_store_{name}{a}", [DEST], f"dest, one bit, = {name}", "paris_flag_store",
+        yield make(f"CM_store_{name}{a}", [DEST], f"dest = {name}, one bit", "paris_flag_store",
                    ["dest"], op="store", operands=1)
         for lop, truth in TRUTH.items():
             row = f"0x{int(truth, 2):x}"
-            yield make(f"CM_{lop}_{name}{a}", [SOURCE], f"{name} = {name} {lop} source, one bit",
+            yield make(f"CM_{lop}_{name}{a}", [SOURCE], f"{name} = {WORDS[lop].format(name, 'source')}, one bit",
                        "paris_flag_logical_field", ["source"], row, op=lop, operands=1)
             for other in FLAGS:
                 if other != name:
-                    yield make(f"CM_{lop}_{name}_with_{other}{a}", [], f"{name} = {name} {lop} {other}",
+                    yield make(f"CM_{lop}_{name}_with_{other}{a}", [], f"{name} = {WORDS[lop].format(name, other)}",
                                "paris_flag_logical_flag", [f"MACHINE_{other.upper()}"], row, op=lop,
                                other=other[0])
 

@@ -104,6 +104,34 @@ class Manual(unittest.TestCase):
             if "_const_" not in name:
                 self.assertIn(name, texts[whole], page)
 
+    def test_operands_are_explained(self):
+        """Each name in a page's prototypes is an item of its section OPERANDS."""
+        for page in MAN.glob("man3/*.3"):
+            if page.is_symlink():
+                continue
+            text = plain(page)
+            synopsis = " ".join(text[text.index(".SH SYNOPSIS"):text.index(".SH DESCRIPTION")].split())
+            names = set()
+            for arguments in re.findall(r"CM_\w+ \((.*?)\);", synopsis):
+                names |= set(re.findall(r"(\w+)(?:,|$)", re.sub(r"\(\*(\w+)\) \([^)]*\)", r"\1", arguments))) - {"void"}
+            operands = text[text.index(".SH OPERANDS"):text.index(".SH ERRORS")] if ".SH OPERANDS" in text else ""
+            items = re.findall(r"\n\.TP\n(.*)", operands)
+            self.assertEqual(names - {name for item in items for name in item.split(", ")}, set(), page)
+
+    def test_pages_of_instructions_say_at_the_top_what_they_do(self):
+        """No bracket is left open, no sentence is cut in two, nothing stands twice."""
+        for page in MAN.glob("man3/*.3"):
+            if page.is_symlink():
+                continue
+            short = re.search(r"\.SH NAME\n.* \\- (.*)", re.sub(r"\\f[BIR]", "", page.read_text())).group(1)
+            self.assertEqual(short.count("("), short.count(")"), page)
+            self.assertRegex(short, r"^(NEWS|[^A-Z]).*[\w)|]$", page)
+            self.assertNotRegex(short, r"^nEWS|^the same|= not$|^dest$", page)
+            parts = re.split(r"; ", short)
+            self.assertEqual(len(parts), len(set(parts)), page)
+            heads_below = re.findall(r"^\.SS (.*)$", page.read_text(), re.M)
+            self.assertEqual(len(heads_below), len(set(heads_below)), page)
+
     def test_pages_that_are_named_exist(self):
         there = {p.name for p in MAN.glob("man?/*")}
         for page in pages():
