@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """manual.py LUTETIA BENCH SOURCE OUT STAMP - writes the manual pages, OUT/man1, man3 and man7: those of the command of what
 `LUTETIA help --table` says (facts.py), those of instructions of SOURCE/paris_compat/instructions.tab, lutetia-scripts(7) of
-docs/scripts.md and the functions that scripts have, paris(7) of paris.md and the README's example."""
+docs/scripts.md, what docs/midi.md says of maps and the functions that scripts have, paris(7) of paris.md and the README's example."""
 import pathlib
 import re
 import shutil
@@ -172,7 +172,11 @@ def scripts_page(facts, source, edition):
     page.add("lutetia\\-scripts \\- papers, inks, masks, springs and time in Lua")
     page.section_begin("DESCRIPTION")
     text = (source / "docs/scripts.md").read_text()
+    text = documents(text)
     roff.markdown(page, re.sub(r"\| option \|.*?\n\n", "lutetia-run(1) lists the options.\n\n", text, count=1, flags=re.S))
+    found = re.search(r"^## Maps: .*?\n(.*?)^## ", (source / "docs/midi.md").read_text(), re.M | re.S)
+    page.section_begin("MAPS")
+    roff.markdown(page, found.group(1))
     page.section_begin("FUNCTIONS")
     page.paragraph("All that a script can call, besides Lua's own:")
     kinds = {}
@@ -181,8 +185,8 @@ def scripts_page(facts, source, edition):
     for kind, names in kinds.items():
         page.item(f"{BOLD}{kind or 'everywhere'}{ROMAN}", ", ".join(sorted(names)) + ".")
     page.section_begin("FILES")
-    page.item(f"{ITALIC}/usr/share/doc/lutetia{ROMAN}", "The documents and examples that this page names.")
-    page.see_also(["lutetia-run(1)", "lutetia-spring(1)", "lutetia-keys(1)", "lua(1)"])
+    page.item(f"{ITALIC}/usr/share/doc/lutetia{ROMAN}", "The documents and examples that this page names; a long document may be packed (.gz).")
+    page.see_also(["lutetia-run(1)", "lutetia-spring(1)", "lutetia-keys(1)", "lutetia-midi(1)", "lua(1)"])
     return page.text()
 
 

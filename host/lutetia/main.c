@@ -42,7 +42,7 @@ static void help(FILE *out)
     for (int i = 0; i < VERBS_COUNT; i++) {
         char left[64];
         snprintf(left, sizeof left, "%s %s", verbs[i].name, verbs[i].arguments);
-        fprintf(out, "  %-28s %s\n", left, verbs[i].help);
+        fprintf(out, "  %-34s %s\n", left, verbs[i].help);
     }
     fputs("\n`lutetia VERB --help` and `man lutetia-VERB` say more.  LUTETIA_DEVICE chooses a "
           "device (part of\nits name, or its number); `lutetia info --variables` lists all "
@@ -75,6 +75,21 @@ static int help_table(void)
     return status;
 }
 
+/* `lutetia help VERB` is `lutetia VERB --help`. */
+static int help_of(const char *verb, const char **name)
+{
+    static char ask[] = "--help";
+    for (int i = 0; i < VERBS_COUNT; i++)
+        if (strcmp(verb, verbs[i].name) == 0) {
+            char own[16];
+            snprintf(own, sizeof own, "%s", verbs[i].name);
+            char *argv[] = {own, ask, NULL};
+            *name = verbs[i].name;
+            return verbs[i].run(2, argv);
+        }
+    return fail_usage(NULL, "there is no verb '%.60s'; `lutetia --help` lists them", verb);
+}
+
 /* Runs the verb and returns its status; *name gets its name. */
 static int verb_run_named(int argc, char **argv, const char **name)
 {
@@ -90,6 +105,8 @@ static int verb_run_named(int argc, char **argv, const char **name)
         strcmp(argv[1], "help") == 0) {
         if (argc > 2 && strcmp(argv[2], "--table") == 0)
             return help_table();
+        if (argc > 2 && strcmp(argv[1], "help") == 0)
+            return help_of(argv[2], name);
         help(stdout);
         return EXIT_SUCCESS;
     }

@@ -72,10 +72,21 @@ const struct page pages_of_machines[] = {
               "it was cut and why, and what each kernel took beside what it could have. A file "
               "that ends "
               "in .c is compiled first, as by `lutetia cc`.",
-     .notes = "Any program does the same without the verb: LUTETIA_EXPLAIN=/dev/stderr ./prog.",
+     .notes =
+         "An instruction is recorded, not executed: it makes a value, the content of a field "
+         "or "
+         "a flag. A value is computed when somebody looks at it, or when much is waiting; one "
+         "that is overwritten first has vanished. Calls that came before in the same order are "
+         "foreseen, and not recorded again.\n"
+         "What is computed at once is a plan. It is cut into kernels, programs that the device "
+         "runs, or interpreted where it is small. A value is put into memory if it was looked "
+         "at, if a field or flag keeps it, if neighbours read it, or if a later kernel does; "
+         "within a kernel it costs no memory.\n"
+         "Any program does the same without the verb: LUTETIA_EXPLAIN=/dev/stderr ./prog.",
      .examples = {{"lutetia explain ./heat", "a program that was compiled"},
                   {"lutetia explain --json heat.json heat.c",
                    "the same as JSON, from its source"}},
+     .files = "/usr/share/doc/lutetia/engine-reference.md: each line of the report, explained",
      .see = "lutetia-cc(1), lutetia-tune(1), paris(7)"},
     {.verb = "midi",
      .usages = "serve [NAME=]KIND[:ARGUMENT]... [options]\nVERB ...",

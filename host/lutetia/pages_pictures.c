@@ -19,7 +19,9 @@ static void preset_names(char *text, size_t room)
 
 #define FONTS                                                                                  \
     "A font is a file's name with its folder, a font file's name without ending among the "    \
-    "installed ones (EBGaramond12-Italic), or a family (\"DejaVu Sans\")."
+    "installed ones (EBGaramond12-Italic), or a family (\"DejaVu Sans\"); `fc-list : family "  \
+    "file` "                                                                                   \
+    "shows them."
 #define FILTERS                                                                                \
     "A filter is one of the names above, each with :RADIUS if wanted (cone:2); "               \
     "gaussian:SIGMA,RADIUS; samples:RADIUS,S0,S1,.. and round:RADIUS,S0,S1,.. give it from "   \
@@ -29,14 +31,19 @@ const struct page pages_of_pictures[] = {
     {.verb = "paint",
      .usages = "\"Text\" [options]\n--image FILE [options]",
      .about =
-         "Sets a line of type, or screens a picture, in ink on wet watercolour paper, and lets "
+         "Sets a line of type, or prints a gray picture, in ink on watercolour paper, and lets "
          "water and pigments move. Each fiber of the paper is a processor of the machine; one "
          "fiber is a pixel of the picture.\n"
          "The same command gives the same picture, to the bit, on every device. With --model "
          "thesis the paper is that of Small's thesis of 1990: inks of cyan, magenta and "
          "yellow. "
          "Options that say \"full\" or \"thesis\" belong to that model alone.",
-     .notes = FONTS "\n" FILTERS,
+     .notes =
+         "Of water and pigments 1 is a unit for each fiber. A unit of a pigment hides most of "
+         "the paper; half of it is a usual wash, 4 the most, and what is below 0 takes away. A "
+         "fiber soaks up a part of a unit of water, and what is more flows: with --wet 0 "
+         "letters keep their edges, 0.1 softens them, 0.3 lets them flow into each other, and "
+         "from 0.6 on they are lost. Without gravity the sheet lies flat.\n" FONTS "\n" FILTERS,
      .values = {{.option = "model", .words = "full, thesis"},
                 {.option = "stock", .fill = paper_stock_names},
                 {.option = "pigment", .fill = paper_pigment_names, .suffix = "="},
@@ -47,11 +54,14 @@ const struct page pages_of_pictures[] = {
           {"lutetia paint \"Paris\" --stock rough --pigment \"phthalo green=0.6\" --pigment "
            "\"burnt umber=0.3\" --gravity 0.6 -o drips.png",
            "two pigments that run down rough paper"},
+          {"lutetia paint \"Seine\" --font EBGaramond12-Italic --pigment \"cerulean blue=0.8\" "
+           "--wet 0.1 --paper 800x400 -o seine.png",
+           "another font and blue, soft edges on damp paper"},
           {"lutetia paint \"Paris\" --deckle --paper 480x320 -o sheet.png",
            "a small handmade sheet with its edges"},
           {"lutetia paint \"Wet\" --model thesis --steps 100 -o thesis.png",
            "the paper of the thesis"}},
-     .see = "lutetia-run(1), lutetia-type(1), lutetia-info(1)"},
+     .see = "lutetia-run(1), lutetia-type(1), lutetia-info(1), fc-list(1)"},
     {.verb = "type",
      .usages = "\"Text\" [options]",
      .about =
@@ -59,8 +69,8 @@ const struct page pages_of_pictures[] = {
          "and "
          "distortion, with any filter, and writes it as PNG, SVG or PDF, as the ending of "
          "--out "
-         "says. Light is mixed as light. A \"\\n\" that the shell makes a line feed begins a "
-         "line.",
+         "says. Light is mixed as light. A line feed in the text begins a line: $'one\\ntwo' "
+         "in bash.",
      .notes = FONTS "\n" FILTERS
                     "\nWith --corners the upper left, upper right, lower right and lower left "
                     "corners of the box around the text, turned and sheared, go to these "
@@ -73,10 +83,12 @@ const struct page pages_of_pictures[] = {
          {{"lutetia type \"Wet Fonts\" --font EBGaramond12-Italic --size 72.25 --rotate 8 "
            "-o type.png",
            "a line, turned by 8 degrees"},
+          {"lutetia type $'Seine\\nParis' --size 37.3 --rotate 23.7 --align center -o gray.png",
+           "two lines, at an odd size and angle"},
           {"lutetia type \"Ag&\" --compare -o compare.png",
            "beside FreeType and the exact coverage, enlarged"},
           {"lutetia type \"Ag\" --filter cone:2 -o soft.png", "with a wider filter"}},
-     .see = "lutetia-set(1), lutetia-font(1), lutetia-paint(1)"},
+     .see = "lutetia-set(1), lutetia-font(1), lutetia-paint(1), fc-list(1)"},
     {.verb = "set",
      .usages = "FILE [options]",
      .about =
@@ -86,17 +98,22 @@ const struct page pages_of_pictures[] = {
          "what is piped in.",
      .notes =
          "In the text a blank line ends a paragraph; # begins a heading, - or 1. an item of a "
-         "list, > a quote, and * * * parts the text; *slanted* or _slanted_ and "
-         "**bold** words; [^a note at the foot]; [>a note in the margin]. A backslash at a "
-         "line's end keeps it, and before a sign makes that a letter.\n" FONTS "\n" FILTERS,
+         "list, > a quote, and * * * parts the text; `*slanted*` or "
+         "`_slanted_` and `**bold**` words; [^a note at the foot]; [>a note in the margin]. A "
+         "backslash at a "
+         "line's end keeps it, and before a sign makes that a letter.\n"
+         "In PDF a pixel is a point, 1/72 inch: A4 is --paper 595x842.\n" FONTS "\n" FILTERS,
      .values = {{.option = "align", .words = "left, right, center, justify"},
                 {.option = "filter", .list = font_filter_names}},
-     .examples = {{"lutetia set letter.txt --hyphenate --columns 2 -o letter.pdf",
-                   "two columns, as PDF"},
-                  {"echo 'A *short* page.' | lutetia set - -o page.png", "what is piped in"},
-                  {"lutetia set letter.txt --around 300,400,120,80 -o around.png",
-                   "text that leaves an ellipse free"}},
-     .see = "lutetia-type(1), lutetia-font(1)"},
+     .examples =
+         {{"lutetia set letter.txt --hyphenate --columns 2 -o letter.pdf",
+           "two columns, as PDF"},
+          {"lutetia set letter.txt --paper 595x842 --size 11 --margin 72 --all -o letter.pdf",
+           "all pages, on A4"},
+          {"echo 'A *short* page.' | lutetia set - -o page.png", "what is piped in"},
+          {"lutetia set letter.txt --around 300,400,120,80 -o around.png",
+           "text that leaves an ellipse free"}},
+     .see = "lutetia-type(1), lutetia-font(1), fc-list(1)"},
     {.verb = "font",
      .usages = "FILE [options]\nFILE --glyph C [options]\n--show-filter [--filter F] [-o FILE]",
      .about =
@@ -111,9 +128,9 @@ const struct page pages_of_pictures[] = {
                    "one glyph at each level"},
                   {"lutetia font --show-filter --filter gaussian-fast -o filter.png",
                    "a filter"}},
-     .see = "lutetia-type(1), lutetia-set(1)"},
+     .see = "lutetia-type(1), lutetia-set(1), fc-list(1)"},
     {.verb = "spring",
-     .usages = "\"word\" [options]\n--network FILE [options]",
+     .usages = "\"word\" [options]\n--network FILE [options]\n--controls",
      .about =
          "A word whose letters hang on masses and springs: it falls, swings and breaks. "
          "Without "
@@ -123,8 +140,9 @@ const struct page pages_of_pictures[] = {
          "the keys, V records a film, Esc ends.",
      .notes =
          "--controls lists the controls that --set changes, with their ranges and what they "
-         "do. A --map is a script in Lua with a function for each message of an instrument; "
-         "lutetia-scripts(7) describes the language.\n" FONTS,
+         "do. A --map is a script in Lua whose function message(m) gets each message of an "
+         "instrument, or of a --song: section MAPS of lutetia-scripts(7). Files of --network, "
+         "--script and --theme are text; the documents below have their lines.\n" FONTS,
      .values = {{.option = "preset", .fill = preset_names},
                 {.option = "theme", .words = "light, dark"},
                 {.option = "way", .words = "exact, egl, osmesa"},
@@ -135,8 +153,20 @@ const struct page pages_of_pictures[] = {
           {"lutetia spring breakdown --preset breakdown --set collide=on --still "
            "breakdown.png --strip 2x4 --seconds 2 --size 1200x1000 --view -1,-0.4,7.2,3.05",
            "eight moments in one picture, without a display"},
+          {"lutetia spring chord --preset heavy --map "
+           "/usr/share/doc/lutetia/examples/maps/chord.lua --song "
+           "/usr/share/doc/lutetia/examples/scripts/played.mid --video chord.mp4",
+           "a song plays the word, in a film"},
           {"lutetia spring --controls", "what can be adjusted"}},
-     .see = "lutetia-keys(1), lutetia-run(1), lutetia-scripts(7)"},
+     .files =
+         "/usr/share/doc/lutetia/examples/maps: maps to begin with\n"
+         "/usr/share/doc/lutetia/examples/scripts/played.mid: a song to begin with\n"
+         "/usr/share/doc/lutetia/examples/springs: files of --network (.springs) and of "
+         "--script (.clamps)\n"
+         "/usr/share/doc/lutetia/springs.md: what masses, springs and controls do, and the "
+         "lines of these files\n"
+         "/usr/share/doc/lutetia/stage.md: the window, and the lines of a --theme",
+     .see = "lutetia-keys(1), lutetia-midi(1), lutetia-run(1), lutetia-scripts(7)"},
     {.verb = "voice",
      .usages = "SOUND \"Text\" [options]\nSOUND --transcript FILE [options]\n--cry \"Text\" "
                "[options]\n--microphone any \"Text\" "
@@ -172,10 +202,11 @@ const struct page pages_of_pictures[] = {
          "Without a song there is a window, where what the MIDI server hears plays (`lutetia "
          "midi "
          "serve`); where there is no server the computer's own keyboard plays.",
-     .notes =
-         "A --map that ends in .lua is a script that turns any message into any control; "
-         "lutetia-scripts(7) describes the language. Another one has a line for each key, as "
-         "'c4 A'.\n" FONTS,
+     .notes = "A --map that ends in .lua is a script that turns any message into any control: "
+              "section "
+              "MAPS of lutetia-scripts(7). What it does is seen in a window and by --still, "
+              "--frames "
+              "and --video. Another one has a line for each key, as 'c4 A'.\n" FONTS,
      .values = {{.option = "stock", .fill = paper_stock_names},
                 {.option = "pigment", .fill = paper_pigment_names},
                 {.option = "theme", .words = "light, dark"}},
@@ -184,8 +215,9 @@ const struct page pages_of_pictures[] = {
                    "printed on wet paper, after four seconds"},
                   {"lutetia keys song.mid --video song.mp4", "a film with its sound"},
                   {"lutetia keys --text \"page\" --range c3-c5", "a window that is played"}},
-     .files = "/usr/share/doc/lutetia/examples/scripts/played.mid: a song to begin with",
-     .see = "lutetia-midi(1), lutetia-voice(1), lutetia-spring(1)"},
+     .files = "/usr/share/doc/lutetia/examples/scripts/played.mid: a song to begin with\n"
+              "/usr/share/doc/lutetia/examples/maps: maps to begin with",
+     .see = "lutetia-midi(1), lutetia-voice(1), lutetia-spring(1), lutetia-scripts(7)"},
     {.verb = "run",
      .usages = "SCRIPT.lua [key=value...] [options]",
      .about = "Runs a script in Lua that makes papers, inks, masks, brushes, springs and time. "

@@ -126,6 +126,8 @@ _Noreturn static void become(const struct explain *e, const char *program, char 
         execv(here, arguments);
     execvp(program, arguments);
     int error = errno;
+    if (error == ENOENT && access(program, F_OK) == 0) /* it is here, and cannot be run */
+        error = EACCES;
     fail("explain", "%s: cannot run: %s; name a program (lutetia cc makes one) or a .c file",
          program, strerror(error));
     _exit(126);

@@ -59,7 +59,7 @@ static int spring_check(struct spring *s, const struct option_words *words)
     if (words->count > 1)
         return fail_usage("spring", "one word or text, please: \"%.40s %.40s ...\" in quotes",
                           words->words[0], words->words[1]);
-    if (!words->count && !s->scene.network)
+    if (!words->count && !s->scene.network && !s->controls)
         return fail_usage("spring",
                           "a word, or --network FILE; `lutetia spring --help` says more");
     if (words->count && s->scene.network)
@@ -87,6 +87,8 @@ static int spring_check(struct spring *s, const struct option_words *words)
         return fail_usage("spring", "--view must be X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1");
     if (words->count)
         s->scene.text = words->words[0];
+    else if (!s->scene.network)
+        s->scene.text = "a"; /* --controls alone: every word has the same ones */
     if (s->scene.network && s->scene.preset)
         return fail_usage("spring", "--preset is for a word");
     s->film.width_px = s->window.width_px = s->size[0];

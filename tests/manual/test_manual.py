@@ -6,9 +6,11 @@ page; SCRIPTS docs/scripts.md, which must name each function that scripts have.
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 import sys
+import tempfile
 import unittest
 
 MAN, LUTETIA, HEADER, SCRIPTS = pathlib.Path(sys.argv[1]), sys.argv[2], pathlib.Path(sys.argv[3]), pathlib.Path(sys.argv[4])
@@ -91,6 +93,28 @@ class Manual(unittest.TestCase):
                 for option in re.findall(r" (--[a-z][a-z-]*)", line):
                     self.assertRegex(text, rf"\n(-., |-. .*, )?{option}\b", f"{page}: {line}")
 
+    def test_examples_that_need_no_file_work(self):
+        """Those that are quick, and open no window."""
+        tried = 0
+        for page in MAN.glob("man1/lutetia-*.1"):
+            text = plain(page)
+            for line in text[text.index(".SH EXAMPLES"):text.index('.SH "SEE ALSO"')].splitlines():
+                words = shlex.split(line.replace("$'", "'")) if line.startswith("lutetia ") else [""]
+                if not (words[1:2] and words[1] in ("type", "font", "info") or "--controls" in words or "--cry" in words):
+                    continue
+                with tempfile.TemporaryDirectory() as folder:
+                    done = said(str(pathlib.Path(LUTETIA).resolve()), *words[1:], cwd=folder)
+                    tried += "there is no font" not in done.stderr
+                    if "there is no font" not in done.stderr:
+                        self.assertEqual((done.returncode, done.stderr), (0, ""), f"{page}: {line}")
+        self.assertGreater(tried, 4)
+
+    def test_help_of_a_verb_is_its_help(self):
+        self.assertEqual(said(LUTETIA, "help", "paint").stdout, said(LUTETIA, "paint", "--help").stdout)
+        wrong = said(LUTETIA, "help", "pain")
+        self.assertEqual((wrong.returncode, wrong.stdout), (2, ""))
+        self.assertIn("pain", wrong.stderr)
+
     def test_each_instruction_has_a_page_that_names_it(self):
         names = re.findall(r"^extern .*\b(CM_\w+) \(", HEADER.read_text(), re.M)
         self.assertGreater(len(names), 2000)
@@ -123,7 +147,7 @@ class Manual(unittest.TestCase):
         for page in MAN.glob("man3/*.3"):
             if page.is_symlink():
                 continue
-            short = re.search(r"\.SH NAME\n.* \\- (.*)", re.sub(r"\\f[BIR]", "", page.read_text())).group(1)
+            short = re.search(r"\.SH NAME\n.*? - (.*)", plain(page)).group(1)
             self.assertEqual(short.count("("), short.count(")"), page)
             self.assertRegex(short, r"^(NEWS|[^A-Z]).*[\w)|]$", page)
             self.assertNotRegex(short, r"^nEWS|^the same|= not$|^dest$", page)
@@ -136,7 +160,7 @@ class Manual(unittest.TestCase):
         there = {p.name for p in MAN.glob("man?/*")}
         for page in pages():
             for name, section in re.findall(r"\b((?:lutetia|CM_|paris)[\w-]*)\(([137])\)", plain(page)):
-                self.assertIn(f"{name}.{section}", there, page)
+                self.assertTrue(f"{name}.{section}" in there, f"{page}: {name}({section})")
 
     def test_devices_are_those_of_the_server(self):
         kinds = re.findall(r"^  ([a-z]+)", said(LUTETIA, "midi", "devices", "kinds").stdout, re.M)
