@@ -8,6 +8,7 @@
  * diffusion listing on a sheet so small that no kernel pays.
  */
 #include "calls.h"
+#include <visible_text.h>
 
 #include <stdint.h>
 #include <stdio.h>
@@ -287,7 +288,7 @@ static bool steps_growth_measure(struct bench_report *r)
                               .height = STEPS_SIDE,
                               .gravity = 1.1,
                               .molecular_weight = {0.9, 0.7, 0.5}};
-    fprintf(stderr, "calls: a million steps ...\n");
+    visible_say("calls: a million steps ...");
     if (!paris_reset(&config))
         return bench_fail("%s", paris_error());
     listing_allocate(&listing);

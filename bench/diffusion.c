@@ -5,6 +5,7 @@
  * (the relaxed ones nearly). Then they are timed in turn. The slow contenders, the listing
  * in eager mode and numpy, come last and less often; eager mode has a machine of its own. */
 #include "bench.h"
+#include <visible_text.h>
 
 #include <math.h>
 #include <stdint.h>
@@ -173,7 +174,7 @@ static bool peer_start(const struct sheet *s, struct bench_peer **peer, const ch
     bool missing;
     *peer = bench_peer_start(&s->scene, script, argument, &missing);
     if (!*peer && missing)
-        fprintf(stderr, "diffusion: no %s here (%s), no such row\n", what, package);
+        visible_say("diffusion: no %s here (%s), no such row", what, package);
     return *peer || missing;
 }
 
@@ -210,12 +211,12 @@ static bool sheet_start(struct sheet *s, int width, int height, bool thorough)
             return false;
     }
     if (!all)
-        fprintf(stderr,
-                "diffusion: the sheet is too large for Halide, numpy and the relaxed kernels, "
-                "no such rows%s\n",
-                thorough || (double)width * height > FIBERS_PEERS_THOROUGH
-                    ? ""
-                    : " (--thorough has them)");
+        visible_say(
+            "diffusion: the sheet is too large for Halide, numpy and the relaxed kernels, "
+            "no such rows%s",
+            thorough || (double)width * height > FIBERS_PEERS_THOROUGH
+                ? ""
+                : " (--thorough has them)");
     return listing_start(s, false) && (!all || peers_start(s));
 }
 
@@ -437,7 +438,7 @@ static bool size_measure(struct bench_report *r, const struct bench_options *o, 
     struct bench_copy *copy = bench_copy_create(COPY_BYTES);
     char size[32];
     snprintf(size, sizeof size, "%dx%d", width, height);
-    fprintf(stderr, "diffusion: %s ...\n", size);
+    visible_say("diffusion: %s ...", size);
     bool ok = copy && sheet_start(&s, width, height, o->thorough) &&
               agree_and_measure(r, o, &s, size, copy);
     sheet_finish(&s);

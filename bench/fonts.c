@@ -4,6 +4,7 @@
 #include "fonts_filters.h"
 #include "fonts_thorough.h"
 #include "fonts_ways.h"
+#include <visible_text.h>
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -62,7 +63,7 @@ int bench_fonts_main(int argc, char **argv)
         ok = fonts_filters_run(font, filter, quick, &report);
     }
     if (!ok || (json && !bench_report_write(&report, json))) {
-        fprintf(stderr, "lutetia bench fonts: %s\n", bench_error());
+        visible_say("lutetia bench fonts: %s", bench_error());
         return EXIT_FAILURE;
     }
     return EXIT_SUCCESS;

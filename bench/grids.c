@@ -2,6 +2,7 @@
  * with OpenMP written for it, and beside the memory's limit. Both first take the same steps,
  * and must agree in every bit. */
 #include "grids.h"
+#include <visible_text.h>
 
 #include <stdlib.h>
 #include <string.h>
@@ -218,7 +219,7 @@ static bool size_measure(struct bench_report *r, const struct bench_options *o,
     unsigned char *a = malloc(count * k->cell_bytes), *b = malloc(count * k->cell_bytes);
     char size[32];
     snprintf(size, sizeof size, "%dx%d", width, height);
-    fprintf(stderr, "%s: %s ...\n", k->name, size);
+    visible_say("%s: %s ...", k->name, size);
     bool ok = (a && b) || bench_fail("no memory for a grid of %s", size);
     if (ok) {
         k->start(a, count);

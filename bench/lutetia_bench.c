@@ -51,9 +51,9 @@ static int place_of(const char *name)
             return i;
     char visible[400];
     visible_text(visible, sizeof visible, name);
-    fprintf(stderr,
-            "lutetia bench: there is no benchmark '%.60s'; `lutetia bench --help` lists them\n",
-            visible);
+    visible_say(
+        "lutetia bench: there is no benchmark '%.60s'; `lutetia bench --help` lists them",
+        visible);
     return -1;
 }
 
@@ -74,12 +74,12 @@ static bool tried(int i)
         exit(fflush(stdout) == 0 ? status : EXIT_FAILURE);
     }
     if (child < 0)
-        fprintf(stderr, "lutetia bench: no process for %s: %s\n", name, strerror(errno));
+        visible_say("lutetia bench: no process for %s: %s", name, strerror(errno));
     while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR)
         ;
     bool good = child > 0 && WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS;
     if (!good)
-        fprintf(stderr, "lutetia bench: %s failed\n", name);
+        visible_say("lutetia bench: %s failed", name);
     return good;
 }
 
@@ -119,6 +119,6 @@ int main(int argc, char **argv)
     int status = bench(argc, argv);
     if (streams_end() || status != EXIT_SUCCESS)
         return status;
-    fputs("lutetia bench: cannot write to the standard output\n", stderr);
+    visible_say("lutetia bench: cannot write to the standard output");
     return EXIT_FAILURE;
 }

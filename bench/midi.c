@@ -17,6 +17,7 @@
 #include "midi_scene.h"
 #include "midi_soak.h"
 #include "options.h"
+#include <visible_text.h>
 
 #include <poll.h>
 #include <signal.h>
@@ -156,11 +157,11 @@ static bool cases_measure(struct bench_report *r, int rounds)
             if ((real_time || !kinds[i].real_time) && (awake || !kinds[i].may_sleep))
                 ok = ok && case_measure(r, (enum midi_player)player, &kinds[i], rounds);
     if (!real_time)
-        fprintf(stderr, "lutetia bench midi: real time is not allowed here (`ulimit -r`); its "
-                        "rows are missing\n");
+        visible_say("lutetia bench midi: real time is not allowed here (`ulimit -r`); its "
+                    "rows are missing");
     if (!awake)
-        fprintf(stderr, "lutetia bench midi: processors cannot be kept awake here "
-                        "(" LATENCY_PATH "); they may sleep in all rows\n");
+        visible_say("lutetia bench midi: processors cannot be kept awake here "
+                    "(" LATENCY_PATH "); they may sleep in all rows");
     return ok;
 }
 
@@ -198,9 +199,8 @@ int bench_midi_main(int argc, char **argv)
         char *end;
         soak_s = strtod(argv[2], &end);
         if (*end || !(soak_s >= 1 && soak_s <= 1e6)) {
-            fprintf(stderr,
-                    "lutetia bench midi: --soak must be 1..1000000 seconds (got \"%s\")\n",
-                    argv[2]);
+            visible_say("lutetia bench midi: --soak must be 1..1000000 seconds (got \"%s\")",
+                        argv[2]);
             return 2;
         }
         argc -= 2;

@@ -3,6 +3,7 @@
 #include "harness.h"
 #include "input_file.h"
 #include "midi_scene.h"
+#include <visible_text.h>
 
 #include <midi_client.h>
 
@@ -125,7 +126,7 @@ static bool soak_run(struct midi_scene *s, double seconds, struct midi_soak_resu
             waitpid(t.processes[k], NULL, 0);
         }
     if (ok && !midi_scene_wait(s, i))
-        fprintf(stderr, "soak: %s\n", bench_error());
+        visible_say("soak: %s", bench_error());
     out->messages = i;
     out->killed = t.killed;
     out->grown_kib = last_kib - first_kib;

@@ -6,6 +6,7 @@
  * everywhere, and would have nothing to measure.
  */
 #include "model.h"
+#include <visible_text.h>
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -233,7 +234,7 @@ int bench_model_main(int argc, char **argv)
     int status = bench_machine_start(&report, &options, true, argc, argv);
     if (status >= 0)
         return status;
-    fprintf(stderr, "model: costs ...\n");
+    visible_say("model: costs ...");
     bool ok = costs_report(&report);
     for (int i = 0; ok && i < options.sizes_count; i++)
         for (int p = 0; ok && p < bench_many(model_programs_count(), 1); p++) {
@@ -241,7 +242,7 @@ int bench_model_main(int argc, char **argv)
             int width = options.sizes[i][0], height = options.sizes[i][1];
             char of_case[32], what[32];
             snprintf(of_case, sizeof of_case, "%s %dx%d", programs[p].name, width, height);
-            fprintf(stderr, "model: %s ...\n", of_case);
+            visible_say("model: %s ...", of_case);
             ok = model_measure(p, width, height, options.repeat_count, results);
             for (int form = 0; ok && form < MODEL_FORMS; form++) {
                 struct bench_sample predicted = {results[form].predicted,

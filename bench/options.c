@@ -1,5 +1,6 @@
 /* options.c - see options.h. */
 #include "options.h"
+#include <visible_text.h>
 
 #include <stdlib.h>
 #include <string.h>
@@ -118,7 +119,7 @@ int bench_options_parse(struct bench_options *o, int argc, char **argv)
         quicken(o);
     if (options_parse(o, argc, argv))
         return -1;
-    fprintf(stderr, "lutetia bench %s: %s; --help lists the options\n", o->name, bench_error());
+    visible_say("lutetia bench %s: %s; --help lists the options", o->name, bench_error());
     return 2;
 }
 
@@ -132,6 +133,6 @@ int bench_options_finish(const struct bench_options *o, const struct bench_repor
     if (ok && o->plot_path)
         ok = bench_plot(r, o->plot_path);
     if (!ok)
-        fprintf(stderr, "lutetia bench %s: %s\n", o->name, bench_error());
+        visible_say("lutetia bench %s: %s", o->name, bench_error());
     return ok ? 0 : 1;
 }

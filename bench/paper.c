@@ -2,6 +2,7 @@
  * C/Paris, beside the same rules in C with OpenMP. They first take the same steps, and must agree in every bit. */
 #include <stdlib.h>
 #include <string.h>
+#include <visible_text.h>
 
 #include "bench.h"
 #include "of_machine.h"
@@ -120,7 +121,7 @@ static bool size_measure(struct bench_report *r, const struct bench_options *o, 
              : model == 2 ? "flowing "
                           : "",
              width, height);
-    fprintf(stderr, "paper: %s ...\n", of_case);
+    visible_say("paper: %s ...", of_case);
     bool ok = paris_reset(&config) || bench_fail("%s", paris_error());
     if (!ok)
         return false;

@@ -1,5 +1,6 @@
 /* paper_wet.c - see paper_wet.h. */
 #include "paper_wet.h"
+#include <visible_text.h>
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -97,7 +98,7 @@ bool paper_word_measure(struct bench_report *r, const struct bench_options *o, i
     struct paper_sheet *sheet;
     char of_case[48];
     snprintf(of_case, sizeof of_case, "word on %dx%d", width, height);
-    fprintf(stderr, "paper: %s ...\n", of_case);
+    visible_say("paper: %s ...", of_case);
     struct paper_air air = paper_air_default();
     air.humidity = 0; /* a word that has dried would take no time */
     bool ok = sheet_make(PAPER_MODEL_VERSION, width, height, WORD_PIGMENTS, &sheet) &&
@@ -155,7 +156,7 @@ struct poster_time {
 static bool poster_time(int model, struct poster_time *took)
 {
     struct paper_sheet *sheet;
-    fprintf(stderr, "paper: a poster, version %d ...\n", model);
+    visible_say("paper: a poster, version %d ...", model);
     bool ok = sheet_make(model, POSTER_WIDTH, POSTER_HEIGHT, POSTER_PIGMENTS, &sheet) &&
               poster_paint(sheet);
     const struct poster_time start = {bench_now_s(), bench_process_s()};
@@ -163,7 +164,7 @@ static bool poster_time(int model, struct poster_time *took)
     *took = (struct poster_time){bench_now_s() - start.wall, bench_process_s() - start.process};
     paper_sheet_destroy(sheet);
     if (ok)
-        fprintf(stderr, "paper: ... %.1f s, %.1f s of processors\n", took->wall, took->process);
+        visible_say("paper: ... %.1f s, %.1f s of processors", took->wall, took->process);
     return ok;
 }
 
@@ -211,7 +212,7 @@ bool paper_memory_measure(struct bench_report *r)
     const double amount[1 + PAPER_PIGMENTS_MAX] = {0.5, 0.2, 0.2, 0.2};
     const size_t count = (size_t)LARGE_SIDE * LARGE_SIDE;
     const struct paper_sheet_view view = {.show = PAPER_SHOW_COLOR};
-    fprintf(stderr, "paper: memory of %dx%d ...\n", LARGE_SIDE, LARGE_SIDE);
+    visible_say("paper: memory of %dx%d ...", LARGE_SIDE, LARGE_SIDE);
     FILE *f = fopen("/proc/self/clear_refs", "w"); /* "5": the most begins anew */
     if (f) {
         fputs("5", f);

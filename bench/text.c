@@ -5,6 +5,7 @@
 #include "harness.h"
 #include "text_edit.h"
 #include "text_pango.h"
+#include <visible_text.h>
 
 #include <face.h>
 #include <text.h>
@@ -172,7 +173,7 @@ int bench_text_main(int argc, char **argv)
     if (ok)
         bench_report_print(&report, "pango", stdout);
     if (!ok || (json && !bench_report_write(&report, json))) {
-        fprintf(stderr, "lutetia bench text: %s\n", bench_error());
+        visible_say("lutetia bench text: %s", bench_error());
         return EXIT_FAILURE;
     }
     return EXIT_SUCCESS;

@@ -15,10 +15,8 @@ static void (*error_handler)(const char *message);
 
 void paris_error_print(void)
 {
-    char line[2 * sizeof error_text];
-    visible_text(line, sizeof line, error_text);
     fflush(stdout);
-    fprintf(stderr, "%s\n", line);
+    visible_say("%s", error_text);
 }
 
 PARIS_PRINTF(2, 0) static void fail(unsigned int status, const char *format, va_list args)

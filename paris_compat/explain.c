@@ -6,6 +6,7 @@
  * own is not replaced.
  */
 #include "explain.h"
+#include <visible_text.h>
 
 #include <exit_status.h>
 #include <growing_file.h>
@@ -42,8 +43,7 @@ static volatile sig_atomic_t interrupts;
 
 static void complain(const struct output *o, const char *what)
 {
-    fprintf(stderr, "%s: cannot %s %s: %s\n", o->variable, what, getenv(o->variable),
-            o->file.why);
+    visible_say("%s: cannot %s %s: %s", o->variable, what, getenv(o->variable), o->file.why);
     exit_status_fail();
 }
 

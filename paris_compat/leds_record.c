@@ -11,6 +11,7 @@
  */
 #include <exit_status.h>
 #include <growing_file.h>
+#include <visible_text.h>
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -41,7 +42,7 @@ static void fail(const char *what)
 static void file_close(void)
 {
     if (!growing_file_close(&file)) {
-        fprintf(stderr, "LUTETIA_LEDS: cannot write to the recording: %s\n", file.why);
+        visible_say("LUTETIA_LEDS: cannot write to the recording: %s", file.why);
         exit_status_fail();
     }
 }

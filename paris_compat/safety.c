@@ -59,17 +59,15 @@ bool paris_let_pass(const char *format, ...)
         return false;
     if (!said) {
         const char *place = paris_call_line();
-        char text[400], line[2 * sizeof text];
+        char text[400];
         va_list args;
         va_start(args, format);
         vsnprintf(text, sizeof text, format, args);
         va_end(args);
-        visible_text(line, sizeof line, text);
         fflush(stdout);
-        fprintf(stderr,
-                "%s%s%s: %s. This and more of the kind is let pass (said once); "
-                "CM_set_safety_mode (1) makes it an error\n",
-                place, *place ? ": " : "", paris_the.call, line);
+        visible_say("%s%s%s: %s. This and more of the kind is let pass (said once); "
+                    "CM_set_safety_mode (1) makes it an error",
+                    place, *place ? ": " : "", paris_the.call, text);
     }
     return said = true;
 }

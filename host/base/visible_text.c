@@ -1,6 +1,7 @@
 /* visible_text.c - see visible_text.h. */
 #include "visible_text.h"
 
+#include <stdarg.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -83,6 +84,27 @@ static size_t text_pass(char *out, size_t size, const char *text, size_t length,
 size_t visible_text(char *out, size_t size, const char *text)
 {
     return text_pass(out, size, text, strlen(text), false);
+}
+
+void visible_say(const char *format, ...)
+{
+    char text[2400], line[2 * sizeof text];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    visible_text(line, sizeof line, text);
+    fprintf(stderr, "%s\n", line);
+}
+
+void visible_print(const char *format, ...)
+{
+    char text[4096], shown[2 * sizeof text];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    fwrite(shown, 1, visible_text_lines(shown, sizeof shown, text, strlen(text)), stdout);
 }
 
 size_t visible_text_lines(char *out, size_t size, const char *text, size_t length)

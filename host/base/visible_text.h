@@ -14,6 +14,13 @@
 
 #include <stddef.h>
 
+/* Prints the text as one line on the standard error: the way out for all that names files, variables, devices or what was read. What is
+ * longer than some two thousand bytes is cut off. Threads: any. */
+__attribute__((format(printf, 1, 2))) void visible_say(const char *format, ...);
+
+/* Prints on the standard output, and keeps line ends and tabs: the way out for what holds such names. Threads: any. */
+__attribute__((format(printf, 1, 2))) void visible_print(const char *format, ...);
+
 /* Writes the text as a line. Line ends and tabs become spaces; other control characters, and
  * bytes that are no UTF-8, become \xNN; invisible characters (direction marks, joiners, C1
  * controls, line separators) become \u{NNNN}. The rest is unchanged. Text that does not fit

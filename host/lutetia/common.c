@@ -18,9 +18,7 @@
 
 void tell_line(const char *text)
 {
-    char line[2400]; /* room for names, script errors and build logs */
-    visible_text(line, sizeof line, text);
-    fprintf(stderr, "%s\n", line);
+    visible_say("%s", text);
 }
 
 __attribute__((format(printf, 3, 0))) static int fail_as(int status, const char *verb,

@@ -7,6 +7,8 @@
  */
 #include "run_sweep.h"
 
+#include <visible_text.h>
+
 #include "lutetia.h"
 
 #include <errno.h>
@@ -321,10 +323,11 @@ static void jobs_show(const struct all *all, const struct job *jobs, int jobs_co
         if (!job->pid || job->report.total < 1)
             continue;
         parts += (double)job->report.done / (double)job->report.total;
+        char name[160];
+        visible_text(name, sizeof name, strrchr(all->runs[job->run].folder, '/') + 1);
         if (length < 200)
             length += snprintf(text + length, sizeof text - (size_t)length, "  %.40s %ld/%ld",
-                               strrchr(all->runs[job->run].folder, '/') + 1, job->report.done,
-                               job->report.total);
+                               name, job->report.done, job->report.total);
     }
     char left[40] = "";
     if (parts > 0.02)

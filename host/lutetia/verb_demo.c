@@ -6,6 +6,7 @@
 #include "sheet_picture.h"
 
 #include <display.h>
+#include <visible_text.h>
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -88,7 +89,7 @@ static int demo_write(struct demo *demo)
         else
             status = sheet_picture_write("demo", demo->sheet, i == 0 ? &color : &water, path);
         if (status == EXIT_SUCCESS)
-            printf("%s\n", path);
+            visible_print("%s\n", path);
     }
     return status;
 }

@@ -13,6 +13,7 @@
 #include <input_file.h>
 #include <output_file.h>
 #include <user_folder.h>
+#include <visible_text.h>
 
 #include <errno.h>
 #include <fcntl.h>
@@ -185,7 +186,7 @@ static int show(const struct explain *e, const char *name, int ended)
                           "%s: nothing to explain: it made no Connection Machine do anything "
                           "(a program linked with libparis does, and ends by exit or return)",
                           name);
-    printf("\n---- lutetia explain %s ----\n\n", name);
+    visible_print("\n---- lutetia explain %s ----\n\n", name);
     int poured = pour(e->text_path, NULL);
     if (poured == EXIT_SUCCESS && e->json)
         poured = pour(e->json_path, e->json);

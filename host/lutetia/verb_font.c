@@ -5,6 +5,7 @@
 #include "type_common.h"
 
 #include <levels.h>
+#include <visible_text.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -224,12 +225,12 @@ static void face_print(const struct font_face *face)
     struct font_face_info info;
     struct font_axis axis;
     font_face_describe(face, &info);
-    printf("%s %s: %s, %d glyphs, %g units to the em, face %d of %d\n%s\n", info.family,
-           info.style, info.format, info.glyphs_count, info.units_per_em, info.index,
-           info.faces_count, info.path);
+    visible_print("%s %s: %s, %d glyphs, %g units to the em, face %d of %d\n%s\n", info.family,
+                  info.style, info.format, info.glyphs_count, info.units_per_em, info.index,
+                  info.faces_count, info.path);
     for (int i = 0; i < info.axes_count && font_face_axis(face, i, &axis) == FONT_OK; i++)
-        printf("axis %s (%s): %g..%g, usually %g, now %g\n", axis.tag, axis.name, axis.least,
-               axis.most, axis.usual, axis.value);
+        visible_print("axis %s (%s): %g..%g, usually %g, now %g\n", axis.tag, axis.name,
+                      axis.least, axis.most, axis.usual, axis.value);
 }
 
 static int specimen_make(const struct font_verb *v, struct font_face *face)
@@ -459,8 +460,8 @@ static int levels_make(const struct font_verb *v, struct font_face *face)
 
 static void filter_print(const struct font_filter_info *f)
 {
-    printf("%s: radius %g pixels, %d product%s of %d taps, %zu bytes of tables\n", f->name,
-           f->radius_px, f->terms, f->terms == 1 ? "" : "s", f->taps, f->bytes);
+    visible_print("%s: radius %g pixels, %d product%s of %d taps, %zu bytes of tables\n",
+                  f->name, f->radius_px, f->terms, f->terms == 1 ? "" : "s", f->taps, f->bytes);
     printf("integral before it was made 1: %.6g; peak %.4f; half as high over %.3f pixels\n",
            f->raw_integral, f->peak, f->half_width_px);
     printf("what the products leave out: %.3f of 255\n", 255 * f->residual);

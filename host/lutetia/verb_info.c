@@ -4,6 +4,7 @@
 #include "options.h"
 
 #include <paris_internal.h>
+#include <visible_text.h>
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,8 +14,8 @@ static void device_print(void *context, int index, const char *platform, const c
                          const char *version, int compute_units, uint64_t memory_bytes)
 {
     (void)context;
-    printf("  %d: %s\n     %s, %s; %d compute units, %.1f GB\n", index, device, platform,
-           version, compute_units, (double)memory_bytes * 1e-9);
+    visible_print("  %d: %s\n     %s, %s; %d compute units, %.1f GB\n", index, device, platform,
+                  version, compute_units, (double)memory_bytes * 1e-9);
 }
 
 static void cache_print(void)
@@ -22,11 +23,11 @@ static void cache_print(void)
     char folder[MACHINE_CACHE_FOLDER_MAX];
     const char *why;
     if (!machine_cache_folder(folder, &why))
-        printf("kernel cache: in memory only (%s)\n", why);
+        visible_print("kernel cache: in memory only (%s)\n", why);
     else if (why)
-        printf("kernel cache: %s, for this process alone (%s)\n", folder, why);
+        visible_print("kernel cache: %s, for this process alone (%s)\n", folder, why);
     else
-        printf("kernel cache: %s\n", folder);
+        visible_print("kernel cache: %s\n", folder);
 }
 
 static void fields_print(int width, int height)
@@ -69,10 +70,10 @@ int verb_info(int argc, char **argv)
     cache_print();
     if (!paris_reset(NULL))
         return fail("info", "%s", paris_error());
-    printf("chosen: %s, %d physical processors\n", machine_device_name(paris_machine()),
-           machine_processors_count(paris_machine()));
+    visible_print("chosen: %s, %d physical processors\n", machine_device_name(paris_machine()),
+                  machine_processors_count(paris_machine()));
     char tuned[800];
     machine_tuning_describe(paris_machine(), tuned, sizeof tuned);
-    puts(tuned);
+    visible_print("%s\n", tuned);
     return EXIT_SUCCESS;
 }

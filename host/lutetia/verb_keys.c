@@ -4,6 +4,7 @@
 #include "lutetia.h"
 #include "options.h"
 #include "type_common.h"
+#include <visible_text.h>
 
 #include <display.h>
 #include <keys_picture.h>
@@ -361,7 +362,7 @@ static int film_begin(const struct keys_work *w, double seconds, struct video **
     int sound = -1;
     def.room = true;
     if (!w->silent && sound_render_open(&def, w->song, seconds, &sound) != MIDI_OK)
-        fprintf(stderr, "lutetia keys: the film is silent: %s\n", midi_error());
+        visible_say("lutetia keys: the film is silent: %s", midi_error());
     const enum display_status status =
         video_create_with_sound(w->video, w->picture[0], w->picture[1], w->fps, sound, out);
     if (sound >= 0)
@@ -369,8 +370,8 @@ static int film_begin(const struct keys_work *w, double seconds, struct video **
     if (status != DISPLAY_OK)
         return fail("keys", "%s", display_error());
     if (sound >= 0 && !video_sounds(*out) && !w->sound)
-        fprintf(stderr, "lutetia keys: %s has no sound in it; --sound FILE.wav writes that\n",
-                video_path(*out));
+        visible_say("lutetia keys: %s has no sound in it; --sound FILE.wav writes that",
+                    video_path(*out));
     return EXIT_SUCCESS;
 }
 
@@ -478,7 +479,7 @@ static int played_write(struct keys_work *w)
         return EXIT_FAILED;
     if (w->video && !w->silent &&
         sound_render_open(&sound, w->song, seconds_of(w), &live.film.sound) != MIDI_OK)
-        fprintf(stderr, "lutetia keys: the film is silent: %s\n", midi_error());
+        visible_say("lutetia keys: the film is silent: %s", midi_error());
     int status = keys_live_film(&live);
     if (live.film.sound >= 0)
         close(live.film.sound);

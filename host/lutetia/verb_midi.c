@@ -90,7 +90,7 @@ static int serve_do(struct midi_verb *v)
     struct sigaction hangup;
     if (sigaction(SIGHUP, NULL, &hangup) == 0 && hangup.sa_handler != SIG_IGN) /* nohup */
         sigaction(SIGHUP, &action, NULL);
-    printf("listening at %s\n", midi_server_path(serving));
+    visible_print("listening at %s\n", midi_server_path(serving));
     fflush(stdout);
     midi_server_run(serving);
     midi_server_destroy(serving);
@@ -118,7 +118,7 @@ static void kinds_print(void)
 }
 
 /* Text of many lines, piece by piece: a byte takes 4 at most, and no piece ends within a character. */
-static void visible_print(const char *text)
+static void reply_print(const char *text)
 {
     enum { PIECE = 1000 };
     char out[4 * PIECE + 1];
@@ -138,7 +138,7 @@ static int command_print(const struct midi_verb *v, const char *command)
     if (status != EXIT_SUCCESS)
         return status;
     if (midi_client_command(client, command, text, sizeof text) == MIDI_OK)
-        visible_print(text);
+        reply_print(text);
     else
         status = fail_midi(v);
     midi_client_close(client);
@@ -291,7 +291,7 @@ static int record_do(struct midi_verb *v)
             MIDI_OK) /* also if the end came unexpectedly */
             status = fail_midi(v);
         else
-            printf("%d messages in %s\n", messages, v->words.words[0]);
+            visible_print("%d messages in %s\n", messages, v->words.words[0]);
     }
     midi_song_destroy(song);
     return status;

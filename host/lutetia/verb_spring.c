@@ -7,6 +7,7 @@
 #include "spring_sound.h"
 #include "spring_wet.h"
 #include "type_common.h"
+#include <visible_text.h>
 
 #include <live_sound.h>
 #include <stage_film.h>
@@ -293,13 +294,13 @@ static int sound_make(struct spring *s)
     if (status == MIDI_OK && s->sound_path)
         status = spring_sound_write(sound, s->sound_path);
     if (status == MIDI_OK && s->sound_path)
-        printf("%d sounds in %s\n", spring_sound_count(sound), s->sound_path);
+        visible_print("%d sounds in %s\n", spring_sound_count(sound), s->sound_path);
     spring_sound_destroy(sound);
     if (status == MIDI_OK)
         return EXIT_SUCCESS;
     if (s->sound_path)
         return fail("spring", "--sound: %s", midi_error());
-    fprintf(stderr, "lutetia spring: the film is silent: %s\n", midi_error());
+    visible_say("lutetia spring: the film is silent: %s", midi_error());
     return EXIT_SUCCESS;
 }
 

@@ -13,6 +13,7 @@
 #include "tune_work.h"
 
 #include <output_file.h>
+#include <visible_text.h>
 
 #include <errno.h>
 #include <math.h>
@@ -367,7 +368,7 @@ static int tune(struct machine *m, bool dry, const char *json_path)
 {
     struct tune t = {.usual = machine_tuning_get(m)};
     t.best = t.usual;
-    printf("%s, driver %s\n", machine_device_name(m), machine_device_driver(m));
+    visible_print("%s, driver %s\n", machine_device_name(m), machine_device_driver(m));
     fflush(stdout);
     bool knobs = t.usual.of[MACHINE_VECTOR] > 1;
     if (!knobs)
@@ -391,7 +392,7 @@ static int tune(struct machine *m, bool dry, const char *json_path)
         return fail("tune", "%s", machine_error(m));
     char text[800];
     machine_tuning_describe(m, text, sizeof text);
-    puts(text);
+    visible_print("%s\n", text);
     return EXIT_SUCCESS;
 }
 

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <visible_text.h>
 
 struct type {
     const char *text, *font, *axes, *filter, *features, *language, *warp, *display, *out_path,
@@ -262,7 +263,7 @@ static int type_run(struct type *t, struct font_face *face)
                                     : strcmp(t->display, "print") == 0 ? FONT_DISPLAY_PRINT
                                                                        : FONT_DISPLAY_LCD;
         t->filter = font_filter_choose(font_face_stem(face) * t->size_px, display);
-        printf("filter: %s\n", t->filter);
+        visible_print("filter: %s\n", t->filter);
     }
     def.filter = t->filter;
     memcpy(def.ink, t->ink, sizeof def.ink);

@@ -5,6 +5,7 @@
 #include "type_common.h"
 #include "voice_live.h"
 #include "voice_poster.h"
+#include <visible_text.h>
 
 #include <display.h>
 #include <output_file.h>
@@ -461,7 +462,7 @@ static int film_end_sound(const struct voice_work *w, const char *film)
     }
     if (!output_file_commit(&out))
         return fail("voice", "%s: cannot write: %s", path, out.why);
-    fprintf(stderr, "lutetia voice: %s has no sound in it; that is %s\n", film, path);
+    visible_say("lutetia voice: %s has no sound in it; that is %s", film, path);
     return EXIT_SUCCESS;
 }
 

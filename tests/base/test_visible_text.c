@@ -3,7 +3,9 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -97,6 +99,35 @@ static void any_bytes_are_harmless(void **state)
     }
 }
 
+/* The way out for errors: one line, whatever the text holds; too long a text is cut off. */
+static void what_is_said_is_one_line(void **state)
+{
+    (void)state;
+    static char said[8192], longer[6000];
+    int ends[2], before = dup(STDERR_FILENO);
+    memset(longer, '\x1b', sizeof longer - 1);
+    assert_int_equal(pipe(ends), 0);
+    dup2(ends[1], STDERR_FILENO);
+    visible_say("%s: %d\x1b]0;%s\x07\r", "a\nb", 3, "\xe2\x80\xae");
+    visible_say("%s", longer);
+    dup2(before, STDERR_FILENO);
+    close(before);
+    close(ends[1]);
+    size_t count = 0;
+    for (ssize_t got; (got = read(ends[0], said + count, sizeof said - 1 - count)) > 0;)
+        count += (size_t)got;
+    close(ends[0]);
+    const char *first = "a b: 3\\x1b]0;\\u{202e}\\x07 \n";
+    assert_memory_equal(said, first, strlen(first));
+    size_t lines = 0;
+    for (size_t i = 0; i < count; i++) {
+        lines += said[i] == '\n';
+        assert_true(said[i] == '\n' || (unsigned char)said[i] >= ' ');
+    }
+    assert_int_equal(lines, 2);
+    assert_int_equal(said[count - 1], '\n');
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -104,6 +135,7 @@ int main(void)
         cmocka_unit_test(lines_keep_their_ends),
         cmocka_unit_test(what_has_no_room_is_left_out),
         cmocka_unit_test(any_bytes_are_harmless),
+        cmocka_unit_test(what_is_said_is_one_line),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

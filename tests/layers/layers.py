@@ -35,6 +35,8 @@ TOUR_LINE = re.compile(r"^ {4}([a-z][\w/]*)/(?: |$)", re.MULTILINE)
 KEYWORDS = {"void", "int", "char", "float", "double", "return", "sizeof"}
 OPENERS = re.compile(r"(?<![\w.])(?<!->)((?:fopen|freopen)(?:64)?|fopencookie|open(?:at)?(?:64)?|openat2|creat(?:64)?|mk(?:d|s|os)temps?(?:64)?"
                      r"|mkostemps|tmpfile(?:64)?|tempnam|tmpnam|memfd_create|shm_open|FT_New_Face)\s*\(")
+SAYERS = re.compile(r"(?<![\w.])(?<!->)(?:(?:v?fprintf|v?dprintf|write)\s*\(\s*(?:stderr|STDERR_FILENO)\b|perror\s*\("
+                    r"|(?:fput[sc]|putc|fwrite)\s*\([^;]*?,\s*stderr\s*\))")
 CALLED = re.compile(r"\b([A-Za-z_]\w*)\s*\(")
 PROTOTYPE = re.compile(r"\b([A-Za-z_]\w*)\s*\([^;{}]*\)\s*;")
 VARIABLE = re.compile(r"\b([A-Za-z_]\w*)(?:\[[^\]\n]*\])*\s*[=,;]")
@@ -48,7 +50,7 @@ class TableError(Exception):
 class Table:
     """The rows of layers.txt."""
 
-    KINDS = {"include": 2, "call": 2, "opens": 2, "circle": 1, "length": (1, 2), "namesake": 1}
+    KINDS = {"include": 2, "call": 2, "opens": 2, "says": 1, "circle": 1, "length": (1, 2), "namesake": 1}
 
     def __init__(self, text, name):
         self.name = name
@@ -58,6 +60,7 @@ class Table:
         self.doors = []     # headers, or folders of headers, that outsiders call through
         self.only = {}      # beginning of an outside header's name -> folders that may include it
         self.opens = {}     # (file, function that opens files) -> line of the row
+        self.says = {}      # (file,) that prints errors itself -> line of the row
         self.flat = {}      # (file,) or (file, function) -> line of the row
         self.known = {}     # an offence -> line of the row
         for number, line in enumerate(text.splitlines(), 1):
@@ -93,6 +96,10 @@ class Table:
             if len(rest) < 3:
                 raise TableError("'opens' wants FILE FUNCTION and the reason")
             self.opens[tuple(rest[:2])] = number
+        elif kind == "says":
+            if len(rest) < 2:
+                raise TableError("'says' wants FILE and the reason")
+            self.says[tuple(rest[:1])] = number
         elif kind == "offends":
             what = rest[0] if rest else ""
             count = self.KINDS.get(what)
@@ -104,7 +111,7 @@ class Table:
                 raise TableError("a second row for the same offence")
             self.known[tuple(rest)] = number
         else:
-            raise TableError("unknown row '%s' (folder, door, header, names, only, table, opens, offends)" % kind)
+            raise TableError("unknown row '%s' (folder, door, header, names, only, table, opens, says, offends)" % kind)
 
     def reach(self, folder, way=()):
         """The folders that a folder may use; None: all."""
@@ -299,6 +306,7 @@ class House:
             self.check_uses(file)
             self.check_lengths(file)
             self.check_opens(file)
+            self.check_says(file)
         self.check_circles()
         self.check_namesakes()
         if self.tour is not None:
@@ -308,11 +316,12 @@ class House:
                 self.problems.append("%s:%d: 'table %s' is short or gone: remove the row"
                                      % (self.table.name, number, " ".join(row)))
             self.offences.pop(("length",) + row, None)
-        for row, number in self.table.opens.items():
-            if ("opens",) + row not in self.offences:
-                self.problems.append("%s:%d: 'opens %s' opens nothing, or is gone: remove the row"
-                                     % (self.table.name, number, " ".join(row)))
-            self.offences.pop(("opens",) + row, None)
+        for kind, rows in (("opens", self.table.opens), ("says", self.table.says)):
+            for row, number in rows.items():
+                if (kind,) + row not in self.offences:
+                    self.problems.append("%s:%d: '%s %s' %s nothing, or is gone: remove the row"
+                                         % (self.table.name, number, kind, " ".join(row), kind))
+                self.offences.pop((kind,) + row, None)
         for row, number in self.table.known.items():
             if row not in self.offences:
                 self.problems.append("%s:%d: 'offends %s' offends no longer: remove the row"
@@ -415,6 +424,13 @@ class House:
         for match in OPENERS.finditer(file.code):
             self.offend(("opens", file.path, match.group(1)), file, file.code.count("\n", 0, match.start()) + 1,
                         "calls %s(): files are read by input_file.h, and written by output_file.h and growing_file.h" % match.group(1))
+
+    def check_says(self, file):
+        """Errors are printed by one function, which lets no escape through, and by the files that the rows `says` name."""
+        match = SAYERS.search(file.code)
+        if match and self.table.reached[self.row_of[file.path]] is not None and not file.path.endswith(".cl"):
+            self.offend(("says", file.path), file, file.code.count("\n", 0, match.start()) + 1,
+                        "prints on the standard error itself: visible_say() does, without escapes")
 
     def check_circles(self):
         """Each file in a circle of uses is an offence: finds strongly connected components of several files by Tarjan's algorithm."""

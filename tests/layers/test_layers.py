@@ -154,6 +154,16 @@ class Layers(unittest.TestCase):
         self.wrong({}, rows, "'opens base/b.c open' opens nothing, or is gone")
         self.refused(ROWS + "opens base/b.c open\n", "'opens' wants FILE FUNCTION and the reason")
 
+    def test_errors_are_printed_by_those_who_are_named(self):
+        rows = ROWS + "says base/b.c the way out\n"
+        files = {"base/b.c": 'int b(void)\n{\n    return fprintf(stderr, "b");\n}\n'}
+        self.clean({**files, "tests/t.c": "int t = perror(0);\n", "low/l.c": 'int l = fprintf(out, "stderr") + vfprintf(stdout, 0); /* perror(0) */\n'},
+                   rows)
+        for call in ('fprintf(stderr, "x")', "perror(0)", 'fputs("x", stderr)', "fputc(10, stderr)", "vfprintf (stderr, a, b)", "dprintf(STDERR_FILENO, a)"):
+            self.wrong({**files, "low/l.c": "int l(void)\n{\n    return %s;\n}\n" % call}, rows, "low/l.c:3: prints on the standard error")
+        self.wrong({}, rows, "'says base/b.c' says nothing, or is gone")
+        self.refused(ROWS + "says base/b.c\n", "'says' wants FILE and the reason")
+
     def test_two_files_in_a_circle_are_wrong(self):
         self.wrong({"low/a.c": function("a", 4, body="    b();\n"), "low/b.c": function("b", 4, body="    a();\n")}, ROWS,
                    "low/a.c:1: is in a circle of 2 files: low/a.c low/b.c low/a.c", "low/b.c:1: is in a circle")

@@ -2,7 +2,7 @@
 
 Servers whose replies hold escapes, links and files in the place of the server's links and sounds, pipes and devices as maps and
 SoundFonts, drawings with a DOCTYPE, text that XML has not, a compiler's long options, Ctrl-C while a song is rendered.
-(security.md 5, 6, 7, 11, 12, 20, 21, 22)
+(security.md 5, 6, 7, 11, 12, 20, 21, 22, 28)
 """
 import os
 import pathlib

@@ -1,6 +1,7 @@
 /* dump.c - writes graphs and kernels to files (LUTETIA_DUMP). */
 #include <exit_status.h>
 #include <output_file.h>
+#include <visible_text.h>
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +14,7 @@ enum { PATH_BYTES = 600 };
 /* A file that cannot be written is reported once; the program goes on without dumps, and does not end with 0. */
 static void dump_fail(struct machine *m, const char *path, const char *why)
 {
-    fprintf(stderr, "LUTETIA_DUMP: cannot write %s: %s\n", path, why);
+    visible_say("LUTETIA_DUMP: cannot write %s: %s", path, why);
     exit_status_fail();
     free(m->plans->dump_dir);
     m->plans->dump_dir = NULL;

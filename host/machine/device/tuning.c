@@ -241,9 +241,7 @@ void tuning_apply(struct machine *m, const struct machine_config *config)
              file_read(d, &tuning, text, sizeof text) == MACHINE_TUNED_BADLY &&
              m->settings.verbose) {
         machine_tuning_describe(m, text, sizeof text);
-        char line[sizeof text * 2];
-        visible_text(line, sizeof line, text);
-        fprintf(stderr, "lutetia: %s\n", line);
+        visible_say("lutetia: %s", text);
     }
     for (int k = 0; k < MACHINE_KNOBS; k++)
         if (m->settings.knob[k] == SETTING_FREE &&

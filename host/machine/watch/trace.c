@@ -4,6 +4,7 @@
  * before, and has another behind it. So the file can be loaded whenever the program ends.
  */
 #include "watch/trace.h"
+#include <visible_text.h>
 
 #include <exit_status.h>
 #include <growing_file.h>
@@ -35,7 +36,7 @@ static struct {
 
 static void complain(const char *path, const char *what)
 {
-    fprintf(stderr, "LUTETIA_TRACE: cannot %s %s: %s\n", what, path, trace.file.why);
+    visible_say("LUTETIA_TRACE: cannot %s %s: %s", what, path, trace.file.why);
     exit_status_fail();
 }
 
@@ -82,8 +83,8 @@ __attribute__((format(printf, 1, 2))) static void event_write(const char *format
         return;
     if (trace.events == TRACE_EVENTS_MOST) {
         trace.full = true;
-        fprintf(stderr, "LUTETIA_TRACE: %s has %ld events, and gets no more\n", trace.path,
-                trace.events);
+        visible_say("LUTETIA_TRACE: %s has %ld events, and gets no more", trace.path,
+                    trace.events);
         return;
     }
     if (trace.length + EVENT_BYTES > BUFFER_BYTES)
@@ -150,8 +151,7 @@ int trace_open(const char *path)
     bool same = trace.path && strcmp(trace.path, path) == 0;
     int machine = 0;
     if (!same && trace.open_count > 0)
-        fprintf(stderr, "LUTETIA_TRACE: %s: this process already writes %s\n", path,
-                trace.path);
+        visible_say("LUTETIA_TRACE: %s: this process already writes %s", path, trace.path);
     else if (same ? !trace.failed : file_open(path))
         machine = ++trace.machines;
     trace.open_count += machine != 0;
