@@ -113,6 +113,7 @@ const struct page pages_of_pictures[] = {
           {"echo 'A *short* page.' | lutetia set - -o page.png", "what is piped in"},
           {"lutetia set letter.txt --around 300,400,120,80 -o around.png",
            "text that leaves an ellipse free"}},
+     .files = "/usr/share/doc/lutetia/examples/pages: texts to begin with",
      .see = "lutetia-type(1), lutetia-font(1), fc-list(1)"},
     {.verb = "font",
      .usages = "FILE [options]\nFILE --glyph C [options]\n--show-filter [--filter F] [-o FILE]",
@@ -202,11 +203,17 @@ const struct page pages_of_pictures[] = {
          "Without a song there is a window, where what the MIDI server hears plays (`lutetia "
          "midi "
          "serve`); where there is no server the computer's own keyboard plays.",
-     .notes = "A --map that ends in .lua is a script that turns any message into any control: "
-              "section "
-              "MAPS of lutetia-scripts(7). What it does is seen in a window and by --still, "
-              "--frames "
-              "and --video. Another one has a line for each key, as 'c4 A'.\n" FONTS,
+     .notes =
+         "A --map that ends in .lua is a script that turns any message into any control: "
+         "section "
+         "MAPS of lutetia-scripts(7). What it does is seen in a window and by --still, "
+         "--frames "
+         "and --video. Another one has a line for each key, as 'c4 A'.\n"
+         "The controls of --set and of maps are size, attack, release, pressure, slant, and "
+         "weight and width of a font that has these axes; with --wet gravity, tilt, humidity, "
+         "edge, pace (steps a second), size, height, water, ink, pigment, and brush_x, "
+         "brush_y, "
+         "brush_size, brush_water and brush_ink of a brush that a map leads.\n" FONTS,
      .values = {{.option = "stock", .fill = paper_stock_names},
                 {.option = "pigment", .fill = paper_pigment_names},
                 {.option = "theme", .words = "light, dark"}},
@@ -237,7 +244,8 @@ const struct page pages_of_pictures[] = {
                   {"lutetia run rain.lua --sweep \"word=Wet,Dry\" -j 2 -o both",
                    "two runs at a time"},
                   {"lutetia run rain.lua --video rain.mp4", "a film of the first paper"}},
-     .files = "/usr/share/doc/lutetia/examples/scripts: scripts to begin with",
+     .files = "/usr/share/doc/lutetia/examples/scripts: scripts to begin with\n"
+              "/usr/share/doc/lutetia/recipes.md: ten effects, each with its script",
      .see = "lutetia-scripts(7), lutetia-paint(1)"},
     {.verb = "demo",
      .usages = "[options]",

@@ -45,11 +45,30 @@ void *script_allocate(void *context, void *block, size_t old, size_t new)
 
 /* ---- the run ---- */
 
-/* Converts errors that are not text. */
+/* Whether the object is missing before a method's arguments, as in p.frame("a.png"): no method
+ * takes one of these as its first argument. */
+static bool object_missing(const char *text)
+{
+    const char *const types[] = {script_paper_type, script_brush_type, script_network_type};
+    char expected[80];
+    if (!strstr(text, "bad argument #1 to '"))
+        return false;
+    for (size_t i = 0; i < sizeof types / sizeof *types; i++) {
+        snprintf(expected, sizeof expected, "(%s expected, got ", types[i]);
+        if (strstr(text, expected))
+            return true;
+    }
+    return false;
+}
+
+/* Converts errors that are not text; says what is usually meant. */
 int script_message(lua_State *L)
 {
     if (lua_type(L, 1) != LUA_TSTRING)
         lua_pushfstring(L, "error: (a %s)", luaL_typename(L, 1));
+    else if (object_missing(lua_tostring(L, 1)))
+        lua_pushfstring(L, "%s: a method is called with a colon, object:method(...)",
+                        lua_tostring(L, 1));
     return 1;
 }
 

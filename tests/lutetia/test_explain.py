@@ -211,9 +211,17 @@ def interrupted_program_explains_itself(folder):
     assert "somebody looked" in output and "= FADD" in output
 
 
+def folder_with_a_text(folder):
+    inner = f"{folder}/texts"
+    os.makedirs(inner, exist_ok=True)
+    open(f"{inner}/junk.c.txt", "w").write("no program\n")
+    return inner
+
+
 def wrong_arguments_are_one_line(folder):
     junk = f"{folder}/junk.c"
     open(junk, "w").write("int main( {\n")
+    texts = folder_with_a_text(folder)
     before = set(os.listdir(folder))
     for status, words, *arguments in (
             (2, ("no program",)),
@@ -227,6 +235,11 @@ def wrong_arguments_are_one_line(folder):
         result = run(LUTETIA, "explain", *arguments, TMPDIR=folder)
         assert result.returncode == status and result.stdout == "", (arguments, result)
         one_line(result.stderr, *words)
+    # A file of this folder that is no program, named without the folder.
+    result = subprocess.run([os.path.abspath(LUTETIA), "explain", "junk.c.txt"], cwd=texts, capture_output=True,
+                            text=True, timeout=200)
+    assert result.returncode == 1 and result.stdout == "", result
+    one_line(result.stderr, "junk.c.txt", "cannot run", "ermission")
     result = run(LUTETIA, "explain", junk, TMPDIR=folder)
     assert result.returncode == 1 and "does not compile" in result.stderr.splitlines()[-1]
     result = run(LUTETIA, "explain", EXPLAINED, "1", "3", TMPDIR=folder)

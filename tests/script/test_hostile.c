@@ -227,6 +227,9 @@ static const struct {
      NULL, "false\tfalse\tfalse\tfalse\tfalse\n", false},
     {"p.put(m, m)", "lutetia paper expected", "", false},
     {"p.close(b)", "lutetia paper expected", "", false},
+    {"p.frame('a.png')", "a method is called with a colon", "", false},
+    {"b.dip{water = 1}", "a method is called with a colon", "", false},
+    {"p:put('a', {water = 1})", "got string)\n", "", false},
     {"b.dip(p, {water = 1})", "lutetia brush expected", "", false},
     {"m.bounds(q)", "lutetia mask expected", "", false},
     /* what is wrong is said with its line, also where Lua's own functions are between */
