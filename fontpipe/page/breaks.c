@@ -12,6 +12,8 @@
 /* TeX's usual numbers. */
 static const double line_penalty = 10, adjacent_demerits = 10000, hyphens_demerits = 10000,
                     last_hyphen_demerits = 5000;
+/* Ours: of a short last line, as much as a line at TeX's usual limit of badness costs; of a word's rest more than any others together. */
+static const double runt_demerits = 44100;
 
 enum fitness { VERY_LOOSE, LOOSE, DECENT, TIGHT, FITNESSES };
 
@@ -114,8 +116,18 @@ struct search {
     const struct break_place *places;
     const double *widths;
     int widths_count, last;
+    int last_word; /* the place that the last word begins behind */
     const struct break_rules *rules;
 };
+
+/* What a last line from place a costs besides. */
+static double last_demerits(const struct search *s, int a)
+{
+    const struct break_place *from = &s->places[a], *to = &s->places[s->last];
+    bool rest = s->rules->whole_word && from->flagged && a > s->last_word;
+    bool runt = a > 0 && to->end.px - from->next.px < s->rules->runt_px;
+    return (rest ? BREAK_REST_DEMERITS : 0) + (runt ? runt_demerits : 0);
+}
 
 /* Tries a line from each active node to place b. */
 static bool place_try(const struct search *s, struct nodes *n, int b)
@@ -138,8 +150,9 @@ static bool place_try(const struct search *s, struct nodes *n, int b)
                                 .before = number,
                                 .ladder = ladder,
                                 .active = true};
-            next.demerits =
-                a.demerits + breaks_demerits(from, to, r, a.fitness, &next.fitness, last);
+            next.demerits = a.demerits +
+                            breaks_demerits(from, to, r, a.fitness, &next.fitness, last) +
+                            (last ? last_demerits(s, a.place) : 0);
             if (!candidate_keep(n, first_new, next, s->widths_count))
                 return false;
         }
@@ -167,7 +180,9 @@ bool breaks_find(const struct break_place *places, int places_count, const doubl
                  int widths_count, const struct break_rules *rules, int *chosen, int *count,
                  double *demerits)
 {
-    const struct search s = {places, widths, widths_count, places_count - 1, rules};
+    struct search s = {places, widths, widths_count, places_count - 1, 0, rules};
+    for (s.last_word = s.last - 1; s.last_word > 0 && places[s.last_word].flagged;)
+        s.last_word--;
     struct nodes n = {0};
     *count = 0;
     bool ok = node_add(&n, (struct node){.fitness = DECENT, .before = -1, .active = true}) >= 0;

@@ -25,11 +25,14 @@ struct break_rules {
     double emergency_px; /* stretch that each line has besides */
     bool last_fills;     /* the last line need not reach the end */
     int ladder_max;      /* so many flagged ends in a row at most; 0: any number */
+    double runt_px;      /* a last line that is shorter costs, as one that is loose; 0: none */
+    bool
+        whole_word; /* a last line that is but the rest of a word is taken only where there is no other way */
     bool
         must; /* where no line is good enough, one that is too long is taken; else breaks_find() fails */
 };
 
-enum { BREAK_INFINITE = 10000, BREAK_OVERFULL = 1 << 20 };
+enum { BREAK_INFINITE = 10000, BREAK_OVERFULL = 1 << 20, BREAK_REST_DEMERITS = 1000000000 };
 
 /* places[0] is the paragraph's beginning (its `next` counts) and the last one its end. widths: of lines, the last for all after
  * it. chosen: room for as many as there are places; gets the places where lines end, places[0] left out. *count: how many; 0 if the

@@ -279,6 +279,7 @@ static enum font_status lines_keep(struct filling *f, const struct paragraph *p,
         if (status != FONT_OK)
             return status;
         double end = fit ? f->slots[fit - 1].v + p->leading_px : f->v;
+        behind += f->template->frames[f->frame].grid_px; /* up to its next place */
         if (end + behind > depth - f->foot_px + 1e-6)
             *stand = 0;
     }
@@ -407,6 +408,16 @@ static enum font_status feet_place(struct filling *f)
     return status;
 }
 
+/* The next place of a grid from v on, for paragraphs whose lines are as high as its distances. */
+static double grid_next(const struct page_frame *frame, const struct paragraph *p, double v)
+{
+    const double near = 1e-6;
+    double lines = frame->grid_px > 0 ? p->leading_px / frame->grid_px : 0;
+    if (!(lines > near) || fabs(lines - round(lines)) > near)
+        return v;
+    return ceil(v / frame->grid_px - near) * frame->grid_px;
+}
+
 /* As many lines of the paragraph, from the cursor's on, as may stand in the frame. *full: the rest goes on. */
 static enum font_status paragraph_place(struct filling *f, struct paragraph *p,
                                         struct cursor *cursor, bool *full)
@@ -416,8 +427,13 @@ static enum font_status paragraph_place(struct filling *f, struct paragraph *p,
     *full = p->manner.begins_column && !from && !f->top;
     if (*full)
         return FONT_OK;
+    status = set_analyse(f->t, p);
+    if (status != FONT_OK)
+        return status;
     if (!from && !f->top)
         f->v += p->manner.before_px;
+    if (!from)
+        f->v = grid_next(&f->template->frames[f->frame], p, f->v);
     for (;;) { /* until as many stand here as it was broken for: ever fewer */
         status = break_here(f, p, from, limit, &here);
         if (status == FONT_OK)

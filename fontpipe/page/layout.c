@@ -150,6 +150,79 @@ static enum font_status page_put(struct page_text *t, int page, struct output *o
                                     : status;
 }
 
+/* Says a running line: it is nothing of the text's own. */
+static bool running_say(struct output *o, const char *text, size_t bytes)
+{
+    struct page_said *said = o->said;
+    o->begin = 0;
+    if (!said)
+        return true;
+    int begin = (int)said->bytes;
+    if (!array_reserve(&said->utf8, &o->said_capacity, begin + (int)bytes + 2, 1) ||
+        !array_reserve(&said->passages, &o->passages_capacity, said->passages_count + 1,
+                       sizeof *said->passages))
+        return false;
+    memcpy(said->utf8 + begin, text, bytes);
+    said->utf8[begin + (int)bytes] = '\n';
+    said->utf8[begin + (int)bytes + 1] = '\0';
+    said->bytes += bytes + 1;
+    o->begin = begin;
+    said->passages[said->passages_count++] = (struct font_passage){.begin = (size_t)begin,
+                                                                   .end = said->bytes,
+                                                                   .role = FONT_ROLE_ARTIFACT,
+                                                                   .paragraph = -1};
+    return true;
+}
+
+static enum font_status running_put(struct output *o, const struct page_running *running,
+                                    const char *text, size_t bytes)
+{
+    const struct style *style = o->t->styles[running->style];
+    struct font_layout line, *out = o->out;
+    const struct font_text_options options = {.features = style->features,
+                                              .language = style->language,
+                                              .letter_spacing_px = style->look.spacing_px};
+    enum font_status status =
+        font_shaper_layout(style->shaper, text, bytes, style->look.size_px, &options, &line);
+    if (status != FONT_OK)
+        return status;
+    double left = running->x1 - running->x0 - line.width_px;
+    double part = running->align == FONT_ALIGN_RIGHT    ? 1
+                  : running->align == FONT_ALIGN_CENTER ? 0.5
+                                                        : 0;
+    int number = out->glyphs_count ? out->glyphs[out->glyphs_count - 1].line + 1 : 0;
+    bool ok = running_say(o, text, bytes) &&
+              array_reserve(&out->glyphs, &out->glyphs_capacity,
+                            out->glyphs_count + line.glyphs_count, sizeof *out->glyphs);
+    for (int i = 0; ok && i < line.glyphs_count; i++) {
+        struct font_placed *to = &out->glyphs[out->glyphs_count++];
+        *to = line.glyphs[i];
+        to->x_px += running->x0 + part * left;
+        to->y_px += running->y;
+        to->cluster += o->begin;
+        to->line += number;
+        to->size_px = (float)style->look.size_px;
+        to->ink = ink_of(o, running->style);
+    }
+    font_layout_finish(&line);
+    return ok ? FONT_OK : font_fail(FONT_NO_MEMORY, "no memory for a page");
+}
+
+static enum font_status runnings_put(struct output *o, int page)
+{
+    enum font_status status = FONT_OK;
+    for (int i = 0; i < o->t->running_count && status == FONT_OK; i++) {
+        char *text;
+        size_t bytes;
+        if (!running_text(o->t, page, &o->t->running[i], &text, &bytes))
+            status = font_fail(FONT_NO_MEMORY, "no memory for a page");
+        else if (bytes)
+            status = running_put(o, &o->t->running[i], text, bytes);
+        free(text);
+    }
+    return status;
+}
+
 static enum font_status page_output(struct page_text *t, int page, struct output *o)
 {
     *o->out = (struct font_layout){0};
@@ -161,6 +234,8 @@ static enum font_status page_output(struct page_text *t, int page, struct output
     o->out->width_px = o->template->width_px;
     o->out->size_px = t->styles_count ? t->styles[0]->look.size_px : 1;
     status = o->inks ? page_put(t, page, o) : font_fail(FONT_NO_MEMORY, "no memory for a page");
+    if (status == FONT_OK)
+        status = runnings_put(o, page);
     free(o->inks);
     if (status != FONT_OK)
         font_layout_finish(o->out);

@@ -1,7 +1,8 @@
 /* lines.c - a paragraph broken into lines: see page_internal.h.
  *
  * In passes, as TeX does it: without dividing words; with them divided; with ever more looseness; and with any, where a line that nothing
- * fits is too long. At most three lines in a row end in hyphens, but for the last pass. Paragraphs with tabs are filled line by line, since what a tab takes depends on what stands before it. */
+ * fits is too long. At most three lines in a row end in hyphens, but for the last pass; a last line that is short costs, and one that
+ * is the rest of a word is no line at all if there is another way. Paragraphs with tabs are filled line by line, since what a tab takes depends on what stands before it. */
 #include "page_internal.h"
 
 #include <linebreak.h>
@@ -12,6 +13,7 @@
 enum { HYPHEN_PENALTY = 50, LETTER_PENALTY = 3000, SOFT_HYPHEN = 0xad };
 
 static const double first_tolerance = 100, ragged_ems = 2;
+static const double runt_ems = 2.5; /* a last line that is shorter looks lost */
 
 /* The passes: what stretch each line has besides its spaces', in ems. It makes a line less bad, and a hyphen costs what it did: with much of
  * it at once words would hardly be divided, and lines be loose. So there is as little of it as there can be. */
@@ -246,41 +248,111 @@ static bool has_tab(const struct paragraph *p)
     return memchr(p->text, '\t', (size_t)p->bytes) != NULL;
 }
 
-static bool passes_run(struct filling *f, const double *widths, int widths_count)
+static struct break_rules pass_rules(const struct filling *f, int pass)
+{
+    const struct paragraph *p = f->p;
+    const double em = f->t->styles[p->style]->look.size_px;
+    const bool last = pass + 1 == PASSES;
+    return (struct break_rules){.tolerance = pass == 0
+                                                 ? fmin(first_tolerance, p->manner.tolerance)
+                                             : last ? BREAK_INFINITE
+                                                    : p->manner.tolerance,
+                                .emergency_px = (f->ragged ? ragged_ems : loose_ems[pass]) * em,
+                                .last_fills = true,
+                                .ladder_max = last ? 0 : LADDER_MAX,
+                                .runt_px = fmax(runt_ems * em, p->manner.indent_px + em),
+                                .whole_word = true,
+                                .must = last};
+}
+
+/* What a pass finds; count 0: nothing. */
+struct found {
+    int *chosen, count, pass;
+    double demerits;
+};
+
+static bool pass_try(struct filling *f, int pass, const double *widths, int widths_count,
+                     struct found *out)
 {
     struct paragraph *p = f->p;
-    const double em = f->t->styles[p->style]->look.size_px;
-    int count = 0, *chosen = NULL;
+    const bool last = pass + 1 == PASSES;
+    const struct break_rules rules = pass_rules(f, pass);
     bool ok = true;
-    for (int pass = 0; ok && !count && pass < PASSES; pass++) {
-        const bool last = pass + 1 == PASSES;
-        struct break_rules rules = {.last_fills = true, .ladder_max = last ? 0 : LADDER_MAX};
-        rules.tolerance = pass == 0 ? fmin(first_tolerance, p->manner.tolerance)
-                          : last    ? BREAK_INFINITE
-                                    : p->manner.tolerance;
-        rules.emergency_px = (f->ragged ? ragged_ems : loose_ems[pass]) * em;
-        rules.must = last;
-        f->hyphens_too = pass > 0;
-        if (pass == 1)
-            words_hyphenate(f->t, p);
-        if (pass == 1 && !p->manner.hyphenate && p->manner.tolerance <= first_tolerance)
-            continue;
-        if (pass > 1 && !last && (f->ragged || too_long(f)))
-            continue; /* looser lines are no help */
-        if (pass < 2 || last)
-            ok = places_make(f, false);
-        if (ok && last && too_long(f)) /* such words may be broken at any letter */
-            ok = places_make(f, true);
-        free(chosen);
-        chosen = calloc((size_t)f->count, sizeof *chosen);
-        ok = ok && chosen &&
-             breaks_find(f->places, f->count, widths, widths_count, &rules, chosen, &count,
+    *out = (struct found){.pass = pass};
+    f->hyphens_too = pass > 0;
+    if (pass == 1)
+        words_hyphenate(f->t, p);
+    if (pass == 1 && !p->manner.hyphenate && p->manner.tolerance <= first_tolerance)
+        return true;
+    if (pass > 1 && !last && (f->ragged || too_long(f)))
+        return true; /* looser lines are no help */
+    if (pass < 2 || last)
+        ok = places_make(f, false);
+    if (ok && last && too_long(f)) /* such words may be broken at any letter */
+        ok = places_make(f, true);
+    out->chosen = calloc((size_t)f->count, sizeof *out->chosen);
+    return ok && out->chosen &&
+           breaks_find(f->places, f->count, widths, widths_count, &rules, out->chosen,
+                       &out->count, &out->demerits);
+}
+
+/* Lines of a heading, each about as long: the narrowest column in which there are as many. */
+static bool balance(struct filling *f, const double *widths, int widths_count,
+                    struct found *found)
+{
+    enum { HALVINGS = 8 };
+    const struct break_rules rules = pass_rules(f, found->pass);
+    double low = 0.2, high = 1, *narrow = calloc((size_t)widths_count, sizeof *narrow);
+    int *chosen = calloc((size_t)f->count, sizeof *chosen), count;
+    bool ok = narrow && chosen;
+    for (int k = 0; ok && k < HALVINGS; k++) {
+        double half = (low + high) / 2;
+        for (int i = 0; i < widths_count; i++)
+            narrow[i] = half * widths[i];
+        ok = breaks_find(f->places, f->count, narrow, widths_count, &rules, chosen, &count,
                          NULL);
-        if (ok && count) {
-            ok = lines_take(f, chosen, count, widths, widths_count, &rules);
+        if (ok && count == found->count) {
+            memcpy(found->chosen, chosen, (size_t)count * sizeof *chosen);
+            high = half;
+        } else {
+            low = half;
         }
     }
+    free(narrow);
     free(chosen);
+    return ok;
+}
+
+/* The first pass that finds a way; where its last line is the rest of a word, the first looser one in which it is not, if there is one. */
+static bool passes_run(struct filling *f, const double *widths, int widths_count)
+{
+    struct found best = {0};
+    bool ok = true;
+    for (int pass = 0; ok && pass < PASSES && !(best.count && pass + 1 == PASSES); pass++) {
+        struct found next;
+        ok = pass_try(f, pass, widths, widths_count, &next);
+        bool better = ok && next.count && (!best.count || next.demerits < BREAK_REST_DEMERITS);
+        if (better) {
+            free(best.chosen);
+            best = next;
+        } else {
+            free(next.chosen);
+        }
+        if (best.count && best.demerits < BREAK_REST_DEMERITS)
+            break;
+    }
+    if (ok && best.count && best.pass == 0 &&
+        f->hyphens_too) { /* its places, not those of the passes behind it */
+        f->hyphens_too = false;
+        ok = places_make(f, false);
+    }
+    if (ok && best.count > 1 && f->p->manner.balance)
+        ok = balance(f, widths, widths_count, &best);
+    if (ok && best.count) {
+        const struct break_rules rules = pass_rules(f, best.pass);
+        ok = lines_take(f, best.chosen, best.count, widths, widths_count, &rules);
+    }
+    free(best.chosen);
     return ok;
 }
 

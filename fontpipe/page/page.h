@@ -78,6 +78,7 @@ struct page_manner {
     double
         tolerance; /* the badness a line may have before words are hyphenated more freely; 200 */
     bool keep_together, keep_with_next, begins_column;
+    bool balance; /* its lines are about as long as each other, for headings; not justified */
     enum font_role
         role;  /* what it is, for who reads a PDF; a note is one whatever stands here */
     int level; /* of a heading, from 1 */
@@ -147,6 +148,9 @@ struct page_frame {
      * these are its y and its height. */
     double margin_x, margin_width;
     double foot_gap_px; /* between text and notes at its foot */
+    double
+        grid_px; /* paragraphs with lines so high, or twice that, begin at multiples of it, so that lines beside each other are level;
+                     * 0: none */
 };
 
 /* A polygon (x, y, ...). Obstacles: text goes around, at a distance; else text stays inside of all that there are. */
@@ -168,6 +172,20 @@ struct page_template {
 /* The first page is by the first template, and so on; the last one is for all pages after it. Errors: BAD_ARGUMENT. */
 enum font_status page_templates_set(struct page_text *text,
                                     const struct page_template *templates, int count);
+
+/* A line that each page has besides: its number, a running head. In `text` %p is the page's number, %h the last heading of level 1 up to
+ * it, %% a percent sign. */
+struct page_running {
+    const char *text;
+    int style;
+    double x0, x1, y; /* from and to where, and its baseline */
+    enum font_align align;
+    bool not_opening; /* not on the first page, nor where such a heading stands first */
+};
+enum { PAGE_RUNNING_MAX = 4 };
+/* Replaces those that there were. Errors: BAD_ARGUMENT, NO_MEMORY. */
+enum font_status page_running_set(struct page_text *text, const struct page_running *running,
+                                  int count);
 
 /* ---- pages ---- */
 

@@ -172,6 +172,8 @@ struct page_text {
     struct page_template *templates;
     double **shape_points; /* owned: PAGE_SHAPES_MAX for each template */
     int templates_count;
+    struct page_running running[PAGE_RUNNING_MAX]; /* texts owned */
+    int running_count;
     struct page *pages;
     int pages_count, pages_capacity;
     int pages_good;  /* so many of them are as the text is now */
@@ -278,6 +280,11 @@ void flow_changed_all(struct page_text *t);
 int layout_line(const struct paragraph *p, int byte, bool before);
 enum font_status layout_find(struct page_text *t, struct page_place place, bool before,
                              int *page, int *line, struct slot *slot);
+
+/* running.c: a page's running line as text, *text NULL where it has none there. Owns: the caller frees it. False: no memory. */
+bool running_text(const struct page_text *t, int page, const struct page_running *running,
+                  char **text, size_t *bytes);
+void running_finish(struct page_text *t);
 
 /* A slot's place on the page: of a point u along and v across it. */
 void slot_point(const struct page_template *t, const struct slot *s, double u, double v,

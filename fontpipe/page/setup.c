@@ -163,10 +163,44 @@ static enum font_status template_make(const struct making *m)
             .vertical = s->vertical,
             .margin_x = beside - s->margin_px - s->notes_px + s->gap_px / 2,
             .margin_width = s->notes_px > 0 ? fmax(0, s->notes_px - s->gap_px / 2) : 0,
-            .foot_gap_px = 0.6 * s->size_px};
+            .foot_gap_px = 0.6 * s->size_px,
+            .grid_px = s->grid ? s->leading > 0 ? s->leading * s->size_px
+                                                : m->text->styles[m->styles[ROMAN]]->leading_px
+                               : 0};
     for (int i = 0; i < s->shapes_count; i++)
         t.shapes[t.shapes_count++] = s->shapes[i];
     return page_templates_set(m->text, &t, 1);
+}
+
+/* In the middle of the margins. */
+static enum font_status running_make(const struct making *m)
+{
+    const struct page_setup *s = m->setup;
+    struct page_running lines[2];
+    int count = 0;
+    double middle = s->margin_px / 2, half = 0.25 * s->size_px; /* of a letter's height */
+    if (!s->folios && !s->head)
+        return FONT_OK;
+    if (s->margin_px < s->size_px)
+        return font_fail(FONT_BAD_ARGUMENT,
+                         "page numbers and running heads need a margin of %g pixels (got %g)",
+                         s->size_px, s->margin_px);
+    const struct page_running line = {.style = m->styles[NOTE],
+                                      .x0 = s->margin_px,
+                                      .x1 = s->width_px - s->margin_px,
+                                      .align = FONT_ALIGN_CENTER};
+    if (s->folios) {
+        lines[count] = line;
+        lines[count].text = "%p";
+        lines[count++].y = s->height_px - middle + half;
+    }
+    if (s->head) {
+        lines[count] = line;
+        lines[count].text = s->head;
+        lines[count].not_opening = true;
+        lines[count++].y = middle + half;
+    }
+    return page_running_set(m->text, lines, count);
 }
 
 /* ---- reading ---- */
@@ -296,7 +330,7 @@ static struct page_manner manner_of(const struct making *m, enum look look, bool
     if (look == HEAD || look == SMALL_HEAD) {
         manner.before_px = s->size_px * (look == HEAD ? 1.4 : 0.9);
         manner.after_px = s->size_px * (look == HEAD ? 0.6 : 0.3);
-        manner.keep_with_next = manner.keep_together = true;
+        manner.keep_with_next = manner.keep_together = manner.balance = true;
         manner.role = FONT_ROLE_HEADING;
         manner.level = look == HEAD ? 1 : 2;
     } else if (look == ROMAN && indented) {
@@ -525,6 +559,8 @@ enum font_status page_setup_make(const struct page_setup *setup, const char *utf
         status = styles_make(&m);
     if (status == FONT_OK)
         status = template_make(&m);
+    if (status == FONT_OK)
+        status = running_make(&m);
     if (status == FONT_OK)
         status = text_read(&m, tidy, (int)bytes);
     free(m.letters);

@@ -28,6 +28,10 @@ struct page_setup {
     enum font_align align;
     double indent_em; /* of paragraphs that do not stand behind a heading */
     bool hyphenate, vertical;
+    bool grid;   /* lines of columns beside each other are level */
+    bool folios; /* page numbers in the lower margin */
+    const char
+        *head; /* a running head in the upper margin, as page_running has it; NULL: none */
     double protrude, expand, tolerance;
     const struct page_shape *shapes; /* in the page's pixels */
     int shapes_count;

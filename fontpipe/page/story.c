@@ -69,6 +69,7 @@ void page_text_destroy(struct page_text *t)
         font_face_close(t->faces[i].face);
         free(t->faces[i].name);
     }
+    running_finish(t);
     templates_finish(t);
     free(t->styles);
     free(t->faces);

@@ -17,13 +17,14 @@
 enum { TEXT_BYTES_MAX = 64 << 20, ROUND_CORNERS = 72 };
 
 struct set {
-    const char *out_path, *font, *italic, *bold, *language, *features, *filter, *align, *title;
+    const char *out_path, *font, *italic, *bold, *language, *features, *filter, *align, *title,
+        *head;
     double size_px, leading, margin_px, gap_px, notes_px, indent_em, protrude, expand,
         tolerance;
     double ink[3], darken_px;
     int page_px[2], columns, page;
     struct option_list around, inside;
-    bool all, hyphenate, vertical, statistics;
+    bool all, hyphenate, vertical, statistics, folios, grid;
     struct font_layout lacking; /* only its missing characters: of all pages that were drawn */
     struct page_setup setup;
     struct page_shape shapes[PAGE_SHAPES_MAX];
@@ -79,6 +80,13 @@ static int set_options(struct set *s, int argc, char **argv, const char **path, 
          &s->expand, 0, 0.05, 0},
         {"tolerance", 0, OPTION_NUMBER, "B", "the badness that a line may have (200)",
          &s->tolerance, 0, 10000, 0},
+        {"folios", 0, OPTION_FLAG, NULL, "page numbers in the lower margin", &s->folios, 0, 0,
+         0},
+        {"head", 0, OPTION_TEXT, "T",
+         "running head in the upper margin; %h: the last heading, %p: the page", &s->head, 0, 0,
+         0},
+        {"grid", 0, OPTION_FLAG, NULL, "lines of columns beside each other are level", &s->grid,
+         0, 0, 0},
         {"vertical", 0, OPTION_FLAG, NULL, "lines go down, from the right to the left",
          &s->vertical, 0, 0, 0},
         {"around", 0, OPTION_LIST, "X,Y,RX,RY",
@@ -410,6 +418,9 @@ int verb_set(int argc, char **argv)
                                   .indent_em = s.indent_em,
                                   .hyphenate = s.hyphenate,
                                   .vertical = s.vertical,
+                                  .grid = s.grid,
+                                  .folios = s.folios,
+                                  .head = s.head,
                                   .colour = true,
                                   .protrude = s.protrude,
                                   .expand = s.expand,

@@ -61,10 +61,11 @@ static const char *font_read(lua_State *L, int index, const char *name, const ch
 static void wanted_read(lua_State *L, int index, struct wanted *w)
 {
     static const char *const keys[] = {
-        "width",     "height",   "margin",   "columns",  "gap",    "size",     "font",
-        "italic",    "bold",     "leading",  "align",    "indent", "notes",    "page",
-        "hyphenate", "language", "features", "protrude", "expand", "vertical", "around",
-        "inside",    "x",        "y",        "filter",   "darken", NULL};
+        "width",  "height",   "margin",    "columns",  "gap",      "size",
+        "font",   "italic",   "bold",      "leading",  "align",    "indent",
+        "notes",  "page",     "hyphenate", "language", "features", "protrude",
+        "expand", "vertical", "around",    "inside",   "x",        "y",
+        "filter", "darken",   "grid",      "folios",   "head",     NULL};
     static const char *const fonts[] = {"EBGaramond12-Regular", "DejaVuSerif", NULL};
     static const char *const aligns[] = {[FONT_ALIGN_LEFT] = "left",
                                          [FONT_ALIGN_RIGHT] = "right",
@@ -87,6 +88,9 @@ static void wanted_read(lua_State *L, int index, struct wanted *w)
     s->expand = script_arg_number(L, index, "page", "expand", 0, 0, 0.05);
     s->hyphenate = script_arg_boolean(L, index, "page", "hyphenate", false);
     s->vertical = script_arg_boolean(L, index, "page", "vertical", false);
+    s->grid = script_arg_boolean(L, index, "page", "grid", false);
+    s->folios = script_arg_boolean(L, index, "page", "folios", false);
+    s->head = script_arg_text(L, index, "page", "head");
     s->language = script_arg_text(L, index, "page", "language");
     s->features = script_arg_text(L, index, "page", "features");
     s->font = font_read(L, index, "font", NULL);

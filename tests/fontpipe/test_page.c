@@ -19,6 +19,17 @@ struct way {
     double best;
 };
 
+/* What a short last line costs, and one that has no word's beginning in it. */
+static double last_line_cost(const struct way *w, int from)
+{
+    const struct break_place *a = &w->places[from], *b = &w->places[w->count - 1];
+    bool words = !a->flagged;
+    for (int i = from + 1; i < w->count - 1; i++)
+        words = words || !w->places[i].flagged;
+    return (b->end.px - a->next.px < w->rules->runt_px ? 44100 : 0) +
+           (w->rules->whole_word && !words ? 1e9 : 0);
+}
+
 /* Tries all ways to break from a place on. */
 static void ways_try(struct way *w, int from, int line, int fitness, int ladder,
                      double demerits)
@@ -38,6 +49,7 @@ static void ways_try(struct way *w, int from, int line, int fitness, int ladder,
             fmin(100 * fabs(r * r * r), BREAK_INFINITE) <= w->rules->tolerance) {
             double more =
                 breaks_demerits(&w->places[from], &w->places[to], r, fitness, &next, last);
+            more += last && from > 0 ? last_line_cost(w, from) : 0;
             ways_try(w, to, line + 1, next, ladders, demerits + more);
         }
         if (!last && w->places[to].penalty <= -BREAK_INFINITE)
@@ -78,7 +90,9 @@ static void paragraphs_are_broken_best(void **state)
         struct break_rules rules = {.tolerance = turn % 3 ? 500 : BREAK_INFINITE,
                                     .emergency_px = turn % 2 ? 0 : 12,
                                     .last_fills = turn % 5 != 0,
-                                    .ladder_max = turn % 7 == 0 ? 1 + turn % 3 : 0};
+                                    .ladder_max = turn % 7 == 0 ? 1 + turn % 3 : 0,
+                                    .runt_px = turn % 4 == 1 ? 60 : 0,
+                                    .whole_word = turn % 3 == 2};
         int widths_count = 1 + turn % 3;
         double demerits = 0;
         assert_true(breaks_find(places, count, widths, widths_count, &rules, chosen, &lines,

@@ -6,6 +6,8 @@
 
 static const double diamond[] = {200, 80, 280, 180, 200, 280, 120, 180};
 
+static double grid_px; /* of the frames of the run; paragraphs' leading is 18 */
+
 static void columns_set(struct page_text *t, bool shaped)
 {
     struct page_template page = {.width_px = 400, .height_px = 400, .frames_count = 2};
@@ -16,6 +18,7 @@ static void columns_set(struct page_text *t, bool shaped)
                                          .foot_gap_px = 8,
                                          .margin_x = -60,
                                          .margin_width = 70};
+    page.frames[0].grid_px = grid_px;
     page.frames[1] = page.frames[0];
     page.frames[1].x = 210;
     page.shapes_count = shaped;
@@ -217,6 +220,7 @@ static void edited_is_as_from_scratch(void **state)
         static struct model models[MODELS + 1];
         uint32_t seed = 77u + (uint32_t)round * 1000003u;
         bool shaped = round % 2;
+        grid_px = round % 3 == 2 ? 18 : 0;
         int count = 0;
         struct page_text *t = page_text_begin();
         columns_set(t, shaped);
@@ -247,6 +251,7 @@ static void pages_left_unfilled_are_not_stale(void **state)
         static struct model models[MODELS + 1];
         uint32_t seed = 1234567u + (uint32_t)run * 2654435761u;
         bool shaped = run % 3 == 2;
+        grid_px = run % 4 == 3 ? 18 : 0;
         int count = 0, pages;
         page_words_used = run % 30 == 0 ? all : PAGE_WORDS_NEAR;
         struct page_text *t = page_text_begin();

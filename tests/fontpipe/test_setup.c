@@ -4,6 +4,8 @@
 #include <page.h>
 #include <setup.h>
 
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static struct page_text *made(const char *text, size_t bytes)
@@ -100,12 +102,131 @@ static void slanted_words_are_slanted(void **state)
     page_text_destroy(t);
 }
 
+static const char chapters[] =
+    "# First chapter\n\nWater rises in the marsh and the sheets are laid on the felts, one by "
+    "one.[^A note.] The rest of them wait.\n\n## A part with a longer name than others have, "
+    "for it needs two lines\n\nThe press stood on oak beams that had been green when they were "
+    "cut, and every spring the beams swelled.\n\nNobody knew.\n\n# Second chapter\n\nThe end "
+    "of the book is here, and it takes a few lines of its own so that there is some more.";
+
+static struct page_text *book_made(bool grid, const char *head, int columns)
+{
+    struct page_setup setup = page_setup_default();
+    struct page_text *t;
+    setup.width_px = 440;
+    setup.height_px = 250;
+    setup.margin_px = 40;
+    setup.columns = columns;
+    setup.folios = true;
+    setup.head = head;
+    setup.grid = grid;
+    assert_font(page_setup_make(&setup, chapters, strlen(chapters), &t));
+    return t;
+}
+
+/* Each page has its number below its text; a running head all but those that a chapter begins. */
+static void pages_have_numbers_and_heads(void **state)
+{
+    (void)state;
+    struct page_text *t = book_made(false, "%h, %p 5%%", 1);
+    int count, heads = 0;
+    assert_font(page_count(t, &count));
+    assert_true(count >= 3);
+    for (int k = count - 1; k >= 0; k--) { /* in any order */
+        struct font_layout l;
+        struct page_said said;
+        char number[16], head[64];
+        assert_font(page_layout_said(t, k, &l, &said));
+        snprintf(number, sizeof number, "\n%d\n", k + 1);
+        assert_non_null(strstr(said.utf8, number));
+        const struct font_passage *last = &said.passages[said.passages_count - 1];
+        assert_true(last->role == FONT_ROLE_ARTIFACT && last->end == said.bytes);
+        bool opens = k == 0 || memcmp(said.utf8, "Second chapter", 14) == 0;
+        snprintf(head, sizeof head, "%s chapter, %d 5%%\n",
+                 strstr(said.utf8, "book") ? "Second" : "First", k + 1);
+        assert_int_equal(strstr(said.utf8, head) != NULL, !opens);
+        heads += !opens;
+        for (int i = 0; i < l.glyphs_count; i++) {
+            const struct font_placed *g = &l.glyphs[i];
+            bool margin = g->y_px < 40 || g->y_px > 210;
+            const char *at = strstr(said.utf8, number);
+            if (g->cluster > (int)(at - said.utf8) && g->y_px > 40)
+                assert_true(g->y_px > 220 && g->x_px > 200 && g->x_px < 240);
+            assert_true(margin == (g->cluster > (int)(at - said.utf8)));
+        }
+        font_layout_finish(&l);
+        page_said_finish(&said);
+    }
+    assert_true(heads >= 1);
+    page_text_destroy(t);
+}
+
+/* Baselines of the text's own letters are on the grid, behind headings and beside each other. */
+static void lines_beside_each_other_are_level(void **state)
+{
+    (void)state;
+    for (int grid = 0; grid < 2; grid++) {
+        struct page_text *t = book_made(grid, NULL, 2);
+        struct font_layout l;
+        double base = 0, off = 0, leading = 0;
+        assert_font(page_layout(t, 0, &l));
+        for (int i = 0; i < l.glyphs_count; i++) {
+            const struct font_placed *g = &l.glyphs[i];
+            if (g->size_px != 16)
+                continue;
+            if (base == 0)
+                base = g->y_px;
+            double far = g->y_px - base;
+            if (leading == 0 && far > 1)
+                leading = far;
+            if (leading > 0)
+                off = fmax(off, fabs(far / leading - round(far / leading)));
+        }
+        assert_true(grid ? off < 1e-3 : off > 0.05);
+        font_layout_finish(&l);
+        page_text_destroy(t);
+    }
+}
+
+/* A heading of two lines has them about as long. */
+static void headings_are_balanced(void **state)
+{
+    (void)state;
+    static const char text[] = "# A heading of a page whose last word would stand alone there";
+    struct page_text *t = made(text, strlen(text));
+    struct font_layout l;
+    double ends[4] = {0};
+    assert_font(page_layout(t, 0, &l));
+    for (int i = 0; i < l.glyphs_count; i++)
+        if (l.glyphs[i].line < 4)
+            ends[l.glyphs[i].line] = fmax(ends[l.glyphs[i].line], l.glyphs[i].x_px - 60);
+    assert_true(ends[0] > 100 && ends[2] == 0);
+    assert_true(ends[1] > 0.7 * ends[0] && ends[0] > 0.7 * ends[1]);
+    font_layout_finish(&l);
+    page_text_destroy(t);
+}
+
+/* A number needs a margin. */
+static void numbers_without_a_margin_are_refused(void **state)
+{
+    (void)state;
+    struct page_setup setup = page_setup_default();
+    struct page_text *t;
+    setup.folios = true;
+    setup.margin_px = 4;
+    assert_int_equal(page_setup_make(&setup, "a", 1, &t), FONT_BAD_ARGUMENT);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(signs_are_taken_or_letters),
         cmocka_unit_test(lines_end_in_any_way),
         cmocka_unit_test(slanted_words_are_slanted),
+        cmocka_unit_test(pages_have_numbers_and_heads),
+        cmocka_unit_test(lines_beside_each_other_are_level),
+        cmocka_unit_test(headings_are_balanced),
+        cmocka_unit_test(numbers_without_a_margin_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
