@@ -100,6 +100,7 @@ void work_plain_destroy(struct work_plain *p)
 uint32_t work_weighed(const uint32_t *x, int n, int threads)
 {
     uint32_t sum = 0;
+    (void)threads; /* unread without OpenMP */
 #pragma omp parallel for reduction(+ : sum) num_threads(threads)
     for (int i = 0; i < n; i++)
         sum += x[i] * (2 * (uint32_t)i + 1);
@@ -343,6 +344,7 @@ static void half_sweep(float *u, const float *f, const int d[3], int colour, int
 {
     const int y = d[2], x = d[1] * d[2];
     const float sixth = (float)(1.0 / 6);
+    (void)threads; /* unread without OpenMP */
 #pragma omp parallel for num_threads(threads)
     for (int i = 1; i < d[0] - 1; i++)
         for (int j = 1; j < d[1] - 1; j++)

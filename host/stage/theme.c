@@ -84,7 +84,7 @@ static const char *trimmed(const char *text, size_t *length)
 static enum stage_status unknown(const char *name, size_t length, const char *file, int line)
 {
     char known[600] = "";
-    for (int i = 0; i < STAGE_COLORS_COUNT + STAGE_SIZES_COUNT; i++) {
+    for (int i = 0; i < (int)STAGE_COLORS_COUNT + (int)STAGE_SIZES_COUNT; i++) {
         size_t used = strlen(known);
         snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "",
                  i < STAGE_COLORS_COUNT ? color_names[i] : size_names[i - STAGE_COLORS_COUNT]);
