@@ -15,7 +15,7 @@ import tempfile
 import unittest
 
 LUTETIA = ""
-SECONDS = 30
+SECONDS = 120
 BAD = re.compile(r"[\x00-\x09\x0b-\x1f\x7f-\x9f\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff]")
 
 SHEET = 'local p = paper{width = 16, height = 16}\np:put(ellipse(8, 8, 4), {water = 1})\nprint("printed")\n'

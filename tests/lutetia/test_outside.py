@@ -22,7 +22,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "midi"))
 import wire  # pylint: disable=wrong-import-position
 
 LUTETIA = ""
-SECONDS = 30
+SECONDS = 120
 BAD = re.compile(rb"[\x00-\x08\x0b-\x1f\x7f]|\xc2[\x80-\x9f]|\xe2\x80\xae")
 SONG = b"MThd\0\0\0\6\0\0\0\1\0\x60MTrk\0\0\0\x0c\0\x90\x3c\x40\x60\x80\x3c\x40\0\xff\x2f\0"
 TOKEN = b"x"
@@ -207,7 +207,7 @@ class Outside(unittest.TestCase):
         (self.at / "long.txt").write_text(("A marsh and a town. " * 100 + "\n\n") * 2000)
         child = subprocess.Popen([LUTETIA, "set", "long.txt", "--all", "-o", "page.png"], cwd=self.at, stdin=subprocess.DEVNULL,
                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        for _ in range(400):
+        for _ in range(20 * SECONDS):
             if (self.at / "page-2.png").exists() or child.poll() is not None:
                 break
             time.sleep(0.05)
@@ -222,7 +222,7 @@ class Outside(unittest.TestCase):
             (self.at / "w.wav").write_text("before")
             child = subprocess.Popen([LUTETIA, "midi", "render", "song.mid", "-t", "5000", "-o", "w.wav"], cwd=self.at,
                                      stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-            for _ in range(200):
+            for _ in range(20 * SECONDS):
                 if any(name.endswith(".part") for name in os.listdir(self.at)) or child.poll() is not None:
                     break
                 time.sleep(0.05)
