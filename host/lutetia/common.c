@@ -2,6 +2,7 @@
 #include "lutetia.h"
 
 #include <display.h>
+#include <output_file.h>
 #include <paris_internal.h>
 #include <part_files.h>
 #include <visible_text.h>
@@ -238,5 +239,16 @@ int folder_make(const char *verb, const char *path)
         return fail(verb, "%s: not a folder; name another", path);
     if (access(path, W_OK) != 0)
         return fail(verb, "%s: cannot write there: %s", path, strerror(errno));
+    return EXIT_SUCCESS;
+}
+
+int output_check(const char *verb, const char *path)
+{
+    struct output_file out;
+    if (!path)
+        return EXIT_SUCCESS;
+    if (!output_file_open(&out, path))
+        return fail(verb, "%s: cannot write: %s", path, out.why);
+    output_file_abandon(&out);
     return EXIT_SUCCESS;
 }

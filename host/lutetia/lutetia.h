@@ -99,4 +99,8 @@ int sheet_write(const char *verb, struct paper *sheet, enum paper_view view, con
 /* Makes a folder if there is none. EXIT_SUCCESS, or prints why not. */
 int folder_make(const char *verb, const char *path);
 
+/* Looks whether a file can be written, before what it takes long to make is made; NULL: none is
+ * wanted. A file that is there stays as it is. EXIT_SUCCESS, or prints why not. */
+int output_check(const char *verb, const char *path);
+
 #endif

@@ -45,6 +45,7 @@ const struct page pages_of_machines[] = {
      .examples = {{"lutetia cc heat.c -o heat", "compiles the example of paris(7)"},
                   {"lutetia cc -std=c17 -O2 -Wall prog.c -o prog",
                    "with options of the compiler"}},
+     .files = "/usr/share/doc/libparis-dev/examples: programs to begin with, life.c and others",
      .see = "paris(7), lutetia-explain(1), lutetia-leds(1)"},
     {.verb = "leds",
      .usages = "[options] prog [arguments]\n[options] recording\n[options] --pattern random",

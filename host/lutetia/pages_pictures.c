@@ -121,7 +121,9 @@ const struct page pages_of_pictures[] = {
          "Draws a specimen of a font; or one glyph at each level of the font pipeline: its "
          "outline, the master, the rectangles that it is summed from, and its gray; or a "
          "filter.\n"
-         "A master may be written, retouched in a paint program, and taken again.",
+         "A master is the glyph in black and white, --em pixels large; it may be written, "
+         "retouched "
+         "in a paint program, and taken again.",
      .notes = FONTS "\n" FILTERS,
      .values = {{.option = "filter", .list = font_filter_names}},
      .examples = {{"lutetia font DejaVuSans -o specimen.png", "a specimen"},
@@ -184,7 +186,11 @@ const struct page pages_of_pictures[] = {
      .notes =
          "--map ties properties of letters to features of the voice: size, weight, slant, "
          "baseline and ink to envelope, level, pitch, clarity, open, front (a vowel's two "
-         "formants), vowel (ink only) or nothing, as in size=envelope,baseline=pitch.\n" FONTS,
+         "formants), vowel (ink only) or nothing, as in size=envelope,baseline=pitch.\n"
+         "Level and envelope are how loud it is, of full scale and of the loudest; pitch goes "
+         "from the lowest to the highest in the sound; clarity is 0 of noise and 1 of a clear "
+         "tone; open is how far the mouth is open, as of a, and front how far the tongue is in "
+         "front, as of i.\n" FONTS,
      .values = {{.option = "microphone", .words = "jack, pulse, any"}},
      .examples = {{"lutetia voice --cry \"Aagh\" --map baseline=pitch,ink=open -o cry.png",
                    "a cry of the program's own making"},

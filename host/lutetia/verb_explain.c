@@ -214,16 +214,6 @@ static int explain(struct explain *e, char **arguments)
     return show(e, name, child_wait(child));
 }
 
-/* Checked before the program runs, not after. An existing file is unchanged. */
-static int json_check(const char *path)
-{
-    struct output_file out;
-    if (!output_file_open(&out, path))
-        return fail("explain", "%s: cannot write: %s", path, out.why);
-    output_file_abandon(&out);
-    return EXIT_SUCCESS;
-}
-
 int verb_explain(int argc, char **argv)
 {
     struct explain e = {.json = NULL};
@@ -241,7 +231,7 @@ int verb_explain(int argc, char **argv)
     if (own == argc)
         return fail_usage("explain", "no program; `lutetia explain prog` or `lutetia explain "
                                      "prog.c` runs one");
-    if (e.json && json_check(e.json) != EXIT_SUCCESS)
+    if (output_check("explain", e.json) != EXIT_SUCCESS)
         return EXIT_FAILED;
     signal(SIGINT, SIG_IGN);
     ends_pass_on(true);

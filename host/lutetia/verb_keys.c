@@ -475,7 +475,8 @@ static int played_write(struct keys_work *w)
     live.film.frames = w->frames;
     live.film.video = w->video;
     sound.room = true;
-    if (w->frames && folder_make("keys", w->frames) != EXIT_SUCCESS)
+    if ((w->frames && folder_make("keys", w->frames) != EXIT_SUCCESS) ||
+        output_check("keys", w->still) != EXIT_SUCCESS)
         return EXIT_FAILED;
     if (w->video && !w->silent &&
         sound_render_open(&sound, w->song, seconds_of(w), &live.film.sound) != MIDI_OK)

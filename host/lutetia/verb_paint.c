@@ -273,6 +273,8 @@ int verb_paint(int argc, char **argv)
     status = paint.text ? screen_from_text(&paint) : screen_from_image(&paint);
     if (status == EXIT_SUCCESS && paint.frames_dir)
         status = folder_make("paint", paint.frames_dir);
+    if (status == EXIT_SUCCESS)
+        status = output_check("paint", paint.out_path);
     interrupt_catch();
     if (status == EXIT_SUCCESS)
         status = strcmp(paint.model, "full") == 0 ? paint_sheet(&paint) : paint_thesis(&paint);

@@ -306,7 +306,9 @@ static int sound_make(struct spring *s)
 
 static int film_make(struct spring *s, struct stage *stage)
 {
-    if (s->frames && folder_make("spring", s->frames) != EXIT_SUCCESS)
+    if ((s->frames && folder_make("spring", s->frames) != EXIT_SUCCESS) ||
+        output_check("spring", s->film.still) != EXIT_SUCCESS ||
+        output_check("spring", s->save) != EXIT_SUCCESS)
         return EXIT_FAILED;
     s->film.frames = s->frames;
     s->film.before = frame_before;
