@@ -130,6 +130,8 @@ static void send_pieces(struct machine *m, CM_field_id_t dest, struct machine_va
         if (!good)
             paris_fail_machine();
     }
+    if (good)
+        paris_tell_lost(m, address, vp_set_of(dest));
     free(p.values);
 }
 
@@ -158,6 +160,8 @@ void paris_send(const struct paris_instruction *self, struct paris_operand dest,
     struct machine_value *v = paris_load(m, source, "source", MACHINE_WHERE_ACTIVE);
     if (v && machine_send(m, dest.field, address, v, self->op, notify) != MACHINE_OK)
         paris_fail_machine();
+    else if (v)
+        paris_tell_lost(m, address, vp_set);
 }
 
 void CM_send_with_c_add_1L(CM_field_id_t dest, CM_field_id_t send_address, CM_field_id_t source,
@@ -182,6 +186,8 @@ void CM_send_with_c_add_1L(CM_field_id_t dest, CM_field_id_t send_address, CM_fi
                machine_send(m, dest + half, address, im, MACHINE_COMBINE_FADD,
                             MACHINE_NO_FIELD) != MACHINE_OK))
         paris_fail_machine();
+    else if (im)
+        paris_tell_lost(m, address, vp_set);
 }
 
 /* ---- get ---- */

@@ -15,6 +15,7 @@ void paris_machine_forget(void)
 {
     paris_sets_forget();
     paris_explain_end(paris_the.machine);
+    paris_timers_machine_goes();
     machine_destroy(paris_the.machine);
     paris_the.machine = NULL;
     CM_physical_processors_limit = 0;
@@ -45,6 +46,7 @@ bool paris_machine_make(void)
         registered = atexit(leave) == 0;
     paris_explain_begin(m);
     paris_the.machine = m;
+    paris_timers_machine_comes();
     paris_safety_begin(m);
     CM_physical_processors_limit = (unsigned int)machine_processors_count(m);
     CM_physical_processors_length = 0;

@@ -52,24 +52,50 @@ void paris_safety_usual(void)
     mode_set(USUAL);
 }
 
+/* One line on the standard error, with the line of the call. */
+static void say(const char *text)
+{
+    const char *place = paris_call_line();
+    fflush(stdout);
+    visible_say("%s%s%s: %s (said once); CM_set_safety_mode (1) makes it an error", place,
+                *place ? ": " : "", paris_the.call, text);
+}
+
 bool paris_let_pass(const char *format, ...)
 {
     static bool said;
     if (!paris_the.lenient)
         return false;
     if (!said) {
-        const char *place = paris_call_line();
         char text[400];
         va_list args;
         va_start(args, format);
-        vsnprintf(text, sizeof text, format, args);
+        int length = vsnprintf(text, sizeof text, format, args);
         va_end(args);
-        fflush(stdout);
-        visible_say("%s%s%s: %s. This and more of the kind is let pass (said once); "
-                    "CM_set_safety_mode (1) makes it an error",
-                    place, *place ? ": " : "", paris_the.call, text);
+        if (length >= 0 && (size_t)length < sizeof text)
+            snprintf(text + length, sizeof text - (size_t)length,
+                     ". This and more of the kind is let pass");
+        say(text);
     }
     return said = true;
+}
+
+void paris_tell_lost(struct machine *m, struct machine_value *send_address, int vp_set)
+{
+    static bool said;
+    char text[200];
+    uint64_t lost = 0;
+    if (said || paris_the.safety || !machine_sent_beyond(m) ||
+        machine_addresses_check(m, send_address, vp_set, &lost) != MACHINE_OK)
+        return;
+    said = true;
+    snprintf(text, sizeof text,
+             "send_address: in %llu active processors it is that of no processor of VP set %d, "
+             "which has %llu. Messages to nobody are "
+             "lost",
+             (unsigned long long)lost, vp_set,
+             (unsigned long long)machine_vpset_count(m, vp_set));
+    say(text);
 }
 
 bool paris_runs_over(CM_field_id_t field, unsigned int bits, const char *role)

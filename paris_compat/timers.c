@@ -1,5 +1,6 @@
 /* Timers: when one starts or stops, pending work is finished first, so that its time is
- * counted on the right side. */
+ * counted on the right side. What the front end computes in the machine's place is the machine's time; it is taken while a timer runs.
+ * A timer goes on when the machine goes and another comes. */
 #include <stdio.h>
 #include <time.h>
 
@@ -30,11 +31,23 @@ static double now_s(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+/* Of the machine that there is; 0: there is none. */
 static double busy_now_s(void)
 {
-    struct machine_stats stats;
-    machine_stats_get(paris_machine(), &stats);
+    struct machine_stats stats = {.busy_s = 0};
+    if (paris_the.machine)
+        machine_stats_get(paris_the.machine, &stats);
     return stats.busy_s;
+}
+
+/* Tells the machine whether any timer runs. */
+static void work_time(void)
+{
+    bool any = false;
+    for (int i = 0; i < TIMERS_COUNT; i++)
+        any = any || timers[i].running;
+    if (paris_the.machine)
+        machine_work_time(paris_the.machine, any);
 }
 
 static void machine_catch_up(const char *name)
@@ -53,11 +66,27 @@ static double busy_s(const struct timer *t)
     return t->busy_s + (t->running ? busy_now_s() - t->started_busy_s : 0);
 }
 
+void paris_timers_machine_goes(void)
+{
+    for (int i = 0; i < TIMERS_COUNT; i++)
+        if (timers[i].running) {
+            timers[i].busy_s = busy_s(&timers[i]);
+            timers[i].started_busy_s = 0; /* the next machine begins there */
+        }
+}
+
+void paris_timers_machine_comes(void)
+{
+    work_time();
+}
+
 void CM_timer_clear(unsigned int timer)
 {
     struct timer *t = timer_of("CM_timer_clear", timer);
-    if (t)
-        *t = (struct timer){0};
+    if (!t)
+        return;
+    *t = (struct timer){0};
+    work_time();
 }
 
 void CM_timer_start(unsigned int timer)
@@ -67,6 +96,7 @@ void CM_timer_start(unsigned int timer)
         return;
     machine_catch_up("CM_timer_start");
     t->running = true;
+    work_time();
     t->starts++;
     t->started_busy_s = busy_now_s();
     t->started_s = now_s();
@@ -81,6 +111,7 @@ void CM_timer_stop(unsigned int timer)
     t->elapsed_s = elapsed_s(t);
     t->busy_s = busy_s(t);
     t->running = false;
+    work_time();
 }
 
 double CM_timer_read_elapsed(unsigned int timer)

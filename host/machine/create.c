@@ -191,6 +191,11 @@ void machine_leave(struct machine *m)
     }
 }
 
+void machine_work_time(struct machine *m, bool timed)
+{
+    m->device->work_timed = timed;
+}
+
 void machine_stats_get(const struct machine *m, struct machine_stats *out)
 {
     *out =

@@ -236,10 +236,91 @@ static void it_is_said_once_and_strict_is_usual(void **unused)
     run_child("usual", "LUTETIA_LENIENT=0", 1, "over the end");
 }
 
+/* ---- messages to nobody ---- */
+
+enum { SENDERS = 3000 };
+static const struct lost {
+    char *name;
+    unsigned int dest_count;
+    bool combines, context,
+        wrong; /* context: some do not send; wrong: some who send have the address of nobody */
+} losses[] = {
+    {"overwritten", 1500, false, false, true},
+    {"overwritten under a context", 1500, false, true, true},
+    {"combined", 1500, true, true, true},
+    {"combined in few", 5, true, false, true},
+    {"combined in few under a context", 5, true, true, true},
+    {"right", 1500, false, false, false},
+    {"right where they send", 1500, true, true, false},
+    {"right in few where they send", 5, true, true, false},
+};
+enum { LOSSES = sizeof losses / sizeof *losses };
+
+static int lose(const struct lost *l)
+{
+    unsigned int senders[1] = {SENDERS}, dests[1] = {l->dest_count};
+    CM_init();
+    CM_set_vp_set(CM_allocate_vp_set(CM_create_geometry(dests, 1)));
+    const CM_geometry_id_t there = CM_current_geometry;
+    const CM_field_id_t dest = CM_allocate_heap_field(32);
+    CM_set_vp_set(CM_allocate_vp_set(CM_create_geometry(senders, 1)));
+    const CM_field_id_t address = CM_allocate_heap_field(32),
+                        coordinate = CM_allocate_heap_field(32);
+    CM_my_news_coordinate_1L(coordinate, 0, 32);
+    CM_u_mod_constant_2_1L(coordinate, l->dest_count, 32);
+    CM_make_news_coordinate_1L(there, address, 0, coordinate, 32);
+    CM_my_news_coordinate_1L(coordinate, 0, 32);
+    CM_u_ge_constant_1L(coordinate, SENDERS - 7, 32); /* these have wrong ones */
+    CM_logand_context_with_test();
+    if (l->wrong || l->context)
+        CM_u_move_constant_1L(address, l->dest_count == 5 ? 7 : 2047, 32);
+    CM_set_context();
+    CM_u_lt_constant_1L(coordinate, l->wrong ? SENDERS - 2 : SENDERS - 7, 32);
+    if (l->context)
+        CM_logand_context_with_test();
+    for (int i = 0; i < 6; i++)
+        if (l->combines)
+            CM_send_with_u_add_1L(dest, address, coordinate, 32, CM_no_field);
+        else
+            CM_send_1L(dest, address, coordinate, 32, CM_no_field);
+    return 0;
+}
+
+/* In all ways to send. */
+static void messages_to_nobody_are_said_once(void **unused)
+{
+    static char *const ways[] = {"LUTETIA_NEAR=1", "LUTETIA_NEAR=2", "LUTETIA_NEAR=0"};
+    char self[4096];
+    ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
+    (void)unused;
+    assert_true(length > 0);
+    self[length] = '\0';
+    for (int i = 0; i < LOSSES; i++)
+        for (size_t w = 0; w < sizeof ways / sizeof *ways; w++) {
+            if (w && i % 2 == (int)w - 1) /* each of these ways has half of them */
+                continue;
+            struct child child = {.arguments = {self, losses[i].name}, .variables = {ways[w]}};
+            child_run(&child);
+            const char *end = strchr(child.errors, '\n');
+            if (child.status ||
+                (losses[i].wrong
+                     ? !end || end[1] || strncmp(child.errors, "CM_send_", 8) ||
+                           !strstr(child.errors, "of no processor") ||
+                           !strstr(child.errors, losses[i].context ? "in 5 " : "in 7 ")
+                     : child.errors[0] != '\0'))
+                fail_msg("%s, %s: status %d and \"%s\"", losses[i].name, ways[w], child.status,
+                         child.errors);
+        }
+}
+
 int main(int argc, char **argv)
 {
     setenv("LUTETIA_PROCESSORS", "16", 1);
     unsetenv("LUTETIA_LEDS");
+    if (argc == 2)
+        for (int i = 0; i < LOSSES; i++)
+            if (!strcmp(argv[1], losses[i].name))
+                return lose(&losses[i]);
     if (argc == 2)
         return child_main(argv[1]);
     const struct CMUnitTest tests[] = {
@@ -247,6 +328,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(processors_differ_and_long_fields_go_on),
         cmocka_unit_test(numbers_of_processors_are_taken_modulo),
         cmocka_unit_test(it_is_said_once_and_strict_is_usual),
+        cmocka_unit_test(messages_to_nobody_are_said_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -230,6 +230,7 @@ static enum machine_status interpret(struct machine *m, struct plan *p, const st
         blocks_run(&m->plans->room, m->device->crew, parts, l->program, set, buffers, nodes);
     m->inside--;
     double spent = clock_s() - start;
+    m->device->busy_s += spent;
     p->spent_s += spent;
     if (p->family) {
         p->family->spent_s += spent;

@@ -79,7 +79,8 @@ struct device {
     uint64_t built_then;            /* kernels_built when some last had to go */
     uint64_t kernels_gone;          /* that had to go for others */
     uint64_t kernels_built, kernels_built_background, kernels_run;
-    double busy_s; /* time spent waiting for the device */
+    double busy_s; /* time spent waiting for the device, or on its work: device_work_begin() */
+    bool work_timed; /* see machine_work_time() */
     const char *options;
     struct claims {
         cl_mem memory; /* NULL: not needed yet */
@@ -205,6 +206,10 @@ bool device_takes_kernels(const struct machine *m);
 enum machine_status device_launch(struct machine *m, struct device_kernel *kernel, cl_int error,
                                   cl_uint dimensions, const size_t *global, const size_t *local,
                                   const char *what);
+/* Around what the front end computes in the device's place: where it is timed, that counts as busy, too. device_work_begin() returns
+ * the starting time; nothing in between waits for the device. */
+double device_work_begin(const struct machine *m);
+void device_work_end(struct machine *m, double start);
 /* Around a call that waits for the device: the time counts as busy. device_wait_begin()
  * returns the starting time. */
 double device_wait_begin(struct machine *m);

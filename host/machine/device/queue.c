@@ -30,6 +30,17 @@ enum machine_status device_wait_end(struct machine *m, cl_int error, double star
     return device_check(m, error, what);
 }
 
+double device_work_begin(const struct machine *m)
+{
+    return m->device->work_timed ? clock_s() : 0;
+}
+
+void device_work_end(struct machine *m, double start)
+{
+    if (m->device->work_timed)
+        m->device->busy_s += clock_s() - start;
+}
+
 void device_stays_awake(struct machine *m)
 {
     awake_for(m->device->awake, AWAKE_S);
@@ -70,7 +81,7 @@ static void part_move(void *of, int part, int worker)
         memcpy(g->to + first, g->from + first, end - first);
 }
 
-static void move(const struct machine *m, char *to, const void *from, size_t bytes,
+static void move(struct machine *m, char *to, const void *from, size_t bytes,
                  size_t pattern_bytes)
 {
     struct moving g = {.to = to,
@@ -79,7 +90,9 @@ static void move(const struct machine *m, char *to, const void *from, size_t byt
                        .pattern_bytes = pattern_bytes,
                        .parts =
                            device_parts(m, 1e-9 * m->device->shape.move_ns * (double)bytes)};
+    const double start = device_work_begin(m);
     crew_run(m->device->crew, g.parts, part_move, &g);
+    device_work_end(m, start);
 }
 
 void device_move(struct machine *m, void *to, const void *from, size_t bytes)
@@ -151,8 +164,10 @@ enum machine_status device_read(struct machine *m, const struct device_buffer *b
         watch_bytes(m, bytes);
     if (near(m, b)) {
         enum machine_status status = device_settle_for(m, what);
+        const double start = device_work_begin(m);
         if (!status)
             memcpy(to, (const char *)b->host + at, bytes);
+        device_work_end(m, start);
         return status;
     }
     if (!device_is_ours(m->device))
@@ -170,8 +185,10 @@ enum machine_status device_write(struct machine *m, const struct device_buffer *
         watch_bytes(m, bytes);
     if (near(m, b)) {
         enum machine_status status = device_settle_for(m, what);
+        const double start = device_work_begin(m);
         if (!status)
             memcpy((char *)b->host + at, from, bytes);
+        device_work_end(m, start);
         return status;
     }
     if (!device_is_ours(m->device))

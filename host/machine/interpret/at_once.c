@@ -243,6 +243,7 @@ static struct device_buffer *array_of(struct machine *m, const struct machine_va
         machine_error_clear(m);
         return NULL;
     }
+    const double start = device_work_begin(m);
     struct doing d;
     d.table = lanes_table();
     d.set = s;
@@ -251,6 +252,7 @@ static struct device_buffer *array_of(struct machine *m, const struct machine_va
         places_run(&d, key, s->rows * s->pitch, b->host);
     else
         arrays_run(&d, key, s->rows * s->pitch, b->host);
+    device_work_end(m, start);
     return b;
 }
 

@@ -157,7 +157,9 @@ enum machine_status message_send_near(struct machine *m, const struct message *g
                                       struct machine_value **notification)
 {
     known_look(m, g);
-    const struct near_route r = message_route(m, g, true);
+    atomic_bool beyond = false;
+    struct near_route r = message_route(m, g, true);
+    r.beyond = m->run->beyond_told ? NULL : &beyond;
     const bool fills = g->fills || (combiner == MACHINE_COMBINE_OVERWRITE && r.distinct &&
                                     g->all && g->from->count == g->to->count);
     struct device_buffer *arrived = notification ? message_array(m, g->to, MACHINE_BIT) : NULL;
@@ -168,6 +170,7 @@ enum machine_status message_send_near(struct machine *m, const struct message *g
     if (arrived)
         memset(arrived->host, 0, arrived->bytes);
     near_send(&r, (int)combiner, g->source->type, g->source, out, arrived);
+    m->run->sent_beyond = m->run->sent_beyond || beyond;
     if (arrived)
         *notification = graph_buffer_node(m, MACHINE_BIT, g->to_set, arrived);
     near_end(m, "sending", start);

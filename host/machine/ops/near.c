@@ -19,12 +19,13 @@ bool near_begin(struct machine *m, const struct device_buffer *b, double *start)
 {
     if (!device_is_near(m, b))
         return false;
-    *start = watch_clock(m);
+    *start = m->watch ? clock_s() : device_work_begin(m);
     return true;
 }
 
 void near_end(struct machine *m, const char *what, double start)
 {
+    device_work_end(m, start);
     if (m->watch)
         watch_near(m, what, start);
 }
@@ -244,6 +245,8 @@ bool near_sums(struct machine *m, const struct vpset *s, const struct near_sum *
         .runs = ((size_t)s->width + run - 1) / run,
         .sums = sums,
         .parts = device_parts(m, 1e-9 * m->device->shape.reduce_ns * (double)s->count)};
+    const double start = device_work_begin(m);
     crew_run(m->device->crew, g.parts, part_sum, &g);
+    device_work_end(m, start);
     return true;
 }

@@ -2,6 +2,8 @@
 #ifndef LUTETIA_MACHINE_NEAR_ADDRESSES_H
 #define LUTETIA_MACHINE_NEAR_ADDRESSES_H
 
+#include <stdatomic.h>
+
 #include "base/crew.h"
 #include "interpret/lanes.h"
 #include "values/values.h"
@@ -19,6 +21,8 @@ struct near_route {
     bool distinct;     /* ... and no two are of the same */
     size_t near_bytes; /* of a cache: what is in a larger array is fetched ahead */
     const struct lanes_table *lanes;
+    atomic_bool *
+        beyond; /* becomes true where a message goes to no processor; NULL: nobody wants to know */
 };
 
 /* Senders that are looked at together. */
@@ -29,6 +33,23 @@ static inline void near_addresses(const struct near_route *r, size_t at, int n, 
     const struct lanes_aim a = {(const char *)r->address->host + at * r->address_bytes, NULL,
                                 r->address_bytes, r->mask, UINT32_MAX};
     r->lanes->aim(&a, n, to);
+}
+/* Looks whether a message of these senders goes to no processor. */
+static inline void near_look_beyond(const struct near_route *r, size_t at, int n)
+{
+    uint32_t to[ROUTE_BLOCK];
+    if (!r->beyond || r->there)
+        return;
+    near_addresses(r, at, n, to);
+    bool any = r->lanes->greatest(to, n) >= r->to->count;
+    if (any && r->context) { /* nobody may send there */
+        const uint8_t *context = (const uint8_t *)r->context->host + at;
+        any = false;
+        for (int i = 0; i < n; i++)
+            any |= context[i] && to[i] >= r->to->count;
+    }
+    if (any)
+        atomic_store_explicit(r->beyond, true, memory_order_relaxed);
 }
 /* ... and the number of processors where they do not, or where there is none. */
 static inline void near_aims(const struct near_route *r, size_t at, int n, uint32_t *to)

@@ -304,6 +304,8 @@ static void part_send(void *of, int part, int worker)
         const struct block b = block_get(r, i);
         bool moves = g->combiner == MACHINE_COMBINE_OVERWRITE;
         const size_t from = messages_at(g, &b);
+        if (part == 0 || r->distinct)
+            near_look_beyond(r, b.at, b.n);
         if (moves && !g->arrived && parts == 1 &&
             messages_move_all(r, &b, g->bytes, g->source, from, g->out))
             continue;

@@ -257,6 +257,44 @@ static enum machine_status transmit_far(struct machine *m, const struct message 
     return status;
 }
 
+/* How many active senders have the address of no processor, by a kernel; waits. */
+static enum machine_status wrong_far(struct machine *m, const struct message *g,
+                                     uint64_t *wrong)
+{
+    struct device_buffer *b = addresses_pass(m, g, "route");
+    size_t count = (size_t)m->values->sets[m->values->set_current].count;
+    cl_uint *to = b ? malloc(count * sizeof *to) : NULL;
+    enum machine_status status = b ? MACHINE_OK : m->status;
+    if (b && !to)
+        status = machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to check addresses");
+    if (!status) {
+        double start = device_wait_begin(m);
+        cl_int error = clEnqueueReadBuffer(m->device->queue, device_mem(b), CL_TRUE, 0,
+                                           count * sizeof *to, to, 0, NULL, NULL);
+        status = device_wait_end(m, error, start, "checking addresses");
+    }
+    for (size_t i = 0; !status && i < count; i++)
+        *wrong += to[i] == (cl_uint)NO_PROCESSOR;
+    if (b)
+        device_buffer_unref(m, b);
+    free(to);
+    return status;
+}
+
+/* Looks whether messages go to no processor. That costs a wait, so it is done for the first sends, and for ever fewer later ones. */
+static enum machine_status beyond_look(struct machine *m, const struct message *g)
+{
+    enum { SENDS_LOOKED_AT = 8 };
+    const uint64_t n = ++m->run->sends_far;
+    uint64_t wrong = 0;
+    if (m->run->beyond_told || (g->known && g->known->there) ||
+        (n > SENDS_LOOKED_AT && (n & (n - 1))))
+        return MACHINE_OK;
+    enum machine_status status = wrong_far(m, g, &wrong);
+    m->run->sent_beyond = m->run->sent_beyond || wrong;
+    return status;
+}
+
 /* notification NULL: nobody wants it. */
 static struct machine_value *transmit(struct machine *m, struct message *g,
                                       enum machine_combiner combiner,
@@ -286,6 +324,8 @@ static struct machine_value *transmit(struct machine *m, struct message *g,
     enum machine_status status =
         near ? message_send_near(m, g, combiner, out, bytes, start, notification)
              : transmit_far(m, g, combiner, out, bytes, notification);
+    if (!near && !status)
+        status = beyond_look(m, g);
     if (status) {
         device_buffer_unref(m, out);
         return NULL;
@@ -482,22 +522,14 @@ enum machine_status machine_addresses_check(struct machine *m,
         near_end(m, "checking addresses", begin);
         return MACHINE_OK;
     }
-    struct device_buffer *b = addresses_pass(m, &g, "route");
-    size_t count = (size_t)m->values->sets[m->values->set_current].count;
-    cl_uint *to = b ? malloc(count * sizeof *to) : NULL;
-    enum machine_status status = b ? MACHINE_OK : m->status;
-    if (b && !to)
-        status = machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to check addresses");
-    if (!status) {
-        double start = device_wait_begin(m);
-        cl_int error = clEnqueueReadBuffer(m->device->queue, device_mem(b), CL_TRUE, 0,
-                                           count * sizeof *to, to, 0, NULL, NULL);
-        status = device_wait_end(m, error, start, "checking addresses");
-    }
-    for (size_t i = 0; !status && i < count; i++)
-        *wrong += to[i] == (cl_uint)NO_PROCESSOR;
-    if (b)
-        device_buffer_unref(m, b);
-    free(to);
-    return status;
+    return wrong_far(m, &g, wrong);
+}
+
+bool machine_sent_beyond(struct machine *m)
+{
+    if (!m->run->sent_beyond)
+        return false;
+    m->run->beyond_told = true;
+    m->run->sent_beyond = false;
+    return true;
 }

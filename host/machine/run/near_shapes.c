@@ -141,12 +141,13 @@ static uint64_t part_begin(const struct shape_work *w, int part)
 static void share(struct machine *m, struct shape_work *w, crew_part *part, double elements,
                   const char *what)
 {
-    double start = watch_clock(m);
+    double start = m->watch ? clock_s() : device_work_begin(m);
     w->processors = (uint64_t)m->values->processors_count;
     w->parts_count = device_parts(m, 1e-9 * m->device->shape.reshape_ns * elements);
     if ((uint64_t)w->parts_count > w->processors)
         w->parts_count = (int)w->processors;
     crew_run(m->device->crew, w->parts_count, part, w);
+    device_work_end(m, start);
     if (m->watch)
         watch_near(m, what, start);
 }

@@ -72,6 +72,9 @@ struct run {
     bool in_pieces;       /* ... of all, what was stored first before the rest, by itself */
     uint64_t flush_place; /* trace_hash where it became due */
     enum machine_status flush_status; /* of a failed evaluation: returned by the next store */
+    bool sent_beyond;                 /* a message went to no processor, and nobody has asked */
+    bool beyond_told;                 /* ... somebody has, and nobody looks any more */
+    uint64_t sends_far;               /* by kernels: see beyond_look() */
     uint64_t stores, stores_evaluated, flushes, calls_foreseen;
 };
 
