@@ -130,9 +130,6 @@ bool paris_reset_to(unsigned int processors);
 void paris_machine_forget(void);
 /* Says once that messages of the last send went to no processor. */
 void paris_tell_lost(struct machine *m, struct machine_value *send_address, int vp_set);
-/* Timers that run keep their numbers from one machine to the next: before it is destroyed; after it was made. */
-void paris_timers_machine_goes(void);
-void paris_timers_machine_comes(void);
 /* Performs something on the first machine of a process, which was made just now, and empties it: warm_up.c. False: no memory. */
 bool paris_warm_up(void);
 

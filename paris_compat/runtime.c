@@ -4,6 +4,7 @@
 
 #include "explain.h"
 #include "paris_state.h"
+#include "timers.h"
 
 unsigned int CM_physical_processors_limit = 0;
 unsigned int CM_physical_processors_length = 0;

@@ -11,6 +11,7 @@
 #include <stdio.h>
 
 #include "call_line.h"
+#include "machine_told.h"
 #include "paris_state.h"
 #include "visible_text.h"
 

@@ -4,7 +4,9 @@
 #include <stdio.h>
 #include <time.h>
 
+#include "machine_told.h"
 #include "paris_state.h"
+#include "timers.h"
 
 #define TIMERS_COUNT 64
 

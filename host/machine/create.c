@@ -8,6 +8,7 @@
 #include "build/background.h"
 #include "build/plans.h"
 #include "forks.h"
+#include "machine_told.h"
 #include "measure/copies.h"
 #include "memory/memory.h"
 #include "run/at_once_when.h"

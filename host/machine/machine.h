@@ -234,9 +234,6 @@ struct machine_stats {
     double busy_s; /* in which the front end waited for the device, or did its work */
 };
 void machine_stats_get(const struct machine *m, struct machine_stats *out);
-/* Whether busy_s counts all that the front end computes in the device's place. At first it counts byte code only: short work takes twice
- * as long where it is timed. */
-void machine_work_time(struct machine *m, bool timed);
 
 /* Calls machine_begin(), and tells observers the instruction's name, a literal. */
 void machine_instruction(struct machine *m, const char *name);
@@ -475,9 +472,6 @@ enum machine_status machine_send(struct machine *m, uint32_t dest,
  * such processor, undefined in inactive processors. The field may be in another VP set. */
 struct machine_value *machine_get(struct machine *m, struct machine_value *send_address,
                                   uint32_t source, struct machine_type type);
-/* Whether a message of some send went to no processor, and was lost; true once, then nobody looks any more. Sends by kernels are looked
- * at for the first times, and ever more rarely. */
-bool machine_sent_beyond(struct machine *m);
 /* Counts the active processors whose address is of no processor of vpset; waits. */
 enum machine_status machine_addresses_check(struct machine *m,
                                             struct machine_value *send_address, int vpset,

@@ -17,6 +17,7 @@
 #include "base/scalar.h"
 #include "base/types.h"
 #include "kernels.h"
+#include "machine_told.h"
 #include "memory/call_set.h"
 #include "memory/memory.h"
 #include "ops/gets.h"
