@@ -19,7 +19,7 @@ inline VD short_fit(VD x, int s, int e)
     return SEL_D(CMP_L(x == x), AS_D(r), x);
 }
 
-/* s + e + 1 bits of any double */
+/* s + e + 1 bits of any double. Of a NaN the upper bits of its fraction; where these are 0, the quiet one. */
 inline VL short_pack(VD x, int s, int e)
 {
     const int most = (1 << (e - 1)) - 1, least = 1 - most;
@@ -30,7 +30,9 @@ inline VL short_pack(VD x, int s, int e)
     VL r = SEL_L(CMP_L(magnitude < (VL)(SHORT_POWER(least))), small, normal);
     r = SEL_L(CMP_L(magnitude == (VL)(SHORT_INFINITE)), (VL)(ones), r) |
         (bits & SHORT_SIGN) >> (ulong)(63 - s - e);
-    return SEL_L(CMP_L(x == x), r, (VL)(ones | (ulong)1 << (s - 1) | (ulong)1 << (s + e)));
+    VL given = AS_L(x), fraction = (given & (((ulong)1 << 52) - 1)) >> (ulong)(52 - s);
+    VL nan = SEL_L(CMP_L(fraction == (VL)((ulong)0)), (VL)((ulong)1 << (s - 1)), fraction);
+    return SEL_L(CMP_L(x == x), r, nan | ones | (given & SHORT_SIGN) >> (ulong)(63 - s - e));
 }
 
 inline VD short_unpack(VL bits, int s, int e)
@@ -41,7 +43,8 @@ inline VD short_unpack(VL bits, int s, int e)
     VL normal = (magnitude << (ulong)(52 - s)) + ((ulong)(1023 - most) << 52);
     VL small = AS_L(AS_D(magnitude | unit) - as_double(unit));
     VL r = SEL_L(CMP_L(magnitude < (VL)((ulong)1 << s)), small, normal);
-    r = SEL_L(CMP_L(magnitude >= (VL)(ones)), (VL)(SHORT_INFINITE), r) |
-        (bits & ((ulong)1 << (s + e))) << (ulong)(63 - s - e);
-    return AS_D(SEL_L(CMP_L(magnitude > (VL)(ones)), (VL)((ulong)0x1fff << 51), r));
+    VL endless = (magnitude & (((ulong)1 << s) - 1)) << (ulong)(52 - s) | SHORT_INFINITE;
+    r = SEL_L(CMP_L(magnitude >= (VL)(ones)), endless, r) | (bits & ((ulong)1 << (s + e)))
+                                                                << (ulong)(63 - s - e);
+    return AS_D(r);
 }

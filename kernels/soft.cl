@@ -217,9 +217,11 @@ SOFT_FUNCTION ulong soft_root(ulong x, int s, int e)
 SOFT_FUNCTION ulong soft_pack(ulong x, int s, int e)
 {
     ulong ones = ((ulong)1 << e) - 1, sign = (x >> 63) << (s + e);
+    if (soft_is_nan(x)) { /* the upper bits of its fraction; where they are 0, the quiet one */
+        ulong fraction = x << 12 >> (64 - s);
+        return sign | ones << s | (fraction ? fraction : (ulong)1 << (s - 1));
+    }
     x = soft_fit(x, s, e);
-    if (soft_is_nan(x))
-        return (ones << 1 | 1) << (s - 1) | (ulong)1 << (s + e);
     if ((x & ~SOFT_SIGN) == SOFT_INFINITE)
         return sign | ones << s;
     if ((x & ~SOFT_SIGN) == 0)
@@ -236,8 +238,8 @@ SOFT_FUNCTION ulong soft_unpack(ulong bits, int s, int e)
     ulong ones = ((ulong)1 << e) - 1, sign = (bits >> (s + e)) << 63;
     ulong field = (bits >> s) & ones, fraction = bits & (((ulong)1 << s) - 1);
     int bias = (1 << (e - 1)) - 1;
-    if (field == ones)
-        return fraction ? SOFT_NAN : sign | SOFT_INFINITE;
+    if (field == ones) /* infinite, or a NaN, whose bits are the upper ones */
+        return sign | SOFT_INFINITE | fraction << (52 - s);
     if (field != 0)
         return soft_round(sign, (int)field - bias, SOFT_SIGN | fraction << (63 - s), 0, 52, 11);
     if (fraction == 0)

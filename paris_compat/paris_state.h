@@ -120,6 +120,8 @@ struct paris_state {
     int *set_geometry; /* geometry of each VP set, by the machine's id; 0: unused */
     int sets_count;
     CM_field_id_t leds; /* hidden field of the VP set that latched last */
+    /* Called after a machine was made (comes), and before it is destroyed; NULL: nobody asks. */
+    void (*machine_changes)(bool comes);
 };
 extern struct paris_state paris_the;
 

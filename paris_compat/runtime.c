@@ -4,7 +4,6 @@
 
 #include "explain.h"
 #include "paris_state.h"
-#include "timers.h"
 
 unsigned int CM_physical_processors_limit = 0;
 unsigned int CM_physical_processors_length = 0;
@@ -16,7 +15,8 @@ void paris_machine_forget(void)
 {
     paris_sets_forget();
     paris_explain_end(paris_the.machine);
-    paris_timers_machine_goes();
+    if (paris_the.machine && paris_the.machine_changes)
+        paris_the.machine_changes(false);
     machine_destroy(paris_the.machine);
     paris_the.machine = NULL;
     CM_physical_processors_limit = 0;
@@ -47,7 +47,8 @@ bool paris_machine_make(void)
         registered = atexit(leave) == 0;
     paris_explain_begin(m);
     paris_the.machine = m;
-    paris_timers_machine_comes();
+    if (paris_the.machine_changes)
+        paris_the.machine_changes(true);
     paris_safety_begin(m);
     CM_physical_processors_limit = (unsigned int)machine_processors_count(m);
     CM_physical_processors_length = 0;

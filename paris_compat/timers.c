@@ -6,7 +6,6 @@
 
 #include "machine_told.h"
 #include "paris_state.h"
-#include "timers.h"
 
 #define TIMERS_COUNT 64
 
@@ -68,18 +67,15 @@ static double busy_s(const struct timer *t)
     return t->busy_s + (t->running ? busy_now_s() - t->started_busy_s : 0);
 }
 
-void paris_timers_machine_goes(void)
+static void machine_changes(bool comes)
 {
-    for (int i = 0; i < TIMERS_COUNT; i++)
+    for (int i = 0; i < TIMERS_COUNT && !comes; i++)
         if (timers[i].running) {
             timers[i].busy_s = busy_s(&timers[i]);
             timers[i].started_busy_s = 0; /* the next machine begins there */
         }
-}
-
-void paris_timers_machine_comes(void)
-{
-    work_time();
+    if (comes)
+        work_time();
 }
 
 void CM_timer_clear(unsigned int timer)
@@ -98,6 +94,7 @@ void CM_timer_start(unsigned int timer)
         return;
     machine_catch_up("CM_timer_start");
     t->running = true;
+    paris_the.machine_changes = machine_changes;
     work_time();
     t->starts++;
     t->started_busy_s = busy_now_s();

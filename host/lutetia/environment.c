@@ -116,6 +116,7 @@ const struct environment_row environment_rows[] = {
     {"XDG_RUNTIME_DIR", "DIR", OTHERS, "where the MIDI server's socket is"},
     {"TMPDIR", "DIR", OTHERS, "where temporary files are (/tmp)"},
     {"CC", "COMMAND", OTHERS, "the C compiler of `lutetia cc` (cc)"},
+    {"CXX", "COMMAND", OTHERS, "its C++ compiler, where a source is C++ (c++)"},
     {"DISPLAY", "NAME", OTHERS, "the display of windows; WAYLAND_DISPLAY is looked at, too"},
     {NULL, NULL, USER, NULL},
 };

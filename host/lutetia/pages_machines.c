@@ -38,7 +38,8 @@ const struct page pages_of_machines[] = {
          "declaration are warned of. -g1 is given unless another -g is, so that complaints "
          "name "
          "lines of the source. Where the compiler fails, a program of that name that was there "
-         "before is left.",
+         "before is left.\n"
+         "If a source is C++ (prog.cc, .cpp, .cxx, .C), the C++ compiler is called.",
      .notes =
          "`cc prog.c $(pkg-config --cflags --libs paris)` does the same, where libparis is "
          "installed with its header (on Debian the package libparis-dev).",

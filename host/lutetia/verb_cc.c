@@ -1,4 +1,4 @@
-/* verb_cc.c - `lutetia cc`: calls the C compiler with the paths of C/Paris.
+/* verb_cc.c - `lutetia cc`: calls the C compiler, or the C++ compiler, with the paths of C/Paris.
  *
  * A program of 1990 was compiled by `cc prog.c -lparis`; this adds the two folders, the
  * library, and -std=gnu89 unless a -std is given.  A command in the build tree uses the library
@@ -9,6 +9,9 @@
  * with the source's line (paris_compat/call_line.c). In gnu89 a function without declaration
  * returns an int, so a program without <cm/paris.h> would read 0 where the machine returns a
  * double; the compiler warns of each.
+ *
+ * If a source is C++, which its name's end or an -x says, the C++ compiler is called, without -std=gnu89. It takes all sources for C++, so
+ * sources of C beside it are told to be C.
  *
  * A program is linked into a part file, which is renamed when it is complete, because
  * linkers overwrite an existing file. The linker's output is the part file's descriptor,
@@ -35,6 +38,7 @@
 struct compiler_line {
     char **arguments;
     int count;
+    bool cpp; /* of the C++ compiler */
 };
 
 static void line_add(struct compiler_line *line, char *argument)
@@ -101,6 +105,70 @@ static bool any_is(int argc, char **argv, const char *argument)
     return false;
 }
 
+/* ---- C or C++ ---- */
+
+static bool ends_in(const char *name, const char *const ends[])
+{
+    const char *dot = strrchr(name, '.');
+    for (int i = 0; dot && ends[i]; i++)
+        if (strcmp(dot, ends[i]) == 0)
+            return true;
+    return false;
+}
+
+static bool is_cpp(const char *argument)
+{
+    static const char *const ends[] = {".cc",  ".cp", ".cxx", ".cpp", ".CPP",
+                                       ".c++", ".C",  ".ii",  NULL};
+    return argument[0] != '-' && ends_in(argument, ends);
+}
+
+/* Whether the option before says what this argument is: it is no source. */
+static bool is_operand(char **argv, int i)
+{
+    static const char *const takes[] = {"-o",       "--output", "-x",      "-I",       "-L",
+                                        "-include", "-isystem", "-MF",     "-MT",      "-MQ",
+                                        "-Xlinker", "-T",       "-iquote", "-imacros", NULL};
+    for (int k = 0; i > 1 && takes[k]; k++)
+        if (strcmp(argv[i - 1], takes[k]) == 0)
+            return true;
+    return false;
+}
+
+static bool any_cpp(int argc, char **argv)
+{
+    for (int i = 1; i < argc; i++)
+        if ((is_cpp(argv[i]) && !is_operand(argv, i)) || strcmp(argv[i], "-xc++") == 0 ||
+            (strcmp(argv[i], "c++") == 0 && i > 1 && strcmp(argv[i - 1], "-x") == 0))
+            return true;
+    return false;
+}
+
+/* The compiler, by the variables that name it. */
+static char *compiler_of(bool cpp)
+{
+    static char cc[] = "cc", cxx[] = "c++";
+    char *named = getenv(cpp ? "CXX" : "CC");
+    return named && *named ? named : cpp ? cxx : cc;
+}
+
+/* Adds the program's arguments. Sources of C beside C++ stay C, unless an -x says what all are. */
+static void sources_add(struct compiler_line *line, int argc, char **argv, bool cpp)
+{
+    static const char *const ends[] = {".c", NULL};
+    static char language[] = "-xc", by_name[] = "-xnone";
+    const bool marks = cpp && !any_starts_with(argc, argv, "-x");
+    for (int i = 1; i < argc; i++) {
+        const bool c =
+            marks && argv[i][0] != '-' && ends_in(argv[i], ends) && !is_operand(argv, i);
+        if (c)
+            line_add(line, language);
+        line_add(line, argv[i]);
+        if (c)
+            line_add(line, by_name);
+    }
+}
+
 /* ---- the program, whole under its name ---- */
 
 /* The program's name: behind "-o" or "--output", or in one word with it, as "-oNAME" and "--output=NAME"; the last one counts.
@@ -125,8 +193,8 @@ static const char *output_find(const struct compiler_line *line)
 _Noreturn static void compiler_become(const struct compiler_line *line)
 {
     execvp(line->arguments[0], line->arguments);
-    fail("cc", "%s: %s; install a C compiler or name one in CC", line->arguments[0],
-         strerror(errno));
+    fail("cc", "%s: %s; install a %s compiler or name one in %s", line->arguments[0],
+         strerror(errno), line->cpp ? "C++" : "C", line->cpp ? "CXX" : "CC");
     _exit(EXIT_FAILED);
 }
 
@@ -312,24 +380,23 @@ int verb_cc(int argc, char **argv)
                     home);
 
     char *include_flag, *library_flag, *runtime_flag;
-    struct compiler_line line = {calloc((size_t)argc + 14, sizeof(char *)), 0};
+    const bool cpp = any_cpp(argc, argv);
+    struct compiler_line line = {calloc(3 * (size_t)argc + 14, sizeof(char *)), 0, cpp};
     if (!line.arguments || asprintf(&include_flag, "-I%s", include) < 0 ||
         asprintf(&library_flag, "-L%s", library) < 0 ||
         asprintf(&runtime_flag, "-Wl,-rpath,%s", library) < 0)
         return fail("cc", "no memory");
-    char *compiler = getenv("CC");
-    static char cc[] = "cc", gnu89[] = "-std=gnu89", paris[] = "-lparis", math[] = "-lm";
+    static char gnu89[] = "-std=gnu89", paris[] = "-lparis", math[] = "-lm";
     static char lines[] = "-g1", undeclared[] = "-Wimplicit-function-declaration";
-    line_add(&line, compiler && *compiler ? compiler : cc);
-    if (!any_starts_with(argc, argv, "-std=")) {
+    line_add(&line, compiler_of(cpp));
+    if (!cpp && !any_starts_with(argc, argv, "-std=")) {
         line_add(&line, gnu89);
         line_add(&line, undeclared);
     }
     if (!any_starts_with(argc, argv, "-g"))
         line_add(&line, lines);
     line_add(&line, include_flag);
-    for (int i = 1; i < argc; i++)
-        line_add(&line, argv[i]);
+    sources_add(&line, argc, argv, cpp);
     bool links = line_links(argc, argv);
     if (links) {
         line_add(&line, library_flag);

@@ -274,6 +274,7 @@ static const struct {
     {"info with words", {"info", "me"}, NULL, 2, "me", ""},
     {"unknown benchmark", {"bench", "nothing"}, NULL, 2, "nothing", "--help"},
     {"no compiler", {"cc", "x.c"}, "CC=/nowhere/cc", 1, "/nowhere/cc", "CC"},
+    {"no compiler of C++", {"cc", "x.cpp"}, "CXX=/nowhere/c++", 1, "/nowhere/c++", "CXX"},
 };
 
 enum { WRONGS_COUNT = sizeof wrongs / sizeof *wrongs };
@@ -565,7 +566,9 @@ int main(void)
         cmocka_unit_test(interrupt_leaves_nothing),
         cmocka_unit_test(cc_compiles_a_program_of_1990),
     };
-    size_t count = 10;
+    size_t count = 0;
+    while (tests[count].test_func)
+        count++;
     for (size_t i = 0; i < count; i++)
         tests[i].setup_func = begin_clean;
     for (size_t i = 0; i < WRONGS_COUNT; i++) {

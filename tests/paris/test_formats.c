@@ -306,12 +306,58 @@ static void front_end_agrees(void **unused)
     assert_non_null(strstr(device_message, "significand must be 1..52"));
 }
 
+/* Moves keep a NaN's bits, whether all processors have the same one or not, also under a context and where no message arrives; what an operation
+ * gives is *the* NaN. */
+static void nans_keep_their_bits(void **unused)
+{
+    static const struct soft_format formats[] = {{10, 5}, {3, 4}, {30, 10}, {51, 11}};
+    static uint64_t nans[MANY], got[MANY];
+    (void)unused;
+    for (size_t k = 0; k < sizeof formats / sizeof *formats; k++) {
+        const unsigned int s = (unsigned int)formats[k].s, e = (unsigned int)formats[k].e;
+        const uint64_t ones = (UINT64_C(1) << e) - 1,
+                       the = (ones << 1 | 1) << (s - 1) | UINT64_C(1) << (s + e);
+        for (int alike = 0; alike < 2; alike++) {
+            start(formats[k]);
+            for (int n = 0; n < MANY; n++) {
+                uint64_t any = alike ? 5 : (uint64_t)n * UINT64_C(0x9e3779b97f4a7c15);
+                uint64_t fraction = (any >> 7) & ((UINT64_C(1) << s) - 1);
+                nans[n] = (any & 1) << (s + e) | ones << s | (fraction ? fraction : 1);
+            }
+            const CM_field_id_t from = field_of(s + e + 1, nans),
+                                to = CM_allocate_stack_field(s + e + 1),
+                                address = CM_allocate_stack_field(32),
+                                one = CM_allocate_stack_field(s + e + 1);
+            if (alike) /* a number for the machine */
+                CM_u_move_constant_1L(from, nans[0], s + e + 1);
+            CM_f_move_1L(to, from, s, e);
+            CM_u_move_zero_1L(address, 32);
+            CM_f_move_constant_1L(one, 1.0, s, e);
+            CM_send_with_f_add_1L(to, address, one, s, e, CM_no_field); /* all to one */
+            CM_clear_context();
+            CM_f_add_2_1L(to, one, s, e);
+            CM_set_context();
+            numbers_of(to, s + e + 1, got);
+            for (int n = 1; n < MANY; n++)
+                if (got[n] != nans[n])
+                    fail_msg("%u, %u: a NaN %llx became %llx", s, e,
+                             (unsigned long long)nans[n], (unsigned long long)got[n]);
+            assert_true(got[0] == the);
+            CM_f_add_2_1L(to, one, s, e);
+            numbers_of(to, s + e + 1, got);
+            for (int n = 0; n < MANY; n++)
+                assert_true(got[n] == the);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(half_precision_agrees),
         cmocka_unit_test(long_format_agrees),
         cmocka_unit_test(front_end_agrees),
+        cmocka_unit_test(nans_keep_their_bits),
     };
     return cmocka_run_group_tests_name("paris: floats of other lengths", tests, NULL, NULL);
 }

@@ -54,6 +54,12 @@ enum op_nan {
     NAN_STRANGE, /* memory: the program's own NaNs, with any bits */
 };
 
+/* Whether it reads the bits of its operand, of a NaN's, too. */
+static inline bool node_reads_bits(int op)
+{
+    return op == NODE_REINTERPRET || op == NODE_PACK;
+}
+
 /* The front end's folding, where all operands are numbers. */
 enum op_fold {
     FOLD_NEVER,

@@ -468,7 +468,7 @@ static void emit_operation(struct emitter *e, char *out, size_t size, const stru
 {
     struct operand in[3] = {{""}, {""}, {""}};
     for (int i = 0; i < node_ops[n->op].inputs; i++) {
-        bool want = n->op == NODE_SELECT ? canonical : n->op == NODE_REINTERPRET;
+        bool want = n->op == NODE_SELECT ? canonical : node_reads_bits(n->op);
         in[i] = emit_value(e, plan_input(e->g, n, i, e->stage), row, dx, want);
     }
     struct machine_type from = e->g->nodes[n->in[0]].type;

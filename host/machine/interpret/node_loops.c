@@ -31,10 +31,12 @@ static bool is_soft(const struct plan_node *n, struct machine_type from)
     }
 }
 
+/* What moves numbers of the format has no need to, and keeps NaNs' bits. */
 bool node_rounds(const struct plan_node *n)
 {
+    const bool moves = n->op == NODE_SELECT || n->op == NODE_UNPACK;
     return n->type.s && n->op != MACHINE_FNEG && n->op != MACHINE_FABS &&
-           n->op != MACHINE_FMIN && n->op != MACHINE_FMAX && n->op != NODE_SELECT;
+           n->op != MACHINE_FMIN && n->op != MACHINE_FMAX && !moves;
 }
 
 lanes_function *node_loop(const struct plan_node *n, struct machine_type from)

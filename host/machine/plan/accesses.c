@@ -216,7 +216,7 @@ static void operate(struct accesses *a, const struct plan_node *n, int row, int 
     INVARIANT(n->op != NODE_GATHER &&
               n->op != NODE_CROSS); /* choose.c: kernels that are asked about have none */
     for (int k = 0; k < inputs; k++) {
-        bool want = n->op == NODE_SELECT ? canonical : n->op == NODE_REINTERPRET;
+        bool want = n->op == NODE_SELECT ? canonical : node_reads_bits(n->op);
         in[k] = walk(a, plan_input(a->g, n, k, a->stage), row, dx, want);
     }
     struct machine_type from = a->g->nodes[n->in[0]].type;
@@ -274,7 +274,7 @@ void accesses_find_bits(const struct plan_graph *g, bool *bits_matter)
 {
     for (int i = g->count - 1; i >= 0; i--) {
         const struct plan_node *n = &g->nodes[i];
-        bool bits = n->op == NODE_REINTERPRET ||
+        bool bits = node_reads_bits(n->op) ||
                     ((n->op == NODE_SELECT || n->op == NODE_SHIFT || n->op == NODE_CROSS) &&
                      (n->target || bits_matter[i]));
         for (int k = 0; bits && !n->leaf && k < node_ops[n->op].inputs; k++) {
