@@ -233,7 +233,7 @@ __kernel void diffusion_y_in_place(SHEET_AND_CONSTANTS)
     for (int y = Y1 - 1; y >= Y0; y--) {
         long row = (long)y * PITCH;
         for (int x = begin; x < end; x += 16) {
-            vector *f = flow[x % STRIP / 16];
+            __private vector *f = flow[x % STRIP / 16];
             long k = row + x;
             if (x >= X0 && x + 16 <= X1)
                 vector_in_place(sheet, c, k - PITCH, k, f, f, false, 0, false);
