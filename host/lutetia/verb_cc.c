@@ -355,6 +355,24 @@ static int impossible_refuse(int argc, char **argv)
     return EXIT_SUCCESS;
 }
 
+/* Refuses sources and objects that are pipes, devices or folders: compilers wait for them. What is missing they tell themselves. */
+static int others_refuse(int argc, char **argv)
+{
+    static const char *const ends[] = {".c",   ".i", ".s", ".S", ".cc",
+                                       ".cpp", ".o", ".a", ".so"};
+    for (int i = 1; i < argc; i++) {
+        struct stat status;
+        const char *end = strrchr(argv[i], '.');
+        bool file = false;
+        for (size_t k = 0; end && k < sizeof ends / sizeof *ends; k++)
+            file = file || strcmp(end, ends[k]) == 0;
+        if (file && argv[i][0] != '-' && strcmp(argv[i - 1], "-o") != 0 &&
+            stat(argv[i], &status) == 0 && !S_ISREG(status.st_mode))
+            return fail("cc", "%s: cannot read: Is not a regular file; name a file", argv[i]);
+    }
+    return EXIT_SUCCESS;
+}
+
 int verb_cc(int argc, char **argv)
 {
     if (argc < 2) {
@@ -364,6 +382,8 @@ int verb_cc(int argc, char **argv)
     if (any_is(argc, argv, "--help") || any_is(argc, argv, "-h"))
         return help_print("cc", NULL, NULL);
     int status = impossible_refuse(argc, argv);
+    if (status == EXIT_SUCCESS)
+        status = others_refuse(argc, argv);
     if (status != EXIT_SUCCESS)
         return status;
     char home[4096];

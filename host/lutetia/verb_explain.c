@@ -95,8 +95,11 @@ static bool is_source(const char *name)
 
 static int compile(const struct explain *e, const char *source)
 {
-    if (access(source, R_OK) != 0)
-        return fail("explain", "%s: cannot read: %s", source, strerror(errno));
+    const char *why;
+    const int found = input_file_descriptor(source, &why);
+    if (found < 0)
+        return fail("explain", "%s: cannot read: %s", source, why);
+    close(found);
     fflush(NULL);
     pid_t child = fork();
     if (child < 0)

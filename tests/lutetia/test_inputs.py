@@ -19,7 +19,7 @@ BAD = re.compile(rb"[\x00-\x08\x0b-\x1f\x7f]|\xc2[\x80-\x9f]|\xe2\x80[\xa8-\xae]
 
 def kinds_make(at):
     """Names of what is no file: each also with the ending of a script, by which maps are told apart."""
-    for end in ("", ".lua"):
+    for end in ("", ".lua", ".c"):
         os.mkfifo(at / ("pipe" + end))
         (at / ("folder" + end)).mkdir()
         listener = socket.socket(socket.AF_UNIX)

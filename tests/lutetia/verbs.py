@@ -119,6 +119,8 @@ INPUTS = [
     ("run", "resume", ["run", "nothing.lua", "-q", "--resume", "@"]),
     ("leds", None, ["leds", "@", "-o", "o.png"]),
     ("explain", None, ["explain", "@"]),
+    ("cc", None, ["cc", "@.c", "-o", "o.prog"]),
+    ("explain", None, ["explain", "@.c"]),
     ("keys", None, ["keys", "@", "-o", "o.png"]),
     ("keys", "map", ["keys", "song.mid", "--map", "@", "-o", "o.png"]),
     ("keys", "map", ["keys", "song.mid", "--map", "@.lua", "--still", "o.png"]),
