@@ -4,6 +4,7 @@
 #include "harness.h"
 
 #include <errno.h>
+#include <part_files.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <streams.h>
@@ -116,6 +117,7 @@ static int bench(int argc, char **argv)
 int main(int argc, char **argv)
 {
     streams_fill();
+    part_files_catch();
     int status = bench(argc, argv);
     if (streams_end() || status != EXIT_SUCCESS)
         return status;

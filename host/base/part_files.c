@@ -21,6 +21,7 @@ static struct noted {
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static int names_count;
+static bool for_good; /* part_files_catch() was called */
 
 /* Those whose default action ends the process and that are no timer's or debugger's. */
 static const int deadly[] = {SIGHUP,  SIGINT, SIGQUIT, SIGTERM, SIGPIPE, SIGALRM, SIGILL,
@@ -53,6 +54,14 @@ static void catch_all(bool on)
         if (sigaction(deadly[i], NULL, &now) == 0 && !(now.sa_flags & SA_SIGINFO) &&
             now.sa_handler == (on ? SIG_DFL : part_files_die))
             sigaction(deadly[i], on ? &ours : &usual, NULL);
+}
+
+void part_files_catch(void)
+{
+    pthread_mutex_lock(&lock);
+    for_good = true;
+    catch_all(true);
+    pthread_mutex_unlock(&lock);
 }
 
 /* A forked child begins with none of its parent's names. */
@@ -97,7 +106,7 @@ void part_file_forget(int number)
     struct noted *n = &names[number - 1];
     if (atomic_load(&n->here) && n->owner == getpid()) {
         atomic_store(&n->here, false);
-        if (--names_count == 0)
+        if (--names_count == 0 && !for_good)
             catch_all(false);
     }
     pthread_mutex_unlock(&lock);

@@ -20,6 +20,10 @@ int part_file_note(int folder, const char *name);
 /* 0 is fine. */
 void part_file_forget(int number);
 
+/* Catches those signals from now on, as long as the process lives, and not only while names are noted: called first in main(). Libraries
+ * that catch signals (a driver's compiler) then pass them on to us; else they would be asked first, and we not at all. */
+void part_files_catch(void);
+
 /* The handler: removes the names, and ends the process by the signal. May be called in handlers. */
 void part_files_die(int signal_number);
 

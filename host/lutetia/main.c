@@ -2,6 +2,7 @@
 #include "help.h"
 #include "lutetia.h"
 
+#include <part_files.h>
 #include <script.h>
 #include <streams.h>
 
@@ -122,6 +123,7 @@ int main(int argc, char **argv)
 {
     const char *name = NULL;
     streams_fill();
+    part_files_catch();
     int status = verb_run_named(argc, argv, &name);
     if (!streams_end() && status == EXIT_SUCCESS)
         status = fail(name, "cannot write to the standard output");

