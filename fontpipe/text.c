@@ -286,3 +286,40 @@ int font_shaper_face_for(struct font_shaper *s, uint32_t character)
         *known = (struct font_known){character, face};
     return face;
 }
+
+/* Whether the face has colours, and all that is seen of a picture. */
+static bool has_picture(const struct font_shaper *s, int face, const uint32_t *c, int count)
+{
+    struct font_face *of = s->faces[face].face;
+    bool coloured = false;
+    for (int i = 0; i < count; i++) {
+        uint32_t glyph = font_face_glyph(of, c[i]);
+        if (font_text_invisible(c[i])) /* what joins them */
+            continue;
+        if (!glyph)
+            return false;
+        coloured = coloured || font_colour_of(of, glyph) != FONT_COLOUR_NONE;
+    }
+    return coloured;
+}
+
+int font_shaper_face_for_picture(struct font_shaper *s, const uint32_t *characters, int count)
+{
+    if (!s->colour)
+        return -1;
+    if (has_picture(s, 0, characters, count))
+        return 0;
+    if (!s->candidates)
+        candidates_find(s);
+    for (int i = 0; s->candidates && i < s->candidates->nfont; i++) {
+        FcBool coloured = FcFalse;
+        if (FcPatternGetBool(s->candidates->fonts[i], FC_COLOR, 0, &coloured) !=
+                FcResultMatch ||
+            !coloured)
+            continue;
+        int face = candidate_open(s, i, characters[0]);
+        if (face >= 0 && has_picture(s, face, characters, count))
+            return face;
+    }
+    return -1;
+}

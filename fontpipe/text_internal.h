@@ -38,16 +38,28 @@ struct font_shaper {
 void font_shaped_refresh(struct font_shaped_face *face);
 /* A face of the shaper that has the character, opened if need be; -1 if there is none. */
 int font_shaper_face_for(struct font_shaper *shaper, uint32_t character);
+/* The same for a picture of several characters, of a face in colours that has all of them; -1 also where pictures are not welcome. */
+int font_shaper_face_for_picture(struct font_shaper *shaper, const uint32_t *characters,
+                                 int count);
 
 /* text_runs.c: nothing is drawn for it, so no font need have it; a mark, which goes with its letter; white space; a new line, and
  * what Unicode has beside it. */
 bool font_text_invisible(uint32_t character);
 bool font_text_mark(uint32_t character);
 bool font_text_white(uint32_t character);
+/* How many characters from here on are one picture in colours that is told by several of them (UTS 51): a flag's letters, a keycap, a sign
+ * with U+FE0F, with a skin, joined to others. 0: none is. */
+int font_text_picture(const uint32_t *characters, int count);
+/* Whether letters of the script are joined to each other: nothing may part them. */
+bool font_text_joins(hb_script_t script);
 bool font_text_ends_line(uint32_t character);
 /* text_lines.c: a feature's text, like kern=0, of that length. False: it is none. HarfBuzz since 10 takes any signs for a name; these are letters,
  * digits and low lines. */
 bool font_feature_read(const char *text, int length, hb_feature_t *out);
+/* Adds what a distance between letters switches off: features that make one form of several letters, before those that were asked for.
+ * features: room for FONT_APART more. */
+enum { FONT_APART = 4 };
+void font_features_apart(hb_feature_t *features, unsigned *count);
 /* Common and inherited characters go with those before them, at the beginning with those behind. */
 void font_scripts_choose(const uint32_t *characters, int count, hb_script_t *scripts);
 /* line_ends.c: where lines may end (UAX 14), by libunibreak's signs, of the place behind each character. False: no memory. */

@@ -52,9 +52,21 @@ void font_layout_missing_add(struct font_layout *out, uint32_t c)
 static void faces_choose(struct font_shaper *s, struct paragraph *p, bool fallback,
                          struct font_layout *out)
 {
+    for (int i = 0; i < p->count; i++)
+        p->characters[i] = p->letters[i].character;
     for (int i = 0; i < p->count; i++) {
         struct letter *l = &p->letters[i];
         int before = i ? p->letters[i - 1].face : 0;
+        int picture = font_text_picture(p->characters + i, p->count - i), whole = -1;
+        if (picture && fallback)
+            whole = font_shaper_face_for_picture(s, p->characters + i, picture);
+        if (whole >= 0) {
+            out->fallback_count += whole > 0 ? picture : 0;
+            for (int k = 0; k < picture; k++)
+                l[k].face = whole;
+            i += picture - 1;
+            continue;
+        }
         l->face = before;
         if (font_text_invisible(l->character))
             continue;
@@ -74,8 +86,6 @@ static void faces_choose(struct font_shaper *s, struct paragraph *p, bool fallba
 
 static void scripts_choose(struct paragraph *p)
 {
-    for (int i = 0; i < p->count; i++)
-        p->characters[i] = p->letters[i].character;
     font_scripts_choose(p->characters, p->count, p->scripts);
     for (int i = 0; i < p->count; i++)
         p->letters[i].script = p->scripts[i];
@@ -175,12 +185,24 @@ static enum font_status features_read(struct shaping *g)
     return FONT_OK;
 }
 
+/* The distance between the run's letters; scripts whose letters join have none. */
+static double spacing_of(const struct shaping *g, const struct paragraph *p,
+                         const struct font_run *run)
+{
+    return font_text_joins(p->letters[run->begin].script) ? 0 : g->options->letter_spacing_px;
+}
+
 /* Shapes the run: what the shaper's buffer then holds. */
 static enum font_status run_shape(struct shaping *g, const struct paragraph *p,
                                   const struct font_run *run, double *scale)
 {
     struct font_shaped_face *face = &g->shaper->faces[p->letters[run->begin].face];
     hb_buffer_t *buffer = g->shaper->buffer;
+    hb_feature_t features[FEATURES_MAX + FONT_APART];
+    unsigned features_count = g->features_count;
+    memcpy(features, g->features, sizeof g->features);
+    if (spacing_of(g, p, run) != 0)
+        font_features_apart(features, &features_count);
     font_shaped_refresh(face);
     hb_buffer_clear_contents(buffer);
     /* The letters around are context: an Arabic letter joins across a change of face. */
@@ -189,7 +211,7 @@ static enum font_status run_shape(struct shaping *g, const struct paragraph *p,
     hb_buffer_set_direction(buffer, run->level & 1 ? HB_DIRECTION_RTL : HB_DIRECTION_LTR);
     hb_buffer_set_script(buffer, p->letters[run->begin].script);
     hb_buffer_set_language(buffer, g->language);
-    hb_shape(face->hb, buffer, g->features_count ? g->features : NULL, g->features_count);
+    hb_shape(face->hb, buffer, features_count ? features : NULL, features_count);
     *scale = g->size_px / face->units_per_em;
     if (!hb_buffer_allocation_successful(buffer) ||
         hb_buffer_get_length(buffer) > 8 * (unsigned)CHARACTERS_MAX)
@@ -198,12 +220,11 @@ static enum font_status run_shape(struct shaping *g, const struct paragraph *p,
 }
 
 /* What a glyph moves the pen by. Space is added between letters, not between the marks of one. */
-static double pen_step(const struct shaping *g, const hb_glyph_info_t *infos,
-                       const hb_glyph_position_t *positions, unsigned i, unsigned count,
-                       double scale)
+static double pen_step(const hb_glyph_info_t *infos, const hb_glyph_position_t *positions,
+                       unsigned i, unsigned count, double scale, double spacing)
 {
     bool last = i + 1 == count || infos[i + 1].cluster != infos[i].cluster;
-    return positions[i].x_advance * scale + (last ? g->options->letter_spacing_px : 0);
+    return positions[i].x_advance * scale + (last ? spacing : 0);
 }
 
 /* Appends the run's glyphs from *pen on. */
@@ -230,7 +251,7 @@ static enum font_status run_set(struct shaping *g, const struct paragraph *p,
                                  .cluster = p->letters[infos[i].cluster].byte,
                                  .line = line,
                                  .is_mark = positions[i].x_advance == 0};
-        *pen += pen_step(g, infos, positions, i, count, scale);
+        *pen += pen_step(infos, positions, i, count, scale, spacing_of(g, p, run));
     }
     return FONT_OK;
 }
@@ -253,7 +274,8 @@ static enum font_status advances_find(struct shaping *g, struct paragraph *p)
         hb_glyph_position_t *positions =
             hb_buffer_get_glyph_positions(g->shaper->buffer, &count);
         for (unsigned i = 0; i < count; i++) {
-            p->advances[infos[i].cluster] += pen_step(g, infos, positions, i, count, scale);
+            p->advances[infos[i].cluster] +=
+                pen_step(infos, positions, i, count, scale, spacing_of(g, p, &p->runs[r]));
             p->clusters[infos[i].cluster] = true;
         }
     }
@@ -329,7 +351,7 @@ static enum font_status line_set(struct shaping *g, struct paragraph *p, int beg
     for (int i = 0; i < p->runs_count && status == FONT_OK; i++)
         status = run_set(g, p, &p->runs[i], out->lines_count, y, width_px, out);
     if (p->runs_count) /* between letters: not behind the last */
-        *width_px -= g->options->letter_spacing_px;
+        *width_px -= spacing_of(g, p, &p->runs[p->runs_count - 1]);
     if (hyphen)
         p->characters[end - 1] = kept;
     return status;

@@ -29,6 +29,89 @@ bool font_text_white(uint32_t c)
            (c >= 0x2000 && c <= 0x200a && c != 0x2007) || c == 0x205f || c == 0x3000;
 }
 
+bool font_text_joins(hb_script_t script)
+{
+    static const hb_script_t joined[] = {HB_SCRIPT_ARABIC,         HB_SCRIPT_SYRIAC,
+                                         HB_SCRIPT_MONGOLIAN,      HB_SCRIPT_NKO,
+                                         HB_SCRIPT_ADLAM,          HB_SCRIPT_MANDAIC,
+                                         HB_SCRIPT_MANICHAEAN,     HB_SCRIPT_PHAGS_PA,
+                                         HB_SCRIPT_SOGDIAN,        HB_SCRIPT_HANIFI_ROHINGYA,
+                                         HB_SCRIPT_PSALTER_PAHLAVI};
+    for (size_t i = 0; i < sizeof joined / sizeof *joined; i++)
+        if (script == joined[i])
+            return true;
+    return false;
+}
+
+void font_features_apart(hb_feature_t *features, unsigned *count)
+{
+    static const char names[FONT_APART][5] = {"liga", "clig", "dlig", "hlig"};
+    for (unsigned i = *count; i > 0; i--)
+        features[i - 1 + FONT_APART] = features[i - 1];
+    for (int i = 0; i < FONT_APART; i++)
+        features[i] =
+            (hb_feature_t){.tag = HB_TAG(names[i][0], names[i][1], names[i][2], names[i][3]),
+                           .end = HB_FEATURE_GLOBAL_END};
+    *count += FONT_APART;
+}
+
+/* ---- pictures of several characters ---- */
+
+enum { JOINER = 0x200d, PICTURED = 0xfe0f, KEYCAP = 0x20e3 };
+
+static bool is_region(uint32_t c)
+{
+    return c >= 0x1f1e6 && c <= 0x1f1ff;
+}
+
+static bool is_skin(uint32_t c)
+{
+    return c >= 0x1f3fb && c <= 0x1f3ff;
+}
+
+/* What may be a picture: Unicode's Extended_Pictographic, and a few signs in its blocks that nothing joins. */
+static bool is_pictographic(uint32_t c)
+{
+    return c == 0xa9 || c == 0xae || c == 0x203c || c == 0x2049 || c == 0x2122 || c == 0x2139 ||
+           (c >= 0x2190 && c <= 0x2bff) || c == 0x3030 || c == 0x303d || c == 0x3297 ||
+           c == 0x3299 || (c >= 0x1f000 && c <= 0x1faff && !is_region(c));
+}
+
+/* One picture's characters: itself, that it is one, its skin, a flag's letters. *told: there is one of these. */
+static int picture_length(const uint32_t *c, int count, bool *told)
+{
+    int n = 1;
+    for (; n < count; n++) {
+        bool more = c[n] == PICTURED || is_skin(c[n]) || c[n] == KEYCAP ||
+                    (c[n] >= 0xe0020 && c[n] <= 0xe007f);
+        if (!more)
+            break;
+        *told = true;
+    }
+    return n;
+}
+
+int font_text_picture(const uint32_t *c, int count)
+{
+    if (count < 2)
+        return 0;
+    if (is_region(c[0]))
+        return is_region(c[1]) ? 2 : 0;
+    if ((c[0] >= '0' && c[0] <= '9') || c[0] == '#' || c[0] == '*') {
+        int n = c[1] == PICTURED ? 2 : 1;
+        return n < count && c[n] == KEYCAP ? n + 1 : 0;
+    }
+    if (!is_pictographic(c[0]))
+        return 0;
+    bool told = false;
+    int n = picture_length(c, count, &told);
+    while (n + 1 < count && c[n] == JOINER && is_pictographic(c[n + 1])) {
+        told = true;
+        n += 1 + picture_length(c + n + 1, count - n - 1, &told);
+    }
+    return told ? n : 0;
+}
+
 /* A new line, and what Unicode has beside it. */
 bool font_text_ends_line(uint32_t c)
 {
@@ -46,7 +129,9 @@ void font_scripts_choose(const uint32_t *characters, int count, hb_script_t *scr
             for (int k = 0; k < i; k++)
                 scripts[k] = script;
         known = shared ? known : script;
-        scripts[i] = shared && known != HB_SCRIPT_INVALID ? known : script;
+        scripts[i] = !shared                      ? script
+                     : known != HB_SCRIPT_INVALID ? known
+                                                  : HB_SCRIPT_COMMON; /* a joiner, too */
     }
 }
 

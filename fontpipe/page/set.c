@@ -45,12 +45,30 @@ static void letters_read(struct paragraph *p)
     }
 }
 
+/* The length of a picture of several characters, all of one style, that begins at letter i; 0: there is none. */
+static int picture_of(const struct paragraph *p, int i)
+{
+    int n = font_text_picture(p->characters + i, p->count - i);
+    for (int k = 1; k < n; k++)
+        if (p->letters[i + k].style != p->letters[i].style)
+            return 0;
+    return n;
+}
+
 static void faces_choose(struct page_text *t, struct paragraph *p)
 {
     for (int i = 0; i < p->count; i++) {
         struct letter *l = &p->letters[i];
         struct font_shaper *s = t->styles[l->style]->shaper;
         int before = i && p->letters[i - 1].style == l->style ? p->letters[i - 1].face : 0;
+        int picture = picture_of(p, i);
+        int whole = picture ? font_shaper_face_for_picture(s, p->characters + i, picture) : -1;
+        if (whole >= 0) {
+            for (int k = 0; k < picture; k++)
+                l[k].face = (int16_t)whole;
+            i += picture - 1;
+            continue;
+        }
         l->face = (int16_t)before;
         if (is_control(l->character) || font_text_invisible(l->character))
             continue;
@@ -168,7 +186,13 @@ enum font_status set_shape(struct page_text *t, const struct paragraph *p,
                                                      : HB_DIRECTION_LTR);
     hb_buffer_set_script(buffer, p->letters[begin].script);
     hb_buffer_set_language(buffer, style->hb_language);
-    hb_shape(face->hb, buffer, style->hb_features, style->features_count);
+    bool apart = style->look.spacing_px != 0 && !font_text_joins(p->letters[begin].script);
+    hb_feature_t features[sizeof style->hb_features / sizeof *style->hb_features + FONT_APART];
+    unsigned features_count = style->features_count;
+    memcpy(features, style->hb_features, sizeof style->hb_features);
+    if (apart)
+        font_features_apart(features, &features_count);
+    hb_shape(face->hb, buffer, features, features_count);
     unsigned n;
     hb_glyph_info_t *infos = hb_buffer_get_glyph_infos(buffer, &n);
     hb_glyph_position_t *at = hb_buffer_get_glyph_positions(buffer, &n);
@@ -181,7 +205,7 @@ enum font_status set_shape(struct page_text *t, const struct paragraph *p,
     for (unsigned i = 0; i < n; i++) {
         struct shaped *g = &(*out)[*count + (int)i];
         bool last = i + 1 == n || infos[i + 1].cluster != infos[i].cluster;
-        double spacing = last ? style->look.spacing_px : 0;
+        double spacing = last && apart ? style->look.spacing_px : 0;
         *g = (struct shaped){.glyph = infos[i].codepoint, .letter = (int32_t)infos[i].cluster};
         if (run->upright) {
             g->advance_px = (float)(-at[i].y_advance * scale + spacing);

@@ -119,7 +119,8 @@ static enum font_status face_share(struct page_text *t, const struct page_style 
         return no_memory();
     struct shared_face *s = &t->faces[t->faces_count];
     *s = (struct shared_face){0};
-    enum font_status status = font_face_open(look->font, 0, &s->face);
+    enum font_status status =
+        (t->colour ? font_face_open_coloured : font_face_open)(look->font, 0, &s->face);
     if (status == FONT_OK)
         status = font_face_axes_set(s->face, look->axes);
     if (status == FONT_OK)

@@ -106,9 +106,9 @@ int type_image_write(const char *verb, const char *path, const struct display_im
 }
 
 int type_face_open(const char *verb, const char *name, int index, const char *axes,
-                   struct font_face **out)
+                   bool coloured, struct font_face **out)
 {
-    if (font_face_open(name, index, out) != FONT_OK)
+    if ((coloured ? font_face_open_coloured : font_face_open)(name, index, out) != FONT_OK)
         return fail_font(verb);
     enum font_status status = font_face_axes_set(*out, axes);
     if (status != FONT_OK) {

@@ -29,9 +29,9 @@ void type_text_check(const char *verb, const char *font, struct font_face *face,
                      const char *text);
 int type_image_write(const char *verb, const char *path, const struct display_image *image);
 
-/* Opens a font and sets axes, "wght=700,wdth=80". */
+/* Opens a font and sets axes, "wght=700,wdth=80". coloured: also one that has nothing but pictures in colours. */
 int type_face_open(const char *verb, const char *name, int index, const char *axes,
-                   struct font_face **out);
+                   bool coloured, struct font_face **out);
 
 /* Gets a filter's name; for one that begins with @, the words of that file, separated by
  * commas. The caller frees *out. */

@@ -558,7 +558,7 @@ int verb_font(int argc, char **argv)
         return status;
     }
     struct font_face *face = NULL;
-    status = type_face_open("font", v.file, v.face, v.axes, &face);
+    status = type_face_open("font", v.file, v.face, v.axes, false, &face);
     if (status == EXIT_SUCCESS) {
         face_print(face);
         status = v.glyph ? levels_make(&v, face) : specimen_make(&v, face);

@@ -201,7 +201,7 @@ static int song_take(struct keys_work *w, const char *path)
         return fail_usage("keys", "--text: there is no letter in it");
     if (w->map && !keys_letters_file(w->map, &w->letters, why, sizeof why))
         return fail("keys", "--map: %s", why);
-    int status = type_face_open("keys", w->font, 0, w->axes, &w->face);
+    int status = type_face_open("keys", w->font, 0, w->axes, false, &w->face);
     if (status != EXIT_SUCCESS)
         return status;
     letters_check(w);
@@ -452,7 +452,7 @@ static int window_open(struct keys_work *w)
     char why[300];
     if (w->map && !keys_letters_file(w->map, &w->letters, why, sizeof why))
         return fail("keys", "--map: %s", why);
-    int status = type_face_open("keys", w->font, 0, w->axes, &w->face);
+    int status = type_face_open("keys", w->font, 0, w->axes, false, &w->face);
     const struct keys_live live = live_of(w);
     return status == EXIT_SUCCESS ? keys_live_window(&live) : status;
 }

@@ -321,7 +321,7 @@ int verb_type(int argc, char **argv)
         status = type_filter_read("type", t.filter, &filter);
     t.filter = filter;
     if (status == EXIT_SUCCESS && !help)
-        status = type_face_open("type", t.font, t.face, t.axes, &face);
+        status = type_face_open("type", t.font, t.face, t.axes, true, &face);
     if (status == EXIT_SUCCESS && !help)
         status = type_run(&t, face);
     type_ink_finish(&t.more);

@@ -281,7 +281,7 @@ static void type_def_take(struct voice_work *w)
 
 static int face_take(struct voice_work *w)
 {
-    int status = type_face_open("voice", w->font, 0, w->axes, &w->face);
+    int status = type_face_open("voice", w->font, 0, w->axes, false, &w->face);
     if (status != EXIT_SUCCESS)
         return status;
     if (w->def.mapping.feature[TYPE_WEIGHT] != VOICE_NOTHING && !axis_there(w->face, "wght"))
