@@ -39,7 +39,7 @@ def reason(test, name):
         end = re.search(r"^\[ *SKIPPED *\] " + name + "$", text, re.MULTILINE)
         text = text[:end.start()] if end else text
     said = [line.strip() for line in text.splitlines() if line.strip() and not line.startswith("[")]
-    return said[-1] if said else "no reason was printed"
+    return said[-1].removeprefix("skipped: ") if said else "no reason was printed"
 
 
 def main(path):
