@@ -2,6 +2,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include <part_files.h>
+
 #include "explain.h"
 #include "paris_state.h"
 
@@ -36,6 +38,9 @@ bool paris_machine_make(void)
         config_now = machine_config_default();
     struct machine *m = NULL;
     struct machine_config config = config_now;
+    const char *leds = getenv("LUTETIA_LEDS");
+    if (leds && *leds) /* whose file is opened after the driver's compiler has caught signals */
+        part_files_catch();
     config.explain = config.explain || paris_explain_wanted();
     if (machine_create(&config, &m) != MACHINE_OK) {
         paris_fail_without(m);
