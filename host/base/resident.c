@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 struct pages {
-    double resident, shared, data;
+    double resident, data;
 };
 
 static bool pages_read(struct pages *pages)
@@ -21,15 +21,13 @@ static bool pages_read(struct pages *pages)
     if (count <= 0)
         return false;
     text[count] = '\0';
-    return sscanf(text, "%*s %lf %lf %*s %*s %lf", &pages->resident, &pages->shared,
-                  &pages->data) == 3;
+    return sscanf(text, "%*s %lf %*s %*s %*s %lf", &pages->resident, &pages->data) == 2;
 }
 
-double resident_own_bytes(void)
+double resident_bytes(void)
 {
     struct pages pages;
-    return pages_read(&pages) ? (pages.resident - pages.shared) * (double)sysconf(_SC_PAGESIZE)
-                              : 0;
+    return pages_read(&pages) ? pages.resident * (double)sysconf(_SC_PAGESIZE) : 0;
 }
 
 void resident_limit(double more_bytes)

@@ -4,9 +4,9 @@
 
 #include <stdbool.h>
 
-/* Bytes in memory that are this process's own: not what it shows of files, as libraries are. 0 where the system does not tell.
- * Takes some microseconds. Threads: any. */
-double resident_own_bytes(void);
+/* Bytes of this process that are in memory, those of libraries' files too. 0 where the system does not tell. Takes some
+ * microseconds. Threads: any. */
+double resident_bytes(void);
 
 /* The system's limit: from now on this process gets at most that much writable memory more than it has. What asks for more is
  * refused. */

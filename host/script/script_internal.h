@@ -30,7 +30,6 @@ struct script_watchdog {
     pthread_mutex_t lock;
     pthread_cond_t changed;
     bool running, over, paused; /* under the lock */
-    double own_before_bytes;    /* what the process took when the script began */
     double grace_from_s;        /* under the lock: the grace period begins at this time at
                                  * the earliest */
     atomic_bool at_work;
@@ -90,10 +89,9 @@ void script_limits_open(lua_State *L);
 /* The memory that may still be allocated. */
 double script_memory_left(const struct script *script);
 
-/* What the process takes besides what is counted: C's libraries, what is freed and not given back; and, where there are
- * papers, the machine and the compiler of kernels. */
+/* What the process takes besides what is counted: the program, C's libraries, what is freed and not given back. Papers need the machine,
+ * OpenCL's driver and its compiler, some 90 to 160 MB: they are of the script's memory, as far as they have no room here. */
 #define SCRIPT_BESIDES_BYTES ((double)(48 << 20))
-#define SCRIPT_MACHINE_BYTES ((double)(192 << 20))
 /* How much more than that and the script's memory the process takes; negative: it takes less, or it does not tell. */
 double script_overfull_bytes(const struct script *script);
 

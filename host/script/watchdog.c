@@ -12,12 +12,12 @@
 
 #include <time.h>
 
-#define LOOK_S 0.02 /* a process takes some 20 MB in that time */
+#define LOOK_S 0.004 /* a process takes some 4 MB in that time */
 #define PATIENCE                                                                               \
     30 /* the factor of the grace period while papers are at work that would be lost: kernels may have to be
         * compiled */
 #define OVERFULL_MORE_BYTES                                                                    \
-    ((double)(12 << 20)) /* what is over is told; so much more is ended */
+    ((double)(8 << 20)) /* what is over is told; so much more is ended */
 
 /* Whether the script should have stopped, and since when this is known. */
 static bool overdue(struct script *script, double *since_s)
@@ -67,7 +67,6 @@ static void *watch(void *context)
 bool script_watchdog_start(struct script *script)
 {
     struct script_watchdog *w = &script->watchdog;
-    w->own_before_bytes = resident_own_bytes();
     if (!script->host->overdue)
         return true;
     pthread_condattr_t attributes;
