@@ -4,6 +4,7 @@
 #include <resident.h>
 
 #include <malloc.h>
+#include <math.h>
 #include <stdio.h>
 
 /* ---- time ---- */
@@ -111,7 +112,7 @@ static bool process_tells(const struct script *script)
 double script_overfull_bytes(const struct script *script)
 {
     if (!process_tells(script))
-        return -1;
+        return -INFINITY;
     return resident_bytes() - (double)script->config->memory_bytes - SCRIPT_BESIDES_BYTES;
 }
 

@@ -328,8 +328,11 @@ static void walked(uint64_t seed, time_t until)
     script->over = true;
     script->deadline_s = 0;
     lua_close(L);
-    if (script->memory_bytes != 0)
-        found("memory is not given back", "");
+    if (script->memory_bytes != 0) {
+        char bytes[32];
+        snprintf(bytes, sizeof bytes, "%zu bytes", script->memory_bytes);
+        found("memory is not given back", bytes);
+    }
 }
 
 int main(int argc, char **argv)
