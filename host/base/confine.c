@@ -4,6 +4,7 @@
 #include "input_file.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <seccomp.h>
 #include <signal.h>
 #include <stdio.h>
@@ -32,6 +33,31 @@ void confine_resources(pid_t parent, unsigned cpu_seconds, unsigned long long me
 #else
     (void)memory_bytes;
 #endif
+}
+
+static void descriptors_close(unsigned first, unsigned last)
+{
+    if (first > last || close_range(first, last, 0) == 0)
+        return;
+    const long most = sysconf(_SC_OPEN_MAX); /* a kernel before 5.9 */
+    for (unsigned i = first; i <= last && i < (unsigned)most; i++)
+        close((int)i);
+}
+
+void confine_descriptors(const int *kept, int count)
+{
+    unsigned first = STDERR_FILENO + 1;
+    for (;;) { /* from each one that is kept to the next */
+        unsigned next = UINT_MAX;
+        for (int i = 0; i < count; i++)
+            if (kept[i] >= 0 && (unsigned)kept[i] >= first && (unsigned)kept[i] < next)
+                next = (unsigned)kept[i];
+        if (next == UINT_MAX)
+            break;
+        descriptors_close(first, next - 1);
+        first = next + 1;
+    }
+    descriptors_close(first, UINT_MAX);
 }
 
 /* The system calls, in glibc, for reading open files, allocating memory and exiting

@@ -3,6 +3,7 @@
  *
  *     pid_t parent = getpid(), child = fork();
  *     if (child == 0) {
+ *         confine_descriptors((int[]){file, pipe}, 2);
  *         confine_resources(parent, 300, memory_bytes);
  *         ... open the one file that is to be read
  *         confine_calls();
@@ -22,6 +23,10 @@
  * memory grows by at most so many bytes from now on (0: any number). Memory is not limited where the address sanitizer
  * keeps terabytes of addresses for itself. Called in a child, soon after fork(). */
 void confine_resources(pid_t parent, unsigned cpu_seconds, unsigned long long memory_bytes);
+
+/* Closes all that is open but the standard streams and these: what the parent has open is none of a reader's business. Called in a
+ * child. */
+void confine_descriptors(const int *kept, int count);
 
 /* From now on the process can read and write what it has open, ask for memory, tell the time and exit. Every other call of
  * the system (open, socket, fork, exec, kill, ...) fails with EPERM, for good: seccomp. False: the system has no seccomp; nothing

@@ -68,6 +68,7 @@ static int stage_make(const struct keys_live *def, struct stage **out)
     actor.text = def->text;
     actor.letters = def->letters;
     actor.keys = def->keys;
+    stage.forgets = true;
     if (def->theme)
         stage.theme = def->theme;
     if (def->wet) {

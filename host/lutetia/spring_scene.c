@@ -173,6 +173,7 @@ enum stage_status spring_scene_make(const struct spring_scene_def *def,
     struct stage_def stage = stage_def_default();
     *out = (struct spring_scene){0};
     stage.theme = def->theme;
+    stage.forgets = def->forgets;
     if (!isnan(def->view[0]))
         springs.extent =
             (struct font_box){def->view[0], def->view[1], def->view[2], def->view[3]};

@@ -16,6 +16,7 @@
 #include <text.h>
 
 struct spring_scene_def {
+    bool forgets;        /* no session will be saved */
     const char *text;    /* UTF-8; or */
     const char *network; /* a file of masses and springs */
     const char *font;    /* as font_face_open() has it */

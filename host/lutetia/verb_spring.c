@@ -399,6 +399,7 @@ int verb_spring(int argc, char **argv)
         return status;
     s.scene.sets = s.sets.texts;
     s.scene.sets_count = s.sets.count;
+    s.scene.forgets = !s.session;
     enum stage_status made = spring_scene_make(&s.scene, &scene);
     if (made == STAGE_BAD_ARGUMENT)
         return fail_usage("spring", "%s", stage_error());

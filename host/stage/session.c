@@ -32,6 +32,12 @@ void stage_session_add(struct stage_session *s, const struct stage_deed *deed)
 {
     if (s->broken)
         return;
+    struct stage_deed *last = s->count ? &s->deeds[s->count - 1] : NULL;
+    if (last && deed->kind == STAGE_DEED_SET && last->kind == STAGE_DEED_SET &&
+        last->control == deed->control && last->step == deed->step) {
+        last->value = deed->value; /* a wheel that is turned sends thousands */
+        return;
+    }
     if (s->count == STAGE_DEEDS_MAX ||
         !array_reserve(&s->deeds, &s->capacity, s->count + 1, sizeof *s->deeds)) {
         s->broken = "it is too long";

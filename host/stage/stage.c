@@ -24,7 +24,7 @@ struct stage {
     struct stage_actor actor;
     struct stage_theme theme;
     struct frame_clock clock;
-    bool began;
+    bool began, forgets;
     struct settings settings;
     struct stage_control *controls; /* the stage's and the actor's */
     int controls_count;
@@ -57,7 +57,7 @@ struct stage_def stage_def_default(void)
 static void deed_add(struct stage *s, struct stage_deed deed)
 {
     deed.step = s->clock.steps_count;
-    if (s->began)
+    if (s->began && !s->forgets)
         stage_session_add(&s->session, &deed);
 }
 
@@ -532,6 +532,8 @@ enum stage_status stage_load(struct stage *s, const char *path)
 
 enum stage_status stage_session_save(struct stage *s, const char *path)
 {
+    if (s->forgets)
+        return stage_fail(STAGE_BAD_ARGUMENT, "%s: this stage keeps no session", path);
     return stage_session_write(&s->session, s->controls, path);
 }
 
@@ -576,6 +578,7 @@ enum stage_status stage_create(const struct stage_def *def, struct stage **out)
         return stage_fail(STAGE_NO_MEMORY, "no memory for a stage");
     }
     s->actor = def->actor;
+    s->forgets = def->forgets;
     s->clock = frame_clock_begin(def->step_s, 0);
     for (int i = 0; i < OWN_CONTROLS; i++)
         own_write(s, i, own_rows[i].usual);

@@ -32,6 +32,7 @@ struct stage_def {
     struct stage_actor actor;
     const char *theme; /* "light" */
     double step_s;     /* 1/240 */
+    bool forgets;      /* keeps no session: for windows that play for days */
 };
 struct stage_def stage_def_default(void);
 

@@ -153,19 +153,27 @@ void keys_score_range(struct keys_score *s, int lowest, int highest)
     }
 }
 
-/* Pressures matter from the beginning of a sounding note on. */
-static void pressures_forget(struct keys_score *s, double before_s)
+/* Pressures matter from the beginning of a sounding note on; of those before `last_s`, the last one of each key and channel. */
+static void pressures_forget(struct keys_score *s, double before_s, double last_s)
 {
-    int kept = 0;
-    for (int i = 0; i < s->pressures_count; i++)
-        if (s->pressures[i].time_s >= before_s)
-            s->pressures[kept++] = s->pressures[i];
-    s->pressures_count = kept;
+    bool seen[MIDI_CHANNELS][1 + MIDI_NOTES] = {{false}};
+    int first = s->pressures_count;
+    for (int i = s->pressures_count - 1; i >= 0; i--) {
+        const struct keys_pressure p = s->pressures[i];
+        bool *later = &seen[p.channel][1 + p.note];
+        if (p.time_s < before_s || (p.time_s < last_s && *later))
+            continue;
+        *later = *later || p.time_s < last_s;
+        s->pressures[--first] = p;
+    }
+    s->pressures_count -= first;
+    memmove(s->pressures, s->pressures + first,
+            (size_t)s->pressures_count * sizeof *s->pressures);
 }
 
 void keys_score_forget(struct keys_score *s, double time_s)
 {
-    double first_s = time_s;
+    double first_s = time_s, last_s = time_s;
     int kept = 0;
     for (int i = 0; i < s->notes_count; i++) {
         const struct keys_note n = s->notes[i];
@@ -174,10 +182,11 @@ void keys_score_forget(struct keys_score *s, double time_s)
         if (s->hands->sounding[n.channel][n.note] == i + 1)
             s->hands->sounding[n.channel][n.note] = kept + 1;
         first_s = fmin(first_s, n.begin_s);
+        last_s = fmin(last_s, n.end_s); /* a note that fades has the pressure of its end */
         s->notes[kept++] = n;
     }
     s->notes_count = kept;
-    pressures_forget(s, first_s);
+    pressures_forget(s, first_s, last_s);
 }
 
 /* Finds the keys that are played, from the lowest; notes without an end last to the song's

@@ -1,4 +1,5 @@
 /* test_confine.c - a confined process reads and writes its open files, and can do nothing else. (security.md 8) */
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -69,6 +70,40 @@ static void confined_process_can_only_read_and_write_what_is_open(void **state)
     assert_int_equal(WEXITSTATUS(status), 0);
 }
 
+static bool is_open(int file)
+{
+    return fcntl(file, F_GETFD) >= 0;
+}
+
+static void other_descriptors_are_closed(void **state)
+{
+    (void)state;
+    int status, files[8];
+    for (int i = 0; i < 8; i++)
+        files[i] = fcntl(open("/dev/null", O_RDONLY), F_DUPFD, 20 + 7 * i);
+    const int far = fcntl(files[0], F_DUPFD, 900);
+    const pid_t child = fork();
+    if (child == 0) {
+        confine_descriptors((int[]){files[5], files[2], -1}, 3);
+        for (int i = 0; i < 8; i++)
+            HOLDS(is_open(files[i]) == (i == 2 || i == 5));
+        HOLDS(!is_open(far) && is_open(STDIN_FILENO) && is_open(STDERR_FILENO));
+        DIR *names = opendir("/proc/self/fd");
+        int count = 0;
+        for (const struct dirent *e; names && (e = readdir(names));)
+            count += e->d_name[0] != '.';
+        HOLDS(!names || count == 6); /* with the folder's own */
+        confine_descriptors(NULL, 0);
+        HOLDS(!is_open(files[2]) && !is_open(files[5]) && is_open(STDOUT_FILENO));
+        _exit(0);
+    }
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_int_equal(status, 0);
+    for (int i = 0; i < 8; i++)
+        close(files[i]);
+    close(far);
+}
+
 #if !defined(__SANITIZE_ADDRESS__)
 static void memory_is_limited(void **state)
 {
@@ -117,6 +152,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(confined_process_can_only_read_and_write_what_is_open),
+        cmocka_unit_test(other_descriptors_are_closed),
 #if !defined(__SANITIZE_ADDRESS__)
         cmocka_unit_test(memory_is_limited),
 #endif

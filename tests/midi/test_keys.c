@@ -198,11 +198,52 @@ static void heights_in_pixels_follow_velocity(void **unused)
     midi_song_destroy(song);
 }
 
+/* A note that is held for hours, with aftertouch all the time: what is kept has an end, and sounds the same. */
+static void hours_of_aftertouch_are_not_kept(void **unused)
+{
+    (void)unused;
+    enum { HOUR_S = 3600, HERTZ = 100, CHANNELS = 3 };
+    struct keys_def def = keys_def_default();
+    struct keys_score forgets, keeps;
+    int most = 0;
+    assert_true(keys_score_begin(&def, &forgets) && keys_score_begin(&def, &keeps));
+    for (int i = 0; i < HOUR_S * HERTZ; i++) {
+        const double time_s = (double)i / HERTZ;
+        const uint8_t channel = (uint8_t)(i % CHANNELS);
+        const uint8_t value = (uint8_t)(i / 7 % 128);
+        const uint8_t all[3] = {(uint8_t)(0xd0 | channel), value},
+                      one[3] = {(uint8_t)(0xa0 | channel), 60, (uint8_t)(127 - value)};
+        const uint8_t on[3] = {(uint8_t)(0x90 | channel), 60, 30},
+                      off[3] = {(uint8_t)(0x80 | channel), 60, 64};
+        struct keys_score *both[] = {&forgets, &keeps};
+        for (int k = 0; k < (i < 60 * HERTZ ? 2 : 1); k++) {
+            const bool rests =
+                i / HERTZ % 20 == 19 && channel == 2; /* one channel's note ends now and then */
+            if (i < CHANNELS || (channel == 2 && i % (20 * HERTZ) < CHANNELS))
+                assert_true(keys_score_take(both[k], time_s, on));
+            if (rests)
+                assert_true(keys_score_take(both[k], time_s, off));
+            assert_true(keys_score_take(both[k], time_s, i % 5 ? all : one));
+        }
+        if (i % HERTZ == 0)
+            keys_score_forget(&forgets, time_s);
+        most = forgets.pressures_count > most ? forgets.pressures_count : most;
+        if (i < 60 * HERTZ) {
+            const double level = keys_key_level(&forgets, 60, time_s, NULL);
+            assert_true(fabs(level - keys_key_level(&keeps, 60, time_s, NULL)) < 1e-3);
+        }
+    }
+    assert_in_range(most, HERTZ, 4 * HERTZ);
+    keys_score_finish(&forgets);
+    keys_score_finish(&keeps);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(levels_follow_what_is_played),
         cmocka_unit_test(letters_go_to_keys),
+        cmocka_unit_test(hours_of_aftertouch_are_not_kept),
         cmocka_unit_test(heights_in_pixels_follow_velocity),
     };
     return cmocka_run_group_tests_name("keys", tests, NULL, NULL);

@@ -1,6 +1,7 @@
 /* test_path.c - paths from outside: SVG paths against known shapes, SVG files, recorded samples. */
 #include <path.h>
 
+#include <malloc.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -183,6 +184,36 @@ static enum paper_status svg(const char *text)
     return paper_svg_parse(text, strlen(text), "a.svg", TOLERANCE, &lines);
 }
 
+/* Expat keeps each name and each attribute: what it takes is bounded by the file's length, before it goes on. */
+static void svg_attributes_are_bounded(void **state)
+{
+    (void)state;
+    enum { COUNT = 400000, ROOM = COUNT * 12 + 100 };
+    char *text = malloc(ROOM);
+    assert_non_null(text);
+    size_t at = (size_t)snprintf(text, ROOM, "<svg><path d='M0 0L1 1'");
+    for (int i = 0; i < 1200; i++)
+        at += (size_t)snprintf(text + at, ROOM - at, " a%x=''", (unsigned)i);
+    snprintf(text + at, ROOM - at, "/></svg>");
+    assert_int_equal(svg(text), PAPER_BAD_ARGUMENT);
+    assert_non_null(strstr(paper_error(), "more than 1000 attributes"));
+    const struct mallinfo2 before = mallinfo2();
+    at = (size_t)snprintf(text, ROOM, "<svg><path d='M0 0L1 1'");
+    for (int i = 0; i < COUNT; i++)
+        at += (size_t)snprintf(text + at, ROOM - at, " %x=''", (unsigned)i + 0xa00000u);
+    snprintf(text + at, ROOM - at, "/></svg>");
+    assert_int_equal(svg(text), PAPER_BAD_ARGUMENT);
+    assert_non_null(strstr(paper_error(), "more elements, names or attributes"));
+    assert_true(mallinfo2().uordblks <= before.uordblks + 4096);
+    /* and a long path is none of that */
+    at = (size_t)snprintf(text, ROOM, "<svg><path d='M0 0");
+    for (int i = 0; i < 150000; i++)
+        at += (size_t)snprintf(text + at, ROOM - at, "L%d %d", i % 100, i % 99);
+    snprintf(text + at, ROOM - at, "'/></svg>");
+    assert_int_equal(svg(text), PAPER_OK);
+    free(text);
+}
+
 static void svg_files_give_their_paths(void **state)
 {
     (void)state;
@@ -294,6 +325,7 @@ int main(void)
         cmocka_unit_test(arcs_are_arcs),
         cmocka_unit_test(wrong_paths_are_told_where),
         cmocka_unit_test(svg_files_give_their_paths),
+        cmocka_unit_test(svg_attributes_are_bounded),
         cmocka_unit_test(samples_are_read),
         cmocka_unit_test(strokes_pass_through_their_samples),
     };

@@ -299,6 +299,30 @@ static void sessions_load_files_again(void **state)
     session_refused(session, "a loaded word.springs, which cannot be read: No such file");
 }
 
+/* A wheel that is turned for hours: a step has one value of a control, and who saves no session keeps none. */
+static void what_is_set_live_is_not_kept_for_ever(void **unused)
+{
+    (void)unused;
+    struct stage_session s = {0};
+    for (int i = 0; i < 100000; i++) {
+        struct stage_deed set = {
+            .kind = STAGE_DEED_SET, .step = i / 1000, .control = 3, .value = i};
+        stage_session_add(&s, &set);
+    }
+    assert_int_equal(s.count, 100);
+    for (int i = 0; i < 100; i++)
+        assert_true(s.deeds[i].step == i && s.deeds[i].value == 1000 * i + 999);
+    stage_session_add(&s,
+                      &(struct stage_deed){.kind = STAGE_DEED_SET, .step = 99, .control = 4});
+    stage_session_add(&s,
+                      &(struct stage_deed){.kind = STAGE_DEED_SET, .step = 99, .control = 3});
+    stage_session_add(&s, &(struct stage_deed){.kind = STAGE_DEED_MARK, .step = 99});
+    stage_session_add(&s,
+                      &(struct stage_deed){.kind = STAGE_DEED_SET, .step = 99, .control = 3});
+    assert_int_equal(s.count, 104);
+    stage_session_finish(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -307,6 +331,7 @@ int main(void)
         cmocka_unit_test(wrong_texts_are_refused),
         cmocka_unit_test(bytes_by_chance_are_read_or_refused),
         cmocka_unit_test(sessions_load_files_again),
+        cmocka_unit_test(what_is_set_live_is_not_kept_for_ever),
     };
     if (font_face_open("DejaVuSans", 0, &face) != FONT_OK)
         return 1;

@@ -6,11 +6,12 @@
 
 #include <expat.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { DEPTH_MAX = 200, PATHS_LINES_MAX = 20000 };
+enum { DEPTH_MAX = 200, PATHS_LINES_MAX = 20000, ATTRIBUTES_MAX = 1000 };
 #define PLACE_MAX 1e6
 #define PI 3.14159265358979323846
 
@@ -27,6 +28,50 @@ struct reading {
     struct paper_lines *lines;
     enum paper_status status;
 };
+
+/* ---- expat's memory: a file of names and attributes takes twenty times as much as it is long ---- */
+
+enum { BLOCK_HEAD = 16, PARSER_BYTES = 1 << 20, PARSER_SHARE = 5 /* times the file */ };
+
+static _Thread_local size_t parser_room; /* of the parse that goes on in this thread */
+
+static void bounded_free(void *block)
+{
+    if (!block)
+        return;
+    char *head = (char *)block - BLOCK_HEAD;
+    parser_room += *(size_t *)(void *)head;
+    free(head);
+}
+
+static void *bounded_realloc(void *block, size_t bytes)
+{
+    char *head = block ? (char *)block - BLOCK_HEAD : NULL;
+    const size_t before = head ? *(size_t *)(void *)head : 0;
+    if (bytes > before && bytes - before > parser_room)
+        return NULL;
+    char *made = bytes < SIZE_MAX - BLOCK_HEAD ? realloc(head, BLOCK_HEAD + bytes) : NULL;
+    if (!made)
+        return NULL;
+    parser_room = parser_room + before - bytes;
+    *(size_t *)(void *)made = bytes;
+    return made + BLOCK_HEAD;
+}
+
+static void *bounded_malloc(size_t bytes)
+{
+    return bounded_realloc(NULL, bytes);
+}
+
+static XML_Parser parser_create(size_t count)
+{
+    static const XML_Memory_Handling_Suite bounded = {bounded_malloc, bounded_realloc,
+                                                      bounded_free};
+    parser_room = PARSER_BYTES + PARSER_SHARE * count;
+    return XML_ParserCreate_MM(NULL, &bounded, NULL);
+}
+
+/* ---- the parse ---- */
 
 /* Expat 2.9 has this function with another type, and warns of the old one. */
 static unsigned long line_of(XML_Parser parser)
@@ -187,6 +232,10 @@ static void element_begin(void *context, const XML_Char *name, const XML_Char **
         reading_fail(r, PAPER_BAD_ARGUMENT, "it is XML, but not SVG");
         return;
     }
+    if (XML_GetSpecifiedAttributeCount(r->parser) > 2 * ATTRIBUTES_MAX) {
+        reading_fail(r, PAPER_BAD_ARGUMENT, "an element has more than 1000 attributes");
+        return;
+    }
     if (r->depth == DEPTH_MAX - 1) {
         reading_fail(r, PAPER_BAD_ARGUMENT, "elements are nested too deeply");
         return;
@@ -219,8 +268,11 @@ enum paper_status paper_svg_parse(const char *bytes, size_t count, const char *n
                                   double tolerance, struct paper_lines *lines)
 {
     *lines = (struct paper_lines){0};
+    if (count > PAPER_FILE_MAX)
+        return paper_fail(PAPER_BAD_ARGUMENT, "%s: an SVG file has up to %d bytes", name,
+                          PAPER_FILE_MAX);
     struct reading *r = calloc(1, sizeof *r);
-    XML_Parser parser = r ? XML_ParserCreate(NULL) : NULL;
+    XML_Parser parser = r ? parser_create(count) : NULL;
     if (!parser) {
         free(r);
         return paper_fail(PAPER_NO_MEMORY, "%s: no memory to read it", name);
@@ -230,11 +282,11 @@ enum paper_status paper_svg_parse(const char *bytes, size_t count, const char *n
     XML_SetUserData(parser, r);
     XML_SetStartDoctypeDeclHandler(parser, doctype_begin);
     XML_SetElementHandler(parser, element_begin, element_end);
-    if (count > PAPER_FILE_MAX)
-        r->status = paper_fail(PAPER_BAD_ARGUMENT, "%s: an SVG file has up to %d bytes", name,
-                               PAPER_FILE_MAX);
-    else if (XML_Parse(parser, bytes, (int)count, 1) != XML_STATUS_OK && r->status == PAPER_OK)
-        reading_fail(r, PAPER_BAD_ARGUMENT, XML_ErrorString(XML_GetErrorCode(parser)));
+    if (XML_Parse(parser, bytes, (int)count, 1) != XML_STATUS_OK && r->status == PAPER_OK)
+        reading_fail(r, PAPER_BAD_ARGUMENT,
+                     XML_GetErrorCode(parser) == XML_ERROR_NO_MEMORY
+                         ? "it has more elements, names or attributes than a drawing"
+                         : XML_ErrorString(XML_GetErrorCode(parser)));
     XML_ParserFree(parser);
     enum paper_status status = r->status;
     free(r);

@@ -52,8 +52,10 @@ _Noreturn static void reader_fail(int descriptor, char kind, const char *what)
 /* Messages that libraries print when they crash are discarded. */
 static void reader_confine(const struct state_reading *reading)
 {
-    int nowhere = streams_nowhere(O_WRONLY);
+    confine_descriptors((int[]){reading->descriptor, reading->pipe}, 2);
+    int nowhere = streams_nowhere(O_RDWR);
     if (nowhere >= 0) {
+        dup2(nowhere, STDIN_FILENO);
         dup2(nowhere, STDOUT_FILENO);
         dup2(nowhere, STDERR_FILENO);
     }
