@@ -155,6 +155,18 @@ void script_memory_take(lua_State *L, double bytes, const char *what)
     script->memory_bytes += (size_t)bytes;
 }
 
+void script_memory_machine(lua_State *L)
+{
+    const struct script *script = script_of(L);
+    if (!process_has_room(script, SCRIPT_MACHINE_BYTES))
+        luaL_error(L,
+                   "not enough memory: papers need a machine, whose driver takes %d MB as it "
+                   "begins, and "
+                   "--memory allows %d in all",
+                   (int)(SCRIPT_MACHINE_BYTES * 1e-6),
+                   (int)((double)script->config->memory_bytes * 1e-6));
+}
+
 void script_memory_give(struct script *script, double bytes)
 {
     script->memory_bytes -= (size_t)bytes;

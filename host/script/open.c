@@ -56,6 +56,7 @@ static void functions_open(lua_State *L, const struct script_functions *f)
 
 int script_open(lua_State *L)
 {
+    script_of(L)->main = L;
     script_sandbox_open(L);
     script_limits_open(L);
     script_call_open(L);

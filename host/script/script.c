@@ -23,6 +23,16 @@ struct script_config script_config_default(const char *path)
 
 /* ---- memory ---- */
 
+/* Lua drops an object whose finalizer fails, and with it what the object holds in C; and a call needs some memory. So finalizers have a
+ * little beyond the limit. While one runs, Lua's collector answers nothing but -1. */
+static bool finalizer_has_room(const struct script *script, size_t more)
+{
+    const double finalizer_bytes = 1 << 20;
+    return script->main && lua_gc(script->main, LUA_GCISRUNNING) == -1 &&
+           (double)script->memory_bytes + (double)more <=
+               (double)script->config->memory_bytes + finalizer_bytes;
+}
+
 /* Counts Lua's memory with the script's other memory. */
 void *script_allocate(void *context, void *block, size_t old, size_t new)
 {
@@ -33,7 +43,8 @@ void *script_allocate(void *context, void *block, size_t old, size_t new)
         script->memory_bytes -= old;
         return NULL;
     }
-    if (new > old && (double)(new - old) > script_memory_left(script)) {
+    if (new > old && (double)(new - old) > script_memory_left(script) &&
+        !finalizer_has_room(script, new - old)) {
         script->memory_short = true;
         return NULL;
     }

@@ -41,6 +41,7 @@ struct script {
     const struct script_config *config;
     const struct script_host *host;
     double began_s, deadline_s; /* by script_clock_s(); deadline 0: none */
+    lua_State *main;            /* its first thread; NULL: not opened yet */
     size_t memory_bytes;        /* taken */
     bool memory_short;          /* an allocation of Lua's was refused */
     struct patience before;     /* of the thread, before the script (limits.c) */
@@ -82,6 +83,8 @@ void script_check_row(lua_State *L, int row);
  * nothing. */
 void script_memory_take(lua_State *L, double bytes, const char *what);
 void script_memory_give(struct script *script, double bytes);
+/* Before the first paper: there must be room for the machine, which is not counted. Else raises an error. */
+void script_memory_machine(lua_State *L);
 /* Counts memory for a while: pushes what gives it back when it is released, or collected after an error. */
 void script_memory_hold(lua_State *L, double bytes, const char *what);
 void script_memory_release(lua_State *L, int index);
@@ -91,7 +94,8 @@ double script_memory_left(const struct script *script);
 
 /* What the process takes besides what is counted: the program, C's libraries, what is freed and not given back. Papers need the machine,
  * OpenCL's driver and its compiler, some 90 to 160 MB: they are of the script's memory, as far as they have no room here. */
-#define SCRIPT_BESIDES_BYTES ((double)(48 << 20))
+#define SCRIPT_BESIDES_BYTES ((double)(40 << 20))
+#define SCRIPT_MACHINE_BYTES 80e6 /* as it begins */
 /* How much more than that and the script's memory the process takes; negative: it takes less, or it does not tell. */
 double script_overfull_bytes(const struct script *script);
 

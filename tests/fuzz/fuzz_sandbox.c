@@ -55,6 +55,7 @@ struct walk {
     lua_State *L;
     uint64_t random;
     long calls, metatables, functions;
+    time_t until; /* 0: some thousand calls */
 };
 
 /* What a script reaches is kept in two lists of the registry: functions, and all else. */
@@ -294,6 +295,21 @@ static int opened(lua_State *L)
     return 0;
 }
 
+/* In a call, as every script is: else a coroutine could resume or close the main thread, below the walk's own feet. */
+static int walk_run(lua_State *L)
+{
+    struct walk *w = lua_touserdata(L, 1);
+    lua_settop(L, 0);
+    lua_pushglobaltable(L);
+    reach(w, 0);
+    if (w->metatables < 10 || w->functions < 150)
+        found("the walk reached too little", "");
+    all_with_all(w);
+    for (long i = 0; i < CALLS && (!w->until || time(NULL) < w->until); i++)
+        call_by_chance(w);
+    return 0;
+}
+
 static bool stop(void *context)
 {
     (void)context;
@@ -302,7 +318,8 @@ static bool stop(void *context)
 
 static void walked(uint64_t seed, time_t until)
 {
-    struct walk w = {.random = sample_mixed(seed), .config = script_config_default("walk")};
+    struct walk w = {
+        .random = sample_mixed(seed), .until = until, .config = script_config_default("walk")};
     w.config.in_folder = w.config.out_folder = scratch_dir;
     const struct script_host host = {.interrupted = stop};
     struct script *script = &w.script;
@@ -315,13 +332,10 @@ static void walked(uint64_t seed, time_t until)
     lua_pushcfunction(L, opened);
     if (lua_pcall(L, 0, 0, 0) != LUA_OK)
         found("the prelude failed", lua_tostring(L, -1));
-    lua_pushglobaltable(L);
-    reach(&w, 0);
-    if (w.metatables < 10 || w.functions < 150)
-        found("the walk reached too little", "");
-    all_with_all(&w);
-    for (long i = 0; i < CALLS && (!until || time(NULL) < until); i++)
-        call_by_chance(&w);
+    lua_pushcfunction(L, walk_run);
+    lua_pushlightuserdata(L, &w);
+    if (lua_pcall(L, 1, 0, 0) != LUA_OK)
+        found("the walk failed", lua_tostring(L, -1));
     printf("seed %llu: %ld functions, %ld metatables, %ld calls\n", (unsigned long long)seed,
            w.functions, w.metatables, w.calls);
     fflush(stdout);

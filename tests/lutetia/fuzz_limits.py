@@ -108,6 +108,15 @@ def tried(lutetia, at, name, script, memory, timeout):
     return most, took
 
 
+def refused_early(lutetia, at):
+    """Where there is no room for the machine of papers that is said before it is loaded; with some more a paper is made."""
+    for memory, words in ((30, b"papers need a machine"), (100, b"")):
+        (at / "case.lua").write_text("local p = paper{width = 32, height = 32} p:step(1)\n")
+        done = subprocess.run([lutetia, "run", "case.lua", "-q", "--memory", str(memory)], cwd=at, stdin=subprocess.DEVNULL,
+                              capture_output=True, check=False)
+        assert done.returncode == bool(words) and words in done.stderr and done.stderr.count(b"\n") == bool(words), done
+
+
 def by_chance(chance):
     lines = []
     for _ in range(chance.randint(1, 5)):
@@ -131,6 +140,7 @@ def main():
         files_make(at)
         wrong = []
         if not seconds:
+            refused_early(lutetia, at)
             for name, script in CASES:
                 try:
                     print("%-20s %5.0f MB %5.1f s" % (name, *tried(lutetia, at, name, script, 140 if "paper{" in script else 60, 0.5)), flush=True)
