@@ -5,6 +5,7 @@
 #include <midi_internal.h>
 
 #include <dlfcn.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
@@ -71,6 +72,30 @@ void fluid_hush_drivers(void)
         jack.jack_set_info_function(jack_told);
     }
     setenv("JACK_NO_START_SERVER", "1", 0); /* one that runs is used */
+}
+
+/* GLib, by which FluidSynth's loaders complain of damaged SoundFonts, prints so itself. */
+typedef void glib_told(const char *domain, int level, const char *message, void *context);
+
+static void glib_quiet(const char *domain, int level, const char *message, void *context)
+{
+    (void)domain, (void)level, (void)message, (void)context;
+}
+
+bool fluid_font_load(const struct fluid *fluid, void *synth, const char *path)
+{
+    static struct {
+        glib_told *(*g_log_set_default_handler)(glib_told *told, void *context);
+    } glib;
+    static const struct library_function of_glib[] = {
+        LIBRARY_FUNCTION(glib, g_log_set_default_handler)};
+    const char *missing;
+    const bool quiet = library_load("libglib-2.0.so.0", of_glib, 1, &glib, &missing);
+    glib_told *before = quiet ? glib.g_log_set_default_handler(glib_quiet, NULL) : NULL;
+    const bool loaded = fluid->fluid_synth_sfload(synth, path, 1) >= 0;
+    if (quiet)
+        glib.g_log_set_default_handler(before, NULL);
+    return loaded;
 }
 
 enum { LEVELS = 5 }; /* of its log: panic, error, warning, information, debug */

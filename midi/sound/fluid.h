@@ -4,6 +4,8 @@
 
 #include <midi_status.h>
 
+#include <stdbool.h>
+
 /* The functions that we call, as FluidSynth 2 declares them: its settings, synthesizers,
  * drivers and renderers are opaque pointers. */
 struct fluid {
@@ -37,5 +39,8 @@ enum midi_status fluid_load(const struct fluid **out);
 /* ALSA and JACK, which FluidSynth's drivers use, print no complaints of their own from now on, and JACK starts no server. Threads: before
  * others use them. */
 void fluid_hush_drivers(void);
+
+/* Loads a SoundFont, and prints nothing, whatever is damaged in it. False: it cannot be read. */
+bool fluid_font_load(const struct fluid *fluid, void *synth, const char *path);
 
 #endif

@@ -108,8 +108,7 @@ enum midi_status sound_create(const struct sound_def *def, struct sound **out)
         if (!s->synth)
             status = midi_fail(MIDI_NO_MEMORY, "FluidSynth makes no synthesizer");
     }
-    if (status == MIDI_OK &&
-        (!font_good(font) || fluid->fluid_synth_sfload(s->synth, font, 1) < 0))
+    if (status == MIDI_OK && (!font_good(font) || !fluid_font_load(fluid, s->synth, font)))
         status = midi_fail(MIDI_NO_DEVICE, "%s: no SoundFont, or a damaged one", font);
     if (status != MIDI_OK) {
         sound_destroy(s);

@@ -110,7 +110,7 @@ def tried(lutetia, at, name, script, memory, timeout):
 
 def refused_early(lutetia, at):
     """Where there is no room for the machine of papers that is said before it is loaded; with some more a paper is made."""
-    for memory, words in ((30, b"papers need a machine"), (100, b"")):
+    for memory, words in ((30, b"papers need a machine"), (300, b"")):
         (at / "case.lua").write_text("local p = paper{width = 32, height = 32} p:step(1)\n")
         done = subprocess.run([lutetia, "run", "case.lua", "-q", "--memory", str(memory)], cwd=at, stdin=subprocess.DEVNULL,
                               capture_output=True, check=False)

@@ -194,6 +194,50 @@ class Outside(unittest.TestCase):
         words = "".join(xml.etree.ElementTree.parse(self.at / "n.svg").getroot().itertext())
         self.assertEqual("".join(words.split()), "abc")
 
+    def test_readers_of_states_hold_nothing_else(self):
+        (self.at / "made.lua").write_text("local p = paper{width = 64, height = 64} p:step(1) p:save('a.h5')\n")
+        self.run_it("run", "made.lua", "-q", status=0)
+        (self.at / "read.lua").write_text("while true do paper.load('a.h5'):close() end\n")
+        secret = os.open(self.at / "secret", os.O_RDWR | os.O_CREAT, 0o600)
+        child = subprocess.Popen([LUTETIA, "run", "read.lua", "-q", "--timeout", "20"], cwd=self.at, stdin=subprocess.PIPE,
+                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, pass_fds=(secret,))
+        seen = []
+        while len(seen) < 5 and child.poll() is None:
+            for reader in self.children(child.pid):
+                held = self.held(reader)
+                if held is not None:
+                    seen.append(held)
+        child.kill()
+        child.communicate(timeout=SECONDS)
+        os.close(secret)
+        if not seen and not os.path.exists("/proc/self/task"):
+            self.skipTest("this system does not tell of processes")
+        self.assertTrue(seen)
+        for held in seen:
+            self.assertLessEqual(len(held), 5, held)
+            self.assertFalse([name for name in held if name.endswith("secret")], held)
+
+    @staticmethod
+    def children(process):
+        found = []
+        for task in pathlib.Path("/proc/%d/task" % process).glob("*/children"):
+            try:
+                found += task.read_text().split()
+            except OSError:
+                pass
+        return found
+
+    @staticmethod
+    def held(reader):
+        """What a confined process has open; None: it is not confined, or has ended meanwhile."""
+        try:
+            if "Seccomp:\t2" not in pathlib.Path("/proc/%s/status" % reader).read_text():
+                return None
+            names = [os.readlink(one) for one in pathlib.Path("/proc/%s/fd" % reader).iterdir()]
+        except OSError:
+            return None
+        return names or None
+
     def test_drawings_have_no_doctype(self):
         count = 60000
         chain = "".join('<!ENTITY e%d "&e%d;">' % (i, i - 1) for i in range(1, count))

@@ -9,11 +9,20 @@
 
 #include <cmocka.h>
 
+#include <sys/types.h>
+
+#include <stdio.h>
+
+#include <unistd.h>
+
+#include <fcntl.h>
+
 #include <fluid.h>
 #include <sound.h>
 #include <sound_events.h>
 
 #include "../display/scratch.h"
+#include "../sample.h"
 #include "../skip.h"
 #include "wav.h"
 
@@ -155,12 +164,63 @@ static void what_is_missing_is_named(void **unused)
     sound_destroy(sound);
 }
 
+/* A SoundFont whose tables are damaged, or which is cut off, is refused, or sounds as it can; nothing is printed but by us.
+ * (security.md 31) */
+static void damaged_fonts_are_refused_quietly(void **unused)
+{
+    (void)unused;
+    enum { FONTS = 12 };
+    const char *font, *path = scratch_path("damaged.sf2"), *said = scratch_path("said");
+    struct sound_def def = sound_def_default();
+    uint64_t seed = 3;
+    int refused = 0;
+    if (!able() || sound_font_find(NULL, &font) != MIDI_OK)
+        skip_because("there is no SoundFont");
+    FILE *from = fopen(font, "rb");
+    assert_non_null(from);
+    assert_int_equal(fseek(from, 0, SEEK_END), 0);
+    const size_t count = (size_t)ftell(from);
+    uint8_t *bytes = malloc(count);
+    assert_non_null(bytes);
+    rewind(from);
+    assert_int_equal(fread(bytes, 1, count, from), count);
+    fclose(from);
+    fflush(stderr);
+    const int kept = dup(STDERR_FILENO), other = open(said, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    dup2(other, STDERR_FILENO);
+    for (int i = 0; i < FONTS; i++) {
+        struct sound *sound;
+        const uint64_t any = sample_word(&seed);
+        const size_t at = 12 + any % 400, tail = count - 1 - any % 20000;
+        const uint8_t head_was = bytes[at], tail_was = bytes[tail];
+        bytes[i % 3 ? tail : at] ^= (uint8_t)(1 + (any >> 32) % 255);
+        FILE *file = fopen(path, "wb");
+        assert_true(file && fwrite(bytes, 1, i % 4 == 3 ? tail : count, file) > 0 &&
+                    fclose(file) == 0);
+        bytes[at] = head_was;
+        bytes[tail] = tail_was;
+        def.font = path;
+        if (sound_create(&def, &sound) == MIDI_OK)
+            sound_destroy(sound);
+        else
+            refused++;
+    }
+    dup2(kept, STDERR_FILENO);
+    close(kept);
+    const off_t printed = lseek(other, 0, SEEK_END);
+    close(other);
+    free(bytes);
+    assert_int_equal(printed, 0);
+    assert_in_range(refused, 1, FONTS);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bounces_are_onsets),
         cmocka_unit_test(the_same_song_is_the_same_sound),
         cmocka_unit_test(what_is_missing_is_named),
+        cmocka_unit_test(damaged_fonts_are_refused_quietly),
     };
     return cmocka_run_group_tests_name("sound", tests, NULL, NULL);
 }

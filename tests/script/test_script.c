@@ -482,7 +482,7 @@ static void map_overdue(void *context)
     abort();
 }
 
-/* The process is its host's: what that takes is not the map's. */
+/* The process is its host's: what that takes is not the map's, which has 64 MB of its own. (security.md 30) */
 static void a_map_does_not_pay_for_its_host(void **state)
 {
     (void)state;

@@ -58,6 +58,8 @@ static void reader_confine(const struct state_reading *reading)
         dup2(nowhere, STDIN_FILENO);
         dup2(nowhere, STDOUT_FILENO);
         dup2(nowhere, STDERR_FILENO);
+        if (nowhere > STDERR_FILENO)
+            close(nowhere);
     }
     unsigned long long bytes = reading->memory_bytes;
     confine_resources(reading->parent, READER_SECONDS,
