@@ -6,6 +6,7 @@
 #include <resident.h>
 #include <visible_text.h>
 
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -34,10 +35,14 @@ static void print(void *context, const char *text, size_t length)
     run_print(context, text, length);
 }
 
+/* The script's error was told: if it then does not come to its end, that is no second error. */
+static atomic_bool complained;
+
 static void complain(void *context, const char *text)
 {
     (void)context;
     tell_line(text);
+    complained = true;
 }
 
 static void note(void *context, const char *text)
@@ -144,8 +149,9 @@ static void overdue(void *context)
                       pressed[] = "lutetia run: the script did not stop; ended\n";
     (void)context;
     bool stopped = interrupted();
-    ssize_t written = stopped ? write(STDERR_FILENO, pressed, sizeof pressed - 1)
-                              : write(STDERR_FILENO, late, sizeof late - 1);
+    ssize_t written = complained ? 0
+                      : stopped  ? write(STDERR_FILENO, pressed, sizeof pressed - 1)
+                                 : write(STDERR_FILENO, late, sizeof late - 1);
     (void)written;
     _exit(stopped ? EXIT_INTERRUPTED : EXIT_FAILED);
 }
@@ -156,7 +162,7 @@ static void overfull(void *context)
         "lutetia run: the script took more memory than --memory allows (papers take 100 to 160 "
         "MB more than their own); ended\n";
     (void)context;
-    ssize_t written = write(STDERR_FILENO, text, sizeof text - 1);
+    ssize_t written = complained ? 0 : write(STDERR_FILENO, text, sizeof text - 1);
     (void)written;
     _exit(EXIT_FAILED);
 }
