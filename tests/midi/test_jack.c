@@ -131,7 +131,8 @@ static void patch_begin(void)
     const struct jack_library *jack = patch.jack;
     memset(&patch.heard, 0, sizeof patch.heard);
     memset(&patch.said, 0, sizeof patch.said);
-    patch.last_frame = patch.missed = 0;
+    patch.last_frame = 0;
+    patch.missed = 0;
     patch.ear = jack->jack_port_register(patch.client, "ear", JACK_MIDI_TYPE, JACK_PORT_IN, 0);
     patch.mouth =
         jack->jack_port_register(patch.client, "mouth", JACK_MIDI_TYPE, JACK_PORT_OUT, 0);
