@@ -35,7 +35,7 @@ BAD = re.compile(rb"[\x00-\x08\x0b-\x1f\x7f]|\xc2[\x80-\x9f]|\xe2\x80[\x8b-\x8f\
 class Place:
     """A folder that all may write to, as /tmp is, with this user's and others' things in it."""
 
-    def __init__(self, lutetia, program, chance):
+    def __init__(self, lutetia, program, users, chance):
         self.lutetia, self.chance = lutetia, chance
         self.holder = tempfile.TemporaryDirectory(prefix="lutetia-fuzz-files-")
         self.top = pathlib.Path(self.holder.name)
@@ -47,7 +47,7 @@ class Place:
         for name in ("cache", "tmp"):
             (self.top / name).mkdir()
             (self.top / name).chmod(0o777)
-        self.user = chance.choice((0, NOBODY)) if os.geteuid() == 0 else os.geteuid()
+        self.user = chance.choice(users)
         if self.user == NOBODY:
             for path in [self.at, *self.at.rglob("*")]:
                 os.chown(path, NOBODY, NOBODY)
@@ -284,8 +284,21 @@ def table_of(lutetia):
     return options, [name for name in variables if name not in skipped]
 
 
+def users_of(lutetia):
+    """Who may be the command's user: this one; root's also nobody, unless the command lies where only root may go."""
+    if os.geteuid() != 0:
+        return [os.geteuid()]
+    try:
+        subprocess.run([lutetia, "--version"], user=NOBODY, group=NOBODY, extra_groups=[], check=True, capture_output=True)
+    except (PermissionError, subprocess.CalledProcessError):
+        print("another user cannot run %s: all cases are root's" % lutetia)
+        return [0]
+    return [0, NOBODY]
+
+
 def main():
     lutetia = os.path.abspath(sys.argv[1])
+    users = users_of(lutetia)
     seconds = float(sys.argv[2]) if len(sys.argv) > 2 else 0
     seed = int(sys.argv[3]) if len(sys.argv) > 3 else (int(time.time()) if seconds else 6)
     chance = random.Random(seed)
@@ -297,7 +310,7 @@ def main():
         (at / "prog.c").write_text(verbs.PROGRAM)
         subprocess.run([lutetia, "cc", "prog.c", "-o", "program"], cwd=at, check=True)
         while time.monotonic() - began < seconds if seconds else count < CASES:
-            place = Place(lutetia, at / "program", chance)
+            place = Place(lutetia, at / "program", users, chance)
             place.options, place.variables = options, variables
             try:
                 found = (output_case, output_case, input_case, words_case)[count % 4](place)
