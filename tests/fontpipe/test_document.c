@@ -1,5 +1,6 @@
 /* test_document.c - PDF as other programs see it: sound, its fonts embedded and named, its letters where the painter has them, its pages, its
  * title, its outline and its tags. */
+#include "../skip.h"
 #include "support.h"
 
 #include <document.h>
@@ -110,7 +111,7 @@ static void letters_are_where_they_are_painted(void **state)
 {
     (void)state;
     if (!has_program("pdftoppm") || !has_program("pdffonts"))
-        skip();
+        skip_because("poppler-utils is not installed");
     static const char text[] = "Quay, fjord & Æg \xe2\x80\x93 35%";
     int tried = 0;
     for (size_t n = 0; n < sizeof faces / sizeof *faces; n++) {
@@ -223,7 +224,7 @@ static void books_have_tags_and_a_title(void **state)
     char path[] = "/tmp/lutetia-document-XXXXXX", pages[32];
     int rc;
     if (!has_program("pdfinfo"))
-        skip();
+        skip_because("poppler-utils is not installed");
     close(mkstemp(path));
     int count = book_write(path, 200);
     assert_true(count >= 3);
@@ -255,7 +256,7 @@ static void books_have_an_outline(void **state)
     char path[] = "/tmp/lutetia-document-XXXXXX";
     int rc;
     if (!has_program("qpdf"))
-        skip();
+        skip_because("qpdf is not installed");
     close(mkstemp(path));
     book_write(path, 200);
     char *json = printed("qpdf --json --json-key=outlines", path, "", &rc);
@@ -280,7 +281,7 @@ static void words_go_on_behind_pages(void **state)
     char path[] = "/tmp/lutetia-document-XXXXXX";
     int rc;
     if (!has_program("pdftotext"))
-        skip();
+        skip_because("poppler-utils is not installed");
     for (double height = 120; height < 240; height += 17) {
         close(mkstemp(path));
         book_write(path, height);

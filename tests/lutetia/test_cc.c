@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "../skip.h"
 #include "child.h"
 
 static const char *lutetia;
@@ -42,7 +43,7 @@ static void cc_compiles_cpp(void **unused)
     static char program[] = "cc-cpp-heat", c[] = "cc-cpp-part.c", source[64];
     (void)unused;
     if (system("c++ --version >/dev/null 2>&1") != 0)
-        skip();
+        skip_because("there is no C++ compiler");
     FILE *file = fopen(c, "w");
     assert_non_null(file);
     fputs("int class = 3; int part (void) { return class; }\n", file); /* no C++ */
@@ -58,7 +59,9 @@ static void cc_compiles_cpp(void **unused)
         child_run(&compiler);
         if (compiler.status)
             fail_msg("%s: status %d and \"%s\"", names[i], compiler.status, compiler.errors);
+#ifndef __SANITIZE_ADDRESS__ /* the linker warns of functions in the sanitizer's own library */
         assert_string_equal(compiler.errors, "");
+#endif
         unlink(source);
     }
     struct child heat = {.arguments = {program}};
