@@ -21,21 +21,37 @@ enum font_status font_face_fail(const struct font_face *face, const char *what, 
                      "%s: %s: %s", face->path, what, reason);
 }
 
-/* A table that FreeType finds: of a packed file (WOFF), unpacked. */
+struct face_table {
+    struct face_table *next;
+    hb_tag_t tag;
+    hb_blob_t *blob;
+};
+
+/* A table that FreeType finds: of a packed file (WOFF), unpacked. It stays until the face ends, since HarfBuzz's subsetter (6.0) reads
+ * tables that it has given back. */
 static hb_blob_t *table_unpack(hb_face_t *hb, hb_tag_t tag, void *data)
 {
-    FT_Face ft = data;
+    struct font_face *face = data;
     FT_ULong length = 0;
     (void)hb;
-    if (tag == HB_TAG_NONE || FT_Load_Sfnt_Table(ft, tag, 0, NULL, &length) || !length ||
+    for (struct face_table *t = face->tables; t; t = t->next)
+        if (t->tag == tag)
+            return hb_blob_reference(t->blob);
+    if (tag == HB_TAG_NONE || FT_Load_Sfnt_Table(face->ft, tag, 0, NULL, &length) || !length ||
         length > INT32_MAX)
         return NULL;
+    struct face_table *table = malloc(sizeof *table);
     char *bytes = malloc(length);
-    if (!bytes || FT_Load_Sfnt_Table(ft, tag, 0, (FT_Byte *)bytes, &length)) {
+    if (!table || !bytes || FT_Load_Sfnt_Table(face->ft, tag, 0, (FT_Byte *)bytes, &length)) {
+        free(table);
         free(bytes);
         return NULL;
     }
-    return hb_blob_create(bytes, (unsigned)length, HB_MEMORY_MODE_WRITABLE, bytes, free);
+    hb_blob_t *blob =
+        hb_blob_create(bytes, (unsigned)length, HB_MEMORY_MODE_WRITABLE, bytes, free);
+    *table = (struct face_table){face->tables, tag, blob};
+    face->tables = table;
+    return hb_blob_reference(blob);
 }
 
 static bool is_packed(const struct font_face *face)
@@ -63,7 +79,7 @@ struct hb_face_t *font_face_harfbuzz(struct font_face *face)
     if (face->hb_face)
         return face->hb_face;
     if (is_packed(face) || is_disordered(face)) {
-        face->hb_face = hb_face_create_for_tables(table_unpack, face->ft, NULL);
+        face->hb_face = hb_face_create_for_tables(table_unpack, face, NULL);
     } else {
         hb_blob_t *blob = hb_blob_create((const char *)face->bytes, (unsigned)face->bytes_count,
                                          HB_MEMORY_MODE_READONLY, NULL, NULL);
@@ -89,4 +105,9 @@ void font_face_harfbuzz_finish(struct font_face *face)
 {
     hb_font_destroy(face->hb_font);
     hb_face_destroy(face->hb_face);
+    for (struct face_table *t = face->tables, *next; t; t = next) {
+        next = t->next;
+        hb_blob_destroy(t->blob);
+        free(t);
+    }
 }

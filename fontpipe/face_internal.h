@@ -35,8 +35,9 @@ struct font_face {
     struct font_setting
         *settings; /* the last FACE_SETTINGS_KEPT, around; NULL until one is set */
     int settings_count, settings_next;
-    hb_face_t *hb_face; /* made when they are first asked for */
-    hb_font_t *hb_font; /* in the font's units; its axes as those of hb_version */
+    hb_face_t *hb_face;        /* made when they are first asked for */
+    struct face_table *tables; /* what had to be unpacked for it */
+    hb_font_t *hb_font;        /* in the font's units; its axes as those of hb_version */
     uint64_t hb_version;
     enum font_reader reader;
 };

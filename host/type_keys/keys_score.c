@@ -167,8 +167,9 @@ static void pressures_forget(struct keys_score *s, double before_s, double last_
         s->pressures[--first] = p;
     }
     s->pressures_count -= first;
-    memmove(s->pressures, s->pressures + first,
-            (size_t)s->pressures_count * sizeof *s->pressures);
+    if (first > 0)
+        memmove(s->pressures, s->pressures + first,
+                (size_t)s->pressures_count * sizeof *s->pressures);
 }
 
 void keys_score_forget(struct keys_score *s, double time_s)
