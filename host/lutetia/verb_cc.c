@@ -152,20 +152,22 @@ static char *compiler_of(bool cpp)
     return named && *named ? named : cpp ? cxx : cc;
 }
 
-/* Adds the program's arguments. Sources of C beside C++ stay C, unless an -x says what all are. */
+/* Adds the program's arguments. Sources of C beside C++ stay C, unless an -x says what all are; the files behind them are by their names
+ * again. */
 static void sources_add(struct compiler_line *line, int argc, char **argv, bool cpp)
 {
     static const char *const ends[] = {".c", NULL};
     static char language[] = "-xc", by_name[] = "-xnone";
     const bool marks = cpp && !any_starts_with(argc, argv, "-x");
+    bool marked = false;
     for (int i = 1; i < argc; i++) {
-        const bool c =
-            marks && argv[i][0] != '-' && ends_in(argv[i], ends) && !is_operand(argv, i);
-        if (c)
-            line_add(line, language);
+        const bool file = argv[i][0] != '-' && !is_operand(argv, i);
+        const bool c = file && ends_in(argv[i], ends);
+        if (marks && file && c != marked) {
+            line_add(line, c ? language : by_name);
+            marked = c;
+        }
         line_add(line, argv[i]);
-        if (c)
-            line_add(line, by_name);
     }
 }
 
