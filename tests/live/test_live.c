@@ -301,9 +301,7 @@ static void what_maps_do_wrong_is_told(void **unused)
         {"function message(m) along('size', 2) end", "how far along it is", true},
         {"function message(m) get('none') end", "none", true},
         {"function message(m) while true do end end", "stopped after 0.1 seconds", true},
-        {"function message(m) local t = {} while true do t[#t + 1] = ('x'):rep(1e6) .. #t end "
-         "end",
-         "not enough memory", true},
+        {"function message(m) local s = ('x'):rep(1e9) end", "not enough memory", true},
         {"function message(m) error{} end", "error: (a table)", true},
         {"function message(m) error(('long '):rep(100)) end", "long long", true},
         {"function message(m) os.exit() end", "os", true},
