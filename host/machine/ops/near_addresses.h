@@ -34,23 +34,6 @@ static inline void near_addresses(const struct near_route *r, size_t at, int n, 
                                 r->address_bytes, r->mask, UINT32_MAX};
     r->lanes->aim(&a, n, to);
 }
-/* Looks whether a message of these senders goes to no processor. */
-static inline void near_look_beyond(const struct near_route *r, size_t at, int n)
-{
-    uint32_t to[ROUTE_BLOCK];
-    if (!r->beyond || r->there)
-        return;
-    near_addresses(r, at, n, to);
-    bool any = r->lanes->greatest(to, n) >= r->to->count;
-    if (any && r->context) { /* nobody may send there */
-        const uint8_t *context = (const uint8_t *)r->context->host + at;
-        any = false;
-        for (int i = 0; i < n; i++)
-            any |= context[i] && to[i] >= r->to->count;
-    }
-    if (any)
-        atomic_store_explicit(r->beyond, true, memory_order_relaxed);
-}
 /* ... and the number of processors where they do not, or where there is none. */
 static inline void near_aims(const struct near_route *r, size_t at, int n, uint32_t *to)
 {
@@ -58,6 +41,19 @@ static inline void near_aims(const struct near_route *r, size_t at, int n, uint3
                                 r->context ? (const uint8_t *)r->context->host + at : NULL,
                                 r->address_bytes, r->mask, (uint32_t)r->to->count};
     r->lanes->aim(&a, n, to);
+}
+/* Looks whether a message of these senders goes to no processor; to: their near_aims(). */
+static inline void near_look_beyond(const struct near_route *r, size_t at, int n,
+                                    const uint32_t *to)
+{
+    const uint64_t nobody = r->to->count;
+    if (!r->beyond || r->there || r->lanes->greatest(to, n) < nobody)
+        return;
+    bool any = !r->context;
+    for (int i = 0; i < n && !any; i++)
+        any = to[i] >= nobody && ((const uint8_t *)r->context->host)[at + (size_t)i];
+    if (any)
+        atomic_store_explicit(r->beyond, true, memory_order_relaxed);
 }
 
 #endif

@@ -155,8 +155,8 @@ static void part_few(void *of, int part, int worker)
             (size_t)(from / (uint64_t)s->width) * s->pitch + (size_t)s->halo + (size_t)x;
         n = s->width - x < ROUTE_BLOCK ? s->width - x : ROUTE_BLOCK;
         n = end - from < (uint64_t)n ? (int)(end - from) : n;
-        near_look_beyond(r, at, n);
         near_aims(r, at, n, index);
+        near_look_beyond(r, at, n, index);
         const char *source = f->same ? f->source : f->source + at * f->bytes;
         BY_BYTES(f->bytes, send, f, tables, index, source, n)
     }

@@ -304,11 +304,14 @@ static void part_send(void *of, int part, int worker)
         const struct block b = block_get(r, i);
         bool moves = g->combiner == MACHINE_COMBINE_OVERWRITE;
         const size_t from = messages_at(g, &b);
-        if (part == 0 || r->distinct)
-            near_look_beyond(r, b.at, b.n);
         if (moves && !g->arrived && parts == 1 &&
             messages_move_all(r, &b, g->bytes, g->source, from, g->out))
             continue;
+        if (r->beyond && (part == 0 || r->distinct)) {
+            uint32_t aims[BLOCK];
+            near_aims(r, b.at, b.n, aims);
+            near_look_beyond(r, b.at, b.n, aims);
+        }
         hops_find(r, &to, b.at, b.n, &h);
         if (moves)
             messages_move(&h, g->bytes, g->source, from, g->out);
