@@ -47,9 +47,8 @@ void growing_file_of_pipe(struct growing_file *f, int descriptor);
 bool growing_file_append(struct growing_file *f, const void *bytes, size_t count,
                          const char *tail, size_t tail_count);
 
-/* Ends the file. False if it did not get onto the disk: then what was there before is there again. A file without a piece does
- * not appear. Does nothing to a file that is not open. In
- * a forked child its parent's file stays as it is. */
+/* Ends the file. False if it did not get onto the disk: then what was there before is there again. A file without a piece does not
+ * appear. Does nothing to a file that is not open. In a forked child its parent's file stays as it is. */
 bool growing_file_close(struct growing_file *f);
 
 #endif

@@ -18,7 +18,8 @@
  * longer than some two thousand bytes is cut off. Threads: any. */
 __attribute__((format(printf, 1, 2))) void visible_say(const char *format, ...);
 
-/* Prints on the standard output, and keeps line ends and tabs: the way out for what holds such names. Threads: any. */
+/* Prints on the standard output, and keeps line ends and tabs: the way out for what holds such names. What is
+ * longer than some four thousand bytes is cut off. Threads: any. */
 __attribute__((format(printf, 1, 2))) void visible_print(const char *format, ...);
 
 /* Writes the text as a line. Line ends and tabs become spaces; other control characters, and

@@ -22,38 +22,7 @@
 #include <growing_file.h>
 #include <part_files.h>
 
-static int folder_enter(void **state)
-{
-    char *folder = strdup("/tmp/test-growing-file-XXXXXX");
-    if (!folder || !mkdtemp(folder) || chdir(folder))
-        return -1;
-    *state = folder;
-    return 0;
-}
-
-static int folder_leave(void **state)
-{
-    char *folder = *state;
-    DIR *names = opendir(folder);
-    for (struct dirent *e; names && (e = readdir(names));)
-        unlinkat(dirfd(names), e->d_name, 0);
-    if (names)
-        closedir(names);
-    int status = chdir("/") || rmdir(folder);
-    free(folder);
-    return status;
-}
-
-static int names_count(void)
-{
-    int count = -2; /* . and .. */
-    DIR *names = opendir(".");
-    assert_non_null(names);
-    while (readdir(names))
-        count++;
-    closedir(names);
-    return count;
-}
+#include "own_folder.h"
 
 static void text_make(const char *name, const char *text)
 {

@@ -21,39 +21,7 @@
 
 #include <output_file.h>
 
-/* Makes a new folder for each test and changes into it. */
-static int folder_enter(void **state)
-{
-    char *folder = strdup("/tmp/test-output-file-XXXXXX");
-    if (!folder || !mkdtemp(folder) || chdir(folder))
-        return -1;
-    *state = folder;
-    return 0;
-}
-
-static int folder_leave(void **state)
-{
-    char *folder = *state;
-    DIR *names = opendir(folder);
-    for (struct dirent *e; names && (e = readdir(names));)
-        unlinkat(dirfd(names), e->d_name, 0);
-    if (names)
-        closedir(names);
-    int status = chdir("/") || rmdir(folder);
-    free(folder);
-    return status;
-}
-
-static int names_count(void)
-{
-    int count = 0;
-    DIR *names = opendir(".");
-    assert_non_null(names);
-    for (struct dirent *e; (e = readdir(names));)
-        count += strcmp(e->d_name, ".") != 0 && strcmp(e->d_name, "..") != 0;
-    closedir(names);
-    return count;
-}
+#include "own_folder.h"
 
 static void content_is(const char *name, const char *content)
 {

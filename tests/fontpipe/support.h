@@ -44,6 +44,16 @@ static inline struct font_filter *filter_make(const char *name)
     return filter;
 }
 
+/* The place of the pen after the glyph's advance. */
+static inline double glyph_end(const struct font_placed *g)
+{
+    struct font_face_info info;
+    double advance;
+    font_face_describe(g->face, &info);
+    assert_font(font_face_advance(g->face, g->glyph, &advance));
+    return g->x_px + advance * (double)g->size_px / info.units_per_em;
+}
+
 static inline uint32_t random_next(uint32_t *state)
 {
     *state ^= *state << 13;

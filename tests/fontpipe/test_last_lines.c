@@ -14,16 +14,6 @@ static const char marsh[] =
     "communication "
     "finds no satisfactory arrangement within the measurement of a newspaper's column.";
 
-/* The place of the pen after the glyph's advance. */
-static double glyph_end(const struct font_placed *g)
-{
-    struct font_face_info info;
-    double advance;
-    font_face_describe(g->face, &info);
-    assert_font(font_face_advance(g->face, g->glyph, &advance));
-    return g->x_px + advance * (double)g->size_px / info.units_per_em;
-}
-
 /* A paragraph's last line as a word's rest (the line before it ends in a hyphen that is behind the text), or as a short one. */
 static void last_line_see(const struct font_layout *l, const char *text, int *rests,
                           int *shorts)

@@ -65,16 +65,6 @@ static void end(struct fixture *f)
     page_text_destroy(f->text);
 }
 
-/* The place of the pen after the glyph's advance. */
-static double glyph_end(const struct font_placed *g)
-{
-    struct font_face_info info;
-    double advance;
-    font_face_describe(g->face, &info);
-    assert_font(font_face_advance(g->face, g->glyph, &advance));
-    return g->x_px + advance * (double)g->size_px / info.units_per_em;
-}
-
 static struct page_manner manner_of(enum font_align align)
 {
     struct page_manner m = page_manner_default();

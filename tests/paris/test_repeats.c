@@ -11,6 +11,7 @@
 
 #include "../sample.h"
 #include "paris_internal.h"
+#include "tier.h"
 #include <cm/paris.h>
 
 enum { SEEN_MOST = 64, VPS = 64 };
@@ -118,28 +119,13 @@ static void ranks_then_messages(uint64_t seed)
     look(c, 64, 64);
 }
 
-static const struct way {
-    const char *name, *near, *interpret, *at_once, *replay;
-    bool eager;
-} ways[] = {
-    {"one instruction at a time", "1", "1", "1", "0", true},
-    {"as usual", "1", "1", "1", "1", false},
-    {"without replay", "1", "1", "1", "0", false},
-    {"byte code", "1", "2", "0", "1", false},
-    {"always at once", "1", "2", "2", "1", false},
+static const struct tier ways[] = {
+    {"one instruction at a time", "1", "1", "1", true, 1, NULL, "0"},
+    {"as usual", "1", "1", "1", false, 1, NULL, "1"},
+    {"without replay", "1", "1", "1", false, 1, NULL, "0"},
+    {"byte code", "1", "2", "0", false, 1, NULL, "1"},
+    {"always at once", "1", "2", "2", false, 1, NULL, "1"},
 };
-
-static void begin_as(const struct way *w)
-{
-    struct machine_config config = machine_config_default();
-    setenv("LUTETIA_NEAR", w->near, 1);
-    setenv("LUTETIA_INTERPRET", w->interpret, 1);
-    setenv("LUTETIA_AT_ONCE", w->at_once, 1);
-    setenv("LUTETIA_REPLAY", w->replay, 1);
-    config.eager = w->eager;
-    assert_true(paris_reset(&config));
-    seen.count = 0;
-}
 
 static void see_the_same_in_all_ways(void (*program)(uint64_t seed))
 {
@@ -147,7 +133,8 @@ static void see_the_same_in_all_ways(void (*program)(uint64_t seed))
         uint64_t right[SEEN_MOST];
         int count = 0;
         for (size_t w = 0; w < sizeof ways / sizeof *ways; w++) {
-            begin_as(&ways[w]);
+            tier_begin(&ways[w], 0);
+            seen.count = 0;
             program(seed);
             if (w == 0) /* the slow way, which has no states */
                 count = seen.count;

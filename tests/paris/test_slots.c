@@ -12,21 +12,18 @@
 #include "paris_internal.h"
 #include "sample.h"
 #include "slot_programs.h"
+#include "tier.h"
 #include <cm/paris.h>
 
-static const struct tier {
-    const char *name, *near, *interpret, *at_once, *replay;
-    bool eager;
-    int every; /* of so many programs one: kernels take long to compile */
-} tiers[] = {
-    {"as usual", "1", "1", "1", "1", false, 1},
-    {"without replay", "1", "1", "1", "0", false, 1},
-    {"byte code", "1", "2", "0", "1", false, 1},
-    {"byte code, shared out", "2", "2", "0", "1", false, 2},
-    {"always at once", "1", "2", "2", "1", false, 2},
-    {"byte code, one instruction at a time", "1", "2", "0", "1", true, 4},
-    {"kernels", "0", "0", "0", "1", false, 512},
-    {"kernels, byte code on the device", "0", "3", "0", "1", false, 64},
+static const struct tier tiers[] = {
+    {"as usual", "1", "1", "1", false, 1, NULL, "1"},
+    {"without replay", "1", "1", "1", false, 1, NULL, "0"},
+    {"byte code", "1", "2", "0", false, 1, NULL, "1"},
+    {"byte code, shared out", "2", "2", "0", false, 2, NULL, "1"},
+    {"always at once", "1", "2", "2", false, 2, NULL, "1"},
+    {"byte code, one instruction at a time", "1", "2", "0", true, 4, NULL, "1"},
+    {"kernels", "0", "0", "0", false, 512, NULL, "1"},
+    {"kernels, byte code on the device", "0", "3", "0", false, 64, NULL, "1"},
 };
 enum { TIERS = sizeof tiers / sizeof *tiers, CHUNK = 64 };
 
@@ -393,18 +390,6 @@ static bool program_run(int seed, const struct tier *t)
     return !wrong;
 }
 
-static void begin_as(const struct tier *t)
-{
-    struct machine_config config = machine_config_default();
-    setenv("LUTETIA_NEAR", t->near, 1);
-    setenv("LUTETIA_INTERPRET", t->interpret, 1);
-    setenv("LUTETIA_AT_ONCE", t->at_once, 1);
-    setenv("LUTETIA_REPLAY", t->replay, 1);
-    config.eager = t->eager;
-    config.processors_count = SLOT_PROCESSORS;
-    assert_true(paris_reset(&config));
-}
-
 static void all_fields_and_flags_are_as_in_plain_bits(void **unused)
 {
     int wrong = 0;
@@ -413,7 +398,7 @@ static void all_fields_and_flags_are_as_in_plain_bits(void **unused)
         if (only_tier >= 0 && i != only_tier)
             continue;
         int run = 0;
-        begin_as(&tiers[i]);
+        tier_begin(&tiers[i], SLOT_PROCESSORS);
         for (int seed = first_program; seed < first_program + programs_count; seed++)
             if (seed % tiers[i].every == 0) {
                 wrong += !program_run(seed, &tiers[i]);

@@ -12,21 +12,18 @@
 
 #include "../sample.h"
 #include "paris_internal.h"
+#include "tier.h"
 #include <cm/paris.h>
 
 enum { PROGRAMS = 24, STEPS = 40, FIELDS = 4, WIDE = 100, MOST = 60000 };
 
-static const struct tier {
-    const char *name, *near, *interpret, *at_once;
-    bool eager;
-    int every;
-} tiers[] = {
-    {"one instruction at a time", "1", "2", "0", true, 1},
-    {"as usual", "1", "1", "1", false, 1},
-    {"byte code", "1", "2", "0", false, 1},
-    {"byte code, shared out", "2", "2", "0", false, 1},
-    {"kernels", "0", "0", "0", false, 12},
-    {"always at once", "1", "2", "2", false, 2},
+static const struct tier tiers[] = {
+    {"one instruction at a time", "1", "2", "0", true, 1, NULL, NULL},
+    {"as usual", "1", "1", "1", false, 1, NULL, NULL},
+    {"byte code", "1", "2", "0", false, 1, NULL, NULL},
+    {"byte code, shared out", "2", "2", "0", false, 1, NULL, NULL},
+    {"kernels", "0", "0", "0", false, 12, NULL, NULL},
+    {"always at once", "1", "2", "2", false, 2, NULL, NULL},
 };
 enum { TIERS = sizeof tiers / sizeof *tiers };
 
@@ -161,17 +158,6 @@ static void eliminate(void)
     CM_f_add_2_1L(on.f[3], on.f[1], 23, 8);
 }
 
-static void begin_as(const struct tier *t)
-{
-    struct machine_config config = machine_config_default();
-    setenv("LUTETIA_NEAR", t->near, 1);
-    setenv("LUTETIA_INTERPRET", t->interpret, 1);
-    setenv("LUTETIA_AT_ONCE", t->at_once, 1);
-    config.eager = t->eager;
-    config.processors_count = 16;
-    assert_true(paris_reset(&config));
-}
-
 static void set_make(int program)
 {
     static const unsigned int shapes[][3] = {{700, 0},  {20, 33},    {5, 7, 700}, {40, 900},
@@ -219,7 +205,7 @@ static uint64_t program_run(int program, const struct tier *t)
 {
     state = 88172645463325252u + (uint64_t)program * 104729;
     said = 1;
-    begin_as(t);
+    tier_begin(t, 16);
     set_make(program);
     for (int step = 0; step < STEPS; step++) {
         unsigned int what = below(16);
@@ -267,7 +253,7 @@ static void a_product_holds_no_spreads(void **unused)
 {
     struct machine_stats stats;
     (void)unused;
-    begin_as(&tiers[1]);
+    tier_begin(&tiers[1], 16);
     set_make(3);
     for (unsigned int k = 0; k < 40; k++) {
         CM_spread_with_copy_1L(on.f[1], on.f[0], 1, 32, k);

@@ -12,22 +12,19 @@
 
 #include "../sample.h"
 #include "paris_internal.h"
+#include "tier.h"
 #include <cm/paris.h>
 
 enum { PROGRAMS = 20, STEPS = 40, FIELDS = 4, WIDE = 100, MOST = 400000 };
 
-static const struct tier {
-    const char *name, *near, *interpret, *gather, *at_once;
-    bool eager;
-    int every; /* of so many programs one */
-} tiers[] = {
-    {"as usual", "1", "1", "1", "1", false, 1},
-    {"byte code, shared out", "2", "2", "1", "0", false, 1},
-    {"kernels", "0", "0", "1", "0", false, 8},
-    {"byte code, one instruction at a time", "1", "2", "1", "0", true, 1},
-    {"gets apart", "2", "2", "0", "0", false, 2},
-    {"byte code", "1", "2", "1", "0", false, 1},
-    {"always at once", "1", "2", "1", "2", false, 1},
+static const struct tier tiers[] = {
+    {"as usual", "1", "1", "1", false, 1, "1", NULL},
+    {"byte code, shared out", "2", "2", "0", false, 1, "1", NULL},
+    {"kernels", "0", "0", "0", false, 8, "1", NULL},
+    {"byte code, one instruction at a time", "1", "2", "0", true, 1, "1", NULL},
+    {"gets apart", "2", "2", "0", false, 2, "0", NULL},
+    {"byte code", "1", "2", "0", false, 1, "1", NULL},
+    {"always at once", "1", "2", "2", false, 1, "1", NULL},
 };
 enum { TIERS = sizeof tiers / sizeof *tiers };
 
@@ -279,18 +276,6 @@ static void cross(void)
 
 static int first_program, programs_count = PROGRAMS;
 
-static void begin_as(const struct tier *t)
-{
-    struct machine_config config = machine_config_default();
-    setenv("LUTETIA_NEAR", t->near, 1);
-    setenv("LUTETIA_INTERPRET", t->interpret, 1);
-    setenv("LUTETIA_GATHER", t->gather, 1);
-    setenv("LUTETIA_AT_ONCE", t->at_once, 1);
-    config.eager = t->eager;
-    config.processors_count = 16;
-    assert_true(paris_reset(&config));
-}
-
 static void set_make(int program)
 {
     static const unsigned int shapes[][3] = {
@@ -341,7 +326,7 @@ static uint64_t program_run(int program, const struct tier *t)
 {
     state = 88172645463325252u + (uint64_t)program * 104729;
     said = 1;
-    begin_as(t);
+    tier_begin(t, 16);
     set_make(program);
     for (int step = 0; step < (on.count == MOST ? STEPS / 2 : STEPS); step++) {
         unsigned int what = below(on.count >= 4096 && on.count < MOST ? 22 : 16);

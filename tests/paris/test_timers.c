@@ -8,32 +8,19 @@
 #include <cmocka.h>
 
 #include "device.h"
+#include "tier.h"
 
 enum { TIMER = 5 };
 
-static const struct tier {
-    const char *name, *near, *interpret, *at_once;
-    bool eager;
-} tiers[] = {
-    {"as usual", "1", "1", "1", false},
-    {"one at a time", "1", "1", "1", true},
-    {"byte code", "1", "2", "0", false},
-    {"byte code, shared out", "2", "2", "0", false},
-    {"always at once", "1", "2", "2", false},
-    {"kernels", "0", "0", "0", false},
-    {"kernels, byte code on the device", "0", "3", "0", false},
+static const struct tier tiers[] = {
+    {"as usual", "1", "1", "1", false, 1, NULL, NULL},
+    {"one at a time", "1", "1", "1", true, 1, NULL, NULL},
+    {"byte code", "1", "2", "0", false, 1, NULL, NULL},
+    {"byte code, shared out", "2", "2", "0", false, 1, NULL, NULL},
+    {"always at once", "1", "2", "2", false, 1, NULL, NULL},
+    {"kernels", "0", "0", "0", false, 1, NULL, NULL},
+    {"kernels, byte code on the device", "0", "3", "0", false, 1, NULL, NULL},
 };
-
-static void begin_as(const struct tier *t)
-{
-    struct machine_config config = machine_config_default();
-    setenv("LUTETIA_NEAR", t->near, 1);
-    setenv("LUTETIA_INTERPRET", t->interpret, 1);
-    setenv("LUTETIA_AT_ONCE", t->at_once, 1);
-    config.eager = t->eager;
-    config.processors_count = 16;
-    assert_true(paris_reset(&config));
-}
 
 static CM_field_id_t a, b, c;
 
@@ -110,7 +97,7 @@ static void what_is_computed_is_the_machines_time(void **unused)
 {
     (void)unused;
     for (size_t i = 0; i < sizeof tiers / sizeof *tiers; i++) {
-        begin_as(&tiers[i]);
+        tier_begin(&tiers[i], 16);
         timed(&tiers[i], 300000, 2, tiers[i].near[0] == '0' ? 0 : 0.2);
         timed(&tiers[i], 500, 20, 0);
     }
@@ -120,7 +107,7 @@ static void what_is_computed_is_the_machines_time(void **unused)
 static void what_the_front_end_does_is_idle(void **unused)
 {
     (void)unused;
-    begin_as(&tiers[0]);
+    tier_begin(&tiers[0], 16);
     set_make(500);
     CM_timer_clear(TIMER);
     CM_timer_start(TIMER);
@@ -135,7 +122,7 @@ static void a_timer_goes_on_from_machine_to_machine(void **unused)
 {
     double busy;
     (void)unused;
-    begin_as(&tiers[2]);
+    tier_begin(&tiers[2], 16);
     CM_timer_clear(TIMER);
     CM_timer_start(TIMER);
     set_make(100000);
@@ -146,7 +133,7 @@ static void a_timer_goes_on_from_machine_to_machine(void **unused)
     CM_detach();
     assert_true(CM_timer_read_cm_busy(TIMER) >= busy); /* and no machine is made for that */
     assert_int_equal(CM_attached(), 0);
-    begin_as(&tiers[2]);
+    tier_begin(&tiers[2], 16);
     busy = CM_timer_read_cm_busy(TIMER);
     set_make(100000);
     compute(2);
