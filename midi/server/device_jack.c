@@ -5,7 +5,7 @@
  *
  * A received event keeps its time within the period. Events to send are written at the
  * beginning of the next period; what does not fit goes into the one after it, and who sends more than that waits, as for a serial line.
- * What JACK or the ring of what was heard has no room for, and periods that were missed, are counted: the server tells it, and ends the
+ * What JACK or the ring of what was heard has no room for, periods that were missed and JACK's own word of an xrun are counted: the server tells it, and ends the
  * notes whose ends may be among what is lost, at both sides.
  */
 #include "device_kinds.h"
@@ -123,6 +123,16 @@ static int process(uint32_t frames, void *context)
     return 0;
 }
 
+/* Some client was late, and JACK's count of frames may not show it: who was to read what was said may not have. Nothing that was
+ * heard is told as lost: a note that is held shall go on where another program was late. */
+static int late(void *context)
+{
+    struct jack_device *j = context;
+    j->out_lost++;
+    wake(j);
+    return 0;
+}
+
 static void shut_down(void *context)
 {
     struct jack_device *j = context;
@@ -162,6 +172,7 @@ static enum midi_status ports_open(struct server_device *d, struct jack_device *
     j->out = jack->jack_port_register(j->client, "out", JACK_MIDI_TYPE, JACK_PORT_OUT, 0);
     jack->jack_on_shutdown(j->client, shut_down, j);
     if (!j->in || !j->out || !j->rate_hz ||
+        jack->jack_set_xrun_callback(j->client, late, j) != 0 ||
         jack->jack_set_process_callback(j->client, process, j) != 0 ||
         jack->jack_activate(j->client) != 0)
         return midi_fail(MIDI_NO_DEVICE, "JACK gives no MIDI ports");

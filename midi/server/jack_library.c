@@ -19,6 +19,7 @@ static const struct library_function functions[] = {
     FUNCTION(jack_port_register),
     FUNCTION(jack_port_get_buffer),
     FUNCTION(jack_set_process_callback),
+    FUNCTION(jack_set_xrun_callback),
     FUNCTION(jack_on_shutdown),
     FUNCTION(jack_get_sample_rate),
     FUNCTION(jack_frames_since_cycle_start),

@@ -31,6 +31,7 @@ struct jack_library {
     int (*jack_set_process_callback)(void *client,
                                      int (*process)(uint32_t frames, void *context),
                                      void *context);
+    int (*jack_set_xrun_callback)(void *client, int (*late)(void *context), void *context);
     void (*jack_on_shutdown)(void *client, void (*gone)(void *context), void *context);
     uint32_t (*jack_get_sample_rate)(void *client);
     uint32_t (*jack_frames_since_cycle_start)(const void *client);
