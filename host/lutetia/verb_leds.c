@@ -39,6 +39,7 @@
 struct leds {
     const char *out_path, *frames_dir, *view, *pattern;
     int size[2], every, count; /* count 0: until the window is closed */
+    int pictures_most;         /* that a recording's times may ask for; 0: by its lights */
     double fps, brightness;    /* fps 0: a picture for each latch */
     double pattern_fps;        /* steps in a window */
     bool window_wanted, close_at_end;
@@ -46,6 +47,8 @@ struct leds {
     struct leds_window the_window, *window; /* NULL: no window */
     bool closed;                            /* there was a window, and the user closed it */
     bool paced;                             /* frames wait for their times */
+    bool seen;                              /* frames come as the program runs: their times
+                                             * have really passed */
     pid_t watched;                          /* the process whose lights are shown here; 0:
                                              * none */
     char name[64];                          /* the source's name, for the title */
@@ -63,6 +66,8 @@ struct leds {
 
 /* ---- pictures ---- */
 
+enum { PICTURES_MOST = 999999 }; /* as their names have digits for */
+
 static int picture_write(struct leds *leds, const char *path)
 {
     if (front_panel_draw(leds->panel, leds->last.lights, &leds->image) != DISPLAY_OK ||
@@ -78,7 +83,7 @@ static int frame_write(struct leds *leds)
         snprintf(path, sizeof path, "%s/frame-%06d.png", leds->frames_dir, leds->written);
     if (length < 0 || (size_t)length >= sizeof path)
         return fail("leds", "--frames: the folder's name is too long");
-    if (leds->written == 999999)
+    if (leds->written == PICTURES_MOST)
         return fail("leds", "a million pictures are enough; take --every or a lower --fps");
     leds->written++;
     return picture_write(leds, path);
@@ -164,18 +169,31 @@ static void window_linger(struct leds *leds)
         turn(leds, 0.1);
 }
 
-enum { PICTURES_MOST = 100000 };
+enum { PICTURES_ANY = 3000, PICTURES_EACH = 100 };
+
+/* How many pictures the times that a recording claims may ask for: a kilobyte can say that a
+ * thousand years have gone by. */
+static double pictures_most(const struct leds *leds)
+{
+    if (leds->seen)
+        return INFINITY;
+    return leds->pictures_most ? leds->pictures_most
+                               : PICTURES_ANY + PICTURES_EACH * (double)leds->taken;
+}
 
 /* With --fps: writes the previous frame for the times before this frame. */
 static void time_fill(struct leds *leds, uint64_t until_us)
 {
-    /* a recording of a kilobyte can say that a thousand years have gone by */
-    if ((double)until_us * 1e-6 * leds->fps > PICTURES_MOST) {
+    const double until_s = (double)until_us * 1e-6, wanted = ceil(until_s * leds->fps);
+    if (wanted > pictures_most(leds)) {
+        char option[40] = "";
+        if (wanted <= PICTURES_MOST)
+            snprintf(option, sizeof option, ", or --pictures %.0f", wanted);
         leds->status =
             fail("leds",
-                 "--frames: until light %llu, after %.4g s, it is more than %d "
-                 "pictures; take a lower --fps",
-                 (unsigned long long)leds->taken, (double)until_us * 1e-6, PICTURES_MOST);
+                 "--frames: the recording says that light %llu came after %.4g s: "
+                 "%.0f pictures (%.0f are the most); take a lower --fps%s",
+                 (unsigned long long)leds->taken, until_s, wanted, pictures_most(leds), option);
         return;
     }
     while (go_on(leds) && (double)leds->written / leds->fps * 1e6 < (double)until_us) {
@@ -331,6 +349,7 @@ static int from_program(struct leds *leds, char **arguments)
     if (child == 0)
         become(ends[1], arguments);
     close(ends[1]);
+    leds->seen = true;
     int status = from_descriptor(leds, ends[0], arguments[0], true);
     close(ends[0]);
     int ended = child_end(leds, child, arguments[0]);
@@ -487,6 +506,8 @@ static int words_check(const struct leds *leds, int argc, char **argv)
         strcmp(leds->pattern, "noise") != 0 && strcmp(leds->pattern, "on") != 0)
         return fail_usage("leds", "--pattern must be random, noise or on (got '%.60s')",
                           leds->pattern);
+    if (leds->pictures_most && (!leds->frames_dir || leds->fps <= 0 || leds->pattern))
+        return fail_usage("leds", "--pictures is for a recording, with --frames and --fps");
     if (!leds->pattern == !argc)
         return fail_usage("leds",
                           "give a program, a recording, or --pattern random: one of them");
@@ -517,6 +538,10 @@ int verb_leds(int argc, char **argv)
          "instead, write so many for each second that the program ran; in a window the most a "
          "second (30)",
          &leds.fps, 0.001, 1000, 0},
+        {"pictures", 0, OPTION_INTEGER, "N",
+         "with --fps: the most pictures that the times in a recording may ask for (3000, and "
+         "100 for each light)",
+         &leds.pictures_most, 1, PICTURES_MOST, 0},
         {"size", 0, OPTION_SIZE, "WxH", "size of a picture (960x960)", leds.size,
          FRONT_PANEL_SIDE_MIN, FRONT_PANEL_SIDE_MAX, 0},
         {"view", 0, OPTION_TEXT, "VIEW",

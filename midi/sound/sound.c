@@ -30,37 +30,39 @@ struct sound_def sound_def_default(void)
     return (struct sound_def){.rate_hz = 44100, .gain = 0.6, .tail_s = 1.5};
 }
 
+/* Checks that a file is a SoundFont, because FluidSynth prints messages of its own if it is
+ * not. */
+static enum midi_status font_check(const char *path)
+{
+    char head[12] = "";
+    const char *why;
+    FILE *file = input_file_open(path, &why);
+    if (!file)
+        return midi_fail(MIDI_NO_DEVICE, "%s: no SoundFont can be read there: %s", path, why);
+    const bool read = fread(head, 1, sizeof head, file) == sizeof head;
+    fclose(file);
+    return read && !memcmp(head, "RIFF", 4) && !memcmp(head + 8, "sfbk", 4)
+               ? MIDI_OK
+               : midi_fail(MIDI_NO_DEVICE, "%s: no SoundFont, or a damaged one", path);
+}
+
 enum midi_status sound_font_find(const char *font, const char **found)
 {
     static const char *const usual[] = {
         "/usr/share/sounds/sf2/TimGM6mb.sf2", "/usr/share/sounds/sf2/default-GM.sf2",
         "/usr/share/sounds/sf3/default-GM.sf3", "/usr/share/soundfonts/default.sf2"};
-    font = font ? font : getenv("LUTETIA_SOUNDFONT");
-    *found = font;
-    if (font)
-        return access(font, R_OK) == 0
-                   ? MIDI_OK
-                   : midi_fail(MIDI_NO_DEVICE, "%s: no SoundFont can be read there", font);
+    const char *named = getenv("LUTETIA_SOUNDFONT");
+    *found = font ? font : named && *named ? named : NULL;
+    if (*found)
+        return font_check(*found);
     for (size_t i = 0; i < sizeof usual / sizeof *usual; i++)
         if (access(usual[i], R_OK) == 0) {
             *found = usual[i];
-            return MIDI_OK;
+            return font_check(usual[i]);
         }
     return midi_fail(MIDI_NO_DEVICE,
                      "sound needs a SoundFont: install timgm6mb-soundfont, or name one in "
                      "LUTETIA_SOUNDFONT");
-}
-
-/* Checks that a file is a SoundFont, because FluidSynth prints messages of its own if it is
- * not. */
-static bool font_good(const char *path)
-{
-    char head[12] = "";
-    FILE *file = input_file_open(path, NULL);
-    const bool read = file && fread(head, 1, sizeof head, file) == sizeof head;
-    if (file)
-        fclose(file);
-    return read && !memcmp(head, "RIFF", 4) && !memcmp(head + 8, "sfbk", 4);
 }
 
 static enum midi_status settings_make(struct sound *s, const struct sound_def *def)
@@ -108,7 +110,7 @@ enum midi_status sound_create(const struct sound_def *def, struct sound **out)
         if (!s->synth)
             status = midi_fail(MIDI_NO_MEMORY, "FluidSynth makes no synthesizer");
     }
-    if (status == MIDI_OK && (!font_good(font) || !fluid_font_load(fluid, s->synth, font)))
+    if (status == MIDI_OK && !fluid_font_load(fluid, s->synth, font))
         status = midi_fail(MIDI_NO_DEVICE, "%s: no SoundFont, or a damaged one", font);
     if (status != MIDI_OK) {
         sound_destroy(s);

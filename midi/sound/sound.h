@@ -55,7 +55,8 @@ enum midi_status sound_render(const struct sound_def *def, struct midi_song *son
 enum midi_status sound_render_open(const struct sound_def *def, struct midi_song *song,
                                    double seconds, int *file);
 
-/* The SoundFont that is used: the given one, or the first that exists. Errors: NO_DEVICE. */
+/* The SoundFont that is used: the given one, that of LUTETIA_SOUNDFONT, or the first that exists. Errors: NO_DEVICE, if it is no
+ * regular file that can be read, or does not begin as a SoundFont. */
 enum midi_status sound_font_find(const char *font, const char **found);
 
 #endif

@@ -80,8 +80,8 @@ class Outside(unittest.TestCase):
         self.assertIsNone(BAD.search(done.stdout + done.stderr), done.stdout + done.stderr)
         return done
 
-    def refused(self, *arguments):
-        done = self.run_it(*arguments, status=1)
+    def refused(self, *arguments, status=1, **variables):
+        done = self.run_it(*arguments, status=status, **variables)
         self.assertEqual(done.stderr.count(b"\n"), 1, done.stderr)
         return done.stderr
 
@@ -166,6 +166,9 @@ class Outside(unittest.TestCase):
         for name in ("pipe", "/dev/zero", "/etc"):
             self.refused("keys", "song.mid", "--map", name, "-o", "p.png")
             self.refused("midi", "render", "song.mid", "--soundfont", name, "-o", "p.wav")
+            for verb in (("midi", "render", "song.mid", "-o", "p.wav"), ("keys", "song.mid", "--sound", "p.wav", "-o", "p.png")):
+                said = self.refused(*verb, LUTETIA_SOUNDFONT=name)
+                self.assertRegex(said, b"(?i)not a regular file|directory")
 
     def test_a_long_option_names_the_program(self):
         (self.at / "p.c").write_text("int main(void) { return 0; }\n")
@@ -183,11 +186,45 @@ class Outside(unittest.TestCase):
         self.run_it("paint", "A", "--steps", "1", "--paper", "32x32", "-o", "t.png", LUTETIA_TRACE="trace", status=0)
         self.assertTrue((self.at / "trace").read_text().startswith("["))
 
+    def recording_make(self, name, seconds, lights=2):
+        """So many lights, the last of them after so many seconds."""
+        times = [0] * (lights - 1) + [int(seconds * 1e6)]
+        (self.at / name).write_bytes(b"lutetia leds 1 4096\n" + b"".join(struct.pack("<Q", time) + b"\1" * 512 for time in times))
+
+    def pictures(self):
+        return len(os.listdir(self.at / "pictures")) if (self.at / "pictures").exists() else 0
+
     def test_a_short_recording_fills_no_disk(self):
-        (self.at / "endless.leds").write_bytes(b"lutetia leds 1 4096\n" + struct.pack("<Q", 0) + b"\0" * 512 +
-                                               struct.pack("<Q", 1 << 62) + b"\1" * 512)
-        self.assertIn(b"--fps", self.refused("leds", "--frames", "pictures", "--fps", "30", "endless.leds"))
-        self.assertLess(len(os.listdir(self.at / "pictures")), 3)
+        """What a recording only claims makes some thousand pictures, unless more are asked for."""
+        leds = ("leds", "--frames", "pictures", "--size", "64x64", "--fps")
+        for seconds in (1 << 42, 99999, 3300):  # of a kilobyte
+            self.recording_make("endless.leds", seconds)
+            said = self.refused(*leds, "1", "endless.leds")
+            self.assertIn(b"--fps", said)
+            self.assertEqual(b"--pictures %d" % seconds in said, seconds < 1000000, said)
+            self.assertLess(self.pictures(), 3)
+        self.refused("leds", "--pictures", "9", "endless.leds", status=2)
+        self.recording_make("more.leds", 99999, lights=4)
+        self.assertIn(b"(3300 are the most)", self.refused(*leds, "1", "more.leds"))
+        self.recording_make("minute.leds", 60)
+        self.assertIn(b"--pictures 60", self.refused(*leds, "1", "--pictures", "59", "minute.leds"))
+        self.run_it(*leds, "1", "--pictures", "60", "minute.leds", status=0)
+        self.assertEqual(self.pictures(), 61)
+
+    def test_times_of_a_program_are_believed(self):
+        """They have passed: there are pictures for all of them."""
+        (self.at / "slow").write_bytes(b"#!/bin/sh\ncat endless.leds >$LUTETIA_LEDS\n")
+        (self.at / "slow").chmod(0o755)
+        self.recording_make("endless.leds", 99999)
+        child = subprocess.Popen([LUTETIA, "leds", "--frames", "pictures", "--size", "64x64", "--fps", "1", "./slow"], cwd=self.at,
+                                 stdin=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        until = time.monotonic() + SECONDS
+        while child.poll() is None and self.pictures() < 5 and time.monotonic() < until:
+            time.sleep(0.02)
+        child.send_signal(signal.SIGINT)
+        said = child.communicate(timeout=SECONDS)[1]
+        self.assertEqual((child.returncode, b"--pictures" in said), (130, False), said)
+        self.assertGreaterEqual(self.pictures(), 5)
 
     def test_text_in_a_drawing_is_xml(self):
         self.run_it("type", "a\ufffeb\uffffc", "-o", "n.svg", status=0)
