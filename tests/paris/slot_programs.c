@@ -45,7 +45,8 @@ static const char *const names[SLOT_KINDS] = {"u_move",
                                               "scan_with_s_max",
                                               "spread_with_copy",
                                               "spread_with_u_add",
-                                              "global_u_max"};
+                                              "global_u_max",
+                                              "make_news_coordinate"};
 
 const char *slot_kind_name(enum slot_kind kind)
 {
@@ -76,10 +77,28 @@ uint64_t slot_number(uint64_t seed, int vp, int length)
 
 static const struct slot_part nowhere = {-1, 0};
 
+/* A part that an earlier step has used, if it has room for that many bits and is of the set. */
+static struct slot_part part_again(const struct slot_program *p, uint64_t *state, int set,
+                                   int length)
+{
+    for (int tries = 0; p->steps_count && tries < 8; tries++) {
+        const struct slot_step *s = &p->steps[sample_below(state, (uint32_t)p->steps_count)];
+        const struct slot_part parts[] = {s->to, s->to, s->a, s->b},
+                               part = parts[sample_below(state, 4)];
+        if (p->set[part.field] == set && part.at + length <= p->bits[part.field])
+            return part;
+    }
+    return nowhere;
+}
+
 /* A part with that many bits of a field of the set; the alias stays apart. */
 static struct slot_part part_of(const struct slot_program *p, uint64_t *state, int set,
                                 int length)
 {
+    const struct slot_part again =
+        p->parts_again && sample_below(state, 3) ? part_again(p, state, set, length) : nowhere;
+    if (again.field >= 0)
+        return again;
     for (int tries = 0; tries < 40; tries++) {
         int field = (int)sample_below(state, SLOT_FIELDS);
         if (p->set[field] != set || p->bits[field] < length)
@@ -153,6 +172,24 @@ bool slot_sends(enum slot_kind kind)
            kind == SLOT_SEND_FADD;
 }
 
+/* Whether its operand b are addresses. */
+static bool is_far(enum slot_kind kind)
+{
+    return slot_sends(kind) || kind == SLOT_GET;
+}
+
+/* Whether messages may well go where it says. */
+static bool is_address(enum slot_kind kind)
+{
+    return kind == SLOT_ADDRESS || kind == SLOT_AIM || kind == SLOT_MOVE;
+}
+
+/* The set that its messages go to, or come from. */
+static int far_set(const struct slot_program *p, const struct slot_step *s)
+{
+    return p->set[slot_sends(s->kind) ? s->to.field : s->a.field];
+}
+
 static void lengths_choose(const struct slot_program *p, uint64_t *state, struct slot_step *s)
 {
     s->length = length_of(state, most_of(s->kind));
@@ -164,9 +201,14 @@ static void lengths_choose(const struct slot_program *p, uint64_t *state, struct
         s->length = sample_below(state, 2) ? 32 : 64;
     if (s->kind == SLOT_STORE_FLAGS)
         s->length = 3;
+    if (s->kind == SLOT_AIM)
+        s->length = slot_address_bits(p, s->set);
     s->shorter = s->length;
     if (s->kind == SLOT_MOVE || s->kind == SLOT_MOVE_SIGNED)
         s->shorter = 1 + (int)sample_below(state, (uint32_t)s->length);
+    if (s->kind == SLOT_MOVE && s->length > slot_address_bits(p, s->set) &&
+        sample_below(state, 2))
+        s->shorter = slot_address_bits(p, s->set);
     if (s->kind == SLOT_MOVE_SIGNED && s->shorter < 2)
         s->shorter = 2;
     if (s->kind == SLOT_RANK)
@@ -175,15 +217,18 @@ static void lengths_choose(const struct slot_program *p, uint64_t *state, struct
         s->shorter = sample_below(state, 2) ? 32 : 64;
 }
 
-/* After addresses are computed, messages often go there. `before`: the step before, or NULL. */
+/* Messages often go where the step before has sent or fetched, or whose addresses it has computed. `before`: that step, or NULL. */
 static bool goes_there(const struct slot_program *p, uint64_t *state,
                        const struct slot_step *before, struct slot_step *s)
 {
-    static const enum slot_kind kinds[] = {SLOT_SEND, SLOT_SEND, SLOT_SEND_FADD, SLOT_GET};
-    if (!before || before->kind != SLOT_ADDRESS || sample_below(state, 4) == 0 ||
-        before->length < slot_address_bits(p, before->set))
+    static const enum slot_kind kinds[] = {SLOT_SEND,     SLOT_SEND_FADD, SLOT_GET,
+                                           SLOT_SEND_MAX, SLOT_SEND_ADD,  SLOT_SEND_XOR};
+    const bool computed = before && is_address(before->kind) &&
+                          before->length >= slot_address_bits(p, before->set),
+               went = before && p->parts_again && is_far(before->kind);
+    if (!(computed || went) || sample_below(state, 4) == 0)
         return false;
-    s->kind = kinds[sample_below(state, 4)];
+    s->kind = kinds[sample_below(state, 6)];
     s->set = before->set;
     return true;
 }
@@ -192,8 +237,8 @@ static bool goes_there(const struct slot_program *p, uint64_t *state,
 static bool step_make(const struct slot_program *p, uint64_t *state,
                       const struct slot_step *before, struct slot_step *s)
 {
-    *s = (struct slot_step){.kind = (enum slot_kind)sample_below(state, SLOT_KINDS),
-                            .set = (int)sample_below(state, SLOT_SETS),
+    *s = (struct slot_step){.kind = p->kinds[sample_below(state, (uint32_t)p->kinds_count)],
+                            .set = (int)sample_below(state, (uint32_t)p->sets_used),
                             .upward = (int)sample_below(state, 2),
                             .inclusive = (int)sample_below(state, 2),
                             .smode = (int)sample_below(state, 3),
@@ -202,19 +247,33 @@ static bool step_make(const struct slot_program *p, uint64_t *state,
                             .a = nowhere,
                             .b = nowhere};
     const bool there = goes_there(p, state, before, s);
-    const int other = there ? s->set : (int)sample_below(state, SLOT_SETS);
+    const bool far = is_far(s->kind), sends = far && s->kind != SLOT_GET;
+    const int other = !there                  ? (int)sample_below(state, SLOT_SETS)
+                      : !is_far(before->kind) ? s->set
+                                              : far_set(p, before);
     lengths_choose(p, state, s);
     s->vp = (int)(sample_word(state) % (uint64_t)slot_vps(p, s->set));
-    const bool sends = slot_sends(s->kind), far = sends || s->kind == SLOT_GET;
     const int b_length = far ? slot_address_bits(p, other) : s->length;
     s->to = part_of(p, state, sends ? other : s->set, s->length);
     s->a = part_of(p, state, s->kind == SLOT_GET ? other : s->set, s->shorter);
-    s->b = there ? before->to : part_of(p, state, s->set, b_length);
+    s->b = !there                 ? part_of(p, state, s->set, b_length)
+           : is_far(before->kind) ? before->b
+                                  : before->to;
     s->bit = part_of(p, state, s->set, 1);
     return s->to.field >= 0 && s->a.field >= 0 && s->b.field >= 0 && s->bit.field >= 0 &&
            !parts_clash(s->to, s->length, s->a, s->shorter) &&
            !parts_clash(s->to, s->length, s->b, b_length) &&
            !parts_clash(s->to, s->length, s->bit, 1);
+}
+
+/* Half of the programs use few kinds of steps, often, and in few sets: what needs several of one kind is met sooner. */
+static void kinds_choose(struct slot_program *p, uint64_t *state)
+{
+    const bool few = sample_below(state, 2);
+    p->kinds_count = few ? 4 + (int)sample_below(state, 8) : SLOT_KINDS;
+    p->sets_used = few ? 1 + (int)sample_below(state, SLOT_SETS) : SLOT_SETS;
+    for (int i = 0; i < p->kinds_count; i++)
+        p->kinds[i] = (enum slot_kind)(few ? (int)sample_below(state, SLOT_KINDS) : i);
 }
 
 void slot_program_make(struct slot_program *p, uint64_t seed)
@@ -229,9 +288,13 @@ void slot_program_make(struct slot_program *p, uint64_t seed)
         p->bits[i] = i < SLOT_SETS ? 100 + (int)sample_below(&state, 34)
                                    : widths[sample_below(&state, 8)];
     }
-    p->steps_count = 2 + (int)sample_below(&state, SLOT_STEPS - 2);
-    for (int i = 0; i < p->steps_count;)
-        i += step_make(p, &state, i ? &p->steps[i - 1] : NULL, &p->steps[i]);
+    p->parts_again = sample_below(&state, 2);
+    kinds_choose(p, &state);
+    const int steps_count = 2 + (int)sample_below(&state, SLOT_STEPS - 2);
+    while (p->steps_count < steps_count) {
+        struct slot_step *s = &p->steps[p->steps_count];
+        p->steps_count += step_make(p, &state, p->steps_count ? s - 1 : NULL, s);
+    }
     p->turns = sample_below(&state, 4) ? 2 + (int)sample_below(&state, 6) : 1;
     p->look = (enum slot_look)sample_below(&state, SLOT_LOOK_END + 1);
     p->safe = sample_below(&state, 3) == 0;

@@ -67,6 +67,7 @@ enum slot_kind {
     SLOT_SPREAD,
     SLOT_SPREAD_ADD,
     SLOT_GREATEST, /* to the front end */
+    SLOT_AIM,      /* make_news_coordinate: the address of a processor of the set */
     SLOT_KINDS
 };
 
@@ -99,10 +100,13 @@ struct slot_program {
     int ratio[SLOT_SETS], bits[SLOT_FIELDS + 1], set[SLOT_FIELDS + 1];
     struct slot_step steps[SLOT_STEPS];
     int steps_count, turns;
+    enum slot_kind kinds[SLOT_KINDS]; /* those that it is made of, in these sets */
+    int kinds_count, sets_used;
     enum slot_look look;
     /* A field that is seen from another set from a turn on, for as long as another turn; none: -1. */
     int aliased, alias_from, alias_to;
-    bool safe; /* in safety mode */
+    bool safe;        /* in safety mode */
+    bool parts_again; /* parts are often those of earlier steps */
 };
 
 struct slot_memory {

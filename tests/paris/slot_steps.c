@@ -330,6 +330,7 @@ void slot_step_perform(struct slot_memory *m, const struct slot_step *s)
     case SLOT_FMAX:
     case SLOT_FMOVE:
     case SLOT_ADDRESS:
+    case SLOT_AIM: /* the only axis is in send order */
         each_active(m, s);
         break;
     case SLOT_KINDS:

@@ -34,12 +34,21 @@ static CM_vp_set_id_t sets[SLOT_SETS];
 static CM_field_id_t fields[SLOT_FIELDS + 1], flags[SLOT_SETS];
 
 static int position[1] = {0}, axis_first[1] = {0};
+static int seed_now;
+
+/* Every call is a valid one. */
+static void complain(const char *message)
+{
+    print_error("program %d: %s\n", seed_now, message);
+    exit(1);
+}
 
 static void set_up(void)
 {
     static struct CM_axis_descriptor axis;
     CM_axis_descriptor_t axes[1] = {&axis};
     CM_init();
+    CM_set_error_handler(complain);
     CM_set_safety_mode(program.safe);
     for (int i = 0; i < SLOT_SETS; i++) {
         axis = (struct CM_axis_descriptor){.length = (unsigned int)slot_vps(&program, i),
@@ -128,6 +137,9 @@ static void operate(const struct slot_step *s, CM_field_id_t to, CM_field_id_t a
         break;
     case SLOT_ADDRESS:
         CM_my_news_coordinate_1L(to, 0, n);
+        break;
+    case SLOT_AIM:
+        CM_make_news_coordinate_1L(CM_vp_set_geometry(sets[s->set]), to, 0, a, n);
         break;
     }
 }
@@ -368,6 +380,7 @@ static bool program_run(int seed, const struct tier *t)
 {
     const char *wrong = NULL;
     bool aliased = false;
+    seed_now = seed;
     slot_program_make(&program, (uint64_t)seed);
     slot_memory_init(&memory, &program);
     set_up();
