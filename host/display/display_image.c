@@ -14,9 +14,10 @@ enum display_status display_image_create(struct display_image *image)
 {
     image->pixels = NULL;
     if (image->width_px < 1 || image->height_px < 1 || image->width_px > DISPLAY_SIDE_MAX ||
-        image->height_px > DISPLAY_SIDE_MAX || (image->channels != 1 && image->channels != 3))
+        image->height_px > DISPLAY_SIDE_MAX ||
+        (image->channels != 1 && image->channels != 3 && image->channels != 4))
         return display_fail(DISPLAY_BAD_ARGUMENT,
-                            "an image is 1..%d pixels wide and high with 1 or 3 channels "
+                            "an image is 1..%d pixels wide and high with 1, 3 or 4 channels "
                             "(got %dx%d with %d)",
                             DISPLAY_SIDE_MAX, image->width_px, image->height_px,
                             image->channels);

@@ -1,6 +1,6 @@
-/* video.c - YUV4MPEG2 to a file, or to ffmpeg through a pipe.
+/* video.c - YUV4MPEG2 to a file, or to ffmpeg through a pipe; red, green, blue (and alpha) to ffmpeg where that is what the film keeps.
  *
- * Colours go to Y'CbCr by ITU-R BT.709 in the range of 16..235 and 16..240, one chroma for each pixel (C444), as 8 bits:
+ * Colours of YUV4MPEG2 go to Y'CbCr by ITU-R BT.709 in the range of 16..235 and 16..240, one chroma for each pixel (C444), as 8 bits:
  *
  *     Y' = 0.2126 R + 0.7152 G + 0.0722 B     Cb = (B - Y') / 1.8556     Cr = (R - Y') / 1.5748
  *
@@ -27,18 +27,67 @@
 
 enum { SIDE_MOST = 16384, FPS_MOST = 240, GIF_FPS_MOST = 50 };
 
+/* What becomes of pictures. A palette is made for each picture of its own colours, so that the length of a film takes no memory. */
+#define PALETTE "[0:v]split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1[v]"
+#define BT709 "[0:v]scale=out_color_matrix=bt709:out_range=tv,format="
+static const char *const palette[] = {"-filter_complex", PALETTE, "-map", "[v]", NULL};
+static const char *const usual[] = {
+    "-map",  "0:v",        "-pix_fmt", "yuv420p", "-colorspace", "bt709", "-color_primaries",
+    "bt709", "-color_trc", "bt709",    NULL};
+static const char *const ffv1[] = {"-map", "0:v", "-c:v", "ffv1", "-pix_fmt", "bgra", NULL};
+static const char *const prores[] = {"-filter_complex",
+                                     BT709 "yuva444p10le[v]",
+                                     "-map",
+                                     "[v]",
+                                     "-c:v",
+                                     "prores_ks",
+                                     "-profile:v",
+                                     "4444",
+                                     "-colorspace",
+                                     "bt709",
+                                     "-color_primaries",
+                                     "bt709",
+                                     "-color_trc",
+                                     "bt709",
+                                     NULL};
+static const char *const vp9[] = {"-filter_complex",
+                                  BT709 "yuva420p[v]",
+                                  "-map",
+                                  "[v]",
+                                  "-c:v",
+                                  "libvpx-vp9",
+                                  "-auto-alt-ref",
+                                  "0", /* which alpha wants */
+                                  "-b:v",
+                                  "0",
+                                  "-crf",
+                                  "20",
+                                  "-colorspace",
+                                  "bt709",
+                                  "-color_primaries",
+                                  "bt709",
+                                  "-color_trc",
+                                  "bt709",
+                                  NULL};
+
 /* The endings of names, with ffmpeg's name of the container; NULL: written by us. */
 static const struct container {
     const char *ending, *format;
     bool sounds; /* it can hold sound */
     bool
         counts; /* each picture is in it, at whatever rate: a .gif's times are hundredths of a second */
+    const char *const *words; /* of ffmpeg's command line: how it is encoded */
+    const char *const *alpha; /* the same with alpha; NULL: it holds none */
 } containers[] = {
-    {".mp4", "mp4", true, true},      {".m4v", "mp4", true, true},
-    {".mkv", "matroska", true, true}, {".webm", "webm", true, true},
-    {".mov", "mov", true, true},      {".avi", "avi", true, true},
-    {".ogv", "ogg", true, false},     {".gif", "gif", false, false},
-    {".y4m", NULL, false, false},
+    {".mp4", "mp4", true, true, usual, NULL},
+    {".m4v", "mp4", true, true, usual, NULL},
+    {".mkv", "matroska", true, true, usual, ffv1},
+    {".webm", "webm", true, true, usual, vp9},
+    {".mov", "mov", true, true, usual, prores},
+    {".avi", "avi", true, true, usual, NULL},
+    {".ogv", "ogg", true, false, usual, NULL},
+    {".gif", "gif", false, false, palette, palette},
+    {".y4m", NULL, false, false, NULL, NULL},
 };
 enum { CONTAINERS = sizeof containers / sizeof *containers, OURS = CONTAINERS - 1 };
 
@@ -48,6 +97,8 @@ struct video {
     const struct container *container;
     int width, height, fps;
     int sound; /* a descriptor of a WAV file; -1: it is silent */
+    bool alpha;
+    bool raw; /* pictures go to ffmpeg as they are */
     long frames;
     FILE *file;      /* out's stream, or the pipe to ffmpeg */
     pid_t encoder;   /* 0: no ffmpeg, the file is written by us */
@@ -75,18 +126,27 @@ static bool program_is_there(const char *name)
     return there;
 }
 
+/* Adds words to a list that ends with NULL, and has room. */
+static void words_add(char **words, const char *const *more)
+{
+    while (*words)
+        words++;
+    while (*more)
+        *words++ = (char *)(uintptr_t)*more++;
+}
+
 /* ffmpeg gets no file name. It reads from a pipe and writes, in a given format, to a
  * descriptor of ours through /proc or /dev/fd. So nothing in a film's name can act as an
  * option, a pattern or a protocol. */
 _Noreturn static void encoder_become(const struct video *v, int input, int fps)
 {
-    enum { OUTPUT = 3, SOUND = 4, WORDS_MAX = 48 };
-    char rate[16], output[32], sound[32];
-    char *words[WORDS_MAX]; /* which execvp() does not change */
-    int count = 0;
+    enum { OUTPUT = 3, SOUND = 4, WORDS_MAX = 64 };
+    char rate[16], size[32], output[32], sound[32];
+    char *words[WORDS_MAX] = {NULL}; /* which execvp() does not change */
     int nowhere = streams_nowhere(O_WRONLY), complaint = dup(fileno(v->complaint)),
         file = dup(fileno(v->out.stream)), wav = v->sound >= 0 ? dup(v->sound) : -1;
     snprintf(rate, sizeof rate, "%d", fps);
+    snprintf(size, sizeof size, "%dx%d", v->width, v->height);
     snprintf(output, sizeof output, "/proc/self/fd/%d", OUTPUT);
     snprintf(sound, sizeof sound, "/proc/self/fd/%d", SOUND);
     const char *const begin[] = {"ffmpeg",
@@ -98,31 +158,29 @@ _Noreturn static void encoder_become(const struct video *v, int input, int fps)
                                  "-protocol_whitelist",
                                  "pipe,file",
                                  "-f",
-                                 "yuv4mpegpipe",
-                                 "-i",
-                                 "pipe:0"};
-    const char *const sounding[] = {
-        "-protocol_whitelist", "file", "-f", "wav", "-i", sound, "-map", "0:v", "-map", "1:a"};
-    const char *const end[] = {"-r",
+                                 v->raw ? "rawvideo" : "yuv4mpegpipe",
+                                 NULL};
+    const char *const raw[] = {"-pixel_format",
+                               v->alpha ? "rgba" : "rgb24",
+                               "-video_size",
+                               size,
+                               "-framerate",
                                rate,
-                               "-pix_fmt",
-                               "yuv420p",
-                               "-colorspace",
-                               "bt709",
-                               "-color_primaries",
-                               "bt709",
-                               "-color_trc",
-                               "bt709",
-                               "-f",
-                               v->container->format,
-                               output};
-    for (size_t i = 0; i < sizeof begin / sizeof *begin; i++)
-        words[count++] = (char *)(uintptr_t)begin[i];
-    for (size_t i = 0; wav >= 0 && i < sizeof sounding / sizeof *sounding; i++)
-        words[count++] = (char *)(uintptr_t)sounding[i];
-    for (size_t i = 0; i < sizeof end / sizeof *end; i++)
-        words[count++] = (char *)(uintptr_t)end[i];
-    words[count] = NULL;
+                               NULL};
+    const char *const pictures[] = {"-i", "pipe:0", NULL};
+    const char *const heard[] = {"-protocol_whitelist", "file", "-f", "wav", "-i", sound, NULL};
+    const char *const hears[] = {"-map", "1:a", NULL};
+    const char *const end[] = {"-r", rate, "-f", v->container->format, output, NULL};
+    words_add(words, begin);
+    if (v->raw)
+        words_add(words, raw);
+    words_add(words, pictures);
+    if (wav >= 0)
+        words_add(words, heard);
+    words_add(words, v->alpha ? v->container->alpha : v->container->words);
+    if (wav >= 0)
+        words_add(words, hears);
+    words_add(words, end);
     dup2(input, STDIN_FILENO);
     dup2(nowhere, STDOUT_FILENO);
     dup2(complaint, STDERR_FILENO);
@@ -225,16 +283,29 @@ static enum display_status io_failed(struct video *v, int error)
     return display_fail(DISPLAY_IO_FAILED, "%s: cannot write: %s", v->path, strerror(error));
 }
 
+/* Where a name's ending begins; its end, if it has none. */
+static const char *ending_find(const char *path)
+{
+    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+    return dot ? dot : path + strlen(path);
+}
+
+/* NULL: there is none with such an ending. */
+static const struct container *container_find(const char *path)
+{
+    const char *dot = ending_find(path);
+    for (int i = 0; i < CONTAINERS; i++)
+        if (strcasecmp(*dot ? dot : ".mp4", containers[i].ending) == 0)
+            return &containers[i];
+    return NULL;
+}
+
 /* The name's ending selects the format; a name without one gets .mp4. Without ffmpeg the
  * ending becomes .y4m. */
 static enum display_status name_make(struct video *v, const char *path)
 {
-    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
-    if (!dot)
-        dot = path + strlen(path);
-    for (int i = 0; i < CONTAINERS && !v->container; i++)
-        if (strcasecmp(*dot ? dot : ".mp4", containers[i].ending) == 0)
-            v->container = &containers[i];
+    const char *dot = ending_find(path);
+    v->container = container_find(path);
     if (!v->container) {
         char known[100] = "";
         for (int i = 0; i < CONTAINERS; i++)
@@ -267,9 +338,9 @@ static enum display_status video_open(struct video *v, int fps)
         if (status != DISPLAY_OK)
             return status;
     }
-    if (fprintf(v->file, "YUV4MPEG2 W%d H%d F%d:1 Ip A1:1 C444\n", v->width, v->height, fps) <
-            0 ||
-        fflush(v->file) != 0)
+    if (!v->raw && (fprintf(v->file, "YUV4MPEG2 W%d H%d F%d:1 Ip A1:1 C444\n", v->width,
+                            v->height, fps) < 0 ||
+                    fflush(v->file) != 0))
         return io_failed(v, errno);
     return DISPLAY_OK;
 }
@@ -283,37 +354,67 @@ enum display_status video_create(const char *path, int width_px, int height_px, 
 enum display_status video_create_with_sound(const char *path, int width_px, int height_px,
                                             int fps, int sound, struct video **out)
 {
+    return video_create_as(&(struct video_def){.path = path,
+                                               .width_px = width_px,
+                                               .height_px = height_px,
+                                               .fps = fps,
+                                               .sound = sound},
+                           out);
+}
+
+static enum display_status video_make(struct video *v, const struct video_def *def)
+{
+    enum display_status status = name_make(v, def->path);
+    if (status != DISPLAY_OK)
+        return status;
+    if (def->alpha && !v->container->alpha)
+        return display_fail(DISPLAY_BAD_ARGUMENT,
+                            "%s: such a film holds no transparency; .mov, .mkv, .webm and "
+                            ".gif do",
+                            v->path);
+    v->raw = def->alpha || v->container->words == palette;
+    if (def->sound >= 0 && v->container->sounds) {
+        v->sound = fcntl(def->sound, F_DUPFD_CLOEXEC, 0);
+        if (v->sound < 0)
+            return display_fail(DISPLAY_IO_FAILED, "%s: the sound: %s", def->path,
+                                strerror(errno));
+    }
+    if (!(v->planes = malloc(3 * (size_t)v->width * (size_t)v->height)))
+        return display_fail(DISPLAY_NO_MEMORY, "no memory for a video");
+    return video_open(v, v->fps);
+}
+
+enum display_status video_create_as(const struct video_def *def, struct video **out)
+{
+    const int width = def->width_px, height = def->height_px;
     *out = NULL;
-    if (width_px < 2 || height_px < 2 || width_px > SIDE_MOST || height_px > SIDE_MOST ||
-        width_px % 2 || height_px % 2 || fps < 1 || fps > FPS_MOST)
+    if (width < 2 || height < 2 || width > SIDE_MOST || height > SIDE_MOST || width % 2 ||
+        height % 2 || def->fps < 1 || def->fps > FPS_MOST)
         return display_fail(DISPLAY_BAD_ARGUMENT,
                             "a video is 2..%d pixels wide and high, even, of 1..%d frames a "
                             "second (got %dx%d of %d)",
-                            SIDE_MOST, FPS_MOST, width_px, height_px, fps);
+                            SIDE_MOST, FPS_MOST, width, height, def->fps);
     struct video *v = calloc(1, sizeof *v);
     if (!v)
         return display_fail(DISPLAY_NO_MEMORY, "no memory for a video");
-    v->width = width_px;
-    v->height = height_px;
-    v->fps = fps;
+    v->width = width;
+    v->height = height;
+    v->fps = def->fps;
     v->sound = -1;
-    enum display_status status = name_make(v, path);
-    if (status == DISPLAY_OK && sound >= 0 && v->container->sounds) {
-        v->sound = fcntl(sound, F_DUPFD_CLOEXEC, 0);
-        if (v->sound < 0)
-            status =
-                display_fail(DISPLAY_IO_FAILED, "%s: the sound: %s", path, strerror(errno));
-    }
-    if (status == DISPLAY_OK && !(v->planes = malloc(3 * (size_t)width_px * (size_t)height_px)))
-        status = display_fail(DISPLAY_NO_MEMORY, "no memory for a video");
-    if (status == DISPLAY_OK)
-        status = video_open(v, fps);
+    v->alpha = def->alpha;
+    enum display_status status = video_make(v, def);
     if (status != DISPLAY_OK) {
         video_free(v);
         return status;
     }
     *out = v;
     return DISPLAY_OK;
+}
+
+bool video_alpha(const char *path)
+{
+    const struct container *c = container_find(path);
+    return c && c->alpha && program_is_there("ffmpeg");
 }
 
 bool video_sounds(const struct video *v)
@@ -346,13 +447,15 @@ static void planes_fill(uint8_t *planes, const uint8_t *rgb, size_t count)
 
 enum display_status video_add(struct video *v, const uint8_t *rgb)
 {
-    size_t count = (size_t)v->width * (size_t)v->height;
+    const size_t count = (size_t)v->width * (size_t)v->height,
+                 bytes = (v->alpha ? 4 : 3) * count;
     if (v->failed)
         return display_fail(DISPLAY_IO_FAILED, "%s: the video has failed before", v->path);
-    planes_fill(v->planes, rgb, count);
+    if (!v->raw)
+        planes_fill(v->planes, rgb, count);
     errno = 0;
-    if (fputs("FRAME\n", v->file) < 0 ||
-        fwrite(v->planes, 1, 3 * count, v->file) != 3 * count || fflush(v->file) != 0)
+    if ((!v->raw && fputs("FRAME\n", v->file) < 0) ||
+        fwrite(v->raw ? rgb : v->planes, 1, bytes, v->file) != bytes || fflush(v->file) != 0)
         return io_failed(v, errno ? errno : EIO);
     v->frames++;
     return DISPLAY_OK;

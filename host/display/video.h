@@ -34,9 +34,23 @@ enum display_status video_create(const char *path, int width_px, int height_px, 
  * The caller may close it at once. Pictures and sound begin together. */
 enum display_status video_create_with_sound(const char *path, int width_px, int height_px,
                                             int fps, int sound, struct video **out);
+/* All that a film can have. */
+struct video_def {
+    const char *path;
+    int width_px, height_px, fps;
+    int sound; /* a descriptor, as above; -1: none */
+    bool
+        alpha; /* pictures have four channels, and the film keeps the fourth: .mov as ProRes 4444, .mkv as FFV1, .webm as VP9, .gif as
+                 * opaque or clear */
+};
+/* Errors: those of video_create(); BAD_ARGUMENT: such a film holds no alpha. */
+enum display_status video_create_as(const struct video_def *def, struct video **out);
+/* Whether a film of that name can have alpha, here. */
+bool video_alpha(const char *path);
+
 /* Whether the film can hold sound: .gif and .y4m cannot. */
 bool video_sounds(const struct video *video);
-/* Adds a picture. Shape: height * width * 3 bytes of display values. Errors: IO_FAILED (a full disk; ffmpeg failed or was
+/* Adds a picture. Shape: height * width * 3 bytes of display values, 4 with alpha (by which colours are not multiplied). Errors: IO_FAILED (a full disk; ffmpeg failed or was
  * killed: what it said). */
 enum display_status video_add(struct video *video, const uint8_t *rgb);
 /* Ends the film and renames it; a film without pictures leaves no file. Frees the video,

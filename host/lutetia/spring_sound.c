@@ -75,10 +75,12 @@ static enum midi_status sounds_take(struct spring_sound *s, struct stage *stage)
 enum midi_status
 spring_sound_hear(struct stage *stage, int fps, double seconds,
                   enum stage_status (*before)(void *context, struct stage *stage, double now_s),
-                  void *context, struct spring_sound **out)
+                  void *context, struct midi_song *beside, struct spring_sound **out)
 {
     const int last = (int)lround(seconds * fps);
     enum midi_status status = spring_sound_create((double)(last + 1) / fps, out);
+    if (status == MIDI_OK)
+        (*out)->def.beside = beside;
     stage_clock(stage)->frame_max_s = INFINITY; /* every frame counts, as in a film */
     for (int frame = 0; frame <= last && status == MIDI_OK; frame++) {
         const double now_s = (double)frame / fps;

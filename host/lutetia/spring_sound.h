@@ -14,16 +14,16 @@
 
 #include <stage.h>
 
-#include <midi_status.h>
+#include <midi_song.h>
 
 struct spring_sound;
 
-/* The stage is one for this alone: it is at its end then. before: as in stage_film_def. Where no sound can be made, that is said before. Errors: NO_DEVICE
+/* The stage is one for this alone: it is at its end then. before: as in stage_film_def. beside: a song that is heard, too, on its own instruments; NULL; borrowed while the sound lives. Where no sound can be made, that is said before. Errors: NO_DEVICE
  * (FluidSynth or a SoundFont is missing), NO_MEMORY, BAD_ARGUMENT (the stage's own: stage_error() in midi_error()). */
 enum midi_status
 spring_sound_hear(struct stage *stage, int fps, double seconds,
                   enum stage_status (*before)(void *context, struct stage *stage, double now_s),
-                  void *context, struct spring_sound **out);
+                  void *context, struct midi_song *beside, struct spring_sound **out);
 void spring_sound_destroy(struct spring_sound *sound); /* takes NULL */
 
 int spring_sound_count(const struct spring_sound *sound); /* of what is heard */

@@ -3,7 +3,9 @@
 #include "lutetia.h"
 #include "options.h"
 
+#include <latency.h>
 #include <midi_client.h>
+#include <midi_real_time.h>
 #include <midi_server.h>
 #include <midi_song.h>
 #include <midi_time.h>
@@ -17,6 +19,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { LOOK_MS = 100, TEXT_MAX = 33000 };
 
@@ -393,6 +396,18 @@ static int play_song(const struct midi_verb *v, struct midi_song *song, struct p
                                                                          : fail_midi(v);
 }
 
+/* As the server does. Returns the descriptor that keeps processors awake; -1: they may sleep. */
+static int play_hurry(const struct midi_verb *v)
+{
+    char said[MIDI_REAL_TIME_TEXT];
+    const int awake = v->may_sleep ? -1 : latency_open(LATENCY_PATH);
+    if (awake >= 0)
+        (void)latency_ask(awake, true);
+    if (!v->usual_priority)
+        (void)midi_real_time_begin(said);
+    return awake;
+}
+
 static int play_do(struct midi_verb *v)
 {
     struct midi_song *song;
@@ -405,7 +420,10 @@ static int play_do(struct midi_verb *v)
     int status = client_make(v, false, &p.client);
     if (status == EXIT_SUCCESS) {
         p.device = target(v, p.client);
+        const int awake = p.device < 0 ? -1 : play_hurry(v);
         status = p.device < 0 ? EXIT_FAILED : play_song(v, song, &p);
+        if (awake >= 0)
+            close(awake);
         midi_client_close(p.client);
     }
     midi_song_destroy(song);
@@ -522,10 +540,11 @@ int verb_midi(int argc, char **argv)
          "serve: also listen at 127.0.0.1:PORT, for who knows LUTETIA_MIDI_TOKEN", &v.tcp_port,
          1, 65535, 0},
         {"usual-priority", 0, OPTION_FLAG, NULL,
-         "serve: do not run in real time, even where that is allowed", &v.usual_priority, 0, 0,
-         0},
+         "serve, play: do not run in real time, even where that is allowed", &v.usual_priority,
+         0, 0, 0},
         {"may-sleep", 0, OPTION_FLAG, NULL,
-         "serve: let processors sleep between messages, even where they can be kept awake",
+         "serve, play: let processors sleep between messages, even where they can be kept "
+         "awake",
          &v.may_sleep, 0, 0, 0},
         {"output", 'o', OPTION_TEXT, "FILE.wav", "render: the file that is written (out.wav)",
          &v.output, 0, 0, 0},

@@ -163,8 +163,8 @@ static int spring_options(struct spring *s, int argc, char **argv, bool *help)
          &s->film.video, 0, 0, 0},
         {"frames", 0, OPTION_TEXT, "DIR", "write numbered pictures into this folder",
          &s->frames, 0, 0, 0},
-        {"seconds", 0, OPTION_NUMBER, "S", "how long it moves (5)", &s->film.seconds, 0, 3600,
-         0},
+        {"seconds", 0, OPTION_NUMBER, "S",
+         "how long it moves (what is replayed or played, or 5)", &s->film.seconds, 0, 3600, 0},
         {"fps", 0, OPTION_INTEGER, "N", "pictures a second (30)", &s->film.fps, 1, 240, 0},
         {"way", 0, OPTION_TEXT, "exact|egl|osmesa",
          "how pictures are drawn: filtered, or by OpenGL (exact)", &s->way, 0, 0, 0},
@@ -285,8 +285,8 @@ static int sound_make(struct spring *s)
         spring_scene_finish(&ahead);
         return EXIT_FAILED;
     }
-    enum midi_status status =
-        spring_sound_hear(ahead.stage, s->film.fps, s->film.seconds, frame_before, s, &sound);
+    enum midi_status status = spring_sound_hear(ahead.stage, s->film.fps, s->film.seconds,
+                                                frame_before, s, s->song, &sound);
     live_end(&s->live); /* another one plays the film */
     spring_scene_finish(&ahead);
     if (status == MIDI_OK && s->film.video && !s->silent)
@@ -304,8 +304,25 @@ static int sound_make(struct spring *s)
     return EXIT_SUCCESS;
 }
 
+/* A film of what is played or replayed lasts as long, and a second for its last sound. */
+static int film_seconds(struct spring *s, struct stage *stage)
+{
+    const double last_s = 1, most_s = 3600;
+    if (!isnan(s->film.seconds))
+        return EXIT_SUCCESS;
+    s->film.seconds = s->replay ? stage_replay_seconds(stage) + last_s
+                      : s->song ? (double)midi_song_info(s->song).end_ns / 1e9 + last_s
+                                : 5;
+    return s->film.seconds <= most_s
+               ? EXIT_SUCCESS
+               : fail("spring", "%s takes %.0f s: say by --seconds S how many are wanted",
+                      s->replay ? s->replay : s->song_path, s->film.seconds);
+}
+
 static int film_make(struct spring *s, struct stage *stage)
 {
+    if (film_seconds(s, stage) != EXIT_SUCCESS)
+        return EXIT_FAILED;
     if ((s->frames && folder_make("spring", s->frames) != EXIT_SUCCESS) ||
         output_check("spring", s->film.still) != EXIT_SUCCESS ||
         output_check("spring", s->save) != EXIT_SUCCESS)
@@ -394,6 +411,7 @@ int verb_spring(int argc, char **argv)
                         .size = {1280, 720}};
     s.window.title = "springs";
     s.window.record_path = "spring.mp4";
+    s.film.seconds = NAN; /* until it is known what lasts */
     int status = spring_options(&s, argc, argv, &help);
     if (status != EXIT_SUCCESS || help)
         return status;

@@ -1,5 +1,6 @@
-/* exact.c - see exact.h. The picture is linear light, three floats a pixel, until everything
- * is drawn. */
+/* exact.c - see exact.h. The picture is linear light, a float for each channel, until everything
+ * is drawn. With alpha, which is the fourth, light is multiplied by it: what covers a pixel then
+ * changes all channels in the same way, alpha as a light that is 1 in all ink. */
 #include "exact.h"
 
 #include <gray.h>
@@ -64,17 +65,19 @@ int stage_exact_left_out(const struct stage_exact *e)
 
 /* ---- light ---- */
 
-static void light_of(struct stage_color color, float light[3])
+static void light_of(struct stage_color color, float light[4])
 {
     light[0] = (float)font_light((double)color.r, 0);
     light[1] = (float)font_light((double)color.g, 0);
     light[2] = (float)font_light((double)color.b, 0);
+    light[3] = 1;
 }
 
 static void gray_blend(struct stage_exact *e, const struct font_gray *gray, int x, int y,
                        struct stage_color color, const struct display_image *image)
 {
-    float ink[3];
+    const int channels = image->channels;
+    float ink[4];
     int left = x + gray->left_px, top = y + gray->top_px;
     int column = left < 0 ? -left : 0, row = top < 0 ? -top : 0;
     int columns =
@@ -84,11 +87,11 @@ static void gray_blend(struct stage_exact *e, const struct font_gray *gray, int 
     light_of(color, ink);
     for (int r = row; gray->pixels && r < rows; r++) {
         const uint8_t *from = gray->pixels + (size_t)r * (size_t)gray->pitch;
-        float *to = e->light + 3 * ((ptrdiff_t)(top + r) * image->width_px + left);
+        float *to = e->light + channels * ((ptrdiff_t)(top + r) * image->width_px + left);
         for (int c = column; c < columns; c++) {
             float cover = (float)from[c] * (1 / 255.0f) * color.a;
-            for (int i = 0; from[c] && i < 3; i++)
-                to[3 * c + i] += (ink[i] - to[3 * c + i]) * cover;
+            for (int i = 0; from[c] && i < channels; i++)
+                to[channels * c + i] += (ink[i] - to[channels * c + i]) * cover;
         }
     }
 }
@@ -216,32 +219,46 @@ static void image_draw(struct stage_exact *e, const struct stage_image *i,
             const double u = fmin(fmax((x + 0.5 - i->x0_px) * across - 0.5, 0), i->width - 1);
             const int column = (int)u, next = column + 1 < i->width ? column + 1 : column;
             const double a = u - column, b = v - row;
+            float *to = e->light + (size_t)image->channels *
+                                       ((size_t)y * (size_t)image->width_px + (size_t)x);
             for (int c = 0; c < 3; c++) {
 #define AT(x_, y_) i->rgb[3 * ((size_t)(y_) * (size_t)i->width + (size_t)(x_)) + (size_t)c]
                 const double number =
                     (1 - b) * ((1 - a) * AT(column, row) + a * AT(next, row)) +
                     b * ((1 - a) * AT(column, next_row) + a * AT(next, next_row));
 #undef AT
-                e->light[3 * ((size_t)y * (size_t)image->width_px + (size_t)x) + (size_t)c] =
-                    e->to_light[(int)(number * (TO_LIGHT / 255) + 0.5)];
+                to[c] = e->to_light[(int)(number * (TO_LIGHT / 255) + 0.5)];
             }
+            if (image->channels == 4)
+                to[3] = 1;
         }
     }
 }
 
+static uint8_t number_of(const struct stage_exact *e, float light)
+{
+    return e->to_number[(int)(sqrtf(fminf(1, fmaxf(0, light))) * TO_NUMBER + 0.5f)];
+}
+
 static void numbers_put(const struct stage_exact *e, struct display_image *image)
 {
-    size_t count = (size_t)image->width_px * (size_t)image->height_px * 3;
-    for (size_t i = 0; i < count; i++)
-        image->pixels[i] =
-            e->to_number[(int)(sqrtf(fminf(1, fmaxf(0, e->light[i]))) * TO_NUMBER + 0.5f)];
+    const size_t pixels = (size_t)image->width_px * (size_t)image->height_px;
+    for (size_t i = 0; image->channels == 3 && i < 3 * pixels; i++)
+        image->pixels[i] = number_of(e, e->light[i]);
+    for (size_t i = 0; image->channels == 4 && i < pixels; i++) {
+        const float *light = e->light + 4 * i, alpha = fminf(1, light[3]);
+        for (size_t c = 0; c < 3; c++)
+            image->pixels[4 * i + c] = alpha > 0 ? number_of(e, light[c] / alpha) : 0;
+        image->pixels[4 * i + 3] = (uint8_t)lrintf(255 * fmaxf(0, alpha));
+    }
 }
 
 enum stage_status stage_exact_draw(struct stage_exact *e, const struct stage_draw_list *list,
                                    struct stage_color background, struct display_image *image)
 {
-    size_t count = (size_t)image->width_px * (size_t)image->height_px * 3;
-    float behind[3];
+    const size_t channels = (size_t)image->channels,
+                 count = (size_t)image->width_px * (size_t)image->height_px * channels;
+    float behind[4];
     e->left_out = 0;
     if (list->incomplete)
         return stage_fail(STAGE_NO_MEMORY, "no memory for all that is to be drawn");
@@ -254,8 +271,10 @@ enum stage_status stage_exact_draw(struct stage_exact *e, const struct stage_dra
                               image->width_px, image->height_px);
     }
     light_of(background, behind);
+    for (int c = 0; channels == 4 && c < 4; c++)
+        behind[c] *= background.a;
     for (size_t i = 0; i < count; i++)
-        e->light[i] = behind[i % 3];
+        e->light[i] = behind[i % channels];
     for (int i = 0; i < list->count; i++) {
         const struct stage_item *item = &list->items[i];
         enum font_status status = FONT_OK;

@@ -46,6 +46,60 @@ void stage_session_add(struct stage_session *s, const struct stage_deed *deed)
     s->deeds[s->count++] = *deed;
 }
 
+/* What can be gone back to keeps its rate, as stage.c's marks do. */
+struct rates {
+    double now, beginning, marks[STAGE_SESSION_MARKS_MAX];
+    int count;
+};
+
+static void rate_push(struct rates *r)
+{
+    if (r->count == STAGE_SESSION_MARKS_MAX)
+        memmove(r->marks, r->marks + 1, (size_t)--r->count * sizeof *r->marks);
+    r->marks[r->count++] = r->now;
+}
+
+static void rate_follow(struct rates *r, const struct stage_deed *d, int rate_control)
+{
+    switch (d->kind) {
+    case STAGE_DEED_SET:
+        if (d->control == rate_control)
+            r->now = d->value;
+        break;
+    case STAGE_DEED_MARK:
+        rate_push(r);
+        break;
+    case STAGE_DEED_DROP:
+        r->count -= r->count > 0;
+        break;
+    case STAGE_DEED_UNDO:
+        if (r->count > 0)
+            r->now = r->marks[--r->count];
+        break;
+    case STAGE_DEED_RESET:
+        rate_push(r);
+        r->now = r->beginning;
+        break;
+    case STAGE_DEED_HAND:
+    case STAGE_DEED_LOAD:
+        break;
+    }
+}
+
+double stage_session_seconds(const struct stage_session *s, double rate, double step_s,
+                             int rate_control)
+{
+    struct rates rates = {.now = rate, .beginning = rate};
+    int64_t step = 0;
+    double seconds = 0;
+    for (int i = 0; i < s->count; i++) {
+        seconds += (double)(s->deeds[i].step - step) * step_s / rates.now;
+        step = s->deeds[i].step;
+        rate_follow(&rates, &s->deeds[i], rate_control);
+    }
+    return s->end > step ? seconds + (double)(s->end - step) * step_s / rates.now : seconds;
+}
+
 /* ---- loaded files ---- */
 
 uint64_t stage_digest(uint64_t digest, const void *bytes, size_t count)
@@ -150,7 +204,10 @@ enum stage_status stage_session_write(const struct stage_session *s,
         fprintf(out.stream, "begin %016llx\n", (unsigned long long)s->begin);
     for (int i = 0; i < s->count; i++)
         deed_print(s, &s->deeds[i], rows, out.stream);
-    fputs("end\n", out.stream);
+    if (s->end)
+        fprintf(out.stream, "end %lld\n", (long long)s->end);
+    else
+        fputs("end\n", out.stream);
     if (!output_file_commit(&out))
         return stage_fail(STAGE_BAD_FILE, "%s: cannot be written: %s", path, out.why);
     return STAGE_OK;
@@ -298,6 +355,19 @@ struct reader {
     bool begun, ended;
 };
 
+/* end [STEP]. NULL: it is fine; else what the line must be. */
+static const char *end_read(struct reader *r, const struct line *line,
+                            struct stage_session *out)
+{
+    long long step = 0;
+    const int64_t least = out->count ? out->deeds[out->count - 1].step : 0;
+    r->ended =
+        line->count == 1 ||
+        (line->count == 2 && integer_read(line->words[1], INT64_MAX, &step) && step >= least);
+    out->end = step;
+    return r->ended ? NULL : "`end STEP`, not before what was done";
+}
+
 /* NULL: it is fine; else what the line must be. */
 static const char *line_read(struct reader *r, struct line *line, struct stage_session *out)
 {
@@ -308,10 +378,8 @@ static const char *line_read(struct reader *r, struct line *line, struct stage_s
             line->count == 2 && !strcmp(first, "session") && !strcmp(line->words[1], "1");
         return r->begun ? NULL : "`session 1`: is this a session?";
     }
-    if (line->count == 1 && strcmp(first, "end") == 0) {
-        r->ended = true;
-        return NULL;
-    }
+    if (strcmp(first, "end") == 0)
+        return end_read(r, line, out);
     if (strcmp(first, "begin") == 0)
         return line->count == 2 && !out->count && digest_read(line->words[1], &out->begin)
                    ? NULL

@@ -17,7 +17,7 @@
  *     500 set gravity 3.7
  *     540 load 8a1c0f3e55d2b790 word.springs   the file's digest, and its name
  *     612 undo                                 and mark, drop (a mark), reset, hand cancel
- *     end
+ *     end 900                                  the steps that were made in all (earlier sessions lack the number)
  *
  * Time is in steps, so pauses and slow motion do not matter. A loaded file is not part of the
  * session: it must be where it was, seen from the working folder, and have the same bytes, or
@@ -61,7 +61,7 @@ struct stage_file {
     uint64_t digest;
 };
 
-enum { STAGE_DEEDS_MAX = 1 << 22 };
+enum { STAGE_DEEDS_MAX = 1 << 22, STAGE_SESSION_MARKS_MAX = 64 };
 
 /* All zeros is an empty session. */
 struct stage_session {
@@ -70,6 +70,7 @@ struct stage_session {
     struct stage_file *files;
     int files_count, files_capacity;
     uint64_t begin;     /* the actor's digest; 0: unknown */
+    int64_t end;        /* the number of steps in all; 0: unknown */
     const char *broken; /* why it cannot be saved; NULL: it can */
 };
 
@@ -81,6 +82,11 @@ void stage_session_add(struct stage_session *session, const struct stage_deed *d
 /* rows: the controls' names. Errors: BAD_FILE, BAD_ARGUMENT (broken). */
 enum stage_status stage_session_write(const struct stage_session *session,
                                       const struct stage_control *rows, const char *path);
+
+/* How long a session takes that begins with this rate, of steps of this length: rates that are set, undone and reset count. Without a
+ * known end it is that of the last action. rate_control: the rate's row. */
+double stage_session_seconds(const struct stage_session *session, double rate, double step_s,
+                             int rate_control);
 
 /* Adds that a file is loaded, with its present digest. If that fails the session is marked
  * broken. */

@@ -68,11 +68,15 @@ static void letters_draw(const struct springs *s, const struct stage_look *look,
     }
 }
 
+static const double letter_part = 0.04; /* of an em */
+
 static void masses_draw(const struct springs *s, const struct stage_look *look, double ahead_s,
                         struct stage_draw_list *list)
 {
     const struct stage_color *c = look->theme->colors;
-    const double radius = look->px * look->theme->sizes[STAGE_SIZE_MASS_RADIUS];
+    /* beside small letters dots are small, too; a letter's em is 1 */
+    const double most = s->letters_count ? letter_part * look->view.scale : INFINITY;
+    const double radius = fmin(most, look->px * look->theme->sizes[STAGE_SIZE_MASS_RADIUS]);
     for (int i = 0; i < dyn_masses_count(s->network); i++) {
         unsigned held = dyn_mass_get(s->network, i).hold;
         struct font_point at = springs_place(s, i, ahead_s);

@@ -1,6 +1,5 @@
 /* stage.c - see stage.h. */
 #include "stage.h"
-#include "session.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -534,6 +533,7 @@ enum stage_status stage_session_save(struct stage *s, const char *path)
 {
     if (s->forgets)
         return stage_fail(STAGE_BAD_ARGUMENT, "%s: this stage keeps no session", path);
+    s->session.end = s->clock.steps_count;
     return stage_session_write(&s->session, s->controls, path);
 }
 
@@ -547,6 +547,11 @@ enum stage_status stage_session_replay(struct stage *s, const char *path)
     s->replay = read;
     s->replayed_count = 0;
     return STAGE_OK;
+}
+
+double stage_replay_seconds(const struct stage *s)
+{
+    return stage_session_seconds(&s->replay, s->settings.rate, s->clock.step_s, 0);
 }
 
 /* ---- a stage ---- */

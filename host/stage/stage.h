@@ -25,8 +25,9 @@
 #include <frame_clock.h>
 
 #include "actor.h"
+#include "session.h"
 
-enum { STAGE_SKINS_MAX = 32, STAGE_UNDO_MAX = 64 };
+enum { STAGE_SKINS_MAX = 32, STAGE_UNDO_MAX = STAGE_SESSION_MARKS_MAX };
 
 struct stage_def {
     struct stage_actor actor;
@@ -100,5 +101,7 @@ enum stage_status stage_session_save(struct stage *stage, const char *path);
  * if a file that it loads is not there, or has changed), NO_MEMORY. If the stage began in
  * another way than the session did, stage_frame() says so. */
 enum stage_status stage_session_replay(struct stage *stage, const char *path);
+/* How long what is replayed takes from now on, by the stage's rate and those that are set in it; 0: nothing is. */
+double stage_replay_seconds(const struct stage *stage);
 
 #endif

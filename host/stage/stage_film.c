@@ -12,6 +12,9 @@
 
 enum { MOMENTS_MAX = 100 };
 
+static const double side_usual_px =
+    720; /* of a picture whose lines are as wide as the theme says */
+
 struct film {
     struct stage *stage;
     const struct stage_film_def *def;
@@ -20,6 +23,9 @@ struct film {
     struct stage_draw_list list;
     struct display_image image;
     struct display_image strip; /* the strip's moments so far; no pixels: no strip */
+    struct display_image
+        flat; /* for a film without alpha beside pictures with it; else no pixels */
+    double px;
     int moments;
     struct video *video;
 };
@@ -30,7 +36,6 @@ struct stage_film_def stage_film_def_default(void)
                                    .strip = {1, 1},
                                    .width_px = 1280,
                                    .height_px = 720,
-                                   .px = 1,
                                    .fps = 30,
                                    .seconds = 5,
                                    .filter = "gaussian-fast"};
@@ -47,12 +52,32 @@ static int moments_wanted(const struct stage_film_def *def)
     return def->still ? def->strip[0] * def->strip[1] : 0;
 }
 
-static enum stage_status image_make(struct display_image *image, int width_px, int height_px)
+static enum stage_status image_make(struct display_image *image, int width_px, int height_px,
+                                    int channels)
 {
-    *image =
-        (struct display_image){.width_px = width_px, .height_px = height_px, .channels = 3};
+    *image = (struct display_image){
+        .width_px = width_px, .height_px = height_px, .channels = channels};
     enum display_status status = display_image_create(image);
     return status == DISPLAY_OK ? STAGE_OK : fail_display(status);
+}
+
+/* Makes the video; the pictures' size and channels are known. */
+static enum stage_status video_begin(struct film *f)
+{
+    const struct stage_film_def *def = f->def;
+    const struct video_def video = {.path = def->video,
+                                    .width_px = f->image.width_px,
+                                    .height_px = f->image.height_px,
+                                    .fps = def->fps,
+                                    .sound = def->sound,
+                                    .alpha = f->image.channels == 4 && video_alpha(def->video)};
+    enum stage_status status = STAGE_OK;
+    if (f->image.channels == 4 && !video.alpha)
+        status = image_make(&f->flat, video.width_px, video.height_px, 3);
+    if (status != STAGE_OK)
+        return status;
+    const enum display_status made = video_create_as(&video, &f->video);
+    return made == DISPLAY_OK ? STAGE_OK : fail_display(made);
 }
 
 static enum stage_status film_begin(struct film *f)
@@ -62,34 +87,36 @@ static enum stage_status film_begin(struct film *f)
     if (def->strip[0] < 1 || def->strip[1] < 1 || def->strip[0] * def->strip[1] > MOMENTS_MAX)
         return stage_fail(STAGE_BAD_ARGUMENT, "a strip has 1..%d moments (got %dx%d)",
                           MOMENTS_MAX, def->strip[0], def->strip[1]);
+    const int channels =
+        stage_background(f->stage).a < 1 && !def->over && def->way == STAGE_FILM_EXACT ? 4 : 3;
     enum stage_status status = STAGE_OK;
     if (moments_wanted(def) > 1) {
         width /= def->strip[0];
         height /= def->strip[1];
-        status = image_make(&f->strip, width * def->strip[0], height * def->strip[1]);
+        status = image_make(&f->strip, width * def->strip[0], height * def->strip[1], channels);
     }
+    f->px = def->px > 0 ? def->px : fmax(1, fmin(width, height) / side_usual_px);
     if (status == STAGE_OK)
-        status = image_make(&f->image, width, height);
+        status = image_make(&f->image, width, height, channels);
     if (status == STAGE_OK && def->way == STAGE_FILM_EXACT)
         status = stage_exact_create(def->filter, &f->exact);
     else if (status == STAGE_OK)
         status = stage_renderer_offscreen(def->way == STAGE_FILM_EGL ? STAGE_BY_EGL
                                                                      : STAGE_BY_OSMESA,
                                           width, height, &f->renderer);
-    if (status == STAGE_OK && def->video) {
-        enum display_status made =
-            video_create_with_sound(def->video, width, height, def->fps, def->sound, &f->video);
-        status = made == DISPLAY_OK ? STAGE_OK : fail_display(made);
-    }
-    return status;
+    return status == STAGE_OK && def->video ? video_begin(f) : status;
 }
 
 static enum stage_status picture_draw(struct film *f)
 {
     struct stage_color background = stage_background(f->stage);
-    stage_picture(f->stage, f->image.width_px, f->image.height_px, f->def->px, &f->list);
-    if (f->exact)
-        return stage_exact_draw(f->exact, &f->list, background, &f->image);
+    stage_picture(f->stage, f->image.width_px, f->image.height_px, f->px, &f->list);
+    if (f->exact) {
+        enum stage_status drawn = stage_exact_draw(f->exact, &f->list, background, &f->image);
+        return drawn == STAGE_OK && f->flat.pixels
+                   ? stage_exact_draw(f->exact, &f->list, background, &f->flat)
+                   : drawn;
+    }
     enum stage_status status = stage_renderer_draw(f->renderer, &f->list, background);
     return status == STAGE_OK ? stage_renderer_read(f->renderer, &f->image) : status;
 }
@@ -103,12 +130,13 @@ static enum stage_status png_write(const char *path, const struct display_image 
 /* Adds the next moment to the strip, from left to right and then below. */
 static void strip_add(struct film *f)
 {
-    const int columns = f->def->strip[0], w = f->image.width_px, h = f->image.height_px;
-    size_t x = (size_t)(f->moments % columns) * (size_t)w,
-           y = (size_t)(f->moments / columns) * (size_t)h;
-    for (int row = 0; row < h; row++)
-        memcpy(f->strip.pixels + 3 * ((y + (size_t)row) * (size_t)f->strip.width_px + x),
-               f->image.pixels + 3 * (size_t)row * (size_t)w, 3 * (size_t)w);
+    const int columns = f->def->strip[0], h = f->image.height_px;
+    const size_t row_bytes = (size_t)f->image.width_px * (size_t)f->image.channels,
+                 x = (size_t)(f->moments % columns) * row_bytes,
+                 y = (size_t)(f->moments / columns) * (size_t)h;
+    for (size_t row = 0; row < (size_t)h; row++)
+        memcpy(f->strip.pixels + (y + row) * row_bytes * (size_t)columns + x,
+               f->image.pixels + row * row_bytes, row_bytes);
     f->moments++;
 }
 
@@ -133,7 +161,8 @@ static enum stage_status frame_put(struct film *f, int frame, int last)
     enum stage_status status = picture_draw(f);
     if (status == STAGE_OK && def->over)
         status = def->over(def->context, f->stage, &f->list, &f->image);
-    if (status == STAGE_OK && f->video && video_add(f->video, f->image.pixels) != DISPLAY_OK)
+    if (status == STAGE_OK && f->video &&
+        video_add(f->video, f->flat.pixels ? f->flat.pixels : f->image.pixels) != DISPLAY_OK)
         status = stage_fail(STAGE_BAD_FILE, "%s", display_error());
     if (status == STAGE_OK && def->frames) {
         int length = snprintf(path, sizeof path, "%s/frame-%06d.png", def->frames, frame);
@@ -187,5 +216,6 @@ enum stage_status stage_film(struct stage *stage, const struct stage_film_def *d
     stage_draw_finish(&f.list);
     display_image_destroy(&f.image);
     display_image_destroy(&f.strip);
+    display_image_destroy(&f.flat);
     return status;
 }

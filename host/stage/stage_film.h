@@ -7,6 +7,9 @@
  *     if (stage_film(stage, &def) != STAGE_OK)
  *         die(stage_error());
  *
+ * Where the theme's background is not opaque, exact pictures have alpha: stills, frames, and films whose format holds it
+ * (video_alpha()); other films are drawn on the background's colour, and so is what `over` changes.
+ *
  * Time is frame / fps: the pictures are the same each time, however long drawing takes.
  */
 #ifndef LUTETIA_STAGE_FILM_H
@@ -28,7 +31,9 @@ struct stage_film_def {
     int strip[2]; /* columns and rows of moments in the still, from the first to the last; 1, 1:
               * the last only */
     int width_px, height_px; /* 1280x720; of a strip, the size of the whole */
-    double px;               /* pixels for each pixel of a 96 dpi screen; 1 */
+    double
+        px; /* pixels for each pixel of a 96 dpi screen; 0: 1, and more where the picture is larger than usual: where its
+                * shorter side (of a strip: that of a moment) has more than 720, as many times as much */
     int fps;                 /* 30 */
     double seconds;          /* 5 */
     enum stage_film_way way; /* EXACT */

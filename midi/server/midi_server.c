@@ -9,14 +9,13 @@
 #include <midi_internal.h>
 
 #include <errno.h>
-#include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/eventfd.h>
 #include <unistd.h>
 
-enum { HOUSEKEEPING_MS = 500, REAL_TIME_PRIORITY = 40 };
+enum { HOUSEKEEPING_MS = 500 };
 
 /* ---- devices ---- */
 
@@ -302,15 +301,10 @@ static void stop_ready(struct server_watch *w, uint32_t events)
 
 static void real_time_begin(struct midi_server *s, bool wanted)
 {
-    const struct sched_param priority = {.sched_priority = REAL_TIME_PRIORITY};
-    if (!wanted)
-        snprintf(s->real_time, sizeof s->real_time, "usual priority");
-    else if (sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &priority) == 0)
-        snprintf(s->real_time, sizeof s->real_time, "real-time priority %d",
-                 REAL_TIME_PRIORITY);
+    if (wanted)
+        midi_real_time_begin(s->real_time);
     else
-        snprintf(s->real_time, sizeof s->real_time,
-                 "usual priority: real time is not allowed (%s; `ulimit -r`)", strerror(errno));
+        snprintf(s->real_time, sizeof s->real_time, "usual priority");
     log_tell(&s->lines, "%s", s->real_time);
 }
 

@@ -7,6 +7,8 @@
 #include "server_client.h"
 #include "server_log.h"
 
+#include <midi_real_time.h>
+
 enum { SERVER_CLIENTS_MAX = 64, SERVER_TOKEN_BYTES = 128 };
 
 struct midi_server {
@@ -30,7 +32,8 @@ struct midi_server {
     char token[SERVER_TOKEN_BYTES], path[108];
     int tcp_port;
     struct server_log lines;
-    char real_time[160], sleep[160]; /* for people: what was asked for, and what is allowed */
+    char real_time[MIDI_REAL_TIME_TEXT],
+        sleep[160]; /* for people: what was asked for, and what is allowed */
     /* sockets */
     struct server_watch unix_watch, tcp_watch, stop_watch;
     int lock;

@@ -31,9 +31,8 @@ static const struct library_function functions[] = {
     FUNCTION(fluid_synth_system_reset),
     FUNCTION(new_fluid_audio_driver),
     FUNCTION(delete_fluid_audio_driver),
-    FUNCTION(new_fluid_file_renderer),
-    FUNCTION(fluid_file_renderer_process_block),
-    FUNCTION(delete_fluid_file_renderer),
+    FUNCTION(fluid_synth_write_s16),
+    FUNCTION(fluid_synth_get_active_voice_count),
     FUNCTION(fluid_set_log_function),
 };
 

@@ -6,8 +6,8 @@
 
 #include <stdbool.h>
 
-/* The functions that we call, as FluidSynth 2 declares them: its settings, synthesizers,
- * drivers and renderers are opaque pointers. */
+/* The functions that we call, as FluidSynth 2 declares them: its settings, synthesizers
+ * and drivers are opaque pointers. */
 struct fluid {
     void *(*new_fluid_settings)(void);
     void (*delete_fluid_settings)(void *settings);
@@ -27,9 +27,9 @@ struct fluid {
     int (*fluid_synth_system_reset)(void *synth);
     void *(*new_fluid_audio_driver)(void *settings, void *synth);
     void (*delete_fluid_audio_driver)(void *driver);
-    void *(*new_fluid_file_renderer)(void *synth);
-    int (*fluid_file_renderer_process_block)(void *renderer);
-    void (*delete_fluid_file_renderer)(void *renderer);
+    int (*fluid_synth_write_s16)(void *synth, int count, void *left, int left_at, int left_step,
+                                 void *right, int right_at, int right_step);
+    int (*fluid_synth_get_active_voice_count)(void *synth);
     void *(*fluid_set_log_function)(int level, void (*function)(int, const char *, void *),
                                     void *data);
 };

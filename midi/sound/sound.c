@@ -6,28 +6,22 @@
 
 #include <input_file.h>
 #include <output_file.h>
-#include <patience.h>
 
-#include <errno.h>
-#include <fcntl.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-enum { SECONDS_MAX = 36000 };
-
 enum { PERIODS = 8 }; /* blocks that wait to be heard: 12 ms in all */
 
 struct sound {
     const struct fluid *fluid;
-    void *settings, *synth, *driver, *renderer;
+    void *settings, *synth, *driver;
 };
 
 struct sound_def sound_def_default(void)
 {
-    return (struct sound_def){.rate_hz = 44100, .gain = 0.6, .tail_s = 1.5};
+    return (struct sound_def){.rate_hz = 44100, .gain = 0.6, .tail_s = 30};
 }
 
 /* Checks that a file is a SoundFont, because FluidSynth prints messages of its own if it is
@@ -124,8 +118,6 @@ void sound_destroy(struct sound *s)
 {
     if (!s)
         return;
-    if (s->renderer)
-        s->fluid->delete_fluid_file_renderer(s->renderer);
     if (s->driver)
         s->fluid->delete_fluid_audio_driver(s->driver);
     if (s->synth)
@@ -220,104 +212,12 @@ void sound_message(struct sound *s, const struct midi_message *m)
     }
 }
 
-/* ---- to a file ---- */
-
-static void render_take(void *context, const struct midi_message *m)
+void sound_block(struct sound *s, int16_t samples[2 * SOUND_BLOCK])
 {
-    sound_message(context, m);
+    s->fluid->fluid_synth_write_s16(s->synth, SOUND_BLOCK, samples, 0, 2, samples, 1, 2);
 }
 
-static enum midi_status blocks_render(struct sound *s, struct midi_song *song, int rate_hz,
-                                      double seconds)
+bool sound_voices(struct sound *s)
 {
-    const size_t events_count = midi_song_info(song).events_count;
-    const double block_s = (double)SOUND_BLOCK / rate_hz;
-    const long blocks = (long)ceil(seconds / block_s);
-    struct midi_parser parser;
-    midi_parser_init(&parser);
-    size_t next = 0;
-    for (long i = 0; i < blocks; i++) {
-        while (next < events_count) {
-            const struct midi_song_event e = midi_song_event(song, next);
-            if ((double)e.time_ns / 1e9 >= ((double)i + 0.5) * block_s) /* the nearer block */
-                break;
-            midi_song_play(&e, &parser, render_take, s);
-            next++;
-        }
-        if (patience_over())
-            return midi_fail(MIDI_IO_FAILED, "stopped");
-        if (s->fluid->fluid_file_renderer_process_block(s->renderer) != 0)
-            return midi_fail(MIDI_IO_FAILED, "sound cannot be written: is the disk full?");
-    }
-    return MIDI_OK;
-}
-
-/* Into a file that is there, by a name that FluidSynth opens; `path` is what errors call it. */
-static enum midi_status render_into(const struct sound_def *def, struct midi_song *song,
-                                    double seconds, const char *name, const char *path)
-{
-    struct sound *s;
-    enum midi_status status = sound_create(def, &s);
-    if (status != MIDI_OK)
-        return status;
-    s->fluid->fluid_settings_setstr(s->settings, "audio.file.name", name);
-    s->renderer = s->fluid->new_fluid_file_renderer(s->synth);
-    status = s->renderer ? blocks_render(s, song, def->rate_hz, seconds)
-                         : midi_fail(MIDI_IO_FAILED, "%s: FluidSynth cannot write it", path);
-    sound_destroy(s); /* destroying it writes the file's header */
-    return status;
-}
-
-/* How long the song takes, unless it is asked for less or more. */
-static enum midi_status seconds_find(const struct sound_def *def, struct midi_song *song,
-                                     double *seconds)
-{
-    if (!(*seconds > 0))
-        *seconds = (double)midi_song_info(song).end_ns / 1e9 + def->tail_s;
-    if (*seconds > 0 && *seconds <= SECONDS_MAX)
-        return MIDI_OK;
-    return midi_fail(MIDI_BAD_ARGUMENT, "sound is rendered for at most %d hours",
-                     SECONDS_MAX / 3600);
-}
-
-enum midi_status sound_render(const struct sound_def *def, struct midi_song *song,
-                              double seconds, const char *path)
-{
-    struct output_file out;
-    enum midi_status status = seconds_find(def, song, &seconds);
-    if (status != MIDI_OK)
-        return status;
-    if (!output_file_open(&out, path))
-        return midi_fail(MIDI_IO_FAILED, "%s: cannot write: %s", path, out.why);
-    status = render_into(def, song, seconds, out.part, path);
-    if (status != MIDI_OK)
-        output_file_abandon(&out);
-    else if (!output_file_commit(&out))
-        status = midi_fail(MIDI_IO_FAILED, "%s: cannot write: %s", path, out.why);
-    return status;
-}
-
-/* The file has no name, so nothing is left of it, however the process ends. */
-enum midi_status sound_render_open(const struct sound_def *def, struct midi_song *song,
-                                   double seconds, int *file)
-{
-    static const char what[] = "a sound in the temporary folder";
-    char name[40];
-    *file = -1;
-    enum midi_status status = seconds_find(def, song, &seconds);
-    if (status != MIDI_OK)
-        return status;
-    FILE *held = tmpfile();
-    if (!held)
-        return midi_fail(MIDI_IO_FAILED, "no file can be made in the temporary folder: %s",
-                         strerror(errno));
-    snprintf(name, sizeof name, "/proc/self/fd/%d", fileno(held));
-    status = render_into(def, song, seconds, name, what);
-    if (status == MIDI_OK) {
-        *file = open(name, O_RDONLY | O_CLOEXEC);
-        if (*file < 0)
-            status = midi_fail(MIDI_IO_FAILED, "%s: %s", what, strerror(errno));
-    }
-    fclose(held);
-    return status;
+    return s->fluid->fluid_synth_get_active_voice_count(s->synth) > 0;
 }

@@ -17,15 +17,20 @@
 
 #include <midi_song.h>
 
+#include <stdbool.h>
+
 enum { SOUND_BLOCK = 64 }; /* samples: the timing error of a message is at most this, 1.5 ms */
 
 struct sound_def {
     const char *
         font; /* a SoundFont's path; NULL: LUTETIA_SOUNDFONT of the environment, else the distribution's */
-    int rate_hz;   /* 44100 */
-    double gain;   /* 0..10; 0.6 */
-    double tail_s; /* seconds rendered after the end of a song; 1.5 */
-    bool room;     /* reverberation and chorus */
+    int rate_hz; /* 44100 */
+    double gain; /* 0..10; 0.6 */
+    double
+        tail_s; /* what a song leaves sounding is rendered until it has died, for at most so long; 30 */
+    bool room; /* reverberation and chorus */
+    struct midi_song *
+        beside; /* for files: another song that is heard with it, on instruments of its own; NULL */
 };
 struct sound_def sound_def_default(void);
 
@@ -43,10 +48,17 @@ enum midi_status sound_listen_any(struct sound *sound);
 /* Ignores messages without sound. Threads: any. */
 void sound_message(struct sound *sound, const struct midi_message *m);
 
+/* ---- block by block, of a sound that nobody listens to ---- */
+
+/* The next samples. Shape: left and right in turns. */
+void sound_block(struct sound *sound, int16_t samples[2 * SOUND_BLOCK]);
+/* Whether a note sounds or dies away. A room's echo may last longer. */
+bool sound_voices(struct sound *sound);
+
 /* ---- to a file ---- */
 
-/* Renders a WAV file of 16 bits and two channels, `seconds` long (0: the song and its tail);
- * the file appears when it is complete. Errors: NO_DEVICE, IO_FAILED, BAD_ARGUMENT. */
+/* Renders a WAV file of 16 bits and two channels, `seconds` long; 0: the song, and on until the last sound has died, the notes
+ * that the song leaves on being ended with it. The file appears when it is complete. Errors: NO_DEVICE, IO_FAILED, BAD_ARGUMENT. */
 enum midi_status sound_render(const struct sound_def *def, struct midi_song *song,
                               double seconds, const char *path);
 

@@ -13,6 +13,8 @@
 
 #include <cmocka.h>
 
+#include "../skip.h"
+
 enum { WIDTH = 6, HEIGHT = 4, COUNT = WIDTH * HEIGHT, FRAME = 6 + 3 * COUNT };
 
 static void check(enum display_status status)
@@ -240,8 +242,13 @@ static void sound_goes_to_the_encoder(void **state)
         snprintf(both, sizeof both, "%s:/usr/bin:/bin", path_before);
         setenv("PATH", both, 1);
         free(path_before);
-        if (silent)
+        if (silent) {
             snprintf(path, sizeof path, "%s", scratch_path("sound.gif"));
+            read_back =
+                "echo '0, 0'"; /* a .gif's pictures go as they are, without a word between them */
+            encoder_put(script);
+            setenv("PATH", both, 1);
+        }
         check(video_create_with_sound(path, WIDTH, HEIGHT, 25, fileno(sound), &video));
         assert_int_equal(video_sounds(video), !silent);
         uint8_t rgb[3 * COUNT] = {0};
@@ -255,12 +262,153 @@ static void sound_goes_to_the_encoder(void **state)
             fclose(file);
         }
     }
+    read_back = lines_all;
     fclose(sound);
+}
+
+/* ---- with ffmpeg itself ---- */
+
+enum { BROAD = 64, TALL = 48, PIXELS = BROAD * TALL, MOMENTS = 4 };
+
+static char *path_usual;
+
+/* Reads the film by ffmpeg's own decoder; the pictures have 3 or 4 channels. */
+static void film_decode(const char *film, const char *decoder, int channels, uint8_t *pixels)
+{
+    char command[900];
+    setenv("PATH", path_usual, 1);
+    snprintf(command, sizeof command,
+             "ffmpeg -v error %s -i '%s' -vf scale=in_color_matrix=bt709 -f rawvideo -pix_fmt "
+             "%s - 2>&1",
+             decoder, film, channels == 4 ? "rgba" : "rgb24");
+    const size_t all = (size_t)(MOMENTS * PIXELS * channels);
+    FILE *out = popen(command, "r");
+    assert_non_null(out);
+    const size_t count = fread(pixels, 1, all, out);
+    const bool over = fgetc(out) == EOF;
+    if (pclose(out) != 0 || count != all || !over)
+        fail_msg("%s: %zu bytes of %zu: %.*s", film, count, all, count < 300 ? (int)count : 0,
+                 (const char *)pixels);
+}
+
+static void ffmpeg_wanted(void)
+{
+    setenv("PATH", path_usual, 1);
+    if (system("ffmpeg -version >/dev/null 2>&1") != 0)
+        skip_because("ffmpeg is not installed");
+}
+
+/* Each picture has 200 colours of its own, which 256 for all films do not have. */
+static void palettes_are_those_of_pictures(void **state)
+{
+    (void)state;
+    static uint8_t rgb[MOMENTS][3 * PIXELS], got[sizeof rgb];
+    char path[512];
+    struct video *video;
+    ffmpeg_wanted();
+    snprintf(path, sizeof path, "%s", scratch_path("colours.gif"));
+    check(video_create(path, BROAD, TALL, 25, &video));
+    for (int m = 0; m < MOMENTS; m++) {
+        for (int i = 0; i < PIXELS; i++) {
+            const unsigned any = (unsigned)(i % 200 + 200 * m) * 2654435761u;
+            for (int c = 0; c < 3; c++)
+                rgb[m][3 * i + c] = (uint8_t)(any >> (8 * c + 5));
+        }
+        check(video_add(video, rgb[m]));
+    }
+    check(video_finish(video));
+    film_decode(path, "", 3, got);
+    int most = 0;
+    for (size_t i = 0; i < sizeof rgb; i++) {
+        const int off = abs(got[i] - ((const uint8_t *)rgb)[i]);
+        most = off > most ? off : most;
+    }
+    assert_in_range(most, 0, 4);
+}
+
+/* Films by the formats that have it keep alpha: bands of a colour, clear, half and opaque. */
+static void alpha_is_kept(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *ending, *decoder;
+        int alpha_off, color_off; /* at most, beside the bands' edges */
+        bool clear_or_not;
+    } films[] = {{"mkv", "", 0, 0, false},
+                 {"mov", "", 2, 6, false},
+                 {"webm", "-c:v libvpx-vp9", 4, 10, false},
+                 {"gif", "", 0, 4, true}};
+    static const uint8_t alphas[4] = {0, 200, 255, 90};
+    static const uint8_t colors[4][3] = {
+        {255, 40, 30}, {20, 60, 200}, {250, 250, 240}, {30, 160, 70}};
+    static uint8_t rgba[4 * PIXELS], got[MOMENTS][4 * PIXELS];
+    ffmpeg_wanted();
+    assert_false(video_alpha("x.mp4") || video_alpha("x.y4m") || video_alpha("x.avi"));
+    for (int i = 0; i < PIXELS; i++) {
+        memcpy(rgba + 4 * i, colors[i / BROAD / 12], 3);
+        rgba[4 * i + 3] = alphas[i % BROAD / 16];
+    }
+    for (size_t f = 0; f < sizeof films / sizeof *films; f++) {
+        char path[512], name[32];
+        struct video *video;
+        snprintf(name, sizeof name, "clear.%s", films[f].ending);
+        snprintf(path, sizeof path, "%s", scratch_path(name));
+        assert_true(video_alpha(path));
+        check(video_create_as(&(struct video_def){.path = path,
+                                                  .width_px = BROAD,
+                                                  .height_px = TALL,
+                                                  .fps = 25,
+                                                  .sound = -1,
+                                                  .alpha = true},
+                              &video));
+        for (int m = 0; m < MOMENTS; m++)
+            check(video_add(video, rgba));
+        check(video_finish(video));
+        film_decode(path, films[f].decoder, 4, (uint8_t *)got);
+        for (int i = 0; i < PIXELS; i++) {
+            const int x = i % BROAD % 16, y = i / BROAD % 12, given = rgba[4 * i + 3];
+            if (x < 4 || x > 11 || y < 4 || y > 7)
+                continue;
+            const uint8_t *at = got[MOMENTS - 1] + 4 * i;
+            const int wanted = films[f].clear_or_not ? (given >= 128) * 255 : given;
+            bool wrong = abs(at[3] - wanted) > films[f].alpha_off;
+            for (int c = 0; c < 3; c++)
+                wrong |= given == 255 && abs(at[c] - rgba[4 * i + c]) > films[f].color_off;
+            if (wrong)
+                fail_msg("%s at %d: %d %d %d %d for %d %d %d %d", films[f].ending, i, at[0],
+                         at[1], at[2], at[3], rgba[4 * i], rgba[4 * i + 1], rgba[4 * i + 2],
+                         given);
+        }
+    }
+}
+
+/* Alpha that a film does not hold is refused. */
+static void alpha_needs_a_format(void **state)
+{
+    (void)state;
+    struct video *video;
+    encoder_put("exec /bin/cat >\"$file\"");
+    assert_true(video_alpha("x.mov"));
+    assert_int_equal(video_create_as(&(struct video_def){.path = scratch_path("no.mp4"),
+                                                         .width_px = 4,
+                                                         .height_px = 4,
+                                                         .fps = 25,
+                                                         .sound = -1,
+                                                         .alpha = true},
+                                     &video),
+                     DISPLAY_BAD_ARGUMENT);
+    assert_non_null(strstr(display_error(), ".webm"));
+    encoder_put(NULL);
+    assert_false(video_alpha("x.mov"));
 }
 
 int main(void)
 {
+    path_usual = strdup(getenv("PATH") ? getenv("PATH") : "/usr/bin:/bin");
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(palettes_are_those_of_pictures),
+        cmocka_unit_test(alpha_is_kept),
+        cmocka_unit_test(alpha_needs_a_format),
         cmocka_unit_test(sound_goes_to_the_encoder),
         cmocka_unit_test(pictures_are_in_it),
         cmocka_unit_test(without_an_encoder_it_is_a_y4m),

@@ -12,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "../display/scratch.h"
 #include "../stage/likeness.h"
@@ -136,7 +137,7 @@ static void sessions_are_replayed(void **state)
     static const char played[] =
         "session 1\n4 mark\n4 hand down 0 3.5 0.25 0 0 1\n"
         "9 hand move -1.5 3 0.25 0 0 1\n20 hand up -1.5 3.25 0.25 0 0 1\n"
-        "30 set gravity 2.5\nend\n";
+        "30 set gravity 2.5\nend 120\n";
     char text[8192] = "";
     FILE *file = fopen(session, "w");
     fputs(played, file);
@@ -159,6 +160,96 @@ static void sessions_are_replayed(void **state)
     assert_non_null(rest);
     memmove(begin, rest + 1, strlen(rest + 1) + 1);
     assert_string_equal(text, played);
+}
+
+static void text_put(const char *path, const char *text)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+}
+
+/* 30 steps at the usual rate and 90 at half of it are 0.875 s, and a second more is filmed. */
+static void films_end_with_their_session(void **state)
+{
+    (void)state;
+    char last[320], after[320], folder[300];
+    const char *session = scratch_path("slow.session");
+    text_put(session, "session 1\n30 set rate 0.5\nend 120\n");
+    snprintf(folder, sizeof folder, "%s", scratch_path("slow"));
+    RUN(0, "--network", collision, "--replay", session, "--frames", folder, "--fps", "8",
+        "--size", "32x32");
+    snprintf(last, sizeof last, "%s/frame-000015.png", folder);
+    snprintf(after, sizeof after, "%s/frame-000016.png", folder);
+    assert_int_equal(access(last, F_OK), 0);
+    assert_int_equal(access(after, F_OK), -1);
+    text_put(session, "session 1\nend 1000000\n");
+    const struct child child = RUN(1, "--network", collision, "--replay", session, "--still",
+                                   scratch_path("never.png"), "--size", "32x32");
+    one_line(&child, "--seconds S");
+}
+
+/* Pixels of dots that are drawn alone, as a part of the picture's. */
+static double dots_part(bool word, const char *size)
+{
+    const char *still = scratch_path("dots.png");
+    RUN(0, word ? "--theme" : "--network", word ? "light" : collision, "--seconds", "0",
+        "--still", still, "--size", size, "--set", "show_springs=off", "--set",
+        "show_letters=off", "--set", "show_masses=on", "--set", "floor_on=off",
+        word ? "a paragraph" : NULL);
+    struct display_image image = picture(still);
+    double dots = 0;
+    const int pixels = image.width_px * image.height_px;
+    for (int i = 0; i < pixels; i++)
+        dots += (0xf6 - image.pixels[3 * i]) / 177.0;
+    display_image_destroy(&image);
+    return dots / pixels;
+}
+
+/* Dots keep their size beside a picture that is larger than usual, and beside letters that are smaller. */
+static void dots_grow_with_pictures(void **state)
+{
+    (void)state;
+    static const char *const sizes[2][2] = {{"720x720", "1440x1440"}, {"240x240", "480x480"}};
+    for (int k = 0; k < 2; k++) {
+        const double part[2] = {dots_part(k, sizes[k][0]), dots_part(k, sizes[k][1])};
+        if (!(part[0] > 1e-4 && fabs(part[1] / part[0] - 1) < 0.2)) /* edges are no light */
+            fail_msg("%s: %g and %g of the picture", sizes[k][0], part[0], part[1]);
+    }
+}
+
+/* Without a background a picture over white is the picture on white; one that is half there is half seen. */
+static void backgrounds_may_be_clear(void **state)
+{
+    (void)state;
+    const char *theme = scratch_path("clear.theme");
+    char stills[3][300];
+    struct display_image images[3];
+    static const char *const backgrounds[3] = {
+        "background = #ffffff\n", "background = #00000000\n", "background = #0000ff80\n"};
+    for (int i = 0; i < 3; i++) {
+        uint8_t head[26];
+        char name[20];
+        snprintf(name, sizeof name, "clear%d.png", i);
+        snprintf(stills[i], sizeof stills[i], "%s", scratch_path(name));
+        text_put(theme, backgrounds[i]);
+        RUN(0, "ab", "--theme", theme, "--still", stills[i], "--seconds", "0.3", "--size",
+            "240x160");
+        FILE *file = fopen(stills[i], "rb");
+        assert_non_null(file);
+        assert_int_equal(fread(head, 1, sizeof head, file), sizeof head);
+        fclose(file);
+        assert_int_equal(head[25], i ? 6 : 2); /* PNG's types: with alpha, without */
+        images[i] = picture(stills[i]);
+    }
+    const double alike = likeness(&images[0], &images[1]);
+    if (alike < 0.98)
+        fail_msg("likeness %.4f", alike);
+    const uint8_t *corner = images[2].pixels;
+    assert_true(corner[2] == 255 && corner[0] > 110 && corner[0] < 200);
+    for (int i = 0; i < 3; i++)
+        display_image_destroy(&images[i]);
 }
 
 /* Counts the blue pixels, ink on paper, in rows y0 to y1. */
@@ -410,6 +501,9 @@ int main(void)
         cmocka_unit_test(sets_reach_style_world_and_stage),
         cmocka_unit_test(scripts_lead_masses),
         cmocka_unit_test(sessions_are_replayed),
+        cmocka_unit_test(films_end_with_their_session),
+        cmocka_unit_test(dots_grow_with_pictures),
+        cmocka_unit_test(backgrounds_may_be_clear),
         cmocka_unit_test(controls_are_listed),
         cmocka_unit_test(letters_leave_wet_tracks),
         cmocka_unit_test(still_letters_do_not_flood),

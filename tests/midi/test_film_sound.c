@@ -201,6 +201,52 @@ static void a_device_sounds(void **unused)
     free(w.samples);
 }
 
+/* A word that a song plays is heard with the song, which has instruments of its own, and the film is as long as the song and a
+ * second. */
+static void songs_are_heard_with_what_they_play(void **unused)
+{
+    (void)unused;
+    static const double notes_s[2] = {0.2, 1.1};
+    char map[300], song[300], sound[300];
+    double heard_s[16];
+    if (!able())
+        skip_because("FluidSynth or a SoundFont is not installed");
+    snprintf(map, sizeof map, "%s", scratch_path("nothing.lua"));
+    snprintf(song, sizeof song, "%s", scratch_path("two.mid"));
+    snprintf(sound, sizeof sound, "%s", scratch_path("two.wav"));
+    FILE *file = fopen(map, "w");
+    fputs("function message(m) end\n", file);
+    fclose(file);
+    const struct midi_song_def def = midi_song_def_default();
+    struct midi_song *two;
+    assert_int_equal(midi_song_create(&def, &two), MIDI_OK);
+    for (int i = 0; i < 4; i++) {
+        const struct midi_message m = midi_message_make(
+            (uint64_t)(1e9 * (notes_s[i / 2] + 0.1 * (i % 2))), i % 2 ? 0x80 : 0x90, 72, 110);
+        assert_int_equal(midi_song_record(two, 0, &m, 0), MIDI_OK);
+    }
+    assert_int_equal(midi_song_write(two, song), MIDI_OK);
+    const double end_s = (double)midi_song_info(two).end_ns / 1e9;
+    midi_song_destroy(two);
+    for (int falls = 0; falls < 2; falls++) {
+        must_run(
+            &(struct child){.arguments = {lutetia, "spring", "a", "--map", map, "--song", song,
+                                          "--sound", sound, "--still", scratch_path("two.png"),
+                                          "--size", "32x32", "--at", falls ? "0,1.5" : "0,1",
+                                          "--set", falls ? "gravity=9.8" : "gravity=0"}});
+        struct wav w = wav_read(sound);
+        assert_true(fabs((double)w.count / w.rate_hz - end_s - 1) < 0.04);
+        const int count = wav_onsets(&w, heard_s, 16);
+        int found = 0;
+        for (int n = 0; n < 2; n++)
+            for (int i = 0; i < count; i++)
+                found += fabs(heard_s[i] - notes_s[n]) < 0.006;
+        if (falls ? found < 1 || count < 3 : found != 2 || count != 2)
+            fail_msg("%d of 2 notes among %d onsets", found, count);
+        free(w.samples);
+    }
+}
+
 int main(void)
 {
     lutetia = getenv("LUTETIA");
@@ -209,6 +255,7 @@ int main(void)
         cmocka_unit_test(films_sound_when_letters_hit),
         cmocka_unit_test(songs_are_rendered),
         cmocka_unit_test(letters_and_sound_come_together),
+        cmocka_unit_test(songs_are_heard_with_what_they_play),
         cmocka_unit_test(a_device_sounds),
     };
     return lutetia && network ? cmocka_run_group_tests_name("film sound", tests, NULL, NULL)

@@ -15,6 +15,7 @@
 #include "../lutetia/child.h"
 #include "server_support.h"
 
+#include <sched.h>
 #include <signal.h>
 #include <sys/wait.h>
 
@@ -145,6 +146,44 @@ static void what_is_played_is_recorded(void **unused)
     served_end(&s);
 }
 
+/* Whether programs of this user may run in real time. */
+static bool real_time_allowed(void)
+{
+    int status;
+    const pid_t child = fork();
+    if (child == 0) {
+        const struct sched_param priority = {.sched_priority = 40};
+        _exit(sched_setscheduler(0, SCHED_FIFO, &priority) == 0 ? 0 : 1);
+    }
+    assert_int_equal(waitpid(child, &status, 0), child);
+    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+/* A player has the server's priority from its first note on, unless that is not wanted. */
+static void songs_are_played_in_real_time(void **unused)
+{
+    (void)unused;
+    char path[300];
+    const bool allowed = real_time_allowed();
+    struct served s = served_begin((const char *[]){"loop", NULL}, 0, NULL);
+    snprintf(path, sizeof path, "%s", scratch_path("long.mid"));
+    song_write(path, 60);
+    for (int usual = 0; usual < 2; usual++) {
+        struct midi_client *c = client_of(&s, "look", "");
+        const pid_t player =
+            in_background((const char *[]){lutetia, "midi", "play", path, "-s", s.path,
+                                           usual ? "--usual-priority" : NULL, NULL});
+        next_event(c, MIDI_CLIENT_MESSAGE);
+        kill(player, SIGSTOP); /* so that the song cannot be over before one has looked */
+        const int policy = sched_getscheduler(player) & ~SCHED_RESET_ON_FORK;
+        kill(player, SIGCONT);
+        ended_well(player);
+        midi_client_close(c);
+        assert_int_equal(policy, allowed && !usual ? SCHED_FIFO : SCHED_OTHER);
+    }
+    served_end(&s);
+}
+
 /* Builds examples/midi_octave.c as any program that uses the library, and runs it. */
 static void programs_use_the_library(void **unused)
 {
@@ -250,6 +289,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(words_are_sent_and_status_is_told),
         cmocka_unit_test(what_is_played_is_recorded),
+        cmocka_unit_test(songs_are_played_in_real_time),
         cmocka_unit_test(programs_use_the_library),
         cmocka_unit_test(songs_become_letters),
         cmocka_unit_test(wrong_lines_are_refused),

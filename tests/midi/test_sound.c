@@ -20,6 +20,7 @@
 #include <fluid.h>
 #include <sound.h>
 #include <sound_events.h>
+#include <wav_file.h>
 
 #include "../display/scratch.h"
 #include "../sample.h"
@@ -125,6 +126,93 @@ static void the_same_song_is_the_same_sound(void **unused)
     free(w[1].samples);
 }
 
+/* The last moment that is louder than the rounding's noise of one bit. */
+static double wav_ends_s(const struct wav *w)
+{
+    long last = 0;
+    for (long i = 0; i < w->channels * w->count; i++)
+        if (abs(w->samples[i]) > 1)
+            last = i;
+    return (double)last / w->channels / w->rate_hz;
+}
+
+/* A cymbal that goes on after the song, an organ's note that nobody ends, and a pause within the song. */
+static void songs_are_rendered_to_silence(void **unused)
+{
+    (void)unused;
+    static const struct {
+        uint8_t bytes[3][3]; /* at 0 */
+        double ends_s;       /* of the track */
+        double least_s, most_s;
+    } songs[] = {{{{0xc9, 0, 0}, {0x99, 49, 127}, {0x89, 49, 0}}, 0.1, 1.8, 12},
+                 {{{0xc0, 16, 0}, {0xb0, 64, 127}, {0x90, 60, 100}}, 0.5, 0.5, 5},
+                 {{{0xc0, 0, 0}, {0x90, 60, 100}, {0x80, 60, 0}}, 9, 0.1, 9.3}};
+    if (!able())
+        skip_because("FluidSynth or a SoundFont is not installed");
+    for (size_t i = 0; i < sizeof songs / sizeof *songs; i++) {
+        const struct midi_song_def song_def = midi_song_def_default();
+        struct sound_def def = sound_def_default();
+        struct midi_song *song;
+        assert_int_equal(midi_song_create(&song_def, &song), MIDI_OK);
+        for (int k = 0; k < 3; k++) {
+            const uint8_t *b = songs[i].bytes[k];
+            const struct midi_message m = midi_message_make(0, b[0], b[1], b[2]);
+            assert_int_equal(midi_song_record(song, 0, &m, 0), MIDI_OK);
+        }
+        assert_int_equal(
+            midi_song_end(song, 0, midi_song_tick(song, (uint64_t)(1e9 * songs[i].ends_s))),
+            MIDI_OK);
+        const char *path = scratch_path("whole.wav");
+        def.room = true;
+        if (sound_render(&def, song, 0, path) != MIDI_OK)
+            fail_msg("%s", midi_error());
+        struct wav w = wav_read(path);
+        const double all_s = (double)w.count / w.rate_hz, last_s = wav_ends_s(&w);
+        if (!(last_s > songs[i].least_s && last_s < all_s - 0.09 && all_s > songs[i].ends_s &&
+              all_s < songs[i].most_s))
+            fail_msg("song %zu of %g s: heard until %g of %g", i, songs[i].ends_s, last_s,
+                     all_s);
+        free(w.samples);
+        def.tail_s = 0.25; /* the bound */
+        assert_int_equal(sound_render(&def, song, 0, path), MIDI_OK);
+        w = wav_read(path);
+        assert_true((double)w.count / w.rate_hz < songs[i].ends_s + 0.26);
+        free(w.samples);
+        midi_song_destroy(song);
+    }
+}
+
+/* Sizes that 32 bits cannot tell are in an RF64's ds64. */
+static void long_files_tell_their_sizes(void **unused)
+{
+    (void)unused;
+    static const uint64_t moments[] = {0, 1, 1000, 1073741804, 1073741805, UINT64_C(1) << 33};
+    for (size_t i = 0; i < sizeof moments / sizeof *moments; i++) {
+        uint8_t head[80];
+        struct wav_file wav;
+        FILE *file = tmpfile();
+        assert_non_null(file);
+        assert_true(wav_file_begin(&wav, file, 48000));
+        wav.moments = moments[i]; /* as if they had been written */
+        assert_true(wav_file_end(&wav));
+        rewind(file);
+        assert_int_equal(fread(head, 1, sizeof head, file), sizeof head);
+        fclose(file);
+        const uint64_t bytes = 4 * moments[i];
+        const bool is_long = bytes + 72 > 0xffffffff;
+        assert_memory_equal(head, is_long ? "RF64" : "RIFF", 4);
+        assert_memory_equal(head + 12, is_long ? "ds64" : "JUNK", 4);
+        assert_int_equal(wav_little(head + 4, 4), is_long ? 0xffffffff : bytes + 72);
+        assert_int_equal(wav_little(head + 76, 4), is_long ? 0xffffffff : bytes);
+        uint64_t said[3];
+        for (int k = 0; k < 3; k++)
+            said[k] = wav_little(head + 20 + 8 * k, 4) |
+                      (uint64_t)wav_little(head + 24 + 8 * k, 4) << 32;
+        assert_true(!is_long ||
+                    (said[0] == bytes + 72 && said[1] == bytes && said[2] == moments[i]));
+    }
+}
+
 static void what_is_missing_is_named(void **unused)
 {
     (void)unused;
@@ -219,6 +307,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bounces_are_onsets),
         cmocka_unit_test(the_same_song_is_the_same_sound),
+        cmocka_unit_test(songs_are_rendered_to_silence),
+        cmocka_unit_test(long_files_tell_their_sizes),
         cmocka_unit_test(what_is_missing_is_named),
         cmocka_unit_test(damaged_fonts_are_refused_quietly),
     };

@@ -114,7 +114,7 @@ static void written_again(struct stage *stage, const struct stage_session *s)
     fclose(file);
     free(text);
     if (again.count != s->count || again.files_count != s->files_count ||
-        again.begin != s->begin)
+        again.begin != s->begin || again.end != s->end)
         abort();
     for (int i = 0; i < s->count; i++)
         if (again.deeds[i].step != s->deeds[i].step || again.deeds[i].kind != s->deeds[i].kind)
@@ -159,7 +159,7 @@ int main(void)
         "session 1\n# cut, tack, let go\n1 mark\n1 hand down -1 1.5 0.3 0 1 0\n5 hand move 3 "
         "1.5 0.3 0 1 0\n"
         "6 hand up 3 1.5 0.3 0 1 0\n8 hand down 1 1 0.4 0.9 0 1\n9 hand cancel 0 0 0.4 0 0 "
-        "0\n10 drop\nend\n",
+        "0\n10 drop\nend 12\n",
         ("session 1\n2 mark\n2 load 0123456789abcdef /no such file\n4 set restitution 1\n4 set "
          "rate 2\nend\n"),
     };

@@ -148,6 +148,32 @@ static void texts_are_read(void **state)
     stage_session_finish(&s);
 }
 
+/* Steps are 0.1 s here, at the rate that holds. */
+static void sessions_last(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        double rate, seconds;
+    } sessions[] = {{"session 1\nend\n", 1, 0},
+                    {"session 1\nend 20\n", 0.5, 4},
+                    {"session 1\n10 mark\nend\n", 1, 1},
+                    {"session 1\n10 set rate 2\nend 20\n", 1, 1.5},
+                    {"session 1\n10 mark\n10 set rate 2\n20 undo\nend 30\n", 1, 2.5},
+                    {"session 1\n10 mark\n10 set rate 2\n10 drop\n20 undo\nend 30\n", 1, 2},
+                    {"session 1\n0 set rate 2\n10 reset\n20 undo\nend 30\n", 4, 1.25},
+                    {"session 1\n0 set gravity 2\nend 30\n", 1, 3}};
+    for (size_t i = 0; i < sizeof sessions / sizeof *sessions; i++) {
+        struct stage_session s;
+        if (parse(sessions[i].text, strlen(sessions[i].text), &s) != STAGE_OK)
+            fail_msg("%s", stage_error());
+        const double seconds = stage_session_seconds(&s, sessions[i].rate, 0.1, 0);
+        if (fabs(seconds - sessions[i].seconds) > 1e-9)
+            fail_msg("%zu: %g for %g", i, seconds, sessions[i].seconds);
+        stage_session_finish(&s);
+    }
+}
+
 static void wrong_texts_are_refused(void **state)
 {
     (void)state;
@@ -157,6 +183,8 @@ static void wrong_texts_are_refused(void **state)
         {"springs 1\n", "t:1: must be `session 1`"},
         {"session 1\n0 mark\n", "t:3: must be `end`"},
         {"session 1\n5 mark\n4 mark\nend\n", "t:3: must be STEP"},
+        {"session 1\n5 mark\nend 4\n", "t:3: must be `end STEP`"},
+        {"session 1\n5 mark\nend of it\n", "t:3: must be `end STEP`"},
         {"session 1\n-1 mark\nend\n", "t:2: must be STEP"},
         {"session 1\nmark\nend\n", "t:2: must be STEP"},
         {"session 1\n0 jump\nend\n", "t:2: must be hand, set, load"},
@@ -328,6 +356,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sessions_are_done_again_to_the_bit),
         cmocka_unit_test(texts_are_read),
+        cmocka_unit_test(sessions_last),
         cmocka_unit_test(wrong_texts_are_refused),
         cmocka_unit_test(bytes_by_chance_are_read_or_refused),
         cmocka_unit_test(sessions_load_files_again),
