@@ -98,11 +98,14 @@ struct video {
     int width, height, fps;
     int sound; /* a descriptor of a WAV file; -1: it is silent */
     bool alpha;
-    bool raw; /* pictures go to ffmpeg as they are */
+    bool later; /* sound comes at the end */
+    bool raw;   /* pictures go to ffmpeg as they are */
     long frames;
     FILE *file;      /* out's stream, or the pipe to ffmpeg */
     pid_t encoder;   /* 0: no ffmpeg, the file is written by us */
     FILE *complaint; /* ffmpeg's messages */
+    FILE *
+        pictures; /* what ffmpeg writes where sound comes later; has no name. NULL: it writes to `out` */
     uint8_t *planes;
     bool failed;
 };
@@ -144,7 +147,8 @@ _Noreturn static void encoder_become(const struct video *v, int input, int fps)
     char rate[16], size[32], output[32], sound[32];
     char *words[WORDS_MAX] = {NULL}; /* which execvp() does not change */
     int nowhere = streams_nowhere(O_WRONLY), complaint = dup(fileno(v->complaint)),
-        file = dup(fileno(v->out.stream)), wav = v->sound >= 0 ? dup(v->sound) : -1;
+        file = dup(fileno(v->pictures ? v->pictures : v->out.stream)),
+        wav = v->sound >= 0 ? dup(v->sound) : -1;
     snprintf(rate, sizeof rate, "%d", fps);
     snprintf(size, sizeof size, "%dx%d", v->width, v->height);
     snprintf(output, sizeof output, "/proc/self/fd/%d", OUTPUT);
@@ -196,7 +200,10 @@ static enum display_status encoder_start(struct video *v, int fps)
 {
     int ends[2];
     v->complaint = tmpfile();
-    if (!v->complaint || pipe2(ends, O_CLOEXEC) != 0)
+    if (v->later && v->container->sounds)
+        v->pictures = tmpfile();
+    if (!v->complaint || (v->later && v->container->sounds && !v->pictures) ||
+        pipe2(ends, O_CLOEXEC) != 0)
         return display_fail(DISPLAY_IO_FAILED, "%s: cannot start ffmpeg: %s", v->path,
                             strerror(errno));
     fflush(NULL);
@@ -241,6 +248,57 @@ static bool encoder_end(struct video *v, char said[200])
     return false;
 }
 
+/* Puts the pictures' film and the sound (-1: none) together: nothing is encoded again but the sound. */
+_Noreturn static void joiner_become(const struct video *v, int sound)
+{
+    enum { OUTPUT = 3, PICTURES = 4, SOUND = 5, FREE = 10, WORDS_MAX = 40 };
+    char *words[WORDS_MAX] = {NULL};
+    const char *const format = v->container->format;
+    const char *const begin[] = {
+        "ffmpeg", "-hide_banner",        "-nostdin", "-loglevel", "error",
+        "-y",     "-protocol_whitelist", "file",     "-f",        format,
+        "-i",     "/proc/self/fd/4",     NULL};
+    const char *const heard[] = {"-protocol_whitelist", "file", "-f", "wav", "-i",
+                                 "/proc/self/fd/5",     NULL};
+    const char *const pictures[] = {"-map", "0:v", "-c:v", "copy", NULL};
+    const char *const hears[] = {"-map", "1:a", NULL};
+    const char *const end[] = {"-f", format, "/proc/self/fd/3", NULL};
+    const int from[] = {streams_nowhere(O_RDONLY), streams_nowhere(O_WRONLY),
+                        fileno(v->complaint),      fileno(v->out.stream),
+                        fileno(v->pictures),       sound};
+    int kept[SOUND + 1];
+    words_add(words, begin);
+    if (sound >= 0)
+        words_add(words, heard);
+    words_add(words, pictures);
+    if (sound >= 0)
+        words_add(words, hears);
+    words_add(words, end);
+    for (int i = 0; i <= SOUND; i++) /* first out of each other's way */
+        kept[i] = from[i] >= 0 ? fcntl(from[i], F_DUPFD_CLOEXEC, FREE) : -1;
+    for (int i = 0; i <= SOUND; i++)
+        if (kept[i] >= 0)
+            dup2(kept[i], i);
+    execvp("ffmpeg", words);
+    dprintf(STDERR_FILENO, "cannot be run: %s", strerror(errno));
+    _exit(127);
+}
+
+/* False: said why not. */
+static bool film_join(struct video *v, int sound, char said[200])
+{
+    fflush(NULL);
+    v->encoder = fork();
+    if (v->encoder == 0)
+        joiner_become(v, sound);
+    if (v->encoder < 0) {
+        v->encoder = 0;
+        snprintf(said, 200, "cannot start ffmpeg: %s", strerror(errno));
+        return false;
+    }
+    return encoder_end(v, said);
+}
+
 /* ---- life ---- */
 
 static void video_free(struct video *v)
@@ -254,6 +312,8 @@ static void video_free(struct video *v)
     }
     if (v->complaint)
         fclose(v->complaint);
+    if (v->pictures)
+        fclose(v->pictures);
     output_file_abandon(&v->out);
     if (v->sound >= 0)
         close(v->sound);
@@ -402,6 +462,7 @@ enum display_status video_create_as(const struct video_def *def, struct video **
     v->fps = def->fps;
     v->sound = -1;
     v->alpha = def->alpha;
+    v->later = def->sounds_later;
     enum display_status status = video_make(v, def);
     if (status != DISPLAY_OK) {
         video_free(v);
@@ -462,13 +523,13 @@ enum display_status video_add(struct video *v, const uint8_t *rgb)
 }
 
 /* A full disk is the likely reason: what can be written now says so. */
-static bool film_is_whole(const struct video *v, char said[200])
+static bool film_is_whole(const struct video *v, bool sounds, char said[200])
 {
     const struct video_held held = {
         .format = v->container->format,
         .frames = v->frames,
         .exactly = v->container->counts || (v->fps <= GIF_FPS_MOST && !v->container->sounds),
-        .sounds = v->sound >= 0};
+        .sounds = sounds};
     const int file = fileno(v->out.stream);
     char wrong[150];
     if (video_read_back(file, &held, wrong, sizeof wrong))
@@ -483,7 +544,13 @@ static bool film_is_whole(const struct video *v, char said[200])
 
 enum display_status video_finish(struct video *v)
 {
+    return video_finish_with_sound(v, -1);
+}
+
+enum display_status video_finish_with_sound(struct video *v, int sound)
+{
     char said[200];
+    bool sounds = v->sound >= 0;
     enum display_status status = DISPLAY_OK;
     if (v->failed || v->frames == 0) {
         bool failed = v->failed;
@@ -497,8 +564,12 @@ enum display_status video_finish(struct video *v)
         int error = fclose(v->file) == 0 ? 0 : errno;
         v->file = NULL;
         bool encoded = encoder_end(v, said);
+        if (encoded && !error && v->pictures) {
+            encoded = film_join(v, sound, said);
+            sounds = sound >= 0;
+        }
         if (encoded && !error)
-            encoded = film_is_whole(v, said);
+            encoded = film_is_whole(v, sounds, said);
         if (!encoded || error) {
             status = display_fail(DISPLAY_IO_FAILED, "%s: cannot write: %s", v->path,
                                   encoded ? output_file_explain(error) : said);

@@ -38,7 +38,8 @@ enum display_status video_create_with_sound(const char *path, int width_px, int 
 struct video_def {
     const char *path;
     int width_px, height_px, fps;
-    int sound; /* a descriptor, as above; -1: none */
+    int sound;         /* a descriptor, as above; -1: none */
+    bool sounds_later; /* sound may come with video_finish_with_sound(); then `sound` is -1 */
     bool
         alpha; /* pictures have four channels, and the film keeps the fourth: .mov as ProRes 4444, .mkv as FFV1, .webm as VP9, .gif as
                  * opaque or clear */
@@ -56,6 +57,9 @@ enum display_status video_add(struct video *video, const uint8_t *rgb);
 /* Ends the film and renames it; a film without pictures leaves no file. Frees the video,
  * also on failure; then no file is left. Errors: IO_FAILED. */
 enum display_status video_finish(struct video *video);
+/* The same for a video that was made with sounds_later. sound: a descriptor of a whole WAV file; -1, or a format without sound: the film
+ * is silent. The caller closes it. */
+enum display_status video_finish_with_sound(struct video *video, int sound);
 /* Removes the part file and frees the video. NULL is fine. */
 void video_abandon(struct video *video);
 

@@ -4,6 +4,7 @@
  *     player's thread                          waiting -> synthesizer, MIDI server
  */
 #include "live_sound.h"
+#include "live_recording.h"
 
 #include <midi_client.h>
 #include <midi_internal.h>
@@ -29,6 +30,7 @@ struct live_sound {
     bool ending;
     /* of the stage's thread */
     long played, dropped;
+    struct live_recording recording;
 };
 
 static uint64_t now_ns(void)
@@ -108,6 +110,7 @@ static void waiting_put(struct live_sound *s, const struct midi_message *m)
 static void event_play(struct live_sound *s, const struct sound_event *e)
 {
     struct midi_message messages[3];
+    live_recording_add(&s->recording, e, now_ns());
     sound_event_messages(e, now_ns(), messages);
     pthread_mutex_lock(&s->mutex);
     const bool room = s->waiting_count + 3 <= WAITING_MAX; /* a note has its end, too */
@@ -143,6 +146,17 @@ long live_sound_played(const struct live_sound *s)
 long live_sound_dropped(const struct live_sound *s)
 {
     return s->dropped;
+}
+
+void live_sound_record(struct live_sound *s)
+{
+    live_recording_begin(&s->recording, now_ns());
+}
+
+enum midi_status live_sound_recorded(struct live_sound *s, struct midi_song *song,
+                                     double song_s, int *file)
+{
+    return live_recording_end(&s->recording, now_ns(), song, song_s, file);
 }
 
 /* ---- life ---- */
@@ -227,5 +241,6 @@ void live_sound_close(struct live_sound *s)
         pthread_mutex_destroy(&s->mutex);
     midi_client_close(s->client);
     sound_destroy(s->synth);
+    live_recording_finish(&s->recording);
     free(s);
 }

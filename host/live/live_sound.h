@@ -21,7 +21,7 @@
 #include <stage.h>
 
 struct live_sound_def {
-    bool synth;
+    bool synth; /* with neither a synthesizer nor a device nothing is heard but in recordings */
     /* A driver of FluidSynth, or a name that ends with .wav; NULL: JACK, PulseAudio or ALSA, the first that works. */
     const char *driver;
     const char *server, *device; /* a device of the MIDI server; device NULL: none */
@@ -36,6 +36,15 @@ void live_sound_close(struct live_sound *sound); /* ends all notes; NULL is fine
 void live_sound_take(struct live_sound *sound, struct stage *stage);
 long live_sound_played(const struct live_sound *sound); /* events so far */
 long live_sound_dropped(const struct live_sound *sound);
+
+/* ---- for recordings ---- */
+
+/* From now on what is played is kept, too. */
+void live_sound_record(struct live_sound *sound);
+/* Ends that, and makes a WAV file of it, as long as it took: for a film. song: was played meanwhile, and was at song_s when it began;
+ * NULL: none. *file: -1 where nothing was heard. Errors: those of sound_render_open(); *file is then -1. Owns: the caller closes *file. */
+enum midi_status live_sound_recorded(struct live_sound *sound, struct midi_song *song,
+                                     double song_s, int *file);
 
 /* A sound of the stage's actor as an event of sound_events.h: a clank's velocity is its speed, as MIDI has it (20 for each unit a
  * second), high and low, left and right are where it happens. `extent`: of the actor. False: it is no sound of those. */

@@ -37,6 +37,7 @@ struct spring {
     struct live live;
     const char *play;
     struct live_sound *sound;
+    double recording_s; /* when the window's recording began */
 };
 
 static int fail_stage(void)
@@ -351,7 +352,24 @@ static void sounds_play(void *context, struct stage *stage)
     live_sound_take(s->sound, stage);
 }
 
-/* A window without sound is a window; a device that is asked for must be there. */
+static void recording_sounds(void *context, double now_s)
+{
+    struct spring *s = context;
+    s->recording_s = now_s;
+    live_sound_record(s->sound);
+}
+
+static int recording_heard(void *context, double now_s, const char **why)
+{
+    struct spring *s = context;
+    int file;
+    (void)now_s; /* which is when it ends */
+    if (live_sound_recorded(s->sound, s->song, s->recording_s, &file) != MIDI_OK)
+        *why = midi_error();
+    return file;
+}
+
+/* A window without sound is a window, and its recordings may have some; a device that is asked for must be there. */
 static int window_sound(struct spring *s)
 {
     const struct live_sound_def def = {
@@ -359,13 +377,20 @@ static int window_sound(struct spring *s)
     if (s->silent && !s->play)
         return EXIT_SUCCESS;
     enum midi_status status = live_sound_open(&def, &s->sound);
+    if (status != MIDI_OK && s->play)
+        return fail("spring", "--play: %s", midi_error());
+    if (status != MIDI_OK) {
+        snprintf(s->live.note, sizeof s->live.note, "the window is silent: %s", midi_error());
+        status = live_sound_open(&(struct live_sound_def){.synth = false}, &s->sound);
+    }
+    if (status != MIDI_OK)
+        return EXIT_SUCCESS;
     s->window.after = sounds_play;
     s->window.after_context = s;
-    if (status == MIDI_OK)
-        return EXIT_SUCCESS;
-    if (s->play)
-        return fail("spring", "--play: %s", midi_error());
-    snprintf(s->live.note, sizeof s->live.note, "the window is silent: %s", midi_error());
+    if (!s->silent) {
+        s->window.sound_begin = recording_sounds;
+        s->window.sound_end = recording_heard;
+    }
     return EXIT_SUCCESS;
 }
 

@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { RECORDING_FPS = 30, MESSAGE_S = 4 };
 
@@ -55,31 +56,59 @@ __attribute__((format(printf, 2, 3))) static void say(struct stage_window *w,
 
 /* ---- recording ---- */
 
+/* -1: there is none; *why: why not, or NULL. */
+static int recording_sound(struct stage_window *w, const char **why)
+{
+    *why = NULL;
+    return w->def.sound_end ? w->def.sound_end(w->def.after_context, input_now_s(), why) : -1;
+}
+
 static void recording_end(struct stage_window *w)
 {
+    const char *why;
     if (!w->video)
         return;
     long frames = video_frames(w->video);
     snprintf(w->recorded, sizeof w->recorded, "%s", video_path(w->video));
-    if (video_finish(w->video) != DISPLAY_OK) {
+    const int sound = recording_sound(w, &why);
+    if (video_finish_with_sound(w->video, sound) != DISPLAY_OK) {
         say(w, "%s", display_error());
         w->recorded[0] = '\0';
     } else {
-        say(w, "%ld pictures in %s", frames, w->recorded);
+        say(w, "%ld pictures in %s%s%s", frames, w->recorded, why ? ", silent: " : "",
+            why ? why : "");
     }
+    if (sound >= 0)
+        close(sound);
+    w->video = NULL;
+}
+
+static void recording_abandon(struct stage_window *w)
+{
+    const char *why;
+    const int sound = recording_sound(w, &why);
+    if (sound >= 0)
+        close(sound);
+    video_abandon(w->video);
     w->video = NULL;
 }
 
 static void recording_begin(struct stage_window *w)
 {
-    int width, height;
-    stage_renderer_size(w->renderer, &width, &height);
-    if (video_create(w->def.record_path, width & ~1, height & ~1, RECORDING_FPS, &w->video) !=
-        DISPLAY_OK) {
+    struct video_def def = {.path = w->def.record_path,
+                            .fps = RECORDING_FPS,
+                            .sound = -1,
+                            .sounds_later = w->def.sound_end != NULL};
+    stage_renderer_size(w->renderer, &def.width_px, &def.height_px);
+    def.width_px &= ~1;
+    def.height_px &= ~1;
+    if (video_create_as(&def, &w->video) != DISPLAY_OK) {
         say(w, "%s", display_error());
         return;
     }
     w->record_began_s = w->record_next_s = input_now_s();
+    if (w->def.sound_begin)
+        w->def.sound_begin(w->def.after_context, w->record_began_s);
     say(w, "recording to %s", video_path(w->video));
 }
 
@@ -112,8 +141,7 @@ static void recording_add(struct stage_window *w, double now_s)
         failed = video_add(w->video, w->image.pixels) != DISPLAY_OK;
     if (failed) {
         say(w, "%s", display_error());
-        video_abandon(w->video);
-        w->video = NULL;
+        recording_abandon(w);
     }
 }
 

@@ -38,6 +38,11 @@ struct stage_window_def {
     /* After a turn's steps, before they are drawn: whoever lets hear what happened in them. NULL: nobody does. */
     void (*after)(void *after_context, struct stage *stage);
     void *after_context;
+    /* Of recordings: sound_begin() when one begins; at its end sound_end() gives a descriptor of a WAV file of what was heard since, or -1
+     * (*why: why not, or NULL). The window closes it. Their context is after_context; now_s is the window's time, as for `before`.
+     * NULL: recordings are silent. */
+    void (*sound_begin)(void *after_context, double now_s);
+    int (*sound_end)(void *after_context, double now_s, const char **why);
 };
 struct stage_window_def stage_window_def_default(void);
 

@@ -382,6 +382,74 @@ static void alpha_is_kept(void **state)
     }
 }
 
+/* A second of a tone, as FluidSynth would write it. */
+static FILE *tone_make(void)
+{
+    enum { RATE = 8000 };
+    static const uint8_t head[44] =
+        "RIFF\x24\x7d\0\0WAVEfmt "
+        "\x10\0\0\0\1\0\2\0\x40\x1f\0\0\0\x7d\0\0\4\0\x10\0data\0\x7d\0";
+    FILE *file = tmpfile();
+    assert_non_null(file);
+    assert_int_equal(fwrite(head, 1, sizeof head, file), sizeof head);
+    for (int i = 0; i < 2 * RATE; i++) {
+        const int16_t sample = (int16_t)(i / 2 % 20 < 10 ? 8000 : -8000);
+        assert_int_equal(fwrite(&sample, 2, 1, file), 1);
+    }
+    fflush(file);
+    return file;
+}
+
+/* Whether the film has a second of sound that is no silence. */
+static bool film_sounds(const char *film)
+{
+    char command[900];
+    static int16_t samples[20000];
+    snprintf(command, sizeof command,
+             "ffmpeg -v quiet -i '%s' -map 0:a -ac 1 -ar 8000 -f s16le - 2>/dev/null", film);
+    FILE *out = popen(command, "r");
+    assert_non_null(out);
+    const size_t count = fread(samples, 2, sizeof samples / 2, out);
+    pclose(out);
+    double power = 0;
+    for (size_t i = 0; i < count; i++)
+        power += (double)samples[i] * samples[i];
+    return count > 7500 && count < 9500 && power / (double)count > 1e6;
+}
+
+/* Sound that is known at the end is put to pictures that were encoded before. */
+static void sound_may_come_later(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"later.mp4", "later.mkv", "later.webm", "later.gif"};
+    static uint8_t rgb[3 * PIXELS];
+    FILE *tone = tone_make();
+    ffmpeg_wanted();
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        for (int silent = 0; silent < 2; silent++) {
+            char path[512];
+            struct video *video;
+            snprintf(path, sizeof path, "%s", scratch_path(names[i]));
+            const int files = scratch_count() - (access(path, F_OK) == 0);
+            check(video_create_as(&(struct video_def){.path = path,
+                                                      .width_px = BROAD,
+                                                      .height_px = TALL,
+                                                      .fps = 25,
+                                                      .sound = -1,
+                                                      .sounds_later = true},
+                                  &video));
+            for (int m = 0; m < 25; m++) {
+                memset(rgb, 10 * m, sizeof rgb);
+                check(video_add(video, rgb));
+            }
+            check(video_finish_with_sound(video, silent ? -1 : fileno(tone)));
+            assert_int_equal(scratch_count(), files + 1);
+            if (film_sounds(path) != (!silent && i != 3))
+                fail_msg("%s %s", names[i], silent ? "sounds" : "is silent");
+        }
+    fclose(tone);
+}
+
 /* Alpha that a film does not hold is refused. */
 static void alpha_needs_a_format(void **state)
 {
@@ -408,6 +476,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(palettes_are_those_of_pictures),
         cmocka_unit_test(alpha_is_kept),
+        cmocka_unit_test(sound_may_come_later),
         cmocka_unit_test(alpha_needs_a_format),
         cmocka_unit_test(sound_goes_to_the_encoder),
         cmocka_unit_test(pictures_are_in_it),

@@ -8,6 +8,7 @@
 
 #include <live_sound.h>
 #include <midi_message.h>
+#include <midi_song.h>
 #include <midi_time.h>
 
 #include "../display/scratch.h"
@@ -15,6 +16,7 @@
 #include "../midi/wav.h"
 #include "../skip.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -192,9 +194,77 @@ static void floods_are_dropped(void **state)
     stage_destroy(stage);
 }
 
+/* What a film of a window has: clanks from its beginning on, and the song from where it was. Nothing need sound for that. */
+static void recordings_have_what_was_heard(void **state)
+{
+    (void)state;
+    static const double notes_s[2] = {0.5,
+                                      1.1}; /* the song is at 1 s where the recording begins */
+    struct clanker clanker = {0, 5};
+    struct stage *stage = clanker_stage(&clanker);
+    const struct live_sound_def def = {.synth = false};
+    const struct midi_song_def song_def = midi_song_def_default();
+    struct live_sound *sound;
+    struct midi_song *song;
+    char path[64];
+    double heard_s[16];
+    int file;
+    assert_int_equal(live_sound_open(&def, &sound), MIDI_OK);
+    assert_int_equal(midi_song_create(&song_def, &song), MIDI_OK);
+    for (int i = 0; i < 4; i++) {
+        const double at_s = notes_s[i / 2] + 0.05 * (i % 2);
+        const struct midi_message m =
+            midi_message_make((uint64_t)(1e9 * at_s), i % 2 ? 0x80 : 0x90, 84, 110);
+        assert_int_equal(midi_song_record(song, 0, &m, 0), MIDI_OK);
+    }
+    for (int with = 0; with < 3; with++) { /* nothing, a clank, a clank and the song */
+        clanker.clanks = 1;
+        live_sound_take(sound, stage); /* of before */
+        const uint64_t began_ns = midi_now_ns();
+        live_sound_record(sound);
+        usleep(350000);
+        clanker.clanks = with > 0;
+        const uint64_t before_ns = midi_now_ns();
+        live_sound_take(sound, stage);
+        const uint64_t after_ns = midi_now_ns();
+        usleep(250000);
+        const enum midi_status status =
+            live_sound_recorded(sound, with == 2 ? song : NULL, 1, &file);
+        const uint64_t ended_ns = midi_now_ns();
+        if (status == MIDI_NO_DEVICE) {
+            live_sound_close(sound);
+            midi_song_destroy(song);
+            stage_destroy(stage);
+            skip_because("%s", midi_error());
+        }
+        assert_int_equal(status, MIDI_OK);
+        assert_int_equal(file >= 0, with > 0);
+        if (with == 0)
+            continue;
+        snprintf(path, sizeof path, "/proc/self/fd/%d", file);
+        struct wav wav = wav_read(path);
+        close(file);
+        const double all_s = (double)wav.count / wav.rate_hz,
+                     least_s = (double)(before_ns - began_ns) / 1e9,
+                     most_s = (double)(after_ns - began_ns) / 1e9;
+        assert_true(all_s > most_s + 0.2 && all_s < (double)(ended_ns - began_ns) / 1e9 + 0.01);
+        const int count = wav_onsets(&wav, heard_s, 16);
+        free(wav.samples);
+        assert_int_equal(count, with);
+        if (with == 2 && fabs(heard_s[0] - 0.1) > 0.006)
+            fail_msg("the song's note is at %g", heard_s[0]);
+        if (heard_s[with - 1] < least_s - 0.01 || heard_s[with - 1] > most_s + 0.01)
+            fail_msg("the clank is at %g, not in %g to %g", heard_s[with - 1], least_s, most_s);
+    }
+    live_sound_close(sound);
+    midi_song_destroy(song);
+    stage_destroy(stage);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(clanks_are_heard_at_once),
+                                       cmocka_unit_test(recordings_have_what_was_heard),
                                        cmocka_unit_test(clanks_are_sent),
                                        cmocka_unit_test(floods_are_dropped)};
     return cmocka_run_group_tests(tests, NULL, NULL);
