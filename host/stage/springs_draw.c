@@ -68,7 +68,7 @@ static void letters_draw(const struct springs *s, const struct stage_look *look,
     }
 }
 
-static const double letter_part = 0.04; /* of an em */
+static const double letter_part = 0.1; /* of an em */
 
 static void masses_draw(const struct springs *s, const struct stage_look *look, double ahead_s,
                         struct stage_draw_list *list)

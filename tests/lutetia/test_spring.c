@@ -211,7 +211,7 @@ static double dots_part(bool word, const char *size)
 static void dots_grow_with_pictures(void **state)
 {
     (void)state;
-    static const char *const sizes[2][2] = {{"720x720", "1440x1440"}, {"240x240", "480x480"}};
+    static const char *const sizes[2][2] = {{"720x720", "1440x1440"}, {"96x96", "192x192"}};
     for (int k = 0; k < 2; k++) {
         const double part[2] = {dots_part(k, sizes[k][0]), dots_part(k, sizes[k][1])};
         if (!(part[0] > 1e-4 && fabs(part[1] / part[0] - 1) < 0.2)) /* edges are no light */
