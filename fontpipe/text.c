@@ -202,6 +202,7 @@ void font_shaper_destroy(struct font_shaper *s)
         if (s->faces[i].owned)
             font_face_close(s->faces[i].face);
     }
+    font_face_close(s->spare);
     hb_buffer_destroy(s->buffer);
     if (s->candidates)
         FcFontSetDestroy(s->candidates);
@@ -255,14 +256,18 @@ static int candidate_open(struct font_shaper *s, int i, uint32_t character)
     if (s->faces_count == FONT_FACES_MAX)
         return -1;
     FcPatternGetInteger(font, FC_INDEX, 0, &index);
-    struct font_face *face;
-    if ((s->colour ? font_face_open_coloured
-                   : font_face_open)((const char *)file, index & 0xffff, &face) != FONT_OK)
-        return -1;
-    if (!has_glyph(s, face, character)) {
-        font_face_close(face);
-        return -1;
+    struct font_face *face = s->spare;
+    if (!face || s->spare_candidate != i) {
+        if ((s->colour ? font_face_open_coloured
+                       : font_face_open)((const char *)file, index & 0xffff, &face) != FONT_OK)
+            return -1;
+        font_face_close(s->spare);
     }
+    s->spare = face;
+    s->spare_candidate = i;
+    if (!has_glyph(s, face, character))
+        return -1; /* a text that has one such character has more of them */
+    s->spare = NULL;
     s->faces[s->faces_count] =
         (struct font_shaped_face){.face = face, .owned = true, .candidate = i};
     font_shaped_refresh(&s->faces[s->faces_count]);
@@ -282,8 +287,7 @@ int font_shaper_face_for(struct font_shaper *s, uint32_t character)
     int face = -1;
     for (int i = 0; face < 0 && s->candidates && i < s->candidates->nfont; i++)
         face = candidate_open(s, i, character);
-    if (face > 0)
-        *known = (struct font_known){character, face};
+    *known = (struct font_known){character, face};
     return face;
 }
 

@@ -22,7 +22,7 @@ struct font_shaped_face {
 /* A character, and the face that it was found in. */
 struct font_known {
     uint32_t character;
-    int face; /* 0: none yet */
+    int face; /* 0: none yet; -1: there is none */
 };
 
 struct font_shaper {
@@ -32,6 +32,9 @@ struct font_shaper {
     hb_buffer_t *buffer;
     struct font_known known[FONT_KNOWN];
     FcFontSet *candidates; /* fontconfig's, best first; NULL until the first is needed */
+    /* The candidate opened last of which nothing was seen; NULL: none. */
+    struct font_face *spare;
+    int spare_candidate;
 };
 
 /* Makes the HarfBuzz font, again if the face's axes were set since. */
