@@ -16,6 +16,10 @@ extern _Thread_local struct error_text font_last_error;
 #define font_fail(status, ...)                                                                 \
     ((enum font_status)error_text_fail(&font_last_error, (int)(status), __VA_ARGS__))
 
+/* Before the i-th piece of work that may be long: NO_MEMORY where it shall stop (patience.h), which is asked at some of them, and the
+ * first. */
+enum font_status font_patience_ask(int i);
+
 /* Of the bytes of a key. */
 uint32_t font_hash(const void *key, size_t bytes_count);
 

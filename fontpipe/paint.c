@@ -376,7 +376,9 @@ enum font_status font_painter_cover(struct font_painter *p, const struct font_la
         const struct font_gray *gray;
         double x, y;
         int whole_x, whole_y;
-        status = glyph_place(layout, i, map, x_px, y_px, &whole, &x, &y);
+        status = font_patience_ask(i);
+        if (status == FONT_OK)
+            status = glyph_place(layout, i, map, x_px, y_px, &whole, &x, &y);
         if (status == FONT_OK)
             status = glyph_draw(p, layout, i, &whole, x, y, &p->scratch[0], &gray, &whole_x,
                                 &whole_y);

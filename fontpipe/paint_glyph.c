@@ -238,6 +238,9 @@ enum font_status font_painter_measure(struct font_painter *p, const struct font_
         const struct font_placed *g = &layout->glyphs[i];
         struct font_box more = {1, 1, -1, -1};
         enum font_colour colour = font_colour_of(g->face, g->glyph);
+        status = font_patience_ask(i);
+        if (status != FONT_OK)
+            return status;
         if (colour != FONT_COLOUR_NONE && colour != FONT_COLOUR_LAYERS)
             status = picture_draw(p, layout, i, map, x_px, y_px, glyph_ink(layout, i, &own),
                                   NULL, &more);

@@ -389,6 +389,7 @@ static enum font_status paragraph_set(struct shaping *g, struct paragraph *p,
     for (int begin = 0; begin < p->count && status == FONT_OK;) {
         int first = out->glyphs_count, end = p->count;
         double room = column;
+        status = font_patience_ask(0);
         for (int tries = 0; tries < TRIES && status == FONT_OK; tries++) {
             bool hyphen = false;
             end = column > 0 ? line_break(g, p, begin, room, &hyphen) : p->count;
@@ -534,7 +535,9 @@ enum font_status font_shaper_layout(struct font_shaper *s, const char *text, siz
     const char *at = text, *end = text + bytes;
     for (bool more = true; more && status == FONT_OK;) {
         more = paragraph_read(&p, text, &at, end, out);
-        status = paragraph_set(&g, &p, out);
+        status = font_patience_ask(out->lines_count);
+        if (status == FONT_OK)
+            status = paragraph_set(&g, &p, out);
     }
     if (status == FONT_OK)
         lines_align(out, g.options, text);

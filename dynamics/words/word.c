@@ -5,6 +5,7 @@
 #include <array.h>
 #include <fields.h>
 #include <math.h>
+#include <patience.h>
 #include <quad.h>
 #include <stdlib.h>
 
@@ -123,8 +124,11 @@ static enum dyn_status springs_make(struct dyn_word *word, struct dyn_network *n
             status = spring_add(word, n, DYN_LINK, a->mass[1 + k], b->mass[k ? 3 : 0]);
         }
     }
-    for (int i = 0; i < word->letters_count && status == DYN_OK; i++)
+    for (int i = 0; i < word->letters_count && status == DYN_OK; i++) {
         status = hang_springs(word, n, &word->letters[i]);
+        if (status == DYN_OK && patience_over())
+            status = dyn_fail(DYN_NO_MEMORY, "stopped");
+    }
     return status;
 }
 

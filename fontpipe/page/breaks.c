@@ -5,6 +5,7 @@
 #include "breaks.h"
 
 #include <array.h>
+#include <patience.h>
 
 #include <math.h>
 #include <stdlib.h>
@@ -16,6 +17,8 @@ static const double line_penalty = 10, adjacent_demerits = 10000, hyphens_demeri
 static const double runt_demerits = 44100;
 
 enum fitness { VERY_LOOSE, LOOSE, DECENT, TIGHT, FITNESSES };
+
+enum { LINES_ASK = 4096 }; /* lines that are tried between two questions of patience.h */
 
 struct node {
     int place, line, fitness, before; /* before: a node's number */
@@ -186,9 +189,17 @@ bool breaks_find(const struct break_place *places, int places_count, const doubl
     struct nodes n = {0};
     *count = 0;
     bool ok = node_add(&n, (struct node){.fitness = DECENT, .before = -1, .active = true}) >= 0;
-    for (int b = 1; ok && b < places_count && n.active_count; b++)
-        if (places[b].penalty < BREAK_INFINITE || b == s.last)
-            ok = place_try(&s, &n, b);
+    long tried = 0;
+    for (int b = 1; ok && b < places_count && n.active_count; b++) {
+        if (places[b].penalty >= BREAK_INFINITE && b != s.last)
+            continue;
+        ok = place_try(&s, &n, b);
+        tried += n.active_count;
+        if (tried > LINES_ASK) {
+            ok = ok && !patience_over();
+            tried = 0;
+        }
+    }
     int best = -1;
     for (int k = 0; ok && k < n.active_count; k++) {
         const struct node *a = &n.items[n.active[k]];

@@ -37,7 +37,7 @@ enum { BREAK_INFINITE = 10000, BREAK_OVERFULL = 1 << 20, BREAK_REST_DEMERITS = 1
 /* places[0] is the paragraph's beginning (its `next` counts) and the last one its end. widths: of lines, the last for all after
  * it. chosen: room for as many as there are places; gets the places where lines end, places[0] left out. *count: how many; 0 if the
  * rules cannot be kept. *demerits (may be NULL): of the whole.
- * False: no memory. */
+ * False: no memory, or it shall stop (patience.h). */
 bool breaks_find(const struct break_place *places, int places_count, const double *widths,
                  int widths_count, const struct break_rules *rules, int *chosen, int *count,
                  double *demerits);

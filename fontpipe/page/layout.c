@@ -140,8 +140,10 @@ static enum font_status page_put(struct page_text *t, int page, struct output *o
         ok = piece_say(o, piece);
         for (int k = piece->begin; ok && status == FONT_OK && k < piece->end; k++) {
             const struct slot *slot = &from->slots[piece->slots_begin + k - piece->begin];
-            status = line_set(t, piece->paragraph, &piece->paragraph->lines[k],
-                              slot->u1 - slot->u0, &l);
+            status = font_patience_ask(line);
+            if (status == FONT_OK)
+                status = line_set(t, piece->paragraph, &piece->paragraph->lines[k],
+                                  slot->u1 - slot->u0, &l);
             ok = status != FONT_OK || line_put(o, piece->paragraph, &l, slot, line++);
         }
     }

@@ -97,9 +97,15 @@ static bool breathes(hb_script_t script)
            script == HB_SCRIPT_KHMER || script == HB_SCRIPT_MYANMAR;
 }
 
-/* Whether a caret may stand before letter i: not before marks and joiners, nor within an emoji, a flag or a syllable of jamos (after
+/* A regional indicator: two make a flag. */
+static bool flag_half(uint32_t c)
+{
+    return c >= 0x1f1e6 && c <= 0x1f1ff;
+}
+
+/* Whether a caret may stand before letter i, which stands behind so many halves of flags: not before marks and joiners, nor within an emoji, a flag or a syllable of jamos (after
  * UAX 29). */
-static bool caret_before(const struct paragraph *p, int i)
+static bool caret_before(const struct paragraph *p, int i, int flags)
 {
     uint32_t c = p->characters[i], b = i ? p->characters[i - 1] : 0;
     if (!i)
@@ -108,11 +114,7 @@ static bool caret_before(const struct paragraph *p, int i)
         (c >= 0x1f3fb && c <= 0x1f3ff) || (c >= 0x1160 && c <= 0x11ff && b >= 0x1100) ||
         (c >= 0xe0020 && c <= 0xe007f))
         return false;
-    int flags = 0; /* regional indicators right before */
-    for (int k = i - 1; k >= 0 && p->characters[k] >= 0x1f1e6 && p->characters[k] <= 0x1f1ff;
-         k--)
-        flags++;
-    return !(c >= 0x1f1e6 && c <= 0x1f1ff && flags % 2);
+    return !(flag_half(c) && flags % 2);
 }
 
 static bool scripts_find(struct page_text *t, struct paragraph *p)
@@ -127,12 +129,13 @@ static bool scripts_find(struct page_text *t, struct paragraph *p)
                                 &p->base);
         const char *language = t->styles[p->style]->language;
         good = good && font_breaks_find(p->characters, p->count, language, breaks);
-        for (int i = 0; i < p->count; i++) {
+        for (int i = 0, flags = 0; i < p->count; i++) {
             struct letter *l = &p->letters[i];
             l->script = scripts[i];
             l->level = levels[i];
             l->brk = (uint8_t)breaks[i];
-            l->grapheme = caret_before(p, i);
+            l->grapheme = caret_before(p, i, flags);
+            flags = flag_half(p->characters[i]) ? flags + 1 : 0;
         }
     }
     free(scripts);
@@ -246,8 +249,10 @@ static enum font_status runs_shape(struct page_text *t, struct paragraph *p)
     for (int r = 0; r < p->runs_count; r++) {
         struct set_run *run = &p->runs[r];
         run->glyphs_begin = p->glyphs_count;
-        enum font_status status = set_shape(t, p, run, run->begin, run->end, &p->glyphs,
-                                            &p->glyphs_count, &p->glyphs_capacity);
+        enum font_status status = font_patience_ask(r);
+        if (status == FONT_OK)
+            status = set_shape(t, p, run, run->begin, run->end, &p->glyphs, &p->glyphs_count,
+                               &p->glyphs_capacity);
         if (status != FONT_OK)
             return status;
         run->glyphs_end = p->glyphs_count;

@@ -309,7 +309,8 @@ static enum font_status spans_apply(struct making *m, int id)
     enum font_status status = FONT_OK;
     for (int i = 0; i < m->spans_count && status == FONT_OK; i++) {
         int begin = m->spans[i].begin;
-        if (begin < m->count)
+        status = font_patience_ask(i);
+        if (begin < m->count && status == FONT_OK)
             status =
                 page_paragraph_style(m->text, id, begin, m->count, m->styles[m->spans[i].look]);
     }

@@ -385,19 +385,32 @@ static bool is_boundary(const struct paragraph *p, int byte)
            (byte == p->bytes || ((unsigned char)p->text[byte] & 0xc0) != 0x80);
 }
 
-static int style_at(const struct paragraph *p, int byte)
+/* The first span that begins at the byte or behind it. */
+static int span_from(const struct paragraph *p, int byte)
 {
-    int i = p->spans_count - 1;
-    while (i > 0 && p->spans[i].begin > byte)
-        i--;
-    return p->spans[i].style;
+    int low = 0, high = p->spans_count;
+    while (low < high) {
+        int middle = low + (high - low) / 2;
+        if (p->spans[middle].begin < byte)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
 }
 
-/* Spans that are empty, and those like the one before, go. */
-static void spans_tidy(struct paragraph *p)
+/* The style of the letter at the byte. */
+static int style_at(const struct paragraph *p, int byte)
 {
-    int kept = 0;
-    for (int i = 0; i < p->spans_count; i++) {
+    int behind = span_from(p, byte + 1);
+    return p->spans[behind ? behind - 1 : 0].style;
+}
+
+/* Spans that are empty, and those like the one before, go, from span `first` on; those before it are tidy. */
+static void spans_tidy(struct paragraph *p, int first)
+{
+    int kept = first;
+    for (int i = first; i < p->spans_count; i++) {
         if (kept && p->spans[kept - 1].begin == p->spans[i].begin)
             kept--;
         if (kept && p->spans[kept - 1].style == p->spans[i].style)
@@ -424,17 +437,12 @@ enum font_status page_paragraph_style(struct page_text *t, int id, int begin, in
         return FONT_OK;
     if (!array_reserve(&p->spans, &p->spans_capacity, p->spans_count + 2, sizeof *p->spans))
         return no_memory();
-    int behind = style_at(p, end), kept = 0, n = p->spans_count;
-    struct span rest[2] = {{begin, style}, {end, behind}};
-    while (kept < n && p->spans[kept].begin < begin)
-        kept++;
-    int next = kept;
-    while (next < n && p->spans[next].begin <= end)
-        next++;
+    const int kept = span_from(p, begin), next = span_from(p, end + 1), n = p->spans_count;
+    const struct span rest[2] = {{begin, style}, {end, style_at(p, end)}};
     memmove(p->spans + kept + 2, p->spans + next, (size_t)(n - next) * sizeof *p->spans);
     memcpy(p->spans + kept, rest, sizeof rest);
     p->spans_count = kept + 2 + n - next;
-    spans_tidy(p);
+    spans_tidy(p, kept);
     paragraph_changed(t, p);
     return FONT_OK;
 }
@@ -474,7 +482,7 @@ enum font_status page_text_replace(struct page_text *t, int id, int byte, int re
     p->bytes = byte + put + left;
     for (int i = 1; i < p->spans_count; i++) /* what is put in goes with the letter before */
         p->spans[i].begin = moved(p->spans[i].begin, byte, removed, put, true);
-    spans_tidy(p);
+    spans_tidy(p, 0);
     for (int i = 0; i < p->marks_count; i++)
         p->marks[i].byte = moved(p->marks[i].byte, byte, removed, put, p->marks[i].after);
     for (int i = 0; i < p->notes_count; i++)
