@@ -11,11 +11,11 @@
 
 enum font_status {
     FONT_OK = 0,
-    FONT_BAD_ARGUMENT, /* a size, number or name that cannot be */
-    FONT_BAD_FILE,     /* not a font, or a damaged one */
-    FONT_NO_GLYPH,     /* the font has no such glyph, or no outline for it */
-    FONT_TOO_LARGE,    /* a picture or an outline beyond the library's limits */
-    FONT_NO_MEMORY, /* or the work shall stop: patience.h */
+    FONT_BAD_ARGUMENT,  /* a size, number or name that cannot be */
+    FONT_BAD_FILE,      /* not a font, or a damaged one */
+    FONT_NO_GLYPH,      /* the font has no such glyph, or no outline for it */
+    FONT_TOO_LARGE,     /* a picture or an outline beyond the library's limits */
+    FONT_NO_MEMORY,     /* or the work shall stop: patience.h */
     FONT_NO_DEVICE,     /* no OpenCL device that fits the choice */
     FONT_DEVICE_FAILED, /* the device's reason is in font_error() */
     FONT_FULL           /* an atlas: all of it is in use */
