@@ -49,7 +49,7 @@ void device_start(int eager)
 
 /* ---- to and from fields ---- */
 
-static void stop(const char *what)
+static void machine_stop(const char *what)
 {
     fprintf(stderr, "%s: %s\n", what, machine_error(paris_machine()));
     exit(1);
@@ -64,7 +64,7 @@ void device_put(CM_field_id_t field, int width, const number *numbers)
         memcpy(dense + i * bytes, &n, bytes);
     }
     if (machine_field_upload(paris_machine(), field, MACHINE_UINT(width), dense) != MACHINE_OK)
-        stop("upload");
+        machine_stop("upload");
 }
 
 void device_get(CM_field_id_t field, int width, number *numbers)
@@ -73,7 +73,7 @@ void device_get(CM_field_id_t field, int width, number *numbers)
     unsigned char dense[COUNT * sizeof(number)];
     if (machine_field_download(paris_machine(), field, MACHINE_UINT(width), dense) !=
         MACHINE_OK)
-        stop("download");
+        machine_stop("download");
     for (size_t i = 0; i < COUNT; i++) {
         numbers[i] = 0;
         memcpy(&numbers[i], dense + i * bytes, bytes);

@@ -86,7 +86,7 @@ static void numbers_fill(void)
     }
 }
 
-static void stop(const char *what)
+static void machine_stop(const char *what)
 {
     fail_msg("%s: %s", what, machine_error(paris_machine()));
 }
@@ -100,7 +100,7 @@ static void put(CM_field_id_t field, int width, const number *numbers)
         memcpy(dense + (size_t)i * bytes, &n, bytes);
     }
     if (machine_field_upload(paris_machine(), field, MACHINE_UINT(width), dense) != MACHINE_OK)
-        stop("upload");
+        machine_stop("upload");
 }
 
 static void get(CM_field_id_t field, int width, number *numbers)
@@ -109,7 +109,7 @@ static void get(CM_field_id_t field, int width, number *numbers)
     size_t bytes = machine_element_bytes(MACHINE_UINT(width));
     if (machine_field_download(paris_machine(), field, MACHINE_UINT(width), dense) !=
         MACHINE_OK)
-        stop("download");
+        machine_stop("download");
     for (int i = 0; i < count; i++) {
         numbers[i] = 0;
         memcpy(&numbers[i], dense + (size_t)i * bytes, bytes);
@@ -215,7 +215,7 @@ static void batch_finish(void)
     if (!batch_count)
         return;
     if (machine_finish(paris_machine()) != MACHINE_OK)
-        stop(batch[0].row->name);
+        machine_stop(batch[0].row->name);
     for (int i = 0; i < batch_count; i++)
         check(&batch[i]);
     get(context_field, 1, flag);
