@@ -14,7 +14,7 @@ static int start(void **unused)
     return 0;
 }
 
-static int stop(void **unused)
+static int machine_end(void **unused)
 {
     (void)unused;
     machine_destroy(m);
@@ -141,5 +141,5 @@ int main(void)
         cmocka_unit_test(repeated_columns_are_written),
         cmocka_unit_test(what_is_wrong_is_said),
     };
-    return cmocka_run_group_tests(tests, start, stop);
+    return cmocka_run_group_tests(tests, start, machine_end);
 }

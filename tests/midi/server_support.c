@@ -29,7 +29,7 @@
 
 static struct midi_server *running;
 
-static void stop(int signal_number)
+static void end_asked(int signal_number)
 {
     (void)signal_number;
     midi_server_stop(running);
@@ -43,7 +43,7 @@ static void serve(const struct midi_server_def *def)
         fprintf(stderr, "server: %s\n", midi_error());
         _exit(1);
     }
-    signal(SIGTERM, stop);
+    signal(SIGTERM, end_asked);
     midi_server_run(running);
     midi_server_destroy(running);
 #ifdef __SANITIZE_ADDRESS__

@@ -350,7 +350,7 @@ static void overdue(void *context)
     _exit(42);
 }
 
-static bool stop(void *context)
+static bool end_asked(void *context)
 {
     (void)context;
     return true;
@@ -369,7 +369,7 @@ static void what_nothing_stops_is_told(void **state)
             s.config.timeout_s = endless[i].interrupted ? 60 : 0.1;
             s.config.grace_s = 0.1;
             if (endless[i].interrupted)
-                s.host.interrupted = stop;
+                s.host.interrupted = end_asked;
             char name[32];
             snprintf(name, sizeof name, "endless-%d", i);
             mkdir(scratch_path(name), 0700);

@@ -270,7 +270,7 @@ static void film(void *context, const struct script_camera *camera)
     ((struct seen *)context)->camera = *camera;
 }
 
-static bool stop(void *context)
+static bool end_asked(void *context)
 {
     return ((struct seen *)context)->asked++ > 20;
 }
@@ -318,7 +318,7 @@ static void what_is_computed_again_is_told_apart(void **state)
 static void the_host_can_stop_it(void **state)
 {
     (void)state;
-    struct seen seen = {.s = {.config = scripted_config(), .host = {.interrupted = stop}}};
+    struct seen seen = {.s = {.config = scripted_config(), .host = {.interrupted = end_asked}}};
     assert_int_equal(scripted_run(&seen.s, "while true do end"), SCRIPT_INTERRUPTED);
     assert_non_null(strstr(seen.s.errors, "script.lua:1: interrupted"));
     seen.asked = 0;
