@@ -11,11 +11,11 @@
 #define FAR_AWAY 1e5 /* limit of the sides' places: well within the edges of the plane */
 
 const struct dyn_control dyn_controls[] = {
-    {"gravity", "units/s2", -100, 100, 9.81, DYN_LINEAR, NULL, "pulls masses down",
+    {"gravity", "units/s2", -100, 100, 9.81, DYN_CENTRED, NULL, "pulls masses down",
      AT(gravity)},
-    {"wind_x", "units/s", -100, 100, 0, DYN_LINEAR, NULL,
+    {"wind_x", "units/s", -100, 100, 0, DYN_CENTRED, NULL,
      "what drag drags along: the air's speed to the right", AT(wind_x)},
-    {"wind_y", "units/s", -100, 100, 0, DYN_LINEAR, NULL, "the air's speed upwards",
+    {"wind_y", "units/s", -100, 100, 0, DYN_CENTRED, NULL, "the air's speed upwards",
      AT(wind_y)},
     {"drag", "kg/s", 0, 1000, 0.02, DYN_LOGARITHMIC, NULL,
      "viscous damping: how strongly the air slows masses down", AT(drag)},
@@ -28,7 +28,7 @@ const struct dyn_control dyn_controls[] = {
      "of all springs' breaking strains; those that never break never do", AT(breaking)},
     {"restitution", "", 0, 1, 0.6, DYN_LINEAR, NULL,
      "how much of its speed a mass has after a bounce", AT(restitution)},
-    {"friction", "", 0, 10, 0.3, DYN_LINEAR, NULL,
+    {"friction", "", 0, 10, 0.3, DYN_CENTRED, NULL,
      "Coulomb's: how much of a bounce's change of speed is taken from the speed along the "
      "floor",
      AT(friction)},
@@ -46,7 +46,7 @@ const struct dyn_control dyn_controls[] = {
      AT(right)},
     {"speed_limit", "units/s", 1, DYN_SPEED_MAX, 1000, DYN_LOGARITHMIC, NULL,
      "no mass is faster along an axis", AT(speed_limit)},
-    {"clank_speed", "units/s", 0, 1000, 0.2, DYN_LINEAR, NULL,
+    {"clank_speed", "units/s", 0, 1000, 0.2, DYN_LOGARITHMIC, NULL,
      "bounces that leave a mass slower are not heard", AT(clank_speed)},
     {"safety", "", 0.05, 0.95, 0.5, DYN_LINEAR, NULL,
      "the longest part of a step, of what would just be stable", AT(safety)},

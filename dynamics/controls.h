@@ -17,8 +17,8 @@
 
 #include <stddef.h>
 
-/* The curve of a slider. SWITCH: 0 or 1. CHOICE: the number of one of the choices. */
-enum dyn_curve { DYN_LINEAR, DYN_LOGARITHMIC, DYN_SWITCH, DYN_CHOICE };
+/* The curve of a slider. LOGARITHMIC and CENTRED: the usual value is in its middle. SWITCH: 0 or 1. CHOICE: the number of one of the choices. */
+enum dyn_curve { DYN_LINEAR, DYN_LOGARITHMIC, DYN_CENTRED, DYN_SWITCH, DYN_CHOICE };
 
 struct dyn_control {
     const char *name, *unit; /* unit: "" for a pure number */

@@ -67,7 +67,7 @@ static enum stage_status row_write(void *actor, int index, double value)
 static const struct stage_control own_rows[OWN_ROWS] = {
     {"size", "", 0.05, 4, 1, STAGE_LOGARITHMIC, NULL, "of all letters; 1 is as large as fits",
      row_read, row_write, 0},
-    {"attack", "s", 0, 2, 0.03, STAGE_LINEAR, NULL,
+    {"attack", "s", 0, 2, 0.03, STAGE_LOGARITHMIC, NULL,
      "until a letter is as large as its velocity", row_read, row_write, 1},
     {"release", "s", 0, 10, 0.25, STAGE_LOGARITHMIC, NULL, "until it is a third, once let go",
      row_read, row_write, 2},

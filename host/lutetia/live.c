@@ -54,6 +54,8 @@ int live_window(struct live *live, struct stage *stage, struct stage_window_def 
         def->key = live_player_key;
         def->context = live->player;
     }
+    if (live->source && live_source_by_computer(live->source))
+        def->played = "notes: one row from Z, one from Q";
     enum stage_status status = stage_window_create(stage, def, &window);
     if (status == STAGE_NO_DISPLAY)
         return fail(live->verb, "%s; %s", stage_error(), no_display);

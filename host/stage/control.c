@@ -89,38 +89,95 @@ void stage_control_text(const struct stage_control *row, double value, char *tex
         snprintf(text, room, "%.4g", value);
 }
 
-/* ---- along a slider ---- */
+/* ---- along a slider ----
+ *
+ *     0    linear_share          1/2                    1        along
+ *     |---------|-----------------|---------------------|
+ *   least     bottom            middle                 most      value
+ *      (0 or below)
+ *
+ * Each half is bent: it begins at the middle with half of its mean slope, and ends with one and a half times that. */
 
-/* For ranges that begin at 0 or below: where the logarithmic part begins, and the part of
- * the slider before it. */
-static const double linear_part = 0.01, linear_share = 0.2;
+static const double linear_share = 0.05, bottom_part = 1e-3, middle_part = 1e-2;
+
+/* 0..1 to 0..1, and back. */
+static double bend(double part)
+{
+    return (part + part * part) / 2;
+}
+
+static double unbend(double bent)
+{
+    return (sqrt(1 + 8 * bent) - 1) / 2;
+}
+
+/* What the middle of the slider is. */
+static double middle_of(const struct stage_control *row)
+{
+    if (row->usual > row->least && row->usual < row->most &&
+        (row->usual > 0 || row->curve == STAGE_CENTRED))
+        return row->usual;
+    if (row->curve == STAGE_CENTRED)
+        return (row->least + row->most) / 2;
+    return row->least > 0 ? sqrt(row->least * row->most) : row->most * middle_part;
+}
+
+static double centred_along(const struct stage_control *row, double value)
+{
+    const double middle = middle_of(row);
+    return value >= middle ? 0.5 + unbend((value - middle) / (row->most - middle)) / 2
+                           : 0.5 - unbend((middle - value) / (middle - row->least)) / 2;
+}
+
+static double centred_at(const struct stage_control *row, double along)
+{
+    const double middle = middle_of(row);
+    return along >= 0.5 ? middle + bend(2 * along - 1) * (row->most - middle)
+                        : middle - bend(1 - 2 * along) * (middle - row->least);
+}
+
+static double logarithmic_along(const struct stage_control *row, double value)
+{
+    const double middle = middle_of(row);
+    const double bottom = row->least > 0 ? row->least : middle * bottom_part;
+    const double share = row->least > 0 ? 0 : linear_share;
+    if (value >= middle)
+        return 0.5 + unbend(log(value / middle) / log(row->most / middle)) / 2;
+    if (value < bottom)
+        return share * (value - row->least) / (bottom - row->least);
+    return 0.5 - (0.5 - share) * unbend(log(value / middle) / log(bottom / middle));
+}
+
+static double logarithmic_at(const struct stage_control *row, double along)
+{
+    const double middle = middle_of(row);
+    const double bottom = row->least > 0 ? row->least : middle * bottom_part;
+    const double share = row->least > 0 ? 0 : linear_share;
+    if (along >= 0.5)
+        return middle * pow(row->most / middle, bend(2 * along - 1));
+    if (along < share)
+        return row->least + along / share * (bottom - row->least);
+    return middle * pow(bottom / middle, bend((0.5 - along) / (0.5 - share)));
+}
 
 double stage_control_along(const struct stage_control *row, double value)
 {
     value = fmin(row->most, fmax(row->least, value));
-    if (row->curve != STAGE_LOGARITHMIC)
-        return (value - row->least) / (row->most - row->least);
-    if (row->least > 0)
-        return log(value / row->least) / log(row->most / row->least);
-    double from = row->most * linear_part;
-    if (value <= from)
-        return linear_share * (value - row->least) / (from - row->least);
-    return linear_share + (1 - linear_share) * log(value / from) / log(row->most / from);
+    if (row->curve == STAGE_LOGARITHMIC)
+        return logarithmic_along(row, value);
+    if (row->curve == STAGE_CENTRED)
+        return centred_along(row, value);
+    return (value - row->least) / (row->most - row->least);
 }
 
 double stage_control_at(const struct stage_control *row, double along)
 {
-    double value;
     along = fmin(1, fmax(0, along));
-    if (row->curve != STAGE_LOGARITHMIC)
-        value = row->least + along * (row->most - row->least);
-    else if (row->least > 0)
-        value = row->least * pow(row->most / row->least, along);
-    else if (along <= linear_share)
-        value = row->least + along / linear_share * (row->most * linear_part - row->least);
-    else
-        value = row->most * linear_part *
-                pow(1 / linear_part, (along - linear_share) / (1 - linear_share));
+    double value = row->least + along * (row->most - row->least);
+    if (row->curve == STAGE_LOGARITHMIC)
+        value = logarithmic_at(row, along);
+    if (row->curve == STAGE_CENTRED)
+        value = centred_at(row, along);
     if (row->curve == STAGE_SWITCH || row->curve == STAGE_CHOICE)
         value = floor(value + 0.5);
     return fmin(row->most, fmax(row->least, value));

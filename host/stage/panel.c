@@ -8,8 +8,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { TYPED_MAX = 40, MESSAGE_MAX = 160 };
+enum { TYPED_MAX = 40, MESSAGE_MAX = 160, GROUPS_MAX = 16, WORDS_MAX = 400 };
 static const double slider_range_max = 1e5;
+
+/* Rows that follow each other, under a title. */
+struct group {
+    const char *name; /* owned by the actor */
+    int first, count;
+    bool folded;
+};
 
 struct stage_panel {
     struct font_face *face;
@@ -17,10 +24,14 @@ struct stage_panel {
     bool shown;
     /* The last picture. */
     int width_px, height_px, rows_count;
-    double px, text_px, left_px, row_px;
+    double px, text_px, left_px, row_px, title_px;
     double scrolled_px;
+    struct group groups[GROUPS_MAX];
+    int groups_count;
     /* What is done to it. */
     int dragged; /* a row; -1: none */
+    int pointed; /* the same: the pointer is over it */
+    int wanted;  /* the same: to be scrolled to */
     int typed_row;
     char typed[TYPED_MAX];
     char message[MESSAGE_MAX];
@@ -32,7 +43,7 @@ enum stage_status stage_panel_create(const char *font, struct stage_panel **out)
     struct stage_panel *p = calloc(1, sizeof *p);
     if (!p)
         return stage_fail(STAGE_NO_MEMORY, "no memory for a panel");
-    p->dragged = p->typed_row = -1;
+    p->dragged = p->typed_row = p->pointed = p->wanted = -1;
     if (font_face_open(font, 0, &p->face) != FONT_OK ||
         font_shaper_create(p->face, &p->shaper) != FONT_OK) {
         stage_panel_destroy(p);
@@ -59,7 +70,7 @@ bool stage_panel_shown(const struct stage_panel *p)
 void stage_panel_show(struct stage_panel *p, bool shown)
 {
     p->shown = shown;
-    p->dragged = p->typed_row = -1;
+    p->dragged = p->typed_row = p->pointed = -1;
 }
 
 const char *stage_panel_message(const struct stage_panel *p)
@@ -95,9 +106,55 @@ static bool has_slider(const struct stage_control *row)
            (row->curve == STAGE_LOGARITHMIC || row->most - row->least < slider_range_max);
 }
 
+/* The stage's own controls are the first group, the actor's follow. Groups that were there keep whether they are folded. */
+static void groups_find(struct stage_panel *p, struct stage *stage)
+{
+    const struct stage_actor actor = stage_actor(stage);
+    int of_actor = 0;
+    if (actor.kind->controls)
+        actor.kind->controls(actor.self, &of_actor);
+    p->groups_count = 0;
+    for (int i = 0; i < p->rows_count; i++) {
+        const int row = i - (p->rows_count - of_actor);
+        const char *name = row < 0             ? "time and picture"
+                           : actor.kind->group ? actor.kind->group(actor.self, row)
+                                               : actor.kind->name;
+        struct group *last = p->groups_count ? &p->groups[p->groups_count - 1] : NULL;
+        if (last && (strcmp(last->name, name) == 0 || p->groups_count == GROUPS_MAX)) {
+            last->count++;
+            continue;
+        }
+        struct group *g = &p->groups[p->groups_count++];
+        *g = (struct group){name, i, 1, g->name && !strcmp(g->name, name) && g->folded};
+    }
+}
+
+static const struct group *group_of(const struct stage_panel *p, int row)
+{
+    for (int i = 0; i < p->groups_count; i++)
+        if (row >= p->groups[i].first && row < p->groups[i].first + p->groups[i].count)
+            return &p->groups[i];
+    return NULL;
+}
+
+/* How high a title and its rows are. */
+static double group_height(const struct stage_panel *p, const struct group *g)
+{
+    return p->title_px + (g->folded ? 0 : g->count * p->row_px);
+}
+
+static double group_top(const struct stage_panel *p, const struct group *g)
+{
+    double y = 0.8 * p->text_px - p->scrolled_px;
+    for (const struct group *before = p->groups; before < g; before++)
+        y += group_height(p, before);
+    return y;
+}
+
 static double row_top(const struct stage_panel *p, int row)
 {
-    return p->text_px * 0.8 + row * p->row_px - p->scrolled_px;
+    const struct group *g = group_of(p, row);
+    return g ? group_top(p, g) + p->title_px + (row - g->first) * p->row_px : 0;
 }
 
 static struct font_box slider_box(const struct stage_panel *p, int row)
@@ -117,17 +174,56 @@ static struct font_box value_box(const struct stage_panel *p, int row)
 bool stage_panel_place(const struct stage_panel *p, int row, struct font_box *slider,
                        struct font_box *value)
 {
-    if (!p->shown || row < 0 || row >= p->rows_count)
+    const struct group *g = group_of(p, row);
+    if (!p->shown || !g || g->folded)
         return false;
     *slider = slider_box(p, row);
     *value = value_box(p, row);
     return value->y0 >= 0 && slider->y1 <= p->height_px;
 }
 
+bool stage_panel_title(const struct stage_panel *p, int row, struct font_box *title)
+{
+    const struct group *g = group_of(p, row);
+    if (!p->shown || !g)
+        return false;
+    const double y = group_top(p, g);
+    *title = (struct font_box){p->left_px, y, p->width_px, y + p->title_px};
+    return title->y0 >= 0 && title->y1 <= p->height_px;
+}
+
+void stage_panel_reveal(struct stage_panel *p, int row)
+{
+    p->wanted = row;
+}
+
+/* Unfolds what is wanted, and scrolls so that it is whole on the picture. */
+static void wanted_show(struct stage_panel *p)
+{
+    const struct group *g = group_of(p, p->wanted);
+    if (g) {
+        p->groups[g - p->groups].folded = false;
+        const double top = row_top(p, p->wanted), below = top + p->row_px - p->height_px;
+        p->scrolled_px += top < p->title_px ? top - p->title_px
+                          : below > 0       ? fmin(below, top)
+                                            : 0;
+    }
+    p->wanted = -1;
+}
+
 static void scroll(struct stage_panel *p, double by_px)
 {
-    double most = fmax(0, p->rows_count * p->row_px + 1.6 * p->text_px - p->height_px);
-    p->scrolled_px = fmin(most, fmax(0, p->scrolled_px + by_px));
+    double all = 1.6 * p->text_px;
+    for (int i = 0; i < p->groups_count; i++)
+        all += group_height(p, &p->groups[i]);
+    p->scrolled_px = fmin(fmax(0, all - p->height_px), fmax(0, p->scrolled_px + by_px));
+}
+
+int stage_panel_beside(const struct stage_panel *p, const struct stage *stage, int width_px,
+                       double px)
+{
+    const int taken = (int)ceil(px * stage_theme(stage)->sizes[STAGE_SIZE_PANEL_WIDTH]);
+    return p->shown && 3 * taken <= 2 * width_px ? width_px - taken : width_px;
 }
 
 /* ---- drawing ---- */
@@ -159,6 +255,72 @@ static void row_draw(struct stage_panel *p, struct stage *stage,
     stage_draw_disc(list, knob, middle, 5 * p->px, colors[STAGE_COLOR_SLIDER_KNOB]);
 }
 
+static void title_draw(struct stage_panel *p, const struct group *g,
+                       const struct stage_color *colors, struct stage_draw_list *list)
+{
+    const double y = group_top(p, g) + 1.2 * p->text_px;
+    stage_panel_text(p, list, g->folded ? "+" : "\xe2\x88\x92", p->left_px + p->text_px, y,
+                     p->text_px, false, colors[STAGE_COLOR_PANEL_VALUE]);
+    stage_panel_text(p, list, g->name, p->left_px + 2.2 * p->text_px, y, p->text_px, false,
+                     colors[STAGE_COLOR_PANEL_VALUE]);
+}
+
+/* Text in lines of at most that width, from y downwards: draws them, or only counts them (list NULL). A word that is too long has a line of
+ * its own. */
+static int lines_draw(struct stage_panel *p, struct stage_draw_list *list, const char *text,
+                      double x_px, double y_px, double width_px, struct stage_color color)
+{
+    struct stage_draw_list nowhere = {0};
+    char line[WORDS_MAX] = "";
+    int lines = 0;
+    for (const char *word = text; *word;) {
+        const size_t length = strcspn(word, " "), before = strlen(line);
+        if (before + length + 2 > sizeof line)
+            break;
+        snprintf(line + before, sizeof line - before, "%s%.*s", before ? " " : "", (int)length,
+                 word);
+        const bool full = before && stage_panel_text(p, &nowhere, line, 0, 0, p->text_px, false,
+                                                     color) > width_px;
+        if (full)
+            line[before] = '\0';
+        else
+            word += length + strspn(word + length, " ");
+        if (!full && *word)
+            continue;
+        if (list)
+            stage_panel_text(p, list, line, x_px, y_px + 1.4 * p->text_px * lines, p->text_px,
+                             false, color);
+        lines++;
+        line[0] = '\0';
+    }
+    stage_draw_finish(&nowhere);
+    return lines;
+}
+
+/* What a control does, on the left of its row. */
+static void help_draw(struct stage_panel *p, const struct stage_control *row, int number,
+                      const struct stage_color *colors, struct stage_draw_list *list)
+{
+    const double pad = 0.8 * p->text_px, line = 1.4 * p->text_px,
+                 width = fmin(24 * p->text_px, p->left_px - 4 * pad);
+    char text[WORDS_MAX];
+    if (width < 8 * p->text_px || !row->does[0])
+        return;
+    if (is_clicked(row))
+        snprintf(text, sizeof text, "%s%s%s", row->does, row->choices ? ": " : "",
+                 row->choices ? row->choices : "");
+    else
+        snprintf(text, sizeof text, "%s; %g to %g%s%s", row->does, row->least, row->most,
+                 row->unit[0] ? " " : "", row->unit);
+    const int lines = lines_draw(p, NULL, text, 0, 0, width, colors[STAGE_COLOR_PANEL_TEXT]);
+    const double height = lines * line + 1.2 * pad, x = p->left_px - 2 * pad - width;
+    const double y = fmax(pad, fmin(row_top(p, number), p->height_px - height - pad));
+    stage_draw_box(list, x - pad, y, x + width + pad, y + height, pad / 2, 0,
+                   colors[STAGE_COLOR_PANEL]);
+    lines_draw(p, list, text, x, y + pad + 0.8 * p->text_px, width,
+               colors[STAGE_COLOR_PANEL_TEXT]);
+}
+
 void stage_panel_draw(struct stage_panel *p, struct stage *stage, int width_px, int height_px,
                       double px, struct stage_draw_list *list)
 {
@@ -169,18 +331,30 @@ void stage_panel_draw(struct stage_panel *p, struct stage *stage, int width_px, 
     p->px = px;
     p->text_px = px * theme->sizes[STAGE_SIZE_PANEL_TEXT_SIZE];
     p->row_px = 2.7 * p->text_px;
+    p->title_px = 1.9 * p->text_px;
     p->left_px = width_px - px * theme->sizes[STAGE_SIZE_PANEL_WIDTH];
+    groups_find(p, stage);
     if (!p->shown)
         return;
+    wanted_show(p);
     scroll(p, 0);
     stage_draw_view(list, STAGE_VIEW_PIXELS);
     stage_draw_box(list, p->left_px, -2, width_px + 2, height_px + 2, 0, 0,
                    theme->colors[STAGE_COLOR_PANEL]);
     stage_draw_line(list, p->left_px, -2, p->left_px, height_px + 2, px,
                     theme->colors[STAGE_COLOR_PANEL_EDGE]);
-    for (int i = 0; i < p->rows_count; i++)
-        if (row_top(p, i) > -p->row_px && row_top(p, i) < height_px)
-            row_draw(p, stage, &rows[i], i, list);
+    for (int g = 0; g < p->groups_count; g++) {
+        const struct group *group = &p->groups[g];
+        title_draw(p, group, theme->colors, list);
+        for (int i = group->first; i < group->first + group->count && !group->folded; i++)
+            if (row_top(p, i) > -p->row_px && row_top(p, i) < height_px)
+                row_draw(p, stage, &rows[i], i, list);
+    }
+    const int helped = p->dragged >= 0     ? p->dragged
+                       : p->typed_row >= 0 ? p->typed_row
+                                           : p->pointed;
+    if (group_of(p, helped) && !group_of(p, helped)->folded)
+        help_draw(p, &rows[helped], helped, theme->colors, list);
 }
 
 /* ---- input ---- */
@@ -210,12 +384,38 @@ static bool inside(const struct font_box *box, const struct input_event *e)
     return e->x_px >= box->x0 && e->x_px <= box->x1 && e->y_px >= box->y0 && e->y_px <= box->y1;
 }
 
+/* The row at a place; -1: none. */
+static int row_at(const struct stage_panel *p, double x_px, double y_px)
+{
+    for (int i = 0; x_px >= p->left_px && i < p->rows_count; i++)
+        if (!group_of(p, i)->folded && y_px >= row_top(p, i) &&
+            y_px < row_top(p, i) + p->row_px)
+            return i;
+    return -1;
+}
+
+/* True: it was on a title. */
+static bool group_fold(struct stage_panel *p, double y_px)
+{
+    for (int i = 0; i < p->groups_count; i++) {
+        const double top = group_top(p, &p->groups[i]);
+        if (y_px >= top && y_px < top + p->title_px) {
+            p->groups[i].folded = !p->groups[i].folded;
+            return true;
+        }
+    }
+    return false;
+}
+
 static void press(struct stage_panel *p, struct stage *stage, const struct input_event *e)
 {
-    int count, number = (int)floor((e->y_px - row_top(p, 0)) / p->row_px);
+    int count;
     const struct stage_control *rows = stage_controls(stage, &count);
     p->typed_row = -1;
-    if (e->button != INPUT_BUTTON_LEFT || number < 0 || number >= count)
+    if (e->button != INPUT_BUTTON_LEFT || group_fold(p, e->y_px))
+        return;
+    const int number = row_at(p, e->x_px, e->y_px);
+    if (number < 0)
         return;
     const struct stage_control *row = &rows[number];
     struct font_box slider = slider_box(p, number), value = value_box(p, number);
@@ -290,6 +490,8 @@ bool stage_panel_input(struct stage_panel *p, struct stage *stage, const struct 
     }
     if (typed_input(p, stage, e))
         return true;
+    if (e->kind == INPUT_POINTER_MOVE)
+        p->pointed = row_at(p, e->x_px, e->y_px);
     if (e->x_px < p->left_px)
         return false;
     if (e->kind == INPUT_POINTER_DOWN)

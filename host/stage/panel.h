@@ -11,7 +11,9 @@
  *     gravity              9.81 em/s2      the value: click it and type another one, then Enter
  *     ------------o------------------      drag; a switch and a choice change with a click
  *
- * The wheel scrolls a panel that does not fit. Each change can be undone.
+ *   - world              a group of controls: a click folds it (+), and unfolds it
+ *
+ * The wheel scrolls a panel that does not fit. Beside the panel stands what the control under the pointer does. Each change can be undone.
  */
 #ifndef LUTETIA_STAGE_PANEL_H
 #define LUTETIA_STAGE_PANEL_H
@@ -27,6 +29,11 @@ void stage_panel_destroy(struct stage_panel *panel); /* NULL is fine */
 
 bool stage_panel_shown(const struct stage_panel *panel);
 void stage_panel_show(struct stage_panel *panel, bool shown);
+
+/* How much of a picture's width is left for the stage: what the panel does not take, unless it would take more than two thirds; then it lies
+ * over the stage. */
+int stage_panel_beside(const struct stage_panel *panel, const struct stage *stage, int width_px,
+                       double px);
 
 /* Draws the panel on top of the list, if it is shown. */
 void stage_panel_draw(struct stage_panel *panel, struct stage *stage, int width_px,
@@ -45,9 +52,14 @@ double stage_panel_text(struct stage_panel *panel, struct stage_draw_list *list,
 
 /* ---- for tests, and who wants to point at it ---- */
 
+/* Unfolds a row's group and scrolls to it; it is there in the next picture. */
+void stage_panel_reveal(struct stage_panel *panel, int row);
+
 /* The places of a row's slider and value, in pixels of the last picture; false: it has none,
- * or is not on the picture. */
+ * is folded, or is not on the picture. */
 bool stage_panel_place(const struct stage_panel *panel, int row, struct font_box *slider,
                        struct font_box *value);
+/* The place of the title of the group that a row is in. */
+bool stage_panel_title(const struct stage_panel *panel, int row, struct font_box *title);
 
 #endif

@@ -102,6 +102,7 @@ row_of(const struct dyn_control *c, int index, double (*read)(void *actor, int i
 {
     static const enum stage_curve curves[] = {[DYN_LINEAR] = STAGE_LINEAR,
                                               [DYN_LOGARITHMIC] = STAGE_LOGARITHMIC,
+                                              [DYN_CENTRED] = STAGE_CENTRED,
                                               [DYN_SWITCH] = STAGE_SWITCH,
                                               [DYN_CHOICE] = STAGE_CHOICE};
     return (struct stage_control){.name = c->name,
@@ -141,6 +142,14 @@ static const struct stage_control *springs_controls(void *actor, int *count)
     const struct springs *s = actor;
     *count = s->rows_count;
     return s->rows;
+}
+
+static const char *springs_group(void *actor, int row)
+{
+    const struct springs *s = actor;
+    return row < OWN_ROWS                             ? "look and hand"
+           : row < s->rows_count - dyn_controls_count ? "letters and their springs"
+                                                      : "world";
 }
 
 /* ---- time ---- */
@@ -268,7 +277,8 @@ static const struct stage_actor_kind springs_kind = {.name = "springs",
                                                      .load = springs_load,
                                                      .digest = springs_digest,
                                                      .heard = springs_heard,
-                                                     .destroy = springs_destroy};
+                                                     .destroy = springs_destroy,
+                                                     .group = springs_group};
 
 /* Converts a word's letter, whose box has y upwards from its origin and corners from the
  * lower left one on. */

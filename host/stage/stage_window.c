@@ -1,6 +1,7 @@
 /* stage_window.c - see stage_window.h. */
 #include "stage_window.h"
 
+#include "help_sheet.h"
 #include "renderer.h"
 
 #include <video.h>
@@ -23,7 +24,8 @@ struct stage_window {
     struct stage_panel *panel;
     struct stage_draw_list list;
     struct frame_pace pace;
-    bool open, help, drawn; /* drawn: at least once */
+    bool open, drawn; /* drawn: at least once */
+    struct help_sheet help;
     char message[240];
     double message_s; /* when it was said */
     /* A recording: pictures at times that are a thirtieth apart. */
@@ -231,16 +233,20 @@ static void key_full(struct stage_window *w)
 
 static void key_help(struct stage_window *w)
 {
-    w->help = !w->help;
+    w->help.shown = !w->help.shown;
+    w->help.scrolled_px = 0;
 }
 
 static void key_end(struct stage_window *w)
 {
-    if (w->help)
-        w->help = false;
+    if (w->help.shown)
+        w->help.shown = false;
     else
         window_close(w->window);
 }
+
+/* What a row is of use with. */
+enum need { ALWAYS, HANDS, SAVES, LOADS, PLAYED };
 
 /* shift: pressed with Shift; control: with Control. Rows without a function describe the
  * pointer. */
@@ -249,28 +255,29 @@ static const struct {
     bool shift, control;
     const char *name, *does;
     void (*press)(struct stage_window *w);
+    enum need need;
 } keys[] = {
-    {' ', false, false, "Space", "stop, go on", key_pause},
-    {'.', false, false, ".", "one step", key_single},
-    {'-', false, false, "-", "half as fast", key_slower},
-    {'=', false, false, "=", "twice as fast", key_faster},
-    {'R', false, false, "R", "as it was in the beginning", key_reset},
-    {'Z', false, true, "Control Z", "undo", key_undo},
-    {'U', false, false, "U", "undo", key_undo},
-    {INPUT_KEY_TAB, false, false, "Tab", "the panel of controls", key_panel},
-    {'V', false, false, "V", "record a film, and end it", key_record},
-    {'V', false, true, "Control V", "record, where keys play letters", key_record},
-    {'S', false, true, "Control S", "save", key_save},
-    {'O', false, true, "Control O", "load what was saved", key_load},
-    {'F', false, false, "F", "fill the screen", key_full},
-    {INPUT_KEY_F1 + 10, false, false, "F11", "fill the screen", key_full},
-    {'/', true, false, "?", "these keys", key_help},
-    {INPUT_KEY_ESCAPE, false, false, "Esc", "end", key_end},
-    {0, false, false, "drag", "pull a mass, or a whole letter", NULL},
-    {0, false, false, "Shift, or press hard", "tack it where it is", NULL},
-    {0, false, false, "Shift and click", "tack a mass, or take the tack out", NULL},
-    {0, false, false, "drag with the right", "cut springs", NULL},
-    {0, false, false, "drop a file", "load it", NULL},
+    {' ', false, false, "Space", "stop, go on", key_pause, ALWAYS},
+    {'.', false, false, ".", "one step", key_single, ALWAYS},
+    {'-', false, false, "-", "half as fast", key_slower, ALWAYS},
+    {'=', false, false, "=", "twice as fast", key_faster, ALWAYS},
+    {'R', false, false, "R", "as it was in the beginning", key_reset, ALWAYS},
+    {'Z', false, true, "Control Z", "undo", key_undo, ALWAYS},
+    {'U', false, false, "U", "undo", key_undo, ALWAYS},
+    {INPUT_KEY_TAB, false, false, "Tab", "the panel of controls", key_panel, ALWAYS},
+    {'V', false, false, "V", "record a film, and end it", key_record, ALWAYS},
+    {'V', false, true, "Control V", "record, where keys play letters", key_record, PLAYED},
+    {'S', false, true, "Control S", "save", key_save, SAVES},
+    {'O', false, true, "Control O", "load what was saved", key_load, LOADS},
+    {'F', false, false, "F", "fill the screen", key_full, ALWAYS},
+    {INPUT_KEY_F1 + 10, false, false, "F11", "fill the screen", key_full, ALWAYS},
+    {'/', true, false, "?", "these keys", key_help, ALWAYS},
+    {INPUT_KEY_ESCAPE, false, false, "Esc", "end", key_end, ALWAYS},
+    {0, false, false, "drag", "pull a mass, or a whole letter", NULL, HANDS},
+    {0, false, false, "Shift, or press hard", "tack it where it is", NULL, HANDS},
+    {0, false, false, "Shift and click", "tack a mass, or take the tack out", NULL, HANDS},
+    {0, false, false, "drag with the right", "cut springs", NULL, HANDS},
+    {0, false, false, "drop a file", "load it", NULL, LOADS},
 };
 enum { KEYS = sizeof keys / sizeof *keys };
 
@@ -315,6 +322,8 @@ static void event_take(struct stage_window *w, const struct input_event *e)
                      e->kind == INPUT_KEY_REPEAT || e->kind == INPUT_FOCUS_LOST;
     if (key && w->def.key && w->def.key(w->def.context, e))
         return;
+    if (help_sheet_input(&w->help, e))
+        return;
     if (stage_panel_input(w->panel, w->stage, e)) {
         if (stage_panel_message(w->panel)[0])
             say(w, "%s", stage_panel_message(w->panel));
@@ -335,19 +344,35 @@ static void event_take(struct stage_window *w, const struct input_event *e)
 
 /* ---- what lies over the stage ---- */
 
-static void help_draw(struct stage_window *w, double px)
+static bool is_of_use(const struct stage_window *w, int row)
 {
-    const struct stage_color *colors = stage_theme(w->stage)->colors;
-    const double text = px * stage_theme(w->stage)->sizes[STAGE_SIZE_PANEL_TEXT_SIZE];
-    const double line = 1.6 * text, x = 3 * text, y = 3 * text;
-    stage_draw_box(&w->list, x - 1.5 * text, y - 1.5 * text, x + 34 * text, y + line * KEYS,
-                   text / 2, 0, colors[STAGE_COLOR_PANEL]);
-    for (int i = 0; i < KEYS; i++) {
-        stage_panel_text(w->panel, &w->list, keys[i].name, x, y + line * i + text / 2, text,
-                         false, colors[STAGE_COLOR_PANEL_VALUE]);
-        stage_panel_text(w->panel, &w->list, keys[i].does, x + 14 * text,
-                         y + line * i + text / 2, text, false, colors[STAGE_COLOR_PANEL_TEXT]);
+    const struct stage_actor_kind *kind = stage_actor(w->stage).kind;
+    const bool letter = keys[row].key >= 'A' && keys[row].key <= 'Z' && !keys[row].control;
+    switch (keys[row].need) {
+    case HANDS:
+        return kind->event != NULL;
+    case SAVES:
+        return kind->save != NULL;
+    case LOADS:
+        return kind->load != NULL;
+    case PLAYED:
+        return w->def.played != NULL;
+    case ALWAYS:
+        break;
     }
+    return !(letter && w->def.played);
+}
+
+/* The keys and hands that this window has. */
+static int help_rows(const struct stage_window *w, struct help_row rows[KEYS + 1])
+{
+    int count = 0;
+    if (w->def.played)
+        rows[count++] = (struct help_row){"letters, digits", w->def.played};
+    for (int i = 0; i < KEYS; i++)
+        if (is_of_use(w, i))
+            rows[count++] = (struct help_row){keys[i].name, keys[i].does};
+    return count;
 }
 
 /* Draws the frame rate beside the panel. */
@@ -371,10 +396,11 @@ static void overlay_draw(struct stage_window *w, int width, int height, double p
     const struct stage_color *colors = stage_theme(w->stage)->colors;
     const double text = px * stage_theme(w->stage)->sizes[STAGE_SIZE_PANEL_TEXT_SIZE];
     stage_draw_view(&w->list, STAGE_VIEW_PIXELS);
-    if (w->help)
-        help_draw(w, px);
     stage_panel_draw(w->panel, w->stage, width, height, px, &w->list);
     stage_draw_view(&w->list, STAGE_VIEW_PIXELS);
+    struct help_row rows[KEYS + 1];
+    help_sheet_draw(&w->help, rows, help_rows(w, rows), w->panel, stage_theme(w->stage), width,
+                    height, px, &w->list);
     if (stage_panel_shown(w->panel))
         frames_draw(w, width, px);
     if (w->message[0] && now_s < w->message_s + MESSAGE_S)
@@ -394,7 +420,8 @@ static enum stage_status frame_draw(struct stage_window *w, double now_s)
     stage_renderer_size(w->renderer, &width, &height);
     if (width < 1 || height < 1)
         return STAGE_OK; /* an icon now */
-    stage_picture(w->stage, width, height, px, &w->list);
+    stage_picture(w->stage, stage_panel_beside(w->panel, w->stage, width, px), height, px,
+                  &w->list);
     overlay_draw(w, width, height, px, now_s);
     w->drawn = true;
     return stage_renderer_draw(w->renderer, &w->list, stage_background(w->stage));

@@ -30,6 +30,8 @@ struct stage_window_def {
     const char *save_path;   /* where the actor is saved and loaded; "stage.net" */
     const char *font;        /* the panel's font; "DejaVuSans" */
     double fps;              /* the most pictures a second; 60 */
+    const char *
+        played; /* what the letters on the keyboard play, for the help: they do nothing else then; NULL: they play nothing */
     /* Before a turn's steps: whoever plays the stage besides hands does so here; what it does is in the same picture. And first
      * of all for a key that goes down or up: true, it was taken. NULL: nobody does. */
     enum stage_status (*before)(void *context, struct stage *stage, double now_s);

@@ -110,6 +110,58 @@ static void sliders_are_curves(void **state)
     assert_true(stage_control_along(&rows[0], 1e9) == 1);
 }
 
+/* What is usual is in the middle, what is useful around it; what MIDI plays goes the same way (live_player.c). */
+static void useful_values_are_in_the_middle(void **state)
+{
+    (void)state;
+    static const struct {
+        struct stage_control row;
+        double low, high, share; /* these values have at least this share of the way */
+    } ways[] = {{{"side", "", 0, 1e6, 900, STAGE_LOGARITHMIC, NULL, "", ACCESS, .index = 0},
+                 100,
+                 3000,
+                 0.3},
+                {{"mass", "", 1e-3, 1e3, 1, STAGE_LOGARITHMIC, NULL, "", ACCESS, .index = 0},
+                 0.1,
+                 10,
+                 0.4},
+                {{"gravity", "", -100, 100, 9.81, STAGE_CENTRED, NULL, "", ACCESS, .index = 0},
+                 -10,
+                 30,
+                 0.3},
+                {{"wind", "", -100, 100, 0, STAGE_CENTRED, NULL, "", ACCESS, .index = 0},
+                 -10,
+                 10,
+                 0.17},
+                {{"drag", "", 0, 1000, 0.02, STAGE_LOGARITHMIC, NULL, "", ACCESS, .index = 0},
+                 0.002,
+                 0.2,
+                 0.35},
+                {{"breaking", "", 0, 100, 0, STAGE_LOGARITHMIC, NULL, "", ACCESS, .index = 0},
+                 0.1,
+                 10,
+                 0.4}};
+    for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
+        const struct stage_control *row = &ways[i].row;
+        const double low = stage_control_along(row, ways[i].low),
+                     high = stage_control_along(row, ways[i].high);
+        if (row->usual > row->least)
+            assert_true(fabs(stage_control_along(row, row->usual) - 0.5) < 1e-12);
+        if (!(low > 0.15 && high < 0.85 && high - low >= ways[i].share))
+            fail_msg("%s: %g is at %g, %g at %g", row->name, ways[i].low, low, ways[i].high,
+                     high);
+        assert_true(stage_control_at(row, 0) == row->least);
+        assert_true(stage_control_at(row, 1) == row->most);
+        double before = -INFINITY;
+        for (int k = 0; k <= 1000; k++) {
+            const double value = stage_control_at(row, k / 1000.0);
+            assert_true(value > before);
+            assert_true(fabs(stage_control_along(row, value) - k / 1000.0) < 1e-9);
+            before = value;
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -117,6 +169,7 @@ int main(void)
         cmocka_unit_test(values_are_within_their_range),
         cmocka_unit_test(texts_are_values_and_back),
         cmocka_unit_test(sliders_are_curves),
+        cmocka_unit_test(useful_values_are_in_the_middle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

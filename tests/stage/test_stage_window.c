@@ -244,6 +244,54 @@ static void time_is_stopped_stepped_and_slowed(void **state)
     UNTIL(mass(0).y != 1.7);
 }
 
+/* Where the middle of the actor is in the picture. */
+static double middle_px(void)
+{
+    const struct stage_actor actor = stage_actor(stage);
+    const struct font_box box = actor.kind->extent(actor.self);
+    double x_px, y_px;
+    stage_view_to_px(stage_view(stage), (box.x0 + box.x1) / 2, 0, &x_px, &y_px);
+    return x_px;
+}
+
+/* A title's click folds its group, and unfolds it; a row that is wanted is shown; the stage is beside the panel. */
+static void groups_fold(void **state)
+{
+    (void)state;
+    struct font_box title, slider, value;
+    int row, first;
+    const struct stage_panel *panel = stage_window_panel(window);
+    control("rate", &first);
+    control("shadow", &row);
+    assert_false(stage_panel_title(panel, row, &title));
+    xtest_type(XK_space);
+    xtest_type(XK_Tab);
+    UNTIL(stage_panel_shown(panel));
+    turn();
+    assert_true(fabs(middle_px() - 200) < 2); /* 300 of the 700 pixels are the panel's */
+    assert_true(stage_panel_title(panel, row, &title));
+    assert_true(stage_panel_place(panel, first, &slider, &value) && value.y0 >= title.y1 - 1);
+    assert_true(stage_panel_place(panel, row, &slider, &value));
+    xtest_move(there, (int)title.x0 + 30, (int)(title.y0 + title.y1) / 2);
+    xtest_button(1, true);
+    xtest_button(1, false);
+    UNTIL(!stage_panel_place(panel, row, &slider, &value));
+    stage_panel_reveal(stage_window_panel(window), row);
+    turn();
+    assert_true(stage_panel_place(panel, row, &slider, &value));
+    int last;
+    stage_controls(stage, &last);
+    assert_false(stage_panel_place(panel, last - 1, &slider, &value)); /* far below */
+    stage_panel_reveal(stage_window_panel(window), last - 1);
+    turn();
+    assert_true(stage_panel_place(panel, last - 1, &slider, &value));
+    assert_false(stage_panel_title(panel, row, &title)); /* scrolled away */
+    xtest_type(XK_Tab);
+    UNTIL(!stage_panel_shown(panel));
+    turn();
+    assert_true(fabs(middle_px() - 350) < 2);
+}
+
 static void sliders_and_typed_values_set_controls(void **state)
 {
     (void)state;
@@ -253,6 +301,8 @@ static void sliders_and_typed_values_set_controls(void **state)
     xtest_type(XK_Tab);
     UNTIL(stage_panel_shown(stage_window_panel(window)));
     const struct stage_control *gravity = control("gravity", &row);
+    stage_panel_reveal(stage_window_panel(window), row);
+    turn();
     assert_true(stage_panel_place(stage_window_panel(window), row, &slider, &value));
     int y = (int)((slider.y0 + slider.y1) / 2), width = (int)(slider.x1 - slider.x0);
     xtest_move(there, (int)slider.x0 + width / 4, y);
@@ -287,6 +337,8 @@ static void sliders_and_typed_values_set_controls(void **state)
 
     /* A click changes a switch. */
     control("shadow", &row);
+    stage_panel_reveal(stage_window_panel(window), row);
+    turn();
     assert_true(stage_panel_place(stage_window_panel(window), row, &slider, &value));
     xtest_move(there, (int)value.x1 - 5, (int)value.y0 + 5);
     xtest_button(1, true);
@@ -371,6 +423,7 @@ int main(void)
         TEST(strokes_cut_springs),
         TEST(letters_are_dragged),
         TEST(time_is_stopped_stepped_and_slowed),
+        TEST(groups_fold),
         TEST(sliders_and_typed_values_set_controls),
         TEST(films_are_recorded),
         TEST(windows_have_other_sizes_and_fill_the_screen),
