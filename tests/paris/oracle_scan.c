@@ -14,9 +14,12 @@ static int stride_of(const struct scan_grid *g, int axis)
     return stride;
 }
 
+/* Not strcmp(): it is asked for each number, and sanitizers check each call. */
 static bool is(const char *a, const char *b)
 {
-    return strcmp(a, b) == 0;
+    while (*a && *a == *b)
+        a++, b++;
+    return *a == *b;
 }
 
 /* ---- two numbers ---- */
