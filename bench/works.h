@@ -10,7 +10,11 @@
  *     byte code      a program and an array for each processor
  *     product        of two matrices of single floats, by spreads: a column of one and a row of the other for each step
  *     elimination    of a matrix of doubles, by spreads, without looking for pivots
- *     red and black  sweeps of Gauss and Seidel in three dimensions, one colour after the other, by contexts; the walls are fixed */
+ *     red and black  sweeps of Gauss and Seidel in three dimensions, one colour after the other, by contexts; the walls are fixed
+ *     Fourier        a transform of complex floats along both axes, by gets; what comes out is in the order of reversed bits
+ *     multigrid      V-cycles of five VP sets, by gets from set to set, on a torus
+ *     vectors        what a library of vectors does: a call, a look at a count or a sum, the next call; in plain C a loop for each call
+ *     few of many    numbers in a small part of a set, under a context; in plain C they alone */
 #ifndef LUTETIA_BENCH_WORKS_H
 #define LUTETIA_BENCH_WORKS_H
 
@@ -28,6 +32,10 @@ enum work {
     WORK_PRODUCT,
     WORK_ELIMINATION,
     WORK_RED_BLACK,
+    WORK_FOURIER,
+    WORK_MULTIGRID,
+    WORK_VECTORS,
+    WORK_FEW,
     WORKS_COUNT
 };
 
@@ -40,9 +48,16 @@ enum {
     WORK_LIMBS = 16,
     WORK_CELLS = 16, /* of a processor's array, and of its program */
     WORK_STEPS = 16,
-    WORK_SWEEPS = 10
+    WORK_SWEEPS = 10,
+    WORK_GRIDS = 5, /* of the multigrid; a grid's side is half of that before */
+    WORK_CYCLES = 3,
+    WORK_SMOOTHINGS = 2, /* before and after; on the last grid four times as many */
+    WORK_ROUNDS = 16,    /* of vectors */
+    WORK_LOOKS = 6,      /* of few of many; so many calls of each kind lie between two */
+    WORK_CALLS = 8
 };
 
+/* works_common.c, with work_list(), work_weighed() and work_twiddle() */
 extern const char *const work_names[WORKS_COUNT];
 /* Processors of a work; small: for tests. */
 int work_size(enum work w, bool small);
@@ -66,6 +81,18 @@ static inline void work_box(int n, int sides[3])
     sides[1] = 2 * k - 3;
     sides[2] = k;
 }
+/* How many of n processors hold numbers of the vectors, and of the few. */
+static inline int work_vector_length(int n)
+{
+    return n > 100000 ? 100000 : n / 4 * 3;
+}
+static inline int work_few_length(int n)
+{
+    return n / 64;
+}
+/* The factors of a transform of n numbers: exp (-2 pi i k / n). */
+void work_twiddle(int k, int n, float *re, float *im);
+
 /* From 0 to 1, with few bits. */
 static inline float work_part(uint32_t word)
 {
@@ -78,10 +105,19 @@ uint32_t work_list(uint32_t *next, int n);
 uint32_t work_weighed(const uint32_t *x, int n, int threads);
 
 /* works_plain.c: in plain C, by one thread or two. NULL: no memory. */
-struct work_plain;
+struct work_plain {
+    enum work work;
+    int n, side, threads;
+    uint32_t *in, *out, *limbs, first;
+};
 struct work_plain *work_plain_create(enum work w, int n, int threads);
 uint32_t work_plain_run(struct work_plain *p, uint32_t turn);
 void work_plain_destroy(struct work_plain *p); /* takes NULL */
+/* works_sets_plain.c */
+uint32_t work_plain_fourier(struct work_plain *p, uint32_t turn);
+uint32_t work_plain_multigrid(struct work_plain *p, uint32_t turn);
+uint32_t work_plain_vectors(struct work_plain *p, uint32_t turn);
+uint32_t work_plain_few(struct work_plain *p, uint32_t turn);
 
 /* works_paris.c */
 struct work_paris;

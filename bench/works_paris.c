@@ -6,18 +6,8 @@
 #include "harness.h"
 #include "of_machine.h"
 #include "paris_internal.h"
+#include "works_paris.h"
 #include <cm/paris.h>
-
-enum { WORD = 32, LONG = 64, FIELDS = 8, S = 23, E = 8, LONG_S = 52, LONG_E = 11 };
-
-struct work_paris {
-    enum work work;
-    int n, side;
-    CM_geometry_id_t geometry, bins_geometry;
-    CM_vp_set_id_t set, bins_set;
-    CM_field_id_t in, odd, f[FIELDS], bit, array, bins, bins_odd;
-    uint32_t *words, *moved; /* on the front end; moved: what a transposition comes to */
-};
 
 /* ---- making ---- */
 
@@ -68,13 +58,6 @@ static bool list_make(const struct work_paris *p)
         machine_field_upload(paris_machine(), p->in, MACHINE_UINT(WORD), p->words));
 }
 
-/* 12 bits of what it begins with, as a float from 0 to 1. */
-static void part_make(const struct work_paris *p, CM_field_id_t dest, unsigned int shift)
-{
-    CM_f_u_float_2_2L(dest, p->in + shift, 12, S, E);
-    CM_f_multiply_constant_2_1L(dest, 1.0 / 4096, S, E);
-}
-
 static void elimination_prepare(const struct work_paris *p)
 {
     CM_f_u_float_2_2L(p->f[0], p->in, 12, LONG_S, LONG_E);
@@ -91,8 +74,8 @@ static void elimination_prepare(const struct work_paris *p)
 static void red_black_prepare(struct work_paris *p, const int sides[3])
 {
     p->array = CM_allocate_heap_field(2);
-    part_make(p, p->f[0], 0);
-    part_make(p, p->f[1], 12);
+    work_part_make(p, p->f[0], 0);
+    work_part_make(p, p->f[1], 12);
     CM_u_move_zero_1L(p->f[6], WORD);
     CM_set_bit(p->array);
     for (unsigned int a = 0; a < 3; a++) {
@@ -151,8 +134,8 @@ static bool work_prepare(struct work_paris *p)
             good = upload(p, p->array + (WORK_CELLS + k) * WORD, k * (uint32_t)p->n);
         break;
     case WORK_PRODUCT:
-        part_make(p, p->f[0], 0);
-        part_make(p, p->f[1], 12);
+        work_part_make(p, p->f[0], 0);
+        work_part_make(p, p->f[1], 12);
         break;
     case WORK_ELIMINATION:
         elimination_prepare(p);
@@ -160,6 +143,15 @@ static bool work_prepare(struct work_paris *p)
     case WORK_RED_BLACK:
         work_box(p->n, sides);
         red_black_prepare(p, sides);
+        break;
+    case WORK_FOURIER:
+        return good && work_fourier_prepare(p);
+    case WORK_MULTIGRID:
+        work_multigrid_prepare(p);
+        break;
+    case WORK_VECTORS:
+    case WORK_FEW:
+        CM_my_news_coordinate_1L(p->f[6], 0, WORD);
         break;
     case WORK_SORT:
     case WORKS_COUNT:
@@ -184,7 +176,11 @@ static CM_geometry_id_t geometry_make(const struct work_paris *p)
     case WORK_TRANSPOSITION:
     case WORK_PRODUCT:
     case WORK_ELIMINATION:
+    case WORK_FOURIER:
+    case WORK_MULTIGRID:
         break;
+    case WORK_VECTORS:
+    case WORK_FEW:
     case WORK_HISTOGRAM:
     case WORK_SORT:
     case WORK_RANKING:
@@ -237,18 +233,16 @@ void work_paris_destroy(struct work_paris *p)
         CM_deallocate_vp_set(p->bins_set);
         CM_deallocate_geometry(p->bins_geometry);
     }
+    for (int k = 1; k < WORK_GRIDS && p->grids[k].set; k++) {
+        CM_deallocate_vp_set(p->grids[k].set);
+        CM_deallocate_geometry(p->grids[k].geometry);
+    }
     free(p->words);
     free(p->moved);
     free(p);
 }
 
 /* ---- running ---- */
-
-static uint32_t weighed(CM_field_id_t x, CM_field_id_t odd)
-{
-    CM_u_multiply_2_1L(x, odd, WORD);
-    return CM_global_u_add_1L(x, WORD);
-}
 
 static uint32_t histogram(const struct work_paris *p, uint32_t turn)
 {
@@ -263,7 +257,7 @@ static uint32_t histogram(const struct work_paris *p, uint32_t turn)
         CM_logand_constant_2_1L(address, WORK_BINS - 1, WORD);
         CM_send_with_u_add_1L(p->bins, address, one, WORD, CM_no_field);
         CM_set_vp_set(p->bins_set);
-        result = result * 31 + weighed(p->bins, p->bins_odd);
+        result = result * 31 + work_paris_weighed(p->bins, p->bins_odd);
         CM_set_vp_set(p->set);
     }
     return result;
@@ -300,7 +294,7 @@ static uint32_t sort(const struct work_paris *p, uint32_t turn)
             CM_set_context();
             CM_u_move_1L(x, kept, WORD);
         }
-    return weighed(x, p->odd);
+    return work_paris_weighed(x, p->odd);
 }
 
 static uint32_t ranking(const struct work_paris *p, uint32_t turn)
@@ -320,7 +314,7 @@ static uint32_t ranking(const struct work_paris *p, uint32_t turn)
         CM_get_1L(got, next, next, WORD);
         CM_u_move_1L(next, got, WORD);
     }
-    return weighed(left, p->odd);
+    return work_paris_weighed(left, p->odd);
 }
 
 static uint32_t scans(const struct work_paris *p, uint32_t turn)
@@ -337,7 +331,7 @@ static uint32_t scans(const struct work_paris *p, uint32_t turn)
                                   p->bit);
         CM_logxor_2_1L(all, sum, WORD);
     }
-    return weighed(all, p->odd);
+    return work_paris_weighed(all, p->odd);
 }
 
 static uint32_t wide(const struct work_paris *p, uint32_t turn)
@@ -362,7 +356,7 @@ static uint32_t wide(const struct work_paris *p, uint32_t turn)
         CM_logxor_2_1L(mixed, more, WORD);
         CM_u_shift_constant_2_1L(product, -WORD, LONG);
     }
-    return weighed(mixed, p->odd);
+    return work_paris_weighed(mixed, p->odd);
 }
 
 static void code_step(const struct work_paris *p, CM_field_id_t at, CM_field_id_t sum)
@@ -409,7 +403,7 @@ static uint32_t code(const struct work_paris *p, uint32_t turn)
     CM_u_move_constant_1L(p->f[1], turn, WORD);
     for (int step = 0; step < WORK_STEPS; step++)
         code_step(p, p->f[0], p->f[1]);
-    return weighed(p->f[1], p->odd);
+    return work_paris_weighed(p->f[1], p->odd);
 }
 
 static uint32_t product(const struct work_paris *p, uint32_t turn)
@@ -422,7 +416,7 @@ static uint32_t product(const struct work_paris *p, uint32_t turn)
         CM_f_multiply_2_1L(column, row, S, E);
         CM_f_add_2_1L(sum, column, S, E);
     }
-    return weighed(sum, p->odd);
+    return work_paris_weighed(sum, p->odd);
 }
 
 static uint32_t elimination(const struct work_paris *p, uint32_t turn)
@@ -447,7 +441,7 @@ static uint32_t elimination(const struct work_paris *p, uint32_t turn)
         CM_f_subtract_2_1L(a, column, LONG_S, LONG_E);
         CM_set_context();
     }
-    return weighed(a, p->odd) + weighed(a + WORD, p->odd);
+    return work_paris_weighed(a, p->odd) + work_paris_weighed(a + WORD, p->odd);
 }
 
 static uint32_t red_black(const struct work_paris *p, uint32_t turn)
@@ -466,14 +460,26 @@ static uint32_t red_black(const struct work_paris *p, uint32_t turn)
         CM_f_multiply_constant_3_1L(u, sum, 1.0 / 6, S, E);
         CM_set_context();
     }
-    return weighed(u, p->odd);
+    return work_paris_weighed(u, p->odd);
 }
 
 uint32_t work_paris_run(struct work_paris *p, uint32_t turn)
 {
-    uint32_t (*const runs[WORKS_COUNT])(const struct work_paris *, uint32_t) = {
-        histogram, transposition, sort,    ranking,     scans,
-        wide,      code,          product, elimination, red_black};
+    uint32_t (*const runs[WORKS_COUNT])(const struct work_paris *,
+                                        uint32_t) = {histogram,
+                                                     transposition,
+                                                     sort,
+                                                     ranking,
+                                                     scans,
+                                                     wide,
+                                                     code,
+                                                     product,
+                                                     elimination,
+                                                     red_black,
+                                                     work_paris_fourier,
+                                                     work_paris_multigrid,
+                                                     work_paris_vectors,
+                                                     work_paris_few};
     CM_set_vp_set(p->set);
     return runs[p->work](p, turn);
 }

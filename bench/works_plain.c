@@ -6,57 +6,6 @@
 
 enum { SUBLISTS = 64 };
 
-const char *const work_names[WORKS_COUNT] = {
-    "histogram",    "transposition", "sort",    "list ranking", "scans",
-    "wide numbers", "byte code",     "product", "elimination",  "red and black"};
-
-struct work_plain {
-    enum work work;
-    int n, side, threads;
-    uint32_t *in, *out, *limbs, first;
-};
-
-int work_size(enum work w, bool small)
-{
-    switch (w) {
-    case WORK_SCANS:
-        return small ? 7 * WORK_ROW : 1000 * WORK_ROW;
-    case WORK_WIDE:
-        return small ? 1000 : 500000;
-    case WORK_PRODUCT:
-        return small ? 40 * 40 : 600 * 600;
-    case WORK_ELIMINATION:
-        return small ? 30 * 30 : 500 * 500;
-    case WORK_RED_BLACK:
-        return small ? 12 * 9 * 6 : 200 * 197 * 100;
-    case WORK_HISTOGRAM:
-    case WORK_TRANSPOSITION:
-    case WORK_SORT:
-    case WORK_RANKING:
-    case WORK_CODE:
-    case WORKS_COUNT:
-        break;
-    }
-    return small ? 1 << 12 : 1 << 20;
-}
-
-uint32_t work_list(uint32_t *next, int n)
-{
-    uint32_t *order = malloc((size_t)n * sizeof *order), first = 0;
-    for (int i = 0; order && i < n; i++)
-        order[i] = (uint32_t)i;
-    for (int i = n - 1; order && i > 0; i--) {
-        uint32_t k = work_word((uint32_t)i) % (uint32_t)(i + 1), kept = order[i];
-        order[i] = order[k];
-        order[k] = kept;
-    }
-    for (int i = 0; order && i < n; i++)
-        next[order[i]] = order[i + 1 < n ? i + 1 : i];
-    first = order ? order[0] : 0;
-    free(order);
-    return first;
-}
-
 struct work_plain *work_plain_create(enum work w, int n, int threads)
 {
     struct work_plain *p = calloc(1, sizeof *p);
@@ -68,7 +17,7 @@ struct work_plain *work_plain_create(enum work w, int n, int threads)
         p->side++;
     p->in = malloc(words * sizeof *p->in);
     p->out = malloc(words * sizeof *p->out);
-    p->limbs = malloc((w == WORK_WIDE ? 2 * WORK_LIMBS : 2) * (size_t)n * sizeof *p->limbs);
+    p->limbs = malloc((w == WORK_WIDE ? 2 * WORK_LIMBS : 4) * (size_t)n * sizeof *p->limbs);
     if (!p->in || !p->out || !p->limbs) {
         work_plain_destroy(p);
         return NULL;
@@ -95,16 +44,6 @@ void work_plain_destroy(struct work_plain *p)
     free(p->out);
     free(p->limbs);
     free(p);
-}
-
-uint32_t work_weighed(const uint32_t *x, int n, int threads)
-{
-    uint32_t sum = 0;
-    (void)threads; /* unread without OpenMP */
-#pragma omp parallel for reduction(+ : sum) num_threads(threads)
-    for (int i = 0; i < n; i++)
-        sum += x[i] * (2 * (uint32_t)i + 1);
-    return sum;
 }
 
 static uint32_t histogram(struct work_plain *p, uint32_t turn)
@@ -371,8 +310,19 @@ static uint32_t red_black(struct work_plain *p, uint32_t turn)
 
 uint32_t work_plain_run(struct work_plain *p, uint32_t turn)
 {
-    uint32_t (*const runs[WORKS_COUNT])(struct work_plain *, uint32_t) = {
-        histogram, transposition, sort,    ranking,     scans,
-        wide,      code,          product, elimination, red_black};
+    uint32_t (*const runs[WORKS_COUNT])(struct work_plain *, uint32_t) = {histogram,
+                                                                          transposition,
+                                                                          sort,
+                                                                          ranking,
+                                                                          scans,
+                                                                          wide,
+                                                                          code,
+                                                                          product,
+                                                                          elimination,
+                                                                          red_black,
+                                                                          work_plain_fourier,
+                                                                          work_plain_multigrid,
+                                                                          work_plain_vectors,
+                                                                          work_plain_few};
     return runs[p->work](p, turn);
 }
