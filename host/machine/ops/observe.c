@@ -62,7 +62,8 @@ enum machine_status machine_field_download(struct machine *m, uint32_t field,
             materialise_put((unsigned char *)out + i * element, v->imm, element);
         return MACHINE_OK;
     }
-    v = materialise(m, f->vpset, v);
+    /* Bits of floats are in the field's own array: another one would leave the field waiting. */
+    v = materialise(m, f->vpset, graph_same_bits(m, v));
     if (!v)
         return m->status;
     if (v->buffer->host && m->settings.near) {

@@ -60,6 +60,9 @@ static enum machine_status evaluate_now(struct machine *m, struct machine_value 
         graph_borrow(m, wanted[i]); /* a value that contains it may release it */
         held = held && (node_is_leaf(wanted[i]) || is_held(m, wanted[i]));
     }
+    if (!m->settings.eager && room_is_short(m))
+        room_make(
+            m); /* while there is room for some arrays: what is computed only later holds others */
     /* Values that only the observer holds, such as a count, are evaluated apart. Then the
      * calls before lead from state to state, and are foreseen. */
     if (!held && record_follows(m)) {
@@ -127,13 +130,15 @@ enum machine_status evaluate_after_store(struct machine *m, struct machine_value
     *oldest = what;
     if (room_is_short(m) && room_make(m))
         return MACHINE_OK;
-    if (history_in_loop(m) && v->height < HEIGHT_MOST && m->values->pending < PENDING_MOST)
+    const bool exceeded = room_is_exceeded(m);
+    if (history_in_loop(m) && v->height < HEIGHT_MOST && m->values->pending < PENDING_MOST &&
+        !exceeded)
         return MACHINE_OK;
     bool again = m->run->flush_hash && m->run->trace_hash == m->run->flush_hash &&
                  m->values->pending >= pending_least(m);
     bool many = m->values->pending >= (m->run->flush_hash ? 5 * m->settings.flush_after
                                                           : m->settings.flush_after) ||
-                room_is_wanted(m);
+                exceeded || room_is_wanted(m);
     if (!again && !many && v->height < HEIGHT_MOST)
         return MACHINE_OK;
     if (m->run->sliced &&

@@ -356,8 +356,10 @@ static enum machine_status evaluate_in_pieces(struct machine *m, const struct wi
     struct machine_value *v;
     record_impure(m);
     m->run->in_pieces = true;
-    while (!status && (v = pieces_next(m, wish->values, wish->count)))
-        status = evaluate_piece(m, v);
+    while (!status && (v = pieces_next(m, wish->values, wish->count))) {
+        struct machine_value *before = pieces_before(m, v);
+        status = evaluate_piece(m, before ? before : v);
+    }
     for (int i = 0; i < wish->count && !status; i++) /* slices */
         if (!node_is_leaf(wish->values[i]))
             status = evaluate_piece(m, wish->values[i]);

@@ -40,3 +40,29 @@ struct machine_value *pieces_next(struct machine *m, struct machine_value *const
             look(m, m->memory->fields[i]->slots[k].value, true, &first);
     return first;
 }
+
+/* The bytes of the arrays that v alone holds. */
+static uint64_t held_by(const struct machine_value *v)
+{
+    uint64_t bytes = 0;
+    for (int i = 0; i < node_ops[v->op].inputs; i++) {
+        const struct machine_value *in = v->in[i];
+        if (in->refs > 1)
+            continue;
+        if (!in->buffer)
+            bytes += held_by(in);
+        else if (in->buffer->refs == 1)
+            bytes += in->buffer->bytes;
+    }
+    return bytes;
+}
+
+struct machine_value *pieces_before(const struct machine *m, const struct machine_value *v)
+{
+    struct machine_value *taken = v->op == NODE_SELECT && !v->buffer ? v->in[1] : NULL;
+    if (!taken || taken->refs < 2 || node_is_leaf(taken) || node_is_cheap(taken) ||
+        taken->op == NODE_SLICE)
+        return NULL;
+    return held_by(taken) > m->values->sets[v->set].count * type_bytes(taken->type) ? taken
+                                                                                    : NULL;
+}

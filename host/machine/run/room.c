@@ -4,6 +4,8 @@
  *
  *   wanted        the arrays in use are twice as many bytes as after the last evaluation; or they are with those that may have to be stored, and that
  *                 is more than an eighth of the memory: an evaluation is due, in a loop at the end of a turn.
+ *   exceeded      with what fields hold, and what will be stored besides, that would be more than the memory: an evaluation is due at once, in the
+ *                 middle of a turn, too.
  *   short         few more arrays would fit: all that waits is computed at once, in pieces.
  *   in pieces     what was stored into a field or flag first is computed first, by itself. Then memory is used as by an evaluation after each
  *                 instruction (LUTETIA_EAGER=1): an array is free as soon as no later value and no field needs it. A plan whose arrays do not fit
@@ -31,6 +33,21 @@ bool room_make(struct machine *m)
     r->in_pieces = true;
     enum machine_status status = evaluation_run(m, &all, RUN_LOOKED);
     return !status && m->device->held_bytes < before;
+}
+
+bool room_would_lack(const struct machine *m)
+{
+    /* an array for what a neighbour looks at, and as a rule another one for what is computed from it and later */
+    uint64_t bytes = m->device->held_bytes + 2 * (m->values->pending_kb << 10);
+    for (int i = 0; i < m->memory->fields_count; i++) {
+        const struct field *f = m->memory->fields[i];
+        for (int k = 0; k < f->slots_count; k++) {
+            const struct machine_value *v = f->slots[k].value;
+            if (v->op != NODE_CONSTANT && !node_is_cheap(v))
+                bytes += m->values->sets[f->vpset].count * type_bytes(v->type);
+        }
+    }
+    return bytes > m->device->memory_bytes;
 }
 
 /* ---- the message ---- */

@@ -33,6 +33,15 @@ static inline bool room_has(const struct machine *m, uint64_t bytes)
     return m->device->held_bytes + bytes <= m->device->memory_bytes;
 }
 
+/* Whether the arrays in use, what fields hold and what neighbours look at would not fit, if all that waits were computed now. */
+bool room_would_lack(const struct machine *m);
+static inline bool room_is_exceeded(const struct machine *m)
+{
+    const uint64_t pending = m->values->pending_kb << 10;
+    return pending && m->device->held_bytes + 2 * pending > m->device->memory_bytes / 4 &&
+           room_would_lack(m);
+}
+
 void room_init(struct machine *m);
 
 /* Called after an evaluation: how much may wait until the next one. */
@@ -54,5 +63,9 @@ bool room_make(struct machine *m);
 /* The value that was stored into a field or flag first, of those that wait and of which fields, flags or these values consist. NULL: none. */
 struct machine_value *pieces_next(struct machine *m, struct machine_value *const *wanted,
                                   int count);
+
+/* A choice between a new value and an old one is stored, but what comes later may take the new value without the choice. If that holds arrays that nobody
+ * else needs, and more than it takes, it is computed before the choice. NULL: it is not so. */
+struct machine_value *pieces_before(const struct machine *m, const struct machine_value *v);
 
 #endif
