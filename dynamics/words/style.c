@@ -34,19 +34,21 @@ const int dyn_word_controls_count = sizeof dyn_word_controls / sizeof *dyn_word_
 
 const struct dyn_preset dyn_presets[] = {
     {"stiff", "letters keep their shapes, and the word is a board",
-     "side=20000 diagonal=20000 link=20000 damping_ratio=0.3"},
+     "side=20000 diagonal=20000 link=20000 damping_ratio=0.3", false},
     {"jelly", "soft, and swings for long",
-     "side=220 diagonal=130 link=160 damping_ratio=0.03 restitution=0.5 friction=0.6"},
+     "side=220 diagonal=130 link=160 damping_ratio=0.03 restitution=0.5 friction=0.6", false},
     {"pendulum", "hangs from its first letter",
-     "side=6000 diagonal=6000 link=6000 damping_ratio=0.05 drag=0.01 tack=first"},
+     "side=6000 diagonal=6000 link=6000 damping_ratio=0.05 drag=0.01 tack=first", false},
     {"heavy", "hangs from its ends and sags",
-     "letter_mass=4 side=2500 diagonal=1500 link=2200 damping_ratio=0.15 tack=ends"},
+     "letter_mass=4 side=2500 diagonal=1500 link=2200 damping_ratio=0.15 tack=ends", false},
     {"curtain", "hangs from all its upper corners, line from line, in a light wind",
      "letter_mass=0.3 side=250 diagonal=40 link=250 hang=250 damping_ratio=0.1 drag=0.08 "
-     "wind_x=1.5 tack=top"},
+     "wind_x=1.5 tack=top",
+     false},
     {"breakdown", "breaks between its letters where it is strained most, and its pieces go on",
      "side=2500 diagonal=2000 link=210 damping_ratio=0.06 link_breaking=1.4 restitution=0.45 "
-     "friction=0.4 tack=ends"},
+     "friction=0.4 tack=ends",
+     true},
 };
 const int dyn_presets_count = sizeof dyn_presets / sizeof *dyn_presets;
 
@@ -105,4 +107,12 @@ enum dyn_status dyn_preset_apply(const char *name, struct dyn_word_style *style,
             (size_t)snprintf(all + length, sizeof all - length, " %s", dyn_presets[i].name);
     }
     return dyn_fail(DYN_BAD_ARGUMENT, "there is no preset '%.40s'; there are%s", name, all);
+}
+
+bool dyn_preset_collides(const char *name)
+{
+    for (int i = 0; i < dyn_presets_count; i++)
+        if (strcmp(dyn_presets[i].name, name) == 0)
+            return dyn_presets[i].collides;
+    return false;
 }

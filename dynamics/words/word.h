@@ -46,6 +46,8 @@
 #include <network.h>
 #include <text.h>
 
+#include <stdbool.h>
+
 /* EM: as wide as the letter's advance without its margins, as high as the capital M. INK:
  * around its ink. */
 enum dyn_box { DYN_BOX_EM, DYN_BOX_INK };
@@ -74,6 +76,8 @@ struct dyn_word_style dyn_word_style_usual(void);
 struct dyn_preset {
     const char *name, *does;
     const char *sets; /* "control=value ..." of a style's or a world's controls */
+    bool
+        collides; /* its letters push each other apart (collide.h), which whoever steps it does */
 };
 extern const struct dyn_preset dyn_presets[];
 extern const int dyn_presets_count;
@@ -83,6 +87,8 @@ extern const int dyn_presets_count;
  * lists the names. */
 enum dyn_status dyn_preset_apply(const char *name, struct dyn_word_style *style,
                                  struct dyn_world *world);
+/* False, too, where there is no preset of that name. */
+bool dyn_preset_collides(const char *name);
 
 struct dyn_word_def {
     const char *text;           /* UTF-8, ended by a 0 */

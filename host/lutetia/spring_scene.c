@@ -1,5 +1,6 @@
 /* spring_scene.c - see spring_scene.h. */
 #include "spring_scene.h"
+#include "spring_reach.h"
 
 #include <clamps.h>
 #include <network_file.h>
@@ -84,15 +85,14 @@ static double lines_height(const struct spring_scene_def *def, const struct spri
     return height; /* where it fails, the word fails, too, and says why */
 }
 
+/* With its baseline at that height. */
 static enum stage_status word_put(const struct spring_scene_def *def,
                                   const struct spring_scene *scene,
-                                  struct stage_springs_def *springs)
+                                  struct stage_springs_def *springs, double y)
 {
-    double x = def->at[0], y = def->at[1], path[CIRCLE_POINTS][2];
+    double x = def->at[0], path[CIRCLE_POINTS][2];
     struct dyn_word_def word = dyn_word_def_usual();
     struct dyn_world world = *dyn_network_world(springs->network);
-    if (isnan(y)) /* nothing begins below the floor */
-        y = 2 + (def->circle > 0 ? def->circle : lines_height(def, scene));
     word.text = def->text;
     word.shaper = scene->shaper;
     word.x = x;
@@ -123,6 +123,52 @@ static enum stage_status word_put(const struct spring_scene_def *def,
     return status == DYN_OK ? STAGE_OK : fail_dyn(status);
 }
 
+/* A word that hangs, and does not break. */
+static bool hangs(const struct dyn_word_style *style)
+{
+    return style->tack != DYN_TACK_NONE && style->letter_breaking == 0 &&
+           style->link_breaking == 0;
+}
+
+static const double above_floor = 0.5; /* ems */
+
+/* A word that hangs is so high that it does not reach the floor, and all that it will do is seen. */
+static enum stage_status word_fit(const struct spring_scene_def *def,
+                                  const struct spring_scene *scene,
+                                  struct stage_springs_def *springs, double y)
+{
+    const bool placed = !isnan(def->at[1]);
+    struct font_box box;
+    if (!hangs(&springs->style) || (placed && !isnan(def->view[0])))
+        return STAGE_OK;
+    enum stage_status status =
+        spring_reach(springs->network, def->sets, def->sets_count, !placed, &box);
+    const double floor = dyn_network_world(springs->network)->floor,
+                 lift = placed ? 0 : fmax(0, floor + above_floor - box.y0);
+    if (status == STAGE_OK && lift > 0) {
+        dyn_word_destroy(springs->word);
+        dyn_network_destroy(springs->network);
+        springs->word = NULL;
+        springs->network = NULL;
+        const enum dyn_status made = dyn_network_create(&springs->network);
+        status = made == DYN_OK ? word_put(def, scene, springs, y + lift) : fail_dyn(made);
+    }
+    if (status != STAGE_OK || !isnan(def->view[0]))
+        return status;
+    const double bottom = fmin(box.y0 + lift, floor), top = box.y1 + lift;
+    const double margin = fmax(0.5, 0.06 * fmax(box.x1 - box.x0, top - bottom));
+    springs->extent =
+        (struct font_box){box.x0 - margin, bottom - margin, box.x1 + margin, top + margin};
+    return STAGE_OK;
+}
+
+/* Nothing begins below the floor. */
+static double height_usual(const struct spring_scene_def *def, const struct spring_scene *scene)
+{
+    return isnan(def->at[1]) ? 2 + (def->circle > 0 ? def->circle : lines_height(def, scene))
+                             : def->at[1];
+}
+
 /* ---- a scene ---- */
 
 /* A script of other masses than there are is refused before the first picture. */
@@ -149,8 +195,11 @@ static enum stage_status springs_make(const struct spring_scene_def *def,
         if (status != DYN_OK)
             return fail_dyn(status);
         enum stage_status made = font_open(def, scene);
+        const double y = made == STAGE_OK ? height_usual(def, scene) : 0;
         if (made == STAGE_OK)
-            made = word_put(def, scene, springs);
+            made = word_put(def, scene, springs, y);
+        if (made == STAGE_OK)
+            made = word_fit(def, scene, springs, y);
         if (made != STAGE_OK)
             return made;
     }
@@ -187,6 +236,8 @@ enum stage_status spring_scene_make(const struct spring_scene_def *def,
     }
     if (status == STAGE_OK)
         status = stage_create(&stage, &out->stage);
+    if (status == STAGE_OK && def->preset && dyn_preset_collides(def->preset))
+        status = stage_set(out->stage, "collide=on");
     if (status == STAGE_OK)
         status = sets_do(def, out->stage);
     if (status != STAGE_OK)

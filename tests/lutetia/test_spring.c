@@ -252,6 +252,54 @@ static void backgrounds_may_be_clear(void **state)
         display_image_destroy(&images[i]);
 }
 
+/* The lowest mass of a file of springs. */
+static double lowest(const char *path)
+{
+    double least = INFINITY, y;
+    char line[4096];
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    while (fgets(line, sizeof line, file)) {
+        const char *at = strncmp(line, "mass ", 5) == 0 ? strstr(line, " y=") : NULL;
+        if (at && sscanf(at, " y=%lf", &y) == 1)
+            least = fmin(least, y);
+    }
+    fclose(file);
+    return least;
+}
+
+/* Whatever its length, what hangs does not reach the floor, nor the picture's left and right. */
+static void presets_are_for_any_word(void **state)
+{
+    (void)state;
+    static const char *const presets[] = {"pendulum", "heavy", "curtain"};
+    static const char *const words[] = {"a", "long", "a longer word",
+                                        "Longer still than all others"};
+    static const char *const moments[] = {"0.8", "2.1"};
+    for (int p = 0; p < 3; p++)
+        for (int w = 0; w < 4; w++)
+            for (int m = 0; m < 2; m++) {
+                const char *save = scratch_path("hangs.springs"),
+                           *still = scratch_path("hangs.png");
+                RUN(0, words[w], "--preset", presets[p], "--seconds", moments[m], "--save",
+                    save, "--still", still, "--size", "160x120");
+                if (!(lowest(save) > 0.3))
+                    fail_msg("%s, %s: %g above the floor", presets[p], words[w], lowest(save));
+                struct display_image image = picture(still);
+                int dark = 0;
+                for (int y = 0; y < image.height_px; y++)
+                    for (int x = 0; x < image.width_px; x += image.width_px - 1)
+                        dark += image.pixels[3 * (y * image.width_px + x)] < 0xe0;
+                display_image_destroy(&image);
+                if (dark > 6) /* the floor's line */
+                    fail_msg("%s, %s: %d pixels at the edges", presets[p], words[w], dark);
+            }
+    const struct child on = RUN(0, "word", "--preset", "breakdown", "--controls");
+    const char *row = strstr(on.output, "\ncollide ");
+    assert_non_null(row);
+    assert_int_equal(strcspn(row + 9, "n") - strcspn(row + 9, "o"), 1); /* "on" */
+}
+
 /* Counts the blue pixels, ink on paper, in rows y0 to y1. */
 static int blue_count(const struct display_image *image, int y0, int y1)
 {
@@ -502,6 +550,7 @@ int main(void)
         cmocka_unit_test(scripts_lead_masses),
         cmocka_unit_test(sessions_are_replayed),
         cmocka_unit_test(films_end_with_their_session),
+        cmocka_unit_test(presets_are_for_any_word),
         cmocka_unit_test(dots_grow_with_pictures),
         cmocka_unit_test(backgrounds_may_be_clear),
         cmocka_unit_test(controls_are_listed),
