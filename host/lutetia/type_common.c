@@ -211,3 +211,14 @@ void type_label(struct type_labels *l, struct display_image *image, double x, do
         font_painter_layout(l->painter, &layout, NULL, x, y, &picture);
     font_layout_finish(&layout);
 }
+
+bool type_axis_there(const struct font_face *face, const char *tag)
+{
+    struct font_face_info info;
+    struct font_axis axis;
+    font_face_describe(face, &info);
+    for (int i = 0; i < info.axes_count; i++)
+        if (font_face_axis(face, i, &axis) == FONT_OK && strcmp(axis.tag, tag) == 0)
+            return true;
+    return false;
+}

@@ -56,4 +56,7 @@ int type_gl(const char *verb, const struct font_layout *layout, const struct fon
             const char *filter, double darken_px, double x_px, double y_px, const double ink[3],
             struct display_image *image);
 
+/* Whether a variable font has that axis, like wght. */
+bool type_axis_there(const struct font_face *face, const char *tag);
+
 #endif

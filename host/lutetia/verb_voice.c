@@ -5,6 +5,7 @@
 #include "type_common.h"
 #include "voice_live.h"
 #include "voice_poster.h"
+#include "voice_table.h"
 #include <visible_text.h>
 
 #include <display.h>
@@ -30,7 +31,7 @@ enum { SHEET_COLUMNS = 5, SHEET_ROWS = 4, LABEL_PX = 11 };
 struct voice_work {
     const char *sound_path, *text, *font, *axes, *map;
     const char *poster, *sheet, *envelope, *still, *frames, *video;
-    const char *microphone, *transcript;
+    const char *microphone, *transcript, *features;
     double seconds;
     bool cry;
     double size_px[2], rise_em, slant, paper[3], inks[9], second_px, line_px, at_s;
@@ -56,15 +57,16 @@ static bool pictures_wanted(const struct voice_work *w)
 /* How many words the command line has: a sound, unless another is given; a text, unless there is a transcript. */
 static int words_take(struct voice_work *w, const struct option_words *words)
 {
-    const bool heard = !w->cry && !w->microphone, written = !w->transcript;
+    const bool heard = !w->cry && !w->microphone, written = !w->transcript,
+               needed = written && (pictures_wanted(w) || !w->features);
     if (w->cry && w->microphone)
         return fail_usage("voice", "--cry or --microphone, not both");
     if (w->transcript && !heard)
         return fail_usage("voice", "a transcript is of a sound in a file: give that");
-    if (words->count < heard + written)
-        return fail_usage("voice", !heard     ? "give a text"
-                                   : !written ? "give a sound"
-                                              : "give a sound and a text");
+    if (words->count < heard + needed)
+        return fail_usage("voice", !heard    ? "give a text"
+                                   : !needed ? "give a sound"
+                                             : "give a sound and a text");
     if (words->count > heard + written)
         return fail_usage("voice", "there is one %s; put it in quotes (then came '%.60s')",
                           !heard     ? "text, and no sound with --cry or --microphone"
@@ -72,7 +74,7 @@ static int words_take(struct voice_work *w, const struct option_words *words)
                                      : "sound and one text",
                           words->words[words->count - 1]);
     w->sound_path = heard ? words->words[0] : NULL;
-    w->text = written ? words->words[words->count - 1] : NULL;
+    w->text = written && words->count > heard ? words->words[words->count - 1] : NULL;
     if (w->picture[0] % 2 || w->picture[1] % 2)
         return fail_usage("voice", "--picture must be even (got %dx%d)", w->picture[0],
                           w->picture[1]);
@@ -82,12 +84,12 @@ static int words_take(struct voice_work *w, const struct option_words *words)
     char why[200];
     if (w->map && !voice_mapping_read(&w->def.mapping, w->map, why, sizeof why))
         return fail_usage("voice", "--map: %s", why);
-    if (!w->microphone && !pictures_wanted(w))
+    if (!w->microphone && !w->features && !pictures_wanted(w))
         w->poster = "out.png";
     return EXIT_SUCCESS;
 }
 
-#define POSTER "poster|!sheet+!envelope+!still+!frames+!video+!microphone"
+#define POSTER "poster|!sheet+!envelope+!still+!frames+!video+!features+!microphone"
 
 /* With what an option has an effect. The poster is made where no other picture is asked for. */
 static const struct option_need needs[] = {
@@ -117,6 +119,8 @@ static int options_read(struct voice_work *w, int argc, char **argv, bool *help)
         {"microphone", 0, OPTION_TEXT, "jack|pulse|any",
          "hear a microphone, in place of a file: in a window, or for --seconds", &w->microphone,
          0, 0, 0},
+        {"features", 0, OPTION_TEXT, "FILE.csv", "what is heard, as a table; needs no text",
+         &w->features, 0, 0, 0},
         {"seconds", 0, OPTION_NUMBER, "S", "how long a microphone is heard (5)", &w->seconds,
          0.5, 1800, 0},
         {"transcript", 0, OPTION_TEXT, "FILE",
@@ -227,6 +231,10 @@ static int hear(struct voice_work *w)
     if (!voice_frames(&w->hearing, w->sound.samples, w->sound.count, w->sound.rate_hz,
                       &w->heard, &w->heard_count))
         return fail("voice", "no memory for the sound");
+    if (w->features)
+        status = voice_table_write(w->features, w->heard, w->heard_count);
+    if (status != EXIT_SUCCESS || !pictures_wanted(w))
+        return status;
     if (!voice_score_make(w->heard, w->heard_count, w->def.silence, &w->score, &empty))
         return empty ? fail("voice", "%s: nothing can be heard in it",
                             w->sound_path ? w->sound_path : "the microphone")
@@ -235,17 +243,6 @@ static int hear(struct voice_work *w)
 }
 
 /* ---- type ---- */
-
-static bool axis_there(const struct font_face *face, const char *tag)
-{
-    struct font_face_info info;
-    struct font_axis axis;
-    font_face_describe(face, &info);
-    for (int i = 0; i < info.axes_count; i++)
-        if (font_face_axis(face, i, &axis) == FONT_OK && strcmp(axis.tag, tag) == 0)
-            return true;
-    return false;
-}
 
 /* The largest size at which the widest text fits the picture. */
 static int size_fit(struct voice_work *w)
@@ -284,7 +281,8 @@ static int face_take(struct voice_work *w)
     int status = type_face_open("voice", w->font, 0, w->axes, false, &w->face);
     if (status != EXIT_SUCCESS)
         return status;
-    if (w->def.mapping.feature[TYPE_WEIGHT] != VOICE_NOTHING && !axis_there(w->face, "wght"))
+    if (w->def.mapping.feature[TYPE_WEIGHT] != VOICE_NOTHING &&
+        !type_axis_there(w->face, "wght"))
         return fail_usage("voice",
                           "%s has no axis of weight to play; choose a variable font with wght",
                           w->font);
@@ -545,8 +543,9 @@ static int still_write(const struct voice_work *w)
 static int pictures_write(struct voice_work *w)
 {
     int status = hear(w);
-    if (status == EXIT_SUCCESS)
-        status = type_prepare(w);
+    if (status != EXIT_SUCCESS || !pictures_wanted(w)) /* a table alone */
+        return status;
+    status = type_prepare(w);
     const struct {
         const char *path;
         int (*write)(const struct voice_work *);
@@ -582,7 +581,8 @@ int verb_voice(int argc, char **argv)
     if (status != EXIT_SUCCESS || help)
         return status;
     interrupt_catch();
-    status = w.microphone && !pictures_wanted(&w) ? live_play(&w) : pictures_write(&w);
+    status = w.microphone && !w.features && !pictures_wanted(&w) ? live_play(&w)
+                                                                 : pictures_write(&w);
     font_face_close(w.face);
     voice_words_finish(&w.words);
     voice_timing_finish(&w.timing);

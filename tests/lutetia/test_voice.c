@@ -47,6 +47,53 @@ static void ink_is_in(const char *path, int width, int height)
     display_image_destroy(&image);
 }
 
+/* The table of a cry, read by hand: its times ascend evenly, it is loud and has a pitch where it cries, and is silent at its end. No
+ * picture and no text is wanted. */
+static void features_are_a_table(void **state)
+{
+    (void)state;
+    const char *table = scratch_path("cry.csv");
+    struct child child = {.arguments = {"", "", "--cry", "--features", table}};
+    char line[400];
+    double before = -1, step = 0, loudest = 0, pitch = 0;
+    int lines = 0, attacks = 0;
+    run(&child, 0, "");
+    assert_int_equal(access("out.png", F_OK), -1);
+    FILE *file = fopen(table, "rb");
+    assert_non_null(file);
+    assert_non_null(fgets(line, sizeof line, file));
+    assert_string_equal(line,
+                        "time_s,level,envelope,attack,pitch_hz,clarity,bright,formant_1_hz,"
+                        "formant_2_hz\r\n");
+    while (fgets(line, sizeof line, file)) {
+        double at, level, envelope;
+        int attack, used, commas = 0;
+        for (const char *c = line; *c; c++)
+            commas += *c == ',';
+        assert_int_equal(commas, 8);
+        assert_int_equal(
+            sscanf(line, "%lf,%lf,%lf,%d,%n", &at, &level, &envelope, &attack, &used), 4);
+        if (lines > 1)
+            assert_true(at - before > 0.98 * step && at - before < 1.02 * step);
+        step = at - before;
+        before = at;
+        lines++;
+        attacks += attack;
+        if (level > loudest && line[used] != ',') {
+            loudest = level;
+            pitch = strtod(line + used, NULL);
+        }
+    }
+    fclose(file);
+    assert_true(lines > 50 && attacks > 0 && loudest > 0.05 && pitch > 40 && pitch < 2000);
+    child =
+        (struct child){.arguments = {"", "", "--cry", "Ah", "--features", "/nowhere/x.csv"}};
+    run(&child, 1, "/nowhere/x.csv");
+    child =
+        (struct child){.arguments = {"", "", "--cry", "--features", table, "--still", "s.png"}};
+    run(&child, 2, "give a text");
+}
+
 static void cry_is_pictures(void **state)
 {
     (void)state;
@@ -174,8 +221,9 @@ int main(int argc, char **argv)
 {
     reads = argc > 1 && strcmp(argv[1], "reads") == 0;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cry_is_pictures), cmocka_unit_test(film_and_its_sound),
-        cmocka_unit_test(transcript_is_pages), cmocka_unit_test(what_is_wrong_is_said)};
+        cmocka_unit_test(features_are_a_table), cmocka_unit_test(cry_is_pictures),
+        cmocka_unit_test(film_and_its_sound), cmocka_unit_test(transcript_is_pages),
+        cmocka_unit_test(what_is_wrong_is_said)};
     lutetia = getenv("LUTETIA");
     if (!lutetia) {
         fputs("set LUTETIA to the command\n", stderr);
