@@ -23,7 +23,7 @@ enum { SHEET_COLUMNS = 5, SHEET_ROWS = 4, LABEL_PX = 11 };
 struct keys_work {
     const char *text, *map, *font, *axes;
     const char *poster, *sheet, *still, *frames, *video, *sound;
-    double size_px[2], second_px, at_s;
+    double size_px[2], second_px, at_s, seconds; /* seconds 0: as long as the song */
     int picture[2], fps, range[2];
     bool silent, wet, played; /* played: on a stage, by a map in Lua or on wet paper */
     const char *stock;
@@ -93,12 +93,22 @@ static int options_check(struct keys_work *w, const struct option_words *words,
 #define POSTER "poster|WORD+!sheet+!still+!frames+!video+!sound"
 
 /* With what an option has an effect. The poster is made of a song where nothing else is asked for. */
-static const struct option_need needs[] = {
-    {"param", "map"},       {"set", "!WORD|map|wet"}, {"range", "!WORD|map|wet"},
-    {"server", "!WORD"},    {"device", "!WORD"},      {"filter", "!WORD"},
-    {"theme", "!WORD|map"}, {"at", "still"},          {"fps", "video|frames|sound"},
-    {"silent", "video"},    {"second", POSTER},       {"attack", MOMENTS},
-    {"release", MOMENTS},   {"step", POSTER},         {0}};
+static const struct option_need needs[] = {{"param", "map"},
+                                           {"set", "!WORD|map|wet"},
+                                           {"range", "!WORD|map|wet"},
+                                           {"server", "!WORD"},
+                                           {"device", "!WORD"},
+                                           {"filter", "!WORD"},
+                                           {"theme", "!WORD|map"},
+                                           {"at", "still"},
+                                           {"fps", "video|frames|sound"},
+                                           {"seconds", "video|frames|sound"},
+                                           {"silent", "video"},
+                                           {"second", POSTER},
+                                           {"attack", MOMENTS},
+                                           {"release", MOMENTS},
+                                           {"step", POSTER},
+                                           {0}};
 
 static int options_read(struct keys_work *w, int argc, char **argv, const char **song,
                         bool *help)
@@ -143,6 +153,9 @@ static int options_read(struct keys_work *w, int argc, char **argv, const char *
         {"sound", 0, OPTION_TEXT, "FILE.wav", "write the song as sound, as long as the film",
          &w->sound, 0, 0, 0},
         {"fps", 0, OPTION_INTEGER, "N", "frames a second of the film (30)", &w->fps, 1, 240, 0},
+        {"seconds", 0, OPTION_NUMBER, "S",
+         "how long film and sound are (as long as the song, if that takes an hour at most)",
+         &w->seconds, 0.001, 36000, 0},
         {"picture", 0, OPTION_SIZE, "WxH", "size of a moment or a window, even (960x360)",
          w->picture, 2, 8192, 0},
         {"font", 0, OPTION_TEXT, "F",
@@ -212,10 +225,20 @@ static int song_take(struct keys_work *w, const char *path)
     return EXIT_SUCCESS;
 }
 
-/* The time at which the last letter has nearly vanished. */
+/* How long film and sound are: until the last letter has nearly vanished. */
 static double seconds_of(const struct keys_work *w)
 {
-    return w->score.seconds + 3 * w->def.release_s;
+    return w->seconds > 0 ? w->seconds : w->score.seconds + 3 * w->def.release_s;
+}
+
+/* A song of a kilobyte may claim that it takes years. */
+static int seconds_check(const struct keys_work *w, const char *song)
+{
+    const double most_s = 3600;
+    if (w->seconds > 0 || seconds_of(w) <= most_s || !(w->frames || w->video || w->sound))
+        return EXIT_SUCCESS;
+    return fail("keys", "%s takes %.0f s: say by --seconds S how many are wanted", song,
+                seconds_of(w));
 }
 
 static int type_make(const struct keys_work *w, double scale, struct keys_type **out)
@@ -508,6 +531,8 @@ int verb_keys(int argc, char **argv)
     interrupt_catch();
     if (song)
         status = song_take(&w, song);
+    if (status == EXIT_SUCCESS && song)
+        status = seconds_check(&w, song);
     if (status == EXIT_SUCCESS)
         status = !song ? window_open(&w) : w.played ? played_write(&w) : all_write(&w);
     font_face_close(w.face);

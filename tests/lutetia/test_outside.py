@@ -2,7 +2,7 @@
 
 Servers whose replies hold escapes, links and files in the place of the server's links and sounds, pipes and devices as maps and
 SoundFonts, drawings with a DOCTYPE, text that XML has not, a compiler's long options, Ctrl-C while a song is rendered.
-(security.md 5, 6, 7, 11, 12, 20, 21, 22, 28)
+(security.md 5, 6, 7, 11, 12, 20, 21, 22, 28, 29)
 """
 import os
 import pathlib
@@ -210,6 +210,20 @@ class Outside(unittest.TestCase):
         self.assertIn(b"--pictures 60", self.refused(*leds, "1", "--pictures", "59", "minute.leds"))
         self.run_it(*leds, "1", "--pictures", "60", "minute.leds", status=0)
         self.assertEqual(self.pictures(), 61)
+
+    def test_a_short_song_fills_no_disk(self):
+        """A song that claims to take more than an hour is filmed and heard as long as it is said."""
+        for wait in (b"\x8f\x50", b"\xff\xff\xff\x7f"):  # 9 hours; longer than numbers of pictures
+            track = b"\0\xff\x51\x03\xff\xff\xff\0\x90\x3c\x40" + wait + b"\x80\x3c\x40\0\xff\x2f\0"
+            (self.at / "long.mid").write_bytes(b"MThd\0\0\0\6\0\0\0\1\0\x01MTrk" + struct.pack(">I", len(track)) + track)
+            for output in (("--frames", "pictures"), ("--video", "k.y4m"), ("--sound", "k.wav")):
+                self.assertIn(b"--seconds", self.refused("keys", "long.mid", "--picture", "96x64", *output))
+                self.assertFalse((self.at / output[1]).exists())
+            self.run_it("keys", "long.mid", "--picture", "96x64", "--frames", "pictures", "--fps", "8", "--seconds", "0.5", status=0)
+            self.assertEqual(self.pictures(), 5)
+            for path in (self.at / "pictures").iterdir():
+                path.unlink()
+            (self.at / "pictures").rmdir()
 
     def test_times_of_a_program_are_believed(self):
         """They have passed: there are pictures for all of them."""
