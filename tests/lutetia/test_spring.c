@@ -230,7 +230,7 @@ static void backgrounds_may_be_clear(void **state)
         "background = #ffffff\n", "background = #00000000\n", "background = #0000ff80\n"};
     for (int i = 0; i < 3; i++) {
         uint8_t head[26];
-        char name[20];
+        char name[30];
         snprintf(name, sizeof name, "clear%d.png", i);
         snprintf(stills[i], sizeof stills[i], "%s", scratch_path(name));
         text_put(theme, backgrounds[i]);
