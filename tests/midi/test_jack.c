@@ -229,6 +229,9 @@ static bool lost_wait(struct midi_client *c)
     return false;
 }
 
+/* JACK's library, which this process has used before it became the server by fork(), does not always tell the server that JACK ends. */
+enum { JACK_SAID_NOTHING = -1 };
+
 struct trial {
     struct served s;
     struct midi_client *c;
@@ -250,7 +253,7 @@ static void tried(int (*run)(struct trial *t), const char *period, bool expects_
         patch_begin(run != still_try);
         const int line = run(&t);
         const unsigned long lost =
-            expects_loss || !t.s.process ? 0 : counted(t.c, "refused), lost ");
+            expects_loss || !t.s.process || t.jack_ended ? 0 : counted(t.c, "refused), lost ");
         midi_client_close(t.c);
         if (t.s.process)
             served_end(&t.s);
@@ -261,7 +264,7 @@ static void tried(int (*run)(struct trial *t), const char *period, bool expects_
         print_message("line %d; the test missed %u periods, the server lost %lu, JACK was late "
                       "%u times\n",
                       line, missed, lost, late);
-        if (!missed && !lost && !late)
+        if (line != JACK_SAID_NOTHING && !missed && !lost && !late)
             fail_msg("line %d", line);
     }
     fail_msg("every trial was spoiled");
@@ -401,7 +404,8 @@ static int through_try(struct trial *t)
     kill(jackd, SIGTERM);
     waitpid(jackd, NULL, 0);
     t->jack_ended = true;
-    must(message_wait(t->c, &m));
+    if (!message_wait(t->c, &m))
+        return JACK_SAID_NOTHING;
     check_text(&m, "note-off 1 c4 64");
     const struct midi_client_event e = next_event(t->c, MIDI_CLIENT_DEVICE);
     assert_non_null(strstr(e.text, "jack jack in,out down"));
