@@ -240,6 +240,19 @@ struct trial {
 
 static int still_try(struct trial *t);
 
+/* Ends the server, by force where JACK's library holds it. */
+static void served_end_surely(struct served *s)
+{
+    const uint64_t until_ns = midi_now_ns() + UINT64_C(3000000000);
+    kill(s->process, SIGTERM);
+    while (waitpid(s->process, NULL, WNOHANG) == 0) {
+        if (midi_now_ns() > until_ns)
+            kill(s->process, SIGKILL);
+        poll(NULL, 0, 5);
+    }
+    unlink(s->path);
+}
+
 /* On a busy machine periods are missed, by the test or by the server: a trial that fails then is made again. */
 static void tried(int (*run)(struct trial *t), const char *period, bool expects_loss)
 {
@@ -255,7 +268,9 @@ static void tried(int (*run)(struct trial *t), const char *period, bool expects_
         const unsigned long lost =
             expects_loss || !t.s.process || t.jack_ended ? 0 : counted(t.c, "refused), lost ");
         midi_client_close(t.c);
-        if (t.s.process)
+        if (t.jack_ended)
+            served_end_surely(&t.s);
+        else if (t.s.process)
             served_end(&t.s);
         const uint32_t missed = patch.missed, late = patch.late;
         jack_end(t.jack_ended);
