@@ -30,45 +30,16 @@ enum { SIDE_MOST = 16384, FPS_MOST = 240, GIF_FPS_MOST = 50 };
 /* What becomes of pictures. A palette is made for each picture of its own colours, so that the length of a film takes no memory. */
 #define PALETTE "[0:v]split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1[v]"
 #define BT709 "[0:v]scale=out_color_matrix=bt709:out_range=tv,format="
+#define BT709_SAID "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"
+/* clang-format off */
 static const char *const palette[] = {"-filter_complex", PALETTE, "-map", "[v]", NULL};
-static const char *const usual[] = {
-    "-map",  "0:v",        "-pix_fmt", "yuv420p", "-colorspace", "bt709", "-color_primaries",
-    "bt709", "-color_trc", "bt709",    NULL};
+static const char *const usual[] = {"-map", "0:v", "-pix_fmt", "yuv420p", BT709_SAID, NULL};
 static const char *const ffv1[] = {"-map", "0:v", "-c:v", "ffv1", "-pix_fmt", "bgra", NULL};
-static const char *const prores[] = {"-filter_complex",
-                                     BT709 "yuva444p10le[v]",
-                                     "-map",
-                                     "[v]",
-                                     "-c:v",
-                                     "prores_ks",
-                                     "-profile:v",
-                                     "4444",
-                                     "-colorspace",
-                                     "bt709",
-                                     "-color_primaries",
-                                     "bt709",
-                                     "-color_trc",
-                                     "bt709",
-                                     NULL};
-static const char *const vp9[] = {"-filter_complex",
-                                  BT709 "yuva420p[v]",
-                                  "-map",
-                                  "[v]",
-                                  "-c:v",
-                                  "libvpx-vp9",
-                                  "-auto-alt-ref",
-                                  "0", /* which alpha wants */
-                                  "-b:v",
-                                  "0",
-                                  "-crf",
-                                  "20",
-                                  "-colorspace",
-                                  "bt709",
-                                  "-color_primaries",
-                                  "bt709",
-                                  "-color_trc",
-                                  "bt709",
-                                  NULL};
+static const char *const prores[] = {"-filter_complex", BT709 "yuva444p10le[v]", "-map", "[v]",
+    "-c:v", "prores_ks", "-profile:v", "4444", BT709_SAID, NULL};
+static const char *const vp9[] = {"-filter_complex", BT709 "yuva420p[v]", "-map", "[v]",
+    "-c:v", "libvpx-vp9", "-auto-alt-ref", "0" /* which alpha wants */, "-b:v", "0", "-crf", "20", BT709_SAID, NULL};
+/* clang-format on */
 
 /* The endings of names, with ffmpeg's name of the container; NULL: written by us. */
 static const struct container {
@@ -200,10 +171,10 @@ static enum display_status encoder_start(struct video *v, int fps)
 {
     int ends[2];
     v->complaint = tmpfile();
-    if (v->later && v->container->sounds)
+    const bool apart = v->later && v->container->sounds;
+    if (apart)
         v->pictures = tmpfile();
-    if (!v->complaint || (v->later && v->container->sounds && !v->pictures) ||
-        pipe2(ends, O_CLOEXEC) != 0)
+    if (!v->complaint || (apart && !v->pictures) || pipe2(ends, O_CLOEXEC) != 0)
         return display_fail(DISPLAY_IO_FAILED, "%s: cannot start ffmpeg: %s", v->path,
                             strerror(errno));
     fflush(NULL);

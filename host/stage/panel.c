@@ -415,7 +415,7 @@ static void press(struct stage_panel *p, struct stage *stage, const struct input
     if (e->button != INPUT_BUTTON_LEFT || group_fold(p, e->y_px))
         return;
     const int number = row_at(p, e->x_px, e->y_px);
-    if (number < 0)
+    if (number < 0 || number >= count) /* there may be fewer than on the last picture */
         return;
     const struct stage_control *row = &rows[number];
     struct font_box slider = slider_box(p, number), value = value_box(p, number);

@@ -270,6 +270,12 @@ static void sound_goes_to_the_encoder(void **state)
 
 enum { BROAD = 64, TALL = 48, PIXELS = BROAD * TALL, MOMENTS = 4 };
 
+static struct video_def film_def(const char *path)
+{
+    return (struct video_def){
+        .path = path, .width_px = BROAD, .height_px = TALL, .fps = 25, .sound = -1};
+}
+
 static char *path_usual;
 
 /* Reads the film by ffmpeg's own decoder; the pictures have 3 or 4 channels. */
@@ -354,13 +360,9 @@ static void alpha_is_kept(void **state)
         snprintf(name, sizeof name, "clear.%s", films[f].ending);
         snprintf(path, sizeof path, "%s", scratch_path(name));
         assert_true(video_alpha(path));
-        check(video_create_as(&(struct video_def){.path = path,
-                                                  .width_px = BROAD,
-                                                  .height_px = TALL,
-                                                  .fps = 25,
-                                                  .sound = -1,
-                                                  .alpha = true},
-                              &video));
+        struct video_def def = film_def(path);
+        def.alpha = true;
+        check(video_create_as(&def, &video));
         for (int m = 0; m < MOMENTS; m++)
             check(video_add(video, rgba));
         check(video_finish(video));
@@ -431,13 +433,9 @@ static void sound_may_come_later(void **state)
             struct video *video;
             snprintf(path, sizeof path, "%s", scratch_path(names[i]));
             const int files = scratch_count() - (access(path, F_OK) == 0);
-            check(video_create_as(&(struct video_def){.path = path,
-                                                      .width_px = BROAD,
-                                                      .height_px = TALL,
-                                                      .fps = 25,
-                                                      .sound = -1,
-                                                      .sounds_later = true},
-                                  &video));
+            struct video_def def = film_def(path);
+            def.sounds_later = true;
+            check(video_create_as(&def, &video));
             for (int m = 0; m < 25; m++) {
                 memset(rgb, 10 * m, sizeof rgb);
                 check(video_add(video, rgb));
@@ -457,14 +455,9 @@ static void alpha_needs_a_format(void **state)
     struct video *video;
     encoder_put("exec /bin/cat >\"$file\"");
     assert_true(video_alpha("x.mov"));
-    assert_int_equal(video_create_as(&(struct video_def){.path = scratch_path("no.mp4"),
-                                                         .width_px = 4,
-                                                         .height_px = 4,
-                                                         .fps = 25,
-                                                         .sound = -1,
-                                                         .alpha = true},
-                                     &video),
-                     DISPLAY_BAD_ARGUMENT);
+    struct video_def def = film_def(scratch_path("no.mp4"));
+    def.alpha = true;
+    assert_int_equal(video_create_as(&def, &video), DISPLAY_BAD_ARGUMENT);
     assert_non_null(strstr(display_error(), ".webm"));
     encoder_put(NULL);
     assert_false(video_alpha("x.mov"));
