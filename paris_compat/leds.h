@@ -8,7 +8,5 @@
 bool leds_recording(void);
 /* Adds a frame; prints an error once. */
 void leds_record(const uint8_t lights[PARIS_LIGHTS_BYTES]);
-/* LUTETIA_LEDS=window: the descriptor for frames, or -1; the error has been printed. */
-int paris_lights_window_open(void);
 
 #endif

@@ -34,7 +34,6 @@ bool paris_type(struct paris_operand a, const char *role, struct machine_type *t
 bool paris_check_field(CM_field_id_t field, unsigned int bits, const char *role)
 {
     /* Long fields are stored in pieces: the first must not be stored if the last cannot be. */
-    struct machine_field_info info;
     if (paris_the.lenient && paris_runs_over(field, bits, role))
         return true;
     if (!paris_the.safety && bits <= PARIS_INTEGER_MAX) {
@@ -42,6 +41,12 @@ bool paris_check_field(CM_field_id_t field, unsigned int bits, const char *role)
         if (!set || set == CM_current_vp_set)
             return true; /* the machine reports other errors */
     }
+    return paris_check_field_wholly(field, bits, role);
+}
+
+bool paris_check_field_wholly(CM_field_id_t field, unsigned int bits, const char *role)
+{
+    struct machine_field_info info;
     if (field == CM_no_field) {
         paris_fail("%s: is CM_no_field: allocate it with CM_allocate_stack_field or "
                    "CM_allocate_heap_field",

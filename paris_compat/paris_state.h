@@ -249,6 +249,8 @@ bool paris_flag_put(struct machine *m, enum machine_flag flag, struct machine_va
 /* The checks of safety mode; without it they return true (but fields longer than an integer
  * are always checked). False: the error has been reported. */
 bool paris_check_field(CM_field_id_t field, unsigned int bits, const char *role);
+/* The same in whatever mode. */
+bool paris_check_field_wholly(CM_field_id_t field, unsigned int bits, const char *role);
 bool paris_check_operand(struct paris_operand a, const char *role);
 bool paris_check_overlap(struct paris_operand dest, struct paris_operand source);
 /* Checks dest for an instruction with these sources (one: the same twice); *type: its type. */

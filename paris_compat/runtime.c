@@ -38,9 +38,9 @@ bool paris_machine_make(void)
         config_now = machine_config_default();
     struct machine *m = NULL;
     struct machine_config config = config_now;
-    const char *leds = getenv("LUTETIA_LEDS");
-    if (leds && *leds) /* whose file is opened after the driver's compiler has caught signals */
-        part_files_catch();
+    const char *leds = getenv("LUTETIA_LEDS"), *display = getenv("LUTETIA_DISPLAY");
+    if ((leds && *leds) || (display && *display))
+        part_files_catch(); /* their files are opened after the driver's compiler has caught signals */
     config.explain = config.explain || paris_explain_wanted();
     if (machine_create(&config, &m) != MACHINE_OK) {
         paris_fail_without(m);

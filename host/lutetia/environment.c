@@ -54,6 +54,12 @@ const struct environment_row environment_rows[] = {
      "leds FILE`"},
     {"LUTETIA_LEDS_PROGRAM", "PID NAME", PARIS,
      "libparis sets it for the window that shows a program's lights: which program"},
+    {"LUTETIA_DISPLAY", "window|FILE", PARIS,
+     "the frame buffer's displays (<cm/cmfb.h>) are shown in windows, or recorded in a file "
+     "for "
+     "`lutetia display FILE`"},
+    {"LUTETIA_DISPLAY_PROGRAM", "PID NAME", PARIS,
+     "libparis sets it for the windows that show a program's displays: which program"},
 
     {"LUTETIA_SOUNDFONT", "FILE", MIDI,
      "the instruments of what is heard, an SF2 file (the distribution's)"},

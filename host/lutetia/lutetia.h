@@ -25,6 +25,7 @@ int verb_keys(int argc, char **argv);
 int verb_midi(int argc, char **argv);
 int verb_cc(int argc, char **argv);
 int verb_leds(int argc, char **argv);
+int verb_display(int argc, char **argv);
 int verb_explain(int argc, char **argv);
 int verb_tune(int argc, char **argv);
 int verb_type(int argc, char **argv);

@@ -25,6 +25,8 @@ static const struct {
     {"demo", verb_demo, "[-o DIR]", "paint the demonstration page"},
     {"cc", verb_cc, "prog.c... [-o prog]", "compile a C/Paris program"},
     {"leds", verb_leds, "prog [args...]", "show the lights that a C/Paris program latches"},
+    {"display", verb_display, "prog [args...]",
+     "show what a C/Paris program writes to displays"},
     {"explain", verb_explain, "prog [args...]",
      "run a C/Paris program and say what its machine did"},
     {"keys", verb_keys, "SONG.mid [-o out.png]", "letters that the keys of a song play"},

@@ -67,6 +67,27 @@ const struct page pages_of_machines[] = {
                   {"lutetia leds --pattern random -o leds.png --count 1",
                    "the machine's own pattern"}},
      .see = "lutetia-cc(1), CM_latch_leds(3), paris(7)"},
+    {.verb = "display",
+     .usages = "[options] prog [arguments]\n[options] recording",
+     .about =
+         "Runs a C/Paris program and shows what it writes to the displays of the frame "
+         "buffer (<cm/cmfb.h>), each in a window, or in PNG pictures, or as a film. Where "
+         "there can be no window it writes display.png, the last picture. A recording is a "
+         "file that LUTETIA_DISPLAY=FILE left; - is the standard input.\n"
+         "Closing a window, or Esc in it, stops the program. A recording stops and goes on "
+         "with Space, steps with a full stop, slows with - and quickens with =.",
+     .notes =
+         "Each change of what is seen is a picture: a write to the buffer that is seen, "
+         "another buffer, zoom, pan, another colour map. The window shows the newest, and "
+         "the program does not wait for it; pictures and films have all of them, and the "
+         "program waits until each is written.\n"
+         "LUTETIA_DISPLAY=window ./prog shows the displays, too; LUTETIA_DISPLAY=FILE ./prog "
+         "leaves a recording, whose pictures are not compressed.",
+     .examples = {{"lutetia display ./heat", "a program's display in a window"},
+                  {"lutetia display --film heat.mp4 ./heat", "all its pictures as a film"},
+                  {"lutetia display -o last.png ./heat", "the last picture"}},
+     .files = "/usr/share/doc/lutetia/frame-buffer.md: the calls, and where they come from",
+     .see = "lutetia-cc(1), lutetia-leds(1), paris(7)"},
     {.verb = "explain",
      .usages = "[options] prog [arguments]\n[options] prog.c [arguments]",
      .about = "Runs a C/Paris program, and says what its machine recorded, what vanished and "

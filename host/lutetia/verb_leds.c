@@ -6,34 +6,22 @@
  *
  * A program is shown as it runs: all frames are read, and the window shows the newest. A
  * recording and a pattern wait until each frame's time has come (pace()).
- *
- * LUTETIA_LEDS=window: libparis runs `lutetia leds --window -` with
- * LUTETIA_LEDS_PROGRAM="PID NAME" of the program whose lights these are. A byte on the
- * standard output then says that the window is ready, and closing the window interrupts that
- * process.
  */
 #include "help.h"
-#include "leds_window.h"
 #include "lutetia.h"
 #include "options.h"
+#include "shown.h"
+#include "shown_window.h"
 
 #include <front_panel.h>
-#include <input_file.h>
 #include <light_recording.h>
 #include <paris_internal.h>
-#include <streams.h>
 #include <window.h>
 
-#include <errno.h>
-#include <fcntl.h>
 #include <math.h>
-#include <poll.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 struct leds {
@@ -44,19 +32,18 @@ struct leds {
     double pattern_fps;        /* steps in a window */
     bool window_wanted, close_at_end;
 
-    struct leds_window the_window, *window; /* NULL: no window */
-    bool closed;                            /* there was a window, and the user closed it */
-    bool paced;                             /* frames wait for their times */
-    bool seen;                              /* frames come as the program runs: their times
-                                             * have really passed */
-    pid_t watched;                          /* the process whose lights are shown here; 0:
-                                             * none */
-    char name[64];                          /* the source's name, for the title */
+    struct shown_window the_window, *window; /* NULL: no window */
+    struct shown_clock clock;
+    bool closed; /* there was a window, and the user closed it */
+    bool paced;  /* frames wait for their times */
+    struct shown source;
+    struct light_reader reader;
 
     struct front_panel *panel;
     struct display_image image;
-    struct light_frame last; /* the last frame taken */
-    uint64_t taken, base_us; /* base_us: the time at which the present one of several
+    struct light_frame last;          /* the last frame taken */
+    uint8_t drawn[FRONT_PANEL_BYTES]; /* in the window */
+    uint64_t taken, base_us;          /* base_us: the time at which the present one of several
                               * recordings begins */
     uint64_t last_us;
     int written, status;
@@ -108,7 +95,6 @@ static int go_on(const struct leds *leds)
 /* ---- the window ---- */
 
 enum { WINDOW_FPS = 30, PATTERN_FPS = 10 };
-#define TURN_S 0.02 /* the longest wait for keys or latches, when both are polled */
 
 static void turn(struct leds *leds, double wait_s)
 {
@@ -117,7 +103,7 @@ static void turn(struct leds *leds, double wait_s)
         usleep((useconds_t)(wait_s * 1e6));
         return;
     }
-    if (leds_window_turn(leds->window, wait_s, &open) != DISPLAY_OK)
+    if (shown_window_turn(leds->window, wait_s, &open) != DISPLAY_OK)
         leds->status = fail("leds", "%s", display_error());
     if (!open)
         leds->closed = true;
@@ -126,20 +112,35 @@ static void turn(struct leds *leds, double wait_s)
 /* Waits until the window's clock has reached that time since the first frame. */
 static void pace(struct leds *leds, double time_s)
 {
-    for (double left_s; go_on(leds) && (left_s = leds_window_wait_s(leds->window, time_s)) > 0;)
+    for (double left_s; go_on(leds) && (left_s = shown_clock_wait_s(&leds->clock, time_s)) > 0;)
         turn(leds, left_s < 0.1 ? left_s : 0.1);
+}
+
+static bool lights_stale(void *context)
+{
+    const struct leds *leds = context;
+    return memcmp(leds->last.lights, leds->drawn, sizeof leds->drawn) != 0;
+}
+
+static enum display_status lights_draw(void *context, struct display_image *image)
+{
+    struct leds *leds = context;
+    memcpy(leds->drawn, leds->last.lights, sizeof leds->drawn);
+    return front_panel_draw(leds->panel, leds->drawn, image);
 }
 
 /* If no window can be opened, and none was requested, writes pictures instead. */
 static int window_open(struct leds *leds)
 {
-    char title[sizeof leds->name + 16];
+    char title[sizeof leds->source.name + 16];
     if (!leds->window_wanted && (leds->out_path || leds->frames_dir || !window_possible()))
         return EXIT_SUCCESS;
-    snprintf(title, sizeof title, "%s - lights", leds->name);
+    snprintf(title, sizeof title, "%s - lights", leds->source.name);
     double fps = leds->fps > 0 ? leds->fps : fmax(WINDOW_FPS, leds->pattern_fps);
+    leds->the_window = (struct shown_window){
+        .stale = lights_stale, .draw = lights_draw, .context = leds, .clock = &leds->clock};
     enum display_status status =
-        leds_window_open(title, leds->size[0], leds->size[1], fps, &leds->the_window);
+        shown_window_open(&leds->the_window, title, leds->size[0], leds->size[1], fps);
     if (status == DISPLAY_OK)
         leds->window = &leds->the_window;
     if (status != DISPLAY_OK && leds->window_wanted)
@@ -156,15 +157,15 @@ static int window_open(struct leds *leds)
 /* The source has ended; shows the last picture until the user closes the window. */
 static void window_linger(struct leds *leds)
 {
-    char title[sizeof leds->name + 32];
+    char title[sizeof leds->source.name + 32];
     if (!leds->window || !leds->taken)
         return;
     if (leds->close_at_end) { /* show the last frame, however short */
         turn(leds, 0.1);
         return;
     }
-    snprintf(title, sizeof title, "%s - lights (ended)", leds->name);
-    leds_window_title(leds->window, title);
+    snprintf(title, sizeof title, "%s - lights (ended)", leds->source.name);
+    shown_window_title(leds->window, title);
     while (go_on(leds))
         turn(leds, 0.1);
 }
@@ -175,7 +176,7 @@ enum { PICTURES_ANY = 3000, PICTURES_EACH = 100 };
  * thousand years have gone by. */
 static double pictures_most(const struct leds *leds)
 {
-    if (leds->seen)
+    if (leds->source.seen)
         return INFINITY;
     return leds->pictures_most ? leds->pictures_most
                                : PICTURES_ANY + PICTURES_EACH * (double)leds->taken;
@@ -214,8 +215,6 @@ static int frame_take(void *context, const struct light_frame *frame)
         time_fill(leds, time_us);
     if (leds->window && leds->paced)
         pace(leds, (double)time_us * 1e-6);
-    if (leds->window)
-        leds_window_light(leds->window, frame->lights);
     leds->last = *frame;
     leds->last_us = time_us;
     if (go_on(leds) && leds->frames_dir && leds->fps <= 0 &&
@@ -250,182 +249,37 @@ static int from_pattern(struct leds *leds)
     return leds->status;
 }
 
-/* Reads until the end, or until go_on() returns false. what: the name for messages. */
-static int from_descriptor(struct leds *leds, int descriptor, const char *what, bool may_break)
+static bool source_goes_on(void *context)
 {
-    struct light_reader reader = {.take = frame_take, .context = leds};
-    uint8_t bytes[1 << 16];
-    while (go_on(leds)) {
-        struct pollfd ready = {.fd = descriptor, .events = POLLIN};
-        int found = poll(&ready, 1, leds->window ? (int)(TURN_S * 1e3) : 50);
-        if (leds->window)
-            turn(leds, 0);
-        if (found == 0)
-            continue;
-        ssize_t count = read(descriptor, bytes, sizeof bytes);
-        if (count < 0 && errno == EINTR)
-            continue;
-        if (count < 0)
-            return fail("leds", "%s: cannot read: %s", what, strerror(errno));
-        if (count == 0) {
-            if (light_reader_end(&reader) != DISPLAY_OK && !may_break)
-                return fail("leds", "%s: %s", what, display_error());
-            break;
-        }
-        if (light_reader_feed(&reader, bytes, (size_t)count) != DISPLAY_OK)
-            return fail("leds", "%s: %s", what, display_error());
-    }
-    return leds->status;
+    return go_on(context);
 }
 
-_Noreturn static void become(int write_end, char **arguments)
+static void source_turn(void *context, double wait_s)
 {
-    char name[64];
-    sigset_t none;
-    sigemptyset(&none);
-    sigprocmask(SIG_SETMASK, &none, NULL);
-    snprintf(name, sizeof name, "/dev/fd/%d", write_end);
-    setenv("LUTETIA_LEDS", name, 1);
-    /* A program in the current folder needs no ./ before its name. */
-    char *here;
-    if (!strchr(arguments[0], '/') && access(arguments[0], X_OK) == 0 &&
-        asprintf(&here, "./%s", arguments[0]) > 0)
-        execv(here, arguments);
-    execvp(arguments[0], arguments);
-    int error = errno;
-    fail("leds", "%s: cannot run: %s; name a program (lutetia cc makes one) or a recording",
-         arguments[0], strerror(error));
-    _exit(126);
+    turn(context, wait_s);
 }
 
-/* Waits for the child. Once it is to end, sends a stronger signal each second. */
-static int child_wait(struct leds *leds, pid_t child)
+static bool source_has_window(void *context)
 {
-    static const int signals[] = {SIGINT, SIGTERM, SIGKILL};
-    size_t sent = 0;
-    double sent_s = 0;
-    int status;
-    while (waitpid(child, &status, WNOHANG) != child) {
-        bool wanted = go_on(leds);
-        if (!wanted && sent < sizeof signals / sizeof *signals && seconds_now() >= sent_s + 1) {
-            kill(child, signals[sent++]);
-            sent_s = seconds_now();
-        }
-        if (wanted)
-            turn(leds, 0.005);
-        else
-            usleep(5000);
-    }
-    return status;
+    return ((struct leds *)context)->window != NULL;
 }
 
-static int child_end(struct leds *leds, pid_t child, const char *name)
+static bool source_taken(void *context)
 {
-    int status = child_wait(leds, child);
-    if (!go_on(leds))
-        return EXIT_SUCCESS; /* the reason was printed, or is known */
-    if (WIFSIGNALED(status))
-        return fail("leds", "%s: ended by signal %d (%s)", name, WTERMSIG(status),
-                    strsignal(WTERMSIG(status)));
-    if (WEXITSTATUS(status) == 126 && !leds->taken)
-        return EXIT_FAILED; /* the reason was printed */
-    if (WEXITSTATUS(status) != 0)
-        tell("leds", "%s: ended with status %d", name, WEXITSTATUS(status));
-    return EXIT_SUCCESS;
+    return ((struct leds *)context)->taken > 0;
 }
 
-static int from_program(struct leds *leds, char **arguments)
+static enum display_status source_feed(void *context, const uint8_t *bytes, size_t count)
 {
-    int ends[2];
-    if (pipe(ends) != 0)
-        return fail("leds", "no pipe: %s", strerror(errno));
-    fcntl(ends[0], F_SETFD, FD_CLOEXEC);
-    fcntl(ends[0], F_SETPIPE_SZ, 1 << 20); /* a larger pipe, so that the program runs on
-                                            * while a picture is drawn */
-    fflush(NULL);
-    pid_t child = fork();
-    if (child < 0)
-        return fail("leds", "no process: %s", strerror(errno));
-    if (child == 0)
-        become(ends[1], arguments);
-    close(ends[1]);
-    leds->seen = true;
-    int status = from_descriptor(leds, ends[0], arguments[0], true);
-    close(ends[0]);
-    int ended = child_end(leds, child, arguments[0]);
-    return status != EXIT_SUCCESS ? status : ended;
+    return light_reader_feed(&((struct leds *)context)->reader, bytes, count);
 }
 
-/* The file begins as a recording, or it cannot be executed: then reading it gives the error
- * message. */
-static bool is_recording(const char *path)
+static enum display_status source_end(void *context)
 {
-    char begins[8] = "";
-    int descriptor = input_file_descriptor(path, NULL);
-    if (descriptor < 0)
-        return false;
-    bool is = (read(descriptor, begins, sizeof begins) == (ssize_t)sizeof begins &&
-               memcmp(begins, LIGHT_RECORDING_LINE, sizeof begins) == 0) ||
-              access(path, X_OK) != 0;
-    close(descriptor);
-    return is;
-}
-
-static int from_file(struct leds *leds, const char *path)
-{
-    const char *why;
-    int descriptor = input_file_descriptor(path, &why);
-    if (descriptor < 0)
-        return fail("leds", "%s: cannot open: %s", path, why);
-    int status = from_descriptor(leds, descriptor, path, false);
-    close(descriptor);
-    return status;
+    return light_reader_end(&((struct leds *)context)->reader);
 }
 
 /* ---- the verb ---- */
-
-/* A recording from the standard input, as it comes. */
-static int from_input(struct leds *leds)
-{
-    int status = from_descriptor(leds, STDIN_FILENO, "the standard input", leds->watched != 0);
-    int nowhere = leds->watched ? streams_nowhere(O_RDWR) : -1;
-    if (nowhere >= 0) { /* close the output, so that a process waiting for its end goes on */
-        dup2(nowhere, STDIN_FILENO);
-        dup2(nowhere, STDOUT_FILENO);
-        dup2(nowhere, STDERR_FILENO);
-        close(nowhere);
-    }
-    return status;
-}
-
-/* Gets the watched process and the window's title. */
-static void source_name(struct leds *leds, const char *word)
-{
-    const char *program = getenv("LUTETIA_LEDS_PROGRAM");
-    const char *name = leds->pattern ? leds->pattern : word;
-    if (!leds->pattern && strcmp(word, "-") == 0) {
-        char *rest;
-        long pid = program ? strtol(program, &rest, 10) : 0;
-        name = "standard input";
-        if (pid > 1 && *rest == ' ') {
-            leds->watched = (pid_t)pid;
-            name = rest + 1;
-        }
-    }
-    const char *base = strrchr(name, '/');
-    snprintf(leds->name, sizeof leds->name, "%s", base && base[1] ? base + 1 : name);
-}
-
-static int from_source(struct leds *leds, int argc, char **argv)
-{
-    if (leds->pattern)
-        return from_pattern(leds);
-    if (argc == 1 && strcmp(argv[0], "-") == 0)
-        return from_input(leds);
-    if (argc == 1 && is_recording(argv[0]))
-        return from_file(leds, argv[0]);
-    return from_program(leds, argv);
-}
 
 /* Makes the front panel, once it is known where it is shown. */
 static int panel_make(struct leds *leds, bool window_only)
@@ -448,9 +302,9 @@ static int panel_make(struct leds *leds, bool window_only)
         }
     }
     if (front_panel_create(&config, &leds->panel) != DISPLAY_OK ||
-        (leds->window && leds_window_panel(leds->window, leds->panel) != DISPLAY_OK))
+        (leds->window && shown_window_draw(leds->window) != DISPLAY_OK))
         return fail("leds", "%s", display_error());
-    if (leds->watched && leds->window && write(STDOUT_FILENO, "\n", 1) != 1)
+    if (leds->window && !shown_ready(&leds->source))
         return EXIT_FAILED; /* the program has gone */
     return EXIT_SUCCESS;
 }
@@ -460,27 +314,31 @@ static int leds_run(struct leds *leds, int argc, char **argv)
     int status = leds->frames_dir ? folder_make("leds", leds->frames_dir) : EXIT_SUCCESS;
     if (status != EXIT_SUCCESS)
         return status;
+    if (leds->pattern) { /* a pattern has no times: each step is a picture */
+        leds->pattern_fps = leds->fps > 0 ? leds->fps : PATTERN_FPS;
+        leds->fps = 0;
+    }
     interrupt_catch();
-    source_name(leds, argc ? argv[0] : "");
+    shown_name(&leds->source, leds->pattern ? leds->pattern : argv[0]);
     status = window_open(leds);
     bool window_only = leds->window && !leds->out_path && !leds->frames_dir;
     if (status == EXIT_SUCCESS)
         status = panel_make(leds, window_only);
     if (status != EXIT_SUCCESS)
         return status;
-    leds->paced = leds->pattern || (argc == 1 && is_recording(argv[0]));
+    leds->paced = leds->pattern || (argc == 1 && shown_is_recording(&leds->source, argv[0]));
     if (leds->pattern && !leds->count && !window_only)
         leds->count = 64;
     if (!window_only)
         leds->progress = progress_begin("lights", 0);
-    status = from_source(leds, argc, argv);
+    status = leds->pattern ? from_pattern(leds) : shown_source(&leds->source, argc, argv);
     if (status == EXIT_SUCCESS && leds->frames_dir && leds->fps > 0 && leds->taken &&
         go_on(leds))
         status = frame_write(leds); /* show the last frame, however short */
     progress_end(&leds->progress);
     window_linger(leds);
-    if (leds->closed && leds->watched && getppid() == leds->watched)
-        kill(leds->watched, SIGINT);
+    if (leds->closed)
+        shown_interrupt(&leds->source);
     if (interrupted())
         return EXIT_INTERRUPTED;
     if (status != EXIT_SUCCESS || leds->status != EXIT_SUCCESS)
@@ -511,15 +369,32 @@ static int words_check(const struct leds *leds, int argc, char **argv)
     if (!leds->pattern == !argc)
         return fail_usage("leds",
                           "give a program, a recording, or --pattern random: one of them");
-    if (argc > 1 && (is_recording(argv[0]) || strcmp(argv[0], "-") == 0))
+    if (argc > 1 && (shown_is_recording(&leds->source, argv[0]) || strcmp(argv[0], "-") == 0))
         return fail_usage("leds", "options stand before the recording (after it came '%.60s')",
                           argv[1]);
     return 0;
 }
 
+static void source_prepare(struct leds *leds)
+{
+    leds->reader = (struct light_reader){.take = frame_take, .context = leds};
+    leds->source = (struct shown){.verb = "leds",
+                                  .variable = "LUTETIA_LEDS",
+                                  .line = LIGHT_RECORDING_LINE,
+                                  .context = leds,
+                                  .go_on = source_goes_on,
+                                  .turn = source_turn,
+                                  .has_window = source_has_window,
+                                  .taken = source_taken,
+                                  .feed = source_feed,
+                                  .end = source_end,
+                                  .lock = PTHREAD_MUTEX_INITIALIZER};
+}
+
 int verb_leds(int argc, char **argv)
 {
     struct leds leds = {.view = "cube", .size = {960, 960}, .every = 1, .brightness = 1};
+    source_prepare(&leds);
     const struct option_row rows[] = {
         {"window", 0, OPTION_FLAG, NULL,
          "show the lights as they change; without -o and --frames it is so where there is a "
@@ -571,15 +446,11 @@ int verb_leds(int argc, char **argv)
     int bad = words_check(&leds, argc, argv);
     if (bad)
         return bad;
-    if (leds.pattern) { /* a pattern has no times: each step is a picture */
-        leds.pattern_fps = leds.fps > 0 ? leds.fps : PATTERN_FPS;
-        leds.fps = 0;
-    }
     int status = leds_run(&leds, argc, argv);
-    leds_window_close(leds.window);
+    shown_window_close(leds.window);
     display_image_destroy(&leds.image);
     front_panel_destroy(leds.panel);
-    if (leds.window && leds.watched)
+    if (leds.window && leds.source.watched)
         return status; /* the program was interrupted, not this command */
     if (leds.window && !leds.out_path && status == EXIT_INTERRUPTED) {
         fail("leds", "interrupted");

@@ -22,7 +22,7 @@
 
 #include <X11/keysym.h>
 
-static const char *lutetia, *latcher;
+static const char *lutetia, *latcher, *painter;
 
 /* ---- commands that run beside the test ---- */
 
@@ -417,6 +417,43 @@ static void programs_without_lights_leave_no_window(void **state)
     one_line(&command, "no-such-program: cannot run");
 }
 
+/* ---- the displays of the frame buffer ---- */
+
+/* Each display has a window, which shows the newest picture and stays when the program has ended. */
+static void displays_are_shown(void **state)
+{
+    (void)state;
+    const char *pid = scratch_path("pid"), *out = scratch_path("out.png");
+    struct command files = {
+        .arguments = {lutetia, "display", "-o", out, painter, pid, "end", "two"}};
+    command_start(&files);
+    ends_with(&files, 0);
+    struct display_image first = png_take(out), second = png_take(scratch_path("out-2.png"));
+
+    struct command command = {.arguments = {lutetia, "display", painter, pid, "end", "two"}};
+    command_start(&command);
+    assert_true(window_of("display_painter - display (ended)") != 0);
+    Window two = window_of("second - display (ended)"); /* it lies over the first one */
+    shows(two, &second);
+    screen_key(two, XK_Escape);
+    ends_with(&command, 0);
+    assert_string_equal(command.said, "");
+
+    /* LUTETIA_DISPLAY=window: the program shows itself, and closing the window interrupts it. */
+    unlink(pid);
+    struct command alone = {.arguments = {painter, pid, "wait"},
+                            .variables = {"LUTETIA_DISPLAY=window"}};
+    command_start(&alone);
+    Window one = window_of("display_painter - display");
+    shows(one, &first);
+    pid_in(pid);
+    screen_close(one);
+    ends_with(&alone, 1000 + SIGINT);
+    assert_true(screen_window_gone(one, 20));
+    display_image_destroy(&first);
+    display_image_destroy(&second);
+}
+
 /* Sets the environment so that files go into the scratch folder and the built `lutetia` is on the PATH. */
 static void surroundings_make(void)
 {
@@ -444,10 +481,12 @@ int main(void)
         cmocka_unit_test(programs_show_themselves),
         cmocka_unit_test(fine_screens_have_larger_windows),
         cmocka_unit_test(programs_without_lights_leave_no_window),
+        cmocka_unit_test(displays_are_shown),
     };
     lutetia = getenv("LUTETIA");
     latcher = getenv("LATCHER");
-    if (!lutetia || !latcher)
+    painter = getenv("PAINTER");
+    if (!lutetia || !latcher || !painter)
         return 77;
     surroundings_make();
     int failed = cmocka_run_group_tests(without, NULL, NULL);

@@ -8,6 +8,8 @@ import re
 import subprocess
 import sys
 
+PREFIXES = "CM_", "CMFB_"  # those of <cm/paris.h>, <cm/cmfb.h>
+
 
 def output(*command):
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
@@ -34,7 +36,7 @@ def main():
     wrong = [f"{library}: its soname is {has}, that of the list {soname}"] if has != soname else []
     wrong += [f"{name}: no longer exported: programs that use it stop; keep it, or change the soname" for name in missing]
     wrong += [f"{name}: exported, and not in the list; this script adds it with --write" for name in new]
-    wrong += [f"{name}: all exported names begin with CM_" for name in exported if not name.startswith("CM_")]
+    wrong += [f"{name}: all exported names begin with {', '.join(PREFIXES)}" for name in exported if not name.startswith(PREFIXES)]
     wrong += [f"{path}: not in order"] if list(listed) != sorted(listed) else []
     print("\n".join(wrong[:20]) or f"{len(exported)} names, {soname}")
     return 1 if wrong else 0

@@ -1,9 +1,9 @@
-/* LUTETIA_LEDS=window: `lutetia leds` shows the lights in a window, reading them from a pipe.
+/* LUTETIA_LEDS=window, LUTETIA_DISPLAY=window: a verb of `lutetia` shows in a window what it reads from a pipe.
  *
- * The viewer is this program's child, and outlives it, so that the last lights stay visible.
+ * The viewer is this program's child, and outlives it, so that the last picture stays visible.
  * It writes a byte to its standard output, which is a pipe, too, when the window is ready.
  * If the user closes the window before this program has ended, the viewer interrupts the
- * program (LUTETIA_LEDS_PROGRAM gives the process).
+ * program (LUTETIA_LEDS_PROGRAM, LUTETIA_DISPLAY_PROGRAM give the process).
  */
 #include <errno.h>
 #include <fcntl.h>
@@ -13,8 +13,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "leds.h"
 #include "paris_state.h"
+#include "recording.h"
 
 /* The environment with that variable added. Owns: the caller frees the array. */
 static char **environment_with(char *variable)
@@ -36,12 +36,13 @@ static char **environment_with(char *variable)
 
 /* Runs the viewer with these descriptors as its standard input and output; returns 0, or an
  * errno. */
-static int viewer_spawn(int input, int output)
+static int viewer_spawn(const struct paris_recording *of, int input, int output)
 {
-    char lutetia[] = "lutetia", leds[] = "leds", window[] = "--window", standard_input[] = "-";
-    char *arguments[] = {lutetia, leds, window, standard_input, NULL};
+    char lutetia[] = "lutetia", verb[16], window[] = "--window", standard_input[] = "-";
+    char *arguments[] = {lutetia, verb, window, standard_input, NULL};
     char variable[160];
-    snprintf(variable, sizeof variable, "LUTETIA_LEDS_PROGRAM=%ld %.100s", (long)getpid(),
+    snprintf(verb, sizeof verb, "%s", of->verb);
+    snprintf(variable, sizeof variable, "%s_PROGRAM=%ld %.100s", of->variable, (long)getpid(),
              program_invocation_short_name);
     char **environment = environment_with(variable);
     posix_spawn_file_actions_t actions;
@@ -81,30 +82,30 @@ static bool is_set(const char *name)
     return value && *value;
 }
 
-int paris_lights_window_open(void)
+int paris_viewer_open(const struct paris_recording *of)
 {
-    int lights[2] = {-1, -1}, answer[2] = {-1, -1}, error = 0, result = -1;
+    int frames[2] = {-1, -1}, answer[2] = {-1, -1}, error = 0, result = -1;
     char byte;
     if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")) {
-        paris_fail(
-            "LUTETIA_LEDS=window: no display: neither DISPLAY nor WAYLAND_DISPLAY is set; "
-            "name a file for a recording instead");
+        paris_fail("%s=window: no display: neither DISPLAY nor WAYLAND_DISPLAY is set; "
+                   "name a file for a recording instead",
+                   of->variable);
         return -1;
     }
-    if (!pipe_make(lights) || !pipe_make(answer))
+    if (!pipe_make(frames) || !pipe_make(answer))
         error = errno;
     if (!error)
-        error = viewer_spawn(lights[0], answer[1]);
+        error = viewer_spawn(of, frames[0], answer[1]);
     if (answer[1] >= 0)
         close(answer[1]);
-    if (lights[0] >= 0)
-        close(lights[0]);
+    if (frames[0] >= 0)
+        close(frames[0]);
     if (!error) {
         ssize_t count;
         while ((count = read(answer[0], &byte, 1)) < 0 && errno == EINTR)
             ;
         if (count == 1)
-            result = lights[1];
+            result = frames[1];
     }
     if (answer[0] >= 0)
         close(answer[0]);
@@ -113,15 +114,15 @@ int paris_lights_window_open(void)
                                                * while a picture is drawn */
         return result;
     }
-    if (lights[1] >= 0)
-        close(lights[1]);
+    if (frames[1] >= 0)
+        close(frames[1]);
     if (error)
-        paris_fail(
-            "LUTETIA_LEDS=window: cannot run `lutetia leds`: %s; put lutetia into PATH, or "
-            "name a file for a recording instead",
-            strerror(error));
+        paris_fail("%s=window: cannot run `lutetia %s`: %s; put lutetia into PATH, or "
+                   "name a file for a recording instead",
+                   of->variable, of->verb, strerror(error));
     else
-        paris_fail("LUTETIA_LEDS=window: `lutetia leds` opened no window; name a file for a "
-                   "recording instead");
+        paris_fail("%s=window: `lutetia %s` opened no window; name a file for a "
+                   "recording instead",
+                   of->variable, of->verb);
     return -1;
 }

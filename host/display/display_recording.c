@@ -1,0 +1,315 @@
+/* display_recording.c - screens out of pieces of a recording. */
+#include "display_recording.h"
+#include "display_internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { KIND_SIZE = 1, KIND_PIXELS, KIND_CLEAR, KIND_MAP, KIND_VIEW, KIND_END };
+enum { LINE_BYTES = sizeof DISPLAY_RECORDING_LINE - 1, MAP_BYTES = 3 * 256 };
+
+struct piece {
+    unsigned kind, number, buffer, pixel_bytes;
+    uint32_t bytes, x, y;
+    uint64_t time_us;
+    const uint8_t *more;
+};
+
+static uint64_t number_of(const uint8_t *at, int bytes)
+{
+    uint64_t n = 0;
+    for (int i = 0; i < bytes; i++)
+        n |= (uint64_t)at[i] << 8 * i;
+    return n;
+}
+
+static struct piece piece_of(const uint8_t *head)
+{
+    return (struct piece){.kind = head[0],
+                          .number = head[1],
+                          .buffer = head[2],
+                          .pixel_bytes = head[3],
+                          .bytes = (uint32_t)number_of(head + 4, 4),
+                          .time_us = number_of(head + 8, 8),
+                          .x = (uint32_t)number_of(head + 16, 4),
+                          .y = (uint32_t)number_of(head + 20, 4),
+                          .more = head + DISPLAY_PIECE_HEAD};
+}
+
+/* ---- what a piece may say ---- */
+
+/* By the head alone, before the rest is waited for. NULL: it may be. */
+static const char *head_wrong(const struct display_reader *reader, const struct piece *p)
+{
+    if (p->kind < KIND_SIZE || p->kind > KIND_END)
+        return "there is no such piece";
+    if (p->number < 1 || p->number > DISPLAY_SCREENS || p->buffer > 1)
+        return "there is no such display or buffer";
+    if (p->kind != KIND_SIZE && !reader->screens[p->number - 1].there)
+        return "the display has no size";
+    const uint64_t most = 4 + 4ull * DISPLAY_SCREEN_SIDE_MAX * DISPLAY_SCREEN_SIDE_MAX;
+    static const struct {
+        uint64_t least, most;
+    } bytes[] = {[KIND_SIZE] = {0, 64}, [KIND_PIXELS] = {4, UINT32_MAX},
+                 [KIND_CLEAR] = {0, 0}, [KIND_MAP] = {MAP_BYTES, MAP_BYTES},
+                 [KIND_VIEW] = {8, 8},  [KIND_END] = {0, 0}};
+    if (p->bytes < bytes[p->kind].least || p->bytes > bytes[p->kind].most || p->bytes > most)
+        return "a piece of that kind has not so many bytes";
+    if (p->kind == KIND_SIZE &&
+        (p->x < 1 || p->x > DISPLAY_SCREEN_SIDE_MAX || p->y < 1 ||
+         p->y > DISPLAY_SCREEN_SIDE_MAX || (p->pixel_bytes != 1 && p->pixel_bytes != 4)))
+        return "no display has such a size";
+    return NULL;
+}
+
+/* ---- screens ---- */
+
+static void screen_free(struct display_screen *s)
+{
+    free(s->pixels[0]);
+    free(s->pixels[1]);
+    *s = (struct display_screen){0};
+}
+
+static void screen_begin(struct display_screen *s, const struct piece *p)
+{
+    screen_free(s);
+    s->there = true;
+    s->width_px = (int)p->x;
+    s->height_px = (int)p->y;
+    s->pixel_bytes = (int)p->pixel_bytes;
+    s->zoom[0] = s->zoom[1] = 1;
+    memcpy(s->title, p->more, p->bytes);
+    for (int i = 0; i < 256; i++)
+        memset(s->map[i], i, 3);
+}
+
+static uint8_t *buffer_of(struct display_screen *s, unsigned buffer)
+{
+    if (!s->pixels[buffer])
+        s->pixels[buffer] =
+            calloc((size_t)s->width_px * (size_t)s->height_px, (size_t)s->pixel_bytes);
+    return s->pixels[buffer];
+}
+
+static enum display_status pixels_put(struct display_screen *s, const struct piece *p)
+{
+    const uint64_t columns = number_of(p->more, 4), each = (uint64_t)s->pixel_bytes;
+    const int64_t x = (int32_t)p->x, y = (int32_t)p->y;
+    if (!columns || (p->bytes - 4) % (columns * each))
+        return display_fail(DISPLAY_BAD_FILE, "pixels that fill no rows of %llu",
+                            (unsigned long long)columns);
+    const int64_t rows = (int64_t)((p->bytes - 4) / (columns * each));
+    const int64_t left = x < 0 ? -x : 0;
+    const int64_t right =
+        x + (int64_t)columns > s->width_px ? s->width_px - x : (int64_t)columns;
+    uint8_t *to = buffer_of(s, p->buffer);
+    if (!to)
+        return display_fail(DISPLAY_NO_MEMORY, "not enough memory for a display of %d x %d",
+                            s->width_px, s->height_px);
+    for (int64_t row = 0; row < rows && left < right; row++)
+        if (y + row >= 0 && y + row < s->height_px)
+            memcpy(to + (uint64_t)((y + row) * s->width_px + x + left) * each,
+                   p->more + 4 + ((uint64_t)row * columns + (uint64_t)left) * each,
+                   (uint64_t)(right - left) * each);
+    return DISPLAY_OK;
+}
+
+static enum display_status clear(struct display_screen *s, const struct piece *p)
+{
+    const size_t count = (size_t)s->width_px * (size_t)s->height_px;
+    if (!p->x && !s->pixels[p->buffer])
+        return DISPLAY_OK;
+    uint8_t *to = buffer_of(s, p->buffer);
+    if (!to)
+        return display_fail(DISPLAY_NO_MEMORY, "not enough memory for a display of %d x %d",
+                            s->width_px, s->height_px);
+    if (s->pixel_bytes == 1) {
+        memset(to, (int)(p->x & 255), count);
+        return DISPLAY_OK;
+    }
+    const uint8_t pixel[4] = {(uint8_t)p->x, (uint8_t)(p->x >> 8), (uint8_t)(p->x >> 16), 0};
+    for (size_t i = 0; i < count; i++)
+        memcpy(to + 4 * i, pixel, 4);
+    return DISPLAY_OK;
+}
+
+static enum display_status view(struct display_screen *s, const struct piece *p)
+{
+    const uint64_t zoom[2] = {number_of(p->more, 4), number_of(p->more + 4, 4)};
+    if (!zoom[0] || zoom[0] > 256 || !zoom[1] || zoom[1] > 256)
+        return display_fail(DISPLAY_BAD_FILE, "a zoom of %llu x %llu",
+                            (unsigned long long)zoom[0], (unsigned long long)zoom[1]);
+    s->seen = (int)p->buffer;
+    for (int i = 0; i < 2; i++)
+        s->zoom[i] = (uint32_t)zoom[i];
+    s->pan[0] = (int32_t)p->x;
+    s->pan[1] = (int32_t)p->y;
+    return DISPLAY_OK;
+}
+
+static enum display_status piece_take(struct display_reader *reader, const struct piece *p)
+{
+    struct display_screen *s = &reader->screens[p->number - 1];
+    struct display_change change = {.number = (int)p->number, .time_us = p->time_us};
+    enum display_status status = DISPLAY_OK;
+    if (p->kind == KIND_SIZE) {
+        screen_begin(s, p);
+        change.opened = true;
+    } else if (p->kind == KIND_PIXELS) {
+        status = pixels_put(s, p);
+        change.seen = s->seen == (int)p->buffer;
+    } else if (p->kind == KIND_CLEAR) {
+        status = clear(s, p);
+        change.seen = s->seen == (int)p->buffer;
+    } else if (p->kind == KIND_MAP) {
+        memcpy(s->map, p->more, MAP_BYTES);
+        change.seen = true;
+    } else if (p->kind == KIND_VIEW) {
+        status = view(s, p);
+        change.seen = true;
+    } else {
+        change.closed = true;
+    }
+    if (status != DISPLAY_OK)
+        return status;
+    reader->pieces++;
+    reader->stopped = !reader->take(reader->context, &change);
+    if (change.closed)
+        screen_free(s);
+    return DISPLAY_OK;
+}
+
+/* ---- the bytes ---- */
+
+static bool room_make(struct display_reader *reader, size_t bytes)
+{
+    if (bytes <= reader->room)
+        return true;
+    const size_t room = bytes > 2 * reader->room ? bytes : 2 * reader->room;
+    uint8_t *more = realloc(reader->bytes, room);
+    if (!more)
+        return false;
+    reader->bytes = more;
+    reader->room = room;
+    return true;
+}
+
+static enum display_status not_here(const struct display_reader *reader, const char *why)
+{
+    return display_fail(DISPLAY_BAD_FILE, "no recording of displays at byte %llu: %s",
+                        (unsigned long long)reader->read, why);
+}
+
+/* Bytes of the item that begins what is held; 0: more are needed to tell. *why: it is none. */
+static size_t length_of(const struct display_reader *reader, struct piece *p, const char **why)
+{
+    const size_t looked = reader->held < LINE_BYTES ? reader->held : (size_t)LINE_BYTES;
+    *why = NULL;
+    if (!reader->begun || (looked && reader->bytes[0] == DISPLAY_RECORDING_LINE[0])) {
+        if (memcmp(reader->bytes, DISPLAY_RECORDING_LINE, looked) != 0)
+            *why = "it must be \"lutetia display 1\" there";
+        return LINE_BYTES;
+    }
+    if (reader->held < DISPLAY_PIECE_HEAD)
+        return 0;
+    *p = piece_of(reader->bytes);
+    *why = head_wrong(reader, p);
+    return DISPLAY_PIECE_HEAD + p->bytes;
+}
+
+enum display_status display_reader_feed(struct display_reader *reader, const uint8_t *bytes,
+                                        size_t count)
+{
+    size_t whole = 0; /* of what is held */
+    struct piece p = {0};
+    const char *why = NULL;
+    if (reader->held)
+        whole = length_of(reader, &p, &why);
+    while (count > 0 && !reader->stopped) {
+        const size_t wanted = whole ? whole : reader->begun ? (size_t)DISPLAY_PIECE_HEAD : 1;
+        const size_t need = wanted > reader->held ? wanted - reader->held : 1;
+        const size_t step = need < count ? need : count;
+        if (!room_make(reader, reader->held + step))
+            return display_fail(DISPLAY_NO_MEMORY, "not enough memory for a piece of %zu bytes",
+                                wanted);
+        memcpy(reader->bytes + reader->held, bytes, step);
+        reader->held += step;
+        bytes += step;
+        count -= step;
+        whole = length_of(reader, &p, &why);
+        if (why)
+            return not_here(reader, why);
+        if (!whole || reader->held < whole)
+            continue;
+        enum display_status status = DISPLAY_OK;
+        if (reader->bytes[0] == DISPLAY_RECORDING_LINE[0])
+            reader->begun = true;
+        else
+            status = piece_take(reader, &p);
+        if (status != DISPLAY_OK)
+            return status;
+        reader->read += reader->held;
+        reader->held = whole = 0;
+    }
+    return DISPLAY_OK;
+}
+
+enum display_status display_reader_end(const struct display_reader *reader)
+{
+    if (reader->stopped || (reader->begun && !reader->held))
+        return DISPLAY_OK;
+    return reader->begun ? display_fail(DISPLAY_BAD_FILE, "ends within piece %llu",
+                                        (unsigned long long)reader->pieces)
+                         : display_fail(DISPLAY_BAD_FILE, "ends before its first line does");
+}
+
+void display_reader_finish(struct display_reader *reader)
+{
+    for (int i = 0; i < DISPLAY_SCREENS; i++)
+        screen_free(&reader->screens[i]);
+    free(reader->bytes);
+    reader->bytes = NULL;
+    reader->held = reader->room = 0;
+}
+
+/* ---- pictures ---- */
+
+static void row_draw(const struct display_screen *s, const uint8_t *from, uint8_t *to)
+{
+    for (int column = 0; column < s->width_px; column++, to += 3) {
+        const int64_t x = s->pan[0] + (int64_t)column / s->zoom[0];
+        if (x < 0 || x >= s->width_px) {
+            memset(to, 0, 3);
+        } else if (s->pixel_bytes == 1) {
+            memcpy(to, s->map[from ? from[x] : 0], 3);
+        } else {
+            for (int c = 0; c < 3; c++)
+                to[c] = s->map[from ? from[4 * x + c] : 0][c];
+        }
+    }
+}
+
+enum display_status display_screen_picture(const struct display_screen *s,
+                                           struct display_image *image)
+{
+    if (image->width_px != s->width_px || image->height_px != s->height_px || !image->pixels) {
+        display_image_destroy(image);
+        *image = (struct display_image){s->width_px, s->height_px, 3, NULL};
+        const enum display_status status = display_image_create(image);
+        if (status != DISPLAY_OK)
+            return status;
+    }
+    const uint8_t *pixels = s->pixels[s->seen];
+    const size_t row_bytes = (size_t)s->width_px * (size_t)s->pixel_bytes;
+    const size_t to_bytes = 3 * (size_t)s->width_px;
+    for (int row = 0; row < s->height_px; row++) {
+        const int64_t y = s->pan[1] + (int64_t)row / s->zoom[1];
+        uint8_t *to = image->pixels + (size_t)row * to_bytes;
+        if (y < 0 || y >= s->height_px)
+            memset(to, 0, to_bytes);
+        else
+            row_draw(s, pixels ? pixels + (size_t)y * row_bytes : NULL, to);
+    }
+    return DISPLAY_OK;
+}

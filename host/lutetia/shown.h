@@ -1,0 +1,51 @@
+/* shown.h - where what is shown comes from: a program that runs, a recording, the standard input.
+ *
+ *     struct shown shown = {.verb = "leds", .variable = "LUTETIA_LEDS", .line = LIGHT_RECORDING_LINE, .context = &leds, ...};
+ *     status = shown_source(&shown, argc, argv);
+ *
+ * A program writes its recording into a pipe, which the variable names to its libparis. What was read is passed to feed(). If `apart` is set,
+ * a thread of its own reads and feeds, with the lock held, so that the program does not wait while a picture is drawn; whoever looks at
+ * what feed() makes then holds the lock, too.
+ *
+ * LUTETIA_LEDS=window, LUTETIA_DISPLAY=window: libparis runs `lutetia VERB --window -` with VARIABLE_PROGRAM="PID NAME" of the
+ * program that is watched. A byte on the standard output then says that the window is ready, and closing the window interrupts that
+ * process. */
+#ifndef LUTETIA_SHOWN_H
+#define LUTETIA_SHOWN_H
+
+#include <display.h>
+
+#include <pthread.h>
+#include <stdbool.h>
+#include <sys/types.h>
+
+struct shown {
+    const char *verb, *variable;
+    const char *line; /* a recording begins so */
+    void *context;
+    bool (*go_on)(void *context);               /* false: stop reading, and end the program */
+    void (*turn)(void *context, double wait_s); /* takes the window's events, or waits */
+    bool (*has_window)(void *context);
+    bool (*taken)(void *context); /* something has been shown */
+    enum display_status (*feed)(void *context, const uint8_t *bytes, size_t count);
+    enum display_status (*end)(void *context); /* the bytes have ended */
+    bool apart;
+
+    pid_t watched; /* the process that libparis watches by us; 0: none */
+    char name[64]; /* the source's name, for the title */
+    bool seen;     /* pieces come as the program runs: their times have really passed */
+    pthread_mutex_t lock;
+};
+
+/* Gets the source's name and the watched process. word: the program or the recording; "": none. */
+void shown_name(struct shown *shown, const char *word);
+/* The file begins as a recording, or it cannot be executed: then reading it gives the error message. */
+bool shown_is_recording(const struct shown *shown, const char *path);
+/* Shows what the command line names, to its end. Returns an exit status; what was wrong has been printed. */
+int shown_source(struct shown *shown, int argc, char **argv);
+/* A window is ready: tells the watched program. False: it has gone. */
+bool shown_ready(const struct shown *shown);
+/* The window was closed: interrupts the watched program. */
+void shown_interrupt(const struct shown *shown);
+
+#endif

@@ -1,0 +1,97 @@
+/* shown_window.c - draws pictures when they are due. */
+#include "shown_window.h"
+#include "lutetia.h"
+
+#include <math.h>
+
+double shown_clock_wait_s(struct shown_clock *c, double time_s)
+{
+    if (!c->began) {
+        c->clock = frame_clock_begin(0.001, seconds_now());
+        c->clock.frame_max_s = INFINITY; /* a recording that is late catches up */
+        c->began = true;
+    }
+    frame_clock_advance(&c->clock, seconds_now());
+    if (c->next_wanted)
+        frame_clock_skip(&c->clock, time_s);
+    c->next_wanted = false;
+    return frame_clock_wait_s(&c->clock, time_s);
+}
+
+enum display_status shown_window_draw(struct shown_window *window)
+{
+    double began_s = seconds_now();
+    enum display_status status = window->draw(window->context, &window->image);
+    if (status == DISPLAY_OK)
+        status = window_show(window->window, &window->image);
+    frame_pace_drawn(&window->pace, began_s, seconds_now());
+    return status;
+}
+
+enum display_status shown_window_open(struct shown_window *window, const char *title,
+                                      int width_px, int height_px, double fps)
+{
+    struct window_config config = window_config_default();
+    window->pace = (struct frame_pace){.least_s = 1 / fps};
+    config.title = title;
+    config.width_px = width_px;
+    config.height_px = height_px;
+    return window_create(&config, &window->window);
+}
+
+void shown_window_close(struct shown_window *window)
+{
+    if (!window || !window->window)
+        return;
+    window_destroy(window->window);
+    display_image_destroy(&window->image);
+    window->window = NULL;
+}
+
+void shown_window_title(struct shown_window *window, const char *title)
+{
+    window_title_set(window->window, title);
+}
+
+/* Handles a key. True: the clock was changed; the caller must wait anew. */
+static bool key_take(struct shown_window *window, int key)
+{
+    struct shown_clock *c = window->clock;
+    if (key == INPUT_KEY_ESCAPE)
+        window_close(window->window);
+    if (!c || !c->began)
+        return false;
+    if (key == ' ')
+        c->clock.paused = !c->clock.paused;
+    else if (key == '.')
+        c->clock.paused = c->next_wanted = true;
+    else if (key == '-' || key == '=')
+        frame_clock_rate_set(&c->clock, c->clock.rate * (key == '-' ? 0.5 : 2));
+    else
+        return false;
+    return true;
+}
+
+enum display_status shown_window_turn(struct shown_window *window, double wait_s, bool *open)
+{
+    struct input_event event;
+    double until_s = seconds_now() + wait_s;
+    *open = true;
+    do {
+        double left_s = until_s - seconds_now();
+        const bool waiting = window->stale(window->context);
+        if (waiting && seconds_now() >= window->pace.due_s) {
+            enum display_status status = shown_window_draw(window);
+            if (status != DISPLAY_OK)
+                return status;
+            left_s = until_s - seconds_now();
+        } else if (waiting) {
+            left_s = fmin(left_s, window->pace.due_s - seconds_now());
+        }
+        if (window_input_take(window->window, fmax(left_s, 0), &event) &&
+            event.kind == INPUT_KEY_DOWN && key_take(window, event.key))
+            return DISPLAY_OK;
+        *open = !window_closing(window->window);
+    } while (*open && seconds_now() < until_s);
+    return DISPLAY_OK;
+}

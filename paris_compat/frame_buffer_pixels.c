@@ -1,0 +1,282 @@
+/* frame_buffer_pixels.c - fields to pixels.
+ *
+ * A VP set's picture has a column for each processor along its x axis and a row for each along its y axis. The machine gives a field's values in
+ * row-major order; where the last axis is the columns and the one before the rows, that is the picture. In the frame buffer's
+ * order the pixels are those of the processors by their send addresses. Sets of NEWS order live in blocks, by Gray code, so the picture must
+ * be shuffled first: CMFB_shuffle_from_news_always does it alone, the writes of NEWS order hide it.
+ *
+ *     picture (x, y) --place--> index (row-major) --order--> rank of its send address
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "frame_buffer.h"
+
+/* ---- places ---- */
+
+struct picture {
+    struct machine *m;
+    int vpset;
+    uint64_t count;
+    uint32_t width, height;
+    uint64_t x_stride, y_stride; /* in row-major order */
+};
+
+static bool straight(const struct picture *p)
+{
+    return p->x_stride == 1 && p->y_stride == p->width;
+}
+
+static inline uint64_t place(const struct picture *p, uint64_t pixel)
+{
+    return pixel / p->width * p->y_stride + pixel % p->width * p->x_stride;
+}
+
+static bool picture_of(struct picture *p, const struct frame_buffer *d, struct machine *m)
+{
+    const int set = machine_vpset_current(m), rank = machine_vpset_rank(m, set);
+    const unsigned int x = d->axes_given ? d->axes[0] : (unsigned int)rank - 1;
+    const unsigned int y =
+        d->axes_given ? d->axes[1] : (unsigned int)rank - 2; /* may be none */
+    uint64_t stride = 1;
+    *p = (struct picture){
+        .m = m, .vpset = set, .count = machine_vpset_count(m, set), .width = 1, .height = 1};
+    if (x >= (unsigned int)rank) {
+        paris_fail("x_axis: this VP set has axes 0..%d (CMFB_set_axes gave %u)", rank - 1, x);
+        return false;
+    }
+    for (int axis = rank - 1; axis >= 0; axis--) {
+        const int length = machine_vpset_length(m, set, axis);
+        if ((unsigned int)axis == x) {
+            p->width = (uint32_t)length;
+            p->x_stride = stride;
+        } else if ((unsigned int)axis == y) {
+            p->height = (uint32_t)length;
+            p->y_stride = stride;
+        } else if (length > 1) {
+            paris_fail("a picture has two axes, and axis %d of this VP set, of length %d, is a "
+                       "third: copy a plane into a set of two",
+                       axis, length);
+            return false;
+        }
+        stride *= (uint64_t)length;
+    }
+    if (p->height == 1)
+        p->y_stride = p->width;
+    return true;
+}
+
+/* The processors' row-major indices in the order of their send addresses, for the set asked for last. */
+static struct {
+    struct machine_layout layout;
+    int dimensions[MACHINE_AXES_MAX], rank;
+    uint32_t *of;
+} order;
+
+static void order_forget(void)
+{
+    free(order.of);
+    order.of = NULL;
+}
+
+static const uint32_t *order_of(const struct picture *p)
+{
+    const struct paris_geometry *g = paris_geometry_current();
+    static bool registered;
+    if (order.of && order.rank == g->rank &&
+        memcmp(order.dimensions, g->dimensions, sizeof *g->dimensions * (size_t)g->rank) == 0 &&
+        memcmp(&order.layout, &g->layout, sizeof g->layout) == 0)
+        return order.of;
+    order_forget();
+    order.of = malloc(p->count * sizeof *order.of);
+    if (!order.of) {
+        paris_fail_memory("not enough memory for the order of %llu processors",
+                          (unsigned long long)p->count);
+        return NULL;
+    }
+    if (!registered)
+        registered = atexit(order_forget) == 0;
+    uint64_t found = 0;
+    for (uint64_t address = 0; found < p->count; address++) {
+        const uint64_t index = machine_layout_index(&g->layout, address);
+        if (index != UINT64_MAX)
+            order.of[found++] = (uint32_t)index;
+    }
+    order.rank = g->rank;
+    memcpy(order.dimensions, g->dimensions, sizeof g->dimensions);
+    order.layout = g->layout;
+    return order.of;
+}
+
+/* ---- writing ---- */
+
+struct writing {
+    struct frame_buffer_piece piece;
+    struct picture picture;
+    struct machine *m;
+    unsigned int bits;
+};
+
+/* Checks all. False: an error, which has been said, or nobody looks on. */
+static bool writing_begin(struct writing *w, const char *name, CMFB_display_id_t display,
+                          unsigned int buffer, const CM_field_id_t *sources, int count, int x,
+                          int y)
+{
+    static const char *const roles[] = {"red", "green", "blue"};
+    w->m = paris_inquire(name);
+    const struct frame_buffer *d = frame_buffer_of(display);
+    if (!d || !frame_buffer_good_buffer(buffer))
+        return false;
+    w->bits = d->bits;
+    if (count == 3 && d->bits != 24) {
+        paris_fail("display: %d has 8 bits; red, green and blue want a display of 24", display);
+        return false;
+    }
+    for (int i = 0; i < count; i++)
+        if (!paris_check_field_wholly(sources[i], d->bits / (unsigned int)count,
+                                      count == 3 ? roles[i] : "source"))
+            return false;
+    if (!picture_of(&w->picture, d, w->m) || !frame_buffer_watched())
+        return false;
+    w->piece = (struct frame_buffer_piece){.kind = FRAME_BUFFER_PIXELS,
+                                           .display = display,
+                                           .buffer = buffer,
+                                           .pixel_bytes = d->bits == 8 ? 1 : 4,
+                                           .x = (uint32_t)x,
+                                           .y = (uint32_t)y};
+    const uint64_t bytes = 4 + w->picture.count * w->piece.pixel_bytes;
+    if (bytes > UINT32_MAX) {
+        paris_fail("a picture of %u x %u is too large for a display", w->picture.width,
+                   w->picture.height);
+        return false;
+    }
+    w->m = paris_begin(name); /* calls that were only noted come first */
+    if (!frame_buffer_piece_make(&w->piece, bytes))
+        return false;
+    for (int i = 0; i < 4; i++)
+        w->piece.more[i] = (uint8_t)(w->picture.width >> 8 * i);
+    return true;
+}
+
+/* Pixel k becomes value from[k]'s place. */
+static void pixels_permute(const struct writing *w, const uint8_t *values, const uint32_t *by)
+{
+    uint8_t *pixels = w->piece.more + 4;
+    for (uint64_t k = 0; k < w->picture.count; k++) {
+        const uint64_t index = by ? by[k] : place(&w->picture, k);
+        if (w->piece.pixel_bytes == 1)
+            pixels[k] = values[index];
+        else
+            memcpy(pixels + 4 * k, values + 4 * index, 4);
+    }
+}
+
+/* The field's values as they lie, or by their places or addresses. */
+static void field_write(struct writing *w, CM_field_id_t source, bool raw)
+{
+    const struct machine_type type = MACHINE_UINT((int)w->bits);
+    const uint32_t *by = NULL;
+    if (raw && !(by = order_of(&w->picture)))
+        return;
+    const bool direct = !raw && straight(&w->picture);
+    uint8_t *values =
+        direct ? w->piece.more + 4 : malloc(w->picture.count * w->piece.pixel_bytes);
+    if (!values)
+        paris_fail_memory("not enough memory for a picture of %u x %u", w->picture.width,
+                          w->picture.height);
+    else if (machine_field_download(w->m, source, type, values) != MACHINE_OK)
+        paris_fail_machine();
+    else {
+        if (!direct)
+            pixels_permute(w, values, by);
+        frame_buffer_piece_add(&w->piece);
+    }
+    if (!direct)
+        free(values);
+}
+
+void CMFB_write_news_always(CMFB_display_id_t display, unsigned int buffer,
+                            CM_field_id_t source, int x_offset, int y_offset)
+{
+    struct writing w;
+    if (writing_begin(&w, "CMFB_write_news_always", display, buffer, &source, 1, x_offset,
+                      y_offset))
+        field_write(&w, source, false);
+}
+
+void CMFB_write_always(CMFB_display_id_t display, unsigned int buffer, CM_field_id_t source,
+                       int x_offset, int y_offset)
+{
+    struct writing w;
+    if (writing_begin(&w, "CMFB_write_always", display, buffer, &source, 1, x_offset, y_offset))
+        field_write(&w, source, true);
+}
+
+void CMFB_write_rgb_news_always(CMFB_display_id_t display, unsigned int buffer,
+                                CM_field_id_t red, CM_field_id_t green, CM_field_id_t blue,
+                                int x_offset, int y_offset)
+{
+    const CM_field_id_t sources[3] = {red, green, blue};
+    struct writing w;
+    if (!writing_begin(&w, "CMFB_write_rgb_news_always", display, buffer, sources, 3, x_offset,
+                       y_offset))
+        return;
+    struct machine_value *v[3];
+    for (int i = 0; i < 3; i++) {
+        v[i] = machine_field_value(w.m, sources[i], MACHINE_UINT(8), MACHINE_EVERYWHERE);
+        if (!v[i]) {
+            paris_fail_machine();
+            return;
+        }
+    }
+    struct machine_value *all =
+        machine_concat(w.m, machine_concat(w.m, v[0], v[1]), v[2]); /* NULL goes through */
+    const uint32_t together = machine_field_allocate(w.m, w.picture.vpset, 24, MACHINE_STACK);
+    if (together == MACHINE_NO_FIELD) {
+        paris_fail_machine();
+        return;
+    }
+    if (machine_field_store(w.m, together, all, MACHINE_EVERYWHERE) == MACHINE_OK)
+        field_write(&w, together, false);
+    else
+        paris_fail_machine();
+    machine_field_deallocate_through(w.m, together);
+}
+
+/* ---- the shuffle ---- */
+
+void CMFB_shuffle_from_news_always(CMFB_display_id_t display, CM_field_id_t dest,
+                                   CM_field_id_t source, unsigned int len)
+{
+    struct machine *m = paris_begin("CMFB_shuffle_from_news_always");
+    const struct frame_buffer *d = frame_buffer_of(display);
+    struct picture p;
+    if (!d)
+        return;
+    if (len < 1 || len > 64) {
+        paris_fail("len: must be 1..64 bits (got %u)", len);
+        return;
+    }
+    if (!paris_check_field_wholly(source, len, "source") ||
+        !paris_check_field_wholly(dest, len, "dest") || !picture_of(&p, d, m))
+        return;
+    const uint32_t *by = order_of(&p);
+    if (!by)
+        return;
+    const struct machine_type type = MACHINE_UINT((int)len);
+    const size_t bytes = machine_element_bytes(type);
+    uint8_t *from = malloc(p.count * bytes), *to = malloc(p.count * bytes);
+    if (!from || !to) {
+        paris_fail_memory("not enough memory to shuffle %llu pixels",
+                          (unsigned long long)p.count);
+    } else if (machine_field_download(m, source, type, from) == MACHINE_OK) {
+        for (uint64_t k = 0; k < p.count; k++)
+            memcpy(to + by[k] * bytes, from + place(&p, k) * bytes, bytes);
+        if (machine_field_upload(m, dest, type, to) != MACHINE_OK)
+            paris_fail_machine();
+    } else {
+        paris_fail_machine();
+    }
+    free(from);
+    free(to);
+}

@@ -1,0 +1,218 @@
+/* Recordings of displays: screens and pictures out of pieces, and damaged ones. */
+#include <display_recording.h>
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "display_pieces.h"
+#include "sample.h"
+
+static uint64_t random_state = 3;
+static struct pieces pieces;
+
+static int counts[3]; /* changes: opened, seen, closed */
+
+static int count_take(void *context, const struct display_change *change)
+{
+    (void)context;
+    counts[0] += change->opened;
+    counts[1] += change->seen;
+    counts[2] += change->closed;
+    return 1;
+}
+
+enum { WIDTH = 11, HEIGHT = 7, COLUMNS = 8, ROWS = 5 };
+
+/* What must be seen at (X, Y) of a display of 8 bits, by its definition. */
+static uint8_t value_seen(const uint8_t *pixels, int x_offset, int y_offset, const int *zoom,
+                          const int *pan, int X, int Y, int *beyond)
+{
+    const int x = pan[0] + X / zoom[0], y = pan[1] + Y / zoom[1];
+    *beyond = x < 0 || y < 0 || x >= WIDTH || y >= HEIGHT;
+    const int column = x - x_offset, row = y - y_offset;
+    return *beyond || column < 0 || row < 0 || column >= COLUMNS || row >= ROWS
+               ? 0
+               : pixels[row * COLUMNS + column];
+}
+
+static void pictures_are_by_offset_zoom_pan_and_map(void **unused)
+{
+    (void)unused;
+    static const struct {
+        int offset[2], zoom[2], pan[2];
+    } cases[] = {{{0, 0}, {1, 1}, {0, 0}},   {{-3, -2}, {1, 1}, {0, 0}},
+                 {{6, 5}, {1, 1}, {0, 0}},   {{2, 1}, {3, 2}, {1, 2}},
+                 {{0, 0}, {1, 1}, {-4, 3}},  {{20, 0}, {1, 1}, {0, 0}},
+                 {{0, -9}, {2, 7}, {-1, -1}}};
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        uint8_t pixels[COLUMNS * ROWS], map[256][3];
+        for (size_t i = 0; i < sizeof pixels; i++)
+            pixels[i] = (uint8_t)sample_word(&random_state);
+        for (size_t i = 0; i < sizeof map; i++)
+            (&map[0][0])[i] = (uint8_t)sample_word(&random_state);
+        pieces.count = 0;
+        pieces_line(&pieces);
+        pieces_size(&pieces, 3, 1, WIDTH, HEIGHT, 0);
+        pieces_pixels(&pieces, 3, 1, 1, COLUMNS, ROWS, cases[c].offset[0], cases[c].offset[1],
+                      pixels, 5);
+        pieces_head(&pieces, 4, 3, 0, 0, sizeof map, 6, 0, 0);
+        memcpy(pieces.bytes + pieces.count, map, sizeof map);
+        pieces.count += sizeof map;
+        pieces_view(&pieces, 3, 1, cases[c].zoom[0], cases[c].zoom[1], cases[c].pan[0],
+                    cases[c].pan[1], 7);
+        for (size_t step = 1; step <= pieces.count; step = step * 3 + 1) {
+            struct display_reader reader = {.take = count_take};
+            struct display_image image = {0};
+            memset(counts, 0, sizeof counts);
+            for (size_t at = 0; at < pieces.count; at += step) {
+                const size_t left = pieces.count - at;
+                assert_int_equal(
+                    display_reader_feed(&reader, pieces.bytes + at, left < step ? left : step),
+                    DISPLAY_OK);
+            }
+            assert_int_equal(display_reader_end(&reader), DISPLAY_OK);
+            assert_int_equal(counts[0], 1);
+            assert_int_equal(counts[1], 2); /* the map, the view; not the hidden buffer */
+            assert_string_equal(reader.screens[2].title, "tcit");
+            assert_int_equal(display_screen_picture(&reader.screens[2], &image), DISPLAY_OK);
+            for (int y = 0; y < HEIGHT; y++)
+                for (int x = 0; x < WIDTH; x++) {
+                    int beyond;
+                    const uint8_t v = value_seen(pixels, cases[c].offset[0], cases[c].offset[1],
+                                                 cases[c].zoom, cases[c].pan, x, y, &beyond);
+                    const uint8_t black[3] = {0};
+                    assert_memory_equal(image.pixels + 3 * (y * WIDTH + x),
+                                        beyond ? black : map[v], 3);
+                }
+            display_image_destroy(&image);
+            display_reader_finish(&reader);
+        }
+    }
+}
+
+static void deep_pixels_go_through_the_maps_columns(void **unused)
+{
+    (void)unused;
+    const uint8_t pixels[] = {1, 2, 3, 0, 4, 5, 6, 0};
+    uint8_t map[256][3];
+    struct display_reader reader = {.take = count_take};
+    struct display_image image = {0};
+    for (int i = 0; i < 256; i++)
+        for (int c = 0; c < 3; c++)
+            map[i][c] = (uint8_t)(100 * c + i);
+    pieces.count = 0;
+    pieces_line(&pieces);
+    pieces_size(&pieces, 1, 4, 2, 2, 0);
+    pieces_head(&pieces, 3, 1, 0, 0, 0, 1, 0x030201, 0); /* clear */
+    pieces_pixels(&pieces, 1, 0, 4, 2, 1, 0, 1, pixels, 2);
+    pieces_head(&pieces, 4, 1, 0, 0, sizeof map, 6, 0, 0);
+    memcpy(pieces.bytes + pieces.count, map, sizeof map);
+    pieces.count += sizeof map;
+    assert_int_equal(display_reader_feed(&reader, pieces.bytes, pieces.count), DISPLAY_OK);
+    assert_int_equal(display_screen_picture(&reader.screens[0], &image), DISPLAY_OK);
+    const uint8_t wanted[] = {1, 102, 203, 1, 102, 203, 1, 102, 203, 4, 105, 206};
+    assert_memory_equal(image.pixels, wanted, sizeof wanted);
+    /* A display that goes, and one in its place. */
+    pieces.count = 0;
+    pieces_head(&pieces, 6, 1, 0, 0, 0, 9, 0, 0);
+    assert_int_equal(display_reader_feed(&reader, pieces.bytes, pieces.count), DISPLAY_OK);
+    assert_false(reader.screens[0].there);
+    display_image_destroy(&image);
+    display_reader_finish(&reader);
+}
+
+static void what_is_wrong_is_said(void **unused)
+{
+    (void)unused;
+    static const struct {
+        int kind, display, buffer, pixel_bytes;
+        size_t more;
+        int x, y;
+        const char *says;
+    } wrongs[] = {
+        {7, 1, 0, 1, 0, 9, 9, "no such piece"},      {1, 9, 0, 1, 0, 9, 9, "no such display"},
+        {1, 1, 2, 1, 0, 9, 9, "no such display"},    {1, 1, 0, 2, 0, 9, 9, "such a size"},
+        {1, 1, 0, 1, 0, 0, 9, "such a size"},        {1, 1, 0, 1, 0, 9, 8193, "such a size"},
+        {1, 1, 0, 1, 65, 9, 9, "not so many bytes"}, {5, 2, 0, 1, 8, 0, 0, "has no size"},
+    };
+    for (size_t i = 0; i < sizeof wrongs / sizeof *wrongs; i++) {
+        struct display_reader reader = {.take = count_take};
+        pieces.count = 0;
+        pieces_line(&pieces);
+        pieces_head(&pieces, wrongs[i].kind, wrongs[i].display, wrongs[i].buffer,
+                    wrongs[i].pixel_bytes, wrongs[i].more, 0, wrongs[i].x, wrongs[i].y);
+        assert_int_equal(display_reader_feed(&reader, pieces.bytes, pieces.count),
+                         DISPLAY_BAD_FILE);
+        if (!strstr(display_error(), wrongs[i].says))
+            fail_msg("%zu: %s", i, display_error());
+        display_reader_finish(&reader);
+    }
+    struct display_reader reader = {.take = count_take};
+    assert_int_equal(display_reader_end(&reader), DISPLAY_BAD_FILE);
+    assert_int_equal(display_reader_feed(&reader, (const uint8_t *)"lutetia leds", 12),
+                     DISPLAY_BAD_FILE);
+    display_reader_finish(&reader);
+}
+
+/* Damaged recordings are read or refused, and whatever is there can be drawn. */
+static void damaged_recordings_are_refused_or_read(void **unused)
+{
+    (void)unused;
+    static struct pieces damaged;
+    uint8_t pixels[64];
+    int refused = 0;
+    for (int n = 0; n < 20000; n++) {
+        pieces.count = 0;
+        pieces_line(&pieces);
+        for (int i = 0; i < 64; i++)
+            pixels[i] = (uint8_t)sample_word(&random_state);
+        pieces_size(&pieces, 1, 1, 9, 5, 0);
+        pieces_size(&pieces, 2, 4, 6, 6, 0);
+        pieces_pixels(&pieces, 1, 0, 1, 8, 8, -2, 1, pixels, 1);
+        pieces_pixels(&pieces, 2, 1, 4, 4, 4, 3, 3, pixels, 2);
+        pieces_head(&pieces, 3, 2, 0, 0, 0, 3, 77, 0);
+        pieces_view(&pieces, 1, 1, 2, 3, 1, -1, 4);
+        pieces_pixels(&pieces, 1, 1, 1, 8, 8, 0, 0, pixels, 5);
+        pieces_head(&pieces, 6, 2, 0, 0, 0, 6, 0, 0);
+        damaged = pieces;
+        for (uint64_t k = 1 + sample_word(&random_state) % 4; k > 0; k--) {
+            const size_t at = sample_word(&random_state) % damaged.count;
+            const uint64_t die = sample_word(&random_state) % 8;
+            if (die == 0)
+                damaged.count = at + 1;
+            else
+                damaged.bytes[at] =
+                    die < 4 ? (uint8_t)sample_word(&random_state) : damaged.bytes[at] ^ 1;
+        }
+        struct display_reader reader = {.take = count_take};
+        enum display_status status = display_reader_feed(&reader, damaged.bytes, damaged.count);
+        if (status == DISPLAY_OK)
+            status = display_reader_end(&reader);
+        refused += status != DISPLAY_OK;
+        for (int i = 0; i < DISPLAY_SCREENS; i++) {
+            const struct display_screen *s = &reader.screens[i];
+            struct display_image image = {0};
+            if (!s->there || (long)s->width_px * s->height_px > 10000)
+                continue;
+            assert_int_equal(display_screen_picture(s, &image), DISPLAY_OK);
+            display_image_destroy(&image);
+        }
+        display_reader_finish(&reader);
+    }
+    assert_in_range(refused, 5000, 19000);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pictures_are_by_offset_zoom_pan_and_map),
+        cmocka_unit_test(deep_pixels_go_through_the_maps_columns),
+        cmocka_unit_test(what_is_wrong_is_said),
+        cmocka_unit_test(damaged_recordings_are_refused_or_read),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
