@@ -43,7 +43,15 @@ struct jack_device {
     uint8_t sysex[EVENT_BYTES_MAX];
     size_t sysex_count;
     uint8_t event[EVENT_BYTES_MAX]; /* process()'s own */
+    uint64_t left_ns;               /* of the list below */
+    struct jack_device *next;
 };
+
+/* Devices whose JACK has ended, and whose client is still open. JACK's library goes on handling what its server said last. Who closes the
+ * client meanwhile ends the library's thread with a lock in its hand, and waits for that lock for ever. So a client is closed when
+ * LEFT_MS have passed, and no other is opened before. The loop's thread alone uses the list. */
+static struct jack_device *left;
+enum { LEFT_MS = 900 /* less than retry_ms: the first try finds them closed */ };
 
 static void wake(const struct jack_device *j)
 {
@@ -179,9 +187,36 @@ static enum midi_status ports_open(struct server_device *d, struct jack_device *
     return MIDI_OK;
 }
 
+static void jack_free(struct jack_device *j)
+{
+    if (j->client)
+        j->jack->jack_client_close(j->client);
+    if (j->watch.file >= 0)
+        close(j->watch.file);
+    free(j);
+}
+
+/* Closes those of the list whose time has come; whether none is left. */
+static bool left_end(void)
+{
+    const uint64_t now_ns = midi_now_ns();
+    for (struct jack_device **at = &left; *at;) {
+        struct jack_device *j = *at;
+        if (now_ns - j->left_ns < LEFT_MS * UINT64_C(1000000)) {
+            at = &j->next;
+            continue;
+        }
+        *at = j->next;
+        jack_free(j);
+    }
+    return !left;
+}
+
 static enum midi_status jack_open(struct server_device *d)
 {
     const struct jack_library *jack;
+    if (!left_end())
+        return midi_fail(MIDI_NO_DEVICE, "the JACK server is gone");
     enum midi_status status = jack_load(&jack);
     if (status != MIDI_OK)
         return MIDI_BAD_ARGUMENT; /* permanent: JACK will not be installed while the server
@@ -203,13 +238,15 @@ static void jack_close(struct server_device *d)
     struct jack_device *j = d->own;
     if (!j)
         return;
-    if (j->client)
-        j->jack->jack_client_close(j->client);
-    loop_unwatch(d->loop, &j->watch);
-    if (j->watch.file >= 0)
-        close(j->watch.file);
-    free(j);
     d->own = NULL;
+    loop_unwatch(d->loop, &j->watch);
+    if (!j->client || !j->gone) {
+        jack_free(j);
+        return;
+    }
+    j->left_ns = midi_now_ns();
+    j->next = left;
+    left = j;
 }
 
 static void say(void *context, const struct midi_message *m)

@@ -29,6 +29,7 @@ static pid_t start(const char *const *arguments)
     pid_t pid = fork();
     assert_true(pid >= 0);
     if (pid == 0) {
+        signal(SIGHUP, SIG_DFL); /* nohup may have started this */
         char *all[24] = {strdup(lutetia), strdup("spring")};
         for (int i = 0; arguments[i]; i++)
             all[2 + i] = strdup(arguments[i]);
