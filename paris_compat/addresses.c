@@ -94,9 +94,7 @@ unsigned int CM_fe_from_gray_code(unsigned int code)
 
 /* ---- on the machine ---- */
 
-/* Fields for addresses are usually longer than the addresses. Then all 32 bits are stored,
- * with zeros above: the same content, as a single value. */
-static unsigned int address_room(struct machine *m, CM_field_id_t dest, unsigned int bits)
+unsigned int paris_address_room(struct machine *m, CM_field_id_t dest, unsigned int bits)
 {
     struct machine_field_info info;
     if (bits >= 32 || !machine_field_lookup(m, dest, &info) || info.bits - info.offset < 32)
@@ -110,7 +108,7 @@ static void my_send_address(const char *name, CM_field_id_t dest, enum machine_s
 {
     struct machine *m = paris_begin(name);
     const struct paris_geometry *g = paris_geometry_current();
-    unsigned int bits = address_room(m, dest, paris_address_bits(g));
+    unsigned int bits = paris_address_room(m, dest, paris_address_bits(g));
     paris_store(m, paris_u(dest, bits), machine_self_address(m, (int)bits), scope);
 }
 

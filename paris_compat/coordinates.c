@@ -143,7 +143,7 @@ static void store_address(struct machine *m, const struct paris_instruction *sel
                           const struct paris_geometry *g, CM_field_id_t dest,
                           struct machine_value *address)
 {
-    unsigned int bits = paris_address_bits(g);
+    unsigned int bits = paris_address_room(m, dest, paris_address_bits(g));
     paris_store(m, paris_u(dest, bits), machine_resize(m, address, (int)bits, false),
                 self->scope);
 }
@@ -161,6 +161,13 @@ void paris_coordinate_make(const struct paris_instruction *self, CM_geometry_id_
         g ? load(m, coordinate, slen, "coordinate", stride == 1 ? 32 : WIDTH) : NULL;
     if (!v)
         return;
+    struct machine_value *turned =
+        g->rank == 1 ? machine_address_turned(m, &g->layout, machine_self_address(m, 32), 0, v)
+                     : NULL;
+    if (turned) {
+        store_address(m, self, g, dest, turned);
+        return;
+    }
     struct machine_value *address =
         stride == 1 ? short_address_of(m, g, v) : address_of(m, g, times(m, v, stride));
     address = machine_resize(m, address, (int)paris_address_bits(g), false);
@@ -188,7 +195,11 @@ void paris_coordinate_deposit(const struct paris_instruction *self, CM_geometry_
     } else {
         v = number(m, coordinate % (unsigned int)g->dimensions[axis]);
     }
-    if (!v)
+    struct machine_value *turned =
+        v ? machine_address_turned(m, &g->layout, index, (int)axis, v) : NULL;
+    if (turned)
+        store_address(m, self, g, dest, turned);
+    if (turned || !v)
         return;
     index = index_of(m, g, index);
     v = machine_binary(m, MACHINE_SUB, v, coordinate_of(m, g, index, axis));

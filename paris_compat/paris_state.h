@@ -315,6 +315,9 @@ uint64_t paris_index_of_address(const struct paris_geometry *g, uint64_t send_ad
  * once. */
 uint64_t paris_index_let_pass(const struct paris_geometry *g, uint64_t send_address);
 unsigned int paris_address_bits(const struct paris_geometry *g);
+/* How many bits of dest get an address of so many. Fields for addresses are usually longer than the addresses. Then all 32 bits are stored, with zeros above:
+ * the same content, as a single value. */
+unsigned int paris_address_room(struct machine *m, CM_field_id_t dest, unsigned int bits);
 void paris_sets_reset(void); /* no geometries, and only the default VP set */
 void paris_sets_forget(void);
 

@@ -51,6 +51,8 @@ struct machine_layout {
  * among equals the one of most blocks, then the first. */
 void machine_layout_make(struct machine_layout *l, const int *lengths, const int *weights,
                          const uint8_t *orders, int rank, uint64_t processors);
+/* Whether each index has the same address by both. */
+bool machine_layouts_equal(const struct machine_layout *a, const struct machine_layout *b);
 uint64_t machine_layout_address(const struct machine_layout *l, uint64_t index);
 /* UINT64_MAX: nobody lives at the address. */
 uint64_t machine_layout_index(const struct machine_layout *l, uint64_t address);
@@ -61,6 +63,12 @@ struct machine_value *machine_layout_address_value(struct machine *m,
 struct machine_value *machine_layout_index_value(struct machine *m,
                                                  const struct machine_layout *l,
                                                  struct machine_value *address);
+/* The addresses of the current set with that coordinate along the axis, where they are each processor's own but for some bits, and so is the coordinate. Gets by them
+ * are recognised. NULL, without an error: it is not known that they are. */
+struct machine_value *machine_address_turned(struct machine *m,
+                                             const struct machine_layout *layout,
+                                             struct machine_value *address, int axis,
+                                             struct machine_value *coordinate);
 /* These addresses are those of these indices, by this layout. A send by them may then be recognised. */
 void machine_layout_note(struct machine *m, const struct machine_layout *layout,
                          struct machine_value *index, struct machine_value *address);

@@ -1,6 +1,6 @@
 /* test_crosses.c - gets from the processor whose index differs in some bits. The interpreter's loops give the lanes that they
- * should; which gets are crosses is found; and programs of crosses, neighbours and choices come to the same bits in every tier as
- * with gets that are calls of the router. */
+ * should; which gets are crosses is found, and which are choices of two neighbours; and programs of crosses, neighbours and choices
+ * come to the same bits in every tier as with gets that are calls of the router. */
 #include "support.h"
 
 #include "interpret/byte_code.h"
@@ -186,6 +186,102 @@ static void own_addresses_are_known_until_they_are_overwritten(void **state)
     support_machine_destroy(m);
 }
 
+/* ---- coordinates turned ---- */
+
+/* One's own address with the coordinate along the axis turned by these bits; NULL: it is not found. */
+static struct machine_value *turned(struct machine *m, struct machine_value *address, int axis,
+                                    uint32_t bits)
+{
+    const struct vpset *s = vpset_get(m, machine_vpset_current(m));
+    return machine_address_turned(
+        m, &s->layout, address, axis,
+        machine_binary(m, MACHINE_XOR, machine_coordinate(m, axis, 32), number(m, 32, bits)));
+}
+
+/* The addresses of all processors are those of the front end's sums, also when two axes are turned one after the other. */
+static void turned_coordinates_give_the_addresses_they_should(void **state)
+{
+    static const int shapes[][3] = {{4096}, {64, 64}, {16, 8, 32}, {1, 128, 2}, {512, 4}};
+    (void)state;
+    struct machine *m = machine_as("2", "1");
+    for (size_t shape = 0; shape < 5; shape++)
+        for (int news = 0; news < 2; news++) {
+            const int *d = shapes[shape], rank = d[2] ? 3 : d[1] ? 2 : 1;
+            const int set = set_make(m, news, rank, d);
+            const uint64_t count = vpset_get(m, set)->count;
+            uint32_t f = machine_field_allocate(m, set, 40, MACHINE_HEAP),
+                     any = support_field(m, MACHINE_UINT(32), 1), *there;
+            there = malloc(count * sizeof *there);
+            assert_non_null(there);
+            for (int turn = 0; turn < 12; turn++) {
+                const int first = (int)below((uint32_t)rank),
+                          second = (int)below((uint32_t)rank);
+                const uint32_t a = below((uint32_t)d[first]), b = below((uint32_t)d[second]);
+                struct machine_value *v = turned(m, own(m, 32), first, a);
+                if (turn % 3 == 2) { /* from memory */
+                    assert_non_null(v);
+                    assert_ok(machine_field_store(m, f, v, MACHINE_EVERYWHERE), m);
+                    assert_ok(machine_flush(m), m);
+                    v = machine_field_value(m, f, v->type, MACHINE_EVERYWHERE);
+                }
+                v = turned(m, v, second, b);
+                assert_non_null(v);
+                assert_ok(machine_field_store(m, f, machine_resize(m, v, 32, false),
+                                              MACHINE_EVERYWHERE),
+                          m);
+                assert_ok(machine_field_download(m, f, MACHINE_UINT(32), there), m);
+                for (uint64_t i = 0; i < count; i++) {
+                    uint64_t index = 0, left = i, stride = 1;
+                    for (int k = rank - 1; k >= 0; k--) {
+                        uint64_t x = left % (uint64_t)d[k];
+                        x ^= k == second ? b : k == first ? a : 0;
+                        index += x * stride;
+                        stride *= (uint64_t)d[k];
+                        left /= (uint64_t)d[k];
+                    }
+                    assert_int_equal(there[i], machine_send_address(m, set, index));
+                }
+            }
+            /* beyond the axis, another axis' coordinate, and a part of one are not known */
+            assert_null(turned(m, own(m, 32), 0, (uint32_t)d[0]));
+            assert_null(machine_address_turned(m, &vpset_get(m, set)->layout,
+                                               support_value(m, any, MACHINE_UINT(32)), 0,
+                                               machine_coordinate(m, 0, 32)));
+            if (d[0] > 2)
+                assert_null(machine_address_turned(m, &vpset_get(m, set)->layout, own(m, 32), 0,
+                                                   machine_coordinate(m, 0, 1)));
+            if (rank > 1 && d[1] > 1)
+                assert_null(machine_address_turned(m, &vpset_get(m, set)->layout, own(m, 32), 0,
+                                                   machine_coordinate(m, 1, 32)));
+            free(there);
+        }
+    /* where addresses are dealt in turn, or sides are no powers of two, it is not tried */
+    static const int odd[] = {3, 1024};
+    set_make(m, true, 2, odd);
+    assert_null(turned(m, own(m, 32), 1, 1));
+    support_machine_destroy(m);
+}
+
+static void turned_coordinates_along_other_axes_are_neighbours(void **state)
+{
+    static const int square[] = {64, 512};
+    (void)state;
+    struct machine *m = machine_as("2", "1");
+    for (int news = 0; news < 2; news++) {
+        set_make(m, news, 2, square);
+        uint32_t f = support_field(m, MACHINE_UINT(32), 1);
+        struct machine_value *v =
+            machine_get(m, turned(m, own(m, 32), 0, 16), f, MACHINE_UINT(32));
+        assert_int_equal(v->op, NODE_SELECT);
+        v = machine_get(m, turned(m, own(m, 32), 0, 32), f, MACHINE_UINT(32));
+        assert_int_equal(v->op, NODE_SHIFT); /* both neighbours are the same one */
+        v = machine_get(m, turned(m, own(m, 32), 0, 3), f, MACHINE_UINT(32));
+        assert_int_equal(v->op, NODE_GATHER);
+        assert_int_equal(crossed(m, f, turned(m, own(m, 32), 1, 256)), 256);
+    }
+    support_machine_destroy(m);
+}
+
 /* ---- programs ---- */
 
 enum { STEPS = 24, MOST = 1 << 14, WIDTHS = 64 };
@@ -205,18 +301,19 @@ struct crossing {
 
 static void program_make(struct crossing *p, int turn)
 {
-    static const int shapes[][2] = {{1024},    {1536},   {4096}, {4, 1024},
-                                    {3, 1536}, {8, 512}, {MOST}};
+    static const int shapes[][2] = {{1024},   {1536}, {4096},     {4, 1024}, {3, 1536},
+                                    {8, 512}, {MOST}, {128, 128}, {64, 32},  {512, 8}};
+    enum { SHAPES = sizeof shapes / sizeof *shapes };
     static const struct machine_type types[] = {
         MACHINE_UINT(32), MACHINE_BIT, MACHINE_UINT(8),   MACHINE_F32,     MACHINE_UINT(13),
         MACHINE_UINT(64), MACHINE_F64, MACHINE_UINT(100), MACHINE_UINT(47)};
     *p = (struct crossing){.type = types[turn % 9], .count = 3 + (int)below(STEPS - 3)};
-    memcpy(p->lengths, shapes[turn % 7], sizeof p->lengths);
+    memcpy(p->lengths, shapes[turn % SHAPES], sizeof p->lengths);
     p->rank = p->lengths[1] ? 2 : 1;
-    p->news = turn % 2;
+    p->news = turn / SHAPES % 2;
     const uint32_t last = (uint32_t)p->lengths[p->rank - 1];
     for (int i = 0; i < p->count; i++) {
-        const int kind = (int)below(8);
+        const int kind = (int)below(11);
         uint32_t bits = below(3) ? UINT32_C(1) << below(14) : below(MOST);
         while (bits && last % (UINT32_C(2) << (31 - __builtin_clz(bits))))
             bits /= 2;
@@ -245,8 +342,15 @@ static void program_run(struct machine *m, const struct crossing *p, void *out)
         if (s->kind == 1) {
             got = machine_shift(m, a, p->rank - 1, (int)(s->seed % 40) - 20);
         } else {
-            struct machine_value *at = machine_binary(
-                m, MACHINE_XOR, support_value(m, me, MACHINE_UINT(32)), number(m, 32, s->bits));
+            struct machine_value *at = NULL;
+            if (s->kind > 7) {
+                const int axis = (int)(s->seed % (uint64_t)p->rank);
+                at = turned(m, support_value(m, me, MACHINE_UINT(32)), axis,
+                            1u << s->seed % 14 & ((uint32_t)p->lengths[axis] - 1));
+            }
+            if (!at)
+                at = machine_binary(m, MACHINE_XOR, support_value(m, me, MACHINE_UINT(32)),
+                                    number(m, 32, s->bits));
             got = machine_get(m, at, s->kind % 2 ? x : y, t);
         }
         assert_non_null(got);
@@ -338,6 +442,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(a_cross_stays_in_its_row),
         cmocka_unit_test(own_addresses_with_some_bits_turned_are_found),
         cmocka_unit_test(own_addresses_are_known_until_they_are_overwritten),
+        cmocka_unit_test(turned_coordinates_give_the_addresses_they_should),
+        cmocka_unit_test(turned_coordinates_along_other_axes_are_neighbours),
         cmocka_unit_test(a_crossed_nan_keeps_its_bits),
         cmocka_unit_test(programs_come_to_the_same_in_every_tier),
     };

@@ -251,6 +251,19 @@ static void look(void)
     }
 }
 
+/* The addresses of processors whose coordinates along an axis differ in some bits. */
+static void coordinates_turn(CM_field_id_t coordinate)
+{
+    const unsigned int axis = below(on.rank),
+                       length = CM_geometry_axis_length(on.geometry, axis),
+                       bits = below(3) ? 1u << below(14) : below(length);
+    CM_my_news_coordinate_1L(coordinate, axis, 32);
+    CM_logxor_constant_2_1L(coordinate, bits % length, 32);
+    if (below(4))
+        CM_u_move_1L(on.address, on.self, on.address_bits);
+    CM_deposit_news_coordinate_1L(on.geometry, on.address, axis, coordinate, 32);
+}
+
 /* From the processors whose addresses differ in some bits: of these sets all there are. */
 static void cross(void)
 {
@@ -258,7 +271,10 @@ static void cross(void)
     CM_field_id_t to = any(), a = any();
     if (on.count != 1u << on.address_bits)
         return;
-    CM_logxor_constant_3_1L(on.address, on.self, bits, on.address_bits);
+    if (below(2))
+        CM_logxor_constant_3_1L(on.address, on.self, bits, on.address_bits);
+    else
+        coordinates_turn(any());
     switch (below(4)) {
     case 0:
         CM_get_1L(on.f, on.address, on.f, 32);
@@ -279,8 +295,8 @@ static int first_program, programs_count = PROGRAMS;
 static void set_make(int program)
 {
     static const unsigned int shapes[][3] = {
-        {37, 0},  {700, 0}, {20, 33},  {5, 7, 3}, {1, 0},     {5000, 0}, {3, 1300},
-        {40, 60}, {130, 3}, {MOST, 0}, {4096, 0}, {16, 1024}, {8192, 0}};
+        {37, 0},  {700, 0},  {20, 33},  {5, 7, 3},  {1, 0},    {5000, 0}, {3, 1300},  {40, 60},
+        {130, 3}, {MOST, 0}, {4096, 0}, {16, 1024}, {8192, 0}, {64, 64},  {32, 4, 16}};
     const unsigned int *shape = shapes[program % (int)(sizeof shapes / sizeof *shapes)];
     on.rank = 0;
     on.count = 1;

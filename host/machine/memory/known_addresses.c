@@ -4,19 +4,6 @@
 #include "memory/memory.h"
 #include "values/graph.h"
 
-static bool layouts_equal(const struct machine_layout *a, const struct machine_layout *b)
-{
-    if (a->order != b->order || a->blocks != b->blocks || a->count != b->count ||
-        a->processors != b->processors || a->parts_count != b->parts_count)
-        return false;
-    for (int i = 0; i < a->parts_count; i++)
-        if (a->parts[i].in_index != b->parts[i].in_index ||
-            a->parts[i].in_address != b->parts[i].in_address ||
-            a->parts[i].bits != b->parts[i].bits || a->parts[i].gray != b->parts[i].gray)
-            return false;
-    return true;
-}
-
 /* A state makes nodes of its own for the same array. */
 static bool same_array(const struct machine_value *a, const struct machine_value *b)
 {
@@ -106,7 +93,7 @@ bool known_ranks_are(const struct machine *m, const struct machine_value *addres
            set == m->values->set_current &&
            (context == k->context ||
             (context->buffer && context->buffer == k->context->buffer)) &&
-           layouts_equal(&m->values->sets[set].layout, &k->layout);
+           machine_layouts_equal(&m->values->sets[set].layout, &k->layout);
 }
 
 void known_ranks_forget(struct machine *m)

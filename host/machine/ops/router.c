@@ -28,7 +28,6 @@
 #include "run/materialise.h"
 #include "values/graph.h"
 #include "values/make.h"
-#include "values/places.h"
 
 enum { NO_PROCESSOR = -2 };
 
@@ -486,13 +485,7 @@ struct machine_value *machine_get(struct machine *m, struct machine_value *send_
         return NULL;
     if (gets_can(m, v, from.vpset)) {
         v = graph_same_bits(m, v); /* they are what is in memory */
-        uint32_t bits = 0;
-        const bool crosses =
-            !gets_has_functions(m, v) && gets_cross(m, send_address, from.vpset, &bits);
-        if (!crosses || (v->op != NODE_CONSTANT && (bits >= CROSS_NEAR || node_is_cheap(v))))
-            v = materialise(m, from.vpset, v);
-        if (v)
-            v = crosses ? places_cross(m, v, bits) : gets_node(m, send_address, v, from.vpset);
+        v = gets_made(m, send_address, v, from.vpset);
         return machine_reinterpret(m, v, type);
     }
     struct message g = {0};

@@ -4,6 +4,7 @@
  * An evaluation has targets: the values asked for, and the content of every live field and flag
  * that is not
  *  - in memory already, a number, or a cheap function of coordinates;
+ *  - an address that is a processor's own but for some bits, and all new
  *  - a temporary: a slot that was overwritten before it was read since the last
  * evaluation, whose present value is shallow and all new. It stays an expression; most temporaries are
  * overwritten again and never computed. If a temporary, or a value made of it, is still there at the
@@ -109,7 +110,8 @@ static bool slot_wants(struct machine *m, const struct slot *slot, bool all)
         return false;
     if (all || v->height > HEIGHT_DEFERRED)
         return true;
-    bool waits = slot->overwritten_first && v->birth == m->values->epoch;
+    /* addresses made for one get or two are never computed: gets know them by what they are */
+    bool waits = (slot->overwritten_first || v->own_address) && v->birth == m->values->epoch;
     m->values->vanished.expressions += waits;
     return !waits;
 }

@@ -108,6 +108,8 @@ static void walk_node(struct machine *m, struct walk *w, struct machine_value *v
     say(w, v->set | (uint32_t)m->values->sets[v->set].generation << 16);
     say(w, v->type.s | (uint32_t)v->type.e << 8 | (uint32_t)v->maybe_nan << 16 |
                (uint32_t)v->strange_nan << 17 | (uint32_t)v->own_address << 18);
+    if (v->own_address)
+        say(w, v->turned);
     if (leaf && !is_own_leaf(w, v))
         return;
     if (leaf) {
@@ -186,6 +188,7 @@ static void template_copy(struct machine *m, struct state *s, const struct walk 
             copies[i] = graph_buffer_node(m, v->type, v->set, NULL);
             copies[i]->strange_nan = v->strange_nan;
             copies[i]->own_address = v->own_address;
+            copies[i]->turned = v->turned;
             graph_keep(m, copies[i], true);
             s->leaves[s->leaves_count++] = (struct leaf){copies[i], v->buffer->number};
             continue;

@@ -222,6 +222,25 @@ uint8_t graph_generator(const struct machine_value *v)
     return generator > GENERATOR_NONE ? GENERATOR_NONE : (uint8_t)generator;
 }
 
+/* An own address is still known when some of its bits are turned, and when it is longer or shorter but whole. */
+static void derive_address(const struct machine *m, struct machine_value *v)
+{
+    const bool turns = v->op == MACHINE_XOR,
+               resizes = v->op == NODE_ZERO_EXTEND || (v->op == NODE_EXTRACT && v->detail == 0);
+    if (!turns && !resizes)
+        return;
+    const int k = turns && v->in[0]->op == NODE_CONSTANT;
+    const struct machine_value *own = v->in[k];
+    if (!own->own_address || (turns && v->in[1 - k]->op != NODE_CONSTANT))
+        return;
+    const int bits = machine_address_bits(m, own->set);
+    if (v->type.width < bits || bits > 32)
+        return;
+    const uint64_t turned = turns ? v->in[1 - k]->imm.lo & ((UINT64_C(1) << bits) - 1) : 0;
+    v->own_address = true;
+    v->turned = own->turned ^ (uint32_t)turned;
+}
+
 static void derive(const struct machine *m, struct machine_value *v, uint32_t epoch)
 {
     const struct node_op_info *info = &node_ops[v->op];
@@ -235,6 +254,7 @@ static void derive(const struct machine *m, struct machine_value *v, uint32_t ep
     v->generator = graph_generator(v);
     v->height = height > UINT16_MAX ? UINT16_MAX : (uint16_t)height;
     graph_derive_nan(m, v);
+    derive_address(m, v);
 }
 
 /* Whether the value waits to be computed; slices are views, which cost nothing until they

@@ -106,6 +106,19 @@ void machine_layout_make(struct machine_layout *l, const int *lengths, const int
 
 /* ---- numbers ---- */
 
+bool machine_layouts_equal(const struct machine_layout *a, const struct machine_layout *b)
+{
+    if (a->order != b->order || a->blocks != b->blocks || a->count != b->count ||
+        a->processors != b->processors || a->parts_count != b->parts_count)
+        return false;
+    for (int i = 0; i < a->parts_count; i++)
+        if (a->parts[i].in_index != b->parts[i].in_index ||
+            a->parts[i].in_address != b->parts[i].in_address ||
+            a->parts[i].bits != b->parts[i].bits || a->parts[i].gray != b->parts[i].gray)
+            return false;
+    return true;
+}
+
 static uint64_t from_gray(uint64_t code)
 {
     for (int shift = 1; shift < WIDTH; shift *= 2)

@@ -108,11 +108,14 @@ struct machine_value *machine_self_address(struct machine *m, int width)
 {
     const struct vpset *s = vpset_get(m, m->values->set_current);
     if (s && s->layout.blocks) {
+        /* no bit above an address: a field that is longer holds one value */
+        const int bits = machine_address_bits(m, m->values->set_current);
         struct machine_value *whole = machine_layout_address_value(m, &s->layout,
                                                                    machine_self_index(m, 32)),
-                             *v = machine_resize(m, whole, width, false);
+                             *low = machine_resize(m, whole, bits < 32 ? bits : 32, false),
+                             *v = machine_resize(m, low, width, false);
         if (v)
-            whole->own_address = v->own_address = true;
+            whole->own_address = low->own_address = v->own_address = true;
         return v;
     }
     if (s && (s->layout.order == MACHINE_SEND_ORDER || s->ratio == 1))

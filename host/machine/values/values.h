@@ -23,9 +23,10 @@ struct machine_value {
     bool interned;
     bool kept : 1; /* kept by a state: see run/replay.h. Not counted as pending */
     bool
-        own_address : 1; /* it is each processor's own send address; no field writes over its array */
-    bool told : 1;       /* observers have been told its fate */
+        own_address : 1; /* it is each processor's own send address but for `turned`; no field writes over its array */
+    bool told : 1;   /* observers have been told its fate */
     bool stored : 1; /* it has been put into a field or flag */
+    uint32_t turned; /* the bits of an address in which an own_address differs from it */
     int32_t detail;
     uint32_t refs;
     uint32_t hash;
