@@ -63,7 +63,7 @@ bool memory_paper_run(int side, uint32_t *result)
 {
     struct paper_scene scene;
     float *values = malloc((size_t)side * (size_t)side * sizeof *values);
-    bool ok = values && paper_scene_init(&scene, 2, side, side, PIGMENTS, false, NULL);
+    bool ok = values && paper_scene_init(&scene, side, side, PIGMENTS, false, NULL);
     if (!values)
         return bench_fail("no memory for a sheet of %dx%d", side, side);
     for (int i = 0; ok && i < STEPS; i++)

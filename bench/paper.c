@@ -105,28 +105,21 @@ static void rate_add(struct bench_report *r, const char *what, const char *of_ca
     bench_report_add(r, what, of_case, rate, 1, unit);
 }
 
-/* model 0: the thesis's. */
-static bool size_measure(struct bench_report *r, const struct bench_options *o, int model,
+static bool size_measure(struct bench_report *r, const struct bench_options *o, bool thesis,
                          int width, int height, struct bench_copy *copy)
 {
-    const bool thesis = model == 0;
     double fibers = (double)width * (double)height;
     int steps_count = fibers < FIBERS_SMALL ? STEPS_SMALL : STEPS_LARGE;
     char of_case[32];
     struct paper_scene scene;
     struct machine_config config = machine_config_default();
-    snprintf(of_case, sizeof of_case, "%s%dx%d",
-             thesis       ? "thesis "
-             : model == 3 ? "version 3 "
-             : model == 2 ? "flowing "
-                          : "",
-             width, height);
+    snprintf(of_case, sizeof of_case, "%s%dx%d", thesis ? "thesis " : "", width, height);
     visible_say("paper: %s ...", of_case);
     bool ok = paris_reset(&config) || bench_fail("%s", paris_error());
     if (!ok)
         return false;
     ok = thesis ? paper_scene_init_thesis(&scene, width, height)
-                : paper_scene_init(&scene, model, width, height, PIGMENTS, false, NULL);
+                : paper_scene_init(&scene, width, height, PIGMENTS, false, NULL);
     struct turn run = {&scene, steps_count, false, NULL},
                 each = {&scene, steps_count, true, NULL}, shown = {&scene, FRAMES, true, NULL};
     if (ok && thesis) {
@@ -158,10 +151,9 @@ static bool size_measure(struct bench_report *r, const struct bench_options *o, 
         rate_add(r, "sheet, shown", of_case, contenders[of_shown].seconds, FRAMES, "frames/s");
     if (ok) {
         struct bench_sample rate = bench_copy_rate(copy, contenders[of_copy].seconds);
-        double bytes = sizeof(float) * (thesis      ? 2 * THESIS_CHANGED + THESIS_READ
-                                        : model > 1 ? 2 * (ARRAYS_CHANGED + FLOW_CHANGED) +
-                                                          ARRAYS_READ + FLOW_READ
-                                                    : 2 * ARRAYS_CHANGED + ARRAYS_READ);
+        double bytes = sizeof(float) *
+                       (thesis ? 2 * THESIS_CHANGED + THESIS_READ
+                               : 2 * (ARRAYS_CHANGED + FLOW_CHANGED) + ARRAYS_READ + FLOW_READ);
         bench_report_add(r, "traffic bound", of_case, rate, 1e9 / bytes / fibers, "steps/s");
         bench_report_add(r, "copy bandwidth", of_case, rate, 1, "GB/s");
     }
@@ -188,13 +180,11 @@ int bench_paper_main(int argc, char **argv)
         return status;
     struct bench_copy *copy = bench_copy_create(COPY_BYTES);
     bool ok = copy != NULL;
-    for (int model = PAPER_MODEL_VERSION; model >= (bench_quick ? PAPER_MODEL_VERSION : 1);
-         model--)
-        for (int i = 0; ok && i < options.sizes_count; i++)
-            ok = size_measure(&report, &options, model, options.sizes[i][0],
-                              options.sizes[i][1], copy);
-    ok = ok &&
-         size_measure(&report, &options, 0, bench_many(1024, 64), bench_many(1024, 64), copy);
+    for (int i = 0; ok && i < options.sizes_count; i++)
+        ok = size_measure(&report, &options, false, options.sizes[i][0], options.sizes[i][1],
+                          copy);
+    ok = ok && size_measure(&report, &options, true, bench_many(1024, 64), bench_many(1024, 64),
+                            copy);
     for (int i = 0; ok && i < options.sizes_count; i++)
         ok = options.sizes[i][0] * options.sizes[i][1] < WORD_LEAST ||
              paper_word_measure(&report, &options, options.sizes[i][0], options.sizes[i][1],

@@ -23,7 +23,7 @@ enum {
     F_FACE_X,
     F_FACE_Y,
     F_RESIST,
-    /* where water flows; two of each that neighbours look at while it changes */
+    /* two of each that neighbours look at while it changes */
     F_SIZING,
     F_CURRENT,
     F_WET,
@@ -37,7 +37,7 @@ enum {
     F_PIGMENTS
 };
 
-/* What a step of water that flows leaves from pass to pass, a row for each row of the sheet. */
+/* What a step leaves from pass to pass, a row for each row of the sheet. */
 enum {
     T_PART,
     T_LOAD,
@@ -67,7 +67,6 @@ struct paper_openmp {
     size_t pitch;              /* floats from field to field */
     size_t stride;             /* ... from row to row */
     float *memory;
-    /* where water flows */
     int wet_now, wet_next, around_now, around_next; /* fields; they change places */
     size_t terms_stride;
     float *terms;
@@ -95,7 +94,6 @@ static inline int flow_field(int q)
 
 /* paper_openmp_flow.c */
 void paper_openmp_flow_start(struct paper_openmp *o);
-void paper_openmp_flow_steps(struct paper_openmp *o, int steps_count);
 
 static inline void margins_fill(float *row, int width, int reach)
 {

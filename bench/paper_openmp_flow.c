@@ -1,4 +1,4 @@
-/* paper_openmp_flow.c - the rule of water that flows (version 2 of the paper's model) in plain C with OpenMP, three passes a step:
+/* paper_openmp_flow.c - the rule of water that flows in plain C with OpenMP, three passes a step:
  *
  *     own parts    row by row, in place; what faces need goes into rows of terms
  *     faces        parts of water, of pigments above, of pigments in fibers; speeds
@@ -25,8 +25,7 @@ static void water_own(const struct paper_openmp *o, int y)
           *part = term_row(o, T_PART, y);
     const float *absorbency = field_row(o, F_ABSORBENCY, y),
                 *capacity = field_row(o, F_CAPACITY, y), *wet = field_row(o, o->wet_now, y);
-    const double mean = o->config.absorbency,
-                 unsized = o->config.model > 2 ? fmax(1, mean / 0.12) : 1,
+    const double mean = o->config.absorbency, unsized = fmax(1, mean / 0.12),
                  pull = air->absorption * 10 * mean * unsized * unsized * unsized;
     const float slope = (float)(pull * 0.25), base = (float)(pull * (1 - 0.25) * mean),
                 unit = (float)UNIT;
@@ -58,7 +57,7 @@ static void pigment_own(const struct paper_openmp *o, int y, int pigment)
                 down_slope = (float)(-pace * hollows), down_base = (float)pace,
                 to_unit = (float)(1 / UNIT);
     const bool up_cut = lift * (1 - hollows) > 1 || lift * hollows + lift * (1 - hollows) > 1,
-               down_cut = pace > 1 || -pace * hollows + pace > 1, third = o->config.model > 2;
+               down_cut = pace > 1 || -pace * hollows + pace > 1;
     const float still = (float)(-8.0 * o->config.air.film);
 #pragma omp simd
     for (int x = 0; x < width; x++) {
@@ -67,15 +66,15 @@ static void pigment_own(const struct paper_openmp *o, int y, int pigment)
         s -= moved;
         i += moved;
         float slow = least(water[x] * to_unit, 1.0f),
-              thin = least((third ? greatest(slow + still, 0.0f) : slow) * 4.0f, 1.0f);
+              thin = least(greatest(slow + still, 0.0f) * 4.0f, 1.0f);
         float covered = greatest(wet[x] * 4.0f + -3.0f, 0.0f);
         thin *= covered;
         slow = slow * -0.75f + 1.0f;
         float dry = 1.0f - least(water[x], 1.0f);
-        slow *= third ? greatest(covered, dry) : 1.0f;
+        slow *= greatest(covered, dry);
         float up = (height[x] * up_slope + up_base) * thin;
         up = up_cut ? least(up, 1.0f) : up;
-        float inside = third ? greatest(around[x] * 4.0f + -3.0f, 0.0f) : 1.0f;
+        float inside = greatest(around[x] * 4.0f + -3.0f, 0.0f);
         float lifted = whole_of(up * i * inside, i);
         i -= lifted;
         up = whole_of(up * f, f);
@@ -120,17 +119,13 @@ static void drying_own(const struct paper_openmp *o, int y)
 static double edge_length(const struct paper_openmp *o)
 {
     const double width = o->config.air.edge_width;
-    return o->config.model > 2 ? fmax(1, 1.6 * width - 2.5) : 0.75 * width;
+    return fmax(1, 1.6 * width - 2.5);
 }
 
 static void around_own(const struct paper_openmp *o, int y)
 {
     const struct paper_air *air = &o->config.air;
-    const int width = o->config.width,
-              reach = o->config.model > 2     ? (int)fmax(1, floor(air->edge_width * 0.1875))
-                      : air->edge_width <= 10 ? 1
-                      : air->edge_width <= 20 ? 2
-                                              : 4;
+    const int width = o->config.width, reach = (int)fmax(1, floor(air->edge_width * 0.1875));
     const double wide = edge_length(o), spread = (1 + reach * reach) / 8.0,
                  relax = spread / (wide * wide + spread);
     const float *here = field_row(o, o->around_now, y),
@@ -163,12 +158,11 @@ static void edge_own(const struct paper_openmp *o, int y)
           *level = term_row(o, T_LEVEL, y), *deep = term_row(o, T_DEEP, y),
           *inverse = term_row(o, T_INVERSE, y), *swirled = term_row(o, T_SWIRLED, y),
           *saturated = term_row(o, T_SATURATED, y);
-    const double most = o->config.model > 2 ? 0.3 : 1.2;
+    const double most = 0.3;
     const float unit = (float)UNIT, to_unit = (float)(1 / UNIT), help = (float)(-most / 16),
                 least_depth = (float)(4 / UNIT), pinning = (float)(4.375 * air->pinning),
                 film = (float)(1 / air->film), relief = (float)air->relief,
                 helped = (float)(1 + most / 4);
-    const bool third = o->config.model > 2;
     const float still = (float)(-4.0 * air->film);
 #pragma omp simd
     for (int x = 0; x < width; x++) {
@@ -176,8 +170,7 @@ static void edge_own(const struct paper_openmp *o, int y)
         float corners = (down[x - 1] + up[x + 1]) + (down[x + 1] + up[x - 1]);
         float near = ((wet[x - 1] + wet[x + 1]) + (down[x] + up[x])) * 2.0f + corners;
         float help_here = greatest((near + wet[x] * 4.0f) * help + helped, 0.1f);
-        if (third)
-            help_here = least(help_here, greatest(near * -0.5f + 6.0f, 0.0f));
+        help_here = least(help_here, greatest(near * -0.5f + 6.0f, 0.0f));
         float advance = sizing[x] * pinning * help_here;
         float damp = least(full, 1.0f);
         advance *= damp * damp * -0.85f + 1.0f;
@@ -192,7 +185,7 @@ static void edge_own(const struct paper_openmp *o, int y)
         level[x] = high + height[x] * relief;
         inverse[x] = 1.0f / greatest(h, least_depth);
         float inside = greatest(around[x] * 2.0f + -1.0f, 0.0f);
-        swirled[x] = third ? inside * inside * greatest(h + still, 0.0f) : inside * h;
+        swirled[x] = inside * inside * greatest(h + still, 0.0f);
     }
 }
 
@@ -201,7 +194,7 @@ static double threshold_base(const struct paper_openmp *o)
 {
     const double mean = o->config.absorbency,
                  sized = fmin(1, fmax(0, (0.2 - mean) / (0.2 - 0.12)));
-    return 1.5 + (o->config.model > 2 ? 0.6 * sized : 0);
+    return 1.5 + 0.6 * sized;
 }
 
 static void pores_own(const struct paper_openmp *o, int y)
@@ -284,9 +277,7 @@ static double edge_pull(const struct paper_openmp *o)
 {
     const struct paper_air *air = &o->config.air;
     const double length = edge_length(o);
-    return o->config.model > 2
-               ? air->edge * (0.05 * air->humidity * length * length + 0.004 * sqrt(length))
-               : air->edge * 0.005 * (air->edge_width + 8);
+    return air->edge * (0.05 * air->humidity * length * length + 0.004 * sqrt(length));
 }
 
 /* Over the faces of an axis (0: x) of row y; step fibers lie between both sides. */
@@ -311,10 +302,8 @@ INLINE void film_faces(const struct paper_openmp *o, int y, int axis, const floa
           *pigment_out = term_row(o, T_FACES + 6 * axis + 2, y),
           *pigment_in = term_row(o, T_FACES + 6 * axis + 3, y);
     const float gravity = (float)air->gravity[axis], pull = 0.3f,
-                spread = (float)(2.0 * air->spread), edge = (float)edge_pull(o),
-                bent = o->config.model > 2 ? 12.0f : 0.0f, still = (float)(-4.0 * air->film),
-                carries = (float)(0.5 / air->film);
-    const bool third = o->config.model > 2;
+                spread = (float)(2.0 * air->spread), edge = (float)edge_pull(o), bent = 12.0f,
+                still = (float)(-4.0 * air->film), carries = (float)(0.5 / air->film);
 #pragma omp simd
     for (int x = 0; x < o->config.width; x++) {
         float drive = (level[x] - level2[x] + gravity) * pull;
@@ -331,11 +320,10 @@ INLINE void film_faces(const struct paper_openmp *o, int y, int axis, const floa
         water_out[x] = out;
         water_in[x] = in;
         float net = out * depth[x] + in * depth2[x];
-        if (third)
-            net *= within(greatest(depth[x], depth2[x]) * carries + -0.5f, 0.0f, 1.0f);
+        net *= within(greatest(depth[x], depth2[x]) * carries + -0.5f, 0.0f, 1.0f);
         net += eddies[x];
         float both = least(depth[x], depth2[x]);
-        both = third ? greatest(both + still, 0.0f) : both;
+        both = greatest(both + still, 0.0f);
         both *= least(face[x] * 1e6f, 1.0f);
         float within_edge = greatest(around[x] + around2[x] + -1.0f, 0.0f);
         net += (around[x] - around2[x]) * edge * within_edge *
@@ -468,7 +456,7 @@ static void step(struct paper_openmp *o)
     o->around_next = around;
 }
 
-void paper_openmp_flow_steps(struct paper_openmp *o, int steps_count)
+void paper_openmp_steps(struct paper_openmp *o, int steps_count)
 {
     for (int i = 0; i < steps_count; i++)
         step(o);
@@ -480,7 +468,7 @@ void paper_openmp_flow_steps(struct paper_openmp *o, int steps_count)
 void paper_openmp_flow_start(struct paper_openmp *o)
 {
     const int width = o->config.width, height = o->config.height;
-    const float wetted = (float)(1 / ((o->config.model > 2 ? 0.04 : 0.25) * UNIT));
+    const float wetted = (float)(1 / (0.04 * UNIT));
     for (int y = 0; y < height; y++) {
         const float *surface = field_row(o, F_SURFACE_WATER, y);
         for (int x = 0; x < width; x++) {
@@ -506,7 +494,7 @@ void paper_openmp_flow_start(struct paper_openmp *o)
             field_row(o, F_EASE_Y, y)[x] =
                 least(face_y[x] * 1e6f, 1.0f) / (sizing[x] + sizing2[x]);
             float sum = (current[x] + current2[x2]) + (current2[x] + current[x2]);
-            sum *= (float)((o->config.model > 2 ? 1.5 : 0.7) / 4);
+            sum *= (float)(1.5 / 4);
             sum *= least(face_y[x] * 1e6f, 1.0f) * least(face_y[x2] * 1e6f, 1.0f) *
                    least(face_x[x] * 1e6f, 1.0f) * least(face_x2[x] * 1e6f, 1.0f);
             field_row(o, F_SWIRL, y)[x] = sum;

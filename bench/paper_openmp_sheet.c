@@ -37,15 +37,6 @@ static int field_of(enum paper_peer_layer layer, int pigment)
     }
 }
 
-/* False, bench_error(): the air has surface tension. */
-static bool air_set(struct paper_openmp *o, const struct paper_air *air)
-{
-    if (air->tension > 0 && o->config.model < 2)
-        return bench_fail("the paper's peer knows no surface tension (got %g)", air->tension);
-    o->config.air = *air;
-    return true;
-}
-
 struct paper_openmp *paper_openmp_create(const struct paper_peer_config *config)
 {
     if (config->width < LANES || config->height < 3) {
@@ -59,10 +50,6 @@ struct paper_openmp *paper_openmp_create(const struct paper_peer_config *config)
         return NULL;
     }
     o->config = *config;
-    if (!air_set(o, &config->air)) {
-        free(o);
-        return NULL;
-    }
     o->fields_count = F_PIGMENTS + 3 * config->pigments_count;
     o->flowing = 2 + 2 * config->pigments_count;
     o->pitch = ((size_t)config->width + 2 * MARGIN + LANES - 1) / LANES * LANES;
@@ -82,10 +69,8 @@ struct paper_openmp *paper_openmp_create(const struct paper_peer_config *config)
     o->around_next = F_AROUND_OTHER;
     o->terms_stride = (size_t)(T_UP + o->flowing) * o->pitch;
     bytes = o->terms_stride * (size_t)config->height * sizeof(float);
-    if (config->model > 1)
-        o->terms =
-            aligned_alloc(PAGE_BYTES, (bytes + PAGE_BYTES - 1) / PAGE_BYTES * PAGE_BYTES);
-    if (config->model > 1 && !o->terms) {
+    o->terms = aligned_alloc(PAGE_BYTES, (bytes + PAGE_BYTES - 1) / PAGE_BYTES * PAGE_BYTES);
+    if (!o->terms) {
         bench_fail("no memory for a sheet of %dx%d", config->width, config->height);
         paper_openmp_destroy(o);
         return NULL;
@@ -93,8 +78,7 @@ struct paper_openmp *paper_openmp_create(const struct paper_peer_config *config)
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < config->height; y++) {
         memset(o->memory + (size_t)y * o->stride, 0, o->stride * sizeof(float));
-        if (o->terms)
-            memset(o->terms + (size_t)y * o->terms_stride, 0, o->terms_stride * sizeof(float));
+        memset(o->terms + (size_t)y * o->terms_stride, 0, o->terms_stride * sizeof(float));
     }
     return o;
 }
@@ -136,13 +120,6 @@ void paper_openmp_read(const struct paper_openmp *o, enum paper_peer_layer layer
 void paper_openmp_start(struct paper_openmp *o)
 {
     int width = o->config.width, height = o->config.height;
-    for (int y = 0; y < height; y++) {
-        const float *surface = field_row(o, F_SURFACE_WATER, y);
-        float *around = field_row(o, F_AROUND, y);
-        for (int x = 0; x < width; x++)
-            around[x] = fmaxf(around[x], fminf(surface[x], 1));
-        margins_fill(around, width, 1);
-    }
     for (int axis = 0; axis < 2; axis++) {
         float along = (float)(o->config.absorbency_along[axis] / 2);
         for (int y = 0; y < height; y++)
@@ -161,6 +138,5 @@ void paper_openmp_start(struct paper_openmp *o)
     }
     for (int y = 0; y < height; y++)
         margins_fill(field_row(o, F_FACE_X, y), width, 1);
-    if (o->config.model > 1)
-        paper_openmp_flow_start(o);
+    paper_openmp_flow_start(o);
 }

@@ -9,9 +9,8 @@
  *     paper_openmp_steps(peer, 100);
  *     paper_openmp_read(peer, PAPER_PEER_FIXED, 0, out);
  *
- * The rules are those of a sheet with all parts (host/paper/model/step.c; film.c where water
- * flows), with the operations in the same order, so the bits are the same. They support all of
- * the air except surface tension. The thesis's rule is in scene.h.
+ * The rules are those of a sheet with all parts (host/paper/model/film.c), with the
+ * operations in the same order, so the bits are the same. The thesis's rule is in scene.h.
  *
  * Amounts are in grains. Threads: one thread calls; the steps use all that OpenMP has.
  */
@@ -31,14 +30,13 @@ enum paper_peer_layer {
     PAPER_PEER_SURFACE,
     PAPER_PEER_INFUSED,
     PAPER_PEER_FIXED,
-    PAPER_PEER_SIZING, /* where water flows */
+    PAPER_PEER_SIZING,
     PAPER_PEER_CURRENT
 };
 
 struct paper_peer_config {
     int width, height; /* width 16 or more */
     bool torus;
-    int model;                  /* 1, or 2: water flows (no resist then) */
     double absorbency;          /* of the stock */
     double absorbency_along[2]; /* of the stock */
     int pigments_count;

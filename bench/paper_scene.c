@@ -69,21 +69,19 @@ static bool sheet_create(struct paper_scene *s, const struct paper_sheet_config 
     return paper_said(paper_sheet_create(config, &s->sheet));
 }
 
-bool paper_scene_init(struct paper_scene *s, int model, int width, int height,
-                      int pigments_count, bool torus, const struct paper_air *air)
+bool paper_scene_init(struct paper_scene *s, int width, int height, int pigments_count,
+                      bool torus, const struct paper_air *air)
 {
     struct paper_sheet_config config = paper_sheet_config_default();
     struct paper_peer_config peer = {.width = width,
                                      .height = height,
                                      .torus = torus,
-                                     .model = model,
                                      .pigments_count = pigments_count,
                                      .air = air ? *air : paper_air_default()};
     *s = (struct paper_scene){.sheet = NULL};
     config.width = width;
     config.height = height;
     config.torus = torus;
-    config.model = model;
     peer.absorbency = config.stock.absorbency;
     config.pigments_count = pigments_count;
     for (int i = 0; i < pigments_count; i++)
@@ -95,7 +93,7 @@ bool paper_scene_init(struct paper_scene *s, int model, int width, int height,
     float *values = values_get(s);
     size_t count = (size_t)width * (size_t)height;
     bool ok = values && paper_said(paper_sheet_air(s->sheet, &peer.air));
-    for (int i = 0; i < (model > 1 ? ALL_LAYERS : LAYERS_COUNT - 1); i++)
+    for (int i = 0; i < ALL_LAYERS; i++)
         for (int k = 0; ok && k < (layers[i].each ? pigments_count : 1); k++) {
             if (i == LAYERS_COUNT - 1) /* the dried water */
                 continue;

@@ -1,7 +1,7 @@
 /* paper_scene.h - the same wet sheet, in Paris and in plain C.
  *
  *     struct paper_scene scene;
- *     if (!paper_scene_init(&scene, 2, 1024, 1024, 6, false, NULL))
+ *     if (!paper_scene_init(&scene, 1024, 1024, 6, false, NULL))
  *         ...bench_error()
  *     paper_sheet_step(scene.sheet);
  *     paper_openmp_steps(scene.peer, 1);
@@ -24,9 +24,9 @@ struct paper_scene {
     int width, height, pigments_count;
 };
 
-/* model: its version. air: NULL: the default. */
-bool paper_scene_init(struct paper_scene *s, int model, int width, int height,
-                      int pigments_count, bool torus, const struct paper_air *air);
+/* air: NULL: the default. */
+bool paper_scene_init(struct paper_scene *s, int width, int height, int pigments_count,
+                      bool torus, const struct paper_air *air);
 bool paper_scene_init_thesis(struct paper_scene *s, int width, int height);
 /* All amounts, bit by bit. */
 bool paper_scene_agrees(const struct paper_scene *s, const char *of_case);

@@ -33,13 +33,11 @@ static bool said(enum paper_status status)
 }
 
 /* On a machine of its own. */
-static bool sheet_make(int model, int width, int height, int pigments,
-                       struct paper_sheet **sheet)
+static bool sheet_make(int width, int height, int pigments, struct paper_sheet **sheet)
 {
     struct paper_sheet_config config = paper_sheet_config_default();
     struct machine_config machine = machine_config_default();
     *sheet = NULL;
-    config.model = model;
     config.width = width;
     config.height = height;
     config.pigments_count = pigments;
@@ -101,7 +99,7 @@ bool paper_word_measure(struct bench_report *r, const struct bench_options *o, i
     visible_say("paper: %s ...", of_case);
     struct paper_air air = paper_air_default();
     air.humidity = 0; /* a word that has dried would take no time */
-    bool ok = sheet_make(PAPER_MODEL_VERSION, width, height, WORD_PIGMENTS, &sheet) &&
+    bool ok = sheet_make(width, height, WORD_PIGMENTS, &sheet) &&
               said(paper_sheet_air(sheet, &air)) &&
               line_put(sheet, "water", WORD_SIZE, width / 2, height / 2, 0) &&
               steps_go(sheet, STEPS_KERNELS);
@@ -153,12 +151,12 @@ struct poster_time {
     double wall, process; /* seconds; of all processors */
 };
 
-static bool poster_time(int model, struct poster_time *took)
+static bool poster_time(struct poster_time *took)
 {
     struct paper_sheet *sheet;
-    visible_say("paper: a poster, version %d ...", model);
-    bool ok = sheet_make(model, POSTER_WIDTH, POSTER_HEIGHT, POSTER_PIGMENTS, &sheet) &&
-              poster_paint(sheet);
+    visible_say("paper: a poster ...");
+    bool ok =
+        sheet_make(POSTER_WIDTH, POSTER_HEIGHT, POSTER_PIGMENTS, &sheet) && poster_paint(sheet);
     const struct poster_time start = {bench_now_s(), bench_process_s()};
     ok = ok && steps_go(sheet, POSTER_STEPS);
     *took = (struct poster_time){bench_now_s() - start.wall, bench_process_s() - start.process};
@@ -170,19 +168,15 @@ static bool poster_time(int model, struct poster_time *took)
 
 bool paper_poster_measure(struct bench_report *r)
 {
-    struct poster_time first, third;
-    if (!poster_time(1, &first) || !poster_time(3, &third))
+    struct poster_time took;
+    if (!poster_time(&took))
         return false;
     const struct {
         const char *what, *unit;
         double value;
     } rows[] = {
-        {"sheet, version 1", "s", first.wall},
-        {"sheet, version 3", "s", third.wall},
-        {"version 3 / version 1", "times", third.wall / first.wall},
-        {"processors, version 1", "s", first.process},
-        {"processors, version 3", "s", third.process},
-        {"processors, 3 / 1", "times", third.process / first.process},
+        {"sheet", "s", took.wall},
+        {"processors", "s", took.process},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         bench_report_add(r, rows[i].what, "poster 3000x2000, 600 steps",
@@ -221,7 +215,7 @@ bool paper_memory_measure(struct bench_report *r)
     const double before = most_in_memory();
     uint16_t *rgb = malloc(3 * count * sizeof *rgb);
     bool ok = (rgb || bench_fail("no memory for a picture")) &&
-              sheet_make(PAPER_MODEL_VERSION, LARGE_SIDE, LARGE_SIDE, POSTER_PIGMENTS, &sheet);
+              sheet_make(LARGE_SIDE, LARGE_SIDE, POSTER_PIGMENTS, &sheet);
     if (!ok) {
         free(rgb);
         return false;

@@ -48,8 +48,7 @@ extern char **environ;
 #define LIFE "@life" /* examples/paris/life.c, compiled; else the command is lutetia */
 
 static const char script[] =
-    "local v = param(\"version\", 0)\n"
-    "local p = paper{width = 600, height = 400, version = v > 0 and v or nil, "
+    "local p = paper{width = 600, height = 400, "
     "pigments = {\"quinacridone rose\", \"phthalo green\"}}\n"
     "p:put(ellipse(300, 200, 120), {water = 0.7, [\"quinacridone rose\"] = 0.5})\n"
     "p:step(1)\n"
@@ -72,10 +71,6 @@ static const struct start_command {
      {"paint", "Paris", "--model=thesis", "--paper", "1024x640", "--steps", "1", "-o", PICTURE},
      true},
     {"first picture", "script 600x400", {"run", SCRIPT, "-q", "-o", FOLDER}, true},
-    {"first picture",
-     "script, version 1",
-     {"run", SCRIPT, "version=1", "-q", "-o", FOLDER},
-     true},
     {"in C/Paris", "life 200", {LIFE, "200"}, true},
 };
 

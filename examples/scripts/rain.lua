@@ -12,7 +12,7 @@ local p = paper{
   pigments = {"french ultramarine", "phthalo green", "quinacridone rose"},
 }
 p:air{
-  gravity = {0, 0.6}, pinning = 1.0, film = 0.12, relief = 0.1, spread = 0.3, tension = 0.012,
+  gravity = {0, 0.6}, pinning = 1.0, film = 0.12, relief = 0.1, spread = 0.3,
   humidity = 0.0001, edge = 4, edge_width = 3, settling = 0.05, absorption = 0.03,
 }
 

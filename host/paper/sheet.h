@@ -112,11 +112,9 @@ struct paper_air {     /* conditions that may change at any time */
     double gravity[2]; /* pull on the surface along x and along y, -1..1 */
     double seep[2];    /* the same in the fibers, -1..1 */
     double spread;     /* rate at which surface water levels, 0..1 */
-    double tension;    /* surface tension of the water, over ten neighbours, 0..0.1 */
     double relief;     /* influence of the paper's height on the water, 0..1 */
     double film;       /* thinner water flows slower, 0.001..1 */
     double pinning; /* depth from which water enters dry fibers, 0..2; 0: it flows anywhere */
-    double damp;    /* infused water from which fibers count as wet, 0..1 */
     double absorption; /* surface water that sinks in, times absorbency, 0..4 */
     double carry; /* part of a pigment's flow in fibers that follows the water; the rest follows
                           the pigment's own gradient, 0..1 */
@@ -129,14 +127,11 @@ struct paper_air {     /* conditions that may change at any time */
 /* Calm air over a flat sheet, for all parts; and the weather of paper_weather_default(). */
 struct paper_air paper_air_default(void);
 
-/* Versions of the model. No version ever changes, to the bit: a change that would give other
- * bits is a new version. The default version, and the latest: */
-enum { PAPER_MODEL_USUAL = 3, PAPER_MODEL_VERSION = 3 };
+/* The version of the model, which saved states name. A change that gives other bits is a new version. */
+enum { PAPER_MODEL_VERSION = 1 };
 
 struct paper_sheet_config {
     int width, height; /* fibers, PAPER_SIDE_MIN..PAPER_SIDE_MAX */
-    int model;         /* version of the model, 1..PAPER_MODEL_VERSION; without parts always
-                        * 1 */
     bool torus;        /* water that leaves at one edge enters at the opposite one */
     unsigned parts;    /* PAPER_PART_...; 0: the thesis's model */
     enum paper_rule rule;
@@ -145,7 +140,7 @@ struct paper_sheet_config {
     int pigments_count; /* 0..PAPER_PIGMENTS_MAX */
     struct paper_pigment pigments[PAPER_PIGMENTS_MAX];
     bool
-        deckled; /* in version 3, with fibers, no torus: the sheet has such edges. Else it is cut at the picture's border */
+        deckled; /* with parts and fibers, no torus: the sheet has such edges. Else it is cut at the picture's border */
     struct paper_deckle deckle;
 };
 /* A sheet of the usual model with all parts, without pigments. */
@@ -188,12 +183,11 @@ enum paper_layer {
     PAPER_LAYER_SURFACE_PIGMENT, /* one for each */
     PAPER_LAYER_INFUSED_PIGMENT,
     PAPER_LAYER_FIXED_PIGMENT,
-    /* From version 2 on, which has flowing water: resistance of fibers to wetting, 0.01..100,
-     * about 1; eddies, -10..10; wet part of each fiber, 0..1 */
+    /* Of sheets with a surface: resistance of fibers to wetting, 0.01..100, about 1; eddies, -10..10; wet part of each fiber, 0..1 */
     PAPER_LAYER_SIZING,
     PAPER_LAYER_CURRENT,
     PAPER_LAYER_WET_PART,
-    /* In version 3: how willingly the paper takes what a bristle leaves, 0.15..2, about 1 */
+    /* Of sheets with parts: how willingly the paper takes what a bristle leaves, 0.15..2, about 1 */
     PAPER_LAYER_GRIP,
     /* Of sheets with a deckle: 1; less towards the edge, and 0 where there is no paper */
     PAPER_LAYER_THICKNESS,
@@ -259,7 +253,7 @@ long paper_sheet_now(const struct paper_sheet *sheet);
 
 /* ---- looking ---- */
 
-/* Light on the relief of version 2, where nothing else is said. */
+/* Light on the relief of sheets with parts, where nothing else is said. */
 #define PAPER_LIGHT_USUAL 1.2
 
 enum paper_show {
@@ -288,7 +282,7 @@ struct paper_sheet_view {
         0.44, 0.42, 0.40                                                                       \
     }
 
-/* The colours as they are usually looked at: with light on the relief of sheets of version 2; of version 1 without. */
+/* The colours as they are usually looked at: with light on the relief of sheets with parts, without on the thesis's page. */
 struct paper_sheet_view paper_sheet_view_default(const struct paper_sheet_config *config);
 
 /* The memory besides rgb that a picture with more than one pixel a fiber takes while it is made. */

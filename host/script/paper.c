@@ -165,9 +165,9 @@ static const char *const rules[] = {"kubelka-munk", "subtract", "luminous", NULL
 
 static int make_paper(lua_State *L)
 {
-    static const char *const besides[] = {"width", "height",  "torus",    "model", "rule",
-                                          "stock", "seed",    "pigments", "color", "history",
-                                          "undo",  "version", "deckle",   NULL};
+    static const char *const besides[] = {"width", "height", "torus",    "model", "rule",
+                                          "stock", "seed",   "pigments", "color", "history",
+                                          "undo",  "deckle", NULL};
     lua_remove(L, 1); /* removes the table `paper`, which was called */
     lua_settop(L, 1);
     luaL_checktype(L, 1, LUA_TTABLE);
@@ -182,8 +182,6 @@ static int make_paper(lua_State *L)
     config.seed = (uint64_t)script_arg_integer(
         L, 1, "paper", "seed", (int)(script->config->seed & 0x7fffffff), 0, 2147483647);
     parts_read(L, &config);
-    const int version = script_arg_integer(L, 1, "paper", "version", 0, 1, PAPER_MODEL_VERSION);
-    config.model = version ? version : config.model;
     const char *rule = script_arg_text(L, 1, "paper", "rule");
     if (rule)
         config.rule = (enum paper_rule)script_arg_choice(L, "paper rule", rule, rules);
@@ -194,19 +192,12 @@ static int make_paper(lua_State *L)
     double undo = fmin(UNDO_BYTES_MOST, (double)(script->config->memory_bytes / UNDO_SHARE));
     undo = 1e6 * script_arg_number(L, 1, "paper", "undo", undo * 1e-6, 0, 1e6);
 
-    struct paper_sheet_config before = config;
-    before.model = version ? version : 1;
-    lua_pushliteral(L, "pigments");
-    if (lua_rawget(L, 1) == LUA_TNIL)
-        before.pigments_count = 0;
-    lua_pop(L, 1);
-
     struct script_paper *paper = script_paper_new(L);
     script_paper_room_take(L, paper, config.width, config.height, config.pigments_count);
     bool found = false;
     enum paper_status status = PAPER_OK;
     if (history)
-        status = script_paper_resumed(paper, &config, &before, undo, &found);
+        status = script_paper_resumed(paper, &config, undo, &found);
     if (status == PAPER_OK && !found)
         status = paper_sheet_create(&config, &paper->sheet);
     if (status == PAPER_OK && !found && history)
@@ -322,7 +313,7 @@ static int paper_put_type(lua_State *L)
     double amount[1 + PAPER_PIGMENTS_MAX];
     struct paper_screen screen;
     int x, y;
-    const bool none = lua_isnoneornil(L, 4), usual = none && config_of(paper)->model >= 3;
+    const bool none = lua_isnoneornil(L, 4), usual = none && config_of(paper)->parts;
     if (none)
         type_amounts_usual(L, config_of(paper), amount);
     else

@@ -137,7 +137,6 @@ void script_paper_forget(struct script_paper *paper)
 
 enum paper_status script_paper_resumed(struct script_paper *paper,
                                        const struct paper_sheet_config *config,
-                                       const struct paper_sheet_config *before,
                                        double budget_bytes, bool *found)
 {
     struct paper_state *state = paper->script->config->resumed;
@@ -150,8 +149,7 @@ enum paper_status script_paper_resumed(struct script_paper *paper,
         enum paper_status status = paper_state_describe(state, i, &saved);
         if (status != PAPER_OK)
             return status;
-        if (!paper_sheet_config_same(&saved, config) &&
-            !paper_sheet_config_same(&saved, before)) {
+        if (!paper_sheet_config_same(&saved, config)) {
             char text[80];
             snprintf(text, sizeof text,
                      "paper %d is not the one that was saved; it begins anew", paper->number);

@@ -27,11 +27,9 @@ void script_paper_room_take(lua_State *L, struct script_paper *paper, double wid
 /* Adds the paper, which has a sheet now, to the list of open papers; removes it. */
 void script_paper_keep(struct script_paper *paper);
 void script_paper_forget(struct script_paper *paper);
-/* The saved sheet that this paper resumes, as the script describes it now, or as the same
- * words described it before version 2 was the usual one; *found false: none. */
+/* The saved sheet that this paper resumes, if it is as the script describes it now; *found false: none. */
 enum paper_status script_paper_resumed(struct script_paper *paper,
                                        const struct paper_sheet_config *config,
-                                       const struct paper_sheet_config *before,
                                        double budget_bytes, bool *found);
 
 /* Shows the paper to the host. Returns why the host wants the script to stop, or NULL; the

@@ -50,7 +50,7 @@ static const struct {
     {"mask", "__mul", "m", ""},
     {"mask", "__sub", "m", ""},
     {"papers", "__call", "O",
-     "width:i height:i torus:b model:S version:i rule:S stock:S seed:i pigments:v color:v "
+     "width:i height:i torus:b model:S rule:S stock:S seed:i pigments:v color:v "
      "color_variation:n absorbency:n capacity:n "
      "roughness:n grain:n fibers:v history:b undo:n deckle:v"},
     {"papers", "load", "hi", ""},
@@ -61,7 +61,7 @@ static const struct {
     {"paper", "dry", "", ""},
     {"paper", "seal", "", ""},
     {"paper", "air", "O",
-     "gravity:v seep:v spread:n tension:n relief:n film:n pinning:n damp:n absorption:n "
+     "gravity:v seep:v spread:n relief:n film:n pinning:n absorption:n "
      "carry:n humidity:n edge:n edge_width:n "
      "settling:n"},
     {"paper", "step", "i", ""},

@@ -119,41 +119,6 @@ static void scripts_go_back_and_forth(void **state)
     assert_true(same("back/same.png", "back/same2.png"));
 }
 
-/* A sheet that was saved when version 1 was the default: scripts that name no version continue it, and those that name another
- * version begin a new sheet. */
-static void sheets_of_version_1_go_on(void **state)
-{
-    (void)state;
-    static const char *const rest =
-        "p:put(rect(4, 4, 12, 6), {water = 0.8, cyan = 0.6}) p:step(5)\n"
-        "if param('stop', false) then error('here') end\n"
-        "p:step(4) p:frame('end.png')\n";
-    static const struct {
-        const char *name, *version;
-    } scripts[] = {
-        {"one.lua", "version = 1, "}, {"none.lua", ""}, {"three.lua", "version = 3, "}};
-    for (size_t i = 0; i < sizeof scripts / sizeof *scripts; i++) {
-        char text[600];
-        snprintf(text, sizeof text,
-                 "local p = paper{%swidth = 24, height = 16, pigments = {'cyan'}}\n%s",
-                 scripts[i].version, rest);
-        script_write(scripts[i].name, text);
-    }
-    char saved[600];
-    snprintf(saved, sizeof saved, "%s", in_scratch("one.h5"));
-    RUN("one.lua", 0, "-o", in_scratch("version1"));
-    RUN("three.lua", 0, "-o", in_scratch("version3"));
-    RUN("none.lua", 0, "-o", in_scratch("versionless"));
-    assert_false(same("version1/end.png", "version3/end.png"));
-    assert_true(same("version3/end.png", "versionless/end.png"));
-    RUN("one.lua", 1, "-o", in_scratch("stopped"), "--save", saved, "stop=true");
-    RUN("none.lua", 0, "-o", in_scratch("resumed"), "--resume", saved);
-    assert_true(same("version1/end.png", "resumed/end.png"));
-    RUN("three.lua", 0, "-o", in_scratch("anew"), "--resume", saved);
-    says("begins anew");
-    assert_true(same("version3/end.png", "anew/end.png"));
-}
-
 static void saved_runs_go_on(void **state)
 {
     (void)state;
@@ -343,7 +308,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(scripts_go_back_and_forth),
         cmocka_unit_test(saved_runs_go_on),
-        cmocka_unit_test(sheets_of_version_1_go_on),
         cmocka_unit_test(films_are_made),
         cmocka_unit_test(films_go_on),
         cmocka_unit_test(sweeps_run_side_by_side),

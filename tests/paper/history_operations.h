@@ -35,14 +35,11 @@ static int below(int n)
     return (int)(sample_word(&chance) % (uint64_t)n);
 }
 
-static int sheets_model = 1;
-
 static struct paper_sheet *sheet_new(double budget_bytes)
 {
     struct paper_sheet_config config =
         sheet_of_two(WIDTH, HEIGHT, "quinacridone rose", "french ultramarine");
     config.torus = true;
-    config.model = sheets_model;
     struct paper_sheet *sheet;
     check(paper_sheet_create(&config, &sheet));
     if (budget_bytes >= 0)

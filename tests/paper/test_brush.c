@@ -20,19 +20,13 @@
 enum { WIDTH = 96, HEIGHT = 64, FIBERS = WIDTH * HEIGHT };
 
 /* Every sheet has two pigments, so that all tests have the same kernels. */
-static struct paper_sheet *sheet_of(int model)
+static struct paper_sheet *sheet_make(void)
 {
     struct paper_sheet_config config =
         sheet_of_two(WIDTH, HEIGHT, "quinacridone rose", "phthalo green");
-    config.model = model;
     struct paper_sheet *sheet;
     check(paper_sheet_create(&config, &sheet));
     return sheet;
-}
-
-static struct paper_sheet *sheet_make(void)
-{
-    return sheet_of(PAPER_MODEL_USUAL);
 }
 
 static struct paper_brush brush_small(void)
@@ -263,15 +257,14 @@ static void a_thin_stroke_has_no_dots(void **state)
 
 /* ---- sameness ---- */
 
-/* Mirrors a sheet by its layers, which hold all its properties in versions 1 and 3. In version 2 bristles leave more in some
- * places than in others, which no layer holds. */
-static void sheet_mirror(struct paper_sheet *sheet, int model)
+/* Mirrors a sheet by its layers, which hold all its properties. */
+static void sheet_mirror(struct paper_sheet *sheet)
 {
     static const enum paper_layer layers[] = {PAPER_LAYER_HEIGHT,   PAPER_LAYER_ABSORBENCY,
                                               PAPER_LAYER_CAPACITY, PAPER_LAYER_SIZING,
                                               PAPER_LAYER_CURRENT,  PAPER_LAYER_GRIP};
     static float values[FIBERS], turned[FIBERS];
-    for (int k = 0; k < (model == 1 ? 3 : 6); k++) {
+    for (int k = 0; k < 6; k++) {
         check(paper_sheet_layer_read(sheet, layers[k], 0, values));
         for (int i = 0; i < FIBERS; i++)
             turned[i - i % WIDTH + (WIDTH - 1 - i % WIDTH)] =
@@ -280,11 +273,11 @@ static void sheet_mirror(struct paper_sheet *sheet, int model)
     }
 }
 
-static void paint(int model, bool mirrored, float *rose, float *water)
+static void paint(bool mirrored, float *rose, float *water)
 {
-    struct paper_sheet *sheet = sheet_of(model);
+    struct paper_sheet *sheet = sheet_make();
     if (mirrored)
-        sheet_mirror(sheet, model);
+        sheet_mirror(sheet);
     struct paper_brush brush = brush_small();
     brush.mirrored = mirrored;
     brush.follows = true;
@@ -302,11 +295,12 @@ static void paint(int model, bool mirrored, float *rose, float *water)
     paper_sheet_destroy(sheet);
 }
 
-static void mirrored_of(int model)
+static void a_mirrored_stroke_gives_the_mirrored_picture(void **state)
 {
+    (void)state;
     static float rose[3][FIBERS], water[3][FIBERS];
     for (int i = 0; i < 3; i++)
-        paint(model, i == 1, rose[i], water[i]);
+        paint(i == 1, rose[i], water[i]);
     assert_memory_equal(rose[0], rose[2], sizeof rose[0]); /* the same again */
     assert_memory_equal(water[0], water[2], sizeof water[0]);
     double sum = 0, skew = 0;
@@ -315,17 +309,10 @@ static void mirrored_of(int model)
         sum += (double)rose[0][i];
         skew += fabs((double)(rose[0][i] - rose[0][j]));
         if (rose[0][i] != rose[1][j] || water[0][i] != water[1][j])
-            fail_msg("version %d, fiber %d, %d: %.9g, mirrored %.9g", model, i % WIDTH,
-                     i / WIDTH, (double)rose[0][i], (double)rose[1][j]);
+            fail_msg("fiber %d, %d: %.9g, mirrored %.9g", i % WIDTH, i / WIDTH,
+                     (double)rose[0][i], (double)rose[1][j]);
     }
     assert_true(sum > 100 && skew > 0.5 * sum); /* the picture is not its own mirror image */
-}
-
-static void a_mirrored_stroke_gives_the_mirrored_picture(void **state)
-{
-    (void)state;
-    mirrored_of(1);
-    mirrored_of(3);
 }
 
 static void one_side_can_be_loaded(void **state)

@@ -27,7 +27,6 @@ static struct paper_sheet_config config_of(int side, const char *stock, uint64_t
 {
     struct paper_sheet_config config =
         sheet_of_two(side, side, "quinacridone rose", "french ultramarine");
-    config.model = PAPER_MODEL_VERSION;
     config.stock = *paper_stock_find(stock);
     config.seed = seed;
     config.deckled = true;
@@ -483,25 +482,22 @@ static void wrong_deckles_are_refused(void **state)
     (void)state;
     static const struct {
         const char *stock, *says;
-        int model;
         unsigned parts;
         bool torus;
         struct paper_deckle deckle;
     } rows[] = {
-        {"rough", "a deckle's margin must be 2..4096 (got 1)", 3, 15, false, {1, 1, 1, 1}},
-        {"rough", "a deckle's waves must be 0..256 (got -1)", 3, 15, false, {9, -1, 1, 1}},
-        {"rough", "a deckle's thin must be 1..1024 (got nan)", 3, 15, false, {9, 1, NAN, 1}},
-        {"rough", "a deckle's fringe must be 0..256 (got 300)", 3, 15, false, {9, 1, 1, 300}},
-        {"rough", "more than 112 wide and high", 3, 15, false, {46, 1, 10, 1}},
-        {"glass", "glass has no fibers", 3, 15, false, {9, 1, 1, 1}},
-        {"rough", "a torus has no edges", 3, 15, true, {9, 1, 1, 1}},
-        {"rough", "in version 3", 2, 15, false, {9, 1, 1, 1}},
-        {"rough", "of the full model", 3, 0, false, {9, 1, 1, 1}},
+        {"rough", "a deckle's margin must be 2..4096 (got 1)", 15, false, {1, 1, 1, 1}},
+        {"rough", "a deckle's waves must be 0..256 (got -1)", 15, false, {9, -1, 1, 1}},
+        {"rough", "a deckle's thin must be 1..1024 (got nan)", 15, false, {9, 1, NAN, 1}},
+        {"rough", "a deckle's fringe must be 0..256 (got 300)", 15, false, {9, 1, 1, 300}},
+        {"rough", "more than 112 wide and high", 15, false, {46, 1, 10, 1}},
+        {"glass", "glass has no fibers", 15, false, {9, 1, 1, 1}},
+        {"rough", "a torus has no edges", 15, true, {9, 1, 1, 1}},
+        {"rough", "thesis's paper has no deckle", 0, false, {9, 1, 1, 1}},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct paper_sheet_config config = config_of(SMALL, rows[i].stock, 1);
         struct paper_sheet *sheet;
-        config.model = rows[i].model;
         config.parts = rows[i].parts;
         config.torus = rows[i].torus;
         config.deckle = rows[i].deckle;

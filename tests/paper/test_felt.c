@@ -26,7 +26,6 @@ static struct paper_sheet_config config_of(const char *stock, int side, uint64_t
 {
     struct paper_sheet_config config = paper_sheet_config_default();
     config.width = config.height = side;
-    config.model = PAPER_MODEL_VERSION;
     config.seed = seed;
     config.stock = *paper_stock_find(stock);
     config.pigments_count = 1;

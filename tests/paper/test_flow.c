@@ -28,7 +28,6 @@ static struct paper_sheet *sheet_of(uint64_t seed, const char *stock)
 {
     struct paper_sheet_config config = paper_sheet_config_default();
     config.width = config.height = SIDE;
-    config.model = PAPER_MODEL_VERSION;
     config.seed = seed;
     config.stock = *paper_stock_find(stock);
     config.pigments_count = 2;

@@ -533,16 +533,6 @@ static void computing_again_can_be_stopped(void **state)
     paper_sheet_destroy(sheet);
 }
 
-/* The speeds and wet areas of flowing water are restored like all other planes. */
-static void water_that_flows_comes_back_the_same(void **state)
-{
-    sheets_model = PAPER_MODEL_VERSION;
-    going_back_and_forth_gives_the_same_bits(state);
-    what_is_inserted_comes_before_what_followed(state);
-    a_saved_run_goes_on(state);
-    sheets_model = 1;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -555,7 +545,6 @@ int main(void)
         cmocka_unit_test(damaged_runs_are_refused_or_harmless),
         cmocka_unit_test(another_resolution_is_the_same_picture),
         cmocka_unit_test(computing_again_can_be_stopped),
-        cmocka_unit_test(water_that_flows_comes_back_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -25,7 +25,6 @@ static struct paper_sheet *sheet_of(const char *stock, bool deckled)
 {
     struct paper_sheet_config config = paper_sheet_config_default();
     config.width = config.height = SIDE;
-    config.model = PAPER_MODEL_VERSION;
     config.seed = 7;
     config.stock = *paper_stock_find(stock);
     config.deckled = deckled;

@@ -146,7 +146,6 @@ static struct paper_air air_with_all(void)
     air.gravity[1] = 0.02;
     air.seep[0] = -0.03;
     air.seep[1] = 0.02;
-    air.tension = 0.001;
     return air;
 }
 
@@ -190,7 +189,6 @@ static struct paper_air air_by_chance(void)
     CHOOSE(relief, 0, 1);
     CHOOSE(film, 0.001, 1);
     CHOOSE(pinning, 0.001, 2); /* 0 is another kernel */
-    CHOOSE(damp, 0, 1);
     CHOOSE(absorption, 0, 4);
     CHOOSE(carry, 0, 1);
     CHOOSE(humidity, 1e-6, 1);
@@ -202,7 +200,6 @@ static struct paper_air air_by_chance(void)
         air.gravity[i] += air.gravity[i] == 0 ? 1e-3 : 0;
         air.seep[i] += air.seep[i] == 0 ? 1e-3 : 0;
     }
-    air.tension = sample_word(&chance) % 4 ? 1e-6 : uniform(1e-6, 0.1);
     return air;
 }
 
@@ -217,11 +214,11 @@ static void layer_extremes(struct paper_sheet *sheet, enum paper_layer layer, in
                      (double)values[i], i);
 }
 
-static void any_air_keeps_matter_of_model(int model)
+static void any_air_keeps_matter_and_numbers(void **state)
 {
+    (void)state;
     enum { AIRS = 60 };
     struct paper_sheet_config config = config_small(20, 18, 2);
-    config.model = model;
     struct paper_sheet *sheet = sheet_make(&config);
     for (int i = 0; i < AIRS; i++) {
         struct paper_air air = air_by_chance();
@@ -244,13 +241,6 @@ static void any_air_keeps_matter_of_model(int model)
         }
     }
     paper_sheet_destroy(sheet);
-}
-
-static void any_air_keeps_matter_and_numbers(void **state)
-{
-    (void)state;
-    for (int model = 1; model <= PAPER_MODEL_VERSION; model++)
-        any_air_keeps_matter_of_model(model);
 }
 
 /* ---- symmetry ---- */
@@ -283,7 +273,7 @@ static const enum paper_layer board_layers[] = {
     PAPER_LAYER_SURFACE_WATER,   PAPER_LAYER_INFUSED_WATER, PAPER_LAYER_SURFACE_PIGMENT,
     PAPER_LAYER_INFUSED_PIGMENT, PAPER_LAYER_FIXED_PIGMENT, PAPER_LAYER_SIZING,
     PAPER_LAYER_CURRENT};
-enum { BOARD_LAYERS = sizeof board_layers / sizeof *board_layers, BOARD_OF_SPREADING = 8 };
+enum { BOARD_LAYERS = sizeof board_layers / sizeof *board_layers, BOARD_AMOUNTS = 8 };
 
 /* A layer's value after the motion: eddies turn the other way round in a mirror. */
 static float seen_so(enum motion motion, enum paper_layer layer, float value)
@@ -292,28 +282,26 @@ static float seen_so(enum motion motion, enum paper_layer layer, float value)
     return mirror && layer == PAPER_LAYER_CURRENT ? -value : value;
 }
 
-static void moved_sheets_of_model_give_moved_bits(int model)
+static void moved_sheets_give_moved_bits(void **state)
 {
-    const int layers = model == 1 ? BOARD_OF_SPREADING : BOARD_LAYERS;
+    (void)state;
     static float first[BOARD_LAYERS][BOARD * BOARD], start[BOARD_LAYERS][BOARD * BOARD],
         values[BOARD * BOARD];
     for (int layer = 0; layer < BOARD_LAYERS; layer++)
         for (int i = 0; i < BOARD * BOARD; i++) {
-            bool there = layer < 3 || layer >= BOARD_OF_SPREADING || uniform(0, 1) < 0.4;
+            bool there = layer < 3 || layer >= BOARD_AMOUNTS || uniform(0, 1) < 0.4;
             start[layer][i] = there ? (float)uniform(0, layer == 1 ? 0.25 : 1) : 0.0f;
         }
     for (enum motion motion = AS_IT_IS; motion < MOTIONS; motion++) {
         struct paper_sheet_config config = config_small(BOARD, BOARD, 2);
-        config.model = model;
         struct paper_sheet *sheet = sheet_make(&config);
         struct paper_air air = air_with_all();
-        air.tension = 0.01;
         air.gravity[0] = motion == MIRRORED_X ? -0.3 : motion == TRANSPOSED ? 0.1 : 0.3;
         air.gravity[1] = motion == MIRRORED_Y ? -0.1 : motion == TRANSPOSED ? 0.3 : 0.1;
         air.seep[0] = motion == MIRRORED_X ? 0.2 : motion == TRANSPOSED ? 0.05 : -0.2;
         air.seep[1] = motion == MIRRORED_Y ? -0.05 : motion == TRANSPOSED ? -0.2 : 0.05;
         check(paper_sheet_air(sheet, &air));
-        for (int layer = 0; layer < layers; layer++) {
+        for (int layer = 0; layer < BOARD_LAYERS; layer++) {
             for (int y = 0; y < BOARD; y++)
                 for (int x = 0; x < BOARD; x++)
                     values[moved(motion, x, y)] =
@@ -321,7 +309,7 @@ static void moved_sheets_of_model_give_moved_bits(int model)
             check(paper_sheet_layer_write(sheet, board_layers[layer], 0, values));
         }
         steps(sheet, 40);
-        for (int layer = 3; layer < BOARD_OF_SPREADING; layer++) {
+        for (int layer = 3; layer < BOARD_AMOUNTS; layer++) {
             check(paper_sheet_layer_read(sheet, board_layers[layer], 0, values));
             for (int y = 0; y < BOARD; y++)
                 for (int x = 0; x < BOARD; x++) {
@@ -336,13 +324,6 @@ static void moved_sheets_of_model_give_moved_bits(int model)
         }
         paper_sheet_destroy(sheet);
     }
-}
-
-static void moved_sheets_give_moved_bits(void **state)
-{
-    (void)state;
-    for (int model = 1; model <= PAPER_MODEL_VERSION; model++)
-        moved_sheets_of_model_give_moved_bits(model);
 }
 
 /* The sheet has one pigment and no surface, because the eager machine compiles a kernel for each instruction. */
@@ -379,7 +360,6 @@ static void boxes_give_the_same_bits(void **state)
     struct paper_sheet_config config = paper_sheet_config_default();
     config.width = WIDE;
     config.height = HIGH;
-    config.model = PAPER_MODEL_VERSION;
     config.pigments_count = 1;
     config.pigments[0] = *paper_pigment_number(0);
     memset(gray, 255, sizeof gray);

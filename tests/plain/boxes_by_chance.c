@@ -168,7 +168,6 @@ static void session(uint64_t seed)
 {
     chance_begin(seed);
     struct paper_sheet_config config = config_by_chance(SIDE_LEAST, SIDE);
-    config.model = 2 + below(PAPER_MODEL_VERSION - 1);
     config.parts = config.parts ? config.parts : PAPER_PARTS_ALL;
     deckle_by_chance(&config);
     for (int k = 0; k < 2; k++)
@@ -197,16 +196,15 @@ static void session(uint64_t seed)
 }
 
 /* Two large sheets, one in boxes, with a puddle on each. */
-static void puddle_make(int model)
+static void puddle_make(void)
 {
     enum { PUDDLE = 12 };
     static uint8_t gray[PUDDLE * PUDDLE];
     struct paper_sheet_config config = paper_sheet_config_default();
-    config.model = model;
     config.width = config.height = SIDE_LARGE;
     config.pigments_count = 1;
     config.pigments[0] = *paper_pigment_number(0);
-    chance_begin((uint64_t)model);
+    chance_begin(3);
     for (int k = 0; k < 2; k++)
         check(paper_sheet_create(&config, &sheets[k]));
     check(paper_sheet_confine(sheets[0], 4));
@@ -231,9 +229,9 @@ static void puddle_end(const char *what)
 }
 
 /* Edges get wide while boxes are open: what is active spreads faster than they were made for. */
-static void air_changes(int model)
+static void air_changes(void)
 {
-    puddle_make(model);
+    puddle_make();
     steps_go(1); /* the boxes are good for another */
     struct paper_air air = paper_air_default();
     air.edge_width = 32;
@@ -243,9 +241,9 @@ static void air_changes(int model)
 }
 
 /* Salt dissolves in a box; then all dries. */
-static void salt_dissolves(int model)
+static void salt_dissolves(void)
 {
-    puddle_make(model);
+    puddle_make();
     const struct paper_salt salt = {.x = 20,
                                     .y = 20,
                                     .radius = 5,
@@ -263,9 +261,9 @@ static void salt_dissolves(int model)
 }
 
 /* A stroke in one box while a puddle runs in another: what the bristles' exchange makes wet, it makes wet in all of them. */
-static void puddle_beside_stroke(int model)
+static void puddle_beside_stroke(void)
 {
-    puddle_make(model);
+    puddle_make();
     struct paper_brush brush = paper_brush_default();
     brush.bristles = 8;
     brush.width = 4;
@@ -286,8 +284,9 @@ int main(int argc, char **argv)
 {
     long count = argc > 1 ? atol(argv[1]) : 25;
     uint64_t seed = argc > 2 ? (uint64_t)atoll(argv[2]) : 1;
-    for (int model = 2; model <= PAPER_MODEL_VERSION; model++)
-        puddle_beside_stroke(model), air_changes(model), salt_dissolves(model);
+    puddle_beside_stroke();
+    air_changes();
+    salt_dissolves();
     for (long i = 0; i < count; i++)
         session(seed + (uint64_t)i);
     printf("%ld sessions; %ld of %ld steps in boxes\n", count, steps_confined, steps_all);

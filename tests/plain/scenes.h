@@ -35,7 +35,7 @@ static inline void scene_paper(struct paper_sheet *sheet, uint64_t *chance)
 }
 
 /* Prints one line for each turn: a hash of each plane except the planes of colour. */
-static inline void scene_of_model_play(FILE *out, int model, bool deckled)
+static inline void scene_of_sheet_play(FILE *out, bool deckled)
 {
     static uint8_t gray[11 * 9];
     static uint32_t words[SCENE_WIDTH * SCENE_HEIGHT];
@@ -43,7 +43,6 @@ static inline void scene_of_model_play(FILE *out, int model, bool deckled)
     struct paper_sheet_config config =
         sheet_of_two(SCENE_WIDTH, SCENE_HEIGHT, "quinacridone rose", "french ultramarine");
     config.torus = !deckled;
-    config.model = model;
     config.deckled = deckled;
     config.deckle = (struct paper_deckle){.margin = 3, .waves = 1, .thin = 3, .fringe = 2};
     uint64_t chance = 3;
@@ -63,7 +62,6 @@ static inline void scene_of_model_play(FILE *out, int model, bool deckled)
         air.gravity[1] = 0.02;
         air.seep[0] = -0.03;
         air.seep[1] = 0.02;
-        air.tension = 0.001;
         air.humidity = 0.003;
         scene_check(paper_sheet_air(sheet, &air));
         for (int i = 0; i < SCENE_STEPS; i++) {
@@ -77,9 +75,8 @@ static inline void scene_of_model_play(FILE *out, int model, bool deckled)
             for (int j = 0; j < SCENE_WIDTH * SCENE_HEIGHT; j++)
                 hash = (hash ^ words[j]) * 0x100000001b3u;
             if (i < 4 || i >= 10)
-                fprintf(out, "model %d%s, turn %d, %s: %016llx\n", model,
-                        deckled ? " with a deckle" : "", turn, planes[i].name,
-                        (unsigned long long)hash);
+                fprintf(out, "sheet%s, turn %d, %s: %016llx\n", deckled ? " with a deckle" : "",
+                        turn, planes[i].name, (unsigned long long)hash);
         }
     }
     paper_sheet_destroy(sheet);
@@ -87,9 +84,8 @@ static inline void scene_of_model_play(FILE *out, int model, bool deckled)
 
 static inline void scene_play(FILE *out)
 {
-    for (int model = 1; model <= PAPER_MODEL_VERSION; model++)
-        scene_of_model_play(out, model, false);
-    scene_of_model_play(out, PAPER_MODEL_VERSION, true);
+    scene_of_sheet_play(out, false);
+    scene_of_sheet_play(out, true);
 }
 
 #endif

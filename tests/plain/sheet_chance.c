@@ -84,7 +84,6 @@ struct paper_sheet_config config_by_chance(int least, int most)
     config.height = least + below(most - least + 1);
     config.torus = below(2);
     config.parts = (unsigned)(below(3) ? 15 : below(16));
-    config.model = 1 + below(PAPER_MODEL_VERSION);
     config.rule = (enum paper_rule)below(3);
     config.seed = sample_word(&chance);
     int stocks = 0;
@@ -113,7 +112,7 @@ struct paper_sheet_config config_by_chance(int least, int most)
 void deckle_by_chance(struct paper_sheet_config *config)
 {
     const int side = config->width < config->height ? config->width : config->height;
-    config->deckled = config->model >= 3 && config->parts && !config->torus &&
+    config->deckled = config->parts && !config->torus &&
                       strcmp(config->stock.name, "glass") != 0 && below(3) == 0;
     if (!config->deckled)
         return;
@@ -131,11 +130,9 @@ struct paper_air air_by_chance(void)
         air.seep[i] = within(-1, 1);
     }
     air.spread = within(0, 1);
-    air.tension = below(2) ? 0 : within(0, 0.1);
     air.relief = within(0, 1);
     air.film = within(0.001, 1);
     air.pinning = within(0, 2);
-    air.damp = within(0, 1);
     air.absorption = within(0, 4);
     air.carry = within(0, 1);
     air.humidity = within(0, 1);

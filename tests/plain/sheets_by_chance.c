@@ -129,13 +129,11 @@ static void apply_by_chance(struct paper_sheet *sheet)
     }
 }
 
-static void set_look(uint64_t seed, int version, int airs)
+static void set_look(uint64_t seed, int airs)
 {
     static uint16_t rgb[3 * SIDE * SIDE];
     chance_begin(seed);
     struct paper_sheet_config config = config_by_chance(SIDE_LEAST, SIDE);
-    if (version)
-        config.model = version;
     deckle_by_chance(&config);
     struct paper_sheet *sheet;
     double totals[1 + PIGMENTS];
@@ -154,13 +152,11 @@ static void set_look(uint64_t seed, int version, int airs)
 }
 
 /* Fibers that cannot reach a sheet are left out, and the paper is the same. */
-static void paper_look(uint64_t seed, int version)
+static void paper_look(uint64_t seed)
 {
     chance_begin(seed);
     struct paper_sheet_config config = config_by_chance(1, 5 * SIDE);
     struct felt felts[2];
-    if (version)
-        config.model = version;
     check(felt_make(&config, &felts[0]));
     check(felt_make_slowly(&config, &felts[1]));
     const size_t bytes = sizeof(float) * (size_t)config.width * (size_t)config.height;
@@ -177,11 +173,11 @@ int main(int argc, char **argv)
 {
     long count = argc > 1 ? atol(argv[1]) : 1000;
     uint64_t seed = argc > 2 ? (uint64_t)atoll(argv[2]) : 1;
-    int version = argc > 3 ? atoi(argv[3]) : 0, airs = argc > 4 ? atoi(argv[4]) : 2;
+    const int airs = argc > 3 ? atoi(argv[3]) : 2;
     for (long i = 0; i < count && i < PAPERS; i++)
-        paper_look(seed + (uint64_t)i, version);
+        paper_look(seed + (uint64_t)i);
     for (long i = 0; i < count; i++) {
-        set_look(seed + (uint64_t)i, version, airs);
+        set_look(seed + (uint64_t)i, airs);
         if ((i + 1) % EVERY == 0)
             fprintf(stderr, "%ld sets\n", i + 1);
     }

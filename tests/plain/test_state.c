@@ -163,6 +163,11 @@ static void damage_is_told(void **state)
     bytes[22] = '9'; /* of the model's version */
     sample_file_write(path, bytes, count);
     refused(path, "model");
+    memcpy(bytes, good, count);
+    assert_int_equal(bytes[14], '2');
+    bytes[14] = '1'; /* of sheets whose water was another */
+    sample_file_write(path, bytes, count);
+    refused(path, "(format 1, model of paper 1); this one reads format 2, model 1");
     sample_file_write(path, (const uint8_t *)"hello", 5);
     refused(path, "not a saved state");
     unlink(path);

@@ -171,7 +171,7 @@ static void masks_are_scaled_and_shifted_in_value(void **state)
     struct scripted s = {.config = scripted_config()};
     assert_int_equal(
         scripted_run(
-            &s, "local p = paper{width = 40, height = 40, version = 1}\n"
+            &s, "local p = paper{width = 40, height = 40}\n"
                 "local function tell(m)\n"
                 "  p:layer('red', m)\n"
                 "  print(string.format('%.0f %.0f', 255 * p:at('red', 15, 15),"

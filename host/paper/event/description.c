@@ -8,9 +8,7 @@
 
 #include <string.h>
 
-/* The upper bits hold the model's version, less 1: descriptions from before there were
- * versions are of version 1. The highest one says that a deckle follows the stock: programs that know of none refuse it as a version
- * that there is not. */
+/* Among the parts: a deckle follows the stock. */
 enum { PARTS_BITS = 16 };
 #define DECKLED (UINT64_C(1) << 31)
 
@@ -19,17 +17,13 @@ static void config_pass(struct event_stream *s, struct paper_sheet_config *confi
     uint64_t width = event_pass_number(s, (uint64_t)config->width, 4),
              height = event_pass_number(s, (uint64_t)config->height, 4),
              torus = event_pass_number(s, config->torus, 1),
-             parts =
-                 event_pass_number(s,
-                                   config->parts | (uint64_t)(config->model - 1) << PARTS_BITS |
-                                       (config->deckled ? DECKLED : 0),
-                                   4),
+             parts = event_pass_number(s, config->parts | (config->deckled ? DECKLED : 0), 4),
              rule = event_pass_number(s, (uint64_t)config->rule, 4),
              seed = event_pass_number(s, config->seed, 8),
              pigments = event_pass_number(s, (uint64_t)config->pigments_count, 4);
     event_stream_expect(s, width >= PAPER_SIDE_MIN && width <= PAPER_SIDE_MAX &&
                                height >= PAPER_SIDE_MIN && height <= PAPER_SIDE_MAX &&
-                               (parts & ~DECKLED) >> PARTS_BITS < PAPER_MODEL_VERSION &&
+                               (parts & ~DECKLED) >> PARTS_BITS == 0 &&
                                rule <= PAPER_RULE_LUMINOUS && pigments <= PAPER_PIGMENTS_MAX);
     if (!event_stream_good(s))
         return;
@@ -38,7 +32,6 @@ static void config_pass(struct event_stream *s, struct paper_sheet_config *confi
             (struct paper_sheet_config){.width = (int)width,
                                         .height = (int)height,
                                         .torus = torus != 0,
-                                        .model = (int)((parts & ~DECKLED) >> PARTS_BITS) + 1,
                                         .parts = (unsigned)parts & ((1u << PARTS_BITS) - 1),
                                         .rule = (enum paper_rule)rule,
                                         .seed = seed,
@@ -58,7 +51,7 @@ void sheet_config_encode(struct event_bytes *b, const struct paper_sheet_config 
 
 enum paper_status sheet_config_decode(struct event_reader *r, struct paper_sheet_config *config)
 {
-    *config = (struct paper_sheet_config){.model = 1};
+    *config = (struct paper_sheet_config){0};
     config_pass(&(struct event_stream){.in = r}, config);
     return r->bad ? paper_fail(PAPER_BAD_FILE, "the description of the sheet is damaged")
                   : PAPER_OK;

@@ -114,7 +114,6 @@ bool paper_sheet_config_same(const struct paper_sheet_config *a,
     for (int i = 0; i < 2; i++) { /* parts that imply others always come with these */
         struct paper_sheet_config config = *both[i];
         config.parts = sheet_parts_whole(config.parts);
-        config.model = sheet_model_whole(&config);
         sheet_config_encode(&bytes[i], &config);
     }
     bool same = !bytes[0].short_of_memory && bytes[0].count == bytes[1].count &&

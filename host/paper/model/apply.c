@@ -131,9 +131,8 @@ enum paper_status sheet_dry(struct paper_sheet *p, const void *arguments)
             kit_f_set(p->infused[i], 0.0);
         }
     }
-    if (sheet_has(p, PAPER_PART_EDGE) || sheet_flows(p))
+    if (p->config.parts) {
         kit_f_set(p->wet_around, 0.0);
-    if (sheet_flows(p)) {
         kit_f_set(p->wet_part, 0.0);
         kit_f_set(p->speed[0], 0.0);
         kit_f_set(p->speed[1], 0.0);

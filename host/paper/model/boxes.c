@@ -244,7 +244,7 @@ static bool boxes_pay(const struct paper_sheet *p)
 {
     const double unit = p->boxes_unit,
                  fibers = (double)p->page.grid.width * p->page.grid.height;
-    return p->config.parts && sheet_flows(p) && unit > 0 && fibers >= SHEET_LEAST * unit * unit;
+    return p->config.parts && unit > 0 && fibers >= SHEET_LEAST * unit * unit;
 }
 
 static enum paper_status boxes_ready(struct paper_sheet *p)

@@ -42,7 +42,7 @@ static int copied_fields(const struct paper_sheet *p, const struct paper_sheet *
         ROW(salt, p->salted, true),
         ROW(brine, p->salted, true),
         ROW(barred, true, false),
-        ROW(grip, sheet_of_version_3(p), false),
+        ROW(grip, true, false),
 #undef ROW
     };
     int count = 0;

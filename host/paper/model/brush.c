@@ -37,48 +37,22 @@ struct paper_brush paper_brush_default(void)
 #define CLOUD_STEP 0.9
 #define CLOUD_STRENGTH 0.275
 
-/* With a number for each fiber, or `apart` fibers apart. */
-static struct clouds clouds_of(const struct paper_sheet *p, double apart)
+static struct clouds clouds_of(const struct paper_sheet *p)
 {
-    const double scale = felt_scale(&p->config) / apart;
+    const double scale = felt_scale(&p->config);
     return (struct clouds){.finest = CLOUD_FINEST * scale,
                            .coarsest = CLOUD_COARSEST * scale,
                            .step = CLOUD_STEP,
                            .seed = clouds_word(p->config.seed, 77)};
 }
 
-static bool clouds_lay(const struct paper_sheet *p, struct sheet_brushes *b)
-{
-    int width = p->page.grid.width, height = p->page.grid.height;
-    b->clouds_columns = width / BRUSH_CLOUD + 2;
-    b->clouds_rows = height / BRUSH_CLOUD + 2;
-    b->clouds = calloc((size_t)b->clouds_columns * (size_t)b->clouds_rows, sizeof *b->clouds);
-    const struct clouds of = clouds_of(p, BRUSH_CLOUD);
-    return b->clouds && clouds_make(b->clouds, b->clouds_columns, b->clouds_rows, false, &of);
-}
-
-double sheet_brush_cloud(const struct sheet_brushes *b, double x, double y)
-{
-    if (!b->clouds)
-        return 1;
-    double u = x / BRUSH_CLOUD, v = y / BRUSH_CLOUD;
-    int column = (int)floor(u), row = (int)floor(v);
-    const float *at = b->clouds + (size_t)row * (size_t)b->clouds_columns + (size_t)column;
-    const float *below = at + b->clouds_columns;
-    u -= column;
-    v -= row;
-    double cloud = (1 - v) * ((1 - u) * (double)at[0] + u * (double)at[1]) +
-                   v * ((1 - u) * (double)below[0] + u * (double)below[1]);
-    return fmin(2, fmax(0.15, 1 + CLOUD_STRENGTH * cloud));
-}
-
-/* Version 3: the same clouds, on each fiber, in a layer of the sheet. A sheet whose layers are mirrored takes a mirrored stroke as
+/* How much of its level a bristle leaves, on each fiber, in a layer of the sheet: no sheet is sized, and no hand presses, alike everywhere. A sheet whose layers are mirrored takes a mirrored stroke as
  * the mirror image. */
 enum paper_status sheet_grip_make(struct paper_sheet *p)
 {
     const int width = p->page.grid.width, height = p->page.grid.height;
     const size_t count = (size_t)width * (size_t)height;
-    const struct clouds of = clouds_of(p, 1);
+    const struct clouds of = clouds_of(p);
     float *grip = malloc(count * sizeof *grip);
     if (!grip || !clouds_make(grip, width, height, p->config.torus, &of)) {
         free(grip);
@@ -104,12 +78,6 @@ static enum paper_status brushes_make(struct paper_sheet *p)
         free(b);
         return paper_fail(PAPER_NO_MEMORY, "no memory for brushes");
     }
-    if (sheet_flows(p) && !sheet_of_version_3(p) && !clouds_lay(p, b)) {
-        free(b->clouds);
-        free(b->touched);
-        free(b);
-        return paper_fail(PAPER_NO_MEMORY, "no memory for brushes");
-    }
     int dimensions[2] = {BRUSH_ROWS, PAPER_BRISTLES_MAX};
     b->geometry = CM_create_geometry(dimensions, 2);
     b->vp_set = CM_allocate_vp_set(b->geometry);
@@ -117,8 +85,8 @@ static enum paper_status brushes_make(struct paper_sheet *p)
     CM_set_context();
     b->address = CM_allocate_heap_field(32);
     b->count = CM_allocate_heap_field(32);
-    CM_field_id_t *const floats[] = {&b->contact, &b->force,  &b->sharers, &b->places,
-                                     &b->takes,   &b->gotten, &b->sent};
+    CM_field_id_t *const floats[] = {&b->contact, &b->force,  &b->sharers,
+                                     &b->places,  &b->gotten, &b->sent};
     for (size_t i = 0; i < sizeof floats / sizeof *floats; i++)
         *floats[i] = CM_allocate_heap_field(KIT_FLOAT_BITS);
     for (int i = 0; i < BRUSH_TEMPORARIES; i++)
@@ -137,7 +105,6 @@ void sheet_brushes_destroy(struct paper_sheet *p)
         return;
     CM_deallocate_vp_set(b->vp_set);
     CM_deallocate_geometry(b->geometry);
-    free(b->clouds);
     free(b->touched);
     free(b);
     p->brushes = NULL;

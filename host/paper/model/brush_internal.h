@@ -52,15 +52,12 @@ struct sheet_brush {
 struct sheet_brushes {
     CM_geometry_id_t geometry;
     CM_vp_set_id_t vp_set;
-    CM_field_id_t address, contact, force, sharers, places, takes, gotten, sent, count;
+    CM_field_id_t address, contact, force, sharers, places, gotten, sent, count;
     CM_field_id_t t[BRUSH_TEMPORARIES];
     CM_field_id_t give[1 + PAPER_PIGMENTS_MAX]; /* what each place gives, less what it takes */
     struct sheet_contacts contacts;
     uint16_t *
         touched; /* of each fiber, a number of this exchange: by how many places, or which of those touched; 0 between exchanges */
-    float *
-        clouds; /* how willingly the paper takes paint, BRUSH_CLOUD fibers apart; NULL: alike everywhere */
-    int clouds_columns, clouds_rows;
     struct sheet_brush brush[PAPER_BRUSHES_MAX];
 };
 
@@ -71,7 +68,7 @@ void sheet_brush_exchange(struct paper_sheet *p, struct sheet_brushes *b,
 /* The column or row at a place, of so many; around a torus. -1: it is beyond the sheet. */
 int sheet_fiber_at(double at, int length, bool torus);
 
-/* A bristle's place in an exchange, from version 3 on (touches.c): the fibers that it lies over, and how much of it lies over each. */
+/* A bristle's place in an exchange (touches.c): the fibers that it lies over, and how much of it lies over each. */
 struct sheet_place {
     int fiber[4], part[4];
     int force; /* 0: it touches nothing */
@@ -86,9 +83,6 @@ void sheet_places_deal(struct sheet_brushes *b, const struct sheet_place *places
                        int fibers[BRUSH_PLACES], double touch[BRUSH_PLACES]);
 /* Where the bristles are, and what they are like, from the brush's description. */
 void sheet_brush_bristles_make(struct sheet_brush *brush);
-
-/* How much of its level a bristle leaves at x, y, about 1: no sheet is sized, and no hand presses, alike everywhere. */
-double sheet_brush_cloud(const struct sheet_brushes *b, double x, double y);
 
 /* Numbers by chance, 0..1, from whatever distinguishes them. */
 static inline double sheet_chance(uint64_t seed, uint64_t a, uint64_t b)

@@ -34,13 +34,13 @@ struct pores {
     CM_field_id_t left, threshold, inverse;
 };
 
-/* In version 3 sized paper has no fiber that is entered before it must: single ones that absorb more than others stuck out of edges as hairs. */
+/* Sized paper has no fiber that is entered before it must: single ones that absorb more than others stuck out of edges as hairs. */
 static double threshold_base(const struct paper_sheet *p)
 {
     const double mean = p->config.stock.absorbency,
                  sized = fmin(
                      1, fmax(0, (UNSIZED_LEAST - mean) / (UNSIZED_LEAST - SHEET_SIZED_MOST)));
-    return THRESHOLD_BASE + (sheet_of_version_3(p) ? THRESHOLD_SIZED * sized : 0);
+    return THRESHOLD_BASE + THRESHOLD_SIZED * sized;
 }
 
 static void pores_make(struct paper_sheet *p, const struct sheet_terms *terms,

@@ -46,8 +46,7 @@ static void contacts_write(struct sheet_brushes *b)
     } rows[] = {{b->contact, b->contacts.contact},
                 {b->force, b->contacts.force},
                 {b->sharers, b->contacts.sharers},
-                {b->places, b->contacts.places},
-                {b->takes, b->contacts.takes}};
+                {b->places, b->contacts.places}};
     int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {0, 1};
     int size[2] = {BRUSH_ROWS, PAPER_BRISTLES_MAX};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
@@ -68,10 +67,7 @@ static void level_make(const struct paper_sheet *p, struct sheet_brushes *b,
     CM_f_multiply_2_1L(level, fullness, D);
     CM_f_multiply_2_1L(level, brush->gives, D);
     CM_f_multiply_constant_2_1L(level, brush->brush.load * p->unit, D);
-    if (sheet_of_version_3(p))
-        get(b, other, p->grip);
-    else
-        CM_f_move_2L(other, b->takes, D, KIT_F);
+    get(b, other, p->grip);
     CM_f_multiply_2_1L(level, other, D);
 }
 

@@ -5,7 +5,7 @@
  *                passes. Bends wander, so fibers curl; lengths go from a fifth to three times the usual one; no direction is
  *                dearer than another, but by stock.fiber_length: a sheet from a machine has a grain
  *     tooth      the felts' marks, as large as stock.grain_px
- *     grit       short hairs and filler, in version 3: noise of sizes 6 to 1.5. Pigments that granulate gather in it; with fibers alone they
+ *     grit       short hairs and filler: noise of sizes 6 to 1.5. Pigments that granulate gather in it; with fibers alone they
  *                drew a net
  *     laid       on a mould of wires, which are ridges in the sheet: lines close together, and chains across them far apart, both
  *                wavering, and fainter in some clouds than in others
@@ -29,7 +29,7 @@ struct recipe {
     double cover;                 /* fibers that lie on one another */
     double curl;                  /* how fast bends wander */
     double tooth, fibers, clouds; /* parts of the relief */
-    double grit;                  /* version 3: in part in place of the fibers */
+    double grit;                  /* in part in place of the fibers */
     double laid, laid_step,
         chain_step; /* the lines' part, and how far apart they are; 0: wove */
 };
@@ -63,6 +63,7 @@ enum {
 #define BEND_KEPT 0.985
 #define BEND_FIRST 0.03
 #define FIBERS_FOR_GRIT 1.0
+#define LAID 0.7 /* of a recipe's lines: they stand out beside washes as smooth as ours */
 
 static const struct recipe *recipe_of(const struct paper_stock *stock)
 {
@@ -311,8 +312,6 @@ static void laid_add(const struct making *m, float *relief, const float *waver,
                      const float *faint)
 {
     const struct recipe *of = m->recipe;
-    /* less in version 3, whose washes are smoother: the lines stand out as much as before */
-    const double laid = m->config->model >= 3 ? 0.7 * of->laid : of->laid;
     for (int y = 0; y < m->height; y++)
         for (int x = 0; x < m->width; x++) {
             size_t at = (size_t)y * (size_t)m->width + (size_t)x;
@@ -323,7 +322,7 @@ static void laid_add(const struct making *m, float *relief, const float *waver,
                    chain = from - of->chain_step * floor(from / of->chain_step) -
                            of->chain_step / 2;
             double ridge = fmax(0, 1 - chain * chain / 9);
-            relief[at] += (float)(laid * strength * (line + 1.2 * ridge));
+            relief[at] += (float)(LAID * of->laid * strength * (line + 1.2 * ridge));
         }
 }
 
@@ -428,8 +427,6 @@ static bool parts_make(const struct making *m, struct felt *felt, float *clouds,
     const struct paper_stock *stock = &m->config->stock;
     size_t count = count_of(m);
     double scale = m->scale, grain = fmax(1, stock->grain_px);
-    if (of->length == 0 && m->config->model < 3)
-        return true;       /* nothing in it */
     if (of->length == 0) { /* smears and dust */
         bool smeared = cloud_make(m, felt->relief, 1 * scale, 16 * scale, 0.8, SEED_TOOTH);
         level_out(felt->relief, count, 1);
@@ -446,13 +443,12 @@ static bool parts_make(const struct making *m, struct felt *felt, float *clouds,
     level_out(felt->relief, count, 1);
     for (size_t i = 0; i < count; i++)
         felt->relief[i] *= (float)of->tooth;
-    const double grit = m->config->model >= 3 ? of->grit : 0;
-    add(felt->relief, felt->mass, count, of->fibers * (1 - FIBERS_FOR_GRIT * grit));
+    add(felt->relief, felt->mass, count, of->fibers * (1 - FIBERS_FOR_GRIT * of->grit));
     add(felt->relief, clouds, count, of->clouds);
-    if (grit > 0 && made) {
+    if (of->grit > 0 && made) {
         made = cloud_make(m, spare, 1.5 * scale, 6 * scale, 0.9, SEED_GRIT);
         level_out(spare, count, 1);
-        add(felt->relief, spare, count, grit);
+        add(felt->relief, spare, count, of->grit);
     }
     add(felt->mass, clouds, count, 0.7);
     made = made && cloud_make(m, felt->sizing, 16 * scale, 256 * scale, 0.8, SEED_SIZING);

@@ -1,4 +1,4 @@
-/* felt.h - paper as it is made: what a sheet of model 2 is like, fiber by fiber, on the front end. */
+/* felt.h - paper as it is made: what a sheet with parts is like, fiber by fiber, on the front end. */
 #ifndef LUTETIA_PAPER_FELT_H
 #define LUTETIA_PAPER_FELT_H
 
@@ -10,7 +10,7 @@ struct felt {
     float *mass;      /* how much fiber lies there */
     float *fibers;    /* the same without clouds */
     float *sizing;    /* how much of the size has gone in there */
-    bool smeared;     /* no fibers; the relief is of smears and dust (version 3) */
+    bool smeared;     /* no fibers; the relief is of smears and dust */
     float *thickness; /* of a sheet with a deckle: 0..1, 0 where there is no paper; else NULL */
 };
 

@@ -63,9 +63,8 @@ enum paper_status sheet_amounts_clear(struct paper_sheet *p)
         fields[count++] = p->resist;
     if (sheet_has(p, PAPER_PART_SURFACE))
         fields[count++] = p->surface_water;
-    if (sheet_has(p, PAPER_PART_EDGE) || (sheet_flows(p) && sheet_has(p, PAPER_PART_SURFACE)))
+    if (sheet_has(p, PAPER_PART_SURFACE)) {
         fields[count++] = p->wet_around;
-    if (sheet_flows(p) && sheet_has(p, PAPER_PART_SURFACE)) {
         fields[count++] = p->wet_part;
         fields[count++] = p->speed[0];
         fields[count++] = p->speed[1];
@@ -86,12 +85,9 @@ enum paper_status sheet_amounts_clear(struct paper_sheet *p)
     return PAPER_OK;
 }
 
-/* A step of water that spreads uses fewer. */
-enum { SPREADING_TEMPORARIES = 24 };
-
 void sheet_temporaries_clear(struct paper_sheet *p)
 {
-    for (int i = 0; i < (sheet_flows(p) ? SHEET_TEMPORARIES : SPREADING_TEMPORARIES); i++)
+    for (int i = 0; i < SHEET_TEMPORARIES; i++)
         kit_f_set(p->t[i], 0.0);
 }
 

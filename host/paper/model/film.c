@@ -17,10 +17,10 @@
  * inside, and brings pigment. That flow keeps the film as it is, so only pigments are moved by it, along the slope of wet_around,
  * less towards the very edge: a dark band as wide as edge_width says.
  *
- * A sheet that is drawn anew `finer` times as fine (version 3) goes finer^2 steps in the time of one: speeds are 1 / finer, and the
+ * A sheet that is drawn anew `finer` times as fine goes finer^2 steps in the time of one: speeds are 1 / finer, and the
  * drag works 1 / finer^2 as fast. What drives the water falls by itself.
  *
- * In version 3 pigments do not mix in the thinnest water, of SHEET_STILL times `film`. In what is left of a film that dries unevenly they would
+ * Pigments do not mix in the thinnest water, of SHEET_STILL times `film`. In what is left of a film that dries unevenly they would
  * all gather in the last wet fibers: the wash would have measles.
  *
  * Pigments go with all these flows, and spread a little. Parts of a fiber that go over one face are at most 1/5 of what it has
@@ -44,15 +44,11 @@
 #define DRY_PART 8.0 /* of a fiber, that gives all of its film: 1 / this */
 #define PIGMENT_SHARE 0.2
 #define MIXING 0.06
-#define EDDIES_2 0.7
 #define EDDIES 1.5
-#define EDGE_FLOW 0.005
-#define EDGE_WIDTH_LEAST 8.0
-#define EDGE_DRIES 0.05 /* version 3; see edge_flow_make() */
+#define EDGE_DRIES 0.05 /* see edge_flow_make() */
 #define EDGE_BALANCE 0.004
 #define EDGE_PLATEAU 12.0
-#define CARRIES_FROM                                                                           \
-    1.0 /* version 3: depth, times `film`, below which water carries no pigment */
+#define CARRIES_FROM 1.0 /* depth, times `film`, below which water carries no pigment */
 #define CARRIES_STEEPNESS 0.5
 #define OPEN_SCALE 1e6 /* see step.c */
 
@@ -61,7 +57,7 @@
 void sheet_film_faces_make(struct paper_sheet *p)
 {
     CM_field_id_t open[2] = {p->t[0], p->t[1]}, sum = p->t[2], other = p->t[3], far = p->t[4];
-    if (!sheet_flows(p) || !sheet_has(p, PAPER_PART_SURFACE))
+    if (!sheet_has(p, PAPER_PART_SURFACE))
         return;
     for (unsigned axis = 0; axis < 2; axis++) {
         kit_f_times(open[axis], p->face[axis], OPEN_SCALE);
@@ -78,7 +74,7 @@ void sheet_film_faces_make(struct paper_sheet *p)
     kit_f_next(far, p->current, KIT_AXIS_Y);
     kit_f_add(far, far, other);
     kit_f_add(sum, sum, far);
-    kit_f_times(sum, sum, (sheet_of_version_3(p) ? EDDIES : EDDIES_2) / 4);
+    kit_f_times(sum, sum, EDDIES / 4);
     for (unsigned axis = 0; axis < 2; axis++) {
         kit_f_mul(sum, sum, open[axis]);
         kit_f_next(other, open[axis], 1 - axis);
@@ -165,8 +161,7 @@ static void eddies_make(CM_field_id_t d, CM_field_id_t q, unsigned axis)
 /* d = how fast pigments go to the edge over the faces of the axis. Uses t[8], t[11].
  *
  * With s the distance from the edge over L = sheet_edge_length(), wet_around is 1 - exp (-s) / 2 inside; so u = wet_around +
- * wet_around' - 1 is 1 - exp (-s), and the slope is (1 - u) / (2 L). Version 2 has the speed slope u, greatest at s = 0.7 and nearly
- * the same for all L: against mixing that makes bands as wide as the root of L. Version 3 has
+ * wet_around' - 1 is 1 - exp (-s), and the slope is (1 - u) / (2 L). The speed is
  *
  *     (dries L + balance / root of L) u (1 - u) (1 + 12 u^2)          which grows in line with s up to about s = 1
  *
@@ -176,10 +171,8 @@ static void edge_flow_make(struct paper_sheet *p, unsigned axis, CM_field_id_t d
 {
     CM_field_id_t other = p->t[8], bent = p->t[11];
     const double width = sheet_edge_length(p);
-    double flow = p->air.edge * EDGE_FLOW * (p->air.edge_width + EDGE_WIDTH_LEAST);
-    if (sheet_of_version_3(p))
-        flow = p->air.edge * (EDGE_DRIES * p->air.humidity * width * width +
-                              EDGE_BALANCE * sqrt(width / p->finer));
+    const double flow = p->air.edge * (EDGE_DRIES * p->air.humidity * width * width +
+                                       EDGE_BALANCE * sqrt(width / p->finer));
     kit_f_next(other, p->wet_around, axis);
     kit_f_sub(d, p->wet_around, other);
     kit_f_times(d, d, flow);
@@ -187,8 +180,6 @@ static void edge_flow_make(struct paper_sheet *p, unsigned axis, CM_field_id_t d
     kit_f_plus(other, other, -1.0);
     kit_f_least(other, other, 0.0);
     kit_f_mul(d, d, other);
-    if (!sheet_of_version_3(p))
-        return;
     kit_f_mul(bent, other, other);
     kit_f_times(bent, bent, EDGE_PLATEAU);
     kit_f_plus(bent, bent, 1.0);
@@ -207,21 +198,17 @@ static void pigment_faces_make(struct paper_sheet *p, const struct sheet_terms *
     kit_f_next(other, terms->depth, axis);
     kit_f_mul(part, water_in, other);
     kit_f_add(net, net, part);
-    if (sheet_of_version_3(p)) {
-        kit_f_max(both, terms->depth, other);
-        kit_f_times(both, both, CARRIES_STEEPNESS / p->air.film);
-        kit_f_plus(both, both, -CARRIES_STEEPNESS * CARRIES_FROM);
-        kit_f_least(both, both, 0.0);
-        kit_f_most(both, both, 1.0);
-        kit_f_mul(net, net, both);
-    }
+    kit_f_max(both, terms->depth, other);
+    kit_f_times(both, both, CARRIES_STEEPNESS / p->air.film);
+    kit_f_plus(both, both, -CARRIES_STEEPNESS * CARRIES_FROM);
+    kit_f_least(both, both, 0.0);
+    kit_f_most(both, both, 1.0);
+    kit_f_mul(net, net, both);
     eddies_make(part, terms->swirled, axis);
     kit_f_add(net, net, part);
     kit_f_min(both, terms->depth, other);
-    if (sheet_of_version_3(p)) {
-        kit_f_plus(both, both, -SHEET_STILL * p->air.film);
-        kit_f_least(both, both, 0.0);
-    }
+    kit_f_plus(both, both, -SHEET_STILL * p->air.film);
+    kit_f_least(both, both, 0.0);
     kit_f_times(part, p->face[axis], OPEN_SCALE);
     kit_f_most(part, part, 1.0);
     kit_f_mul(both, both, part);

@@ -75,12 +75,11 @@ enum paper_status sheet_layer_check(const struct paper_sheet *p, const void *arg
         return paper_fail(PAPER_BAD_ARGUMENT,
                           "what part of a fiber is wet follows its water and is not written");
     bool film = event->layer == PAPER_LAYER_SIZING || event->layer == PAPER_LAYER_CURRENT;
-    if (status == PAPER_OK && film && !(sheet_flows(p) && sheet_has(p, PAPER_PART_SURFACE)))
+    if (status == PAPER_OK && film && !sheet_has(p, PAPER_PART_SURFACE))
         return paper_fail(PAPER_BAD_ARGUMENT,
-                          "paper has sizing and currents where water flows: version 2, with a "
-                          "surface");
-    if (status == PAPER_OK && event->layer == PAPER_LAYER_GRIP && !sheet_of_version_3(p))
-        return paper_fail(PAPER_BAD_ARGUMENT, "paper has grip from version 3 on");
+                          "paper has sizing and currents where water flows: with a surface");
+    if (status == PAPER_OK && event->layer == PAPER_LAYER_GRIP && !p->config.parts)
+        return paper_fail(PAPER_BAD_ARGUMENT, "the thesis's paper has no grip");
     unsigned part = event->layer == PAPER_LAYER_SURFACE_PIGMENT ? PAPER_PART_SURFACE
                     : event->layer == PAPER_LAYER_FIXED_PIGMENT ? PAPER_PART_FIXING
                                                                 : 0;

@@ -27,7 +27,7 @@ struct paper_sheet {
     long steps;   /* that were computed */
     bool touched; /* something was done, and not recorded */
     double
-        finer; /* version 3: how many times finer than its stock is known the sheet is, 1 or more; a render at 2 is 2 */
+        finer; /* how many times finer than its stock is known the sheet is, 1 or more; a render at 2 is 2 */
     double unit; /* of amounts: PAPER_GRAINS, or 1 without parts */
     /* VP set, contexts, coordinates, and what the thesis's cycle needs: water and absorbency are in the fibers */
     struct paper page;
@@ -73,12 +73,6 @@ static inline unsigned sheet_parts_whole(unsigned parts)
     if (parts & PAPER_PART_EDGE)
         parts |= PAPER_PART_SURFACE;
     return parts ? parts | PAPER_PART_INFUSED : 0;
-}
-
-/* The thesis's page has one version. */
-static inline int sheet_model_whole(const struct paper_sheet_config *config)
-{
-    return config->parts ? config->model : 1;
 }
 
 /* ---- a sheet's life (sheet.c) ---- */
@@ -181,19 +175,7 @@ void sheet_wet_put(struct paper_sheet *p, bool water, CM_field_id_t share);
 
 /* ---- water that flows (sizing.c, soak.c, film.c, capillary.c) ---- */
 
-/* Whether water flows with a speed over the surface, or spreads (step.c). */
-static inline bool sheet_flows(const struct paper_sheet *p)
-{
-    return p->config.model >= 2;
-}
-
-/* What version 3 does otherwise than version 2. */
-static inline bool sheet_of_version_3(const struct paper_sheet *p)
-{
-    return p->config.model >= 3;
-}
-
-/* Grip from the seed, in version 3. Errors: NO_MEMORY. */
+/* Grip from the seed. Errors: NO_MEMORY. */
 enum paper_status sheet_grip_make(struct paper_sheet *p);
 /* Sizing and currents from the seed. Errors: NO_MEMORY. */
 enum paper_status sheet_sizing_make(struct paper_sheet *p);

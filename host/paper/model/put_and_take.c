@@ -59,10 +59,9 @@ void sheet_paper_heed(struct paper_sheet *p, CM_field_id_t q)
     kit_f_whole(q);
 }
 
-/* Depth of water, units, that was laid on all of a fiber. In version 3 it is what a brush that is nearly dry leaves: water of fibers that are
- * wet in part stands as high as it must be to come forward, and where all are, each draws in what its neighbours have, or loses its own:
- * thin strokes became rows of dots. */
-#define WETTED_2 0.25
+/* Depth of water, units, that was laid on all of a fiber: what a brush that is nearly dry leaves. Water of fibers that are wet in part
+ * stands as high as it must be to come forward, and where all are, each draws in what its neighbours have, or loses its own: with a
+ * greater depth thin strokes became rows of dots. */
 #define WETTED 0.04
 
 #define SHARE_LEAST (1 / 255.0)
@@ -70,8 +69,7 @@ void sheet_paper_heed(struct paper_sheet *p, CM_field_id_t q)
 /* By its surface water alone. Uses t[0]. */
 static void wet_part_make(struct paper_sheet *p)
 {
-    const double all = sheet_of_version_3(p) ? WETTED : WETTED_2;
-    kit_f_times(p->t[0], p->surface_water, 1 / (all * p->unit));
+    kit_f_times(p->t[0], p->surface_water, 1 / (WETTED * p->unit));
     kit_f_most(p->t[0], p->t[0], 1.0);
     kit_f_max(p->wet_part, p->wet_part, p->t[0]);
     kit_f_max(p->wet_around, p->wet_around, p->t[0]);
@@ -79,14 +77,8 @@ static void wet_part_make(struct paper_sheet *p)
 
 void sheet_wet_around_make(struct paper_sheet *p)
 {
-    if (sheet_flows(p) && sheet_has(p, PAPER_PART_SURFACE)) {
+    if (sheet_has(p, PAPER_PART_SURFACE))
         wet_part_make(p);
-        return;
-    }
-    if (!sheet_has(p, PAPER_PART_EDGE))
-        return;
-    kit_f_most(p->t[0], p->surface_water, 1.0);
-    kit_f_max(p->wet_around, p->wet_around, p->t[0]);
 }
 
 /* d = the most of a in a fiber and its eight neighbours. Uses t[4..5]. */
@@ -102,16 +94,13 @@ static void most_around(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t a)
     }
 }
 
-/* d = what part of a fiber was wetted by water put on it through `share`. In versions 1 and 2 it is the share. In version 3 it is the share of the most
- * that fibers around got: of an edge as sharp as type's a part is wet, but where a shape fades all of each fiber is, under less water. A film on
+/* d = what part of a fiber was wetted by water put on it through `share`: the share of the most that fibers around got. Of an edge as sharp as type's a part is wet, but where a shape fades all of each fiber is, under less water. A film on
  * parts of fibers everywhere breaks up: where it comes to close over some, it draws in the water of all around them. Uses t[3..5]. */
 static void wetted_make(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t share)
 {
     CM_field_id_t most = p->t[3];
     kit_f_most(d, p->surface_water, 1.0);
     kit_f_mul(d, d, share);
-    if (!sheet_of_version_3(p))
-        return;
     most_around(p, most, share);
     kit_f_least(most, most, SHARE_LEAST);
     kit_f_div(d, d, most);
@@ -119,11 +108,7 @@ static void wetted_make(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t sh
 
 void sheet_wet_put(struct paper_sheet *p, bool water, CM_field_id_t share)
 {
-    if (!sheet_flows(p) || !sheet_has(p, PAPER_PART_SURFACE)) {
-        sheet_wet_around_make(p);
-        return;
-    }
-    if (!water)
+    if (!water || !sheet_has(p, PAPER_PART_SURFACE))
         return;
     wetted_make(p, p->t[0], share);
     kit_f_max(p->wet_part, p->wet_part, p->t[0]);

@@ -33,7 +33,7 @@ static void plane_add(struct paper_plane *planes, struct place *places, int *cou
 }
 
 /* Their order is that of files: it changes with the model's version only (PAPER_MODEL_VERSION in
- * sheet.h: new rows stand under config->model >= it). A new field is a member in model.h, made in fields.c, cleared in sheet_reset(). */
+ * sheet.h). A new field is a member in model.h, made in fields.c, cleared in sheet_reset(). */
 static int planes_make(const struct paper_sheet_config *config, struct paper_plane *planes,
                        struct place *places)
 {
@@ -61,14 +61,14 @@ static int planes_make(const struct paper_sheet_config *config, struct paper_pla
     PLANE("wet around", wet_around, 0, 1);
     PLANE("dried water", dried, 0, 0);
     planes[count - 1].whole = true;
-    if (config->model >= 2 && parts & (PAPER_PART_SURFACE | PAPER_PART_EDGE)) {
+    if (parts & (PAPER_PART_SURFACE | PAPER_PART_EDGE)) {
         PLANE("sizing", sizing, 0.01f, 100); /* as layers.c lets it be */
         PLANE("current", current, -10, 10);
         PLANE("wet part", wet_part, 0, 1);
         PLANE("speed along y", speed[0], -1, 1);
         PLANE("speed along x", speed[1], -1, 1);
     }
-    if (config->model >= 3)
+    if (parts)
         PLANE("grip", grip, PAPER_GRIP_LEAST, PAPER_GRIP_MOST);
     if (config->deckled)
         PLANE("thickness", thickness, 0, 1);

@@ -11,7 +11,6 @@ struct paper_sheet_config paper_sheet_config_default(void)
 {
     struct paper_sheet_config config = {.width = 512,
                                         .height = 512,
-                                        .model = PAPER_MODEL_USUAL,
                                         .parts = PAPER_PARTS_ALL,
                                         .rule = PAPER_RULE_KUBELKA_MUNK,
                                         .stock = *paper_stock_number(0),
@@ -44,9 +43,9 @@ static enum paper_status deckle_check(const struct paper_sheet_config *c)
         paper_members_check(&paper_deckle_members, &c->deckle, "a deckle's ", "");
     if (status != PAPER_OK)
         return status;
-    if (c->model < 3 || !c->parts)
+    if (!c->parts)
         return paper_fail(PAPER_BAD_ARGUMENT,
-                          "paper has a deckle in version 3 of the full model");
+                          "the thesis's paper has no deckle; choose a paper with parts");
     if (c->torus)
         return paper_fail(PAPER_BAD_ARGUMENT, "a torus has no edges, and so no deckle");
     if (!felt_has_fibers(&c->stock))
@@ -69,9 +68,6 @@ static enum paper_status config_check(const struct paper_sheet_config *c)
     if (c->height < PAPER_SIDE_MIN || c->height > PAPER_SIDE_MAX)
         return paper_fail(PAPER_BAD_ARGUMENT, "paper height must be %d..%d (got %d)",
                           PAPER_SIDE_MIN, PAPER_SIDE_MAX, c->height);
-    if (c->model < 1 || c->model > PAPER_MODEL_VERSION)
-        return paper_fail(PAPER_BAD_ARGUMENT, "paper's version must be 1..%d (got %d)",
-                          PAPER_MODEL_VERSION, c->model);
     if (c->parts > PAPER_PARTS_ALL)
         return paper_fail(PAPER_BAD_ARGUMENT, "paper has no parts 0x%x", c->parts);
     if (c->pigments_count < 0 || c->pigments_count > PAPER_PIGMENTS_MAX)
@@ -93,11 +89,11 @@ static enum paper_status config_check(const struct paper_sheet_config *c)
 static enum paper_status fresh_make(struct paper_sheet *p)
 {
     enum paper_status status = PAPER_OK;
-    if (sheet_flows(p) && sheet_has(p, PAPER_PART_SURFACE))
+    if (sheet_has(p, PAPER_PART_SURFACE))
         status = sheet_sizing_make(p);
     if (status == PAPER_OK)
         status = sheet_stock_make(p);
-    if (status == PAPER_OK && sheet_of_version_3(p))
+    if (status == PAPER_OK && p->config.parts)
         status = sheet_grip_make(p);
     return status == PAPER_OK ? sheet_amounts_clear(p) : status;
 }
@@ -114,8 +110,7 @@ enum paper_status sheet_create(const struct paper_sheet_config *config,
         return paper_fail(PAPER_NO_MEMORY, "no memory for a sheet");
     p->config = *config;
     p->config.parts = sheet_parts_whole(config->parts);
-    p->config.model = sheet_model_whole(config);
-    p->finer = sheet_of_version_3(p) ? fmax(1, felt_scale(&p->config)) : 1;
+    p->finer = p->config.parts ? fmax(1, felt_scale(&p->config)) : 1;
     p->unit = p->config.parts ? PAPER_GRAINS : 1;
     p->air = paper_air_default();
     p->salt_reach = 10;

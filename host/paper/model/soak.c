@@ -17,12 +17,11 @@
 
 #define ADVANCE 4.375      /* of pinning */
 #define ADVANCE_LEAST 1e-3 /* units */
-/* The most by which wet neighbours lower it; along a straight edge a quarter of the neighbours are wet. With as much as in version 2, rows
- * of fibers fill from end to end: edges came to lie along the axes. */
-#define NEIGHBOURS_HELP_2 1.2
+/* The most by which wet neighbours lower it; along a straight edge a quarter of the neighbours are wet. With 1.2 rows of fibers filled
+ * from end to end: edges came to lie along the axes. */
 #define NEIGHBOURS_HELP 0.3
 #define NEIGHBOURS_LEAST 0.1
-/* Version 3: sixteenths of how wet the neighbours are at which water closes over a fiber; all eight are 12. How wet the fiber itself is does
+/* Sixteenths of how wet the neighbours are at which water closes over a fiber; all eight are 12. How wet the fiber itself is does
  * not count: where a wash fades out all fibers are wet in part, and water would close over one after the other, in facets along the axes
  * and the diagonals. */
 #define HOLE_FROM 12.0
@@ -37,7 +36,7 @@
     0.6 /* of granulation; below 1, because pigment that is lifted and settles again gathers in hollows by itself */
 #define LIFTING 0.4
 #define LIFTED_FROM 0.25 /* depth, units, at which water lifts as fast as it can */
-/* Version 3: water that lifts nothing, times `film`. In the last of a film each fiber that is still wet would draw the pigments of those
+/* Water that lifts nothing, times `film`. In the last of a film each fiber that is still wet would draw the pigments of those
  * around it up to its surface, and keep them: the wash would have measles. */
 #define LIFTS_NOT 8.0
 /* Nothing is lifted from a fiber of which less than 1 - 1 / this is wet: otherwise the edge
@@ -48,18 +47,17 @@
 #define FIBERS_DRYING 0.25  /* of what dries on the surface */
 #define DRIED_LEAST 4.0     /* grains */
 #define AROUND_LEAST 0.01   /* of what it relaxes by */
-#define AROUND_REACH 0.1875 /* of edge_width, version 3 */
-#define EDGE_SHARE 0.75     /* of edge_width, over which the nearness of an edge falls to 1/e */
+#define AROUND_REACH 0.1875 /* of edge_width */
 #define EDGE_SLOPE 1.6
 #define EDGE_BLUR 2.5 /* fibers by which mixing widens a band */
 #define EDGE_LEAST 1.0
 #define ROOM_FROM 13.0 /* units that may be taken in before a fiber is full */
 
-/* Version 3: how much faster a stock takes water in that is not sized, or less than others: in proportion to what it absorbs. (By the cube of that
+/* How much faster a stock takes water in that is not sized, or less than others: in proportion to what it absorbs. (By the cube of that
  * blotting paper takes a drop before it can run, and a wash keeps the strokes it was laid by.) */
 static double unsized(const struct paper_sheet *p)
 {
-    return sheet_of_version_3(p) ? fmax(1, p->config.stock.absorbency / SHEET_SIZED_MOST) : 1;
+    return fmax(1, p->config.stock.absorbency / SHEET_SIZED_MOST);
 }
 
 /* Surface water sinks in where it wets the fiber, pigments with it by their weight. Uses t[8..11]. */
@@ -124,8 +122,7 @@ static void pigment_settle(struct paper_sheet *p, int i, CM_field_id_t thin, CM_
                  hollows = pigment->granulation * HOLLOWS;
     rate_make(p, up, lift * hollows, lift * (1 - hollows), thin);
     kit_f_mul(part, up, infused);
-    if (sheet_of_version_3(p))
-        kit_f_mul(part, part, inside);
+    kit_f_mul(part, part, inside);
     sheet_whole_of(part, infused);
     kit_f_sub(infused, infused, part);
     kit_f_mul(up, up, fixed);
@@ -157,10 +154,8 @@ static void settle_under(struct paper_sheet *p)
     kit_f_times(slow, p->surface_water, 1 / p->unit);
     kit_f_most(slow, slow, 1.0);
     kit_f_copy(thin, slow);
-    if (sheet_of_version_3(p)) {
-        kit_f_plus(thin, thin, -LIFTS_NOT * p->air.film);
-        kit_f_least(thin, thin, 0.0);
-    }
+    kit_f_plus(thin, thin, -LIFTS_NOT * p->air.film);
+    kit_f_least(thin, thin, 0.0);
     kit_f_times(thin, thin, 1 / LIFTED_FROM);
     kit_f_most(thin, thin, 1.0);
     kit_f_times(wet, p->wet_part, LIFTED_WET); /* none where only a part is wet */
@@ -171,13 +166,11 @@ static void settle_under(struct paper_sheet *p)
     kit_f_plus(slow, slow, 1.0);
     kit_f_most(dry, p->surface_water, 1.0);
     kit_f_from(dry, 1.0, dry);
-    if (sheet_of_version_3(p)) { /* what is not lifted must not settle, or it gathers there */
-        kit_f_max(wet, wet, dry);
-        kit_f_mul(slow, slow, wet);
-        kit_f_times(inside, p->wet_around, 4.0);
-        kit_f_plus(inside, inside, -3.0);
-        kit_f_least(inside, inside, 0.0);
-    }
+    kit_f_max(wet, wet, dry); /* what is not lifted must not settle, or it gathers there */
+    kit_f_mul(slow, slow, wet);
+    kit_f_times(inside, p->wet_around, 4.0);
+    kit_f_plus(inside, inside, -3.0);
+    kit_f_least(inside, inside, 0.0);
     for (int i = 0; i < p->config.pigments_count; i++)
         pigment_settle(p, i, thin, slow, dry, inside);
 }
@@ -240,9 +233,7 @@ static void dry_out(struct paper_sheet *p)
 int sheet_around_reach(const struct paper_sheet *p)
 {
     const double width = p->air.edge_width / p->finer;
-    if (sheet_of_version_3(p))
-        return (int)fmax(1, floor(width * AROUND_REACH));
-    return width <= 10 ? 1 : width <= 20 ? 2 : 4;
+    return (int)fmax(1, floor(width * AROUND_REACH));
 }
 
 /* d = the sum over the two fibers at the distance `reach` on the axis. Uses t[11]. */
@@ -261,10 +252,7 @@ static void both_sides_make(struct paper_sheet *p, CM_field_id_t d, CM_field_id_
 
 double sheet_edge_length(const struct paper_sheet *p)
 {
-    return sheet_of_version_3(p)
-               ? p->finer *
-                     fmax(EDGE_LEAST, EDGE_SLOPE * p->air.edge_width / p->finer - EDGE_BLUR)
-               : EDGE_SHARE * p->air.edge_width;
+    return p->finer * fmax(EDGE_LEAST, EDGE_SLOPE * p->air.edge_width / p->finer - EDGE_BLUR);
 }
 
 /* wet_around follows the wet part and spreads, to the neighbours and to those at `reach`: in the long run it is 1 well inside, 1/2 at
@@ -320,19 +308,16 @@ static void neighbourhood_make(struct paper_sheet *p, CM_field_id_t d)
 static void edge_move(struct paper_sheet *p, const struct sheet_terms *terms)
 {
     CM_field_id_t advance = p->t[7], help = p->t[8], part = p->t[9];
-    const double most = sheet_of_version_3(p) ? NEIGHBOURS_HELP : NEIGHBOURS_HELP_2;
     neighbourhood_make(p, part);
     kit_f_times(help, p->wet_part, 4.0);
     kit_f_add(help, part, help);
-    kit_f_times(help, help, -most / 16);
-    kit_f_plus(help, help, 1 + most / 4);
+    kit_f_times(help, help, -NEIGHBOURS_HELP / 16);
+    kit_f_plus(help, help, 1 + NEIGHBOURS_HELP / 4);
     kit_f_least(help, help, NEIGHBOURS_LEAST);
-    if (sheet_of_version_3(p)) {
-        kit_f_times(part, part, -HOLE_STEEPNESS);
-        kit_f_plus(part, part, HOLE_FROM * HOLE_STEEPNESS);
-        kit_f_least(part, part, 0.0);
-        kit_f_min(help, help, part);
-    }
+    kit_f_times(part, part, -HOLE_STEEPNESS);
+    kit_f_plus(part, part, HOLE_FROM * HOLE_STEEPNESS);
+    kit_f_least(part, part, 0.0);
+    kit_f_min(help, help, part);
     kit_f_times(advance, p->sizing, ADVANCE * p->air.pinning);
     kit_f_mul(advance, advance, help);
     kit_f_most(help, terms->saturated, 1.0);
@@ -399,10 +384,6 @@ void sheet_soak(struct paper_sheet *p, struct sheet_terms *terms)
     kit_f_times(terms->swirled, p->wet_around, 2.0);
     kit_f_plus(terms->swirled, terms->swirled, -1.0);
     kit_f_least(terms->swirled, terms->swirled, 0.0);
-    if (!sheet_of_version_3(p)) {
-        kit_f_mul(terms->swirled, terms->swirled, terms->depth);
-        return;
-    }
     kit_f_mul(terms->swirled, terms->swirled, terms->swirled);
     kit_f_plus(p->t[7], terms->depth, -SHEET_STILL * p->air.film);
     kit_f_least(p->t[7], p->t[7], 0.0);

@@ -1,6 +1,6 @@
 /* stock.c - what a dry sheet is like: heights, absorbency, capacity and colour from the seed.
  *
- * From model 2 on sheets are felted: model/felt.c. Model 1 has two noises, both a torus's.  Hills: random numbers smoothed along both axes with their neighbours at 1, 1, 2, 2, 4, ..., sums of
+ * Sheets are felted: model/felt.c. The thesis's page has two noises, both a torus's.  Hills: random numbers smoothed along both axes with their neighbours at 1, 1, 2, 2, 4, ..., sums of
  * boxes and so nearly round bells, in three octaves, the coarsest as wide as the paper's grain:
  *
  *     hills = (coarse + fine / 2 + finest / 4), mean 0, deviation about 1;  height = 1/2 + roughness * hills
@@ -14,7 +14,7 @@
 #include <string.h>
 
 enum { RANDOM_BITS = 16 };
-#define SMEARS 0.09     /* of version 3: the roughness of what is smooth */
+#define SMEARS 0.09     /* the roughness of what is smooth */
 #define FACE_LEAST 1e-6 /* an open face's; see OPEN_SCALE */
 /* Of a sheet with a deckle: what is left of the height, and of how fast it drinks, where it is thinnest. */
 #define THIN_HEIGHT 0.4
@@ -168,7 +168,7 @@ void sheet_faces_make(struct paper_sheet *p)
     sheet_film_faces_make(p);
 }
 
-/* Model 1: two noises, of hills and of woven fibers. */
+/* The thesis's page: two noises, of hills and of woven fibers. */
 static void woven_make(struct paper_sheet *p, CM_field_id_t shade)
 {
     const struct paper_stock *stock = &p->config.stock;
@@ -224,8 +224,8 @@ static void thickness_heed(struct paper_sheet *p, float *thickness)
     kit_f_least(p->capacity, p->capacity, 0.01);
 }
 
-/* From model 2 on all comes from the same fibers. Where more of them lie, the sheet stands up, holds more and drinks faster; where more
- * size went in, slower. In version 3 it is the fibers that drink, more than their clouds: ink on unsized paper runs out in fingers
+/* All comes from the same fibers. Where more of them lie, the sheet stands up, holds more and drinks faster; where more
+ * size went in, slower. It is the fibers that drink, more than their clouds: ink on unsized paper runs out in fingers
  * everywhere, and not only where the sheet as a whole drinks little. */
 static enum paper_status felted_make(struct paper_sheet *p, CM_field_id_t shade)
 {
@@ -236,10 +236,8 @@ static enum paper_status felted_make(struct paper_sheet *p, CM_field_id_t shade)
         return status;
     size_t count = (size_t)p->page.grid.width * (size_t)p->page.grid.height;
     /* how fast it drinks; of fibers, clouds and size */
-    const bool third = sheet_of_version_3(p);
-    const float of[3] = {third ? 1.1f : 0, third ? 0.1f : 0.7f, third ? 0.2f : 0.7f};
     for (size_t i = 0; i < count; i++)
-        felt.sizing[i] = of[0] * felt.fibers[i] + of[1] * felt.mass[i] - of[2] * felt.sizing[i];
+        felt.sizing[i] = 1.1f * felt.fibers[i] + 0.1f * felt.mass[i] - 0.2f * felt.sizing[i];
     double mean = (stock->capacity[0] + stock->capacity[1]) / 2,
            span = (stock->capacity[1] - stock->capacity[0]) / 2;
     const double height[2] = {0.5, fmax(stock->roughness, felt.smeared ? SMEARS : 0)},
@@ -261,7 +259,7 @@ static enum paper_status felted_make(struct paper_sheet *p, CM_field_id_t shade)
 enum paper_status sheet_stock_make(struct paper_sheet *p)
 {
     CM_field_id_t shade = p->t[2];
-    if (p->config.model == 1) {
+    if (!p->config.parts) {
         woven_make(p, shade);
     } else {
         enum paper_status status = felted_make(p, shade);

@@ -7,20 +7,16 @@
  *
  * While a step of the paper lasts the tuft goes some way; each bristle touches the fibers along it at even distances, at most
  * BRUSH_ROWS in one exchange. Which fibers a place lies over, and which it talks to, says touches.c. A place lasts as long as the bristle's thickness takes to pass; contact = 1 - exp (-flow * that).
- * In the first model places are moved by chance within the bristle's thickness; from the second on they lie evenly in a line as
- * wide. Both follow from the bristle and the number of the place alone. */
+ * Places lie evenly in a line as wide as the bristle is thick, which follows from the bristle and the number of the place alone. */
 #include "model/brush_internal.h"
 
 #include <math.h>
 #include <string.h>
 
 #define PLACE_SPACING 0.35 /* fibers, along a bristle's way */
-#define PLACE_SPACING_2 0.7
-#define BRUSH_ROWS_2 16 /* in one exchange, of versions 1 and 2 */
 #define FORCE_FULL 0.3
-#define LINE_LEAST 1.5 /* fibers; a line that is thinner has gaps */
-#define LINES_OVERLAP                                                                          \
-    5.0 /* version 3: how wide a line is at least, of a bristle's share of the tuft's width */
+/* How wide a line is at least, of a bristle's share of the tuft's width. */
+#define LINES_OVERLAP 5.0
 #define WAITING_PACE 60.0 /* pieces of a second where the paper waits */
 #define TOUCH_SHARE 0.15  /* of a bristle's contact: fibers are touched by several */
 #define CONTACT_STEPS                                                                          \
@@ -64,19 +60,7 @@ static struct tuft tuft_make(const struct sheet_brush *own,
 
 static double spacing_of(const struct paper_sheet *p)
 {
-    return sheet_of_version_3(p) ? PLACE_SPACING / p->finer : PLACE_SPACING_2;
-}
-
-/* By chance within the bristle's thickness, at each place anew. */
-static void place_scatter(const struct sheet_brush *own, int number, uint64_t moment,
-                          double *side, double *ahead)
-{
-    double angle =
-        2 * 3.141592653589793 * sheet_chance(own->brush.seed + 7, (uint64_t)number, 2 * moment);
-    double away = own->brush.thickness / 2 *
-                  sqrt(sheet_chance(own->brush.seed + 7, (uint64_t)number, 2 * moment + 1));
-    *side = away * cos(angle) * (own->brush.mirrored ? -1 : 1);
-    *ahead = away * sin(angle);
+    return PLACE_SPACING / p->finer;
 }
 
 /* Places that lie evenly on a line as wide as the bristle, however many of them there are:
@@ -90,10 +74,9 @@ static void place_beside(const struct paper_sheet *p, const struct sheet_brush *
            forward = along + 0.7548776662466927 * (double)moment;
     place -= floor(place);
     forward -= floor(forward);
-    double width = fmax(LINE_LEAST, own->brush.thickness);
-    if (sheet_of_version_3(p))
-        width = fmin(own->brush.thickness,
-                     fmax(p->finer, LINES_OVERLAP * own->brush.width / own->brush.bristles));
+    const double width =
+        fmin(own->brush.thickness,
+             fmax(p->finer, LINES_OVERLAP * own->brush.width / own->brush.bristles));
     *side = width * (place - 0.5) * (own->brush.mirrored ? -1 : 1);
     *ahead = spacing * (forward - 0.5);
 }
@@ -111,10 +94,7 @@ static bool place_make(struct paper_sheet *p, const struct sheet_brush *own,
         return false;
     *force = fmin(1, pressed / FORCE_FULL);
     double side, ahead;
-    if (sheet_flows(p))
-        place_beside(p, own, number, moment, spacing_of(p), &side, &ahead);
-    else
-        place_scatter(own, number, moment, &side, &ahead);
+    place_beside(p, own, number, moment, spacing_of(p), &side, &ahead);
     for (int i = 0; i < 2; i++)
         place[i] = (i == 0 ? tuft->x : tuft->y) +
                    tuft->across[i] * (across + side / tuft->half[0]) +
@@ -135,7 +115,7 @@ static float whole_contact(double contact)
     return (float)(rint(contact * CONTACT_STEPS) / CONTACT_STEPS);
 }
 
-/* Version 3: what all touches of a fiber in one exchange come to, of the way to equal levels. It is the same whether they come in
+/* What all touches of a fiber in one exchange come to, of the way to equal levels. It is the same whether they come in
  * one exchange or in two, so there are no bars where one ends and the next begins. */
 static double contact_of(const struct sheet_brush *own, double dwell, double touches)
 {
@@ -169,31 +149,6 @@ static struct paper_sheet *addresses_make(struct paper_sheet *p, const int fiber
             (unsigned)x);
     }
     return at;
-}
-
-/* The fiber that the place lies on: versions 1 and 2. False: it is beyond the sheet. */
-static bool nearest_touch(struct paper_sheet *p, int number, const double at[2], int *fiber)
-{
-    const int x = sheet_fiber_at(at[0], p->page.grid.width, p->config.torus),
-              y = sheet_fiber_at(at[1], p->page.grid.height, p->config.torus);
-    if (x < 0 || y < 0)
-        return false;
-    *fiber = y * p->page.grid.width + x;
-    p->brushes->contacts.takes[number] = (float)sheet_brush_cloud(p->brushes, x, y);
-    return true;
-}
-
-/* Of each fiber, how many places touch it: versions 1 and 2. */
-static void nearest_deal(struct sheet_brushes *b, const int fibers[BRUSH_PLACES])
-{
-    for (int i = 0; i < BRUSH_PLACES; i++)
-        if (fibers[i] >= 0)
-            b->touched[fibers[i]]++;
-    for (int i = 0; i < BRUSH_PLACES; i++)
-        b->contacts.sharers[i] = fibers[i] >= 0 ? (float)b->touched[fibers[i]] : 1;
-    for (int i = 0; i < BRUSH_PLACES; i++)
-        if (fibers[i] >= 0)
-            b->touched[fibers[i]] = 0;
 }
 
 /* The tuft at a time; the stroke's direction there is kept. */
@@ -248,10 +203,7 @@ static bool contacts_make(struct going *g, double from, double length, int rows,
             if (!place_make(p, g->own, &tuft, i, g->moment, at, &force))
                 continue;
             float contact = whole_contact(part * force);
-            if (!(contact > 0) ||
-                !(sheet_of_version_3(p)
-                      ? sheet_place_make(p, at[0], at[1], force, &places[number])
-                      : nearest_touch(p, number, at, &fibers[number])))
+            if (!(contact > 0) || !sheet_place_make(p, at[0], at[1], force, &places[number]))
                 continue;
             c->contact[number] = contact;
             c->force[number] = whole_contact(force);
@@ -259,14 +211,9 @@ static bool contacts_make(struct going *g, double from, double length, int rows,
         }
     }
     places_count(c, rows, bristles);
-    if (!sheet_of_version_3(p)) {
-        nearest_deal(p->brushes, fibers);
-    } else {
-        sheet_places_deal(p->brushes, places, fibers, touch);
-        for (int i = 0; i < BRUSH_PLACES; i++)
-            c->contact[i] =
-                fibers[i] >= 0 ? whole_contact(contact_of(g->own, dwell, touch[i])) : 0;
-    }
+    sheet_places_deal(p->brushes, places, fibers, touch);
+    for (int i = 0; i < BRUSH_PLACES; i++)
+        c->contact[i] = fibers[i] >= 0 ? whole_contact(contact_of(g->own, dwell, touch[i])) : 0;
     *exchanging = touching > 0 ? addresses_make(p, fibers, c->address) : p;
     return touching > 0;
 }
@@ -296,8 +243,7 @@ static void brush_go(struct going *g, double from, double to)
     for (int done = 0; done < places;) {
         if (g->sheet->due && g->sheet->due(g->sheet->due_context))
             return;
-        const int most = sheet_of_version_3(g->sheet) ? BRUSH_ROWS : BRUSH_ROWS_2;
-        int rows = places - done < most ? places - done : most;
+        const int rows = places - done < BRUSH_ROWS ? places - done : BRUSH_ROWS;
         struct paper_sheet *at;
         if (contacts_make(g, from + done * seconds / places, seconds / places, rows, dwell,
                           &at)) {

@@ -1,4 +1,4 @@
-/* touches.c - which fiber each bristle's place touches, from version 3 on, and how much of each fiber is touched.
+/* touches.c - which fiber each bristle's place touches, and how much of each fiber is touched.
  *
  * A place is as large as a fiber and lies over up to four of them, as a pixel of type does:
  *

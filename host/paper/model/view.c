@@ -226,7 +226,7 @@ static enum paper_status shades_read(struct paper_sheet *p, int channels, const 
 struct paper_sheet_view paper_sheet_view_default(const struct paper_sheet_config *config)
 {
     return (struct paper_sheet_view){
-        .high = 1, .light = config->model >= 2 ? PAPER_LIGHT_USUAL : 0, .scale = 1};
+        .high = 1, .light = config->parts ? PAPER_LIGHT_USUAL : 0, .scale = 1};
 }
 
 /* One pixel a fiber. */

@@ -2,8 +2,8 @@
  *
  * The first 512 bytes, text, the rest of them 0:
  *
- *     LUTETIA STATE 1                    the version of this format
- *     model 1                            the greatest version of its sheets' models
+ *     LUTETIA STATE 2                    the version of this format
+ *     model 1                            the version of the paper's model
  *     program X.Y.Z                      that wrote it
  *     bytes 123456                       of the whole file
  *     checksum 1a2b3c4d                  CRC-32 of all from byte 512 on, then of this, with these digits 0
@@ -22,7 +22,7 @@
 #include <stdio.h>
 #include <sys/types.h>
 
-enum { STATE_VERSION = 1, STATE_HEADER_BYTES = 512 };
+enum { STATE_VERSION = 2, STATE_HEADER_BYTES = 512 };
 
 /* Computes the checksum of a file with that header (STATE_HEADER_BYTES), and the file's
  * length. False: errno is set. */

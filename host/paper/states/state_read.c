@@ -227,10 +227,10 @@ static enum paper_status header_read(struct paper_state *state, const char *head
                program, &used) != 3 ||
         used == 0)
         return file_bad(state, "it is not a saved state");
-    if (version != STATE_VERSION || model < 1 || model > PAPER_MODEL_VERSION)
+    if (version != STATE_VERSION || model != PAPER_MODEL_VERSION)
         return paper_fail(PAPER_BAD_FILE,
                           "%s: it was saved by program %s (format %d, model of paper %d); this "
-                          "one reads format %d, models 1 to %d",
+                          "one reads format %d, model %d",
                           state->path, program, version, model, STATE_VERSION,
                           PAPER_MODEL_VERSION);
     int more = 0;

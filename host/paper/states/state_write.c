@@ -169,17 +169,6 @@ static enum paper_status sheet_write(hid_t file, const struct paper_state_sheet 
     return status;
 }
 
-/* The greatest version of the sheets' models: older programs do not read the file. */
-static int model_of(const struct paper_state_sheet *sheets, int count)
-{
-    int model = 1;
-    for (int i = 0; i < count; i++) {
-        const struct paper_sheet_config *config = paper_sheet_get_config(sheets[i].sheet);
-        model = config->model > model ? config->model : model;
-    }
-    return model;
-}
-
 static enum paper_status content_write(const char *path, const struct paper_state_sheet *sheets,
                                        int count, bool *written)
 {
@@ -194,7 +183,7 @@ static enum paper_status content_write(const char *path, const struct paper_stat
     errno = 0;
     hid_t file = hdf5.Fcreate(path, H5F_ACC_TRUNC, how, access);
     *written = file >= 0 && number_note(file, "format", STATE_VERSION) &&
-               number_note(file, "model", model_of(sheets, count)) &&
+               number_note(file, "model", PAPER_MODEL_VERSION) &&
                text_note(file, "program", "lutetia " LUTETIA_VERSION);
     for (int i = 0; i < count && status == PAPER_OK && *written; i++)
         status = sheet_write(file, &sheets[i], written);
@@ -209,11 +198,10 @@ static void header_fill(char header[STATE_HEADER_BYTES], const struct paper_stat
                         int count, long long bytes, uint32_t checksum)
 {
     memset(header, 0, STATE_HEADER_BYTES);
-    int length =
-        snprintf(header, STATE_HEADER_BYTES,
-                 "LUTETIA STATE %d\nmodel %d\nprogram %s\nbytes %lld\nchecksum "
-                 "%08x\nsheets",
-                 STATE_VERSION, model_of(sheets, count), LUTETIA_VERSION, bytes, checksum);
+    int length = snprintf(header, STATE_HEADER_BYTES,
+                          "LUTETIA STATE %d\nmodel %d\nprogram %s\nbytes %lld\nchecksum "
+                          "%08x\nsheets",
+                          STATE_VERSION, PAPER_MODEL_VERSION, LUTETIA_VERSION, bytes, checksum);
     for (int i = 0; i < count; i++)
         length += snprintf(header + length, STATE_HEADER_BYTES - (size_t)length, " %d",
                            sheets[i].number);
