@@ -8,7 +8,7 @@ import re
 import subprocess
 import sys
 
-PREFIXES = "CM_", "CMFB_"  # those of <cm/paris.h>, <cm/cmfb.h>
+PREFIXES = "CM_", "CMFB_", "CMFS_", "lutetia_"  # of <cm/paris.h>, <cm/cmfb.h>, <cm/cmfs.h>, <lutetia/fields.h>
 
 
 def output(*command):
