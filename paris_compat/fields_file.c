@@ -1,6 +1,6 @@
 /* fields_file.c - fields to and from files of today: <lutetia/fields.h>. */
 #include "field_bytes.h"
-#include "npy.h"
+#include "h5.h"
 
 #if defined(__GNUC__)
 #pragma GCC visibility push(default)
@@ -19,11 +19,12 @@
 #include <string.h>
 #include <sys/stat.h>
 
-enum format { FORMAT_NONE, FORMAT_NPY, FORMAT_RAW };
+enum format { FORMAT_NONE, FORMAT_NPY, FORMAT_RAW, FORMAT_H5 };
 
 /* What a call transfers. */
 struct transfer {
     const char *file;
+    char path[4096], name[H5_NAME_MAX + 1]; /* of FORMAT_H5: FILE:NAME */
     enum format format;
     struct machine *m;
     CM_field_id_t field;
@@ -32,15 +33,30 @@ struct transfer {
     struct npy array;         /* of that kind, with the VP set's shape */
 };
 
-static enum format format_of(const char *file)
+/* Takes a file's name apart. */
+static enum format format_of(struct transfer *t, const char *file)
 {
     static const struct {
         const char *ending;
         enum format format;
-    } formats[] = {{".npy", FORMAT_NPY}, {".raw", FORMAT_RAW}, {".bin", FORMAT_RAW}};
-    const char *dot = file ? strrchr(file, '.') : NULL;
+    } formats[] = {{".npy", FORMAT_NPY},
+                   {".raw", FORMAT_RAW},
+                   {".bin", FORMAT_RAW},
+                   {".h5", FORMAT_H5},
+                   {".hdf5", FORMAT_H5}};
+    t->file = file;
+    if (!file || strlen(file) >= sizeof t->path)
+        return FORMAT_NONE;
+    snprintf(t->path, sizeof t->path, "%s", file);
+    char *dot = strrchr(t->path, '.'), *colon = dot ? strchr(dot, ':') : NULL;
+    if (colon) {
+        if (strlen(colon + 1) > H5_NAME_MAX || !colon[1] || strchr(colon + 1, '/'))
+            return FORMAT_NONE;
+        snprintf(t->name, sizeof t->name, "%.*s", H5_NAME_MAX, colon + 1);
+        *colon = '\0';
+    }
     for (size_t i = 0; dot && i < sizeof formats / sizeof *formats; i++)
-        if (strcmp(dot, formats[i].ending) == 0)
+        if (strcmp(dot, formats[i].ending) == 0 && (!colon || formats[i].format == FORMAT_H5))
             return formats[i].format;
     return FORMAT_NONE;
 }
@@ -76,18 +92,23 @@ static bool type_good(struct transfer *t, const char *type, unsigned int len)
 static bool transfer_begin(struct transfer *t, const char *name, const char *file,
                            CM_field_id_t field, const char *type, unsigned int len)
 {
-    *t = (struct transfer){.file = file, .m = paris_begin(name), .field = field};
-    t->format = format_of(file);
+    *t = (struct transfer){.m = paris_begin(name), .field = field};
+    t->format = format_of(t, file);
     if (t->format == FORMAT_NONE) {
-        paris_fail("file: %.200s: the name must end in .npy, .raw or .bin",
+        paris_fail("file: %.200s: the name must end in .npy, .raw, .bin, .h5 or .h5:NAME",
                    file ? file : "NULL");
         return false;
     }
     if (!type_good(t, type, len) || !paris_check_field_wholly(field, t->bits, "field"))
         return false;
+    if (t->format == FORMAT_H5 && t->kind == 'c') {
+        paris_fail("type: %s: complex numbers go to .npy and .raw", type);
+        return false;
+    }
     const int set = machine_vpset_current(t->m);
-    t->array =
-        (struct npy){.kind = t->kind, .bytes = t->bytes, .rank = machine_vpset_rank(t->m, set)};
+    t->array = (struct npy){.kind = t->kind == 'b' && t->format == FORMAT_H5 ? 'u' : t->kind,
+                            .bytes = t->bytes,
+                            .rank = machine_vpset_rank(t->m, set)};
     for (int i = 0; i < t->array.rank; i++)
         t->array.shape[i] = (uint64_t)machine_vpset_length(t->m, set, i);
     return true;
@@ -102,16 +123,27 @@ static bool bytes_begin(const struct transfer *t, struct field_bytes *b)
 
 /* ---- writing ---- */
 
+static void head_write(const struct transfer *t, FILE *out)
+{
+    char head[NPY_HEAD_MAX];
+    uint8_t h5[H5_HEAD];
+    if (t->format == FORMAT_NPY)
+        fwrite(head, 1, npy_make(&t->array, head), out);
+    if (t->format != FORMAT_H5)
+        return;
+    h5_make(&t->array, *t->name ? t->name : "field", h5);
+    fwrite(h5, 1, sizeof h5, out);
+}
+
 int lutetia_field_write(const char *file, CM_field_id_t field, const char *type,
                         unsigned int len)
 {
     struct transfer t;
     struct field_bytes b;
     struct output_file out;
-    char head[NPY_HEAD_MAX];
     if (!transfer_begin(&t, "lutetia_field_write", file, field, type, len))
         return 0;
-    if (!output_file_open(&out, file)) {
+    if (!output_file_open(&out, t.path)) {
         paris_fail("%.200s: cannot write: %s", file, out.why);
         return 0;
     }
@@ -120,8 +152,7 @@ int lutetia_field_write(const char *file, CM_field_id_t field, const char *type,
         return 0;
     }
     bool read = true;
-    if (t.format == FORMAT_NPY)
-        fwrite(head, 1, npy_make(&t.array, head), out.stream);
+    head_write(&t, out.stream);
     while (read && !ferror(out.stream) && field_bytes_next(&b)) {
         read = field_bytes_get(&b);
         if (read)
@@ -147,7 +178,7 @@ static bool wrong(const struct transfer *t, const char *why)
 }
 
 /* Reads the head of a .npy file, up to the values. False: said. */
-static bool head_read(FILE *in, const char *file, struct npy *npy)
+static bool npy_head_read(FILE *in, const char *file, struct npy *npy)
 {
     uint8_t *head = calloc(1, NPY_HEAD_MAX + NPY_BEGIN);
     const char *why = "it is no .npy file";
@@ -167,6 +198,19 @@ static bool head_read(FILE *in, const char *file, struct npy *npy)
     return !why;
 }
 
+/* The array that the file has; nothing of a raw one. False: said. */
+static bool head_read(const struct transfer *t, FILE *in, struct npy *npy)
+{
+    const char *why = NULL;
+    if (t->format == FORMAT_NPY)
+        return npy_head_read(in, t->file, npy);
+    if (t->format == FORMAT_H5)
+        why = h5_read(in, t->name, npy);
+    if (why)
+        paris_fail("%.200s: %s", t->file, why);
+    return !why;
+}
+
 static void shape_text(const struct npy *npy, char *out, size_t room)
 {
     size_t n = 0;
@@ -178,9 +222,9 @@ static void shape_text(const struct npy *npy, char *out, size_t room)
 
 static bool head_good(const struct transfer *t, const struct npy *npy)
 {
-    if (npy->kind != t->kind || npy->bytes != t->bytes) {
+    if (npy->kind != t->array.kind || npy->bytes != t->bytes) {
         paris_fail("%.200s: its elements are %c%u, not %c%u", t->file, npy->kind, npy->bytes,
-                   t->kind, t->bytes);
+                   t->array.kind, t->bytes);
         return false;
     }
     if (npy->fortran && npy->rank > 1)
@@ -203,8 +247,9 @@ static bool size_good(const struct transfer *t, FILE *in, uint64_t head, uint64_
     struct stat status;
     if (fstat(fileno(in), &status) != 0)
         return wrong(t, strerror(errno));
-    if ((uint64_t)status.st_size == head + values)
-        return true;
+    if ((uint64_t)status.st_size == head + values ||
+        (t->format == FORMAT_H5 && (uint64_t)status.st_size > head + values))
+        return fseek(in, (long)head, SEEK_SET) == 0;
     paris_fail("%.200s: has %lld bytes, and the VP set's values take %llu", t->file,
                (long long)status.st_size, (unsigned long long)(head + values));
     return false;
@@ -256,7 +301,7 @@ static bool values_read(const struct transfer *t, FILE *in)
 {
     struct npy npy = {0};
     struct field_bytes b;
-    if (t->format == FORMAT_NPY && (!head_read(in, t->file, &npy) || !head_good(t, &npy)))
+    if (t->format != FORMAT_RAW && (!head_read(t, in, &npy) || !head_good(t, &npy)))
         return false;
     if (!bytes_begin(t, &b))
         return false;
@@ -274,7 +319,7 @@ int lutetia_field_read(const char *file, CM_field_id_t field, const char *type,
     const char *why;
     if (!transfer_begin(&t, "lutetia_field_read", file, field, type, len))
         return 0;
-    FILE *in = input_file_open(file, &why);
+    FILE *in = input_file_open(t.path, &why);
     if (!in)
         return wrong(&t, why);
     const bool good = values_read(&t, in);
@@ -284,19 +329,22 @@ int lutetia_field_read(const char *file, CM_field_id_t field, const char *type,
 
 int lutetia_file_shape(const char *file, unsigned int *lengths, int most)
 {
+    struct transfer t = {0};
     struct npy npy;
     const char *why;
     paris_inquire("lutetia_file_shape");
-    if (format_of(file) != FORMAT_NPY) {
-        paris_fail("file: %.200s: only a .npy file tells its shape", file ? file : "NULL");
+    t.format = format_of(&t, file);
+    if (t.format != FORMAT_NPY && t.format != FORMAT_H5) {
+        paris_fail("file: %.200s: only .npy and .h5 files tell their shape",
+                   file ? file : "NULL");
         return -1;
     }
-    FILE *in = input_file_open(file, &why);
+    FILE *in = input_file_open(t.path, &why);
     if (!in) {
         paris_fail("%.200s: %s", file, why);
         return -1;
     }
-    const bool good = head_read(in, file, &npy);
+    const bool good = head_read(&t, in, &npy);
     fclose(in);
     for (int i = 0; good && lengths && i < npy.rank && i < most; i++)
         lengths[i] = (unsigned int)npy.shape[i];

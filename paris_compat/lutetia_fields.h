@@ -3,7 +3,8 @@
  *     lutetia_field_write("heat.npy", heat, "f4", 0);         // numpy.load("heat.npy")
  *     lutetia_field_read("mask.npy", mask, "b1", 0);
  *
- * The name's ending says which format: .npy is NumPy's, .raw and .bin are the values alone. A file holds a value for each processor of the
+ * The name's ending says which format: .npy is NumPy's, .h5 is HDF5's, .raw and .bin are the values alone. The array in a .h5 file is
+ * called `field`, or as "heat.h5:temperature" says; arrays that are read lie in one piece in the root group. A file holds a value for each processor of the
  * current VP set, in row-major order of its coordinates, whatever the context; an array has the shape of the set. A file is written
  * in bands, so that a large set needs little memory on the front end, and appears under its name when it is whole.
  *
@@ -28,7 +29,7 @@ extern int lutetia_field_write(const char *file, CM_field_id_t field, const char
  * for. Big-endian files are read, too. */
 extern int lutetia_field_read(const char *file, CM_field_id_t field, const char *type,
                               unsigned int len);
-/* The lengths of a .npy file's axes, as many as there is room for. Returns how many axes it has. Errors: -1. */
+/* The lengths of the axes of a .npy or .h5 file's array, as many as there is room for. Returns how many axes it has. Errors: -1. */
 extern int lutetia_file_shape(const char *file, unsigned int *lengths, int most);
 
 #ifdef __cplusplus

@@ -13,12 +13,10 @@
 
 #include "../display/scratch.h"
 #include "device.h"
+#include "test_files.h"
 #include <cm/cmfs.h>
-#include <lutetia/fields.h>
 
-enum { BYTES_MOST = 1 << 16 };
-
-static size_t file_read(const char *path, uint8_t *bytes)
+size_t file_read(const char *path, uint8_t *bytes)
 {
     FILE *file = fopen(path, "rb");
     assert_non_null(file);
@@ -27,7 +25,7 @@ static size_t file_read(const char *path, uint8_t *bytes)
     return count;
 }
 
-static void file_write(const char *path, const void *bytes, size_t count)
+void file_write(const char *path, const void *bytes, size_t count)
 {
     FILE *file = fopen(path, "wb");
     assert_non_null(file);
@@ -36,7 +34,7 @@ static void file_write(const char *path, const void *bytes, size_t count)
 }
 
 /* Writes `len` random bits to each processor, bit by bit; values[i] holds those of processor i, 32 bytes each. */
-static CM_field_id_t field_make(unsigned int len, uint8_t (*values)[32])
+CM_field_id_t field_make(unsigned int len, uint8_t (*values)[32])
 {
     CM_field_id_t field = CM_allocate_heap_field(len);
     memset(values, 0, COUNT * sizeof *values);
@@ -52,7 +50,7 @@ static CM_field_id_t field_make(unsigned int len, uint8_t (*values)[32])
     return field;
 }
 
-static void field_is(CM_field_id_t field, unsigned int len, uint8_t (*values)[32])
+void field_is(CM_field_id_t field, unsigned int len, uint8_t (*values)[32])
 {
     for (unsigned int bit = 0; bit < len; bit++) {
         uint8_t bits[COUNT];
@@ -363,6 +361,9 @@ int main(void)
         cmocka_unit_test(fields_go_through_npy_and_raw),
         cmocka_unit_test(other_files_are_refused),
         cmocka_unit_test(damaged_npy_files_are_refused_or_read),
+        cmocka_unit_test(fields_go_to_hdf5),
+        cmocka_unit_test(fields_come_from_hdf5),
+        cmocka_unit_test(damaged_hdf5_files_are_refused_or_read),
     };
     return cmocka_run_group_tests(tests, start, NULL);
 }
