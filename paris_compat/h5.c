@@ -285,13 +285,13 @@ struct found {
 
 static const char *space_take(struct npy *a, const uint8_t *data, size_t bytes)
 {
-    const size_t begin = data[0] == 1 ? 8 : 4;
     if (bytes < 4 || (data[0] != 1 && data[0] != 2) || data[1] > NPY_AXES_MAX ||
-        bytes < begin + 8ul * data[1])
+        bytes < (data[0] == 1 ? 8 : 4) + 8ul * data[1])
         return damaged;
+    const size_t begin = data[0] == 1 ? 8 : 4;
     a->rank = data[1];
     for (int i = 0; i < a->rank; i++)
-        a->shape[i] = number_of(data + begin + 8 * i, 8);
+        a->shape[i] = number_of(data + begin + 8ul * (size_t)i, 8);
     return NULL;
 }
 

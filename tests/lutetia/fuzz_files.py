@@ -231,7 +231,7 @@ def strewn(chance, data):
 
 
 SEEDS = [b"c4 A\nd4 B\n", b"gravity = 1\nmass 0 0 1 fixed\nspring 0 1\n", b"error('@')\n", b"function note(n) error('@') end\n", b"1\n00:00:00,000 --> 00:00:01,000\n@\n",
-         b"background 0 0 0\nnonsense 1\n", b"<svg><path d='M0 0'/></svg>", b"session 1\nset gravity 1\n", b"box:2", verbs.SONG, verbs.LEDS, b"\x89PNG\r\n\x1a\n",
+         b"background 0 0 0\nnonsense 1\n", b"<svg><path d='M0 0'/></svg>", b"session 1\nset gravity 1\n", b"box:2", verbs.SONG, verbs.LEDS, verbs.DISPLAY, b"\x89PNG\r\n\x1a\n",
          b"\x89HDF\r\n\x1a\n", b"#include <cm/paris.h>\nint main( {\n", b"print('@') warn('@') local t <const> = 1 t = 2\n", b"A text with @ in it.\n\n# Head @\n"]
 
 

@@ -76,11 +76,21 @@ def svg_whole(data):
         return False
 
 
+def display_whole(data):
+    at = len(b"lutetia display 1\n")
+    good = data[:at] == b"lutetia display 1\n" and len(data) > at
+    while good and at < len(data):
+        good = at + 24 <= len(data)
+        at += 24 + struct.unpack("<I", data[at + 4:at + 8])[0] if good else 0
+    return good and at == len(data)
+
+
 WHOLE = {
     ".png": png_whole, ".y4m": y4m_whole, ".json": json_whole, ".svg": svg_whole,
     ".wav": lambda data: data[:4] == b"RIFF" and struct.unpack("<I", data[4:8])[0] == len(data) - 8,
     ".pdf": lambda data: data[:5] == b"%PDF-" and data.rstrip().endswith(b"%%EOF"),
     ".leds": lambda data: data[:20] == b"lutetia leds 1 4096\n" and len(data) > 20 and (len(data) - 20) % 520 == 0,
+    ".display": display_whole,
     ".cl": lambda data: data.rstrip().endswith(b"}"), ".graph": lambda data: data.endswith(b"\n"),
     ".springs": lambda data: data.endswith(b"\n"), "": lambda data: data[:4] == b"\x7fELF" or data.endswith(b"\n"),
 }

@@ -16,19 +16,25 @@ p:frame("frame.png")
 p:save("sheet.h5")
 """
 PROGRAM = """
-#include <cm/paris.h>
+#include <cm/cmfb.h>
 #include <stdio.h>
 int main(void)
 {
     int sizes[2] = {64, 64}, i;
-    CM_field_id_t f;
+    CM_field_id_t f, picture;
+    CMFB_display_id_t display;
     CM_init();
     CM_set_vp_set(CM_allocate_vp_set(CM_create_geometry(sizes, 2)));
     f = CM_allocate_heap_field(1);
+    picture = CM_allocate_heap_field(8);
+    display = CMFB_attach_display("");
+    CMFB_initialize_display(display, 8, 64, 64);
     CM_set_context();
     for (i = 0; i < 60; i++) {
         CM_lognot_1_1L(f, 1);
         CM_latch_leds_always(f);
+        CM_u_move_constant_1L(picture, 4 * i, 8);
+        CMFB_write_news_always(display, 0, picture, 0, 0);
     }
     puts("ran");
     return 0;
@@ -37,6 +43,15 @@ int main(void)
 PICTURE = ["--picture", "96x64"]
 FILM = [*PICTURE, "--fps", "8"]
 LEDS = b"lutetia leds 1 4096\n" + b"".join(struct.pack("<Q", 50000 * i) + bytes([17 * i]) * 512 for i in range(4))
+
+
+
+def display_piece(kind, us, x, y, more=b""):
+    return struct.pack("<BBBBIQii", kind, 1, 0, 1, len(more), us, x, y) + more
+
+
+DISPLAY = b"lutetia display 1\n" + display_piece(1, 0, 64, 48, b"title") + b"".join(
+    display_piece(2, 50000 * i, 0, 0, struct.pack("<I", 64) + bytes([60 * i]) * 64 * 48) for i in range(4))
 
 # What a command line writes: {name}. Files of one run are made together.
 # (name, verb, options whose files these are, files or folders/, words, variables)
@@ -70,6 +85,9 @@ OUTPUTS = [
     ("cc", "cc", [], ["prog"], ["cc", "prog.c", "-o", "prog"], {}),
     ("leds", "leds", ["out", "frames"], ["leds.png", "lights/"],
      ["leds", "--size", "64x64", "-o", "leds.png", "--frames", "lights", "lights.leds"], {}),
+    ("display", "display", ["out", "frames"], ["display.png", "shown/"],
+     ["display", "-o", "display.png", "--frames", "shown", "run.display"], {}),
+    ("display film", "display", ["film"], ["d.y4m"], ["display", "--film", "d.y4m", "run.display"], {}),
     ("explain", "explain", ["json"], ["x.json"], ["explain", "--json", "x.json", "./program"], {}),
     ("keys", "keys", ["poster", "sheet", "still"], ["k.png", "ks.png", "kt.png"],
      ["keys", "song.mid", *PICTURE, "-o", "k.png", "--sheet", "ks.png", "--still", "kt.png"], {}),
@@ -82,6 +100,7 @@ OUTPUTS = [
     ("LUTETIA_EXPLAIN", "", [], ["explained"], ["./program"], {"LUTETIA_EXPLAIN": "explained"}),
     ("LUTETIA_EXPLAIN_JSON", "", [], ["explained.json"], ["./program"], {"LUTETIA_EXPLAIN_JSON": "explained.json"}),
     ("LUTETIA_LEDS", "", [], ["run.leds"], ["./program"], {"LUTETIA_LEDS": "run.leds"}),
+    ("LUTETIA_DISPLAY", "", [], ["p.display"], ["./program"], {"LUTETIA_DISPLAY": "p.display"}),
     ("LUTETIA_DUMP", "", [], ["dump/"], ["paint", "k", "--paper", "64x64", "--steps", "2", "-o", "p.png"], {"LUTETIA_DUMP": "dump"}),
     ("LUTETIA_TRACE of a verb", "", [], ["verb.json"],
      ["paint", "k", "--paper", "64x64", "--steps", "2", "-o", "p.png"], {"LUTETIA_TRACE": "verb.json"}),
@@ -119,6 +138,7 @@ INPUTS = [
     ("run", None, ["run", "@"]),
     ("run", "resume", ["run", "nothing.lua", "-q", "--resume", "@"]),
     ("leds", None, ["leds", "@", "-o", "o.png"]),
+    ("display", None, ["display", "-o", "o.png", "@"]),
     ("explain", None, ["explain", "@"]),
     ("cc", None, ["cc", "@.c", "-o", "o.prog"]),
     ("explain", None, ["explain", "@.c"]),
@@ -143,6 +163,7 @@ def files_make(at):
                                b"data" + struct.pack("<I", 16000) + bytes(16000))
     (at / "prog.c").write_text(PROGRAM)
     (at / "lights.leds").write_bytes(LEDS)
+    (at / "run.display").write_bytes(DISPLAY)
     (at / "text.txt").write_text("A marsh, an island and a town with walls. " * 80 + "\n\n" + "Rain. " * 400)
     for name in ("pages", "run"):
         (at / name).mkdir(exist_ok=True)
