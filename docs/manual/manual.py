@@ -395,7 +395,7 @@ def paris_page(sections, source, edition):
         names = [f"{name}(3)" for name, rows in pages.items() if any(t == title for t, _, _ in rows)]
         listed.append(f"### {title}\n\n{', '.join(names)}.\n")
     roff.markdown(page, text.replace("@EXAMPLE@", example).replace("@FAMILIES@", "\n".join(listed)))
-    page.see_also(["lutetia(1)", "lutetia-cc(1)", "lutetia-explain(1)", "lutetia-leds(1)"])
+    page.see_also(["lutetia(1)", "lutetia-cc(1)", "lutetia-explain(1)", "lutetia-leds(1)", "lutetia-display(1)"])
     return page.text()
 
 
