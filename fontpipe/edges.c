@@ -16,8 +16,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PAD = 16 };
-
 void font_edges_finish(struct font_edges *e)
 {
     free(e->memory);
@@ -26,67 +24,12 @@ void font_edges_finish(struct font_edges *e)
     *e = (struct font_edges){.x0 = 1, .x1 = -1, .y0 = 1, .y1 = -1};
 }
 
-/* Three arrays in one block, each `capacity` long and a little. */
-static bool three_grow(float **a, float **b, float **c, int count, int *capacity, int wanted)
-{
-    int grown = *capacity ? *capacity : 64;
-    while (grown < wanted)
-        grown = grown > FONT_EDGES_MAX ? wanted : 2 * grown;
-    size_t stride = (size_t)grown + PAD;
-    float *block = aligned_alloc(64, (3 * stride * sizeof(float) + 63) / 64 * 64);
-    if (!block)
-        return false;
-    if (count) {
-        memcpy(block, *a, (size_t)count * sizeof(float));
-        memcpy(block + stride, *b, (size_t)count * sizeof(float));
-        memcpy(block + 2 * stride, *c, (size_t)count * sizeof(float));
-    }
-    free(*a);
-    *a = block;
-    *b = block + stride;
-    *c = block + 2 * stride;
-    *capacity = grown;
-    return true;
-}
-
-enum font_status font_nodes_reserve(struct font_edges *e, int more)
-{
-    if (e->nodes_count + more <= e->nodes_capacity)
-        return FONT_OK;
-    if (e->nodes_count + more > FONT_EDGES_MAX)
-        return font_fail(FONT_TOO_LARGE, "an outline has too many edges at this size");
-    bool grown = three_grow(&e->node_x, &e->node_y, &e->node_weight, e->nodes_count,
-                            &e->nodes_capacity, e->nodes_count + more);
-    e->memory = e->node_x;
-    return grown ? FONT_OK : font_fail(FONT_NO_MEMORY, "no memory for edges");
-}
-
-enum font_status font_lines_reserve(struct font_edges *e, int more)
-{
-    if (e->lines_count + more <= e->lines_capacity)
-        return FONT_OK;
-    if (e->lines_count + more > FONT_EDGES_MAX)
-        return font_fail(FONT_TOO_LARGE, "an outline has too many edges at this size");
-    return three_grow(&e->line_x0, &e->line_x1, &e->line_y, e->lines_count, &e->lines_capacity,
-                      e->lines_count + more)
-               ? FONT_OK
-               : font_fail(FONT_NO_MEMORY, "no memory for edges");
-}
-
 static void node_put(struct font_edges *e, double x, double y, double weight)
 {
     int i = e->nodes_count++;
     e->node_x[i] = (float)x;
     e->node_y[i] = (float)y;
     e->node_weight[i] = (float)weight;
-}
-
-static void line_put(struct font_edges *e, double x0, double x1, double y)
-{
-    int i = e->lines_count++;
-    e->line_x0[i] = (float)x0;
-    e->line_x1[i] = (float)x1;
-    e->line_y[i] = (float)y;
 }
 
 float font_rule_places[FONT_RULES * 8], font_rule_weights[FONT_RULES * 8];
@@ -164,7 +107,7 @@ static enum font_status steps_build(struct font_edges *e, const struct font_filt
     for (int k = 1; k <= n; k++) {
         double x = k == n ? p[s->degree].x : font_segment_at(s, (double)k / n, NULL).x;
         double y = font_segment_at(s, (k - 0.5) / n, NULL).y;
-        line_put(e, side > 0 ? before : x, side > 0 ? x : before, y);
+        font_edges_line(e, side > 0 ? before : x, side > 0 ? x : before, y);
         before = x;
     }
     return FONT_OK;
@@ -229,8 +172,8 @@ static enum font_status mapped_build(struct font_edges *e, const struct font_fil
             if (!mapped_at(map, s, (double)k / n, orientation, &here) ||
                 !mapped_at(map, s, (k - 0.5) / n, orientation, &middle))
                 return outside();
-            line_put(e, side > 0 ? before.at.x : here.at.x, side > 0 ? here.at.x : before.at.x,
-                     middle.at.y);
+            font_edges_line(e, side > 0 ? before.at.x : here.at.x,
+                            side > 0 ? here.at.x : before.at.x, middle.at.y);
             before = here;
         }
         return FONT_OK;
@@ -316,6 +259,12 @@ static enum font_status segments_build(struct font_edges *e, const struct font_o
     const double *m = map->m;
     double side = outline->turn * -orientation;
     enum font_status status = FONT_OK;
+    if (outline->tangled) {
+        status = font_edges_tangled(e, outline, map, f);
+        if (status == FONT_OK)
+            bounds_find(e);
+        return status;
+    }
     bool nodes = f->use_nodes || (f->way == FONT_BY_PATCHES && !tabled);
     if ((f->way == FONT_BY_AREAS || f->way == FONT_BY_DISCS) && !tabled)
         return font_arcs_build(e, outline, map, f, orientation, (float)side);
@@ -386,8 +335,8 @@ static enum font_status build(struct font_edges *e, const struct font_outline *o
     if (status != FONT_OK)
         clear(e);
     if (e->nodes_count) { /* drawing reads whole vectors */
-        memset(e->node_x + e->nodes_count, 0, PAD * sizeof(float));
-        memset(e->node_y + e->nodes_count, 0, PAD * sizeof(float));
+        memset(e->node_x + e->nodes_count, 0, FONT_EDGES_PAD * sizeof(float));
+        memset(e->node_y + e->nodes_count, 0, FONT_EDGES_PAD * sizeof(float));
     }
     return status;
 }

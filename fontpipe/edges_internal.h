@@ -14,9 +14,21 @@
 #define FONT_SPECK_PX 0.06f /* a cubic so short needs two nodes, not three */
 #define FONT_BEND_PX2 0.03f /* the square of how far a quadratic's second difference reaches */
 
-/* Room for more; eight floats past what is asked for may be written. */
+enum { FONT_EDGES_PAD = 16 }; /* floats behind an array's last, which drawing reads */
+/* edges_reserve.c: room for more; eight floats past what is asked for may be written. */
 enum font_status font_nodes_reserve(struct font_edges *e, int more);
 enum font_status font_lines_reserve(struct font_edges *e, int more);
+/* Where there is room: ink below the line is positive from x0 to an x1 to the right of it. */
+static inline void font_edges_line(struct font_edges *e, double x0, double x1, double y)
+{
+    int i = e->lines_count++;
+    e->line_x0[i] = (float)x0;
+    e->line_x1[i] = (float)x1;
+    e->line_y[i] = (float)y;
+}
+/* edges_tangled.c: of a tangled outline, as lines alone. Errors: BAD_ARGUMENT (a point has no picture), NO_MEMORY. */
+enum font_status font_edges_tangled(struct font_edges *e, const struct font_outline *o,
+                                    const struct font_map *map, const struct font_filter *f);
 
 /* An outline through an affine map whose inside is below its edges where side is 1. */
 struct font_edges_job {

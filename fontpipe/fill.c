@@ -158,6 +158,7 @@ static enum font_status end_add(struct fill_work *w, double x, int change)
         w->ends[at] = w->ends[at - 1];
         at--;
     }
+    w->moves += w->ends_count - at;
     w->ends[at] = (struct fill_end){x, change};
     return FONT_OK;
 }
@@ -199,6 +200,7 @@ static void strip_sort(struct fill_work *w, int active_count, double low, double
             w->active[at] = w->active[at - 1];
             at--;
         }
+        w->moves += i - at;
         w->middles[at] = x;
         w->active[at] = piece;
     }
@@ -212,9 +214,9 @@ static enum font_status strip_bound(struct fill_work *w, int active_count, doubl
     enum font_status status = FONT_OK;
     for (int i = 0; i < active_count && status == FONT_OK; i++) {
         const struct fill_piece *p = &w->pieces[w->active[i]];
-        bool before = fill_filled(winding, rule), after;
+        bool before = font_fill_has(winding, rule), after;
         winding += p->direction;
-        after = fill_filled(winding, rule);
+        after = font_fill_has(winding, rule);
         if (before == after)
             continue;
         w->bounds[bounds_count++] = (struct fill_bound){p, after};
@@ -252,7 +254,7 @@ static enum font_status strips_pass(struct fill_work *w, enum font_fill rule, bo
             return boundary ? level_close(w, low) : FONT_OK;
         double high = w->levels[k + 1];
         visits += active_count;
-        if (visits > FILL_PAIRS_MAX)
+        if (visits > FILL_PAIRS_MAX || w->moves > FILL_MOVES_MAX)
             return font_fail(FONT_TOO_LARGE, "an outline is too tangled to fill");
         strip_sort(w, active_count, low, high);
         if (boundary) {
@@ -384,31 +386,48 @@ static void work_finish(struct fill_work *w)
     free(w->links);
 }
 
+/* From the curves themselves, else by strips. TOO_LARGE: it is too tangled. */
+static enum font_status fill_find(struct fill_work *w, const struct font_outline *o,
+                                  enum font_fill rule, bool quickly, int *least, int *most)
+{
+    for (int shaken = 0; quickly && shaken < 2; shaken++) {
+        if (fill_quick(w, o, rule, shaken, least, most))
+            return FONT_OK;
+        if (w->spent)
+            return font_fail(FONT_TOO_LARGE, "an outline is too tangled to fill");
+    }
+    w->portions_count = 0;
+    return strips_find(w, o, rule, least, most);
+}
+
 static enum font_status prepare(struct font_outline *o, enum font_fill rule, bool quickly)
 {
     if (o->prepared)
         return FONT_OK;
+    o->tangled = false;
     enum font_status status = font_outline_close(o);
     struct fill_work w = {0};
     struct font_outline out = {0};
     int least = 0, most = 0;
-    if (status == FONT_OK && !(quickly && (fill_quick(&w, o, rule, false, &least, &most) ||
-                                           fill_quick(&w, o, rule, true, &least, &most)))) {
-        w.portions_count = 0;
-        status = strips_find(&w, o, rule, &least, &most);
-    }
-    if (status == FONT_OK && fill_twice(least, most)) {
+    if (status == FONT_OK)
+        status = fill_find(&w, o, rule, quickly, &least, &most);
+    if (status == FONT_OK && fill_twice(least, most))
         status = result_make(&w, o, &out);
-        if (status == FONT_OK) {
-            free(o->segments);
-            o->segments = out.segments;
-            o->segments_count = out.segments_count;
-            o->segments_capacity = out.segments_capacity;
-            out.segments = NULL;
-            o->contours_count = 1;
-            o->rebuilt = true;
-            o->turn = 1;
-        }
+    if (status == FONT_TOO_LARGE && quickly) {
+        /* It stays as it is, and is filled where it is drawn: see edges_tangled.c. */
+        status = FONT_OK;
+        o->tangled = true;
+        o->rule = rule;
+        o->turn = 1;
+    } else if (status == FONT_OK && fill_twice(least, most)) {
+        free(o->segments);
+        o->segments = out.segments;
+        o->segments_count = out.segments_count;
+        o->segments_capacity = out.segments_capacity;
+        out.segments = NULL;
+        o->contours_count = 1;
+        o->rebuilt = true;
+        o->turn = 1;
     } else if (status == FONT_OK) {
         o->turn = least < 0 ? -1 : 1;
     }

@@ -16,10 +16,12 @@
 #include <string.h>
 
 enum {
-    ARCS_MAX = 2000,
+    ARCS_MAX = 60000,
+    PAIRS_MAX = 1000000, /* of arcs whose boxes meet; as many take some tenths of a second */
     DEPTH_MAX = 24,
     LOOKS_OF_ARC =
-        24, /* how often pairs are looked at, for each arc; and beside that for all */
+        24, /* how often pairs are looked at, for each arc; for each pair; and beside that for all */
+    LOOKS_OF_PAIR = 8,
     LOOKS = 400,
     GROUP = 8,
     AT_END = 1,  /* a ends where b begins */
@@ -119,7 +121,8 @@ static bool arc_add(struct fill_work *w, const struct curve *c, int segment, int
     struct font_point a = c->p[0], b = c->p[c->degree];
     if (a.x == b.x && a.y == b.y)
         return c->degree == 1; /* a curve that comes back is the strips' */
-    if (w->arcs_count == ARCS_MAX ||
+    w->spent = w->arcs_count == ARCS_MAX;
+    if (w->spent ||
         !array_reserve(&w->arcs, &w->arcs_capacity, w->arcs_count + 1, sizeof *w->arcs) ||
         !array_reserve(&w->boxes, &w->boxes_capacity, w->arcs_count + 1, sizeof *w->boxes))
         return false;
@@ -280,11 +283,11 @@ static bool parted_at_joint(const struct curve *a, const struct curve *b)
     return parted;
 }
 
-static bool meet_add(struct fill_work *w, int arc, double t)
+static bool meet_add(struct fill_work *w, int arc, double t, int turn)
 {
     if (!array_reserve(&w->meets, &w->meets_capacity, w->meets_count + 1, sizeof *w->meets))
         return false;
-    w->meets[w->meets_count++] = (struct fill_meet){arc, w->crossings, t};
+    w->meets[w->meets_count++] = (struct fill_meet){arc, w->crossings, turn, t};
     return true;
 }
 
@@ -303,6 +306,7 @@ static bool crossing_add(struct fill_work *w, int a, const struct curve *ca, int
                       q = fill_minus(cb->p[cb->degree], cb->p[0]),
                       r = fill_minus(cb->p[0], ca->p[0]);
     double det = cross(p, q);
+    int turn = det > 0 ? 1 : -1; /* b goes from a's right to its left, or back */
     double t = ca->t0 + (ca->t1 - ca->t0) * cross(r, q) / det;
     double u = cb->t0 + (cb->t1 - cb->t0) * cross(r, p) / det;
     struct font_point at = {0, 0};
@@ -323,9 +327,9 @@ static bool crossing_add(struct fill_work *w, int a, const struct curve *ca, int
     found = found && t > ca->t0 && t < ca->t1 && u > cb->t0 && u < cb->t1;
     if (!found ||
         !array_reserve(&w->joints, &w->joints_capacity, w->crossings + 1, sizeof *w->joints) ||
-        !meet_add(w, a, t) || !meet_add(w, b, u))
+        !meet_add(w, a, t, turn) || !meet_add(w, b, u, -turn))
         return false;
-    w->joints[w->crossings++] = (struct fill_joint){at, 0};
+    w->joints[w->crossings++] = (struct fill_joint){at, 0, false};
     return true;
 }
 
@@ -462,6 +466,10 @@ static bool arcs_look(struct fill_work *w, int i, const struct curve *ca, int be
     for (int k = begin; k < end; k++) {
         if (!boxes_meet(&box, &w->boxes[k]))
             continue;
+        w->looks += LOOKS_OF_PAIR;
+        w->spent = ++w->pairs > PAIRS_MAX;
+        if (w->spent)
+            return false;
         const struct fill_arc *b = &w->arcs[k];
         int joined = (w->arcs[i].next == k ? AT_END : 0) | (b->next == i ? AT_BEGIN : 0);
         struct curve cb;
@@ -476,6 +484,7 @@ bool fill_arcs_cross(struct fill_work *w)
 {
     int n = w->arcs_count;
     w->looks = LOOKS + LOOKS_OF_ARC * n;
+    w->pairs = 0;
     if (!groups_make(w))
         return false;
     for (int i = 0; i < n; i++) {

@@ -6,11 +6,13 @@
 #include "outline.h"
 
 #include <math.h>
+#include <stdint.h>
 
 enum {
     FILL_CUTS_TIMES = 6,
     FILL_PIECES_MAX = 400000,
     FILL_PAIRS_MAX = 20000000,
+    FILL_MOVES_MAX = 200000000, /* of what is sorted, all strips together */
     FILL_PIECES_OF_SEGMENT_MAX = 64
 };
 
@@ -54,20 +56,23 @@ struct fill_arc {
     bool joined; /* which begins where this one ends */
 };
 
-/* Where two arcs cross. balance: what is kept that ends there, less what begins. */
+/* Where two arcs cross. twice: of the winding number there, the mean of those around, which both arcs must find; once one is known. */
 struct fill_joint {
     struct font_point at;
-    int balance;
+    int twice;
+    bool known;
 };
 
+/* turn: by how much the winding number to the left of the arc changes there. */
 struct fill_meet {
-    int arc, joint;
+    int arc, joint, turn;
     double t;
 };
 
 /* An arc from one crossing to the next. */
 struct fill_link {
     int arc, from, to; /* joints; -1: the arc's end */
+    int turn;          /* where it ends: see fill_meet */
     int runs;          /* 1 it is kept, -1 turned around, 0 it is inside */
     double t0, t1;
 };
@@ -88,12 +93,14 @@ struct fill_work {
     struct fill_meet *meets;
     struct fill_link *links;
     int arcs_count, arcs_capacity, boxes_capacity, joints_capacity, meets_count, meets_capacity;
-    int links_count, links_capacity, looks;
+    int links_count, links_capacity, looks, pairs;
+    bool spent; /* arcs or pairs were too many to be looked at one by one */
     int cuts_count, cuts_capacity;
     int pieces_count, pieces_capacity, levels_count, levels_capacity;
     int portions_count, portions_capacity, flat_count, flat_capacity;
     int ends_count, ends_capacity, active_capacity, middles_capacity, bounds_capacity;
     int crossings;
+    int64_t moves;
     double grid; /* heights are multiples of it, so that what is all but equal is equal */
 };
 
@@ -121,11 +128,6 @@ static inline double fill_piece_x(const struct fill_piece *p, double y)
 static inline double fill_piece_t(const struct fill_piece *p, double y)
 {
     return fill_piece_between(p, y, p->t0, p->t1);
-}
-
-static inline bool fill_filled(int winding, enum font_fill rule)
-{
-    return rule == FONT_EVEN_ODD ? (winding & 1) != 0 : winding != 0;
 }
 
 /* By the winding numbers met: more than none and one, or none and minus one. */

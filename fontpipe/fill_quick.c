@@ -1,7 +1,8 @@
 /* fill_quick.c - the same as fill.c's strips find, from where the curves themselves cross (fill_arcs.c).
  *
- * A contour between two crossings is a chain. The winding number beside a chain is the same all along it, so one ray from
- * one of its points gives it. Contours without crossings are one chain each: for most glyphs a few rays are all.
+ * A contour is cut into links where it crosses others and itself. Along a link the winding number beside it stays the same, and from
+ * one to the next it changes by 1 or -1, by the direction of what is crossed. So one ray from one point of each contour gives it
+ * everywhere; both arcs of a crossing must find the same there.
  *
  * What touches or runs along another curve is not seen so. Then each point is moved by some 10^-8 of the outline: what
  * touched is then apart, or crosses, and the ink is the same for any picture. What is not seen even then is left to
@@ -74,11 +75,13 @@ static bool winding_beside(const struct fill_work *w, int own, struct font_point
     return true;
 }
 
-static bool link_add(struct fill_work *w, int arc, double t0, double t1, int from, int to)
+static bool link_add(struct fill_work *w, int arc, double t0, double t1, int from,
+                     const struct fill_meet *to)
 {
     if (!array_reserve(&w->links, &w->links_capacity, w->links_count + 1, sizeof *w->links))
         return false;
-    w->links[w->links_count++] = (struct fill_link){arc, from, to, 0, t0, t1};
+    w->links[w->links_count++] =
+        (struct fill_link){arc, from, to ? to->joint : -1, to ? to->turn : 0, 0, t0, t1};
     return true;
 }
 
@@ -103,12 +106,12 @@ static bool links_make(struct fill_work *w)
         int from = -1;
         for (; next < w->meets_count && w->meets[next].arc == i; next++) {
             const struct fill_meet *m = &w->meets[next];
-            if (!(m->t > t) || !link_add(w, i, t, m->t, from, m->joint))
+            if (!(m->t > t) || !link_add(w, i, t, m->t, from, m))
                 return false;
             t = m->t;
             from = m->joint;
         }
-        if (!link_add(w, i, t, 1, from, -1))
+        if (!link_add(w, i, t, 1, from, NULL))
             return false;
     }
     return true;
@@ -130,67 +133,66 @@ struct wound {
     int least, most;
 };
 
-/* Of `count` links from `begin`, around within first..end: on which of their sides ink is. */
-static bool chain_wind(struct fill_work *w, struct wound *wound, int first, int end, int begin,
-                       int count)
+/* The winding number to the left of one of the links first..end: of the longest, by a ray. -1: there is none, or the ray meets a
+ * corner. */
+static int longest_wind(const struct fill_work *w, double close, int first, int end, int *left)
 {
-    const struct fill_link *best = NULL;
     double longest = 0;
     bool across = false;
-    for (int i = 0, k = begin; i < count; i++, k = k + 1 == end ? first : k + 1) {
+    int best = -1, before;
+    for (int k = first; k < end; k++) {
         struct font_point d =
             fill_minus(link_end(w, &w->links[k], true), link_end(w, &w->links[k], false));
         double far = fmax(fabs(d.x), fabs(d.y));
         if (far > longest) {
             longest = far;
-            best = &w->links[k];
+            best = k;
             across = fabs(d.x) > fabs(d.y);
         }
     }
-    if (!best)
-        return false;
-    const struct fill_arc *arc = &w->arcs[best->arc];
-    struct font_point at = fill_arc_at(arc, 0.5 * (best->t0 + best->t1), NULL);
+    if (best < 0)
+        return -1;
+    const struct fill_link *link = &w->links[best];
+    const struct fill_arc *arc = &w->arcs[link->arc];
+    struct font_point at = fill_arc_at(arc, 0.5 * (link->t0 + link->t1), NULL);
     struct font_point along = fill_minus(arc->p[arc->degree], arc->p[0]);
-    int before;
-    if (!winding_beside(w, best->arc, at, across, wound->close, &before))
-        return false;
-    int sign = across ? (along.x > 0 ? -1 : 1) : along.y > 0 ? 1 : -1, after = before + sign;
-    wound->least = before < wound->least ? before : wound->least;
-    wound->least = after < wound->least ? after : wound->least;
-    wound->most = before > wound->most ? before : wound->most;
-    wound->most = after > wound->most ? after : wound->most;
-    bool inside = fill_filled(after, wound->rule);
-    int runs = fill_filled(before, wound->rule) == inside ? 0 : (sign > 0) == inside ? 1 : -1;
-    for (int i = 0, k = begin; i < count; i++, k = k + 1 == end ? first : k + 1)
-        w->links[k].runs = runs;
-    return true;
+    if (!winding_beside(w, link->arc, at, across, close, &before))
+        return -1;
+    /* What lies to the left of an arc that rises lies to the right of one that falls, where the number is greater by one. */
+    bool beside_left = across ? along.x < 0 : along.y > 0;
+    *left = beside_left ? before : before - 1;
+    return best;
 }
 
-/* The chains of the contour whose links are first..end. */
+/* The contour whose links are first..end: on which of their sides ink is. Where it crosses another arc the winding number changes by
+ * the one that this adds, and all around the contour it comes back to what it was. False: that it does not, or where it crosses
+ * another contour they do not agree. */
 static bool contour_wind(struct fill_work *w, struct wound *wound, int first, int end)
 {
-    int begin = first;
-    while (begin < end && w->links[begin].from < 0)
-        begin++;
-    if (begin == end)
-        return chain_wind(w, wound, first, end, first, end - first);
-    for (int left = end - first; left > 0;) {
-        int count = 0;
-        for (int k = begin;; k = k + 1 == end ? first : k + 1) {
-            count++;
-            if (w->links[k].to >= 0)
-                break;
-        }
-        if (!chain_wind(w, wound, first, end, begin, count))
+    int left, begin = longest_wind(w, wound->close, first, end, &left);
+    if (begin < 0)
+        return false;
+    int number = left;
+    for (int i = 0, k = begin; i < end - first; i++, k = k + 1 == end ? first : k + 1) {
+        struct fill_link *l = &w->links[k];
+        bool outside = font_fill_has(number, wound->rule);
+        bool inside = font_fill_has(number + 1, wound->rule);
+        l->runs = outside == inside ? 0 : inside ? 1 : -1;
+        wound->least = number < wound->least ? number : wound->least;
+        wound->most = number + 1 > wound->most ? number + 1 : wound->most;
+        if (l->to < 0)
+            continue;
+        struct fill_joint *joint = &w->joints[l->to];
+        if (joint->known && joint->twice != 2 * number + l->turn)
             return false;
-        left -= count;
-        begin = first + (begin - first + count) % (end - first);
+        joint->known = true;
+        joint->twice = 2 * number + l->turn;
+        number += l->turn;
     }
-    return true;
+    return number == left;
 }
 
-/* What is kept of the chains, as portions. False: it is not closed. */
+/* What is kept of the links, as portions. */
 static bool portions_make(struct fill_work *w)
 {
     for (int i = 0; i < w->links_count; i++) {
@@ -198,10 +200,6 @@ static bool portions_make(struct fill_work *w)
         const struct fill_arc *a = &w->arcs[l->arc];
         if (!l->runs)
             continue;
-        if (l->from >= 0)
-            w->joints[l->from].balance -= l->runs;
-        if (l->to >= 0)
-            w->joints[l->to].balance += l->runs;
         double range = a->t1 - a->t0, ta = a->t0 + l->t0 * range,
                tb = l->t1 == 1 ? a->t1 : a->t0 + l->t1 * range;
         struct font_point p = link_end(w, l, false), q = link_end(w, l, true);
@@ -212,9 +210,6 @@ static bool portions_make(struct fill_work *w)
             l->runs > 0 ? (struct fill_portion){ta, tb, p, q, a->segment}
                         : (struct fill_portion){tb, ta, q, p, a->segment};
     }
-    for (int i = 0; i < w->crossings; i++)
-        if (w->joints[i].balance)
-            return false;
     return true;
 }
 

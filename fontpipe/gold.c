@@ -91,6 +91,8 @@ enum font_status font_gold_draw(const struct font_outline *outline, const struct
     size_t row = (size_t)(width > 0 ? width : 0) + 1;
     if (width <= 0 || height <= 0 || !outline->prepared)
         return font_fail(FONT_BAD_ARGUMENT, "gold needs a picture and a prepared outline");
+    if (outline->tangled)
+        return font_fail(FONT_TOO_LARGE, "an outline is too tangled for gold");
     g.sums = calloc(row * (size_t)height, sizeof *g.sums);
     if (!g.sums)
         return font_fail(FONT_NO_MEMORY, "no memory for gold");

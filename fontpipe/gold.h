@@ -11,7 +11,7 @@
 
 /* Fills pixels[height * width], row by row, with the exact values (1 is full) of the pixels that begin at (left, top), y
  * downwards, for a glyph whose origin is at (x_px, y_px). The outline is prepared.
- * Errors: BAD_ARGUMENT as font_edges_build(), NO_MEMORY. */
+ * Errors: BAD_ARGUMENT as font_edges_build(), TOO_LARGE (a tangled outline), NO_MEMORY. */
 enum font_status font_gold_draw(const struct font_outline *outline, const struct font_map *map,
                                 const struct font_filter *filter, double x_px, double y_px,
                                 int left, int top, int width, int height, double *pixels);

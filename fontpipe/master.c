@@ -1,5 +1,5 @@
 /* master.c - see master.h. A prepared outline covers nothing twice, so a row is found by turning bits over: each edge
- * that crosses the row's middle turns all pixels right of it, and two turns are none. */
+ * that crosses the row's middle turns all pixels right of it, and two turns are none. Of a tangled outline winding numbers are counted. */
 #include "master.h"
 #include "internal.h"
 
@@ -15,20 +15,39 @@ void font_master_finish(struct font_master *m)
     *m = (struct font_master){0};
 }
 
-/* Turns the first pixel right of each crossing of a row's middle. */
-static void line_turn(struct font_master *m, struct font_point a, struct font_point b)
+/* Turns the first pixel right of each crossing of a row's middle; or notes in `winding` by how much the number changes there. */
+static void line_turn(struct font_master *m, int *winding, struct font_point a,
+                      struct font_point b)
 {
+    int direction = 1;
     if (a.y > b.y) {
         struct font_point swap = a;
         a = b;
         b = swap;
+        direction = -1;
     }
     int first = (int)fmax(0, ceil(a.y - 0.5)), end = (int)fmin(m->height_px, ceil(b.y - 0.5));
     for (int y = first; y < end; y++) {
         double x = a.x + (b.x - a.x) * ((y + 0.5 - a.y) / (b.y - a.y));
         int at = (int)fmax(0, ceil(x - 0.5));
-        if (at < m->width_px)
+        if (at >= m->width_px)
+            continue;
+        if (winding)
+            winding[(size_t)y * (size_t)m->width_px + (size_t)at] += direction;
+        else
             m->bits[(size_t)y * (size_t)m->row_words + (size_t)(at / 64)] ^= 1ull << (at % 64);
+    }
+}
+
+/* Turns the pixels at which the filling changes, of a row whose winding number changes so. */
+static void row_turn(uint64_t *row, const int *winding, int width, enum font_fill rule)
+{
+    int number = 0;
+    for (int x = 0; x < width; x++) {
+        bool before = font_fill_has(number, rule);
+        number += winding[x];
+        if (before != font_fill_has(number, rule))
+            row[x / 64] ^= 1ull << (x % 64);
     }
 }
 
@@ -42,6 +61,27 @@ static void row_fill(uint64_t *row, int words)
             w ^= w << shift;
         row[i] = w ^ carry;
         carry = row[i] >> 63 ? ~0ull : 0;
+    }
+}
+
+static void segments_turn(struct font_master *m, int *winding, const struct font_outline *o,
+                          double scale)
+{
+    for (int i = 0; i < o->segments_count; i++) {
+        const struct font_segment *s = &o->segments[i];
+        double length = 0;
+        for (int k = 0; k < s->degree; k++)
+            length += hypot(s->p[k + 1].x - s->p[k].x, s->p[k + 1].y - s->p[k].y) * scale;
+        /* A piece of length l leaves a curve by some l^2 over its length: a small part of a pixel. */
+        int n = s->degree == 1 ? 1 : 2 + (int)ceil(2 * sqrt(length));
+        struct font_point a = {s->p[0].x * scale - m->left_px, -s->p[0].y * scale - m->top_px};
+        for (int k = 1; k <= n; k++) {
+            struct font_point p =
+                k == n ? s->p[s->degree] : font_segment_at(s, (double)k / n, NULL);
+            struct font_point b = {p.x * scale - m->left_px, -p.y * scale - m->top_px};
+            line_turn(m, winding, a, b);
+            a = b;
+        }
     }
 }
 
@@ -75,22 +115,19 @@ enum font_status font_master_make(struct font_master *m, const struct font_outli
         font_master_finish(m);
         return font_fail(FONT_NO_MEMORY, "no memory for a master");
     }
-    for (int i = 0; i < o->segments_count; i++) {
-        const struct font_segment *s = &o->segments[i];
-        double length = 0;
-        for (int k = 0; k < s->degree; k++)
-            length += hypot(s->p[k + 1].x - s->p[k].x, s->p[k + 1].y - s->p[k].y) * scale;
-        /* A piece of length l leaves a curve by some l^2 over its length: a small part of a pixel. */
-        int n = s->degree == 1 ? 1 : 2 + (int)ceil(2 * sqrt(length));
-        struct font_point a = {s->p[0].x * scale - x0, -s->p[0].y * scale - y0};
-        for (int k = 1; k <= n; k++) {
-            struct font_point p =
-                k == n ? s->p[s->degree] : font_segment_at(s, (double)k / n, NULL);
-            struct font_point b = {p.x * scale - x0, -p.y * scale - y0};
-            line_turn(m, a, b);
-            a = b;
+    int *winding = NULL;
+    if (o->tangled) {
+        winding = calloc((size_t)m->width_px * (size_t)m->height_px, sizeof *winding);
+        if (!winding) {
+            font_master_finish(m);
+            return font_fail(FONT_NO_MEMORY, "no memory for a master");
         }
     }
+    segments_turn(m, winding, o, scale);
+    for (int y = 0; winding && y < m->height_px; y++)
+        row_turn(m->bits + (size_t)y * (size_t)m->row_words,
+                 winding + (size_t)y * (size_t)m->width_px, m->width_px, o->rule);
+    free(winding);
     for (int y = 0; y < m->height_px; y++)
         row_fill(m->bits + (size_t)y * (size_t)m->row_words, m->row_words);
     /* Beyond the width nothing is black. */

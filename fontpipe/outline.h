@@ -19,6 +19,9 @@
  * outline by the boundary of what the rule fills. Most outlines have none and stay as they are. A prepared outline is
  * not written to: adding to it or emboldening it makes it one that is not prepared.
  *
+ * Tangled. An outline that crosses itself some hundred thousand times, and more, stays as it is, and what its rule fills is found each time
+ * that its edges or its master are made (edges_tangled.c). That takes at most about a second; docs/fonts.md says how exact it is.
+ *
  * Errors: functions that can fail return a status and leave one line in font_error(). Others cannot fail.
  *
  * Ownership: an outline's arrays are its own; font_outline_finish() frees them.
@@ -59,6 +62,8 @@ struct font_outline {
     bool prepared;
     bool
         rebuilt; /* parts were covered more than once: segments are pieces of a boundary, in no order */
+    bool tangled; /* it may cover parts more than once: filled by `rule` where it is drawn */
+    enum font_fill rule;
     int turn; /* +1 the inside is on the right of its segments (y upwards), -1 on the left */
     int crossings;       /* of segments that were found */
     struct font_box box; /* of all its points */
@@ -71,6 +76,12 @@ struct font_outline {
 };
 
 enum { FONT_SEGMENTS_MAX = 100000 };
+
+/* Whether a rule fills what has this winding number. */
+static inline bool font_fill_has(int winding, enum font_fill rule)
+{
+    return rule == FONT_EVEN_ODD ? (winding & 1) != 0 : winding != 0;
+}
 
 void font_outline_finish(struct font_outline *o); /* frees; zeros it */
 /* Replaces what *to holds. Errors: NO_MEMORY. */
@@ -86,10 +97,10 @@ enum font_status font_outline_cubic(struct font_outline *o, double c0x, double c
                                     double c1y, double x, double y);
 enum font_status font_outline_close(struct font_outline *o);
 
-/* See above. Errors: TOO_LARGE for outlines that cross too often, NO_MEMORY; the outline is as it was. */
+/* See above. Errors: NO_MEMORY; the outline is as it was. */
 enum font_status font_outline_prepare(struct font_outline *o, enum font_fill rule);
 /* The same by strips alone (fill.c), whatever the outline: slower, what font_outline_prepare() is tested against.
- * Errors: as font_outline_prepare(). */
+ * Errors: TOO_LARGE for outlines that cross too often, NO_MEMORY; the outline is as it was. */
 enum font_status font_outline_prepare_by_strips(struct font_outline *o, enum font_fill rule);
 
 /* Moves the outline outwards by half of the amounts on each side: what stem darkening asks for, and fake bold.

@@ -51,7 +51,7 @@ enum font_status font_outline_mapped(const struct font_outline *outline,
 {
     enum font_status status = FONT_OK;
     *out = (struct font_outline){0};
-    if (outline->rebuilt)
+    if (outline->rebuilt || (outline->tangled && outline->rule == FONT_EVEN_ODD))
         return font_fail(FONT_BAD_ARGUMENT, "an outline is mapped before it is prepared");
     for (int i = 0; i < outline->segments_count && status == FONT_OK; i++) {
         const struct font_segment *s = &outline->segments[i];
