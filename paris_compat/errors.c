@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "call_line.h"
+#include "debug.h"
 #include "paris_state.h"
 #include "visible_text.h"
 
@@ -29,6 +30,7 @@ PARIS_PRINTF(2, 0) static void fail(unsigned int status, const char *format, va_
     error_status = status;
     if (paris_the.machine)
         machine_call_failed(paris_the.machine);
+    paris_debug_tell(error_text);
     if (error_handler) {
         error_handler(error_text);
         return;

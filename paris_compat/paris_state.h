@@ -122,6 +122,8 @@ struct paris_state {
     CM_field_id_t leds; /* hidden field of the VP set that latched last */
     /* Called after a machine was made (comes), and before it is destroyed; NULL: nobody asks. */
     void (*machine_changes)(bool comes);
+    /* Called after each call while a debugger watches fields (debug.c); NULL: none does. */
+    void (*watches_look)(const char *call);
 };
 extern struct paris_state paris_the;
 
@@ -169,12 +171,18 @@ static inline struct machine *paris_inquire(const char *name)
 /* For each instruction: see machine_call_foreseen(). */
 static inline bool paris_foreseen(struct machine_call *call)
 {
-    return machine_call_foreseen(paris_the.machine ? paris_the.machine : paris_machine(), call);
+    const bool noted =
+        machine_call_foreseen(paris_the.machine ? paris_the.machine : paris_machine(), call);
+    if (noted && paris_the.watches_look)
+        paris_the.watches_look(call->name);
+    return noted;
 }
 static inline void paris_performed(void)
 {
     if (paris_the.machine)
         machine_call_performed(paris_the.machine);
+    if (paris_the.watches_look)
+        paris_the.watches_look(paris_the.call);
 }
 /* A hand-written instruction with one field; if `only`, it does nothing but compute. */
 #define PARIS_OF_A_FIELD(instruction, field, only, body)                                       \

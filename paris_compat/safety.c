@@ -11,6 +11,7 @@
 #include <stdio.h>
 
 #include "call_line.h"
+#include "debug.h"
 #include "machine_told.h"
 #include "paris_state.h"
 #include "visible_text.h"
@@ -57,9 +58,13 @@ void paris_safety_usual(void)
 static void say(const char *text)
 {
     const char *place = paris_call_line();
+    char all[1000];
+    snprintf(all, sizeof all,
+             "%.200s%s%.100s: %s (said once); CM_set_safety_mode (1) makes it an error", place,
+             *place ? ": " : "", paris_the.call, text);
+    paris_debug_tell(all);
     fflush(stdout);
-    visible_say("%s%s%s: %s (said once); CM_set_safety_mode (1) makes it an error", place,
-                *place ? ": " : "", paris_the.call, text);
+    visible_say("%s", all);
 }
 
 bool paris_let_pass(const char *format, ...)

@@ -19,7 +19,8 @@ from roff import BOLD, ITALIC, ROMAN, Page, literal, prose, sentence
 COMMAND, LIBRARY = "Lutetia", "C/Paris"
 
 # Whose variables a verb's page lists, besides those of every program.
-GROUPS = {"cc": ["paris"], "leds": ["paris"], "display": ["paris"], "explain": ["paris"], "midi": ["midi"], "keys": ["midi"], "spring": ["midi"],
+GROUPS = {"cc": ["paris"], "leds": ["paris"], "display": ["paris"], "explain": ["paris"], "debug": ["paris"], "midi": ["midi"], "keys": ["midi"],
+          "spring": ["midi"],
           "voice": ["midi"]}
 NAMED = {"cc": ["CC"], "tune": ["XDG_CACHE_HOME"], "info": ["XDG_CACHE_HOME", "POCL_CACHE_DIR"], "midi": ["XDG_RUNTIME_DIR"],
          "leds": ["DISPLAY"], "display": ["DISPLAY"], "keys": ["DISPLAY"], "spring": ["DISPLAY"], "voice": ["DISPLAY"]}

@@ -27,6 +27,7 @@ int verb_cc(int argc, char **argv);
 int verb_leds(int argc, char **argv);
 int verb_display(int argc, char **argv);
 int verb_explain(int argc, char **argv);
+int verb_debug(int argc, char **argv);
 int verb_tune(int argc, char **argv);
 int verb_type(int argc, char **argv);
 int verb_set(int argc, char **argv);

@@ -29,6 +29,7 @@ static const struct {
      "show what a C/Paris program writes to displays"},
     {"explain", verb_explain, "prog [args...]",
      "run a C/Paris program and say what its machine did"},
+    {"debug", verb_debug, "prog [args...]", "look for a C/Paris program's faults, in gdb"},
     {"keys", verb_keys, "SONG.mid [-o out.png]", "letters that the keys of a song play"},
     {"midi", verb_midi, "serve | play | monitor | ...",
      "instruments: a server, and programs that use it"},

@@ -111,6 +111,40 @@ const struct page pages_of_machines[] = {
                    "the same as JSON, from its source"}},
      .files = "/usr/share/doc/lutetia/engine-reference.md: each line of the report, explained",
      .see = "lutetia-cc(1), lutetia-tune(1), paris(7)"},
+    {.verb = "debug",
+     .usages = "[options] prog [arguments]",
+     .about =
+         "Runs a C/Paris program in gdb, with commands of its own that show fields. A field is "
+         "named by the variable that holds its id, or by a number; compile the program by "
+         "`lutetia cc -g`, so that gdb knows its variables. TYPE is u, s or f, with lengths as "
+         "in `u 16` and `f 23 8`; without it floats are shown as they were stored, and other "
+         "bits as numbers without sign.\n"
+         "gdb stops where the library complains of a call, before the program ends. What is "
+         "shown of fields is computed in a process of its own, so the program computes what "
+         "it would have computed.",
+     .notes =
+         "field F [TYPE]: a field's values as a table, and statistics of them\n"
+         "field F [TYPE] at 3 5: one processor's; table, statistics, histogram, picture or "
+         "picture "
+         "FILE.png in place of `at`: these\n"
+         "diff F G [TYPE]: where two fields differ\n"
+         "context: which processors are active, as a picture\n"
+         "where: the Paris call, what waits to be computed, the calls of the program\n"
+         "watch-field F [TYPE] at 3 5: stop after the call that changes the value\n"
+         "watch-field F [TYPE] nan: stop after the call that makes a NaN; unwatch-field N ends "
+         "a "
+         "watch\n"
+         "All other commands are gdb's: `break 20`, `run`, `next`, `print x`, `continue`, "
+         "`quit`; `help field` says more of ours. In the midst of a Paris call fields cannot "
+         "be shown: `finish` goes to its end.\n"
+         "While a field is watched the program computes after each call: more slowly, with the "
+         "same bits.",
+     .examples = {{"lutetia cc -g heat.c -o heat && lutetia debug heat",
+                   "a program, with its variables"},
+                  {"lutetia debug --batch -e run -e where heat",
+                   "where it is stopped, without a question"}},
+     .files = "/usr/share/doc/lutetia/debugging.md: a session with five faults",
+     .see = "lutetia-cc(1), lutetia-explain(1), paris(7), gdb(1)"},
     {.verb = "midi",
      .usages = "serve [NAME=]KIND[:ARGUMENT]... [options]\nVERB ...",
      .about =

@@ -19,7 +19,7 @@ import time
 LINES = 30
 SECONDS = 20
 # verbs that take long, open windows or wait for others only get lines that are refused at once
-SLOW = {"bench", "tune", "demo", "leds", "display", "explain", "spring", "play", "record", "midi", "sound", "voice", "keys", "studio", "read", "cc"}
+SLOW = {"bench", "tune", "demo", "leds", "display", "explain", "debug", "spring", "play", "record", "midi", "sound", "voice", "keys", "studio", "read", "cc"}
 BAD = re.compile(r"[\x00-\x09\x0b-\x1f\x7f-\x9f\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff]")
 ROW = re.compile(r"^\s+(?:-(\w), )?--([a-z][\w-]*)(?:[ =](\S+))?")
 VERB = re.compile(r"^  ([a-z]+) ")

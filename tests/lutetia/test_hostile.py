@@ -174,7 +174,7 @@ class Hostile(unittest.TestCase):
                                   (("run", "sheet.lua", "--resume", evil + ".png"), 1),
                                   (("paint", "--image", evil + ".png"), 1), (("type", "x", "--font", evil), 1),
                                   (("type", "x", "--filter", evil), 2), (("font", "./" + evil + ".png"), 1),
-                                  (("leds", "./" + evil), 1), (("explain", "./" + evil), 1),
+                                  (("leds", "./" + evil), 1), (("explain", "./" + evil), 1), (("debug", "./" + evil), 1),
                                   (("bench", evil), 2)):
             with self.subTest(arguments=arguments):
                 done = self.run_it(*arguments)

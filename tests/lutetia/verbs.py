@@ -140,6 +140,8 @@ INPUTS = [
     ("leds", None, ["leds", "@", "-o", "o.png"]),
     ("display", None, ["display", "-o", "o.png", "@"]),
     ("explain", None, ["explain", "@"]),
+    ("debug", None, ["debug", "--batch", "@"]),
+    ("debug", "commands", ["debug", "--batch", "--commands", "@", "./nothing"]),
     ("cc", None, ["cc", "@.c", "-o", "o.prog"]),
     ("explain", None, ["explain", "@.c"]),
     ("keys", None, ["keys", "@", "-o", "o.png"]),

@@ -46,30 +46,24 @@ struct field *observe_field(struct machine *m, uint32_t id, struct machine_type 
     return f;
 }
 
-enum machine_status machine_field_download(struct machine *m, uint32_t field,
-                                           struct machine_type type, void *out)
+enum machine_status observe_out(struct machine *m, int set, struct machine_value *v, void *out,
+                                const char *what)
 {
-    uint32_t offset;
-    struct field *f = observe_field(m, field, type, &offset);
-    struct machine_value *v =
-        f ? machine_field_value(m, field, type, MACHINE_EVERYWHERE) : NULL;
-    if (!v)
-        return m->status;
-    const struct vpset *s = &m->values->sets[f->vpset];
-    size_t element = type_bytes(type);
+    const struct vpset *s = &m->values->sets[set];
+    size_t element = type_bytes(v->type);
     if (v->op == NODE_CONSTANT && !v->buffer) {
         for (uint64_t i = 0; i < s->count; i++)
             materialise_put((unsigned char *)out + i * element, v->imm, element);
         return MACHINE_OK;
     }
     /* Bits of floats are in the field's own array: another one would leave the field waiting. */
-    v = materialise(m, f->vpset, graph_same_bits(m, v));
+    v = materialise(m, set, graph_same_bits(m, v));
     if (!v)
         return m->status;
     if (v->buffer->host && m->settings.near) {
         if (m->watch)
             watch_bytes(m, s->count * element);
-        if (device_settle_for(m, "reading a field"))
+        if (device_settle_for(m, what))
             return m->status;
         const unsigned char *rows = v->buffer->host;
         for (uint64_t row = 0; row < s->rows; row++)
@@ -89,7 +83,17 @@ enum machine_status machine_field_download(struct machine *m, uint32_t field,
                                                  0, region[0], 0, out, 0, NULL, NULL);
     if (m->watch)
         watch_bytes(m, s->count * element);
-    return device_wait_end(m, error, start, "reading a field");
+    return device_wait_end(m, error, start, what);
+}
+
+enum machine_status machine_field_download(struct machine *m, uint32_t field,
+                                           struct machine_type type, void *out)
+{
+    uint32_t offset;
+    struct field *f = observe_field(m, field, type, &offset);
+    struct machine_value *v =
+        f ? machine_field_value(m, field, type, MACHINE_EVERYWHERE) : NULL;
+    return v ? observe_out(m, f->vpset, v, out, "reading a field") : m->status;
 }
 
 /* Whether an element in memory has bits that the type has not. */

@@ -1,0 +1,29 @@
+"""debugger.py - what tests of `lutetia debug` share."""
+import re
+import shutil
+import subprocess
+import tempfile
+
+# gdb's own lines, which differ between versions and computers.
+NOISE = re.compile(r"\[Thread|Using host libthread_db|Breakpoint \d+ at|\[Inferior|\[New Thread|\[Detaching|warning: |Downloading |"
+                   r"This GDB supports|Enable debuginfod|Debuginfod has|To make this setting|\s*$|"
+                   r"A debugging session is active|Inferior \d+ \[process|Quit anyway")
+
+
+def missing():
+    """Why gdb cannot be used here; None: it can."""
+    if not shutil.which("gdb"):
+        return "gdb is not installed"
+    with tempfile.TemporaryDirectory() as folder:
+        tried = subprocess.run(["gdb", "-q", "-batch", "-nx", "-ex", "python print('has python')", "-ex", "run", "--args", "/bin/true"],
+                               cwd=folder, capture_output=True, text=True, timeout=120, check=False)
+    if "has python" not in tried.stdout:
+        return "gdb has no Python"
+    if "exited normally" not in tried.stdout:
+        return "processes cannot be traced here (ptrace)"
+    return None
+
+
+def own_lines(text):
+    """What is said without gdb's own lines; breakpoints are hit by threads or not."""
+    return [re.sub(r'^Thread \d+ "[^"]*" hit ', "", line.rstrip()) for line in text.splitlines() if not NOISE.match(line)]
