@@ -24,7 +24,7 @@ CONSOLE = re.compile(r"^```console\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 def followed():
     """The page as it must be, and what it shows."""
     with tempfile.TemporaryDirectory() as folder:
-        environment = {**os.environ, "PATH": f"{LUTETIA.parent}:{os.environ['PATH']}", "LC_ALL": "C.UTF-8", "LUTETIA_TUNED": "0"}
+        environment = {**debugger.ENVIRONMENT, "PATH": f"{LUTETIA.parent}:{os.environ['PATH']}"}
         name = re.search(r"^`(\w+\.c)`:\n\n```c\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
         (pathlib.Path(folder) / name.group(1)).write_text(name.group(2), encoding="utf-8")
         shown = []

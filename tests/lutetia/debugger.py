@@ -1,8 +1,12 @@
 """debugger.py - what tests of `lutetia debug` share."""
+import os
 import re
 import shutil
 import subprocess
 import tempfile
+
+# As a user has it: small programs are interpreted, and no kernel is compiled.
+ENVIRONMENT = {k: v for k, v in os.environ.items() if k != "LUTETIA_INTERPRET"} | {"LC_ALL": "C.UTF-8", "DEBUGINFOD_URLS": "", "LUTETIA_TUNED": "0"}
 
 # gdb's own lines, which differ between versions and computers.
 NOISE = re.compile(r"\[Thread|Using host libthread_db|Breakpoint \d+ at|\[Inferior|\[New Thread|\[Detaching|warning: |Downloading |"

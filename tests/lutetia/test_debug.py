@@ -158,7 +158,7 @@ class Debug(unittest.TestCase):
         given = [word for command in commands for word in ("-e", command)]
         done = subprocess.run([LUTETIA, "debug", "--batch", *given, self.path(program)], cwd=self.folder.name, capture_output=True,
                               text=True, timeout=200, check=False,
-                              env={**os.environ, "LC_ALL": "C.UTF-8", "DEBUGINFOD_URLS": "", **variables})
+                              env={**debugger.ENVIRONMENT, **variables})
         self.assertNotIn("Traceback", done.stdout + done.stderr)
         self.assertNotIn("Python Exception", done.stdout + done.stderr)
         return debugger.own_lines(done.stdout + done.stderr)
@@ -290,11 +290,8 @@ class Debug(unittest.TestCase):
                  "field small f 3": "lengths are", "diff small": "which fields", "watch-field small": "where?", "watch-field small u nan": "only floats",
                  "unwatch-field 9": "which watch", "field real picture no/where.png": "cannot write", "field 0": "that is no field",
                  "field sides": "No symbol"}
+        lines = self.kinds(*wrong)
         for command, said in wrong.items():
-            lines = self.kinds(command) if command == "field" else None
-            wrong[command] = (said, lines)
-        lines = self.kinds(*(command for command in wrong))
-        for command, (said, _) in wrong.items():
             self.assertTrue(any(said in line for line in lines), (command, lines))
         self.assertIn("the program does not run", "\n".join(self.debug("kinds", "field small")))
 
