@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "paris_state.h"
+#include "paris_saved.h"
 
 CM_vp_set_id_t CM_current_vp_set = 0;
 CM_geometry_id_t CM_current_geometry = 0;
@@ -61,6 +61,11 @@ CM_vp_set_id_t paris_set_make(CM_geometry_id_t geometry)
     paris_the.geometries[geometry - 1].sets++;
     paris_the.pristine = false;
     return set;
+}
+
+void paris_set_default_is(CM_vp_set_id_t set)
+{
+    default_set = set;
 }
 
 /* ---- beginning and end ---- */

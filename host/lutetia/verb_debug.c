@@ -8,7 +8,6 @@
 #include "options.h"
 
 #include <input_file.h>
-#include <program.h>
 
 #include <errno.h>
 #include <limits.h>
@@ -73,20 +72,37 @@ static int file_check(const char *name, bool runs)
     return EXIT_SUCCESS;
 }
 
+/* What gdb reads, from the folder of the command: in the build, and where it is installed. */
+static bool start_find(char path[PATH_MAX])
+{
+    static const char *const places[] = {"debug/start.py",
+                                         "../" LUTETIA_LIBEXECDIR "/lutetia/debug/start.py"};
+    char home[PATH_MAX];
+    const ssize_t length = readlink("/proc/self/exe", home, sizeof home - 1);
+    home[length > 0 ? length : 0] = '\0';
+    char *slash = strrchr(home, '/');
+    if (!slash)
+        return false;
+    *slash = '\0';
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++)
+        if (snprintf(path, PATH_MAX, "%s/%s", home, places[i]) < PATH_MAX &&
+            access(path, R_OK) == 0)
+            return true;
+    return false;
+}
+
 static int debug(const struct option_texts *executed, const char *file, bool batch,
                  const char *path, char **program, int program_count)
 {
     char start[PATH_MAX];
+    if (!start_find(start))
+        return fail("debug",
+                    "its commands for gdb (debug/start.py) are not where this command is; "
+                    "install Lutetia, or run it from its build folder");
     struct debugger_line line = {
         calloc(16 + 2 * (size_t)executed->count + (size_t)program_count, sizeof(char *)), 0};
     if (!line.arguments)
         return fail("debug", "no memory");
-    if (!program_find(start, (program_code *)verb_debug,
-                      LUTETIA_LIBEXECDIR "/lutetia/debug/start.py",
-                      "host/lutetia/debug/start.py"))
-        return fail("debug",
-                    "its commands for gdb (debug/start.py) are not where this command is; "
-                    "install Lutetia, or run it from its build folder");
     line_add(&line, "gdb");
     line_add(&line, "-q");
     if (batch)

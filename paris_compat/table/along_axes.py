@@ -11,6 +11,13 @@ gives all active processors on a line the combination of them all, a *multisprea
 of the mask (bit 0: axis 0), a *reduction* the one with to_coordinate, if it is active. *Ranks* with segments are
 absolute: the segment's first coordinate plus the rank in it. dest may be the source. Floats are added and multiplied
 in a fixed order: one after the other in runs of 512 processors, and then these results, as machine.h says in full.
+Floats of other formats than 23, 8 and 52, 11 are combined as doubles in that order, and each result is rounded once.
+""", "The router": """\
+It is as if one active processor after the other, in row-major order, did the operation on dest in the processor at its
+send_address. *notify* is a field of one bit of dest's VP set, which may be another one than the current: it becomes 1 in
+each processor where a message has arrived, and 0 in each other one, whatever the context of that set. `CM_no_field`: nobody
+is told. A *get* needs none. Sums of floats begin with the old dest; floats of other formats than 23, 8 and 52, 11 are
+combined as doubles, and what arrives is rounded once.
 """}
 
 SCAN = [(LEN, n) for n in ("direction", "inclusion", "smode")] + [(FIELD, "sbit")]

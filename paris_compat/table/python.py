@@ -5,7 +5,7 @@ import re
 LETTERS = {
     "void": "v", "int": "i", "unsigned int": "u", "long": "l", "unsigned long": "m", "double": "d",
     "CM_field_id_t": "u", "CM_sendaddr_t": "u", "CM_vp_set_id_t": "i", "CM_geometry_id_t": "i",
-    "CM_complex_t": "c", "CM_vector_t": "V", "const void *": "R", "void *": "W",
+    "CM_complex_t": "c", "CM_vector_t": "V", "const void *": "R", "void *": "W", "const char *": "S",
     "CM_axis_descriptor_t *": "A", "void (*) (const char *)": "H",
 }
 HANDLER = "void (*handler) (const char *message)"

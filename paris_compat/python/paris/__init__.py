@@ -16,6 +16,7 @@ system's others, or by LD_LIBRARY_PATH.
 """
 import ctypes
 import operator
+import os
 
 from ._names import CALLS, CONSTANTS, LIBRARY, VARIABLES
 
@@ -91,6 +92,12 @@ class _Descriptors:
         return (ctypes.POINTER(AxisDescriptor) * len(pointers))(*pointers)
 
 
+class _Text:
+    @classmethod
+    def from_param(cls, text):
+        return ctypes.c_char_p(os.fsencode(text))
+
+
 class _Double:
     @classmethod
     def from_param(cls, value):
@@ -99,7 +106,7 @@ class _Double:
 
 _Handler = ctypes.CFUNCTYPE(None, ctypes.c_char_p)
 _NUMBERS = {"i": ctypes.c_int, "u": ctypes.c_uint, "l": ctypes.c_long, "m": ctypes.c_ulong}
-_PARAMETERS = {"d": _Double, "V": _Vector, "R": _Memory, "W": _WritableMemory, "A": _Descriptors, "H": _Handler}
+_PARAMETERS = {"d": _Double, "V": _Vector, "R": _Memory, "W": _WritableMemory, "S": _Text, "A": _Descriptors, "H": _Handler}
 _PARAMETERS |= {letter: _integer(kind) for letter, kind in _NUMBERS.items()}
 _RESULTS = {"v": None, "d": ctypes.c_double, "c": _Complex} | _NUMBERS
 
