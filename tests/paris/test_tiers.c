@@ -37,7 +37,7 @@ static unsigned int below(unsigned int n)
 
 static struct {
     unsigned int count;
-    CM_field_id_t u[FIELDS], f, d, wide, bit, address, self;
+    CM_field_id_t u[FIELDS], f, d, wide, bit, address, self, at[3];
     unsigned int rank, address_bits;
     CM_geometry_id_t geometry;
 } on;
@@ -76,6 +76,12 @@ static void elementwise(void)
         CM_u_add_constant_3_1L(to, a, below(1000), 32);
         break;
     case 5:
+        if (below(2)) {
+            CM_f_multiply_2_1L(on.f, on.f, 23, 8);
+            CM_f_divide_constant_2_1L(on.f, 1.5, 23, 8);
+            CM_f_add_2_1L(on.f, on.f, 23, 8);
+            break;
+        }
         CM_f_s_float_2_2L(on.f, a, 32, 23, 8);
         CM_f_multiply_constant_2_1L(on.f, 1e-5, 23, 8);
         break;
@@ -96,9 +102,27 @@ static void elementwise(void)
     }
 }
 
+/* A part of the set: between two coordinates along an axis, or at one. */
+static void part(void)
+{
+    const unsigned int axis = below(on.rank),
+                       length = CM_geometry_axis_length(on.geometry, axis),
+                       from = below(length);
+    if (below(3)) {
+        CM_u_ge_constant_1L(on.at[axis], from, 32);
+        CM_logand_context_with_test();
+        CM_u_lt_constant_1L(on.at[axis], from + 1 + below(length - from), 32);
+    } else {
+        CM_u_eq_constant_1L(on.at[axis], from, 32);
+    }
+    CM_logand_context_with_test();
+}
+
 static void where(void)
 {
     CM_set_context();
+    for (unsigned int parts = below(2) ? 0 : 1 + below(2); parts--;)
+        part();
     if (below(3)) {
         CM_u_lt_constant_1L(any() + below(8), below(4000), 13);
         CM_logand_context_with_test();
@@ -309,6 +333,10 @@ static void set_make(int program)
     on.address_bits = on.address_bits ? on.address_bits : 1;
     on.address = CM_allocate_heap_field(on.address_bits);
     on.self = CM_allocate_heap_field(on.address_bits);
+    for (unsigned int axis = 0; axis < on.rank; axis++) {
+        on.at[axis] = CM_allocate_heap_field(32);
+        CM_my_news_coordinate_1L(on.at[axis], axis, 32);
+    }
     CM_my_send_address(on.self);
     CM_u_move_1L(on.address, on.self, on.address_bits);
     for (int i = 0; i < FIELDS; i++) {

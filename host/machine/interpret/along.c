@@ -4,7 +4,7 @@
  *     an operation on what is the same          the same: a step for one lane, of which all make use as it is
  *     a get from a place that is the same       likewise: the spread of a column
  *     coordinate of the last axis, index        goes up by one; so does what is the same, added to it: likewise
- *     a get from places that go up by one       a copy: the spread of a row
+ *     a get from places that go up by one       the array itself, from the first place on: the spread of a row. Only where a place is none is it copied
  *     anything else                             differs
  *
  * Where a step for all lanes takes a register of which one lane is known, a step before it repeats that lane. Blocks of several rows are left as they are. */
@@ -22,8 +22,11 @@ struct along_row {
     const struct vpset *set;
     struct lanes_step *steps; /* the new ones */
     int count, capacity;
-    uint8_t *is; /* of each place: enum along */
-    int spared;  /* steps for one lane */
+    uint8_t *is;    /* of each place: enum along */
+    uint16_t *line; /* of a register: what stands for it, itself or a PLACE_LINE */
+    uint16_t *idle; /* PLACE_LINEs that stand for nothing any more */
+    int idle_count;
+    int spared; /* steps for one lane */
 };
 
 static bool is_same(const struct along_row *a, int place)
@@ -83,18 +86,85 @@ static enum along result_of(const struct along_row *a, const struct lanes_step *
     return same ? ONE : adds_to_columns(a, s) ? GOES_UP_ONE : DIFFERS;
 }
 
+/* ---- lines ---- */
+
+static int line_get(struct along_row *a, int bytes)
+{
+    for (int i = 0; i < a->idle_count; i++)
+        if (a->p->places[a->idle[i]].bytes == bytes) {
+            const int line = a->idle[i];
+            a->idle[i] = a->idle[--a->idle_count];
+            return line;
+        }
+    return byte_code_place(a->p, PLACE_LINE, bytes);
+}
+
+/* What the register stands for is itself again. */
+static void line_end(struct along_row *a, int place)
+{
+    if (a->line[place] != place)
+        a->idle[a->idle_count++] = a->line[place];
+    a->line[place] = (uint16_t)place;
+}
+
+static void takes_lines(const struct along_row *a, struct lanes_step *s)
+{
+    for (int k = 0; k < lanes_taken(s); k++) {
+        uint16_t *place = s->list && k ? &s->list[k - 1] : &s->in[k];
+        *place = a->line[*place];
+    }
+}
+
+/* A step that changes what is in its place has it in a register. */
+static void copied_back(struct along_row *a, int place)
+{
+    static const uint8_t classes[] = {
+        [1] = LANES_U8, [2] = LANES_U16, [4] = LANES_U32, [8] = LANES_U64, [16] = LANES_U128};
+    const int line = a->line[place];
+    if (line == place)
+        return;
+    const struct lanes_step step = {
+        .run = lanes_find(LANES_COPY, (enum lanes_class)classes[a->p->places[place].bytes]),
+        .op = LANES_COPY,
+        .to = (uint16_t)place,
+        .in = {(uint16_t)line, 0, 0}};
+    step_put(a, &step);
+    line_end(a, place);
+}
+
+/* What the array has there is not copied. */
+static void gives_line(struct along_row *a, struct lanes_step *s)
+{
+    const int place = s->to;
+    if (a->p->places[place].kind != PLACE_REGISTER)
+        return;
+    line_end(a, place);
+    if (!s->in_a_row)
+        return;
+    s->to = a->line[place] = (uint16_t)line_get(a, a->p->places[place].bytes);
+    a->is[s->to] = DIFFERS;
+}
+
+/* ---- steps ---- */
+
 static void step_look(struct along_row *a, struct lanes_step s)
 {
+    if (s.run && lanes_taken(&s) && s.in[0] == s.to && !s.list)
+        copied_back(a, s.to);
+    takes_lines(a, &s);
     const enum along result =
         a->p->places[s.to].kind == PLACE_REGISTER ? result_of(a, &s) : DIFFERS;
     s.one = result != DIFFERS;
     s.in_a_row = !s.one && s.op == LANES_FETCH && goes_up(a, s.in[0]);
+    for (int k = 0; k < 2 && s.op == LANES_PRODUCT_SUM && !s.one; k++)
+        s.axis |= (uint8_t)((a->is[s.in[k]] == ONE) << k);
     for (int k = 0; k < lanes_taken(&s) && !s.one; k++)
         if (!lanes_is_apart(&s, k) && !(s.in_a_row && k == 0))
             repeat(a, lanes_taken_place(&s, k));
     a->spared += s.one;
     a->p->lines = a->p->lines || (s.op == LANES_FETCH && (s.one || s.in_a_row));
     a->is[s.to] = (uint8_t)result;
+    gives_line(a, &s);
     step_put(a, &s);
 }
 
@@ -108,13 +178,22 @@ void byte_code_along(struct byte_code *p, const struct vpset *set)
                p->steps[i].axis != set->rank - 1);
     if (!any || set->pitch <= BLOCK_LANES)
         return;
-    a.is = calloc((size_t)p->places_count + 1, 1);
-    p->failed = p->failed || !a.is;
-    for (int i = 0; i < p->places_count && !p->failed; i++)
-        a.is[i] = p->places[i].kind == PLACE_NUMBER ? REPEATED : DIFFERS;
+    const size_t most =
+        (size_t)(p->places_count + p->steps_count); /* each step may get a line */
+    a.is = calloc(most, sizeof *a.is);
+    a.line = malloc(most * sizeof *a.line);
+    a.idle = malloc(most * sizeof *a.idle);
+    p->failed = p->failed || !a.is || !a.line || !a.idle || most > UINT16_MAX;
+    for (size_t i = 0; i < most && !p->failed; i++) {
+        const bool number = i < (size_t)p->places_count && p->places[i].kind == PLACE_NUMBER;
+        a.is[i] = number ? REPEATED : DIFFERS;
+        a.line[i] = (uint16_t)i;
+    }
     for (int i = 0; i < p->steps_count && !p->failed; i++)
         step_look(&a, p->steps[i]);
     free(a.is);
+    free(a.line);
+    free(a.idle);
     if (p->failed) {
         free(a.steps);
         return;
@@ -136,6 +215,7 @@ void byte_code_free(struct byte_code *p)
         free(p->steps[i].list);
     free(p->places);
     free(p->steps);
+    free(p->guards);
     free(p->arguments);
     free(p);
 }

@@ -12,6 +12,7 @@
 
 #include "interpret/generate.h"
 #include "interpret/lanes.h"
+#include "interpret/windows.h"
 #include "values/values.h"
 
 enum { LINE = 64, ROOM_LEAST_BYTES = 32 << 10 };
@@ -176,6 +177,8 @@ static void places_move(const struct run *r, const struct block *b)
             r->room->at[i] = moved(r, place, b);
         else if (place->kind == PLACE_CROSSED)
             r->room->at[i] = crossed(r, place, b);
+        else if (place->kind == PLACE_LINE) /* until it is found */
+            r->room->at[i] = (char *)r->room->memory + place->offset;
     }
 }
 
@@ -190,6 +193,23 @@ static void generate(const struct run *r, const struct lanes_step *step, const s
         generate_row(r->set, axis, b->row, b->x, to, lanes);
     else
         generate_lanes(r->set, axis, b->row * r->set->pitch, to, lanes);
+}
+
+/* ---- lines ---- */
+
+/* A line of an array from the first place on, if all lanes are there. */
+static bool line_found(const struct run *r, const struct lanes_step *s, int lanes)
+{
+    void **at = r->room->at;
+    const struct place *line = &r->p->places[s->to];
+    if (line->kind != PLACE_LINE)
+        return false;
+    const uint32_t from = *(const uint32_t *)at[s->in[0]],
+                   count = *(const uint32_t *)at[s->in[2]];
+    const bool there = from < count && count - from >= (uint32_t)lanes;
+    at[s->to] = there ? (char *)at[s->in[1]] + (size_t)from * line->bytes
+                      : (char *)r->room->memory + line->offset;
+    return there;
 }
 
 /* ---- blocks ---- */
@@ -222,36 +242,37 @@ fetch_ahead(const struct run *r, const struct lanes_step *s, int lanes)
             fetch(r, s->list[2 * k + 1], lanes, false);
 }
 
-static bool holds_nowhere(const uint8_t *bits, int n)
+static inline __attribute__((always_inline)) void
+step_run(const struct run *r, const struct lanes_step *s, const struct block *b)
 {
-    uint8_t any = 0;
-    int i = 0;
-    for (; i + LINE <= n && !any; i += LINE)
-        for (int k = 0; k < LINE; k++)
-            any |= bits[i + k];
-    for (; i < n && !any; i++)
-        any |= bits[i];
-    return !any;
+    if (s->run)
+        s->run(s, r->room->at, s->one ? 1 : b->lanes);
+    else
+        generate(r, s, b);
 }
 
 static void block_run(const struct run *r, const struct block *b)
 {
     const bool goes_on = !b->rows && b->x + b->lanes < r->set->width;
+    struct window w = {0, b->lanes};
+    int guarded = -1; /* steps up to there are for the window */
     places_move(r, b);
     for (int i = 0; i < r->p->steps_count; i++) {
         const struct lanes_step *s = &r->p->steps[i];
         if (s->op == LANES_GUARD) {
-            const bool nowhere =
-                holds_nowhere(r->room->at[s->in[0]], s->one ? 1 : b->lanes) &&
-                (s->in[1] == s->in[0] ||
-                 holds_nowhere(r->room->at[s->in[1]], s->in_a_row ? 1 : b->lanes));
-            i += nowhere ? s->detail : 0;
+            w = window_of(&r->p->guards[s->in[0]], r->room->at, b->lanes);
+            if (w.from == w.end)
+                i += s->detail;
+            else if (4 * (w.end - w.from) < 3 * b->lanes)
+                guarded = i + s->detail;
             continue;
         }
-        if (s->run)
-            s->run(s, r->room->at, s->one ? 1 : b->lanes);
+        if (s->op == LANES_FETCH && s->in_a_row && line_found(r, s, b->lanes))
+            continue;
+        if (i > guarded || !s->run)
+            step_run(r, s, b);
         else
-            generate(r, s, b);
+            window_step(r->p, s, r->room->at, w, b->lanes);
         if (s->ahead & r->ahead && goes_on)
             fetch_ahead(r, s, b->lanes);
     }

@@ -31,18 +31,6 @@ struct making {
 
 /* ---- places ---- */
 
-static int place_add(struct byte_code *p, struct place place)
-{
-    if (p->places_count == p->places_capacity)
-        p->places = array_more(p->places, &p->places_capacity, sizeof *p->places, &p->failed);
-    if (p->failed) {
-        free(place.further);
-        return 0;
-    }
-    p->places[p->places_count] = place;
-    return p->places_count++;
-}
-
 /* The place of a node's values. No place is read before it is set. */
 static int place_read(const struct making *k, int node)
 {
@@ -51,23 +39,12 @@ static int place_read(const struct making *k, int node)
     return place;
 }
 
-/* Room for a block of lanes; each begins a line of the caches. */
-static size_t room(struct byte_code *p, enum lanes_class c)
-{
-    size_t at = p->registers_bytes;
-    p->registers_bytes += BLOCK_LANES * lanes_bytes(c) + 64;
-    return at;
-}
-
 static int register_get(struct making *k, enum lanes_class c)
 {
     c = lanes_bits_of(c);
     if (k->idle_count[c])
         return k->idle[c][--k->idle_count[c]];
-    return place_add(k->p, (struct place){.kind = PLACE_REGISTER,
-                                          .bytes = (uint8_t)lanes_bytes(c),
-                                          .node = -1,
-                                          .offset = room(k->p, c)});
+    return byte_code_place(k->p, PLACE_REGISTER, (int)lanes_bytes(c));
 }
 
 static void register_put(struct making *k, int place)
@@ -82,19 +59,6 @@ static void register_put(struct making *k, int place)
             array_more(k->idle[c], &k->idle_capacity[c], sizeof *k->idle[c], &k->p->failed);
     if (!k->p->failed)
         k->idle[c][k->idle_count[c]++] = place;
-}
-
-static void argument_add(struct byte_code *p, int kind, int node)
-{
-    for (int i = 0; i < p->arguments_count; i++)
-        if (p->arguments[i].kind == kind && p->arguments[i].node == node)
-            return;
-    if (p->arguments_count == p->arguments_capacity)
-        p->arguments =
-            array_more(p->arguments, &p->arguments_capacity, sizeof *p->arguments, &p->failed);
-    if (!p->failed)
-        p->arguments[p->arguments_count++] =
-            (struct kernel_argument){.kind = (uint8_t)kind, .node = node};
 }
 
 /* A chain of shifts: along each axis so far. */
@@ -114,25 +78,25 @@ static int place_moved(struct making *k, int node)
         further[n->axis] =
             (int32_t)(((int64_t)further[n->axis] + n->detail) % set->dimensions[n->axis]);
     }
-    argument_add(p, ARGUMENT_INPUT, node);
+    byte_code_argument_add(p, ARGUMENT_INPUT, node);
     p->moves = true;
-    return place_add(p, (struct place){.kind = PLACE_MOVED,
-                                       .bytes = (uint8_t)lanes_bytes(c),
-                                       .node = node,
-                                       .offset = room(p, lanes_bits_of(c)),
-                                       .further = further});
+    return byte_code_place_add(p, (struct place){.kind = PLACE_MOVED,
+                                                 .bytes = (uint8_t)lanes_bytes(c),
+                                                 .node = node,
+                                                 .offset = byte_code_room(p, lanes_bits_of(c)),
+                                                 .further = further});
 }
 
 /* An array's other blocks, whose processors' indices differ in a number's bits. */
 static int place_crossed(struct making *k, int node, int bits)
 {
-    argument_add(k->p, ARGUMENT_INPUT, node);
-    return place_add(k->p, (struct place){.kind = PLACE_CROSSED,
-                                          .bytes = (uint8_t)lanes_bytes(
-                                              lanes_class_of(k->g->nodes[node].type)),
-                                          .node = node,
-                                          .offset = room(k->p, LANES_U8),
-                                          .bits = bits});
+    byte_code_argument_add(k->p, ARGUMENT_INPUT, node);
+    return byte_code_place_add(k->p, (struct place){.kind = PLACE_CROSSED,
+                                                    .bytes = (uint8_t)lanes_bytes(
+                                                        lanes_class_of(k->g->nodes[node].type)),
+                                                    .node = node,
+                                                    .offset = byte_code_room(k->p, LANES_U8),
+                                                    .bits = bits});
 }
 
 /* What is not computed here. */
@@ -143,12 +107,12 @@ static int place_given(struct making *k, int node)
     struct place place = {.bytes = (uint8_t)lanes_bytes(c), .node = node};
     if (n->constant) {
         place.kind = PLACE_NUMBER;
-        place.offset = room(k->p, lanes_bits_of(c));
+        place.offset = byte_code_room(k->p, lanes_bits_of(c));
     } else {
         place.kind = PLACE_ARRAY;
-        argument_add(k->p, ARGUMENT_INPUT, node);
+        byte_code_argument_add(k->p, ARGUMENT_INPUT, node);
     }
-    return place_add(k->p, place);
+    return byte_code_place_add(k->p, place);
 }
 
 /* ---- steps ---- */
@@ -225,10 +189,11 @@ static void step_generated(struct making *k, const struct plan_node *n, int node
         step_resized(k, to, n->type, placed, index, 0);
         register_put(k, placed);
     } else if (n->op == NODE_RANDOM) {
-        int number = place_add(k->p, (struct place){.kind = PLACE_DRAW,
-                                                    .bytes = 8,
-                                                    .node = node,
-                                                    .offset = room(k->p, LANES_U64)}),
+        int number = byte_code_place_add(
+                k->p, (struct place){.kind = PLACE_DRAW,
+                                     .bytes = 8,
+                                     .node = node,
+                                     .offset = byte_code_room(k->p, LANES_U64)}),
             random = register_get(k, LANES_U64);
         s = step_add(k, lanes_find(LANES_DRAW, LANES_U32), LANES_DRAW, random);
         s->in[0] = (uint16_t)at;
@@ -264,10 +229,10 @@ static void step_joined(struct making *k, const struct plan_node *n, int to, con
 static void step_fetched(struct making *k, const struct plan_node *n, int to, const int in[3])
 {
     enum lanes_class c = lanes_bits_of(lanes_class_of(n->type));
-    int array = place_add(k->p, (struct place){.kind = PLACE_WHOLE,
-                                               .bytes = (uint8_t)lanes_bytes(c),
-                                               .node = n->in[1]});
-    argument_add(k->p, ARGUMENT_INPUT, n->in[1]);
+    int array = byte_code_place_add(k->p, (struct place){.kind = PLACE_WHOLE,
+                                                         .bytes = (uint8_t)lanes_bytes(c),
+                                                         .node = n->in[1]});
+    byte_code_argument_add(k->p, ARGUMENT_INPUT, n->in[1]);
     struct lanes_step *s = step_add(k, lanes_find(LANES_FETCH, c), LANES_FETCH, to);
     s->in[0] = (uint16_t)in[0];
     s->in[1] = (uint16_t)array;
@@ -332,6 +297,27 @@ static void step_chosen(struct making *k, const struct plan_node *n, int to,
     register_put(k, both);
 }
 
+static void step_canonical(struct making *k, const struct plan_node *n, int to)
+{
+    if (n->maybe_nan)
+        step_one(k, lanes_find(LANES_CANONICAL, lanes_class_of(n->type)), LANES_CANONICAL, to,
+                 n->type, to, n->type, 0);
+}
+
+/* A sum or difference and the product that is one of its operands. */
+static void step_product_sum(struct making *k, const struct plan_node *n, int to, int product)
+{
+    const struct plan_node *t = &k->g->nodes[n->in[product]];
+    struct lanes_step *s = step_add(k, lanes_find(LANES_PRODUCT_SUM, lanes_class_of(n->type)),
+                                    LANES_PRODUCT_SUM, to);
+    s->in[0] = (uint16_t)place_read(k, t->in[0]);
+    s->in[1] = (uint16_t)place_read(k, t->in[1]);
+    s->in[2] = (uint16_t)place_read(k, n->in[1 - product]);
+    s->from = s->type = n->type;
+    s->detail = (product ? 0 : 2) + (n->op == MACHINE_FSUB);
+    step_canonical(k, n, to);
+}
+
 static void step_operation(struct making *k, const struct plan_node *n, int to, const int in[3])
 {
     struct machine_type from = k->g->nodes[n->in[0]].type;
@@ -353,9 +339,8 @@ static void step_operation(struct making *k, const struct plan_node *n, int to, 
     if (node_rounds(n))
         step_one(k, type_is_short(n->type) ? lanes_find(LANES_FIT, c) : NULL, LANES_FIT, to,
                  n->type, to, n->type, 0);
-    if (n->maybe_nan && n->op != NODE_SELECT)
-        step_one(k, lanes_find(LANES_CANONICAL, c), LANES_CANONICAL, to, n->type, to, n->type,
-                 0);
+    if (n->op != NODE_SELECT)
+        step_canonical(k, n, to);
 }
 
 /* ---- nodes ---- */
@@ -380,7 +365,8 @@ static int operands_find(const struct making *k, int node, const struct pick *pi
                          int operands[OPERANDS_MOST])
 {
     const struct plan_node *n = &k->g->nodes[node];
-    const int inner = pick ? -1 : picks_inner(k->picks, node);
+    const int inner = pick ? -1 : picks_inner(k->picks, node),
+              product = picks_product(k->picks, node);
     int count = 0;
     if (pick) {
         operands[count++] = pick->index;
@@ -389,6 +375,12 @@ static int operands_find(const struct making *k, int node, const struct pick *pi
             operands[count++] = pick->keys[i];
             operands[count++] = pick->values[i];
         }
+        return count;
+    }
+    if (product >= 0) {
+        for (int j = 0; j < 2; j++)
+            operands[count++] = k->g->nodes[n->in[product]].in[j];
+        operands[count++] = n->in[1 - product];
         return count;
     }
     for (int j = 0; j < node_ops[n->op].inputs; j++)
@@ -427,11 +419,11 @@ static void find_needed(struct making *k, const int *stores, int count)
 
 static int place_of_array(struct making *k, int node)
 {
-    argument_add(k->p, ARGUMENT_OUTPUT, node);
-    return place_add(k->p, (struct place){.kind = PLACE_ARRAY,
-                                          .bytes = (uint8_t)lanes_bytes(
-                                              lanes_class_of(k->g->nodes[node].type)),
-                                          .node = node});
+    byte_code_argument_add(k->p, ARGUMENT_OUTPUT, node);
+    return byte_code_place_add(k->p, (struct place){.kind = PLACE_ARRAY,
+                                                    .bytes = (uint8_t)lanes_bytes(
+                                                        lanes_class_of(k->g->nodes[node].type)),
+                                                    .node = node});
 }
 
 static int place_of_result(struct making *k, int node)
@@ -474,7 +466,8 @@ static void node_steps(struct making *k, int node, const int in[3])
 {
     const struct plan_node *n = &k->g->nodes[node];
     const struct pick *pick = picks_at(k->picks, node);
-    const int inner = picks_inner(k->picks, node), to = place_of_result(k, node);
+    const int inner = picks_inner(k->picks, node), product = picks_product(k->picks, node),
+              to = place_of_result(k, node);
     k->place[node] = to;
     if (node_ops[n->op].inputs == 0)
         step_generated(k, n, node, to);
@@ -486,6 +479,8 @@ static void node_steps(struct making *k, int node, const int in[3])
         step_picked(k, n, to, pick);
     else if (inner >= 0)
         step_chosen(k, n, to, &k->g->nodes[inner]);
+    else if (product >= 0)
+        step_product_sum(k, n, to, product);
     else
         step_operation(k, n, to, in);
 }
@@ -509,7 +504,8 @@ static void node_compute(struct making *k, int node)
         return;
     }
     /* Steps of several nodes find their operands themselves: the nodes in between have no places. */
-    const bool of_one = !pick && picks_inner(k->picks, node) < 0;
+    const bool of_one =
+        !pick && picks_inner(k->picks, node) < 0 && picks_product(k->picks, node) < 0;
     for (int j = 0; of_one && j < node_ops[n->op].inputs; j++)
         in[j] = takes(n, j) ? place_read(k, n->in[j]) : 0;
     if (k->owner[node] != node) {
@@ -575,7 +571,7 @@ struct byte_code *byte_code_make(const struct device_shape *shape, const struct 
             byte_code_along(p, set);
             byte_code_guards(p);
         }
-        good = good && !p->failed;
+        good = good && !p->failed && p->places_count <= UINT16_MAX;
         if (good && set->width > BLOCK_LANES)
             byte_code_ahead(p);
     }

@@ -6,6 +6,8 @@
  *     CROSSED  of an array, where the       yes
  *              index differs in some bits
  *     REGISTER lanes in the nearest cache   no
+ *     LINE     a part of an array, or a     by the get that finds it
+ *              register
  *     NUMBER   a register full of a number  no
  *     DRAW     a random draw's key, limit   no
  *     WHOLE    an array, of any VP set      no
@@ -26,6 +28,7 @@ enum place_kind {
     PLACE_MOVED,
     PLACE_CROSSED,
     PLACE_REGISTER,
+    PLACE_LINE,
     PLACE_NUMBER,
     PLACE_DRAW,
     PLACE_WHOLE
@@ -40,11 +43,24 @@ struct place {
     int32_t bits;     /* of a CROSSED: the number of them, a node */
 };
 
+/* A condition: where all of these bits hold. */
+struct guard_choice {
+    uint16_t bits[2]; /* places */
+    bool one[2];      /* all lanes are as the first, which alone is there */
+    uint8_t count;
+};
+/* Where either holds. */
+struct guard {
+    struct guard_choice choices[2];
+};
+
 struct byte_code {
     struct place *places;
     int places_count, places_capacity;
     struct lanes_step *steps; /* with run NULL: a coordinate or index, see blocks.c */
     int steps_count, steps_capacity;
+    struct guard *guards; /* of LANES_GUARD */
+    int guards_count;
     size_t registers_bytes;
     struct kernel_argument *arguments; /* arrays: inputs, outputs */
     int arguments_count, arguments_capacity;
@@ -67,11 +83,19 @@ void byte_code_stages(struct plan_graph *g);
 struct byte_code *byte_code_make(const struct device_shape *shape, const struct plan_graph *g,
                                  const int *stores, int count, const struct vpset *set,
                                  int processors_log2, bool at_hand);
+/* Takes what place.further has; 0 if there is no memory. */
+int byte_code_place_add(struct byte_code *p, struct place place);
+/* Room for a block of lanes among the registers; each begins a line of the caches. */
+size_t byte_code_room(struct byte_code *p, enum lanes_class c);
+/* Adds an array, kind and node as of struct kernel_argument, unless it is there. */
+void byte_code_argument_add(struct byte_code *p, int kind, int node);
+/* A place of its own for lanes of so many bytes; of that kind. */
+int byte_code_place(struct byte_code *p, enum place_kind kind, int bytes);
 /* Lets each array be fetched ahead by the first step that takes it. */
 void byte_code_ahead(struct byte_code *p);
 /* Of a set whose blocks are parts of rows: what is the same along a row is computed for one lane of a block. */
 void byte_code_along(struct byte_code *p, const struct vpset *set);
-/* What only a selection takes, where its bit holds, is left out of blocks where the bit holds nowhere. */
+/* What only a selection takes, where its bit holds, is left out of blocks where the bit holds nowhere, and of lanes beyond the first and last where it holds. */
 void byte_code_guards(struct byte_code *p);
 void byte_code_free(struct byte_code *p);
 

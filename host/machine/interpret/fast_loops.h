@@ -134,11 +134,17 @@ typedef double f64;
         IN(u8, 0, c);                                                                          \
         IN(T, 1, a);                                                                           \
         IN(T, 2, b);                                                                           \
-        if (mask_is_even(c, n)) {                                                              \
-            memcpy(d, c[0] ? a : b, (size_t)n * sizeof *d);                                    \
+        const struct mask_window w = mask_window(c, n);                                        \
+        const size_t before = (size_t)w.from * sizeof *d,                                      \
+                     all = (size_t)(w.end - w.from) * sizeof *d;                               \
+        memcpy(d, b, before);                                                                  \
+        memcpy(d + w.end, b + w.end, (size_t)(n - w.end) * sizeof *d);                         \
+        if (w.from < w.end && mask_is_even(c + w.from, w.end - w.from)) {                      \
+            memcpy(d + w.from, a + w.from, all);                                               \
             return;                                                                            \
         }                                                                                      \
-        EACH d[i] = c[i] ? a[i] : b[i];                                                        \
+        for (int i = w.from; i < w.end; i++)                                                   \
+            d[i] = c[i] ? a[i] : b[i];                                                         \
     }                                                                                          \
     LOOP(repeat, T)                                                                            \
     {                                                                                          \
@@ -415,45 +421,7 @@ LOOP(fit, f64)
     }
 }
 
-/* ---- indices ---- */
-
-LOOP(place, u32)
-{
-    TO(u32);
-    IN(u32, 0, a);
-    const int by = s->detail;
-    const u32 low = (1u << by) - 1, ratio = (u32)s->mask;
-    EACH d[i] = (a[i] & low) * ratio + (a[i] >> by);
-}
-
-static inline u64 mixed(u64 z)
-{
-    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return z ^ (z >> 31);
-}
-
-/* in[1]: the key and the limit. detail 0: the high bits; 1: below a limit of 32 bits; 2: below any. */
-LOOP(draw, u32)
-{
-    TO(u64);
-    IN(u32, 0, a);
-    IN(u64, 1, number);
-    const u64 key = number[0], limit = number[1];
-    const int down = 64 - s->type.width;
-    if (s->detail == 0)
-        EACH d[i] = mixed(a[i] * UINT64_C(0x9e3779b97f4a7c15) + key) >> down;
-    else if (s->detail == 1)
-        EACH d[i] = ((mixed(a[i] * UINT64_C(0x9e3779b97f4a7c15) + key) >> 32) * limit) >> 32;
-    else
-        EACH d[i] =
-            (u64)(((u128)mixed(a[i] * UINT64_C(0x9e3779b97f4a7c15) + key) * limit) >> 64);
-}
-
-#include "interpret/lanes_cross.h"
-#include "interpret/lanes_lines.h"
-#include "interpret/lanes_picks.h"
-#include "interpret/lanes_sums.h"
+#include "interpret/lanes_indices.h"
 
 /* ---- the table ---- */
 
@@ -583,6 +551,7 @@ const struct lanes_table TABLE =
              [LANES_CROSS] = OF_INTEGERS(cross),
              [LANES_JOIN] = OF_INTEGERS(join),
              [LANES_CANONICAL] = OF_FLOATS(canonical),
+             [LANES_PRODUCT_SUM] = OF_FLOATS(product_sum),
              [LANES_FIT] = {[LANES_F64] = fit_f64},
              [LANES_PLACE] = {[LANES_U32] = place_u32},
              [LANES_DRAW] = {[LANES_U32] = draw_u32},

@@ -61,9 +61,10 @@ enum lanes_op {
     LANES_PICK, /* in: an index of 32 bits; the operands of `list` that it names: see lanes_picks.h */
     LANES_CROSS, /* in: an aligned run of CROSS_NEAR lanes, or several; bits, of 32. The lanes whose numbers differ in those below CROSS_NEAR */
     LANES_REPEAT, /* `to`: all lanes as the first, each so much more as `detail` says */
-    LANES_GUARD, /* in: two bits, of which `one` and `in_a_row` say whether only their first lanes are there. Where neither holds in a lane, the next
-                  * `detail` steps are left out: guards.c */
-    LANES_DRAW,  /* a row-major index becomes a random number: see NODE_RANDOM */
+    LANES_GUARD, /* in[0]: which guard. Its lanes are those of the next `detail` steps: guards.c, windows.h */
+    LANES_PRODUCT_SUM, /* in: x, y, z of floats. detail 0: z + x y, 1: z - x y, 2: x y + z, 3: x y - z; the product is rounded, too. axis: bit k: of in[k], k < 2,
+                        * only the first lane is there, as are all */
+    LANES_DRAW,        /* a row-major index becomes a random number: see NODE_RANDOM */
     LANES_OP_COUNT
 };
 
@@ -91,7 +92,7 @@ enum { AHEAD_TO = 8, AHEAD_LIST = 16, AHEAD_ALL = 31 }; /* of `to`; of values in
 static inline int lanes_inputs(int op)
 {
     return op < NODE_OP_COUNT                                          ? node_ops[op].inputs
-           : op == LANES_FETCH                                         ? 3
+           : op == LANES_FETCH || op == LANES_PRODUCT_SUM              ? 3
            : op == LANES_JOIN || op == LANES_DRAW || op == LANES_CROSS ? 2
                                                                        : 1;
 }
@@ -108,7 +109,8 @@ static inline int lanes_taken_place(const struct lanes_step *s, int k)
 static inline bool lanes_is_apart(const struct lanes_step *s, int k)
 {
     return (s->op == LANES_FETCH && k > 0) || (s->op == LANES_CROSS && k == 1) ||
-           (s->op == LANES_DRAW && k == 1);
+           (s->op == LANES_DRAW && k == 1) ||
+           (s->op == LANES_PRODUCT_SUM && k < 2 && s->axis >> k & 1);
 }
 
 /* Of operands of that class; of a select and of what is beside the graph, of that result. NULL: there is no loop. */

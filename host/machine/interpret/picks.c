@@ -107,3 +107,16 @@ int picks_inner(const struct picks *p, int node)
                ? n->in[1]
                : -1;
 }
+
+int picks_product(const struct picks *p, int node)
+{
+    const struct plan_node *n = &p->g->nodes[node];
+    const bool sums = is_computed(p, node, MACHINE_FADD) || is_computed(p, node, MACHINE_FSUB);
+    for (int k = 2; p->wanted && sums && !n->type.s && k--;) {
+        const struct plan_node *t = &p->g->nodes[n->in[k]];
+        if (is_computed(p, n->in[k], MACHINE_FMUL) && p->uses[n->in[k]] == 1 && !t->stored &&
+            !t->maybe_nan && !t->type.s && t->type.width == n->type.width)
+            return k;
+    }
+    return -1;
+}

@@ -28,4 +28,7 @@ const struct pick *picks_at(const struct picks *p, int node); /* found before */
 /* The node of the inner choice, which nobody else takes; -1: there is none. */
 int picks_inner(const struct picks *p, int node);
 
+/* Which operand of a sum or difference of floats is a product that nobody else takes; -1: neither. */
+int picks_product(const struct picks *p, int node);
+
 #endif

@@ -461,6 +461,23 @@ static bool brought_near(struct machine *m, struct machine_value *value,
     return evaluate_values(m, &in, 1, false) == MACHINE_OK && in->buffer;
 }
 
+/* Computes what a field holds and the context, where the value, or what was made longer, is no more than that. True: the front end may be able to reduce it
+ * now. */
+static bool held_near(struct machine *m, struct machine_value **value,
+                      struct machine_value *context)
+{
+    struct machine_value *in = made_longer(*value), *held = in;
+    if (m->settings.near && m->device->is_pocl && !is_everywhere(context))
+        held = materialise_instead(m, in, context);
+    struct machine_value *values[] = {held, context};
+    if (held == in || evaluate_values(m, values, 2, false) || !held->buffer || !context->buffer)
+        return false;
+    if (in != *value)
+        held = machine_resize(m, held, (*value)->type.width, (*value)->op == NODE_SIGN_EXTEND);
+    *value = held;
+    return held != NULL;
+}
+
 /* Selected under the context by an evaluation, and then on the device unless that is slower. */
 static enum machine_status
 reduce_far(struct machine *m, const struct vpset *s, struct machine_value *value,
@@ -517,6 +534,8 @@ enum machine_status machine_reduce(struct machine *m, enum machine_reduction op,
     struct machine_scalar identity = identity_of(info, type);
     struct machine_value *context = flag_held(m, m->values->set_current, MACHINE_CONTEXT);
     if (!reduce_near(m, s, value, context, info, identity, out) &&
+        !(held_near(m, &value, context) &&
+          reduce_near(m, s, value, context, info, identity, out)) &&
         !(brought_near(m, value, context) &&
           reduce_near(m, s, value, context, info, identity, out)) &&
         reduce_far(m, s, value, context, info, identity, out))

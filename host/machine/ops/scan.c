@@ -437,6 +437,8 @@ struct machine_value *scan_where(struct machine *m, const struct machine_scan *h
         return NULL;
     if (!op_fits(how->op, value->type))
         return wrong(m, "this scan does not take values of this type");
+    if (!is_constant(context, 1))
+        value = materialise_instead(m, value, context);
     const bool ranks = how->op == MACHINE_SCAN_ADD && is_constant(value, 1) && !segmented &&
                        how->exclusive && !how->downward;
     struct form f;

@@ -103,15 +103,30 @@ static bool targets_add(struct targets *t, struct machine_value *v)
     return !failed;
 }
 
-static bool slot_wants(struct machine *m, const struct slot *slot, bool all)
+/* Whether it is left an expression. */
+static bool slot_waits(const struct machine *m, const struct slot *slot)
 {
     const struct machine_value *v = slot->value;
-    if (node_is_leaf(v) || node_is_cheap(v) || v->op == NODE_SLICE)
-        return false;
-    if (all || v->height > HEIGHT_DEFERRED)
-        return true;
     /* addresses made for one get or two are never computed: gets know them by what they are */
-    bool waits = (slot->overwritten_first || v->own_address) && v->birth == m->values->epoch;
+    return (slot->overwritten_first || v->own_address) && v->birth == m->values->epoch &&
+           v->height <= HEIGHT_DEFERRED;
+}
+
+static bool is_computed(const struct machine_value *v)
+{
+    return node_is_leaf(v) || node_is_cheap(v) || v->op == NODE_SLICE;
+}
+
+bool evaluation_wants(struct machine *m, const struct slot *slot)
+{
+    return !is_computed(slot->value) && !slot_waits(m, slot);
+}
+
+static bool slot_wants(struct machine *m, const struct slot *slot, bool all)
+{
+    if (is_computed(slot->value))
+        return false;
+    const bool waits = !all && slot_waits(m, slot);
     m->values->vanished.expressions += waits;
     return !waits;
 }

@@ -30,4 +30,8 @@ enum run_why {
 enum machine_status evaluation_run(struct machine *m, const struct wish *wish,
                                    enum run_why why);
 
+struct slot;
+/* Whether the next evaluation of live values computes what the slot holds, whoever looks. */
+bool evaluation_wants(struct machine *m, const struct slot *slot);
+
 #endif

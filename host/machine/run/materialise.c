@@ -7,7 +7,9 @@
 #include "base/errors.h"
 #include "base/scalar.h"
 #include "base/types.h"
+#include "memory/memory.h"
 #include "run/evaluate.h"
+#include "run/evaluation.h"
 #include "values/graph.h"
 #include "watch/watch.h"
 
@@ -131,4 +133,25 @@ bool materialise_all(struct machine *m, int set, struct machine_value **values, 
         if (!values[i]->buffer)
             return evaluate_values(m, values, count, false) == MACHINE_OK;
     return true;
+}
+
+static bool is_instead(const struct machine_value *held, const struct machine_value *v,
+                       const struct machine_value *context)
+{
+    return held->op == NODE_SELECT && !held->buffer && held->in[0] == context &&
+           held->in[1] == v && type_equal(held->type, v->type);
+}
+
+struct machine_value *materialise_instead(struct machine *m, struct machine_value *v,
+                                          const struct machine_value *context)
+{
+    if (v->buffer || v->op == NODE_CONSTANT)
+        return v;
+    for (int i = 0; i < m->memory->fields_count; i++)
+        for (int k = 0; k < m->memory->fields[i]->slots_count; k++) {
+            const struct slot *slot = &m->memory->fields[i]->slots[k];
+            if (is_instead(slot->value, v, context) && evaluation_wants(m, slot))
+                return graph_borrow(m, slot->value);
+        }
+    return v;
 }
