@@ -15,7 +15,8 @@
 #include "interpret/windows.h"
 #include "values/values.h"
 
-enum { LINE = 64, ROOM_LEAST_BYTES = 32 << 10 };
+/* WORTH_LANES: a step for fewer lanes takes longer to begin, so it leaves out so many at least. */
+enum { LINE = 64, ROOM_LEAST_BYTES = 32 << 10, WORTH_LANES = 192 };
 
 /* Lanes of a block: from column x of a row on, or whole rows. */
 struct block {
@@ -263,7 +264,7 @@ static void block_run(const struct run *r, const struct block *b)
             w = window_of(&r->p->guards[s->in[0]], r->room->at, b->lanes);
             if (w.from == w.end)
                 i += s->detail;
-            else if (4 * (w.end - w.from) < 3 * b->lanes)
+            else if (b->lanes - (w.end - w.from) >= WORTH_LANES)
                 guarded = i + s->detail;
             continue;
         }

@@ -134,16 +134,20 @@ typedef double f64;
         IN(u8, 0, c);                                                                          \
         IN(T, 1, a);                                                                           \
         IN(T, 2, b);                                                                           \
-        const struct mask_window w = mask_window(c, n);                                        \
-        const size_t before = (size_t)w.from * sizeof *d,                                      \
-                     all = (size_t)(w.end - w.from) * sizeof *d;                               \
-        memcpy(d, b, before);                                                                  \
-        memcpy(d + w.end, b + w.end, (size_t)(n - w.end) * sizeof *d);                         \
-        if (w.from < w.end && mask_is_even(c + w.from, w.end - w.from)) {                      \
-            memcpy(d + w.from, a + w.from, all);                                               \
+        struct mask_window w = mask_window(c, n);                                              \
+        if (w.from > 0 || w.end < n)                                                           \
+            w = mask_trimmed(c, w);                                                            \
+        const bool even = mask_is_even(c + w.from, w.end - w.from);                            \
+        if (!even && 2 * (w.end - w.from) > n) {                                               \
+            EACH d[i] = c[i] ? a[i] : b[i];                                                    \
             return;                                                                            \
         }                                                                                      \
-        for (int i = w.from; i < w.end; i++)                                                   \
+        memcpy(d, b, (size_t)w.from * sizeof *d);                                              \
+        memcpy(d + w.end, b + w.end, (size_t)(n - w.end) * sizeof *d);                         \
+        if (even)                                                                              \
+            memcpy(d + w.from, w.from < w.end && !c[w.from] ? b + w.from : a + w.from,         \
+                   (size_t)(w.end - w.from) * sizeof *d);                                      \
+        for (int i = w.from; i < w.end && !even; i++)                                          \
             d[i] = c[i] ? a[i] : b[i];                                                         \
     }                                                                                          \
     LOOP(repeat, T)                                                                            \

@@ -14,10 +14,31 @@ static inline bool mask_is_even(const u8 *c, int n)
     return !differ;
 }
 
-/* The first lane where the bit is 1, and the one after the last; from == end: there is none. */
+enum { MASK_RUN = 64 };
+
+static inline bool mask_is_empty(const u8 *c)
+{
+    u64 bits[MASK_RUN / sizeof(u64)], any = 0;
+    memcpy(bits, c, sizeof bits);
+    for (size_t i = 0; i < sizeof bits / sizeof *bits; i++)
+        any |= bits[i];
+    return !any;
+}
+
+/* Whole runs of lanes without those at both ends where the bit is 0 in all; from == end: there is no other. */
 struct mask_window {
     int from, end;
 };
+
+static inline struct mask_window mask_window(const u8 *c, int n)
+{
+    struct mask_window w = {0, n};
+    while (w.from + MASK_RUN <= n && mask_is_empty(c + w.from))
+        w.from += MASK_RUN;
+    while (w.end - MASK_RUN >= w.from && mask_is_empty(c + w.end - MASK_RUN))
+        w.end -= MASK_RUN;
+    return w;
+}
 
 static inline u64 mask_eight(const u8 *c)
 {
@@ -26,18 +47,16 @@ static inline u64 mask_eight(const u8 *c)
     return bits;
 }
 
-static inline struct mask_window mask_window(const u8 *c, int n)
+/* From the first lane where the bit is 1 to the last. */
+static inline struct mask_window mask_trimmed(const u8 *c, struct mask_window w)
 {
-    struct mask_window w = {0, n};
-    while (w.from + 32 <= n && !(mask_eight(c + w.from) | mask_eight(c + w.from + 8) |
-                                 mask_eight(c + w.from + 16) | mask_eight(c + w.from + 24)))
-        w.from += 32;
-    while (w.from < n && !c[w.from])
+    while (w.from + 8 < w.end && !mask_eight(c + w.from))
+        w.from += 8;
+    while (w.from < w.end && !c[w.from])
         w.from++;
-    while (w.end - 32 >= w.from && !(mask_eight(c + w.end - 32) | mask_eight(c + w.end - 24) |
-                                     mask_eight(c + w.end - 16) | mask_eight(c + w.end - 8)))
-        w.end -= 32;
-    while (w.end > w.from && !c[w.end - 1])
+    while (w.from + 8 < w.end && !mask_eight(c + w.end - 8))
+        w.end -= 8;
+    while (w.from < w.end && !c[w.end - 1])
         w.end--;
     return w;
 }
