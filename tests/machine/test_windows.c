@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "interpret/windows.h"
+#include "tables.h"
 
 enum { LANES = 500, LEAST = 16, ROOM = 16 * (LANES + 16) };
 
@@ -240,12 +241,38 @@ static void what_is_repeated_is_repeated_from_the_first_lane_on(void **state)
     }
 }
 
+/* Of bits in parts of a block, all, none and every few, in each instruction set: no lane beyond the last is written. */
+static void a_selection_has_each_lane_from_the_right_side(void **state)
+{
+    static _Alignas(64) unsigned char in[2][ROOM], out[ROOM];
+    static uint8_t bits[LANES];
+    const struct tables t = tables_here();
+    (void)state;
+    lanes_fill(in[0], LANES_U8);
+    lanes_fill(in[1], LANES_U8);
+    for (int turn = 0; turn < 6000; turn++) {
+        const enum lanes_class c = (enum lanes_class)(turn % LANES_INTEGERS);
+        const int n = turn % 3 ? LANES : 1 + (int)below(LANES);
+        const size_t bytes = lanes_bytes(c);
+        const struct lanes_step s = {.op = NODE_SELECT, .to = 3, .in = {0, 1, 2}};
+        void *at[] = {bits, in[0], in[1], out};
+        bits_make(bits, n);
+        memset(out, 0x5a, sizeof out);
+        t.of[turn % t.count]->of[NODE_SELECT][c](&s, at, n);
+        for (size_t i = 0; i < (size_t)n; i++)
+            assert_memory_equal(out + i * bytes, in[bits[i] ? 0 : 1] + i * bytes, bytes);
+        for (size_t i = (size_t)n * bytes; i < sizeof out; i++)
+            assert_int_equal(out[i], 0x5a);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_window_has_each_lane_where_the_condition_holds),
         cmocka_unit_test(a_step_for_a_window_gives_its_lanes_alone),
         cmocka_unit_test(a_get_for_a_window_takes_its_lanes_places),
+        cmocka_unit_test(a_selection_has_each_lane_from_the_right_side),
         cmocka_unit_test(what_is_repeated_is_repeated_from_the_first_lane_on),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -16,7 +16,7 @@
 #include "values/values.h"
 
 /* WORTH_LANES: a step for fewer lanes takes longer to begin, so it leaves out so many at least. */
-enum { LINE = 64, ROOM_LEAST_BYTES = 32 << 10, WORTH_LANES = 192 };
+enum { LINE = 64, ROOM_LEAST_BYTES = 32 << 10, WORTH_LANES = 128 };
 
 /* Lanes of a block: from column x of a row on, or whole rows. */
 struct block {

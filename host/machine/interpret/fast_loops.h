@@ -134,21 +134,19 @@ typedef double f64;
         IN(u8, 0, c);                                                                          \
         IN(T, 1, a);                                                                           \
         IN(T, 2, b);                                                                           \
-        struct mask_window w = mask_window(c, n);                                              \
-        if (w.from > 0 || w.end < n)                                                           \
-            w = mask_trimmed(c, w);                                                            \
-        const bool even = mask_is_even(c + w.from, w.end - w.from);                            \
-        if (!even && 2 * (w.end - w.from) > n) {                                               \
+        const int same = mask_same(c, n), next = same + MASK_RUN;                              \
+        if (same < n && (size_t)same * sizeof *d < MASK_PAYS_BYTES) {                          \
             EACH d[i] = c[i] ? a[i] : b[i];                                                    \
             return;                                                                            \
         }                                                                                      \
-        memcpy(d, b, (size_t)w.from * sizeof *d);                                              \
-        memcpy(d + w.end, b + w.end, (size_t)(n - w.end) * sizeof *d);                         \
-        if (even)                                                                              \
-            memcpy(d + w.from, w.from < w.end && !c[w.from] ? b + w.from : a + w.from,         \
-                   (size_t)(w.end - w.from) * sizeof *d);                                      \
-        for (int i = w.from; i < w.end && !even; i++)                                          \
+        memcpy(d, c[0] ? a : b, (size_t)same * sizeof *d);                                     \
+        const int end = same + mask_end(c + same, n - same);                                   \
+        memcpy(d + end, b + end, (size_t)(n - end) * sizeof *d);                               \
+        const bool even = next < end && mask_same(c + next, end - next) == end - next;         \
+        for (int i = same; i < (even ? next : end); i++)                                       \
             d[i] = c[i] ? a[i] : b[i];                                                         \
+        if (even)                                                                              \
+            memcpy(d + next, c[next] ? a + next : b + next, (size_t)(end - next) * sizeof *d); \
     }                                                                                          \
     LOOP(repeat, T)                                                                            \
     {                                                                                          \
