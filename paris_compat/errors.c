@@ -5,6 +5,7 @@
 
 #include "call_line.h"
 #include "debug.h"
+#include "explain.h"
 #include "paris_state.h"
 #include "visible_text.h"
 
@@ -31,6 +32,7 @@ PARIS_PRINTF(2, 0) static void fail(unsigned int status, const char *format, va_
     if (paris_the.machine)
         machine_call_failed(paris_the.machine);
     paris_debug_tell(error_text);
+    paris_explain_complaint(error_text);
     if (error_handler) {
         error_handler(error_text);
         return;

@@ -34,9 +34,17 @@ static struct output {
      .print = explain_json,
      .before = "{\"machines\": [",
      .between = ",\n",
-     .after = "]}\n"},
+     .after = "]"},
 };
 enum { OUTPUTS_COUNT = sizeof outputs / sizeof *outputs };
+
+/* What was complained of; what is more than these is counted alone. */
+enum { COMPLAINTS_MOST = 32 };
+static struct {
+    char *text;
+    uint64_t count;
+} complaints[COMPLAINTS_MOST];
+static uint64_t complaints_more;
 
 static pid_t owner; /* 0: not known yet. Forked children write nothing */
 static volatile sig_atomic_t interrupts;
@@ -120,6 +128,55 @@ void paris_explain_end(struct machine *m)
     }
 }
 
+void paris_explain_complaint(const char *text)
+{
+    bool open = false;
+    for (int i = 0; i < OUTPUTS_COUNT; i++)
+        open = open || outputs[i].file.is_open;
+    for (int i = 0; i < COMPLAINTS_MOST && open; i++) {
+        if (!complaints[i].text)
+            complaints[i].text = strdup(text);
+        if (complaints[i].text && strcmp(complaints[i].text, text) == 0) {
+            complaints[i].count++;
+            return;
+        }
+    }
+    complaints_more += open;
+}
+
+static void complaints_print(FILE *f, bool json)
+{
+    char line[2000];
+    fputs(json ? ", \"complaints\": [" : complaints[0].text ? "\ncomplaints\n" : "", f);
+    for (int i = 0; i < COMPLAINTS_MOST && complaints[i].text; i++) {
+        visible_text(line, sizeof line, complaints[i].text);
+        if (json) {
+            fprintf(f, "%s{\"count\": %llu, \"text\": ", i ? ", " : "",
+                    (unsigned long long)complaints[i].count);
+            explain_json_text(f, line);
+            fputc('}', f);
+        } else {
+            fprintf(f, "  %llu x  %s\n", (unsigned long long)complaints[i].count, line);
+        }
+    }
+    if (complaints_more && !json)
+        fprintf(f, "  %llu others\n", (unsigned long long)complaints_more);
+    fputs(json ? "]}\n" : "", f);
+}
+
+/* The end of a report: what was complained of. NULL: no memory. */
+static char *report_end(const struct output *o)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *f = open_memstream(&text, &length);
+    if (!f)
+        return NULL;
+    fprintf(f, "%s%s", o->text ? "" : o->before, o->after);
+    complaints_print(f, o->print == explain_json);
+    return fclose(f) == 0 ? text : NULL;
+}
+
 void paris_explain_write(void)
 {
     if (owner != getpid())
@@ -127,13 +184,15 @@ void paris_explain_write(void)
     for (int i = 0; i < OUTPUTS_COUNT; i++) {
         struct output *o = &outputs[i];
         bool good = true;
-        const size_t after = strlen(o->after);
-        char *all = o->text ? realloc(o->text, o->length + after + 1) : NULL;
+        char *end = o->text || complaints[0].text ? report_end(o) : NULL;
+        const size_t after = end ? strlen(end) : 0;
+        char *all = end ? realloc(o->text, o->length + after + 1) : NULL;
         if (all) {
-            memcpy(all + o->length, o->after, after + 1);
+            memcpy(all + o->length, end, after + 1);
             o->text = all;
             good = growing_file_append(&o->file, all, o->length + after, NULL, 0);
         }
+        free(end);
         if (!good || !growing_file_close(&o->file))
             complain(o, "write to");
         free(o->text);

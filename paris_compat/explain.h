@@ -16,10 +16,14 @@ bool paris_explain_wanted(void);
 void paris_explain_begin(struct machine *m);
 void paris_explain_end(struct machine *m);
 void paris_explain_write(void);
+/* A complaint of a call, with its line: the report has each text once, and how often it came. */
+void paris_explain_complaint(const char *text);
 
 /* explain_text.c, explain_json.c: the report of one machine */
 void explain_text(FILE *out, const struct machine_explained *x);
 void explain_json(FILE *out, const struct machine_explained *x);
+/* A string of JSON. */
+void explain_json_text(FILE *out, const char *s);
 
 /* explain_words.c: the kernel's bound: the time of copying as many bytes, or of the
  * operations by the cost model; 0: unknown. */

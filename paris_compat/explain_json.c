@@ -1,7 +1,7 @@
 /* explain_json.c - the report as a JSON object. */
 #include "explain.h"
 
-static void text(FILE *out, const char *s)
+void explain_json_text(FILE *out, const char *s)
 {
     fputc('"', out);
     for (; *s; s++) {
@@ -20,7 +20,7 @@ static void rows(FILE *out, const char *name, const struct machine_explained_row
     fprintf(out, ",\n \"%s\": [", name);
     for (int i = 0; i < count; i++) {
         fprintf(out, "%s\n  {\"name\": ", i ? "," : "");
-        text(out, r[i].name);
+        explain_json_text(out, r[i].name);
         fprintf(out, ", \"count\": %llu", (unsigned long long)r[i].count);
         if (second)
             fprintf(out, ", \"%s\": %llu", second, (unsigned long long)r[i].bytes);
@@ -37,9 +37,9 @@ static void stores(FILE *out, const struct machine_explained_kernel *k)
     for (int i = 0; i < k->stores_count; i++) {
         const struct machine_explained_store *s = &k->stores[i];
         fprintf(out, "%s{\"where\": ", i ? ", " : "");
-        text(out, s->where);
+        explain_json_text(out, s->where);
         fprintf(out, ", \"operation\": ");
-        text(out, s->operation);
+        explain_json_text(out, s->operation);
         fprintf(out, ", \"type\": \"%s%d\", \"in_ring\": %s, \"why\": \"%s\"}",
                 s->type.kind == MACHINE_FLOAT ? "f" : "u", s->type.width,
                 s->in_ring ? "true" : "false", explain_why(s->why));
@@ -69,7 +69,7 @@ static void kernel(FILE *out, const struct machine_explained_kernel *k)
     const char *by;
     double bound_s = explain_bound_s(k, &by);
     fprintf(out, "{\"name\": ");
-    text(out, k->name);
+    explain_json_text(out, k->name);
     fprintf(out,
             ", \"generated\": %s, \"runs\": %llu, \"runs_timed\": %llu, \"time_s\": %.9g, ",
             k->generated ? "true" : "false", (unsigned long long)k->runs,
@@ -99,7 +99,7 @@ static void family(FILE *out, const struct machine_explained_family *f)
 {
     const char *before = "";
     fprintf(out, "{\"name\": ");
-    text(out, f->name);
+    explain_json_text(out, f->name);
     fprintf(out, ", \"values\": %d, \"plans\": %llu, \"runs\": {", f->nodes,
             (unsigned long long)f->plans);
     for (int i = 0; i < MACHINE_TIERS; i++)
@@ -122,9 +122,9 @@ static void family(FILE *out, const struct machine_explained_family *f)
 void explain_json(FILE *out, const struct machine_explained *x)
 {
     fprintf(out, "{\"device\": ");
-    text(out, x->device);
+    explain_json_text(out, x->device);
     fprintf(out, ", \"costs_from\": ");
-    text(out, x->costs_from);
+    explain_json_text(out, x->costs_from);
     fprintf(out, ", \"processors\": %d, \"stores\": %llu,\n", x->processors_count,
             (unsigned long long)x->stores);
     fprintf(out, " \"calls_recorded\": %llu, \"calls_foreseen\": %llu",

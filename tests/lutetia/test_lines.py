@@ -5,6 +5,7 @@
 
 Each program marks its wrong call by a comment; the oracle is the number of the line with that comment.
 """
+import json
 import os
 import re
 import subprocess
@@ -133,6 +134,12 @@ with tempfile.TemporaryDirectory() as folder:
     lines = ended.stdout.splitlines()
     assert ended.returncode == 0 and len(lines) == 1000 and len(set(lines)) == 1, ended
     begins_right(lines[0], HANDLED, "CM_u_add_2_1L")
+    # The report has each complaint once, with its line.
+    ended = compile_run(folder, HANDLED, "-w", LUTETIA_EXPLAIN="report", LUTETIA_EXPLAIN_JSON="report.json")
+    report = open(os.path.join(folder, "report")).read()
+    assert report.count(lines[0]) == 1 and f"1000 x  {lines[0]}" in report, report
+    told = json.load(open(os.path.join(folder, "report.json")))["complaints"]
+    assert told == [{"count": 1000, "text": lines[0]}], told
     ended = compile_run(folder, LENIENT, "-w")
     assert ended.returncode == 0 and "said once" in ended.stderr, ended
     begins_right(ended.stderr, LENIENT, "CM_u_move_1L")

@@ -28,7 +28,7 @@ LUTETIA, RANDOM, HEADERS, DATA = map(os.path.abspath, sys.argv[1:5])
 PROGRAMS = int(sys.argv[5]) if len(sys.argv) > 5 else 20
 C_TYPES = {"v": "void", "i": "int", "u": "unsigned int", "l": "long", "m": "unsigned long", "d": "double", "c": "CM_complex_t",
            "V": "CM_vector_t", "R": "const void *", "W": "void *", "A": "CM_axis_descriptor_t *",
-           "H": "void (*) (const char *)"}
+           "S": "const char *", "H": "void (*) (const char *)"}
 
 
 def signatures_are_the_headers():
@@ -228,12 +228,32 @@ def random_program_is_cs(seed, folder, data):
     return len(expected.stdout.splitlines())
 
 
+def a_machine_goes_to_a_file():
+    """And comes back, under the same ids, with the program's own array."""
+    CM_init()
+    CM_set_vp_set(CM_allocate_vp_set(CM_create_geometry([6, 10], 2)))
+    field, values = CM_allocate_heap_field(32), np.arange(60, dtype="f4").reshape(6, 10)
+    paris.write(field, values)
+    own = np.array([field, 7], dtype="u4")
+    with tempfile.TemporaryDirectory() as folder:
+        name = os.path.join(folder, "machine")
+        assert CM_resume(name, own, own.nbytes) == 0  # there is none yet
+        assert CM_checkpoint(name, own, own.nbytes) == 1
+        CM_init()
+        again = np.zeros(2, dtype="u4")
+        assert CM_resume(name, again, again.nbytes) == 1
+    assert again.tolist() == own.tolist()
+    assert np.array_equal(paris.read(int(again[0]), "f4"), values)
+
+
 CM_attach_to_processors(16)
 CM_init()
 signatures_are_the_headers()
 arrays_are_fields()
 parts_and_turned_arrays()
 errors_are_exceptions()
+a_machine_goes_to_a_file()
+CM_attach_to_processors(16)
 with tempfile.TemporaryDirectory() as folder:
     data = data_of(DATA)
     lines = sum(random_program_is_cs(seed, folder, data) for seed in range(1, PROGRAMS + 1))
