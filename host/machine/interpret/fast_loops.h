@@ -135,8 +135,8 @@ typedef double f64;
         IN(T, 1, a);                                                                           \
         IN(T, 2, b);                                                                           \
         const int same = mask_same(c, n), next = same + MASK_RUN;                              \
-        if (same < n && (size_t)same * sizeof *d < MASK_PAYS_BYTES) {                          \
-            EACH d[i] = c[i] ? a[i] : b[i];                                                    \
+        if (same < n && same < MASK_PAYS(T)) {                                                 \
+            EACH d[i] = CHOSEN(T);                                                             \
             return;                                                                            \
         }                                                                                      \
         memcpy(d, c[0] ? a : b, (size_t)same * sizeof *d);                                     \
@@ -144,7 +144,7 @@ typedef double f64;
         memcpy(d + end, b + end, (size_t)(n - end) * sizeof *d);                               \
         const bool even = next < end && mask_same(c + next, end - next) == end - next;         \
         for (int i = same; i < (even ? next : end); i++)                                       \
-            d[i] = c[i] ? a[i] : b[i];                                                         \
+            d[i] = CHOSEN(T);                                                                  \
         if (even)                                                                              \
             memcpy(d + next, c[next] ? a + next : b + next, (size_t)(end - next) * sizeof *d); \
     }                                                                                          \

@@ -1,7 +1,11 @@
 /* lanes_masks.h - bits of a block as a whole. Part of fast_loops.h, which is compiled once for each instruction set. */
 
-/* MASK_PAYS_BYTES: fewer lanes than these bytes have room for are chosen one by one as soon as copied. */
-enum { MASK_RUN = 64, MASK_PAYS_BYTES = 512 };
+enum { MASK_RUN = 64 };
+/* From so many lanes that are alike on they are copied: those of 32 bits are chosen fast enough one by one. */
+#define MASK_PAYS(T) (sizeof(T) == 4 ? 2 * MASK_RUN : MASK_RUN)
+/* Lane i of a where bit i is 1, else of b. Compilers have no good loop of bytes for the choice. */
+#define CHOSEN(T)                                                                              \
+    (sizeof(T) == 1 ? (T)(b[i] ^ ((a[i] ^ b[i]) & (T)(0u - c[i]))) : c[i] ? a[i] : b[i])
 
 /* Whether any of a run's bits is another than that. */
 static inline bool mask_run_differs(const u8 *c, u8 bit)
