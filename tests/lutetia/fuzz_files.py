@@ -246,7 +246,8 @@ def input_case(place):
     words = [re.sub("@(?!@)", lambda _: "./" + name, word) for word in words]
     status, said = place.run([place.lutetia, *words], {})
     what = "%r as %d with %r: status %s" % (words, place.user, data[:300], status)
-    if escaped(said):
+    compiles = words[0] == "cc" or any(word.endswith(".c") for word in words)
+    if not compiles and escaped(said):  # a compiler says what it says, names among it
         return "an escape on the terminal: %r; %s" % (escaped(said), what)
     return what if status == "no end" or status not in (0, 1, 2) else None
 
@@ -280,7 +281,7 @@ def table_of(lutetia):
             options.append((verb, words[1]))
         if words[0] == "environment":
             variables += [word for word in words[1:] if re.fullmatch("[A-Z_]{2,}", word)]
-    skipped = {"LUTETIA_LEDS_PROGRAM", "DISPLAY", "TMPDIR", "XDG_CACHE_HOME", "POCL_CACHE_DIR", "CC"}  # of programs that are not ours
+    skipped = {"LUTETIA_LEDS_PROGRAM", "LUTETIA_DISPLAY_PROGRAM", "DISPLAY", "TMPDIR", "XDG_CACHE_HOME", "POCL_CACHE_DIR", "CC"}  # of programs that are not ours
     return options, [name for name in variables if name not in skipped]
 
 
