@@ -126,7 +126,8 @@ static enum font_status letter_put(const struct font_drawing *d,
         fputs("/>\n", f);
         return FONT_OK;
     }
-    status = font_face_outline_raw(layout->glyphs[i].face, layout->glyphs[i].glyph, &outline);
+    status = font_face_outline_or_none(layout->glyphs[i].face, layout->glyphs[i].glyph, false,
+                                       &outline);
     if (status != FONT_OK)
         return status;
     fputs("<path", f);
@@ -144,8 +145,8 @@ static enum font_status outlines_put(const struct drawn *drawn, FILE *f)
         struct font_outline outline;
         if (drawn->glyphs[k].picture)
             continue;
-        enum font_status status =
-            font_face_outline_raw(drawn->glyphs[k].face, drawn->glyphs[k].glyph, &outline);
+        enum font_status status = font_face_outline_or_none(
+            drawn->glyphs[k].face, drawn->glyphs[k].glyph, false, &outline);
         if (status != FONT_OK)
             return status;
         fprintf(f, "<path id=\"g%d\" d=\"", k);

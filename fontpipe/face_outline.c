@@ -10,6 +10,7 @@
 
 #include <math.h>
 #include <pthread.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -287,6 +288,22 @@ enum font_status font_face_outline(struct font_face *face, uint32_t glyph,
     if (status != FONT_OK)
         font_outline_finish(out);
     return status;
+}
+
+enum font_status font_face_outline_or_none(struct font_face *face, uint32_t glyph,
+                                           bool prepared, struct font_outline *out)
+{
+    enum font_status status = prepared ? font_face_outline(face, glyph, out)
+                                       : font_face_outline_raw(face, glyph, out);
+    if (status != FONT_BAD_FILE && status != FONT_TOO_LARGE)
+        return status;
+    char name[72];
+    if (!FT_HAS_GLYPH_NAMES(face->ft) ||
+        FT_Get_Glyph_Name(face->ft, glyph, name, sizeof name) || !name[0])
+        snprintf(name, sizeof name, "#%u", (unsigned)glyph);
+    font_left_out_add(face->path, name);
+    *out = (struct font_outline){.units_per_em = face->ft->units_per_EM};
+    return prepared ? font_outline_prepare(out, FONT_NONZERO) : FONT_OK;
 }
 
 enum font_status font_face_advance(struct font_face *face, uint32_t glyph, double *advance)

@@ -33,8 +33,15 @@ struct hb_font_t;
 struct hb_face_t *font_face_harfbuzz(struct font_face *face);
 void font_face_harfbuzz_variations(const struct font_face *face, struct hb_font_t *font);
 
-/* outline.c: of a prepared outline. */
+/* status.c: notes a glyph for font_left_out(), with the reason that font_error() has. */
+void font_left_out_add(const char *path, const char *glyph);
+/* face_outline.c: as font_face_outline(), or for whoever prepares it font_face_outline_raw(), but a glyph whose outline is damaged or too
+ * large is empty, and left out by name. Errors: NO_GLYPH, NO_MEMORY. */
 struct font_outline;
+enum font_status font_face_outline_or_none(struct font_face *face, uint32_t glyph,
+                                           bool prepared, struct font_outline *out);
+
+/* outline.c: of a prepared outline. */
 enum font_status font_outline_polynomials(struct font_outline *o);
 
 #endif

@@ -190,7 +190,7 @@ static enum font_status edges_make_folded(struct font_painter *p, struct font_fa
 {
     static const struct font_map same = {FONT_AFFINE, {1, 0, 0, 0, 1, 0}};
     struct font_outline raw, mapped = {0};
-    enum font_status status = font_face_outline_raw(face, glyph, &raw);
+    enum font_status status = font_face_outline_or_none(face, glyph, false, &raw);
     if (status == FONT_OK)
         status = font_outline_mapped(&raw, map, &mapped);
     if (status == FONT_OK)
@@ -210,14 +210,14 @@ static enum font_status edges_make(struct font_painter *p, struct font_face *fac
     double darken = darkening(p, face, size_px);
     enum font_status status;
     if (darken > 0) {
-        status = font_face_outline_raw(face, glyph, &outline);
+        status = font_face_outline_or_none(face, glyph, false, &outline);
         double units = darken * outline.units_per_em / size_px;
         if (status == FONT_OK)
             status = font_outline_embolden(&outline, units, units / 2); /* stems most */
         if (status == FONT_OK)
             status = font_outline_prepare(&outline, FONT_NONZERO);
     } else {
-        status = font_face_outline(face, glyph, &outline);
+        status = font_face_outline_or_none(face, glyph, true, &outline);
     }
     if (status == FONT_OK)
         status = font_edges_build(edges, &outline, map, p->filter);

@@ -100,7 +100,7 @@ static void glyph_put(const struct pdf_letter *letter, FILE *f)
     font_face_describe(letter->face, &info);
     struct pen pen = {.f = f, .em = 1000 / info.units_per_em};
     number_put(f, fixed_of(letter->width * 1000));
-    if (font_face_outline_raw(letter->face, letter->glyph, &outline) == FONT_OK) {
+    if (font_face_outline_or_none(letter->face, letter->glyph, false, &outline) == FONT_OK) {
         for (int i = 0; i < outline.segments_count; i++) {
             const struct font_segment *s = &outline.segments[i];
             if (i == 0 || s[-1].contour != s->contour) {

@@ -147,7 +147,7 @@ static enum font_status path_show(struct pdf_making *m, int i, const struct font
     const struct font_placed *g = &m->layout->glyphs[i];
     struct font_outline outline;
     pdf_run_end(m);
-    enum font_status status = font_face_outline_raw(g->face, g->glyph, &outline);
+    enum font_status status = font_face_outline_or_none(g->face, g->glyph, false, &outline);
     if (status != FONT_OK)
         return status;
     fprintf(m->f, "q %g 0 0 %g 0 %.7g cm\n", pdf_point_px, -pdf_point_px,

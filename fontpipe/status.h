@@ -25,4 +25,9 @@ enum font_status {
  * Owns: the library; valid until this thread's next failure. */
 const char *font_error(void);
 
+/* One line that names a glyph which was left out of this thread's pictures since this was last asked, because its outline cannot be read, and
+ * says how many there are; NULL: none was. Of many glyphs some may be counted more than once.
+ * Owns: the library; valid until this thread asks again. */
+const char *font_left_out(void);
+
 #endif

@@ -66,6 +66,13 @@ void type_missing_tell(const char *verb, const char *font, const struct font_lay
          layout->missing_count > FONT_MISSING_MAX ? " and more" : "", font);
 }
 
+void type_left_out_tell(const char *verb)
+{
+    const char *what = font_left_out();
+    if (what)
+        tell(verb, "%s", what);
+}
+
 void type_text_check(const char *verb, const char *font, struct font_face *face,
                      const char *text)
 {

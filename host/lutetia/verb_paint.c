@@ -1,6 +1,7 @@
 /* verb_paint.c - `lutetia paint`: type or a bitmap in ink on wet paper. */
 #include "verb_paint.h"
 #include "help.h"
+#include "type_common.h"
 
 #include <display.h>
 #include <face.h>
@@ -245,6 +246,7 @@ static int screen_from_text(struct paint *paint)
     if (missing)
         tell("paint", "no font has a glyph for U+%04X; %s's sign for that is set instead",
              (unsigned)missing, line.font);
+    type_left_out_tell("paint");
     return EXIT_SUCCESS;
 }
 

@@ -445,6 +445,7 @@ int verb_set(int argc, char **argv)
              s.language ? s.language : "en");
     if (status == EXIT_SUCCESS)
         type_missing_tell("set", s.font, &s.lacking);
+    type_left_out_tell("set");
     page_text_destroy(pages);
     free(text);
     return status;
