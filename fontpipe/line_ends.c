@@ -13,6 +13,7 @@
 
 #include <linebreak.h>
 #include <unicode/ubrk.h>
+#include <unicode/uchar.h>
 
 /* ---- libunibreak ---- */
 
@@ -62,8 +63,10 @@ static struct {
     void (*text_set)(UBreakIterator *, const UChar *, int32_t, UErrorCode *);
     int32_t (*next)(UBreakIterator *);
     int32_t (*status)(UBreakIterator *);
+    int32_t (*property)(UChar32, UProperty);
 } icu;
 static bool icu_there;
+static int icu_version;
 
 static struct {
     char language[16];
@@ -84,7 +87,8 @@ static bool icu_load(int version)
                   {"ubrk_close", offsetof(__typeof__(icu), close)},
                   {"ubrk_setText", offsetof(__typeof__(icu), text_set)},
                   {"ubrk_next", offsetof(__typeof__(icu), next)},
-                  {"ubrk_getRuleStatus", offsetof(__typeof__(icu), status)}};
+                  {"ubrk_getRuleStatus", offsetof(__typeof__(icu), status)},
+                  {"u_getIntPropertyValue", offsetof(__typeof__(icu), property)}};
     enum { CALLED = sizeof called / sizeof *called };
     struct library_function functions[CALLED];
     char names[CALLED][32], file[32];
@@ -94,6 +98,7 @@ static bool icu_load(int version)
         functions[i] = (struct library_function){names[i], called[i].at};
     }
     snprintf(file, sizeof file, "libicuuc.so.%d", version);
+    icu_version = version;
     return library_load_exactly(file, functions, CALLED, &icu, &missing);
 }
 
@@ -202,4 +207,21 @@ bool font_breaks_by_icu(const uint32_t *characters, int count, const char *langu
 {
     pthread_once(&icu_once, icu_begin);
     return icu_there && by_icu(characters, count, language, breaks);
+}
+
+enum font_stand font_stand_of(uint32_t character)
+{
+    enum { ORIENTATIONS_SINCE = 63 };
+    pthread_once(&icu_once, icu_begin);
+    if (!icu_there || icu_version < ORIENTATIONS_SINCE)
+        return FONT_STAND_UNKNOWN;
+    switch (icu.property((UChar32)character, UCHAR_VERTICAL_ORIENTATION)) {
+    case U_VO_UPRIGHT:
+    case U_VO_TRANSFORMED_UPRIGHT:
+        return FONT_STANDS;
+    case U_VO_TRANSFORMED_ROTATED:
+        return FONT_STANDS_IF_DRAWN;
+    default:
+        return FONT_LIES;
+    }
 }

@@ -52,7 +52,7 @@ struct font_text_options {
         *features; /* HarfBuzz's, by commas: "-liga,ss01,kern=0"; NULL: the font's usual ones */
     const char *language; /* "fr"; NULL: the locale's */
     double letter_spacing_px;
-    double line_height; /* of the size; 0: the font's */
+    double line_height; /* of the size; 0: the fonts' own */
     double
         width_px; /* of the column that lines are broken for; 0: only where the text has line ends */
     enum font_align align; /* in the column, or within the longest line */
@@ -91,7 +91,10 @@ struct font_layout {
     int glyphs_count, glyphs_capacity, lines_count, lines_capacity;
     double width_px;              /* of the longest line or the column */
     double ascent_px, descent_px; /* of the first face; descent: below the last baseline */
+    /* From line to line, of the first face or as asked for. Where other faces' letters need more, and nothing was asked for, lines are
+     * farther apart: lines[].y_px. */
     double line_height_px;
+    double height_px; /* from the first baseline to the last */
     double size_px;
     int missing_count;                  /* characters for which there is no glyph anywhere */
     uint32_t missing[FONT_MISSING_MAX]; /* the first of them, each once */

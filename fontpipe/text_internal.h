@@ -37,6 +37,12 @@ struct font_shaper {
     int spare_candidate;
 };
 
+/* What a face's own leading has above a baseline, and below it. */
+struct font_room {
+    double above_px, below_px;
+};
+struct font_room font_room_of(const struct font_face *face, double size_px);
+
 /* Makes the HarfBuzz font, again if the face's axes were set since. */
 void font_shaped_refresh(struct font_shaped_face *face);
 /* A face of the shaper that has the character, opened if need be; -1 if there is none. */
@@ -65,6 +71,10 @@ enum { FONT_APART = 4 };
 void font_features_apart(hb_feature_t *features, unsigned *count);
 /* Common and inherited characters go with those before them, at the beginning with those behind. */
 void font_scripts_choose(const uint32_t *characters, int count, hb_script_t *scripts);
+/* How a character is in a line that goes down (UTR 50): it lies on its side, it stands, or it stands where the font has a form of it for that.
+ * UNKNOWN: there is no ICU that says. */
+enum font_stand { FONT_STAND_UNKNOWN, FONT_LIES, FONT_STANDS, FONT_STANDS_IF_DRAWN };
+enum font_stand font_stand_of(uint32_t character);
 /* line_ends.c: where lines may end (UAX 14), by libunibreak's signs, of the place behind each character. False: no memory. */
 bool font_breaks_find(const uint32_t *characters, int count, const char *language,
                       char *breaks);

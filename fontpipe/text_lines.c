@@ -153,7 +153,8 @@ struct shaping {
     unsigned features_count;
     hb_language_t language;
     double size_px;
-    bool trims; /* white space at the end of a line is left out */
+    bool trims;     /* white space at the end of a line is left out */
+    double more_px; /* what lines so far are farther apart than the first face asks for */
 };
 
 bool font_feature_read(const char *text, int length, hb_feature_t *out)
@@ -357,20 +358,60 @@ static enum font_status line_set(struct shaping *g, struct paragraph *p, int beg
     return status;
 }
 
-static enum font_status line_add(struct font_layout *out, int first, double width_px,
-                                 bool to_left, bool last)
+struct font_room font_room_of(const struct font_face *face, double size_px)
 {
+    enum { MOST = 4 }; /* ems: damaged files say anything */
+    struct font_face_info info;
+    font_face_describe(face, &info);
+    double em = info.units_per_em, scale = size_px / em;
+    double height = fmin(info.line_height, MOST * em);
+    double middle = (info.ascender + info.descender) / 2;
+    double above = fmin(fmax(height / 2 + middle, 0), MOST * em);
+    return (struct font_room){scale * above, scale * fmax(height - above, 0)};
+}
+
+/* The line of glyphs from `first` on goes down by what its other faces need above more than the first, and what they need below is kept
+ * for the next. */
+static void line_room(struct shaping *g, struct font_layout *out, int first, double *below_px)
+{
+    const struct font_room own = font_room_of(g->shaper->faces[0].face, g->size_px);
+    const struct font_face *last = g->shaper->faces[0].face;
+    struct font_room most = own;
+    *below_px = 0;
+    if (g->options->line_height > 0)
+        return;
+    for (int i = first; i < out->glyphs_count; i++) {
+        if (out->glyphs[i].face == last)
+            continue;
+        last = out->glyphs[i].face;
+        struct font_room here = font_room_of(last, g->size_px);
+        most.above_px = fmax(most.above_px, here.above_px);
+        most.below_px = fmax(most.below_px, here.below_px);
+    }
+    double more = out->lines_count ? most.above_px - own.above_px : 0;
+    for (int i = first; i < out->glyphs_count; i++)
+        out->glyphs[i].y_px += more;
+    g->more_px += more;
+    *below_px = most.below_px - own.below_px;
+}
+
+static enum font_status line_add(struct shaping *g, struct font_layout *out, int first,
+                                 double width_px, bool to_left, bool last)
+{
+    double below_px;
+    line_room(g, out, first, &below_px);
     if (!array_reserve(&out->lines, &out->lines_capacity, out->lines_count + 1,
                        sizeof *out->lines))
         return font_fail(FONT_NO_MEMORY, "no memory for text");
     out->lines[out->lines_count] =
         (struct font_line){.glyphs_begin = first,
                            .glyphs_count = out->glyphs_count - first,
-                           .y_px = out->lines_count * out->line_height_px,
+                           .y_px = out->lines_count * out->line_height_px + g->more_px,
                            .width_px = width_px,
                            .to_left = to_left,
                            .ends_paragraph = last};
-    out->lines_count++;
+    out->height_px = out->lines[out->lines_count++].y_px;
+    g->more_px += below_px;
     return FONT_OK;
 }
 
@@ -380,7 +421,7 @@ static enum font_status paragraph_set(struct shaping *g, struct paragraph *p,
     double column = g->options->width_px, width = 0;
     p->base = g->options->right_to_left > 0;
     if (!p->count)
-        return line_add(out, out->glyphs_count, 0, p->base, true);
+        return line_add(g, out, out->glyphs_count, 0, p->base, true);
     faces_choose(g->shaper, p, !g->options->no_fallback, out);
     scripts_choose(p);
     if (!levels_find(p, g->options->right_to_left))
@@ -394,8 +435,8 @@ static enum font_status paragraph_set(struct shaping *g, struct paragraph *p,
             bool hyphen = false;
             end = column > 0 ? line_break(g, p, begin, room, &hyphen) : p->count;
             out->glyphs_count = first;
-            status = line_set(g, p, begin, end, hyphen, out->lines_count * out->line_height_px,
-                              out, &width);
+            status = line_set(g, p, begin, end, hyphen,
+                              out->lines_count * out->line_height_px + g->more_px, out, &width);
             /* Set by itself it may be a little wider than within the whole. */
             if (column == 0 || width <= column + 1e-6)
                 break;
@@ -406,7 +447,7 @@ static enum font_status paragraph_set(struct shaping *g, struct paragraph *p,
                font_text_white(p->letters[begin].character))
             begin++;
         if (status == FONT_OK)
-            status = line_add(out, first, width, p->base, begin >= p->count);
+            status = line_add(g, out, first, width, p->base, begin >= p->count);
     }
     return status;
 }

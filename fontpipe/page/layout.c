@@ -6,12 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A line's baseline, across the frame's lines: letters' middles are in the middle of its slot. */
-static double baseline(const struct page_text *t, const struct paragraph *p,
-                       const struct slot *s)
+/* A line's baseline, across the frame's lines. */
+static double baseline(const struct paragraph *p, const struct slot *s)
 {
-    const struct style *first = t->styles[p->style];
-    return s->v + p->leading_px / 2 + (first->ascent_px - first->descent_px) / 2;
+    return s->v + p->rise_px;
 }
 
 struct output {
@@ -98,7 +96,7 @@ static bool line_put(struct output *o, const struct paragraph *p, const struct s
 {
     struct font_layout *out = o->out;
     const struct page_frame *frame = &o->template->frames[slot->frame];
-    double base = baseline(o->t, p, slot);
+    double base = baseline(p, slot);
     if (!array_reserve(&out->glyphs, &out->glyphs_capacity, out->glyphs_count + l->glyphs_count,
                        sizeof *out->glyphs))
         return false;

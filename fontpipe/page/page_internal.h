@@ -31,6 +31,8 @@ struct letter {
     int8_t level;
     bool cluster;  /* a cluster begins here */
     bool grapheme; /* a caret may stand before it */
+    bool stands;   /* in a vertical line */
+    bool across;   /* there it is one of a few digits beside each other in one place */
     bool safe;     /* glyphs before and behind it are as they would be apart */
     bool hyphen;   /* a word may be divided behind it */
     uint8_t brk;   /* libunibreak's, of the place behind it */
@@ -50,6 +52,7 @@ struct set_run {
     int16_t style, face;
     int8_t level;
     bool upright; /* in a vertical line, its letters stand */
+    bool across;  /* all of them beside each other, in one place */
 };
 
 struct line {
@@ -97,7 +100,7 @@ struct paragraph {
     struct set_run *runs;
     int runs_count, runs_capacity;
     bool hyphenated;
-    double leading_px;
+    double leading_px, rise_px; /* rise: of a line's upper edge over its baseline */
     struct line *lines;
     int lines_count, lines_capacity;
     bool broken;
@@ -194,6 +197,16 @@ void words_thai(struct paragraph *p);
 
 /* set.c: letters, levels, faces, and glyphs for all of the paragraph. */
 enum font_status set_analyse(struct page_text *t, struct paragraph *p);
+/* upright.c: which letters of a vertical paragraph stand, once their faces, scripts and places for carets are known. */
+void upright_find(struct page_text *t, struct paragraph *p);
+/* What a script's letters do where nothing is known of them. */
+bool upright_script(hb_script_t script);
+/* Glyphs from..count of such a run, shaped from left to right, put beside each other in one place of an em. */
+void upright_across(struct shaped *glyphs, int count, hb_font_t *font, double scale,
+                    double em_px, double centre_px);
+/* carets.c: before which letters a caret may stand. */
+void carets_find(struct paragraph *p);
+
 void set_forget(struct paragraph *p); /* all that is made of the text */
 /* Glyphs of letters begin..end, which are of one run, as they are at a line's end. Appends to *out. */
 enum font_status set_shape(struct page_text *t, const struct paragraph *p,

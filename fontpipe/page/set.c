@@ -82,39 +82,11 @@ static void faces_choose(struct page_text *t, struct paragraph *p)
     }
 }
 
-/* Scripts whose letters stand in a vertical line; all others lie. */
-static bool stands(hb_script_t script)
-{
-    return script == HB_SCRIPT_HAN || script == HB_SCRIPT_HIRAGANA ||
-           script == HB_SCRIPT_KATAKANA || script == HB_SCRIPT_HANGUL ||
-           script == HB_SCRIPT_BOPOMOFO || script == HB_SCRIPT_YI;
-}
-
 /* Scripts that have no spaces between words, or between all letters a place to break: a line is filled there, too. */
 static bool breathes(hb_script_t script)
 {
-    return stands(script) || script == HB_SCRIPT_THAI || script == HB_SCRIPT_LAO ||
+    return upright_script(script) || script == HB_SCRIPT_THAI || script == HB_SCRIPT_LAO ||
            script == HB_SCRIPT_KHMER || script == HB_SCRIPT_MYANMAR;
-}
-
-/* A regional indicator: two make a flag. */
-static bool flag_half(uint32_t c)
-{
-    return c >= 0x1f1e6 && c <= 0x1f1ff;
-}
-
-/* Whether a caret may stand before letter i, which stands behind so many halves of flags: not before marks and joiners, nor within an emoji, a flag or a syllable of jamos (after
- * UAX 29). */
-static bool caret_before(const struct paragraph *p, int i, int flags)
-{
-    uint32_t c = p->characters[i], b = i ? p->characters[i - 1] : 0;
-    if (!i)
-        return true;
-    if (font_text_mark(c) || c == 0x200d || b == 0x200d || (c == '\n' && b == '\r') ||
-        (c >= 0x1f3fb && c <= 0x1f3ff) || (c >= 0x1160 && c <= 0x11ff && b >= 0x1100) ||
-        (c >= 0xe0020 && c <= 0xe007f))
-        return false;
-    return !(flag_half(c) && flags % 2);
 }
 
 static bool scripts_find(struct page_text *t, struct paragraph *p)
@@ -129,15 +101,17 @@ static bool scripts_find(struct page_text *t, struct paragraph *p)
                                 &p->base);
         const char *language = t->styles[p->style]->language;
         good = good && font_breaks_find(p->characters, p->count, language, breaks);
-        for (int i = 0, flags = 0; i < p->count; i++) {
+        for (int i = 0; i < p->count; i++) {
             struct letter *l = &p->letters[i];
             l->script = scripts[i];
             l->level = levels[i];
             l->brk = (uint8_t)breaks[i];
-            l->grapheme = caret_before(p, i, flags);
-            flags = flag_half(p->characters[i]) ? flags + 1 : 0;
         }
     }
+    if (good)
+        carets_find(p);
+    if (good && p->vertical)
+        upright_find(t, p);
     free(scripts);
     free(levels);
     free(breaks);
@@ -149,19 +123,20 @@ static bool runs_cut(struct paragraph *p)
     for (int i = 0; i < p->count; i++) {
         const struct letter *l = &p->letters[i], *b = i ? l - 1 : NULL;
         if (b && b->style == l->style && b->face == l->face && b->script == l->script &&
-            b->level == l->level && !is_control(l->character) && !is_control(b->character)) {
+            b->level == l->level && b->stands == l->stands && b->across == l->across &&
+            !is_control(l->character) && !is_control(b->character)) {
             p->runs[p->runs_count - 1].end = i + 1;
             continue;
         }
         if (!array_reserve(&p->runs, &p->runs_capacity, p->runs_count + 1, sizeof *p->runs))
             return false;
-        p->runs[p->runs_count++] =
-            (struct set_run){.begin = i,
-                             .end = i + 1,
-                             .style = l->style,
-                             .face = l->face,
-                             .level = l->level,
-                             .upright = p->vertical && stands(l->script)};
+        p->runs[p->runs_count++] = (struct set_run){.begin = i,
+                                                    .end = i + 1,
+                                                    .style = l->style,
+                                                    .face = l->face,
+                                                    .level = l->level,
+                                                    .upright = l->stands,
+                                                    .across = l->across};
     }
     return true;
 }
@@ -184,7 +159,8 @@ enum font_status set_shape(struct page_text *t, const struct paragraph *p,
     font_shaped_refresh(face);
     hb_buffer_clear_contents(buffer);
     hb_buffer_add_utf32(buffer, p->characters, p->count, (unsigned)begin, end - begin);
-    hb_buffer_set_direction(buffer, run->upright     ? HB_DIRECTION_TTB
+    bool down = run->upright && !run->across;
+    hb_buffer_set_direction(buffer, down             ? HB_DIRECTION_TTB
                                     : run->level & 1 ? HB_DIRECTION_RTL
                                                      : HB_DIRECTION_LTR);
     hb_buffer_set_script(buffer, p->letters[begin].script);
@@ -210,7 +186,7 @@ enum font_status set_shape(struct page_text *t, const struct paragraph *p,
         bool last = i + 1 == n || infos[i + 1].cluster != infos[i].cluster;
         double spacing = last && apart ? style->look.spacing_px : 0;
         *g = (struct shaped){.glyph = infos[i].codepoint, .letter = (int32_t)infos[i].cluster};
-        if (run->upright) {
+        if (down) {
             g->advance_px = (float)(-at[i].y_advance * scale + spacing);
             g->x_px = (float)(-at[i].y_offset * scale);
             g->y_px = (float)(at[i].x_offset * scale + centre + style->look.raise_px);
@@ -220,10 +196,14 @@ enum font_status set_shape(struct page_text *t, const struct paragraph *p,
             g->y_px = (float)(at[i].y_offset * scale + shift);
         }
     }
+    if (run->across)
+        upright_across(*out + *count, (int)n, face->hb, scale, style->look.size_px,
+                       centre + style->look.raise_px);
     /* Where glyphs may be taken apart: told of a cluster's first, in the order of the text. */
     if (begin == run->begin && end == run->end)
         for (unsigned i = 0; i < n; i++)
             p->letters[infos[i].cluster].safe =
+                !run->across &&
                 !(hb_glyph_info_get_glyph_flags(&infos[i]) & HB_GLYPH_FLAG_UNSAFE_TO_BREAK);
     *count += (int)n;
     return FONT_OK;
@@ -266,6 +246,29 @@ static enum font_status runs_shape(struct page_text *t, struct paragraph *p)
     return FONT_OK;
 }
 
+/* From line to line: what the paragraph asks for, letters' middles being in the middle of it; else what its font's own leading is, or
+ * as much more as letters of other faces need above and below the baseline. */
+static void leading_find(const struct page_text *t, struct paragraph *p)
+{
+    const struct style *first = t->styles[p->style];
+    double asked = p->manner.leading_px, leading = asked > 0 ? asked : first->leading_px;
+    double rise = leading / 2 + middle(first), above = rise, below = leading - rise;
+    const struct letter *last = NULL;
+    for (int i = 0; i < p->count && asked <= 0; i++) {
+        const struct letter *l = &p->letters[i];
+        if (!l->face || (last && last->face == l->face && last->style == l->style))
+            continue;
+        const struct style *style = t->styles[l->style];
+        struct font_room room =
+            font_room_of(style->shaper->faces[l->face].face, style->look.size_px);
+        last = l;
+        above = fmax(above, room.above_px);
+        below = fmax(below, room.below_px);
+    }
+    p->leading_px = leading + (above - rise) + (below - (leading - rise));
+    p->rise_px = p->vertical ? p->leading_px / 2 + middle(first) : above;
+}
+
 enum font_status set_analyse(struct page_text *t, struct paragraph *p)
 {
     if (p->analysed)
@@ -277,12 +280,12 @@ enum font_status set_analyse(struct page_text *t, struct paragraph *p)
     if (!p->letters || !p->characters)
         return font_fail(FONT_NO_MEMORY, "no memory for a paragraph");
     letters_read(p);
-    const struct style *first = t->styles[p->style];
-    p->leading_px = p->manner.leading_px > 0 ? p->manner.leading_px : first->leading_px;
     p->base = p->manner.right_to_left > 0;
     enum font_status status = FONT_OK;
-    if (p->count) {
+    if (p->count)
         faces_choose(t, p);
+    leading_find(t, p);
+    if (p->count) {
         if (!scripts_find(t, p) || !runs_cut(p))
             status = font_fail(FONT_NO_MEMORY, "no memory for a paragraph");
         if (status == FONT_OK)

@@ -158,8 +158,7 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
 /* The box around the text after an affine map, from the first ascent to the last descent. */
 static struct font_box type_box(const struct font_layout *l, const struct font_map *map)
 {
-    const double y[2] = {-l->ascent_px,
-                         (l->lines_count - 1) * l->line_height_px + l->descent_px};
+    const double y[2] = {-l->ascent_px, l->height_px + l->descent_px};
     struct font_box box = {INFINITY, INFINITY, -INFINITY, -INFINITY};
     for (int i = 0; i < 4; i++) {
         struct font_point at = {i & 1 ? l->width_px : 0, y[i >> 1]};
@@ -287,6 +286,7 @@ static int type_run(struct type *t, struct font_face *face)
         status = t->compare ? type_compare("type", t->out_path, &layout, &map, t->filter,
                                            t->place[0], t->place[1], t->zoom)
                             : type_draw(t, painter, &layout, &map);
+    type_left_out_tell("type");
     if (status == EXIT_SUCCESS && t->statistics) {
         struct font_painter_stats stats;
         font_painter_stats_get(painter, &stats);

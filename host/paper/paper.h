@@ -95,11 +95,11 @@ struct paper_ink { /* amounts to add to a fiber; the sum is clamped to 0..1 */
 struct paper_drawing; /* drawing.h */
 struct paper_screen {
     int width_px, height_px;
-    uint8_t *gray;     /* rows from the top, no padding */
-    int origin_x_px;   /* type: its origin, from the left edge */
-    int baseline_y_px; /* type: the first baseline at the origin, from the top edge */
-    double advance_px; /* type: the length of the longest line, or the column */
-    double line_height_px;
+    uint8_t *gray;         /* rows from the top, no padding */
+    int origin_x_px;       /* type: its origin, from the left edge */
+    int baseline_y_px;     /* type: the first baseline at the origin, from the top edge */
+    double advance_px;     /* type: the length of the longest line, or the column */
+    double line_height_px; /* type: the mean */
     int lines_count;
     struct paper_drawing *
         drawing; /* what it was drawn from, for renders; NULL: they interpolate. Not the screen's own */

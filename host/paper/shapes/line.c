@@ -69,9 +69,9 @@ static enum font_status line_map_corners(struct line_setting *set)
     struct font_point to[4];
     for (int i = 0; i < 4; i++)
         to[i] = (struct font_point){set->line->corners[2 * i], set->line->corners[2 * i + 1]};
-    return font_map_corners(
-        set->line->bilinear ? FONT_BILINEAR : FONT_PROJECTIVE, 0, -l->ascent_px, l->width_px,
-        (l->lines_count - 1) * l->line_height_px + l->descent_px, to, &set->map);
+    return font_map_corners(set->line->bilinear ? FONT_BILINEAR : FONT_PROJECTIVE, 0,
+                            -l->ascent_px, l->width_px, l->height_px + l->descent_px, to,
+                            &set->map);
 }
 
 static enum paper_status line_set(struct line_setting *set)
@@ -199,8 +199,11 @@ static enum paper_status line_draw(struct line_setting *set, struct paper_screen
         return paper_fail(PAPER_BAD_TEXT, "the text \"%.60s\" leaves no mark on the paper",
                           line->text);
     screen->advance_px = set->layout.width_px;
-    screen->lines_count = set->layout.lines_count;
-    screen->line_height_px = set->layout.line_height_px;
+    const struct font_layout *l = &set->layout;
+    screen->lines_count = l->lines_count;
+    screen->line_height_px =
+        l->line_height_px +
+        (l->height_px - (l->lines_count - 1) * l->line_height_px) / l->lines_count;
     return PAPER_OK;
 }
 
