@@ -76,7 +76,7 @@ static int file_check(const char *name, bool runs)
 static bool start_find(char path[PATH_MAX])
 {
     static const char *const places[] = {"debug/start.py",
-                                         "../" LUTETIA_LIBEXECDIR "/lutetia/debug/start.py"};
+                                         "../" LUTETIA_DATADIR "/lutetia/debug/start.py"};
     char home[PATH_MAX];
     const ssize_t length = readlink("/proc/self/exe", home, sizeof home - 1);
     home[length > 0 ? length : 0] = '\0';
