@@ -66,6 +66,16 @@ static void pass_on(int number)
         kill((pid_t)child_now, number);
 }
 
+/* Who reads the report may end first, as `grep -q` does: nothing is left then, either. */
+static const struct explain *open_now;
+
+static void pipe_ended(int number)
+{
+    folder_close(open_now);
+    signal(number, SIG_DFL);
+    raise(number);
+}
+
 static void ends_pass_on(bool on)
 {
     static const int numbers[] = {SIGTERM, SIGHUP};
@@ -240,7 +250,13 @@ int verb_explain(int argc, char **argv)
     ends_pass_on(true);
     if (!folder_open(&e))
         return EXIT_FAILED;
+    struct sigaction before;
+    open_now = &e;
+    if (sigaction(SIGPIPE, NULL, &before) == 0 && before.sa_handler != SIG_IGN)
+        sigaction(SIGPIPE, &(struct sigaction){.sa_handler = pipe_ended}, NULL);
     int status = explain(&e, argv + own);
+    fflush(stdout);
+    sigaction(SIGPIPE, &before, NULL);
     folder_close(&e);
     return status;
 }

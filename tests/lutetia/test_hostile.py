@@ -212,6 +212,17 @@ class Hostile(unittest.TestCase):
         self.assertTrue(os.path.islink(self.at / "link.png"))
         self.assertEqual(before, sorted(os.listdir(self.at)))
 
+    def test_a_reader_who_leaves_leaves_no_folder(self):
+        (self.at / "one.c").write_text("#include <cm/paris.h>\nint main() { CM_init(); CM_set_context(); return (int)CM_global_count_context() == 0; }\n")
+        (self.at / "tmp").mkdir()
+        self.assertEqual(self.run_it("cc", "one.c", "-o", "one").returncode, 0)
+        read, written = os.pipe()
+        os.close(read)
+        with os.fdopen(written) as pipe:
+            subprocess.run([LUTETIA, "explain", "./one"], cwd=self.at, stdin=subprocess.DEVNULL, stdout=pipe, stderr=subprocess.DEVNULL,
+                           env=dict(os.environ, TMPDIR=str(self.at / "tmp")), timeout=300, check=False)
+        self.assertEqual(os.listdir(self.at / "tmp"), [])
+
     def test_scripts_names_have_our_endings(self):
         names = (".bashrc", "x@OTHER", "x", "@END", "sub/@END", ".x@END", "sub/.x@END", "-rf@END", "sub/-x@END", "../x@END",
                  "sub/../x@END", "sub/../../x@END", "/tmp/x@END", "x@END/", ".git/x@END", "link@END", "out/x@END", "X@UPPER")
