@@ -7,6 +7,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
@@ -44,6 +45,33 @@ void shown_interrupt(const struct shown *s)
 {
     if (s->watched && getppid() == s->watched)
         kill(s->watched, SIGINT);
+}
+
+/* ---- times ---- */
+
+uint64_t shown_time_us(struct shown *s, uint64_t time_us)
+{
+    if (s->base_us + time_us < s->last_us) /* the next recording begins */
+        s->base_us = s->last_us;
+    s->last_us = s->base_us + time_us;
+    return s->last_us;
+}
+
+bool shown_times_good(const struct shown *s, uint64_t until_us, double fps, int most,
+                      uint64_t taken, const char *kind)
+{
+    const double until_s = (double)until_us * 1e-6, wanted = ceil(until_s * fps),
+                 allowed = most ? most : SHOWN_ANY + SHOWN_EACH * (double)taken;
+    char option[40] = "";
+    if (s->seen || wanted <= allowed)
+        return true;
+    if (wanted <= SHOWN_PICTURES_MOST)
+        snprintf(option, sizeof option, ", or --pictures %.0f", wanted);
+    fail(s->verb,
+         "the recording says that %s %llu came after %.4g s: %.0f pictures (%.0f are the "
+         "most); take a lower --fps%s",
+         kind, (unsigned long long)taken, until_s, wanted, allowed, option);
+    return false;
 }
 
 /* ---- the bytes ---- */

@@ -17,6 +17,7 @@
 
 #include <pthread.h>
 #include <stdbool.h>
+#include <stdint.h>
 #include <sys/types.h>
 
 struct shown {
@@ -34,6 +35,8 @@ struct shown {
     pid_t watched; /* the process that libparis watches by us; 0: none */
     char name[64]; /* the source's name, for the title */
     bool seen;     /* pieces come as the program runs: their times have really passed */
+    uint64_t base_us,
+        last_us; /* when the present one of several recordings begins; the last time */
     pthread_mutex_t lock;
 };
 
@@ -43,6 +46,18 @@ void shown_name(struct shown *shown, const char *word);
 bool shown_is_recording(const struct shown *shown, const char *path);
 /* Shows what the command line names, to its end. Returns an exit status; what was wrong has been printed. */
 int shown_source(struct shown *shown, int argc, char **argv);
+/* The time of a piece, from the first recording's beginning: several may follow each other, each with times from 0 on. */
+uint64_t shown_time_us(struct shown *shown, uint64_t time_us);
+/* Whether a recording may have pictures up to that time, fps a second. A few bytes can say that a thousand years have gone by: their times
+ * may ask for SHOWN_ANY pictures and SHOWN_EACH for each of the `taken` pieces (of a `kind`: "light"), or for `most` if it is not 0; a
+ * program that is seen to run, for any. False: it has been said. */
+enum {
+    SHOWN_ANY = 3000,
+    SHOWN_EACH = 100,
+    SHOWN_PICTURES_MOST = 999999 /* as names have digits for */
+};
+bool shown_times_good(const struct shown *shown, uint64_t until_us, double fps, int most,
+                      uint64_t taken, const char *kind);
 /* A window is ready: tells the watched program. False: it has gone. */
 bool shown_ready(const struct shown *shown);
 /* The window was closed: interrupts the watched program. */

@@ -46,19 +46,13 @@ struct displays {
     bool windowed; /* windows are opened for displays */
     bool closed;   /* the user closed one */
     bool paced;    /* pictures wait for their times */
-    uint64_t pictures, base_us, last_us;
+    uint64_t pictures;
     int status;
     struct progress progress;
     double drawn_s;
 };
 
-enum {
-    FRAMES_MOST = 999999,
-    FILM_FPS = 30,
-    WINDOW_FPS = 60,
-    PICTURES_ANY = 3000,
-    PICTURES_EACH = 100
-};
+enum { FILM_FPS = 30, WINDOW_FPS = 60 };
 
 static bool go_on(void *context)
 {
@@ -135,7 +129,7 @@ static int film_add(struct screen *s)
 static int picture_write(struct screen *s)
 {
     int status = EXIT_SUCCESS;
-    if (s->written == FRAMES_MOST)
+    if (s->written == SHOWN_PICTURES_MOST)
         return fail("display", "a million pictures are enough; take --every or a lower --fps");
     if (s->all->frames_dir)
         status = frame_write(s);
@@ -155,26 +149,14 @@ static void progress_line(struct displays *d)
     fflush(stderr);
 }
 
-/* How many pictures the times that a recording claims may ask for: a few bytes can say that a thousand years have gone by. */
-static double pictures_most(const struct displays *d)
-{
-    if (d->source.seen)
-        return INFINITY;
-    return d->pictures_most ? d->pictures_most
-                            : PICTURES_ANY + PICTURES_EACH * (double)d->pictures;
-}
-
 /* With --fps: writes the last picture for the times before the next. */
 static int time_fill(struct screen *s, uint64_t until_us)
 {
     struct displays *d = s->all;
-    const double until_s = (double)until_us * 1e-6, wanted = ceil(until_s * d->fps);
     int status = EXIT_SUCCESS;
-    if (wanted > pictures_most(d))
-        return fail("display",
-                    "the recording says that picture %llu came after %.4g s: %.0f pictures "
-                    "(%.0f are the most); take a lower --fps, or --pictures",
-                    (unsigned long long)d->pictures, until_s, wanted, pictures_most(d));
+    if (!shown_times_good(&d->source, until_us, d->fps, d->pictures_most, d->pictures,
+                          "picture"))
+        return EXIT_FAILED;
     while (status == EXIT_SUCCESS && !interrupted() &&
            (double)s->written / d->fps * 1e6 < (double)until_us)
         status = picture_write(s);
@@ -336,12 +318,7 @@ static int change_take(void *context, const struct display_change *change)
 {
     struct displays *d = context;
     struct screen *s = &d->screens[change->number - 1];
-    uint64_t time_us = d->base_us + change->time_us;
-    if (time_us < d->last_us) { /* the next of several recordings begins */
-        d->base_us = d->last_us;
-        time_us = d->base_us + change->time_us;
-    }
-    d->last_us = time_us;
+    const uint64_t time_us = shown_time_us(&d->source, change->time_us);
     if (change->opened)
         d->status = size_take(s);
     else if (change->seen)
@@ -531,7 +508,7 @@ int verb_display(int argc, char **argv)
         {"pictures", 0, OPTION_INTEGER, "N",
          "with --fps: the most pictures that the times in a recording may ask for (3000, and "
          "100 for each picture)",
-         &d.pictures_most, 1, FRAMES_MOST, 0},
+         &d.pictures_most, 1, SHOWN_PICTURES_MOST, 0},
         {0}};
     int own = options_own(rows, argc, argv);
     struct option_words words;

@@ -43,17 +43,13 @@ struct leds {
     struct display_image image;
     struct light_frame last;          /* the last frame taken */
     uint8_t drawn[FRONT_PANEL_BYTES]; /* in the window */
-    uint64_t taken, base_us;          /* base_us: the time at which the present one of several
-                              * recordings begins */
-    uint64_t last_us;
+    uint64_t taken;
     int written, status;
     struct progress progress;
     double drawn_s;
 };
 
 /* ---- pictures ---- */
-
-enum { PICTURES_MOST = 999999 }; /* as their names have digits for */
 
 static int picture_write(struct leds *leds, const char *path)
 {
@@ -70,7 +66,7 @@ static int frame_write(struct leds *leds)
         snprintf(path, sizeof path, "%s/frame-%06d.png", leds->frames_dir, leds->written);
     if (length < 0 || (size_t)length >= sizeof path)
         return fail("leds", "--frames: the folder's name is too long");
-    if (leds->written == PICTURES_MOST)
+    if (leds->written == SHOWN_PICTURES_MOST)
         return fail("leds", "a million pictures are enough; take --every or a lower --fps");
     leds->written++;
     return picture_write(leds, path);
@@ -170,31 +166,12 @@ static void window_linger(struct leds *leds)
         turn(leds, 0.1);
 }
 
-enum { PICTURES_ANY = 3000, PICTURES_EACH = 100 };
-
-/* How many pictures the times that a recording claims may ask for: a kilobyte can say that a
- * thousand years have gone by. */
-static double pictures_most(const struct leds *leds)
-{
-    if (leds->source.seen)
-        return INFINITY;
-    return leds->pictures_most ? leds->pictures_most
-                               : PICTURES_ANY + PICTURES_EACH * (double)leds->taken;
-}
-
 /* With --fps: writes the previous frame for the times before this frame. */
 static void time_fill(struct leds *leds, uint64_t until_us)
 {
-    const double until_s = (double)until_us * 1e-6, wanted = ceil(until_s * leds->fps);
-    if (wanted > pictures_most(leds)) {
-        char option[40] = "";
-        if (wanted <= PICTURES_MOST)
-            snprintf(option, sizeof option, ", or --pictures %.0f", wanted);
-        leds->status =
-            fail("leds",
-                 "--frames: the recording says that light %llu came after %.4g s: "
-                 "%.0f pictures (%.0f are the most); take a lower --fps%s",
-                 (unsigned long long)leds->taken, until_s, wanted, pictures_most(leds), option);
+    if (!shown_times_good(&leds->source, until_us, leds->fps, leds->pictures_most, leds->taken,
+                          "light")) {
+        leds->status = EXIT_FAILED;
         return;
     }
     while (go_on(leds) && (double)leds->written / leds->fps * 1e6 < (double)until_us) {
@@ -206,17 +183,12 @@ static void time_fill(struct leds *leds, uint64_t until_us)
 static int frame_take(void *context, const struct light_frame *frame)
 {
     struct leds *leds = context;
-    uint64_t time_us = leds->base_us + frame->time_us;
-    if (leds->taken && time_us < leds->last_us) { /* the next of several recordings begins */
-        leds->base_us = leds->last_us;
-        time_us = leds->base_us + frame->time_us;
-    }
+    const uint64_t time_us = shown_time_us(&leds->source, frame->time_us);
     if (leds->frames_dir && leds->fps > 0 && leds->taken)
         time_fill(leds, time_us);
     if (leds->window && leds->paced)
         pace(leds, (double)time_us * 1e-6);
     leds->last = *frame;
-    leds->last_us = time_us;
     if (go_on(leds) && leds->frames_dir && leds->fps <= 0 &&
         leds->taken % (uint64_t)leds->every == 0)
         leds->status = frame_write(leds);
@@ -416,7 +388,7 @@ int verb_leds(int argc, char **argv)
         {"pictures", 0, OPTION_INTEGER, "N",
          "with --fps: the most pictures that the times in a recording may ask for (3000, and "
          "100 for each light)",
-         &leds.pictures_most, 1, PICTURES_MOST, 0},
+         &leds.pictures_most, 1, SHOWN_PICTURES_MOST, 0},
         {"size", 0, OPTION_SIZE, "WxH", "size of a picture (960x960)", leds.size,
          FRONT_PANEL_SIDE_MIN, FRONT_PANEL_SIDE_MAX, 0},
         {"view", 0, OPTION_TEXT, "VIEW",
