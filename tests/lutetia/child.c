@@ -63,3 +63,11 @@ void child_run(struct child *child)
     file_take(output, child->output);
     file_take(errors, child->errors);
 }
+
+bool child_says(struct child *child, int status, const char *says, int lines)
+{
+    child_run(child);
+    for (const char *c = child->errors; *c; c++)
+        lines -= *c == '\n';
+    return child->status == status && strstr(child->errors, says) && lines == 0;
+}

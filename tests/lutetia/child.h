@@ -24,5 +24,7 @@ struct child {
 };
 
 void child_run(struct child *child);
+/* Runs it. Whether it ended with that status, and its errors say that in so many lines. */
+bool child_says(struct child *child, int status, const char *says, int lines);
 
 #endif

@@ -48,11 +48,7 @@ static void run(struct child *child, int status, const char *says)
 {
     child->arguments[0] = lutetia;
     child->arguments[1] = "leds";
-    child_run(child);
-    int lines = 0;
-    for (const char *c = child->errors; *c; c++)
-        lines += *c == '\n';
-    if (child->status != status || !strstr(child->errors, says) || lines != (status != 0))
+    if (!child_says(child, status, says, status != 0))
         fail_msg("exit %d for %d, and it said: %s", child->status, status, child->errors);
 }
 

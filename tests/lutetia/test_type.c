@@ -23,11 +23,7 @@ static const char *lutetia;
 static void run(struct child *child, int status, const char *says)
 {
     child->arguments[0] = lutetia;
-    child_run(child);
-    int lines = 0;
-    for (const char *c = child->errors; *c; c++)
-        lines += *c == '\n';
-    if (child->status != status || !strstr(child->errors, says) || lines != (*says != 0))
+    if (!child_says(child, status, says, *says != 0))
         fail_msg("exit %d for %d, and it said: %s", child->status, status, child->errors);
 }
 
