@@ -119,11 +119,24 @@ static void step_put(struct byte_code *p, struct lanes_step s)
     p->steps[p->steps_count++] = s;
 }
 
-/* Steps of which each takes what the one before it gives, in two registers in turn, and the selection that takes the last; another may. */
+static void and_put(struct byte_code *p, int to, int a, int b)
+{
+    step_put(p, step(MACHINE_AND, LANES_U8, to, a, b, 0));
+}
+
+/* Steps of which each takes what the one before it gives, in two registers in turn, and the selection that takes the last; another may. In some
+ * the bit is an and, and that of the other selection is the and of the same registers, one of which has changed. */
 static void chain_put(struct byte_code *p)
 {
-    const int count = 1 + below(4), bit = any(false),
+    const bool changes = below(3) == 0;
+    const int first = below(REGISTERS);
+    int bits_of[REGISTERS];
+    for (int i = 0; i < REGISTERS; i++)
+        bits_of[i] = BITS + (first + i) % REGISTERS;
+    const int count = 1 + below(4), bit = changes ? bits_of[2] : any(false),
               last = NUMBERS + TEMPORARY + (count - 1) % 2;
+    if (changes)
+        and_put(p, bit, bits_of[0], bits_of[1]);
     for (int i = 0; i < count; i++) {
         const int to = NUMBERS + TEMPORARY + i % 2, before = NUMBERS + TEMPORARY + (i + 1) % 2;
         struct lanes_step s = step(below(2) ? MACHINE_ADD : MACHINE_MUL, LANES_U32, to,
@@ -134,9 +147,14 @@ static void chain_put(struct byte_code *p)
             step_put(p, any_step());
     }
     step_put(p, step(NODE_SELECT, LANES_U32, NUMBERS, bit, last, NUMBERS + 1));
-    if (below(3) == 0)
+    if (changes) {
+        and_put(p, bits_of[0], BITS_IN + below(ARRAYS), BITS_IN + below(ARRAYS));
+        and_put(p, bits_of[3], bits_of[0], bits_of[1]);
+        step_put(p, step(NODE_SELECT, LANES_U32, NUMBERS + 1, bits_of[3], last, NUMBERS));
+    } else if (below(3) == 0) {
         step_put(p, step(NODE_SELECT, LANES_U32, NUMBERS + 1, below(2) ? bit : any(false), last,
                          NUMBERS));
+    }
 }
 
 static void program_make(struct byte_code *p)
