@@ -2,20 +2,12 @@
 #include "script_internal.h"
 
 #include <string.h>
-#include <time.h>
 
 struct script *script_of(lua_State *L)
 {
     struct script *script;
     memcpy(&script, lua_getextraspace(L), sizeof script);
     return script;
-}
-
-double script_clock_s(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 bool script_interrupted(const struct script *script)

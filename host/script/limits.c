@@ -6,12 +6,30 @@
 #include <malloc.h>
 #include <math.h>
 #include <stdio.h>
+#include <time.h>
 
 /* ---- time ---- */
 
+static double clock_s(clockid_t clock)
+{
+    struct timespec now = {0};
+    clock_gettime(clock, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+double script_clock_s(void)
+{
+    return clock_s(CLOCK_MONOTONIC);
+}
+
+void script_deadline_set(struct script *script, double seconds)
+{
+    script->deadline_s = clock_s(script->clock) + seconds;
+}
+
 static bool late(const struct script *script)
 {
-    return script->deadline_s > 0 && script_clock_s() > script->deadline_s;
+    return script->deadline_s > 0 && clock_s(script->clock) > script->deadline_s;
 }
 
 bool script_due(const struct script *script)
@@ -47,13 +65,10 @@ void script_stop_if_due(lua_State *L, int level)
     char text[96];
     if (script_interrupted(script))
         snprintf(text, sizeof text, "interrupted");
-    else if (late(script) && script->answers)
-        snprintf(text, sizeof text, "stopped after %g seconds: an answer takes less",
-                 script->config->timeout_s);
-    else if (late(script))
-        snprintf(text, sizeof text,
-                 "stopped after %g seconds; --timeout says how long a script may take",
-                 script->config->timeout_s);
+    else if (late(script)) /* asked once: it may become late between two questions */
+        snprintf(text, sizeof text, "stopped after %g seconds%s", script->config->timeout_s,
+                 script->answers ? ": an answer takes less"
+                                 : "; --timeout says how long a script may take");
     else
         return;
     luaL_where(L, level);

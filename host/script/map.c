@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* An answer takes no longer, nor does the file's reading; and all of the map takes no more memory. */
+/* An answer computes no longer, nor does the file's reading, however busy the computer is; and all of the map takes no more
+ * memory. */
 static const double answer_s = 0.1;
 /* A map that is cut off ends the performance, so it gets longer than a script: one call of C with much memory may take some
  * seconds on a busy computer. */
@@ -105,7 +106,9 @@ static void host_overdue(void *context)
 static bool answer(struct script_map *map, lua_CFunction function, void *argument)
 {
     lua_State *L = map->L;
-    map->script.deadline_s = script_clock_s() + answer_s;
+    if (pthread_getcpuclockid(pthread_self(), &map->script.clock) != 0)
+        map->script.clock = CLOCK_MONOTONIC;
+    script_deadline_set(&map->script, answer_s);
     map->script.memory_short = false;
     map->script.stack_begin = __builtin_frame_address(0);
     script_hook_set(L);
@@ -197,6 +200,7 @@ static void map_configure(struct script_map *map, const struct script_map_def *d
     map->script = (struct script){.config = &map->config,
                                   .host = &map->host,
                                   .began_s = script_clock_s(),
+                                  .clock = CLOCK_MONOTONIC,
                                   .answers = true};
 }
 

@@ -169,7 +169,10 @@ static enum script_status words_end(const struct script *script)
 enum script_status script_run(const struct script_config *config,
                               const struct script_host *host)
 {
-    struct script script = {.config = config, .host = host, .began_s = script_clock_s()},
+    struct script script = {.config = config,
+                            .host = host,
+                            .began_s = script_clock_s(),
+                            .clock = CLOCK_MONOTONIC},
                   *self = &script;
     char text[128];
     script.stack_begin = __builtin_frame_address(0);
@@ -179,7 +182,7 @@ enum script_status script_run(const struct script_config *config,
         return SCRIPT_FAILED;
     }
     if (config->timeout_s > 0)
-        script.deadline_s = script.began_s + config->timeout_s;
+        script_deadline_set(self, config->timeout_s);
     lua_State *L = lua_newstate(script_allocate, self);
     if (!L) {
         snprintf(text, sizeof text, "no memory for Lua; --memory must be more than %zu bytes",

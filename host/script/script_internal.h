@@ -18,6 +18,7 @@
 
 #include <pthread.h>
 #include <stdatomic.h>
+#include <time.h>
 
 /* The largest coordinate of a place that a script can name, in fibers. */
 enum { SCRIPT_PLACE_MAX = 100000 };
@@ -40,11 +41,13 @@ struct script_watchdog {
 struct script {
     const struct script_config *config;
     const struct script_host *host;
-    double began_s, deadline_s; /* by script_clock_s(); deadline 0: none */
-    lua_State *main;            /* its first thread; NULL: not opened yet */
-    size_t memory_bytes;        /* taken */
-    bool memory_short;          /* an allocation of Lua's was refused */
-    struct patience before;     /* of the thread, before the script (limits.c) */
+    double began_s;         /* by script_clock_s() */
+    double deadline_s;      /* by `clock`; 0: none */
+    clockid_t clock;        /* CLOCK_MONOTONIC; of an answer: what its thread has computed */
+    lua_State *main;        /* its first thread; NULL: not opened yet */
+    size_t memory_bytes;    /* taken */
+    bool memory_short;      /* an allocation of Lua's was refused */
+    struct patience before; /* of the thread, before the script (limits.c) */
     bool
         answers; /* it is asked again and again, and each answer has its own time (script_map.h) */
     const char *stack_begin; /* where the C stack was when the script began; NULL: not known */
@@ -63,12 +66,14 @@ struct script {
 
 /* The script of a state. */
 struct script *script_of(lua_State *L);
-double script_clock_s(void);
+double script_clock_s(void); /* CLOCK_MONOTONIC */
 
 /* ---- limits ---- */
 
 /* Whether time is up, or the host wants the script to stop. */
 bool script_due(const struct script *script);
+/* It is late once its clock has gone on by these seconds. */
+void script_deadline_set(struct script *script, double seconds);
 /* Libraries that the script calls ask the script's limits from here on (patience.h), until the end. */
 void script_patience_begin(struct script *script);
 void script_patience_end(struct script *script);

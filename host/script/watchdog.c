@@ -29,7 +29,7 @@ static bool overdue(struct script *script, double *since_s)
         return false;
     }
     if (*since_s == 0)
-        *since_s = script_interrupted(script) ? now : script->deadline_s;
+        *since_s = now;
     if (*since_s < w->grace_from_s)
         *since_s = w->grace_from_s;
     double grace_s = script->config->grace_s *
