@@ -3,10 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/code_pages.h"
 #include "base/errors.h"
 #include "build/background.h"
 #include "build/plans.h"
+#include "device/code_pages.h"
 #include "forks.h"
 #include "machine_told.h"
 #include "measure/copies.h"
@@ -54,8 +54,9 @@ struct machine_layers {
 /* Written here: pages of calloc()'s may be given only when the program's first calls look at them, which takes them some microseconds. */
 static struct machine_layers *layers_allocate(void)
 {
-    enum { LINE = 64 };
-    struct machine_layers *l = aligned_alloc(LINE, (sizeof *l + LINE - 1) / LINE * LINE);
+    const size_t bytes =
+        (sizeof(struct machine_layers) + LINE_BYTES - 1) / LINE_BYTES * LINE_BYTES;
+    struct machine_layers *l = aligned_alloc(LINE_BYTES, bytes);
     if (l)
         memset(l, 0, sizeof *l);
     return l;

@@ -10,7 +10,7 @@
 #include <sys/resource.h>
 
 #include "../skip.h"
-#include "base/code_pages.h"
+#include "device/code_pages.h"
 
 enum { PAGE_BYTES = 4096 };
 

@@ -563,11 +563,11 @@ int strips_columns(const struct strips *s)
 /* All rows begin a line of the caches; not all the same one. */
 int strips_near_columns(const struct strips *s, int columns)
 {
-    enum { LINE = 64, STEPS = 8 };
+    enum { STEPS = 8 };
     int least = (2 * columns < s->set->width ? 2 * columns : s->set->width) + 2 * s->margin +
                 s->vector,
-        step = LINE;
+        step = LINE_BYTES;
     while (step * STEPS < least)
         step *= 2;
-    return (least + step - 1) / step * step + LINE;
+    return (least + step - 1) / step * step + LINE_BYTES;
 }

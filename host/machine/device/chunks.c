@@ -13,12 +13,6 @@ struct chunk {
     _Atomic int parts; /* and the device, while it takes parts of it; and who writes it */
 };
 
-enum {
-    SMALL_CHUNK_BYTES = 512 << 10,
-    SMALL_MOST = 32 << 10, /* of an array */
-    PAGE_BYTES = 4096
-};
-
 static struct chunk *chunk_create(const struct device *d, size_t bytes, size_t page)
 {
     struct chunk *c = calloc(1, sizeof *c);
@@ -113,7 +107,7 @@ static bool is_middle(const struct device *d, struct rows rows)
 
 void device_expect(struct device *d, struct rows rows)
 {
-    if (!is_middle(d, rows) || rows.bytes <= SMALL_MOST)
+    if (!is_middle(d, rows) || rows.bytes <= SMALL_ARRAY_BYTES)
         return;
     d->expected_bytes += 2 * rows.bytes; /* what it holds, and what it is made of */
     next_make(d, (int)(d->expected_bytes / d->shape.large_page_bytes + 1));
@@ -157,7 +151,7 @@ static size_t chunk_place(const struct device *d, const struct chunk *c, struct 
 /* The chunk for an array; NULL: it has memory of its own. */
 static struct chunk *chunk_of(struct device *d, struct rows rows)
 {
-    if (d->small && rows.bytes <= SMALL_MOST && chunk_place(d, d->small, rows))
+    if (d->small && rows.bytes <= SMALL_ARRAY_BYTES && chunk_place(d, d->small, rows))
         return d->small;
     if (!is_middle(d, rows))
         return NULL;

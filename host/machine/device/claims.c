@@ -2,7 +2,12 @@
 #include "base/parts.h"
 #include "device/device.h"
 
-enum { LOTS_MOST = 64, APART = 16, OF = 80, WORDS = OF + 2 * LOTS_MOST * APART };
+enum {
+    LOTS_MOST = 64,
+    APART = LINE_BYTES / sizeof(cl_int),
+    OF = 80,
+    WORDS = OF + 2 * LOTS_MOST * APART
+};
 /* Both numbers of a lot's claims have 16 bits, also if each work-group tries in vain first. */
 enum { PLACES_MOST = 1 << 15 };
 

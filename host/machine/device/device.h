@@ -13,7 +13,7 @@
 
 /* Each buffer has this much unused memory before and after it, because kernels in strips
  * load vectors that partly lie beyond a row's ends. A multiple of any device's alignment. */
-enum { DEVICE_GUARD_BYTES = 4096, LINE_BYTES = 64, CHUNKS_AHEAD = 6 };
+enum { DEVICE_GUARD_BYTES = PAGE_BYTES, CHUNKS_AHEAD = 6 };
 
 /* The size of a buffer, and the offset of its first row's first column, in bytes. */
 struct rows {

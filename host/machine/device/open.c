@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/code_pages.h"
 #include "base/errors.h"
 #include "base/parts.h"
 #include "device/chunks.h"
+#include "device/code_pages.h"
 #include "device/tuning.h"
 #include "devices.h"
 #include "input_file.h"

@@ -1,7 +1,7 @@
 /* shape.h - what generated code should look like on a device, and what things cost there.
  *
- * All numbers about hardware are here: costs_by_driver.c has a row of them for each kind of device and driver, and says
- * where each row comes from. Some of them `lutetia tune` chooses by measuring (enum machine_knob), some the device tells. `lutetia bench
+ * All numbers about hardware are here (test machine_hardware): those of the front end's processor, and those of a device, of which
+ * costs_by_driver.c has a row for each kind of device and driver, and says where each row comes from. Some of them `lutetia tune` chooses by measuring (enum machine_knob), some the device tells. `lutetia bench
  * model` measures programs beside what follows from the costs. */
 #ifndef LUTETIA_MACHINE_SHAPE_H
 #define LUTETIA_MACHINE_SHAPE_H
@@ -10,6 +10,35 @@
 
 #include "base/crew.h"
 #include "machine.h"
+
+/* What the front end's own code is laid out for: numbers of its processor, which no device tells. */
+enum {
+    LINE_BYTES = 64, /* of a cache */
+    PAGE_BYTES = 4096,
+    /* Code that is fetched ahead, device/code_pages.h: at a time, since who wants more memory waits meanwhile; on each side of a
+     * function, for the machine and C/Paris are linked one after the other and have less; and what almost any call needs, which
+     * is less than a processor's own cache. */
+    CODE_PIECE_BYTES = 128 << 10,
+    CODE_SIDE_BYTES = 2 << 20,
+    CODE_NEAR_BYTES = 448 << 10,
+    /* Arrays up to such a size are parts of a chunk of such a size: device/chunks.h. */
+    SMALL_ARRAY_BYTES = 32 << 10,
+    SMALL_CHUNK_BYTES = 512 << 10,
+    /* The interpreter's registers have so many bytes at least: a page that is written for the first time costs more than a step. */
+    REGISTERS_LEAST_BYTES = 32 << 10,
+    /* A step for a window of the lanes takes longer to begin, so it leaves out so many lanes at least. */
+    WINDOW_LANES = 128,
+    /* A processor looks ahead over some loads only. In an array of so many bytes and more the interpreter fetches places so many lanes
+     * ahead; the front end's router fetches destinations so many messages ahead. */
+    GATHER_FAR_BYTES = 8 << 20,
+    GATHER_AHEAD_LANES = 64,
+    MESSAGES_AHEAD = 64,
+    /* Sends to few processors, ops/near_few.h: the most bytes of a table, and of each of several, which are all in the nearest
+     * cache; and the least senders for a processor, or to join the tables takes longer. */
+    TABLE_BYTES = 32 << 10,
+    TABLE_NEAR_BYTES = 8 << 10,
+    TABLE_SENDERS = 16
+};
 
 struct device_shape {
     /* Work-items. */

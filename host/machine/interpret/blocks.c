@@ -15,9 +15,6 @@
 #include "interpret/windows.h"
 #include "values/values.h"
 
-/* WORTH_LANES: a step for fewer lanes takes longer to begin, so it leaves out so many at least. */
-enum { LINE = 64, ROOM_LEAST_BYTES = 32 << 10, WORTH_LANES = 128 };
-
 /* Lanes of a block: from column x of a row on, or whole rows. */
 struct block {
     uint64_t row;
@@ -46,11 +43,11 @@ static bool room_ready(struct blocks_registers *room, const struct byte_code *p)
 {
     if (!room->memory || room->bytes < p->registers_bytes) {
         /* Twice as much as before, at least: a page that is written for the first time costs more than a step. */
-        size_t bytes = p->registers_bytes / 4096 * 4096 + 4096;
+        size_t bytes = p->registers_bytes / PAGE_BYTES * PAGE_BYTES + PAGE_BYTES;
         bytes = bytes < 2 * room->bytes ? 2 * room->bytes : bytes;
-        bytes = bytes < ROOM_LEAST_BYTES ? ROOM_LEAST_BYTES : bytes;
+        bytes = bytes < REGISTERS_LEAST_BYTES ? REGISTERS_LEAST_BYTES : bytes;
         free(room->memory);
-        room->memory = aligned_alloc(LINE, bytes);
+        room->memory = aligned_alloc(LINE_BYTES, bytes);
         room->bytes = room->memory ? bytes : 0;
         if (!room->memory)
             return false;
@@ -222,7 +219,7 @@ static inline __attribute__((always_inline)) void fetch(const struct run *r, int
 {
     const int bytes = lanes * r->p->places[place].bytes;
     const char *next = (const char *)r->room->at[place] + bytes;
-    for (int i = 0; i < bytes; i += LINE)
+    for (int i = 0; i < bytes; i += LINE_BYTES)
         if (written)
             __builtin_prefetch(next + i, 1, 2);
         else
@@ -264,7 +261,7 @@ static void block_run(const struct run *r, const struct block *b)
             w = window_of(&r->p->guards[s->in[0]], r->room->at, b->lanes);
             if (w.from == w.end)
                 i += s->detail;
-            else if (b->lanes - (w.end - w.from) >= WORTH_LANES)
+            else if (b->lanes - (w.end - w.from) >= WINDOW_LANES)
                 guarded = i + s->detail;
             continue;
         }

@@ -12,6 +12,7 @@
 
 #include "base/fill.h"
 #include "base/scalar.h"
+#include "device/shape.h"
 
 typedef uint8_t u8;
 typedef uint16_t u16;

@@ -170,10 +170,8 @@ static void places(u32 *place, size_t n, const struct lanes_rows *r)
 
 #ifdef __AVX512F__
 
-/* Of an array of so many bytes and more, most places are in memory: they are fetched so many lanes ahead, and sixteen loads wait together. In the caches
- * one load after the other is as fast, and faster where places lie side by side. */
-enum { FETCH_FAR_BYTES = 8 << 20, FETCH_AHEAD = 64 };
-
+/* The places of a large array are in memory: they are fetched ahead, and sixteen loads wait together. In the caches one load
+ * after the other is as fast, and faster where places lie side by side. */
 static inline void fetch_ahead(const u32 *place, const void *array, u32 count, size_t bytes)
 {
     for (int k = 0; k < 16; k++)
@@ -191,13 +189,13 @@ static inline void fetch_ahead(const u32 *place, const void *array, u32 count, s
         const u32 count = *(const u32 *)at[s->in[2]];                                          \
         const __m512i most = _mm512_set1_epi32((i32)count);                                    \
         const int whole = n / 16 * 16;                                                         \
-        if (s->in_a_row || count < FETCH_FAR_BYTES / sizeof(T) || count > INT32_MAX) {         \
+        if (s->in_a_row || count < GATHER_FAR_BYTES / sizeof(T) || count > INT32_MAX) {        \
             fetch_##T(s, at, n);                                                               \
             return;                                                                            \
         }                                                                                      \
         for (int i = 0; i < whole; i += 16) {                                                  \
-            if (i + FETCH_AHEAD + 16 <= n)                                                     \
-                fetch_ahead(place + i + FETCH_AHEAD, array, count, sizeof(T));                 \
+            if (i + GATHER_AHEAD_LANES + 16 <= n)                                              \
+                fetch_ahead(place + i + GATHER_AHEAD_LANES, array, count, sizeof(T));          \
             const __m512i x = _mm512_loadu_si512(place + i);                                   \
             const __mmask16 there = _mm512_cmplt_epu32_mask(x, most);                          \
             GATHER                                                                             \

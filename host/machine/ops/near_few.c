@@ -15,12 +15,7 @@
 #include "base/scalar.h"
 #include "base/types.h"
 
-enum {
-    TABLES = 4,
-    TABLE_BYTES = 32 << 10, /* the most of one */
-    NEAR_BYTES = 8 << 10,   /* of one of several: all are in the nearest cache */
-    SENDERS_EACH = 16       /* the least for a processor, or the end takes longer */
-};
+enum { TABLES = 4 };
 
 typedef unsigned __int128 u128;
 
@@ -189,13 +184,14 @@ bool near_send_few(const struct near_route *r, int combiner, struct machine_type
                     .bytes = type_bytes(type),
                     .source = source,
                     .same = same};
-    if (r->to->count > TABLE_BYTES / f.bytes || r->to->count * SENDERS_EACH > r->from->count)
+    if (r->to->count > TABLE_BYTES / f.bytes || r->to->count * TABLE_SENDERS > r->from->count)
         return false;
-    f.table_bytes = (((size_t)r->to->count + 1) * f.bytes + 63) / 64 * 64;
-    f.tables_count = f.table_bytes <= NEAR_BYTES ? TABLES : 1;
+    f.table_bytes =
+        (((size_t)r->to->count + 1) * f.bytes + LINE_BYTES - 1) / LINE_BYTES * LINE_BYTES;
+    f.tables_count = f.table_bytes <= TABLE_NEAR_BYTES ? TABLES : 1;
     const size_t tables = (size_t)r->parts * (size_t)f.tables_count;
     const struct machine_scalar none = identity_of(combiner, type.width);
-    f.tables = aligned_alloc(64, tables * f.table_bytes);
+    f.tables = aligned_alloc(LINE_BYTES, tables * f.table_bytes);
     if (!f.tables)
         return false;
     array_fill(f.tables, (const uint64_t[2]){none.lo, none.hi}, f.bytes,

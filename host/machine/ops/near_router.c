@@ -216,16 +216,13 @@ static void floats_join(const struct hops *h, int combiner, struct machine_type 
         FLOATS_JOIN(double)
 }
 
-/* The processor looks ahead over some loads only, so destinations are fetched so many messages before. */
-enum { AHEAD = 64 };
-
 #define MOVE_ALL(T)                                                                            \
     {                                                                                          \
         const T *in = (const T *)source + from;                                                \
         T *to = (T *)out + r->to->halo;                                                        \
         int i = 0;                                                                             \
         for (; i < fetched; i++) {                                                             \
-            __builtin_prefetch(to + (index[i + AHEAD] & mask), 1, 3);                          \
+            __builtin_prefetch(to + (index[i + MESSAGES_AHEAD] & mask), 1, 3);                 \
             to[index[i] & mask] = in[i];                                                       \
         }                                                                                      \
         for (; i < n; i++)                                                                     \
@@ -236,9 +233,9 @@ enum { AHEAD = 64 };
 static bool messages_move_all(const struct near_route *r, const struct block *b, size_t bytes,
                               const void *source, size_t from, void *out)
 {
-    uint32_t found[BLOCK + AHEAD];
+    uint32_t found[BLOCK + MESSAGES_AHEAD];
     const uint32_t *index = found, mask = r->mask;
-    const int n = b->n, known = b->follow < AHEAD ? n + b->follow : n + AHEAD;
+    const int n = b->n, known = b->follow < MESSAGES_AHEAD ? n + b->follow : n + MESSAGES_AHEAD;
     const size_t at = b->at;
     if (r->context || r->to->rows > 1)
         return false;
@@ -248,8 +245,9 @@ static bool messages_move_all(const struct near_route *r, const struct block *b,
         near_addresses(r, at, known, found);
     if (!r->there && r->lanes->greatest(found, known) >= r->to->count)
         return false;
-    const int fetched =
-        known > AHEAD && r->to->count * bytes > r->near_bytes ? known - AHEAD : 0;
+    const int fetched = known > MESSAGES_AHEAD && r->to->count * bytes > r->near_bytes
+                            ? known - MESSAGES_AHEAD
+                            : 0;
     switch (bytes) {
     case 1:
         MOVE_ALL(uint8_t)

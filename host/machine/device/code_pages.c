@@ -2,7 +2,7 @@
  *
  *     a library     | names | code ... this function ... | constants | tables for exceptions | constants with addresses | variables
  *                           '---------- fetched ---------'-----------'                       '--------------------------' */
-#include "base/code_pages.h"
+#include "device/code_pages.h"
 
 #include <link.h>
 #include <sched.h>
@@ -10,15 +10,7 @@
 #include <stdint.h>
 #include <sys/mman.h>
 
-enum {
-    PAGE_BYTES = 4096,
-    LINE_BYTES = 64,
-    PIECE_BYTES = 128 << 10,
-    MOST_ON_A_SIDE =
-        2 << 20, /* the machine and C/Paris are linked one after the other, and have less */
-    NEAR_ON_A_SIDE =
-        448 << 10 /* what almost any call needs, and less than a processor's own cache */
-};
+#include "device/shape.h"
 
 struct search {
     uintptr_t wanted;
@@ -78,7 +70,7 @@ int code_pages_find(size_t most_on_a_side, struct code_range out[CODE_RANGES_MOS
 __attribute__((no_sanitize("address"))) static void range_fetch(const struct code_range *r)
 {
     for (const char *at = r->begin, *next; at < r->end; at = next) {
-        next = r->end - at > PIECE_BYTES ? at + PIECE_BYTES : r->end;
+        next = r->end - at > CODE_PIECE_BYTES ? at + CODE_PIECE_BYTES : r->end;
 #ifdef MADV_POPULATE_READ /* many pages at once; an older system does not know it */
         madvise((void *)(uintptr_t)at, (size_t)(next - at), MADV_POPULATE_READ);
 #endif
@@ -90,7 +82,7 @@ __attribute__((no_sanitize("address"))) static void range_fetch(const struct cod
 static void fetch(void *nothing)
 {
     struct code_range ranges[CODE_RANGES_MOST];
-    const int count = code_pages_find(MOST_ON_A_SIDE, ranges);
+    const int count = code_pages_find(CODE_SIDE_BYTES, ranges);
     (void)nothing;
     for (int i = 0; i < count; i++)
         range_fetch(&ranges[i]);
@@ -99,7 +91,7 @@ static void fetch(void *nothing)
 void code_pages_near(void)
 {
     struct code_range ranges[CODE_RANGES_MOST];
-    if (code_pages_find(NEAR_ON_A_SIDE, ranges))
+    if (code_pages_find(CODE_NEAR_BYTES, ranges))
         for (const volatile char *line = ranges[0].begin; line < ranges[0].end;
              line += LINE_BYTES)
             (void)*line;
