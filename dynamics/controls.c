@@ -64,19 +64,26 @@ struct dyn_world dyn_world_usual(void)
     return world;
 }
 
+const struct dyn_control *dyn_row_find(const struct dyn_control *rows, int count,
+                                       const char *name, char *names, size_t room)
+{
+    *names = '\0';
+    for (int i = 0; i < count; i++) {
+        if (strcmp(rows[i].name, name) == 0)
+            return &rows[i];
+        error_text_list(names, room, " ", rows[i].name);
+    }
+    return NULL;
+}
+
 const struct dyn_control *dyn_control_find(const char *name)
 {
-    char all[400] = ""; /* as many names as there is room for */
-    size_t length = 0;
-    for (int i = 0; i < dyn_controls_count; i++) {
-        if (strcmp(dyn_controls[i].name, name) == 0)
-            return &dyn_controls[i];
-        if (length + 1 + strlen(dyn_controls[i].name) < sizeof all)
-            length += (size_t)snprintf(all + length, sizeof all - length, " %s",
-                                       dyn_controls[i].name);
-    }
-    dyn_fail(DYN_BAD_ARGUMENT, "there is no control '%.40s'; there are%s", name, all);
-    return NULL;
+    char names[400];
+    const struct dyn_control *row =
+        dyn_row_find(dyn_controls, dyn_controls_count, name, names, sizeof names);
+    if (!row)
+        dyn_fail(DYN_BAD_ARGUMENT, "there is no control '%.40s'; there are %s", name, names);
+    return row;
 }
 
 enum dyn_status dyn_control_check(const struct dyn_control *c, double value)

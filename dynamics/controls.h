@@ -52,6 +52,10 @@ extern const int dyn_controls_count;
  * valid for ever. */
 const struct dyn_control *dyn_control_find(const char *name);
 
+/* The row of that name in any table; NULL: there is none, and `names` has their names, as many as there is room for. */
+const struct dyn_control *dyn_row_find(const struct dyn_control *rows, int count,
+                                       const char *name, char *names, size_t room);
+
 /* Checks that the value is in the range, and whole where required. Errors: BAD_ARGUMENT,
  * with the control's name and range. */
 enum dyn_status dyn_control_check(const struct dyn_control *control, double value);

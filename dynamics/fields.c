@@ -42,15 +42,11 @@ const int dyn_spring_fields_count = sizeof dyn_spring_fields / sizeof *dyn_sprin
 static const struct dyn_control *field_find(const struct dyn_control *fields, int count,
                                             const char *of, const char *name)
 {
-    char all[200] = "";
-    size_t length = 0;
-    for (int i = 0; i < count; i++) {
-        if (strcmp(fields[i].name, name) == 0)
-            return &fields[i];
-        length += (size_t)snprintf(all + length, sizeof all - length, " %s", fields[i].name);
-    }
-    dyn_fail(DYN_BAD_ARGUMENT, "a %s has no '%.40s'; it has%s", of, name, all);
-    return NULL;
+    char names[200];
+    const struct dyn_control *row = dyn_row_find(fields, count, name, names, sizeof names);
+    if (!row)
+        dyn_fail(DYN_BAD_ARGUMENT, "a %s has no '%.40s'; it has %s", of, name, names);
+    return row;
 }
 
 const struct dyn_control *dyn_mass_field_find(const char *name)

@@ -61,10 +61,9 @@ static enum dyn_status word_unknown(const struct dyn_reader *r, const char *word
                                     const struct dyn_reader_line *lines, int count)
 {
     char all[200] = "";
-    size_t length = 0;
-    for (int i = 0; i < count && length < sizeof all; i++)
-        length += (size_t)snprintf(all + length, sizeof all - length, "%s ", lines[i].word);
-    return dyn_reader_fail(r, "a line begins with one of: %send (got '%.40s')", all, word);
+    for (int i = 0; i < count; i++)
+        error_text_list(all, sizeof all, " ", lines[i].word);
+    return dyn_reader_fail(r, "a line begins with one of: %s end (got '%.40s')", all, word);
 }
 
 static enum dyn_status line_read(struct dyn_reader *r, const struct dyn_reader_line *lines,

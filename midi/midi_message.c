@@ -203,12 +203,10 @@ static enum midi_status sysex_read(char *words[], int count, struct midi_message
 
 static enum midi_status name_unknown(const char *name)
 {
-    char known[400];
-    size_t at = 0;
+    char known[400] = "";
     for (int i = 0; i < ROWS_COUNT; i++)
         if (strncmp(rows[i].name, "undefined", 9) != 0 && rows[i].status != MIDI_SYSEX_END)
-            at += (size_t)snprintf(known + at, sizeof known - at, "%s%s", at ? ", " : "",
-                                   rows[i].name);
+            error_text_list(known, sizeof known, ", ", rows[i].name);
     return midi_fail(MIDI_BAD_ARGUMENT, "there is no message '%.40s'; known are %s", name,
                      known);
 }

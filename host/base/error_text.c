@@ -30,3 +30,10 @@ bool error_text_false(struct error_text *e, const char *format, ...)
     va_end(arguments);
     return false;
 }
+
+void error_text_list(char *text, size_t room, const char *between, const char *word)
+{
+    const size_t length = strlen(text);
+    if (length + (length ? strlen(between) : 0) + strlen(word) < room)
+        snprintf(text + length, room - length, "%s%s", length ? between : "", word);
+}

@@ -11,6 +11,7 @@
 #define LUTETIA_ERROR_TEXT_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 enum { ERROR_TEXT_BYTES = 1024 };
 
@@ -26,5 +27,9 @@ int error_text_fail(struct error_text *e, int status, const char *format, ...)
 /* The same for functions that return a bool: returns false. */
 bool error_text_false(struct error_text *e, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
+
+/* Adds a word to a list for such a text: behind `between`, unless it is the first; only whole, so nothing where the room (bytes,
+ * the 0 included) does not suffice. text begins as "". */
+void error_text_list(char *text, size_t room, const char *between, const char *word);
 
 #endif

@@ -35,12 +35,9 @@ static bool name_good(const char *name, size_t count)
 
 static enum midi_status kind_unknown(const struct device_kind *const *kinds, const char *spec)
 {
-    char known[200];
-    size_t at = 0;
-    known[0] = '\0';
+    char known[200] = "";
     for (int i = 0; kinds[i]; i++)
-        at += (size_t)snprintf(known + at, sizeof known - at, "%s%s", i ? ", " : "",
-                               kinds[i]->name);
+        error_text_list(known, sizeof known, ", ", kinds[i]->name);
     return midi_fail(MIDI_BAD_ARGUMENT,
                      "device '%.60s': it must be [NAME=]KIND[:ARGUMENT]; known kinds are %s",
                      spec, known);

@@ -61,6 +61,22 @@ static void threads_have_words_of_their_own(void **state)
     assert_string_equal(last.text, "here");
 }
 
+static void lists_have_whole_words_only(void **state)
+{
+    (void)state;
+    struct {
+        char text[12], after[4];
+    } list = {"", "end"};
+    static const char *const words[] = {"rest", "mass", "strain", "at", "to", "x"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        error_text_list(list.text, sizeof list.text, " ", words[i]);
+    assert_string_equal(list.text, "rest mass x"); /* "at" and "to" would need one byte more */
+    assert_string_equal(list.after, "end");
+    list.text[0] = '\0';
+    error_text_list(list.text, sizeof list.text, ", ", "eleven byte");
+    assert_string_equal(list.text, "eleven byte"); /* nothing stands before the first */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -68,6 +84,7 @@ int main(void)
         cmocka_unit_test(fail_may_quote_the_words_before),
         cmocka_unit_test(long_words_are_cut),
         cmocka_unit_test(threads_have_words_of_their_own),
+        cmocka_unit_test(lists_have_whole_words_only),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -118,6 +119,24 @@ static void tables_name_ranges_and_choices(void **unused)
     }
     assert_int_equal(sizeof w,
                      (size_t)dyn_controls_count * sizeof(double)); /* none without a row */
+}
+
+/* A table may have any number of rows. */
+static void rows_of_a_long_table_are_found(void **unused)
+{
+    enum { MANY = 64 };
+    static char words[MANY][32];
+    static struct dyn_control rows[MANY];
+    char names[400];
+    (void)unused;
+    for (int i = 0; i < MANY; i++) {
+        snprintf(words[i], sizeof words[i], "a_name_of_some_length_%04d", i);
+        rows[i].name = words[i];
+    }
+    assert_null(dyn_row_find(rows, MANY, "none", names, sizeof names));
+    assert_in_range(strlen(names), 350, sizeof names - 1);
+    assert_string_equal(names + strlen(names) - 26, words[13]); /* 14 names of 26, 13 blanks */
+    assert_ptr_equal(dyn_row_find(rows, MANY, words[40], names, sizeof names), &rows[40]);
 }
 
 /* Writes and reads all fields of masses and springs, one by one and all at once. */
@@ -252,6 +271,7 @@ int main(void)
         cmocka_unit_test(network_refuses_bad_masses),
         cmocka_unit_test(mass_has_so_many_springs_and_no_more),
         cmocka_unit_test(tables_name_ranges_and_choices),
+        cmocka_unit_test(rows_of_a_long_table_are_found),
         cmocka_unit_test(fields_are_written_and_read),
         cmocka_unit_test(nearest_is_what_all_distances_say),
         cmocka_unit_test(events_are_lost_only_when_many_wait),
