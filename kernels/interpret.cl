@@ -138,9 +138,10 @@ static ulong placed(const processor *p, const step_said *s, int ratio, uint inde
         return (uint)p->row * (uint)p->lengths[p->rank - 1] + (uint)p->x;
     case LANES_PLACE:
         return (index & low) * (uint)ratio + (index >> s->detail);
-    default: /* LANES_DRAW */
+    case LANES_DRAW:
         return drawn(s, index, number.lo, number.hi);
     }
+    return 0;
 }
 
 /* ---- steps ---- */

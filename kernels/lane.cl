@@ -2,7 +2,9 @@
  *
  * A lane is its bits, zero-extended to 128. host/machine/interpret/lane_by_folding.c has the same operations for the front end; both
  * must agree to the bit. This file follows prelude.cl, wide.cl, soft.cl, integers.cl and, with MATH, math.cl; VECTOR is 1. Before
- * it stand the numbers of operations and families (#define MACHINE_ADD ..., #define SPELL_BITS ...). */
+ * it stand the numbers of operations and families (#define MACHINE_ADD ..., #define SPELL_BITS ...).
+ *
+ * A switch over a family has a case for each operation of it: test machine_operations. What is of no family gives 0. */
 
 /* What a step says, beside its places. */
 typedef struct {
@@ -117,9 +119,10 @@ static VQ integers(const step_said *s, VQ a, VQ b)
         return OF_WIDTH(reversed_L(a.lo, w), reversed_Q(a, w));
     case MACHINE_UNGRAY:
         return OF_WIDTH(from_gray_L(a.lo), from_gray_Q(a));
-    default: /* MACHINE_ISQRT */
+    case MACHINE_ISQRT:
         return OF_WIDTH(square_root_L(a.lo), square_root_Q(a));
     }
+    return q_of(0, 0);
 }
 
 /* Comparisons, and whether a result does not fit. */
@@ -150,9 +153,10 @@ static int bit(const step_said *s, VQ a, VQ b)
         return sign_overflows(a, q_not(b), q_sub(a, b), w);
     case NODE_OVERFLOW_SMUL:
         return signed_product_overflows(a, b, w);
-    default: /* NODE_OVERFLOW_SNEG */
+    case NODE_OVERFLOW_SNEG:
         return q_eq(a, w > 64 ? q_shl(q_of(1, 0), w - 1) : q_of(1UL << (w - 1), 0)) & 1;
     }
+    return 0;
 }
 
 static VQ bits(const step_said *s, VQ a, VQ b)
@@ -183,9 +187,8 @@ static VQ bits(const step_said *s, VQ a, VQ b)
         return q_slt(lane_extended(a, w), lane_extended(b, w), 128) ? a : b;
     case MACHINE_SMAX:
         return q_slt(lane_extended(a, w), lane_extended(b, w), 128) ? b : a;
-    default:
-        return q_of((ulong)bit(s, a, b), 0);
     }
+    return q_of((ulong)bit(s, a, b), 0); /* a comparison */
 }
 
 /* ---- floats ---- */
@@ -208,11 +211,12 @@ static ulong float_operator(int op, const step_said *s, ulong a, ulong b)
         return s->from_s             ? soft_multiply(a, b, s->from_s, s->from_e)
                : s->from_width == 32 ? as_uint(f * g)
                                      : as_ulong(x * y);
-    default: /* MACHINE_FDIV */
+    case MACHINE_FDIV:
         return s->from_s             ? soft_divide(a, b, s->from_s, s->from_e)
                : s->from_width == 32 ? as_uint(f / g)
                                      : as_ulong(x / y);
     }
+    return 0;
 }
 
 static ulong float_function(const step_said *s, ulong a)
@@ -235,9 +239,10 @@ static ulong float_function(const step_said *s, ulong a)
         return single ? as_uint(ceil(f)) : as_ulong(ceil(x));
     case MACHINE_FTRUNC:
         return single ? as_uint(trunc(f)) : as_ulong(trunc(x));
-    default: /* MACHINE_FROUND */
+    case MACHINE_FROUND:
         return single ? as_uint(rint(f)) : as_ulong(rint(x));
     }
+    return 0;
 }
 
 static double lane_double(ulong a, int width)
@@ -274,9 +279,10 @@ static ulong float_compared(const step_said *s, ulong a, ulong b)
         return x <= y;
     case MACHINE_FGT:
         return x > y;
-    default: /* MACHINE_FGE */
+    case MACHINE_FGE:
         return x >= y;
     }
+    return 0;
 }
 
 static int float_overflows(const step_said *s, ulong a, ulong b)
@@ -296,14 +302,14 @@ static int float_overflows(const step_said *s, ulong a, ulong b)
     case NODE_OVERFLOW_FDIV:
         r = float_operator(MACHINE_FDIV, s, a, b);
         break;
-    default: /* NODE_OVERFLOW_RESULT: a is the result */
+    case NODE_OVERFLOW_RESULT: /* a is the result */
         return is_infinite(a, w) && is_finite(b, w);
     }
     return is_infinite(r, w) && is_finite(a, w) && is_finite(b, w);
 }
 
 #if MATH
-static double function_of_one(int op, double x)
+static double float_function_of(int op, double x, double y)
 {
     switch (op) {
     case MACHINE_FEXP:
@@ -336,35 +342,26 @@ static double function_of_one(int op, double x)
         return math_asinh(x);
     case MACHINE_FACOSH:
         return math_acosh(x);
-    default: /* MACHINE_FATANH */
+    case MACHINE_FATANH:
         return math_atanh(x);
+    case MACHINE_FATAN2:
+        return math_atan2(x, y);
+    case MACHINE_FPOW:
+        return math_pow(x, y);
+    case MACHINE_FMOD:
+        return math_mod(x, y);
+    case MACHINE_FREM:
+        return math_rem(x, y);
+    case MACHINE_FSCALE:
+        return math_ldexp(x, y);
     }
+    return 0;
 }
 
 static ulong float_math(const step_said *s, ulong a, ulong b)
 {
-    const double x = lane_double(a, s->from_width), y = lane_double(b, s->from_width);
-    double r;
-    switch (s->op) {
-    case MACHINE_FATAN2:
-        r = math_atan2(x, y);
-        break;
-    case MACHINE_FPOW:
-        r = math_pow(x, y);
-        break;
-    case MACHINE_FMOD:
-        r = math_mod(x, y);
-        break;
-    case MACHINE_FREM:
-        r = math_rem(x, y);
-        break;
-    case MACHINE_FSCALE:
-        r = math_ldexp(x, y);
-        break;
-    default:
-        r = function_of_one(s->op, x);
-        break;
-    }
+    const double r =
+        float_function_of(s->op, lane_double(a, s->from_width), lane_double(b, s->from_width));
     return s->to_width == 32 ? as_uint((float)r) : as_ulong(r);
 }
 #else
@@ -440,9 +437,10 @@ static VQ converted(const step_said *s, VQ a, VQ b)
         return q_of(soft_fit(a.lo, s->to_s, s->to_e), 0);
     case LANES_CANONICAL:
         return q_of(canonical(s, a.lo), 0);
-    default: /* LANES_COPY */
+    case LANES_COPY:
         return a;
     }
+    return q_of(0, 0);
 }
 
 static VQ lane_performed(const step_said *s, VQ a, VQ b, VQ c)
@@ -466,7 +464,8 @@ static VQ lane_performed(const step_said *s, VQ a, VQ b, VQ c)
         return q_of(float_compared(s, a.lo, b.lo), 0);
     case SPELL_MATH:
         return q_of(float_math(s, a.lo, b.lo), 0);
-    default:
+    case SPELL_CONVERSION:
         return converted(s, a, b);
     }
+    return q_of(0, 0);
 }

@@ -190,9 +190,10 @@ inline ELEMENT join(uint op, ELEMENT a, ELEMENT b, ulong2 sign, ulong2 mask)
         return a > b ? a : b;
     case 7:
         return (a ^ sign.x) < (b ^ sign.x) ? a : b;
-    default:
+    case 8:
         return (a ^ sign.x) > (b ^ sign.x) ? a : b;
     }
+    return 0;
 }
 #elif KIND == 1
 inline ELEMENT join(uint op, ELEMENT a, ELEMENT b, ulong2 sign, ulong2 mask)
@@ -225,9 +226,10 @@ inline ulong2 join(uint op, ulong2 a, ulong2 b, ulong2 sign, ulong2 mask)
         return less(a, b, (ulong2)(0)) ? b : a;
     case 7:
         return less(b, a, sign) ? b : a;
-    default:
+    case 8:
         return less(a, b, sign) ? b : a;
     }
+    return 0;
 }
 #endif
 

@@ -6,6 +6,8 @@
  * infinite or a NaN, and no part of the operands is. A NaN that the formulas give for
  * infinite operands is not corrected to infinity.
  */
+#include <stdlib.h>
+
 #include "paris_state.h"
 
 static const struct paris_cvalue nothing = {NULL, NULL};
@@ -129,10 +131,10 @@ static struct paris_cvalue by_parts(struct machine *m, enum machine_op op,
                                  machine_binary(m, op, a.im, b.im)};
 }
 
-static struct paris_cvalue arithmetic(struct machine *m, enum paris_complex_op op,
+static struct paris_cvalue arithmetic(struct machine *m, enum paris_complex_binary_op op,
                                       struct paris_cvalue a, struct paris_cvalue b)
 {
-    switch ((int)op) {
+    switch (op) {
     case PARIS_C_ADD:
         return by_parts(m, MACHINE_FADD, a, b);
     case PARIS_C_SUBTRACT:
@@ -141,9 +143,10 @@ static struct paris_cvalue arithmetic(struct machine *m, enum paris_complex_op o
         return paris_complex_multiply(a, b);
     case PARIS_C_DIVIDE:
         return paris_complex_divide(doubles(m, a), doubles(m, b));
-    default:
+    case PARIS_C_POWER:
         return paris_complex_power(doubles(m, a), doubles(m, b));
     }
+    abort(); /* the table of instructions has no other */
 }
 
 void paris_complex_binary(const struct paris_instruction *self, struct paris_complex dest,
@@ -243,6 +246,22 @@ void paris_complex_raise(const struct paris_instruction *self, struct paris_comp
         store(m, dest, r, self->scope);
 }
 
+static struct machine_value *part(struct machine *m, enum paris_complex_part_op op,
+                                  struct paris_cvalue z, struct machine_type type, bool narrow)
+{
+    switch (op) {
+    case PARIS_C_REAL:
+        return z.re;
+    case PARIS_C_IMAG:
+        return z.im;
+    case PARIS_C_ABS:
+        return machine_to_float(m, paris_complex_abs(doubles(m, z), narrow), type, false);
+    case PARIS_C_PHASE:
+        return machine_to_float(m, paris_complex_phase(doubles(m, z)), type, false);
+    }
+    abort(); /* the table of instructions has no other */
+}
+
 void paris_complex_to_float(const struct paris_instruction *self, struct paris_operand dest,
                             struct paris_complex a)
 {
@@ -257,12 +276,8 @@ void paris_complex_to_float(const struct paris_instruction *self, struct paris_o
     struct paris_cvalue z = load(m, a, "source", self->scope);
     if (!good(z))
         return;
-    struct machine_value *r = self->op == PARIS_C_REAL   ? z.re
-                              : self->op == PARIS_C_IMAG ? z.im
-                                                         : NULL;
-    if (!r)
-        r = machine_to_float(m, paris_complex_part(self->op, doubles(m, z), is_narrow(a.re)),
-                             type, false);
+    struct machine_value *r =
+        part(m, (enum paris_complex_part_op)self->op, z, type, is_narrow(a.re));
     if (self->overflow) {
         struct paris_cvalue both = {r, r};
         if (!r || !overflow(m, self, (struct paris_complex){dest, dest}, both, nothing, z))

@@ -17,6 +17,7 @@
  * cancelling.
  */
 #include <math.h>
+#include <stdlib.h>
 
 #include "paris_state.h"
 
@@ -407,9 +408,10 @@ complex_value paris_complex_power_whole(complex_value z, real n, bool is_signed)
 
 /* ---- by name ---- */
 
-complex_value paris_complex_function(enum paris_complex_op op, complex_value z, bool narrow)
+complex_value paris_complex_function(enum paris_complex_function_op op, complex_value z,
+                                     bool narrow)
 {
-    switch ((int)op) {
+    switch (op) {
     case PARIS_C_RECIPROCAL:
         return paris_complex_divide(pair(double_of(1), double_of(0)), z);
     case PARIS_C_SIGNUM:
@@ -442,12 +444,18 @@ complex_value paris_complex_function(enum paris_complex_op op, complex_value z, 
         return swapped(arc_sine(swapped(z), narrow));
     case PARIS_C_ACOSH:
         return arc_hyperbolic_cosine(z, narrow);
-    default: /* PARIS_C_ATANH */
+    case PARIS_C_ATANH:
         return arc_hyperbolic_tangent(z);
     }
+    abort(); /* the table of instructions has no other */
 }
 
-real paris_complex_part(enum paris_complex_op op, complex_value z, bool narrow)
+real paris_complex_abs(complex_value z, bool narrow)
 {
-    return op == PARIS_C_ABS ? size_of(z, narrow) : angle_of(z);
+    return size_of(z, narrow);
+}
+
+real paris_complex_phase(complex_value z)
+{
+    return angle_of(z);
 }

@@ -287,7 +287,7 @@ void paris_float_part(const struct paris_instruction *self, struct paris_operand
         return;
     }
     int len = (int)dest.len, w = EXPONENT_WIDTH, s = (int)a.len;
-    switch (self->op) {
+    switch ((enum paris_float_part_op)self->op) {
     case PARIS_SIGNUM:
         store_integer(m, self, dest,
                       signum(m, x, paris_number(m, len, 1), paris_number(m, len, -1),
@@ -315,7 +315,7 @@ void paris_float_part(const struct paris_instruction *self, struct paris_operand
                       fits);
         return;
     }
-    default: { /* PARIS_SIGNIFICAND: 1 <= m < 2, times 2^s, as an integer; 0 stays 0 */
+    case PARIS_SIGNIFICAND: { /* 1 <= m < 2, times 2^s, as an integer; 0 stays 0 */
         struct machine_value *f = significand_of(m, x, ftype);
         struct machine_value *none = machine_constant_float(m, ftype, 0);
         f = f ? machine_select(m, finite, machine_select(m, zero, none, f), none) : NULL;
@@ -414,7 +414,7 @@ void paris_float_vax(const struct paris_instruction *self, struct paris_operand 
 void paris_float_test(const struct paris_instruction *self, struct paris_operand a)
 {
     struct machine *m = paris_begin(self->name);
-    struct machine_value *x = paris_load(m, a, "source", MACHINE_WHERE_ACTIVE), *r;
+    struct machine_value *x = paris_load(m, a, "source", MACHINE_WHERE_ACTIVE), *r = NULL;
     if (!x)
         return;
     struct machine_type type = machine_value_type(x);
@@ -422,7 +422,7 @@ void paris_float_test(const struct paris_instruction *self, struct paris_operand
     struct machine_value *infinity = machine_constant_float(m, type, (double)__builtin_inff());
     struct machine_value *least =
         machine_constant_float(m, type, ldexp(1, 2 - (1 << (a.e - 1))));
-    switch (self->op) {
+    switch ((enum paris_float_test_op)self->op) {
     case PARIS_IS_NAN:
         r = machine_binary(m, MACHINE_FNE, x, x);
         break;
@@ -442,7 +442,7 @@ void paris_float_test(const struct paris_instruction *self, struct paris_operand
         r = machine_binary(m, MACHINE_AND, is_finite(m, x),
                            machine_binary(m, MACHINE_FGE, magnitude, least));
         break;
-    default: {
+    case PARIS_IS_SUBNORMAL: {
         struct machine_value *zero = is_zero(m, x);
         r = machine_binary(m, MACHINE_AND, machine_binary(m, MACHINE_FLT, magnitude, least),
                            zero ? machine_unary(m, MACHINE_NOT, zero) : NULL);

@@ -18,19 +18,20 @@ static inline struct paris_complex paris_c_constant(double real, double imag, un
     return (struct paris_complex){paris_f_constant(real, s, e), paris_f_constant(imag, s, e)};
 }
 
-/* The operations of instructions on complex numbers. */
-enum paris_complex_op {
+/* The operations of instructions on complex numbers, for each function that performs some. */
+enum paris_complex_binary_op {
     PARIS_C_ADD,
     PARIS_C_SUBTRACT,
     PARIS_C_MULTIPLY,
     PARIS_C_DIVIDE,
-    PARIS_C_POWER,
-    PARIS_C_EQ,
-    PARIS_C_NE,
-    PARIS_C_MOVE,
-    PARIS_C_NEGATE,
-    PARIS_C_CONJUGATE,
-    PARIS_C_RECIPROCAL,
+    PARIS_C_POWER
+};
+enum paris_complex_compare_op { PARIS_C_EQ, PARIS_C_NE };
+enum paris_complex_move_op { PARIS_C_MOVE };
+/* paris_complex_unary() performs these two itself, and asks paris_complex_function() for the others. */
+enum paris_complex_sign_op { PARIS_C_NEGATE, PARIS_C_CONJUGATE, PARIS_C_SIGN_OPS };
+enum paris_complex_function_op {
+    PARIS_C_RECIPROCAL = PARIS_C_SIGN_OPS,
     PARIS_C_SIGNUM,
     PARIS_C_SQRT,
     PARIS_C_EXP,
@@ -46,12 +47,9 @@ enum paris_complex_op {
     PARIS_C_TANH,
     PARIS_C_ASINH,
     PARIS_C_ACOSH,
-    PARIS_C_ATANH,
-    PARIS_C_ABS, /* complex -> float */
-    PARIS_C_PHASE,
-    PARIS_C_REAL,
-    PARIS_C_IMAG
+    PARIS_C_ATANH
 };
+enum paris_complex_part_op { PARIS_C_ABS, PARIS_C_PHASE, PARIS_C_REAL, PARIS_C_IMAG };
 
 /* ---- complex_functions.c: of values ---- */
 
@@ -60,10 +58,11 @@ struct paris_cvalue {
                                     * machine has recorded */
 };
 /* On doubles; narrow: exponents have 9 bits at most, so that no square overflows. */
-struct paris_cvalue paris_complex_function(enum paris_complex_op op, struct paris_cvalue z,
-                                           bool narrow);
-struct machine_value *paris_complex_part(enum paris_complex_op op, struct paris_cvalue z,
-                                         bool narrow);
+struct paris_cvalue paris_complex_function(enum paris_complex_function_op op,
+                                           struct paris_cvalue z, bool narrow);
+/* The absolute value, and the angle (phase), of a complex number. */
+struct machine_value *paris_complex_abs(struct paris_cvalue z, bool narrow);
+struct machine_value *paris_complex_phase(struct paris_cvalue z);
 struct paris_cvalue paris_complex_divide(struct paris_cvalue a, struct paris_cvalue b);
 struct paris_cvalue paris_complex_power(struct paris_cvalue z, struct paris_cvalue w);
 /* y: a double; n: integers. */

@@ -335,28 +335,31 @@ void paris_binary(const struct paris_instruction *self, struct paris_operand des
                   struct paris_operand a, struct paris_operand b);
 void paris_unary(const struct paris_instruction *self, struct paris_operand dest,
                  struct paris_operand a);
-/* floats.c: the values of self->op. */
-enum paris_float_op {
+/* floats.c: the values of self->op, for each function that performs some. */
+enum paris_float_part_op {
     PARIS_SIGNUM,
     PARIS_EXPONENT,
     PARIS_EXPONENT_FIELD,
-    PARIS_SIGNIFICAND,
+    PARIS_SIGNIFICAND
+};
+enum paris_float_pair_op {
     PARIS_MULT_ADD,
     PARIS_MULT_SUB,
     PARIS_MULT_SUBF,
     PARIS_ADD_MULT,
     PARIS_SUB_MULT,
-    PARIS_SUBF_MULT,
+    PARIS_SUBF_MULT
+};
+enum paris_float_test_op {
     PARIS_IS_NAN,
     PARIS_IS_INFINITY,
     PARIS_IS_FINITE,
     PARIS_IS_ZERO,
     PARIS_IS_NEGATIVE,
     PARIS_IS_NORMAL,
-    PARIS_IS_SUBNORMAL,
-    PARIS_IEEE_TO_VAX,
-    PARIS_VAX_TO_IEEE
+    PARIS_IS_SUBNORMAL
 };
+enum paris_float_swap_op { PARIS_IEEE_TO_VAX, PARIS_VAX_TO_IEEE };
 /* Records the overflow of machine_op_is_function(): infinite from finite, and for the
  * remainders a divisor of 0. b NULL: one operand. */
 bool paris_float_overflow(struct machine *m, int op, struct machine_value *a,

@@ -505,11 +505,11 @@ static void tests_of_coordinates_keep_their_definition(void **state)
 
 /* ---- lines ---- */
 
-static uint32_t joined(int op, uint32_t a, uint32_t b)
+static uint32_t joined(enum reduction_op op, uint32_t a, uint32_t b)
 {
-    return op == MACHINE_ADD    ? a + b
-           : op == MACHINE_UMIN ? (b < a ? b : a)
-           : op == MACHINE_OR   ? a | b
+    return op == REDUCE_ADD     ? a + b
+           : op == REDUCE_LEAST ? (b < a ? b : a)
+           : op == REDUCE_OR    ? a | b
                                 : a ^ b;
 }
 
@@ -524,20 +524,21 @@ static void scan_try(lanes_scan_function *scan, struct lanes_scan s, int n)
         const uint32_t old = begins ? s.none : acc;
         acc = joined(s.op, old, active ? s.in[i] ^ s.flip : s.none);
         if (out[i] != (((s.exclusive ? old : acc) & s.cut) ^ s.flip))
-            fail_msg("operation %d of %d numbers: lane %d is %x", s.op, n, i, out[i]);
+            fail_msg("operation %d of %d numbers: lane %d is %x", (int)s.op, n, i, out[i]);
     }
     assert_int_equal(total, acc);
 }
 
 static void scans_by_vectors_give_what_a_loop_gives(void **state)
 {
-    static const int ops[] = {MACHINE_ADD, MACHINE_UMIN, MACHINE_OR, MACHINE_XOR};
+    static const enum reduction_op ops[] = {REDUCE_ADD, REDUCE_LEAST, REDUCE_OR, REDUCE_XOR};
     static struct lanes in, context, bits;
     struct tables t = tables_here();
     (void)state;
     lanes_fill(&in, MACHINE_UINT(32), 1);
     for (int k = 0; k < 4 * 16 * LANES; k++) {
-        const int op = ops[k % 4], flags = k / 4 % 16, n = k / 64 + 1;
+        const enum reduction_op op = ops[k % 4];
+        const int flags = k / 4 % 16, n = k / 64 + 1;
         lanes_fill(&context, MACHINE_BIT, (uint64_t)k);
         for (uint64_t i = 0; i < LANES; i++)
             bits.bytes[i] =
@@ -552,8 +553,8 @@ static void scans_by_vectors_give_what_a_loop_gives(void **state)
                              .op = op,
                              .exclusive = flags & 4,
                              .starts = flags & 8,
-                             .none = op == MACHINE_UMIN ? UINT32_MAX : 0,
-                             .flip = op == MACHINE_OR || op == MACHINE_UMIN ? UINT32_MAX : 0,
+                             .none = op == REDUCE_LEAST ? UINT32_MAX : 0,
+                             .flip = op == REDUCE_OR || op == REDUCE_LEAST ? UINT32_MAX : 0,
                              .cut = n % 3 ? UINT32_MAX : 0xfffff},
                          n);
     }

@@ -1,6 +1,9 @@
 /* node_ops.c - the rows of machine_op.tab. */
 #include "base/node_ops.h"
 
+#include "base/errors.h"
+#include "base/op_families.h"
+
 #define NODE OPERATION
 const struct node_op_info node_ops[NODE_OP_COUNT] = {
 #define OPERATION(op, name, inputs, takes, gives, cost, nan, fold, spell, word, second, flags) \
@@ -22,28 +25,51 @@ static enum op_soft soft_kind(struct machine_type t)
     return !t.s ? OP_SOFT_NOT : type_is_short(t) ? OP_SOFT_VECTORS : OP_SOFT_LANES;
 }
 
-enum op_soft op_soft(int op, struct machine_type type, struct machine_type from)
+static enum op_soft conversion_soft(int op, struct machine_type type, struct machine_type from)
 {
-    switch (op) {
-    case MACHINE_FNEG: /* exact, or one of its operands */
-    case MACHINE_FABS:
-    case MACHINE_FMIN:
-    case MACHINE_FMAX:
-    case NODE_SELECT:
-    case NODE_REINTERPRET:
+    switch ((enum op_conversion)op) {
+    case OF_NODE_REINTERPRET:
         return OP_SOFT_NOT;
-    case NODE_U_TO_F: /* a double need not hold them */
-    case NODE_S_TO_F:
+    case OF_NODE_U_TO_F: /* a double need not hold them */
+    case OF_NODE_S_TO_F:
         return type.s && from.width > 32 ? OP_SOFT_LANES : soft_kind(type);
-    case NODE_PACK:
-    case NODE_OVERFLOW_FADD:
-    case NODE_OVERFLOW_FSUB:
-    case NODE_OVERFLOW_FMUL:
-    case NODE_OVERFLOW_FDIV:
+    case OF_NODE_PACK:
         return soft_kind(from);
-    default:
+    case OF_NODE_ZERO_EXTEND:
+    case OF_NODE_SIGN_EXTEND:
+    case OF_NODE_EXTRACT:
+    case OF_NODE_F_TO_U:
+    case OF_NODE_F_TO_S:
+    case OF_NODE_F_TO_F:
+    case OF_NODE_UNPACK:
         return soft_kind(type);
     }
+    INVARIANT(false);
+}
+
+enum op_soft op_soft(int op, struct machine_type type, struct machine_type from)
+{
+    switch ((enum op_spell)node_ops[op].spell) {
+    case SPELL_FLOAT_CHOICE: /* one of its operands */
+    case SPELL_SELECT:
+        return OP_SOFT_NOT;
+    case SPELL_FLOAT_FUNCTION: /* these two are exact */
+        return op == MACHINE_FNEG || op == MACHINE_FABS ? OP_SOFT_NOT : soft_kind(type);
+    case SPELL_OVERFLOW: /* of the result that the second word rounds, of operands otherwise */
+        return soft_kind(node_words[op].second ? from : type);
+    case SPELL_CONVERSION:
+        return conversion_soft(op, type, from);
+    case SPELL_PLACE:
+    case SPELL_BITS_ONE:
+    case SPELL_BITS:
+    case SPELL_INTEGER:
+    case SPELL_FLOAT_OPERATOR:
+    case SPELL_FLOAT_COMPARISON:
+    case SPELL_MATH:
+    case SPELL_CONCAT:
+        return soft_kind(type);
+    }
+    INVARIANT(false);
 }
 
 bool machine_op_is_function(int op)

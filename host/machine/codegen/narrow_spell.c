@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/errors.h"
 #include "base/node_ops.h"
 #include "codegen/numbers.h"
 
@@ -28,7 +29,7 @@ static uint32_t most(const struct plan_graph *g, int node, int operations)
     case MACHINE_ADD:
         a = most(g, n->in[0], operations) + most(g, n->in[1], operations);
         return a < any ? a : any;
-    default:
+    default: /* any operation stays below its width's bound */
         return any;
     }
 }
@@ -158,8 +159,16 @@ void narrow_spell(char *out, size_t size, const struct plan_graph *g, const stru
                  sum ? raw : a, 1u << (from.width - 1));
         return;
     }
-    default: /* AND, OR, XOR, comparisons */
+    case MACHINE_AND:
+    case MACHINE_OR:
+    case MACHINE_XOR:
+    case MACHINE_EQ:
+    case MACHINE_NE:
+    case MACHINE_ULT:
+    case MACHINE_ULE:
         snprintf(out, size, "(%s %s %s)", a, word, b);
         return;
+    default: /* all rows with OP_NARROW are above: test machine_operations */
+        INVARIANT(false);
     }
 }

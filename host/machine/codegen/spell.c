@@ -9,7 +9,8 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-#include "base/node_ops.h"
+#include "base/errors.h"
+#include "base/op_families.h"
 #include "codegen/numbers.h"
 
 const char *spell_container(struct machine_type t)
@@ -100,13 +101,13 @@ void spell_bits_binary(char *out, size_t size, int op, struct machine_type t, co
 {
     const char *word = node_words[op].word, *function = node_words[op].second;
     char c = spell_letter(t), raw[192], x[96], y[96];
-    switch (op) {
-    case MACHINE_AND:
-    case MACHINE_OR:
-    case MACHINE_XOR:
-    case MACHINE_ADD:
-    case MACHINE_SUB:
-    case MACHINE_MUL:
+    switch ((enum op_bits)op) {
+    case OF_MACHINE_AND:
+    case OF_MACHINE_OR:
+    case OF_MACHINE_XOR:
+    case OF_MACHINE_ADD:
+    case OF_MACHINE_SUB:
+    case OF_MACHINE_MUL:
         if (c == 'Q')
             snprintf(raw, sizeof raw, "%s(%s, %s)", function, a, b);
         else
@@ -116,10 +117,10 @@ void spell_bits_binary(char *out, size_t size, int op, struct machine_type t, co
         else
             snprintf(out, size, "%s", raw);
         break;
-    case MACHINE_EQ:
-    case MACHINE_NE:
-    case MACHINE_ULT:
-    case MACHINE_ULE:
+    case OF_MACHINE_EQ:
+    case OF_MACHINE_NE:
+    case OF_MACHINE_ULT:
+    case OF_MACHINE_ULE:
         if (c != 'Q')
             snprintf(out, size, "CMP_%c(%s %s %s)", c, a, word, b);
         else if (op == MACHINE_ULE)
@@ -131,8 +132,8 @@ void spell_bits_binary(char *out, size_t size, int op, struct machine_type t, co
                                         : "q_ult",
                      a, b);
         break;
-    case MACHINE_SLT:
-    case MACHINE_SLE:
+    case OF_MACHINE_SLT:
+    case OF_MACHINE_SLE:
         if (c == 'Q' && op == MACHINE_SLT)
             snprintf(out, size, "q_slt(%s, %s, %d)", a, b, t.width);
         else if (c == 'Q')
@@ -143,19 +144,23 @@ void spell_bits_binary(char *out, size_t size, int op, struct machine_type t, co
             snprintf(out, size, "CMP_%c(%s %s %s)", c, x, word, y);
         }
         break;
-    case MACHINE_UMIN:
-    case MACHINE_UMAX:
+    case OF_MACHINE_UMIN:
+    case OF_MACHINE_UMAX:
         if (c == 'Q')
             snprintf(out, size, "q_select(q_ult(%s, %s), %s, %s)", a, b,
                      op == MACHINE_UMIN ? a : b, op == MACHINE_UMIN ? b : a);
         else
             snprintf(out, size, "%s(%s, %s)", word, a, b);
         break;
-    default: /* SMIN, SMAX */
+    case OF_MACHINE_SMIN:
+    case OF_MACHINE_SMAX:
         spell_bits_binary(raw, sizeof raw, MACHINE_SLT, t, a, b);
         snprintf(out, size, "SEL_%c(%s, %s, %s)", c, raw, op == MACHINE_SMIN ? a : b,
                  op == MACHINE_SMIN ? b : a);
         break;
+    case OF_MACHINE_NOT: /* body.c spells these */
+    case OF_MACHINE_NEG:
+        INVARIANT(node_ops[op].inputs == 2);
     }
 }
 
@@ -182,20 +187,17 @@ void spell_float(char *out, size_t size, int op, struct machine_type t, const ch
                  const char *b)
 {
     const char *word = node_words[op].word, *compare = t.width == 32 ? "CMP_U" : "CMP_L";
-    switch (node_ops[op].spell) {
-    case SPELL_FLOAT_FUNCTION:
+    const int how = node_ops[op].spell;
+    if (how == SPELL_FLOAT_FUNCTION) {
         snprintf(out, size, "%s(%s)", word, a);
-        break;
-    case SPELL_FLOAT_OPERATOR:
+    } else if (how == SPELL_FLOAT_OPERATOR) {
         snprintf(out, size, "%s %s %s", a, word, b);
-        break;
-    case SPELL_FLOAT_CHOICE:
+    } else if (how == SPELL_FLOAT_CHOICE) {
         snprintf(out, size, "SEL_%c(%s(%s %s %s), %s, %s)", spell_letter(t), compare, a, word,
                  b, a, b);
-        break;
-    default: /* COMPARISON */
+    } else {
+        INVARIANT(how == SPELL_FLOAT_COMPARISON);
         snprintf(out, size, "%s(%s %s %s)", compare, a, word, b);
-        break;
     }
 }
 
@@ -217,8 +219,8 @@ void spell_overflow(char *out, size_t size, int op, struct machine_type t, const
 {
     char c = spell_letter(t), raw[256], r[300], x[100], y[100];
     int w = t.width;
-    switch (op) {
-    case NODE_OVERFLOW_UADD:
+    switch ((enum op_overflow)op) {
+    case OF_NODE_OVERFLOW_UADD:
         spell_bits_binary(raw, sizeof raw, MACHINE_ADD, t, a, b);
         if (c == 'I')
             snprintf(out, size, "%s & %s", a, b);
@@ -227,13 +229,13 @@ void spell_overflow(char *out, size_t size, int op, struct machine_type t, const
         else
             snprintf(out, size, "CMP_%c((%s) < %s)", c, raw, a);
         return;
-    case NODE_OVERFLOW_USUB:
+    case OF_NODE_OVERFLOW_USUB:
         if (c == 'I')
             snprintf(out, size, "~%s & %s", a, b);
         else
             spell_bits_binary(out, size, MACHINE_ULT, t, a, b);
         return;
-    case NODE_OVERFLOW_UMUL:
+    case OF_NODE_OVERFLOW_UMUL:
         if (c == 'I')
             snprintf(out, size, "(VI)(0)");
         else if (c == 'U')
@@ -250,8 +252,8 @@ void spell_overflow(char *out, size_t size, int op, struct machine_type t, const
                 "CMP_L(high_product(%s, %s) != (VL)(0)) | CMP_L((%s * %s) >> %dUL != (VL)(0))",
                 a, b, a, b, w);
         return;
-    case NODE_OVERFLOW_SADD:
-    case NODE_OVERFLOW_SSUB:
+    case OF_NODE_OVERFLOW_SADD:
+    case OF_NODE_OVERFLOW_SSUB:
         if (c == 'I') { /* a bit is 0 or -1: -1 + -1 and 0 - -1 do not fit */
             snprintf(out, size, op == NODE_OVERFLOW_SADD ? "%s & %s" : "~%s & %s", a, b);
             return;
@@ -266,7 +268,7 @@ void spell_overflow(char *out, size_t size, int op, struct machine_type t, const
             snprintf(out, size, "CMP_%c((((%s ^ (%s)) & (%s ^ %s)) >> %d%s & 1) != 0)", c, a, r,
                      b, op == NODE_OVERFLOW_SADD ? r : a, w - 1, c == 'L' ? "UL" : "");
         return;
-    case NODE_OVERFLOW_SNEG:
+    case OF_NODE_OVERFLOW_SNEG:
         if (c == 'I')
             snprintf(out, size, "%s", a);
         else if (c == 'Q')
@@ -275,7 +277,7 @@ void spell_overflow(char *out, size_t size, int op, struct machine_type t, const
             snprintf(out, size, "CMP_%c(%s == (V%c)(1) << %d%s)", c, a, c, w - 1,
                      c == 'L' ? "UL" : "");
         return;
-    case NODE_OVERFLOW_SMUL:
+    case OF_NODE_OVERFLOW_SMUL:
         extended(x, sizeof x, a, t);
         extended(y, sizeof y, b, t);
         if (c == 'I')
@@ -288,14 +290,18 @@ void spell_overflow(char *out, size_t size, int op, struct machine_type t, const
         else
             snprintf(out, size, "q_smul_overflows(%s, %s, %d)", a, b, w);
         return;
-    case NODE_OVERFLOW_RESULT:
+    case OF_NODE_OVERFLOW_RESULT:
         snprintf(out, size, "INFINITE_%c(%s) & FINITE_%c(%s)", c, a, c, b);
         return;
-    default: /* of floats */
+    case OF_NODE_OVERFLOW_FADD:
+    case OF_NODE_OVERFLOW_FSUB:
+    case OF_NODE_OVERFLOW_FMUL:
+    case OF_NODE_OVERFLOW_FDIV:
         snprintf(out, size, "INFINITE_%c(%s %s %s) & FINITE_%c(%s) & FINITE_%c(%s)", c, a,
                  node_words[op].word, b, c, a, c, b);
         return;
     }
+    INVARIANT(false);
 }
 
 void spell_conversion(char *out, size_t size, const struct plan_node *n,
@@ -304,11 +310,11 @@ void spell_conversion(char *out, size_t size, const struct plan_node *n,
     char raw[460], inner[200];
     char have = spell_letter(from), want = spell_letter(n->type);
     int w = n->type.width;
-    switch (n->op) {
-    case NODE_ZERO_EXTEND:
+    switch ((enum op_conversion)n->op) {
+    case OF_NODE_ZERO_EXTEND:
         spell_widened(out, size, a, from, want);
         return;
-    case NODE_SIGN_EXTEND:
+    case OF_NODE_SIGN_EXTEND:
         extended(inner, sizeof inner, a, from);
         if (have == 'I' || have == 'U') {
             if (want == 'U')
@@ -324,7 +330,7 @@ void spell_conversion(char *out, size_t size, const struct plan_node *n,
         }
         spell_cut(out, size, raw, w);
         return;
-    case NODE_EXTRACT:
+    case OF_NODE_EXTRACT:
         if (have == 'I')
             snprintf(raw, sizeof raw, "AS_U(%s & 1)", a);
         else if (have == 'Q')
@@ -341,7 +347,7 @@ void spell_conversion(char *out, size_t size, const struct plan_node *n,
         spell_widened(inner, sizeof inner, raw, MACHINE_UINT(from.width), want);
         spell_cut(out, size, inner, w);
         return;
-    case NODE_U_TO_F:
+    case OF_NODE_U_TO_F:
         if (have == 'Q')
             snprintf(out, size, "q_to_%c(%s)", want == 'F' ? 'f' : 'd', a);
         else {
@@ -349,7 +355,7 @@ void spell_conversion(char *out, size_t size, const struct plan_node *n,
             snprintf(out, size, "CONVERT(%s, %s)", want == 'F' ? "float" : "double", inner);
         }
         return;
-    case NODE_S_TO_F:
+    case OF_NODE_S_TO_F:
         if (have == 'Q')
             snprintf(out, size,
                      "SEL_%c(q_sign(%s, %d), -q_to_%c(q_magnitude(%s, %d)), q_to_%c(%s))", want,
@@ -360,8 +366,8 @@ void spell_conversion(char *out, size_t size, const struct plan_node *n,
             snprintf(out, size, "CONVERT(%s, %s)", want == 'F' ? "float" : "double", inner);
         }
         return;
-    case NODE_F_TO_U:
-    case NODE_F_TO_S: {
+    case OF_NODE_F_TO_U:
+    case OF_NODE_F_TO_S: {
         bool is_signed = n->op == NODE_F_TO_S;
         int e = is_signed ? w - 1 : w;
         if (have == 'F' && w <= (is_signed ? 32 : 31)) {
@@ -388,11 +394,14 @@ void spell_conversion(char *out, size_t size, const struct plan_node *n,
             spell_cut(out, size, raw, w);
         return;
     }
-    case NODE_F_TO_F:
+    case OF_NODE_F_TO_F:
         snprintf(out, size, "CONVERT(%s, %s)", want == 'F' ? "float" : "double", a);
         return;
-    default: /* REINTERPRET */
+    case OF_NODE_REINTERPRET:
         snprintf(out, size, "AS_%c(%s)", want, a);
         return;
+    case OF_NODE_PACK: /* spell_soft() spells these */
+    case OF_NODE_UNPACK:
+        INVARIANT(n->op != NODE_PACK && n->op != NODE_UNPACK);
     }
 }

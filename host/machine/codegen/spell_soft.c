@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/errors.h"
-#include "base/node_ops.h"
+#include "base/op_families.h"
 #include "codegen/spell.h"
 
 /* Whole numbers that a double need not hold. */
@@ -32,6 +32,41 @@ static bool spell_whole(char *out, size_t size, const struct plan_node *n,
     return true;
 }
 
+/* A conversion to or from a format t. */
+static bool spell_conversion_soft(char *out, size_t size, const struct plan_node *n,
+                                  struct machine_type from, const char *a,
+                                  struct machine_type t)
+{
+    const int s = t.s, e = t.e;
+    const bool vectors = type_is_short(t);
+    switch ((enum op_conversion)n->op) {
+    case OF_NODE_PACK:
+        if (n->type.width <= 32)
+            snprintf(out, size, "CONVERT(uint, %s(%s, %d, %d))",
+                     vectors ? "short_pack" : "SOFT_PACK", a, s, e);
+        else
+            snprintf(out, size, "%s(%s, %d, %d)", vectors ? "short_pack" : "SOFT_PACK", a, s,
+                     e);
+        return true;
+    case OF_NODE_UNPACK:
+        snprintf(out, size, "%s(CONVERT(ulong, %s), %d, %d)",
+                 vectors ? "short_unpack" : "SOFT_UNPACK", a, s, e);
+        return true;
+    case OF_NODE_U_TO_F:
+    case OF_NODE_S_TO_F:
+        return spell_whole(out, size, n, from, a);
+    case OF_NODE_ZERO_EXTEND: /* as doubles, whose result is rounded again */
+    case OF_NODE_SIGN_EXTEND:
+    case OF_NODE_EXTRACT:
+    case OF_NODE_REINTERPRET:
+    case OF_NODE_F_TO_U:
+    case OF_NODE_F_TO_S:
+    case OF_NODE_F_TO_F:
+        return false;
+    }
+    INVARIANT(false);
+}
+
 bool spell_soft(char *out, size_t size, const struct plan_node *n, struct machine_type from,
                 const char *a, const char *b)
 {
@@ -41,24 +76,20 @@ bool spell_soft(char *out, size_t size, const struct plan_node *n, struct machin
     if (!s)
         return false;
     bool vectors = type_is_short(t);
-    switch (n->op) {
-    case MACHINE_FADD:
-    case MACHINE_FSUB:
-    case MACHINE_FMUL:
-    case MACHINE_FDIV:
-        if (vectors)
-            return false;
-        snprintf(out, size, "%s(%s, %s, %d, %d)", words->second, a, b, s, e);
-        return true;
-    case MACHINE_FSQRT:
-        if (vectors)
+    switch ((enum op_spell)node_ops[n->op].spell) {
+    case SPELL_FLOAT_FUNCTION:
+        if (vectors || !words->second)
             return false;
         snprintf(out, size, "%s(%s, %d, %d)", words->second, a, s, e);
         return true;
-    case NODE_OVERFLOW_FADD:
-    case NODE_OVERFLOW_FSUB:
-    case NODE_OVERFLOW_FMUL:
-    case NODE_OVERFLOW_FDIV:
+    case SPELL_FLOAT_OPERATOR:
+        if (vectors || !words->second)
+            return false;
+        snprintf(out, size, "%s(%s, %s, %d, %d)", words->second, a, b, s, e);
+        return true;
+    case SPELL_OVERFLOW:
+        if (!words->second)
+            return false;
         if (vectors)
             snprintf(out, size,
                      "INFINITE_D(short_fit(%s %s %s, %d, %d)) & FINITE_D(%s) & FINITE_D(%s)", a,
@@ -67,24 +98,20 @@ bool spell_soft(char *out, size_t size, const struct plan_node *n, struct machin
             snprintf(out, size, "INFINITE_D(%s(%s, %s, %d, %d)) & FINITE_D(%s) & FINITE_D(%s)",
                      words->second, a, b, s, e, a, b);
         return true;
-    case NODE_PACK:
-        if (n->type.width <= 32)
-            snprintf(out, size, "CONVERT(uint, %s(%s, %d, %d))",
-                     vectors ? "short_pack" : "SOFT_PACK", a, s, e);
-        else
-            snprintf(out, size, "%s(%s, %d, %d)", vectors ? "short_pack" : "SOFT_PACK", a, s,
-                     e);
-        return true;
-    case NODE_UNPACK:
-        snprintf(out, size, "%s(CONVERT(ulong, %s), %d, %d)",
-                 vectors ? "short_unpack" : "SOFT_UNPACK", a, s, e);
-        return true;
-    case NODE_U_TO_F:
-    case NODE_S_TO_F:
-        return spell_whole(out, size, n, from, a);
-    default:
+    case SPELL_CONVERSION:
+        return spell_conversion_soft(out, size, n, from, a, t);
+    case SPELL_PLACE: /* as doubles, whose result is rounded again */
+    case SPELL_BITS_ONE:
+    case SPELL_BITS:
+    case SPELL_INTEGER:
+    case SPELL_FLOAT_CHOICE:
+    case SPELL_FLOAT_COMPARISON:
+    case SPELL_MATH:
+    case SPELL_SELECT:
+    case SPELL_CONCAT:
         return false;
     }
+    INVARIANT(false);
 }
 
 void spell_soft_rounding(char *text, size_t size, struct machine_type t)

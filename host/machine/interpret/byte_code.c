@@ -336,7 +336,7 @@ static void step_operation(struct making *k, const struct plan_node *n, int to, 
     if (node_ops[n->op].fold == FOLD_SHIFT) /* all by one number? */
         s->detail = k->g->nodes[n->in[1]].constant;
     s->mask = lanes_mask(n->type);
-    if (node_rounds(n))
+    if (node_rounds(n, from))
         step_one(k, type_is_short(n->type) ? lanes_find(LANES_FIT, c) : NULL, LANES_FIT, to,
                  n->type, to, n->type, 0);
     if (n->op != NODE_SELECT)

@@ -68,6 +68,7 @@ static const struct {
     NAMED(SPELL_MATH),
     NAMED(SPELL_SELECT),
     NAMED(SPELL_OVERFLOW),
+    NAMED(SPELL_CONVERSION),
 };
 #undef NAMED
 

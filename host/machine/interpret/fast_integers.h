@@ -23,35 +23,55 @@ QUOTIENT(u32, f64)
 QUOTIENT_WHOLE(u64)
 QUOTIENT_WHOLE(u128)
 
-/* Where op is a number of the text, so is each of these questions. */
-static inline bool divides_signed(int op)
+/* As op_has(op, OP_SIGNED). The compiler knows the answer, for op is a number of the text. */
+static inline bool divides_signed(const enum op_quotient op)
 {
-    return op >= MACHINE_SDIV && op <= MACHINE_SMOD;
+    switch ((int)op) {
+#define OPERATION(op, name, inputs, takes, gives, cost, nan, fold, spell, word, second, flags) \
+    case op:                                                                                   \
+        return (flags)&OP_SIGNED;
+#define NODE(op, ...)
+#include "machine_op.tab"
+#undef OPERATION
+#undef NODE
+    default:
+        return false;
+    }
 }
 
 #define DIVIDE(T)                                                                              \
     static inline __attribute__((always_inline))                                               \
-    T divided_##T(const int op, T a, T b, const int width)                                     \
+    T divided_##T(const enum op_quotient op, T a, T b, const int width)                        \
     {                                                                                          \
         const T ones = (T)((T) ~(T)0 >> ((int)(8 * sizeof(T)) - width));                       \
         const bool sa = divides_signed(op) && (a >> (width - 1) & 1),                          \
                    sb = divides_signed(op) && (b >> (width - 1) & 1), negative = sa != sb;     \
         const T x = (T)(sa ? (0u - a) & ones : a), y = (T)(sb ? (0u - b) & ones : b);          \
-        const T q = quotient_##T(x, y), r = (T)(x - 1u * q * y);                               \
-        if (op == MACHINE_UREM || op == MACHINE_SREM)                                          \
-            return (T)(sa ? 0u - r : r);                                                       \
-        if (op == MACHINE_SMOD) {                                                              \
-            const T up = (T)(negative && r ? y - r : r);                                       \
-            return (T)(sb ? 0u - up : up);                                                     \
-        }                                                                                      \
+        const T q = quotient_##T(x, y), r = (T)(x - 1u * q * y),                               \
+                up = (T)(negative && r ? y - r : r);                                           \
         const bool inexact = y && r;                                                           \
         bool more = false;                                                                     \
-        if (op == MACHINE_SFLOOR)                                                              \
+        switch (op) {                                                                          \
+        case OF_MACHINE_UREM:                                                                  \
+        case OF_MACHINE_SREM:                                                                  \
+            return (T)(sa ? 0u - r : r);                                                       \
+        case OF_MACHINE_SMOD:                                                                  \
+            return (T)(sb ? 0u - up : up);                                                     \
+        case OF_MACHINE_UDIV:                                                                  \
+        case OF_MACHINE_SDIV:                                                                  \
+            break;                                                                             \
+        case OF_MACHINE_SFLOOR:                                                                \
             more = inexact && negative;                                                        \
-        if (op == MACHINE_UCEIL || op == MACHINE_SCEIL)                                        \
+            break;                                                                             \
+        case OF_MACHINE_UCEIL:                                                                 \
+        case OF_MACHINE_SCEIL:                                                                 \
             more = inexact && !negative;                                                       \
-        if (op == MACHINE_UROUND || op == MACHINE_SROUND)                                      \
+            break;                                                                             \
+        case OF_MACHINE_UROUND:                                                                \
+        case OF_MACHINE_SROUND:                                                                \
             more = inexact && (r > (T)(y - r) || (r == (T)(y - r) && (q & 1)));                \
+            break;                                                                             \
+        }                                                                                      \
         const T rounded = (T)(q + more);                                                       \
         return (T)(negative ? 0u - rounded : rounded);                                         \
     }
@@ -236,16 +256,16 @@ ROOT(u8) ROOT(u16) ROOT(u32) LOOP(isqrt, u64)
 
 #define BEYOND_SUMS(T, S)                                                                      \
     DIVIDE(T)                                                                                  \
-    DIVIDES(udiv, T, MACHINE_UDIV)                                                             \
-    DIVIDES(uceil, T, MACHINE_UCEIL)                                                           \
-    DIVIDES(uround, T, MACHINE_UROUND)                                                         \
-    DIVIDES(urem, T, MACHINE_UREM)                                                             \
-    DIVIDES(sdiv, T, MACHINE_SDIV)                                                             \
-    DIVIDES(sfloor, T, MACHINE_SFLOOR)                                                         \
-    DIVIDES(sceil, T, MACHINE_SCEIL)                                                           \
-    DIVIDES(sround, T, MACHINE_SROUND)                                                         \
-    DIVIDES(srem, T, MACHINE_SREM)                                                             \
-    DIVIDES(smod, T, MACHINE_SMOD)                                                             \
+    DIVIDES(udiv, T, OF_MACHINE_UDIV)                                                          \
+    DIVIDES(uceil, T, OF_MACHINE_UCEIL)                                                        \
+    DIVIDES(uround, T, OF_MACHINE_UROUND)                                                      \
+    DIVIDES(urem, T, OF_MACHINE_UREM)                                                          \
+    DIVIDES(sdiv, T, OF_MACHINE_SDIV)                                                          \
+    DIVIDES(sfloor, T, OF_MACHINE_SFLOOR)                                                      \
+    DIVIDES(sceil, T, OF_MACHINE_SCEIL)                                                        \
+    DIVIDES(sround, T, OF_MACHINE_SROUND)                                                      \
+    DIVIDES(srem, T, OF_MACHINE_SREM)                                                          \
+    DIVIDES(smod, T, OF_MACHINE_SMOD)                                                          \
     SHIFTS(T, S)                                                                               \
     COUNTS(T)                                                                                  \
     REVERSES(T)                                                                                \

@@ -10,7 +10,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/errors.h"
 #include "base/fill.h"
+#include "base/op_families.h"
 #include "base/scalar.h"
 #include "device/shape.h"
 

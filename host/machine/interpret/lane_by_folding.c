@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/errors.h"
+#include "base/op_families.h"
 #include "base/scalar.h"
 #include "base/types.h"
 #include "interpret/lanes.h"
@@ -72,118 +74,140 @@ static bool product_overflows(wide a, wide b, int width, bool is_signed)
     return product > most;
 }
 
-static bool bits_overflow(int op, int width, wide a, wide b)
-{
-    wide sum = (a + b) & ones(width), difference = (a - b) & ones(width);
-    switch (op) {
-    case NODE_OVERFLOW_UADD:
-        return sum < a;
-    case NODE_OVERFLOW_USUB:
-        return a < b;
-    case NODE_OVERFLOW_UMUL:
-        return product_overflows(a, b, width, false);
-    case NODE_OVERFLOW_SADD:
-        return is_negative((a ^ sum) & (b ^ sum), width);
-    case NODE_OVERFLOW_SSUB:
-        return is_negative((a ^ difference) & (a ^ b), width);
-    case NODE_OVERFLOW_SMUL:
-        return product_overflows(a, b, width, true);
-    default: /* SNEG */
-        return a == (wide)1 << (width - 1);
-    }
-}
-
 /* ---- floats ---- */
 
 /* A sum, difference, product or quotient, rounded once to the format. */
-static double float_binary(int op, struct machine_type t, double a, double b)
+static double float_binary(enum machine_op op, struct machine_type t, double a, double b)
 {
     uint64_t x = (uint64_t)bits_of(a, MACHINE_F64), y = (uint64_t)bits_of(b, MACHINE_F64);
     float f = (float)a, g = (float)b;
-    switch (op) {
-    case MACHINE_FADD:
-    case NODE_OVERFLOW_FADD:
+    switch ((enum op_float_operator)op) {
+    case OF_MACHINE_FADD:
         return t.s             ? double_of(soft_add(x, y, t.s, t.e), t)
                : t.width == 32 ? (double)(f + g)
                                : a + b;
-    case MACHINE_FSUB:
-    case NODE_OVERFLOW_FSUB:
+    case OF_MACHINE_FSUB:
         return t.s             ? double_of(soft_add(x, y ^ SOFT_SIGN, t.s, t.e), t)
                : t.width == 32 ? (double)(f - g)
                                : a - b;
-    case MACHINE_FMUL:
-    case NODE_OVERFLOW_FMUL:
+    case OF_MACHINE_FMUL:
         return t.s             ? double_of(soft_multiply(x, y, t.s, t.e), t)
                : t.width == 32 ? (double)(f * g)
                                : a * b;
-    default:
+    case OF_MACHINE_FDIV:
         return t.s             ? double_of(soft_divide(x, y, t.s, t.e), t)
                : t.width == 32 ? (double)(f / g)
                                : a / b;
     }
+    INVARIANT(false);
 }
 
-static double float_unary(int op, struct machine_type t, double a)
+/* A change of the sign moves the bits, a NaN's too. */
+static wide float_function(int op, struct machine_type t, wide bits)
 {
-    switch (op) {
-    case MACHINE_FSQRT:
-        return t.s ? double_of(soft_root((uint64_t)bits_of(a, MACHINE_F64), t.s, t.e), t)
-               : t.width == 32 ? (double)sqrtf((float)a)
-                               : sqrt(a);
-    case MACHINE_FFLOOR:
-        return floor(a);
-    case MACHINE_FCEIL:
-        return ceil(a);
-    case MACHINE_FTRUNC:
-        return trunc(a);
-    default: /* FROUND */
-        return rint(a);
+    const wide sign = (wide)1 << (t.width - 1);
+    const double a = double_of(bits, t);
+    switch ((enum op_float_function)op) {
+    case OF_MACHINE_FNEG:
+        return bits ^ sign;
+    case OF_MACHINE_FABS:
+        return bits & ~sign;
+    case OF_MACHINE_FSQRT:
+        return t.s             ? soft_root((uint64_t)bits, t.s, t.e)
+               : t.width == 32 ? bits_of((double)sqrtf((float)a), t)
+                               : bits_of(sqrt(a), t);
+    case OF_MACHINE_FFLOOR:
+        return bits_of(floor(a), t);
+    case OF_MACHINE_FCEIL:
+        return bits_of(ceil(a), t);
+    case OF_MACHINE_FTRUNC:
+        return bits_of(trunc(a), t);
+    case OF_MACHINE_FROUND:
+        return bits_of(rint(a), t);
     }
+    INVARIANT(false);
+}
+
+/* A choice moves the bits of one operand, a NaN's too. */
+static wide float_choice(int op, struct machine_type t, wide a, wide b)
+{
+    const double x = double_of(a, t), y = double_of(b, t);
+    switch ((enum op_float_choice)op) {
+    case OF_MACHINE_FMIN:
+        return x < y ? a : b;
+    case OF_MACHINE_FMAX:
+        return x > y ? a : b;
+    }
+    INVARIANT(false);
 }
 
 static bool float_compare(int op, double a, double b)
 {
-    switch (op) {
-    case MACHINE_FEQ:
+    switch ((enum op_float_comparison)op) {
+    case OF_MACHINE_FEQ:
         return a == b;
-    case MACHINE_FNE:
+    case OF_MACHINE_FNE:
         return a != b;
-    case MACHINE_FLT:
+    case OF_MACHINE_FLT:
         return a < b;
-    case MACHINE_FLE:
+    case OF_MACHINE_FLE:
         return a <= b;
-    case MACHINE_FGT:
+    case OF_MACHINE_FGT:
         return a > b;
-    default: /* FGE */
+    case OF_MACHINE_FGE:
         return a >= b;
     }
+    INVARIANT(false);
 }
 
-/* What moves bits moves them, NaNs too. */
-static wide float_operation(int op, struct machine_type t, wide a, wide b)
+static wide float_math(int op, struct machine_type t, wide a, wide b)
 {
-    double x = double_of(a, t), y = double_of(b, t), r = 0;
-    const wide sign = (wide)1 << (t.width - 1);
-    switch (node_ops[op].spell) {
-    case SPELL_FLOAT_CHOICE:
-        return (op == MACHINE_FMIN ? x < y : x > y) ? a : b;
-    case SPELL_FLOAT_COMPARISON:
-        return float_compare(op, x, y);
-    case SPELL_OVERFLOW:
-        if (op != NODE_OVERFLOW_RESULT)
-            return isinf(float_binary(op, t, x, y)) && isfinite(x) && isfinite(y);
-        return isinf(x) && isfinite(y);
-    case SPELL_FLOAT_OPERATOR:
-        return bits_of(float_binary(op, t, x, y), t);
-    case SPELL_MATH:
-        if (t.width == 32 && !t.s)
-            return math_evaluate_single(op, x, y, &r) ? bits_of(r, t) : 0;
-        return math_evaluate(op, x, y, &r) ? bits_of(r, t) : 0;
-    default:
-        if (op == MACHINE_FNEG)
-            return a ^ sign;
-        return op == MACHINE_FABS ? a & ~sign : bits_of(float_unary(op, t, x), t);
+    const double x = double_of(a, t), y = double_of(b, t);
+    double r = 0;
+    if (t.width == 32 && !t.s)
+        return math_evaluate_single(op, x, y, &r) ? bits_of(r, t) : 0;
+    return math_evaluate(op, x, y, &r) ? bits_of(r, t) : 0;
+}
+
+/* ---- results that do not fit ---- */
+
+static bool float_overflows(enum machine_op op, struct machine_type t, wide a, wide b)
+{
+    const double x = double_of(a, t), y = double_of(b, t);
+    return isinf(float_binary(op, t, x, y)) && isfinite(x) && isfinite(y);
+}
+
+static bool overflows(int op, struct machine_type t, wide a, wide b)
+{
+    const int width = t.width;
+    const wide sum = (a + b) & ones(width), difference = (a - b) & ones(width);
+    switch ((enum op_overflow)op) {
+    case OF_NODE_OVERFLOW_UADD:
+        return sum < a;
+    case OF_NODE_OVERFLOW_USUB:
+        return a < b;
+    case OF_NODE_OVERFLOW_UMUL:
+        return product_overflows(a, b, width, false);
+    case OF_NODE_OVERFLOW_SADD:
+        return is_negative((a ^ sum) & (b ^ sum), width);
+    case OF_NODE_OVERFLOW_SSUB:
+        return is_negative((a ^ difference) & (a ^ b), width);
+    case OF_NODE_OVERFLOW_SMUL:
+        return product_overflows(a, b, width, true);
+    case OF_NODE_OVERFLOW_SNEG:
+        return a == (wide)1 << (width - 1);
+    case OF_NODE_OVERFLOW_FADD:
+        return float_overflows(MACHINE_FADD, t, a, b);
+    case OF_NODE_OVERFLOW_FSUB:
+        return float_overflows(MACHINE_FSUB, t, a, b);
+    case OF_NODE_OVERFLOW_FMUL:
+        return float_overflows(MACHINE_FMUL, t, a, b);
+    case OF_NODE_OVERFLOW_FDIV:
+        return float_overflows(MACHINE_FDIV, t, a, b);
+    case OF_NODE_OVERFLOW_RESULT: /* a is the result, b the operand */
+        return isinf(double_of(a, t)) && isfinite(double_of(b, t));
     }
+    INVARIANT(false);
 }
 
 /* ---- between bits and floats ---- */
@@ -213,33 +237,41 @@ static wide bits_to_float(const struct lanes_step *s, wide a)
     return bits_of(negative ? -(double)magnitude : (double)magnitude, s->type);
 }
 
-static wide converted(const struct lanes_step *s, wide a, wide b)
+static wide converted(const struct lanes_step *s, wide a)
 {
-    switch (s->op) {
-    case NODE_ZERO_EXTEND:
-    case NODE_EXTRACT:
+    switch ((enum op_conversion)s->op) {
+    case OF_NODE_ZERO_EXTEND:
+    case OF_NODE_EXTRACT:
         return a >> s->detail;
-    case NODE_SIGN_EXTEND:
+    case OF_NODE_SIGN_EXTEND:
         return extended(a, s->from.width);
-    case NODE_U_TO_F:
-    case NODE_S_TO_F:
-        return bits_to_float(s, a);
-    case NODE_F_TO_U:
-    case NODE_F_TO_S:
-        return float_to_bits(double_of(a, s->from), s->type.width, s->op == NODE_F_TO_S);
-    case NODE_F_TO_F:
-        return bits_of(double_of(a, s->from), s->type);
-    case NODE_PACK:
-        return soft_pack((uint64_t)a, s->from.s, s->from.e);
-    case NODE_UNPACK:
-        return soft_unpack((uint64_t)a, s->type.s, s->type.e);
-    case LANES_JOIN:
-        return a | b << s->detail;
-    case LANES_FIT:
-        return soft_fit((uint64_t)a, s->type.s, s->type.e);
-    default: /* COPY */
+    case OF_NODE_REINTERPRET:
         return a;
+    case OF_NODE_U_TO_F:
+    case OF_NODE_S_TO_F:
+        return bits_to_float(s, a);
+    case OF_NODE_F_TO_U:
+    case OF_NODE_F_TO_S:
+        return float_to_bits(double_of(a, s->from), s->type.width, s->op == NODE_F_TO_S);
+    case OF_NODE_F_TO_F:
+        return bits_of(double_of(a, s->from), s->type);
+    case OF_NODE_PACK:
+        return soft_pack((uint64_t)a, s->from.s, s->from.e);
+    case OF_NODE_UNPACK:
+        return soft_unpack((uint64_t)a, s->type.s, s->type.e);
     }
+    INVARIANT(false);
+}
+
+/* An operation beside the graph's; all others of enum lanes_op have loops for each type. */
+static wide beside(const struct lanes_step *s, wide a, wide b)
+{
+    if (s->op == LANES_JOIN)
+        return a | b << s->detail;
+    if (s->op == LANES_FIT)
+        return soft_fit((uint64_t)a, s->type.s, s->type.e);
+    INVARIANT(s->op == LANES_COPY);
+    return a;
 }
 
 /* ---- any ---- */
@@ -248,8 +280,8 @@ static wide evaluated(const struct lanes_step *s, wide a, wide b, wide c)
 {
     int op = s->op;
     if (op >= NODE_OP_COUNT)
-        return converted(s, a, b);
-    switch (node_ops[op].spell) {
+        return beside(s, a, b);
+    switch ((enum op_spell)node_ops[op].spell) {
     case SPELL_SELECT:
         return a ? b : c;
     case SPELL_INTEGER:
@@ -258,17 +290,26 @@ static wide evaluated(const struct lanes_step *s, wide a, wide b, wide c)
     case SPELL_BITS:
         return bits_fold((enum machine_op)op, s->from.width, a, b);
     case SPELL_OVERFLOW:
-        return s->from.kind == MACHINE_FLOAT ? float_operation(op, s->from, a, b)
-                                             : bits_overflow(op, s->from.width, a, b);
+        return overflows(op, s->from, a, b);
     case SPELL_FLOAT_FUNCTION:
+        return float_function(op, s->from, a);
     case SPELL_FLOAT_OPERATOR:
+        return bits_of(float_binary((enum machine_op)op, s->from, double_of(a, s->from),
+                                    double_of(b, s->from)),
+                       s->from);
     case SPELL_FLOAT_CHOICE:
+        return float_choice(op, s->from, a, b);
     case SPELL_FLOAT_COMPARISON:
+        return float_compare(op, double_of(a, s->from), double_of(b, s->from));
     case SPELL_MATH:
-        return float_operation(op, s->from, a, b);
-    default:
-        return converted(s, a, b);
+        return float_math(op, s->from, a, b);
+    case SPELL_CONVERSION:
+        return converted(s, a);
+    case SPELL_PLACE:  /* generated or fetched */
+    case SPELL_CONCAT: /* steps of LANES_JOIN */
+        break;
     }
+    INVARIANT(false);
 }
 
 static wide lane_get(const void *from, size_t bytes, int i)

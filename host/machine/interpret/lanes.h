@@ -163,18 +163,6 @@ struct lanes_rows {
     uint32_t width, halo, further;
 };
 typedef void lanes_places_function(uint32_t *place, size_t n, const struct lanes_rows *r);
-/* A part of a line of numbers of 32 bits: see near_loops.h. op: MACHINE_ADD, UMIN, OR, XOR. before: what the numbers before come to;
- * returns that of all, neither cut nor flipped. */
-struct lanes_scan {
-    const uint32_t *in;
-    uint32_t *out;
-    const uint8_t *context, *bits; /* NULL: all are active; no segments */
-    int op;
-    bool exclusive, starts;
-    bool streams; /* past the caches, where a line of them begins: see lanes_settle */
-    uint32_t none, flip, cut;
-};
-typedef uint32_t lanes_scan_function(const struct lanes_scan *s, size_t n, uint32_t before);
 /* As in kernels/reduce.cl. */
 enum reduction_op {
     REDUCE_AND,
@@ -184,6 +172,18 @@ enum reduction_op {
     REDUCE_LEAST,
     REDUCE_GREATEST
 };
+/* A part of a line of numbers of 32 bits: see near_loops.h. before: what the numbers before come to; returns that
+ * of all, neither cut nor flipped. */
+struct lanes_scan {
+    const uint32_t *in;
+    uint32_t *out;
+    const uint8_t *context, *bits; /* NULL: all are active; no segments */
+    enum reduction_op op;          /* REDUCE_ADD, LEAST, OR or XOR */
+    bool exclusive, starts;
+    bool streams; /* past the caches, where a line of them begins: see lanes_settle */
+    uint32_t none, flip, cut;
+};
+typedef uint32_t lanes_scan_function(const struct lanes_scan *s, size_t n, uint32_t before);
 /* Whole numbers joined with one another, where the context (NULL: everywhere) holds. */
 struct lanes_sum {
     enum reduction_op op;

@@ -228,15 +228,14 @@ FETCH_SIXTEEN(u64, {
 
 #ifdef __AVX512F__
 
-enum { SCAN_ADD, SCAN_MIN, SCAN_OR, SCAN_XOR };
 #define SCANNED static inline __attribute__((always_inline))
 
-SCANNED __m512i scan_join(const int op, __m512i a, __m512i b)
+SCANNED __m512i scan_join(const enum reduction_op op, __m512i a, __m512i b)
 {
-    return op == SCAN_ADD   ? _mm512_add_epi32(a, b)
-           : op == SCAN_MIN ? _mm512_min_epu32(a, b)
-           : op == SCAN_OR  ? _mm512_or_si512(a, b)
-                            : _mm512_xor_si512(a, b);
+    return op == REDUCE_ADD     ? _mm512_add_epi32(a, b)
+           : op == REDUCE_LEAST ? _mm512_min_epu32(a, b)
+           : op == REDUCE_OR    ? _mm512_or_si512(a, b)
+                                : _mm512_xor_si512(a, b);
 }
 
 /* v joined with what is k lanes before, but not across a lane where a segment begins; begins: such lanes, or lanes that are joined
@@ -247,8 +246,9 @@ SCANNED __m512i scan_join(const int op, __m512i a, __m512i b)
     begins = segmented ? begins | begins << (k) : 0
 
 /* Sixteen of them; carry: all lanes the number before. */
-SCANNED __m512i scan_sixteen(const struct lanes_scan *s, const int op, const bool masked,
-                             const bool segmented, size_t at, __mmask16 there, __m512i *carry)
+SCANNED __m512i scan_sixteen(const struct lanes_scan *s, const enum reduction_op op,
+                             const bool masked, const bool segmented, size_t at,
+                             __mmask16 there, __m512i *carry)
 {
     const __m512i none = _mm512_set1_epi32((i32)s->none),
                   flip = _mm512_set1_epi32((i32)s->flip), cut = _mm512_set1_epi32((i32)s->cut),
@@ -287,7 +287,7 @@ SCANNED __m512i scan_sixteen(const struct lanes_scan *s, const int op, const boo
 }
 
 /* Fewer than sixteen, from there on. */
-SCANNED void scan_few(const struct lanes_scan *s, const int op, const bool masked,
+SCANNED void scan_few(const struct lanes_scan *s, const enum reduction_op op, const bool masked,
                       const bool segmented, size_t at, size_t n, __m512i *carry)
 {
     const __mmask16 there = (__mmask16)((1u << n) - 1);
@@ -295,7 +295,7 @@ SCANNED void scan_few(const struct lanes_scan *s, const int op, const bool maske
                              scan_sixteen(s, op, masked, segmented, at, there, carry));
 }
 
-SCANNED u32 scan_by(const struct lanes_scan *s, const int op, const bool masked,
+SCANNED u32 scan_by(const struct lanes_scan *s, const enum reduction_op op, const bool masked,
                     const bool segmented, size_t n, u32 before)
 {
     const size_t line = 64 / sizeof *s->out, into = (uintptr_t)s->out / sizeof *s->out % line;
@@ -323,15 +323,19 @@ SCANNED u32 scan_by(const struct lanes_scan *s, const int op, const bool masked,
 static u32 scan(const struct lanes_scan *s, size_t n, u32 before)
 {
     switch (s->op) {
-    case MACHINE_ADD:
-        SCAN_BY_FLAGS(SCAN_ADD);
-    case MACHINE_UMIN:
-        SCAN_BY_FLAGS(SCAN_MIN);
-    case MACHINE_OR:
-        SCAN_BY_FLAGS(SCAN_OR);
-    default:
-        SCAN_BY_FLAGS(SCAN_XOR);
+    case REDUCE_ADD:
+        SCAN_BY_FLAGS(REDUCE_ADD);
+    case REDUCE_LEAST:
+        SCAN_BY_FLAGS(REDUCE_LEAST);
+    case REDUCE_OR:
+        SCAN_BY_FLAGS(REDUCE_OR);
+    case REDUCE_XOR:
+        SCAN_BY_FLAGS(REDUCE_XOR);
+    case REDUCE_AND: /* turned over they are OR and LEAST */
+    case REDUCE_GREATEST:
+        break;
     }
+    INVARIANT(false);
 }
 
 #define SCAN scan

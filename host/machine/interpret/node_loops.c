@@ -1,6 +1,7 @@
 /* node_loops.c - see node_loops.h. */
 #include "interpret/node_loops.h"
 
+#include "base/errors.h"
 #include "base/types.h"
 
 /* Floats of other formats: what is not as with doubles, but for being rounded again. */
@@ -9,34 +10,33 @@ static bool is_soft(const struct plan_node *n, struct machine_type from)
     struct machine_type t = n->type.s ? n->type : from;
     if (!t.s)
         return false;
-    switch (n->op) {
-    case MACHINE_FADD:
-    case MACHINE_FSUB:
-    case MACHINE_FMUL:
-    case MACHINE_FDIV:
-    case MACHINE_FSQRT:
-        return !type_is_short(t);
-    case NODE_OVERFLOW_FADD:
-    case NODE_OVERFLOW_FSUB:
-    case NODE_OVERFLOW_FMUL:
-    case NODE_OVERFLOW_FDIV:
-    case NODE_PACK:
-    case NODE_UNPACK:
-        return true;
-    case NODE_U_TO_F:
-    case NODE_S_TO_F:
-        return from.width > 32;
-    default:
+    const bool soft = node_words[n->op].second; /* soft.cl has a function for it */
+    switch ((enum op_spell)node_ops[n->op].spell) {
+    case SPELL_FLOAT_FUNCTION:
+    case SPELL_FLOAT_OPERATOR:
+        return soft && !type_is_short(t);
+    case SPELL_OVERFLOW:
+        return soft;
+    case SPELL_CONVERSION:
+        return n->op == NODE_PACK || n->op == NODE_UNPACK ||
+               ((n->op == NODE_U_TO_F || n->op == NODE_S_TO_F) && from.width > 32);
+    case SPELL_PLACE:
+    case SPELL_BITS_ONE:
+    case SPELL_BITS:
+    case SPELL_INTEGER:
+    case SPELL_FLOAT_CHOICE:
+    case SPELL_FLOAT_COMPARISON:
+    case SPELL_MATH:
+    case SPELL_SELECT:
+    case SPELL_CONCAT:
         return false;
     }
+    INVARIANT(false);
 }
 
-/* What moves numbers of the format has no need to, and keeps NaNs' bits. */
-bool node_rounds(const struct plan_node *n)
+bool node_rounds(const struct plan_node *n, struct machine_type from)
 {
-    const bool moves = n->op == NODE_SELECT || n->op == NODE_UNPACK;
-    return n->type.s && n->op != MACHINE_FNEG && n->op != MACHINE_FABS &&
-           n->op != MACHINE_FMIN && n->op != MACHINE_FMAX && !moves;
+    return n->type.s && n->op != NODE_UNPACK && op_soft(n->op, n->type, from) != OP_SOFT_NOT;
 }
 
 lanes_function *node_loop(const struct plan_node *n, struct machine_type from)

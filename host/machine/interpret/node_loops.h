@@ -8,6 +8,6 @@
 /* from: the type of its first operand. NULL: none, it is done lane by lane. */
 lanes_function *node_loop(const struct plan_node *n, struct machine_type from);
 /* Whether the result of its loop, in doubles, is yet to be rounded to its format. */
-bool node_rounds(const struct plan_node *n);
+bool node_rounds(const struct plan_node *n, struct machine_type from);
 
 #endif

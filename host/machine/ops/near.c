@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/errors.h"
 #include "base/parts.h"
 #include "base/scalar.h"
 #include "base/types.h"
@@ -59,6 +60,23 @@ static uint64_t coordinate(const struct vpset *s, int axis, uint64_t index)
     return index % (uint64_t)s->dimensions[axis];
 }
 
+/* Whether an operation only says which bits of its operands the result has. */
+static bool moves_bits(int op)
+{
+    switch (op) {
+    case NODE_SELECT:
+    case NODE_REINTERPRET:
+    case NODE_ZERO_EXTEND:
+    case NODE_SIGN_EXTEND:
+    case NODE_EXTRACT:
+    case NODE_CONCAT:
+        return true;
+    default: /* the device computes it */
+        return false;
+    }
+}
+
+/* The value of one processor, if it is in memory, a number, a place, or made of such by moving bits. */
 static bool moved(const struct vpset *s, const struct machine_value *v, uint64_t index,
                   int depth, struct machine_scalar *out)
 {
@@ -73,30 +91,20 @@ static bool moved(const struct vpset *s, const struct machine_value *v, uint64_t
         *out = cut(v->op == NODE_INDEX ? index : coordinate(s, v->axis, index), v->type.width);
         return true;
     }
-    if (depth == 0 || (v->op != NODE_SELECT && v->op != NODE_REINTERPRET &&
-                       (v->op < NODE_ZERO_EXTEND || v->op > NODE_CONCAT)))
+    if (!depth || !moves_bits(v->op) || !moved(s, v->in[0], index, depth - 1, &a))
         return false;
-    if (!moved(s, v->in[0], index, depth - 1, &a))
-        return false;
-    int width = v->in[0]->type.width;
-    unsigned __int128 x = scalar_wide(a);
-    switch (v->op) {
-    case NODE_SELECT:
+    if (v->op == NODE_SELECT)
         return moved(s, v->in[a.lo & 1 ? 1 : 2], index, depth - 1, out);
-    case NODE_SIGN_EXTEND:
-        if (x >> (width - 1) & 1)
-            x |= ~(unsigned __int128)0 << (width - 1);
-        break;
-    case NODE_EXTRACT:
+    int width = v->in[0]->type.width;
+    u128 x = scalar_wide(a);
+    if (v->op == NODE_SIGN_EXTEND && (x >> (width - 1) & 1))
+        x |= ~(u128)0 << (width - 1);
+    if (v->op == NODE_EXTRACT)
         x >>= v->detail;
-        break;
-    case NODE_CONCAT:
+    if (v->op == NODE_CONCAT) {
         if (!moved(s, v->in[1], index, depth - 1, &b))
             return false;
         x |= scalar_wide(b) << width;
-        break;
-    default: /* the same bits, or more of them that are 0 */
-        break;
     }
     *out = cut(x, v->type.width);
     return true;
@@ -143,8 +151,10 @@ bool near_read(struct machine *m, int set, const struct machine_value *v, uint64
             FLOATS_LOOP(type, JOIN_ADD)                                                        \
         else if (w->op == REDUCE_LEAST)                                                        \
             FLOATS_LOOP(type, JOIN_LEAST)                                                      \
-        else                                                                                   \
+        else {                                                                                 \
+            INVARIANT(w->op == REDUCE_GREATEST);                                               \
             FLOATS_LOOP(type, JOIN_GREATEST)                                                   \
+        }                                                                                      \
         memcpy(&bits, &sums[0], sizeof none);                                                  \
         return bits;                                                                           \
     }
@@ -168,9 +178,9 @@ static u128 joined_wide(enum reduction_op op, u128 a, u128 x)
     case REDUCE_LEAST:
         return JOIN_LEAST(a, x);
     case REDUCE_GREATEST:
-    default:
         return JOIN_GREATEST(a, x);
     }
+    INVARIANT(false);
 }
 
 static u128 run_wide(const struct near_sum *w, const u128 *p, const unsigned char *context,

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 
 #include "base/arrays.h"
+#include "base/errors.h"
 #include "base/scalar.h"
 #include "base/types.h"
 
@@ -21,7 +22,7 @@ typedef unsigned __int128 u128;
 
 struct few {
     const struct near_route *r;
-    int combiner;
+    enum machine_combiner combiner;
     struct machine_type type;
     size_t bytes; /* of an element */
     const char *source;
@@ -67,8 +68,13 @@ struct few {
         WHAT(T, b > a ? b : a)                                                                 \
     case MACHINE_COMBINE_SMIN:                                                                 \
         WHAT(T, (T)(b ^ sign) < (T)(a ^ sign) ? b : a)                                         \
-    default:                                                                                   \
+    case MACHINE_COMBINE_SMAX:                                                                 \
         WHAT(T, (T)(b ^ sign) > (T)(a ^ sign) ? b : a)                                         \
+    case MACHINE_COMBINE_OVERWRITE: /* no whole numbers are combined so */                     \
+    case MACHINE_COMBINE_FADD:                                                                 \
+    case MACHINE_COMBINE_FMIN:                                                                 \
+    case MACHINE_COMBINE_FMAX:                                                                 \
+        INVARIANT(false);                                                                      \
     }
 
 #define FUNCTIONS(T)                                                                           \
@@ -78,7 +84,7 @@ struct few {
         const struct machine_scalar bit = scalar_sign(f->type.width);                          \
         const T sign = (T)((u128)bit.hi << 64 | bit.lo),                                       \
                 *in = (const T *)(const void *)source;                                         \
-        const int combiner = f->combiner;                                                      \
+        const enum machine_combiner combiner = f->combiner;                                    \
         T *table[TABLES];                                                                      \
         int i = 0;                                                                             \
         for (int k = 0; k < TABLES; k++)                                                       \
@@ -94,7 +100,7 @@ struct few {
                 mask = (T)((u128)ones.hi << 64 | ones.lo),                                     \
                 *in = (const T *)(const void *)table;                                          \
         const struct vpset *s = f->r->to;                                                      \
-        const int combiner = f->combiner;                                                      \
+        const enum machine_combiner combiner = f->combiner;                                    \
         for (uint64_t row = 0; row < s->rows; row++) {                                         \
             T *to = (T *)out + (size_t)row * s->pitch + s->halo;                               \
             for (int x = 0; x < s->width; x++, in++) {                                         \
@@ -158,7 +164,7 @@ static void part_few(void *of, int part, int worker)
 }
 
 /* What sends change nothing. */
-static struct machine_scalar identity_of(int combiner, int width)
+static struct machine_scalar identity_of(enum machine_combiner combiner, int width)
 {
     const struct machine_scalar zero = {0, 0}, ones = scalar_ones(width),
                                 sign = scalar_sign(width);
@@ -170,13 +176,22 @@ static struct machine_scalar identity_of(int combiner, int width)
         return (struct machine_scalar){ones.lo ^ sign.lo, ones.hi ^ sign.hi};
     case MACHINE_COMBINE_SMAX:
         return sign;
-    default:
+    case MACHINE_COMBINE_OR:
+    case MACHINE_COMBINE_XOR:
+    case MACHINE_COMBINE_ADD:
+    case MACHINE_COMBINE_UMAX:
         return zero;
+    case MACHINE_COMBINE_OVERWRITE: /* no whole numbers are combined so */
+    case MACHINE_COMBINE_FADD:
+    case MACHINE_COMBINE_FMIN:
+    case MACHINE_COMBINE_FMAX:
+        break;
     }
+    INVARIANT(false);
 }
 
-bool near_send_few(const struct near_route *r, int combiner, struct machine_type type,
-                   const void *source, bool same, void *out)
+bool near_send_few(const struct near_route *r, enum machine_combiner combiner,
+                   struct machine_type type, const void *source, bool same, void *out)
 {
     struct few f = {.r = r,
                     .combiner = combiner,

@@ -6,6 +6,7 @@
 
 #include <string.h>
 
+#include "base/errors.h"
 #include "base/scalar.h"
 #include "interpret/lanes.h"
 
@@ -20,7 +21,7 @@ typedef double f64;
 /* ---- what is combined ---- */
 
 #define INTEGERS(T)                                                                            \
-    ALWAYS T join_##T(int op, T a, T b)                                                        \
+    ALWAYS T join_##T(enum lines_op op, T a, T b)                                              \
     {                                                                                          \
         return op == LINES_ADD   ? a + b                                                       \
                : op == LINES_MIN ? (b < a ? b : a)                                             \
@@ -51,7 +52,7 @@ INTEGERS(u64)
 INTEGERS(u128)
 
 #define FLOATS(T, BITS, QUIET)                                                                 \
-    ALWAYS T join_##T(int op, T a, T b)                                                        \
+    ALWAYS T join_##T(enum lines_op op, T a, T b)                                              \
     {                                                                                          \
         return op == LINES_ADD ? a + b : a * b;                                                \
     }                                                                                          \
@@ -116,8 +117,9 @@ ALWAYS struct flags flags_at(const unsigned char *context, const unsigned char *
 /* n lines, or LOOPS_RUNS runs of one line, from what acc says on; first: where a segment first begins in each; write: what has been
  * combined, to out (of runs as it is: what finishes them makes NaNs the NaN). */
 #define SCAN_OF(T)                                                                             \
-    ALWAYS void scan_##T(const struct stretch *s, int op, bool masked, bool segmented,         \
-                         bool exclusive, bool write, int n, T *acc, int *first)                \
+    ALWAYS void scan_##T(const struct stretch *s, enum lines_op op, bool masked,               \
+                         bool segmented, bool exclusive, bool write, int n, T *acc,            \
+                         int *first)                                                           \
     {                                                                                          \
         NUMBERS(T);                                                                            \
         STRETCH;                                                                               \
@@ -195,6 +197,11 @@ SUMS_OF(u32)
 SUMS_OF(u64)
 SUMS_OF(u128)
 
+static const enum reduction_op reductions[] = {[LINES_ADD] = REDUCE_ADD,
+                                               [LINES_MIN] = REDUCE_LEAST,
+                                               [LINES_OR] = REDUCE_OR,
+                                               [LINES_XOR] = REDUCE_XOR};
+
 bool near_loops_by_vectors(const struct line_scan *j, ptrdiff_t step)
 {
     return lanes_table()->scan && j->element->bytes == 4 && j->element->kind == 0 &&
@@ -204,10 +211,6 @@ bool near_loops_by_vectors(const struct line_scan *j, ptrdiff_t step)
 /* Forwards along a row: sixteen at a time, where there is a loop for that. */
 static bool vectors_u32(const struct stretch *s, u32 *acc)
 {
-    static const int ops[] = {[LINES_ADD] = MACHINE_ADD,
-                              [LINES_MIN] = MACHINE_UMIN,
-                              [LINES_OR] = MACHINE_OR,
-                              [LINES_XOR] = MACHINE_XOR};
     const struct line_scan *j = s->j;
     if (!near_loops_by_vectors(j, s->step))
         return false;
@@ -216,7 +219,7 @@ static bool vectors_u32(const struct stretch *s, u32 *acc)
         .out = (u32 *)j->out->host + s->at,
         .context = j->context ? (const uint8_t *)j->context->host + s->at : NULL,
         .bits = j->bits ? (const uint8_t *)j->bits->host + s->at : NULL,
-        .op = ops[j->op],
+        .op = reductions[j->op],
         .exclusive = j->exclusive,
         .starts = j->starts,
         .streams = j->streams,
@@ -277,8 +280,11 @@ ALWAYS bool vectors_u128(const struct stretch *s, u128 *acc)
     case LINES_OR:                                                                             \
         BY_FLAGS(T, n, LINES_OR, write);                                                       \
         break;                                                                                 \
-    default:                                                                                   \
+    case LINES_XOR:                                                                            \
         BY_FLAGS(T, n, LINES_XOR, write);                                                      \
+        break;                                                                                 \
+    case LINES_MULTIPLY: /* only floats are multiplied */                                      \
+        INVARIANT(false);                                                                      \
     }
 
 /* What a line's whole comes to, beside one another for neighbouring lines. */
@@ -307,11 +313,6 @@ INTEGERS_LINES(u64, line_u64, 1)
 INTEGERS_LINES(u128, line_u128, 1)
 INTEGERS_LINES(u32, lines_u32, LOOPS_LANES)
 INTEGERS_LINES(u64, lines_u64, LOOPS_LANES)
-
-static const enum reduction_op reductions[] = {[LINES_ADD] = REDUCE_ADD,
-                                               [LINES_MIN] = REDUCE_LEAST,
-                                               [LINES_OR] = REDUCE_OR,
-                                               [LINES_XOR] = REDUCE_XOR};
 
 /* n numbers side by side from that element on, in any order, where the context (NULL: everywhere) holds. */
 #define SUM_OF(T)                                                                              \

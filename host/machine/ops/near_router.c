@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "base/arrays.h"
+#include "base/errors.h"
 #include "base/scalar.h"
 #include "base/types.h"
 #include "ops/near_few.h"
@@ -153,13 +154,18 @@ static void messages_move(const struct hops *h, size_t bytes, const void *from, 
             JOIN(T, b > a ? b : a);                                                            \
         case MACHINE_COMBINE_SMIN:                                                             \
             JOIN(T, (T)(b ^ sign) < (T)(a ^ sign) ? b : a);                                    \
-        default:                                                                               \
+        case MACHINE_COMBINE_SMAX:                                                             \
             JOIN(T, (T)(b ^ sign) > (T)(a ^ sign) ? b : a);                                    \
+        case MACHINE_COMBINE_OVERWRITE: /* no whole numbers are combined so */                 \
+        case MACHINE_COMBINE_FADD:                                                             \
+        case MACHINE_COMBINE_FMIN:                                                             \
+        case MACHINE_COMBINE_FMAX:                                                             \
+            INVARIANT(false);                                                                  \
         }                                                                                      \
     }
 
-static void integers_join(const struct hops *h, int combiner, struct machine_type type,
-                          const void *from, size_t at, void *out)
+static void integers_join(const struct hops *h, enum machine_combiner combiner,
+                          struct machine_type type, const void *from, size_t at, void *out)
 {
     const struct machine_scalar sign_bit = scalar_sign(type.width),
                                 ones = scalar_ones(type.width);
@@ -203,12 +209,22 @@ static inline double quiet_double(double x)
         JOIN(T, quiet_##T(a + b));                                                             \
     case MACHINE_COMBINE_FMIN:                                                                 \
         JOIN(T, quiet_##T(a < b ? a : b));                                                     \
-    default:                                                                                   \
+    case MACHINE_COMBINE_FMAX:                                                                 \
         JOIN(T, quiet_##T(a > b ? a : b));                                                     \
+    case MACHINE_COMBINE_OVERWRITE: /* no floats are combined so */                            \
+    case MACHINE_COMBINE_AND:                                                                  \
+    case MACHINE_COMBINE_OR:                                                                   \
+    case MACHINE_COMBINE_XOR:                                                                  \
+    case MACHINE_COMBINE_ADD:                                                                  \
+    case MACHINE_COMBINE_UMIN:                                                                 \
+    case MACHINE_COMBINE_UMAX:                                                                 \
+    case MACHINE_COMBINE_SMIN:                                                                 \
+    case MACHINE_COMBINE_SMAX:                                                                 \
+        INVARIANT(false);                                                                      \
     }
 
-static void floats_join(const struct hops *h, int combiner, struct machine_type type,
-                        const void *from, size_t at, void *out)
+static void floats_join(const struct hops *h, enum machine_combiner combiner,
+                        struct machine_type type, const void *from, size_t at, void *out)
 {
     if (type.width == 32)
         FLOATS_JOIN(float)
@@ -270,7 +286,7 @@ static bool messages_move_all(const struct near_route *r, const struct block *b,
 /* One part of a send, of a get, or of a count. */
 struct routing {
     const struct near_route *r;
-    int combiner;
+    enum machine_combiner combiner;
     struct machine_type type;
     size_t bytes;
     const void *source;
@@ -322,9 +338,9 @@ static void part_send(void *of, int part, int worker)
     }
 }
 
-void near_send(const struct near_route *r, int combiner, struct machine_type type,
-               const struct machine_value *source, struct device_buffer *out,
-               struct device_buffer *arrived)
+void near_send(const struct near_route *r, enum machine_combiner combiner,
+               struct machine_type type, const struct machine_value *source,
+               struct device_buffer *out, struct device_buffer *arrived)
 {
     _Alignas(16) unsigned char number[BLOCK * 16];
     const bool same = source->op == NODE_CONSTANT && !source->buffer;

@@ -5,9 +5,9 @@
 #include "ops/near_addresses.h"
 
 /* source: in memory, or a number that all send. out holds the old dest. arrived: bits, all 0; NULL: nobody wants to know. combiner: MACHINE_COMBINE_. */
-void near_send(const struct near_route *r, int combiner, struct machine_type type,
-               const struct machine_value *source, struct device_buffer *out,
-               struct device_buffer *arrived);
+void near_send(const struct near_route *r, enum machine_combiner combiner,
+               struct machine_type type, const struct machine_value *source,
+               struct device_buffer *out, struct device_buffer *arrived);
 /* Of elements of so many bytes; 0 from a processor that does not exist. */
 void near_get(const struct near_route *r, size_t bytes, const struct device_buffer *source,
               struct device_buffer *out);

@@ -290,6 +290,7 @@ static double as_double(uint64_t bits)
                                                 struct machine_scalar b)                       \
     {                                                                                          \
         type x = from(a.lo), y = from(b.lo);                                                   \
+        INVARIANT(op == REDUCE_ADD || op == REDUCE_LEAST || op == REDUCE_GREATEST);            \
         type r = op == REDUCE_ADD     ? x + y                                                  \
                  : op == REDUCE_LEAST ? (y < x ? y : x)                                        \
                                       : (y > x ? y : x);                                       \
@@ -317,9 +318,9 @@ static struct machine_scalar combine_bits(enum reduction_op op, struct machine_s
     case REDUCE_LEAST:
         return less ? a : b;
     case REDUCE_GREATEST:
-    default:
         return less ? b : a;
     }
+    INVARIANT(false);
 }
 
 static struct machine_scalar combine(enum reduction_op op, struct machine_type type,

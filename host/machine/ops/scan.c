@@ -110,8 +110,8 @@ static enum machine_status scan_runs(struct machine *m, const struct lines *l,
     struct kernel_call c = part(m, 0, e, lanes);
     call_lines(&c, l, run);
     call_lines_rows(&c, l);
-    const int numbers[] = {j->op,     j->exclusive, j->context != NULL, j->bits != NULL,
-                           j->starts, j->backward,  totals != NULL};
+    const int numbers[] = {(int)j->op, j->exclusive, j->context != NULL, j->bits != NULL,
+                           j->starts,  j->backward,  totals != NULL};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         call_int(&c, numbers[i]);
     call_argument(&c, e->bytes, &j->identity);
@@ -137,7 +137,7 @@ static enum machine_status scan_stage(struct machine *m, const struct lines *l,
     struct kernel_call c = part(m, 1, e, 1);
     call_lines(&c, l, run);
     call_lines_rows(&c, l);
-    const int numbers[] = {lanes, stage, runs, j->op, j->sums != NULL};
+    const int numbers[] = {lanes, stage, runs, (int)j->op, j->sums != NULL};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         call_int(&c, numbers[i]);
     call_argument(&c, e->bytes, &j->identity);
@@ -253,7 +253,7 @@ struct form {
     struct machine_type type; /* of the original value */
     int width;                /* of the original value */
     const struct element *element;
-    int op;
+    enum lines_op op;
     bool ordered_floats;
     struct machine_scalar identity, flip, cut; /* as unsigned integers: see kernels/scan.cl */
 };

@@ -26,7 +26,7 @@ struct element {
 
 struct line_scan {
     const struct element *element;
-    int op; /* enum lines_op */
+    enum lines_op op;
     bool exclusive;
     bool streams;          /* results are stored past the caches */
     bool starts, backward; /* segments begin in active processors only; after a 1, not at it */

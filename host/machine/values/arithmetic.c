@@ -1,5 +1,6 @@
 /* arithmetic.c - operations on one value and on two: folded, simplified, or made. */
 #include "base/errors.h"
+#include "base/op_families.h"
 #include "base/parts.h"
 #include "base/types.h"
 #include "values/integers.h"
@@ -41,6 +42,64 @@ struct machine_value *machine_unary(struct machine *m, enum machine_op op,
     return make_handed(m, v);
 }
 
+static struct machine_value *exclusive_or(struct machine *m, struct machine_value *a,
+                                          struct machine_value *b)
+{
+    if (value_is_number(b))
+        return b->imm.lo ? rules_not(m, a) : a;
+    if (value_is_number(a))
+        return a->imm.lo ? rules_not(m, b) : b;
+    if (a == b)
+        return make_bit(m, 0);
+    return make_node(m, MACHINE_XOR, MAKE_BIT_TYPE, 0, a, b, NULL);
+}
+
+static struct machine_value *equal_bits(struct machine *m, struct machine_value *a,
+                                        struct machine_value *b)
+{
+    if (value_is_number(b))
+        return b->imm.lo ? a : rules_not(m, a);
+    if (value_is_number(a))
+        return a->imm.lo ? b : rules_not(m, b);
+    return exclusive_or(m, a, rules_not(m, b));
+}
+
+/* Two single bits: each operation is an and, an or, or an exclusive or. As a signed number the bit 1 is -1. */
+static struct machine_value *of_bits(struct machine *m, enum machine_op op,
+                                     struct machine_value *a, struct machine_value *b)
+{
+    switch ((enum op_bits)op) {
+    case OF_MACHINE_AND:
+    case OF_MACHINE_MUL:
+    case OF_MACHINE_UMIN:
+    case OF_MACHINE_SMAX:
+        return rules_and(m, a, b);
+    case OF_MACHINE_OR:
+    case OF_MACHINE_UMAX:
+    case OF_MACHINE_SMIN:
+        return rules_or(m, a, b);
+    case OF_MACHINE_ULT:
+        return rules_and(m, rules_not(m, a), b);
+    case OF_MACHINE_ULE:
+        return rules_or(m, rules_not(m, a), b);
+    case OF_MACHINE_SLT:
+        return rules_and(m, a, rules_not(m, b));
+    case OF_MACHINE_SLE:
+        return rules_or(m, a, rules_not(m, b));
+    case OF_MACHINE_EQ:
+        return equal_bits(m, a, b);
+    case OF_MACHINE_XOR:
+    case OF_MACHINE_ADD:
+    case OF_MACHINE_SUB:
+    case OF_MACHINE_NE:
+        return exclusive_or(m, a, b);
+    case OF_MACHINE_NOT: /* these have one operand */
+    case OF_MACHINE_NEG:
+        break;
+    }
+    INVARIANT(false);
+}
+
 static struct machine_value *binary(struct machine *m, enum machine_op op,
                                     struct machine_value *a, struct machine_value *b)
 {
@@ -61,45 +120,8 @@ static struct machine_value *binary(struct machine *m, enum machine_op op,
         return make_number(m, row->gives == GIVES_BIT ? MAKE_BIT_TYPE : a->type,
                            scalar_narrow(bits_fold(op, a->type.width, scalar_wide(a->imm),
                                                    scalar_wide(b->imm))));
-    if (a->type.width == 1) { /* bits have rules of their own */
-        switch ((int)op) {
-        case MACHINE_AND:
-        case MACHINE_MUL:
-        case MACHINE_UMIN:
-        case MACHINE_SMAX: /* -1 is the bit 1 */
-            return rules_and(m, a, b);
-        case MACHINE_OR:
-        case MACHINE_UMAX:
-        case MACHINE_SMIN:
-            return rules_or(m, a, b);
-        case MACHINE_ULT:
-            return rules_and(m, rules_not(m, a), b);
-        case MACHINE_ULE:
-            return rules_or(m, rules_not(m, a), b);
-        case MACHINE_SLT:
-            return rules_and(m, a, rules_not(m, b));
-        case MACHINE_SLE:
-            return rules_or(m, a, rules_not(m, b));
-        case MACHINE_EQ:
-            if (value_is_number(b))
-                return b->imm.lo ? a : rules_not(m, a);
-            if (value_is_number(a))
-                return a->imm.lo ? b : rules_not(m, b);
-            b = rules_not(m, b);
-            op = MACHINE_XOR;
-            break;
-        default:
-            op = MACHINE_XOR; /* XOR, ADD, SUB, NE */
-            break;
-        }
-        if (value_is_number(b))
-            return b->imm.lo ? rules_not(m, a) : a;
-        if (value_is_number(a))
-            return a->imm.lo ? rules_not(m, b) : b;
-        if (a == b)
-            return make_bit(m, 0);
-        return make_node(m, MACHINE_XOR, MAKE_BIT_TYPE, 0, a, b, NULL);
-    }
+    if (a->type.width == 1)
+        return of_bits(m, op, a, b);
     if (a == b && (op == MACHINE_AND || op == MACHINE_OR))
         return a;
     return make_node(m, (int)op, row->gives == GIVES_BIT ? MAKE_BIT_TYPE : a->type, 0, a, b,

@@ -9,6 +9,7 @@
 #include "values/integers.h"
 
 #include "base/errors.h"
+#include "base/op_families.h"
 #include "base/parts.h"
 #include "base/scalar.h"
 #include "values/make.h"
@@ -45,25 +46,26 @@ static number fold_divided(int op, int width, number a, number b)
     number x = sa ? negated(a, width) : a, y = sb ? negated(b, width) : b;
     number q = y ? x / y : 0, r = y ? x % y : x;
     bool inexact = y && r, up = false;
-    switch (op) {
-    case MACHINE_UREM:
-    case MACHINE_SREM:
+    switch ((enum op_quotient)op) {
+    case OF_MACHINE_UREM:
+    case OF_MACHINE_SREM:
         return sa ? negated(r, width) : r;
-    case MACHINE_SMOD:
+    case OF_MACHINE_SMOD:
         r = negative && r ? y - r : r;
         return (sb ? -r : r) & mask_of(width);
-    case MACHINE_SFLOOR:
+    case OF_MACHINE_UDIV:
+    case OF_MACHINE_SDIV:
+        break;
+    case OF_MACHINE_SFLOOR:
         up = inexact && negative;
         break;
-    case MACHINE_UCEIL:
-    case MACHINE_SCEIL:
+    case OF_MACHINE_UCEIL:
+    case OF_MACHINE_SCEIL:
         up = inexact && !negative;
         break;
-    case MACHINE_UROUND:
-    case MACHINE_SROUND:
+    case OF_MACHINE_UROUND:
+    case OF_MACHINE_SROUND:
         up = inexact && (r > y - r || (r == y - r && (q & 1)));
-        break;
-    default:
         break;
     }
     q += up;
@@ -95,66 +97,76 @@ static number raised(number a, number b, int width, bool *beyond)
 
 static number fold_power(int op, int width, number a, number b)
 {
+    const number limit = (number)1 << (width - 1);
     bool beyond, negative = op == MACHINE_SPOW_BEYOND && is_negative(a, width);
-    number p = raised(negative ? negated(a, width) : a, b, width, &beyond);
-    if (op == MACHINE_POW)
-        return p & mask_of(width);
-    if (op == MACHINE_SPOW_BEYOND) {
-        number limit = (number)1 << (width - 1);
-        p &= mask_of(width);
-        beyond = beyond || !(p < limit || (p == limit && negative && (b & 1)));
+    number p = raised(negative ? negated(a, width) : a, b, width, &beyond) & mask_of(width);
+    switch ((enum op_power)op) {
+    case OF_MACHINE_POW:
+        return p;
+    case OF_MACHINE_UPOW_BEYOND:
+        return beyond;
+    case OF_MACHINE_SPOW_BEYOND:
+        return beyond || !(p < limit || (p == limit && negative && (b & 1)));
     }
-    return beyond;
+    INVARIANT(false);
 }
 
-static number fold_shifted(int op, int width, number a, int n)
+static number shifted(number a, int n)
 {
-    if (op == MACHINE_ROTATE)
-        return n ? a << n | a >> (width - n) : a;
-    if (op == MACHINE_SSHIFT && is_negative(a, width) &&
-        n < 0) /* the complement's, complemented */
-        return ~fold_shifted(MACHINE_USHIFT, width, ~a & mask_of(width), n) & mask_of(width);
     if (n >= 128 || n <= -128)
         return 0;
     return n >= 0 ? a << n : a >> -n;
 }
 
+static number fold_shifted(int op, int width, number a, int n)
+{
+    switch ((enum op_shift)op) {
+    case OF_MACHINE_ROTATE:
+        return n ? a << n | a >> (width - n) : a;
+    case OF_MACHINE_SSHIFT:
+        if (is_negative(a, width) && n < 0) /* the complement's, complemented */
+            return ~shifted(~a & mask_of(width), n) & mask_of(width);
+        return shifted(a, n);
+    case OF_MACHINE_USHIFT:
+        return shifted(a, n);
+    }
+    INVARIANT(false);
+}
+
 static number fold_counted(int op, int width, number a)
 {
     number r = 0;
-    switch (op) {
-    case MACHINE_POPCOUNT:
+    switch ((enum op_count)op) {
+    case OF_MACHINE_POPCOUNT:
         for (; a; a &= a - 1)
             r++;
         return r;
-    case MACHINE_LENGTH:
+    case OF_MACHINE_LENGTH:
         for (; a; a >>= 1)
             r++;
         return r;
-    case MACHINE_REVERSE:
+    case OF_MACHINE_REVERSE:
         for (int i = 0; i < width; i++)
             r |= (a >> i & 1) << (width - 1 - i);
         return r;
-    case MACHINE_UNGRAY:
+    case OF_MACHINE_UNGRAY:
         for (; a; a >>= 1)
             r ^= a;
         return r;
-    case MACHINE_ISQRT:
+    case OF_MACHINE_ISQRT:
         for (int bit = 63; bit >= 0; bit--) {
             number t = r | (number)1 << bit;
             if (t * t <= a)
                 r = t;
         }
         return r;
-    default:
-        INVARIANT(false); /* all rows with FOLD_COUNT are above */
-        return 0;
     }
+    INVARIANT(false);
 }
 
 number integer_fold(enum machine_op op, int width, number a, number b)
 {
-    switch (node_ops[op].fold) {
+    switch ((enum op_fold)node_ops[op].fold) {
     case FOLD_QUOTIENT:
         return fold_divided((int)op, width, a, b);
     case FOLD_POWER:
@@ -163,10 +175,13 @@ number integer_fold(enum machine_op op, int width, number a, number b)
         return fold_shifted((int)op, width, a, (int)(int32_t)(uint32_t)b);
     case FOLD_COUNT:
         return fold_counted((int)op, width, a);
-    default:
-        INVARIANT(node_ops[op].spell != SPELL_INTEGER); /* all such rows are above */
-        return 0;
+    case FOLD_NEVER: /* no whole number's operation folds so */
+    case FOLD_MAKER:
+    case FOLD_BITS:
+    case FOLD_MATH:
+        break;
     }
+    INVARIANT(false);
 }
 
 /* ---- bits ---- */
@@ -181,47 +196,45 @@ unsigned __int128 bits_fold(enum machine_op op, int width, unsigned __int128 a,
                             unsigned __int128 b)
 {
     const bool less = a < b, signed_less = ordered(a, width) < ordered(b, width);
-    switch ((int)op) {
-    case MACHINE_NOT:
+    switch ((enum op_bits)op) {
+    case OF_MACHINE_NOT:
         return ~a;
-    case MACHINE_NEG:
+    case OF_MACHINE_NEG:
         return -a;
-    case MACHINE_AND:
+    case OF_MACHINE_AND:
         return a & b;
-    case MACHINE_OR:
+    case OF_MACHINE_OR:
         return a | b;
-    case MACHINE_XOR:
+    case OF_MACHINE_XOR:
         return a ^ b;
-    case MACHINE_ADD:
+    case OF_MACHINE_ADD:
         return a + b;
-    case MACHINE_SUB:
+    case OF_MACHINE_SUB:
         return a - b;
-    case MACHINE_MUL:
+    case OF_MACHINE_MUL:
         return a * b;
-    case MACHINE_UMIN:
+    case OF_MACHINE_UMIN:
         return less ? a : b;
-    case MACHINE_UMAX:
+    case OF_MACHINE_UMAX:
         return less ? b : a;
-    case MACHINE_SMIN:
+    case OF_MACHINE_SMIN:
         return signed_less ? a : b;
-    case MACHINE_SMAX:
+    case OF_MACHINE_SMAX:
         return signed_less ? b : a;
-    case MACHINE_EQ:
+    case OF_MACHINE_EQ:
         return a == b;
-    case MACHINE_NE:
+    case OF_MACHINE_NE:
         return a != b;
-    case MACHINE_ULT:
+    case OF_MACHINE_ULT:
         return less;
-    case MACHINE_ULE:
+    case OF_MACHINE_ULE:
         return less || a == b;
-    case MACHINE_SLT:
+    case OF_MACHINE_SLT:
         return signed_less;
-    case MACHINE_SLE:
+    case OF_MACHINE_SLE:
         return signed_less || a == b;
-    default:
-        INVARIANT(node_ops[op].fold != FOLD_BITS); /* all such rows are above */
-        return 0;
     }
+    INVARIANT(false);
 }
 
 /* ---- values ---- */

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/node_ops.h"
+#include "base/op_families.h"
 #include "base/scalar.h"
 
 static inline uint64_t bits_of(double x)
@@ -38,73 +38,72 @@ typedef int64_t math_i64;
 
 bool math_evaluate(int op, double a, double b, double *out)
 {
-    switch (op) {
-    case MACHINE_FEXP:
+    switch ((enum op_math)op) {
+    case OF_MACHINE_FEXP:
         *out = math_exp(a);
         return true;
-    case MACHINE_FLN:
+    case OF_MACHINE_FLN:
         *out = math_ln(a);
         return true;
-    case MACHINE_FLOG2:
+    case OF_MACHINE_FLOG2:
         *out = math_log2(a);
         return true;
-    case MACHINE_FLOG10:
+    case OF_MACHINE_FLOG10:
         *out = math_log10(a);
         return true;
-    case MACHINE_FSIN:
+    case OF_MACHINE_FSIN:
         *out = math_sin(a);
         return true;
-    case MACHINE_FCOS:
+    case OF_MACHINE_FCOS:
         *out = math_cos(a);
         return true;
-    case MACHINE_FTAN:
+    case OF_MACHINE_FTAN:
         *out = math_tan(a);
         return true;
-    case MACHINE_FASIN:
+    case OF_MACHINE_FASIN:
         *out = math_asin(a);
         return true;
-    case MACHINE_FACOS:
+    case OF_MACHINE_FACOS:
         *out = math_acos(a);
         return true;
-    case MACHINE_FATAN:
+    case OF_MACHINE_FATAN:
         *out = math_atan(a);
         return true;
-    case MACHINE_FSINH:
+    case OF_MACHINE_FSINH:
         *out = math_sinh(a);
         return true;
-    case MACHINE_FCOSH:
+    case OF_MACHINE_FCOSH:
         *out = math_cosh(a);
         return true;
-    case MACHINE_FTANH:
+    case OF_MACHINE_FTANH:
         *out = math_tanh(a);
         return true;
-    case MACHINE_FASINH:
+    case OF_MACHINE_FASINH:
         *out = math_asinh(a);
         return true;
-    case MACHINE_FACOSH:
+    case OF_MACHINE_FACOSH:
         *out = math_acosh(a);
         return true;
-    case MACHINE_FATANH:
+    case OF_MACHINE_FATANH:
         *out = math_atanh(a);
         return true;
-    case MACHINE_FATAN2:
+    case OF_MACHINE_FATAN2:
         *out = math_atan2(a, b);
         return true;
-    case MACHINE_FPOW:
+    case OF_MACHINE_FPOW:
         *out = math_pow(a, b);
         return true;
-    case MACHINE_FMOD:
+    case OF_MACHINE_FMOD:
         *out = math_mod(a, b);
         return true;
-    case MACHINE_FREM:
+    case OF_MACHINE_FREM:
         *out = math_rem(a, b);
         return true;
-    case MACHINE_FSCALE:
+    case OF_MACHINE_FSCALE:
         *out = math_ldexp(a, b);
         return true;
-    default:
-        return false;
     }
+    return false; /* it is of another family */
 }
 
 /* Almost always the C library's result says which single it is. Its error is below a 2^53rd, and 2^50ths are allowed for. */
