@@ -46,16 +46,21 @@ static void the_greatest_is_found_alike(void **state)
 {
     enum { MOST = 300 };
     static uint32_t x[MOST];
+    static uint8_t context[MOST];
     struct tables t = tables_here();
     (void)state;
     for (int n = 0; n <= MOST; n++) {
-        uint32_t most = 0;
+        uint32_t most = 0, most_active = 0;
         for (int i = 0; i < n; i++) {
             x[i] = (uint32_t)support_word(MACHINE_UINT(32), (uint64_t)n, (uint64_t)i);
+            context[i] = x[i] % 5 == 1;
             most = x[i] > most ? x[i] : most;
+            most_active = context[i] && x[i] > most_active ? x[i] : most_active;
         }
-        for (int k = 0; k < t.count; k++)
-            assert_int_equal(t.of[k]->greatest(x, n), most);
+        for (int k = 0; k < t.count; k++) {
+            assert_int_equal(t.of[k]->greatest(x, NULL, n), most);
+            assert_int_equal(t.of[k]->greatest(x, context, n), most_active);
+        }
     }
 }
 
@@ -114,6 +119,38 @@ static void ranks_are_put_alike(void **state)
                 assert_int_equal(to[i], context[i]       ? rank++ & 0x1ffff
                                         : kind == NUMBER ? 77
                                                          : old[i]);
+        }
+}
+
+/* Numbers of each length that are as great as can be, so that lanes would overflow which add too many; with and without a context. */
+static void sums_are_alike(void **state)
+{
+    enum { MOST = 66000, LENGTHS = 4 };
+    static _Alignas(16) unsigned char x[MOST * 8];
+    static uint8_t context[MOST];
+    static const int counts[] = {0, 1, 7, 31, 255, 256, 257, 600, MOST};
+    const struct tables t = tables_here();
+    (void)state;
+    memset(x, 0xff, sizeof x);
+    for (int i = 0; i < MOST; i++) {
+        context[i] = i % 7 != 3;
+        if (i % 1000 == 5)
+            memset(x + 8 * i, i & 0x7f, 8);
+    }
+    for (size_t c = 0; c < sizeof counts / sizeof *counts; c++)
+        for (int k = 0; k < 2 * LENGTHS * t.count; k++) {
+            const size_t bytes = (size_t)1 << k / 2 % LENGTHS;
+            const struct lanes_sum s = {.op = REDUCE_ADD, .element = bytes, .plain = true};
+            uint64_t sum = 0;
+            for (int i = 0; i < counts[c]; i++) {
+                uint64_t one = 0;
+                for (size_t b = 0; b < bytes; b++)
+                    one |= (uint64_t)x[(size_t)i * bytes + b] << 8 * b;
+                sum += k % 2 && !context[i] ? 0 : one;
+            }
+            assert_int_equal(
+                t.of[k / (2 * LENGTHS)]->sum(&s, x, k % 2 ? context : NULL, (size_t)counts[c]),
+                sum);
         }
 }
 
@@ -241,6 +278,7 @@ int main(void)
         cmocka_unit_test(the_greatest_is_found_alike),
         cmocka_unit_test(addresses_become_indices_alike),
         cmocka_unit_test(ranks_are_put_alike),
+        cmocka_unit_test(sums_are_alike),
         cmocka_unit_test(what_is_stored_past_the_caches_is_the_same),
         cmocka_unit_test(places_and_numbers_fill_what_they_should),
         cmocka_unit_test(what_shares_the_destination_stays),

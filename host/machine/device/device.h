@@ -6,7 +6,9 @@
 
 #include "base/aside.h"
 #include "base/awake.h"
+#include "base/clock.h"
 #include "base/crew.h"
+#include "base/parts.h"
 #include "base/process.h"
 #include "base/settings.h"
 #include "device/shape.h"
@@ -208,8 +210,15 @@ enum machine_status device_launch(struct machine *m, struct device_kernel *kerne
                                   const char *what);
 /* Around what the front end computes in the device's place: where it is timed, that counts as busy, too. device_work_begin() returns
  * the starting time; nothing in between waits for the device. */
-double device_work_begin(const struct machine *m);
-void device_work_end(struct machine *m, double start);
+static inline double device_work_begin(const struct machine *m)
+{
+    return m->device->work_timed ? clock_s() : 0;
+}
+static inline void device_work_end(struct machine *m, double start)
+{
+    if (m->device->work_timed)
+        m->device->busy_s += clock_s() - start;
+}
 /* Around a call that waits for the device: the time counts as busy. device_wait_begin()
  * returns the starting time. */
 double device_wait_begin(struct machine *m);

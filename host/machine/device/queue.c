@@ -30,17 +30,6 @@ enum machine_status device_wait_end(struct machine *m, cl_int error, double star
     return device_check(m, error, what);
 }
 
-double device_work_begin(const struct machine *m)
-{
-    return m->device->work_timed ? clock_s() : 0;
-}
-
-void device_work_end(struct machine *m, double start)
-{
-    if (m->device->work_timed)
-        m->device->busy_s += clock_s() - start;
-}
-
 void device_stays_awake(struct machine *m)
 {
     awake_for(m->device->awake, AWAKE_S);

@@ -63,8 +63,8 @@ static bool is_view(const struct machine_value *v)
     return v->op == NODE_ZERO_EXTEND || v->op == NODE_SIGN_EXTEND || v->op == NODE_EXTRACT;
 }
 
-static bool operation_can(const struct lanes_table *t, const struct machine_value *v,
-                          int depth);
+static lanes_function *operation_can(const struct lanes_table *t, const struct machine_value *v,
+                                     int depth);
 
 static bool operand_can(const struct lanes_table *t, const struct machine_value *v, int depth)
 {
@@ -81,14 +81,16 @@ static bool operand_can(const struct lanes_table *t, const struct machine_value 
     return is_place(v) || operation_can(t, v, depth - 1);
 }
 
-static bool operation_can(const struct lanes_table *t, const struct machine_value *v, int depth)
+/* The operation's loop; NULL: it cannot be computed so. */
+static lanes_function *operation_can(const struct lanes_table *t, const struct machine_value *v,
+                                     int depth)
 {
     const struct node_op_info *op = &node_ops[v->op];
     if (!(op->flags & OP_ALONE) || !op->inputs || !type_can(v->type))
-        return false;
+        return NULL;
     for (int i = 0; i < op->inputs; i++)
         if (!operand_can(t, v->in[i], depth))
-            return false;
+            return NULL;
     return loop_of(t, v);
 }
 
@@ -189,14 +191,14 @@ static void operand_run(struct doing *d, const struct machine_value *v, void *to
 /* ---- all of them ---- */
 
 /* An operation of arrays and numbers: what stays the same from block to block is made once; of arrays alone there is one block. */
-static void arrays_run(struct doing *d, const struct machine_value *v, size_t all, char *to)
+static void arrays_run(struct doing *d, const struct machine_value *v, lanes_function *loop,
+                       size_t all, char *to)
 {
     const struct lanes_step s = step_of(v);
     const int inputs = node_ops[v->op].inputs;
     const struct machine_value *in[3];
     char *begin[4] = {[3] = to};
     size_t bytes[4] = {[3] = type_bytes(v->type)}, block = all;
-    lanes_function *loop = loop_of(d->table, v);
     for (int i = 0; i < inputs; i++) {
         in[i] = same_bits(v->in[i]);
         bytes[i] = type_bytes(in[i]->type);
@@ -230,8 +232,9 @@ static void places_run(struct doing *d, const struct machine_value *v, size_t al
     }
 }
 
-/* Of an operation, or of a place. NULL: it cannot be; there is no error. */
-static struct device_buffer *array_of(struct machine *m, const struct machine_value *key)
+/* Of an operation, by that loop, or where that is NULL of a place. NULL: it cannot be; there is no error. */
+static struct device_buffer *array_of(struct machine *m, const struct machine_value *key,
+                                      lanes_function *loop)
 {
     const struct vpset *s = &m->values->sets[key->set];
     if (device_settle(m))
@@ -248,10 +251,10 @@ static struct device_buffer *array_of(struct machine *m, const struct machine_va
     d.table = lanes_table();
     d.set = s;
     d.used = 0;
-    if (is_place(key))
-        places_run(&d, key, s->rows * s->pitch, b->host);
+    if (loop)
+        arrays_run(&d, key, loop, s->rows * s->pitch, b->host);
     else
-        arrays_run(&d, key, s->rows * s->pitch, b->host);
+        places_run(&d, key, s->rows * s->pitch, b->host);
     device_work_end(m, start);
     return b;
 }
@@ -270,10 +273,11 @@ static bool stays(const struct machine_value *key)
 
 struct machine_value *at_once_operation(struct machine *m, struct machine_value *key)
 {
-    if (!is_small(m, key) || !operation_can(lanes_table(), key, DEPTH) || stays(key))
+    lanes_function *loop = is_small(m, key) ? operation_can(lanes_table(), key, DEPTH) : NULL;
+    if (!loop || stays(key))
         return NULL;
     graph_derive_nan(m, key);
-    struct device_buffer *b = array_of(m, key);
+    struct device_buffer *b = array_of(m, key, loop);
     if (!b)
         return NULL;
     struct machine_value *v = graph_buffer_node(m, key->type, key->set, b);
@@ -283,9 +287,10 @@ struct machine_value *at_once_operation(struct machine *m, struct machine_value 
 
 static bool fills(struct machine *m, struct machine_value *v)
 {
-    bool can = v->set && is_small(m, v) && type_can(v->type) &&
-               (is_place(v) || operation_can(lanes_table(), v, DEPTH));
-    struct device_buffer *b = can ? array_of(m, v) : NULL;
+    if (!v->set || !is_small(m, v) || !type_can(v->type))
+        return false;
+    lanes_function *loop = is_place(v) ? NULL : operation_can(lanes_table(), v, DEPTH);
+    struct device_buffer *b = is_place(v) || loop ? array_of(m, v, loop) : NULL;
     if (b)
         graph_materialised(m, v, b);
     return b;

@@ -143,8 +143,8 @@ struct lanes_aim {
     uint32_t mask, nobody;
 };
 typedef void lanes_aim_function(const struct lanes_aim *a, int n, uint32_t *index);
-/* The greatest of n numbers; 0 of none. */
-typedef uint32_t lanes_greatest_function(const uint32_t *x, int n);
+/* The greatest of n numbers where the context (NULL: everywhere) holds; 0 of none. */
+typedef uint32_t lanes_greatest_function(const uint32_t *x, const uint8_t *context, int n);
 /* The elements of so many bytes where the context holds, one after the other; nothing is written from element `room` on. Returns how
  * many. */
 typedef size_t lanes_pack_function(const void *from, const uint8_t *context, size_t n,

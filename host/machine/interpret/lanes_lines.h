@@ -46,6 +46,23 @@ static void aim(const struct lanes_aim *a, int n, u32 *restrict index)
         index[i] = context[i] ? index[i] : nobody;
 }
 
+#if defined(__AVX2__) && !defined(__AVX512F__)
+
+/* Of four bits: which are 1, a byte for each, the lowest first; how many. */
+static const u32 four_picked[16] = {0,     0,       1,       0x100,    2,     0x200,
+                                    0x201, 0x20100, 3,       0x300,    0x301, 0x30100,
+                                    0x302, 0x30200, 0x30201, 0x3020100};
+static const u8 four_count[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
+
+/* Of eight. Bytes beyond are any below 8. */
+static inline u64 eight_picked(u32 bits)
+{
+    const u32 low = bits & 15, high = bits >> 4;
+    return four_picked[low] | (u64)(four_picked[high] + 0x04040404u) << 8 * four_count[low];
+}
+
+#endif
+
 static size_t filter(const struct lanes_filter *p, const u8 *context, int n, u32 *place,
                      u16 *lane)
 {
@@ -69,6 +86,28 @@ static size_t filter(const struct lanes_filter *p, const u8 *context, int n, u32
         lanes = _mm512_add_epi32(lanes, _mm512_set1_epi32(16));
         picked += (size_t)__builtin_popcount(on);
     }
+#elif defined(__AVX2__)
+    const __m256i from = _mm256_set1_epi32((i32)first),
+                  last = _mm256_set1_epi32((i32)count - 1),
+                  by = _mm256_set1_epi32((i32)further);
+    for (; count && i + 8 <= n; i += 8) {
+        const __m256i x = _mm256_loadu_si256((const __m256i *)(const void *)(index + i)),
+                      in = _mm256_sub_epi32(x, from);
+        __m256i on = _mm256_cmpeq_epi32(_mm256_min_epu32(in, last), in);
+        if (context)
+            on = _mm256_and_si256(
+                on, _mm256_cmpgt_epi32(_mm256_cvtepu8_epi32(_mm_loadl_epi64(
+                                           (const __m128i *)(const void *)(context + i))),
+                                       _mm256_setzero_si256()));
+        const u32 m = (u32)_mm256_movemask_ps(_mm256_castsi256_ps(on));
+        const __m128i which = _mm_cvtsi64_si128((i64)eight_picked(m));
+        _mm256_storeu_si256(
+            (__m256i *)(void *)(place + picked),
+            _mm256_add_epi32(by, _mm256_permutevar8x32_epi32(x, _mm256_cvtepu8_epi32(which))));
+        _mm_storeu_si128((__m128i *)(void *)(lane + picked),
+                         _mm_add_epi16(_mm_cvtepu8_epi16(which), _mm_set1_epi16((i16)i)));
+        picked += four_count[m & 15] + four_count[m >> 4];
+    }
 #endif
     for (; i < n; i++) {
         const bool on = !context || context[i];
@@ -79,11 +118,17 @@ static size_t filter(const struct lanes_filter *p, const u8 *context, int n, u32
     return picked;
 }
 
-static u32 greatest(const u32 *x, int n)
+static u32 greatest(const u32 *x, const u8 *context, int n)
 {
     u32 most = 0;
-    for (int i = 0; i < n; i++)
-        most = x[i] > most ? x[i] : most;
+    if (!context)
+        for (int i = 0; i < n; i++)
+            most = x[i] > most ? x[i] : most;
+    else
+        for (int i = 0; i < n; i++) {
+            const u32 there = x[i] & (0u - (context[i] != 0));
+            most = there > most ? there : most;
+        }
     return most;
 }
 
@@ -142,6 +187,25 @@ static void ranks(const struct lanes_ranks *r, size_t n, u32 rank)
                       old = r->old ? _mm512_loadu_si512(r->old + i) : number;
         _mm512_storeu_si512(r->to + i, _mm512_mask_expand_epi32(old, on, next));
         rank += (u32)__builtin_popcount(on);
+    }
+#elif defined(__AVX2__)
+    const __m256i mask = _mm256_set1_epi32((i32)r->mask),
+                  number = _mm256_set1_epi32((i32)r->number);
+    for (; i + 8 <= n; i += 8) {
+        const __m128i c = _mm_min_epu8(
+            _mm_loadl_epi64((const __m128i *)(const void *)(r->context + i)), _mm_set1_epi8(1));
+        const u64 bits = (u64)_mm_cvtsi128_si64(c),
+                  sums = bits * UINT64_C(0x0101010101010101); /* a byte: up to this one */
+        const __m256i before = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((i64)(sums - bits))),
+                      next = _mm256_and_si256(
+                          _mm256_add_epi32(before, _mm256_set1_epi32((i32)rank)), mask),
+                      on = _mm256_cmpgt_epi32(_mm256_cvtepu8_epi32(c), _mm256_setzero_si256()),
+                      old =
+                          r->old
+                              ? _mm256_loadu_si256((const __m256i *)(const void *)(r->old + i))
+                              : number;
+        _mm256_storeu_si256((__m256i *)(void *)(r->to + i), _mm256_blendv_epi8(old, next, on));
+        rank += (u32)(sums >> 56);
     }
 #endif
     for (; i < n; i++) {

@@ -3,9 +3,9 @@
 enum { MASK_RUN = 64 };
 /* From so many lanes that are alike on they are copied: those of 32 bits are chosen fast enough one by one. */
 #define MASK_PAYS(T) (sizeof(T) == 4 ? 2 * MASK_RUN : MASK_RUN)
-/* Lane i of a where bit i is 1, else of b. Compilers have no good loop of bytes for the choice. */
+/* Lane i of a where bit i is 1, else of b. Compilers have no good loop of 8 or 16 bits for the choice. */
 #define CHOSEN(T)                                                                              \
-    (sizeof(T) == 1 ? (T)(b[i] ^ ((a[i] ^ b[i]) & (T)(0u - c[i]))) : c[i] ? a[i] : b[i])
+    (sizeof(T) <= 2 ? (T)(b[i] ^ ((a[i] ^ b[i]) & (T)(0u - c[i]))) : c[i] ? a[i] : b[i])
 
 /* Whether any of a run's bits is another than that. */
 static inline bool mask_run_differs(const u8 *c, u8 bit)

@@ -60,7 +60,47 @@
 SUM_BY(sum_and, u8, u16, u32, JOIN_AND)
 SUM_BY(sum_or, u8, u16, u32, JOIN_OR)
 SUM_BY(sum_xor, u8, u16, u32, JOIN_XOR)
-SUM_BY(sum_add, u64, u64, u64, JOIN_ADD)
+
+/* So many numbers of 8 and 16 bits are added in lanes of twice their length. */
+enum { SUM_RUN_U8 = 256, SUM_RUN_U16 = 65536, SUM_RUN_U32 = INT32_MAX };
+/* Added as they are: some at a time, in lanes that have room for the sum of so many. */
+#define SUM_ADDED(type, WIDE, RUN)                                                             \
+    {                                                                                          \
+        const type *p = numbers;                                                               \
+        u64 all = 0;                                                                           \
+        for (size_t i = 0, end; i < n; i = end) {                                              \
+            WIDE sum = 0;                                                                      \
+            end = n - i < (size_t)RUN ? n : i + (size_t)RUN;                                   \
+            if (!context)                                                                      \
+                for (; i < end; i++)                                                           \
+                    sum = (WIDE)(sum + p[i]);                                                  \
+            else                                                                               \
+                for (; i < end; i++)                                                           \
+                    sum = (WIDE)(sum +                                                         \
+                                 (type)(p[i] & (type)((type)0 - (type)(context[i] != 0))));    \
+            all += sum;                                                                        \
+        }                                                                                      \
+        return all;                                                                            \
+    }
+
+SUM_BY(sum_longer, u64, u64, u64, JOIN_ADD)
+
+static u64 sum_add(const struct lanes_sum *s, const void *numbers, const u8 *context, size_t n)
+{
+    if (!s->plain || s->flip || s->none)
+        return sum_longer(s, numbers, context, n);
+    switch (s->element) {
+    case 1:
+        SUM_ADDED(u8, u16, SUM_RUN_U8)
+    case 2:
+        SUM_ADDED(u16, u32, SUM_RUN_U16)
+    case 4:
+        SUM_ADDED(u32, u64, SUM_RUN_U32)
+    default:
+        SUM_ADDED(u64, u64, SUM_RUN_U32)
+    }
+}
+
 SUM_BY(sum_least, u8, u16, u32, JOIN_LEAST)
 SUM_BY(sum_greatest, u8, u16, u32, JOIN_GREATEST)
 

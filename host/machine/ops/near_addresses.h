@@ -42,17 +42,12 @@ static inline void near_aims(const struct near_route *r, size_t at, int n, uint3
                                 r->address_bytes, r->mask, (uint32_t)r->to->count};
     r->lanes->aim(&a, n, to);
 }
-/* Looks whether a message of these senders goes to no processor; to: their near_aims(). */
+/* Looks whether a message of these senders goes to no processor; to: their near_addresses() or near_aims(). */
 static inline void near_look_beyond(const struct near_route *r, size_t at, int n,
                                     const uint32_t *to)
 {
-    const uint64_t nobody = r->to->count;
-    if (!r->beyond || r->there || r->lanes->greatest(to, n) < nobody)
-        return;
-    bool any = !r->context;
-    for (int i = 0; i < n && !any; i++)
-        any = to[i] >= nobody && ((const uint8_t *)r->context->host)[at + (size_t)i];
-    if (any)
+    const uint8_t *context = r->context ? (const uint8_t *)r->context->host + at : NULL;
+    if (r->beyond && !r->there && r->lanes->greatest(to, context, n) >= r->to->count)
         atomic_store_explicit(r->beyond, true, memory_order_relaxed);
 }
 

@@ -35,9 +35,9 @@ struct hops {
 
 /* ---- addresses ---- */
 
-/* Of n senders from that element on. */
+/* Of n senders from that element on; looks: also whether a message goes to no processor. */
 static void hops_find(const struct near_route *r, const struct range *to, size_t at, int n,
-                      struct hops *h)
+                      bool looks, struct hops *h)
 {
     uint32_t index[BLOCK];
     const struct vpset *s = r->to;
@@ -45,6 +45,8 @@ static void hops_find(const struct near_route *r, const struct range *to, size_t
     const struct lanes_filter p = {index, (uint32_t)to->first, (uint32_t)(to->end - to->first),
                                    s->rows == 1 ? (uint32_t)s->halo : 0};
     near_addresses(r, at, n, index);
+    if (looks)
+        near_look_beyond(r, at, n, index);
     h->count = r->lanes->filter(&p, context ? context + at : NULL, n, h->place, h->lane);
     if (s->rows > 1)
         r->lanes->places(h->place, h->count,
@@ -259,7 +261,7 @@ static bool messages_move_all(const struct near_route *r, const struct block *b,
         index = (const uint32_t *)r->address->host + at;
     else
         near_addresses(r, at, known, found);
-    if (!r->there && r->lanes->greatest(found, known) >= r->to->count)
+    if (!r->there && r->lanes->greatest(found, NULL, known) >= r->to->count)
         return false;
     const int fetched = known > MESSAGES_AHEAD && r->to->count * bytes > r->near_bytes
                             ? known - MESSAGES_AHEAD
@@ -321,12 +323,7 @@ static void part_send(void *of, int part, int worker)
         if (moves && !g->arrived && parts == 1 &&
             messages_move_all(r, &b, g->bytes, g->source, from, g->out))
             continue;
-        if (r->beyond && (part == 0 || r->distinct)) {
-            uint32_t aims[BLOCK];
-            near_aims(r, b.at, b.n, aims);
-            near_look_beyond(r, b.at, b.n, aims);
-        }
-        hops_find(r, &to, b.at, b.n, &h);
+        hops_find(r, &to, b.at, b.n, part == 0 || r->distinct, &h);
         if (moves)
             messages_move(&h, g->bytes, g->source, from, g->out);
         else if (g->type.kind == MACHINE_FLOAT)
@@ -402,7 +399,7 @@ static void part_get(void *of, int part, int worker)
     (void)worker;
     for (uint64_t i = blocks.first; i < blocks.end; i++) {
         const struct block b = block_get(g->r, i);
-        hops_find(g->r, &all, b.at, b.n, &h);
+        hops_find(g->r, &all, b.at, b.n, false, &h);
         if (h.count < (size_t)b.n)
             memset((char *)g->out + b.at * g->bytes, 0, (size_t)b.n * g->bytes);
         messages_fetch(&h, g->bytes, g->source, b.at, g->out);
@@ -426,7 +423,7 @@ static void part_count(void *of, int part, int worker)
     const struct range blocks = blocks_of_part(g->r, part);
     for (uint64_t i = blocks.first; i < blocks.end; i++) {
         const struct block b = block_get(g->r, i);
-        hops_find(g->r, &all, b.at, b.n, &h);
+        hops_find(g->r, &all, b.at, b.n, false, &h);
         uint64_t active = context ? 0 : (uint64_t)b.n;
         for (int k = 0; context && k < b.n; k++)
             active += context[b.at + (size_t)k] != 0;
@@ -450,7 +447,7 @@ bool near_all_there(const struct near_route *r)
     for (uint64_t i = 0; i < blocks_count(r); i++) {
         const struct block b = block_get(r, i);
         near_addresses(r, b.at, b.n, index);
-        if (r->lanes->greatest(index, b.n) >= r->to->count)
+        if (r->lanes->greatest(index, NULL, b.n) >= r->to->count)
             return false;
     }
     return true;

@@ -36,6 +36,10 @@ void geometry_make(const struct machine *m, struct vpset *s, const int *dimensio
     s->width = dimensions[rank - 1];
     s->rows = s->count / (uint64_t)s->width;
     s->ratio = layout->ratio;
+    const uint64_t addresses = (uint64_t)m->values->processors_count * s->ratio;
+    for (s->address_bits = 1;
+         s->address_bits < 63 && UINT64_C(1) << s->address_bits < addresses;)
+        s->address_bits++;
     const struct device_shape *shape = &m->device->shape;
     s->halo = s->width >= shape->vector ? shape->halo : 0;
     s->pitch = (size_t)s->width + 2 * (size_t)s->halo;
@@ -105,11 +109,7 @@ enum machine_order machine_vpset_order(const struct machine *m, int vpset)
 int machine_address_bits(const struct machine *m, int vpset)
 {
     const struct vpset *s = peek(m, vpset);
-    uint64_t addresses = s ? (uint64_t)m->values->processors_count * s->ratio : 1;
-    int bits = 1;
-    while (bits < 63 && UINT64_C(1) << bits < addresses)
-        bits++;
-    return bits;
+    return s ? s->address_bits : 1;
 }
 
 uint64_t machine_send_address(const struct machine *m, int vpset, uint64_t index)

@@ -14,6 +14,7 @@ struct vpset {
     int halo;             /* columns repeated on both sides of a row */
     size_t pitch;         /* elements from row to row */
     uint64_t ratio;
+    int address_bits; /* of a send address */
     struct machine_layout layout;
 };
 

@@ -82,7 +82,6 @@ static struct machine_value *node_new(struct machine *m)
 
 static void node_free(struct machine *m, struct machine_value *v)
 {
-    v->refs = 0;
     v->buffer = NULL;
     v->next = m->values->let_go;
     if (!v->next)
@@ -222,17 +221,6 @@ uint8_t graph_generator(const struct machine_value *v)
     return generator > GENERATOR_NONE ? GENERATOR_NONE : (uint8_t)generator;
 }
 
-/* As machine_address_bits(). */
-static int address_bits(const struct machine *m, int set)
-{
-    const uint64_t addresses =
-        (uint64_t)m->values->processors_count * m->values->sets[set].ratio;
-    int bits = 1;
-    while (bits < 63 && UINT64_C(1) << bits < addresses)
-        bits++;
-    return bits;
-}
-
 /* An own address is still known when some of its bits are turned, and when it is longer or shorter but whole. */
 static void derive_address(const struct machine *m, struct machine_value *v)
 {
@@ -244,7 +232,7 @@ static void derive_address(const struct machine *m, struct machine_value *v)
     const struct machine_value *own = v->in[k];
     if (!own->own_address || (turns && v->in[1 - k]->op != NODE_CONSTANT))
         return;
-    const int bits = address_bits(m, own->set);
+    const int bits = m->values->sets[own->set].address_bits;
     if (v->type.width < bits || bits > 32)
         return;
     const uint64_t turned = turns ? v->in[1 - k]->imm.lo & ((UINT64_C(1) << bits) - 1) : 0;
