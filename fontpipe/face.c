@@ -20,8 +20,6 @@
 
 enum { FILE_BYTES_MAX = 1 << 29 };
 
-static _Atomic uint64_t versions;
-
 static enum font_status axes_read(struct font_face *face)
 {
     if (!FT_HAS_MULTIPLE_MASTERS(face->ft) || FT_Get_MM_Var(face->ft, &face->axes))
@@ -63,7 +61,7 @@ static enum font_status face_begin(char *path, unsigned char *bytes, size_t coun
     face->path = path;
     face->bytes = bytes;
     face->bytes_count = count;
-    face->version = ++versions;
+    font_face_version_renew(face);
     enum font_status status = FONT_OK;
     FT_Error error = FT_Init_FreeType(&face->library);
     if (!error && index >= 0)
@@ -181,6 +179,7 @@ void font_face_close(struct font_face *face)
         FT_Done_Face(face->ft);
     if (face->library)
         FT_Done_FreeType(face->library);
+    font_face_replaced_finish(face);
     free(face->settings);
     free(face->bytes);
     free(face->path);
@@ -247,6 +246,23 @@ uint32_t font_face_glyph(const struct font_face *face, uint32_t character)
     return FT_Get_Char_Index(face->ft, character);
 }
 
+const char *font_face_glyph_name(const struct font_face *face, uint32_t glyph,
+                                 char room[FONT_GLYPH_NAME_BYTES])
+{
+    bool plain = FT_HAS_GLYPH_NAMES(face->ft) &&
+                 !FT_Get_Glyph_Name(face->ft, glyph, room, FONT_GLYPH_NAME_BYTES) && room[0];
+    for (const char *c = room; plain && *c; c++)
+        plain = *c > ' ' && *c < 0x7f;
+    /* A name of one letter is read as that character, and U+ and # have their own meaning. */
+    if (plain && !room[1])
+        plain = font_face_glyph(face, (unsigned char)room[0]) == glyph;
+    else if (plain)
+        plain = room[0] != '#' && room[1] != '+' && FT_Get_Name_Index(face->ft, room) == glyph;
+    if (!plain)
+        snprintf(room, FONT_GLYPH_NAME_BYTES, "#%u", (unsigned)glyph);
+    return room;
+}
+
 /* ---- measures ---- */
 
 double font_face_kerning(struct font_face *face, uint32_t left, uint32_t right)
@@ -277,38 +293,6 @@ enum font_status font_face_axis(const struct font_face *face, int axis, struct f
     return FONT_OK;
 }
 
-/* The version of the axes as they are set: that which such a setting had before, so that what is kept of it is found again. */
-static void version_find(struct font_face *face)
-{
-    for (int i = 0; face->settings && i < face->settings_count; i++)
-        if (memcmp(face->settings[i].values, face->values, sizeof face->values) == 0) {
-            face->version = face->settings[i].version;
-            return;
-        }
-    face->version = ++versions;
-    if (!face->settings)
-        return; /* no memory: it will only not be found again */
-    struct font_setting *s = &face->settings[face->settings_next];
-    memcpy(s->values, face->values, sizeof s->values);
-    s->version = face->version;
-    face->settings_next = (face->settings_next + 1) % FACE_SETTINGS_KEPT;
-    if (face->settings_count < FACE_SETTINGS_KEPT)
-        face->settings_count++;
-}
-
-/* The setting that a face is opened with. */
-static void version_keep_first(struct font_face *face)
-{
-    if (face->settings)
-        return;
-    face->settings = calloc(FACE_SETTINGS_KEPT, sizeof *face->settings);
-    if (face->settings) {
-        memcpy(face->settings[0].values, face->values, sizeof face->values);
-        face->settings[0].version = face->version;
-        face->settings_count = face->settings_next = 1;
-    }
-}
-
 enum font_status font_face_axis_set(struct font_face *face, const char *tag, double value)
 {
     struct font_axis axis;
@@ -320,7 +304,7 @@ enum font_status font_face_axis_set(struct font_face *face, const char *tag, dou
         return font_fail(FONT_BAD_ARGUMENT, "%s has no axis '%.20s'", face->path, tag);
     if (!isfinite(value))
         return font_fail(FONT_BAD_ARGUMENT, "axis %s cannot be %g", tag, value);
-    version_keep_first(face);
+    font_face_version_keep_first(face);
     FT_Fixed before = face->values[i];
     double within = fmax(axis.least, fmin(axis.most, value));
     face->values[i] = (FT_Fixed)lrint(fmax(-32768, fmin(32767, within)) * 65536);
@@ -330,7 +314,7 @@ enum font_status font_face_axis_set(struct font_face *face, const char *tag, dou
         face->values[i] = before;
         return font_face_fail(face, "its axes cannot be set", error);
     }
-    version_find(face);
+    font_face_version_find(face);
     return FONT_OK;
 }
 
@@ -338,11 +322,6 @@ const void *font_face_bytes(const struct font_face *face, size_t *count)
 {
     *count = face->bytes_count;
     return face->bytes;
-}
-
-uint64_t font_face_version(const struct font_face *face)
-{
-    return face->version;
 }
 
 enum font_status font_face_axes_set(struct font_face *face, const char *axes)

@@ -72,6 +72,25 @@ enum font_status font_face_outline(struct font_face *face, uint32_t glyph,
 /* The same before it is prepared: for emboldening. Errors: as font_face_outline(). Owns: the caller finishes *out. */
 enum font_status font_face_outline_raw(struct font_face *face, uint32_t glyph,
                                        struct font_outline *out);
+/* From now on the glyph is this, for whoever asks: outline and advance, in the font's units; the font's file stays as it is. `rough`, where
+ * it is not NULL, is given in place of `outline` to those that work on it further (font_face_outline_raw()): the same without
+ * the steps of pixels. The face's version changes. Errors: NO_GLYPH for an index the font has not, NO_MEMORY; the
+ * glyph is then as it was. */
+enum font_status font_face_outline_replace(struct font_face *face, uint32_t glyph,
+                                           const struct font_outline *outline,
+                                           const struct font_outline *rough);
+/* Whether it was replaced. */
+bool font_face_is_replaced(const struct font_face *face, uint32_t glyph);
+
+/* The glyph that is meant by a character, by U+0041, by its number (#214), or by its name in the font (f_f_i). Errors: NO_GLYPH for a character or a
+ * number that the font has not, BAD_ARGUMENT for anything else. */
+enum font_status font_face_glyph_named(const struct font_face *face, const char *text,
+                                       uint32_t *glyph);
+/* Its name in the font, or #214 where it has none that finds it again. Returns room. */
+enum { FONT_GLYPH_NAME_BYTES = 128 };
+const char *font_face_glyph_name(const struct font_face *face, uint32_t glyph,
+                                 char room[FONT_GLYPH_NAME_BYTES]);
+
 /* How far the glyph moves the pen, in the font's units. Errors: NO_GLYPH, BAD_FILE. */
 enum font_status font_face_advance(struct font_face *face, uint32_t glyph, double *advance);
 /* What the font's own pair table adds between two glyphs (Type 1 and old TrueType); 0 without one. */
@@ -96,7 +115,7 @@ enum font_status font_face_axes_set(struct font_face *face, const char *axes);
 
 /* The font's file in memory, for shaping; never NULL, valid as long as the face. */
 const void *font_face_bytes(const struct font_face *face, size_t *count);
-/* Differs between any two settings of axes of any two faces open; of one of the face's last 64 settings it is what it was then. */
+/* Differs between any two settings of axes of any two faces open, and before and after a glyph is replaced; of one of the face's last 64 settings it is what it was then. */
 uint64_t font_face_version(const struct font_face *face);
 
 #endif

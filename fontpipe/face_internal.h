@@ -19,6 +19,12 @@ struct font_setting {
     uint64_t version;
 };
 
+/* A glyph that was replaced: prepared, and what whoever works on it gets, prepared or not. */
+struct font_replaced {
+    uint32_t glyph;
+    struct font_outline outline, rough;
+};
+
 /* Who reads the outlines: HarfBuzz, or FreeType where there are no tables that HarfBuzz draws. */
 enum font_reader { FONT_READER_UNKNOWN, FONT_READER_HARFBUZZ, FONT_READER_FREETYPE };
 
@@ -40,7 +46,18 @@ struct font_face {
     hb_font_t *hb_font;        /* in the font's units; its axes as those of hb_version */
     uint64_t hb_version;
     enum font_reader reader;
+    struct font_replaced *replaced; /* in the order of their glyphs */
+    int replaced_count, replaced_capacity;
 };
+
+/* face_replaced.c: NULL where the glyph is the font's own. */
+const struct font_replaced *font_face_replaced(const struct font_face *face, uint32_t glyph);
+void font_face_replaced_finish(struct font_face *face);
+/* face_version.c: a version that no face had before; settings that the face had are others now. The version of the axes as they are set: that
+ * which such a setting had before, so that what is kept of it is found again. The setting that a face is opened with. */
+void font_face_version_renew(struct font_face *face);
+void font_face_version_find(struct font_face *face);
+void font_face_version_keep_first(struct font_face *face);
 
 /* The status of one of FreeType's errors, with its words. */
 enum font_status font_face_fail(const struct font_face *face, const char *what, int error);

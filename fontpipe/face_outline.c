@@ -241,12 +241,16 @@ static enum font_reader reader_of(struct font_face *face, uint32_t glyph,
     return agree ? FONT_READER_HARFBUZZ : FONT_READER_FREETYPE;
 }
 
-static enum font_status outline_read(struct font_face *face, uint32_t glyph,
+/* raw: for whoever works on it further. */
+static enum font_status outline_read(struct font_face *face, uint32_t glyph, bool raw,
                                      struct font_outline *out, enum font_fill *rule)
 {
     enum font_status status = FONT_OK;
+    const struct font_replaced *instead = font_face_replaced(face, glyph);
     *out = (struct font_outline){0};
     *rule = FONT_NONZERO;
+    if (instead)
+        return font_outline_copy(raw ? &instead->rough : &instead->outline, out);
     if (face->reader == FONT_READER_UNKNOWN && !has_table(face, HB_TAG('g', 'l', 'y', 'f')) &&
         !has_table(face, HB_TAG('C', 'F', 'F', ' ')) &&
         !has_table(face, HB_TAG('C', 'F', 'F', '2')))
@@ -272,7 +276,7 @@ enum font_status font_face_outline_raw(struct font_face *face, uint32_t glyph,
                                        struct font_outline *out)
 {
     enum font_fill rule;
-    enum font_status status = outline_read(face, glyph, out, &rule);
+    enum font_status status = outline_read(face, glyph, true, out, &rule);
     if (status != FONT_OK)
         font_outline_finish(out);
     return status;
@@ -282,7 +286,7 @@ enum font_status font_face_outline(struct font_face *face, uint32_t glyph,
                                    struct font_outline *out)
 {
     enum font_fill rule;
-    enum font_status status = outline_read(face, glyph, out, &rule);
+    enum font_status status = outline_read(face, glyph, false, out, &rule);
     if (status == FONT_OK)
         status = font_outline_prepare(out, rule);
     if (status != FONT_OK)
@@ -297,18 +301,18 @@ enum font_status font_face_outline_or_none(struct font_face *face, uint32_t glyp
                                        : font_face_outline_raw(face, glyph, out);
     if (status != FONT_BAD_FILE && status != FONT_TOO_LARGE)
         return status;
-    char name[72];
-    if (!FT_HAS_GLYPH_NAMES(face->ft) ||
-        FT_Get_Glyph_Name(face->ft, glyph, name, sizeof name) || !name[0])
-        snprintf(name, sizeof name, "#%u", (unsigned)glyph);
-    font_left_out_add(face->path, name);
+    char name[FONT_GLYPH_NAME_BYTES];
+    font_left_out_add(face->path, font_face_glyph_name(face, glyph, name));
     *out = (struct font_outline){.units_per_em = face->ft->units_per_EM};
     return prepared ? font_outline_prepare(out, FONT_NONZERO) : FONT_OK;
 }
 
 enum font_status font_face_advance(struct font_face *face, uint32_t glyph, double *advance)
 {
-    *advance = 0;
+    const struct font_replaced *instead = font_face_replaced(face, glyph);
+    *advance = instead ? instead->outline.advance : 0;
+    if (instead)
+        return FONT_OK;
     enum font_status status = glyph_load(face, glyph);
     if (status == FONT_OK)
         *advance = (double)face->ft->glyph->advance.x;

@@ -33,6 +33,9 @@ struct hb_font_t;
 struct hb_face_t *font_face_harfbuzz(struct font_face *face);
 void font_face_harfbuzz_variations(const struct font_face *face, struct hb_font_t *font);
 
+/* face_replaced.c: how many glyphs are no longer the file's. */
+int font_face_replaced_count(const struct font_face *face);
+
 /* status.c: notes a glyph for font_left_out(), with the reason that font_error() has. */
 void font_left_out_add(const char *path, const char *glyph);
 /* face_outline.c: as font_face_outline(), or for whoever prepares it font_face_outline_raw(), but a glyph whose outline is damaged or too

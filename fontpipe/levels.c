@@ -195,6 +195,27 @@ enum font_status font_levels_rectangle_set(struct font_levels *l, int index,
     return FONT_OK;
 }
 
+enum font_status font_levels_rectangles_set(struct font_levels *l,
+                                            const struct font_rectangles *rectangles)
+{
+    /* By the master that they cover, where nothing is covered twice. */
+    struct font_master covered = {0};
+    struct font_rectangles made = {0};
+    enum font_status status = font_rectangles_master(rectangles, &covered);
+    if (status == FONT_OK)
+        status = font_rectangles_make(&made, &covered);
+    font_master_finish(&covered);
+    if (status != FONT_OK) {
+        font_rectangles_finish(&made);
+        return status;
+    }
+    font_rectangles_finish(&l->rectangles);
+    l->rectangles = made;
+    below_forget(l, RECTANGLES);
+    l->rectangles_made = l->rectangles_edited = true;
+    return FONT_OK;
+}
+
 enum font_status font_levels_filter_set(struct font_levels *l, const char *name)
 {
     struct font_filter *filter;

@@ -51,6 +51,9 @@ enum font_status font_levels_master_set(struct font_levels *levels,
 enum font_status font_levels_rectangles_merge(struct font_levels *levels, int slack, int *gone);
 enum font_status font_levels_rectangle_set(struct font_levels *levels, int index,
                                            struct font_rectangle rectangle);
+/* Replaces the rectangles by copies of these, which were edited elsewhere; they may overlap: what they cover counts. */
+enum font_status font_levels_rectangles_set(struct font_levels *levels,
+                                            const struct font_rectangles *rectangles);
 enum font_status font_levels_filter_set(struct font_levels *levels, const char *filter);
 enum font_status font_levels_size_set(struct font_levels *levels, double size_px);
 /* Gray from master and rectangles even where nothing was edited: the thesis's way. */

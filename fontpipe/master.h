@@ -69,6 +69,14 @@ enum font_status font_master_from_picture(struct font_master *m,
 enum font_status font_master_copy(const struct font_master *from, struct font_master *to);
 long font_master_differs(const struct font_master *a, const struct font_master *b); /* pixels */
 
+/* ---- as outlines (master_outline.c) ---- */
+
+/* The boundary of the black pixels, to the pixel: what is drawn of it is what is drawn of the master, at any size. rough: from the
+ * middle of each pixel's side to the middle of the next, without steps; for whoever works on it further. It is in font units, with the master's
+ * advance. Owns: the caller finishes *out, which is empty on failure. Errors: TOO_LARGE (of more corners than FONT_SEGMENTS_MAX), NO_MEMORY. */
+enum font_status font_master_outline(const struct font_master *m, double units_per_em,
+                                     bool rough, struct font_outline *out);
+
 /* ---- rectangles ---- */
 
 /* x1, y1: one past the last. */
@@ -96,6 +104,8 @@ enum font_status font_rectangles_make_rows(struct font_rectangles *r,
 /* Joins rectangles that follow each other, down the rows or along the columns as they were cut, and whose sides differ by at
  * most `slack` master pixels, into one with their mean sides: fewer, and not quite the same ink. Returns how many are gone. */
 int font_rectangles_merge(struct font_rectangles *r, int slack);
+/* The master that they cover, whether they overlap or not. Errors: TOO_LARGE, NO_MEMORY, BAD_ARGUMENT (no em); it is then empty. */
+enum font_status font_rectangles_master(const struct font_rectangles *r, struct font_master *m);
 /* The rectangles' sides at a size: two lines each. Errors: as font_edges_build(). */
 enum font_status font_rectangles_edges(const struct font_rectangles *r, double size_px,
                                        struct font_edges *edges);

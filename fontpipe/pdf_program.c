@@ -140,6 +140,15 @@ static bool glyphs_take(const struct font_document *p, const struct pdf_font *fo
     return good && out->glyphs;
 }
 
+/* Whether all of it is in the font's file as it is drawn. */
+static bool is_own(const struct font_document *p, const struct pdf_font *font)
+{
+    for (int i = 0; i < font->count; i++)
+        if (font_face_is_replaced(font->face, p->letters[font->letters[i]].glyph))
+            return false;
+    return true;
+}
+
 /* Of a CFF that was cut a glyph has one width, whatever its codes. */
 static bool has_parts(const struct font_document *p, const struct pdf_font *font)
 {
@@ -155,7 +164,7 @@ bool pdf_program_subset(const struct font_document *p, const struct pdf_font *fo
     hb_face_t *face = font_face_harfbuzz(font->face), *cut = NULL;
     bool truetype = has_table(face, HB_TAG('g', 'l', 'y', 'f'));
     *out = (struct pdf_program){0};
-    if (font->version != font_face_version(font->face) ||
+    if (font->version != font_face_version(font->face) || !is_own(p, font) ||
         (!truetype && (has_parts(p, font) || !has_table(face, HB_TAG('C', 'F', 'F', ' ')))))
         return false;
     hb_subset_input_t *input = input_make(p, font, face);

@@ -121,6 +121,31 @@ static hb_position_t glyph_kerning(hb_font_t *font, void *data, hb_codepoint_t l
     return (hb_position_t)lrint(font_face_kerning(data, left, right));
 }
 
+/* HarfBuzz's own, but of glyphs that were replaced. */
+static hb_position_t glyph_advance_now(hb_font_t *font, void *data, hb_codepoint_t glyph,
+                                       void *user)
+{
+    (void)user;
+    double advance;
+    if (font_face_is_replaced(data, glyph) &&
+        font_face_advance(data, glyph, &advance) == FONT_OK)
+        return (hb_position_t)lrint(advance);
+    return hb_font_get_glyph_h_advance(hb_font_get_parent(font), glyph);
+}
+
+/* The font as the face is now. */
+static hb_font_t *font_now(hb_font_t *own, struct font_face *face)
+{
+    if (!font_face_replaced_count(face))
+        return hb_font_reference(own);
+    hb_font_t *now = hb_font_create_sub_font(own);
+    hb_font_funcs_t *funcs = hb_font_funcs_create();
+    hb_font_funcs_set_glyph_h_advance_func(funcs, glyph_advance_now, NULL, NULL);
+    hb_font_set_funcs(now, funcs, face, NULL);
+    hb_font_funcs_destroy(funcs);
+    return now;
+}
+
 static hb_font_funcs_t *funcs_make(void)
 {
     hb_font_funcs_t *funcs = hb_font_funcs_create();
@@ -149,28 +174,30 @@ static bool has_tables(hb_face_t *face)
 static void shaped_make(struct font_shaped_face *f, const struct font_face_info *info)
 {
     hb_face_t *face = font_face_harfbuzz(f->face);
-    f->hb = hb_font_create(face);
+    f->own = hb_font_create(face);
     if (has_tables(face)) {
-        hb_ot_font_set_funcs(f->hb);
+        hb_ot_font_set_funcs(f->own);
     } else {
         hb_font_funcs_t *funcs = funcs_make();
-        hb_font_set_funcs(f->hb, funcs, f->face, NULL);
+        hb_font_set_funcs(f->own, funcs, f->face, NULL);
         hb_font_funcs_destroy(funcs);
     }
-    hb_font_set_scale(f->hb, (int)info->units_per_em, (int)info->units_per_em);
+    hb_font_set_scale(f->own, (int)info->units_per_em, (int)info->units_per_em);
     f->units_per_em = info->units_per_em;
 }
 
-/* Makes the HarfBuzz font; if the face's axes were set since, sets its own: what HarfBuzz keeps of the tables stays. */
+/* Makes the HarfBuzz font; if the face's axes were set or its glyphs replaced since, makes it follow: what HarfBuzz keeps of the tables stays. */
 void font_shaped_refresh(struct font_shaped_face *f)
 {
     if (f->hb && f->version == font_face_version(f->face))
         return;
     struct font_face_info info;
     font_face_describe(f->face, &info);
-    if (!f->hb)
+    if (!f->own)
         shaped_make(f, &info);
-    font_face_harfbuzz_variations(f->face, f->hb);
+    hb_font_destroy(f->hb);
+    font_face_harfbuzz_variations(f->face, f->own);
+    f->hb = font_now(f->own, f->face);
     f->version = font_face_version(f->face);
 }
 
@@ -199,6 +226,7 @@ void font_shaper_destroy(struct font_shaper *s)
         return;
     for (int i = 0; i < s->faces_count; i++) {
         hb_font_destroy(s->faces[i].hb);
+        hb_font_destroy(s->faces[i].own);
         if (s->faces[i].owned)
             font_face_close(s->faces[i].face);
     }

@@ -12,7 +12,8 @@ enum { FONT_FACES_MAX = 24, FONT_KNOWN = 512 };
 
 struct font_shaped_face {
     struct font_face *face;
-    hb_font_t *hb;
+    hb_font_t *own; /* as the font's file has it */
+    hb_font_t *hb;  /* with the advances of replaced glyphs; else the same */
     uint64_t version;
     bool owned;
     double units_per_em;

@@ -5,6 +5,7 @@
 #include "page_internal.h"
 
 #include <ctype.h>
+#include <edits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -82,7 +83,7 @@ static const char *family_face(const struct page_setup *s, const char *kind, cha
 {
     struct font_face *face;
     struct font_face_info info;
-    if (font_face_open(s->font, 0, &face) != FONT_OK)
+    if (font_edits_open(s->font, 0, false, &face) != FONT_OK)
         return s->font;
     font_face_describe(face, &info);
     bool found = file_beside(info.path, kind, room, bytes);

@@ -1,6 +1,7 @@
 /* story.c - the text itself: styles, paragraphs, changes of them, notes, marks. See page.h. */
 #include "page_internal.h"
 
+#include <edits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -119,8 +120,7 @@ static enum font_status face_share(struct page_text *t, const struct page_style 
         return no_memory();
     struct shared_face *s = &t->faces[t->faces_count];
     *s = (struct shared_face){0};
-    enum font_status status =
-        (t->colour ? font_face_open_coloured : font_face_open)(look->font, 0, &s->face);
+    enum font_status status = font_edits_open(look->font, 0, t->colour, &s->face);
     if (status == FONT_OK)
         status = font_face_axes_set(s->face, look->axes);
     if (status == FONT_OK)

@@ -4,6 +4,7 @@
  * text. What it does not do exactly (its steps, an axis that ends) is left to a map, so that a line is as wide as it was set. */
 #include "page_internal.h"
 
+#include <edits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -35,7 +36,7 @@ static struct font_face *widened(struct page_text *t, const struct style *style,
     struct wide_face *w = &t->widths[t->widths_count++];
     *w = (struct wide_face){.of = own, .steps = steps};
     double value = axis.value * (1 + steps * STEP);
-    if (font_face_open(style->look.font, 0, &w->face) == FONT_OK &&
+    if (font_edits_open(style->look.font, 0, false, &w->face) == FONT_OK &&
         (font_face_axes_set(w->face, style->look.axes) != FONT_OK ||
          font_face_axis_set(w->face, "wdth", value) != FONT_OK)) {
         font_face_close(w->face);

@@ -21,7 +21,7 @@ static void preset_names(char *text, size_t room)
     "A font is a file's name with its folder, a font file's name without ending among the "    \
     "installed ones (EBGaramond12-Italic), or a family (\"DejaVu Sans\"); `fc-list : family "  \
     "file` "                                                                                   \
-    "shows them."
+    "shows them. A folder of edits of a font may stand in its place (`lutetia help font`)."
 #define FILTERS                                                                                \
     "A filter is one of the names above, each with :RADIUS if wanted (cone:2); "               \
     "gaussian:SIGMA,RADIUS; samples:RADIUS,S0,S1,.. and round:RADIUS,S0,S1,.. give it from "   \
@@ -116,21 +116,33 @@ const struct page pages_of_pictures[] = {
      .files = "/usr/share/doc/lutetia/examples/pages: texts to begin with",
      .see = "lutetia-type(1), lutetia-font(1), fc-list(1)"},
     {.verb = "font",
-     .usages = "FILE [options]\nFILE --glyph C [options]\n--show-filter [--filter F] [-o FILE]",
+     .usages = "FILE [options]\nFILE --glyph G [options]\nFILE --edits DIR [--glyph G [--write "
+               "LEVEL]] [options]\n--show-filter [--filter F] [-o FILE]",
      .about =
          "Draws a specimen of a font; or one glyph at each level of the font pipeline: its "
          "outline, the master, the rectangles that it is summed from, and its gray; or a "
          "filter.\n"
          "A master is the glyph in black and white, --em pixels large; it may be written, "
          "retouched "
-         "in a paint program, and taken again.",
-     .notes = FONTS "\n" FILTERS,
-     .values = {{.option = "filter", .list = font_filter_names}},
-     .examples = {{"lutetia font DejaVuSans -o specimen.png", "a specimen"},
-                  {"lutetia font DejaVuSans --glyph '&' -o levels.png",
-                   "one glyph at each level"},
-                  {"lutetia font --show-filter --filter gaussian-fast -o filter.png",
-                   "a filter"}},
+         "in a paint program, and taken again.\n"
+         "Edits are kept in a folder: --write puts a level of a glyph there, to be edited by "
+         "any "
+         "program. `lutetia type --edits DIR` draws with them, and so does whoever is given "
+         "the "
+         "folder as a font. What lies below an edited level is made from it; a file that is as "
+         "it was written changes nothing.",
+     .notes = FONTS
+     "\n" FILTERS "\nThe folder's edits.txt lists the files. Outlines are SVG in font units, y "
+     "downwards, of paths alone; or UFO's glif. Masters are black and white PNG; "
+     "rectangles a text, x0 y0 x1 y1 in master pixels.",
+     .values = {{.option = "filter", .list = font_filter_names},
+                {.option = "write", .words = "outline, glif, master, rectangles"}},
+     .examples =
+         {{"lutetia font DejaVuSans -o specimen.png", "a specimen"},
+          {"lutetia font DejaVuSans --glyph '&' -o levels.png", "one glyph at each level"},
+          {"lutetia font EBGaramond12-Regular --glyph f_f_i --edits mine --write outline",
+           "the ligature's outline, to be drawn anew in a program for SVG"},
+          {"lutetia font --show-filter --filter gaussian-fast -o filter.png", "a filter"}},
      .see = "lutetia-type(1), lutetia-set(1), fc-list(1)"},
     {.verb = "spring",
      .usages = "\"word\" [options]\n--network FILE [options]\n--controls",

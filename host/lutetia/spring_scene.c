@@ -3,6 +3,7 @@
 #include "spring_reach.h"
 
 #include <clamps.h>
+#include <edits.h>
 #include <network_file.h>
 #include <springs.h>
 #include <word.h>
@@ -63,7 +64,7 @@ static enum stage_status style_set(const struct spring_scene_def *def,
 
 static enum stage_status font_open(const struct spring_scene_def *def, struct spring_scene *out)
 {
-    if (font_face_open(def->font, 0, &out->face) != FONT_OK ||
+    if (font_edits_open(def->font, 0, false, &out->face) != FONT_OK ||
         font_shaper_create(out->face, &out->shaper) != FONT_OK)
         return stage_fail(STAGE_FAILED, "%s", font_error());
     return STAGE_OK;

@@ -2,6 +2,7 @@
 #include "type_common.h"
 #include "lutetia.h"
 
+#include <edits.h>
 #include <input_file.h>
 #include <output_file.h>
 
@@ -66,9 +67,17 @@ void type_missing_tell(const char *verb, const char *font, const struct font_lay
          layout->missing_count > FONT_MISSING_MAX ? " and more" : "", font);
 }
 
+void type_edits_tell(const char *verb)
+{
+    const char *what = font_edits_said();
+    if (what)
+        tell(verb, "%s", what);
+}
+
 void type_left_out_tell(const char *verb)
 {
     const char *what = font_left_out();
+    type_edits_tell(verb);
     if (what)
         tell(verb, "%s", what);
 }
@@ -115,8 +124,9 @@ int type_image_write(const char *verb, const char *path, const struct display_im
 int type_face_open(const char *verb, const char *name, int index, const char *axes,
                    bool coloured, struct font_face **out)
 {
-    if ((coloured ? font_face_open_coloured : font_face_open)(name, index, out) != FONT_OK)
+    if (font_edits_open(name, index, coloured, out) != FONT_OK)
         return fail_font(verb);
+    type_edits_tell(verb);
     enum font_status status = font_face_axes_set(*out, axes);
     if (status != FONT_OK) {
         font_face_close(*out);
@@ -125,6 +135,20 @@ int type_face_open(const char *verb, const char *name, int index, const char *ax
                                            : fail_font(verb);
     }
     return EXIT_SUCCESS;
+}
+
+int type_edits_apply(const char *verb, const char *folder, struct font_face *face)
+{
+    struct font_edits *edits;
+    if (font_edits_read(folder, face, &edits) != FONT_OK)
+        return fail_font(verb);
+    int status = EXIT_SUCCESS;
+    if (font_edits_changed(edits))
+        tell(verb, "%s", font_edits_changed(edits));
+    if (font_edits_apply(edits, face) != FONT_OK)
+        status = fail_font(verb);
+    font_edits_destroy(edits);
+    return status;
 }
 
 int type_filter_read(const char *verb, const char *name, char **out)

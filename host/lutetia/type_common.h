@@ -31,7 +31,12 @@ void type_text_check(const char *verb, const char *font, struct font_face *face,
                      const char *text);
 int type_image_write(const char *verb, const char *path, const struct display_image *image);
 
-/* Opens a font and sets axes, "wght=700,wdth=80". coloured: also one that has nothing but pictures in colours. */
+/* Says that a font has changed since its edits were made, if one has that was opened by its folder. */
+void type_edits_tell(const char *verb);
+/* Applies a folder's edits to a face. */
+int type_edits_apply(const char *verb, const char *folder, struct font_face *face);
+
+/* Opens a font, or a folder of edits of one, and sets axes, "wght=700,wdth=80". coloured: also one that has nothing but pictures in colours. */
 int type_face_open(const char *verb, const char *name, int index, const char *axes,
                    bool coloured, struct font_face **out);
 

@@ -448,6 +448,7 @@ int verb_spring(int argc, char **argv)
         return fail_usage("spring", "%s", stage_error());
     if (made != STAGE_OK)
         return fail_stage();
+    type_edits_tell("spring");
     if (scene.face && s.scene.text)
         type_text_check("spring", s.scene.font, scene.face, s.scene.text);
     status = spring_run(&s, scene.stage);

@@ -12,8 +12,8 @@
 #include <visible_text.h>
 
 struct type {
-    const char *text, *font, *axes, *filter, *features, *language, *warp, *display, *out_path,
-        *align;
+    const char *text, *font, *edits, *axes, *filter, *features, *language, *warp, *display,
+        *out_path, *align;
     double size_px, rotate, shear, place[2], ink[3], gamma, darken_px, spacing_px, leading;
     double margin_px, width_px;
     struct option_list corners;
@@ -43,6 +43,8 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
          &t->out_path, 0, 0, 0},
         {"font", 0, OPTION_TEXT, "F",
          "the font: a file, the name of one, or a family (DejaVuSans)", &t->font, 0, 0, 0},
+        {"edits", 0, OPTION_TEXT, "DIR", "draw with the edits of the font in this folder",
+         &t->edits, 0, 0, 0},
         {"face", 0, OPTION_INTEGER, "N", "which face of a collection (0)", &t->face, 0, 65535,
          0},
         {"axes", 0, OPTION_TEXT, "A=V,..",
@@ -322,6 +324,8 @@ int verb_type(int argc, char **argv)
     t.filter = filter;
     if (status == EXIT_SUCCESS && !help)
         status = type_face_open("type", t.font, t.face, t.axes, true, &face);
+    if (status == EXIT_SUCCESS && !help && t.edits)
+        status = type_edits_apply("type", t.edits, face);
     if (status == EXIT_SUCCESS && !help)
         status = type_run(&t, face);
     type_ink_finish(&t.more);

@@ -408,8 +408,8 @@ static void text_options(lua_State *L, int index, struct paper_line *line)
                    : line->align == PAPER_ALIGN_RIGHT ? 1
                                                       : 0;
     line->anchor = script_arg_number(L, index, "text", "anchor", line->anchor, 0, 1);
-    if (line->font && strchr(line->font, '/') && !script_of(L)->config->trusted)
-        luaL_error(L, "text font must be a font's name, not a file (got '%s')", line->font);
+    if (line->font)
+        line->font = script_font(L, line->font, "text font");
     if (!line->font)
         line->font = font_face_first(text_fonts);
 }

@@ -53,9 +53,9 @@ static void shape_read(lua_State *L, int index, const char *name, struct wanted 
 static const char *font_read(lua_State *L, int index, const char *name, const char *usual)
 {
     const char *font = script_arg_text(L, index, "page", name);
-    if (font && strchr(font, '/') && !script_of(L)->config->trusted)
-        luaL_error(L, "page %s must be a font's name, not a file (got '%s')", name, font);
-    return font ? font : usual;
+    char what[32];
+    snprintf(what, sizeof what, "page %.20s", name);
+    return font ? script_font(L, font, what) : usual;
 }
 
 static void wanted_read(lua_State *L, int index, struct wanted *w)

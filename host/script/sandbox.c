@@ -2,6 +2,7 @@
  * internals, run for ever, or take all memory. Trusted scripts get Lua's whole library. */
 #include "script_internal.h"
 
+#include <edits.h>
 #include <input_file.h>
 
 #include <lualib.h>
@@ -48,6 +49,26 @@ const char *script_path(lua_State *L, const char *folder, const char *name, cons
         luaL_error(L, outside, what, name);
     lua_pop(L, 1);
     return path;
+}
+
+const char *script_font(lua_State *L, const char *name, const char *what)
+{
+    const struct script_config *config = script_of(L)->config;
+    if (strchr(name, '/') && !config->trusted)
+        luaL_error(L, "%s must be a font's name, not a file (got '%s')", what, name);
+    char path[PATH_MAX];
+    int n = snprintf(path, sizeof path, "%s/%s", config->in_folder, name);
+    bool is_here = n > 0 && n < (int)sizeof path && name[0] != '/' && font_edits_is(path);
+    if (!is_here && !config->trusted && font_edits_is(name))
+        luaL_error(L, "%s '%s': a font's edits must be in the folder given; --in names it",
+                   what, name);
+    if (!is_here)
+        return name;
+    const char *kept = script_path(L, config->in_folder, name, what);
+    lua_pushvalue(L, -1); /* for as long as the script runs */
+    lua_setfield(L, LUA_REGISTRYINDEX, kept);
+    lua_pop(L, 1);
+    return kept;
 }
 
 const char *script_path_to_write(lua_State *L, const char *name, const char *ending,

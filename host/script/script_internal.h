@@ -145,6 +145,10 @@ void script_words_check(lua_State *L);
 /* Resolves a file's name within a folder and pushes its path; raises an error for names that lead out of it. */
 const char *script_path(lua_State *L, const char *folder, const char *name, const char *what);
 
+/* A font's name; or the path of a folder with edits of one, in the folder that is read. Raises an error for names of files. what: "text font". Owns: the
+ * script, as long as it runs, or as `name`. */
+const char *script_font(lua_State *L, const char *name, const char *what);
+
 /* The same for a file to write, in the output folder: with this ending, not hidden, and not
  * like an option. */
 const char *script_path_to_write(lua_State *L, const char *name, const char *ending,

@@ -3,6 +3,7 @@
 #include "script_springs.h"
 
 #include <edges.h>
+#include <edits.h>
 
 #include <math.h>
 #include <stdlib.h>
@@ -35,10 +36,9 @@ static struct font_shaper *shaper_of(lua_State *L, struct script_network *s, con
     if (s->fonts_count == SCRIPT_FONTS_OF_NETWORK || strlen(name) >= sizeof font->name)
         luaL_error(L, "a network's words have up to %d fonts, of short names",
                    SCRIPT_FONTS_OF_NETWORK);
-    if (strchr(name, '/') && !script_of(L)->config->trusted)
-        luaL_error(L, "word font must be a font's name, not a file (got '%s')", name);
+    const char *path = script_font(L, name, "word font");
     script_network_font_take(L, s);
-    if (font_face_open(name, 0, &font->face) != FONT_OK)
+    if (font_edits_open(path, 0, false, &font->face) != FONT_OK)
         script_fail(L, font_error());
     if (font_shaper_create(font->face, &font->shaper) != FONT_OK) {
         font_face_close(font->face);

@@ -14,11 +14,6 @@ enum { FILES = 1000, OUTLINES = 800, TEXTS = 400 };
 static const char *const fonts[] = {"DejaVuSansMono", "EBGaramond12-Italic",
                                     "NimbusSans-Regular.t1"};
 
-static uint32_t random_below(uint32_t *seed, size_t bound)
-{
-    return (uint32_t)(random_unit(seed) * (double)bound);
-}
-
 /* Damages a file: changes bytes, blanks runs, copies pieces elsewhere, cuts off the end. Half of the damage is in the first
  * kilobyte, which lists the tables. */
 static size_t damage(uint8_t *bytes, size_t count, uint32_t *seed)

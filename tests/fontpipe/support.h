@@ -67,4 +67,9 @@ static inline double random_unit(uint32_t *state)
     return (random_next(state) >> 8) / 16777216.0;
 }
 
+static inline uint32_t random_below(uint32_t *seed, size_t bound)
+{
+    return (uint32_t)(random_unit(seed) * (double)bound);
+}
+
 #endif

@@ -92,7 +92,7 @@ WHOLE = {
     ".leds": lambda data: data[:20] == b"lutetia leds 1 4096\n" and len(data) > 20 and (len(data) - 20) % 520 == 0,
     ".display": display_whole,
     ".cl": lambda data: data.rstrip().endswith(b"}"), ".graph": lambda data: data.endswith(b"\n"),
-    ".springs": lambda data: data.endswith(b"\n"), "": lambda data: data[:4] == b"\x7fELF" or data.endswith(b"\n"),
+    ".txt": lambda data: data.endswith(b"\n"), ".springs": lambda data: data.endswith(b"\n"), "": lambda data: data[:4] == b"\x7fELF" or data.endswith(b"\n"),
 }
 
 

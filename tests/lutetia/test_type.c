@@ -263,7 +263,14 @@ static void wrong_lines_are_said(void **state)
         {{"font", "DejaVuSans", "--merge", "3"}, 2, "want a --glyph"},
         {{"font", "DejaVuSans", "--glyph", "a", "--master", "/nowhere"}, 1, "/nowhere"},
         {{"font"}, 2, "give a font file"},
-        {{"font", "DejaVuSans", "--glyph", "ab"}, 2, "--glyph must be one character"},
+        {{"font", "DejaVuSans", "--glyph", "ab"}, 2, "no glyph 'ab'"},
+        {{"font", "DejaVuSans", "--glyph", "#99999"}, 1, "no #99999"},
+        {{"font", "DejaVuSans", "--write", "master"}, 2, "wants a --glyph"},
+        {{"font", "DejaVuSans", "--glyph", "a", "--edits", "x", "--write", "gray"},
+         2,
+         "--write must be"},
+        {{"font", "DejaVuSans", "--edits", "/nowhere"}, 1, "/nowhere/edits.txt"},
+        {{"type", "a", "--edits", "/nowhere"}, 1, "/nowhere/edits.txt"},
         {{"font", "DejaVuSans", "--glyph", "U+F0000"}, 1, "no glyph for U+F0000"},
         {{"font", "DejaVuSans", "--glyph", " "}, 1, "has no ink"},
     };
@@ -273,7 +280,12 @@ static void wrong_lines_are_said(void **state)
         memcpy(child.arguments + 1, cases[i].arguments, sizeof cases[i].arguments);
         run(&child, cases[i].status, cases[i].says);
     }
-    /* Damaged text and missing glyphs are reported; the rest is set. */
+}
+
+/* Damaged text and missing glyphs are reported; the rest is set. */
+static void what_is_missing_is_said(void **state)
+{
+    (void)state;
     const char *path = scratch_path("said.png");
     struct child damaged = {.arguments = {"", "type", "a\xff\xc3(", "-o", path}};
     run(&damaged, 0, "not UTF-8 in 2 places");
@@ -299,6 +311,7 @@ int main(void)
         cmocka_unit_test(comparisons_are_shown),
         cmocka_unit_test(fonts_and_filters_are_shown),
         cmocka_unit_test(wrong_lines_are_said),
+        cmocka_unit_test(what_is_missing_is_said),
     };
     lutetia = getenv("LUTETIA");
     if (!lutetia) {

@@ -6,6 +6,7 @@
  */
 #include "base/base.h"
 
+#include <edits.h>
 #include <paint.h>
 
 #include <math.h>
@@ -90,7 +91,7 @@ static enum paper_status line_set(struct line_setting *set)
                                         .width_px = line->width_px,
                                         .align = aligns[line->align],
                                         .right_to_left = line->right_to_left};
-    enum font_status status = font_face_open(line->font, 0, &set->face);
+    enum font_status status = font_edits_open(line->font, 0, false, &set->face);
     if (status != FONT_OK)
         return pipeline_failed(status, PAPER_BAD_FONT);
     if (font_face_axes_set(set->face, line->axes) != FONT_OK)

@@ -1,0 +1,73 @@
+/* edits_internal.h - what the files of edits share.
+ *
+ *     edits.c          faces and levels with their edits
+ *     edits_list.c     edits.txt
+ *     edits_read.c     a level's file            edits_write.c  likewise out
+ *     edits_text.c     files of a folder as text, sums, rectangles
+ *     outline_path.c   SVG's paths               outline_xml.c  SVG and glif                     */
+#ifndef LUTETIA_FONT_EDITS_INTERNAL_H
+#define LUTETIA_FONT_EDITS_INTERNAL_H
+
+#include "edits.h"
+
+#include <internal.h>
+
+enum {
+    EDITS_BYTES_MAX = 16 << 20,
+    EDITS_ROWS_MAX = 4096,
+    EDITS_SUM = 16,
+    EDITS_FAR = 32768,
+    EDITS_PNG_BYTES_MAX = 1 << 27
+};
+
+/* A row of edits.txt, and what its file has. */
+struct edits_row {
+    struct font_edit edit;
+    char name[FONT_GLYPH_NAME_BYTES], file[FONT_EDITS_FILE_BYTES], sum[EDITS_SUM + 1];
+    int em_px, left_px, top_px; /* of a master */
+    struct font_outline outline;
+    struct font_master master;
+    struct font_rectangles rectangles;
+};
+
+struct font_edits {
+    char *folder;
+    char font[256], sha256[65];
+    int face;
+    struct edits_row *rows;
+    int rows_count, rows_capacity;
+    struct error_text changed;
+};
+
+/* edits_text.c: a file of the folder, whole, with a zero behind it. Owns: the caller frees *bytes. Errors: BAD_FILE, NO_MEMORY. */
+enum font_status edits_file_read(const char *folder, const char *file, char **bytes,
+                                 size_t *count);
+/* FOLDER/FILE. Owns: the caller frees it; NULL: no memory. */
+char *edits_path(const char *folder, const char *file);
+/* A plain name: letters, digits, ._-, and no dot first. */
+bool edits_file_is_plain(const char *file);
+/* digits: 16, or 64 for all of the sum; room has one more. */
+void edits_sum(const void *bytes, size_t count, int digits, char *room);
+/* A whole number within bounds, up to white space or the end; the next word. False: it is none. */
+bool edits_number(const char **at, int least, int most, int *value);
+enum font_status edits_rectangles_read(const char *path, const char *text, double em_units,
+                                       double advance, struct font_rectangles *out);
+
+/* edits_list.c: edits.txt of a folder, without the files. Errors: BAD_FILE, NO_MEMORY. */
+enum font_status edits_list_read(const char *folder, struct font_edits **out);
+/* Writes it anew. */
+enum font_status edits_list_write(const struct font_edits *edits);
+enum font_status edits_row_add(struct font_edits *edits, struct edits_row **out);
+
+/* edits_read.c: the row's file, if it was edited. Errors: BAD_FILE, TOO_LARGE, NO_MEMORY. */
+enum font_status edits_row_read(const struct font_edits *edits, struct edits_row *row,
+                                struct font_face *face);
+
+/* outline_path.c: a path's words, through a map (xx, yx, xy, yy, x, y as in SVG's matrix()). *why: what is wrong with it. */
+enum font_status edits_path_draw(const char *d, const double map[6], struct font_outline *out,
+                                 const char **why);
+/* outline_xml.c: units: of the em. The advance is left as it is where the file has none. Errors: BAD_FILE with the file's path, TOO_LARGE, NO_MEMORY. */
+enum font_status edits_outline_read(const char *path, const char *bytes, size_t count,
+                                    struct font_outline *out);
+
+#endif

@@ -1,0 +1,300 @@
+/* edits_write.c - levels out of the pipeline, to be edited: see edits.h. */
+#include "edits_internal.h"
+
+#include <display.h>
+#include <output_file.h>
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* Where a level goes. stray: a file that no row has is there. */
+struct edits_out {
+    const char *folder, *file;
+    char *path;
+    bool stray;
+};
+
+static const char *const endings[FONT_EDITS_LEVELS][2] = {
+    {".svg", ".glif"}, {".png", NULL}, {".txt", NULL}};
+
+const char *font_edits_ending(enum font_edits_level level, int i)
+{
+    return i >= 0 && i < 2 ? endings[level][i] : NULL;
+}
+
+/* ---- outlines ---- */
+
+static void svg_put(FILE *f, const struct font_outline *o, const struct font_face_info *info)
+{
+    fprintf(f,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 %.9g %.9g %.9g\">\n"
+            "<path d=\"",
+            -info->ascender, o->advance, info->ascender - info->descender);
+    for (int i = 0; i < o->segments_count; i++) {
+        const struct font_segment *s = &o->segments[i];
+        if (i == 0 || s[-1].contour != s->contour)
+            fprintf(f, "%sM%.9g %.9g\n", i ? "Z\n" : "", s->p[0].x, -s->p[0].y);
+        fputc(s->degree == 1 ? 'L' : s->degree == 2 ? 'Q' : 'C', f);
+        for (int k = 1; k <= s->degree; k++)
+            fprintf(f, "%s%.9g %.9g", k > 1 ? " " : "", s->p[k].x, 0 - s->p[k].y);
+        fputc('\n', f);
+    }
+    fprintf(f, "%s\"/>\n</svg>\n", o->segments_count ? "Z" : "");
+}
+
+static void glif_put(FILE *f, const struct font_outline *o, const char *name)
+{
+    static const char *const types[] = {"line", "qcurve", "curve"};
+    fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<glyph name=\"", f);
+    for (; *name; name++) {
+        if (strchr("<>&\"", *name))
+            fprintf(f, "&#%d;", *name);
+        else
+            fputc(*name, f);
+    }
+    fprintf(f, "\" format=\"2\">\n<advance width=\"%.9g\"/>\n<outline>\n", o->advance);
+    for (int i = 0; i < o->segments_count; i++) {
+        const struct font_segment *s = &o->segments[i];
+        bool first = i == 0 || s[-1].contour != s->contour;
+        if (first)
+            fprintf(f, "%s<contour>\n", i ? "</contour>\n" : "");
+        for (int k = 1; k < s->degree; k++)
+            fprintf(f, "<point x=\"%.9g\" y=\"%.9g\"/>\n", s->p[k].x, s->p[k].y);
+        fprintf(f, "<point x=\"%.9g\" y=\"%.9g\" type=\"%s\"/>\n", s->p[s->degree].x,
+                s->p[s->degree].y, types[s->degree - 1]);
+    }
+    fprintf(f, "%s</outline>\n</glyph>\n", o->segments_count ? "</contour>\n" : "");
+}
+
+/* ---- files ----
+ *
+ * A file that no row has, and that is not what would be written, is somebody's own and stays. One that is the same is of a run that was cut
+ * off before its row was written. */
+
+static enum font_status refuse(const char *path)
+{
+    return font_fail(FONT_BAD_ARGUMENT, "%s is there already, and no row of edits.txt has it",
+                     path);
+}
+
+static enum font_status text_write(const struct edits_out *to, const char *text, size_t count)
+{
+    struct output_file out;
+    const char *path = to->path;
+    if (to->stray) {
+        char *there = NULL;
+        size_t bytes;
+        enum font_status status = edits_file_read(to->folder, to->file, &there, &bytes);
+        bool same = status == FONT_OK && bytes == count && memcmp(there, text, count) == 0;
+        free(there);
+        if (!same)
+            return refuse(path);
+    }
+    if (!output_file_open(&out, path))
+        return font_fail(FONT_BAD_FILE, "%s: cannot write: %s", path, out.why);
+    fwrite(text, 1, count, out.stream);
+    return output_file_commit(&out)
+               ? FONT_OK
+               : font_fail(FONT_BAD_FILE, "%s: cannot write: %s", path, out.why);
+}
+
+static enum font_status outline_write(const struct edits_out *to, struct font_face *face,
+                                      uint32_t glyph, const char *ending)
+{
+    struct font_outline o;
+    struct font_face_info info;
+    char name[FONT_GLYPH_NAME_BYTES], *text = NULL;
+    size_t count = 0;
+    enum font_status status = font_face_outline_raw(face, glyph, &o);
+    if (status != FONT_OK)
+        return status;
+    font_face_describe(face, &info);
+    FILE *f = open_memstream(&text, &count);
+    if (f && strcmp(ending, ".svg") == 0)
+        svg_put(f, &o, &info);
+    else if (f)
+        glif_put(f, &o, font_face_glyph_name(face, glyph, name));
+    font_outline_finish(&o);
+    status = f && fclose(f) == 0 && text
+                 ? text_write(to, text, count)
+                 : font_fail(FONT_NO_MEMORY, "no memory for %s", to->path);
+    free(text);
+    return status;
+}
+
+static enum font_status rectangles_write(const struct edits_out *to, struct font_levels *levels)
+{
+    const struct font_rectangles *r;
+    char *text = NULL;
+    size_t count = 0;
+    enum font_status status = font_levels_rectangles(levels, &r);
+    if (status != FONT_OK)
+        return status;
+    FILE *f = open_memstream(&text, &count);
+    if (f)
+        fprintf(f, "em %d\n", r->em_px);
+    for (int i = 0; f && i < r->count; i++)
+        fprintf(f, "%d %d %d %d\n", r->items[i].x0, r->items[i].y0, r->items[i].x1,
+                r->items[i].y1);
+    status = f && fclose(f) == 0 && text
+                 ? text_write(to, text, count)
+                 : font_fail(FONT_NO_MEMORY, "no memory for %s", to->path);
+    free(text);
+    return status;
+}
+
+static bool is_picture(const char *path, const struct display_image *image)
+{
+    struct display_image there = {0};
+    bool same = display_png_bytes(path, 1) <= EDITS_PNG_BYTES_MAX &&
+                display_png_read_gray(path, &there) == DISPLAY_OK &&
+                there.width_px == image->width_px && there.height_px == image->height_px &&
+                memcmp(there.pixels, image->pixels,
+                       (size_t)image->width_px * (size_t)image->height_px) == 0;
+    display_image_destroy(&there);
+    return same;
+}
+
+/* With a margin for ink that goes beyond the letter. */
+static enum font_status master_write(const struct edits_out *to, struct font_levels *levels,
+                                     struct edits_row *row)
+{
+    const struct font_master *m;
+    enum font_status status = font_levels_master(levels, &m);
+    if (status != FONT_OK)
+        return status;
+    int margin = m->em_px / 16 + 1;
+    struct display_image image = {.width_px = m->width_px + 2 * margin,
+                                  .height_px = m->height_px + 2 * margin,
+                                  .channels = 1};
+    if (display_image_create(&image) != DISPLAY_OK)
+        return font_fail(FONT_NO_MEMORY, "%s", display_error());
+    font_master_to_picture(m, margin, image.pixels);
+    if (to->stray && !is_picture(to->path, &image))
+        status = refuse(to->path);
+    else if (display_png_write(to->path, &image) != DISPLAY_OK)
+        status = font_fail(FONT_BAD_FILE, "%s", display_error());
+    display_image_destroy(&image);
+    row->em_px = m->em_px;
+    row->left_px = m->left_px - margin;
+    row->top_px = m->top_px - margin;
+    return status;
+}
+
+/* ---- rows ---- */
+
+static enum font_status list_begin(const char *folder, struct font_face *face,
+                                   const struct font_edits *edits, struct font_edits *out)
+{
+    struct font_face_info info;
+    font_face_describe(face, &info);
+    const char *base = strrchr(info.path, '/');
+    size_t count;
+    const void *bytes = font_face_bytes(face, &count);
+    *out = (struct font_edits){0};
+    out->folder = strdup(folder);
+    if (!out->folder)
+        return font_fail(FONT_NO_MEMORY, "no memory for edits");
+    snprintf(out->font, sizeof out->font, "%.255s", base ? base + 1 : info.path);
+    out->face = info.index;
+    edits_sum(bytes, count, 64, out->sha256);
+    if (edits) {
+        snprintf(out->font, sizeof out->font, "%s", edits->font);
+        snprintf(out->sha256, sizeof out->sha256, "%s", edits->sha256);
+        out->face = edits->face;
+    }
+    for (int i = 0; edits && i < edits->rows_count; i++) {
+        struct edits_row *row;
+        enum font_status status = edits_row_add(out, &row);
+        if (status != FONT_OK)
+            return status;
+        const struct edits_row *from = &edits->rows[i];
+        row->edit = from->edit;
+        memcpy(row->name, from->name, sizeof row->name);
+        memcpy(row->file, from->file, sizeof row->file);
+        memcpy(row->sum, from->sum, sizeof row->sum);
+        row->em_px = from->em_px;
+        row->left_px = from->left_px;
+        row->top_px = from->top_px;
+    }
+    if (!edits && mkdir(folder, 0777) != 0 && errno != EEXIST)
+        return font_fail(FONT_BAD_FILE, "%s: cannot make this folder: %s", folder,
+                         strerror(errno));
+    return FONT_OK;
+}
+
+/* The glyph's row of that level, or a new one. */
+static enum font_status row_find(struct font_edits *list, struct font_face *face,
+                                 uint32_t glyph, enum font_edits_level level,
+                                 const char *ending, struct edits_row **out,
+                                 struct edits_out *to)
+{
+    for (int i = 0; i < list->rows_count; i++) {
+        struct edits_row *row = &list->rows[i];
+        if (row->edit.glyph != glyph || row->edit.level != level)
+            continue;
+        if (row->edit.edited)
+            return font_fail(
+                FONT_BAD_ARGUMENT,
+                "%s/%s was edited; take its row out of edits.txt and the file away "
+                "to write it anew",
+                list->folder, row->file);
+        *out = row;
+    }
+    enum font_status status = *out ? FONT_OK : edits_row_add(list, out);
+    if (status != FONT_OK)
+        return status;
+    struct edits_row *row = *out;
+    bool written = row->file[0] != '\0';
+    char former[FONT_EDITS_FILE_BYTES];
+    memcpy(former, row->file, sizeof former);
+    row->edit.glyph = glyph;
+    row->edit.level = level;
+    font_face_glyph_name(face, glyph, row->name);
+    snprintf(row->file, sizeof row->file, "%s%s", row->name, ending);
+    if (!edits_file_is_plain(row->file))
+        snprintf(row->file, sizeof row->file, "glyph%u%s", (unsigned)glyph, ending);
+    struct stat about;
+    to->folder = list->folder;
+    to->file = row->file;
+    to->path = edits_path(list->folder, row->file);
+    if (!to->path)
+        return font_fail(FONT_NO_MEMORY, "no memory for edits");
+    to->stray = lstat(to->path, &about) == 0 && (!written || strcmp(former, row->file) != 0);
+    return FONT_OK;
+}
+
+enum font_status font_edits_write(const char *folder, const struct font_edits *edits,
+                                  struct font_face *face, uint32_t glyph,
+                                  enum font_edits_level level, const char *ending,
+                                  struct font_levels *levels, char room[FONT_EDITS_FILE_BYTES])
+{
+    struct font_edits list;
+    struct edits_row *row = NULL;
+    struct edits_out to = {0};
+    char *bytes = NULL;
+    size_t count;
+    enum font_status status = list_begin(folder, face, edits, &list);
+    ending = ending ? ending : endings[level][0];
+    if (status == FONT_OK)
+        status = row_find(&list, face, glyph, level, ending, &row, &to);
+    if (status == FONT_OK)
+        status = level == FONT_EDITS_OUTLINE  ? outline_write(&to, face, glyph, ending)
+                 : level == FONT_EDITS_MASTER ? master_write(&to, levels, row)
+                                              : rectangles_write(&to, levels);
+    if (status == FONT_OK)
+        status = edits_file_read(folder, row->file, &bytes, &count);
+    if (status == FONT_OK) {
+        edits_sum(bytes, count, EDITS_SUM, row->sum);
+        snprintf(room, FONT_EDITS_FILE_BYTES, "%s", row->file);
+        status = edits_list_write(&list);
+    }
+    free(bytes);
+    free(to.path);
+    free(list.rows);
+    free(list.folder);
+    return status;
+}

@@ -1,0 +1,31 @@
+/* font_verb.h - what the files of `lutetia font` share. */
+#ifndef LUTETIA_FONT_VERB_H
+#define LUTETIA_FONT_VERB_H
+
+#include <display.h>
+#include <edits.h>
+
+#include <stdbool.h>
+
+struct font_verb {
+    const char *file, *axes, *filter, *glyph, *text, *out_path, *master_in, *master_out;
+    const char *edits, *write; /* a folder, and the level that is written there */
+    double size_px;
+    int face, em_px, merge;
+    bool show_filter;
+};
+
+/* font_drawn.c: a box of one colour; a line of some width through points, as type is drawn, as the outlines of its pieces; gray pixels
+ * enlarged. */
+void font_box_fill(struct display_image *image, double x0, double y0, double x1, double y1,
+                   const uint8_t rgb[3]);
+enum font_status font_stroke_draw(struct display_image *image, const struct font_point *p,
+                                  int count, double width, const double ink[3]);
+void font_gray_show(struct display_image *image, const struct font_gray *gray, double x,
+                    double y, int zoom);
+
+/* font_glyph.c: the glyph v->glyph at each level, with its edits (NULL: none), of a face without them. */
+int font_levels_show(const struct font_verb *v, struct font_face *face,
+                     const struct font_edits *edits);
+
+#endif
