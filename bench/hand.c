@@ -1,4 +1,4 @@
-/* hand.c - runs kernels/diffusion_per_axis.cl: two launches a step. */
+/* hand.c - runs bench/kernels/diffusion_per_axis.cl: two launches a step. */
 #include "scene.h"
 
 #include <stdio.h>
@@ -6,8 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "diffusion_kernels.h"
 #include "harness.h"
-#include "kernels.h"
 #include "opencl.h"
 
 enum {

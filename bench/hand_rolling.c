@@ -1,4 +1,4 @@
-/* hand_rolling.c - runs kernels/diffusion_single_pass.cl and diffusion_time_tiled.cl; see
+/* hand_rolling.c - runs bench/kernels/diffusion_single_pass.cl and diffusion_time_tiled.cl; see
  * rolling.h. */
 #include "rolling.h"
 
@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "diffusion_kernels.h"
 #include "harness.h"
-#include "kernels.h"
 #include "opencl.h"
 
 struct diffusion_rolling {

@@ -118,7 +118,7 @@ INLINE vector moved(vector amount, vector in, vector out)
 }
 
 #define __global
-#include "../kernels/diffusion_row.cl"
+#include "kernels/diffusion_row.cl"
 
 /* row() with all its invariants known at compile time. */
 static void row_of_kind(enum row_kind kind, bool past, struct rows old,

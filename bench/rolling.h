@@ -84,7 +84,7 @@ bool rolling_tune(const struct rolling_layout *l, int threads_count,
                   bool (*run)(void *context, const struct rolling_tiling *t), void *context,
                   struct rolling_tiling *best);
 
-/* ---- OpenCL (hand_rolling.c, kernels/diffusion_rolling.cl) ---- */
+/* ---- OpenCL (hand_rolling.c, bench/kernels/diffusion_rolling.cl) ---- */
 
 enum diffusion_rolling_kind {
     DIFFUSION_SINGLE_PASS,
