@@ -1,4 +1,4 @@
-/* environment.c - see environment.h. The rows of the engine are explained at length in docs/engine.md. */
+/* environment.c - see environment.h. The machine's rows are those of machine_settings.tab. */
 #include "environment.h"
 
 #include <stddef.h>
@@ -31,17 +31,7 @@ const struct environment_row environment_rows[] = {
      "the OpenCL device: a part of its name or of its platform's, or its number in `lutetia "
      "info` "
      "(the first)"},
-    {"LUTETIA_PROCESSORS", "N", USER, "how many physical processors, a power of two (65536)"},
-    {"LUTETIA_MEMORY", "N", USER,
-     "bytes that the machine's arrays may take together (15 of 16 parts of what is available)"},
-    {"LUTETIA_TUNED", "0", USER, "what `lutetia tune` kept for the device is ignored"},
-    {"LUTETIA_VERBOSE", "1", USER,
-     "says so when what `lutetia tune` kept is ignored: it is damaged, or of another driver"},
 
-    {"LUTETIA_EAGER", "1", PARIS,
-     "every instruction is computed at once: slow, simple, and the same bits"},
-    {"LUTETIA_LENIENT", "1", PARIS,
-     "as after CM_set_safety_mode (0): what the real machine let pass is let pass"},
     {"LUTETIA_EXPLAIN", "FILE", PARIS,
      "when the program ends, what its machine did is written there as text"},
     {"LUTETIA_EXPLAIN_JSON", "FILE", PARIS, "the same as JSON"},
@@ -66,52 +56,14 @@ const struct environment_row environment_rows[] = {
     {"LUTETIA_MIDI_TOKEN", "TEXT", MIDI,
      "the secret that server and clients share over TCP (`lutetia midi serve --tcp`)"},
 
-    {"LUTETIA_REPLAY", "0", ENGINE, "calls that were seen before are recorded, too"},
-    {"LUTETIA_FLUSH_AFTER", "N", ENGINE, "an evaluation is due when N values wait (384)"},
-    {"LUTETIA_INTERPRET", "0..3", ENGINE,
-     "plans are never interpreted; until kernels pay (1, the default); always; always, and by "
-     "the "
-     "device's own interpreter"},
-    {"LUTETIA_AT_ONCE", "0|2", ENGINE,
-     "operations of small sets are never computed at once; always"},
-    {"LUTETIA_NUMBERS", "0|1", ENGINE,
-     "numbers are never arguments of kernels; wherever they can be"},
-    {"LUTETIA_NEAR", "0|2", ENGINE,
-     "the front end reads nothing of little by itself; all of it in several parts"},
-    {"LUTETIA_WARM_UP", "0", ENGINE, "CM_init performs nothing before the program does"},
-    {"LUTETIA_BACKGROUND", "0", ENGINE, "the program waits for its kernels to be compiled"},
     {"LUTETIA_COMPILER", "FILE", ENGINE,
      "the lutetia-compiler that compiles in the background; empty: as LUTETIA_BACKGROUND=0"},
-    {"LUTETIA_OPTIMISE_AFTER", "N", ENGINE,
-     "processors that a plan has run on before its kernel is optimised (4194304)"},
-    {"LUTETIA_BOX_AFTER", "N", ENGINE,
-     "processors that a plan has run on before its kernel is made for its size (33554432); 0: "
-     "the "
-     "best kernels at once"},
-    {"LUTETIA_KERNELS", "N", ENGINE,
-     "compiled kernels that are kept in memory, in units (512)"},
-    {"LUTETIA_KERNELS_EVER", "N", ENGINE,
-     "kernels that a process may start before other plans are interpreted for good (8192)"},
-    {"LUTETIA_KEEP", "0|1", ENGINE, "kernels are not kept on disk; are kept"},
-    {"LUTETIA_STRIPS", "0|1", ENGINE, "stages are never in one kernel; wherever that can be"},
-    {"LUTETIA_STRIPS_EACH", "N", ENGINE, "strips for each compute unit, about (3)"},
-    {"LUTETIA_COLUMNS", "N", ENGINE, "the width of a strip, a multiple of 16 (4096)"},
-    {"LUTETIA_TILE", "WxH", ENGINE, "the size of a tile (what the model says)"},
-    {"LUTETIA_VECTOR", "1|4|8|16", ENGINE, "lanes of a work-item"},
-    {"LUTETIA_RUN", "N", ENGINE, "columns that a work-item goes along, a multiple of 16, or 1"},
-    {"LUTETIA_TURNS", "N", ENGINE, "turns of a loop that are evaluated at once, at most (8)"},
-    {"LUTETIA_IN_PLACE", "0|1", ENGINE,
-     "nothing is written over what was read; all that can be"},
-    {"LUTETIA_NARROW", "0", ENGINE, "no narrow lanes"},
-    {"LUTETIA_GATHER", "0", ENGINE, "a get is a kernel of its own"},
-    {"LUTETIA_SCATTER", "0|1", ENGINE,
-     "work-items share out the destinations of a send; the senders write theirs"},
-    {"LUTETIA_KEEPS_NAN", "0", ENGINE,
-     "every operation counts as one that may change a NaN's bits"},
-    {"LUTETIA_STREAMS", "0|1", ENGINE, "stores never pass the caches by; where it pays"},
-    {"LUTETIA_CLAIMS", "0", ENGINE, "the driver says which thread computes what"},
-    {"LUTETIA_AWAKE", "0|1", ENGINE,
-     "processors may halt between kernels; they do not, wherever that can be"},
+
+#define SETTING(variable, member, read, usual, least, most, multiple, may_be, value, group,    \
+                does)                                                                          \
+    {"LUTETIA_" #variable, value, group, does},
+#include "machine_settings.tab"
+#undef SETTING
 
     {"POCL_AFFINITY", "0", OTHERS, "PoCL's threads are not tied to a processor each"},
     {"POCL_MAX_PTHREAD_COUNT", "N", OTHERS, "how many threads PoCL has (one a processor)"},

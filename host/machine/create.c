@@ -163,8 +163,8 @@ void machine_destroy(struct machine *m)
 
 bool machine_warms_up(const struct machine *m)
 {
-    return m->settings.warm_up && at_once_may(m) == AT_ONCE_SOMETIMES &&
-           device_is_ours(m->device) && !m->settings.eager && !m->plans->dump_dir;
+    return at_once_may(m) == AT_ONCE_SOMETIMES && device_is_ours(m->device) &&
+           !m->settings.eager && !m->plans->dump_dir;
 }
 
 enum machine_status machine_empty(struct machine *m)

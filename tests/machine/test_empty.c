@@ -185,7 +185,6 @@ static void only_what_nobody_watches_warms_up(void **state)
     (void)state;
     setenv("LUTETIA_INTERPRET", "1", 1);
     assert_true(warms_up(NULL, NULL));
-    assert_false(warms_up("LUTETIA_WARM_UP", "0"));
     assert_false(warms_up("LUTETIA_INTERPRET", "0"));
     setenv("LUTETIA_INTERPRET", "1", 1);
     assert_false(warms_up("LUTETIA_EAGER", "1"));

@@ -189,8 +189,8 @@ class Manual(unittest.TestCase):
             for path in (root / folder).rglob("*.c"):
                 text = path.read_text()
                 names |= set(re.findall(r'(?:getenv\(|variable = )"(LUTETIA_\w+)"', text))
-                if path.name == "settings.c":
-                    names |= {"LUTETIA_" + name for name in re.findall(r"\{(?:SETTING|KNOB)(?:_READ)?\((\w+),", text)}
+        settings = (root / "host/machine/machine_settings.tab").read_text()
+        names |= {"LUTETIA_" + name for name in re.findall(r"^SETTING\((\w+),", settings, re.MULTILINE)}
         self.assertGreater(len(names), 30)
         rows = [line.split("\t") for line in said(LUTETIA, "help", "--table").stdout.splitlines()]
         self.assertEqual(names - {row[1] for row in rows if row[0] == "environment"}, set(), "host/lutetia/environment.c lacks these")

@@ -18,14 +18,13 @@ struct settings {
     uint64_t numbers; /* numbers in kernels are arguments: 0 never, 1 where they can be */
     uint64_t
         at_once; /* operations of small sets are computed when called: 0 never, 1 where nothing repeats, 2 always */
-    uint64_t warm_up;    /* machines may perform something before the program does */
     uint64_t background; /* better kernels are compiled while others run */
     uint64_t kernels;    /* in memory at most, in units: device/programs.c */
     uint64_t
         kernels_ever; /* after so many started in this process plans are interpreted: device/started.c */
     uint64_t knob[MACHINE_KNOBS];
     double cost_ns[MACHINE_COSTS]; /* measured for this device (device/tuning.c); 0: not */
-    uint64_t strips, in_place, scatter, gather, narrow, keeps_nan;
+    uint64_t strips, in_place, scatter, gather, keeps_nan;
     uint64_t
         awake; /* processors do not halt while there is work: base/awake.h; free: in a virtual machine, where the system may be asked */
     uint64_t claims;  /* device_shape.claims */
@@ -33,10 +32,9 @@ struct settings {
     uint64_t lenient; /* what is past a field's end is what lies after it: access/beyond.h */
     uint64_t tile;    /* width << 16 | height */
     uint64_t processors;
-    uint64_t memory;  /* bytes that arrays may take together; free: what the device has */
-    uint64_t tuned;   /* 0: a stored tuning is ignored */
-    uint64_t keep;    /* keep programs on disk */
-    uint64_t verbose; /* warn on the standard error about a stored tuning that is ignored */
+    uint64_t memory; /* bytes that arrays may take together; free: what the device has */
+    uint64_t tuned;  /* 0: a stored tuning is ignored */
+    uint64_t keep;   /* keep programs on disk */
 };
 
 enum machine_status settings_read(struct machine *m);

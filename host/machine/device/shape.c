@@ -119,7 +119,7 @@ struct device_shape shape_of(const struct device *d, const struct settings *s)
     if (d->is_cpu) {
         shape.vector = said(s, MACHINE_VECTOR, shape.vector);
         shape.halo = shape.vector > 1 ? shape.vector : 0;
-        shape.narrow = shape.vector > 1 && s->narrow;
+        shape.narrow = shape.vector > 1;
 #ifdef __x86_64__ /* 0/0 is *the* NaN, and an operand that is it is the result */
         shape.keeps_nan = s->keeps_nan != 0;
 #endif

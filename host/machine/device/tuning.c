@@ -29,7 +29,6 @@
 #include "base/parts.h"
 #include "device/cache.h"
 #include "output_file.h"
-#include "visible_text.h"
 
 #define FIRST_LINE "lutetia tuning 2"
 
@@ -234,15 +233,11 @@ void tuning_apply(struct machine *m, const struct machine_config *config)
 {
     struct device *d = m->device;
     struct machine_tuning tuning = machine_tuning_usual();
-    char text[800];
+    char why[160];
     if (config->tuning)
         tuning = *config->tuning;
-    else if (m->settings.tuned &&
-             file_read(d, &tuning, text, sizeof text) == MACHINE_TUNED_BADLY &&
-             m->settings.verbose) {
-        machine_tuning_describe(m, text, sizeof text);
-        visible_say("lutetia: %s", text);
-    }
+    else if (m->settings.tuned) /* where it is ignored, machine_tuning_describe() says why */
+        file_read(d, &tuning, why, sizeof why);
     for (int k = 0; k < MACHINE_KNOBS; k++)
         if (m->settings.knob[k] == SETTING_FREE &&
             machine_knob_allows((enum machine_knob)k, tuning.of[k]))
