@@ -25,6 +25,9 @@ static enum font_status rows_read(struct font_edits *edits, struct font_face *fa
         struct edits_row *row = &edits->rows[i];
         row->edit.name = row->name;
         row->edit.file = row->file;
+        status = font_patience_ask(0);
+        if (status != FONT_OK)
+            break;
         status = font_face_glyph_named(face, row->name, &row->edit.glyph);
         if (status != FONT_OK)
             status = font_fail(status, "%s/edits.txt: %.300s", edits->folder, font_error());
@@ -151,7 +154,9 @@ enum font_status font_edits_apply(const struct font_edits *edits, struct font_fa
         struct font_outline exact = {0}, rough = {0};
         if (!row->edit.edited || font_face_is_replaced(face, row->edit.glyph))
             continue; /* not, or with another of the glyph's rows */
-        status = outline_find(edits, row->edit.glyph, info.units_per_em, &exact, &rough);
+        status = font_patience_ask(0);
+        if (status == FONT_OK)
+            status = outline_find(edits, row->edit.glyph, info.units_per_em, &exact, &rough);
         if (status == FONT_OK)
             status = font_face_outline_replace(face, row->edit.glyph, &exact,
                                                rough.segments_count ? &rough : NULL);

@@ -30,7 +30,7 @@
  * Files. Outlines are SVG (.svg: paths, in font units, y downwards; the viewBox's width is the advance) or UFO's glif (.glif). Masters are PNG, ink below
  * 128 of 255. Rectangles are text: a line "em N", and a line of x0 y0 x1 y1 for each, in master pixels.
  *
- * Trust. Such a folder is input from outside: files are plain names in it and regular files, sizes are bounded (a file 16 MiB, 4,096 rows), and whatever does
+ * Trust. Such a folder is input from outside: files are plain names in it and regular files, sizes are bounded (a file 16 MiB, 4,096 rows, 256 MiB in all), and whatever does
  * not read so fails, with the file and what is wrong.
  *
  * Errors: functions that can fail return a status and leave one line in font_error().

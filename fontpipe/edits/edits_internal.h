@@ -17,7 +17,8 @@ enum {
     EDITS_ROWS_MAX = 4096,
     EDITS_SUM = 16,
     EDITS_FAR = 32768,
-    EDITS_PNG_BYTES_MAX = 1 << 27
+    EDITS_PNG_BYTES_MAX = 1 << 27,
+    EDITS_ALL_BYTES_MAX = 1 << 28 /* what the rows of a folder may hold together */
 };
 
 /* A row of edits.txt, and what its file has. */
@@ -36,6 +37,7 @@ struct font_edits {
     int face;
     struct edits_row *rows;
     int rows_count, rows_capacity;
+    size_t bytes; /* that the rows hold */
     struct error_text changed;
 };
 
@@ -60,7 +62,7 @@ enum font_status edits_list_write(const struct font_edits *edits);
 enum font_status edits_row_add(struct font_edits *edits, struct edits_row **out);
 
 /* edits_read.c: the row's file, if it was edited. Errors: BAD_FILE, TOO_LARGE, NO_MEMORY. */
-enum font_status edits_row_read(const struct font_edits *edits, struct edits_row *row,
+enum font_status edits_row_read(struct font_edits *edits, struct edits_row *row,
                                 struct font_face *face);
 
 /* outline_path.c: a path's words, through a map (xx, yx, xy, yy, x, y as in SVG's matrix()). *why: what is wrong with it. */

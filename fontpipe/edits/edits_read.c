@@ -30,7 +30,15 @@ static enum font_status master_take(struct edits_row *row, const char *path, dou
     return status;
 }
 
-enum font_status edits_row_read(const struct font_edits *edits, struct edits_row *row,
+static size_t row_bytes(const struct edits_row *row)
+{
+    const struct font_master *m = &row->master;
+    return (size_t)row->outline.segments_count * sizeof *row->outline.segments +
+           (size_t)m->row_words * (size_t)m->height_px * sizeof *m->bits +
+           (size_t)row->rectangles.count * sizeof *row->rectangles.items;
+}
+
+enum font_status edits_row_read(struct font_edits *edits, struct edits_row *row,
                                 struct font_face *face)
 {
     char *bytes = NULL, sum[EDITS_SUM + 1];
@@ -63,6 +71,10 @@ enum font_status edits_row_read(const struct font_edits *edits, struct edits_row
         case FONT_EDITS_LEVELS:
             break;
         }
+        edits->bytes += row_bytes(row);
+        if (status == FONT_OK && edits->bytes > EDITS_ALL_BYTES_MAX)
+            status = font_fail(FONT_TOO_LARGE, "%s: all edits together hold more than %d bytes",
+                               edits->folder, EDITS_ALL_BYTES_MAX);
     }
     free(bytes);
     free(path);

@@ -507,6 +507,33 @@ static void bad_rows_are_refused(void **state)
     }
 }
 
+/* A small folder cannot take much memory: rows may share a file. (security.md 33) */
+static void all_rows_together_are_bounded(void **state)
+{
+    (void)state;
+    enum { POINTS = 90000, ROWS = 60 };
+    char file[FONT_EDITS_FILE_BYTES], head[2048];
+    const char *folder = folder_with("all", "A", FONT_EDITS_OUTLINE, NULL, 64, file);
+    text_of(folder, "edits.txt", head, sizeof head);
+    *(strstr(strstr(head, "sha256 "), "\n") + 1) = '\0';
+    char *path = malloc(64 + 6 * POINTS), *list = malloc(sizeof head + 32 * ROWS);
+    assert_true(path && list);
+    size_t at = (size_t)sprintf(path, "<svg><path d='M0 0");
+    for (int i = 0; i < POINTS; i++)
+        at += (size_t)sprintf(path + at, "l1 %d", i % 2);
+    sprintf(path + at, "'/></svg>");
+    put_text(folder, "A.svg", path);
+    at = (size_t)sprintf(list, "%s", head);
+    for (int i = 0; i < ROWS; i++)
+        at += (size_t)sprintf(list + at, "#%d outline A.svg -\n", 40 + i);
+    put_text(folder, "edits.txt", list);
+    struct font_face *face;
+    assert_int_equal(font_edits_open(folder, 0, false, &face), FONT_TOO_LARGE);
+    assert_non_null(strstr(font_error(), "all edits together"));
+    free(path);
+    free(list);
+}
+
 /* A file that no row has is somebody's, unless it is what would be written. */
 static void strangers_files_stay(void **state)
 {
@@ -571,6 +598,7 @@ int main(void)
         cmocka_unit_test(glyphs_have_many_names),
         cmocka_unit_test(a_font_that_changed_is_told),
         cmocka_unit_test(damage_is_refused_by_name),
+        cmocka_unit_test(all_rows_together_are_bounded),
         cmocka_unit_test(bad_rows_are_refused),
         cmocka_unit_test(strangers_files_stay),
         cmocka_unit_test(what_was_edited_is_not_written_over),
