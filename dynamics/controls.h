@@ -52,7 +52,8 @@ extern const int dyn_controls_count;
  * valid for ever. */
 const struct dyn_control *dyn_control_find(const char *name);
 
-/* The row of that name in any table; NULL: there is none, and `names` has their names, as many as there is room for. */
+/* The row of that name in any table, valid as long as the table; NULL: there is none, and `names` has their names, as many as
+ * there is room for. */
 const struct dyn_control *dyn_row_find(const struct dyn_control *rows, int count,
                                        const char *name, char *names, size_t room);
 

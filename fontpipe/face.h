@@ -86,7 +86,7 @@ bool font_face_is_replaced(const struct font_face *face, uint32_t glyph);
  * number that the font has not, BAD_ARGUMENT for anything else. */
 enum font_status font_face_glyph_named(const struct font_face *face, const char *text,
                                        uint32_t *glyph);
-/* Its name in the font, or #214 where it has none that finds it again. Returns room. */
+/* Its name in the font, or #214 where it has none that finds it again. Returns room, never NULL. Owns: the caller. */
 enum { FONT_GLYPH_NAME_BYTES = 128 };
 const char *font_face_glyph_name(const struct font_face *face, uint32_t glyph,
                                  char room[FONT_GLYPH_NAME_BYTES]);

@@ -46,14 +46,16 @@ enum font_status font_levels_master_fill(struct font_levels *levels, int x, int 
  * over its em. Errors: BAD_ARGUMENT, NO_MEMORY. */
 enum font_status font_levels_master_set(struct font_levels *levels,
                                         const struct font_master *master);
-/* Returns how many rectangles are gone in *gone, which may be NULL; gives one of them other sides; changes filter and size. Errors:
+/* Returns how many rectangles are gone in *gone, which may be NULL; gives one of them other sides. Errors:
  * BAD_ARGUMENT, TOO_LARGE, NO_MEMORY. */
 enum font_status font_levels_rectangles_merge(struct font_levels *levels, int slack, int *gone);
 enum font_status font_levels_rectangle_set(struct font_levels *levels, int index,
                                            struct font_rectangle rectangle);
-/* Replaces the rectangles by copies of these, which were edited elsewhere; they may overlap: what they cover counts. */
+/* Replaces the rectangles by copies of these, which were edited elsewhere; they may overlap: what they cover counts.
+ * Errors: BAD_ARGUMENT, TOO_LARGE, NO_MEMORY. */
 enum font_status font_levels_rectangles_set(struct font_levels *levels,
                                             const struct font_rectangles *rectangles);
+/* Another filter; another size. Errors: as font_levels_create(). */
 enum font_status font_levels_filter_set(struct font_levels *levels, const char *filter);
 enum font_status font_levels_size_set(struct font_levels *levels, double size_px);
 /* Gray from master and rectangles even where nothing was edited: the thesis's way. */
