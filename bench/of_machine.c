@@ -13,10 +13,15 @@ int bench_machine_start(struct bench_report *r, struct bench_options *o, bool se
     int status = bench_options_parse(o, argc, argv);
     if (status >= 0)
         return status;
-    if (settled)
-        setenv("LUTETIA_BOX_AFTER", "0", 0);
     setenv("LUTETIA_BACKGROUND", "0", 0); /* after the warm-up no kernel is compiled */
-    setenv("LUTETIA_INTERPRET", "0", 0);  /* nor is it waited for until it is worth it */
+    if (bench_quick) {
+        setenv("LUTETIA_INTERPRET", "1",
+               1); /* what is only tried compiles no kernels that do not pay */
+    } else {
+        setenv("LUTETIA_INTERPRET", "0", 0); /* kernels are not waited for until they pay */
+        if (settled)
+            setenv("LUTETIA_BOX_AFTER", "0", 0);
+    }
     snprintf(device, sizeof device, "%s", machine_device_name(paris_machine()));
     bench_report_init(r, o->name, bench_threads_count(), device);
     return -1;

@@ -125,7 +125,7 @@ static void tables_name_ranges_and_choices(void **unused)
 static void rows_of_a_long_table_are_found(void **unused)
 {
     enum { MANY = 64 };
-    static char words[MANY][32];
+    static char words[MANY][40];
     static struct dyn_control rows[MANY];
     char names[400];
     (void)unused;
