@@ -169,7 +169,7 @@ enum machine_status message_send_near(struct machine *m, const struct message *g
         device_move(m, out->host, g->old->buffer->host, bytes);
     if (arrived)
         memset(arrived->host, 0, arrived->bytes);
-    near_send(&r, (int)combiner, g->source->type, g->source, out, arrived);
+    near_send(&r, combiner, g->source->type, g->source, out, arrived);
     m->run->sent_beyond = m->run->sent_beyond || beyond;
     if (arrived)
         *notification = graph_buffer_node(m, MACHINE_BIT, g->to_set, arrived);
