@@ -12,7 +12,9 @@
 #include <growing_file.h>
 #include <part_files.h>
 
+#include <dlfcn.h>
 #include <signal.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -62,20 +64,40 @@ static void interrupt(int number)
     interrupts = 1;
 }
 
-static void between(void)
+/* The driver's compiler installs a handler of its own with its first kernel. That one removes what is being compiled, whose
+ * compilation then fails with a line of the compiler's on the standard error, before it passes the signal on. */
+static bool is_compilers(const struct sigaction *action)
 {
-    if (interrupts)
-        exit(130);
+    Dl_info of;
+    return action->sa_handler != SIG_DFL && action->sa_handler != SIG_IGN &&
+           dladdr((const void *)(uintptr_t)action->sa_handler, &of) && of.dli_fname &&
+           strstr(of.dli_fname, "libLLVM");
 }
 
-/* Called before there is a machine: the driver's compiler installs a handler of its own,
- * which passes the signal on to the one before it. */
+static bool catches; /* the handler is ours, or the compiler's on top of it */
+
 static void interrupt_catch(void)
 {
     struct sigaction now, ours = {.sa_handler = interrupt, .sa_flags = SA_RESTART};
     if (sigaction(SIGINT, NULL, &now) == 0 &&
         (now.sa_handler == SIG_DFL || now.sa_handler == part_files_die))
-        sigaction(SIGINT, &ours, NULL);
+        catches = sigaction(SIGINT, &ours, NULL) == 0;
+}
+
+/* Takes the compiler's handler away again; one of the program's stays, and ends this. */
+static void interrupt_keep(void)
+{
+    struct sigaction now, ours = {.sa_handler = interrupt, .sa_flags = SA_RESTART};
+    if (!catches || sigaction(SIGINT, NULL, &now) != 0 || now.sa_handler == interrupt)
+        return;
+    catches = is_compilers(&now) && sigaction(SIGINT, &ours, NULL) == 0;
+}
+
+static void between(void)
+{
+    if (interrupts)
+        exit(130);
+    interrupt_keep();
 }
 
 bool paris_explain_wanted(void)

@@ -2,9 +2,8 @@
  *
  * The oracles count: a master's pixels within a pixel of the picture are its gray, and a ray through a pixel's middle tells whether an outline
  * covers it. */
-#include "support.h"
-
 #include "../display/scratch.h"
+#include "support.h"
 
 #include <display.h>
 #include <edits.h>
@@ -15,8 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-
-/* ---- files ---- */
 
 static void put_text(const char *folder, const char *file, const char *text)
 {
@@ -511,27 +508,22 @@ static void bad_rows_are_refused(void **state)
 static void all_rows_together_are_bounded(void **state)
 {
     (void)state;
-    enum { POINTS = 90000, ROWS = 60 };
-    char file[FONT_EDITS_FILE_BYTES], head[2048];
-    const char *folder = folder_with("all", "A", FONT_EDITS_OUTLINE, NULL, 64, file);
-    text_of(folder, "edits.txt", head, sizeof head);
-    *(strstr(strstr(head, "sha256 "), "\n") + 1) = '\0';
-    char *path = malloc(64 + 6 * POINTS), *list = malloc(sizeof head + 32 * ROWS);
-    assert_true(path && list);
-    size_t at = (size_t)sprintf(path, "<svg><path d='M0 0");
-    for (int i = 0; i < POINTS; i++)
-        at += (size_t)sprintf(path + at, "l1 %d", i % 2);
-    sprintf(path + at, "'/></svg>");
-    put_text(folder, "A.svg", path);
-    at = (size_t)sprintf(list, "%s", head);
-    for (int i = 0; i < ROWS; i++)
-        at += (size_t)sprintf(list + at, "#%d outline A.svg -\n", 40 + i);
-    put_text(folder, "edits.txt", list);
+    enum { POINTS = 90000, ROWS = 60, ROOM = 1 << 20 };
+    static char text[ROOM];
     struct font_face *face;
+    const char *folder = folder_with("all", "A", FONT_EDITS_OUTLINE, NULL, 64, text);
+    size_t at = (size_t)snprintf(text, ROOM, "<svg><path d='M0 0");
+    for (int i = 0; i < POINTS; i++)
+        at += (size_t)snprintf(text + at, ROOM - at, "l1 %d", i % 2);
+    snprintf(text + at, ROOM - at, "'/></svg>");
+    put_text(folder, "A.svg", text);
+    text_of(folder, "edits.txt", text, ROOM);
+    at = (size_t)(strstr(strstr(text, "sha256 "), "\n") + 1 - text);
+    for (int i = 0; i < ROWS; i++)
+        at += (size_t)snprintf(text + at, ROOM - at, "#%d outline A.svg -\n", 40 + i);
+    put_text(folder, "edits.txt", text);
     assert_int_equal(font_edits_open(folder, 0, false, &face), FONT_TOO_LARGE);
     assert_non_null(strstr(font_error(), "all edits together"));
-    free(path);
-    free(list);
 }
 
 /* A file that no row has is somebody's, unless it is what would be written. */
