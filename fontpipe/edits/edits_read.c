@@ -50,8 +50,11 @@ enum font_status edits_row_read(struct font_edits *edits, struct edits_row *row,
                                    : font_fail(FONT_NO_MEMORY, "no memory for edits");
     font_face_describe(face, &info);
     if (status == FONT_OK) {
-        edits_sum(bytes, count, EDITS_SUM, sum);
-        row->edit.edited = strcmp(sum, row->sum) != 0;
+        row->edit.edited = strcmp(row->sum, "-") == 0;
+        if (!row->edit.edited) {
+            edits_sum(bytes, count, EDITS_SUM, sum);
+            row->edit.edited = strcmp(sum, row->sum) != 0;
+        }
     }
     if (status == FONT_OK && row->edit.edited) {
         (void)font_face_advance(face, row->edit.glyph, &advance);
