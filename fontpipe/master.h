@@ -104,6 +104,8 @@ enum font_status font_rectangles_make_rows(struct font_rectangles *r,
 /* Joins rectangles that follow each other, down the rows or along the columns as they were cut, and whose sides differ by at
  * most `slack` master pixels, into one with their mean sides: fewer, and not quite the same ink. Returns how many are gone. */
 int font_rectangles_merge(struct font_rectangles *r, int slack);
+/* The least rectangle around them; all zeros around none. */
+struct font_rectangle font_rectangles_box(const struct font_rectangles *r);
 /* The master that they cover, whether they overlap or not. Errors: TOO_LARGE, NO_MEMORY, BAD_ARGUMENT (no em); it is then empty. */
 enum font_status font_rectangles_master(const struct font_rectangles *r, struct font_master *m);
 /* The rectangles' sides at a size: two lines each. Errors: as font_edges_build(). */

@@ -121,14 +121,7 @@ enum font_status font_rectangles_master(const struct font_rectangles *r, struct 
     font_master_finish(m);
     if (r->em_px < 1 || r->em_px > FONT_MASTER_EM_MAX)
         return font_fail(FONT_BAD_ARGUMENT, "rectangles need pixels to the em");
-    struct font_rectangle box = r->count ? r->items[0] : (struct font_rectangle){0};
-    for (int i = 1; i < r->count; i++) {
-        const struct font_rectangle *q = &r->items[i];
-        box.x0 = q->x0 < box.x0 ? q->x0 : box.x0;
-        box.y0 = q->y0 < box.y0 ? q->y0 : box.y0;
-        box.x1 = q->x1 > box.x1 ? q->x1 : box.x1;
-        box.y1 = q->y1 > box.y1 ? q->y1 : box.y1;
-    }
+    const struct font_rectangle box = font_rectangles_box(r);
     *m = (struct font_master){.em_px = r->em_px, .advance_px = r->advance_px};
     double wide = (double)box.x1 - box.x0, high = (double)box.y1 - box.y0, work = 0;
     if (wide <= 0 || high <= 0)

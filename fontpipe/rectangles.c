@@ -226,6 +226,19 @@ int font_rectangles_merge(struct font_rectangles *r, int slack)
     return before - r->count;
 }
 
+struct font_rectangle font_rectangles_box(const struct font_rectangles *r)
+{
+    struct font_rectangle box = r->count ? r->items[0] : (struct font_rectangle){0};
+    for (int i = 1; i < r->count; i++) {
+        const struct font_rectangle *q = &r->items[i];
+        box.x0 = q->x0 < box.x0 ? q->x0 : box.x0;
+        box.y0 = q->y0 < box.y0 ? q->y0 : box.y0;
+        box.x1 = q->x1 > box.x1 ? q->x1 : box.x1;
+        box.y1 = q->y1 > box.y1 ? q->y1 : box.y1;
+    }
+    return box;
+}
+
 enum font_status font_rectangles_edges(const struct font_rectangles *r, double size_px,
                                        struct font_edges *e)
 {
@@ -238,14 +251,7 @@ enum font_status font_rectangles_edges(const struct font_rectangles *r, double s
                          size_px);
     double scale = r->count ? size_px / r->em_px : 0;
     e->advance_px = r->advance_px * scale;
-    struct font_rectangle box = r->count ? r->items[0] : (struct font_rectangle){0};
-    for (int i = 1; i < r->count; i++) {
-        const struct font_rectangle *q = &r->items[i];
-        box.x0 = q->x0 < box.x0 ? q->x0 : box.x0;
-        box.y0 = q->y0 < box.y0 ? q->y0 : box.y0;
-        box.x1 = q->x1 > box.x1 ? q->x1 : box.x1;
-        box.y1 = q->y1 > box.y1 ? q->y1 : box.y1;
-    }
+    const struct font_rectangle box = font_rectangles_box(r);
     if (!(fabs(box.x0 * scale) <= FONT_SIDE_MAX && fabs(box.x1 * scale) <= FONT_SIDE_MAX &&
           fabs(box.y0 * scale) <= FONT_SIDE_MAX && fabs(box.y1 * scale) <= FONT_SIDE_MAX))
         return font_fail(FONT_TOO_LARGE, "a glyph would reach more than %d pixels",

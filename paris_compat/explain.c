@@ -76,21 +76,27 @@ static bool is_compilers(const struct sigaction *action)
 
 static bool catches; /* the handler is ours, or the compiler's on top of it */
 
+static bool interrupt_take(void)
+{
+    const struct sigaction ours = {.sa_handler = interrupt, .sa_flags = SA_RESTART};
+    return sigaction(SIGINT, &ours, NULL) == 0;
+}
+
 static void interrupt_catch(void)
 {
-    struct sigaction now, ours = {.sa_handler = interrupt, .sa_flags = SA_RESTART};
+    struct sigaction now;
     if (sigaction(SIGINT, NULL, &now) == 0 &&
         (now.sa_handler == SIG_DFL || now.sa_handler == part_files_die))
-        catches = sigaction(SIGINT, &ours, NULL) == 0;
+        catches = interrupt_take();
 }
 
 /* Takes the compiler's handler away again; one of the program's stays, and ends this. */
 static void interrupt_keep(void)
 {
-    struct sigaction now, ours = {.sa_handler = interrupt, .sa_flags = SA_RESTART};
+    struct sigaction now;
     if (!catches || sigaction(SIGINT, NULL, &now) != 0 || now.sa_handler == interrupt)
         return;
-    catches = is_compilers(&now) && sigaction(SIGINT, &ours, NULL) == 0;
+    catches = is_compilers(&now) && interrupt_take();
 }
 
 static void between(void)
