@@ -214,7 +214,11 @@ static const char *look_prepare(struct look *l, unsigned int field, unsigned int
              bits);
     if (bits > there || !bits)
         return text;
-    snprintf(text, sizeof text, "it has %u bits: say which, as in `field f u 32`", bits);
+    if (len)
+        snprintf(text, sizeof text, "a number has at most %d bits; %u were asked for",
+                 PARIS_INTEGER_MAX, bits);
+    else
+        snprintf(text, sizeof text, "it has %u bits: say which, as in `field f u 32`", bits);
     if (bits > PARIS_INTEGER_MAX)
         return text;
     if (letter == 'f' && (len < 1 || len > 52 || e < 2 || e > 11))

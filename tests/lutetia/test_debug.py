@@ -130,6 +130,56 @@ main ()
 }
 """
 
+# Names of libparis's own functions, ids in arrays and structures, two sets, a child, and memory that is damaged at the end.
+OTHERS = """
+#include <cm/paris.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+CM_field_id_t list[2], image;
+struct { CM_field_id_t heat; double dt; } plate, *p = &plate;
+fill (f, n)
+    CM_field_id_t f;
+    int n;
+{
+    CM_my_send_address (f);
+    CM_u_multiply_constant_2_1L (f, n, 32);
+}
+here () { fflush (stdout); }
+main ()
+{
+    unsigned int long_side[1] = {16}, sides[2] = {2, 3};
+    CM_vp_set_id_t one, two;
+    char *room;
+    CM_init ();
+    CM_set_vp_set (one = CM_allocate_vp_set (CM_create_geometry (long_side, 1)));
+    list[0] = CM_allocate_heap_field (32);
+    fill (list[0], 3);
+    CM_set_vp_set (two = CM_allocate_vp_set (CM_create_geometry (sides, 2)));
+    list[1] = plate.heat = CM_allocate_heap_field (32);
+    image = CM_allocate_heap_field (24);
+    plate.dt = 64.5;
+    CM_u_move_constant_1L (image, 0x123456, 24);
+    fill (list[1], 5);
+    CM_set_vp_set (one);
+    if (fork () == 0) {
+        CM_set_vp_set (two);
+        CM_u_move_constant_1L (list[1], 99, 32);
+        here ();
+        _exit (0);
+    }
+    wait (0);
+    CM_deallocate_heap_field (image);
+    here ();
+    room = malloc (40);
+    memset (room, 255, (char *) sbrk (0) - room);
+    printf ("%p\\n", malloc ((room[50] & 255) * 400));
+    return 0;
+}
+"""
+
 
 def line_of(text, part):
     return 1 + next(i for i, line in enumerate(text.splitlines()) if part in line)
@@ -139,10 +189,10 @@ class Debug(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
-        for name, text in (("kinds", KINDS), ("steps", STEPS), ("threads", THREADS), ("fails", FAILS)):
+        for name, text in (("kinds", KINDS), ("steps", STEPS), ("threads", THREADS), ("fails", FAILS), ("others", OTHERS)):
             with open(cls.path(name + ".c"), "w", encoding="utf-8") as file:
                 file.write(text)
-            subprocess.run([LUTETIA, "cc", "-g", "-w", name + ".c", "-lpthread", "-o", name], check=True, timeout=120,
+            subprocess.run([LUTETIA, "cc", "-g", "-w", *(["-O2", "-fno-inline"] if name == "others" else []), name + ".c", "-lpthread", "-o", name], check=True, timeout=120,
                            cwd=cls.folder.name)
 
     @classmethod
@@ -281,6 +331,31 @@ class Debug(unittest.TestCase):
                          ["watch 1: row at 2 1: 12, was 2; after CM_u_multiply_constant_2_1L",
                           "watch 1: row at 2 1: 13, was 12; after CM_u_add_2_1L"])
         self.assertIn("144", lines)
+
+    # ---- other people's programs ----
+
+    def test_names_that_the_library_has_too(self):
+        lines = self.debug("others", "break fill", "run", "field f at 3", "continue", "field f at 0 1", "continue")
+        self.assertEqual([line for line in lines if line.startswith(("f at", "fill"))], ["f at 3 = 0", "f at 0 1 = 0"])
+        self.assertEqual(sum("fill (f=" in line for line in lines), 2, lines)
+
+    def test_ids_in_structures_and_children(self):
+        wrong = {"field list": "list is an array: say which, as in `list[0]`", "field plate": "plate is a structure", "field p": "p is a pointer",
+                 "field plate.dt": "plate.dt is a floating point number", "field here": "here is a function", "field image u 0": "lengths are"}
+        right = {"field image + 8 u 8 at 1 2": "image + 8 at 1 2 = 52", "field (image +8) u 8 at 1 2": "(image +8) at 1 2 = 52",
+                 "field p->heat at 0 0": "p->heat at 0 0 = 99", "field list [0] at 0": "list [0] at 0 = 0"}
+        lines = self.debug("others", "set follow-fork-mode child", "break here", "run", *wrong, *right, "diff list[0] list [1]", "catch fork",
+                           "field plate.heat at 1 1", "show follow-fork-mode", "continue")
+        for command, said in (wrong | right).items():
+            self.assertTrue(any(said in line for line in lines), (command, lines))
+        for line in ("list[0] and list [1] have different shapes", "plate.heat at 1 1 = 99"):
+            self.assertIn(line, lines)
+        self.assertTrue(any("fork" in line and '"child"' in line for line in lines), lines)
+
+    def test_after_a_crash(self):
+        lines = self.debug("others", "break here", "run", "field list[1] at 0 0", "field image", "field list[0] u 200", "continue", "field list[0]")
+        for said in ("list[1] at 0 0 = 0", "image: there is no field", "list[0]: the field has 32 bits from here on; 200 were", "received signal SIG", "`finish` goes to its end"):
+            self.assertTrue(any(said in line for line in lines), (said, lines))
 
     # ---- what is refused ----
 

@@ -11,13 +11,22 @@ WAYS = ("table", "statistics", "histogram", "picture")
 LENGTHS = {"f16": ("f", 10, 5), "f32": ("f", 23, 8), "f64": ("f", 52, 11)}
 
 
+def expression(words):
+    """Takes an expression off the words' begin, spaces around its operators or not: `image + 8`. "": there is none."""
+    taken = words.pop(0) if words else ""
+    while words and (re.match(r"[-+\[.)]|([*/%&|^]|<<|>>)$", words[0]) or re.search(r"[-+*/%&|^<>(\[.,]$", taken)
+                     or taken.count("(") > taken.count(")") or taken.count("[") > taken.count("]")):
+        taken += " " + words.pop(0)
+    return taken
+
+
 class Request:
     """field EXPRESSION [TYPE [LENGTHS]] [at COORDINATES] [WAY] [all] [FILE]"""
 
     def __init__(self, line, fields=1):
         words = gdb.string_to_argv(line)
-        self.fields, words = words[:fields], words[fields:]
-        if len(self.fields) < fields:
+        self.fields = [expression(words) for _ in range(fields)]
+        if "" in self.fields:
             raise program.Refused(f"which field{'s' if fields > 1 else ''}? A variable that holds its id, or a number")
         self.kind, self.at, self.way, self.all, self.file, self.nan = ("", 0, 0), None, None, False, None, False
         while words:
@@ -29,7 +38,7 @@ class Request:
             self.kind = LENGTHS[word]
         elif found := re.fullmatch(r"([usf])(\d*)", word):
             numbers = [int(found.group(2))] if found.group(2) else self.numbers(words)
-            if word[0] == "f" and len(numbers) == 1 or len(numbers) > (2 if word[0] == "f" else 1):
+            if word[0] == "f" and len(numbers) == 1 or len(numbers) > (2 if word[0] == "f" else 1) or any(n < 1 for n in numbers):
                 raise program.Refused(f"{word}: lengths are `u 16`, `s 16`, `f 23 8`; `f32` and `f64` are floats, too")
             self.kind = (word[0], *(numbers + [0, 0])[:2])
         elif word == "at":
@@ -162,11 +171,11 @@ class WhereCommand(gdb.Command):
         names = program.names(frame) if frame is not None else {}
         waiting = [f for f in state["fields"] if f[4]]
         say([f"last recorded: {state['call']}; VP set {state['vp_set']}: {' x '.join(map(str, state['axes']))}; "
-             f"{len(state['fields'])} fields"])
+             f"{len(state['fields'])} field{'s' if len(state['fields']) != 1 else ''}"])
         if state["calls"]:
             say([f"{state['calls']} calls since then were foreseen, and wait to be performed together"])
         shown = ", ".join(names.get(f[0], f"field {f[0]}") for f in waiting[:8]) + (", ..." if len(waiting) > 8 else "")
-        say([f"{state['values']} values wait to be computed" + (f"; of {shown}" if waiting else "")])
+        say([f"{state['values']} value{' waits' if state['values'] == 1 else 's wait'} to be computed" + (f"; of {shown}" if waiting else "")])
 
 
 class WatchCommand(gdb.Command):

@@ -7,8 +7,9 @@ import gdb
 from .values import Field
 
 FLAGS = {"context": 0, "test": 1, "overflow": 2}
-# Where a function of these has stopped, its lock may be held, which fork() waits for.
+# Where a function of these has stopped, its lock may be held, which fork() waits for; HOLDS hold it also while they report that memory is damaged.
 LOCKED = ("malloc", "calloc", "realloc", "free", "cfree", "memalign", "posix_memalign", "aligned_alloc", "fork", "_int_malloc", "_int_free")
+HOLDS = ("_int_malloc", "_int_realloc", "_int_memalign", "malloc_consolidate", "unlink_chunk", "sysmalloc", "systrim")
 TYPES = {"CM_debug_field": "unsigned, unsigned, unsigned, unsigned", "CM_debug_flag": "unsigned", "CM_debug_state": "void",
          "CM_debug_watch": "unsigned, unsigned, unsigned, unsigned, unsigned long, unsigned", "CM_debug_unwatch": "unsigned"}
 
@@ -19,7 +20,12 @@ class Refused(gdb.GdbError):
 
 def is_library(frame):
     """Whether the frame is of libparis, or of what that calls."""
-    name = gdb.solib_name(frame.pc())
+    return is_library_at(frame.pc())
+
+
+def is_library_at(address):
+    """The same of an address."""
+    name = gdb.solib_name(address)
     return name is not None and any(part in name for part in ("libparis.so", "libpocl", "libOpenCL", "libLLVM"))
 
 
@@ -50,6 +56,19 @@ def call_under_way():
     return "a call of libparis" if inside else None
 
 
+def locked_in():
+    """The function that holds malloc's lock, where the program is, or has crashed; None: none is known to."""
+    frame = gdb.newest_frame()
+    name = frame.name() or ""
+    if name.lstrip("_").replace("libc_", "") in LOCKED or name in LOCKED:
+        return name
+    while frame is not None and frame.is_valid() and gdb.solib_name(frame.pc()) is not None:
+        if frame.name() in HOLDS:
+            return frame.name()
+        frame = frame.older()
+    return None
+
+
 def may_ask():
     thread = gdb.selected_thread()
     if thread is None or not thread.is_valid():
@@ -57,25 +76,45 @@ def may_ask():
     call = call_under_way()
     if call:
         raise Refused(f"the machine is busy in {call}: `finish` goes to its end")
-    name = gdb.newest_frame().name() or ""
-    if name.lstrip("_").replace("libc_", "") in LOCKED:
-        raise Refused(f"the program is in {name}: `finish` goes to its end")
+    name = locked_in()
+    if name:
+        raise Refused(f"the program is in {name}, where no field can be looked at: `finish` goes to its end; after a crash there, "
+                      "`run` again and stop before it")
+
+
+class Unseen:
+    """While the library is asked, its process that looks is not followed, nothing of the user's stops there, and gdb says nothing of it."""
+    SETTINGS = {"print inferior-events": "off", "follow-fork-mode": "parent", "detach-on-fork": "on"}
+
+    def __enter__(self):
+        self.before = {name: gdb.parameter(name) for name in self.SETTINGS}
+        self.set(self.SETTINGS)
+        self.stops = [b for b in gdb.breakpoints() if b.enabled and b.visible and b.type in (gdb.BP_BREAKPOINT, gdb.BP_CATCHPOINT)]
+        for stop in self.stops:
+            stop.enabled = False
+
+    def __exit__(self, *_):
+        for stop in self.stops:
+            stop.enabled = True
+        self.set(self.before)
+
+    @staticmethod
+    def set(values):
+        for name, value in values.items():
+            gdb.execute(f"set {name} {({True: 'on', False: 'off'}).get(value, value)}", to_string=True)
 
 
 def called(name, *arguments):
-    """What a function of the library returns. Nothing about processes that come and go is printed."""
+    """What a function of the library returns."""
     try:
         gdb.parse_and_eval(f"(long)&{name}")
     except gdb.error:
         raise Refused("the program has no libparis (yet), or an older one: it is loaded when the program runs") from None
-    events = gdb.parameter("print inferior-events")
-    gdb.execute("set print inferior-events off", to_string=True)
     try:
-        return int(gdb.parse_and_eval(f"((unsigned long (*)({TYPES[name]})) {name})({', '.join(map(str, arguments))})"))
+        with Unseen():
+            return int(gdb.parse_and_eval(f"((unsigned long (*)({TYPES[name]})) {name})({', '.join(map(str, arguments))})"))
     except gdb.error as error:
         raise Refused(f"the program could not be asked: {error}") from None
-    finally:
-        gdb.execute(f"set print inferior-events {'on' if events else 'off'}", to_string=True)
 
 
 class Place:
@@ -108,13 +147,27 @@ def answer(name, *arguments):
         return facts, memory(address, total) if "at" in facts else b""
 
 
+# What is no id, and what the user may have meant.
+KINDS = {gdb.TYPE_CODE_ARRAY: "an array: say which, as in `{0}[0]`", gdb.TYPE_CODE_STRUCT: "a structure: say which member, as in `{0}.heat`",
+         gdb.TYPE_CODE_UNION: "a union: say which member", gdb.TYPE_CODE_PTR: "a pointer: say `*{0}`, or `{0}->heat` of a structure",
+         gdb.TYPE_CODE_FLT: "a floating point number, and ids are integers", gdb.TYPE_CODE_FUNC: "a function"}
+
+
 def field_id(expression):
     try:
         value = gdb.parse_and_eval(expression)
-        number = int(value)
+        if value.type.strip_typedefs().code in (gdb.TYPE_CODE_REF, gdb.TYPE_CODE_RVALUE_REF):
+            value = value.referenced_value()
+        kind = KINDS.get(value.type.strip_typedefs().code)
+        number = int(value) if not kind else 0
     except (gdb.error, ValueError, OverflowError) as error:
+        if "optimized out" in str(error):
+            raise Refused(f"{expression}: the compiler keeps it nowhere here: look from its caller (`up`), or compile by `lutetia cc -g`, without -O") \
+                from None
         raise Refused(f"{expression}: {str(error).rstrip('.')}. A field is a variable that holds its id, or a number; variables are known of programs "
                       "compiled by `lutetia cc -g`") from None
+    if kind:
+        raise Refused(f"{expression} is {kind.format(expression)}")
     if not 0 < number < 1 << 32:
         raise Refused(f"{expression} is {number}: that is no field")
     return number
@@ -135,7 +188,11 @@ def field(expression, kind):
         facts, data = answer("CM_debug_flag", FLAGS[expression])
     else:
         letter, length, exponent = kind
-        facts, data = answer("CM_debug_field", field_id(expression), ord(letter) if letter else 0, length, exponent)
+        number = field_id(expression)
+        try:
+            facts, data = answer("CM_debug_field", number, ord(letter) if letter else 0, length, exponent)
+        except Refused as refused:
+            raise Refused(f"{expression}: {refused}") from None
     return Field(expression, facts, data)
 
 

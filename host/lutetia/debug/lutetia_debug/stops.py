@@ -74,6 +74,17 @@ class Leave(gdb.Command):
         gdb.execute("finish", to_string=True)
 
 
+def locations_choose(breakpoint):
+    """A breakpoint at a function of the program stays one at the program's, where the system's libraries and libparis have some of that name, too."""
+    if not breakpoint.is_valid() or breakpoint.type != gdb.BP_BREAKPOINT or not breakpoint.visible:
+        return
+    locations = getattr(breakpoint, "locations", [])  # of gdb 13
+    names = [gdb.solib_name(location.address) for location in locations]
+    for location, name in zip(locations, names):
+        if None in names and name and location.enabled and (name.startswith(("/usr/lib", "/lib")) or program.is_library_at(location.address)):
+            location.enabled = False
+
+
 def library_loaded(filename):
     if "libparis.so" in filename and not any(isinstance(b, Stop) for b in gdb.breakpoints()):
         Stop("CM_debug_stop", internal=True)
@@ -88,5 +99,7 @@ def begin():
     gdb.events.new_objfile.connect(lambda event: library_loaded(event.new_objfile.filename))
     for objfile in gdb.objfiles():
         library_loaded(objfile.filename)
+    for happened in (gdb.events.breakpoint_created, gdb.events.breakpoint_modified):
+        happened.connect(locations_choose)
     gdb.events.stop.connect(stopped)
     gdb.events.exited.connect(lambda event: watched.clear())
