@@ -53,12 +53,14 @@ const char *font_edits_level_name(enum font_edits_level level);
 /* How a level's file may end; NULL past the last. */
 const char *font_edits_ending(enum font_edits_level level, int i);
 
-/* Opens the font of a folder with edits.txt, and applies them; any other name as font_face_open() does. coloured: as font_face_open_coloured().
+/* Opens the font of a folder with edits.txt, and applies them; of a name like FONT+FOLDER that font, with the folder's edits; any other name as font_face_open() does. coloured: as font_face_open_coloured().
  * font_edits_said() then has what there is to say. Errors: as font_face_open() and font_edits_read(). Owns: the caller closes *out. */
 enum font_status font_edits_open(const char *name, int index, bool coloured,
                                  struct font_face **out);
 /* Whether the name is that of a folder with edits.txt. Threads: any. */
 bool font_edits_is(const char *name);
+/* The folder in a name that font_edits_open() takes: all of it, or what follows its last +. NULL: it names none. Owns: it points into the name. Threads: any. */
+const char *font_edits_folder(const char *name);
 /* One line on the fonts that this thread has opened so since this was last asked, if one has changed since its edits were made; else NULL. Owns: the
  * library; valid until this thread asks again. */
 const char *font_edits_said(void);

@@ -1,6 +1,6 @@
 /* edits_internal.h - what the files of edits share.
  *
- *     edits.c          faces and levels with their edits
+ *     edits.c          faces and levels with their edits       edits_open.c  fonts by a folder's name
  *     edits_list.c     edits.txt
  *     edits_read.c     a level's file            edits_write.c  likewise out
  *     edits_text.c     files of a folder as text, sums, rectangles

@@ -21,7 +21,8 @@ static void preset_names(char *text, size_t room)
     "A font is a file's name with its folder, a font file's name without ending among the "    \
     "installed ones (EBGaramond12-Italic), or a family (\"DejaVu Sans\"); `fc-list : family "  \
     "file` "                                                                                   \
-    "shows them. A folder of edits of a font may stand in its place (`lutetia help font`)."
+    "shows them. A folder of edits of a font may stand in its place, or FONT+FOLDER "          \
+    "(`lutetia help font`)."
 #define FILTERS                                                                                \
     "A filter is one of the names above, each with :RADIUS if wanted (cone:2); "               \
     "gaussian:SIGMA,RADIUS; samples:RADIUS,S0,S1,.. and round:RADIUS,S0,S1,.. give it from "   \
@@ -127,7 +128,8 @@ const struct page pages_of_pictures[] = {
          "in a paint program, and taken again.\n"
          "Edits are kept in a folder: --write puts a level of a glyph there, to be edited by "
          "any "
-         "program. `lutetia type --edits DIR` draws with them, and so does whoever is given "
+         "program. --edits of `lutetia type`, set, spring, paint, keys and voice draws with "
+         "them, and so does whoever is given "
          "the "
          "folder as a font. What lies below an edited level is made from it; a file that is as "
          "it was written changes nothing.",

@@ -137,18 +137,25 @@ int type_face_open(const char *verb, const char *name, int index, const char *ax
     return EXIT_SUCCESS;
 }
 
-int type_edits_apply(const char *verb, const char *folder, struct font_face *face)
+int type_font_name(const char *verb, const char *given, const char *edits, const char *usual,
+                   char **out)
 {
-    struct font_edits *edits;
-    if (font_edits_read(folder, face, &edits) != FONT_OK)
-        return fail_font(verb);
-    int status = EXIT_SUCCESS;
-    if (font_edits_changed(edits))
-        tell(verb, "%s", font_edits_changed(edits));
-    if (font_edits_apply(edits, face) != FONT_OK)
-        status = fail_font(verb);
-    font_edits_destroy(edits);
-    return status;
+    size_t bytes =
+        (given ? strlen(given) : 0) + (edits ? strlen(edits) : 0) + strlen(usual) + 2;
+    *out = NULL;
+    if (edits && !font_edits_is(edits))
+        return fail(verb,
+                    "%s/edits.txt: there is no such file, as `lutetia font FONT --glyph G "
+                    "--edits DIR --write LEVEL` makes one",
+                    edits);
+    *out = malloc(bytes);
+    if (!*out)
+        return fail(verb, "no memory");
+    if (edits && given)
+        snprintf(*out, bytes, "%s+%s", given, edits);
+    else
+        snprintf(*out, bytes, "%s", edits ? edits : given ? given : usual);
+    return EXIT_SUCCESS;
 }
 
 int type_filter_read(const char *verb, const char *name, char **out)

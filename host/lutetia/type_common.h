@@ -33,8 +33,18 @@ int type_image_write(const char *verb, const char *path, const struct display_im
 
 /* Says that a font has changed since its edits were made, if one has that was opened by its folder. */
 void type_edits_tell(const char *verb);
-/* Applies a folder's edits to a face. */
-int type_edits_apply(const char *verb, const char *folder, struct font_face *face);
+/* The row of --edits in a verb's options, beside that of --font. */
+#define TYPE_EDITS_OPTION(folder)                                                              \
+    {                                                                                          \
+        "edits", 0, OPTION_TEXT, "DIR",                                                        \
+            "draw with the edits of the font in this folder; without --font its own font is "  \
+            "taken",                                                                           \
+            folder, 0, 0, 0                                                                    \
+    }
+/* The name of the font to be opened: `given` (NULL: none) with the edits of a folder (NULL: none); without both the usual one.
+ * The caller frees *out, which is NULL on failure. */
+int type_font_name(const char *verb, const char *given, const char *edits, const char *usual,
+                   char **out);
 
 /* Opens a font, or a folder of edits of one, and sets axes, "wght=700,wdth=80". coloured: also one that has nothing but pictures in colours. */
 int type_face_open(const char *verb, const char *name, int index, const char *axes,

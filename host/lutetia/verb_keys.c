@@ -21,7 +21,7 @@
 enum { SHEET_COLUMNS = 5, SHEET_ROWS = 4, LABEL_PX = 11 };
 
 struct keys_work {
-    const char *text, *map, *font, *axes;
+    const char *text, *map, *font, *edits, *axes;
     const char *poster, *sheet, *still, *frames, *video, *sound;
     double size_px[2], second_px, at_s, seconds; /* seconds 0: as long as the song */
     int picture[2], fps, range[2];
@@ -161,6 +161,7 @@ static int options_read(struct keys_work *w, int argc, char **argv, const char *
         {"font", 0, OPTION_TEXT, "F",
          "the font: a file, the name of one, or a family (EBGaramond12-Regular)", &w->font, 0,
          0, 0},
+        TYPE_EDITS_OPTION(&w->edits),
         {"axes", 0, OPTION_TEXT, "A=V,..", "positions of a variable font's axes: wght=700",
          &w->axes, 0, 0, 0},
         {"size", 0, OPTION_NUMBERS, "PX,PX", "least and most size of the em (0, and as fits)",
@@ -518,16 +519,19 @@ int verb_keys(int argc, char **argv)
     static struct keys_work w;
     const char *song = NULL;
     bool help = false;
-    w = (struct keys_work){.font = "EBGaramond12-Regular",
-                           .second_px = 160,
+    w = (struct keys_work){.second_px = 160,
                            .picture = {960, 360},
                            .range_text = "c3-c5",
                            .fps = 30,
                            .def = keys_def_default(),
                            .type = keys_type_def_default()};
     int status = options_read(&w, argc, argv, &song, &help);
+    char *font = NULL;
+    if (status == EXIT_SUCCESS && !help)
+        status = type_font_name("keys", w.font, w.edits, "EBGaramond12-Regular", &font);
     if (status != EXIT_SUCCESS || help)
         return status;
+    w.font = font;
     interrupt_catch();
     if (song)
         status = song_take(&w, song);
@@ -536,6 +540,7 @@ int verb_keys(int argc, char **argv)
     if (status == EXIT_SUCCESS)
         status = !song ? window_open(&w) : w.played ? played_write(&w) : all_write(&w);
     font_face_close(w.face);
+    free(font);
     keys_score_finish(&w.score);
     midi_song_destroy(w.song);
     return interrupt_report("keys", status, "what was written before is whole");

@@ -141,6 +141,7 @@ static int paint_options(struct paint *paint, int argc, char **argv, bool *help)
         {"font", 0, OPTION_TEXT, "F",
          "the font: a file, the name of one, or a family (EBGaramond12-Regular)", &paint->font,
          0, 0, 0},
+        TYPE_EDITS_OPTION(&paint->edits),
         {"size", 0, OPTION_NUMBER, "PX", "size of the em (so that the line fills the paper)",
          &paint->size_px, 1, 8192, 0},
         {"filter", 0, OPTION_TEXT, "F", "filter of the type (box)", &paint->filter, 0, 0, 0},
@@ -233,21 +234,28 @@ static enum paper_status line_fit(const struct paint *paint, struct paper_line *
 
 static int screen_from_text(struct paint *paint)
 {
+    char *font;
+    if (type_font_name("paint", paint->font, paint->edits, font_face_first(fonts), &font) !=
+        EXIT_SUCCESS)
+        return EXIT_FAILED;
     struct paper_line line = {.text = paint->text,
-                              .font = paint->font ? paint->font : font_face_first(fonts),
+                              .font = font,
                               .filter = paint->filter,
                               .angle_deg = paint->angle_deg,
                               .size_px = paint->size_px};
     uint32_t missing = 0;
+    int status = EXIT_SUCCESS;
     if ((paint->size_px == 0 && line_fit(paint, &line) != PAPER_OK) ||
         paper_line_screen(&line, &paint->screen, &missing) != PAPER_OK)
-        return fail_paper("paint");
+        status = fail_paper("paint");
     paint->letter_px = line.size_px;
-    if (missing)
+    if (status == EXIT_SUCCESS && missing)
         tell("paint", "no font has a glyph for U+%04X; %s's sign for that is set instead",
              (unsigned)missing, line.font);
-    type_left_out_tell("paint");
-    return EXIT_SUCCESS;
+    free(font);
+    if (status == EXIT_SUCCESS)
+        type_left_out_tell("paint");
+    return status;
 }
 
 static int screen_from_image(struct paint *paint)

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 
 struct paint {
-    const char *text, *image_path, *font, *filter, *view, *frames_dir, *out_path;
+    const char *text, *image_path, *font, *edits, *filter, *view, *frames_dir, *out_path;
     const char *model, *stock;
     struct option_texts pigments; /* NAME=AMOUNT */
     double angle_deg;

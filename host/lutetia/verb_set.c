@@ -17,8 +17,8 @@
 enum { TEXT_BYTES_MAX = 64 << 20, ROUND_CORNERS = 72 };
 
 struct set {
-    const char *out_path, *font, *italic, *bold, *language, *features, *filter, *align, *title,
-        *head;
+    const char *out_path, *font, *edits, *italic, *bold, *language, *features, *filter, *align,
+        *title, *head;
     double size_px, leading, margin_px, gap_px, notes_px, indent_em, protrude, expand,
         tolerance;
     double ink[3], darken_px;
@@ -45,6 +45,7 @@ static int set_options(struct set *s, int argc, char **argv, const char **path, 
          0},
         {"font", 0, OPTION_TEXT, "F",
          "the font: a file, the name of one, or a family (DejaVuSerif)", &s->font, 0, 0, 0},
+        TYPE_EDITS_OPTION(&s->edits),
         {"italic", 0, OPTION_TEXT, "F", "font of *slanted* words (the family's)", &s->italic, 0,
          0, 0},
         {"bold", 0, OPTION_TEXT, "F",
@@ -380,16 +381,42 @@ static int align_read(const char *word, enum font_align *align)
                       word);
 }
 
+static struct page_setup setup_of(const struct set *s)
+{
+    return (struct page_setup){.font = s->font,
+                               .italic = s->italic,
+                               .bold = s->bold,
+                               .features = s->features,
+                               .language = s->language,
+                               .size_px = s->size_px,
+                               .leading = s->leading,
+                               .width_px = s->page_px[0],
+                               .height_px = s->page_px[1],
+                               .margin_px = s->margin_px,
+                               .gap_px = s->gap_px,
+                               .columns = s->columns,
+                               .notes_px = s->notes_px,
+                               .indent_em = s->indent_em,
+                               .hyphenate = s->hyphenate,
+                               .vertical = s->vertical,
+                               .grid = s->grid,
+                               .folios = s->folios,
+                               .head = s->head,
+                               .colour = true,
+                               .protrude = s->protrude,
+                               .expand = s->expand,
+                               .tolerance = s->tolerance};
+}
+
 int verb_set(int argc, char **argv)
 {
     static struct set s; /* its lists are large */
     const char *path = NULL;
-    char *text = NULL;
+    char *text = NULL, *font = NULL;
     size_t bytes = 0;
     bool help = false;
     const struct page_setup usual = page_setup_default();
     s = (struct set){.out_path = "page.png",
-                     .font = usual.font,
                      .align = "justify",
                      .size_px = usual.size_px,
                      .margin_px = usual.margin_px,
@@ -400,31 +427,12 @@ int verb_set(int argc, char **argv)
                      .darken_px = FONT_DARKEN_BY_STEM,
                      .columns = 1};
     int status = set_options(&s, argc, argv, &path, &help);
+    if (status == EXIT_SUCCESS && !help)
+        status = type_font_name("set", s.font, s.edits, usual.font, &font);
     if (status != EXIT_SUCCESS || help)
         return status;
-    s.setup = (struct page_setup){.font = s.font,
-                                  .italic = s.italic,
-                                  .bold = s.bold,
-                                  .features = s.features,
-                                  .language = s.language,
-                                  .size_px = s.size_px,
-                                  .leading = s.leading,
-                                  .width_px = s.page_px[0],
-                                  .height_px = s.page_px[1],
-                                  .margin_px = s.margin_px,
-                                  .gap_px = s.gap_px,
-                                  .columns = s.columns,
-                                  .notes_px = s.notes_px,
-                                  .indent_em = s.indent_em,
-                                  .hyphenate = s.hyphenate,
-                                  .vertical = s.vertical,
-                                  .grid = s.grid,
-                                  .folios = s.folios,
-                                  .head = s.head,
-                                  .colour = true,
-                                  .protrude = s.protrude,
-                                  .expand = s.expand,
-                                  .tolerance = s.tolerance};
+    s.font = font;
+    s.setup = setup_of(&s);
     status = align_read(s.align, &s.setup.align);
     if (status == EXIT_SUCCESS)
         status = shapes_make(&s);
@@ -448,5 +456,6 @@ int verb_set(int argc, char **argv)
     type_left_out_tell("set");
     page_text_destroy(pages);
     free(text);
+    free(font);
     return status;
 }

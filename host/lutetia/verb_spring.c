@@ -25,7 +25,7 @@ struct spring {
     struct stage_film_def film;
     struct stage_window_def window;
     struct option_texts sets;
-    const char *way, *frames, *save, *session, *replay, *sound_path;
+    const char *way, *edits, *frames, *save, *session, *replay, *sound_path;
     int size[2];
     const char *song_path;
     bool controls, silent, is_wet;
@@ -129,6 +129,7 @@ static int spring_options(struct spring *s, int argc, char **argv, bool *help)
         {"font", 0, OPTION_TEXT, "FONT",
          "the font: a file, the name of one, or a family (DejaVuSans)", &s->scene.font, 0, 0,
          0},
+        TYPE_EDITS_OPTION(&s->edits),
         {"at", 0, OPTION_NUMBERS, "X,Y",
          "where the baseline begins, in ems above the floor (0,2)", s->scene.at, -1000, 1000,
          2},
@@ -437,17 +438,24 @@ int verb_spring(int argc, char **argv)
     s.window.title = "springs";
     s.window.record_path = "spring.mp4";
     s.film.seconds = NAN; /* until it is known what lasts */
+    const char *usual = s.scene.font;
+    s.scene.font = NULL;
     int status = spring_options(&s, argc, argv, &help);
+    char *font = NULL;
+    if (status == EXIT_SUCCESS && !help)
+        status = type_font_name("spring", s.scene.font, s.edits, usual, &font);
     if (status != EXIT_SUCCESS || help)
         return status;
+    s.scene.font = font;
     s.scene.sets = s.sets.texts;
     s.scene.sets_count = s.sets.count;
     s.scene.forgets = !s.session;
     enum stage_status made = spring_scene_make(&s.scene, &scene);
-    if (made == STAGE_BAD_ARGUMENT)
-        return fail_usage("spring", "%s", stage_error());
-    if (made != STAGE_OK)
-        return fail_stage();
+    if (made != STAGE_OK) {
+        free(font);
+        return made == STAGE_BAD_ARGUMENT ? fail_usage("spring", "%s", stage_error())
+                                          : fail_stage();
+    }
     type_edits_tell("spring");
     if (scene.face && s.scene.text)
         type_text_check("spring", s.scene.font, scene.face, s.scene.text);
@@ -457,5 +465,6 @@ int verb_spring(int argc, char **argv)
     spring_wet_destroy(s.wet);
     midi_song_destroy(s.song);
     spring_scene_finish(&scene);
+    free(font);
     return status;
 }

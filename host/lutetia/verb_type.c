@@ -43,8 +43,7 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
          &t->out_path, 0, 0, 0},
         {"font", 0, OPTION_TEXT, "F",
          "the font: a file, the name of one, or a family (DejaVuSans)", &t->font, 0, 0, 0},
-        {"edits", 0, OPTION_TEXT, "DIR", "draw with the edits of the font in this folder",
-         &t->edits, 0, 0, 0},
+        TYPE_EDITS_OPTION(&t->edits),
         {"face", 0, OPTION_INTEGER, "N", "which face of a collection (0)", &t->face, 0, 65535,
          0},
         {"axes", 0, OPTION_TEXT, "A=V,..",
@@ -307,8 +306,7 @@ int verb_type(int argc, char **argv)
 {
     static struct type t; /* the list of corners is large */
     bool help = false;
-    t = (struct type){.font = "DejaVuSans",
-                      .filter = "gaussian-fast",
+    t = (struct type){.filter = "gaussian-fast",
                       .display = "lcd",
                       .out_path = "out.png",
                       .size_px = 48,
@@ -318,18 +316,20 @@ int verb_type(int argc, char **argv)
                       .zoom = 8};
     int status = type_options(&t, argc, argv, &help);
     struct font_face *face = NULL;
-    char *filter = NULL;
+    char *filter = NULL, *font = NULL;
     if (status == EXIT_SUCCESS && !help)
         status = type_filter_read("type", t.filter, &filter);
     t.filter = filter;
     if (status == EXIT_SUCCESS && !help)
+        status = type_font_name("type", t.font, t.edits, "DejaVuSans", &font);
+    t.font = font;
+    if (status == EXIT_SUCCESS && !help)
         status = type_face_open("type", t.font, t.face, t.axes, true, &face);
-    if (status == EXIT_SUCCESS && !help && t.edits)
-        status = type_edits_apply("type", t.edits, face);
     if (status == EXIT_SUCCESS && !help)
         status = type_run(&t, face);
     type_ink_finish(&t.more);
     font_face_close(face);
     free(filter);
+    free(font);
     return status;
 }

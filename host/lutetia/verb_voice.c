@@ -29,7 +29,7 @@
 enum { SHEET_COLUMNS = 5, SHEET_ROWS = 4, LABEL_PX = 11 };
 
 struct voice_work {
-    const char *sound_path, *text, *font, *axes, *map;
+    const char *sound_path, *text, *font, *edits, *axes, *map;
     const char *poster, *sheet, *envelope, *still, *frames, *video;
     const char *microphone, *transcript, *features;
     double seconds;
@@ -131,6 +131,7 @@ static int options_read(struct voice_work *w, int argc, char **argv, bool *help)
         {"font", 0, OPTION_TEXT, "F",
          "the font: a file, the name of one, or a family (EBGaramond12-Regular)", &w->font, 0,
          0, 0},
+        TYPE_EDITS_OPTION(&w->edits),
         {"axes", 0, OPTION_TEXT, "A=V,..", "positions of a variable font's axes: wght=700",
          &w->axes, 0, 0, 0},
         {"size", 0, OPTION_NUMBERS, "PX,PX", "least and most size of the em (as fits)",
@@ -564,8 +565,7 @@ int verb_voice(int argc, char **argv)
 {
     static struct voice_work w;
     bool help = false;
-    w = (struct voice_work){.font = "EBGaramond12-Regular",
-                            .size_px = {8, 0},
+    w = (struct voice_work){.size_px = {8, 0},
                             .rise_em = 0.6,
                             .slant = 0.4,
                             .paper = {1, 1, 1},
@@ -578,12 +578,17 @@ int verb_voice(int argc, char **argv)
                             .hearing = voice_def_default()};
     memcpy(w.inks, w.def.inks, sizeof w.inks);
     int status = options_read(&w, argc, argv, &help);
+    char *font = NULL;
+    if (status == EXIT_SUCCESS && !help)
+        status = type_font_name("voice", w.font, w.edits, "EBGaramond12-Regular", &font);
     if (status != EXIT_SUCCESS || help)
         return status;
+    w.font = font;
     interrupt_catch();
     status = w.microphone && !w.features && !pictures_wanted(&w) ? live_play(&w)
                                                                  : pictures_write(&w);
     font_face_close(w.face);
+    free(font);
     voice_words_finish(&w.words);
     voice_timing_finish(&w.timing);
     voice_transcript_finish(&w.cues);

@@ -448,6 +448,7 @@ int script_mask_text_push(lua_State *L, int index)
     struct paper_screen screen;
     enum paper_status status = paper_line_screen(&line, &screen, NULL);
     script_memory_release(L, hold);
+    script_edits_tell(L);
     if (status != PAPER_OK)
         script_fail(L, paper_error());
     mask->bytes = (double)screen.width_px * screen.height_px;

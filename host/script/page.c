@@ -164,6 +164,7 @@ static int make_page(lua_State *L)
     enum font_status status = page_cover(&w, text, bytes, &cover, &pages);
     font_simd_plain_here(false);
     script_memory_release(L, hold);
+    script_edits_tell(L);
     if (status != FONT_OK)
         script_fail(L, font_error());
     lua_pushinteger(L, pages);

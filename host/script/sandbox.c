@@ -51,24 +51,52 @@ const char *script_path(lua_State *L, const char *folder, const char *name, cons
     return path;
 }
 
+/* Whether edits are in the script's folder under that name. */
+static bool edits_are_here(const struct script_config *config, const char *name)
+{
+    char path[PATH_MAX];
+    int n = snprintf(path, sizeof path, "%s/%s", config->in_folder, name);
+    return n > 0 && n < (int)sizeof path && name[0] != '/' && font_edits_is(path);
+}
+
 const char *script_font(lua_State *L, const char *name, const char *what)
 {
     const struct script_config *config = script_of(L)->config;
     if (strchr(name, '/') && !config->trusted)
         luaL_error(L, "%s must be a font's name, not a file (got '%s')", what, name);
-    char path[PATH_MAX];
-    int n = snprintf(path, sizeof path, "%s/%s", config->in_folder, name);
-    bool is_here = n > 0 && n < (int)sizeof path && name[0] != '/' && font_edits_is(path);
-    if (!is_here && !config->trusted && font_edits_is(name))
+    const char *plus = edits_are_here(config, name) ? NULL : strrchr(name, '+');
+    const char *folder = plus ? plus + 1 : name; /* FONT+FOLDER */
+    bool is_here = edits_are_here(config, folder) && plus != name;
+    if (!is_here && !config->trusted && font_edits_folder(name))
         luaL_error(L, "%s '%s': a font's edits must be in the folder given; --in names it",
                    what, name);
     if (!is_here)
         return name;
-    const char *kept = script_path(L, config->in_folder, name, what);
+    const char *kept = script_path(L, config->in_folder, folder, what);
+    if (plus) {
+        lua_pushlstring(L, name, (size_t)(folder - name));
+        lua_pushstring(L, kept);
+        lua_concat(L, 2);
+        lua_remove(L, -2);
+        kept = lua_tostring(L, -1);
+    }
     lua_pushvalue(L, -1); /* for as long as the script runs */
     lua_setfield(L, LUA_REGISTRYINDEX, kept);
     lua_pop(L, 1);
     return kept;
+}
+
+void script_edits_tell(lua_State *L)
+{
+    const char *changed = font_edits_said();
+    if (!changed)
+        return;
+    if (lua_getfield(L, LUA_REGISTRYINDEX, changed) == LUA_TNIL) {
+        lua_pushboolean(L, true);
+        lua_setfield(L, LUA_REGISTRYINDEX, changed);
+        script_note_where(L, changed);
+    }
+    lua_pop(L, 1);
 }
 
 const char *script_path_to_write(lua_State *L, const char *name, const char *ending,

@@ -145,9 +145,11 @@ void script_words_check(lua_State *L);
 /* Resolves a file's name within a folder and pushes its path; raises an error for names that lead out of it. */
 const char *script_path(lua_State *L, const char *folder, const char *name, const char *what);
 
-/* A font's name; or the path of a folder with edits of one, in the folder that is read. Raises an error for names of files. what: "text font". Owns: the
+/* A font's name; or with the path of a folder with edits of one, in the folder that is read, as font_edits_open() takes it. Raises an error for names of files. what: "text font". Owns: the
  * script, as long as it runs, or as `name`. */
 const char *script_font(lua_State *L, const char *name, const char *what);
+/* After a font was opened: a note if it has changed since its edits were made; once of each. */
+void script_edits_tell(lua_State *L);
 
 /* The same for a file to write, in the output folder: with this ending, not hidden, and not
  * like an option. */

@@ -46,6 +46,7 @@ static struct font_shaper *shaper_of(lua_State *L, struct script_network *s, con
     }
     strcpy(font->name, name);
     s->fonts_count++;
+    script_edits_tell(L);
     return font->shaper;
 }
 

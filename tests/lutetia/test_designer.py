@@ -119,6 +119,11 @@ for usual, edited in ((("type", "Nothing else", "-o", "l.png"), ("type", "office
                        ("paint", "&", "--paper", "96x64", "--steps", "8", "-o", "w.png"))):
     assert same(*usual), usual
     assert not same(*edited), edited
+    # --edits is the folder's font, and with --font that font with the folder's edits.
+    by_folder = (folder / edited[-1]).read_bytes()
+    for words in ((), ("--font", FONT))[edited[0] != "type":]:
+        run(*edited, "--edits", "mine", *words)
+        assert (folder / edited[-1]).read_bytes() == by_folder, (edited, words)
 for name, font in (("own", FONT), ("edited", "mine")):
     (folder / f"{name}.lua").write_text("local p = paper{width = 96, height = 64}\n"
                                         f"p:put(text('&', {{font = '{font}', size = 50, x = 20, y = 50}}), {{water = 0.4}})\n"
@@ -128,6 +133,21 @@ assert (folder / "own.png").read_bytes() != (folder / "edited.png").read_bytes()
 # A script reads edits in its own folder alone. (security.md 1)
 (folder / "elsewhere").mkdir()
 run("run", "edited.lua", "--in", "elsewhere", "-q", "-o", ".", status=1)
+# In the evening there is another version of the font: each verb says so, a script once.
+shutil.copytree(folder / "mine", folder / "older")
+rows = (folder / "older/edits.txt").read_text()
+at = rows.index("sha256 ") + 7
+(folder / "older/edits.txt").write_text(rows[:at] + "0" * 64 + rows[at + 64:])
+(folder / "both.lua").write_text((folder / "edited.lua").read_text().replace("'mine'", f"'{FONT}+older'") +
+                                 f"text('&', {{font = '{FONT}+older', size = 20}})\n")
+for words in (("run", "both.lua", "-q", "-o", "."), ("type", "&", "--edits", "older", "-o", "l.png"),
+              ("paint", "&", "--edits", "older", "--paper", "96x64", "--steps", "8", "-o", "w.png")):
+    done = subprocess.run([lutetia, *words], cwd=folder, capture_output=True, text=True, timeout=600, check=False)
+    assert done.returncode == 0 and done.stderr.count("has changed since the edits in") == 1, (words, done.stderr)
+assert (folder / "own.png").read_bytes() != (folder / "edited.png").read_bytes()
+run("run", "both.lua", "--in", "elsewhere", "-q", "-o", ".", status=1)
+for verb in (("set", "page.txt"), ("spring", "word"), ("keys", "x.mid"), ("voice", "x.wav", "Text"), ("paint", "wet"), ("type", "a")):
+    run(*verb, "--edits", "nowhere", status=1)
 
 if sys.argv[3:]:
     keep = pathlib.Path(sys.argv[3]).resolve()
