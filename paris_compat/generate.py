@@ -2,7 +2,7 @@
 """Makes the public header, the entry points, the tests' table and the reference page of instructions.tab.
 
     generate.py header instructions.tab paris.h paris.h.in
-    generate.py python instructions.tab OUTPUT paris.h.in SONAME
+    generate.py python instructions.tab OUTPUT SONAME paris.h.in HEADER...
     generate.py entries|tests|tests_floats|integers|fuzz|reference instructions.tab OUTPUT
 
 Each row becomes a list of Function, by a shape of table/*.py; the outputs are so many ways of printing these.
@@ -203,7 +203,7 @@ def main():
     if kind == "header":
         text = header(sections, sys.argv[4])
     elif kind == "python":
-        text = python.names(sections, open(sys.argv[4]).read(), sys.argv[5])
+        text = python.names(sections, [open(path, encoding="utf-8").read() for path in sys.argv[5:]], sys.argv[4])
     else:
         text = {"entries": entries, "tests": tests, "tests_floats": lambda all: tests(all, True),
                 "integers": integer_tests, "fuzz": fuzz, "reference": reference}[kind](sections)

@@ -1,7 +1,7 @@
 """C/Paris from Python: every call of <cm/paris.h> under its name, and NumPy arrays in and out.
 
     import numpy, paris
-    from paris import *                # all CM_ names
+    from paris import *                # all CM_ names, and those of displays and files
 
     CM_init()
     CM_set_vp_set(CM_allocate_vp_set(CM_create_geometry([1000, 1000], 2)))
@@ -9,6 +9,8 @@
     paris.write(heat, numpy.random.rand(1000, 1000).astype("f4"))
     CM_f_multiply_constant_2_1L(heat, 0.5, 23, 8)
     print(paris.read(heat, "f4").max())
+
+The calls of <cm/cmfb.h>, <cm/cmfs.h> and <lutetia/fields.h> are here as well. picture() and state() read pictures and saved sheets.
 
 Calls have the arguments of C. A vector (CM_vector_t) is any sequence of integers; a complex number is Python's. A wrong
 call raises paris.Error and has no effect. Threads: all calls belong to one thread, as in C. The library is found beside the
@@ -18,6 +20,7 @@ import ctypes
 import operator
 import os
 
+from ._files import picture, state
 from ._names import CALLS, CONSTANTS, LIBRARY, VARIABLES
 
 __all__ = [*CALLS, *CONSTANTS, *VARIABLES]
@@ -85,6 +88,36 @@ class _WritableMemory(_Memory):
     writable = True
 
 
+class _Bytes(_Memory):
+    """Numbers from 0 to 255: bytes, an array of them, or any sequence."""
+
+    @classmethod
+    def from_param(cls, values):
+        try:
+            view = memoryview(values)
+        except TypeError:
+            return (ctypes.c_ubyte * len(values)).from_buffer_copy(bytes(map(operator.index, values)))
+        if view.itemsize != 1:
+            raise TypeError("the array's elements must be bytes (u1)")
+        return super().from_param(values)
+
+
+class _WritableBytes(_WritableMemory):
+    @classmethod
+    def from_param(cls, array):
+        if memoryview(array).itemsize != 1:
+            raise TypeError("the array's elements must be bytes (u1)")
+        return super().from_param(array)
+
+
+class _WritableLengths(_WritableMemory):
+    @classmethod
+    def from_param(cls, array):
+        if memoryview(array).itemsize != 4:
+            raise TypeError("the array's elements must have 4 bytes (u4)")
+        return super().from_param(array)
+
+
 class _Descriptors:
     @classmethod
     def from_param(cls, descriptors):
@@ -95,7 +128,10 @@ class _Descriptors:
 class _Text:
     @classmethod
     def from_param(cls, text):
-        return ctypes.c_char_p(os.fsencode(text))
+        name = os.fsencode(text)
+        if b"\0" in name:
+            raise ValueError("a text for C has no zero in it")
+        return ctypes.c_char_p(name)
 
 
 class _Double:
@@ -106,7 +142,8 @@ class _Double:
 
 _Handler = ctypes.CFUNCTYPE(None, ctypes.c_char_p)
 _NUMBERS = {"i": ctypes.c_int, "u": ctypes.c_uint, "l": ctypes.c_long, "m": ctypes.c_ulong}
-_PARAMETERS = {"d": _Double, "V": _Vector, "R": _Memory, "W": _WritableMemory, "S": _Text, "A": _Descriptors, "H": _Handler}
+_PARAMETERS = {"d": _Double, "V": _Vector, "R": _Memory, "W": _WritableMemory, "S": _Text, "A": _Descriptors, "H": _Handler,
+               "B": _Bytes, "b": _WritableBytes, "L": _WritableLengths}
 _PARAMETERS |= {letter: _integer(kind) for letter, kind in _NUMBERS.items()}
 _RESULTS = {"v": None, "d": ctypes.c_double, "c": _Complex} | _NUMBERS
 
@@ -131,7 +168,7 @@ def _raise():
 def _call_make(name, letters):
     function = getattr(_library, name)
     function.restype = _RESULTS[letters[0]]
-    function.argtypes = [_PARAMETERS[p] for p in letters[1:]]
+    function.argtypes = [_PARAMETERS[p] for p in letters[1:] if p != "."]  # what more there is are ints
     if letters[0] == "c":
         def call(*arguments):
             result = function(*arguments)
@@ -145,7 +182,33 @@ def _call_make(name, letters):
                 _raise()
             return result
     call.__name__ = call.__qualname__ = name
-    return call
+    return _call_measured(call) if name in _COUNTED else call
+
+
+# Calls that are told how much of an array there is: {name: (the arrays' places, the count's, bytes of an element)}.
+_COUNTED = {"CMFB_write_color_map": ((3, 4, 5), 2, 1), "CMFB_read_color_map": ((3, 4, 5), 2, 1), "CMFS_serial_write_file": ((1,), 2, 1),
+            "CMFS_serial_read_file": ((1,), 2, 1), "lutetia_file_shape": ((1,), 2, 4), "CM_checkpoint": ((1,), 2, 1), "CM_resume": ((1,), 2, 1)}
+
+
+def _bytes_of(array, size):
+    try:
+        return memoryview(array).nbytes
+    except TypeError:
+        return len(array) * size
+
+
+def _call_measured(call):
+    """The same call, with a look that the arrays are as long as it is told."""
+    places, count, size = _COUNTED[call.__name__]
+
+    def measured(*arguments):
+        for place in places if count < len(arguments) else ():
+            has, asked = _bytes_of(arguments[place], size), operator.index(arguments[count]) * size
+            if has < asked:
+                raise ValueError(f"{call.__name__}: argument {place + 1} has {has} bytes, and {asked} were asked for")
+        return call(*arguments)
+    measured.__name__ = measured.__qualname__ = call.__name__
+    return measured
 
 
 def _init_make(name):
