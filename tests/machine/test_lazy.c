@@ -1,5 +1,6 @@
 /* test_lazy.c - the promises of lazy evaluation: a value that nobody reads is not computed, a step seen before builds no
  * kernel, and the graph does not grow. Measured by machine_stats_get(); the values are compared with the eager machine's. */
+#include "sample.h"
 #include "support.h"
 
 enum { ROWS = 20, COLUMNS = 70, COUNT = ROWS * COLUMNS };
@@ -298,9 +299,128 @@ static void value_outlives_the_content_it_is_a_part_of(void **state)
     free(out);
 }
 
-int main(void)
+/* ---- contexts that take turns ---- */
+
+enum { TURNED = 4 };
+
+/* Whether the i-th processor is in the k-th context: three colours, and one that is a part of two of them. */
+static bool is_turned(int k, int i)
+{
+    return k < 3 ? (i / COLUMNS + i) % 3 == k : (i / COLUMNS + i) % 3 && i % COLUMNS < 33;
+}
+
+static void contexts_make(struct sheet *s, uint32_t contexts[TURNED])
+{
+    uint8_t *bits = malloc(COUNT);
+    assert_non_null(bits);
+    for (int k = 0; k < TURNED; k++) {
+        for (int i = 0; i < COUNT; i++)
+            bits[i] = is_turned(k, i);
+        contexts[k] =
+            machine_field_allocate(s->m, machine_vpset_current(s->m), 1, MACHINE_HEAP);
+        assert_ok(machine_field_upload(s->m, contexts[k], MACHINE_BIT, bits), s->m);
+    }
+    free(bits);
+}
+
+/* Where both hold. */
+static void context_load(struct sheet *s, uint32_t context, uint32_t other)
+{
+    machine_begin(s->m);
+    struct machine_value *c = support_value(s->m, context, MACHINE_BIT);
+    if (other != context)
+        c = machine_binary(s->m, MACHINE_AND, c, support_value(s->m, other, MACHINE_BIT));
+    assert_ok(machine_flag_store(s->m, MACHINE_CONTEXT, c, MACHINE_EVERYWHERE), s->m);
+    machine_begin(s->m);
+}
+
+/* Nobody sees what a colour stored a turn ago: it is let go of, though other colours have stored since. */
+static void stores_of_contexts_in_turn_do_not_pile_up(void **state)
+{
+    struct sheet s;
+    struct machine_stats early = {0};
+    uint32_t contexts[TURNED], *water = malloc(COUNT * sizeof *water),
+                               *out = malloc(COUNT * sizeof *out);
+    (void)state;
+    assert_true(water && out);
+    sheet_open(&s, 0);
+    contexts_make(&s, contexts);
+    look(&s, water);
+    for (int n = 0; n < 60; n++) {
+        context_load(&s, contexts[n % 3], contexts[n % 3]);
+        store(&s, s.flow,
+              machine_binary(s.m, MACHINE_MUL, support_value(s.m, s.water, MACHINE_UINT(32)),
+                             constant(s.m, (uint64_t)n + 3)));
+        if (n == 5)
+            early = stats(s.m);
+    }
+    assert_true(stats(s.m).values_live <= early.values_live + 3);
+    assert_ok(machine_field_download(s.m, s.flow, MACHINE_UINT(32), out), s.m);
+    for (int i = 0; i < COUNT; i++)
+        assert_int_equal(out[i], water[i] * (60u + (uint32_t)(i / COLUMNS + i) % 3));
+    machine_destroy(s.m);
+    free(water);
+    free(out);
+}
+
+static int below(uint64_t *chance, uint64_t n)
+{
+    return (int)(sample_word(chance) % n);
+}
+
+/* Steps: the processors of one context, or of two, take what their neighbours hold in some field; sometimes somebody looks. */
+static void turns_random(uint64_t chance)
+{
+    struct sheet s;
+    uint32_t contexts[TURNED], fields[3], *held = malloc(3 * COUNT * sizeof *held),
+                                          *out = malloc(COUNT * sizeof *out);
+    assert_true(held && out);
+    sheet_open(&s, 0);
+    contexts_make(&s, contexts);
+    memcpy(fields, (uint32_t[]){s.water, s.flow, s.scratch}, sizeof fields);
+    for (int k = 0; k < 3; k++)
+        assert_ok(machine_field_download(s.m, fields[k], MACHINE_UINT(32), held + k * COUNT),
+                  s.m);
+    for (int n = 0; n < 50; n++) {
+        const int c = below(&chance, TURNED),
+                  d = below(&chance, 3) ? c : below(&chance, TURNED), to = below(&chance, 3),
+                  from = below(&chance, 3), further = below(&chance, 3);
+        context_load(&s, contexts[c], contexts[d]);
+        struct machine_value *v = support_value(s.m, fields[from], MACHINE_UINT(32));
+        store(&s, fields[to],
+              machine_binary(s.m, MACHINE_ADD, further ? machine_shift(s.m, v, 0, further) : v,
+                             constant(s.m, (uint64_t)n)));
+        for (int i = 0; i < COUNT; i++)
+            out[i] = held[from * COUNT + (i + further * COLUMNS) % COUNT] + (uint32_t)n;
+        for (int i = 0; i < COUNT; i++)
+            held[to * COUNT + i] =
+                is_turned(c, i) && is_turned(d, i) ? out[i] : held[to * COUNT + i];
+        for (int k = 0; k < 3 && (n == 49 || below(&chance, 20) == 0); k++) {
+            assert_ok(machine_field_download(s.m, fields[k], MACHINE_UINT(32), out), s.m);
+            assert_memory_equal(out, held + k * COUNT, COUNT * sizeof *out);
+        }
+    }
+    machine_destroy(s.m);
+    free(held);
+    free(out);
+}
+
+static int programs = 50;
+
+static void random_turns_of_contexts_come_to_the_same(void **state)
+{
+    (void)state;
+    setenv("LUTETIA_INTERPRET", "2", 1); /* no compiler for each of them */
+    for (int seed = 0; seed < programs; seed++)
+        turns_random((uint64_t)seed);
+    setenv("LUTETIA_INTERPRET", "0", 1);
+}
+
+int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(stores_of_contexts_in_turn_do_not_pile_up),
+        cmocka_unit_test(random_turns_of_contexts_come_to_the_same),
         cmocka_unit_test(value_outlives_the_content_it_is_a_part_of),
         cmocka_unit_test(neighbours_read_a_number_before_it_is_made_longer),
         cmocka_unit_test(unobserved_values_are_never_computed),
@@ -312,5 +432,7 @@ int main(void)
         cmocka_unit_test(finish_leaves_nothing_to_compute),
     };
 
+    if (argc > 1) /* so many random programs */
+        programs = atoi(argv[1]);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

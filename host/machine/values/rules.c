@@ -10,6 +10,8 @@
  *     select(c, new, select(c, x, old))       = select(c, new, old)
  *     select(c & t, new, select(c, x, old))   = select(c, select(t, new, x), old)
  *     x, read only where c holds              = x with each select(c, a, b) in it replaced by a
+ *     select(c, new, select(d, y, select(c, x, old)))
+ *                                             = select(c, new, select(d, y, old))
  * So values overwritten under the same context disappear, and a test that was stored under c and is and-ed into c loses its select.
  */
 #include "values/rules.h"
@@ -134,6 +136,42 @@ static struct machine_value *scaled_by_sign(struct machine *m, struct machine_va
     return chosen ? make_node(m, NODE_SELECT, t->type, 0, chosen, product, quotient) : NULL;
 }
 
+/* Contexts that take turns, at most: colours of a grid, say. */
+enum { COLOURS = 4 };
+
+/* Whether others than this instruction hold the value: two and more, for one is the field or the choice that is about to let go of it. */
+static bool is_looked_at(const struct machine *m, const struct machine_value *v)
+{
+    uint32_t refs = v->refs;
+    for (int i = 0; i < m->values->borrowed_count; i++)
+        refs -= m->values->borrowed[i] == v;
+    return refs > 1;
+}
+
+/* b, read only where c does not hold, without the last choice in it that takes another value only where c holds. A choice that somebody else looks at stays as it is:
+ * it will be in memory. */
+static struct machine_value *rest_of(struct machine *m, const struct machine_value *c,
+                                     struct machine_value *b)
+{
+    struct machine_value *chain[COLOURS], *v = b;
+    int count = 0;
+    for (; v->op == NODE_SELECT && (!count || !implies(v->in[0], c, DEPTH)); v = v->in[2]) {
+        if (count == COLOURS)
+            return b;
+        chain[count++] = v;
+    }
+    if (v->op != NODE_SELECT)
+        return b;
+    for (int i = 0; i < count; i++)
+        if (is_looked_at(m, chain[i]))
+            return b;
+    m->values->vanished.overwritten++;
+    for (v = v->in[2]; count && v; count--)
+        v = make_node(m, NODE_SELECT, b->type, 0, chain[count - 1]->in[0],
+                      chain[count - 1]->in[1], v);
+    return v;
+}
+
 struct machine_value *rules_select(struct machine *m, struct machine_value *c,
                                    struct machine_value *a, struct machine_value *b)
 {
@@ -161,6 +199,8 @@ struct machine_value *rules_select(struct machine *m, struct machine_value *c,
         struct machine_value *inner = rest ? rules_select(m, rest, a, b->in[1]) : a;
         return inner ? rules_select(m, outer, inner, b->in[2]) : NULL;
     }
+    if (!(b = rest_of(m, c, b)))
+        return NULL;
     if (a->type.width == 1 && a->type.kind == MACHINE_BITS) {
         if (value_is_number(a) && value_is_number(b))
             return a->imm.lo ? c : rules_not(m, c);
