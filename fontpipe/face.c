@@ -180,6 +180,8 @@ void font_face_close(struct font_face *face)
     if (face->library)
         FT_Done_FreeType(face->library);
     font_face_replaced_finish(face);
+    font_own_finish(face);
+    free(face->own_settings);
     free(face->settings);
     free(face->bytes);
     free(face->path);
@@ -315,6 +317,7 @@ enum font_status font_face_axis_set(struct font_face *face, const char *tag, dou
         return font_face_fail(face, "its axes cannot be set", error);
     }
     font_face_version_find(face);
+    font_face_own_setting_find(face);
     return FONT_OK;
 }
 
@@ -322,6 +325,37 @@ const void *font_face_bytes(const struct font_face *face, size_t *count)
 {
     *count = face->bytes_count;
     return face->bytes;
+}
+
+enum font_status font_face_axes_reset(struct font_face *face)
+{
+    enum font_status status = FONT_OK;
+    for (int i = 0; i < face->axes_count && status == FONT_OK; i++) {
+        struct font_axis axis;
+        status = font_face_axis(face, i, &axis);
+        if (status == FONT_OK && axis.value != axis.usual)
+            status = font_face_axis_set(face, axis.tag, axis.usual);
+    }
+    return status;
+}
+
+const char *font_face_axes_text(const struct font_face *face, char room[FONT_AXES_BYTES])
+{
+    size_t used = 0;
+    room[0] = '\0';
+    for (int i = 0; i < face->axes_count; i++) {
+        struct font_axis axis;
+        if (font_face_axis(face, i, &axis) != FONT_OK || axis.value == axis.usual)
+            continue;
+        int n = snprintf(room + used, FONT_AXES_BYTES - used, "%s%s=%.9g", used ? "," : "",
+                         axis.tag, axis.value);
+        if (n < 0 || (size_t)n >= FONT_AXES_BYTES - used) {
+            room[used] = '\0';
+            break;
+        }
+        used += (size_t)n;
+    }
+    return room;
 }
 
 enum font_status font_face_axes_set(struct font_face *face, const char *axes)

@@ -74,12 +74,12 @@ enum font_status font_face_outline_raw(struct font_face *face, uint32_t glyph,
                                        struct font_outline *out);
 /* From now on the glyph is this, for whoever asks: outline and advance, in the font's units; the font's file stays as it is. `rough`, where
  * it is not NULL, is given in place of `outline` to those that work on it further (font_face_outline_raw()): the same without
- * the steps of pixels. The face's version changes. Errors: NO_GLYPH for an index the font has not, NO_MEMORY; the
+ * the steps of pixels. here: as long as the axes are set as they are now; that comes before what holds for any setting. The face's version changes. Errors: NO_GLYPH for an index the font has not, NO_MEMORY; the
  * glyph is then as it was. */
 enum font_status font_face_outline_replace(struct font_face *face, uint32_t glyph,
                                            const struct font_outline *outline,
-                                           const struct font_outline *rough);
-/* Whether it was replaced. */
+                                           const struct font_outline *rough, bool here);
+/* Whether it was replaced, as the axes are set now. */
 bool font_face_is_replaced(const struct font_face *face, uint32_t glyph);
 
 /* The glyph that is meant by a character, by U+0041, by its number (#214), or by its name in the font (f_f_i). Errors: NO_GLYPH for a character or a
@@ -110,6 +110,12 @@ struct font_axis {
 enum font_status font_face_axis(const struct font_face *face, int axis, struct font_axis *out);
 /* Sets one axis; beyond its ends the end is taken. Errors: BAD_ARGUMENT for a tag that the font has not. */
 enum font_status font_face_axis_set(struct font_face *face, const char *tag, double value);
+/* All as the font has them. Errors: as font_face_axis_set(). */
+enum font_status font_face_axes_reset(struct font_face *face);
+/* How they are set, in the form of font_face_axes_set(): those that are not as usual. Returns room, never NULL; "" if all are, or
+ * there are none. Owns: the caller. */
+enum { FONT_AXES_BYTES = 1024 };
+const char *font_face_axes_text(const struct font_face *face, char room[FONT_AXES_BYTES]);
 /* Several: "wght=700,wdth=80"; NULL or "": none. Errors: BAD_ARGUMENT, also for what does not read so. */
 enum font_status font_face_axes_set(struct font_face *face, const char *axes);
 

@@ -19,9 +19,11 @@ struct font_setting {
     uint64_t version;
 };
 
-/* A glyph that was replaced: prepared, and what whoever works on it gets, prepared or not. */
+/* A glyph that was replaced, in every setting of the axes (0), or in one of face->own_settings, counted from 1: prepared, and what
+ * whoever works on it gets, prepared or not. */
 struct font_replaced {
     uint32_t glyph;
+    int setting;
     struct font_outline outline, rough;
 };
 
@@ -46,10 +48,24 @@ struct font_face {
     hb_font_t *hb_font;        /* in the font's units; its axes as those of hb_version */
     uint64_t hb_version;
     enum font_reader reader;
-    struct font_replaced *replaced; /* in the order of their glyphs */
+    struct font_replaced *replaced; /* in the order of their glyphs, then of their settings */
     int replaced_count, replaced_capacity;
+    struct font_own_setting *own_settings; /* of which something is not the font's own */
+    int own_settings_count, own_settings_capacity;
+    int own_setting;      /* which of them it is now, from 1; 0: none */
+    struct font_own *own; /* own.c; NULL: nothing */
 };
 
+struct font_own_setting {
+    FT_Fixed values[FACE_AXES_MAX];
+};
+
+/* face_version.c: the number of the setting as it is now among those of which something is not the font's own; a new one where there is none. 0: no memory.
+ * Looks which of them the axes are set to now. */
+int font_face_own_setting(struct font_face *face);
+void font_face_own_setting_find(struct font_face *face);
+/* own.c */
+void font_own_finish(struct font_face *face);
 /* face_replaced.c: NULL where the glyph is the font's own. */
 const struct font_replaced *font_face_replaced(const struct font_face *face, uint32_t glyph);
 void font_face_replaced_finish(struct font_face *face);

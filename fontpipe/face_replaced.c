@@ -4,13 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Where the glyph is, or would be. */
-static int place_of(const struct font_face *face, uint32_t glyph)
+/* Where the glyph of a setting is, or would be. */
+static int place_of(const struct font_face *face, uint32_t glyph, int setting)
 {
     int from = 0, to = face->replaced_count;
     while (from < to) {
         int middle = from + (to - from) / 2;
-        if (face->replaced[middle].glyph < glyph)
+        const struct font_replaced *r = &face->replaced[middle];
+        if (r->glyph < glyph || (r->glyph == glyph && r->setting < setting))
             from = middle + 1;
         else
             to = middle;
@@ -18,13 +19,23 @@ static int place_of(const struct font_face *face, uint32_t glyph)
     return from;
 }
 
+static const struct font_replaced *replaced_at(const struct font_face *face, uint32_t glyph,
+                                               int setting)
+{
+    int i = place_of(face, glyph, setting);
+    return i < face->replaced_count && face->replaced[i].glyph == glyph &&
+                   face->replaced[i].setting == setting
+               ? &face->replaced[i]
+               : NULL;
+}
+
 const struct font_replaced *font_face_replaced(const struct font_face *face, uint32_t glyph)
 {
     if (!face->replaced_count)
         return NULL;
-    int i = place_of(face, glyph);
-    return i < face->replaced_count && face->replaced[i].glyph == glyph ? &face->replaced[i]
-                                                                        : NULL;
+    const struct font_replaced *here =
+        face->own_setting ? replaced_at(face, glyph, face->own_setting) : NULL;
+    return here ? here : replaced_at(face, glyph, 0);
 }
 
 int font_face_replaced_count(const struct font_face *face)
@@ -63,9 +74,11 @@ static enum font_status copy_make(const struct font_face *face,
 
 enum font_status font_face_outline_replace(struct font_face *face, uint32_t glyph,
                                            const struct font_outline *outline,
-                                           const struct font_outline *rough)
+                                           const struct font_outline *rough, bool here)
 {
     struct font_replaced made = {.glyph = glyph};
+    if (here && (made.setting = font_face_own_setting(face)) == 0)
+        return font_fail(FONT_NO_MEMORY, "no memory for a glyph");
     if (glyph >= (uint32_t)face->ft->num_glyphs)
         return font_fail(FONT_NO_GLYPH, "%s has no glyph %u", face->path, (unsigned)glyph);
     enum font_status status = copy_make(face, outline, outline->advance, &made.outline);
@@ -73,8 +86,8 @@ enum font_status font_face_outline_replace(struct font_face *face, uint32_t glyp
         status = copy_make(face, rough ? rough : outline, outline->advance, &made.rough);
     if (status == FONT_OK)
         status = font_outline_prepare(&made.outline, FONT_NONZERO);
-    int i = place_of(face, glyph);
-    bool there = i < face->replaced_count && face->replaced[i].glyph == glyph;
+    int i = place_of(face, glyph, made.setting);
+    bool there = replaced_at(face, glyph, made.setting) != NULL;
     if (status == FONT_OK && !there &&
         !array_reserve(&face->replaced, &face->replaced_capacity, face->replaced_count + 1,
                        sizeof *face->replaced))

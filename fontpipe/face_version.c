@@ -48,3 +48,27 @@ void font_face_version_keep_first(struct font_face *face)
         face->settings_count = face->settings_next = 1;
     }
 }
+
+/* ---- settings of which something is not the font's own ---- */
+
+void font_face_own_setting_find(struct font_face *face)
+{
+    face->own_setting = 0;
+    for (int i = 0; i < face->own_settings_count && !face->own_setting; i++)
+        if (memcmp(face->own_settings[i].values, face->values, sizeof face->values) == 0)
+            face->own_setting = i + 1;
+}
+
+int font_face_own_setting(struct font_face *face)
+{
+    font_face_own_setting_find(face);
+    if (face->own_setting)
+        return face->own_setting;
+    if (!array_reserve(&face->own_settings, &face->own_settings_capacity,
+                       face->own_settings_count + 1, sizeof *face->own_settings))
+        return 0;
+    struct font_own_setting *s = &face->own_settings[face->own_settings_count++];
+    memcpy(s->values, face->values, sizeof s->values);
+    face->own_setting = face->own_settings_count;
+    return face->own_setting;
+}

@@ -271,6 +271,25 @@ enum font_status font_filter_create_named(const char *name, struct font_filter *
     return status;
 }
 
+void font_filter_words(const char *text, size_t count, char *out)
+{
+    size_t length = 0;
+    bool gap = false, note = false;
+    for (size_t i = 0; i < count; i++) {
+        char c = text[i];
+        note = c != '\n' && (note || c == '#');
+        if (note || c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == ',' || c == '\0') {
+            gap = length > 0;
+            continue;
+        }
+        if (gap && out[length - 1] != ':') /* no comma after "samples:" */
+            out[length++] = ',';
+        gap = false;
+        out[length++] = c;
+    }
+    out[length] = '\0';
+}
+
 void font_filter_describe(const struct font_filter *f, struct font_filter_info *out)
 {
     *out = f->info;

@@ -39,6 +39,9 @@ enum { FONT_FILTER_RADIUS_MAX = 4, FONT_FILTER_SAMPLES_MAX = 256 };
  * a product) and round:RADIUS,S0,S1,... (of f along a radius), 2..256 samples from the centre outwards.
  * Errors: BAD_ARGUMENT, NO_MEMORY. A filter whose integral is not positive is refused. Owns: the caller destroys *out. */
 enum font_status font_filter_create_named(const char *name, struct font_filter **out);
+/* The words of a filter that stand in a file, as one name: with commas for what parts them, without lines' rests from # on. Shape: out has
+ * count + 1 bytes. */
+void font_filter_words(const char *text, size_t count, char *out);
 /* The simple ones; NULL ends them; constants, valid for ever. */
 const char *const *font_filter_names(void);
 void font_filter_destroy(struct font_filter *filter); /* NULL is fine */

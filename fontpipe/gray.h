@@ -47,6 +47,16 @@ enum font_status font_gray_draw_exact(struct font_gray *gray, const struct font_
                                       const struct font_filter *filter, double x_px,
                                       double y_px);
 
+/* Gray that comes from elsewhere: a copy, rows of `cover` being `pitch` bytes apart. What *gray had is not freed. Owns: the caller finishes
+ * it. Errors: TOO_LARGE, NO_MEMORY; it is then empty. */
+struct font_gray_frame {
+    int left_px, top_px, width_px, height_px;
+};
+enum font_status font_gray_put(struct font_gray *gray, const struct font_gray_frame *frame,
+                               const uint8_t *cover, size_t pitch);
+/* Likewise, of another's pixels. Errors: as font_gray_put(). */
+enum font_status font_gray_copy(const struct font_gray *from, struct font_gray *to);
+
 /* Where the picture will be, without drawing it. Errors: BAD_ARGUMENT, TOO_LARGE. */
 enum font_status font_gray_place(struct font_gray *gray, const struct font_edges *edges,
                                  const struct font_filter *filter, double x_px, double y_px);

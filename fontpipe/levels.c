@@ -11,11 +11,11 @@ struct font_levels {
     struct font_rectangles rectangles;
     struct font_filter *filter;
     struct font_edges edges;
-    struct font_gray gray;
+    struct font_gray gray, gray_own;
     int em_px;
     double size_px, x_px, y_px;
     bool master_made, rectangles_made, edges_made, gray_made;
-    bool master_edited, rectangles_edited, use_master;
+    bool master_edited, rectangles_edited, gray_edited, use_master;
     struct font_levels_made made;
 };
 
@@ -30,7 +30,7 @@ static void below_forget(struct font_levels *l, int level)
         l->rectangles_made = l->rectangles_edited = false;
     if (level < EDGES)
         l->edges_made = false;
-    l->gray_made = false;
+    l->gray_made = l->gray_edited = false;
 }
 
 static bool from_master(const struct font_levels *l)
@@ -77,6 +77,7 @@ void font_levels_destroy(struct font_levels *l)
     font_filter_destroy(l->filter);
     font_edges_finish(&l->edges);
     font_gray_finish(&l->gray);
+    font_gray_finish(&l->gray_own);
     free(l);
 }
 
@@ -216,6 +217,19 @@ enum font_status font_levels_rectangles_set(struct font_levels *l,
     return FONT_OK;
 }
 
+enum font_status font_levels_gray_set(struct font_levels *l, const struct font_gray *gray)
+{
+    struct font_gray copy;
+    enum font_status status = font_gray_copy(gray, &copy);
+    if (status != FONT_OK)
+        return status;
+    font_gray_finish(&l->gray_own);
+    l->gray_own = copy;
+    l->gray_edited = true;
+    l->gray_made = false;
+    return FONT_OK;
+}
+
 enum font_status font_levels_filter_set(struct font_levels *l, const char *name)
 {
     struct font_filter *filter;
@@ -228,7 +242,7 @@ enum font_status font_levels_filter_set(struct font_levels *l, const char *name)
     /* Edges of the outline are as fine as the filter asks for; those of rectangles are always the same. */
     if (!from_master(l))
         l->edges_made = false;
-    l->gray_made = false;
+    l->gray_made = l->gray_edited = false;
     return FONT_OK;
 }
 
@@ -261,6 +275,11 @@ const struct font_outline *font_levels_outline(const struct font_levels *l)
 const struct font_filter *font_levels_filter(const struct font_levels *l)
 {
     return l->filter;
+}
+
+double font_levels_size(const struct font_levels *l)
+{
+    return l->size_px;
 }
 
 enum font_status font_levels_master(struct font_levels *l, const struct font_master **out)
@@ -314,6 +333,14 @@ enum font_status font_levels_gray(struct font_levels *l, double x_px, double y_p
 {
     const struct font_edges *edges;
     *out = &l->gray;
+    if (l->gray_edited && fabs(x_px) <= FONT_SIDE_MAX && fabs(y_px) <= FONT_SIDE_MAX) {
+        const int left = l->gray_own.left_px + (int)floor(x_px + 0.5),
+                  top = l->gray_own.top_px + (int)floor(y_px + 0.5);
+        const struct font_gray_frame frame = {left, top, l->gray_own.width_px,
+                                              l->gray_own.height_px};
+        font_gray_finish(&l->gray);
+        return font_gray_put(&l->gray, &frame, l->gray_own.pixels, (size_t)l->gray_own.pitch);
+    }
     enum font_status status = font_levels_edges(l, &edges);
     if (status != FONT_OK || (l->gray_made && l->x_px == x_px && l->y_px == y_px))
         return status;

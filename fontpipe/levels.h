@@ -55,6 +55,9 @@ enum font_status font_levels_rectangle_set(struct font_levels *levels, int index
  * Errors: BAD_ARGUMENT, TOO_LARGE, NO_MEMORY. */
 enum font_status font_levels_rectangles_set(struct font_levels *levels,
                                             const struct font_rectangles *rectangles);
+/* Replaces the gray of this size by a copy of this, whatever the place between pixels: its origin goes to the nearest whole pixel.
+ * Another size or filter, or a change above, forgets it. Errors: TOO_LARGE, NO_MEMORY. */
+enum font_status font_levels_gray_set(struct font_levels *levels, const struct font_gray *gray);
 /* Another filter; another size. Errors: as font_levels_create(). */
 enum font_status font_levels_filter_set(struct font_levels *levels, const char *filter);
 enum font_status font_levels_size_set(struct font_levels *levels, double size_px);
@@ -68,6 +71,7 @@ enum font_status font_levels_master(struct font_levels *levels, const struct fon
 enum font_status font_levels_rectangles(struct font_levels *levels,
                                         const struct font_rectangles **out);
 const struct font_filter *font_levels_filter(const struct font_levels *levels);
+double font_levels_size(const struct font_levels *levels); /* in pixels */
 enum font_status font_levels_edges(struct font_levels *levels, const struct font_edges **out);
 /* gray: the levels'; valid until the next change or the next gray. The same place again is not drawn again. Errors: as
  * font_levels_edges(). */

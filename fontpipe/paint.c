@@ -2,6 +2,7 @@
  *
  * What is kept: a glyph's edges by (face, axes, glyph, map), and with `places` its gray pictures by that and the place
  * between pixels. Both are entries of one table with one budget; what was not used for longest goes first. */
+#include "own.h"
 #include "paint_internal.h"
 
 #include <math.h>
@@ -183,6 +184,46 @@ static double darkening(struct font_painter *p, struct font_face *face, double s
     return darkening_of_stem(p->stem * size_px);
 }
 
+/* How large an em is in the picture where a map puts the glyph's origin. */
+static double size_shown(const struct font_face *face, const struct font_map *whole)
+{
+    static const struct font_point origin = {0, 0};
+    struct font_face_info info;
+    struct font_point at;
+    double j[4];
+    font_face_describe(face, &info);
+    return font_map_point(whole, origin, &at, j)
+               ? sqrt(fabs(j[0] * j[3] - j[1] * j[2])) * info.units_per_em
+               : 0;
+}
+
+/* The filter of a glyph: the face's own, or the painter's. */
+static const struct font_filter *filter_of(const struct font_painter *p,
+                                           const struct font_face *face, uint32_t glyph,
+                                           const struct font_map *whole)
+{
+    const struct font_filter *own =
+        font_own_any(face) ? font_own_filter(face, glyph, size_shown(face, whole)) : NULL;
+    return own ? own : p->filter;
+}
+
+/* The gray that a glyph has of its own where it is upright; NULL: it has none. */
+static const struct font_gray *gray_of(const struct font_face *face, uint32_t glyph,
+                                       const struct font_map *whole)
+{
+    const double *m = whole->m, near = 1e-6 * fabs(m[0]);
+    if (!font_own_any(face) || whole->kind != FONT_AFFINE || !(m[0] > 0) || fabs(m[1]) > near ||
+        fabs(m[3]) > near || fabs(m[4] + m[0]) > near)
+        return NULL;
+    return font_own_gray(face, glyph, size_shown(face, whole));
+}
+
+/* The whole pixel that is nearest to a place. */
+static int whole_of(double place)
+{
+    return (int)floor(place + 0.5);
+}
+
 /* Of a glyph that its map folds over: what it covers from either side. */
 static enum font_status edges_make_folded(struct font_painter *p, struct font_face *face,
                                           uint32_t glyph, const struct font_map *map,
@@ -196,7 +237,7 @@ static enum font_status edges_make_folded(struct font_painter *p, struct font_fa
     if (status == FONT_OK)
         status = font_outline_prepare(&mapped, FONT_NONZERO);
     if (status == FONT_OK)
-        status = font_edges_build(edges, &mapped, &same, p->filter);
+        status = font_edges_build(edges, &mapped, &same, filter_of(p, face, glyph, map));
     font_outline_finish(&raw);
     font_outline_finish(&mapped);
     return status;
@@ -220,7 +261,7 @@ static enum font_status edges_make(struct font_painter *p, struct font_face *fac
         status = font_face_outline_or_none(face, glyph, true, &outline);
     }
     if (status == FONT_OK)
-        status = font_edges_build(edges, &outline, map, p->filter);
+        status = font_edges_build(edges, &outline, map, filter_of(p, face, glyph, map));
     font_outline_finish(&outline);
     if (status == FONT_BAD_ARGUMENT && (map->kind == FONT_BILINEAR || map->kind == FONT_SMOOTH))
         status = edges_make_folded(p, face, glyph, map, edges);
@@ -277,7 +318,8 @@ static enum font_status placed_map(const struct font_layout *layout, int i,
 
 /* A picture at a place, drawn or kept. *whole_x, *whole_y: the pixel that it counts from. */
 static enum font_status gray_get(struct font_painter *p, const struct font_edges *edges,
-                                 struct key key, double x, double y, struct font_gray *scratch,
+                                 const struct font_filter *filter, struct key key, double x,
+                                 double y, struct font_gray *scratch,
                                  const struct font_gray **out, int *whole_x, int *whole_y)
 {
     *whole_x = (int)floor(x);
@@ -286,7 +328,7 @@ static enum font_status gray_get(struct font_painter *p, const struct font_edges
     *out = scratch;
     if (!p->def.places) {
         p->stats.drawn++;
-        return font_gray_draw(scratch, edges, p->filter, fx, fy);
+        return font_gray_draw(scratch, edges, filter, fx, fy);
     }
     key.place_x = (int32_t)floor(fx * p->def.places + 0.5);
     key.place_y = (int32_t)floor(fy * p->def.places + 0.5);
@@ -299,7 +341,7 @@ static enum font_status gray_get(struct font_painter *p, const struct font_edges
     /* Drawn before the entry is made, which may drop the edges. */
     struct font_gray gray = {0};
     enum font_status status =
-        font_gray_draw(&gray, edges, p->filter, (double)key.place_x / p->def.places,
+        font_gray_draw(&gray, edges, filter, (double)key.place_x / p->def.places,
                        (double)key.place_y / p->def.places);
     p->stats.drawn++;
     e = status == FONT_OK ? font_painter_entry_make(p, &key) : NULL;
@@ -336,9 +378,16 @@ static enum font_status glyph_draw(struct font_painter *p, const struct font_lay
     const struct font_placed *g = &layout->glyphs[i];
     struct font_edges *edges = NULL;
     struct key key;
+    *gray = gray_of(g->face, g->glyph, whole);
+    if (*gray) {
+        *whole_x = whole_of(x);
+        *whole_y = whole_of(y);
+        return FONT_OK;
+    }
     enum font_status status =
         edges_get(p, g->face, g->glyph, whole, font_placed_size(layout, g), &key, &edges);
-    return status == FONT_OK ? gray_get(p, edges, key, x, y, scratch, gray, whole_x, whole_y)
+    return status == FONT_OK ? gray_get(p, edges, filter_of(p, g->face, g->glyph, whole), key,
+                                        x, y, scratch, gray, whole_x, whole_y)
                              : status;
 }
 
@@ -349,14 +398,16 @@ enum font_status font_painter_outline_draw(struct font_painter *p,
                                            const struct font_ink *ink,
                                            struct font_picture *picture)
 {
+    const struct font_placed *g = &layout->glyphs[i];
     struct font_map whole;
     double x, y;
     enum font_status status = glyph_place(layout, i, map, x_px, y_px, &whole, &x, &y);
     for (int c = 0; c < (p->def.stripes ? 3 : 1) && status == FONT_OK; c++) {
         const struct font_gray *gray;
         int whole_x, whole_y;
+        /* Red is left: the glyph is right of it. Gray of its own has no stripes. */
         double shift =
-            p->def.stripes ? (1 - c) / 3.0 : 0; /* red is left: the glyph is right of it */
+            p->def.stripes && !gray_of(g->face, g->glyph, &whole) ? (1 - c) / 3.0 : 0;
         status = glyph_draw(p, layout, i, &whole, x + shift, y, &p->scratch[c], &gray, &whole_x,
                             &whole_y);
         if (status == FONT_OK)
@@ -406,10 +457,18 @@ enum font_status font_painter_glyph(struct font_painter *p, struct font_face *fa
         x = x_px;
         y = y_px;
     }
+    const struct font_gray *own = status == FONT_OK ? gray_of(face, glyph, &whole) : NULL;
+    if (own) {
+        p->own = *own; /* its pixels, at the nearest place */
+        p->own.left_px += whole_of(x);
+        p->own.top_px += whole_of(y);
+        *gray = &p->own;
+        return FONT_OK;
+    }
     if (status == FONT_OK)
         status = edges_get(p, face, glyph, &whole, size_px, &key, &edges);
     if (status == FONT_OK)
-        status = font_gray_draw(&p->scratch[0], edges, p->filter, x, y);
+        status = font_gray_draw(&p->scratch[0], edges, filter_of(p, face, glyph, &whole), x, y);
     p->stats.drawn++;
     *gray = &p->scratch[0];
     return status;
@@ -428,11 +487,20 @@ enum font_status font_painter_outline_measure(struct font_painter *p,
     struct key key;
     double x, y;
     enum font_status status = placed_map(layout, i, map, x_px, y_px, &whole, &x, &y);
+    const struct font_gray *own = status == FONT_OK ? gray_of(g->face, g->glyph, &whole) : NULL;
+    if (own) {
+        if (own->width_px)
+            *box = (struct font_box){whole_of(x) + own->left_px, whole_of(y) + own->top_px,
+                                     whole_of(x) + own->left_px + own->width_px,
+                                     whole_of(y) + own->top_px + own->height_px};
+        return FONT_OK;
+    }
     if (status == FONT_OK)
         status =
             edges_get(p, g->face, g->glyph, &whole, font_placed_size(layout, g), &key, &edges);
     if (status == FONT_OK)
-        status = font_gray_place(&place, edges, p->filter, x - floor(x), y - floor(y));
+        status = font_gray_place(&place, edges, filter_of(p, g->face, g->glyph, &whole),
+                                 x - floor(x), y - floor(y));
     if (status != FONT_OK || !place.width_px)
         return status;
     double x0 = floor(x) + place.left_px, y0 = floor(y) + place.top_px;

@@ -35,7 +35,8 @@ struct font_painter {
     struct entry *newest, *oldest;
     struct font_painter_stats stats;
     struct font_gray scratch[3];
-    uint64_t stem_of; /* the version of the face whose stems are known */
+    struct font_gray own; /* a face's own pixels, borrowed, at a place */
+    uint64_t stem_of;     /* the version of the face whose stems are known */
     double stem;
     double ink[3]; /* the last plain one, and its light */
     float ink_light[3];

@@ -1,42 +1,87 @@
 /* edits.c - faces and levels with their edits: see edits.h. */
 #include "edits_internal.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* ---- reading ---- */
 
-/* Whether a row before it is the same glyph's at the same level. */
+bool edits_row_same(const struct edits_row *a, const struct edits_row *b)
+{
+    return a->edit.glyph == b->edit.glyph && a->edit.level == b->edit.level &&
+           a->edit.from_px == b->edit.from_px && a->edit.to_px == b->edit.to_px &&
+           edits_setting_same(a->setting, b->setting);
+}
+
+/* Whether a row before it is the same. */
 static bool is_again(const struct font_edits *edits, int i)
 {
-    const struct font_edit *e = &edits->rows[i].edit;
     for (int k = 0; k < i; k++)
-        if (edits->rows[k].edit.glyph == e->glyph && edits->rows[k].edit.level == e->level)
+        if (edits_row_same(&edits->rows[k], &edits->rows[i]))
             return true;
     return false;
 }
 
+/* Sets the axes to what the row is for, and has that in the row in one form. own: how they are set otherwise, and now, if `*now` is NULL. */
+static enum font_status setting_go(struct edits_row *row, struct font_face *face,
+                                   const char *own, const char **now)
+{
+    if (edits_setting_same(row->setting, *now))
+        return FONT_OK;
+    enum font_status status = edits_setting_set(face, row->setting ? row->setting : own);
+    char *kept = NULL;
+    if (status == FONT_OK && row->setting)
+        status = edits_setting_of(face, &kept);
+    if (status == FONT_OK && row->setting) {
+        free(row->setting);
+        row->setting = kept;
+    }
+    *now = status == FONT_OK ? row->setting : NULL;
+    return status;
+}
+
+static enum font_status row_check(struct font_edits *edits, int i, struct font_face *face)
+{
+    struct edits_row *row = &edits->rows[i];
+    row->edit.name = row->name;
+    row->edit.file = row->file;
+    row->edit.setting = row->setting ? row->setting : "";
+    if (row->edit.level == FONT_EDITS_FILTER && strcmp(row->name, "*") == 0)
+        row->edit.glyph = FONT_EVERY_GLYPH;
+    else if (font_face_glyph_named(face, row->name, &row->edit.glyph) != FONT_OK)
+        return font_fail(FONT_NO_GLYPH, "%s/edits.txt: %.300s", edits->folder, font_error());
+    return is_again(edits, i)
+               ? font_fail(FONT_BAD_FILE, "%s/edits.txt: %s has two rows of its %s",
+                           edits->folder, row->name, font_edits_level_name(row->edit.level))
+               : FONT_OK;
+}
+
 static enum font_status rows_read(struct font_edits *edits, struct font_face *face)
 {
-    enum font_status status = FONT_OK;
+    char *own = NULL;
+    const char *now = NULL;
+    enum font_status status = edits_setting_of(face, &own);
+    if (status == FONT_BAD_ARGUMENT) /* then no row has a setting */
+        status = FONT_OK;
     for (int i = 0; i < edits->rows_count && status == FONT_OK; i++) {
         struct edits_row *row = &edits->rows[i];
-        row->edit.name = row->name;
-        row->edit.file = row->file;
         status = font_patience_ask(0);
         if (status != FONT_OK)
             break;
-        status = font_face_glyph_named(face, row->name, &row->edit.glyph);
+        status = setting_go(row, face, own, &now);
         if (status != FONT_OK)
-            status = font_fail(status, "%s/edits.txt: %.300s", edits->folder, font_error());
-        else if (is_again(edits, i))
             status =
-                font_fail(FONT_BAD_FILE, "%s/edits.txt: %s has two rows of its %s",
-                          edits->folder, row->name, font_edits_level_name(row->edit.level));
-        else
+                font_fail(FONT_BAD_FILE, "%s/edits.txt: %.300s", edits->folder, font_error());
+        if (status == FONT_OK)
+            status = row_check(edits, i, face);
+        if (status == FONT_OK)
             status = edits_row_read(edits, row, face);
     }
+    if (now && edits_setting_set(face, own) != FONT_OK && status == FONT_OK)
+        status = FONT_BAD_FILE;
+    free(own);
     return status;
 }
 
@@ -83,36 +128,109 @@ struct font_edit font_edits_at(const struct font_edits *edits, int i)
 
 /* ---- a glyph ---- */
 
-/* The glyph's row of a level, if that was edited. */
+/* The glyph's row of a level for a setting (NULL: any), if that was edited. */
 static const struct edits_row *edited_at(const struct font_edits *edits, uint32_t glyph,
-                                         enum font_edits_level level)
+                                         const char *setting, enum font_edits_level level)
 {
     for (int i = 0; edits && i < edits->rows_count; i++) {
         const struct font_edit *e = &edits->rows[i].edit;
-        if (e->glyph == glyph && e->level == level && e->edited)
+        if (e->glyph == glyph && e->level == level && e->edited &&
+            edits_setting_same(edits->rows[i].setting, setting))
             return &edits->rows[i];
     }
     return NULL;
+}
+
+/* What a glyph's form has been edited at; NULL: not there. */
+struct form {
+    const struct edits_row *outline, *master, *parts;
+};
+
+static struct form form_at(const struct font_edits *edits, uint32_t glyph, const char *setting)
+{
+    return (struct form){edited_at(edits, glyph, setting, FONT_EDITS_OUTLINE),
+                         edited_at(edits, glyph, setting, FONT_EDITS_MASTER),
+                         edited_at(edits, glyph, setting, FONT_EDITS_RECTANGLES)};
+}
+
+static bool is_formed(const struct form *f)
+{
+    return f->outline || f->master || f->parts;
+}
+
+/* The glyph's filter, and its gray, at a size. */
+static const struct edits_row *filter_at(const struct font_edits *edits, uint32_t glyph,
+                                         const char *setting, double size_px)
+{
+    for (int i = 0; edits && i < edits->rows_count; i++) {
+        const struct font_edit *e = &edits->rows[i].edit;
+        if (e->glyph == glyph && e->level == FONT_EDITS_FILTER && e->edited &&
+            size_px >= e->from_px && size_px < e->to_px &&
+            edits_setting_same(edits->rows[i].setting, setting))
+            return &edits->rows[i];
+    }
+    return NULL;
+}
+
+static const struct edits_row *gray_at(const struct font_edits *edits, uint32_t glyph,
+                                       const char *setting, double size_px)
+{
+    for (int i = 0; edits && i < edits->rows_count; i++) {
+        const struct font_edit *e = &edits->rows[i].edit;
+        if (e->glyph == glyph && e->level == FONT_EDITS_GRAY && e->edited &&
+            fabs(e->from_px - size_px) <= 1e-6 * size_px &&
+            edits_setting_same(edits->rows[i].setting, setting))
+            return &edits->rows[i];
+    }
+    return NULL;
+}
+
+/* What lies below the form. */
+static enum font_status low_set(const struct font_edits *edits, uint32_t glyph,
+                                const char *setting, double size_px, struct font_levels *levels)
+{
+    const struct {
+        uint32_t glyph;
+        const char *setting;
+    } ways[] = {
+        {glyph, setting}, {glyph, NULL}, {FONT_EVERY_GLYPH, setting}, {FONT_EVERY_GLYPH, NULL}};
+    const struct edits_row *filter = NULL, *gray = NULL;
+    enum font_status status = FONT_OK;
+    for (int i = 0; i < 4 && !filter; i++)
+        filter = filter_at(edits, ways[i].glyph, ways[i].setting, size_px);
+    for (int i = 0; i < 2 && !gray; i++)
+        gray = gray_at(edits, glyph, ways[i].setting, size_px);
+    if (filter)
+        status = font_levels_filter_set(levels, filter->words);
+    return status == FONT_OK && gray ? font_levels_gray_set(levels, &gray->gray) : status;
 }
 
 enum font_status font_edits_levels(const struct font_edits *edits, struct font_face *face,
                                    uint32_t glyph, int em_px, double size_px,
                                    const char *filter, struct font_levels **out)
 {
-    const struct edits_row *outline = edited_at(edits, glyph, FONT_EDITS_OUTLINE);
-    const struct edits_row *master = edited_at(edits, glyph, FONT_EDITS_MASTER);
-    const struct edits_row *parts = edited_at(edits, glyph, FONT_EDITS_RECTANGLES);
     struct font_outline own = {0};
+    char *setting = NULL;
     *out = NULL;
-    enum font_status status = outline ? FONT_OK : font_face_outline(face, glyph, &own);
+    enum font_status status = edits_setting_of(face, &setting);
+    if (status == FONT_BAD_ARGUMENT)
+        status = FONT_OK;
+    struct form form = form_at(edits, glyph, setting);
+    if (!setting || !is_formed(&form))
+        form = form_at(edits, glyph, NULL);
+    if (status == FONT_OK && !form.outline)
+        status = font_face_outline(face, glyph, &own);
     if (status == FONT_OK)
-        status =
-            font_levels_create(outline ? &outline->outline : &own, em_px, size_px, filter, out);
+        status = font_levels_create(form.outline ? &form.outline->outline : &own, em_px,
+                                    size_px, filter, out);
     font_outline_finish(&own);
-    if (status == FONT_OK && master)
-        status = font_levels_master_set(*out, &master->master);
-    if (status == FONT_OK && parts)
-        status = font_levels_rectangles_set(*out, &parts->rectangles);
+    if (status == FONT_OK && form.master)
+        status = font_levels_master_set(*out, &form.master->master);
+    if (status == FONT_OK && form.parts)
+        status = font_levels_rectangles_set(*out, &form.parts->rectangles);
+    if (status == FONT_OK)
+        status = low_set(edits, glyph, setting, size_px, *out);
+    free(setting);
     if (status != FONT_OK) {
         font_levels_destroy(*out);
         *out = NULL;
@@ -121,48 +239,93 @@ enum font_status font_edits_levels(const struct font_edits *edits, struct font_f
 }
 
 /* The outline that a glyph has by its lowest edit, and the same without steps. */
-static enum font_status outline_find(const struct font_edits *edits, uint32_t glyph, double em,
+static enum font_status outline_find(const struct form *form, double em,
                                      struct font_outline *exact, struct font_outline *rough)
 {
-    const struct edits_row *outline = edited_at(edits, glyph, FONT_EDITS_OUTLINE);
-    const struct edits_row *master = edited_at(edits, glyph, FONT_EDITS_MASTER);
-    const struct edits_row *parts = edited_at(edits, glyph, FONT_EDITS_RECTANGLES);
     struct font_master covered = {0};
-    const struct font_master *m = parts ? &covered : master ? &master->master : NULL;
+    const struct font_master *m = form->parts    ? &covered
+                                  : form->master ? &form->master->master
+                                                 : NULL;
     if (!m)
-        return font_outline_copy(&outline->outline, exact);
+        return font_outline_copy(&form->outline->outline, exact);
     enum font_status status =
-        parts ? font_rectangles_master(&parts->rectangles, &covered) : FONT_OK;
+        form->parts ? font_rectangles_master(&form->parts->rectangles, &covered) : FONT_OK;
     if (status == FONT_OK)
         status = font_master_outline(m, em, false, exact);
     if (status == FONT_OK)
         status = font_master_outline(m, em, true, rough);
-    if (status == FONT_OK && outline)
-        exact->advance = outline->outline.advance;
+    if (status == FONT_OK && form->outline)
+        exact->advance = form->outline->outline.advance;
     font_master_finish(&covered);
     return status;
 }
 
+/* The glyph's form in the row's setting, once, at the first of its rows. */
+static enum font_status form_apply(const struct font_edits *edits, const struct edits_row *row,
+                                   struct font_face *face)
+{
+    struct font_outline exact = {0}, rough = {0};
+    struct font_face_info info;
+    const struct form form = form_at(edits, row->edit.glyph, row->setting);
+    const struct edits_row *first = form.outline  ? form.outline
+                                    : form.master ? form.master
+                                                  : form.parts;
+    if (first != row)
+        return FONT_OK;
+    font_face_describe(face, &info);
+    enum font_status status = outline_find(&form, info.units_per_em, &exact, &rough);
+    if (status == FONT_OK)
+        status = font_face_outline_replace(face, row->edit.glyph, &exact,
+                                           rough.segments_count ? &rough : NULL,
+                                           row->setting != NULL);
+    font_outline_finish(&exact);
+    font_outline_finish(&rough);
+    return status;
+}
+
+static enum font_status row_apply(const struct font_edits *edits, const struct edits_row *row,
+                                  struct font_face *face)
+{
+    switch (row->edit.level) {
+    case FONT_EDITS_OUTLINE:
+    case FONT_EDITS_MASTER:
+    case FONT_EDITS_RECTANGLES:
+        return form_apply(edits, row, face);
+    case FONT_EDITS_FILTER:
+        return font_own_filter_set(face, row->edit.glyph, row->edit.from_px, row->edit.to_px,
+                                   row->words, row->setting != NULL);
+    case FONT_EDITS_GRAY:
+        return font_own_gray_set(face, row->edit.glyph, row->edit.from_px, &row->gray,
+                                 row->setting != NULL);
+    case FONT_EDITS_LEVELS:
+        break;
+    }
+    return FONT_OK;
+}
+
 enum font_status font_edits_apply(const struct font_edits *edits, struct font_face *face)
 {
-    enum font_status status = FONT_OK;
-    struct font_face_info info;
-    font_face_describe(face, &info);
+    char *own = NULL;
+    const char *now = NULL;
+    enum font_status status = edits_setting_of(face, &own);
+    if (status == FONT_BAD_ARGUMENT)
+        status = FONT_OK;
     for (int i = 0; i < edits->rows_count && status == FONT_OK; i++) {
         const struct edits_row *row = &edits->rows[i];
-        struct font_outline exact = {0}, rough = {0};
-        if (!row->edit.edited || font_face_is_replaced(face, row->edit.glyph))
-            continue; /* not, or with another of the glyph's rows */
+        if (!row->edit.edited)
+            continue;
         status = font_patience_ask(0);
+        if (status == FONT_OK && !edits_setting_same(row->setting, now)) {
+            status = edits_setting_set(face, row->setting ? row->setting : own);
+            now = row->setting;
+        }
         if (status == FONT_OK)
-            status = outline_find(edits, row->edit.glyph, info.units_per_em, &exact, &rough);
-        if (status == FONT_OK)
-            status = font_face_outline_replace(face, row->edit.glyph, &exact,
-                                               rough.segments_count ? &rough : NULL);
+            status = row_apply(edits, row, face);
         if (status != FONT_OK)
             status = font_fail(status, "%s/%s: %.300s", edits->folder, row->file, font_error());
-        font_outline_finish(&exact);
-        font_outline_finish(&rough);
     }
+    if (now && edits_setting_set(face, own) != FONT_OK && status == FONT_OK)
+        status = FONT_BAD_FILE;
+    free(own);
     return status;
 }

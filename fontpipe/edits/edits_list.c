@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const level_names[FONT_EDITS_LEVELS] = {"outline", "master", "rectangles"};
+static const char *const level_names[FONT_EDITS_LEVELS] = {"outline", "master", "rectangles",
+                                                           "filter", "gray"};
 
 const char *font_edits_level_name(enum font_edits_level level)
 {
@@ -23,6 +24,9 @@ void font_edits_destroy(struct font_edits *edits)
         font_outline_finish(&edits->rows[i].outline);
         font_master_finish(&edits->rows[i].master);
         font_rectangles_finish(&edits->rows[i].rectangles);
+        font_gray_finish(&edits->rows[i].gray);
+        free(edits->rows[i].words);
+        free(edits->rows[i].setting);
     }
     free(edits->rows);
     free(edits->folder);
@@ -60,6 +64,48 @@ static bool is_sum(const char *word, size_t digits)
     return strlen(word) == digits && strspn(word, "0123456789abcdef") == digits;
 }
 
+/* What follows a row's sum, by its level: a master's or a gray's place, a filter's sizes. */
+static bool numbers_take(struct edits_row *row, const char **at)
+{
+    struct font_edit *e = &row->edit;
+    bool good = true;
+    switch (e->level) {
+    case FONT_EDITS_MASTER:
+        good = edits_number(at, 1, FONT_MASTER_EM_MAX, &row->em_px);
+        break;
+    case FONT_EDITS_GRAY:
+        good = edits_size(at, 0.1, FONT_SIDE_MAX, &e->from_px);
+        e->to_px = e->from_px;
+        break;
+    case FONT_EDITS_FILTER:
+        good = edits_size(at, 0, FONT_SIDE_MAX, &e->from_px) &&
+               edits_size(at, 0, FONT_SIDE_MAX, &e->to_px) && e->from_px < e->to_px;
+        break;
+    case FONT_EDITS_OUTLINE:
+    case FONT_EDITS_RECTANGLES:
+    case FONT_EDITS_LEVELS:
+        break;
+    }
+    if (e->level == FONT_EDITS_MASTER || e->level == FONT_EDITS_GRAY)
+        good = good && edits_number(at, -EDITS_FAR, EDITS_FAR, &row->left_px) &&
+               edits_number(at, -EDITS_FAR, EDITS_FAR, &row->top_px);
+    return good;
+}
+
+/* The setting of axes that may end a row. */
+static bool setting_take(struct edits_row *row, const char **at, enum font_status *status)
+{
+    char setting[EDITS_SETTING_BYTES];
+    if (**at != '@')
+        return true;
+    if (!word_take(at, setting, sizeof setting))
+        return false;
+    row->setting = strdup(setting);
+    if (!row->setting)
+        *status = font_fail(FONT_NO_MEMORY, "no memory for edits");
+    return true;
+}
+
 static enum font_status row_take(struct font_edits *edits, const char *at, int line)
 {
     char level[16];
@@ -77,14 +123,14 @@ static enum font_status row_take(struct font_edits *edits, const char *at, int l
         kind++;
     good = good && kind < FONT_EDITS_LEVELS;
     row->edit.level = (enum font_edits_level)(good ? kind : 0);
-    if (good && kind == FONT_EDITS_MASTER)
-        good = edits_number(&at, 1, FONT_MASTER_EM_MAX, &row->em_px) &&
-               edits_number(&at, -EDITS_FAR, EDITS_FAR, &row->left_px) &&
-               edits_number(&at, -EDITS_FAR, EDITS_FAR, &row->top_px);
+    good = good && numbers_take(row, &at) && setting_take(row, &at, &status);
+    if (status != FONT_OK)
+        return status;
     if (!good || (*at && *at != '\n'))
         return font_fail(FONT_BAD_FILE,
                          "%s/edits.txt:%d: a row is a glyph, a level, its file and a sum or -, "
-                         "of a master also em, left and top",
+                         "of a master also em, left and top, of gray size, left and top, of a "
+                         "filter the sizes from and to, and perhaps @ with axes",
                          edits->folder, line);
     if (!edits_file_is_plain(row->file))
         return font_fail(FONT_BAD_FILE,
@@ -190,6 +236,12 @@ enum font_status edits_list_write(const struct font_edits *edits)
                 row->sum);
         if (row->edit.level == FONT_EDITS_MASTER)
             fprintf(out.stream, " %d %d %d", row->em_px, row->left_px, row->top_px);
+        if (row->edit.level == FONT_EDITS_GRAY)
+            fprintf(out.stream, " %.9g %d %d", row->edit.from_px, row->left_px, row->top_px);
+        if (row->edit.level == FONT_EDITS_FILTER)
+            fprintf(out.stream, " %.9g %.9g", row->edit.from_px, row->edit.to_px);
+        if (row->setting)
+            fprintf(out.stream, " %s", row->setting);
         fputc('\n', out.stream);
     }
     if (!output_file_commit(&out))

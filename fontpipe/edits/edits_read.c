@@ -35,7 +35,8 @@ static size_t row_bytes(const struct edits_row *row)
     const struct font_master *m = &row->master;
     return (size_t)row->outline.segments_count * sizeof *row->outline.segments +
            (size_t)m->row_words * (size_t)m->height_px * sizeof *m->bits +
-           (size_t)row->rectangles.count * sizeof *row->rectangles.items;
+           (size_t)row->rectangles.count * sizeof *row->rectangles.items +
+           row->gray.memory_bytes + (row->words ? strlen(row->words) : 0);
 }
 
 enum font_status edits_row_read(struct font_edits *edits, struct edits_row *row,
@@ -57,7 +58,8 @@ enum font_status edits_row_read(struct font_edits *edits, struct edits_row *row,
         }
     }
     if (status == FONT_OK && row->edit.edited) {
-        (void)font_face_advance(face, row->edit.glyph, &advance);
+        if (row->edit.glyph != FONT_EVERY_GLYPH)
+            (void)font_face_advance(face, row->edit.glyph, &advance);
         switch (row->edit.level) {
         case FONT_EDITS_OUTLINE:
             status = outline_take(row, path, bytes, count, advance, info.units_per_em);
@@ -70,6 +72,12 @@ enum font_status edits_row_read(struct font_edits *edits, struct edits_row *row,
                          ? edits_rectangles_read(path, bytes, info.units_per_em, advance,
                                                  &row->rectangles)
                          : font_fail(FONT_BAD_FILE, "%s is no text", path);
+            break;
+        case FONT_EDITS_FILTER:
+            status = edits_filter_read(row, path, bytes, count);
+            break;
+        case FONT_EDITS_GRAY:
+            status = edits_gray_read(row, path);
             break;
         case FONT_EDITS_LEVELS:
             break;

@@ -90,6 +90,20 @@ bool edits_number(const char **at, int least, int most, int *value)
     return true;
 }
 
+bool edits_size(const char **at, double least, double most, double *value)
+{
+    char *end;
+    const char *from = *at + strspn(*at, " \t");
+    if (!strchr("0123456789.", *from) || !*from)
+        return false;
+    double number = strtod(from, &end);
+    if (end == from || !memchr(" \t\r\n", *end, 5) || !(number >= least && number <= most))
+        return false;
+    *value = number;
+    *at = end + strspn(end, " \t\r");
+    return true;
+}
+
 enum font_status edits_rectangles_read(const char *path, const char *text, double em_units,
                                        double advance, struct font_rectangles *out)
 {

@@ -18,7 +18,7 @@ struct edits_out {
 };
 
 static const char *const endings[FONT_EDITS_LEVELS][2] = {
-    {".svg", ".glif"}, {".png", NULL}, {".txt", NULL}};
+    {".svg", ".glif"}, {".png", NULL}, {".txt", NULL}, {".txt", NULL}, {".png", NULL}};
 
 const char *font_edits_ending(enum font_edits_level level, int i)
 {
@@ -158,6 +158,16 @@ static bool is_picture(const char *path, const struct display_image *image)
     return same;
 }
 
+static enum font_status picture_write(const struct edits_out *to,
+                                      const struct display_image *image)
+{
+    if (to->stray && !is_picture(to->path, image))
+        return refuse(to->path);
+    return display_png_write(to->path, image) == DISPLAY_OK
+               ? FONT_OK
+               : font_fail(FONT_BAD_FILE, "%s", display_error());
+}
+
 /* With a margin for ink that goes beyond the letter. */
 static enum font_status master_write(const struct edits_out *to, struct font_levels *levels,
                                      struct edits_row *row)
@@ -173,15 +183,57 @@ static enum font_status master_write(const struct edits_out *to, struct font_lev
     if (display_image_create(&image) != DISPLAY_OK)
         return font_fail(FONT_NO_MEMORY, "%s", display_error());
     font_master_to_picture(m, margin, image.pixels);
-    if (to->stray && !is_picture(to->path, &image))
-        status = refuse(to->path);
-    else if (display_png_write(to->path, &image) != DISPLAY_OK)
-        status = font_fail(FONT_BAD_FILE, "%s", display_error());
+    status = picture_write(to, &image);
     display_image_destroy(&image);
     row->em_px = m->em_px;
     row->left_px = m->left_px - margin;
     row->top_px = m->top_px - margin;
     return status;
+}
+
+static enum font_status gray_write(const struct edits_out *to, struct font_levels *levels,
+                                   struct edits_row *row)
+{
+    struct display_image image = {0};
+    enum font_status status = edits_gray_picture(levels, row, &image);
+    if (status == FONT_OK)
+        status = picture_write(to, &image);
+    display_image_destroy(&image);
+    return status;
+}
+
+static enum font_status filter_write(const struct edits_out *to,
+                                     const struct font_levels *levels)
+{
+    char *text = NULL;
+    size_t count = 0;
+    enum font_status status = edits_filter_text(font_levels_filter(levels), &text, &count);
+    if (status == FONT_OK)
+        status = text_write(to, text, count);
+    free(text);
+    return status;
+}
+
+/* The level of a row to its file. */
+static enum font_status level_write(const struct edits_out *to, struct font_face *face,
+                                    struct edits_row *row, const char *ending,
+                                    struct font_levels *levels)
+{
+    switch (row->edit.level) {
+    case FONT_EDITS_OUTLINE:
+        return outline_write(to, face, row->edit.glyph, ending);
+    case FONT_EDITS_MASTER:
+        return master_write(to, levels, row);
+    case FONT_EDITS_RECTANGLES:
+        return rectangles_write(to, levels);
+    case FONT_EDITS_FILTER:
+        return filter_write(to, levels);
+    case FONT_EDITS_GRAY:
+        return gray_write(to, levels, row);
+    case FONT_EDITS_LEVELS:
+        break;
+    }
+    return FONT_OK;
 }
 
 /* ---- rows ---- */
@@ -212,13 +264,15 @@ static enum font_status list_begin(const char *folder, struct font_face *face,
         if (status != FONT_OK)
             return status;
         const struct edits_row *from = &edits->rows[i];
-        row->edit = from->edit;
-        memcpy(row->name, from->name, sizeof row->name);
-        memcpy(row->file, from->file, sizeof row->file);
-        memcpy(row->sum, from->sum, sizeof row->sum);
-        row->em_px = from->em_px;
-        row->left_px = from->left_px;
-        row->top_px = from->top_px;
+        *row = *from; /* without what it owns */
+        row->outline = (struct font_outline){0};
+        row->master = (struct font_master){0};
+        row->rectangles = (struct font_rectangles){0};
+        row->gray = (struct font_gray){0};
+        row->words = NULL;
+        row->setting = from->setting ? strdup(from->setting) : NULL;
+        if (from->setting && !row->setting)
+            return font_fail(FONT_NO_MEMORY, "no memory for edits");
     }
     if (!edits && mkdir(folder, 0777) != 0 && errno != EEXIST)
         return font_fail(FONT_BAD_FILE, "%s: cannot make this folder: %s", folder,
@@ -226,15 +280,57 @@ static enum font_status list_begin(const char *folder, struct font_face *face,
     return FONT_OK;
 }
 
-/* The glyph's row of that level, or a new one. */
+/* A file's name: the glyph's, and of filters and gray what they are, their sizes, and the axes. */
+static void file_name(struct edits_row *row, const char *ending)
+{
+    char more[EDITS_SETTING_BYTES + 80] = "";
+    size_t used = 0;
+    const struct font_edit *e = &row->edit;
+    const char *name = e->glyph == FONT_EVERY_GLYPH ? "all" : row->name;
+    if (e->level == FONT_EDITS_FILTER)
+        used += (size_t)snprintf(more, sizeof more, "-filter");
+    if (e->level == FONT_EDITS_GRAY)
+        used += (size_t)snprintf(more, sizeof more, "-%.9g", e->from_px);
+    else if (e->level == FONT_EDITS_FILTER && (e->from_px > 0 || e->to_px < FONT_SIDE_MAX))
+        used += (size_t)snprintf(more + used, sizeof more - used, "-%.9g-%.9g", e->from_px,
+                                 e->to_px);
+    for (const char *at = row->setting ? row->setting : ""; *at && used + 1 < sizeof more; at++)
+        if (*at != '=') /* @wght=700,wdth=80: -wght700-wdth80 */
+            more[used++] = *at == '@' || *at == ',' ? '-' : *at;
+    more[used] = '\0';
+    int n = snprintf(row->file, sizeof row->file, "%s%s%s", name, more, ending);
+    if (n < 0 || n >= (int)sizeof row->file || !edits_file_is_plain(row->file))
+        snprintf(row->file, sizeof row->file, "glyph%u%.60s%s", (unsigned)e->glyph, more,
+                 ending);
+    if (!edits_file_is_plain(row->file))
+        snprintf(row->file, sizeof row->file, "glyph%u%s", (unsigned)e->glyph, ending);
+}
+
+/* A name that no other row has. */
+static void file_choose(const struct font_edits *list, struct edits_row *row,
+                        const char *ending)
+{
+    enum { STEM_MAX = 120 };
+    char wanted[FONT_EDITS_FILE_BYTES];
+    file_name(row, ending);
+    memcpy(wanted, row->file, sizeof wanted);
+    size_t stem = strlen(wanted) - strlen(ending);
+    for (int number = 2, i = 0; i < list->rows_count; i++)
+        if (&list->rows[i] != row && strcmp(list->rows[i].file, row->file) == 0) {
+            snprintf(row->file, sizeof row->file, "%.*s-%d%s",
+                     (int)(stem < STEM_MAX ? stem : STEM_MAX), wanted, number++, ending);
+            i = -1;
+        }
+}
+
+/* The row of what is written, or a new one. */
 static enum font_status row_find(struct font_edits *list, struct font_face *face,
-                                 uint32_t glyph, enum font_edits_level level,
-                                 const char *ending, struct edits_row **out,
-                                 struct edits_out *to)
+                                 const struct edits_row *wanted, const char *ending,
+                                 struct edits_row **out, struct edits_out *to)
 {
     for (int i = 0; i < list->rows_count; i++) {
         struct edits_row *row = &list->rows[i];
-        if (row->edit.glyph != glyph || row->edit.level != level)
+        if (!edits_row_same(row, wanted))
             continue;
         if (row->edit.edited)
             return font_fail(
@@ -251,12 +347,17 @@ static enum font_status row_find(struct font_edits *list, struct font_face *face
     bool written = row->file[0] != '\0';
     char former[FONT_EDITS_FILE_BYTES];
     memcpy(former, row->file, sizeof former);
-    row->edit.glyph = glyph;
-    row->edit.level = level;
-    font_face_glyph_name(face, glyph, row->name);
-    snprintf(row->file, sizeof row->file, "%s%s", row->name, ending);
-    if (!edits_file_is_plain(row->file))
-        snprintf(row->file, sizeof row->file, "glyph%u%s", (unsigned)glyph, ending);
+    if (!written) {
+        row->edit = wanted->edit;
+        row->setting = wanted->setting ? strdup(wanted->setting) : NULL;
+        if (wanted->setting && !row->setting)
+            return font_fail(FONT_NO_MEMORY, "no memory for edits");
+    }
+    if (wanted->edit.glyph == FONT_EVERY_GLYPH)
+        snprintf(row->name, sizeof row->name, "*");
+    else
+        font_face_glyph_name(face, wanted->edit.glyph, row->name);
+    file_choose(list, row, ending);
     struct stat about;
     to->folder = list->folder;
     to->file = row->file;
@@ -267,33 +368,55 @@ static enum font_status row_find(struct font_edits *list, struct font_face *face
     return FONT_OK;
 }
 
+/* A row that says what is written. */
+static enum font_status wanted_make(const struct font_face *face,
+                                    const struct font_edits_out *what,
+                                    const struct font_levels *levels, struct edits_row *row)
+{
+    *row = (struct edits_row){.edit = {.glyph = what->glyph, .level = what->level}};
+    if (what->level == FONT_EDITS_GRAY)
+        row->edit.from_px = row->edit.to_px = font_levels_size(levels);
+    if (what->level == FONT_EDITS_FILTER) {
+        row->edit.from_px = what->from_px;
+        row->edit.to_px = what->to_px > 0 ? what->to_px : FONT_SIDE_MAX;
+    }
+    if (what->glyph == FONT_EVERY_GLYPH && what->level != FONT_EDITS_FILTER)
+        return font_fail(FONT_BAD_ARGUMENT, "the level %s is one glyph's",
+                         font_edits_level_name(what->level));
+    return what->here ? edits_setting_of(face, &row->setting) : FONT_OK;
+}
+
 enum font_status font_edits_write(const char *folder, const struct font_edits *edits,
-                                  struct font_face *face, uint32_t glyph,
-                                  enum font_edits_level level, const char *ending,
+                                  struct font_face *face, const struct font_edits_out *what,
                                   struct font_levels *levels, char room[FONT_EDITS_FILE_BYTES])
 {
-    struct font_edits list;
-    struct edits_row *row = NULL;
+    struct font_edits list = {0};
+    struct edits_row *row = NULL, wanted;
     struct edits_out to = {0};
     char *bytes = NULL;
     size_t count;
-    enum font_status status = list_begin(folder, face, edits, &list);
-    ending = ending ? ending : endings[level][0];
+    const char *ending = what->ending ? what->ending : endings[what->level][0];
+    enum font_status status = wanted_make(face, what, levels, &wanted);
     if (status == FONT_OK)
-        status = row_find(&list, face, glyph, level, ending, &row, &to);
+        status = list_begin(folder, face, edits, &list);
     if (status == FONT_OK)
-        status = level == FONT_EDITS_OUTLINE  ? outline_write(&to, face, glyph, ending)
-                 : level == FONT_EDITS_MASTER ? master_write(&to, levels, row)
-                                              : rectangles_write(&to, levels);
+        status = row_find(&list, face, &wanted, ending, &row, &to);
+    if (status == FONT_OK)
+        status = level_write(&to, face, row, ending, levels);
     if (status == FONT_OK)
         status = edits_file_read(folder, row->file, &bytes, &count);
     if (status == FONT_OK) {
         edits_sum(bytes, count, EDITS_SUM, row->sum);
+        if (what->level == FONT_EDITS_FILTER)
+            snprintf(row->sum, sizeof row->sum, "-"); /* it counts as it is */
         snprintf(room, FONT_EDITS_FILE_BYTES, "%s", row->file);
         status = edits_list_write(&list);
     }
     free(bytes);
     free(to.path);
+    free(wanted.setting);
+    for (int i = 0; i < list.rows_count; i++)
+        free(list.rows[i].setting);
     free(list.rows);
     free(list.folder);
     return status;

@@ -162,17 +162,21 @@ static int levels_edit(const struct font_verb *v, struct font_levels *levels)
     return EXIT_SUCCESS;
 }
 
-/* Writes out the level that was asked for, and notes it in the folder. */
-static int level_write(const struct font_verb *v, struct font_face *face, uint32_t glyph,
-                       const struct font_edits *edits, struct font_levels *levels)
+int font_level_write(const struct font_verb *v, struct font_face *face, uint32_t glyph,
+                     const struct font_edits *edits, struct font_levels *levels)
 {
     char file[FONT_EDITS_FILE_BYTES];
-    enum font_edits_level level = FONT_EDITS_OUTLINE;
-    const char *ending = strcmp(v->write, "glif") == 0 ? ".glif" : NULL;
-    while (!ending && level < FONT_EDITS_LEVELS &&
-           strcmp(v->write, font_edits_level_name(level)) != 0)
-        level++;
-    if (font_edits_write(v->edits, edits, face, glyph, level, ending, levels, file) != FONT_OK)
+    struct font_edits_out out = {.glyph = glyph,
+                                 .ending = strcmp(v->write, "glif") == 0 ? ".glif" : NULL,
+                                 .here = v->axes != NULL,
+                                 .from_px = v->sizes[0],
+                                 .to_px = v->sizes[1]};
+    while (!out.ending && out.level < FONT_EDITS_LEVELS &&
+           strcmp(v->write, font_edits_level_name(out.level)) != 0)
+        out.level++;
+    if (out.level == FONT_EDITS_FILTER && font_levels_filter_set(levels, v->filter) != FONT_OK)
+        return fail_font("font");
+    if (font_edits_write(v->edits, edits, face, &out, levels, file) != FONT_OK)
         return fail_font("font");
     visible_print("written: %s/%s\n", v->edits, file);
     return EXIT_SUCCESS;
@@ -194,7 +198,7 @@ int font_levels_show(const struct font_verb *v, struct font_face *face,
         FONT_OK)
         status = fail_font("font");
     if (status == EXIT_SUCCESS && v->write)
-        status = level_write(v, face, glyph, edits, levels);
+        status = font_level_write(v, face, glyph, edits, levels);
     if (status == EXIT_SUCCESS)
         status = levels_edit(v, levels);
     if (status == EXIT_SUCCESS)

@@ -132,18 +132,22 @@ const struct page pages_of_pictures[] = {
          "them, and so does whoever is given "
          "the "
          "folder as a font. What lies below an edited level is made from it; a file that is as "
-         "it was written changes nothing.",
+         "it was written changes nothing, but a filter counts at once. With --axes a level is "
+         "written for that setting of the axes.",
      .notes = FONTS
      "\n" FILTERS "\nThe folder's edits.txt lists the files. Outlines are SVG in font units, y "
      "downwards, of paths alone; or UFO's glif. Masters are black and white PNG; "
      "rectangles a text, x0 y0 x1 y1 in master pixels.",
      .values = {{.option = "filter", .list = font_filter_names},
-                {.option = "write", .words = "outline, glif, master, rectangles"}},
+                {.option = "write",
+                 .words = "outline, glif, master, rectangles, filter, gray"}},
      .examples =
          {{"lutetia font DejaVuSans -o specimen.png", "a specimen"},
           {"lutetia font DejaVuSans --glyph '&' -o levels.png", "one glyph at each level"},
           {"lutetia font EBGaramond12-Regular --glyph f_f_i --edits mine --write outline",
            "the ligature's outline, to be drawn anew in a program for SVG"},
+          {"lutetia font DejaVuSans --edits mine --write filter --filter cone --sizes 0,14",
+           "small type by another filter"},
           {"lutetia font --show-filter --filter gaussian-fast -o filter.png", "a filter"}},
      .see = "lutetia-type(1), lutetia-set(1), fc-list(1)"},
     {.verb = "spring",

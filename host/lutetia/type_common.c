@@ -178,22 +178,7 @@ int type_filter_read(const char *verb, const char *name, char **out)
         return file ? fail(verb, "%s: a filter's file has up to %d bytes", name + 1, BYTES_MAX)
                     : fail(verb, "%s: %s", name + 1, why);
     }
-    /* Joins words, separated by anything, to one line with commas; no comma after
-     * "samples:". */
-    size_t length = 0;
-    bool gap = false;
-    for (size_t i = 0; i < count; i++) {
-        char c = (*out)[i];
-        if (c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == ',' || c == '\0') {
-            gap = length > 0;
-            continue;
-        }
-        if (gap && (*out)[length - 1] != ':')
-            (*out)[length++] = ',';
-        gap = false;
-        (*out)[length++] = c;
-    }
-    (*out)[length] = '\0';
+    font_filter_words(*out, count, *out); /* it gets shorter, if anything */
     return EXIT_SUCCESS;
 }
 

@@ -5,12 +5,34 @@
 #include "options.h"
 #include "type_common.h"
 
+#include <own.h>
 #include <visible_text.h>
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* What is written, and where. */
+static int write_check(const struct font_verb *v)
+{
+    static const char *const levels[] = {"outline", "glif", "master", "rectangles",
+                                         "filter",  "gray", NULL};
+    const bool filter = v->write && strcmp(v->write, "filter") == 0;
+    int i = 0;
+    if (v->write && (!(v->glyph || filter) || !v->edits))
+        return fail_usage("font", "--write wants a --glyph, and --edits to write to");
+    while (v->write && levels[i] && strcmp(v->write, levels[i]) != 0)
+        i++;
+    if (v->write && !levels[i])
+        return fail_usage("font",
+                          "--write must be outline, glif, master, rectangles, filter or gray "
+                          "(got '%.60s')",
+                          v->write);
+    if (v->sizes[1] > 0 && (!filter || !(v->sizes[0] < v->sizes[1])))
+        return fail_usage("font", "--sizes are for --write filter, from the least to the most");
+    return EXIT_SUCCESS;
+}
 
 static int font_options(struct font_verb *v, int argc, char **argv, bool *help)
 {
@@ -36,8 +58,13 @@ static int font_options(struct font_verb *v, int argc, char **argv, bool *help)
          "show the font with the edits in this folder, and say what they are", &v->edits, 0, 0,
          0},
         {"write", 0, OPTION_TEXT, "LEVEL",
-         "write the glyph's outline, glif, master or rectangles to --edits, to be edited",
+         "write the glyph's outline, glif, master, rectangles, filter or gray to --edits, to "
+         "be "
+         "edited; without --glyph a filter for all glyphs",
          &v->write, 0, 0, 0},
+        {"sizes", 0, OPTION_NUMBERS, "PX,PX",
+         "the sizes that a filter is written for, up to the second (all)", v->sizes, 0,
+         FONT_SIDE_MAX, 2},
         {"merge", 0, OPTION_INTEGER, "N",
          "join rectangles whose sides differ by up to N pixels", &v->merge, 1, 4096, 0},
         {"filter", 0, OPTION_TEXT, "F", "the filter's name (gaussian-fast)", &v->filter, 0, 0,
@@ -56,18 +83,11 @@ static int font_options(struct font_verb *v, int argc, char **argv, bool *help)
     v->file = words.count ? words.words[0] : NULL;
     if (!v->glyph && (v->master_in || v->master_out || v->merge))
         return fail_usage("font", "--master, --master-out and --merge want a --glyph");
-    if (v->write && (!v->glyph || !v->edits))
-        return fail_usage("font", "--write wants a --glyph, and --edits to write to");
-    if (v->write && strcmp(v->write, "outline") != 0 && strcmp(v->write, "glif") != 0 &&
-        strcmp(v->write, "master") != 0 && strcmp(v->write, "rectangles") != 0)
-        return fail_usage("font",
-                          "--write must be outline, glif, master or rectangles (got '%.60s')",
-                          v->write);
     if (v->edits && v->show_filter)
         return fail_usage("font", "--edits goes without --show-filter");
     if (!v->file && !v->show_filter)
         return fail_usage("font", "give a font file, a font file's name or a family");
-    return EXIT_SUCCESS;
+    return write_check(v);
 }
 
 /* ---- the specimen ---- */
@@ -284,11 +304,34 @@ static void edits_print(const struct font_edits *edits)
 {
     for (int i = 0; i < font_edits_count(edits); i++) {
         struct font_edit e = font_edits_at(edits, i);
-        visible_print("%s of %s: %s, %s\n", font_edits_level_name(e.level), e.name, e.file,
+        char sizes[64] = "";
+        if (e.level == FONT_EDITS_GRAY)
+            snprintf(sizes, sizeof sizes, " at %g px", e.from_px);
+        if (e.level == FONT_EDITS_FILTER && e.to_px < FONT_SIDE_MAX)
+            snprintf(sizes, sizeof sizes, " for %g to %g px", e.from_px, e.to_px);
+        visible_print("%s of %s%s%s%s: %s, %s\n", font_edits_level_name(e.level), e.name, sizes,
+                      *e.setting ? " where " : "", *e.setting ? e.setting + 1 : "", e.file,
                       e.edited ? "edited" : "as it was written");
     }
     if (font_edits_changed(edits))
         tell("font", "%s", font_edits_changed(edits));
+}
+
+/* A filter for every glyph, and the edits as they are then. */
+static int filter_write(const struct font_verb *v, struct font_face *face,
+                        struct font_edits **edits)
+{
+    struct font_levels *levels;
+    const struct font_outline none = {.units_per_em = 1000};
+    if (font_levels_create(&none, v->em_px, v->size_px, v->filter, &levels) != FONT_OK)
+        return fail_font("font");
+    int status = font_level_write(v, face, FONT_EVERY_GLYPH, *edits, levels);
+    font_levels_destroy(levels);
+    font_edits_destroy(*edits);
+    *edits = NULL;
+    if (status == EXIT_SUCCESS && font_edits_read(v->edits, face, edits) != FONT_OK)
+        status = fail_font("font");
+    return status;
 }
 
 /* The picture that was asked for, of the font with its edits. A folder that is to be written to need not be there. */
@@ -301,12 +344,12 @@ static int picture_make(const struct font_verb *v, struct font_face *face)
     face_print(face);
     if (edits)
         edits_print(edits);
-    int status = EXIT_SUCCESS;
-    if (v->glyph)
+    int status = v->write && !v->glyph ? filter_write(v, face, &edits) : EXIT_SUCCESS;
+    if (status == EXIT_SUCCESS && v->glyph)
         status = font_levels_show(v, face, edits);
-    else if (edits && font_edits_apply(edits, face) != FONT_OK)
+    else if (status == EXIT_SUCCESS && edits && font_edits_apply(edits, face) != FONT_OK)
         status = fail_font("font");
-    else
+    else if (status == EXIT_SUCCESS)
         status = specimen_make(v, face);
     font_edits_destroy(edits);
     return status;

@@ -1,19 +1,21 @@
 /* fuzz_edits.c - folders of edits whose files were changed by chance: each is read and drawn with, or refused in one line.
  * LUTETIA_EDITS_FOLDERS: how many. */
-#include "support.h"
+#include "edits_support.h"
 
-#include "../display/scratch.h"
+#include "made_font.h"
 
 #include <display.h>
-#include <edits.h>
+#include <own.h>
 #include <paint.h>
 
 #include <stdlib.h>
 #include <string.h>
 
-enum { FILES = 5, BYTES = 1 << 16 };
+enum { FILES = 8, BYTES = 1 << 16 };
 
-static const char *const names[FILES] = {"edits.txt", "A.svg", "B.glif", "C.txt", "D.png"};
+static const char *const names[FILES] = {
+    "edits.txt",          "A.svg",        "B.glif", "C.txt", "D.png", "E-14.png",
+    "F-filter-10-20.txt", "A-wdth105.svg"};
 
 struct file {
     uint8_t bytes[BYTES];
@@ -43,8 +45,9 @@ static void read_file(const char *folder, const char *name, struct file *file)
 /* Bytes are others, are gone, or are there twice; or a number is another. */
 static void damage(struct file *file, uint32_t *seed)
 {
-    static const char *const words[] = {"99999999", "-1", "1e300", "nan", "/../", "<", "Z",
-                                        "'",        "#",  "\n",    " ",   "M",    "0"};
+    static const char *const words[] = {"99999999", "-1", "1e300",    "nan", "/../", "<",
+                                        "Z",        "'",  "#",        "\n",  " ",    "M",
+                                        "0",        "@",  "wdth=105", ",",   ":",    "-"};
     int times = 1 + (int)random_below(seed, 4);
     while (times--) {
         size_t at = random_below(seed, (uint32_t)file->count + 1), left = file->count - at;
@@ -75,27 +78,45 @@ static void damage(struct file *file, uint32_t *seed)
     }
 }
 
+/* DejaVu Sans with an axis wdth, as a file in the folder. */
+static struct font_face *wide_open(const char *folder)
+{
+    struct font_face *plain = face_open("DejaVuSans");
+    size_t count, made_count;
+    const uint8_t *bytes = font_face_bytes(plain, &count);
+    uint8_t *made = made_wide(bytes, count, &made_count);
+    char path[600];
+    snprintf(path, sizeof path, "%s/wide.ttf", folder);
+    FILE *f = fopen(path, "wb");
+    assert_non_null(f);
+    assert_int_equal(fwrite(made, 1, made_count, f), made_count);
+    assert_int_equal(fclose(f), 0);
+    free(made);
+    font_face_close(plain);
+    return face_open(path);
+}
+
 /* A folder with one edit of each kind, none of them as it was written. */
 static const char *folder_make(void)
 {
     const char *folder = scratch_path("edits");
-    struct font_face *face = face_open("DejaVuSans");
-    static const char *const endings[] = {".svg", ".glif", ".txt", ".png"};
-    static const enum font_edits_level levels[] = {FONT_EDITS_OUTLINE, FONT_EDITS_OUTLINE,
-                                                   FONT_EDITS_RECTANGLES, FONT_EDITS_MASTER};
-    for (int i = 0; i < 4; i++) {
-        struct font_edits *edits = NULL;
-        struct font_levels *made;
+    assert_int_equal(mkdir(folder, 0777), 0);
+    struct font_face *face = wide_open(folder);
+    const struct font_edits_out what[FILES - 1] = {
+        {.glyph = 'A', .ending = ".svg"},
+        {.glyph = 'B', .ending = ".glif"},
+        {.glyph = 'C', .level = FONT_EDITS_RECTANGLES},
+        {.glyph = 'D', .level = FONT_EDITS_MASTER},
+        {.glyph = 'E', .level = FONT_EDITS_GRAY},
+        {.glyph = 'F', .level = FONT_EDITS_FILTER, .from_px = 10, .to_px = 20},
+        {.glyph = 'A', .here = true}};
+    for (int i = 0; i < FILES - 1; i++) {
         char file[FONT_EDITS_FILE_BYTES];
-        uint32_t glyph = font_face_glyph(face, (uint32_t)('A' + i));
-        if (i)
-            assert_font(font_edits_read(folder, face, &edits));
-        assert_font(font_edits_levels(edits, face, glyph, 40, 12, "box", &made));
-        assert_font(
-            font_edits_write(folder, edits, face, glyph, levels[i], endings[i], made, file));
+        struct font_edits_out out = what[i];
+        out.glyph = font_face_glyph(face, out.glyph);
+        assert_font(font_face_axis_set(face, "wdth", out.here ? 105 : 100));
+        level_out(folder, face, &out, 40, 14, "box", file);
         assert_string_equal(file, names[i + 1]);
-        font_levels_destroy(made);
-        font_edits_destroy(edits);
     }
     font_face_close(face);
     static struct file list;
@@ -104,7 +125,8 @@ static const char *folder_make(void)
     for (int i = 1; i < FILES; i++) { /* a sum that no file has */
         char *row = strstr(rows, names[i]);
         assert_non_null(row);
-        memset(row + strlen(names[i]) + 1, '0', 16);
+        if (row[strlen(names[i]) + 1] != '-')
+            memset(row + strlen(names[i]) + 1, '0', 16);
     }
     write_file(folder, "edits.txt", &list);
     return folder;
@@ -126,8 +148,12 @@ static bool drawn_with(const char *folder)
     static uint8_t gray[100 * 40];
     struct font_cover cover = {100, 40, 100, gray};
     assert_font(font_painter_create(&def, &painter));
-    assert_font(font_shaper_layout(shaper, "ABCD", 4, 14, NULL, &layout));
+    assert_font(font_shaper_layout(shaper, "ABCDEF", 6, 14, NULL, &layout));
     (void)font_painter_cover(painter, &layout, NULL, 5, 30, &cover); /* or one line */
+    font_layout_finish(&layout);
+    assert_font(font_face_axis_set(face, "wdth", 105));
+    assert_font(font_shaper_layout(shaper, "ABCDEF", 6, 14, NULL, &layout));
+    (void)font_painter_cover(painter, &layout, NULL, 5, 30, &cover);
     font_layout_finish(&layout);
     font_painter_destroy(painter);
     font_shaper_destroy(shaper);

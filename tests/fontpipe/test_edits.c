@@ -2,8 +2,7 @@
  *
  * The oracles count: a master's pixels within a pixel of the picture are its gray, and a ray through a pixel's middle tells whether an outline
  * covers it. */
-#include "../display/scratch.h"
-#include "support.h"
+#include "edits_support.h"
 
 #include <display.h>
 #include <edits.h>
@@ -14,47 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-
-static void put_text(const char *folder, const char *file, const char *text)
-{
-    char path[600];
-    snprintf(path, sizeof path, "%s/%s", folder, file);
-    FILE *f = fopen(path, "wb");
-    assert_non_null(f);
-    fputs(text, f);
-    assert_int_equal(fclose(f), 0);
-}
-
-static char *text_of(const char *folder, const char *file, char *room, size_t bytes)
-{
-    char path[600];
-    snprintf(path, sizeof path, "%s/%s", folder, file);
-    FILE *f = fopen(path, "rb");
-    assert_non_null(f);
-    room[fread(room, 1, bytes - 1, f)] = '\0';
-    fclose(f);
-    return room;
-}
-
-/* A folder of that name with a level of a glyph of DejaVu Sans written out. */
-static const char *folder_with(const char *name, const char *glyph, enum font_edits_level level,
-                               const char *ending, int em_px, char file[FONT_EDITS_FILE_BYTES])
-{
-    const char *folder = scratch_path(name);
-    struct font_face *face = face_open("DejaVuSans");
-    struct font_edits *edits = NULL;
-    struct font_levels *levels;
-    uint32_t index;
-    if (font_edits_is(folder))
-        assert_font(font_edits_read(folder, face, &edits));
-    assert_font(font_face_glyph_named(face, glyph, &index));
-    assert_font(font_edits_levels(edits, face, index, em_px, 12, "box", &levels));
-    assert_font(font_edits_write(folder, edits, face, index, level, ending, levels, file));
-    font_levels_destroy(levels);
-    font_edits_destroy(edits);
-    font_face_close(face);
-    return folder;
-}
 
 /* ---- oracles ---- */
 
@@ -545,7 +503,9 @@ static void strangers_files_stay(void **state)
         uint32_t glyph = font_face_glyph(face, 'A');
         assert_font(font_edits_levels(NULL, face, glyph, 64, 12, "box", &made));
         assert_int_equal(
-            font_edits_write(folder, NULL, face, glyph, levels[i], NULL, made, file),
+            font_edits_write(folder, NULL, face,
+                             &(struct font_edits_out){.glyph = glyph, .level = levels[i]}, made,
+                             file),
             FONT_BAD_ARGUMENT);
         assert_non_null(strstr(font_error(), "is there already"));
         char text[16];
@@ -569,9 +529,11 @@ static void what_was_edited_is_not_written_over(void **state)
     assert_font(font_edits_read(folder, face, &edits));
     assert_font(
         font_edits_levels(edits, face, font_face_glyph(face, 'A'), 64, 12, "box", &levels));
-    assert_int_equal(font_edits_write(folder, edits, face, font_face_glyph(face, 'A'),
-                                      FONT_EDITS_OUTLINE, NULL, levels, file),
-                     FONT_BAD_ARGUMENT);
+    assert_int_equal(
+        font_edits_write(folder, edits, face,
+                         &(struct font_edits_out){.glyph = font_face_glyph(face, 'A')}, levels,
+                         file),
+        FONT_BAD_ARGUMENT);
     assert_non_null(strstr(font_error(), "was edited"));
     font_levels_destroy(levels);
     font_edits_destroy(edits);

@@ -266,7 +266,7 @@ static void wrong_lines_are_said(void **state)
         {{"font", "DejaVuSans", "--glyph", "ab"}, 2, "no glyph 'ab'"},
         {{"font", "DejaVuSans", "--glyph", "#99999"}, 1, "no #99999"},
         {{"font", "DejaVuSans", "--write", "master"}, 2, "wants a --glyph"},
-        {{"font", "DejaVuSans", "--glyph", "a", "--edits", "x", "--write", "gray"},
+        {{"font", "DejaVuSans", "--glyph", "a", "--edits", "x", "--write", "paint"},
          2,
          "--write must be"},
         {{"font", "DejaVuSans", "--edits", "/nowhere"}, 1, "/nowhere/edits.txt"},
