@@ -25,6 +25,7 @@ int bench_interpreter_main(int argc, char **argv);
 int bench_families_main(int argc, char **argv);
 int bench_memory_main(int argc, char **argv);
 int bench_start_main(int argc, char **argv);
+int bench_display_main(int argc, char **argv);
 int bench_model_main(int argc, char **argv);
 
 #endif

@@ -41,6 +41,8 @@ static const struct {
     {"midi", bench_midi_main, "a note from an instrument to sixteen programs"},
     {"start", bench_start_main,
      "the first picture, from the command, with warm caches and empty ones"},
+    {"display", bench_display_main,
+     "60 pictures a second on the frame buffer, beside the same program without"},
 };
 
 enum { BENCHES_COUNT = sizeof benches / sizeof *benches, EXIT_USAGE = 2 };

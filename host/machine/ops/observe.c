@@ -46,14 +46,22 @@ struct field *observe_field(struct machine *m, uint32_t id, struct machine_type 
     return f;
 }
 
+/* An element again and again: what there is already is copied, twice as much each time. */
+static void repeat_put(unsigned char *out, size_t bytes, struct machine_scalar x,
+                       size_t element)
+{
+    materialise_put(out, x, element);
+    for (size_t done = element; done < bytes; done += done < bytes - done ? done : bytes - done)
+        memcpy(out + done, out, done < bytes - done ? done : bytes - done);
+}
+
 enum machine_status observe_out(struct machine *m, int set, struct machine_value *v, void *out,
                                 const char *what)
 {
     const struct vpset *s = &m->values->sets[set];
     size_t element = type_bytes(v->type);
     if (v->op == NODE_CONSTANT && !v->buffer) {
-        for (uint64_t i = 0; i < s->count; i++)
-            materialise_put((unsigned char *)out + i * element, v->imm, element);
+        repeat_put(out, s->count * element, v->imm, element);
         return MACHINE_OK;
     }
     /* Bits of floats are in the field's own array: another one would leave the field waiting. */
