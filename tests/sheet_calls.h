@@ -1,4 +1,4 @@
-/* sheet_calls.h - calls of sheets that must succeed. */
+/* sheet_calls.h - calls of sheets that must succeed, and how much is tried. */
 #ifndef LUTETIA_TESTS_SHEET_CALLS_H
 #define LUTETIA_TESTS_SHEET_CALLS_H
 
@@ -7,6 +7,8 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -17,6 +19,13 @@ static inline void check(enum paper_status status)
 {
     if (status != PAPER_OK)
         fail_msg("status %d: %s", (int)status, paper_error());
+}
+
+/* With PAPER_TEST_FULL=1 all sheets are tried; else those that are most likely to fail. */
+static inline bool all_sheets_wanted(void)
+{
+    const char *full = getenv("PAPER_TEST_FULL");
+    return full && strcmp(full, "1") == 0;
 }
 
 /* Of a square sheet with that side. corners: x, y of each. */

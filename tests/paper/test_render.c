@@ -171,23 +171,24 @@ static void backrun(struct paper_sheet *sheet)
     steps(sheet, 400);
 }
 
+/* What is seldom tried (PAPER_TEST_FULL=1) is close in kind to another painting, and was never near the least likeness. */
 static const struct painting {
     const char *name, *stock;
     void (*paint)(struct paper_sheet *sheet);
-    bool deckled;
+    bool deckled, seldom;
 } paintings[] = {
-    {"a wash", "cold press", wash, false},
-    {"type", "cold press", type, false},
-    {"splatter", "hot press", splatter, false},
-    {"strokes", "cold press", strokes, false},
-    {"salt", "cold press", salt, false},
-    {"drops in water", "cold press", drop, false},
-    {"a drying puddle", "cold press", puddle, false},
-    {"drips", "cold press", drips, false},
-    {"ink on xuan", "xuan", ink, false},
-    {"dry brush", "rough", dry_brush, false},
-    {"a backrun", "cold press", backrun, false},
-    {"deckle edges", "rough", wash, true},
+    {"a wash", "cold press", wash, false, true},
+    {"type", "cold press", type, false, false},
+    {"splatter", "hot press", splatter, false, true},
+    {"strokes", "cold press", strokes, false, false},
+    {"salt", "cold press", salt, false, false},
+    {"drops in water", "cold press", drop, false, true},
+    {"a drying puddle", "cold press", puddle, false, true},
+    {"drips", "cold press", drips, false, false},
+    {"ink on xuan", "xuan", ink, false, false},
+    {"dry brush", "rough", dry_brush, false, true},
+    {"a backrun", "cold press", backrun, false, false},
+    {"deckle edges", "rough", wash, true, false},
 };
 
 /* ---- similarity ---- */
@@ -243,6 +244,8 @@ static void a_render_is_the_same_painting(void **state)
     int worse = 0;
     (void)state;
     for (size_t i = 0; i < sizeof paintings / sizeof *paintings; i++) {
+        if (paintings[i].seldom && !all_sheets_wanted())
+            continue;
         struct paper_sheet *sheet = sheet_of(paintings[i].stock, paintings[i].deckled);
         paintings[i].paint(sheet);
         const double likeness = render_likeness(sheet);
