@@ -23,9 +23,10 @@ enum {
     BITS_IN = ARRAYS,
     NUMBERS = 2 * ARRAYS, /* registers */
     BITS = NUMBERS + REGISTERS,
-    OUT = BITS + REGISTERS, /* of numbers, then of bits */
-    PLACES = OUT + 2 * REGISTERS,
-    MOST = STEPS + 4 * REGISTERS + 16 /* of one chain */
+    OUT = BITS + REGISTERS,       /* of numbers, then of bits */
+    STORED = OUT + 2 * REGISTERS, /* a bit that a step stores, and a later one selects by */
+    PLACES = STORED + 1,
+    MOST = STEPS + 4 * REGISTERS + 17 /* of one chain */
 };
 
 static uint32_t chance = 1;
@@ -124,16 +125,27 @@ static void and_put(struct byte_code *p, int to, int a, int b)
     step_put(p, step(MACHINE_AND, LANES_U8, to, a, b, 0));
 }
 
+static bool is_stored(const struct byte_code *p)
+{
+    bool stored = false;
+    for (int i = 0; i < p->steps_count; i++)
+        stored = stored || p->steps[i].to == STORED;
+    return stored;
+}
+
 /* Steps of which each takes what the one before it gives, in two registers in turn, and the selection that takes the last; another may. In some
- * the bit is an and, and that of the other selection is the and of the same registers, one of which has changed. */
+ * the bit is an and, and that of the other selection is the and of the same registers, one of which has changed. In one of a program it is stored. */
 static void chain_put(struct byte_code *p)
 {
-    const bool changes = below(3) == 0;
+    const bool stores = !is_stored(p) && below(3) == 0, changes = !stores && below(3) == 0;
     const int first = below(REGISTERS);
     int bits_of[REGISTERS];
     for (int i = 0; i < REGISTERS; i++)
         bits_of[i] = BITS + (first + i) % REGISTERS;
-    const int count = 1 + below(4), bit = changes ? bits_of[2] : any(false),
+    const int count = 1 + below(4),
+              bit = stores    ? STORED
+                    : changes ? bits_of[2]
+                              : any(false),
               last = NUMBERS + TEMPORARY + (count - 1) % 2;
     if (changes)
         and_put(p, bit, bits_of[0], bits_of[1]);
@@ -146,6 +158,8 @@ static void chain_put(struct byte_code *p)
         if (below(6) == 0)
             step_put(p, any_step());
     }
+    if (stores)
+        and_put(p, STORED, bits_of[0], BITS_IN + below(ARRAYS));
     step_put(p, step(NODE_SELECT, LANES_U32, NUMBERS, bit, last, NUMBERS + 1));
     if (changes) {
         and_put(p, bits_of[0], BITS_IN + below(ARRAYS), BITS_IN + below(ARRAYS));
@@ -195,6 +209,7 @@ static uint64_t program_run(const struct byte_code *p, struct blocks_room *room)
                                      .width = WIDTH,
                                      .pitch = WIDTH};
     uint64_t sum = 1;
+    memset(bits[STORED], 0, sizeof bits[STORED]);
     assert_true(blocks_run(room, NULL, 1, p, &set, of, NULL));
     for (int k = OUT; k < PLACES; k++)
         for (int i = 0; i < COUNT; i++)
