@@ -159,6 +159,7 @@ enum machine_status machine_vpset_arrange(struct machine *m, int vpset, const in
              m->memory->fields[i]->vpset == vpset && k < m->memory->fields[i]->slots_count; k++)
             slot_set(m, &m->memory->fields[i]->slots[k], fresh[done++]);
     known_addresses_forget(m);
+    known_places_forget(m);
     known_ranks_forget(m);
     if (good) {
         to.generation++;

@@ -100,6 +100,7 @@ static struct device_buffer *buffer_begin(struct device *d, struct device_buffer
     b->bytes = rows.bytes;
     b->first = rows.first;
     b->refs = 1;
+    b->follows = false;
     d->held_bytes += rows.bytes;
     if (d->held_bytes > d->peak_bytes)
         d->peak_bytes = d->held_bytes;

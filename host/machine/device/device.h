@@ -39,6 +39,8 @@ struct device_buffer {
     void *host;    /* where it is for the front end; NULL: the device has memory of its own */
     uint32_t refs; /* a buffer goes back to the pool at 0; the queue is in order, so at once */
     bool fresh;    /* no byte code has written it yet, so its memory may be in no cache */
+    bool
+        follows; /* from what another array holds: a state cannot take another one for it (known_places_keep()) */
     uint32_t mark, number; /* of the last walk that came by: run/states.c */
 };
 

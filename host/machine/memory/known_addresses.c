@@ -49,6 +49,75 @@ void known_addresses_forget(struct machine *m)
     graph_unref(m, index);
 }
 
+/* ---- places ---- */
+
+static void place_forget(struct machine *m, struct known_place *k)
+{
+    const struct known_place was = *k;
+    *k = (struct known_place){0};
+    if (!was.address)
+        return;
+    graph_unref(m, was.address);
+    graph_unref(m, was.place);
+}
+
+static struct known_place *place_find(const struct machine *m,
+                                      const struct machine_value *address, int set)
+{
+    struct known_place *of = m->memory->places.of;
+    for (int i = 0; i < KNOWN_PLACES && address->buffer; i++)
+        if (of[i].seen == address->buffer && of[i].set == set &&
+            (!of[i].address ||
+             (of[i].address->buffer == of[i].seen && same_array(of[i].address, address))))
+            return &of[i];
+    return NULL;
+}
+
+struct machine_value *known_places_get(struct machine *m, const struct machine_value *address,
+                                       int set)
+{
+    struct known_places *all = &m->memory->places;
+    struct known_place *k = place_find(m, address, set);
+    if (!address->buffer)
+        return NULL;
+    if (!k) { /* in place of the one that was not used for longest */
+        k = &all->of[0];
+        for (int i = 1; i < KNOWN_PLACES; i++)
+            k = all->of[i].used < k->used ? &all->of[i] : k;
+        place_forget(m, k);
+        *k = (struct known_place){.seen = address->buffer, .set = set};
+    }
+    k->gets++;
+    k->used = ++all->gets;
+    return k->place;
+}
+
+bool known_places_wanted(const struct machine *m, const struct machine_value *address, int set)
+{
+    const struct known_place *k = place_find(m, address, set);
+    return k && !k->place && k->gets >= KNOWN_PLACES_FROM;
+}
+
+void known_places_keep(struct machine *m, struct machine_value *address, int set,
+                       struct machine_value *place)
+{
+    struct known_place *k = place_find(m, address, set);
+    if (!k || k->place)
+        return;
+    INVARIANT(!address->kept && !place->kept); /* a state puts other arrays into its own */
+    graph_ref(address);
+    graph_ref(place);
+    place->buffer->follows = true;
+    k->address = address;
+    k->place = place;
+}
+
+void known_places_forget(struct machine *m)
+{
+    for (int i = 0; i < KNOWN_PLACES; i++)
+        place_forget(m, &m->memory->places.of[i]);
+}
+
 /* ---- ranks ---- */
 
 void known_ranks_note(struct machine *m, struct machine_value *rank,
@@ -117,6 +186,11 @@ void known_addresses_changed(struct machine *m, const struct device_buffer *b)
 {
     const struct known_addresses *k = &m->memory->known;
     const struct known_ranks *r = &m->memory->ranks;
+    for (int i = 0; i < KNOWN_PLACES; i++) {
+        struct known_place *p = &m->memory->places.of[i];
+        if (p->seen == b || is_in(b, p->place))
+            place_forget(m, p);
+    }
     if (is_in(b, k->address) || is_in(b, k->index))
         known_addresses_forget(m);
     if (is_in(b, r->rank) || is_in(b, r->context) || is_in(b, r->address))

@@ -25,6 +25,31 @@ bool known_addresses_note(struct machine *m, struct machine_value *address, int 
                           struct machine_value *index);
 void known_addresses_forget(struct machine *m);
 
+/* Gets by addresses that are in memory: where each one's element is, which takes some thirty operations for each processor, is kept in memory when so many have
+ * gone by them. Of some addresses: a grid that is part of several has a field of them for each. */
+enum { KNOWN_PLACES = 8, KNOWN_PLACES_FROM = 8 };
+
+struct known_place {
+    const void *seen; /* the addresses' array; not held, only compared */
+    int set;          /* that they are addresses of */
+    uint32_t gets;    /* by them, so far */
+    uint64_t used;    /* when the last of them came by: a number that goes up with each get */
+    struct machine_value *address, *place; /* held, in memory; NULL: none */
+};
+struct known_places {
+    struct known_place of[KNOWN_PLACES];
+    uint64_t gets;
+};
+
+/* A get goes by these addresses. Where the elements are; NULL: nobody has kept it. */
+struct machine_value *known_places_get(struct machine *m, const struct machine_value *address,
+                                       int set);
+/* Whether so many gets have gone by them that it should be kept. */
+bool known_places_wanted(const struct machine *m, const struct machine_value *address, int set);
+void known_places_keep(struct machine *m, struct machine_value *address, int set,
+                       struct machine_value *place);
+void known_places_forget(struct machine *m);
+
 /* The last enumeration of a context: each active processor's rank among these, from 0 on; and the addresses that were made of the
  * ranks. A send by these puts the messages of the active processors one after the other. */
 struct known_ranks {

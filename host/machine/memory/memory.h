@@ -70,6 +70,7 @@ struct memory {
     uint64_t serial;
     struct lifetimes lifetimes;
     struct known_addresses known;
+    struct known_places places;
     struct known_ranks ranks;
 };
 

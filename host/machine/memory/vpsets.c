@@ -27,6 +27,7 @@ bool vpsets_grow(struct machine *m, int count)
 void vpset_release(struct machine *m, struct vpset *s)
 {
     known_addresses_forget(m);
+    known_places_forget(m);
     known_ranks_forget(m);
     flag_overflow_clear(m, &flags_of(m, s)->overflow);
     for (int flag = 0; flag < 3; flag++)

@@ -21,17 +21,9 @@ int gather_places(const struct vpset *s, uint64_t index, size_t places[3])
     return count;
 }
 
-uint32_t gather_borrowed(const struct machine *m, const struct machine_value *v)
-{
-    uint32_t held = 0;
-    for (int i = 0; i < m->values->borrowed_count; i++)
-        held += m->values->borrowed[i] == v;
-    return held;
-}
-
 static bool held_once(const struct machine *m, const struct machine_value *v)
 {
-    return v->refs <= gather_borrowed(m, v) + 1;
+    return v->refs <= graph_borrowed(m, v) + 1;
 }
 
 static bool is_own_leaf(const struct machine *m, const struct machine_value *v)
@@ -44,7 +36,7 @@ bool gather_is_own(const struct machine *m, const struct field *f, uint32_t offs
                    const struct machine_value *v)
 {
     return v->op == NODE_BUFFER && v->buffer->host && v->buffer->refs == 1 && !v->own_address &&
-           v->refs <= gather_borrowed(m, v) + (uint32_t)field_holds(f, offset, v);
+           v->refs <= graph_borrowed(m, v) + (uint32_t)field_holds(f, offset, v);
 }
 
 /* Nobody else looks at it, so numbers can be put into it. */

@@ -12,8 +12,6 @@ bool gather_write(struct machine *m, struct field *f, uint32_t offset, struct ma
 
 /* Where an element of that processor is, and where the row's halo repeats it; returns how many places. */
 int gather_places(const struct vpset *s, uint64_t index, size_t places[3]);
-/* How often a node is held by this call: its references that are given back at the next one. */
-uint32_t gather_borrowed(const struct machine *m, const struct machine_value *v);
 /* Whether v is in memory of the front end's, and nobody but that field from there on looks at it: its array may be written over. */
 bool gather_is_own(const struct machine *m, const struct field *f, uint32_t offset,
                    const struct machine_value *v);

@@ -1,17 +1,48 @@
 /* gets.c - see gets.h. */
 #include "ops/gets.h"
 
+#include "memory/memory.h"
 #include "ops/index.h"
 #include "run/materialise.h"
+#include "run/replay.h"
 #include "values/graph.h"
 #include "values/make.h"
 #include "values/places.h"
+
+/* Whether where an address's element is should be in memory: it is more than a sum. */
+static bool is_worth_keeping(const struct machine *m, const struct machine_value *address,
+                             int set)
+{
+    const struct vpset *from = &m->values->sets[set];
+    return address->buffer && address->buffer->host && m->run->mode == RUN_FREE &&
+           !(index_is_address(from) && from->rows == 1);
+}
+
+/* Where each address's element is in an array of the set. Of addresses by which many gets have gone it is kept. */
+static struct machine_value *place_of(struct machine *m, struct machine_value *address, int set)
+{
+    struct machine_value *bare = index_address_bare(address, machine_address_bits(m, set));
+    const bool keeps = is_worth_keeping(m, bare, set);
+    struct machine_value *place = keeps ? known_places_get(m, bare, set) : NULL;
+    if (place)
+        return graph_borrow(m, place);
+    place = index_place(m, &m->values->sets[set], index_of_address(m, set, address));
+    if (!place || !keeps || !known_places_wanted(m, bare, set))
+        return place;
+    graph_borrow(m, bare);
+    record_impure(m); /* what a state holds says nothing of these addresses */
+    place = materialise(m, m->values->set_current, place);
+    record_impure(m);
+    if (place && place->buffer && bare->buffer)
+        known_places_keep(m, bare, set, place);
+    return place;
+}
 
 struct machine_value *gets_node(struct machine *m, struct machine_value *address,
                                 struct machine_value *source, int set)
 {
     const struct vpset *from = &m->values->sets[set];
-    struct machine_value *place = index_place(m, from, index_of_address(m, set, address));
+    struct machine_value *place = place_of(m, address, set);
     uint64_t places =
         (uint64_t)from->halo + (from->rows == 1 ? from->count : from->rows * from->pitch);
     if (!place)

@@ -194,11 +194,14 @@ static struct machine_value *own_copy(struct machine *m, int set, struct machine
 struct machine_value *observe_own(struct machine *m, const struct field *f, uint32_t offset,
                                   struct machine_value *v)
 {
-    /* the slot's reference, and those of this call */
-    if (v->op != NODE_BUFFER || v->own_address || v->refs > gather_borrowed(m, v) + 1 ||
-        !field_holds(f, offset, v))
+    values_before_change(m);
+    if (v->op == NODE_BUFFER)
+        known_addresses_changed(m, v->buffer);
+    /* The slot's reference, and those of this call. An evaluation within an instruction may have entered a state, so what the instruction made before and what the
+     * field holds are two values with one array. */
+    if (v->op != NODE_BUFFER || v->own_address || v->buffer->refs > 1 ||
+        v->refs > graph_borrowed(m, v) + 1 || !field_holds(f, offset, v))
         return own_copy(m, f->vpset, v);
-    known_addresses_changed(m, v->buffer);
     return v;
 }
 

@@ -25,6 +25,7 @@ enum { HOLDERS = 4 }; /* fields that a message names */
 bool room_make(struct machine *m)
 {
     struct run *r = m->run;
+    known_places_forget(m); /* they can be found again */
     if (r->evaluating || r->calls_noted || !m->values->pending ||
         (r->mode != RUN_FREE && r->mode != RUN_CATCHING_UP))
         return false;

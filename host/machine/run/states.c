@@ -114,6 +114,7 @@ static void walk_node(struct machine *m, struct walk *w, struct machine_value *v
         return;
     if (leaf) {
         struct device_buffer *b = v->buffer;
+        w->good = w->good && !b->follows;
         if (b->mark != m->values->mark) {
             b->mark = m->values->mark;
             b->number = (uint32_t)w->buffers_count;

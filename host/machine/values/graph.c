@@ -108,6 +108,14 @@ void graph_borrowed_grow(struct machine *m)
                                       sizeof *m->values->borrowed);
 }
 
+uint32_t graph_borrowed(const struct machine *m, const struct machine_value *v)
+{
+    uint32_t held = 0;
+    for (int i = 0; i < m->values->borrowed_count; i++)
+        held += m->values->borrowed[i] == v;
+    return held;
+}
+
 void graph_give_back(struct machine *m)
 {
     for (int i = 0; i < m->values->borrowed_count; i++)

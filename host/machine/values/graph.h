@@ -57,6 +57,8 @@ static inline struct machine_value *graph_borrow(struct machine *m, struct machi
 /* The value of which v is the same bits as another type, borrowed: where only bits count, its array serves as well. */
 struct machine_value *graph_same_bits(struct machine *m, struct machine_value *v);
 void graph_give_back(struct machine *m); /* releases everything that was borrowed */
+/* How many of a value's references are the instruction's. */
+uint32_t graph_borrowed(const struct machine *m, const struct machine_value *v);
 
 /* Whether it is a state's own. */
 void graph_keep(struct machine *m, struct machine_value *v, bool kept);

@@ -18,6 +18,7 @@
 
 #include "base/parts.h"
 #include "base/types.h"
+#include "values/graph.h"
 #include "values/make.h"
 
 /* Whether a holds only where b holds: b is a, or is and-ed into it. */
@@ -142,10 +143,7 @@ enum { COLOURS = 4 };
 /* Whether others than this instruction hold the value: two and more, for one is the field or the choice that is about to let go of it. */
 static bool is_looked_at(const struct machine *m, const struct machine_value *v)
 {
-    uint32_t refs = v->refs;
-    for (int i = 0; i < m->values->borrowed_count; i++)
-        refs -= m->values->borrowed[i] == v;
-    return refs > 1;
+    return v->refs > graph_borrowed(m, v) + 1;
 }
 
 /* b, read only where c does not hold, without the last choice in it that takes another value only where c holds. A choice that somebody else looks at stays as it is:
