@@ -84,7 +84,8 @@ static struct known known_of(const struct guarding *g, int place)
 {
     const struct byte_code *p = g->p;
     const int step = g->maker[place];
-    if (p->places[place].kind == PLACE_ARRAY) /* one that a step stores is known from there on */
+    if (p->places[place].kind ==
+        PLACE_ARRAY) /* one that a step stores is known from there on */
         return (struct known){place, step, false};
     if (!is_register(p, place) || step < 0)
         return (struct known){-1, -1, false};
