@@ -343,12 +343,14 @@ static bool line_links(int argc, char **argv)
 /* Refuses options that no program on libparis can be linked with. */
 static int impossible_refuse(int argc, char **argv)
 {
+    static const char shared[] = "libparis is a shared library, since OpenCL loads its driver "
+                                 "while the program runs",
+                      wide[] = "libparis and the OpenCL driver are made for 64 bits";
     static const struct {
         const char *option, *why;
     } refused[] = {
-        {"-static", "libparis is a shared library, since OpenCL loads its driver while the "
-                    "program runs"},
-        {"-m32", "libparis and the OpenCL driver are made for 64 bits"},
+        {"-static", shared}, {"--static", shared}, {"-static-pie", shared},
+        {"-m32", wide},      {"-mx32", wide},
     };
     for (size_t i = 0; i < sizeof refused / sizeof *refused; i++)
         if (any_is(argc, argv, refused[i].option))

@@ -155,7 +155,7 @@ with tempfile.TemporaryDirectory() as folder:
     made = subprocess.run([LUTETIA, "cc", "bare.c", "-o", "bare", "-w"], cwd=folder, capture_output=True, text=True, timeout=100)
     assert made.returncode == 0 and not made.stderr, made
     # What cannot be linked is said.
-    for option in ("-static", "-m32"):
+    for option in ("-static", "--static", "-static-pie", "-m32", "-mx32"):
         made = subprocess.run([LUTETIA, "cc", "bare.c", "-o", "new", option], cwd=folder, capture_output=True, text=True, timeout=100)
         assert made.returncode == 1 and made.stderr.count("\n") == 1 and option in made.stderr, made
         assert not os.path.exists(os.path.join(folder, "new"))
