@@ -180,10 +180,10 @@ def to_python(source):
             out.append(f"    {m[1]} = [{m[2]}]")
         elif not line or line.startswith(("CM_field_id_t f", "CM_vp_set_id_t ", "int n;", "{ /*", "return", "unsigned ")) and "(" not in line.split("/*")[0]:
             continue
-        elif m := re.fullmatch(r"\{ int n; for \(n = 0; n < (\d+); n\+\+\) printf \(\"(%\w+)\\n\", (.*)\); \}", line):
-            out.append(f"    for n in range({m[1]}):\n        show('{m[2]}', {m[3]})")
-        elif m := re.fullmatch(r"for \(n = 0; n < (\d+); n\+\+\)", line):
-            out.append(f"    for n in range({m[1]}):")
+        elif m := re.fullmatch(r"\{ int n; for \(n = (\d+); n < (\d+); n\+\+\) printf \(\"(%\w+)\\n\", (.*)\); \}", line):
+            out.append(f"    for n in range({m[1]}, {m[2]}):\n        show('{m[3]}', {m[4]})")
+        elif m := re.fullmatch(r"for \(n = (\d+); n < (\d+); n\+\+\)", line):
+            out.append(f"    for n in range({m[1]}, {m[2]}):")
             indent = "        "
         elif line in "{}":
             indent = "    "
