@@ -275,18 +275,28 @@ void display_reader_finish(struct display_reader *reader)
 
 /* ---- pictures ---- */
 
+/* A pixel of the buffer's row, through the map; black beyond it. */
+static void pixel_draw(const struct display_screen *s, const uint8_t *from, int64_t x,
+                       uint8_t to[3])
+{
+    if (x < 0 || x >= s->width_px) {
+        memset(to, 0, 3);
+    } else if (s->pixel_bytes == 1) {
+        memcpy(to, s->map[from ? from[x] : 0], 3);
+    } else {
+        for (int c = 0; c < 3; c++)
+            to[c] = s->map[from ? from[4 * x + c] : 0][c];
+    }
+}
+
 static void row_draw(const struct display_screen *s, const uint8_t *from, uint8_t *to)
 {
-    for (int column = 0; column < s->width_px; column++, to += 3) {
-        const int64_t x = s->pan[0] + (int64_t)column / s->zoom[0];
-        if (x < 0 || x >= s->width_px) {
-            memset(to, 0, 3);
-        } else if (s->pixel_bytes == 1) {
-            memcpy(to, s->map[from ? from[x] : 0], 3);
-        } else {
-            for (int c = 0; c < 3; c++)
-                to[c] = s->map[from ? from[4 * x + c] : 0][c];
-        }
+    const uint8_t *end = to + 3 * (size_t)s->width_px;
+    uint8_t one[3];
+    for (int64_t x = s->pan[0]; to < end; x++) {
+        pixel_draw(s, from, x, one);
+        for (uint32_t k = 0; k < s->zoom[0] && to < end; k++, to += 3)
+            memcpy(to, one, 3);
     }
 }
 
