@@ -1,6 +1,7 @@
 /* debug.c - what is in the machine, as answers to a debugger: see debug.h. */
 #include "debug.h"
 
+#include <errno.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -81,8 +82,11 @@ static const char *child_wait(pid_t child)
 {
     static char text[100];
     int status = 0;
-    while (waitpid(child, &status, 0) != child)
+    pid_t ended;
+    while ((ended = waitpid(child, &status, 0)) < 0 && errno == EINTR)
         ;
+    if (ended != child)
+        return "the process that looks was lost";
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
         return NULL;
     snprintf(text, sizeof text, "the process that looks ended by %s %d",
@@ -94,6 +98,9 @@ static const char *child_wait(pid_t child)
 /* Calls the function where nothing that it does changes this process, if that can be. NULL: it was called. */
 static const char *aside(void (*look)(struct machine *m, const void *what), const void *what)
 {
+    /* a program that ignores its children's ends could not wait for this one */
+    const struct sigaction usual = {.sa_handler = SIG_DFL};
+    struct sigaction own;
     sigset_t ends, before, waiting;
     if (!machine_forks(paris_the.machine)) {
         machine_begin(paris_the.machine);
@@ -104,6 +111,7 @@ static const char *aside(void (*look)(struct machine *m, const void *what), cons
     sigaddset(&ends, SIGCHLD);
     sigpending(&waiting);
     pthread_sigmask(SIG_BLOCK, &ends, &before);
+    sigaction(SIGCHLD, &usual, &own);
     const pid_t child = fork();
     if (child == 0) {
         signal(SIGALRM, SIG_DFL);
@@ -115,6 +123,7 @@ static const char *aside(void (*look)(struct machine *m, const void *what), cons
     const char *why = child < 0 ? "no process can be made to look" : child_wait(child);
     if (child > 0 && !sigismember(&waiting, SIGCHLD))
         sigtimedwait(&ends, NULL, &(struct timespec){0, 0});
+    sigaction(SIGCHLD, &own, NULL);
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     return why;
 }

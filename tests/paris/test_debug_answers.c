@@ -4,6 +4,7 @@
  * For the second way the device is said not to be PoCL's while it is asked; with LUTETIA_NEAR=0, which the test is run with, too, its
  * memory is read by the driver alone. */
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -162,6 +163,30 @@ static double steps_taken(enum way way)
     return CM_global_f_add_1L(heat, 23, 8);
 }
 
+/* A program that ignores, or handles, its children's ends is looked at, and told of none. */
+static volatile sig_atomic_t ends_told;
+
+static void end_take(int of)
+{
+    (void)of;
+    ends_told++;
+}
+
+static void programs_with_children(void **unused)
+{
+    (void)unused;
+    const CM_field_id_t f = CM_allocate_heap_field(8);
+    void (*const handlers[])(int) = {SIG_IGN, end_take, SIG_DFL};
+    CM_set_context();
+    for (int i = 0; i < 3; i++) {
+        signal(SIGCHLD, handlers[i]);
+        CM_u_move_constant_1L(f, (unsigned long)i + 40, 8);
+        assert_int_equal(field_asked(f, 'u', 8, 0)->arrays[COUNT], i + 40);
+        assert_true(signal(SIGCHLD, SIG_DFL) == handlers[i]);
+    }
+    assert_int_equal(ends_told, 0);
+}
+
 static void nothing_that_is_computed_changes(void **unused)
 {
     (void)unused;
@@ -176,6 +201,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(values_are_those_that_the_program_has, device_setup),
         cmocka_unit_test_setup(floats_and_flags, device_setup),
+        cmocka_unit_test_setup(programs_with_children, device_setup),
         cmocka_unit_test(nothing_that_is_computed_changes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
