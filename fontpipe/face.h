@@ -119,6 +119,22 @@ const char *font_face_axes_text(const struct font_face *face, char room[FONT_AXE
 /* Several: "wght=700,wdth=80"; NULL or "": none. Errors: BAD_ARGUMENT, also for what does not read so. */
 enum font_status font_face_axes_set(struct font_face *face, const char *axes);
 
+/* A variable font's named places: "Bold Condensed", and each axis there, in the order of font_face_axis(). */
+enum { FONT_AXES_MAX = 64 };
+struct font_instance {
+    char name[128]; /* UTF-8; "" if the font has none */
+    double values[FONT_AXES_MAX];
+};
+int font_face_instances_count(struct font_face *face);
+/* Errors: BAD_ARGUMENT for one that there is not. */
+enum font_status font_face_instance(struct font_face *face, int i, struct font_instance *out);
+
+/* The tags of the font's scripts ("latn"), or of its features ("liga"), as its tables have them, each once, in the alphabet's order. Returns how many there are, up to 512; the first
+ * `most` are written. Shape: tags[most]. */
+int font_face_tags(struct font_face *face, bool features, char (*tags)[5], int most);
+/* What the font calls a feature (ss01: "Open digits"), as UTF-8. False: it has no name for it. */
+bool font_face_feature_name(struct font_face *face, const char *tag, char *room, size_t bytes);
+
 /* The font's file in memory, for shaping; never NULL, valid as long as the face. */
 const void *font_face_bytes(const struct font_face *face, size_t *count);
 /* Differs between any two settings of axes of any two faces open, and before and after a glyph is replaced; of one of the face's last 64 settings it is what it was then. */

@@ -11,7 +11,7 @@
 #include FT_FREETYPE_H
 #include FT_MULTIPLE_MASTERS_H
 
-enum { FACE_AXES_MAX = 64, FACE_SETTINGS_KEPT = 64 };
+enum { FACE_AXES_MAX = FONT_AXES_MAX, FACE_SETTINGS_KEPT = 64 };
 
 /* How the axes were set before: with the version that it had. */
 struct font_setting {

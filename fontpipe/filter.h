@@ -74,6 +74,14 @@ double font_filter_edge(const struct font_filter *filter, double u);
 
 /* Displays that a filter is chosen for. */
 enum font_display { FONT_DISPLAY_LCD, FONT_DISPLAY_CRT, FONT_DISPLAY_PRINT };
+/* How a filter shows lines of a width on a display: what is lost of their contrast in the mean, how unevenly it shows as they move between pixels (the
+ * root of the mean square), how far an edge goes beyond 0 and 1; of 1 each. cost: the first's square, nine times the second's and four times
+ * the third's: what is least suits best. */
+struct font_filter_fit {
+    double lost, uneven, rings, cost;
+};
+struct font_filter_fit font_filter_fit(const struct font_filter *filter, double detail_px,
+                                       enum font_display display);
 /* Names the filter that shows lines of this width best: of the usual ones the one with the least sum of squares of the
  * contrast that a line loses, through the display's own spot, and of how unevenly it shows as it moves
  * between pixels. detail_px: the smallest detail, a stem or a hairline. Never NULL;

@@ -3,8 +3,7 @@
 
 #include <math.h>
 
-/* The brightness of a display's spot at a distance along one axis, and how far it reaches. */
-static double spot(enum font_display display, double v)
+double font_display_spot(enum font_display display, double v)
 {
     switch (display) {
     case FONT_DISPLAY_LCD:
@@ -27,32 +26,40 @@ static double line_shown(const struct font_filter *f, double width, double x,
         for (int i = (int)floor(at) - 6; i <= (int)ceil(at) + 6; i++)
             sum += (font_filter_edge(f, i + 0.5 - x + width / 2) -
                     font_filter_edge(f, i + 0.5 - x - width / 2)) *
-                   spot(display, at - i - 0.5);
+                   font_display_spot(display, at - i - 0.5);
         best = fmax(best, sum);
     }
     return best;
+}
+
+struct font_filter_fit font_filter_fit(const struct font_filter *f, double detail_px,
+                                       enum font_display display)
+{
+    double mean = 0, square = 0;
+    if (!(detail_px > 0.01))
+        detail_px = 0.01;
+    for (int p = 0; p < 8; p++) {
+        double shown = line_shown(f, detail_px, p / 8.0, display) / fmin(1, detail_px);
+        mean += shown / 8;
+        square += shown * shown / 8;
+    }
+    struct font_filter_fit fit = {.lost = 1 - fmin(mean, 1),
+                                  .uneven = sqrt(fmax(0, square - mean * mean)),
+                                  .rings = f->info.undershoot};
+    /* What rings beside the line is as bad as what it loses. */
+    fit.cost = fit.lost * fit.lost + 9 * fit.uneven * fit.uneven + 4 * fit.rings * fit.rings;
+    return fit;
 }
 
 const char *font_filter_choose(double detail_px, enum font_display display)
 {
     const char *best = "gaussian-fast";
     double least = 1e9;
-    if (!(detail_px > 0.01))
-        detail_px = 0.01;
     for (const char *const *name = font_filter_names(); *name; name++) {
         struct font_filter *f;
         if (font_filter_create_named(*name, &f) != FONT_OK)
             continue;
-        double mean = 0, square = 0;
-        for (int p = 0; p < 8; p++) {
-            double shown = line_shown(f, detail_px, p / 8.0, display) / fmin(1, detail_px);
-            mean += shown / 8;
-            square += shown * shown / 8;
-        }
-        double lost = 1 - fmin(mean, 1), uneven = sqrt(fmax(0, square - mean * mean));
-        /* What rings beside the line is as bad as what it loses. */
-        double cost =
-            lost * lost + 9 * uneven * uneven + 4 * f->info.undershoot * f->info.undershoot;
+        double cost = font_filter_fit(f, detail_px, display).cost;
         if (cost < least) {
             least = cost;
             best = *name;

@@ -153,6 +153,9 @@ enum {
     FONT_PATCH_FLOATS = (FONT_PATCH_TAPS + 1) * FONT_PATCH_ROW
 };
 
+/* filter_choose.c: the brightness of a display's spot at a distance along one axis. */
+double font_display_spot(enum font_display display, double v);
+
 /* filter_patch.c: errors: NO_MEMORY. */
 enum font_status font_patches_make(struct font_filter *f);
 

@@ -202,18 +202,20 @@ static const struct font_filter *filter_of(const struct font_painter *p,
                                            const struct font_face *face, uint32_t glyph,
                                            const struct font_map *whole)
 {
-    const struct font_filter *own =
-        font_own_any(face) ? font_own_filter(face, glyph, size_shown(face, whole)) : NULL;
+    const struct font_filter *own = font_own_any(face) && !p->def.without_own
+                                        ? font_own_filter(face, glyph, size_shown(face, whole))
+                                        : NULL;
     return own ? own : p->filter;
 }
 
 /* The gray that a glyph has of its own where it is upright; NULL: it has none. */
-static const struct font_gray *gray_of(const struct font_face *face, uint32_t glyph,
+static const struct font_gray *gray_of(const struct font_painter *p,
+                                       const struct font_face *face, uint32_t glyph,
                                        const struct font_map *whole)
 {
     const double *m = whole->m, near = 1e-6 * fabs(m[0]);
-    if (!font_own_any(face) || whole->kind != FONT_AFFINE || !(m[0] > 0) || fabs(m[1]) > near ||
-        fabs(m[3]) > near || fabs(m[4] + m[0]) > near)
+    if (!font_own_any(face) || p->def.without_own || whole->kind != FONT_AFFINE ||
+        !(m[0] > 0) || fabs(m[1]) > near || fabs(m[3]) > near || fabs(m[4] + m[0]) > near)
         return NULL;
     return font_own_gray(face, glyph, size_shown(face, whole));
 }
@@ -378,7 +380,7 @@ static enum font_status glyph_draw(struct font_painter *p, const struct font_lay
     const struct font_placed *g = &layout->glyphs[i];
     struct font_edges *edges = NULL;
     struct key key;
-    *gray = gray_of(g->face, g->glyph, whole);
+    *gray = gray_of(p, g->face, g->glyph, whole);
     if (*gray) {
         *whole_x = whole_of(x);
         *whole_y = whole_of(y);
@@ -407,7 +409,7 @@ enum font_status font_painter_outline_draw(struct font_painter *p,
         int whole_x, whole_y;
         /* Red is left: the glyph is right of it. Gray of its own has no stripes. */
         double shift =
-            p->def.stripes && !gray_of(g->face, g->glyph, &whole) ? (1 - c) / 3.0 : 0;
+            p->def.stripes && !gray_of(p, g->face, g->glyph, &whole) ? (1 - c) / 3.0 : 0;
         status = glyph_draw(p, layout, i, &whole, x + shift, y, &p->scratch[c], &gray, &whole_x,
                             &whole_y);
         if (status == FONT_OK)
@@ -457,7 +459,7 @@ enum font_status font_painter_glyph(struct font_painter *p, struct font_face *fa
         x = x_px;
         y = y_px;
     }
-    const struct font_gray *own = status == FONT_OK ? gray_of(face, glyph, &whole) : NULL;
+    const struct font_gray *own = status == FONT_OK ? gray_of(p, face, glyph, &whole) : NULL;
     if (own) {
         p->own = *own; /* its pixels, at the nearest place */
         p->own.left_px += whole_of(x);
@@ -487,7 +489,8 @@ enum font_status font_painter_outline_measure(struct font_painter *p,
     struct key key;
     double x, y;
     enum font_status status = placed_map(layout, i, map, x_px, y_px, &whole, &x, &y);
-    const struct font_gray *own = status == FONT_OK ? gray_of(g->face, g->glyph, &whole) : NULL;
+    const struct font_gray *own =
+        status == FONT_OK ? gray_of(p, g->face, g->glyph, &whole) : NULL;
     if (own) {
         if (own->width_px)
             *box = (struct font_box){whole_of(x) + own->left_px, whole_of(y) + own->top_px,

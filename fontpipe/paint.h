@@ -42,6 +42,8 @@ struct font_painter_def {
     bool stripes;       /* RGB */
     int places; /* a pixel is divided into so many for keeping glyphs; 0: glyphs are drawn where they are */
     size_t budget_bytes; /* of what is kept */
+    bool
+        without_own; /* by its filter alone, whatever filters and gray faces have of their own (own.h) */
 };
 /* Black ink by "gaussian-fast", in linear light; 16 MiB of kept glyphs. */
 struct font_painter_def font_painter_def_default(void);

@@ -118,11 +118,18 @@ const struct page pages_of_pictures[] = {
      .see = "lutetia-type(1), lutetia-font(1), fc-list(1)"},
     {.verb = "font",
      .usages = "FILE [options]\nFILE --glyph G [options]\nFILE --edits DIR [--glyph G [--write "
-               "LEVEL]] [options]\n--show-filter [--filter F] [-o FILE]",
+               "LEVEL]] [options]\nFILE --proof WORD [options]\nFILE --waterfall AXIS "
+               "[options]\nFILE --against FILE [options]\n--show-filter [--filter F] [-o FILE]",
      .about =
          "Draws a specimen of a font; or one glyph at each level of the font pipeline: its "
          "outline, the master, the rectangles that it is summed from, and its gray; or a "
          "filter.\n"
+         "--proof shows a word by every filter at several sizes, with its contrast, the width "
+         "of "
+         "an edge, its error to what is covered, and from how far it is read (by a model, at "
+         "96 "
+         "pixels to the inch). --against shows two versions of a font: red is only in the "
+         "first, blue only in the second.\n"
          "A master is the glyph in black and white, --em pixels large; it may be written, "
          "retouched "
          "in a paint program, and taken again.\n"
@@ -139,6 +146,7 @@ const struct page pages_of_pictures[] = {
      "downwards, of paths alone; or UFO's glif. Masters are black and white PNG; "
      "rectangles a text, x0 y0 x1 y1 in master pixels.",
      .values = {{.option = "filter", .list = font_filter_names},
+                {.option = "display", .words = "lcd, crt, print"},
                 {.option = "write",
                  .words = "outline, glif, master, rectangles, filter, gray"}},
      .examples =

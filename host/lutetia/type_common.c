@@ -5,6 +5,7 @@
 #include <edits.h>
 #include <input_file.h>
 #include <output_file.h>
+#include <visible_text.h>
 
 #include <math.h>
 #include <stdarg.h>
@@ -180,6 +181,68 @@ int type_filter_read(const char *verb, const char *name, char **out)
     }
     font_filter_words(*out, count, *out); /* it gets shorter, if anything */
     return EXIT_SUCCESS;
+}
+
+int type_display_read(const char *verb, const char *word, enum font_display *out)
+{
+    static const char *const words[] = {
+        [FONT_DISPLAY_LCD] = "lcd", [FONT_DISPLAY_CRT] = "crt", [FONT_DISPLAY_PRINT] = "print"};
+    for (int i = FONT_DISPLAY_LCD; i <= FONT_DISPLAY_PRINT; i++)
+        if (strcmp(word, words[i]) == 0) {
+            *out = (enum font_display)i;
+            return EXIT_SUCCESS;
+        }
+    return fail_usage(verb, "--display must be lcd, crt or print (got '%.60s')", word);
+}
+
+/* A filter's losses in words. */
+static void fit_print(const char *name, const struct font_filter_fit *fit)
+{
+    visible_print("%s loses %.0f %% of a line's contrast, %.1f %% of it come and go with its "
+                  "place, an edge rings by %.1f %%",
+                  name, 100 * fit->lost, 100 * fit->uneven, 100 * fit->rings);
+}
+
+int type_fits_best(const struct font_filter_fit *fits, int count, int but)
+{
+    int best = -1;
+    for (int i = 0; i < count; i++)
+        if (i != but && (best < 0 || fits[i].cost < fits[best].cost))
+            best = i;
+    return best;
+}
+
+void type_fits_print(const char *const *names, const struct font_filter_fit *fits, int count,
+                     double detail_px)
+{
+    int best = type_fits_best(fits, count, -1), second = type_fits_best(fits, count, best);
+    visible_print("%s, for lines of %.2f pixels: ", names[best], detail_px);
+    fit_print(names[best], &fits[best]);
+    if (second >= 0) {
+        visible_print("; next ");
+        fit_print(names[second], &fits[second]);
+    }
+    visible_print("\n");
+}
+
+const char *type_filter_choose(const char *verb, double detail_px, enum font_display display)
+{
+    enum { MOST = 32 };
+    struct font_filter_fit fits[MOST] = {{0}};
+    const char *const *names = font_filter_names();
+    int count = 0;
+    for (; names[count] && count < MOST; count++) {
+        struct font_filter *filter;
+        if (font_filter_create_named(names[count], &filter) != FONT_OK) {
+            fail_font(verb);
+            return NULL;
+        }
+        fits[count] = font_filter_fit(filter, detail_px, display);
+        font_filter_destroy(filter);
+    }
+    printf("filter: ");
+    type_fits_print(names, fits, count, detail_px);
+    return names[type_fits_best(fits, count, -1)];
 }
 
 /* ---- labels ---- */

@@ -54,6 +54,15 @@ int type_face_open(const char *verb, const char *name, int index, const char *ax
  * commas. The caller frees *out. */
 int type_filter_read(const char *verb, const char *name, char **out);
 
+/* lcd, crt or print. EXIT_SUCCESS, or prints what there is. */
+int type_display_read(const char *verb, const char *word, enum font_display *out);
+/* The filter of these that fits best, but one (-1: none); -1: there is no other. Prints it for lines of this width, with why, and the next. */
+int type_fits_best(const struct font_filter_fit *fits, int count, int but);
+void type_fits_print(const char *const *names, const struct font_filter_fit *fits, int count,
+                     double detail_px);
+/* The named filter that suits lines of this width on a display; prints why. NULL, and why not, on failure. */
+const char *type_filter_choose(const char *verb, double detail_px, enum font_display display);
+
 /* Labels: a line of small black type with the left end of its baseline at (x, y). Nothing is
  * drawn if there is no font. */
 struct type_labels;

@@ -13,13 +13,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What is written, and where. */
-static int write_check(const struct font_verb *v)
+/* What is shown, and what is written where. */
+static int wishes_check(const struct font_verb *v)
 {
     static const char *const levels[] = {"outline", "glif", "master", "rectangles",
                                          "filter",  "gray", NULL};
     const bool filter = v->write && strcmp(v->write, "filter") == 0;
     int i = 0;
+    if ((v->proof != NULL) + (v->waterfall != NULL) + (v->against != NULL) +
+            (v->glyph != NULL) + v->show_filter >
+        1)
+        return fail_usage("font",
+                          "there is one of --proof, --waterfall, --against, --glyph and "
+                          "--show-filter at a time");
     if (v->write && (!(v->glyph || filter) || !v->edits))
         return fail_usage("font", "--write wants a --glyph, and --edits to write to");
     while (v->write && levels[i] && strcmp(v->write, levels[i]) != 0)
@@ -69,6 +75,17 @@ static int font_options(struct font_verb *v, int argc, char **argv, bool *help)
          "join rectangles whose sides differ by up to N pixels", &v->merge, 1, 4096, 0},
         {"filter", 0, OPTION_TEXT, "F", "the filter's name (gaussian-fast)", &v->filter, 0, 0,
          0},
+        {"proof", 0, OPTION_TEXT, "WORD",
+         "this word by every filter at several sizes, with what it keeps in numbers", &v->proof,
+         0, 0, 0},
+        {"display", 0, OPTION_TEXT, "D",
+         "the display that the proof is for: lcd, crt or print (lcd)", &v->display, 0, 0, 0},
+        {"waterfall", 0, OPTION_TEXT, "AXIS",
+         "a line of type at nine places along a variable font's axis: wght", &v->waterfall, 0,
+         0, 0},
+        {"against", 0, OPTION_TEXT, "FILE",
+         "compare with another version of the font: both, and what is different", &v->against,
+         0, 0, 0},
         {"show-filter", 0, OPTION_FLAG, NULL,
          "draw the filter itself: its plot and what is known of it", &v->show_filter, 0, 0, 0},
         {0}};
@@ -87,7 +104,7 @@ static int font_options(struct font_verb *v, int argc, char **argv, bool *help)
         return fail_usage("font", "--edits goes without --show-filter");
     if (!v->file && !v->show_filter)
         return fail_usage("font", "give a font file, a font file's name or a family");
-    return write_check(v);
+    return wishes_check(v);
 }
 
 /* ---- the specimen ---- */
@@ -171,17 +188,14 @@ static enum font_status specimen_set(struct specimen *s, const struct font_verb 
     return status;
 }
 
-static void face_print(const struct font_face *face)
+static void face_print(struct font_face *face)
 {
     struct font_face_info info;
-    struct font_axis axis;
     font_face_describe(face, &info);
     visible_print("%s %s: %s, %d glyphs, %g units to the em, face %d of %d\n%s\n", info.family,
                   info.style, info.format, info.glyphs_count, info.units_per_em, info.index,
                   info.faces_count, info.path);
-    for (int i = 0; i < info.axes_count && font_face_axis(face, i, &axis) == FONT_OK; i++)
-        visible_print("axis %s (%s): %g..%g, usually %g, now %g\n", axis.tag, axis.name,
-                      axis.least, axis.most, axis.usual, axis.value);
+    font_list_print(face);
 }
 
 static int specimen_make(const struct font_verb *v, struct font_face *face)
@@ -350,15 +364,21 @@ static int picture_make(const struct font_verb *v, struct font_face *face)
     else if (status == EXIT_SUCCESS && edits && font_edits_apply(edits, face) != FONT_OK)
         status = fail_font("font");
     else if (status == EXIT_SUCCESS)
-        status = specimen_make(v, face);
+        status = v->proof       ? font_proof_show(v, face)
+                 : v->waterfall ? font_waterfall_show(v, face)
+                 : v->against   ? font_against_show(v, face)
+                                : specimen_make(v, face);
     font_edits_destroy(edits);
     return status;
 }
 
 int verb_font(int argc, char **argv)
 {
-    struct font_verb v = {
-        .filter = "gaussian-fast", .out_path = "out.png", .size_px = 12.25, .em_px = 860};
+    struct font_verb v = {.filter = "gaussian-fast",
+                          .out_path = "out.png",
+                          .size_px = 12.25,
+                          .em_px = 860,
+                          .display = "lcd"};
     bool help = false;
     int status = font_options(&v, argc, argv, &help);
     if (status != EXIT_SUCCESS || help)

@@ -146,10 +146,9 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
     if (t->warp && strcmp(t->warp, "projective") != 0 && strcmp(t->warp, "bilinear") != 0)
         return fail_usage("type", "--warp must be projective or bilinear (got '%.60s')",
                           t->warp);
-    if (strcmp(t->display, "lcd") != 0 && strcmp(t->display, "crt") != 0 &&
-        strcmp(t->display, "print") != 0)
-        return fail_usage("type", "--display must be lcd, crt or print (got '%.60s')",
-                          t->display);
+    enum font_display display;
+    if (type_display_read("type", t->display, &display) != EXIT_SUCCESS)
+        return EXIT_USAGE;
     if (align_of(t->align) < 0)
         return fail_usage(
             "type", "--align must be left, right, center or justify (got '%.60s')", t->align);
@@ -259,11 +258,11 @@ static int type_run(struct type *t, struct font_face *face)
     struct font_layout layout = {0};
     struct font_map map;
     if (strcmp(t->filter, "auto") == 0) {
-        enum font_display display = strcmp(t->display, "crt") == 0     ? FONT_DISPLAY_CRT
-                                    : strcmp(t->display, "print") == 0 ? FONT_DISPLAY_PRINT
-                                                                       : FONT_DISPLAY_LCD;
-        t->filter = font_filter_choose(font_face_stem(face) * t->size_px, display);
-        visible_print("filter: %s\n", t->filter);
+        enum font_display display = FONT_DISPLAY_LCD;
+        (void)type_display_read("type", t->display, &display); /* was read before */
+        t->filter = type_filter_choose("type", font_face_stem(face) * t->size_px, display);
+        if (!t->filter)
+            return EXIT_FAILED;
     }
     def.filter = t->filter;
     memcpy(def.ink, t->ink, sizeof def.ink);

@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "../display/scratch.h"
+#include "../fontpipe/made_font.h"
 #include "child.h"
 
 #include <display.h>
@@ -221,6 +222,61 @@ static void fonts_and_filters_are_shown(void **state)
     unlink(path);
 }
 
+/* DejaVu Sans with an axis wdth, in a file. */
+static void wide_write(const char *path, const char *picture)
+{
+    struct child found = {.arguments = {"", "font", "DejaVuSans", "-o", picture}};
+    char name[600];
+    size_t count = 0, made_count;
+    uint8_t *bytes = calloc(1, 1 << 21);
+    run(&found, 0, "");
+    const char *line = strchr(found.output, '\n');
+    assert_true(bytes && line && sscanf(line + 1, "%599[^\n]", name) == 1);
+    FILE *f = fopen(name, "rb");
+    assert_non_null(f);
+    count = fread(bytes, 1, 1 << 21, f);
+    fclose(f);
+    uint8_t *made = made_wide(bytes, count, &made_count);
+    f = fopen(path, "wb");
+    assert_non_null(f);
+    assert_int_equal(fwrite(made, 1, made_count, f), made_count);
+    assert_int_equal(fclose(f), 0);
+    free(made);
+    free(bytes);
+}
+
+static void proofs_and_versions_are_shown(void **state)
+{
+    (void)state;
+    const char *path = scratch_path("font.png"), *wide = scratch_path("wide.ttf");
+    int width, height;
+    struct child proof = {.arguments = {"", "font", "DejaVuSans", "--proof", "wet", "--filter",
+                                        "cone:2", "--display", "crt", "-o", path}};
+    run(&proof, 0, "");
+    assert_non_null(strstr(proof.output, "  suits the display\n"));
+    assert_non_null(strstr(proof.output, "\ncone:2 "));
+    assert_true(ink_of(path, &width, &height) > 3000);
+    wide_write(wide, path);
+    struct child fall = {.arguments = {"", "font", wide, "--waterfall", "wdth", "-o", path}};
+    run(&fall, 0, "");
+    assert_non_null(strstr(fall.output, "axis wdth"));
+    assert_non_null(strstr(fall.output, "\nscripts: DFLT"));
+    assert_non_null(strstr(fall.output, " liga"));
+    assert_true(ink_of(path, &width, &height) > 5000);
+    /* Along the axis all but the composite glyphs are wider; where it is as usual nothing has changed. */
+    struct child same = {
+        .arguments = {"", "font", "DejaVuSans", "--against", wide, "--text", "HH", "-o", path}};
+    run(&same, 0, "");
+    assert_non_null(strstr(same.output, "changed: none\n"));
+    assert_non_null(strstr(same.output, "\n0 of "));
+    struct child other = {.arguments = {"", "font", "DejaVuSans", "--against",
+                                        "DejaVuSans-Bold", "--text", "H", "-o", path}};
+    run(&other, 0, "");
+    assert_non_null(strstr(other.output, "changed: space"));
+    unlink(wide);
+    unlink(path);
+}
+
 static void wrong_lines_are_said(void **state)
 {
     (void)state;
@@ -265,6 +321,14 @@ static void wrong_lines_are_said(void **state)
         {{"font"}, 2, "give a font file"},
         {{"font", "DejaVuSans", "--glyph", "ab"}, 2, "no glyph 'ab'"},
         {{"font", "DejaVuSans", "--glyph", "#99999"}, 1, "no #99999"},
+        {{"font", "DejaVuSans", "--proof", "a", "--waterfall", "wght"}, 2, "one of --proof"},
+        {{"font", "DejaVuSans", "--proof", "a", "--display", "tv"}, 2, "--display must be"},
+        {{"font", "DejaVuSans", "--proof", " "}, 1, "no ink"},
+        {{"font", "DejaVuSans", "--waterfall", "wght"}, 2, "no axes"},
+        {{"font", "DejaVuSans", "--against", "/nowhere.ttf"}, 1, "/nowhere.ttf"},
+        {{"font", "DejaVuSans", "--write", "filter", "--sizes", "9,8", "--edits", "x"},
+         2,
+         "--sizes are"},
         {{"font", "DejaVuSans", "--write", "master"}, 2, "wants a --glyph"},
         {{"font", "DejaVuSans", "--glyph", "a", "--edits", "x", "--write", "paint"},
          2,
@@ -310,6 +374,7 @@ int main(void)
         cmocka_unit_test(lines_are_broken_to_fit),
         cmocka_unit_test(comparisons_are_shown),
         cmocka_unit_test(fonts_and_filters_are_shown),
+        cmocka_unit_test(proofs_and_versions_are_shown),
         cmocka_unit_test(wrong_lines_are_said),
         cmocka_unit_test(what_is_missing_is_said),
     };

@@ -124,6 +124,7 @@ INPUTS = [
     ("paint", "edits", ["paint", "a", "--edits", "@", "-o", "o.png"]),
     ("keys", "edits", ["keys", "song.mid", "--edits", "@", "--still", "o.png"]),
     ("voice", "edits", ["voice", "--cry", "a", "--edits", "@", "-o", "o.png"]),
+    ("font", "against", ["font", "DejaVuSans", "--against", "@", "-o", "o.png"]),
     ("type", "texture", ["type", "a", "--texture", "@", "-o", "o.png"]),
     ("paint", "filter", ["paint", "a", "--filter", "@@", "-o", "o.png"]),
     ("set", "filter", ["set", "text.txt", "--filter", "@@", "-o", "o.png"]),
