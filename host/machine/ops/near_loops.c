@@ -9,6 +9,7 @@
 #include "base/errors.h"
 #include "base/scalar.h"
 #include "interpret/lanes.h"
+#include "ops/near_active.h"
 
 typedef uint32_t u32;
 typedef uint64_t u64;
@@ -289,8 +290,9 @@ ALWAYS bool vectors_u128(const struct stretch *s, u128 *acc)
 
 /* What a line's whole comes to, beside one another for neighbouring lines. */
 #define INTEGERS_LINES(T, NAME, N)                                                             \
-    static void NAME(const struct stretch *s, int run, size_t line)                            \
+    static void NAME(const struct stretch *all, int run, size_t line)                          \
     {                                                                                          \
+        const struct stretch part = N == 1 ? near_active_part(all) : *all, *s = &part;         \
         NUMBERS(T);                                                                            \
         T acc[N];                                                                              \
         bool has[N] = {false};                                                                 \
@@ -397,8 +399,9 @@ static struct stretch segment_last(const struct stretch *s)
             has = begins || !has ? c->total_has : has;                                         \
         }                                                                                      \
     }                                                                                          \
-    static void chunk_scan_##T(const struct stretch *s, struct chunk *c)                       \
+    static void chunk_scan_##T(const struct stretch *all, struct chunk *c)                     \
     {                                                                                          \
+        const struct stretch part = near_active_part(all), *s = &part;                         \
         NUMBERS(T);                                                                            \
         T acc[1] = {c->carry.as_##T};                                                          \
         bool has[1] = {c->carry_has};                                                          \
