@@ -48,6 +48,8 @@ struct page_style {
     double spacing_px; /* added between letters */
     bool inked;        /* in `ink`; else whoever draws says */
     struct font_ink ink;
+    const char *
+        filter; /* of the style's own font, as font_filter_create_named() has it, where that has no other (own.h); NULL: whoever draws says */
 };
 /* DejaVu Serif at 16 pixels, without ink. */
 struct page_style page_style_default(void);

@@ -11,12 +11,14 @@
 #include "breaks.h"
 #include "page.h"
 
+#include <own.h>
+
 enum { LETTERS_MAX = 1000000, FLOWS_MAX = 8, PAGES_MAX = 100000 };
 
 /* One look of letters, and the shaper of its face. Faces are shared. */
 struct style {
     struct page_style look;
-    char *font, *axes, *features, *language;
+    char *font, *axes, *features, *language, *filter; /* what look has */
     struct font_shaper *shaper;
     hb_feature_t hb_features[32];
     unsigned features_count;
@@ -147,7 +149,7 @@ struct flow {
 };
 
 struct shared_face {
-    char *name; /* and axes */
+    char *name; /* and axes and filter */
     struct font_face *face;
     struct font_shaper *shaper;
 };
@@ -184,6 +186,15 @@ struct page_text {
     struct page_stats stats;
     hb_buffer_t *buffer;
 };
+
+/* The style's filter as the face's own. */
+static inline enum font_status style_filter_set(const struct page_style *look,
+                                                struct font_face *face)
+{
+    return look->filter ? font_own_filter_set(face, FONT_EVERY_GLYPH, 0, 2.0 * FONT_SIDE_MAX,
+                                              look->filter, false)
+                        : FONT_OK;
+}
 
 /* story.c */
 struct paragraph *story_paragraph(const struct page_text *t, int id); /* NULL: there is none */

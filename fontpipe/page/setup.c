@@ -61,6 +61,12 @@ struct page_setup page_setup_default(void)
                                .tolerance = 200};
 }
 
+const char *page_part_name(enum page_part part)
+{
+    static const char *const names[PAGE_PARTS] = {"text", "italic", "bold", "head", "note"};
+    return names[part];
+}
+
 /* The face's other file, where it lies beside it under such a name: one family may have several sizes of each. */
 static bool file_beside(const char *path, const char *kind, char *room, size_t bytes)
 {
@@ -109,16 +115,17 @@ static enum font_status styles_make(struct making *m)
     const struct {
         const char *font;
         double size, raise;
-    } looks[LOOKS] = {[ROMAN] = {s->font, 1, 0},
-                      [ITALIC] = {italic, 1, 0},
-                      [BOLD] = {bold, 1, 0},
-                      [HEAD] = {s->font, 1.6, 0},
-                      [SMALL_HEAD] = {bold, 1.1, 0},
-                      [NOTE] = {s->font, 0.8, 0},
-                      [NOTE_ITALIC] = {italic, 0.8, 0},
-                      [NOTE_BOLD] = {bold, 0.8, 0},
-                      [RAISED] = {s->font, 0.65, 0.35},
-                      [NOTE_RAISED] = {s->font, 0.55, 0.28}};
+        enum page_part part;
+    } looks[LOOKS] = {[ROMAN] = {s->font, 1, 0, PAGE_PART_TEXT},
+                      [ITALIC] = {italic, 1, 0, PAGE_PART_ITALIC},
+                      [BOLD] = {bold, 1, 0, PAGE_PART_BOLD},
+                      [HEAD] = {s->font, 1.6, 0, PAGE_PART_HEAD},
+                      [SMALL_HEAD] = {bold, 1.1, 0, PAGE_PART_HEAD},
+                      [NOTE] = {s->font, 0.8, 0, PAGE_PART_NOTE},
+                      [NOTE_ITALIC] = {italic, 0.8, 0, PAGE_PART_NOTE},
+                      [NOTE_BOLD] = {bold, 0.8, 0, PAGE_PART_NOTE},
+                      [RAISED] = {s->font, 0.65, 0.35, PAGE_PART_TEXT},
+                      [NOTE_RAISED] = {s->font, 0.55, 0.28, PAGE_PART_NOTE}};
     for (int i = 0; i < LOOKS; i++) {
         const struct page_style style = {.font = looks[i].font,
                                          .features = s->features,
@@ -126,7 +133,8 @@ static enum font_status styles_make(struct making *m)
                                          .size_px = looks[i].size * s->size_px,
                                          .raise_px = looks[i].raise * s->size_px,
                                          .inked = s->inked,
-                                         .ink = s->ink};
+                                         .ink = s->ink,
+                                         .filter = s->filters[looks[i].part]};
         enum font_status status = page_style_add(m->text, &style, &m->styles[i]);
         if (status != FONT_OK)
             return status;

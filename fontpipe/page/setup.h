@@ -16,6 +16,18 @@
 
 #include "page.h"
 
+/* Parts of a text that may have a filter of their own. */
+enum page_part {
+    PAGE_PART_TEXT,
+    PAGE_PART_ITALIC,
+    PAGE_PART_BOLD,
+    PAGE_PART_HEAD,
+    PAGE_PART_NOTE,
+    PAGE_PARTS
+};
+/* "text", "italic", "bold", "head", "note"; never NULL, constants, valid for ever. */
+const char *page_part_name(enum page_part part);
+
 struct page_setup {
     const char *font, *italic, *bold; /* NULL: those of the font's family */
     const char *features, *language;
@@ -38,6 +50,7 @@ struct page_setup {
     bool colour; /* as page_text_colour() */
     bool inked;
     struct font_ink ink;
+    const char *filters[PAGE_PARTS]; /* as page_style has them; NULL: whoever draws says */
 };
 /* One justified column of DejaVu Serif on a page of 600 x 840. */
 struct page_setup page_setup_default(void);

@@ -48,6 +48,7 @@ static void style_free(struct style *s)
     free(s->axes);
     free(s->features);
     free(s->language);
+    free(s->filter);
     free(s);
 }
 
@@ -105,31 +106,32 @@ static bool text_copy(const char *from, char **to)
 static enum font_status face_share(struct page_text *t, const struct page_style *look,
                                    struct font_shaper **shaper, struct font_face **face)
 {
-    char name[512];
-    int length =
-        snprintf(name, sizeof name, "%s\n%s", look->font, look->axes ? look->axes : "");
-    if (length < 0 || (size_t)length >= sizeof name)
-        return font_fail(FONT_BAD_ARGUMENT, "a font's name is too long");
+    char *name;
+    if (asprintf(&name, "%s\n%s\n%s", look->font, look->axes ? look->axes : "",
+                 look->filter ? look->filter : "") < 0)
+        return no_memory();
     for (int i = 0; i < t->faces_count; i++)
         if (strcmp(t->faces[i].name, name) == 0) {
             *shaper = t->faces[i].shaper;
             *face = t->faces[i].face;
+            free(name);
             return FONT_OK;
         }
-    if (!array_reserve(&t->faces, &t->faces_capacity, t->faces_count + 1, sizeof *t->faces))
+    if (!array_reserve(&t->faces, &t->faces_capacity, t->faces_count + 1, sizeof *t->faces)) {
+        free(name);
         return no_memory();
+    }
     struct shared_face *s = &t->faces[t->faces_count];
-    *s = (struct shared_face){0};
+    *s = (struct shared_face){.name = name};
     enum font_status status = font_edits_open(look->font, 0, t->colour, &s->face);
     if (status == FONT_OK)
         status = font_face_axes_set(s->face, look->axes);
     if (status == FONT_OK)
+        status = style_filter_set(look, s->face);
+    if (status == FONT_OK)
         status = font_shaper_create(s->face, &s->shaper);
     if (status == FONT_OK && t->colour)
         font_shaper_colour(s->shaper);
-    s->name = strdup(name);
-    if (status == FONT_OK && !s->name)
-        status = no_memory();
     if (status != FONT_OK) {
         font_shaper_destroy(s->shaper);
         font_face_close(s->face);
@@ -188,8 +190,14 @@ enum font_status page_style_add(struct page_text *t, const struct page_style *lo
         return no_memory();
     s->look = *look;
     if (!text_copy(look->font, &s->font) || !text_copy(look->axes, &s->axes) ||
-        !text_copy(look->features, &s->features) || !text_copy(look->language, &s->language))
+        !text_copy(look->features, &s->features) || !text_copy(look->language, &s->language) ||
+        !text_copy(look->filter, &s->filter))
         status = no_memory();
+    s->look.font = s->font; /* ours, for as long as the style is */
+    s->look.axes = s->axes;
+    s->look.features = s->features;
+    s->look.language = s->language;
+    s->look.filter = s->filter;
     if (status == FONT_OK)
         status = features_read(s);
     if (status == FONT_OK)

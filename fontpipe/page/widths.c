@@ -38,7 +38,8 @@ static struct font_face *widened(struct page_text *t, const struct style *style,
     double value = axis.value * (1 + steps * STEP);
     if (font_edits_open(style->look.font, 0, false, &w->face) == FONT_OK &&
         (font_face_axes_set(w->face, style->look.axes) != FONT_OK ||
-         font_face_axis_set(w->face, "wdth", value) != FONT_OK)) {
+         font_face_axis_set(w->face, "wdth", value) != FONT_OK ||
+         style_filter_set(&style->look, w->face) != FONT_OK)) {
         font_face_close(w->face);
         w->face = NULL;
     }

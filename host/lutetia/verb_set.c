@@ -27,6 +27,7 @@ struct set {
     bool all, hyphenate, vertical, statistics, folios, grid;
     struct font_layout lacking; /* only its missing characters: of all pages that were drawn */
     struct page_setup setup;
+    struct option_texts filters;
     struct page_shape shapes[PAGE_SHAPES_MAX];
     double corners[PAGE_SHAPES_MAX][2 * ROUND_CORNERS];
 };
@@ -98,6 +99,9 @@ static int set_options(struct set *s, int argc, char **argv, const char **path, 
          1, 3},
         {"filter", 0, OPTION_TEXT, "F", "filter of the letters (gaussian-fast)", &s->filter, 0,
          0, 0},
+        {"filter-of", 0, OPTION_TEXTS, "PART=F",
+         "filter of the text, of italic or bold words, of a head or a note: note=cone",
+         &s->filters, 0, 0, 0},
         {"darken", 0, OPTION_NUMBER, "PX",
          "widens the stems of small type; 0: does not (as their width needs)", &s->darken_px, 0,
          2, 0},
@@ -366,6 +370,28 @@ static int pages_draw(struct set *s, struct page_text *text)
     return status;
 }
 
+/* note=cone */
+static int filters_read(struct set *s)
+{
+    for (int i = 0; i < s->filters.count; i++) {
+        const char *text = s->filters.texts[i], *equals = strchr(text, '=');
+        int part = 0;
+        while (equals && part < PAGE_PARTS &&
+               (strncmp(text, page_part_name((enum page_part)part), (size_t)(equals - text)) !=
+                    0 ||
+                page_part_name((enum page_part)part)[equals - text]))
+            part++;
+        if (!equals || part == PAGE_PARTS)
+            return fail_usage(
+                "set",
+                "--filter-of must be text, italic, bold, head or note, and = and a "
+                "filter (got '%.60s')",
+                text);
+        s->setup.filters[part] = equals + 1;
+    }
+    return EXIT_SUCCESS;
+}
+
 static int align_read(const char *word, enum font_align *align)
 {
     static const char *const words[] = {[FONT_ALIGN_LEFT] = "left",
@@ -412,7 +438,7 @@ int verb_set(int argc, char **argv)
 {
     static struct set s; /* its lists are large */
     const char *path = NULL;
-    char *text = NULL, *font = NULL;
+    char *text = NULL, *font = NULL, *filter = NULL;
     size_t bytes = 0;
     bool help = false;
     const struct page_setup usual = page_setup_default();
@@ -432,8 +458,15 @@ int verb_set(int argc, char **argv)
     if (status != EXIT_SUCCESS || help)
         return status;
     s.font = font;
+    if (s.filter) {
+        status = type_filter_read("set", s.filter, &filter);
+        s.filter = filter;
+    }
     s.setup = setup_of(&s);
-    status = align_read(s.align, &s.setup.align);
+    if (status == EXIT_SUCCESS)
+        status = align_read(s.align, &s.setup.align);
+    if (status == EXIT_SUCCESS)
+        status = filters_read(&s);
     if (status == EXIT_SUCCESS)
         status = shapes_make(&s);
     if (status == EXIT_SUCCESS)
@@ -457,5 +490,6 @@ int verb_set(int argc, char **argv)
     page_text_destroy(pages);
     free(text);
     free(font);
+    free(filter);
     return status;
 }

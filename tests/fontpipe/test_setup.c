@@ -2,6 +2,7 @@
 #include "support.h"
 
 #include <page.h>
+#include <paint.h>
 #include <setup.h>
 
 #include <math.h>
@@ -206,6 +207,73 @@ static void headings_are_balanced(void **state)
     page_text_destroy(t);
 }
 
+enum { WIDE = 300, HIGH = 160 };
+
+/* The page by a painter's filter, with filters of parts. */
+static void page_cover(const char *filter, const char *const filters[PAGE_PARTS], uint8_t *gray)
+{
+    static const char text[] = "# Head\n\nab *cd*[^note]";
+    struct page_setup setup = page_setup_default();
+    struct font_painter_def def = font_painter_def_default();
+    struct font_painter *painter;
+    struct page_text *t;
+    struct font_layout layout;
+    struct font_cover cover = {WIDE, HIGH, WIDE, gray};
+    setup.width_px = WIDE;
+    setup.height_px = HIGH;
+    setup.margin_px = 16;
+    for (int i = 0; i < PAGE_PARTS; i++)
+        setup.filters[i] = filters[i];
+    def.filter = filter;
+    memset(gray, 0, (size_t)WIDE * HIGH);
+    assert_font(page_setup_make(&setup, text, sizeof text - 1, &t));
+    assert_font(page_layout(t, 0, &layout));
+    assert_font(font_painter_create(&def, &painter));
+    assert_font(font_painter_cover(painter, &layout, NULL, 0, 0, &cover));
+    font_painter_destroy(painter);
+    font_layout_finish(&layout);
+    page_text_destroy(t);
+}
+
+/* Pixels of a page that differ. */
+static int differing(const uint8_t *a, const uint8_t *b)
+{
+    int count = 0;
+    for (int i = 0; i < WIDE * HIGH; i++)
+        count += a[i] != b[i];
+    return count;
+}
+
+/* A part's filter is what a painter with that filter draws of it; all parts' together are the whole page. */
+static void parts_have_filters_of_their_own(void **state)
+{
+    (void)state;
+    static uint8_t box[WIDE * HIGH], soft[WIDE * HIGH], one[WIDE * HIGH];
+    const char *none[PAGE_PARTS] = {NULL}, *all[PAGE_PARTS];
+    page_cover("box", none, box);
+    page_cover("gaussian-slow", none, soft);
+    for (int i = 0; i < PAGE_PARTS; i++)
+        all[i] = "gaussian-slow";
+    page_cover("box", all, one);
+    assert_int_equal(differing(one, soft), 0);
+    int sum = 0;
+    for (int part = 0; part < PAGE_PARTS; part++) {
+        const char *own[PAGE_PARTS] = {NULL};
+        own[part] = "gaussian-slow";
+        page_cover("box", own, one);
+        for (int i = 0; i < WIDE * HIGH; i++)
+            assert_true(one[i] == box[i] || one[i] == soft[i] || part == PAGE_PART_ITALIC ||
+                        part == PAGE_PART_TEXT); /* their edges meet */
+        assert_true((differing(one, box) > 0) == (part != PAGE_PART_BOLD));
+        sum += differing(one, box);
+    }
+    assert_true(sum >= differing(soft, box));
+    struct page_setup setup = page_setup_default();
+    struct page_text *t;
+    setup.filters[PAGE_PART_NOTE] = "bax";
+    assert_int_equal(page_setup_make(&setup, "a", 1, &t), FONT_BAD_ARGUMENT);
+}
+
 /* A number needs a margin. */
 static void numbers_without_a_margin_are_refused(void **state)
 {
@@ -226,6 +294,7 @@ int main(void)
         cmocka_unit_test(pages_have_numbers_and_heads),
         cmocka_unit_test(lines_beside_each_other_are_level),
         cmocka_unit_test(headings_are_balanced),
+        cmocka_unit_test(parts_have_filters_of_their_own),
         cmocka_unit_test(numbers_without_a_margin_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
