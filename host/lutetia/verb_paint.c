@@ -234,13 +234,17 @@ static enum paper_status line_fit(const struct paint *paint, struct paper_line *
 
 static int screen_from_text(struct paint *paint)
 {
-    char *font;
-    if (type_font_name("paint", paint->font, paint->edits, font_face_first(fonts), &font) !=
-        EXIT_SUCCESS)
+    char *font, *filter = NULL;
+    if (paint->filter && type_filter_read("paint", paint->filter, &filter) != EXIT_SUCCESS)
         return EXIT_FAILED;
+    if (type_font_name("paint", paint->font, paint->edits, font_face_first(fonts), &font) !=
+        EXIT_SUCCESS) {
+        free(filter);
+        return EXIT_FAILED;
+    }
     struct paper_line line = {.text = paint->text,
                               .font = font,
-                              .filter = paint->filter,
+                              .filter = filter,
                               .angle_deg = paint->angle_deg,
                               .size_px = paint->size_px};
     uint32_t missing = 0;
@@ -253,6 +257,7 @@ static int screen_from_text(struct paint *paint)
         tell("paint", "no font has a glyph for U+%04X; %s's sign for that is set instead",
              (unsigned)missing, line.font);
     free(font);
+    free(filter);
     if (status == EXIT_SUCCESS)
         type_left_out_tell("paint");
     return status;

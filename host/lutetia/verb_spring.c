@@ -441,11 +441,17 @@ int verb_spring(int argc, char **argv)
     const char *usual = s.scene.font;
     s.scene.font = NULL;
     int status = spring_options(&s, argc, argv, &help);
-    char *font = NULL;
+    char *font = NULL, *filter = NULL;
+    if (status == EXIT_SUCCESS && !help && s.film.filter)
+        status = type_filter_read("spring", s.film.filter, &filter);
+    if (filter)
+        s.film.filter = filter;
     if (status == EXIT_SUCCESS && !help)
         status = type_font_name("spring", s.scene.font, s.edits, usual, &font);
-    if (status != EXIT_SUCCESS || help)
+    if (status != EXIT_SUCCESS || help) {
+        free(filter);
         return status;
+    }
     s.scene.font = font;
     s.scene.sets = s.sets.texts;
     s.scene.sets_count = s.sets.count;
@@ -453,6 +459,7 @@ int verb_spring(int argc, char **argv)
     enum stage_status made = spring_scene_make(&s.scene, &scene);
     if (made != STAGE_OK) {
         free(font);
+        free(filter);
         return made == STAGE_BAD_ARGUMENT ? fail_usage("spring", "%s", stage_error())
                                           : fail_stage();
     }
@@ -466,5 +473,6 @@ int verb_spring(int argc, char **argv)
     midi_song_destroy(s.song);
     spring_scene_finish(&scene);
     free(font);
+    free(filter);
     return status;
 }

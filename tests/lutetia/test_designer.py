@@ -149,6 +149,16 @@ run("run", "both.lua", "--in", "elsewhere", "-q", "-o", ".", status=1)
 for verb in (("set", "page.txt"), ("spring", "word"), ("keys", "x.mid"), ("voice", "x.wav", "Text"), ("paint", "wet"), ("type", "a")):
     run(*verb, "--edits", "nowhere", status=1)
 
+# A filter's words may be in a file, for each verb.
+(folder / "soft.txt").write_text("# soft\ncone: 2\n")
+for words in (("set", "plain.txt", "--paper", "300x200", "-o", "f.png"), ("paint", "wet", "--paper", "96x64", "--steps", "2", "-o", "f.png"),
+              ("spring", "word", "--seconds", "0.1", "--size", "96x64", "--still", "f.png")):
+    made = []
+    for name in ("cone:2", "@soft.txt", "box"):
+        run(*words, "--filter", name)
+        made.append((folder / "f.png").read_bytes())
+    assert made[0] == made[1] != made[2], words
+
 if sys.argv[3:]:
     keep = pathlib.Path(sys.argv[3]).resolve()
     (folder / f"mine/{LIGATURE}.svg").write_text(
