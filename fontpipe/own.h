@@ -20,7 +20,7 @@
 
 #define FONT_EVERY_GLYPH UINT32_MAX
 
-enum { FONT_OWN_FILTERS_MAX = 64 };
+enum { FONT_OWN_FILTERS_MAX = 32 };
 
 /* From from_px up to, and without, to_px. here: as long as the axes are set as they are now; that comes before what holds for any setting, and a glyph's before
  * every glyph's; of several sizes that fit the first that was set. The face's version changes. Errors: BAD_ARGUMENT (no such filter, sizes that are none),

@@ -167,7 +167,7 @@ static void damaged_folders_are_used_or_refused(void **state)
     (void)state;
     static struct file whole[FILES], copy;
     const char *many = getenv("LUTETIA_EDITS_FOLDERS");
-    int count = many ? atoi(many) : 400, used = 0;
+    int count = many ? atoi(many) : 250, used = 0;
     const char *made = folder_make();
     char folder[512];
     snprintf(folder, sizeof folder, "%s", made);

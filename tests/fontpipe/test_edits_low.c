@@ -243,7 +243,7 @@ static void a_font_has_few_filters_of_its_own(void **state)
     struct font_face *face = face_open("DejaVuSans");
     char words[40];
     for (int i = 0; i <= FONT_OWN_FILTERS_MAX; i++) {
-        snprintf(words, sizeof words, "box:%g", 0.5 + i / 64.0);
+        snprintf(words, sizeof words, "box:%g", 0.25 + i / 1024.0);
         for (int k = 0; k < 2; k++) /* the same again is no other */
             assert_int_equal(font_own_filter_set(face, (uint32_t)i, 0, 1e4, words, false),
                              i < FONT_OWN_FILTERS_MAX ? FONT_OK : FONT_TOO_LARGE);
