@@ -11,8 +11,7 @@
 
 enum { FILES = 1000, OUTLINES = 800, TEXTS = 400 };
 
-static const char *const fonts[] = {"DejaVuSansMono", "EBGaramond12-Italic",
-                                    "NimbusSans-Regular.t1"};
+static const char *const fonts[] = {"DejaVuSansMono", "EBGaramond12-Italic", TYPE_1_FONT};
 
 /* Damages a file: changes bytes, blanks runs, copies pieces elsewhere, cuts off the end. Half of the damage is in the first
  * kilobyte, which lists the tables. */

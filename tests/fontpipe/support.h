@@ -16,6 +16,10 @@
 
 #include <stdio.h>
 
+/* URW's Type 1 files are opened by their paths: newer fontconfigs leave Type 1 fonts out. */
+#define TYPE_1_FOLDER "/usr/share/fonts/type1/urw-base35/"
+#define TYPE_1_FONT TYPE_1_FOLDER "NimbusSans-Regular.t1"
+
 /* Fails the test with font_error(). */
 #define assert_font(call)                                                                      \
     do {                                                                                       \

@@ -46,7 +46,7 @@ static void glyphs_are_filled_as_by_strips(void **state)
 {
     (void)state;
     static const char *const names[] = {"DejaVuSerif-Bold", "EBGaramond12-Italic",
-                                        "C059-Roman.otf", "NimbusSans-Regular.t1"};
+                                        "C059-Roman.otf", TYPE_1_FONT};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         struct font_face *face = face_open(names[i]);
         struct font_face_info info;
