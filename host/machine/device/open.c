@@ -92,6 +92,18 @@ static uint64_t memory_left(uint64_t bytes)
     return bytes - bytes / PART;
 }
 
+/* PoCL 7.1 compiles some kernels so that a work-group of one work-item is computed twice, and crashes on others where it computes values
+ * again instead of keeping them (seen with LLVM 21). It asks for these settings whenever it compiles. One that the user has made
+ * stays. */
+static void pocl_keep_right(const char *driver)
+{
+    enum { WRONG_SINCE = 7 };
+    if (atoi(driver) < WRONG_SINCE)
+        return;
+    setenv("POCL_WORK_GROUP_SPECIALIZATION", "0", 0);
+    setenv("POCL_PREGION_VALUE_REMAT", "0", 0);
+}
+
 /* Asks the driver for the device's properties. */
 static enum machine_status ask(struct machine *m)
 {
@@ -109,6 +121,8 @@ static enum machine_status ask(struct machine *m)
     clGetDeviceInfo(d->id, CL_DRIVER_VERSION, sizeof d->driver - 1, d->driver, NULL);
     d->is_cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
     d->is_pocl = d->is_cpu && strcmp(d->platform_name, "Portable Computing Language") == 0;
+    if (d->is_pocl)
+        pocl_keep_right(d->driver);
     /* PoCL has a cache of its own, and would compile each program once more to return its
      * binary. */
     d->keeps_programs = m->settings.keep == SETTING_FREE ? !d->is_pocl : m->settings.keep;

@@ -1,8 +1,12 @@
-/* state_driver.c - an HDF5 driver that reads from an open descriptor.
+/* state_driver.c - an HDF5 driver that reads from an open descriptor, or writes to one.
  *
  * HDF5's own drivers open files by name. The reader of states may not open files any more
- * when HDF5 reads the first byte, so it uses this driver, which reads by pread(). All other
- * operations fail.
+ * when HDF5 reads the first byte, so it uses this driver, which reads by pread(). It writes
+ * nothing there.
+ *
+ * The writer uses it because some builds of HDF5 end the program when they close a file that
+ * could not be written. The driver notes the first error (state_written.error), writes no
+ * more, and tells HDF5 that all is well. The writer asks for the error when the file is closed.
  */
 #include "states/hdf5_library.h"
 #include "states/state_internal.h"
@@ -13,9 +17,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+/* The driver's own access property. writing: NULL where the file is read. */
+struct driver_access {
+    int descriptor;
+    struct state_writing *writing;
+};
+
 struct driver_file {
     H5FD_t pub; /* HDF5's; first */
-    int descriptor;
+    struct driver_access of;
     haddr_t end, allocated;
 };
 
@@ -24,14 +34,14 @@ static H5FD_t *driver_open(const char *name, unsigned flags, hid_t access, haddr
     (void)name;
     (void)most;
     struct stat status;
-    const int *descriptor = hdf5.Pget_driver_info(access);
+    const struct driver_access *of = hdf5.Pget_driver_info(access);
     struct driver_file *file =
-        descriptor && !(flags & H5F_ACC_RDWR) ? calloc(1, sizeof *file) : NULL;
-    if (!file || fstat(*descriptor, &status) != 0) {
+        of && (of->writing || !(flags & H5F_ACC_RDWR)) ? calloc(1, sizeof *file) : NULL;
+    if (!file || fstat(of->descriptor, &status) != 0) {
         free(file);
         return NULL;
     }
-    file->descriptor = *descriptor;
+    file->of = *of;
     file->end = (haddr_t)status.st_size;
     return &file->pub;
 }
@@ -42,10 +52,13 @@ static herr_t driver_close(H5FD_t *file)
     return 0;
 }
 
+/* What is written lies as HDF5's own drivers let it lie. */
 static herr_t driver_query(const H5FD_t *file, unsigned long *flags)
 {
-    (void)file;
-    *flags = 0;
+    const bool writes = file && ((const struct driver_file *)file)->of.writing;
+    *flags = writes ? H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA |
+                          H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA
+                    : 0;
     return 0;
 }
 
@@ -74,7 +87,7 @@ static herr_t driver_read(H5FD_t *file, H5FD_mem_t type, hid_t how, haddr_t at, 
 {
     (void)type;
     (void)how;
-    int descriptor = ((const struct driver_file *)file)->descriptor;
+    int descriptor = ((const struct driver_file *)file)->of.descriptor;
     if (at > INT64_MAX - count)
         return -1;
     for (size_t done = 0; done < count;) {
@@ -96,16 +109,42 @@ static herr_t driver_read(H5FD_t *file, H5FD_mem_t type, hid_t how, haddr_t at, 
 static herr_t driver_write(H5FD_t *file, H5FD_mem_t type, hid_t how, haddr_t at, size_t count,
                            const void *bytes)
 {
-    (void)file;
     (void)type;
     (void)how;
-    (void)at;
-    (void)count;
-    (void)bytes;
-    return -1;
+    struct driver_file *f = (struct driver_file *)file;
+    struct state_writing *writing = f->of.writing;
+    if (!writing || at > INT64_MAX - count)
+        return -1;
+    for (size_t done = 0; done < count && writing->error == 0;) {
+        errno = 0;
+        ssize_t more = pwrite(f->of.descriptor, (const char *)bytes + done, count - done,
+                              (off_t)(at + done));
+        if (more > 0)
+            done += (size_t)more;
+        else if (errno != EINTR)
+            writing->error = errno ? errno : EIO;
+    }
+    f->end = at + count > f->end ? at + count : f->end;
+    return 0;
 }
 
-int64_t state_file_open(int descriptor)
+/* HDF5 calls it before it closes: the file ends where what it has given out ends. */
+static herr_t driver_truncate(H5FD_t *file, hid_t how, hbool_t closing)
+{
+    (void)how;
+    (void)closing;
+    struct driver_file *f = (struct driver_file *)file;
+    struct state_writing *writing = f->of.writing;
+    if (!writing || f->end == f->allocated)
+        return 0;
+    if (writing->error == 0 && ftruncate(f->of.descriptor, (off_t)f->allocated) != 0)
+        writing->error = errno;
+    f->end = f->allocated;
+    return 0;
+}
+
+/* Access properties for the driver on that descriptor; negative if there is none. */
+static hid_t driver_access(const struct driver_access *of)
 {
     static const H5FD_class_t driver = {
 #ifdef H5FD_CLASS_VERSION /* since 1.14 */
@@ -115,7 +154,7 @@ int64_t state_file_open(int descriptor)
         .name = "descriptor",
         .maxaddr = INT64_MAX,
         .fc_degree = H5F_CLOSE_WEAK,
-        .fapl_size = sizeof(int),
+        .fapl_size = sizeof(struct driver_access),
         .open = driver_open,
         .close = driver_close,
         .query = driver_query,
@@ -124,11 +163,31 @@ int64_t state_file_open(int descriptor)
         .get_eof = driver_end,
         .read = driver_read,
         .write = driver_write,
+        .truncate = driver_truncate,
         .fl_map = H5FD_FLMAP_SINGLE,
     };
     hid_t number = hdf5.FDregister(&driver),
           access = hdf5.Pcreate(*hdf5.P_CLS_FILE_ACCESS_ID_g);
-    if (number < 0 || access < 0 || hdf5.Pset_driver(access, number, &descriptor) < 0)
+    return number < 0 || access < 0 || hdf5.Pset_driver(access, number, of) < 0 ? -1 : access;
+}
+
+/* The name means nothing to the driver, but HDF5 2 asks for the current folder if it is not absolute, which is forbidden to readers. */
+static const char NAME[] = "/state";
+
+int64_t state_file_open(int descriptor)
+{
+    hid_t access = driver_access(&(struct driver_access){.descriptor = descriptor});
+    return access < 0 ? -1 : hdf5.Fopen(NAME, H5F_ACC_RDONLY, access);
+}
+
+int64_t state_file_create(int descriptor, struct state_writing *writing, int64_t how)
+{
+    hid_t access =
+        driver_access(&(struct driver_access){.descriptor = descriptor, .writing = writing});
+    if (access < 0)
         return -1;
-    return hdf5.Fopen("state", H5F_ACC_RDONLY, access);
+    hdf5.Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
+    hid_t file = hdf5.Fcreate(NAME, H5F_ACC_TRUNC, how, access);
+    hdf5.Pclose(access);
+    return file;
 }

@@ -60,6 +60,13 @@ enum {
 /* Opens an HDF5 file (hid_t) on a descriptor, for reading only; negative: failed
  * (states/state_driver.c). */
 int64_t state_file_open(int descriptor);
+/* What became of a file that is written: the first error, as errno has it; 0: none. It lasts as long as the file is open. */
+struct state_writing {
+    int error;
+};
+/* Makes an HDF5 file (hid_t) on a descriptor of an empty file, with creation properties (hid_t); negative: failed. What cannot be
+ * written is noted in *writing, and HDF5 does not hear of it (states/state_driver.c). */
+int64_t state_file_create(int descriptor, struct state_writing *writing, int64_t how);
 /* Checks that the HDF5 file (hid_t) has the sheets of its header, and that the sheet
  * `number` has exactly what we write. Returns NULL if so, else the error in words. Reads no
  * data (states/state_walk.c). */

@@ -169,28 +169,25 @@ static enum paper_status sheet_write(hid_t file, const struct paper_state_sheet 
     return status;
 }
 
-static enum paper_status content_write(const char *path, const struct paper_state_sheet *sheets,
+/* *written false: HDF5 failed, or the file could not be written: errno tells why. */
+static enum paper_status content_write(int descriptor, const struct paper_state_sheet *sheets,
                                        int count, bool *written)
 {
     hdf5_begin();
-    hid_t how = how_made(*hdf5.P_CLS_FILE_CREATE_ID_g),
-          access = hdf5.Pcreate(*hdf5.P_CLS_FILE_ACCESS_ID_g);
+    struct state_writing writing = {0};
+    hid_t how = how_made(*hdf5.P_CLS_FILE_CREATE_ID_g);
     enum paper_status status = PAPER_OK;
     hdf5.Pset_userblock(how, STATE_HEADER_BYTES);
-    hdf5.Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
-    hdf5.Pset_file_locking(access, false, true); /* the part file has our lock, so HDF5 must not
-                                               * lock it */
-    errno = 0;
-    hid_t file = hdf5.Fcreate(path, H5F_ACC_TRUNC, how, access);
+    hid_t file = state_file_create(descriptor, &writing, how);
     *written = file >= 0 && number_note(file, "format", STATE_VERSION) &&
                number_note(file, "model", PAPER_MODEL_VERSION) &&
                text_note(file, "program", "lutetia " LUTETIA_VERSION);
-    for (int i = 0; i < count && status == PAPER_OK && *written; i++)
+    for (int i = 0; i < count && status == PAPER_OK && *written && writing.error == 0; i++)
         status = sheet_write(file, &sheets[i], written);
-    if (file >= 0 && hdf5.Fclose(file) < 0)
+    if ((file >= 0 && hdf5.Fclose(file) < 0) || writing.error != 0)
         *written = false;
-    hdf5.Pclose(access);
     hdf5.Pclose(how);
+    errno = writing.error;
     return status;
 }
 
@@ -236,7 +233,7 @@ enum paper_status paper_state_save(const char *path, const struct paper_state_sh
         return status;
     if (!output_file_open(&out, path))
         return paper_fail(PAPER_BAD_ARGUMENT, "%s: cannot write: %s", path, out.why);
-    status = content_write(out.part, sheets, count, &written);
+    status = content_write(fileno(out.stream), sheets, count, &written);
     int error = errno;
     if (status == PAPER_OK && written) {
         errno = 0;
