@@ -3,6 +3,7 @@
  * Expat reads them. A file with a DOCTYPE is refused: so nothing in it stands for more than it is. What is drawn and is no path (a circle, a
  * component) is refused by name, since leaving it out would change the glyph. */
 #include "edits_internal.h"
+#include "xml_line.h"
 
 #include <array.h>
 
@@ -37,8 +38,8 @@ struct reader {
 static void fail_read(struct reader *r, const char *what, const char *name)
 {
     if (r->status == FONT_OK)
-        r->status = font_fail(FONT_BAD_FILE, "%s:%lu: %s%.100s", r->path,
-                              (unsigned long)XML_GetCurrentLineNumber(r->parser), what, name);
+        r->status = font_fail(FONT_BAD_FILE, "%s:%lu: %s%.100s", r->path, xml_line(r->parser),
+                              what, name);
     XML_StopParser(r->parser, XML_FALSE);
 }
 
@@ -48,8 +49,7 @@ static void pipeline_failed(struct reader *r)
     snprintf(what, sizeof what, "%.199s", font_error());
     r->status = r->status == FONT_BAD_ARGUMENT || r->status == FONT_BAD_FILE ? FONT_BAD_FILE
                                                                              : r->status;
-    r->status = font_fail(r->status, "%s:%lu: %s", r->path,
-                          (unsigned long)XML_GetCurrentLineNumber(r->parser), what);
+    r->status = font_fail(r->status, "%s:%lu: %s", r->path, xml_line(r->parser), what);
     XML_StopParser(r->parser, XML_FALSE);
 }
 
@@ -354,8 +354,7 @@ enum font_status edits_outline_read(const char *path, const char *bytes, size_t 
     XML_SetElementHandler(r.parser, element_begin, element_end);
     XML_SetStartDoctypeDeclHandler(r.parser, doctype_begin);
     if (XML_Parse(r.parser, bytes, (int)count, 1) == XML_STATUS_ERROR && r.status == FONT_OK)
-        r.status = font_fail(FONT_BAD_FILE, "%s:%lu: %s", path,
-                             (unsigned long)XML_GetCurrentLineNumber(r.parser),
+        r.status = font_fail(FONT_BAD_FILE, "%s:%lu: %s", path, xml_line(r.parser),
                              XML_ErrorString(XML_GetErrorCode(r.parser)));
     XML_ParserFree(r.parser);
     free(r.points);

@@ -4,6 +4,8 @@
 
 #include "shapes/path_internal.h"
 
+#include <xml_line.h>
+
 #include <expat.h>
 #include <math.h>
 #include <stdint.h>
@@ -73,23 +75,13 @@ static XML_Parser parser_create(size_t count)
 
 /* ---- the parse ---- */
 
-/* Expat 2.9 has this function with another type, and warns of the old one. */
-static unsigned long line_of(XML_Parser parser)
-{
-#if XML_MAJOR_VERSION > 2 || (XML_MAJOR_VERSION == 2 && XML_MINOR_VERSION >= 9)
-    return (unsigned long)XML_GetCurrentLineNumber64(parser);
-#else
-    return (unsigned long)XML_GetCurrentLineNumber(parser);
-#endif
-}
-
 static void reading_fail(struct reading *r, enum paper_status status, const char *what)
 {
     if (r->status != PAPER_OK)
         return;
     char said[400]; /* a copy, because the message may be paper_error() itself */
     snprintf(said, sizeof said, "%s", what);
-    r->status = paper_fail(status, "%s:%lu: %s", r->name, line_of(r->parser), said);
+    r->status = paper_fail(status, "%s:%lu: %s", r->name, xml_line(r->parser), said);
     XML_StopParser(r->parser, XML_FALSE);
 }
 
