@@ -42,8 +42,8 @@ static void busy_begin(struct busy *b)
         b->processes[b->count] = fork();
         if (b->processes[b->count] == 0) {
             prctl(PR_SET_PDEATHSIG, SIGKILL);
-            for (volatile unsigned int i = 0;; i++)
-                ;
+            for (;;)
+                __asm__ volatile("" ::: "memory"); /* work that no compiler takes out */
         }
     }
 }
