@@ -353,7 +353,13 @@ class Debug(unittest.TestCase):
         self.assertTrue(any("fork" in line and '"child"' in line for line in lines), lines)
 
     def test_after_a_crash(self):
-        lines = self.debug("others", "break here", "run", "field list[1] at 0 0", "field image", "field list[0] u 200", "continue", "field list[0]")
+        self.after_a_crash()
+
+    def test_after_a_crash_in_a_library_without_symbols(self):
+        self.after_a_crash("set debug-file-directory /nonexistent")
+
+    def after_a_crash(self, *before):
+        lines = self.debug("others", *before, "break here", "run", "field list[1] at 0 0", "field image", "field list[0] u 200", "continue", "field list[0]")
         for said in ("list[1] at 0 0 = 0", "image: there is no field", "list[0]: the field has 32 bits from here on; 200 were", "received signal SIG", "`finish` goes to its end"):
             self.assertTrue(any(said in line for line in lines), (said, lines))
 

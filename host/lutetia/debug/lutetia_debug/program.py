@@ -1,5 +1,6 @@
 """Asks the program: paris_compat/debug.h has the other half."""
 import json
+import signal
 import struct
 
 import gdb
@@ -56,15 +57,32 @@ def call_under_way():
     return "a call of libparis" if inside else None
 
 
+def is_locked_name(name):
+    return name.lstrip("_").replace("libc_", "") in LOCKED or name in LOCKED
+
+
+def has_crashed():
+    """Whether a signal that ends programs has stopped it."""
+    try:
+        return int(gdb.parse_and_eval("$_siginfo.si_signo")) in (signal.SIGABRT, signal.SIGSEGV, signal.SIGBUS, signal.SIGILL, signal.SIGFPE)
+    except (gdb.error, gdb.MemoryError):
+        return False
+
+
 def locked_in():
-    """The function that holds malloc's lock, where the program is, or has crashed; None: none is known to."""
+    """The function that holds malloc's lock, where the program is, or has crashed; None: none is known to.
+
+    Where the C library has no debugging symbols, HOLDS have no names. A crash in a nameless function below one of LOCKED may be in one of them.
+    """
     frame = gdb.newest_frame()
-    name = frame.name() or ""
-    if name.lstrip("_").replace("libc_", "") in LOCKED or name in LOCKED:
+    name, nameless = frame.name() or "", False
+    if is_locked_name(name):
         return name
     while frame is not None and frame.is_valid() and gdb.solib_name(frame.pc()) is not None:
-        if frame.name() in HOLDS:
-            return frame.name()
+        name = frame.name()
+        if name in HOLDS or (name and nameless and is_locked_name(name) and has_crashed()):
+            return name
+        nameless = nameless or name is None
         frame = frame.older()
     return None
 
