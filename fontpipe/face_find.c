@@ -27,23 +27,21 @@ static bool comes_first(const char *path, const char *other)
     return rank != others ? rank < others : strcmp(path, other) < 0;
 }
 
-/* fontconfig's pattern of a family's name, or NULL. "FAMILY-12" is a family at a size there, and what is no size after the
- * dash would be left out: that dash is part of the family. */
+/* fontconfig's pattern of a family's name, or NULL. "FAMILY-12" is a family at a size there, and fontconfig leaves out what is no
+ * size after a dash: here such a dash is part of the family's name. */
 static FcPattern *family_parse(const char *name)
 {
-    const size_t plain = strcspn(name, ":");
+    const char *end = name + strcspn(name, ":");
     char *escaped = malloc(2 * strlen(name) + 1), *to = escaped;
     if (!escaped)
         return NULL;
-    for (size_t i = 0; name[i]; i++) {
-        const size_t size = i < plain && name[i] == '-' && (i == 0 || name[i - 1] != '\\')
-                                ? strspn(name + i + 1, "0123456789.,")
-                                : 1;
-        if (size == 0 || (i < plain && name[i] == '-' && i + 1 + size < plain))
+    for (const char *at = name; *at; *to++ = *at++) {
+        const bool is_dash = *at == '-' && at < end && (at == name || at[-1] != '\\');
+        const size_t size = is_dash ? strspn(at + 1, "0123456789.,") : 0;
+        if (is_dash && (size == 0 || at + 1 + size < end))
             *to++ = '\\';
-        *to++ = name[i];
     }
-    *to = 0;
+    *to = '\0';
     FcPattern *pattern = FcNameParse((const FcChar8 *)escaped);
     free(escaped);
     return pattern;
@@ -83,9 +81,9 @@ static char *by_fontconfig(const char *name, int *index)
     const bool of_file = ending_rank(name) < 2;
     if (!path && !of_file && (pattern = family_parse(name))) {
         FcChar8 *wanted, *got, *file;
+        FcPattern *asked = FcPatternDuplicate(pattern);
         FcConfigSubstitute(NULL, pattern, FcMatchPattern);
         FcDefaultSubstitute(pattern);
-        FcPattern *asked = family_parse(name);
         match = FcFontMatch(NULL, pattern, &result);
         /* fontconfig always has an answer: it must be of the family asked for. */
         bool same = false;

@@ -3,9 +3,12 @@
 #define LUTETIA_TESTS_EDITS_SUPPORT_H
 
 #include "../display/scratch.h"
+#include "made_font.h"
 #include "support.h"
 
 #include <edits.h>
+
+#include <stdlib.h>
 
 static inline void put_text(const char *folder, const char *file, const char *text)
 {
@@ -56,6 +59,24 @@ static inline const char *folder_with(const char *name, const char *glyph,
     level_out(folder, face, &what, em_px, 12, "box", file);
     font_face_close(face);
     return folder;
+}
+
+/* DejaVu Sans with an axis wdth, in the folder's file wide.ttf. */
+static inline struct font_face *wide_face_open(const char *folder)
+{
+    struct font_face *plain = face_open("DejaVuSans");
+    size_t count, made_count;
+    const uint8_t *bytes = font_face_bytes(plain, &count);
+    uint8_t *made = made_wide(bytes, count, &made_count);
+    char path[600];
+    snprintf(path, sizeof path, "%s/wide.ttf", folder);
+    FILE *f = fopen(path, "wb");
+    assert_non_null(f);
+    assert_int_equal(fwrite(made, 1, made_count, f), made_count);
+    assert_int_equal(fclose(f), 0);
+    free(made);
+    font_face_close(plain);
+    return face_open(path);
 }
 
 #endif

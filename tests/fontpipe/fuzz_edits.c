@@ -2,8 +2,6 @@
  * LUTETIA_EDITS_FOLDERS: how many. */
 #include "edits_support.h"
 
-#include "made_font.h"
-
 #include <display.h>
 #include <own.h>
 #include <paint.h>
@@ -78,30 +76,12 @@ static void damage(struct file *file, uint32_t *seed)
     }
 }
 
-/* DejaVu Sans with an axis wdth, as a file in the folder. */
-static struct font_face *wide_open(const char *folder)
-{
-    struct font_face *plain = face_open("DejaVuSans");
-    size_t count, made_count;
-    const uint8_t *bytes = font_face_bytes(plain, &count);
-    uint8_t *made = made_wide(bytes, count, &made_count);
-    char path[600];
-    snprintf(path, sizeof path, "%s/wide.ttf", folder);
-    FILE *f = fopen(path, "wb");
-    assert_non_null(f);
-    assert_int_equal(fwrite(made, 1, made_count, f), made_count);
-    assert_int_equal(fclose(f), 0);
-    free(made);
-    font_face_close(plain);
-    return face_open(path);
-}
-
 /* A folder with one edit of each kind, none of them as it was written. */
 static const char *folder_make(void)
 {
     const char *folder = scratch_path("edits");
     assert_int_equal(mkdir(folder, 0777), 0);
-    struct font_face *face = wide_open(folder);
+    struct font_face *face = wide_face_open(folder);
     const struct font_edits_out what[FILES - 1] = {
         {.glyph = 'A', .ending = ".svg"},
         {.glyph = 'B', .ending = ".glif"},

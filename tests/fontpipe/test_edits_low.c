@@ -3,9 +3,6 @@
  * Gray must come back byte for byte from the picture that was edited; a filter of edits must draw what a painter with that filter draws of
  * the font as it is. */
 #include "edits_support.h"
-
-#include "made_font.h"
-
 #include <atlas.h>
 #include <display.h>
 #include <levels.h>
@@ -254,23 +251,6 @@ static void a_font_has_few_filters_of_its_own(void **state)
     font_face_close(face);
 }
 
-/* DejaVu Sans with an axis wdth, as a file in the folder. */
-static void wide_put(const char *folder)
-{
-    struct font_face *plain = face_open("DejaVuSans");
-    size_t count, made_count;
-    const uint8_t *bytes = font_face_bytes(plain, &count);
-    uint8_t *made = made_wide(bytes, count, &made_count);
-    char path[600];
-    snprintf(path, sizeof path, "%s/wide.ttf", folder);
-    FILE *f = fopen(path, "wb");
-    assert_non_null(f);
-    assert_int_equal(fwrite(made, 1, made_count, f), made_count);
-    assert_int_equal(fclose(f), 0);
-    free(made);
-    font_face_close(plain);
-}
-
 static double left_of(struct font_face *face, uint32_t glyph, double wide)
 {
     struct font_outline o;
@@ -285,11 +265,9 @@ static void edits_may_be_for_one_setting_of_axes(void **state)
 {
     (void)state;
     const char *folder = scratch_path("settings");
-    char file[FONT_EDITS_FILE_BYTES], path[600], list[2048];
+    char file[FONT_EDITS_FILE_BYTES], list[2048];
     assert_int_equal(mkdir(folder, 0777), 0);
-    wide_put(folder);
-    snprintf(path, sizeof path, "%s/wide.ttf", folder);
-    struct font_face *plain = face_open(path), *face;
+    struct font_face *plain = wide_face_open(folder), *face;
     uint32_t glyph = font_face_glyph(plain, 'H');
     struct font_edits_out what = {.glyph = glyph, .level = FONT_EDITS_OUTLINE, .here = true};
     assert_font(font_face_axis_set(plain, "wdth", 105));

@@ -32,7 +32,7 @@
     X(T_NATIVE_FLOAT_g) X(T_NATIVE_LLONG_g) X(T_NATIVE_UINT32_g) X(T_NATIVE_UINT8_g)                                   \
     X(Pcreate) X(Pclose) X(Pget_chunk) X(Pset_chunk) X(Pget_driver_info) X(Pset_driver) X(Pget_userblock)              \
     X(Pset_userblock) X(Pget_external_count) X(Pget_layout) X(Pget_filter2) X(Pget_nfilters) X(Pset_deflate)           \
-    X(Pset_shuffle) X(Pset_libver_bounds) X(Pset_obj_track_times)                                 \
+    X(Pset_shuffle) X(Pset_libver_bounds) X(Pset_obj_track_times)                                                      \
     X(P_CLS_DATASET_CREATE_ID_g) X(P_CLS_FILE_ACCESS_ID_g) X(P_CLS_FILE_CREATE_ID_g) X(P_CLS_GROUP_CREATE_ID_g)
 /* clang-format on */
 

@@ -1,12 +1,12 @@
 /* state_driver.c - an HDF5 driver that reads from an open descriptor, or writes to one.
  *
  * HDF5's own drivers open files by name. The reader of states may not open files any more
- * when HDF5 reads the first byte, so it uses this driver, which reads by pread(). It writes
- * nothing there.
+ * when HDF5 reads the first byte, so it uses this driver, which reads by pread() and refuses
+ * to write.
  *
  * The writer uses it because some builds of HDF5 end the program when they close a file that
- * could not be written. The driver notes the first error (state_written.error), writes no
- * more, and tells HDF5 that all is well. The writer asks for the error when the file is closed.
+ * could not be written. The driver notes the first error (struct state_writing), writes no
+ * more, and tells HDF5 that all is well. The writer looks at the error when the file is closed.
  */
 #include "states/hdf5_library.h"
 #include "states/state_internal.h"
@@ -144,7 +144,7 @@ static herr_t driver_truncate(H5FD_t *file, hid_t how, hbool_t closing)
 }
 
 /* Access properties for the driver on that descriptor; negative if there is none. */
-static hid_t driver_access(const struct driver_access *of)
+static hid_t access_make(const struct driver_access *of)
 {
     static const H5FD_class_t driver = {
 #ifdef H5FD_CLASS_VERSION /* since 1.14 */
@@ -171,19 +171,19 @@ static hid_t driver_access(const struct driver_access *of)
     return number < 0 || access < 0 || hdf5.Pset_driver(access, number, of) < 0 ? -1 : access;
 }
 
-/* The name means nothing to the driver, but HDF5 2 asks for the current folder if it is not absolute, which is forbidden to readers. */
+/* The driver does not look at the name. It is absolute because HDF5 2 asks for the current folder otherwise, and readers may not ask. */
 static const char NAME[] = "/state";
 
 int64_t state_file_open(int descriptor)
 {
-    hid_t access = driver_access(&(struct driver_access){.descriptor = descriptor});
+    hid_t access = access_make(&(struct driver_access){.descriptor = descriptor});
     return access < 0 ? -1 : hdf5.Fopen(NAME, H5F_ACC_RDONLY, access);
 }
 
 int64_t state_file_create(int descriptor, struct state_writing *writing, int64_t how)
 {
     hid_t access =
-        driver_access(&(struct driver_access){.descriptor = descriptor, .writing = writing});
+        access_make(&(struct driver_access){.descriptor = descriptor, .writing = writing});
     if (access < 0)
         return -1;
     hdf5.Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
