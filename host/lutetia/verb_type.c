@@ -3,6 +3,7 @@
 #include "lutetia.h"
 #include "options.h"
 #include "type_common.h"
+#include "type_formula.h"
 #include "type_ink.h"
 
 #include <math.h>
@@ -13,7 +14,7 @@
 
 struct type {
     const char *text, *font, *edits, *axes, *filter, *features, *language, *warp, *display,
-        *out_path, *align;
+        *out_path, *align, *math;
     double size_px, rotate, shear, place[2], ink[3], gamma, darken_px, spacing_px, leading;
     double margin_px, width_px;
     struct option_list corners;
@@ -105,6 +106,9 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
          0},
         {"no-fallback", 0, OPTION_FLAG, NULL,
          "take no other font for characters that this one lacks", &t->no_fallback, 0, 0, 0},
+        {"math", 0, OPTION_TEXT, "STYLE",
+         "the text is a formula in TeX's notation: display, or text as within a line", &t->math,
+         0, 0, 0},
         {"compare", 0, OPTION_FLAG, NULL,
          "draw the text by FreeType and in exact gray beside it, enlarged", &t->compare, 0, 0,
          0},
@@ -133,6 +137,14 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
         return fail_usage("type", "--corners can be given once");
     if (t->gl && (t->gamma != 0 || t->stripes || t->compare))
         return fail_usage("type", "--gl goes without --gamma, --stripes and --compare");
+    if (t->math && strcmp(t->math, "display") != 0 && strcmp(t->math, "text") != 0)
+        return fail_usage("type", "--math must be display or text (got '%.60s')", t->math);
+    if (t->math &&
+        (t->compare || t->features || t->language || t->to_left || t->spacing_px != 0 ||
+         t->leading != 0 || t->width_px != 0 || t->align || t->no_fallback))
+        return fail_usage("type", "--math sets one formula: it goes without --compare, "
+                                  "--features, --language, --right-to-left, --spacing, "
+                                  "--leading, --width, --align and --no-fallback");
     if (t->compare && t->stripes)
         return fail_usage("type", "--compare goes without --stripes: it shows gray");
     if (t->compare && type_ink_given(&t->more))
@@ -242,6 +254,20 @@ static int type_draw(const struct type *t, struct font_painter *painter,
     return status;
 }
 
+static int type_text_layout(const struct type *t, struct font_face *face,
+                            const struct font_text_options *options,
+                            struct font_shaper **shaper, struct font_layout *layout)
+{
+    if (font_shaper_create(face, shaper) != FONT_OK)
+        return fail_font("type");
+    if (!t->compare)
+        font_shaper_colour(*shaper);
+    return font_shaper_layout(*shaper, t->text, strlen(t->text), t->size_px, options, layout) ==
+                   FONT_OK
+               ? EXIT_SUCCESS
+               : fail_font("type");
+}
+
 static int type_run(struct type *t, struct font_face *face)
 {
     struct font_painter_def def = font_painter_def_default();
@@ -254,6 +280,7 @@ static int type_run(struct type *t, struct font_face *face)
                                         .no_fallback = t->no_fallback,
                                         .right_to_left = t->to_left ? 1 : 0};
     struct font_shaper *shaper = NULL;
+    struct font_math *math = NULL;
     struct font_painter *painter = NULL;
     struct font_layout layout = {0};
     struct font_map map;
@@ -270,12 +297,13 @@ static int type_run(struct type *t, struct font_face *face)
     def.darken_px = t->darken_px;
     def.stripes = t->stripes;
     int status = EXIT_SUCCESS;
-    if (font_shaper_create(face, &shaper) == FONT_OK && !t->compare)
-        font_shaper_colour(shaper);
-    if (!shaper || font_painter_create(&def, &painter) != FONT_OK ||
-        font_shaper_layout(shaper, t->text, strlen(t->text), t->size_px, &options, &layout) !=
-            FONT_OK)
+    if (font_painter_create(&def, &painter) != FONT_OK)
         status = fail_font("type");
+    else if (t->math)
+        status = type_formula_layout("type", face, t->text, t->size_px,
+                                     strcmp(t->math, "display") == 0, &math, &layout);
+    else
+        status = type_text_layout(t, face, &options, &shaper, &layout);
     if (status == EXIT_SUCCESS) {
         type_report(t, &layout);
         status = type_map(t, &layout, &map);
@@ -298,6 +326,7 @@ static int type_run(struct type *t, struct font_face *face)
     font_layout_finish(&layout);
     font_painter_destroy(painter);
     font_shaper_destroy(shaper);
+    font_math_destroy(math);
     return status;
 }
 
@@ -320,7 +349,9 @@ int verb_type(int argc, char **argv)
         status = type_filter_read("type", t.filter, &filter);
     t.filter = filter;
     if (status == EXIT_SUCCESS && !help)
-        status = type_font_name("type", t.font, t.edits, "DejaVuSans", &font);
+        status =
+            type_font_name("type", t.font, t.edits,
+                           t.math ? font_face_first(font_math_fonts) : "DejaVuSans", &font);
     t.font = font;
     if (status == EXIT_SUCCESS && !help)
         status = type_face_open("type", t.font, t.face, t.axes, true, &face);

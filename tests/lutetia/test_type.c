@@ -176,6 +176,42 @@ static void comparisons_are_shown(void **state)
     unlink(path);
 }
 
+/* A formula as pixels and as files whose bar is there; what goes without it is said. */
+static void formulas_are_set(void **state)
+{
+    (void)state;
+    const char *path = scratch_path("formula.png");
+    static const char fraction[] = "\\frac{a}{b}", line[] = "a\\,b";
+    int width, height, flat_height;
+    struct child stacked = {
+        .arguments = {"", "type", fraction, "--math", "display", "-o", path}};
+    run(&stacked, 0, "");
+    double ink = ink_of(path, &width, &height);
+    struct child flat = {.arguments = {"", "type", line, "--math", "text", "-o", path}};
+    run(&flat, 0, "");
+    assert_true(ink > ink_of(path, &width, &flat_height));
+    assert_true(height > 1.6 * flat_height);
+    struct child unknown = {
+        .arguments = {"", "type", "\\foo+\\bar x+\\qux", "--math", "text", "-o", path}};
+    run(&unknown, 0, "'\\foo' and 1 more are no commands");
+    struct child none = {.arguments = {"", "type", "x", "--math", "text", "--font",
+                                       "DejaVuSansMono", "-o", path}};
+    run(&none, 1, "no MATH table");
+    struct child word = {.arguments = {"", "type", "x", "--math", "big", "-o", path}};
+    run(&word, 2, "--math must be display or text");
+    struct child broken = {
+        .arguments = {"", "type", "x", "--math", "text", "--width", "30", "-o", path}};
+    run(&broken, 2, "--math sets one formula");
+    unlink(path);
+    const char *files[] = {scratch_path("formula.svg"), scratch_path("formula.pdf")};
+    for (size_t i = 0; i < 2; i++) {
+        struct child written = {
+            .arguments = {"", "type", fraction, "--math", "display", "-o", files[i]}};
+        run(&written, 0, "");
+        assert_int_equal(unlink(files[i]), 0);
+    }
+}
+
 static void fonts_and_filters_are_shown(void **state)
 {
     (void)state;
@@ -373,6 +409,7 @@ int main(void)
         cmocka_unit_test(ink_is_more_than_a_colour),
         cmocka_unit_test(lines_are_broken_to_fit),
         cmocka_unit_test(comparisons_are_shown),
+        cmocka_unit_test(formulas_are_set),
         cmocka_unit_test(fonts_and_filters_are_shown),
         cmocka_unit_test(proofs_and_versions_are_shown),
         cmocka_unit_test(wrong_lines_are_said),
