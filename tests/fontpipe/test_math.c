@@ -62,8 +62,7 @@ static double constant(int n)
         const uint8_t *row = file + 12 + 16 * i;
         if (memcmp(row, "MATH", 4) != 0)
             continue;
-        const uint8_t *table =
-            file + ((uint32_t)row[8] << 24 | row[9] << 16 | row[10] << 8 | row[11]);
+        const uint8_t *table = file + (word_at(row + 8) * 65536L + (row[10] << 8 | row[11]));
         const uint8_t *constants = table + word_at(table + 4);
         return n < 4 ? word_at(constants + 2 * n) : word_at(constants + 8 + 4 * (n - 4));
     }
