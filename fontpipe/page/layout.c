@@ -118,10 +118,18 @@ static bool line_put(struct output *o, const struct paragraph *p, const struct s
             .size_px = (float)style->look.size_px,
             .ink = ink_of(o, run->style),
             .map = map_of(o, frame->vertical, run->upright, scale)};
-        if (g->glyph == 0 && g->letter >= 0)
-            font_layout_missing_add(out, p->letters[g->letter].character);
         slot_point(o->template, slot, slot->u0 + (double)g->u, base - (double)g->v, &to->x_px,
                    &to->y_px);
+        if (style->is_inset && g->letter >= 0) {
+            const struct font_placed as = *to;
+            out->glyphs_count--;
+            if (!inset_put(style, as.x_px, as.y_px, &as, out) ||
+                !array_reserve(&out->glyphs, &out->glyphs_capacity,
+                               out->glyphs_count + l->glyphs_count, sizeof *out->glyphs))
+                return false;
+        } else if (g->glyph == 0 && g->letter >= 0) {
+            font_layout_missing_add(out, p->letters[g->letter].character);
+        }
     }
     return true;
 }

@@ -57,6 +57,14 @@ struct page_style page_style_default(void);
 enum font_status page_style_add(struct page_text *text, const struct page_style *style,
                                 int *out);
 
+/* A style whose letters are not seen: letters in a row that have it are one box, in whose place `shown` is: a formula, a sign. The box is as
+ * wide as shown->width_px, and stands on the line's baseline; lines of a paragraph in which one is higher (ascent_px) or deeper
+ * (descent_px) than its lines are farther apart. No line is broken within it, and a caret stands before it or behind. look: of its font only
+ * the line's height counts. shown: one line; copied, its faces must outlive the text. Errors: as page_style_add(); BAD_ARGUMENT for
+ * numbers that are none. */
+enum font_status page_inset_add(struct page_text *text, const struct page_style *look,
+                                const struct font_layout *shown, int *out);
+
 /* ---- paragraphs ---- */
 
 enum page_tab_align { PAGE_TAB_LEFT, PAGE_TAB_RIGHT, PAGE_TAB_CENTER, PAGE_TAB_DECIMAL };

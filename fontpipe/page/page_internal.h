@@ -24,6 +24,8 @@ struct style {
     unsigned features_count;
     hb_language_t hb_language;
     double ascent_px, descent_px, leading_px;
+    bool is_inset; /* its letters are shown as a box of this: inset.c */
+    struct font_layout shown;
 };
 
 struct letter {
@@ -201,6 +203,10 @@ struct paragraph *story_paragraph(const struct page_text *t, int id); /* NULL: t
 /* templates.c */
 bool templates_vertical(const struct page_text *t, int flow);
 void templates_finish(struct page_text *t);
+
+/* inset.c: puts what an inset shows, its origin at (x, y), of that byte, line and ink. False: no memory. */
+bool inset_put(const struct style *style, double x, double y, const struct font_placed *as,
+               struct font_layout *out);
 
 /* words.c: marks the letters behind which words may be divided; and breaks between words of Thai, which are written together. */
 void words_hyphenate(struct page_text *t, struct paragraph *p);

@@ -30,7 +30,10 @@ static bool is_control(uint32_t c)
     return c == '\t' || c == '\r' || font_text_ends_line(c);
 }
 
-static void letters_read(struct paragraph *p)
+/* What an inset's letters count as: a sign of no script that lines are not broken beside. */
+static const uint32_t inset_sign = '=';
+
+static void letters_read(const struct page_text *t, struct paragraph *p)
 {
     const char *at = p->text, *end = p->text + p->bytes;
     int span = 0;
@@ -41,6 +44,8 @@ static void letters_read(struct paragraph *p)
             span++;
         l->style = (int16_t)p->spans[span].style;
         font_utf8_next(&at, end, &l->character);
+        if (t->styles[l->style]->is_inset)
+            l->character = inset_sign;
         p->characters[p->count] = l->character;
     }
 }
@@ -110,6 +115,10 @@ static bool scripts_find(struct page_text *t, struct paragraph *p)
     }
     if (good)
         carets_find(p);
+    for (int i = 1; good && i < p->count; i++)
+        if (t->styles[p->letters[i].style]->is_inset &&
+            p->letters[i].style == p->letters[i - 1].style)
+            p->letters[i].grapheme = false;
     if (good && p->vertical)
         upright_find(t, p);
     free(scripts);
@@ -147,6 +156,17 @@ static double middle(const struct style *s)
     return (s->ascent_px - s->descent_px) / 2;
 }
 
+/* The one glyph that stands for an inset, as wide as it is. */
+static enum font_status inset_shape(const struct style *style, int begin, struct shaped **out,
+                                    int *count, int *capacity)
+{
+    if (!array_reserve(out, capacity, *count + 1, sizeof **out))
+        return font_fail(FONT_NO_MEMORY, "no memory for a paragraph");
+    (*out)[(*count)++] =
+        (struct shaped){.letter = begin, .advance_px = (float)style->shown.width_px};
+    return FONT_OK;
+}
+
 enum font_status set_shape(struct page_text *t, const struct paragraph *p,
                            const struct set_run *run, int begin, int end, struct shaped **out,
                            int *count, int *capacity)
@@ -156,6 +176,8 @@ enum font_status set_shape(struct page_text *t, const struct paragraph *p,
     hb_buffer_t *buffer = t->buffer;
     if (is_control(p->characters[begin]))
         return FONT_OK;
+    if (style->is_inset)
+        return inset_shape(style, begin, out, count, capacity);
     font_shaped_refresh(face);
     hb_buffer_clear_contents(buffer);
     hb_buffer_add_utf32(buffer, p->characters, p->count, (unsigned)begin, end - begin);
@@ -265,6 +287,13 @@ static void leading_find(const struct page_text *t, struct paragraph *p)
         above = fmax(above, room.above_px);
         below = fmax(below, room.below_px);
     }
+    for (int i = 0; i < p->count; i++) {
+        const struct style *style = t->styles[p->letters[i].style];
+        if (!style->is_inset)
+            continue;
+        above = fmax(above, style->shown.ascent_px);
+        below = fmax(below, style->shown.descent_px);
+    }
     p->leading_px = leading + (above - rise) + (below - (leading - rise));
     p->rise_px = p->vertical ? p->leading_px / 2 + middle(first) : above;
 }
@@ -279,7 +308,7 @@ enum font_status set_analyse(struct page_text *t, struct paragraph *p)
     p->characters = calloc(room, sizeof *p->characters);
     if (!p->letters || !p->characters)
         return font_fail(FONT_NO_MEMORY, "no memory for a paragraph");
-    letters_read(p);
+    letters_read(t, p);
     p->base = p->manner.right_to_left > 0;
     enum font_status status = FONT_OK;
     if (p->count)

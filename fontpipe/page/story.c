@@ -49,6 +49,7 @@ static void style_free(struct style *s)
     free(s->features);
     free(s->language);
     free(s->filter);
+    font_layout_finish(&s->shown);
     free(s);
 }
 
