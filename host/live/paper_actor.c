@@ -5,6 +5,7 @@
 #include <brush.h>
 #include <history.h>
 #include <paint.h>
+#include <picture.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -64,9 +65,7 @@ struct paper_actor {
     double pressure;
     struct held held[MIDI_NOTES];
     struct font_cover cover; /* of a letter, as large as the sheet */
-    uint16_t *view;
     uint8_t *rgb;
-    bool seen; /* rgb is of the sheet as it is */
 };
 
 struct paper_actor_def paper_actor_def_default(void)
@@ -199,7 +198,6 @@ static enum stage_status cover_put(struct paper_actor *a, double water, double i
     amount[1 + (int)a->set.pigment] = ink;
     enum stage_status status = paper_failed(paper_sheet_put(a->sheet, &screen, 0, 0, amount));
     memset(a->cover.gray, 0, (size_t)a->cover.pitch * (size_t)a->cover.height_px);
-    a->seen = false;
     return status;
 }
 
@@ -275,7 +273,6 @@ static enum stage_status brush_lead(struct paper_actor *a, int number, const str
         .number = number, .samples_count = 2, .samples = samples};
     if (status == PAPER_OK)
         status = paper_sheet_stroke(a->sheet, &stroke, NULL);
-    a->seen = false;
     return paper_failed(status);
 }
 
@@ -322,7 +319,6 @@ static enum stage_status actor_step(void *actor, double dt_s)
         status = held_press(a, gone_s);
     for (int i = 0; i < steps && status == STAGE_OK; i++)
         status = paper_failed(paper_sheet_step(a->sheet));
-    a->seen = false;
     return status;
 }
 
@@ -356,18 +352,20 @@ static enum stage_status actor_play(void *actor, const uint8_t *bytes)
 
 /* ---- pictures ---- */
 
+/* rgb becomes the sheet's picture, as far as that has changed. */
 static enum stage_status sheet_look(struct paper_actor *a)
 {
-    const size_t count = 3 * (size_t)a->cover.width_px * (size_t)a->cover.height_px;
     struct paper_sheet_view view = paper_sheet_view_default(paper_sheet_get_config(a->sheet));
+    struct paper_area areas[PAPER_AREAS_MAX];
+    const size_t pitch = 3 * (size_t)a->cover.width_px;
     view.show = PAPER_SHOW_WET;
-    if (a->seen)
-        return STAGE_OK;
-    enum stage_status status = paper_failed(paper_sheet_view(a->sheet, &view, a->view));
-    for (size_t i = 0; i < count && status == STAGE_OK; i++)
-        a->rgb[i] = (uint8_t)(a->view[i] >> 8);
-    a->seen = status == STAGE_OK;
-    return status;
+    const int count = paper_sheet_changed(a->sheet, areas);
+    enum paper_status status = PAPER_OK;
+    for (int i = 0; i < count && status == PAPER_OK; i++)
+        status = paper_sheet_view_area(
+            a->sheet, &view, &areas[i],
+            a->rgb + (size_t)areas[i].y * pitch + 3 * (size_t)areas[i].x, pitch);
+    return paper_failed(status);
 }
 
 static void actor_draw(void *actor, const struct stage_look *look, struct stage_draw_list *list)
@@ -471,7 +469,6 @@ static enum stage_status actor_restore(void *actor, const void *state)
     paper_sheet_destroy(a->sheet);
     a->sheet = sheet;
     a->set = k.set;
-    a->seen = false;
     a->due = 0;
     memset(a->held, 0, sizeof a->held);
     memset(a->led, 0, sizeof a->led);
@@ -489,7 +486,6 @@ static void actor_destroy(void *actor)
     font_shaper_destroy(a->shaper);
     font_painter_destroy(a->painter);
     free(a->cover.gray);
-    free(a->view);
     free(a->rgb);
     free(a);
 }
@@ -553,9 +549,8 @@ static enum stage_status pictures_make(struct paper_actor *a)
                                    .height_px = config->height,
                                    .pitch = config->width,
                                    .gray = calloc(count, 1)};
-    a->view = malloc(3 * count * sizeof *a->view);
     a->rgb = malloc(3 * count);
-    return a->cover.gray && a->view && a->rgb
+    return a->cover.gray && a->rgb
                ? STAGE_OK
                : stage_fail(STAGE_NO_MEMORY, "no memory for a picture of the paper");
 }

@@ -92,6 +92,33 @@ enum paper_status paper_sheet_dip(struct paper_sheet *sheet, const struct paper_
 enum paper_status paper_sheet_stroke(struct paper_sheet *sheet,
                                      const struct paper_stroke *stroke, int *steps);
 
+/* ---- a stroke that grows while a hand makes it ----
+ *
+ *     paper_sheet_stroke_begin(sheet, 0, 60);
+ *     while (pen_reports(samples, &count))
+ *         paper_sheet_stroke_add(sheet, samples, count, NULL);
+ *     paper_sheet_stroke_end(sheet, NULL);
+ *
+ * It makes the bits of paper_sheet_stroke() with all its samples at once, and one operation in the history. A piece is painted, and the
+ * paper makes its steps, as soon as samples settle it: for a moment of the stroke, when there are two samples after the end of the step
+ * that follows it. So a pen that rests is told again from time to time. While a stroke grows it can be looked at; who would do something
+ * else with the sheet or go elsewhere in its history hears BAD_ARGUMENT, but for undo, which drops it. */
+
+/* Begins a stroke of brush `number`; pace: as in struct paper_stroke. Errors: as paper_sheet_brush(), and while another one grows. */
+enum paper_status paper_sheet_stroke_begin(struct paper_sheet *sheet, int number, double pace);
+/* Adds samples, whose times go on from those before. *steps (may be NULL) gets the number of steps that the paper made. Errors:
+ * BAD_ARGUMENT (none grows, or these cannot follow: then it is as it was); NO_MEMORY, MACHINE_FAILED, also where `due` said so: then
+ * the stroke is dropped. */
+enum paper_status paper_sheet_stroke_add(struct paper_sheet *sheet,
+                                         const struct paper_stroke_sample *samples, int count,
+                                         int *steps);
+/* Paints what is left. A stroke without samples is dropped. Errors: BAD_ARGUMENT (none grows), NO_MEMORY, MACHINE_FAILED, as above. */
+enum paper_status paper_sheet_stroke_end(struct paper_sheet *sheet, int *steps);
+/* Ends it as if it had not begun; without a history what has been painted stays. Nothing grows: fine. */
+void paper_sheet_stroke_drop(struct paper_sheet *sheet);
+/* Whether one grows; false also after it ended or was dropped. */
+bool paper_sheet_stroke_growing(const struct paper_sheet *sheet);
+
 /* The amount of a substance (0 water, 1 + a pigment's number) in brush `number`, in units;
  * exact. Errors: BAD_ARGUMENT (no such brush or substance), NO_MEMORY, MACHINE_FAILED. */
 enum paper_status paper_sheet_brush_total(struct paper_sheet *sheet, int number, int substance,

@@ -128,7 +128,7 @@ void kit_grid_block_write(const struct kit_block *block, CM_field_id_t d, unsign
                                     CM_float_single);
     else
         CM_u_write_to_news_array_1L(array, v.offset, v.start, v.end, axes, d, bits, 2, v.size,
-                                    CM_32_bit);
+                                    bits > 32 ? CM_64_bit : CM_32_bit);
 }
 
 void kit_grid_block_read(const struct kit_block *block, void *array, CM_field_id_t a,
@@ -140,5 +140,5 @@ void kit_grid_block_read(const struct kit_block *block, void *array, CM_field_id
                                      CM_float_single);
     else
         CM_u_read_from_news_array_1L(array, v.offset, v.start, v.end, axes, a, bits, 2, v.size,
-                                     CM_32_bit);
+                                     bits > 32 ? CM_64_bit : CM_32_bit);
 }

@@ -48,7 +48,8 @@ void kit_grid_u_read(const struct kit_grid *g, void *numbers, CM_field_id_t a, u
                      unsigned type);
 
 /* A part of a field: processors x1 <= x < x1 + width and so on; they lie in the front end's
- * rows from column `column` and row `row` on. As above otherwise; bits = 0: single floats. */
+ * rows from column `column` and row `row` on. As above otherwise; bits = 0: single floats; numbers of
+ * more than 32 bits are 64 bits long in the array, the others 32. */
 struct kit_block {
     int x1, y1, width, height;
     int column, row, array_width, array_height;

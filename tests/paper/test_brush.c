@@ -2,6 +2,7 @@
  * brushes touch only the paper's hills. */
 #include <brush.h>
 #include <paper.h>
+#include <picture.h>
 
 #include "sheet_calls.h"
 #include "sheets.h"
@@ -345,6 +346,54 @@ static void one_side_can_be_loaded(void **state)
 
 /* ---- what is wrong ---- */
 
+/* The picture of a sheet, kept up to date by looking where it has changed. */
+static void picture_follow(struct paper_sheet *sheet, const struct paper_sheet_view *view,
+                           uint8_t *rgb)
+{
+    struct paper_area areas[PAPER_AREAS_MAX];
+    for (int i = paper_sheet_changed(sheet, areas) - 1; i >= 0; i--)
+        check(paper_sheet_view_area(sheet, view, &areas[i],
+                                    rgb + 3 * ((size_t)areas[i].y * WIDTH + (size_t)areas[i].x),
+                                    3 * (size_t)WIDTH));
+}
+
+static void a_stroke_that_grows_is_the_whole_one(void **state)
+{
+    static uint8_t kept[3 * FIBERS];
+    static uint16_t whole[3 * FIBERS];
+    struct paper_brush brush = brush_small();
+    struct paper_sheet *sheets[2];
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        sheets[i] = sheet_make();
+        check(paper_sheet_brush(sheets[i], &brush));
+        dip(sheets[i], 1, 0.5, 0.1);
+    }
+    const struct paper_sheet_view view =
+        paper_sheet_view_default(paper_sheet_get_config(sheets[0]));
+    stroke(sheets[0], wave, WAVE, 60);
+    check(paper_sheet_confine(sheets[1], 8));
+    check(paper_sheet_stroke_begin(sheets[1], 0, 60));
+    int steps = 0, more;
+    for (int i = 0; i < WAVE; i++) {
+        check(paper_sheet_stroke_add(sheets[1], &wave[i], 1, &more));
+        steps += more;
+        picture_follow(sheets[1], &view, kept);
+    }
+    assert_true(steps > 10); /* it is painted on its way */
+    assert_true(paper_sheet_stroke_growing(sheets[1]));
+    check(paper_sheet_stroke_end(sheets[1], &more));
+    assert_int_equal(steps + more, 36);
+    picture_follow(sheets[1], &view, kept);
+    check(paper_sheet_view(sheets[0], &view, whole));
+    for (int i = 0; i < 3 * FIBERS; i++)
+        assert_int_equal(kept[i], whole[i] >> 8);
+    for (int i = 0; i < 3; i++)
+        assert_true(everything(sheets[0], i) == everything(sheets[1], i));
+    for (int i = 0; i < 2; i++)
+        paper_sheet_destroy(sheets[i]);
+}
+
 static void wrong_brushes_and_strokes_are_refused(void **state)
 {
     (void)state;
@@ -395,6 +444,7 @@ int main(void)
         cmocka_unit_test(a_thin_stroke_has_no_dots),
         cmocka_unit_test(a_mirrored_stroke_gives_the_mirrored_picture),
         cmocka_unit_test(one_side_can_be_loaded),
+        cmocka_unit_test(a_stroke_that_grows_is_the_whole_one),
         cmocka_unit_test(wrong_brushes_and_strokes_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

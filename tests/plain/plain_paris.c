@@ -48,6 +48,11 @@ static uint32_t *words(CM_field_id_t id)
     return fields[id].words;
 }
 
+static uint64_t *longs(CM_field_id_t id)
+{
+    return fields[id].words;
+}
+
 static double *doubles(CM_field_id_t id)
 {
     return fields[id].words;
@@ -93,6 +98,10 @@ unsigned int CM_error_status(void)
 }
 
 void CM_warm_boot(void)
+{
+}
+
+void CM_clear_overflow(void)
 {
 }
 
@@ -305,6 +314,25 @@ void CM_u_add_2_1L(CM_field_id_t dest, CM_field_id_t source, unsigned int len)
     EACH(words(dest)[i] = (words(dest)[i] + words(source)[i]) & mask);
 }
 
+void CM_u_shift_constant_3_2L(CM_field_id_t dest, CM_field_id_t source, long value,
+                              unsigned int dlen, unsigned int slen)
+{
+    (void)dlen, (void)slen; /* 33..64 bits, 32 or fewer */
+    EACH(longs(dest)[i] = (uint64_t)words(source)[i] << value);
+}
+
+void CM_u_move_2L(CM_field_id_t dest, CM_field_id_t source, unsigned int dlen,
+                  unsigned int slen)
+{
+    CM_u_shift_constant_3_2L(dest, source, 0, dlen, slen);
+}
+
+void CM_logior_2_1L(CM_field_id_t dest, CM_field_id_t source, unsigned int len)
+{
+    (void)len; /* 33..64 bits */
+    EACH(longs(dest)[i] |= longs(source)[i]);
+}
+
 /* ---- moving and converting ---- */
 
 void CM_f_move_1L(CM_field_id_t dest, CM_field_id_t source, unsigned int s, unsigned int e)
@@ -337,8 +365,10 @@ void CM_f_move_2L(CM_field_id_t dest, CM_field_id_t source, unsigned int ds, uns
 
 void CM_u_move_constant_1L(CM_field_id_t dest, unsigned long value, unsigned int len)
 {
-    (void)len;
-    EACH(words(dest)[i] = (uint32_t)value);
+    if (len > 32)
+        EACH(longs(dest)[i] = value);
+    else
+        EACH(words(dest)[i] = (uint32_t)value);
 }
 
 void CM_f_u_float_2_2L(CM_field_id_t dest, CM_field_id_t source, unsigned int slen,
@@ -486,7 +516,7 @@ void CM_u_random_1L(CM_field_id_t dest, unsigned int len, unsigned long limit)
 
 static int bytes_of(unsigned int format)
 {
-    return format == CM_8_bit ? 1 : format == CM_16_bit ? 2 : format == CM_float_double ? 8 : 4;
+    return format == CM_8_bit ? 1 : format == CM_16_bit ? 2 : format >= CM_float_double ? 8 : 4;
 }
 
 /* Of a block of processors: where its rows are in the array, and their words in the field. Only axes in their order. */

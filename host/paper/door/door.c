@@ -4,6 +4,8 @@
 #include "history/history_internal.h"
 #include "model/model.h"
 
+#include <string.h>
+
 /* ---- life ---- */
 
 enum paper_status paper_sheet_create(const struct paper_sheet_config *config,
@@ -142,6 +144,41 @@ enum paper_status paper_sheet_stroke(struct paper_sheet *p, const struct paper_s
     return status;
 }
 
+enum paper_status paper_sheet_stroke_begin(struct paper_sheet *p, int number, double pace)
+{
+    return history_stroke_begin(p, number, pace);
+}
+
+enum paper_status paper_sheet_stroke_add(struct paper_sheet *p,
+                                         const struct paper_stroke_sample *samples, int count,
+                                         int *steps)
+{
+    const long before = p->steps;
+    enum paper_status status = history_stroke_add(p, samples, count);
+    if (steps)
+        *steps = (int)(p->steps - before);
+    return status;
+}
+
+enum paper_status paper_sheet_stroke_end(struct paper_sheet *p, int *steps)
+{
+    const long before = p->steps;
+    enum paper_status status = history_stroke_end(p);
+    if (steps)
+        *steps = (int)(p->steps - before);
+    return status;
+}
+
+void paper_sheet_stroke_drop(struct paper_sheet *p)
+{
+    history_stroke_drop(p);
+}
+
+bool paper_sheet_stroke_growing(const struct paper_sheet *p)
+{
+    return sheet_growing(p) != NULL;
+}
+
 void paper_sheet_stop_when(struct paper_sheet *p, bool (*due)(void *context), void *context)
 {
     p->due = due;
@@ -176,6 +213,25 @@ enum paper_status paper_sheet_view(struct paper_sheet *p, const struct paper_she
 {
     enum paper_status status = sheet_ready(p);
     return status == PAPER_OK ? sheet_view(p, view, rgb) : status;
+}
+
+enum paper_status paper_sheet_view_area(struct paper_sheet *p,
+                                        const struct paper_sheet_view *view,
+                                        const struct paper_area *area, uint8_t *rgb,
+                                        size_t pitch_bytes)
+{
+    enum paper_status status = sheet_ready(p);
+    return status == PAPER_OK ? sheet_view_area(p, view, area, rgb, pitch_bytes) : status;
+}
+
+int paper_sheet_changed(struct paper_sheet *p, struct paper_area areas[PAPER_AREAS_MAX])
+{
+    if (sheet_ready(p) != PAPER_OK)
+        sheet_area_mark_all(p);
+    const int count = p->changed.count;
+    memcpy(areas, p->changed.at, (size_t)count * sizeof *areas);
+    p->changed.count = 0;
+    return count;
 }
 
 enum paper_status paper_sheet_plane_read(struct paper_sheet *p, int number, void *words)

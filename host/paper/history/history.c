@@ -36,6 +36,8 @@ static void history_free(struct sheet_history *h)
 
 void history_sheet_destroy(struct paper_sheet *p)
 {
+    if (p)
+        sheet_growing_end(p, NULL);
     if (p && p->history)
         history_free(p->history);
     if (p)
@@ -81,8 +83,9 @@ long paper_sheet_steps(const struct paper_sheet *p)
 long paper_sheet_now(const struct paper_sheet *p)
 {
     const struct sheet_history *h = p->history;
-    return h && h->performing ? history_time(h, h->now) + (p->steps - h->steps_before)
-                              : paper_sheet_steps(p);
+    return h && (h->performing || h->painting)
+               ? history_time(h, h->now) + (p->steps - h->steps_before)
+               : paper_sheet_steps(p);
 }
 
 bool paper_history_moment(const struct paper_sheet *p, int number, struct paper_moment *out)
@@ -146,7 +149,8 @@ bool paper_history_diverged(const struct paper_sheet *p)
 const struct paper_air *history_air(const struct paper_sheet *p)
 {
     struct sheet_history *h = p->history;
-    if (!h || h->performing || (h->at.op >= 0 && position_compare(h->at, h->now) == 0))
+    if (!h || h->performing || h->painting ||
+        (h->at.op >= 0 && position_compare(h->at, h->now) == 0))
         return &p->air;
     h->air = paper_air_default();
     for (int i = h->now.op - 1; i >= 0; i--) {
@@ -256,12 +260,32 @@ static enum paper_status repeat(struct sheet_history *h, struct event_record op)
     return status;
 }
 
+enum paper_status history_keep(struct paper_sheet *p, struct event_record op)
+{
+    struct sheet_history *h = p->history;
+    bool joined;
+    enum paper_status status = record(h, op, &joined);
+    if (status != PAPER_OK) {
+        h->at.op = -1;
+        return status;
+    }
+    h->at = h->now;
+    if (joined && h->notes.count > 0)
+        h->notes.at[h->notes.count - 1].number++;
+    else
+        notes_add(&h->notes, (struct note){op.kind, op.steps, op.digest});
+    checkpoint_offer(p, false);
+    return PAPER_OK;
+}
+
 enum paper_status sheet_event(struct paper_sheet *p, enum sheet_event_kind kind,
                               const void *arguments)
 {
     struct sheet_history *h = p->history;
     struct event_record op;
-    enum paper_status status = sheet_event_check(p, kind, arguments);
+    enum paper_status status = history_no_stroke(p);
+    if (status == PAPER_OK)
+        status = sheet_event_check(p, kind, arguments);
     if (status != PAPER_OK)
         return status;
     if (!h || h->performing) {
@@ -285,19 +309,7 @@ enum paper_status sheet_event(struct paper_sheet *p, enum sheet_event_kind kind,
     }
     if (kind != SHEET_EVENT_STEP) /* a stroke */
         op.steps += (int)(p->steps - before);
-    bool joined;
-    status = record(h, op, &joined);
-    if (status != PAPER_OK) {
-        h->at.op = -1;
-        return status;
-    }
-    h->at = h->now;
-    if (joined && h->notes.count > 0)
-        h->notes.at[h->notes.count - 1].number++;
-    else
-        notes_add(&h->notes, (struct note){(int)kind, op.steps, op.digest});
-    checkpoint_offer(p, false);
-    return PAPER_OK;
+    return history_keep(p, op);
 }
 
 /* ---- computing again ---- */
@@ -337,7 +349,8 @@ enum paper_status sheet_ready(struct paper_sheet *p)
 {
     struct sheet_history *h = p->history;
     enum paper_status status = PAPER_OK;
-    if (!h || h->performing || (h->at.op >= 0 && position_compare(h->at, h->now) == 0))
+    if (!h || h->performing || h->painting ||
+        (h->at.op >= 0 && position_compare(h->at, h->now) == 0))
         return PAPER_OK;
     const struct checkpoint *point = checkpoint_before(h, h->now);
     struct position from = point ? point->position : beginning;
@@ -377,6 +390,10 @@ int paper_history_undo(struct paper_sheet *p, int count)
     struct sheet_history *h = p->history;
     if (!h || count < 1)
         return 0;
+    if (sheet_growing(p)) { /* it is the last operation */
+        history_stroke_drop(p);
+        return 1 + paper_history_undo(p, count - 1);
+    }
     int done = paper_history_done(p), least = h->inserting_at > 0 ? h->inserting_at : 0;
     count = count < done - least ? count : done - least;
     if (count <= 0)
@@ -395,7 +412,7 @@ int paper_history_undo(struct paper_sheet *p, int count)
 int paper_history_redo(struct paper_sheet *p, int count)
 {
     struct sheet_history *h = p->history;
-    if (!h || count < 1)
+    if (!h || count < 1 || sheet_growing(p))
         return 0;
     int left = paper_history_undone(p);
     count = count < left ? count : left;
@@ -414,6 +431,8 @@ static enum paper_status time_check(const struct paper_sheet *p, long time, stru
         return paper_fail(PAPER_BAD_ARGUMENT, "the sheet has no history");
     if (h->inserting_at >= 0)
         return paper_fail(PAPER_BAD_ARGUMENT, "something is being inserted already");
+    if (history_no_stroke(p) != PAPER_OK)
+        return PAPER_BAD_ARGUMENT;
     *position = history_position(h, time, end);
     if (position->op < 0)
         return paper_fail(PAPER_BAD_ARGUMENT, "a time must be 0..%ld steps (got %ld)",
@@ -471,6 +490,8 @@ enum paper_status paper_history_insert_end(struct paper_sheet *p, bool keep)
     struct sheet_history *h = p->history;
     if (!h || h->inserting_at < 0)
         return PAPER_OK;
+    if (history_no_stroke(p) != PAPER_OK)
+        return PAPER_BAD_ARGUMENT;
     history_moved(h, NOTE_INSERT_END, keep);
     if (!keep)
         h->now = (struct position){h->inserting_at, 0};

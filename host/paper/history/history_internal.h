@@ -76,15 +76,17 @@ struct sheet_history {
     bool open;            /* further steps may be joined to the last operation */
     struct notes notes;
     bool following, diverged;
-    long resumed;              /* the time at which the saved run had been followed to its
+    long resumed;               /* the time at which the saved run had been followed to its
                                * end; -1: not yet */
-    bool loaded;               /* the fields hold the saved state, at the end of the notes */
-    struct checkpoint *saved;  /* ... or this checkpoint does; NULL: neither, or it is among
+    bool loaded;                /* the fields hold the saved state, at the end of the notes */
+    struct checkpoint *saved;   /* ... or this checkpoint does; NULL: neither, or it is among
                                * the points */
-    bool unfinished;           /* an operation was done since the last step */
-    bool performing;           /* calls made now are part of an operation */
-    int inserting_at;          /* operations before it cannot be undone; -1: no insertion */
-    struct event_record *tail; /* the operations after the insertion */
+    bool unfinished;            /* an operation was done since the last step */
+    bool performing;            /* calls made now are part of an operation */
+    bool painting;              /* the fields hold `now` and the stroke that grows so far */
+    struct position painted_at; /* `at` when it began */
+    int inserting_at;           /* operations before it cannot be undone; -1: no insertion */
+    struct event_record *tail;  /* the operations after the insertion */
     int tail_count;
     struct {
         int op,
@@ -144,6 +146,20 @@ enum paper_status sheet_ready(struct paper_sheet *p);
 const struct paper_air *history_air(const struct paper_sheet *p);
 /* Destroys the sheet and its history. NULL is fine. */
 void history_sheet_destroy(struct paper_sheet *p);
+
+/* Records an operation that has been performed, and took op's steps; takes op over, also on failure. Errors: NO_MEMORY. */
+enum paper_status history_keep(struct paper_sheet *p, struct event_record op);
+
+/* ---- a stroke that grows (history/painting.c, half_stroke.c) ---- */
+
+/* As the public functions of brush.h. */
+enum paper_status history_stroke_begin(struct paper_sheet *p, int number, double pace);
+enum paper_status history_stroke_add(struct paper_sheet *p,
+                                     const struct paper_stroke_sample *samples, int count);
+enum paper_status history_stroke_end(struct paper_sheet *p);
+void history_stroke_drop(struct paper_sheet *p);
+/* Errors: BAD_ARGUMENT while one grows. */
+enum paper_status history_no_stroke(const struct paper_sheet *p);
 
 /* ---- notes (history/notes.c) ---- */
 

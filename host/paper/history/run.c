@@ -38,7 +38,9 @@ enum paper_status paper_history_encode(struct paper_sheet *p, uint8_t **bytes, s
         return paper_fail(PAPER_BAD_ARGUMENT, h ? "something is being inserted; save later"
                                                 : "the sheet has no history to save");
     struct event_bytes extras = {0};
-    enum paper_status status = sheet_ready(p);
+    enum paper_status status = history_no_stroke(p);
+    if (status == PAPER_OK)
+        status = sheet_ready(p);
     if (status == PAPER_OK)
         status = sheet_extras_encode(p, &extras);
     if (status != PAPER_OK) {

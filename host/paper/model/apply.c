@@ -21,7 +21,7 @@ enum paper_status sheet_put(struct paper_sheet *p, const void *arguments)
 {
     const struct event_put *put = arguments;
     const double *amount = put->amount;
-    sheet_change(p);
+    sheet_change_place(p, &put->place);
     CM_set_context();
     CM_field_id_t share = p->t[1], part = p->t[2];
     enum paper_status status = sheet_share_make(p, &put->place, share);
@@ -57,7 +57,7 @@ enum paper_status sheet_blot(struct paper_sheet *p, const void *arguments)
 {
     const struct event_blot *blot = arguments;
     double part = blot->part, lift = blot->lift;
-    sheet_change(p);
+    sheet_change_place(p, &blot->place);
     CM_set_context();
     CM_field_id_t share = p->t[1], lost = p->t[2];
     enum paper_status status = sheet_share_make(p, &blot->place, share);
@@ -91,7 +91,7 @@ enum paper_status sheet_resist_check(const struct paper_sheet *p, const void *ar
 enum paper_status sheet_resist(struct paper_sheet *p, const void *arguments)
 {
     const struct event_resist *resist = arguments;
-    sheet_change(p);
+    sheet_change_place(p, &resist->place);
     CM_set_context();
     CM_field_id_t share = p->t[2];
     enum paper_status status = sheet_share_make(p, &resist->place, share);

@@ -25,6 +25,8 @@
 
 enum {
     UNIT_USUAL = 64,
+    /* fibers that stay at rest along a box's sides: a picture looks over the first of them to the next */
+    REST = 2 * SHEET_LOOK_REACH,
     SHEET_LEAST = 64, /* units x units: a step of less takes no longer than a box's beginning */
     WAIT_MOST = 384
 };
@@ -95,7 +97,7 @@ static int steps_ahead(const struct paper_sheet *p)
 static struct boxes_wish wish_of(const struct paper_sheet *p)
 {
     return (struct boxes_wish){p->page.grid.width, p->page.grid.height, p->boxes_unit,
-                               1 + spread_in_a_step(p) * steps_ahead(p)};
+                               REST + spread_in_a_step(p) * steps_ahead(p)};
 }
 
 /* The sheet's active fibers, from those of the parts; good = steps that they are good for. */
@@ -119,7 +121,9 @@ static void parts_look(struct paper_sheet *p, const struct boxes_wish *wish, uin
                        (size_t)((box->x + x) % wish->width)] =
                     own[(size_t)y * (size_t)box->width + (size_t)x];
     }
-    b->good = distance == INT_MAX ? INT_MAX : (distance - 1) / spread_in_a_step(p);
+    b->good = distance == INT_MAX ? INT_MAX
+              : distance < REST   ? 0
+                                  : (distance - REST) / spread_in_a_step(p);
 }
 
 /* Steps for which active fibers there leave the part as it is: 0 where they are not in it. */
@@ -140,8 +144,8 @@ static int part_good_for(const struct paper_sheet *p, const struct part *part,
             distance = least;
     }
     return distance == INT_MAX ? INT_MAX
-           : distance < 1      ? 0
-                               : (distance - 1) / spread_in_a_step(p);
+           : distance < REST   ? 0
+                               : (distance - REST) / spread_in_a_step(p);
 }
 
 /* The open part that these fibers are well within; NULL: there is none. */
@@ -224,7 +228,7 @@ static enum paper_status boxes_cut(struct paper_sheet *p)
         (e->width == 0 || part_around(p, e)))
         return PAPER_OK;
     const int wait_next = b->wait_next;
-    sheet_change(p);
+    parts_leave(p);
     status = paper_leave(&p->page);
     if (status != PAPER_OK || area <= SHARE_MOST * all)
         return status == PAPER_OK ? boxes_open(p, boxes, count) : status;
@@ -269,7 +273,7 @@ static enum paper_status confine(struct paper_sheet *p, bool *confined)
     if (status != PAPER_OK)
         return status;
     if (b->confined && memcmp(&b->air, &p->air, sizeof b->air) != 0) {
-        sheet_change(p);
+        parts_leave(p);
         status = paper_leave(&p->page);
     }
     if (status == PAPER_OK && !b->confined && b->wait > 0)
@@ -293,8 +297,10 @@ enum paper_status sheet_step(struct paper_sheet *p, const void *arguments)
         b->share =
             confined ? parts_area(b) / ((double)p->page.grid.width * p->page.grid.height) : 1;
     paper_enter(&p->page);
-    if (!confined)
+    if (!confined) {
+        sheet_area_mark_all(p);
         sheet_step_everywhere(p);
+    }
     for (int i = 0; i < PARTS_MOST && confined; i++) {
         if (!b->parts[i] || !b->parts[i]->open)
             continue;
@@ -305,6 +311,9 @@ enum paper_status sheet_step(struct paper_sheet *p, const void *arguments)
         s->salt_strength = p->salt_strength;
         CM_set_vp_set(s->page.grid.vp_set);
         sheet_step_everywhere(s);
+        struct box inside;
+        part_inside(b->parts[i], &inside);
+        sheet_area_mark(p, inside.x, inside.y, inside.width, inside.height);
     }
     if (confined) {
         b->ahead = true;
@@ -343,6 +352,7 @@ struct paper_sheet *sheet_boxes_touch(struct paper_sheet *p, int x1, int y1, int
     struct sheet_boxes *b = p->boxes;
     const struct box at = {x1, y1, x2 - x1, y2 - y1};
     origin[0] = origin[1] = 0;
+    sheet_area_change(p, x1, y1, x2 - x1, y2 - y1);
     if (!b || !b->confined)
         return p;
     struct part *part = part_around(p, &at);
@@ -378,7 +388,7 @@ enum paper_status sheet_confine(struct paper_sheet *p, int unit)
     if (unit != 0 && (unit < 4 || unit > 4096))
         return paper_fail(PAPER_BAD_ARGUMENT,
                           "a box's sides are multiples of 4..4096 fibers (got %d)", unit);
-    sheet_change(p);
+    parts_leave(p);
     p->boxes_unit = unit;
     return paper_leave(&p->page);
 }

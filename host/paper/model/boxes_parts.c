@@ -88,20 +88,48 @@ static void blocks_each(const struct paper_sheet *p, const struct box *box, CM_f
     }
 }
 
+static void field_fill(struct paper_sheet *p, struct part *part, const struct copied *c,
+                       void *words)
+{
+    const struct kit_grid *grid = &part->sheet.page.grid;
+    CM_set_vp_set(p->page.grid.vp_set);
+    blocks_each(p, &part->box, c->sheet, c->bits, words, true);
+    CM_set_vp_set(grid->vp_set);
+    if (c->bits)
+        kit_grid_u_write(grid, c->part, c->bits, words, CM_32_bit);
+    else
+        kit_grid_f_write(grid, c->part, words);
+}
+
 void part_fill(struct paper_sheet *p, struct part *part, void *words)
 {
     struct copied all[COPIED_MOST];
     const int count = copied_fields(p, &part->sheet, all);
-    const struct kit_grid *grid = &part->sheet.page.grid;
-    for (int i = 0; i < count; i++) {
-        CM_set_vp_set(p->page.grid.vp_set);
-        blocks_each(p, &part->box, all[i].sheet, all[i].bits, words, true);
-        CM_set_vp_set(grid->vp_set);
-        if (all[i].bits)
-            kit_grid_u_write(grid, all[i].part, all[i].bits, words, CM_32_bit);
-        else
-            kit_grid_f_write(grid, all[i].part, words);
-    }
+    for (int i = 0; i < count; i++)
+        field_fill(p, part, &all[i], words);
+    part->dressed = false;
+}
+
+void part_look(struct paper_sheet *p, struct part *part)
+{
+    struct paper_sheet *s = &part->sheet;
+    if (part->dressed)
+        return;
+    const struct copied all[] = {{p->substrate[0], s->substrate[0], 0, false},
+                                 {p->substrate[1], s->substrate[1], 0, false},
+                                 {p->substrate[2], s->substrate[2], 0, false},
+                                 {p->varnish, s->varnish, 0, false}};
+    for (int i = 0; i < (p->varnished ? 4 : 3); i++)
+        field_fill(p, part, &all[i], p->boxes->words);
+    s->varnished = p->varnished;
+    part->dressed = true;
+}
+
+void part_inside(const struct part *part, struct box *inside)
+{
+    const struct box *box = &part->box;
+    *inside = (struct box){box->x + part->rim[0], box->y + part->rim[1],
+                           box->width - 2 * part->rim[0], box->height - 2 * part->rim[1]};
 }
 
 static void part_give(struct paper_sheet *p, const struct part *part, void *words)
@@ -143,6 +171,25 @@ void sheet_boxes_destroy(struct paper_sheet *p)
     p->boxes = NULL;
 }
 
+/* Coordinates of the sheet's first and last fibers on an axis in a box that begins at `from`. */
+static void ends_find(int from, int length, int all, int ends[2])
+{
+    const int first = (all - from) % all, last = all - 1 - from;
+    ends[0] = first < length ? first : 0;
+    ends[1] = last < length ? last : 0;
+}
+
+static void part_place(const struct paper_sheet *p, struct part *part, const struct box *box)
+{
+    const int width = p->page.grid.width, height = p->page.grid.height;
+    part->box = *box;
+    part->rim[0] = box->width == width ? 0 : SHEET_LOOK_REACH;
+    part->rim[1] = box->height == height ? 0 : SHEET_LOOK_REACH;
+    ends_find(box->x, box->width, width, part->sheet.ends[KIT_AXIS_X]);
+    ends_find(box->y, box->height, height, part->sheet.ends[KIT_AXIS_Y]);
+    part->open = true;
+}
+
 enum paper_status part_get(struct paper_sheet *p, const struct box *box, struct part **out)
 {
     struct sheet_boxes *b = p->boxes;
@@ -154,8 +201,7 @@ enum paper_status part_get(struct paper_sheet *p, const struct box *box, struct 
         else if (!part->open && part->box.width == box->width &&
                  part->box.height == box->height) {
             *out = part;
-            part->box = *box;
-            part->open = true;
+            part_place(p, part, box);
             return PAPER_OK;
         } else if (!part->open)
             closed = i;
@@ -176,8 +222,7 @@ enum paper_status part_get(struct paper_sheet *p, const struct box *box, struct 
     s->finer = p->finer;
     kit_grid_make(&s->page.grid, box->width, box->height);
     sheet_fields_make(s);
-    part->box = *box;
-    part->open = true;
+    part_place(p, part, box);
     b->parts[free_place] = *out = part;
     return paper_leave(&s->page);
 }
@@ -228,15 +273,37 @@ void sheet_look(struct paper_sheet *p)
         parts_give(p);
 }
 
-void sheet_change(struct paper_sheet *p)
+void parts_leave(struct paper_sheet *p)
 {
     sheet_look(p);
     if (p->boxes)
         parts_close(p->boxes);
 }
 
+void sheet_change(struct paper_sheet *p)
+{
+    sheet_area_mark_all(p);
+    parts_leave(p);
+}
+
+void sheet_change_area(struct paper_sheet *p, int x, int y, int width, int height)
+{
+    sheet_area_change(p, x, y, width, height);
+    parts_leave(p);
+}
+
+void sheet_change_place(struct paper_sheet *p, const struct paper_place *place)
+{
+    if (place->screen)
+        sheet_change_area(p, place->x, place->y, place->screen->width_px,
+                          place->screen->height_px);
+    else
+        sheet_change(p);
+}
+
 void sheet_change_all(struct paper_sheet *p)
 {
+    sheet_area_mark_all(p);
     if (p->boxes)
         parts_close(p->boxes);
     paper_enter(&p->page);

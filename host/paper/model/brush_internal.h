@@ -81,6 +81,27 @@ bool sheet_place_make(const struct paper_sheet *p, double x, double y, double fo
  * fiber. Writes b->contacts.sharers. */
 void sheet_places_deal(struct sheet_brushes *b, const struct sheet_place *places,
                        int fibers[BRUSH_PLACES], double touch[BRUSH_PLACES]);
+/* ---- a stroke on its way over the sheet (stroke.c): as many intervals as it takes steps ---- */
+
+struct sheet_going {
+    struct paper_sheet *sheet;
+    struct sheet_brush *own;
+    const struct paper_stroke *stroke; /* who adds samples may move them */
+    int cursor;
+    int interval;    /* the next */
+    uint64_t moment; /* places along the way so far */
+};
+
+void sheet_going_begin(struct sheet_going *g, struct paper_sheet *p,
+                       const struct paper_stroke *stroke);
+/* Intervals of the stroke as it is; and of those at its beginning that stay the same whatever samples come. */
+int sheet_going_intervals(const struct paper_stroke *stroke);
+int sheet_going_settled(const struct paper_stroke *stroke);
+/* Goes on until so many intervals have been done. Errors: MACHINE_FAILED (also: stopped), NO_MEMORY. */
+enum paper_status sheet_going_on(struct sheet_going *g, int until);
+/* How far from a sample the brush may touch, fibers. */
+double sheet_stroke_around(const struct paper_sheet *p, const struct paper_brush *brush);
+
 /* Where the bristles are, and what they are like, from the brush's description. */
 void sheet_brush_bristles_make(struct sheet_brush *brush);
 

@@ -39,8 +39,9 @@ void sheet_fields_make(struct paper_sheet *p)
     }
     for (int i = 0; i < SHEET_TEMPORARIES; i++)
         p->t[i] = field_make(KIT_FLOAT_BITS);
-    for (int i = 0; i < 3; i++)
-        p->shown[i] = field_make(16);
+    p->shades = field_make(SHEET_SHADES_BITS);
+    p->shade = field_make(SHEET_SHADE_BITS);
+    p->shifted = field_make(SHEET_SHADES_BITS);
     p->barred = p->resist;
     if (p->config.deckled) {
         p->thickness = field_make(KIT_FLOAT_BITS);
@@ -89,6 +90,15 @@ void sheet_temporaries_clear(struct paper_sheet *p)
 {
     for (int i = 0; i < SHEET_TEMPORARIES; i++)
         kit_f_set(p->t[i], 0.0);
+}
+
+void sheet_end_narrow(const struct paper_sheet *p, unsigned axis, bool last)
+{
+    const struct kit_grid *grid = &p->page.grid;
+    const bool x = axis == KIT_AXIS_X;
+    CM_u_eq_constant_1L(x ? grid->x_coord : grid->y_coord, (unsigned)p->ends[axis][last],
+                        (unsigned)(x ? grid->x_bits : grid->y_bits));
+    CM_logand_context_with_test();
 }
 
 enum paper_status sheet_leave(struct paper_sheet *p)

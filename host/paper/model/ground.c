@@ -114,9 +114,8 @@ static uint16_t shade_of(double linear)
     return (uint16_t)lround(SHADES * paper_light_display(fmin(1, fmax(0, linear))));
 }
 
-/* Lays the picture on the ground, by its covers of the same size. */
-static void pixels_lay(const struct paper_sheet_view *view, const uint16_t *covers,
-                       size_t count, uint16_t *rgb)
+void sheet_ground_pixels(const struct paper_sheet_view *view, const uint16_t *covers,
+                         size_t count, uint16_t *rgb)
 {
     static const double usual[3] = PAPER_GROUND_USUAL;
     const double *ground = view->ground ? view->ground : usual;
@@ -141,31 +140,54 @@ static void pixels_lay(const struct paper_sheet_view *view, const uint16_t *cove
     }
 }
 
+static enum paper_status no_memory(int width, int height)
+{
+    return paper_fail(PAPER_NO_MEMORY, "no memory for a picture of %dx%d", width, height);
+}
+
+enum paper_status sheet_ground_covers(struct paper_sheet *p, double light,
+                                      const uint16_t **covers)
+{
+    const int width = p->page.grid.width, height = p->page.grid.height;
+    const size_t count = (size_t)width * (size_t)height;
+    *covers = p->covers;
+    if (p->covers && p->covers_light == light)
+        return PAPER_OK;
+    float *opaque;
+    enum paper_status status = thickness_read(p, &opaque);
+    if (!p->covers)
+        p->covers = malloc(3 * count * sizeof *p->covers);
+    for (size_t i = 0; status == PAPER_OK && i < count; i++)
+        opaque[i] = opaque_of(opaque[i]);
+    if (status == PAPER_OK &&
+        !(p->covers && covers_make(p, light / PAPER_LIGHT_USUAL, opaque, p->covers)))
+        status = no_memory(width, height);
+    free(opaque);
+    if (status != PAPER_OK) {
+        free(p->covers);
+        p->covers = NULL;
+    }
+    p->covers_light = light;
+    *covers = p->covers;
+    return status;
+}
+
 enum paper_status sheet_ground_lay(struct paper_sheet *p, const struct paper_sheet_view *view,
                                    uint16_t *rgb)
 {
     const int width = p->page.grid.width, height = p->page.grid.height,
               scale = view->scale > 1 ? view->scale : 1;
-    const size_t count = (size_t)width * (size_t)height,
-                 pixels = count * (size_t)scale * (size_t)scale;
-    float *opaque;
-    enum paper_status status = thickness_read(p, &opaque);
-    uint16_t *covers = malloc(3 * count * sizeof *covers), *fine = NULL;
-    for (size_t i = 0; status == PAPER_OK && i < count; i++)
-        opaque[i] = opaque_of(opaque[i]);
-    if (status == PAPER_OK &&
-        !(covers && covers_make(p, view->light / PAPER_LIGHT_USUAL, opaque, covers)))
-        status = paper_fail(PAPER_NO_MEMORY, "no memory for a picture of %dx%d", width, height);
+    const size_t pixels = (size_t)width * (size_t)height * (size_t)scale * (size_t)scale;
+    const uint16_t *covers;
+    uint16_t *fine = NULL;
+    enum paper_status status = sheet_ground_covers(p, view->light, &covers);
     if (status == PAPER_OK && scale > 1) {
         fine = malloc(3 * pixels * sizeof *fine);
         status = fine ? sheet_finer(covers, width, height, false, scale, fine)
-                      : paper_fail(PAPER_NO_MEMORY, "no memory for a picture of %dx%d",
-                                   width * scale, height * scale);
+                      : no_memory(width * scale, height * scale);
     }
     if (status == PAPER_OK)
-        pixels_lay(view, scale > 1 ? fine : covers, pixels, rgb);
-    free(opaque);
-    free(covers);
+        sheet_ground_pixels(view, scale > 1 ? fine : covers, pixels, rgb);
     free(fine);
     return status;
 }

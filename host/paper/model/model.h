@@ -4,9 +4,14 @@
 
 #include "base/page.h"
 #include "model/operations.h"
+#include "picture.h"
 #include "sheet.h"
 
 enum { SHEET_TEMPORARIES = 56, SHEET_DRIED_BITS = 31 };
+/* Of a picture: of a channel, from the lowest, and of all three. */
+enum { SHEET_SHADE_BITS = 16, SHEET_SHADES_BITS = 3 * SHEET_SHADE_BITS };
+/* How many fibers aside the picture of a fiber looks. */
+enum { SHEET_LOOK_REACH = 1 };
 
 /* What a fiber holds at most: more does not flow in. */
 #define SHEET_LOAD_MAX 15.0
@@ -18,6 +23,11 @@ enum { SHEET_TEMPORARIES = 56, SHEET_DRIED_BITS = 31 };
 #define SHEET_THIN_SCALE 1e6
 
 struct sheet_history;
+
+struct sheet_areas {
+    int count;
+    struct paper_area at[PAPER_AREAS_MAX];
+};
 
 struct paper_sheet {
     struct paper_sheet_config config;
@@ -31,6 +41,9 @@ struct paper_sheet {
     double unit; /* of amounts: PAPER_GRAINS, or 1 without parts */
     /* VP set, contexts, coordinates, and what the thesis's cycle needs: water and absorbency are in the fibers */
     struct paper page;
+    int ends
+        [2]
+        [2]; /* [axis]: coordinates of the sheet's first and last fibers; 0 of a box that does not have them */
     CM_field_id_t height, capacity, resist;
     CM_field_id_t thickness; /* of the paper, 0..1; 0 where there is none. Only with a deckle */
     /* Where nothing can be put and nothing flows: resist, and, with a deckle, where there is no paper (sheet_faces_make()) */
@@ -52,11 +65,16 @@ struct paper_sheet {
     double salt_reach, salt_strength;
     CM_field_id_t surface[PAPER_PIGMENTS_MAX], infused[PAPER_PIGMENTS_MAX],
         fixed[PAPER_PIGMENTS_MAX];
-    CM_field_id_t mask;     /* 8 bits */
-    CM_field_id_t shown[3]; /* 16 bits */
+    CM_field_id_t mask; /* 8 bits */
+    CM_field_id_t shades, shade,
+        shifted; /* a picture's channels, one, and where it goes (view.c) */
     CM_field_id_t t[SHEET_TEMPORARIES];
+    struct sheet_areas changed;    /* since they were asked for (areas.c) */
+    uint16_t *covers;              /* ground.c; NULL: not made */
+    double covers_light;           /* by which they were */
     struct sheet_boxes *boxes;     /* model/boxes.c; NULL: there was none */
     int boxes_unit;                /* their sides are multiples of it; 0: no boxes */
+    struct sheet_growing *growing; /* model/growing.c; NULL: no stroke grows */
     struct sheet_brushes *brushes; /* model/brush_internal.h; NULL: there is none */
     bool (*due)(void *context);    /* paper_sheet_stop_when() */
     void *due_context;
@@ -93,9 +111,12 @@ void sheet_extras_reset(struct paper_sheet *p);
 /* A step of all of the VP set's fibers. Between paper_enter() and paper_leave(). */
 void sheet_step_everywhere(struct paper_sheet *p);
 /* Steps go on in boxes around what can change, away from the sheet's own fields. So who looks at these begins with sheet_look(), who
- * changes some of them with sheet_change(), who writes all that steps change with sheet_change_all(): paper_enter(), and more. */
+ * changes some of them with sheet_change(), or with sheet_change_area() or sheet_change_place() where all that can be seen of the
+ * change is there, and who writes all that steps change with sheet_change_all(): paper_enter(), and more. */
 void sheet_look(struct paper_sheet *p);
 void sheet_change(struct paper_sheet *p);
+void sheet_change_area(struct paper_sheet *p, int x, int y, int width, int height);
+void sheet_change_place(struct paper_sheet *p, const struct paper_place *place);
 void sheet_change_all(struct paper_sheet *p);
 void sheet_boxes_init(struct paper_sheet *p);
 void sheet_boxes_destroy(struct paper_sheet *p);
@@ -121,6 +142,9 @@ enum paper_status sheet_amounts_clear(struct paper_sheet *p);
  * of, and store what it cannot have as an expression. So they are cleared before anybody looks, and at the end by sheet_leave(), which
  * is paper_leave() otherwise. */
 void sheet_temporaries_clear(struct paper_sheet *p);
+/* Narrows the context to fibers at the sheet's end on an axis: its last ones, or its first. Of a box without such fibers those along
+ * its side are taken for them. */
+void sheet_end_narrow(const struct paper_sheet *p, unsigned axis, bool last);
 enum paper_status sheet_leave(struct paper_sheet *p);
 /* Fields of each pigment that the parts use, in the order surface, infused, fixed; how many. */
 int sheet_pigment_fields(const struct paper_sheet *p, int pigment, CM_field_id_t fields[3]);
@@ -254,11 +278,50 @@ enum paper_status sheet_brush_write(struct paper_sheet *p, int number, int subst
 enum paper_status sheet_brush_total(struct paper_sheet *p, int number, int substance,
                                     double *total);
 
-/* ---- looking (view.c, varnish.c) ---- */
+/* ---- where the picture has changed (areas.c) ---- */
+
+/* Fibers have changed there, some of which may not be on the sheet. */
+void sheet_area_change(struct paper_sheet *p, int x, int y, int width, int height);
+/* The picture has changed there; the sheet is taken for a torus. */
+void sheet_area_mark(struct paper_sheet *p, int x, int y, int width, int height);
+void sheet_area_mark_all(struct paper_sheet *p);
+
+/* ---- a stroke that grows (growing.c) ---- */
+
+/* A stroke of no samples yet is on its way: the sheet's brush is there, and nothing else is painted until it has ended. `painted`
+ * false: samples are gathered only. Errors: NO_MEMORY. */
+enum paper_status sheet_growing_begin(struct paper_sheet *p, int number, double pace,
+                                      bool painted);
+/* Paints what they settle. Errors: BAD_ARGUMENT (nothing has changed then), NO_MEMORY, MACHINE_FAILED. */
+enum paper_status sheet_growing_add(struct paper_sheet *p,
+                                    const struct paper_stroke_sample *samples, int count);
+/* Paints the rest. */
+enum paper_status sheet_growing_finish(struct paper_sheet *p);
+/* The stroke as it is, valid until it grows or ends; NULL: none grows. */
+const struct paper_stroke *sheet_growing(const struct paper_sheet *p);
+/* Whether any of it is on the paper. */
+bool sheet_growing_painted(const struct paper_sheet *p);
+/* None grows any more. Owns: the caller frees the samples; NULL: they are freed. */
+void sheet_growing_end(struct paper_sheet *p, struct paper_stroke_sample **samples);
+
+/* ---- looking (view.c, picture.c, varnish.c) ---- */
+
+/* Whether a view can be shown, but for its scale. Errors: BAD_ARGUMENT. */
+enum paper_status sheet_view_check(const struct paper_sheet *p,
+                                   const struct paper_sheet_view *view);
+/* It has three channels; they are roots of linear light. */
+bool sheet_view_colored(const struct paper_sheet_view *view);
+bool sheet_view_linear(const struct paper_sheet *p, const struct paper_sheet_view *view);
+/* shades = each fiber's channels, the first of them lowest; of a gray view one. Of a sheet or of a box of it. */
+void sheet_shades_make(struct paper_sheet *p, const struct paper_sheet_view *view);
 
 /* As paper_sheet_view(), of the sheet as it is. */
 enum paper_status sheet_view(struct paper_sheet *p, const struct paper_sheet_view *view,
                              uint16_t *rgb);
+/* As paper_sheet_view_area(). */
+enum paper_status sheet_view_area(struct paper_sheet *p, const struct paper_sheet_view *view,
+                                  const struct paper_area *area, uint8_t *rgb,
+                                  size_t pitch_bytes);
 /* rgb = the picture with `scale` pixels a fiber each way (finer.c), from the one with one. Errors: NO_MEMORY. */
 enum paper_status sheet_finer(const uint16_t *coarse, int width, int height, bool torus,
                               int scale, uint16_t *rgb);
@@ -266,6 +329,13 @@ enum paper_status sheet_finer(const uint16_t *coarse, int width, int height, boo
  * Errors: NO_MEMORY, MACHINE_FAILED. */
 enum paper_status sheet_ground_lay(struct paper_sheet *p, const struct paper_sheet_view *view,
                                    uint16_t *rgb);
+/* covers: what the sheet and its shadow hide, 3 numbers a fiber, under a view's light. They are the sheet's, until it gets another
+ * thickness or light. Errors: as above. */
+enum paper_status sheet_ground_covers(struct paper_sheet *p, double light,
+                                      const uint16_t **covers);
+/* So many pixels of a picture on the ground, where these covers are. */
+void sheet_ground_pixels(const struct paper_sheet_view *view, const uint16_t *covers,
+                         size_t count, uint16_t *rgb);
 /* Where there is no paper the colours next to it go on, so that a finer picture's edge is as dark as the paint there. Errors: as
  * above. */
 enum paper_status sheet_color_spread(struct paper_sheet *p, uint16_t *rgb);

@@ -123,6 +123,9 @@ enum paper_status sheet_create(const struct paper_sheet_config *config,
     }
     kit_grid_make(&p->page.grid, config->width, config->height);
     sheet_fields_make(p);
+    p->ends[KIT_AXIS_X][1] = config->width - 1;
+    p->ends[KIT_AXIS_Y][1] = config->height - 1;
+    sheet_area_mark_all(p);
     status = fresh_make(p);
     if (status == PAPER_OK)
         status = sheet_leave(p);
@@ -141,6 +144,7 @@ void sheet_destroy(struct paper_sheet *p)
     sheet_boxes_destroy(p);
     sheet_brushes_destroy(p);
     kit_grid_free(&p->page.grid);
+    free(p->covers);
     free(p);
 }
 

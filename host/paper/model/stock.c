@@ -11,6 +11,7 @@
 #include "model/model.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { RANDOM_BITS = 16 };
@@ -144,6 +145,8 @@ static void barred_make(struct paper_sheet *p)
 void sheet_faces_make(struct paper_sheet *p)
 {
     CM_field_id_t open = p->t[0], other = p->t[1];
+    free(p->covers); /* of another thickness */
+    p->covers = NULL;
     barred_make(p);
     kit_f_from(open, 1.0, p->barred);
     kit_f_least(open, open, 0.0);

@@ -102,14 +102,6 @@ static bool place_make(struct paper_sheet *p, const struct sheet_brush *own,
     return true;
 }
 
-struct going {
-    struct paper_sheet *sheet;
-    struct sheet_brush *own;
-    const struct paper_stroke *stroke;
-    int cursor;
-    uint64_t moment; /* places along the way so far */
-};
-
 static float whole_contact(double contact)
 {
     return (float)(rint(contact * CONTACT_STEPS) / CONTACT_STEPS);
@@ -152,7 +144,7 @@ static struct paper_sheet *addresses_make(struct paper_sheet *p, const int fiber
 }
 
 /* The tuft at a time; the stroke's direction there is kept. */
-static struct tuft tuft_at(struct going *g, double time, double length)
+static struct tuft tuft_at(struct sheet_going *g, double time, double length)
 {
     struct paper_stroke_sample at = paper_stroke_at(g->stroke, time, &g->cursor);
     struct paper_stroke_sample next =
@@ -181,8 +173,8 @@ static void places_count(struct sheet_contacts *c, int rows, int bristles)
 
 /* Fills p->brushes->contacts for the times from..from + rows * length; false: nothing touches. *exchanging: the sheet, or a box of
  * it, that the addresses are of. */
-static bool contacts_make(struct going *g, double from, double length, int rows, double dwell,
-                          struct paper_sheet **exchanging)
+static bool contacts_make(struct sheet_going *g, double from, double length, int rows,
+                          double dwell, struct paper_sheet **exchanging)
 {
     static struct sheet_place places[BRUSH_PLACES];
     static int fibers[BRUSH_PLACES]; /* of the places that touch, else -1 */
@@ -219,7 +211,7 @@ static bool contacts_make(struct going *g, double from, double length, int rows,
 }
 
 /* How far the stroke goes from..to. */
-static double way_length(struct going *g, double from, double to)
+static double way_length(struct sheet_going *g, double from, double to)
 {
     enum { CHORDS = 6 };
     double sum = 0;
@@ -233,7 +225,7 @@ static double way_length(struct going *g, double from, double to)
     return sum;
 }
 
-static void brush_go(struct going *g, double from, double to)
+static void brush_go(struct sheet_going *g, double from, double to)
 {
     double length = way_length(g, from, to), seconds = to - from;
     /* finer fibers are touched as often each as coarse ones */
@@ -286,14 +278,19 @@ enum paper_status sheet_stroke_check(const struct paper_sheet *p, const void *ar
                             PAPER_STROKE_STEPS_MAX, seconds, pace);
 }
 
+double sheet_stroke_around(const struct paper_sheet *p, const struct paper_brush *brush)
+{
+    return fmin(p->page.grid.width + p->page.grid.height,
+                hypot(brush->width, brush->depth) * (1 + brush->splay + brush->bend) +
+                    brush->thickness + 2);
+}
+
 /* Boxes get room for about all that a stroke touches while steps go. */
 static enum paper_status stroke_expect(struct paper_sheet *p, const struct paper_stroke *stroke,
                                        const struct paper_brush *brush)
 {
     const double most = p->page.grid.width + p->page.grid.height,
-                 around = fmin(most, hypot(brush->width, brush->depth) *
-                                             (1 + brush->splay + brush->bend) +
-                                         brush->thickness + 2);
+                 around = sheet_stroke_around(p, brush);
     double low[2] = {most, most}, high[2] = {-most, -most};
     for (int i = 0; i < stroke->samples_count; i++) {
         const double at[2] = {stroke->samples[i].x, stroke->samples[i].y};
@@ -305,25 +302,49 @@ static enum paper_status stroke_expect(struct paper_sheet *p, const struct paper
     return sheet_boxes_expect(p, (int)low[0], (int)low[1], (int)high[0], (int)high[1]);
 }
 
-static enum paper_status stroke_go(struct paper_sheet *p, const struct paper_stroke *stroke)
+void sheet_going_begin(struct sheet_going *g, struct paper_sheet *p,
+                       const struct paper_stroke *stroke)
 {
+    *g = (struct sheet_going){
+        .sheet = p, .own = &p->brushes->brush[stroke->number], .stroke = stroke};
+    g->own->toward[0] = 1; /* where it goes is known as soon as it does */
+    g->own->toward[1] = 0;
+}
+
+int sheet_going_intervals(const struct paper_stroke *stroke)
+{
+    const double seconds = stroke_end(stroke) - stroke_start(stroke);
+    return (int)fmax(1, ceil(seconds * stroke_pace(stroke) - 1e-9));
+}
+
+int sheet_going_settled(const struct paper_stroke *stroke)
+{
+    /* a tuft looks up to half an interval ahead (tuft_at()); the spline before a sample is settled by the next one */
+    if (stroke->samples_count < 2)
+        return 0;
+    const double until = stroke->samples[stroke->samples_count - 2].time_s - 2e-6;
+    const double intervals = (until - stroke_start(stroke)) * stroke_pace(stroke) - 0.5;
+    return intervals > 0 ? (int)floor(intervals) : 0;
+}
+
+enum paper_status sheet_going_on(struct sheet_going *g, int until)
+{
+    struct paper_sheet *p = g->sheet;
+    const double start = stroke_start(g->stroke), pace = stroke_pace(g->stroke);
     enum paper_status status = PAPER_OK;
-    double start = stroke_start(stroke), end = stroke_end(stroke), pace = stroke_pace(stroke);
-    int count = (int)fmax(1, ceil((end - start) * pace - 1e-9));
-    struct going g = {.sheet = p, .own = &p->brushes->brush[stroke->number], .stroke = stroke};
-    g.own->toward[0] = 1; /* where it goes is known as soon as it does */
-    g.own->toward[1] = 0;
-    for (int i = 0; i < count && status == PAPER_OK; i++) {
+    for (; g->interval < until && status == PAPER_OK; g->interval++) {
         if (p->due && p->due(p->due_context)) {
             if (p->history) /* half a stroke is no operation: it is as if it had not been begun */
                 return paper_fail(PAPER_MACHINE_FAILED, "stopped");
             break;
         }
-        double from = start + i / pace, to = fmin(end, start + (i + 1) / pace);
+        const double end = stroke_end(g->stroke), from = start + g->interval / pace,
+                     to = fmin(end, start + (g->interval + 1) / pace);
+        const bool last = g->interval == sheet_going_intervals(g->stroke) - 1;
         paper_enter(&p->page);
-        brush_go(&g, from, i == count - 1 && to <= from ? from + 1 / pace : fmax(to, from));
+        brush_go(g, from, last && to <= from ? from + 1 / pace : fmax(to, from));
         status = paper_leave(&p->page);
-        if (stroke->pace > 0 && status == PAPER_OK) {
+        if (g->stroke->pace > 0 && status == PAPER_OK) {
             status = sheet_step(p, NULL);
             if (status == PAPER_OK)
                 status = sheet_finish(p);
@@ -343,8 +364,10 @@ enum paper_status sheet_stroke(struct paper_sheet *p, const void *arguments)
     enum paper_status status = PAPER_OK;
     if (stroke->pace > 0)
         status = stroke_expect(p, stroke, &p->brushes->brush[stroke->number].brush);
+    struct sheet_going g;
+    sheet_going_begin(&g, p, stroke);
     if (status == PAPER_OK)
-        status = stroke_go(p, stroke);
+        status = sheet_going_on(&g, sheet_going_intervals(stroke));
     const enum paper_status ended = sheet_boxes_expect(p, 0, 0, 0, 0);
     return status == PAPER_OK ? ended : status;
 }

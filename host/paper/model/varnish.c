@@ -17,7 +17,7 @@ enum paper_status sheet_varnish_check(const struct paper_sheet *p, const void *a
 enum paper_status sheet_varnish(struct paper_sheet *p, const void *arguments)
 {
     const struct paper_varnish *v = arguments;
-    sheet_change(p);
+    sheet_change_place(p, &v->place);
     CM_set_context();
     CM_field_id_t share = p->t[1];
     enum paper_status status = sheet_share_make(p, &v->place, share);
@@ -34,17 +34,12 @@ enum paper_status sheet_varnish(struct paper_sheet *p, const void *arguments)
 static void beside(struct paper_sheet *p, CM_field_id_t slope, CM_field_id_t other,
                    unsigned axis, bool next)
 {
-    bool x = axis == KIT_AXIS_X;
     if (next)
         kit_f_next(other, p->varnish, axis);
     else
         kit_f_previous(other, p->varnish, axis);
     if (!p->config.torus) {
-        int last = (x ? p->page.grid.width : p->page.grid.height) - 1;
-        CM_u_eq_constant_1L(x ? p->page.grid.x_coord : p->page.grid.y_coord,
-                            next ? (unsigned)last : 0,
-                            (unsigned)(x ? p->page.grid.x_bits : p->page.grid.y_bits));
-        CM_logand_context_with_test();
+        sheet_end_narrow(p, axis, next);
         kit_f_copy(other, p->varnish);
         CM_set_context();
     }

@@ -9,14 +9,13 @@
  * which is Kubelka and Munk's R and T (a = 1 + K/S, b S = Q) without a division by S. Q is kept from 0, where 1 - E^2
  * would lose its digits; that changes R and T by less than 2e-5.
  *
- * The machine computes 16 bits of each channel, of linear light its root (dark shades need the finer steps); the front
- * end takes them to display values by a table. */
+ * The machine computes 16 bits of each channel, of linear light its root (dark shades need the finer steps), all three in
+ * one word, so that a picture is one kernel and one array to read; picture.c reads it. */
 #include "model/model.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-enum { SHADES = 65536 };
 #define Q_LEAST 2e-3
 #define EXPONENT_LEAST (-40.0)
 
@@ -114,12 +113,7 @@ static void level_beside(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t l
         kit_f_previous(d, level, axis);
     if (p->config.torus)
         return;
-    bool x = axis == KIT_AXIS_X;
-    int last = (x ? p->page.grid.width : p->page.grid.height) - 1;
-    CM_u_eq_constant_1L(x ? p->page.grid.x_coord : p->page.grid.y_coord,
-                        next ? (unsigned)last : 0,
-                        (unsigned)(x ? p->page.grid.x_bits : p->page.grid.y_bits));
-    CM_logand_context_with_test();
+    sheet_end_narrow(p, axis, next);
     kit_f_copy(d, level);
     CM_set_context();
 }
@@ -187,40 +181,22 @@ static void shine(struct paper_sheet *p, const CM_field_id_t color[3])
     }
 }
 
-/* One table for each way from 16 bits to display values. */
-static void table_make(uint16_t *table, bool linear)
-{
-    for (int i = 0; i < SHADES; i++) {
-        double value = (double)i / (SHADES - 1);
-        table[i] = (uint16_t)lround((linear ? paper_light_display(value * value) : value) *
-                                    (SHADES - 1));
-    }
-}
-
-/* The field's 0..1 as 16 bits of the picture. */
+/* The field's 0..1 as 16 bits of the word. */
 static void shade_store(struct paper_sheet *p, int channel, CM_field_id_t value, bool linear)
 {
     kit_f_least(value, value, 0.0);
     kit_f_most(value, value, 1.0);
     if (linear)
         CM_f_sqrt_1_1L(value, KIT_F);
-    kit_f_times(value, value, SHADES - 1);
-    CM_u_f_round_2_2L(p->shown[channel], value, 16, KIT_F);
-}
-
-static enum paper_status shades_read(struct paper_sheet *p, int channels, const uint16_t *table,
-                                     uint16_t *one, uint16_t *rgb)
-{
-    size_t count = (size_t)p->page.grid.width * (size_t)p->page.grid.height;
-    if (p->config.parts)
-        sheet_temporaries_clear(p);
-    for (int channel = 0; channel < 3; channel++) {
-        if (channel < channels)
-            kit_grid_u_read(&p->page.grid, one, p->shown[channel], 16, CM_16_bit);
-        for (size_t i = 0; i < count; i++)
-            rgb[3 * i + (size_t)channel] = table[one[i]];
+    kit_f_times(value, value, (1 << SHEET_SHADE_BITS) - 1);
+    CM_u_f_round_2_2L(p->shade, value, SHEET_SHADE_BITS, KIT_F);
+    if (channel == 0) {
+        CM_u_move_2L(p->shades, p->shade, SHEET_SHADES_BITS, SHEET_SHADE_BITS);
+        return;
     }
-    return sheet_leave(p);
+    CM_u_shift_constant_3_2L(p->shifted, p->shade, SHEET_SHADE_BITS * channel,
+                             SHEET_SHADES_BITS, SHEET_SHADE_BITS);
+    CM_logior_2_1L(p->shades, p->shifted, SHEET_SHADES_BITS);
 }
 
 struct paper_sheet_view paper_sheet_view_default(const struct paper_sheet_config *config)
@@ -229,36 +205,37 @@ struct paper_sheet_view paper_sheet_view_default(const struct paper_sheet_config
         .high = 1, .light = config->parts ? PAPER_LIGHT_USUAL : 0, .scale = 1};
 }
 
-/* One pixel a fiber. */
-static enum paper_status fibers_view(struct paper_sheet *p, const struct paper_sheet_view *view,
-                                     uint16_t *rgb)
+enum paper_status sheet_view_check(const struct paper_sheet *p,
+                                   const struct paper_sheet_view *view)
 {
-    CM_field_id_t layer = 0;
     if (view->show == PAPER_SHOW_LAYER) {
-        layer = sheet_layer_field(p, view->layer, view->pigment);
-        if (!layer)
+        if (!sheet_layer_field(p, view->layer, view->pigment))
             return paper_fail(PAPER_BAD_ARGUMENT, "the sheet has no such layer to show");
         if (!(isfinite(view->low) && isfinite(view->high) && view->high != view->low))
             return paper_fail(PAPER_BAD_ARGUMENT,
                               "black and white must be two numbers (got %g and %g)", view->low,
                               view->high);
     }
-    if (!paper_within(view->light, 0, 4))
-        return paper_fail(PAPER_BAD_ARGUMENT, "light must be 0..4 (got %g)", view->light);
-    size_t count = (size_t)p->page.grid.width * (size_t)p->page.grid.height;
-    uint16_t *one = calloc(count, sizeof *one), *table = malloc(SHADES * sizeof *table);
-    if (!one || !table) {
-        free(one);
-        free(table);
-        return paper_fail(PAPER_NO_MEMORY, "no memory for a picture of %dx%d",
-                          p->page.grid.width, p->page.grid.height);
-    }
-    bool colored = view->show == PAPER_SHOW_COLOR || view->show == PAPER_SHOW_WET;
-    bool linear = colored && p->config.rule == PAPER_RULE_KUBELKA_MUNK;
-    table_make(table, linear);
-    sheet_look(p);
+    return paper_within(view->light, 0, 4)
+               ? PAPER_OK
+               : paper_fail(PAPER_BAD_ARGUMENT, "light must be 0..4 (got %g)", view->light);
+}
+
+bool sheet_view_colored(const struct paper_sheet_view *view)
+{
+    return view->show == PAPER_SHOW_COLOR || view->show == PAPER_SHOW_WET;
+}
+
+bool sheet_view_linear(const struct paper_sheet *p, const struct paper_sheet_view *view)
+{
+    return sheet_view_colored(view) && p->config.rule == PAPER_RULE_KUBELKA_MUNK;
+}
+
+void sheet_shades_make(struct paper_sheet *p, const struct paper_sheet_view *view)
+{
     CM_set_context();
     CM_field_id_t color[3] = {p->t[8], p->t[9], p->t[10]};
+    const bool colored = sheet_view_colored(view);
     if (colored) {
         sheet_color_make(p, color);
         if (view->light > 0)
@@ -270,6 +247,7 @@ static enum paper_status fibers_view(struct paper_sheet *p, const struct paper_s
     } else if (view->show == PAPER_SHOW_WATER) {
         water_make(p, color[0]);
     } else {
+        const CM_field_id_t layer = sheet_layer_field(p, view->layer, view->pigment);
         if (view->layer == PAPER_LAYER_DRIED_WATER)
             CM_f_u_float_2_2L(color[0], layer, SHEET_DRIED_BITS, KIT_F);
         else
@@ -279,37 +257,10 @@ static enum paper_status fibers_view(struct paper_sheet *p, const struct paper_s
         kit_f_plus(color[0], color[0], -view->low / (view->high - view->low));
     }
     for (int i = 0; i < (colored ? 3 : 1); i++)
-        shade_store(p, i, color[i], linear);
-    enum paper_status status = shades_read(p, colored ? 3 : 1, table, one, rgb);
-    free(one);
-    free(table);
-    return status;
-}
-
-enum paper_status sheet_view(struct paper_sheet *p, const struct paper_sheet_view *view,
-                             uint16_t *rgb)
-{
-    const int width = p->page.grid.width, height = p->page.grid.height, scale = view->scale;
-    if (scale < 0 || scale == 3 || scale > 4)
-        return paper_fail(PAPER_BAD_ARGUMENT,
-                          "a picture's scale must be 1, 2 or 4 pixels a fiber (got %d)", scale);
-    const bool lies =
-        p->config.deckled && (view->show == PAPER_SHOW_COLOR || view->show == PAPER_SHOW_WET);
-    if (scale < 2) {
-        const enum paper_status seen = fibers_view(p, view, rgb);
-        return seen == PAPER_OK && lies ? sheet_ground_lay(p, view, rgb) : seen;
-    }
-    uint16_t *coarse = malloc(3 * sizeof *coarse * (size_t)width * (size_t)height);
-    if (!coarse)
-        return paper_fail(PAPER_NO_MEMORY, "no memory for a picture of %dx%d", width * scale,
-                          height * scale);
-    enum paper_status status = fibers_view(p, view, coarse);
-    if (status == PAPER_OK && lies)
-        status = sheet_color_spread(p, coarse);
-    if (status == PAPER_OK)
-        status = sheet_finer(coarse, width, height, p->config.torus, scale, rgb);
-    free(coarse);
-    if (status == PAPER_OK && lies)
-        status = sheet_ground_lay(p, view, rgb);
-    return status;
+        shade_store(p, i, color[i], sheet_view_linear(p, view));
+    if (p->config.parts)
+        sheet_temporaries_clear(p);
+    CM_u_move_constant_1L(p->shade, 0, SHEET_SHADE_BITS);
+    CM_u_move_constant_1L(p->shifted, 0, SHEET_SHADES_BITS);
+    CM_clear_overflow(); /* else the machine would keep how to tell it */
 }

@@ -50,7 +50,7 @@ enum paper_status sheet_wash_check(const struct paper_sheet *p, const void *argu
 enum paper_status sheet_wash(struct paper_sheet *p, const void *arguments)
 {
     const struct paper_wash *w = arguments;
-    sheet_change(p);
+    sheet_change_place(p, &w->place);
     CM_set_context();
     CM_field_id_t share = p->t[1], part = p->t[2], grade = p->t[4];
     enum paper_status status = sheet_share_make(p, &w->place, share);
@@ -115,7 +115,7 @@ enum paper_status sheet_print(struct paper_sheet *p, const void *arguments)
         if (!print->amount[i])
             continue;
         print_lay(p, print, i, whole);
-        sheet_change(p);
+        sheet_change_area(p, print->x, print->y, print->width, print->height);
         CM_set_context();
         kit_grid_f_write(&p->page.grid, part, whole);
         sheet_resist_heed(p, part, open);
@@ -137,7 +137,7 @@ enum paper_status sheet_lift_check(const struct paper_sheet *p, const void *argu
 enum paper_status sheet_lift(struct paper_sheet *p, const void *arguments)
 {
     const struct paper_lift *lift = arguments;
-    sheet_change(p);
+    sheet_change_place(p, &lift->place);
     CM_set_context();
     CM_field_id_t share = p->t[1], lost = p->t[2];
     enum paper_status status = sheet_share_make(p, &lift->place, share);
