@@ -35,6 +35,7 @@ int verb_font(int argc, char **argv);
 int verb_run(int argc, char **argv);
 int verb_spring(int argc, char **argv);
 int verb_voice(int argc, char **argv);
+int verb_studio(int argc, char **argv);
 
 /* ---- failures ---- */
 

@@ -21,6 +21,7 @@ static const struct {
     {"font", verb_font, "FILE [-o out.png]", "show a font, its glyphs at each level, filters"},
     {"spring", verb_spring, "\"word\"", "a word on springs, in a window, stills and films"},
     {"voice", verb_voice, "SOUND \"Text\"", "letters that a voice plays: poster, frames, film"},
+    {"studio", verb_studio, "[sheet.h5]", "paint and set type by hand, on paper that flows"},
     {"run", verb_run, "script.lua [key=value...]", "run a script of papers, inks and time"},
     {"demo", verb_demo, "[-o DIR]", "paint the demonstration page"},
     {"cc", verb_cc, "prog.c... [-o prog]", "compile a C/Paris program"},

@@ -29,6 +29,26 @@ static void preset_names(char *text, size_t room)
     "the centre outwards; @FILE reads such words from a file."
 
 const struct page pages_of_pictures[] = {
+    {.verb = "studio",
+     .usages = "[FILE.h5] [options]",
+     .about =
+         "Opens a window in which one paints by hand on wet paper that goes on flowing: with "
+         "brushes, washes, drops, salt, cloths, masking fluid and type, with a pen or a mouse. "
+         "Each stroke can be undone, also while the paint flows.\n"
+         "FILE is a sheet that was saved, here or by a script, with its past; without one "
+         "there "
+         "is a new sheet. docs/studio.md teaches the window; F1 in it shows its keys.",
+     .notes = "The window needs GTK 4.8 or later and OpenGL 3.2, which libgl1-mesa-dri has "
+              "without a graphics card, too. `./run studio` installs what is missing.",
+     .values = {{.option = "stock", .fill = paper_stock_names},
+                {.option = "pigment", .fill = paper_pigment_names},
+                {.option = "theme", .words = "light, dark"}},
+     .examples = {{"lutetia studio", "a new sheet of cold pressed paper"},
+                  {"lutetia studio marsh.h5", "a sheet that was saved"},
+                  {"lutetia studio --paper 1024x768 --stock rough --pigment \"indian red\" "
+                   "--pigment \"burnt umber\"",
+                   "rough paper, two pigments"}},
+     .see = "lutetia-run(1), lutetia-paint(1)"},
     {.verb = "paint",
      .usages = "\"Text\" [options]\n--image FILE [options]",
      .about =

@@ -28,36 +28,18 @@ static struct script_paper *brush_begin(lua_State *L, int count)
 
 /* ---- making ---- */
 
-/* Sizes relative to the width. */
-static const struct kind {
-    const char *name;
-    bool flat;
-    double depth, point, uneven, splay, bend, bristles, thickness, reach, load, mixing;
-} kinds[] = {
-    {"round", false, 0.75, 0.75, 0.25, 0.25, 0.3, 8, 0.07, 30, 0.7, 0.15},
-    {"flat", true, 0.22, 0.1, 0.3, 0.15, 0.2, 7, 0.06, 22, 0.7, 0.15},
-    {"mop", false, 0.9, 0.35, 0.15, 0.5, 0.3, 8, 0.10, 60, 1.0, 0.25},
-    {"rigger", false, 1.0, 0.9, 0.1, 0.4, 0.8, 8, 0.15, 140, 0.6, 0.1},
-    {"fan", true, 0.15, 0.0, 1.0, 0.5, 0.15, 2.5, 0.05, 18, 0.6, 0.1},
-    {"bristle", true, 0.35, 0.15, 0.9, 0.3, 0.3, 4, 0.05, 14, 0.6, 0.1},
-};
-
-static const struct kind *kind_find(lua_State *L, const char *name)
+static void kind_set(lua_State *L, struct paper_brush *brush, const char *kind)
 {
     luaL_Buffer list;
-    if (!name)
-        return &kinds[0];
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
-        if (strcmp(kinds[i].name, name) == 0)
-            return &kinds[i];
+    if (paper_brush_of_kind(brush, kind ? kind : paper_brush_kind(0)))
+        return;
     luaL_buffinit(L, &list);
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+    for (int i = 0; paper_brush_kind(i); i++) {
         luaL_addstring(&list, i ? ", " : "");
-        luaL_addstring(&list, kinds[i].name);
+        luaL_addstring(&list, paper_brush_kind(i));
     }
     luaL_pushresult(&list);
-    luaL_error(L, "brush kind must be one of %s (got '%s')", lua_tostring(L, -1), name);
-    return NULL;
+    luaL_error(L, "brush kind must be one of %s (got '%s')", lua_tostring(L, -1), kind);
 }
 
 /* paper:brush{...} */
@@ -67,8 +49,9 @@ static int paper_brush(lua_State *L)
     struct script_paper *paper = script_paper_begin(L, 2);
     struct paper_sheet *sheet = paper->sheet;
     script_fields_options(L, 2, "brush", &paper_brush_members, besides);
-    const struct kind *kind = kind_find(L, script_arg_text(L, 2, "brush", "kind"));
+    const char *kind = script_arg_text(L, 2, "brush", "kind");
     struct paper_brush b = paper_brush_default();
+    kind_set(L, &b, kind);
     int free_one = 0;
     while (free_one < PAPER_BRUSHES_MAX && paper_history_brush(sheet, free_one))
         free_one++;
@@ -77,19 +60,8 @@ static int paper_brush(lua_State *L)
     if (b.number == PAPER_BRUSHES_MAX)
         luaL_error(L, "a paper has up to %d brushes; number = 1 replaces the first",
                    PAPER_BRUSHES_MAX);
-    b.flat = kind->flat;
-    b.point = kind->point;
-    b.uneven = kind->uneven;
-    b.splay = kind->splay;
-    b.bend = kind->bend;
-    b.load = kind->load;
-    b.mixing = kind->mixing;
     script_fields_read(L, 2, "brush", &paper_brush_members, &b);
-    /* defaults that depend on the width */
-    b.depth = fmax(1, kind->depth * b.width);
-    b.bristles = (int)fmin(PAPER_BRISTLES_MAX, fmax(12, kind->bristles * b.width));
-    b.thickness = fmax(1.2, kind->thickness * b.width);
-    b.reach = kind->reach * b.width;
+    kind_set(L, &b, kind); /* once more: defaults depend on the width */
     script_fields_read(L, 2, "brush", &paper_brush_members, &b);
     b.seed = (uint64_t)script_arg_integer(L, 2, "brush", "seed", b.number + 1, 0, 2147483647);
 

@@ -1,0 +1,172 @@
+/* desk.h - the studio's window: what its files share.
+ *
+ *     desk_main.c      the program: its words, the application
+ *     desk_window.c    the window, and what the paper reports
+ *     desk_canvas.c    the sheet: how it is seen, the cursor, the ghost
+ *     desk_gl.c        its drawing in OpenGL, core profile
+ *     desk_hand.c      pointer and pen, as events (input.h), to the paper
+ *     desk_pen.c       a pen's pressure on X11
+ *     desk_panel.c     tools, controls
+ *     desk_dish.c      the dish: wells, swatches; the tilted board
+ *     desk_actions.c   actions, menus, keys
+ *     desk_files.c     new, open, save, pictures
+ *     desk_type.c      type on the sheet
+ *     desk_play.c      recorded input: events and actions from a file
+ *
+ * The window never calls what belongs to the paper's thread (studio_paper.h). All of this belongs to GTK's thread. */
+#ifndef LUTETIA_DESK_H
+#define LUTETIA_DESK_H
+
+#include "studio_paper.h"
+#include "studio_view.h"
+
+#include <gtk/gtk.h>
+#include <input.h>
+#include <libintl.h>
+
+#define _(text) gettext(text)
+
+enum { DESK_WELLS = 8 };
+
+/* What the hand has done and the paper has not shown yet. */
+struct desk_ghost {
+    unsigned long number; /* of its message */
+    double x, y, radius;  /* fibers */
+    bool begins;
+};
+
+struct desk_options {
+    const char *path, *play;
+    struct paper_sheet_config config;
+    int theme; /* -1: as the desktop; 0: light; 1: dark */
+};
+
+struct desk_gl;
+struct desk_pen;
+struct desk_play;
+
+struct desk {
+    struct desk_options options;
+    int status; /* the program's exit status */
+    GtkApplication *application;
+    GtkWidget *window, *canvas, *notice, *notice_text, *state, *memory, *place;
+    GtkWidget *tools[STUDIO_TOOLS], *rows[STUDIO_SETTINGS], *tool_box, *dish_box, *tool_title;
+    GtkWidget *title, *pause, *wells[DESK_WELLS], *swatch, *board;
+    struct studio_paper *paper;
+    struct studio_report report;
+    struct studio_settings settings;
+    bool filling; /* widgets are being set from the settings, and not by a hand */
+    double well_amount[DESK_WELLS][1 + PAPER_PIGMENTS_MAX];
+    int well;
+    /* the canvas */
+    struct desk_gl *gl;
+    struct studio_view view;
+    bool viewed; /* the view has been fitted to the sheet */
+    struct studio_picture seen;
+    GArray *ghost; /* struct desk_ghost */
+    double pointer_x, pointer_y;
+    bool pointer_inside;
+    double pressure; /* the pen's, or what the mouse would press with */
+    /* the hand */
+    struct desk_pen *pen;
+    bool down, panning, space;
+    bool pen_presses; /* a pen has told a pressure; one that never does presses as a mouse */
+    double last_x, last_y, last_s, speed;
+    double down_x, down_y; /* fibers */
+    /* type */
+    GtkIMContext *input_method;
+    GString *typed;
+    char *preedit;
+    bool typing;
+    double type_x, type_y;
+    char *font, *features;
+    struct studio_shown shown;
+    struct desk_play *play;
+    bool asked; /* whether what is not saved may go */
+    gint woken;
+};
+
+/* desk_window.c */
+void desk_window_open(struct desk *d);
+void desk_say(struct desk *d, const char *text); /* in the window, until it is put away */
+void desk_send(struct desk *d, enum studio_message_kind kind);
+void desk_set(struct desk *d, int setting,
+              double value); /* here, on the paper and in the panel */
+/* The paper has woken the window. */
+void desk_wake(void *context);
+
+/* desk_canvas.c */
+GtkWidget *desk_canvas_new(struct desk *d);
+void desk_canvas_look(struct desk *d);    /* take the newest picture of the paper */
+void desk_canvas_show(struct desk *d);    /* draw it again */
+void desk_canvas_changed(struct desk *d); /* the view is another */
+void desk_ghost_add(struct desk *d, unsigned long number, double x, double y, bool begins);
+void desk_ghost_forget(struct desk *d, unsigned long heard);
+double desk_cursor_radius(const struct desk *d); /* fibers */
+
+/* desk_gl.c */
+struct desk_gl *desk_gl_create(char **why);
+void desk_gl_destroy(struct desk_gl *gl);
+/* The picture's changed rectangle, or all of it where its size is another. False: it is larger than the device can. */
+bool desk_gl_picture(struct desk_gl *gl, const struct studio_picture *picture);
+void desk_gl_shown(struct desk_gl *gl, const struct studio_shown *shown);
+void desk_gl_draw(struct desk_gl *gl, const struct desk *d, int scale);
+
+/* desk_hand.c */
+void desk_hand_attach(struct desk *d);
+void desk_hand_event(struct desk *d,
+                     const struct input_event *event); /* places: of the canvas */
+void desk_hand_lift(struct desk *d); /* wherever it is: a stroke that was begun is done */
+void desk_hand_drop(struct desk *d); /* a stroke that was begun is given up */
+
+/* desk_pen.c */
+struct desk_pen *desk_pen_create(GtkWidget *canvas);
+void desk_pen_destroy(struct desk_pen *pen);
+/* A pen's report at that time in milliseconds, as near as there is one. False: no pen has spoken. */
+bool desk_pen_at(struct desk_pen *pen, guint32 time_ms, double *pressure, double tilt[2]);
+
+/* desk_panel.c */
+GtkWidget *desk_tools_new(struct desk *d);
+GtkWidget *desk_panel_new(struct desk *d);
+void desk_panel_fill(struct desk *d);  /* from the settings */
+void desk_panel_sheet(struct desk *d); /* another sheet: its pigments */
+GtkWidget *desk_row_new(struct desk *d, int setting, const char *label);
+char *desk_label(const char *name); /* "tilt_x" as "Tilt x", translated; free it by g_free() */
+
+/* desk_dish.c */
+GtkWidget *desk_dish_new(struct desk *d);
+GtkWidget *desk_board_new(struct desk *d);
+void desk_dish_changed(struct desk *d);
+void desk_dish_well(struct desk *d, int well);
+
+/* desk_actions.c */
+void desk_actions_add(struct desk *d);
+GMenuModel *desk_menu_new(void);
+void desk_actions_enable(struct desk *d);
+bool desk_key(struct desk *d, guint key, GdkModifierType state); /* taken or not */
+
+/* desk_files.c */
+void desk_file_new(struct desk *d);
+void desk_file_open(struct desk *d);
+void desk_file_save(struct desk *d, bool as);
+void desk_file_picture(struct desk *d);
+/* Asks whether what is not saved may go; then `done`. */
+void desk_file_leave(struct desk *d, void (*done)(struct desk *d));
+
+/* desk_type.c */
+void desk_type_attach(struct desk *d);
+GtkWidget *desk_type_new(struct desk *d);                 /* fonts and features */
+void desk_type_begin(struct desk *d, double x, double y); /* fibers */
+void desk_type_print(struct desk *d);
+void desk_type_drop(struct desk *d);
+void desk_type_changed(struct desk *d);
+bool desk_type_key(struct desk *d, guint key, GdkModifierType state);
+void desk_type_text(struct desk *d, const char *text);
+
+/* desk_play.c */
+/* NULL: it cannot be read; a line has been said. */
+struct desk_play *desk_play_open(struct desk *d, const char *path);
+void desk_play_begin(struct desk_play *play);
+void desk_play_destroy(struct desk_play *play);
+
+#endif

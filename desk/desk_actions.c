@@ -1,0 +1,357 @@
+/* desk_actions.c - actions, the menu, the keys. Letters are keys of the window that come after whoever types has had them. */
+#include "desk.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- actions ---- */
+
+static void undo(GSimpleAction *action, GVariant *parameter, gpointer data)
+{
+    struct desk *d = data;
+    (void)action;
+    (void)parameter;
+    d->down = false;
+    g_array_set_size(d->ghost, 0);
+    desk_send(d, STUDIO_MESSAGE_UNDO);
+}
+
+#define SENDS(name, kind)                                                                      \
+    static void name(GSimpleAction *action, GVariant *parameter, gpointer data)                \
+    {                                                                                          \
+        (void)action;                                                                          \
+        (void)parameter;                                                                       \
+        desk_send(data, kind);                                                                 \
+    }
+#define CALLS(name, call)                                                                      \
+    static void name(GSimpleAction *action, GVariant *parameter, gpointer data)                \
+    {                                                                                          \
+        struct desk *d = data;                                                                 \
+        (void)action;                                                                          \
+        (void)parameter;                                                                       \
+        call;                                                                                  \
+    }
+SENDS(redo, STUDIO_MESSAGE_REDO)
+SENDS(dry, STUDIO_MESSAGE_DRY)
+SENDS(seal, STUDIO_MESSAGE_SEAL)
+SENDS(go_on, STUDIO_MESSAGE_GO_ON)
+CALLS(new_sheet, desk_file_new(d))
+CALLS(open_sheet, desk_file_open(d))
+CALLS(save, desk_file_save(d, false))
+CALLS(save_as, desk_file_save(d, true))
+CALLS(picture, desk_file_picture(d))
+CALLS(close_window, gtk_window_close(GTK_WINDOW(d->window)))
+
+/* ---- the view ---- */
+
+static void view_zoom(struct desk *d, double factor)
+{
+    studio_view_zoom(&d->view, factor, d->view.width / 2, d->view.height / 2);
+    desk_canvas_changed(d);
+}
+
+static void view_turn(struct desk *d, double degrees)
+{
+    studio_view_turn(&d->view, degrees * G_PI / 180, d->view.width / 2, d->view.height / 2);
+    desk_canvas_changed(d);
+}
+
+static void view_fit(struct desk *d)
+{
+    if (d->seen.width)
+        studio_view_fit(&d->view, d->seen.width, d->seen.height);
+    desk_canvas_changed(d);
+}
+
+static void view_mirror(struct desk *d)
+{
+    studio_view_mirror(&d->view);
+    desk_canvas_changed(d);
+}
+
+CALLS(zoom_in, view_zoom(d, 1.25))
+CALLS(zoom_out, view_zoom(d, 0.8))
+CALLS(zoom_one, view_zoom(d, 1 / d->view.zoom))
+CALLS(zoom_fit, view_fit(d))
+CALLS(turn_left, view_turn(d, -15))
+CALLS(turn_right, view_turn(d, 15))
+CALLS(turn_back, view_turn(d, -d->view.turn * 180 / G_PI))
+CALLS(mirror, view_mirror(d))
+
+/* "brush": what `lutetia studio` is told in recorded input, and what menus call. */
+static void tool(GSimpleAction *action, GVariant *parameter, gpointer data)
+{
+    double value;
+    (void)action;
+    if (stage_control_parse(&studio_controls[STUDIO_TOOL],
+                            g_variant_get_string(parameter, NULL), &value) == STAGE_OK)
+        desk_set(data, STUDIO_TOOL, value);
+}
+
+/* ---- keys ---- */
+
+static const struct {
+    const char *keys, *does;
+} help_rows[] = {
+    {"1 … 8", "a well of the dish"},
+    {"[ and ]", "a narrower or wider brush"},
+    {"P", "time stands still or goes on"},
+    {".", "one step of time"},
+    {"Space and drag, or the middle button", "move the sheet"},
+    {"+ and -, or Ctrl and the wheel", "zoom"},
+    {"0 and F", "the sheet at its own size, or the whole sheet"},
+    {", and ;", "turn the sheet"},
+    {"H", "mirror the sheet"},
+    {"Escape", "give up the stroke, or the type that is not in the paper yet"},
+    {"Ctrl+Z, Ctrl+Shift+Z", "undo, redo"},
+    {"Ctrl+Enter", "let the type into the paper"},
+    {"Ctrl+D, Ctrl+L", "dry the sheet, seal it under a glaze"},
+    {"Ctrl+E", "write a picture"},
+};
+
+static void help_row(GtkWidget *grid, int row, const char *keys, const char *does)
+{
+    GtkWidget *left = gtk_label_new(keys), *right = gtk_label_new(does);
+    gtk_label_set_xalign(GTK_LABEL(left), 0);
+    gtk_label_set_xalign(GTK_LABEL(right), 0);
+    gtk_widget_add_css_class(left, "heading");
+    gtk_grid_attach(GTK_GRID(grid), left, 0, row, 1, 1);
+    gtk_grid_attach(GTK_GRID(grid), right, 1, row, 1, 1);
+}
+
+static void keys_show(struct desk *d)
+{
+    GtkWidget *window = gtk_window_new(), *scrolled = gtk_scrolled_window_new(),
+              *grid = gtk_grid_new();
+    int row = 0;
+    gtk_window_set_title(GTK_WINDOW(window), _("Keys"));
+    gtk_window_set_transient_for(GTK_WINDOW(window), GTK_WINDOW(d->window));
+    gtk_window_set_default_size(GTK_WINDOW(window), 620, 640);
+    gtk_grid_set_column_spacing(GTK_GRID(grid), 24);
+    gtk_grid_set_row_spacing(GTK_GRID(grid), 6);
+    gtk_widget_set_margin_start(grid, 18);
+    gtk_widget_set_margin_end(grid, 18);
+    gtk_widget_set_margin_top(grid, 18);
+    gtk_widget_set_margin_bottom(grid, 18);
+    for (int i = 0; i < STUDIO_TOOLS; i++) {
+        char *key = g_ascii_strup(studio_tools[i].key, -1);
+        help_row(grid, row++, key, _(studio_tools[i].name));
+        g_free(key);
+    }
+    for (size_t i = 0; i < G_N_ELEMENTS(help_rows); i++)
+        help_row(grid, row++, _(help_rows[i].keys), _(help_rows[i].does));
+    gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scrolled), grid);
+    gtk_window_set_child(GTK_WINDOW(window), scrolled);
+    gtk_window_present(GTK_WINDOW(window));
+}
+CALLS(keys, keys_show(d))
+
+static void width_change(struct desk *d, double factor)
+{
+    const struct stage_control *control = &studio_controls[STUDIO_WIDTH];
+    desk_set(
+        d, STUDIO_WIDTH,
+        fmin(control->most, fmax(control->least, d->settings.value[STUDIO_WIDTH] * factor)));
+}
+
+static void escape(struct desk *d)
+{
+    if (d->typing)
+        desk_type_drop(d);
+    else
+        desk_hand_drop(d);
+}
+
+static bool view_key(struct desk *d, guint key)
+{
+    switch (key) {
+    case GDK_KEY_plus:
+    case GDK_KEY_equal:
+    case GDK_KEY_KP_Add:
+        view_zoom(d, 1.25);
+        return true;
+    case GDK_KEY_minus:
+    case GDK_KEY_KP_Subtract:
+        view_zoom(d, 0.8);
+        return true;
+    case GDK_KEY_0:
+        view_zoom(d, 1 / d->view.zoom);
+        return true;
+    case GDK_KEY_f:
+        view_fit(d);
+        return true;
+    case GDK_KEY_comma:
+        view_turn(d, -15);
+        return true;
+    case GDK_KEY_semicolon:
+        view_turn(d, 15);
+        return true;
+    case GDK_KEY_h:
+        view_mirror(d);
+        return true;
+    default:
+        return false;
+    }
+}
+
+static bool other_key(struct desk *d, guint key)
+{
+    switch (key) {
+    case GDK_KEY_Escape:
+        escape(d);
+        return true;
+    case GDK_KEY_space:
+        d->space = true;
+        return true;
+    case GDK_KEY_bracketleft:
+        width_change(d, 1 / 1.2);
+        return true;
+    case GDK_KEY_bracketright:
+        width_change(d, 1.2);
+        return true;
+    case GDK_KEY_p:
+        desk_set(d, STUDIO_PAUSED, d->settings.value[STUDIO_PAUSED] == 0);
+        return true;
+    case GDK_KEY_period:
+        studio_paper_send(d->paper,
+                          (struct studio_message){.kind = STUDIO_MESSAGE_STEP, .value = 1});
+        return true;
+    case GDK_KEY_question:
+    case GDK_KEY_F1:
+        keys_show(d);
+        return true;
+    default:
+        return false;
+    }
+}
+
+bool desk_key(struct desk *d, guint key, GdkModifierType state)
+{
+    GtkWidget *focus = gtk_window_get_focus(GTK_WINDOW(d->window));
+    const guint lower = gdk_keyval_to_lower(key);
+    if (d->typing && focus == d->canvas && desk_type_key(d, key, state))
+        return true;
+    if (state & (GDK_CONTROL_MASK | GDK_ALT_MASK | GDK_SUPER_MASK))
+        return false;
+    if (focus && (GTK_IS_EDITABLE(focus) || GTK_IS_TEXT(focus) || GTK_IS_TEXT_VIEW(focus)))
+        return false;
+    for (int i = 0; i < STUDIO_TOOLS; i++)
+        if (lower == (guint)studio_tools[i].key[0]) {
+            desk_set(d, STUDIO_TOOL, i);
+            return true;
+        }
+    if (key >= GDK_KEY_1 && key < GDK_KEY_1 + DESK_WELLS) {
+        desk_dish_well(d, (int)(key - GDK_KEY_1));
+        return true;
+    }
+    return other_key(d, lower) || view_key(d, lower);
+}
+
+/* ---- all of them ---- */
+
+static const GActionEntry entries[] = {
+    {.name = "new", .activate = new_sheet},
+    {.name = "open", .activate = open_sheet},
+    {.name = "save", .activate = save},
+    {.name = "save-as", .activate = save_as},
+    {.name = "picture", .activate = picture},
+    {.name = "undo", .activate = undo},
+    {.name = "redo", .activate = redo},
+    {.name = "dry", .activate = dry},
+    {.name = "seal", .activate = seal},
+    {.name = "go-on", .activate = go_on},
+    {.name = "zoom-in", .activate = zoom_in},
+    {.name = "zoom-out", .activate = zoom_out},
+    {.name = "zoom-one", .activate = zoom_one},
+    {.name = "zoom-fit", .activate = zoom_fit},
+    {.name = "turn-left", .activate = turn_left},
+    {.name = "turn-right", .activate = turn_right},
+    {.name = "turn-back", .activate = turn_back},
+    {.name = "mirror", .activate = mirror},
+    {.name = "tool", .activate = tool, .parameter_type = "s"},
+    {.name = "keys", .activate = keys},
+    {.name = "close", .activate = close_window},
+};
+
+/* Rows of the menu; a row without an action begins another part. */
+static const struct {
+    const char *action, *label, *key;
+} menu_rows[] = {
+    {"win.new", "New sheet…", "<Control>n"},
+    {"win.open", "Open…", "<Control>o"},
+    {"win.save", "Save", "<Control>s"},
+    {"win.save-as", "Save as…", "<Control><Shift>s"},
+    {"win.picture", "Write a picture…", "<Control>e"},
+    {NULL, NULL, NULL},
+    {"win.undo", "Undo", "<Control>z"},
+    {"win.redo", "Redo", "<Control><Shift>z"},
+    {"win.go-on", "Let time go on after an undo", "<Control>g"},
+    {"win.dry", "Dry the sheet", "<Control>d"},
+    {"win.seal", "Seal under a glaze", "<Control>l"},
+    {NULL, NULL, NULL},
+    {"win.zoom-in", "Larger", "<Control>plus"},
+    {"win.zoom-out", "Smaller", "<Control>minus"},
+    {"win.zoom-one", "One to one", "<Control>1"},
+    {"win.zoom-fit", "The whole sheet", "<Control>0"},
+    {"win.turn-left", "Turn left", "<Control>comma"},
+    {"win.turn-right", "Turn right", "<Control>semicolon"},
+    {"win.turn-back", "Upright", "<Control>period"},
+    {"win.mirror", "Mirror", "<Control>h"},
+    {NULL, NULL, NULL},
+    {"win.keys", "Keys", "<Control>question"},
+    {"win.close", "Close", "<Control>w"},
+};
+
+GMenuModel *desk_menu_new(void)
+{
+    GMenu *menu = g_menu_new(), *part = g_menu_new(), *tools = g_menu_new();
+    for (int i = 0; i < STUDIO_TOOLS; i++) {
+        char name[64];
+        stage_control_text(&studio_controls[STUDIO_TOOL], i, name, sizeof name);
+        char *action = g_strdup_printf("win.tool::%s", name);
+        g_menu_append(tools, _(studio_tools[i].name), action);
+        g_free(action);
+    }
+    for (size_t i = 0; i <= G_N_ELEMENTS(menu_rows); i++) {
+        if (i < G_N_ELEMENTS(menu_rows) && menu_rows[i].action) {
+            g_menu_append(part, _(menu_rows[i].label), menu_rows[i].action);
+            continue;
+        }
+        g_menu_append_section(menu, NULL, G_MENU_MODEL(part));
+        g_object_unref(part);
+        part = g_menu_new();
+        if (i == 5)
+            g_menu_append_submenu(menu, _("Tools"), G_MENU_MODEL(tools));
+    }
+    g_object_unref(part);
+    g_object_unref(tools);
+    return G_MENU_MODEL(menu);
+}
+
+void desk_actions_add(struct desk *d)
+{
+    g_action_map_add_action_entries(G_ACTION_MAP(d->window), entries, G_N_ELEMENTS(entries), d);
+    for (size_t i = 0; i < G_N_ELEMENTS(menu_rows); i++)
+        if (menu_rows[i].action)
+            gtk_application_set_accels_for_action(d->application, menu_rows[i].action,
+                                                  (const char *[]){menu_rows[i].key, NULL});
+}
+
+void desk_actions_enable(struct desk *d)
+{
+    const struct {
+        const char *name;
+        bool enabled;
+    } states[] = {{"undo", d->report.can_undo || d->down},
+                  {"redo", d->report.can_redo},
+                  {"go-on", d->report.held},
+                  {"save", d->report.ready},
+                  {"save-as", d->report.ready},
+                  {"picture", d->report.ready},
+                  {"dry", d->report.ready},
+                  {"seal", d->report.ready}};
+    for (size_t i = 0; i < G_N_ELEMENTS(states); i++)
+        g_simple_action_set_enabled(G_SIMPLE_ACTION(g_action_map_lookup_action(
+                                        G_ACTION_MAP(d->window), states[i].name)),
+                                    states[i].enabled);
+}

@@ -1,0 +1,395 @@
+/* desk_gl.c - the canvas in OpenGL, core profile: the sheet as one texture, type that is being set as another one over it, ghosts and the
+ * cursor as capsules. It draws into whatever framebuffer is bound, in its viewport.
+ *
+ * Sheet. One triangle covers the canvas; each pixel asks where on the sheet it is (the inverse of studio_view_to_canvas()). Where a pixel
+ * covers more than a fiber, it takes the mean of several places, so nothing flickers and no seam can be. */
+#include "desk.h"
+
+#include "studio_swatch.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+
+struct corner {
+    float x, y, a_x, a_y, b_x, b_y, radius, hollow, color[4];
+};
+
+struct desk_gl {
+    GLuint sheet, pieces, array, buffer, picture, mask;
+    int width, height; /* of the picture */
+    struct studio_shown shown;
+    GArray *corners;
+};
+
+static const char sheet_vertex[] =
+    "#version 150\n"
+    "void main()\n"
+    "{\n"
+    "    vec2 at = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);\n"
+    "    gl_Position = vec4(at, 0.0, 1.0);\n"
+    "}\n";
+static const char sheet_fragment[] =
+    "#version 150\n"
+    "uniform sampler2D picture, mask;\n"
+    "uniform mat2 turned;\n"         /* pixels to fibers */
+    "uniform vec2 middle, origin;\n" /* the same place in pixels and in fibers */
+    "uniform vec2 size;\n"           /* of the sheet, fibers */
+    "uniform vec4 masked;\n"         /* corner and size of the mask; size 0: none */
+    "uniform vec3 desk, ink;\n"
+    "uniform float step;\n" /* fibers that a pixel is wide */
+    "uniform float height;\n"
+    "out vec4 color;\n"
+    "vec3 at(vec2 place)\n"
+    "{\n"
+    "    vec2 inside = clamp(0.5 + min(place, size - place) / max(step, 1e-6), 0.0, 1.0);\n"
+    "    vec3 paper = texture(picture, place / size).rgb;\n"
+    "    vec2 on = (place - masked.xy) / max(masked.zw, vec2(1.0));\n"
+    "    if (masked.z > 0.0 && all(greaterThan(on, vec2(0.0))) && all(lessThan(on, "
+    "vec2(1.0))))\n"
+    "        paper = mix(paper, ink, 0.75 * texture(mask, on).r);\n"
+    "    return mix(desk, paper, inside.x * inside.y);\n"
+    "}\n"
+    "void main()\n"
+    "{\n"
+    "    vec2 pixel = vec2(gl_FragCoord.x, height - gl_FragCoord.y);\n"
+    "    int n = int(clamp(ceil(step), 1.0, 8.0));\n"
+    "    vec3 sum = vec3(0.0);\n"
+    "    for (int j = 0; j < n; j++)\n"
+    "        for (int i = 0; i < n; i++) {\n"
+    "            vec2 part = (vec2(float(i), float(j)) + 0.5) / float(n) - 0.5;\n"
+    "            sum += at(origin + turned * (pixel + part - middle));\n"
+    "        }\n"
+    "    color = vec4(sum / float(n * n), 1.0);\n"
+    "}\n";
+static const char piece_vertex[] = "#version 150\n"
+                                   "in vec2 place;\n"
+                                   "in vec4 ends;\n"
+                                   "in vec2 shape;\n"
+                                   "in vec4 tint;\n"
+                                   "uniform vec2 size;\n"
+                                   "out vec2 at;\n"
+                                   "out vec4 between;\n"
+                                   "out vec2 form;\n"
+                                   "out vec4 paint;\n"
+                                   "void main()\n"
+                                   "{\n"
+                                   "    at = place;\n"
+                                   "    between = ends;\n"
+                                   "    form = shape;\n"
+                                   "    paint = tint;\n"
+                                   "    gl_Position = vec4(2.0 * place.x / size.x - 1.0, 1.0 - "
+                                   "2.0 * place.y / size.y, 0.0, 1.0);\n"
+                                   "}\n";
+static const char piece_fragment[] =
+    "#version 150\n"
+    "in vec2 at;\n"
+    "in vec4 between;\n"
+    "in vec2 form;\n"
+    "in vec4 paint;\n"
+    "out vec4 color;\n"
+    "void main()\n"
+    "{\n"
+    "    vec2 way = between.zw - between.xy, from = at - between.xy;\n"
+    "    float part = clamp(dot(from, way) / max(dot(way, way), 1e-6), 0.0, 1.0);\n"
+    "    float away = length(from - part * way);\n"
+    "    float cover = form.y > 0.0 ? clamp(form.y + 0.5 - abs(away - form.x), 0.0, 1.0)\n"
+    "                               : clamp(form.x + 0.5 - away, 0.0, 1.0);\n"
+    "    color = vec4(mix(vec3(1.0), paint.rgb, form.y > 0.0 ? 1.0 : cover), cover * "
+    "paint.a);\n"
+    "}\n";
+
+/* ---- programs ---- */
+
+static GLuint shader_make(GLenum kind, const char *text, char **why)
+{
+    char log[500] = "";
+    GLint good = 0;
+    GLuint shader = glCreateShader(kind);
+    glShaderSource(shader, 1, &text, NULL);
+    glCompileShader(shader);
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
+    if (!good) {
+        glGetShaderInfoLog(shader, sizeof log, NULL, log);
+        g_free(*why);
+        *why = g_strdup_printf("OpenGL: %s", log);
+    }
+    return shader;
+}
+
+static GLuint program_make(const char *vertex, const char *fragment, char **why)
+{
+    GLint good = 0;
+    GLuint program = glCreateProgram(),
+           parts[] = {shader_make(GL_VERTEX_SHADER, vertex, why),
+                      shader_make(GL_FRAGMENT_SHADER, fragment, why)};
+    for (int i = 0; i < 2; i++)
+        glAttachShader(program, parts[i]);
+    glBindAttribLocation(program, 0, "place");
+    glBindAttribLocation(program, 1, "ends");
+    glBindAttribLocation(program, 2, "shape");
+    glBindAttribLocation(program, 3, "tint");
+    glLinkProgram(program);
+    glGetProgramiv(program, GL_LINK_STATUS, &good);
+    for (int i = 0; i < 2; i++)
+        glDeleteShader(parts[i]);
+    if (!good && !*why)
+        *why = g_strdup("OpenGL: a program cannot be linked");
+    return program;
+}
+
+static GLuint texture_make(void)
+{
+    GLuint texture;
+    glGenTextures(1, &texture);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    return texture;
+}
+
+struct desk_gl *desk_gl_create(char **why)
+{
+    static const struct {
+        GLint size;
+        size_t at;
+    } parts[] = {{2, offsetof(struct corner, x)},
+                 {4, offsetof(struct corner, a_x)},
+                 {2, offsetof(struct corner, radius)},
+                 {4, offsetof(struct corner, color)}};
+    struct desk_gl *gl = g_new0(struct desk_gl, 1);
+    gl->sheet = program_make(sheet_vertex, sheet_fragment, why);
+    gl->pieces = program_make(piece_vertex, piece_fragment, why);
+    gl->picture = texture_make();
+    gl->mask = texture_make();
+    gl->corners = g_array_new(FALSE, FALSE, sizeof(struct corner));
+    glGenVertexArrays(1, &gl->array);
+    glBindVertexArray(gl->array);
+    glGenBuffers(1, &gl->buffer);
+    glBindBuffer(GL_ARRAY_BUFFER, gl->buffer);
+    for (GLuint i = 0; i < G_N_ELEMENTS(parts); i++) {
+        glEnableVertexAttribArray(i);
+        glVertexAttribPointer(i, parts[i].size, GL_FLOAT, GL_FALSE, sizeof(struct corner),
+                              (const void *)parts[i].at);
+    }
+    if (!*why)
+        return gl;
+    desk_gl_destroy(gl);
+    return NULL;
+}
+
+void desk_gl_destroy(struct desk_gl *gl)
+{
+    if (!gl)
+        return;
+    glDeleteProgram(gl->sheet);
+    glDeleteProgram(gl->pieces);
+    glDeleteTextures(1, &gl->picture);
+    glDeleteTextures(1, &gl->mask);
+    glDeleteBuffers(1, &gl->buffer);
+    glDeleteVertexArrays(1, &gl->array);
+    g_array_free(gl->corners, TRUE);
+    g_free(gl);
+}
+
+/* ---- textures ---- */
+
+bool desk_gl_picture(struct desk_gl *gl, const struct studio_picture *picture)
+{
+    GLint most = 0;
+    struct studio_rectangle r = picture->changed;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    if (picture->width > most || picture->height > most)
+        return false;
+    glBindTexture(GL_TEXTURE_2D, gl->picture);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    if (gl->width != picture->width || gl->height != picture->height) {
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, picture->width, picture->height, 0, GL_RGBA,
+                     GL_UNSIGNED_BYTE, NULL);
+        r = (struct studio_rectangle){0, 0, picture->width, picture->height};
+        gl->width = picture->width;
+        gl->height = picture->height;
+    }
+    if (r.right <= r.left)
+        return true;
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, picture->width);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, r.left, r.top, r.right - r.left, r.bottom - r.top,
+                    GL_RGBA, GL_UNSIGNED_BYTE,
+                    picture->pixels + STUDIO_PIXEL * ((size_t)r.top * (size_t)picture->width +
+                                                      (size_t)r.left));
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+    return true;
+}
+
+void desk_gl_shown(struct desk_gl *gl, const struct studio_shown *shown)
+{
+    gl->shown = *shown;
+    if (!shown->gray)
+        return;
+    glBindTexture(GL_TEXTURE_2D, gl->mask);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, shown->width, shown->height, 0, GL_RED,
+                 GL_UNSIGNED_BYTE, shown->gray);
+}
+
+/* ---- capsules ---- */
+
+struct look {
+    float color[4];
+    double hollow; /* half the width of the line around it; 0: filled */
+};
+
+static void piece_add(struct desk_gl *gl, struct studio_place a, struct studio_place b,
+                      double radius, const struct look *look)
+{
+    const double reach = radius + look->hollow + 1.5, left = fmin(a.x, b.x) - reach,
+                 right = fmax(a.x, b.x) + reach, top = fmin(a.y, b.y) - reach,
+                 bottom = fmax(a.y, b.y) + reach;
+    const double corners[6][2] = {{left, top}, {right, top},    {right, bottom},
+                                  {left, top}, {right, bottom}, {left, bottom}};
+    for (int i = 0; i < 6; i++) {
+        struct corner c = {(float)corners[i][0], (float)corners[i][1], (float)a.x,
+                           (float)a.y,           (float)b.x,           (float)b.y,
+                           (float)radius,        (float)look->hollow,  {0}};
+        memcpy(c.color, look->color, sizeof c.color);
+        g_array_append_val(gl->corners, c);
+    }
+}
+
+static void pieces_draw(struct desk_gl *gl, int width, int height)
+{
+    if (gl->corners->len == 0)
+        return;
+    glUseProgram(gl->pieces);
+    glUniform2f(glGetUniformLocation(gl->pieces, "size"), (float)width, (float)height);
+    glBindVertexArray(gl->array);
+    glBindBuffer(GL_ARRAY_BUFFER, gl->buffer);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(gl->corners->len * sizeof(struct corner)),
+                 gl->corners->data, GL_STREAM_DRAW);
+    glDrawArrays(GL_TRIANGLES, 0, (GLsizei)gl->corners->len);
+    g_array_set_size(gl->corners, 0);
+}
+
+static struct studio_place pixel_of(const struct desk *d, int scale, double x, double y)
+{
+    struct studio_place place = studio_view_to_canvas(&d->view, x, y);
+    place.x *= scale;
+    place.y *= scale;
+    return place;
+}
+
+/* The way that the paper has not done yet: it darkens, and where it crosses itself it darkens once. */
+static void ghost_draw(struct desk_gl *gl, const struct desk *d, int scale, const double ink[3],
+                       int width, int height)
+{
+    struct look look = {{0, 0, 0, 1}, 0};
+    for (int i = 0; i < 3; i++)
+        look.color[i] = (float)(0.5 + 0.5 * ink[i]);
+    for (guint i = 0; i < d->ghost->len; i++) {
+        const struct desk_ghost *g = &g_array_index(d->ghost, struct desk_ghost, i);
+        const struct desk_ghost *before = i && !g->begins ? g - 1 : g;
+        piece_add(gl, pixel_of(d, scale, before->x, before->y), pixel_of(d, scale, g->x, g->y),
+                  scale * d->view.zoom * g->radius, &look);
+    }
+    glBlendEquation(GL_MIN);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE); /* the canvas is opaque everywhere */
+    pieces_draw(gl, width, height);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glBlendEquation(GL_FUNC_ADD);
+}
+
+/* From where the hand came down to where it is: a wash's rectangle, a throw's direction. */
+static void drag_draw(struct desk_gl *gl, const struct desk *d, int scale,
+                      const struct look *look)
+{
+    const int tool = (int)d->settings.value[STUDIO_TOOL];
+    const struct studio_place to = studio_view_to_sheet(&d->view, d->pointer_x, d->pointer_y);
+    const double x[] = {d->down_x, to.x, to.x, d->down_x, d->down_x},
+                 y[] = {d->down_y, d->down_y, to.y, to.y, d->down_y};
+    if (!d->down)
+        return;
+    if (tool == STUDIO_TOOL_SPLATTER)
+        piece_add(gl, pixel_of(d, scale, x[0], y[0]), pixel_of(d, scale, to.x, to.y), scale,
+                  look);
+    for (int i = 0; i < 4 && tool == STUDIO_TOOL_WASH; i++)
+        piece_add(gl, pixel_of(d, scale, x[i], y[i]), pixel_of(d, scale, x[i + 1], y[i + 1]), 0,
+                  look);
+}
+
+static void cursor_draw(struct desk_gl *gl, const struct desk *d, int scale)
+{
+    const struct look dark = {{0.05f, 0.05f, 0.05f, 0.9f}, 0.6 * scale},
+                      light = {{1, 1, 1, 0.8f}, 1.6 * scale};
+    const double x = scale * d->pointer_x, y = scale * d->pointer_y, arm = 5.0 * scale,
+                 radius = scale * d->view.zoom * desk_cursor_radius(d);
+    const struct studio_place at = {x, y};
+    const struct look *looks[] = {&light, &dark};
+    for (int i = 0; i < 2; i++) {
+        drag_draw(gl, d, scale, looks[i]);
+        if (!d->pointer_inside || d->panning)
+            continue;
+        if (radius > arm)
+            piece_add(gl, at, at, radius, looks[i]);
+        piece_add(gl, (struct studio_place){x - arm, y}, (struct studio_place){x + arm, y}, 0,
+                  looks[i]);
+        piece_add(gl, (struct studio_place){x, y - arm}, (struct studio_place){x, y + arm}, 0,
+                  looks[i]);
+    }
+}
+
+/* ---- all of it ---- */
+
+static void sheet_draw(const struct desk_gl *gl, const struct desk *d, int scale,
+                       const double ink[3], int height)
+{
+    const struct studio_view *v = &d->view;
+    const double pixel = 1 / (v->zoom * scale), c = pixel * cos(v->turn),
+                 s = pixel * sin(v->turn), side = v->mirrored ? -1 : 1;
+    const GLfloat turned[] = {(float)(side * c), (float)-s, (float)(side * s), (float)c};
+    const GLuint p = gl->sheet;
+    const bool mask = gl->shown.gray != NULL;
+    glUseProgram(p);
+    glUniform1i(glGetUniformLocation(p, "picture"), 0);
+    glUniform1i(glGetUniformLocation(p, "mask"), 1);
+    glUniformMatrix2fv(glGetUniformLocation(p, "turned"), 1, GL_FALSE, turned);
+    glUniform2f(glGetUniformLocation(p, "middle"), (float)(scale * v->width / 2),
+                (float)(scale * v->height / 2));
+    glUniform2f(glGetUniformLocation(p, "origin"), (float)v->x0, (float)v->y0);
+    glUniform2f(glGetUniformLocation(p, "size"), (float)gl->width, (float)gl->height);
+    glUniform4f(glGetUniformLocation(p, "masked"), (float)gl->shown.x, (float)gl->shown.y,
+                mask ? (float)gl->shown.width : 0, mask ? (float)gl->shown.height : 0);
+    glUniform3f(glGetUniformLocation(p, "desk"), 0.30f, 0.29f, 0.28f);
+    glUniform3f(glGetUniformLocation(p, "ink"), (float)ink[0], (float)ink[1], (float)ink[2]);
+    glUniform1f(glGetUniformLocation(p, "step"), (float)pixel);
+    glUniform1f(glGetUniformLocation(p, "height"), (float)height);
+    glActiveTexture(GL_TEXTURE1);
+    glBindTexture(GL_TEXTURE_2D, gl->mask);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, gl->picture);
+    glBindVertexArray(gl->array);
+    glDisable(GL_BLEND);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void desk_gl_draw(struct desk_gl *gl, const struct desk *d, int scale)
+{
+    const int width = (int)lrint(scale * d->view.width),
+              height = (int)lrint(scale * d->view.height);
+    double amount[1 + PAPER_PIGMENTS_MAX], ink[3];
+    glClearColor(0.30f, 0.29f, 0.28f, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    if (!gl->width)
+        return;
+    studio_settings_amounts(&d->settings, amount);
+    studio_swatch(&d->report.config, amount, ink);
+    sheet_draw(gl, d, scale, ink, height);
+    glEnable(GL_BLEND);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE);
+    if (!studio_tool_of(&d->settings)->inked)
+        ink[0] = ink[1] = ink[2] = 0.7;
+    ghost_draw(gl, d, scale, ink, width, height);
+    cursor_draw(gl, d, scale);
+    pieces_draw(gl, width, height);
+    glDisable(GL_BLEND);
+}

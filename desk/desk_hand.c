@@ -1,0 +1,253 @@
+/* desk_hand.c - pointer and pen: from GTK's events to events of input.h, each with its own time, place and pressure, and from those to the
+ * paper. GTK joins the moves of a picture into one; the history of that one has them all.
+ *
+ * A mouse has no pressure: it presses as much as is set, and less the quicker it is. A pen presses as it says. A pen that hovers never
+ * paints, since only a press begins a stroke. */
+#include "desk.h"
+
+#include <math.h>
+
+#define QUICK 1500.0    /* canvas units a second: as quick as a hand is */
+#define SMOOTH_S 0.03   /* over which its speed is taken */
+#define TILT_MOST 1.047 /* radians at the most that a pen measures */
+
+/* ---- from events to the paper ---- */
+
+static double pressure_of(struct desk *d, const struct input_event *e)
+{
+    const double *value = d->settings.value;
+    d->pen_presses = d->pen_presses || (e->pen && e->pressure > 0);
+    if (e->pen && d->pen_presses)
+        return pow(e->pressure, value[STUDIO_CURVE]);
+    const double gone_s = e->time_s - d->last_s;
+    if (e->kind == INPUT_POINTER_DOWN)
+        d->speed = 0;
+    else if (gone_s > 0) {
+        const double speed = hypot(e->x_px - d->last_x, e->y_px - d->last_y) / gone_s,
+                     share = 1 - exp(-gone_s / SMOOTH_S);
+        d->speed += share * (speed - d->speed);
+    }
+    return value[STUDIO_PRESSURE] * (1 - value[STUDIO_SPEED] * fmin(1, d->speed / QUICK));
+}
+
+static void point_send(struct desk *d, enum studio_point_kind kind, const struct input_event *e)
+{
+    const struct studio_place at = studio_view_to_sheet(&d->view, e->x_px, e->y_px);
+    const double side = d->view.mirrored ? -1 : 1, c = cos(d->view.turn), s = sin(d->view.turn);
+    const struct studio_point point = {.kind = kind,
+                                       .time_s = e->time_s,
+                                       .x = at.x,
+                                       .y = at.y,
+                                       .pressure = d->pressure,
+                                       .tilt_x =
+                                           TILT_MOST * side * (c * e->tilt_x + s * e->tilt_y),
+                                       .tilt_y = TILT_MOST * (c * e->tilt_y - s * e->tilt_x)};
+    const unsigned long number = studio_paper_send(
+        d->paper, (struct studio_message){.kind = STUDIO_MESSAGE_POINT, .point = point});
+    if (kind != STUDIO_POINT_DROP)
+        desk_ghost_add(d, number, at.x, at.y, kind == STUDIO_POINT_DOWN);
+}
+
+static void down(struct desk *d, const struct input_event *e)
+{
+    const struct studio_place at = studio_view_to_sheet(&d->view, e->x_px, e->y_px);
+    if (e->button == INPUT_BUTTON_MIDDLE || d->space) {
+        d->panning = true;
+        return;
+    }
+    if (e->button != INPUT_BUTTON_LEFT || d->down || !d->report.ready)
+        return;
+    if ((int)d->settings.value[STUDIO_TOOL] == STUDIO_TOOL_TYPE) {
+        desk_type_begin(d, at.x, at.y);
+        return;
+    }
+    d->down = true;
+    d->down_x = at.x;
+    d->down_y = at.y;
+    point_send(d, STUDIO_POINT_DOWN, e);
+}
+
+static void up(struct desk *d, const struct input_event *e)
+{
+    if (d->panning) {
+        d->panning = false;
+        return;
+    }
+    if (!d->down || e->button != INPUT_BUTTON_LEFT)
+        return;
+    point_send(d, STUDIO_POINT_UP, e);
+    d->down = false;
+}
+
+void desk_hand_event(struct desk *d, const struct input_event *e)
+{
+    const bool moved = e->kind == INPUT_POINTER_MOVE || e->kind == INPUT_POINTER_DOWN ||
+                       e->kind == INPUT_POINTER_UP;
+    if (moved)
+        d->pressure = pressure_of(d, e);
+    if (e->kind == INPUT_POINTER_MOVE && d->panning) {
+        studio_view_pan(&d->view, e->x_px - d->last_x, e->y_px - d->last_y);
+        desk_canvas_changed(d);
+    } else if (e->kind == INPUT_POINTER_MOVE && d->down)
+        point_send(d, STUDIO_POINT_MOVE, e);
+    else if (e->kind == INPUT_POINTER_DOWN)
+        down(d, e);
+    else if (e->kind == INPUT_POINTER_UP)
+        up(d, e);
+    else if (e->kind == INPUT_FOCUS_LOST || e->kind == INPUT_CLOSE)
+        desk_hand_lift(d);
+    if (moved) {
+        d->last_x = d->pointer_x = e->x_px;
+        d->last_y = d->pointer_y = e->y_px;
+        d->last_s = e->time_s;
+        d->pointer_inside = true;
+    }
+    if (e->kind == INPUT_POINTER_LEAVE)
+        d->pointer_inside = false;
+    desk_canvas_show(d);
+}
+
+static struct input_event where_it_is(const struct desk *d)
+{
+    return (struct input_event){
+        .kind = INPUT_POINTER_UP, .time_s = d->last_s, .x_px = d->last_x, .y_px = d->last_y};
+}
+
+void desk_hand_lift(struct desk *d)
+{
+    const struct input_event e = where_it_is(d);
+    d->panning = d->space = false;
+    if (d->down)
+        point_send(d, STUDIO_POINT_UP, &e);
+    d->down = false;
+}
+
+void desk_hand_drop(struct desk *d)
+{
+    const struct input_event e = where_it_is(d);
+    if (d->down)
+        point_send(d, STUDIO_POINT_DROP, &e);
+    d->down = false;
+    g_array_set_size(d->ghost, 0);
+}
+
+/* ---- from GTK ---- */
+
+/* Of a surface's place the canvas's. */
+static bool place_of(struct desk *d, double x, double y, struct input_event *e)
+{
+    GtkNative *native = gtk_widget_get_native(d->canvas);
+    double left, top;
+    graphene_point_t to;
+    if (!native)
+        return false;
+    gtk_native_get_surface_transform(native, &left, &top);
+    const graphene_point_t from = {(float)(x - left), (float)(y - top)};
+    if (!gtk_widget_compute_point(GTK_WIDGET(native), d->canvas, &from, &to))
+        return false;
+    e->x_px = (double)to.x;
+    e->y_px = (double)to.y;
+    return true;
+}
+
+static void pressure_take(struct desk *d, GdkEvent *event, const double *axes, guint32 time_ms,
+                          struct input_event *e)
+{
+    double tilt[2] = {0, 0};
+    GdkDeviceTool *tool = gdk_event_get_device_tool(event);
+    if (tool && (gdk_device_tool_get_axes(tool) & GDK_AXIS_FLAG_PRESSURE)) {
+        e->pen = true;
+        if (axes) {
+            e->pressure = axes[GDK_AXIS_PRESSURE];
+            tilt[0] = axes[GDK_AXIS_XTILT];
+            tilt[1] = axes[GDK_AXIS_YTILT];
+        } else {
+            gdk_event_get_axis(event, GDK_AXIS_PRESSURE, &e->pressure);
+            gdk_event_get_axis(event, GDK_AXIS_XTILT, &tilt[0]);
+            gdk_event_get_axis(event, GDK_AXIS_YTILT, &tilt[1]);
+        }
+    } else
+        e->pen = desk_pen_at(d->pen, time_ms, &e->pressure, tilt);
+    e->tilt_x = tilt[0];
+    e->tilt_y = tilt[1];
+}
+
+static void moves_take(struct desk *d, GdkEvent *event)
+{
+    guint count = 0;
+    double x, y;
+    GdkTimeCoord *history = gdk_event_get_history(event, &count);
+    for (guint i = 0; i <= count; i++) {
+        const GdkTimeCoord *past = i < count ? &history[i] : NULL;
+        const guint32 time_ms = past ? past->time : gdk_event_get_time(event);
+        struct input_event e = {.kind = INPUT_POINTER_MOVE, .time_s = 1e-3 * time_ms};
+        if (past) {
+            x = past->axes[GDK_AXIS_X];
+            y = past->axes[GDK_AXIS_Y];
+        } else
+            gdk_event_get_position(event, &x, &y);
+        if (!place_of(d, x, y, &e))
+            continue;
+        pressure_take(d, event, past ? past->axes : NULL, time_ms, &e);
+        desk_hand_event(d, &e);
+    }
+    g_free(history);
+}
+
+static void button_take(struct desk *d, GdkEvent *event, enum input_kind kind)
+{
+    double x, y;
+    const guint button = gdk_button_event_get_button(event);
+    struct input_event e = {.kind = kind,
+                            .time_s = 1e-3 * gdk_event_get_time(event),
+                            .button = button == GDK_BUTTON_PRIMARY  ? INPUT_BUTTON_LEFT
+                                      : button == GDK_BUTTON_MIDDLE ? INPUT_BUTTON_MIDDLE
+                                                                    : INPUT_BUTTON_RIGHT};
+    gdk_event_get_position(event, &x, &y);
+    if (!place_of(d, x, y, &e))
+        return;
+    pressure_take(d, event, NULL, gdk_event_get_time(event), &e);
+    if (kind == INPUT_POINTER_DOWN)
+        gtk_widget_grab_focus(d->canvas);
+    desk_hand_event(d, &e);
+}
+
+static gboolean event_take(GtkEventControllerLegacy *controller, GdkEvent *event,
+                           struct desk *d)
+{
+    (void)controller;
+    const GdkEventType type = gdk_event_get_event_type(event);
+    if (type == GDK_MOTION_NOTIFY)
+        moves_take(d, event);
+    else if (type == GDK_BUTTON_PRESS)
+        button_take(d, event, INPUT_POINTER_DOWN);
+    else if (type == GDK_BUTTON_RELEASE)
+        button_take(d, event, INPUT_POINTER_UP);
+    return FALSE;
+}
+
+static void leave(GtkEventControllerMotion *controller, struct desk *d)
+{
+    (void)controller;
+    if (!d->down)
+        desk_hand_event(d, &(struct input_event){.kind = INPUT_POINTER_LEAVE});
+}
+
+static void active_changed(GObject *window, GParamSpec *spec, struct desk *d)
+{
+    (void)spec;
+    if (!gtk_window_is_active(GTK_WINDOW(window)))
+        desk_hand_event(d, &(struct input_event){.kind = INPUT_FOCUS_LOST});
+}
+
+void desk_hand_attach(struct desk *d)
+{
+    GtkEventController *controller = gtk_event_controller_legacy_new();
+    g_signal_connect(controller, "event", G_CALLBACK(event_take), d);
+    gtk_widget_add_controller(d->canvas, controller);
+    controller = gtk_event_controller_motion_new();
+    g_signal_connect(controller, "leave", G_CALLBACK(leave), d);
+    gtk_widget_add_controller(d->canvas, controller);
+    g_signal_connect(d->window, "notify::is-active", G_CALLBACK(active_changed), d);
+    d->pressure = d->settings.value[STUDIO_PRESSURE];
+}

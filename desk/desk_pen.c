@@ -1,0 +1,167 @@
+/* desk_pen.c - a pen's pressure and tilt on X11, where GTK tells them only of pens whose driver names their tool.
+ *
+ * Each report of XInput 2 passes by before GTK joins it with others. Those of devices that have an axis "Abs Pressure" are kept for a
+ * moment, with their times, and found again by them. Elsewhere (Wayland) pens have tools, and nothing of this is needed. */
+#include "desk.h"
+
+#ifdef LUTETIA_DESK_X11
+
+#include <X11/extensions/XInput2.h>
+#include <gdk/x11/gdkx.h>
+#include <string.h>
+
+G_GNUC_BEGIN_IGNORE_DEPRECATIONS
+
+enum { REPORTS = 1024, DEVICES = 64, AXES = 3 };
+#define FORGOTTEN_MS                                                                           \
+    400 /* a press has its own time, but the pressure of the report before it */
+
+struct report {
+    guint32 time_ms;
+    double axis[AXES]; /* pressure 0..1, tilts -1..1 */
+};
+
+struct device {
+    int id;
+    bool pen;
+    int number[AXES]; /* of the valuator; -1: it has none */
+    double least[AXES], most[AXES], last[AXES];
+};
+
+struct desk_pen {
+    GdkDisplay *display;
+    gulong signal;
+    struct device devices[DEVICES];
+    int devices_count;
+    struct report reports[REPORTS];
+    guint reports_count;
+};
+
+static void axis_look(Display *x, struct device *device, const XIValuatorClassInfo *v)
+{
+    static const char *const names[AXES] = {"Abs Pressure", "Abs Tilt X", "Abs Tilt Y"};
+    char *label = v->label ? XGetAtomName(x, v->label) : NULL;
+    for (int i = 0; i < AXES && label; i++)
+        if (strcmp(label, names[i]) == 0 && v->max > v->min) {
+            device->number[i] = v->number;
+            device->least[i] = v->min;
+            device->most[i] = v->max;
+        }
+    if (label)
+        XFree(label);
+}
+
+static struct device *device_of(struct desk_pen *pen, Display *x, int id)
+{
+    for (int i = 0; i < pen->devices_count; i++)
+        if (pen->devices[i].id == id)
+            return &pen->devices[i];
+    if (pen->devices_count == DEVICES)
+        return NULL;
+    struct device *device = &pen->devices[pen->devices_count++];
+    int count = 0;
+    *device = (struct device){.id = id, .number = {-1, -1, -1}};
+    XIDeviceInfo *info = XIQueryDevice(x, id, &count);
+    for (int i = 0; info && count > 0 && i < info->num_classes; i++)
+        if (info->classes[i]->type == XIValuatorClass)
+            axis_look(x, device, (const XIValuatorClassInfo *)(const void *)info->classes[i]);
+    if (info)
+        XIFreeDeviceInfo(info);
+    device->pen = device->number[0] >= 0;
+    return device;
+}
+
+static void report_keep(struct desk_pen *pen, struct device *device, const XIDeviceEvent *e)
+{
+    const double *value = e->valuators.values;
+    for (int i = 0; i < 8 * e->valuators.mask_len; i++) {
+        if (!XIMaskIsSet(e->valuators.mask, i))
+            continue;
+        for (int axis = 0; axis < AXES; axis++)
+            if (device->number[axis] == i) {
+                const double part =
+                    (*value - device->least[axis]) / (device->most[axis] - device->least[axis]);
+                device->last[axis] = axis ? 2 * part - 1 : part;
+            }
+        value++;
+    }
+    struct report *report = &pen->reports[pen->reports_count++ % REPORTS];
+    report->time_ms = (guint32)e->time;
+    memcpy(report->axis, device->last, sizeof report->axis);
+}
+
+static gboolean xevent(GdkX11Display *display, const XEvent *event, struct desk_pen *pen)
+{
+    (void)display;
+    const XGenericEventCookie *cookie = &event->xcookie;
+    if (event->type != GenericEvent || !cookie->data ||
+        (cookie->evtype != XI_Motion && cookie->evtype != XI_ButtonPress &&
+         cookie->evtype != XI_ButtonRelease))
+        return FALSE;
+    const XIDeviceEvent *e = cookie->data;
+    struct device *device = device_of(pen, e->display, e->sourceid);
+    if (device && device->pen)
+        report_keep(pen, device, e);
+    return FALSE;
+}
+
+struct desk_pen *desk_pen_create(GtkWidget *canvas)
+{
+    struct desk_pen *pen = g_new0(struct desk_pen, 1);
+    pen->display = gtk_widget_get_display(canvas);
+    if (GDK_IS_X11_DISPLAY(pen->display))
+        pen->signal = g_signal_connect(pen->display, "xevent", G_CALLBACK(xevent), pen);
+    return pen;
+}
+
+void desk_pen_destroy(struct desk_pen *pen)
+{
+    if (pen && pen->signal)
+        g_signal_handler_disconnect(pen->display, pen->signal);
+    g_free(pen);
+}
+
+bool desk_pen_at(struct desk_pen *pen, guint32 time_ms, double *pressure, double tilt[2])
+{
+    const guint kept = MIN(pen->reports_count, REPORTS);
+    const struct report *nearest = NULL;
+    for (guint i = 0; i < kept; i++) { /* the newest first */
+        const struct report *r = &pen->reports[(pen->reports_count - 1 - i) % REPORTS];
+        if ((gint32)(time_ms - r->time_ms) < 0)
+            continue;
+        nearest = r;
+        break;
+    }
+    if (!nearest || time_ms - nearest->time_ms > FORGOTTEN_MS)
+        return false;
+    *pressure = nearest->axis[0];
+    tilt[0] = nearest->axis[1];
+    tilt[1] = nearest->axis[2];
+    return true;
+}
+
+G_GNUC_END_IGNORE_DEPRECATIONS
+
+#else
+
+struct desk_pen *desk_pen_create(GtkWidget *canvas)
+{
+    (void)canvas;
+    return NULL;
+}
+
+void desk_pen_destroy(struct desk_pen *pen)
+{
+    (void)pen;
+}
+
+bool desk_pen_at(struct desk_pen *pen, guint32 time_ms, double *pressure, double tilt[2])
+{
+    (void)pen;
+    (void)time_ms;
+    (void)pressure;
+    (void)tilt;
+    return false;
+}
+
+#endif

@@ -1,0 +1,320 @@
+/* desk_window.c - the window: header, tools, sheet, panel, a line of state; and what the paper reports. */
+#include "desk.h"
+
+#include <string.h>
+
+/* ---- telling ---- */
+
+static void notice_close(GtkButton *button, struct desk *d)
+{
+    (void)button;
+    gtk_revealer_set_reveal_child(GTK_REVEALER(d->notice), FALSE);
+}
+
+void desk_say(struct desk *d, const char *text)
+{
+    gtk_label_set_text(GTK_LABEL(d->notice_text), text);
+    gtk_revealer_set_reveal_child(GTK_REVEALER(d->notice), TRUE);
+}
+
+static GtkWidget *notice_new(struct desk *d)
+{
+    GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8),
+              *close = gtk_button_new_from_icon_name("window-close-symbolic");
+    d->notice = gtk_revealer_new();
+    d->notice_text = gtk_label_new("");
+    gtk_label_set_wrap(GTK_LABEL(d->notice_text), TRUE);
+    gtk_label_set_xalign(GTK_LABEL(d->notice_text), 0);
+    gtk_widget_set_hexpand(d->notice_text, TRUE);
+    gtk_widget_set_margin_start(box, 12);
+    gtk_accessible_update_property(GTK_ACCESSIBLE(close), GTK_ACCESSIBLE_PROPERTY_LABEL,
+                                   _("Put this message away"), -1);
+    gtk_widget_set_tooltip_text(close, _("Put this message away"));
+    g_signal_connect(close, "clicked", G_CALLBACK(notice_close), d);
+    gtk_box_append(GTK_BOX(box), d->notice_text);
+    gtk_box_append(GTK_BOX(box), close);
+    gtk_revealer_set_child(GTK_REVEALER(d->notice), box);
+    return d->notice;
+}
+
+/* ---- to the paper ---- */
+
+void desk_send(struct desk *d, enum studio_message_kind kind)
+{
+    studio_paper_send(d->paper, (struct studio_message){.kind = kind});
+}
+
+void desk_set(struct desk *d, int setting, double value)
+{
+    const int kind = (int)d->settings.value[STUDIO_BRUSH];
+    if (stage_control_write(&studio_controls[setting], &d->settings, value) != STAGE_OK) {
+        desk_say(d, stage_error());
+        return;
+    }
+    if (setting == STUDIO_TOOL && (int)value != STUDIO_TOOL_TYPE)
+        desk_type_drop(d);
+    if (setting == STUDIO_BRUSH && (int)value != kind)
+        studio_settings_kind(&d->settings, (int)value);
+    for (int i = 0; i < STUDIO_SETTINGS; i++)
+        if (i == setting || (setting == STUDIO_BRUSH && i > STUDIO_BRUSH && i < STUDIO_REFILL))
+            studio_paper_send(d->paper, (struct studio_message){.kind = STUDIO_MESSAGE_SET,
+                                                                .setting = i,
+                                                                .value = d->settings.value[i]});
+    if (setting >= STUDIO_TYPE_SIZE && setting <= STUDIO_TYPE_ALIGN)
+        desk_type_changed(d);
+    desk_panel_fill(d);
+    if (setting == STUDIO_TILT_X || setting == STUDIO_TILT_Y)
+        gtk_widget_queue_draw(d->board);
+    desk_canvas_show(d);
+}
+
+/* ---- what the paper reports ---- */
+
+static void title_show(struct desk *d)
+{
+    char *name =
+        d->report.path[0] ? g_path_get_basename(d->report.path) : g_strdup(_("A new sheet"));
+    char *title =
+        g_strdup_printf("%s%s - %s", d->report.changed ? "• " : "", name, _("Studio"));
+    gtk_window_set_title(GTK_WINDOW(d->window), title);
+    g_free(title);
+    g_free(name);
+}
+
+static void state_show(struct desk *d)
+{
+    const struct studio_report *r = &d->report;
+    char *text;
+    if (!r->ready)
+        text = g_strdup(r->failed ? _("There is no sheet.") : _("The paper is being made …"));
+    else if (r->held)
+        text = g_strdup(_("Undone. Time stands still until you paint, redo or let it go on."));
+    else if (d->settings.value[STUDIO_PAUSED] != 0)
+        text = g_strdup_printf(_("Time stands still · step %ld"), r->steps);
+    else
+        text = g_strdup_printf(r->wet ? _("Wet · step %ld") : _("Dry · step %ld"), r->steps);
+    gtk_label_set_text(GTK_LABEL(d->state), text);
+    g_free(text);
+    text = g_strdup_printf(_("Past: %d operations, %.0f of %.0f MB"), r->operations,
+                           r->history_bytes * 1e-6, r->budget_bytes * 1e-6);
+    gtk_label_set_text(GTK_LABEL(d->memory), text);
+    g_free(text);
+}
+
+/* What a hand has set, but for what the sheet itself brings along: its air. */
+static void sheet_take(struct desk *d)
+{
+    for (int i = STUDIO_TILT_X; i <= STUDIO_EDGE; i++)
+        d->settings.value[i] = d->report.settings.value[i];
+    d->viewed = false;
+    desk_type_drop(d);
+    desk_panel_sheet(d);
+    for (int i = 0; i < STUDIO_SETTINGS; i++)
+        desk_set(d, i, d->settings.value[i]);
+    if (d->play)
+        desk_play_begin(d->play);
+}
+
+static gboolean report_take(gpointer data)
+{
+    struct desk *d = data;
+    struct studio_report before = d->report;
+    g_atomic_int_set(&d->woken, 0);
+    studio_paper_report(d->paper, &d->report);
+    if (d->report.sheets != before.sheets)
+        sheet_take(d);
+    if (d->report.errors != before.errors) {
+        desk_say(d, d->report.error);
+        if (d->report.failed) {
+            g_printerr("lutetia studio: %s\n", d->report.error);
+            d->status = 1;
+            g_application_quit(G_APPLICATION(d->application));
+        }
+    }
+    if (d->report.notes != before.notes) {
+        char *text = g_strdup_printf(d->report.note_picture ? _("The picture is in %s.")
+                                                            : _("Saved in %s."),
+                                     d->report.note);
+        desk_say(d, text);
+        g_free(text);
+    }
+    desk_canvas_look(d);
+    title_show(d);
+    state_show(d);
+    desk_actions_enable(d);
+    desk_canvas_show(d);
+    return G_SOURCE_REMOVE;
+}
+
+void desk_wake(void *context)
+{
+    struct desk *d = context;
+    if (g_atomic_int_compare_and_exchange(&d->woken, 0, 1))
+        g_idle_add_full(G_PRIORITY_DEFAULT, report_take, d, NULL);
+}
+
+/* ---- making ---- */
+
+static GtkWidget *action_button(const char *icon, const char *name, const char *action,
+                                const char *key)
+{
+    GtkWidget *button = gtk_button_new_from_icon_name(icon);
+    char *tip = g_strdup_printf("%s (%s)", name, key);
+    gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
+    gtk_accessible_update_property(GTK_ACCESSIBLE(button), GTK_ACCESSIBLE_PROPERTY_LABEL, name,
+                                   -1);
+    gtk_widget_set_tooltip_text(button, tip);
+    g_free(tip);
+    return button;
+}
+
+static void pause_toggled(GtkToggleButton *button, struct desk *d)
+{
+    if (!d->filling)
+        desk_set(d, STUDIO_PAUSED, gtk_toggle_button_get_active(button));
+}
+
+static GtkWidget *header_new(struct desk *d)
+{
+    GtkWidget *header = gtk_header_bar_new(), *menu = gtk_menu_button_new();
+    GMenuModel *model = desk_menu_new();
+    const struct {
+        const char *icon, *name, *action, *key;
+    } buttons[] = {
+        {"document-new-symbolic", _("New sheet"), "win.new", "Ctrl+N"},
+        {"document-open-symbolic", _("Open"), "win.open", "Ctrl+O"},
+        {"document-save-symbolic", _("Save"), "win.save", "Ctrl+S"},
+        {"edit-undo-symbolic", _("Undo"), "win.undo", "Ctrl+Z"},
+        {"edit-redo-symbolic", _("Redo"), "win.redo", "Ctrl+Shift+Z"},
+    };
+    for (size_t i = 0; i < G_N_ELEMENTS(buttons); i++)
+        gtk_header_bar_pack_start(
+            GTK_HEADER_BAR(header),
+            action_button(buttons[i].icon, buttons[i].name, buttons[i].action, buttons[i].key));
+    d->pause = gtk_toggle_button_new();
+    gtk_button_set_icon_name(GTK_BUTTON(d->pause), "media-playback-pause-symbolic");
+    gtk_accessible_update_property(GTK_ACCESSIBLE(d->pause), GTK_ACCESSIBLE_PROPERTY_LABEL,
+                                   _("Time stands still"), -1);
+    gtk_widget_set_tooltip_text(d->pause, _("Time on the paper stands still (P)"));
+    g_signal_connect(d->pause, "toggled", G_CALLBACK(pause_toggled), d);
+    gtk_header_bar_pack_start(GTK_HEADER_BAR(header), d->pause);
+    gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(menu), "open-menu-symbolic");
+    gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(menu), model);
+    gtk_menu_button_set_primary(GTK_MENU_BUTTON(menu), TRUE);
+    gtk_accessible_update_property(GTK_ACCESSIBLE(menu), GTK_ACCESSIBLE_PROPERTY_LABEL,
+                                   _("Menu"), -1);
+    gtk_widget_set_tooltip_text(menu, _("Menu (F10)"));
+    gtk_header_bar_pack_end(GTK_HEADER_BAR(header), menu);
+    g_object_unref(model);
+    return header;
+}
+
+static GtkWidget *state_new(struct desk *d)
+{
+    GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 16);
+    d->state = gtk_label_new("");
+    d->memory = gtk_label_new("");
+    d->place = gtk_label_new("");
+    gtk_label_set_xalign(GTK_LABEL(d->state), 0);
+    gtk_label_set_ellipsize(GTK_LABEL(d->state), PANGO_ELLIPSIZE_END);
+    gtk_widget_set_hexpand(d->state, TRUE);
+    gtk_widget_set_margin_start(box, 8);
+    gtk_widget_set_margin_end(box, 8);
+    gtk_widget_set_margin_top(box, 3);
+    gtk_widget_set_margin_bottom(box, 3);
+    gtk_box_append(GTK_BOX(box), d->state);
+    gtk_box_append(GTK_BOX(box), d->memory);
+    gtk_box_append(GTK_BOX(box), d->place);
+    return box;
+}
+
+static void leave(struct desk *d)
+{
+    d->asked = true;
+    gtk_window_destroy(GTK_WINDOW(d->window));
+}
+
+static gboolean close_asked(GtkWindow *window, struct desk *d)
+{
+    (void)window;
+    desk_hand_event(d, &(struct input_event){.kind = INPUT_CLOSE});
+    if (d->asked)
+        return FALSE;
+    studio_paper_report(d->paper, &d->report);
+    desk_file_leave(d, leave);
+    return TRUE;
+}
+
+enum { FLUSH_MS = 20 };
+
+static gboolean flush(gpointer data)
+{
+    studio_paper_flush(((struct desk *)data)->paper);
+    return G_SOURCE_CONTINUE;
+}
+
+static void theme_set(const struct desk *d)
+{
+    if (d->options.theme >= 0)
+        g_object_set(gtk_settings_get_default(), "gtk-application-prefer-dark-theme",
+                     d->options.theme == 1, NULL);
+}
+
+static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint code,
+                            GdkModifierType state, struct desk *d)
+{
+    (void)controller;
+    (void)code;
+    return desk_key(d, key, state);
+}
+
+static void key_released(GtkEventControllerKey *controller, guint key, guint code,
+                         GdkModifierType state, struct desk *d)
+{
+    (void)controller;
+    (void)code;
+    (void)state;
+    if (key == GDK_KEY_space)
+        d->space = false;
+}
+
+void desk_window_open(struct desk *d)
+{
+    GtkWidget *all = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0),
+              *middle = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
+    theme_set(d);
+    d->window = gtk_application_window_new(d->application);
+    gtk_window_set_default_size(GTK_WINDOW(d->window), 1260, 820);
+    desk_actions_add(d);
+    gtk_window_set_titlebar(GTK_WINDOW(d->window), header_new(d));
+    d->paper = studio_paper_start(&(struct studio_paper_def){.config = &d->options.config,
+                                                             .path = d->options.path,
+                                                             .budget_bytes = 512e6,
+                                                             .wake = desk_wake,
+                                                             .context = d});
+    GtkWidget *tools = desk_tools_new(d), *state = state_new(d);
+    gtk_widget_set_hexpand(tools, FALSE); /* the sheet has what is left */
+    gtk_box_append(GTK_BOX(middle), tools);
+    gtk_box_append(GTK_BOX(middle), desk_canvas_new(d));
+    GtkWidget *panel = desk_panel_new(d);
+    gtk_widget_set_hexpand(panel, FALSE);
+    gtk_box_append(GTK_BOX(middle), panel);
+    gtk_box_append(GTK_BOX(all), notice_new(d));
+    gtk_box_append(GTK_BOX(all), middle);
+    gtk_box_append(GTK_BOX(all), state);
+    gtk_window_set_child(GTK_WINDOW(d->window), all);
+    d->pen = desk_pen_create(d->canvas);
+    desk_hand_attach(d);
+    desk_type_attach(d);
+    GtkEventController *keys = gtk_event_controller_key_new();
+    g_signal_connect(keys, "key-pressed", G_CALLBACK(key_pressed), d);
+    g_signal_connect(keys, "key-released", G_CALLBACK(key_released), d);
+    gtk_widget_add_controller(d->window, keys);
+    g_signal_connect(d->window, "close-request", G_CALLBACK(close_asked), d);
+    g_timeout_add(FLUSH_MS, flush, d);
+    desk_panel_fill(d);
+    title_show(d);
+    state_show(d);
+    gtk_window_present(GTK_WINDOW(d->window));
+    gtk_widget_grab_focus(d->canvas);
+}

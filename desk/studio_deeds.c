@@ -1,0 +1,357 @@
+/* studio_deeds.c - what each tool does with the way of a hand. */
+#include "studio_mask.h"
+#include "studio_session_internal.h"
+
+#include <array.h>
+#include <techniques.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Samples of a stroke ascend in time; two reports of one moment are this far apart. */
+#define MOMENT_S 1e-4
+/* Steps of the paper in a second of a stroke, when time stands still besides. */
+#define PACE_PAUSED 60.0
+#define THROW_LENGTH 120.0 /* fibers of a drag that throw as far as drops are ever thrown */
+#define THROW_MOST 4.0
+#define SALT_REACH 10.0
+
+static const struct paper_stroke_sample *first_of(const struct studio_session *s)
+{
+    return &s->samples[0];
+}
+
+static const struct paper_stroke_sample *last_of(const struct studio_session *s)
+{
+    return &s->samples[s->samples_count - 1];
+}
+
+/* ---- strokes ---- */
+
+/* Only what a brush was dipped in is different from stroke to stroke; a brush that is as it was stays as it is. */
+static enum paper_status brush_ready(struct studio_session *s,
+                                     const struct studio_settings *settings)
+{
+    const struct paper_brush brush = studio_settings_brush(settings);
+    const struct paper_brush *b = &s->brush;
+    if (s->has_brush && b->width == brush.width && b->angle == brush.angle &&
+        b->follows == brush.follows && b->flat == brush.flat && b->point == brush.point &&
+        b->uneven == brush.uneven && b->splay == brush.splay && b->bend == brush.bend &&
+        b->bristles == brush.bristles && b->depth == brush.depth &&
+        b->thickness == brush.thickness && b->reach == brush.reach && b->load == brush.load &&
+        b->flow == brush.flow && b->mixing == brush.mixing)
+        return PAPER_OK;
+    enum paper_status status = paper_sheet_brush(s->sheet, &brush);
+    s->has_brush = status == PAPER_OK;
+    s->brush = brush;
+    return status;
+}
+
+static enum paper_status brush_dip(struct studio_session *s,
+                                   const struct studio_settings *settings, bool inked)
+{
+    struct paper_dip dip = {.number = 0, .part = 1, .side = {-1, 1}};
+    studio_settings_amounts(settings, dip.amount);
+    if (!inked) {
+        memset(dip.amount, 0, sizeof dip.amount);
+        dip.amount[0] = settings->value[STUDIO_WATER];
+    }
+    dip.amount[0] = fmin(1, dip.amount[0]);
+    return paper_sheet_dip(s->sheet, &dip);
+}
+
+static enum paper_status stroke_do(struct studio_session *s)
+{
+    const struct studio_tool *tool = studio_tool_of(&s->at);
+    const bool had_brush = s->has_brush;
+    enum paper_status status = brush_ready(s, &s->at);
+    const bool fresh = s->has_brush && !had_brush;
+    if (status == PAPER_OK && (fresh || s->at.value[STUDIO_REFILL] != 0 || !tool->inked))
+        status = brush_dip(s, &s->at, tool->inked);
+    if (status != PAPER_OK)
+        return status;
+    const struct paper_stroke stroke = {
+        .number = 0,
+        .pace = s->at.value[STUDIO_PAUSED] != 0 ? PACE_PAUSED : s->at.value[STUDIO_PACE],
+        .samples_count = s->samples_count,
+        .samples = s->samples};
+    return paper_sheet_stroke(s->sheet, &stroke, NULL);
+}
+
+enum paper_status studio_session_care(struct studio_session *s, enum studio_care care)
+{
+    if (s->down)
+        return studio_session_failed(PAPER_BAD_ARGUMENT, "the brush is on the paper");
+    enum paper_status status = brush_ready(s, &s->settings);
+    const struct paper_dip wipe = {.number = 0, .part = 1, .side = {-1, 1}};
+    if (status == PAPER_OK)
+        status = care == STUDIO_WIPE ? paper_sheet_dip(s->sheet, &wipe)
+                                     : brush_dip(s, &s->settings, care == STUDIO_DIP);
+    return status;
+}
+
+/* ---- what covers an area ---- */
+
+static enum paper_status swept_apply(struct studio_session *s,
+                                     const struct paper_screen *screen, int x, int y)
+{
+    const double *value = s->at.value;
+    const struct paper_place place = {screen, x, y};
+    switch ((enum studio_tool_number)value[STUDIO_TOOL]) {
+    case STUDIO_TOOL_BLOT:
+        return paper_sheet_blot(s->sheet, screen, x, y, value[STUDIO_SOAK], 0);
+    case STUDIO_TOOL_LIFT:
+        return paper_sheet_lift(s->sheet, &(struct paper_lift){place, value[STUDIO_RUB]});
+    case STUDIO_TOOL_MASK:
+    case STUDIO_TOOL_UNMASK:
+        return paper_sheet_resist(s->sheet, screen, x, y,
+                                  (int)value[STUDIO_TOOL] == STUDIO_TOOL_MASK);
+    case STUDIO_TOOL_VARNISH:
+        return paper_sheet_varnish(s->sheet,
+                                   &(struct paper_varnish){place, value[STUDIO_GLOSS]});
+    case STUDIO_TOOL_DROP: {
+        double amount[1 + PAPER_PIGMENTS_MAX];
+        studio_settings_amounts(&s->at, amount);
+        return paper_sheet_put(s->sheet, screen, x, y, amount);
+    }
+    case STUDIO_TOOL_BRUSH:
+    case STUDIO_TOOL_WATER:
+    case STUDIO_TOOL_WASH:
+    case STUDIO_TOOL_SPLATTER:
+    case STUDIO_TOOL_SALT:
+    case STUDIO_TOOL_TYPE:
+    case STUDIO_TOOLS:
+        break;
+    }
+    return PAPER_OK;
+}
+
+/* The way as wide as the brush under the hand's pressure; a drop falls where the hand came down. */
+static enum paper_status swept_do(struct studio_session *s)
+{
+    const struct paper_sheet_config *config = paper_sheet_get_config(s->sheet);
+    const bool drop = (int)s->at.value[STUDIO_TOOL] == STUDIO_TOOL_DROP;
+    const int count = drop ? 1 : s->samples_count;
+    struct studio_disc *discs = malloc((size_t)count * sizeof *discs);
+    struct paper_screen screen = {0};
+    int x = 0, y = 0;
+    if (!discs)
+        return studio_session_failed(PAPER_NO_MEMORY, "no memory for the way of the hand");
+    for (int i = 0; i < count; i++)
+        discs[i] = (struct studio_disc){s->samples[i].x, s->samples[i].y,
+                                        drop ? s->at.value[STUDIO_SIZE]
+                                             : s->at.value[STUDIO_WIDTH] / 2};
+    enum paper_status status =
+        studio_mask_sweep(discs, count, config->width, config->height, &screen, &x, &y);
+    if (status == PAPER_NO_MEMORY)
+        studio_session_failed(status, "no memory for the way of the hand");
+    if (status == PAPER_OK && screen.gray)
+        status = swept_apply(s, &screen, x, y);
+    paper_screen_destroy(&screen);
+    free(discs);
+    return status;
+}
+
+static enum paper_status wash_do(struct studio_session *s)
+{
+    const struct paper_sheet_config *config = paper_sheet_get_config(s->sheet);
+    const double x[2] = {first_of(s)->x, last_of(s)->x}, y[2] = {first_of(s)->y, last_of(s)->y};
+    const double corners[] = {x[0], y[0], x[1], y[0], x[1], y[1], x[0], y[1]};
+    struct paper_screen screen;
+    struct paper_wash wash = {.from = {x[0], y[0]}, .to = {x[0], y[1]}};
+    if (fabs(x[1] - x[0]) < 1 || fabs(y[1] - y[0]) < 1)
+        return PAPER_OK; /* a click */
+    studio_settings_amounts(&s->at, wash.amount);
+    for (int i = 0; i <= PAPER_PIGMENTS_MAX; i++)
+        wash.end[i] = i ? s->at.value[STUDIO_FADE] * wash.amount[i] : wash.amount[i];
+    enum paper_status status = paper_polygon_screen(corners, 4, config->width, config->height,
+                                                    &screen, &wash.place.x, &wash.place.y);
+    if (status != PAPER_OK)
+        return status;
+    wash.place.screen = &screen;
+    if (screen.gray)
+        status = paper_sheet_wash(s->sheet, &wash);
+    paper_screen_destroy(&screen);
+    return status;
+}
+
+/* Another throw is another chance: the seed follows from what was done before. */
+static uint64_t seed_of(const struct studio_session *s)
+{
+    return 1 + (uint64_t)paper_history_done(s->sheet);
+}
+
+static enum paper_status splatter_do(struct studio_session *s)
+{
+    const double *value = s->at.value, along = last_of(s)->x - first_of(s)->x,
+                 down = last_of(s)->y - first_of(s)->y, length = hypot(along, down);
+    struct paper_splatter splatter = {
+        .x = first_of(s)->x,
+        .y = first_of(s)->y,
+        .radius = value[STUDIO_SCATTER],
+        .toward = length > 4 ? atan2(down, along) : 0,
+        .thrown = length > 4 ? fmin(THROW_MOST, THROW_MOST * length / THROW_LENGTH) : 0,
+        .drops = (int)value[STUDIO_DROPS],
+        .size = {0.6, 4},
+        .seed = seed_of(s)};
+    studio_settings_amounts(&s->at, splatter.amount);
+    return paper_sheet_splatter(s->sheet, &splatter);
+}
+
+static enum paper_status salt_do(struct studio_session *s)
+{
+    const double *value = s->at.value;
+    return paper_sheet_salt(s->sheet, &(struct paper_salt){.x = first_of(s)->x,
+                                                           .y = first_of(s)->y,
+                                                           .radius = value[STUDIO_SCATTER],
+                                                           .grains = (int)value[STUDIO_GRAINS],
+                                                           .size = {0.7, 1.6},
+                                                           .strength = value[STUDIO_SALT],
+                                                           .reach = SALT_REACH,
+                                                           .seed = seed_of(s)});
+}
+
+/* ---- the hand ---- */
+
+static enum paper_status deed_do(struct studio_session *s)
+{
+    enum paper_status status = studio_session_air(s);
+    if (status != PAPER_OK)
+        return status;
+    switch ((enum studio_tool_number)s->at.value[STUDIO_TOOL]) {
+    case STUDIO_TOOL_BRUSH:
+    case STUDIO_TOOL_WATER:
+        return stroke_do(s);
+    case STUDIO_TOOL_WASH:
+        return wash_do(s);
+    case STUDIO_TOOL_SPLATTER:
+        return splatter_do(s);
+    case STUDIO_TOOL_SALT:
+        return salt_do(s);
+    case STUDIO_TOOL_DROP:
+    case STUDIO_TOOL_BLOT:
+    case STUDIO_TOOL_LIFT:
+    case STUDIO_TOOL_MASK:
+    case STUDIO_TOOL_UNMASK:
+    case STUDIO_TOOL_VARNISH:
+        return swept_do(s);
+    case STUDIO_TOOL_TYPE: /* studio_session_type() */
+    case STUDIO_TOOLS:
+        break;
+    }
+    return PAPER_OK;
+}
+
+static enum paper_status sample_add(struct studio_session *s, const struct studio_point *point)
+{
+    double time_s = point->time_s - s->began_s;
+    if (!array_reserve(&s->samples, &s->samples_capacity, s->samples_count + 1,
+                       sizeof *s->samples))
+        return studio_session_failed(PAPER_NO_MEMORY, "no memory for a longer stroke");
+    if (s->samples_count > 0)
+        time_s = fmax(time_s, last_of(s)->time_s + MOMENT_S);
+    s->samples[s->samples_count++] =
+        (struct paper_stroke_sample){.time_s = time_s,
+                                     .x = point->x,
+                                     .y = point->y,
+                                     .pressure = fmin(1, fmax(0, point->pressure)),
+                                     .tilt_x = fmin(1.5, fmax(-1.5, point->tilt_x)),
+                                     .tilt_y = fmin(1.5, fmax(-1.5, point->tilt_y))};
+    return PAPER_OK;
+}
+
+void studio_session_drop(struct studio_session *s)
+{
+    s->down = false;
+    s->samples_count = 0;
+}
+
+enum paper_status studio_session_point(struct studio_session *s,
+                                       const struct studio_point *point)
+{
+    enum paper_status status = PAPER_OK;
+    if (point->kind == STUDIO_POINT_DROP || (point->kind == STUDIO_POINT_DOWN && s->down))
+        studio_session_drop(s);
+    if (point->kind == STUDIO_POINT_DOWN) {
+        s->down = true;
+        s->at = s->settings;
+        s->began_s = point->time_s;
+    }
+    if (s->down && s->samples_count < PAPER_STROKE_SAMPLES_MAX)
+        status = sample_add(s, point);
+    if (s->down && point->kind == STUDIO_POINT_UP) {
+        if (status == PAPER_OK)
+            status = deed_do(s);
+        s->held = false;
+        s->wet = true;
+        studio_session_drop(s);
+    }
+    return status;
+}
+
+/* ---- deeds without a hand ---- */
+
+static enum paper_status deed_done(struct studio_session *s, enum paper_status status)
+{
+    s->held = false;
+    s->wet = true;
+    return status;
+}
+
+enum paper_status studio_session_dry(struct studio_session *s)
+{
+    return s->down ? studio_session_failed(PAPER_BAD_ARGUMENT, "the brush is on the paper")
+                   : deed_done(s, paper_sheet_dry(s->sheet));
+}
+
+enum paper_status studio_session_seal(struct studio_session *s)
+{
+    return s->down ? studio_session_failed(PAPER_BAD_ARGUMENT, "the brush is on the paper")
+                   : deed_done(s, paper_sheet_seal(s->sheet));
+}
+
+/* ---- type ---- */
+
+enum paper_status studio_session_type_screen(const struct studio_settings *settings,
+                                             const struct studio_type *type,
+                                             struct paper_screen *screen, int *x, int *y,
+                                             uint32_t *missing)
+{
+    const double *value = settings->value;
+    const double left = floor(type->x), top = floor(type->y);
+    const struct paper_line line = {
+        .text = type->text,
+        .font = type->font,
+        .features = type->features && type->features[0] ? type->features : NULL,
+        .size_px = value[STUDIO_TYPE_SIZE],
+        .angle_deg = value[STUDIO_TYPE_ANGLE],
+        .width_px = value[STUDIO_TYPE_COLUMN],
+        .leading = value[STUDIO_TYPE_LEADING],
+        .align = (enum paper_align)value[STUDIO_TYPE_ALIGN],
+        .x_px = type->x - left,
+        .y_px = type->y - top};
+    const enum paper_status status = paper_line_screen(&line, screen, missing);
+    *x = (int)left - screen->origin_x_px;
+    *y = (int)top - screen->baseline_y_px;
+    return status;
+}
+
+enum paper_status studio_session_type(struct studio_session *s, const struct studio_type *type)
+{
+    struct paper_screen screen;
+    double amount[1 + PAPER_PIGMENTS_MAX];
+    uint32_t missing;
+    int x, y;
+    if (s->down)
+        return studio_session_failed(PAPER_BAD_ARGUMENT, "the brush is on the paper");
+    enum paper_status status =
+        studio_session_type_screen(&s->settings, type, &screen, &x, &y, &missing);
+    if (status == PAPER_OK)
+        status = studio_session_air(s);
+    studio_settings_amounts(&s->settings, amount);
+    if (status == PAPER_OK)
+        status = paper_sheet_put(s->sheet, &screen, x, y, amount);
+    paper_screen_destroy(&screen);
+    return deed_done(s, status);
+}

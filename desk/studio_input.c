@@ -1,0 +1,159 @@
+/* studio_input.c - see studio_input.h. */
+#include "studio_input.h"
+
+#include "studio_settings.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define TIME_MOST 1e6
+#define PLACE_MOST 1e6
+
+static const struct word {
+    const char *name;
+    enum studio_input_kind kind;
+    enum input_kind event;
+    int button;
+    int numbers_least, numbers_most;
+    bool texts; /* a text follows the numbers */
+} words[] = {
+    {"down", STUDIO_INPUT_EVENT, INPUT_POINTER_DOWN, INPUT_BUTTON_LEFT, 2, 5, false},
+    {"move", STUDIO_INPUT_EVENT, INPUT_POINTER_MOVE, 0, 2, 5, false},
+    {"up", STUDIO_INPUT_EVENT, INPUT_POINTER_UP, INPUT_BUTTON_LEFT, 2, 5, false},
+    {"middle-down", STUDIO_INPUT_EVENT, INPUT_POINTER_DOWN, INPUT_BUTTON_MIDDLE, 2, 2, false},
+    {"middle-up", STUDIO_INPUT_EVENT, INPUT_POINTER_UP, INPUT_BUTTON_MIDDLE, 2, 2, false},
+    {"leave", STUDIO_INPUT_EVENT, INPUT_POINTER_LEAVE, 0, 0, 0, false},
+    {"focus-lost", STUDIO_INPUT_EVENT, INPUT_FOCUS_LOST, 0, 0, 0, false},
+    {"set", STUDIO_INPUT_SET, INPUT_NONE, 0, 0, 0, true},
+    {"action", STUDIO_INPUT_ACTION, INPUT_NONE, 0, 0, 0, true},
+    {"step", STUDIO_INPUT_STEP, INPUT_NONE, 0, 1, 1, false},
+    {"view", STUDIO_INPUT_VIEW, INPUT_NONE, 0, 5, 5, false},
+    {"type", STUDIO_INPUT_TYPE, INPUT_NONE, 0, 2, 2, true},
+    {"save", STUDIO_INPUT_SAVE, INPUT_NONE, 0, 0, 0, true},
+    {"picture", STUDIO_INPUT_PICTURE, INPUT_NONE, 0, 0, 0, true},
+};
+/* What is an action of the window by its own name. */
+static const char *const actions[] = {"undo", "redo", "dry", "seal", "close"};
+
+static int wrong(char *why, size_t room, const char *what, const char *with)
+{
+    snprintf(why, room, "%s '%.60s'", what, with);
+    return -1;
+}
+
+static const char *blanks_skip(const char *text)
+{
+    return text + strspn(text, " \t");
+}
+
+/* A number, and what follows it; NULL: there is none. */
+static const char *number_read(const char *text, double most, double *out)
+{
+    char *end;
+    *out = strtod(text, &end);
+    if (end == text || !(fabs(*out) <= most) || (*end && !strchr(" \t", *end)))
+        return NULL;
+    return blanks_skip(end);
+}
+
+static void text_read(const char *text, char *out, size_t room)
+{
+    size_t used = 0;
+    for (; *text && used + 1 < room; text++) {
+        if (text[0] == '\\' && text[1] == 'n') {
+            out[used++] = '\n';
+            text++;
+        } else
+            out[used++] = *text;
+    }
+    out[used] = '\0';
+}
+
+static void event_fill(struct input_event *e, const double *number, int count)
+{
+    e->x_px = number[0];
+    e->y_px = number[1];
+    e->pen = count > 2;
+    e->pressure = count > 2 ? fmin(1, fmax(0, number[2])) : 0;
+    e->tilt_x = count > 4 ? fmin(1, fmax(-1, number[3])) : 0;
+    e->tilt_y = count > 4 ? fmin(1, fmax(-1, number[4])) : 0;
+}
+
+/* "NAME VALUE" of a setting. */
+static int setting_read(struct studio_input *out, char *why, size_t room)
+{
+    const char *value = blanks_skip(out->text + strlen(out->name));
+    for (int i = 0; i < STUDIO_SETTINGS; i++)
+        if (strcmp(studio_controls[i].name, out->name) == 0) {
+            out->setting = i;
+            if (stage_control_parse(&studio_controls[i], value, &out->value) != STAGE_OK ||
+                !(out->value >= studio_controls[i].least &&
+                  out->value <= studio_controls[i].most))
+                return wrong(why, room, "a value out of range:", out->text);
+            return 1;
+        }
+    return wrong(why, room, "no setting", out->name);
+}
+
+static int word_read(const struct word *word, const char *rest, struct studio_input *out,
+                     char *why, size_t room)
+{
+    double number[5] = {0};
+    int count = 0;
+    for (const char *next;
+         count < word->numbers_most && (next = number_read(rest, PLACE_MOST, &number[count]));
+         count++)
+        rest = next;
+    if (count < word->numbers_least || (*rest && !word->texts) || (!*rest && word->texts))
+        return wrong(why, room, "not what belongs after", word->name);
+    out->kind = word->kind;
+    out->event = (struct input_event){
+        .kind = word->event, .time_s = out->time_s, .button = word->button};
+    event_fill(&out->event, number, count);
+    text_read(rest, out->text, sizeof out->text);
+    const size_t length = strcspn(out->text, " \t");
+    snprintf(out->name, sizeof out->name, "%.*s", (int)(length < 63 ? length : 63), out->text);
+    out->x = number[word->kind == STUDIO_INPUT_VIEW ? 1 : 0];
+    out->y = number[word->kind == STUDIO_INPUT_VIEW ? 2 : 1];
+    out->zoom = number[0];
+    out->degrees = number[3];
+    out->mirrored = number[4] != 0;
+    out->value = number[0];
+    if (word->kind == STUDIO_INPUT_SET)
+        return setting_read(out, why, room);
+    if (word->kind == STUDIO_INPUT_ACTION) {
+        const char *after = blanks_skip(out->text + strlen(out->name));
+        memmove(out->text, after, strlen(after) + 1);
+    }
+    if (word->kind == STUDIO_INPUT_STEP && !(out->value >= 1 && out->value <= 100000))
+        return wrong(why, room, "steps must be 1..100000, not", rest);
+    if (word->kind == STUDIO_INPUT_VIEW && !(out->zoom > 0))
+        return wrong(why, room, "a zoom must be above 0 in", word->name);
+    return 1;
+}
+
+int studio_input_parse(const char *line, struct studio_input *out, char *why, size_t room)
+{
+    char name[24];
+    *out = (struct studio_input){0};
+    line = blanks_skip(line);
+    if (!*line || *line == '#')
+        return 0;
+    line = number_read(line, TIME_MOST, &out->time_s);
+    if (!line || out->time_s < 0)
+        return wrong(why, room, "a line begins with its seconds", "");
+    const size_t length = strcspn(line, " \t");
+    snprintf(name, sizeof name, "%.*s", (int)(length < 23 ? length : 23), line);
+    const char *rest = blanks_skip(line + length);
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strcmp(words[i].name, name) == 0)
+            return word_read(&words[i], rest, out, why, room);
+    for (size_t i = 0; i < sizeof actions / sizeof *actions; i++)
+        if (strcmp(actions[i], name) == 0 && !*rest) {
+            out->kind = STUDIO_INPUT_ACTION;
+            snprintf(out->name, sizeof out->name, "%s", name);
+            return 1;
+        }
+    return wrong(why, room, "no such word:", name);
+}

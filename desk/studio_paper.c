@@ -1,0 +1,513 @@
+/* studio_paper.c - see studio_paper.h.
+ *
+ *     take messages -> do them -> steps that are due -> a picture, if the last one has been looked at -> wait
+ *
+ * The hand comes first: no more than STEPS_AT_ONCE steps are done between two looks at the messages. Steps that the machine is too slow for
+ * are left out, so that time on the paper never runs after the hand. */
+#include "studio_paper.h"
+#include "studio_session_internal.h"
+
+#include <array.h>
+#include <input.h>
+
+#include <math.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { STEPS_AT_ONCE = 2 };
+#define LATE_MOST 2.0  /* steps that may be due */
+#define REST_S 0.25    /* between looks while nothing happens */
+#define UNSEEN_S 0.004 /* until a picture is looked at */
+
+struct studio_paper {
+    struct studio_paper_def def;
+    struct paper_sheet_config config; /* of the first sheet */
+    pthread_t thread;
+    bool started;
+    struct studio_messages messages;
+    /* the thread's own */
+    struct studio_session *session;
+    bool dirty, end;
+    double due, looked_s;
+    unsigned long heard;
+    struct studio_message *later; /* what waits until the hand is lifted */
+    int later_count, later_capacity;
+    uint16_t *view;
+    struct studio_report now;
+    /* shared */
+    pthread_mutex_t lock;
+    struct studio_report report;
+    struct studio_pictures *pictures; /* of this sheet */
+    struct studio_shown shown;
+    bool shown_new;
+    /* the window's own */
+    struct studio_pictures *looked; /* those that it looks at */
+    uint8_t *shown_gray;
+};
+
+/* ---- telling ---- */
+
+static void report_make(struct studio_paper *p)
+{
+    struct studio_report *r = &p->now;
+    r->ready = p->session != NULL;
+    if (p->session) {
+        struct paper_sheet *sheet = studio_session_sheet(p->session);
+        r->can_undo = studio_session_can_undo(p->session);
+        r->can_redo = studio_session_can_redo(p->session);
+        r->held = studio_session_held(p->session);
+        r->wet = studio_session_wet(p->session);
+        r->steps = paper_sheet_steps(sheet);
+        r->operations = paper_history_done(sheet);
+        r->history_bytes = paper_history_bytes(sheet);
+    }
+    r->budget_bytes = p->def.budget_bytes;
+    pthread_mutex_lock(&p->lock);
+    const bool other = memcmp(&p->report, r, sizeof *r) != 0;
+    if (other)
+        p->report = *r;
+    pthread_mutex_unlock(&p->lock);
+    if (other)
+        p->def.wake(p->def.context);
+}
+
+static void complain(struct studio_paper *p)
+{
+    snprintf(p->now.error, sizeof p->now.error, "%s", studio_session_error());
+    p->now.errors++;
+}
+
+/* ---- pictures ---- */
+
+static struct studio_rectangle canvas_fill(struct studio_pictures *pictures,
+                                           const uint16_t *view)
+{
+    struct studio_rectangle changed = {pictures->width, pictures->height, 0, 0};
+    for (int y = 0; y < pictures->height; y++) {
+        const uint16_t *from = view + 3 * (size_t)y * (size_t)pictures->width;
+        uint8_t *to = pictures->canvas + STUDIO_PIXEL * (size_t)y * (size_t)pictures->width;
+        int first = pictures->width, last = -1;
+        for (int x = 0; x < pictures->width; x++, from += 3, to += STUDIO_PIXEL) {
+            const uint8_t now[STUDIO_PIXEL] = {(uint8_t)(from[0] >> 8), (uint8_t)(from[1] >> 8),
+                                               (uint8_t)(from[2] >> 8), 255};
+            if (memcmp(to, now, sizeof now) == 0)
+                continue;
+            memcpy(to, now, sizeof now);
+            first = x < first ? x : first;
+            last = x;
+        }
+        if (last >= 0)
+            changed = studio_rectangle_join(
+                changed, (struct studio_rectangle){first, y, last + 1, y + 1});
+    }
+    return changed;
+}
+
+static void picture_make(struct studio_paper *p)
+{
+    const struct paper_sheet_view view = studio_session_view(p->session);
+    p->dirty = false;
+    if (paper_sheet_view(studio_session_sheet(p->session), &view, p->view) != PAPER_OK) {
+        complain(p);
+        return;
+    }
+    const struct studio_rectangle changed = canvas_fill(p->pictures, p->view);
+    studio_pictures_publish(p->pictures, &changed, p->heard);
+    p->def.wake(p->def.context);
+}
+
+/* ---- sheets ---- */
+
+static bool pictures_change(struct studio_paper *p, int width, int height)
+{
+    struct studio_pictures *made = calloc(1, sizeof *made);
+    uint16_t *view = malloc(3 * (size_t)width * (size_t)height * sizeof *view);
+    if (!made || !view || !studio_pictures_begin(made, width, height)) {
+        free(made);
+        free(view);
+        return false;
+    }
+    free(p->view);
+    p->view = view;
+    pthread_mutex_lock(&p->lock);
+    struct studio_pictures *before = p->pictures;
+    p->pictures = made;
+    const bool unseen = before != p->looked;
+    pthread_mutex_unlock(&p->lock);
+    if (before && unseen) { /* else the window ends them, when it looks again */
+        studio_pictures_finish(before);
+        free(before);
+    }
+    return true;
+}
+
+/* The sheet that was made takes the place of the one before. */
+static void sheet_change(struct studio_paper *p, struct studio_session *made, const char *path)
+{
+    const struct paper_sheet_config *config =
+        paper_sheet_get_config(studio_session_sheet(made));
+    if (!pictures_change(p, config->width, config->height)) {
+        studio_session_failed(PAPER_NO_MEMORY, "no memory for pictures of %dx%d fibers",
+                              config->width, config->height);
+        complain(p);
+        studio_session_destroy(made);
+        return;
+    }
+    studio_session_destroy(p->session);
+    p->session = made;
+    p->now.sheets++;
+    p->now.config = *config;
+    p->now.settings = *studio_session_settings(made);
+    p->now.changed = false;
+    snprintf(p->now.path, sizeof p->now.path, "%s", path ? path : "");
+    p->dirty = true;
+    p->due = 0;
+}
+
+static void sheet_make(struct studio_paper *p, const struct paper_sheet_config *config)
+{
+    struct studio_session *made;
+    if (studio_session_create(config, p->def.budget_bytes, &made) == PAPER_OK)
+        sheet_change(p, made, NULL);
+    else
+        complain(p);
+}
+
+static void sheet_open(struct studio_paper *p, const char *path)
+{
+    struct studio_session *made;
+    if (studio_session_open(path, p->def.budget_bytes, &made) == PAPER_OK)
+        sheet_change(p, made, path);
+    else
+        complain(p);
+}
+
+/* ---- messages ---- */
+
+/* What the hand must have finished before. */
+static bool needs_rest(enum studio_message_kind kind)
+{
+    return kind == STUDIO_MESSAGE_CARE || kind == STUDIO_MESSAGE_DRY ||
+           kind == STUDIO_MESSAGE_SEAL || kind == STUDIO_MESSAGE_TYPE ||
+           kind == STUDIO_MESSAGE_NEW || kind == STUDIO_MESSAGE_OPEN ||
+           kind == STUDIO_MESSAGE_SAVE || kind == STUDIO_MESSAGE_PICTURE;
+}
+
+static void note(struct studio_paper *p, bool picture, const char *path)
+{
+    snprintf(p->now.note, sizeof p->now.note, "%s", path);
+    p->now.note_picture = picture;
+    p->now.notes++;
+}
+
+static enum paper_status save(struct studio_paper *p, const struct studio_message *m)
+{
+    enum paper_status status;
+    if (m->kind == STUDIO_MESSAGE_PICTURE) {
+        status = studio_session_picture(p->session, m->text, (int)m->value);
+        if (status == PAPER_OK)
+            note(p, true, m->text);
+        return status;
+    }
+    status = studio_session_save(p->session, m->text);
+    if (status == PAPER_OK) {
+        snprintf(p->now.path, sizeof p->now.path, "%s", m->text);
+        p->now.changed = false;
+        note(p, false, m->text);
+    }
+    return status;
+}
+
+static void shown_set(struct studio_paper *p, const struct studio_shown *shown)
+{
+    pthread_mutex_lock(&p->lock);
+    uint8_t *before = (uint8_t *)(uintptr_t)p->shown.gray;
+    p->shown = *shown;
+    p->shown_new = true;
+    pthread_mutex_unlock(&p->lock);
+    free(before);
+    p->def.wake(p->def.context);
+}
+
+static struct studio_type type_of(const struct studio_message *m)
+{
+    return (struct studio_type){m->text, m->font, m->features, m->type_x, m->type_y};
+}
+
+static enum paper_status type_show(struct studio_paper *p, const struct studio_message *m)
+{
+    struct paper_screen screen = {0};
+    struct studio_shown shown = {0};
+    uint32_t missing;
+    const struct studio_type type = type_of(m);
+    enum paper_status status = PAPER_OK;
+    if (m->text[strspn(m->text, " \n\t")])
+        status = studio_session_type_screen(studio_session_settings(p->session), &type, &screen,
+                                            &shown.x, &shown.y, &missing);
+    if (status == PAPER_BAD_TEXT)
+        status = PAPER_OK; /* nothing to be seen yet */
+    shown.width = screen.width_px;
+    shown.height = screen.height_px;
+    shown.gray = screen.gray; /* which is the window's now */
+    shown_set(p, &shown);
+    return status;
+}
+
+static enum paper_status message_do(struct studio_paper *p, const struct studio_message *m)
+{
+    struct studio_session *s = p->session;
+    const struct studio_type type = type_of(m);
+    switch (m->kind) {
+    case STUDIO_MESSAGE_POINT:
+        return studio_session_point(s, &m->point);
+    case STUDIO_MESSAGE_SET:
+        if (m->setting == STUDIO_PAUSED && m->value == 0)
+            studio_session_go_on(s);
+        return studio_session_set(s, m->setting, m->value);
+    case STUDIO_MESSAGE_CARE:
+        return studio_session_care(s, (enum studio_care)m->setting);
+    case STUDIO_MESSAGE_STEP:
+        studio_session_go_on(s);
+        return studio_session_steps(s, (int)m->value, NULL);
+    case STUDIO_MESSAGE_GO_ON:
+        studio_session_go_on(s);
+        return PAPER_OK;
+    case STUDIO_MESSAGE_UNDO:
+        studio_session_undo(s);
+        return PAPER_OK;
+    case STUDIO_MESSAGE_REDO:
+        studio_session_redo(s);
+        return PAPER_OK;
+    case STUDIO_MESSAGE_DRY:
+        return studio_session_dry(s);
+    case STUDIO_MESSAGE_SEAL:
+        return studio_session_seal(s);
+    case STUDIO_MESSAGE_TYPE:
+        return studio_session_type(s, &type);
+    case STUDIO_MESSAGE_TYPE_SHOW:
+        return type_show(p, m);
+    case STUDIO_MESSAGE_NEW:
+        sheet_make(p, m->config);
+        return PAPER_OK;
+    case STUDIO_MESSAGE_OPEN:
+        sheet_open(p, m->text);
+        return PAPER_OK;
+    case STUDIO_MESSAGE_SAVE:
+    case STUDIO_MESSAGE_PICTURE:
+        return save(p, m);
+    case STUDIO_MESSAGE_END:
+        p->end = true;
+        return PAPER_OK;
+    }
+    return PAPER_OK;
+}
+
+/* Whether the sheet is another one after it. */
+static bool changes(const struct studio_message *m)
+{
+    return m->kind == STUDIO_MESSAGE_UNDO || m->kind == STUDIO_MESSAGE_REDO ||
+           m->kind == STUDIO_MESSAGE_DRY || m->kind == STUDIO_MESSAGE_SEAL ||
+           m->kind == STUDIO_MESSAGE_TYPE || m->kind == STUDIO_MESSAGE_STEP ||
+           (m->kind == STUDIO_MESSAGE_POINT && m->point.kind == STUDIO_POINT_UP);
+}
+
+static void message_hear(struct studio_paper *p, struct studio_message *m)
+{
+    if (p->session && needs_rest(m->kind) && studio_session_busy(p->session) &&
+        array_reserve(&p->later, &p->later_capacity, p->later_count + 1, sizeof *p->later)) {
+        p->later[p->later_count++] = *m;
+        return;
+    }
+    studio_session_error_forget();
+    p->heard = m->number;
+    if (m->kind == STUDIO_MESSAGE_END)
+        p->end = true;
+    else if (p->session) {
+        if (message_do(p, m) != PAPER_OK)
+            complain(p);
+        p->dirty = p->dirty || changes(m) ||
+                   (m->kind == STUDIO_MESSAGE_SET && m->setting == STUDIO_SHOW);
+        p->now.changed = p->now.changed || changes(m);
+    }
+    p->now.answered = m->number;
+    studio_message_free(m);
+}
+
+static void later_hear(struct studio_paper *p)
+{
+    if (studio_session_busy(p->session))
+        return;
+    for (int i = 0; i < p->later_count; i++)
+        message_hear(p, &p->later[i]);
+    p->later_count = 0;
+}
+
+static void messages_hear(struct studio_paper *p)
+{
+    struct studio_message m;
+    while (!p->end && studio_messages_take(&p->messages, &m)) {
+        message_hear(p, &m);
+        if (p->later_count > 0)
+            later_hear(p);
+        if (p->now.error[0] || m.kind == STUDIO_MESSAGE_SAVE)
+            report_make(p);
+    }
+}
+
+/* ---- time ---- */
+
+static void time_go(struct studio_paper *p)
+{
+    const double *value = studio_session_settings(p->session)->value, now_s = input_now_s(),
+                 gone_s = now_s - p->looked_s;
+    int done = 0;
+    p->looked_s = now_s;
+    if (value[STUDIO_PAUSED] != 0 || studio_session_busy(p->session) ||
+        studio_session_held(p->session) || !studio_session_wet(p->session)) {
+        p->due = 0;
+        return;
+    }
+    p->due = fmin(LATE_MOST, p->due + gone_s * value[STUDIO_PACE]);
+    const int steps = (int)fmin(STEPS_AT_ONCE, floor(p->due));
+    if (steps > 0 && studio_session_steps(p->session, steps, &done) != PAPER_OK) {
+        complain(p);
+        studio_session_set(p->session, STUDIO_PAUSED, 1); /* one line, not sixty a second */
+    }
+    p->due -= steps;
+    p->dirty = p->dirty || done > 0;
+}
+
+static double wait_s(const struct studio_paper *p)
+{
+    const double *value = studio_session_settings(p->session)->value;
+    if (p->dirty)
+        return UNSEEN_S;
+    if (value[STUDIO_PAUSED] != 0 || studio_session_busy(p->session) ||
+        studio_session_held(p->session) || !studio_session_wet(p->session))
+        return REST_S;
+    return fmax(0, (1 - p->due) / value[STUDIO_PACE]);
+}
+
+static void *paper_run(void *context)
+{
+    struct studio_paper *p = context;
+    if (p->def.path)
+        sheet_open(p, p->def.path);
+    else
+        sheet_make(p, &p->config);
+    p->now.failed = !p->session;
+    p->looked_s = input_now_s();
+    report_make(p);
+    while (!p->end) {
+        messages_hear(p);
+        if (p->session && !p->end) {
+            time_go(p);
+            if (p->dirty && studio_pictures_taken(p->pictures))
+                picture_make(p);
+            report_make(p);
+        }
+        if (!p->end)
+            studio_messages_wait(&p->messages, p->session ? wait_s(p) : REST_S);
+    }
+    studio_session_destroy(p->session);
+    p->session = NULL;
+    return NULL;
+}
+
+/* ---- the window's side ---- */
+
+struct studio_paper *studio_paper_start(const struct studio_paper_def *def)
+{
+    struct studio_paper *p = calloc(1, sizeof *p);
+    if (!p)
+        return NULL;
+    p->def = *def;
+    p->def.path = def->path ? strdup(def->path) : NULL;
+    if (def->config)
+        p->config = *def->config;
+    studio_messages_begin(&p->messages);
+    pthread_mutex_init(&p->lock, NULL);
+    p->started = pthread_create(&p->thread, NULL, paper_run, p) == 0;
+    if (p->started)
+        return p;
+    studio_paper_end(p);
+    return NULL;
+}
+
+void studio_paper_end(struct studio_paper *p)
+{
+    if (!p)
+        return;
+    if (p->started) {
+        studio_messages_put(&p->messages, (struct studio_message){.kind = STUDIO_MESSAGE_END});
+        while (p->messages.waiting_count > 0) {
+            studio_messages_flush(&p->messages);
+            sched_yield();
+        }
+        pthread_join(p->thread, NULL);
+    }
+    if (p->looked && p->looked != p->pictures) {
+        studio_pictures_finish(p->looked);
+        free(p->looked);
+    }
+    if (p->pictures)
+        studio_pictures_finish(p->pictures);
+    free(p->pictures);
+    for (int i = 0; i < p->later_count; i++)
+        studio_message_free(&p->later[i]);
+    free(p->later);
+    studio_messages_finish(&p->messages);
+    pthread_mutex_destroy(&p->lock);
+    free((void *)(uintptr_t)p->shown.gray);
+    free(p->shown_gray);
+    free(p->view);
+    free((char *)(uintptr_t)p->def.path);
+    free(p);
+}
+
+unsigned long studio_paper_send(struct studio_paper *p, struct studio_message message)
+{
+    return studio_messages_put(&p->messages, message);
+}
+
+void studio_paper_flush(struct studio_paper *p)
+{
+    studio_messages_flush(&p->messages);
+}
+
+void studio_paper_report(struct studio_paper *p, struct studio_report *out)
+{
+    pthread_mutex_lock(&p->lock);
+    *out = p->report;
+    pthread_mutex_unlock(&p->lock);
+}
+
+const struct studio_picture *studio_paper_picture(struct studio_paper *p)
+{
+    pthread_mutex_lock(&p->lock);
+    struct studio_pictures *before = p->looked;
+    p->looked = p->pictures;
+    pthread_mutex_unlock(&p->lock);
+    if (before && before != p->looked) {
+        studio_pictures_finish(before);
+        free(before);
+    }
+    return p->looked ? studio_pictures_take(p->looked) : NULL;
+}
+
+bool studio_paper_shown(struct studio_paper *p, struct studio_shown *out)
+{
+    pthread_mutex_lock(&p->lock);
+    const bool other = p->shown_new;
+    if (other) {
+        free(p->shown_gray);
+        p->shown_gray = (uint8_t *)(uintptr_t)p->shown.gray;
+        *out = p->shown;
+        p->shown.gray = NULL;
+        p->shown_new = false;
+    }
+    pthread_mutex_unlock(&p->lock);
+    return other;
+}

@@ -1,0 +1,72 @@
+/* studio_paper.h - the paper's thread: it owns the machine, the sheet and its history, paints what the window tells it, lets time go by,
+ * and makes pictures as fast as they are looked at.
+ *
+ *     struct studio_paper *paper = studio_paper_start(&(struct studio_paper_def){.config = config, .wake = wake, .context = window});
+ *     studio_paper_send(paper, (struct studio_message){.kind = STUDIO_MESSAGE_POINT, .point = point});
+ *     const struct studio_picture *picture = studio_paper_picture(paper);
+ *     studio_paper_report(paper, &report);
+ *     studio_paper_end(paper);
+ *
+ * Threads: all functions belong to the thread that started it. `wake` is called by the paper's thread when there is a new picture or
+ * another report; it returns at once. */
+#ifndef LUTETIA_STUDIO_PAPER_H
+#define LUTETIA_STUDIO_PAPER_H
+
+#include "studio_messages.h"
+#include "studio_pictures.h"
+
+enum { STUDIO_TEXT_MAX = 1100 };
+
+struct studio_paper_def {
+    const struct paper_sheet_config
+        *config;         /* of a new sheet; not looked at where a file is opened */
+    const char *path;    /* a saved sheet; NULL: a new one */
+    double budget_bytes; /* of the past's checkpoints */
+    void (*wake)(void *context);
+    void *context;
+};
+
+struct studio_report {
+    unsigned long
+        sheets; /* another number: another sheet, whose pictures may have another size */
+    struct paper_sheet_config config;
+    struct studio_settings settings; /* with `sheets`: what the window has to show */
+    bool ready;                      /* there is a sheet */
+    bool failed;                     /* there is none, and will be none: `error` says why */
+    bool can_undo, can_redo, held, wet, working;
+    bool changed;         /* since it was saved */
+    long steps;           /* gone by */
+    int operations;       /* done */
+    double history_bytes; /* of the past */
+    double budget_bytes;
+    unsigned long answered;      /* the number of the last message that was done */
+    unsigned long errors, notes; /* another number: another text */
+    char error[STUDIO_TEXT_MAX];
+    char note[STUDIO_TEXT_MAX]; /* the file that was written */
+    bool note_picture;          /* which was a picture, not the sheet */
+    char path[STUDIO_TEXT_MAX]; /* of the file; "": none yet */
+};
+
+struct studio_paper;
+
+/* NULL: there is no thread, or no memory. */
+struct studio_paper *studio_paper_start(const struct studio_paper_def *def);
+/* All that was told is done first. NULL is fine. */
+void studio_paper_end(struct studio_paper *paper);
+
+unsigned long studio_paper_send(struct studio_paper *paper, struct studio_message message);
+/* Once a picture of the window's: what found no room goes on. */
+void studio_paper_flush(struct studio_paper *paper);
+void studio_paper_report(struct studio_paper *paper, struct studio_report *out);
+/* NULL: no new one. It stays as it is until the next call. */
+const struct studio_picture *studio_paper_picture(struct studio_paper *paper);
+
+/* The type that is shown, as a screen with its place. False: none, or the same as at the last call (*same). gray belongs to the paper until
+ * the next call. */
+struct studio_shown {
+    int x, y, width, height;
+    const uint8_t *gray;
+};
+bool studio_paper_shown(struct studio_paper *paper, struct studio_shown *out);
+
+#endif

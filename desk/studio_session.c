@@ -1,0 +1,286 @@
+/* studio_session.c - see studio_session.h. What the single tools do is in studio_deeds.c. */
+#include "studio_session_internal.h"
+
+#include <display.h>
+#include <error_text.h>
+#include <state.h>
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- failures ---- */
+
+static _Thread_local struct error_text own; /* "": the paper's */
+
+enum paper_status studio_session_failed(enum paper_status status, const char *format, ...)
+{
+    char text[ERROR_TEXT_BYTES];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    error_text_fail(&own, (int)status, "%s", text);
+    return status;
+}
+
+const char *studio_session_error(void)
+{
+    return own.text[0] ? own.text : paper_error();
+}
+
+void studio_session_error_forget(void)
+{
+    own.text[0] = '\0';
+}
+
+/* ---- life ---- */
+
+static enum paper_status session_make(struct paper_sheet *sheet, struct studio_session **out)
+{
+    struct studio_session *s = calloc(1, sizeof *s);
+    *out = s;
+    if (!s) {
+        paper_sheet_destroy(sheet);
+        return studio_session_failed(PAPER_NO_MEMORY, "no memory for a studio");
+    }
+    s->sheet = sheet;
+    studio_settings_usual(&s->settings);
+    const struct paper_air *air = paper_sheet_get_air(sheet);
+    s->settings.value[STUDIO_TILT_X] = air->gravity[0];
+    s->settings.value[STUDIO_TILT_Y] = air->gravity[1];
+    s->settings.value[STUDIO_HUMIDITY] = air->humidity;
+    s->settings.value[STUDIO_EDGE] = air->edge;
+    s->wet = paper_history_done(sheet) > 0; /* until a step says otherwise */
+    return PAPER_OK;
+}
+
+enum paper_status studio_session_create(const struct paper_sheet_config *config,
+                                        double budget_bytes, struct studio_session **out)
+{
+    struct paper_sheet *sheet;
+    *out = NULL;
+    enum paper_status status = paper_sheet_create(config, &sheet);
+    if (status != PAPER_OK)
+        return status;
+    status = paper_history_begin(sheet, budget_bytes);
+    if (status == PAPER_OK)
+        return session_make(sheet, out);
+    paper_sheet_destroy(sheet);
+    return status;
+}
+
+enum paper_status studio_session_open(const char *path, double budget_bytes,
+                                      struct studio_session **out)
+{
+    struct paper_state *state;
+    struct paper_sheet *sheet = NULL;
+    *out = NULL;
+    enum paper_status status = paper_state_open(path, &state);
+    if (status != PAPER_OK)
+        return status;
+    struct paper_sheet_config config;
+    status = paper_state_describe(state, 0, &config);
+    if (status == PAPER_OK && !(config.parts & PAPER_PART_SURFACE))
+        status = studio_session_failed(
+            PAPER_BAD_FILE,
+            "%s: a sheet without water on its surface; the studio paints on others", path);
+    if (status == PAPER_OK)
+        status = paper_state_load(state, 0, false, budget_bytes, &sheet);
+    paper_state_close(state);
+    return status == PAPER_OK ? session_make(sheet, out) : status;
+}
+
+void studio_session_destroy(struct studio_session *s)
+{
+    if (!s)
+        return;
+    paper_sheet_destroy(s->sheet);
+    free(s->samples);
+    free(s);
+}
+
+struct paper_sheet *studio_session_sheet(struct studio_session *s)
+{
+    return s->sheet;
+}
+
+const struct studio_settings *studio_session_settings(const struct studio_session *s)
+{
+    return &s->settings;
+}
+
+enum paper_status studio_session_set(struct studio_session *s, int setting, double value)
+{
+    return stage_control_write(&studio_controls[setting], &s->settings, value) == STAGE_OK
+               ? PAPER_OK
+               : studio_session_failed(PAPER_BAD_ARGUMENT, "%s", stage_error());
+}
+
+bool studio_session_busy(const struct studio_session *s)
+{
+    return s->down;
+}
+
+/* ---- time ---- */
+
+enum paper_status studio_session_air(struct studio_session *s)
+{
+    struct paper_air air = *paper_sheet_get_air(s->sheet);
+    const double *value = s->settings.value;
+    if (air.gravity[0] == value[STUDIO_TILT_X] && air.gravity[1] == value[STUDIO_TILT_Y] &&
+        air.humidity == value[STUDIO_HUMIDITY] && air.edge == value[STUDIO_EDGE])
+        return PAPER_OK;
+    air.gravity[0] = value[STUDIO_TILT_X];
+    air.gravity[1] = value[STUDIO_TILT_Y];
+    air.humidity = value[STUDIO_HUMIDITY];
+    air.edge = value[STUDIO_EDGE];
+    return paper_sheet_air(s->sheet, &air);
+}
+
+bool studio_session_held(const struct studio_session *s)
+{
+    return s->held && paper_history_undone(s->sheet) > 0;
+}
+
+void studio_session_go_on(struct studio_session *s)
+{
+    s->held = false;
+    s->wet = true;
+}
+
+bool studio_session_wet(const struct studio_session *s)
+{
+    return s->wet;
+}
+
+enum paper_status studio_session_steps(struct studio_session *s, int count, int *done)
+{
+    enum paper_status status = PAPER_OK;
+    int i = 0;
+    if (!s->down && !studio_session_held(s))
+        status = studio_session_air(s);
+    for (; i < count && status == PAPER_OK && !s->down && !studio_session_held(s); i++)
+        status = paper_sheet_step(s->sheet);
+    if (i > 0 && status == PAPER_OK)
+        s->wet = paper_sheet_share(s->sheet) > 0;
+    if (done)
+        *done = i;
+    return status;
+}
+
+/* ---- undo: deeds among the operations ---- */
+
+enum part_of { BEFORE, DEED, AFTER };
+
+/* Brushes and dips belong to the deed that follows, time and air to the one before. */
+static enum part_of part(const struct studio_session *s, int number)
+{
+    struct paper_moment moment;
+    if (!paper_history_moment(s->sheet, number, &moment))
+        return AFTER;
+    if (!strcmp(moment.what, "brush") || !strcmp(moment.what, "dip"))
+        return BEFORE;
+    return !strcmp(moment.what, "step") || !strcmp(moment.what, "air") ? AFTER : DEED;
+}
+
+/* The number of operations that are left when the last deed is undone; -1: there is none. */
+static int undone_to(const struct studio_session *s)
+{
+    int left = paper_history_done(s->sheet);
+    while (left > 0 && part(s, left - 1) != DEED)
+        left--;
+    if (left == 0)
+        return -1;
+    left--;
+    while (left > 0 && part(s, left - 1) == BEFORE)
+        left--;
+    return left;
+}
+
+/* The number of operations that are done when the next deed is redone; -1: there is none. */
+static int redone_to(const struct studio_session *s)
+{
+    int done = paper_history_done(s->sheet);
+    const int all = done + paper_history_undone(s->sheet);
+    while (done < all && part(s, done) != DEED)
+        done++;
+    if (done == all)
+        return -1;
+    done++;
+    while (done < all && part(s, done) == AFTER)
+        done++;
+    return done;
+}
+
+bool studio_session_can_undo(const struct studio_session *s)
+{
+    return s->down || undone_to(s) >= 0;
+}
+
+bool studio_session_can_redo(const struct studio_session *s)
+{
+    return !s->down && redone_to(s) >= 0;
+}
+
+bool studio_session_undo(struct studio_session *s)
+{
+    if (s->down) {
+        studio_session_drop(s);
+        return true;
+    }
+    const int left = undone_to(s);
+    if (left < 0)
+        return false;
+    paper_history_undo(s->sheet, paper_history_done(s->sheet) - left);
+    s->held = true;
+    s->has_brush = false;
+    s->wet = true;
+    return true;
+}
+
+bool studio_session_redo(struct studio_session *s)
+{
+    const int done = s->down ? -1 : redone_to(s);
+    if (done < 0)
+        return false;
+    paper_history_redo(s->sheet, done - paper_history_done(s->sheet));
+    s->has_brush = false;
+    s->wet = true;
+    return true;
+}
+
+/* ---- files ---- */
+
+enum paper_status studio_session_save(struct studio_session *s, const char *path)
+{
+    return paper_state_save(path, &(struct paper_state_sheet){1, s->sheet}, 1);
+}
+
+enum paper_status studio_session_picture(struct studio_session *s, const char *path, int scale)
+{
+    const struct paper_sheet_config *config = paper_sheet_get_config(s->sheet);
+    struct paper_sheet_view view = studio_session_view(s);
+    view.scale = scale;
+    const size_t count =
+        3 * (size_t)config->width * (size_t)config->height * (size_t)scale * (size_t)scale;
+    uint16_t *rgb = malloc(count * sizeof *rgb);
+    if (!rgb)
+        return studio_session_failed(PAPER_NO_MEMORY, "no memory for a picture of the sheet");
+    enum paper_status status = paper_sheet_view(s->sheet, &view, rgb);
+    if (status == PAPER_OK &&
+        display_png_write_16(path, scale * config->width, scale * config->height, 3, rgb) !=
+            DISPLAY_OK)
+        status = studio_session_failed(PAPER_BAD_ARGUMENT, "%s", display_error());
+    free(rgb);
+    return status;
+}
+
+struct paper_sheet_view studio_session_view(const struct studio_session *s)
+{
+    static const enum paper_show shows[] = {PAPER_SHOW_COLOR, PAPER_SHOW_WET, PAPER_SHOW_WATER};
+    struct paper_sheet_view view = paper_sheet_view_default(paper_sheet_get_config(s->sheet));
+    view.show = shows[(int)s->settings.value[STUDIO_SHOW]];
+    return view;
+}

@@ -1,0 +1,110 @@
+/* studio_session.h - what a hand does, done to a sheet: tools, strokes, undo. Without a window and without threads of its own.
+ *
+ *     struct studio_session *session;
+ *     if (studio_session_create(&config, 256e6, &session) != PAPER_OK)
+ *         die(paper_error());
+ *     studio_session_set(session, STUDIO_WIDTH, 40);
+ *     studio_session_point(session, &(struct studio_point){.kind = STUDIO_POINT_DOWN, .time_s = 0, .x = 40, .y = 60, .pressure = 0.5});
+ *     studio_session_point(session, &(struct studio_point){.kind = STUDIO_POINT_UP, .time_s = 1, .x = 300, .y = 90, .pressure = 0.5});
+ *     studio_session_steps(session, 60);
+ *     studio_session_undo(session);
+ *
+ * A deed is what one undo takes back: a stroke with the brush and the dip before it, a wash, a drop, type, drying; and the time after it. A
+ * deed begins with the tool and the settings of that moment, and keeps them until the hand is lifted. Deeds are found in the sheet's own
+ * history (history.h), so a sheet that was saved and opened again can be undone, too.
+ *
+ * After an undo time stands still, as long as there is something to redo: a step would be the beginning of another present.
+ *
+ * Errors: as paper.h says, but the text is where studio_session_error() finds it. Threads: as paper.h says. */
+#ifndef LUTETIA_STUDIO_SESSION_H
+#define LUTETIA_STUDIO_SESSION_H
+
+#include "studio_settings.h"
+
+#include <history.h>
+
+enum studio_point_kind {
+    STUDIO_POINT_DOWN,
+    STUDIO_POINT_MOVE,
+    STUDIO_POINT_UP,
+    STUDIO_POINT_DROP /* the deed that the hand has begun is given up */
+};
+
+struct studio_point {
+    enum studio_point_kind kind;
+    double time_s;         /* of any clock that does not go back */
+    double x, y;           /* fibers */
+    double pressure;       /* 0..1 */
+    double tilt_x, tilt_y; /* radians */
+};
+
+/* Type as it is set on the sheet; numbers are in the settings. */
+struct studio_type {
+    const char *text, *font, *features; /* features "": none */
+    double x, y;                        /* the origin of the first line */
+};
+
+struct studio_session;
+
+/* Detail of this thread's last failure since it was forgotten, one line; "" if there was none, never NULL. */
+const char *studio_session_error(void);
+void studio_session_error_forget(void);
+
+enum paper_status studio_session_create(const struct paper_sheet_config *config,
+                                        double budget_bytes, struct studio_session **out);
+/* Opens what studio_session_save() saved, or any saved state with one sheet. Errors: as paper_state_load(), and BAD_FILE of a sheet
+ * without parts. */
+enum paper_status studio_session_open(const char *path, double budget_bytes,
+                                      struct studio_session **out);
+void studio_session_destroy(struct studio_session *session); /* NULL is fine */
+struct paper_sheet *studio_session_sheet(struct studio_session *session);
+
+const struct studio_settings *studio_session_settings(const struct studio_session *session);
+/* Errors: BAD_ARGUMENT outside of the range. */
+enum paper_status studio_session_set(struct studio_session *session, int setting, double value);
+
+/* ---- deeds ---- */
+
+enum paper_status studio_session_point(struct studio_session *session,
+                                       const struct studio_point *point);
+/* Whether a hand is down. */
+bool studio_session_busy(const struct studio_session *session);
+/* A brush that is dipped, rinsed (clean water) or wiped: no deed of its own. */
+enum studio_care { STUDIO_DIP, STUDIO_RINSE, STUDIO_WIPE };
+enum paper_status studio_session_care(struct studio_session *session, enum studio_care care);
+enum paper_status studio_session_dry(struct studio_session *session);
+enum paper_status studio_session_seal(struct studio_session *session);
+/* What the type covers, with its place on the sheet; the caller destroys *screen. Errors: as paper_line_screen(). */
+enum paper_status studio_session_type_screen(const struct studio_settings *settings,
+                                             const struct studio_type *type,
+                                             struct paper_screen *screen, int *x, int *y,
+                                             uint32_t *missing);
+enum paper_status studio_session_type(struct studio_session *session,
+                                      const struct studio_type *type);
+
+/* ---- time ---- */
+
+/* So many steps, fewer if time stands still. *done (may be NULL) gets how many. */
+enum paper_status studio_session_steps(struct studio_session *session, int count, int *done);
+/* Whether time stands still after an undo. */
+bool studio_session_held(const struct studio_session *session);
+/* Time goes on, and what was undone is gone. */
+void studio_session_go_on(struct studio_session *session);
+/* Whether anything is wet, so that a step may change the sheet. */
+bool studio_session_wet(const struct studio_session *session);
+
+/* False: there is nothing to undo or redo. In mid-stroke the stroke alone is given up. */
+bool studio_session_undo(struct studio_session *session);
+bool studio_session_redo(struct studio_session *session);
+/* Whether there is. */
+bool studio_session_can_undo(const struct studio_session *session);
+bool studio_session_can_redo(const struct studio_session *session);
+
+/* ---- files ---- */
+
+enum paper_status studio_session_save(struct studio_session *session, const char *path);
+/* The picture as it is looked at, with 16 bits a channel; scale: pixels a fiber each way, 1, 2 or 4. */
+enum paper_status studio_session_picture(struct studio_session *session, const char *path,
+                                         int scale);
+
+#endif

@@ -1,0 +1,216 @@
+/* studio_settings.c - see studio_settings.h. */
+#include "studio_settings.h"
+
+#include <math.h>
+
+#define DEGREES 57.295779513082323 /* for one radian */
+
+static double value_read(void *settings, int index)
+{
+    return ((const struct studio_settings *)settings)->value[index];
+}
+
+static enum stage_status value_write(void *settings, int index, double value)
+{
+    ((struct studio_settings *)settings)->value[index] = value;
+    return STAGE_OK;
+}
+
+#define ROW(index_, name_, unit_, least_, most_, usual_, curve_, choices_, does_)              \
+    [index_] = {.name = name_,                                                                 \
+                .unit = unit_,                                                                 \
+                .least = least_,                                                               \
+                .most = most_,                                                                 \
+                .usual = usual_,                                                               \
+                .curve = STAGE_##curve_,                                                       \
+                .choices = choices_,                                                           \
+                .does = does_,                                                                 \
+                .read = value_read,                                                            \
+                .write = value_write,                                                          \
+                .index = index_}
+#define PIGMENT(n, usual_)                                                                     \
+    ROW(STUDIO_PIGMENT + n - 1, "pigment_" #n, "", 0, 2, usual_, LINEAR, NULL,                 \
+        "how much of this pigment is in the dish: 0.5 is a usual wash")
+
+const struct stage_control studio_controls[STUDIO_SETTINGS] = {
+    ROW(STUDIO_TOOL, "tool", "", 0, STUDIO_TOOLS - 1, STUDIO_TOOL_BRUSH, CHOICE,
+        "brush water wash drop splatter salt blot lift mask unmask varnish type",
+        "what the pointer does"),
+    ROW(STUDIO_BRUSH, "brush", "", 0, 5, 0, CHOICE, "round flat mop rigger fan bristle",
+        "the kind of brush; it sets the bristles below"),
+    ROW(STUDIO_WIDTH, "width", "fibers", 1, 300, 24, LOGARITHMIC, NULL, "width of the tuft"),
+    ROW(STUDIO_ANGLE, "angle", "degrees", -180, 180, 0, LINEAR, NULL,
+        "how far the tuft's width is turned"),
+    ROW(STUDIO_FOLLOWS, "follows", "", 0, 1, 0, SWITCH, NULL, "the tuft turns with the stroke"),
+    ROW(STUDIO_POINT, "point", "", 0, 1, 0.75, LINEAR, NULL,
+        "outer bristles are shorter: light pressure draws a thin line"),
+    ROW(STUDIO_UNEVEN, "uneven", "", 0, 1, 0.25, LINEAR, NULL,
+        "how far bristles differ in length and in what they give"),
+    ROW(STUDIO_SPLAY, "splay", "", 0, 2, 0.25, LINEAR, NULL, "how far pressure spreads them"),
+    ROW(STUDIO_BEND, "bend", "", 0, 2, 0.3, LINEAR, NULL, "how far they trail behind"),
+    ROW(STUDIO_REACH, "reach", "widths", 1, 5000, 30, LOGARITHMIC, NULL,
+        "about how far a full brush paints"),
+    ROW(STUDIO_LOAD, "load", "", 0.01, 2, 0.7, LINEAR, NULL, "water that it lays on a fiber"),
+    ROW(STUDIO_FLOW, "flow", "1/s", 1, 2000, 150, LOGARITHMIC, NULL,
+        "how fast bristles and fibers exchange"),
+    ROW(STUDIO_MIXING, "mixing", "", 0, 1, 0.15, LINEAR, NULL,
+        "how much they exchange where both are as wet"),
+    ROW(STUDIO_REFILL, "refill", "", 0, 1, 1, SWITCH, NULL,
+        "the brush is dipped anew before each stroke"),
+    ROW(STUDIO_PRESSURE, "pressure", "", 0.02, 1, 0.6, LINEAR, NULL,
+        "of a mouse, or of a pen that does not tell it"),
+    ROW(STUDIO_SPEED, "speed", "", 0, 1, 0.3, LINEAR, NULL,
+        "how much a quick mouse presses less"),
+    ROW(STUDIO_CURVE, "curve", "", 0.2, 5, 1, LOGARITHMIC, NULL,
+        "a pen's pressure: below 1 a light hand presses more, above 1 less"),
+    ROW(STUDIO_SIZE, "size", "fibers", 0.5, 200, 8, LOGARITHMIC, NULL, "radius of a drop"),
+    ROW(STUDIO_FADE, "fade", "", 0, 1, 0.2, LINEAR, NULL,
+        "how much of the paint is left at the wash's end; 1: even"),
+    ROW(STUDIO_DROPS, "drops", "", 1, 2000, 60, LOGARITHMIC, NULL, "how many are thrown"),
+    ROW(STUDIO_SCATTER, "scatter", "fibers", 1, 1000, 80, LOGARITHMIC, NULL,
+        "most fall within this radius"),
+    ROW(STUDIO_GRAINS, "grains", "", 1, 5000, 60, LOGARITHMIC, NULL, "how many are strewn"),
+    ROW(STUDIO_SALT, "strength", "", 0, 4, 1, LINEAR, NULL,
+        "how far brine pushes pigments away"),
+    ROW(STUDIO_SOAK, "soak", "", 0, 1, 0.8, LINEAR, NULL,
+        "part of the water and of what swims in it that the cloth takes"),
+    ROW(STUDIO_RUB, "rub", "", 0, 1, 0.6, LINEAR, NULL,
+        "part of the loose pigment that the sponge takes"),
+    ROW(STUDIO_GLOSS, "gloss", "", 0, 1, 0.8, LINEAR, NULL, "how thick the varnish is"),
+    ROW(STUDIO_TYPE_SIZE, "type_size", "fibers", 4, 2000, 120, LOGARITHMIC, NULL,
+        "size of the type: its em"),
+    ROW(STUDIO_TYPE_ANGLE, "type_angle", "degrees", -180, 180, 0, LINEAR, NULL,
+        "how far the type is turned, counterclockwise"),
+    ROW(STUDIO_TYPE_COLUMN, "column", "fibers", 0, 4000, 0, LINEAR, NULL,
+        "width to which lines are broken; 0: only where you begin a new one"),
+    ROW(STUDIO_TYPE_LEADING, "leading", "sizes", 0, 4, 0, LINEAR, NULL,
+        "from line to line; 0: as the font says"),
+    ROW(STUDIO_TYPE_ALIGN, "align", "", 0, 4, 0, CHOICE, "start left right center justify",
+        "how lines stand"),
+    ROW(STUDIO_PAUSED, "paused", "", 0, 1, 0, SWITCH, NULL, "time on the paper stands still"),
+    ROW(STUDIO_PACE, "pace", "steps/s", 1, 400, 60, LOGARITHMIC, NULL,
+        "how fast time goes by on the paper"),
+    ROW(STUDIO_TILT_X, "tilt_x", "", -0.95, 0.95, 0, LINEAR, NULL,
+        "the board is tilted: water flows to the right"),
+    ROW(STUDIO_TILT_Y, "tilt_y", "", -0.95, 0.95, 0, LINEAR, NULL,
+        "the board is tilted: water flows down"),
+    ROW(STUDIO_HUMIDITY, "drying", "", 0, 0.05, 0.0004, LOGARITHMIC, NULL,
+        "water that dries in a step"),
+    ROW(STUDIO_EDGE, "edge", "", 0, 200, 15, LINEAR, NULL,
+        "how much faster the edge of what is wet dries: pigment is drawn there"),
+    ROW(STUDIO_SHOW, "show", "", 0, 2, 1, CHOICE, "colour wet water",
+        "colours alone, with the shine of wet paper, or the water in gray"),
+    ROW(STUDIO_WATER, "water", "", 0, 2, 0.8, LINEAR, NULL,
+        "how much water is in the dish: more of it runs"),
+    PIGMENT(1, 0.6),
+    PIGMENT(2, 0),
+    PIGMENT(3, 0),
+    PIGMENT(4, 0),
+    PIGMENT(5, 0),
+    PIGMENT(6, 0),
+    PIGMENT(7, 0),
+    PIGMENT(8, 0),
+    PIGMENT(9, 0),
+    PIGMENT(10, 0),
+    PIGMENT(11, 0),
+    PIGMENT(12, 0),
+    PIGMENT(13, 0),
+    PIGMENT(14, 0),
+    PIGMENT(15, 0),
+    PIGMENT(16, 0),
+};
+
+void studio_settings_usual(struct studio_settings *settings)
+{
+    for (int i = 0; i < STUDIO_SETTINGS; i++)
+        settings->value[i] = studio_controls[i].usual;
+}
+
+void studio_settings_kind(struct studio_settings *settings, int kind)
+{
+    struct paper_brush b = paper_brush_default();
+    double *value = settings->value;
+    b.width = value[STUDIO_WIDTH];
+    paper_brush_of_kind(&b, paper_brush_kind(kind));
+    value[STUDIO_BRUSH] = kind;
+    value[STUDIO_POINT] = b.point;
+    value[STUDIO_UNEVEN] = b.uneven;
+    value[STUDIO_SPLAY] = b.splay;
+    value[STUDIO_BEND] = b.bend;
+    value[STUDIO_REACH] = b.reach / b.width;
+    value[STUDIO_LOAD] = b.load;
+    value[STUDIO_MIXING] = b.mixing;
+}
+
+struct paper_brush studio_settings_brush(const struct studio_settings *settings)
+{
+    const double *value = settings->value;
+    struct paper_brush b = paper_brush_default();
+    b.width = value[STUDIO_WIDTH];
+    paper_brush_of_kind(&b, paper_brush_kind((int)value[STUDIO_BRUSH]));
+    b.angle = value[STUDIO_ANGLE] / DEGREES;
+    b.follows = value[STUDIO_FOLLOWS] != 0;
+    b.point = value[STUDIO_POINT];
+    b.uneven = value[STUDIO_UNEVEN];
+    b.splay = value[STUDIO_SPLAY];
+    b.bend = value[STUDIO_BEND];
+    b.reach = fmin(1e6, fmax(1, value[STUDIO_REACH] * b.width));
+    b.load = value[STUDIO_LOAD];
+    b.flow = value[STUDIO_FLOW];
+    b.mixing = value[STUDIO_MIXING];
+    return b;
+}
+
+void studio_settings_amounts(const struct studio_settings *settings,
+                             double amount[1 + PAPER_PIGMENTS_MAX])
+{
+    amount[0] = settings->value[STUDIO_WATER];
+    for (int i = 0; i < PAPER_PIGMENTS_MAX; i++)
+        amount[1 + i] = settings->value[STUDIO_PIGMENT + i];
+}
+
+/* ---- tools ---- */
+
+const struct studio_tool studio_tools[STUDIO_TOOLS] = {
+    [STUDIO_TOOL_BRUSH] = {"Brush", "b",
+                           "Paint with bristles that carry what is in the dish: drag.",
+                           STUDIO_BRUSH, STUDIO_CURVE, true, true},
+    [STUDIO_TOOL_WATER] = {"Clean water", "w",
+                           "The same brush with water alone: wets, softens edges, lifts.",
+                           STUDIO_BRUSH, STUDIO_CURVE, false, true},
+    [STUDIO_TOOL_WASH] = {"Wash", "a",
+                          "A broad layer that fades: drag from one corner to the other.",
+                          STUDIO_FADE, STUDIO_FADE, true, false},
+    [STUDIO_TOOL_DROP] = {"Drop", "d", "Let a drop of the dish fall: click.", STUDIO_SIZE,
+                          STUDIO_SIZE, true, false},
+    [STUDIO_TOOL_SPLATTER] = {"Splatter", "x",
+                              "Throw drops: click, or drag in the direction of the throw.",
+                              STUDIO_DROPS, STUDIO_SCATTER, true, false},
+    [STUDIO_TOOL_SALT] = {"Salt", "s", "Strew salt on wet paint, which flees from it: click.",
+                          STUDIO_SCATTER, STUDIO_SALT, false, false},
+    [STUDIO_TOOL_BLOT] = {"Blot", "c", "A cloth takes water and wet paint: drag.", STUDIO_SOAK,
+                          STUDIO_SOAK, false, true},
+    [STUDIO_TOOL_LIFT] = {"Lift", "l", "A damp sponge rubs dry paint off: drag.", STUDIO_RUB,
+                          STUDIO_RUB, false, true},
+    [STUDIO_TOOL_MASK] = {"Masking fluid", "m", "Where it is, the paper takes nothing: drag.",
+                          STUDIO_WIDTH, STUDIO_WIDTH, false, true},
+    [STUDIO_TOOL_UNMASK] = {"Rub masking fluid off", "e", "The paper takes paint again: drag.",
+                            STUDIO_WIDTH, STUDIO_WIDTH, false, true},
+    [STUDIO_TOOL_VARNISH] = {"Varnish", "v", "A clear gloss, for good: drag.", STUDIO_GLOSS,
+                             STUDIO_GLOSS, false, true},
+    [STUDIO_TOOL_TYPE] = {"Type", "t",
+                          "Click where the type begins, and type. Control and Enter lets it "
+                          "into the paper, Escape takes it away.",
+                          STUDIO_TYPE_SIZE, STUDIO_TYPE_ALIGN, true, false},
+};
+
+const struct studio_tool *studio_tool_of(const struct studio_settings *settings)
+{
+    return &studio_tools[(int)settings->value[STUDIO_TOOL]];
+}
+
+bool studio_tool_has(enum studio_tool_number tool, int setting)
+{
+    const struct studio_tool *t = &studio_tools[tool];
+    return (setting >= t->first && setting <= t->last) || (t->swept && setting == STUDIO_WIDTH);
+}
