@@ -2,10 +2,12 @@
  *
  *     desk_main.c      the program: its words, the application
  *     desk_window.c    the window, and what the paper reports
+ *     desk_common.c    what the others use
  *     desk_canvas.c    the sheet: how it is seen, the cursor, the ghost
  *     desk_gl.c        its drawing in OpenGL, core profile
  *     desk_hand.c      pointer and pen, as events (input.h), to the paper
  *     desk_pen.c       a pen's pressure on X11
+ *     desk_rows.c      a control as a row
  *     desk_panel.c     tools, controls
  *     desk_dish.c      the dish: wells, swatches; the tilted board
  *     desk_actions.c   actions, menus, keys
@@ -32,6 +34,7 @@ enum { DESK_WELLS = 8 };
 struct desk_ghost {
     unsigned long number; /* of its message */
     double x, y, radius;  /* fibers */
+    double rgb[3];        /* of its paint, display values */
     bool begins;
 };
 
@@ -82,18 +85,25 @@ struct desk {
     char *font, *features;
     struct studio_shown shown;
     struct desk_play *play;
-    bool asked; /* whether what is not saved may go */
+    bool asked;                      /* whether what is not saved may go */
+    void (*leaving)(struct desk *d); /* what is done when it has been saved */
     gint woken;
+    /* what files below the window's call of it */
+    void (*changed)(struct desk *d, int setting);
+    void (*look)(struct desk *d);
 };
 
 /* desk_window.c */
 void desk_window_open(struct desk *d);
+
+/* desk_common.c */
 void desk_say(struct desk *d, const char *text); /* in the window, until it is put away */
 void desk_send(struct desk *d, enum studio_message_kind kind);
 void desk_set(struct desk *d, int setting,
-              double value); /* here, on the paper and in the panel */
-/* The paper has woken the window. */
-void desk_wake(void *context);
+              double value);                     /* here, on the paper and in the panel */
+double desk_cursor_radius(const struct desk *d); /* fibers */
+/* What the tool leaves, as a colour: that of the dish, or gray. */
+void desk_tool_color(const struct desk *d, double rgb[3]);
 
 /* desk_canvas.c */
 GtkWidget *desk_canvas_new(struct desk *d);
@@ -102,7 +112,6 @@ void desk_canvas_show(struct desk *d);    /* draw it again */
 void desk_canvas_changed(struct desk *d); /* the view is another */
 void desk_ghost_add(struct desk *d, unsigned long number, double x, double y, bool begins);
 void desk_ghost_forget(struct desk *d, unsigned long heard);
-double desk_cursor_radius(const struct desk *d); /* fibers */
 
 /* desk_gl.c */
 struct desk_gl *desk_gl_create(char **why);
@@ -125,13 +134,18 @@ void desk_pen_destroy(struct desk_pen *pen);
 /* A pen's report at that time in milliseconds, as near as there is one. False: no pen has spoken. */
 bool desk_pen_at(struct desk_pen *pen, guint32 time_ms, double *pressure, double tilt[2]);
 
+/* desk_rows.c */
+GtkWidget *desk_row_new(struct desk *d, int setting, const char *label);
+void desk_row_fill(struct desk *d, int setting);
+char *desk_label(const char *name); /* "tilt_x" as "Tilt x", translated; free it by g_free() */
+/* What a screen reader and a tooltip say. */
+void desk_name(GtkWidget *widget, const char *name, const char *tip);
+
 /* desk_panel.c */
 GtkWidget *desk_tools_new(struct desk *d);
 GtkWidget *desk_panel_new(struct desk *d);
 void desk_panel_fill(struct desk *d);  /* from the settings */
 void desk_panel_sheet(struct desk *d); /* another sheet: its pigments */
-GtkWidget *desk_row_new(struct desk *d, int setting, const char *label);
-char *desk_label(const char *name); /* "tilt_x" as "Tilt x", translated; free it by g_free() */
 
 /* desk_dish.c */
 GtkWidget *desk_dish_new(struct desk *d);

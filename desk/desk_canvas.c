@@ -2,10 +2,12 @@
 #include "desk.h"
 
 #include <math.h>
+#include <visible_text.h>
 
 void desk_canvas_show(struct desk *d)
 {
-    gtk_gl_area_queue_render(GTK_GL_AREA(d->canvas));
+    if (d->window)
+        gtk_gl_area_queue_render(GTK_GL_AREA(d->canvas));
 }
 
 void desk_canvas_changed(struct desk *d)
@@ -20,39 +22,13 @@ void desk_canvas_changed(struct desk *d)
     desk_canvas_show(d);
 }
 
-double desk_cursor_radius(const struct desk *d)
-{
-    const double *value = d->settings.value;
-    switch ((enum studio_tool_number)value[STUDIO_TOOL]) {
-    case STUDIO_TOOL_BRUSH:
-    case STUDIO_TOOL_WATER: { /* the tuft under this pressure: outer bristles touch last, pressure spreads them */
-        const double touching = 1 - value[STUDIO_POINT] * (1 - d->pressure);
-        return value[STUDIO_WIDTH] / 2 * touching * (1 + value[STUDIO_SPLAY] * d->pressure);
-    }
-    case STUDIO_TOOL_BLOT:
-    case STUDIO_TOOL_LIFT:
-    case STUDIO_TOOL_MASK:
-    case STUDIO_TOOL_UNMASK:
-    case STUDIO_TOOL_VARNISH:
-        return value[STUDIO_WIDTH] / 2;
-    case STUDIO_TOOL_DROP:
-        return value[STUDIO_SIZE];
-    case STUDIO_TOOL_SPLATTER:
-    case STUDIO_TOOL_SALT:
-        return value[STUDIO_SCATTER];
-    case STUDIO_TOOL_WASH:
-    case STUDIO_TOOL_TYPE:
-    case STUDIO_TOOLS:
-        break;
-    }
-    return 0;
-}
-
 /* ---- the ghost ---- */
 
 void desk_ghost_add(struct desk *d, unsigned long number, double x, double y, bool begins)
 {
-    const struct desk_ghost ghost = {number, x, y, desk_cursor_radius(d), begins};
+    struct desk_ghost ghost = {
+        .number = number, .x = x, .y = y, .radius = desk_cursor_radius(d), .begins = begins};
+    desk_tool_color(d, ghost.rgb);
     if (studio_tool_of(&d->settings)->swept ||
         (int)d->settings.value[STUDIO_TOOL] == STUDIO_TOOL_DROP)
         g_array_append_val(d->ghost, ghost);
@@ -115,12 +91,12 @@ static void canvas_realize(GtkGLArea *area, struct desk *d)
     else
         d->gl = desk_gl_create(&why);
     if (!why) {
-        desk_wake(d); /* there may be a picture already */
+        d->look(d); /* there may be a picture already */
         return;
     }
-    g_printerr(_("lutetia studio: no OpenGL 3.2 for the sheet: %s; install libgl1-mesa-dri, "
-                 "which draws without a graphics card\n"),
-               why);
+    visible_say(_("lutetia studio: no OpenGL 3.2 for the sheet: %s; install libgl1-mesa-dri, "
+                  "which draws without a graphics card"),
+                why);
     g_free(why);
     d->status = 1;
     g_application_quit(G_APPLICATION(d->application));

@@ -43,9 +43,9 @@ static void question_save(GtkButton *button, struct question *q)
 {
     struct desk *d = q->desk;
     (void)button;
-    const bool known = d->report.path[0] != '\0';
+    d->leaving = q->done; /* when it has been saved */
+    question_end(q, false);
     desk_file_save(d, false);
-    question_end(q, known); /* else the dialog asks for a name first */
 }
 
 /* A small window in the middle of the other one, with an empty row of buttons. */
@@ -228,6 +228,8 @@ static void chosen(GtkNativeDialog *dialog, int response, struct chooser *c)
     char *path = file ? g_file_get_path(file) : NULL;
     if (file && !path)
         desk_say(c->desk, _("This is no file of this computer; take another place."));
+    if (!path)
+        c->desk->leaving = NULL;
     if (path) {
         char *whole = c->kind == STUDIO_MESSAGE_OPEN || g_str_has_suffix(path, c->ending)
                           ? g_strdup(path)

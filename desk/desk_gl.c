@@ -5,8 +5,6 @@
  * covers more than a fiber, it takes the mean of several places, so nothing flickers and no seam can be. */
 #include "desk.h"
 
-#include "studio_swatch.h"
-
 #include <epoxy/gl.h>
 #include <math.h>
 
@@ -280,15 +278,15 @@ static struct studio_place pixel_of(const struct desk *d, int scale, double x, d
 }
 
 /* The way that the paper has not done yet: it darkens, and where it crosses itself it darkens once. */
-static void ghost_draw(struct desk_gl *gl, const struct desk *d, int scale, const double ink[3],
-                       int width, int height)
+static void ghost_draw(struct desk_gl *gl, const struct desk *d, int scale, int width,
+                       int height)
 {
-    struct look look = {{0, 0, 0, 1}, 0};
-    for (int i = 0; i < 3; i++)
-        look.color[i] = (float)(0.5 + 0.5 * ink[i]);
     for (guint i = 0; i < d->ghost->len; i++) {
         const struct desk_ghost *g = &g_array_index(d->ghost, struct desk_ghost, i);
         const struct desk_ghost *before = i && !g->begins ? g - 1 : g;
+        struct look look = {{0, 0, 0, 1}, 0};
+        for (int k = 0; k < 3; k++)
+            look.color[k] = (float)(0.5 + 0.5 * g->rgb[k]);
         piece_add(gl, pixel_of(d, scale, before->x, before->y), pixel_of(d, scale, g->x, g->y),
                   scale * d->view.zoom * g->radius, &look);
     }
@@ -376,19 +374,16 @@ void desk_gl_draw(struct desk_gl *gl, const struct desk *d, int scale)
 {
     const int width = (int)lrint(scale * d->view.width),
               height = (int)lrint(scale * d->view.height);
-    double amount[1 + PAPER_PIGMENTS_MAX], ink[3];
+    double ink[3];
     glClearColor(0.30f, 0.29f, 0.28f, 1);
     glClear(GL_COLOR_BUFFER_BIT);
     if (!gl->width)
         return;
-    studio_settings_amounts(&d->settings, amount);
-    studio_swatch(&d->report.config, amount, ink);
+    desk_tool_color(d, ink);
     sheet_draw(gl, d, scale, ink, height);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE);
-    if (!studio_tool_of(&d->settings)->inked)
-        ink[0] = ink[1] = ink[2] = 0.7;
-    ghost_draw(gl, d, scale, ink, width, height);
+    ghost_draw(gl, d, scale, width, height);
     cursor_draw(gl, d, scale);
     pieces_draw(gl, width, height);
     glDisable(GL_BLEND);

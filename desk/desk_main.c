@@ -5,6 +5,7 @@
 #include <locale.h>
 #include <stdlib.h>
 #include <string.h>
+#include <visible_text.h>
 
 static bool word_take(struct desk_options *o, const char *word)
 {
@@ -49,7 +50,12 @@ static void activate(GtkApplication *application, gpointer data)
 
 static void desk_finish(struct desk *d)
 {
-    studio_paper_end(d->paper);
+    struct studio_report last = d->report;
+    studio_paper_end(d->paper, &last);
+    if (last.errors != d->report.errors) { /* after the window was closed */
+        visible_say("lutetia studio: %s", last.error);
+        d->status = 1;
+    }
     desk_pen_destroy(d->pen);
     desk_play_destroy(d->play);
     g_clear_object(&d->input_method);
@@ -74,14 +80,14 @@ int main(int argc, char **argv)
     d->options.theme = -1;
     for (int i = 1; i < argc; i++)
         if (!word_take(&d->options, argv[i])) {
-            g_printerr("lutetia-studio: `lutetia studio` runs this program\n");
+            visible_say("lutetia-studio: `lutetia studio` runs this program");
             return 2;
         }
     studio_settings_usual(&d->settings);
     gtk_disable_setlocale();
     if (!gtk_init_check()) {
-        g_printerr("lutetia studio: no display; run it where there is a desktop, or set "
-                   "DISPLAY or WAYLAND_DISPLAY\n");
+        visible_say("lutetia studio: no display; run it where there is a desktop, or set "
+                    "DISPLAY or WAYLAND_DISPLAY");
         return 1;
     }
     if (d->options.play && !(d->play = desk_play_open(d, d->options.play)))

@@ -5,6 +5,7 @@
 #include "studio_input.h"
 
 #include <input_file.h>
+#include <visible_text.h>
 
 struct desk_play {
     struct desk *desk;
@@ -20,7 +21,7 @@ struct desk_play *desk_play_open(struct desk *d, const char *path)
     char line[2 * STUDIO_INPUT_TEXT], why[200];
     FILE *file = input_file_open(path, &reason);
     if (!file) {
-        g_printerr("lutetia studio: %s: cannot read: %s\n", path, reason);
+        visible_say("lutetia studio: %s: cannot read: %s", path, reason);
         return NULL;
     }
     struct desk_play *play = g_new0(struct desk_play, 1);
@@ -37,7 +38,7 @@ struct desk_play *desk_play_open(struct desk *d, const char *path)
             snprintf(why, sizeof why, "times do not go back");
         }
         if (good < 0)
-            g_printerr("lutetia studio: %s:%d: %s\n", path, number, why);
+            visible_say("lutetia studio: %s:%d: %s", path, number, why);
         else if (good > 0) {
             before_s = input.time_s;
             g_array_append_val(play->inputs, input);
@@ -80,7 +81,7 @@ static void action_do(struct desk *d, const struct studio_input *input)
     }
     GAction *action = g_action_map_lookup_action(G_ACTION_MAP(d->window), input->name);
     if (!action) {
-        g_printerr("lutetia studio: no action '%s'\n", input->name);
+        visible_say("lutetia studio: no action '%s'", input->name);
         d->status = 1;
         return;
     }

@@ -1,6 +1,8 @@
 /* desk_window.c - the window: header, tools, sheet, panel, a line of state; and what the paper reports. */
 #include "desk.h"
 
+#include <visible_text.h>
+
 #include <string.h>
 
 /* ---- telling ---- */
@@ -9,12 +11,6 @@ static void notice_close(GtkButton *button, struct desk *d)
 {
     (void)button;
     gtk_revealer_set_reveal_child(GTK_REVEALER(d->notice), FALSE);
-}
-
-void desk_say(struct desk *d, const char *text)
-{
-    gtk_label_set_text(GTK_LABEL(d->notice_text), text);
-    gtk_revealer_set_reveal_child(GTK_REVEALER(d->notice), TRUE);
 }
 
 static GtkWidget *notice_new(struct desk *d)
@@ -37,29 +33,12 @@ static GtkWidget *notice_new(struct desk *d)
     return d->notice;
 }
 
-/* ---- to the paper ---- */
+/* ---- what has been set ---- */
 
-void desk_send(struct desk *d, enum studio_message_kind kind)
+static void setting_changed(struct desk *d, int setting)
 {
-    studio_paper_send(d->paper, (struct studio_message){.kind = kind});
-}
-
-void desk_set(struct desk *d, int setting, double value)
-{
-    const int kind = (int)d->settings.value[STUDIO_BRUSH];
-    if (stage_control_write(&studio_controls[setting], &d->settings, value) != STAGE_OK) {
-        desk_say(d, stage_error());
-        return;
-    }
-    if (setting == STUDIO_TOOL && (int)value != STUDIO_TOOL_TYPE)
+    if (setting == STUDIO_TOOL && (int)d->settings.value[STUDIO_TOOL] != STUDIO_TOOL_TYPE)
         desk_type_drop(d);
-    if (setting == STUDIO_BRUSH && (int)value != kind)
-        studio_settings_kind(&d->settings, (int)value);
-    for (int i = 0; i < STUDIO_SETTINGS; i++)
-        if (i == setting || (setting == STUDIO_BRUSH && i > STUDIO_BRUSH && i < STUDIO_REFILL))
-            studio_paper_send(d->paper, (struct studio_message){.kind = STUDIO_MESSAGE_SET,
-                                                                .setting = i,
-                                                                .value = d->settings.value[i]});
     if (setting >= STUDIO_TYPE_SIZE && setting <= STUDIO_TYPE_ALIGN)
         desk_type_changed(d);
     desk_panel_fill(d);
@@ -118,15 +97,18 @@ static void sheet_take(struct desk *d)
 static gboolean report_take(gpointer data)
 {
     struct desk *d = data;
-    struct studio_report before = d->report;
+    const struct studio_report before = d->report;
     g_atomic_int_set(&d->woken, 0);
+    if (!d->window)
+        return G_SOURCE_REMOVE;
     studio_paper_report(d->paper, &d->report);
     if (d->report.sheets != before.sheets)
         sheet_take(d);
     if (d->report.errors != before.errors) {
         desk_say(d, d->report.error);
+        d->leaving = NULL;                                  /* it is not saved: stay */
+        visible_say("lutetia studio: %s", d->report.error); /* whoever looks at the terminal */
         if (d->report.failed) {
-            g_printerr("lutetia studio: %s\n", d->report.error);
             d->status = 1;
             g_application_quit(G_APPLICATION(d->application));
         }
@@ -137,6 +119,12 @@ static gboolean report_take(gpointer data)
                                      d->report.note);
         desk_say(d, text);
         g_free(text);
+        void (*leaving)(struct desk *) = d->report.note_picture ? NULL : d->leaving;
+        if (leaving) {
+            d->leaving = NULL;
+            leaving(d);
+            return G_SOURCE_REMOVE; /* there may be no window any more */
+        }
     }
     desk_canvas_look(d);
     title_show(d);
@@ -146,11 +134,16 @@ static gboolean report_take(gpointer data)
     return G_SOURCE_REMOVE;
 }
 
-void desk_wake(void *context)
+static void wake(void *context)
 {
     struct desk *d = context;
     if (g_atomic_int_compare_and_exchange(&d->woken, 0, 1))
         g_idle_add_full(G_PRIORITY_DEFAULT, report_take, d, NULL);
+}
+
+static void look(struct desk *d)
+{
+    wake(d);
 }
 
 /* ---- making ---- */
@@ -234,6 +227,13 @@ static void leave(struct desk *d)
     gtk_window_destroy(GTK_WINDOW(d->window));
 }
 
+/* Nothing touches a widget from here on. */
+static void gone(GtkWidget *window, struct desk *d)
+{
+    (void)window;
+    d->window = NULL;
+}
+
 static gboolean close_asked(GtkWindow *window, struct desk *d)
 {
     (void)window;
@@ -283,6 +283,8 @@ void desk_window_open(struct desk *d)
     GtkWidget *all = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0),
               *middle = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
     theme_set(d);
+    d->changed = setting_changed;
+    d->look = look;
     d->window = gtk_application_window_new(d->application);
     gtk_window_set_default_size(GTK_WINDOW(d->window), 1260, 820);
     desk_actions_add(d);
@@ -290,7 +292,7 @@ void desk_window_open(struct desk *d)
     d->paper = studio_paper_start(&(struct studio_paper_def){.config = &d->options.config,
                                                              .path = d->options.path,
                                                              .budget_bytes = 512e6,
-                                                             .wake = desk_wake,
+                                                             .wake = wake,
                                                              .context = d});
     GtkWidget *tools = desk_tools_new(d), *state = state_new(d);
     gtk_widget_set_hexpand(tools, FALSE); /* the sheet has what is left */
@@ -311,6 +313,7 @@ void desk_window_open(struct desk *d)
     g_signal_connect(keys, "key-released", G_CALLBACK(key_released), d);
     gtk_widget_add_controller(d->window, keys);
     g_signal_connect(d->window, "close-request", G_CALLBACK(close_asked), d);
+    g_signal_connect(d->window, "destroy", G_CALLBACK(gone), d);
     g_timeout_add(FLUSH_MS, flush, d);
     desk_panel_fill(d);
     title_show(d);

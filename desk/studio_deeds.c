@@ -261,12 +261,6 @@ static enum paper_status sample_add(struct studio_session *s, const struct studi
     return PAPER_OK;
 }
 
-void studio_session_drop(struct studio_session *s)
-{
-    s->down = false;
-    s->samples_count = 0;
-}
-
 enum paper_status studio_session_point(struct studio_session *s,
                                        const struct studio_point *point)
 {

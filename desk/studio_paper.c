@@ -432,11 +432,11 @@ struct studio_paper *studio_paper_start(const struct studio_paper_def *def)
     p->started = pthread_create(&p->thread, NULL, paper_run, p) == 0;
     if (p->started)
         return p;
-    studio_paper_end(p);
+    studio_paper_end(p, NULL);
     return NULL;
 }
 
-void studio_paper_end(struct studio_paper *p)
+void studio_paper_end(struct studio_paper *p, struct studio_report *last)
 {
     if (!p)
         return;
@@ -447,6 +447,8 @@ void studio_paper_end(struct studio_paper *p)
             sched_yield();
         }
         pthread_join(p->thread, NULL);
+        if (last)
+            *last = p->now;
     }
     if (p->looked && p->looked != p->pictures) {
         studio_pictures_finish(p->looked);

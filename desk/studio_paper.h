@@ -5,7 +5,7 @@
  *     studio_paper_send(paper, (struct studio_message){.kind = STUDIO_MESSAGE_POINT, .point = point});
  *     const struct studio_picture *picture = studio_paper_picture(paper);
  *     studio_paper_report(paper, &report);
- *     studio_paper_end(paper);
+ *     studio_paper_end(paper, &report);
  *
  * Threads: all functions belong to the thread that started it. `wake` is called by the paper's thread when there is a new picture or
  * another report; it returns at once. */
@@ -51,8 +51,8 @@ struct studio_paper;
 
 /* NULL: there is no thread, or no memory. */
 struct studio_paper *studio_paper_start(const struct studio_paper_def *def);
-/* All that was told is done first. NULL is fine. */
-void studio_paper_end(struct studio_paper *paper);
+/* All that was told is done first. *last (may be NULL) gets what is reported at the end. NULL is fine. */
+void studio_paper_end(struct studio_paper *paper, struct studio_report *last);
 
 unsigned long studio_paper_send(struct studio_paper *paper, struct studio_message message);
 /* Once a picture of the window's: what found no room goes on. */

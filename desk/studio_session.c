@@ -2,38 +2,10 @@
 #include "studio_session_internal.h"
 
 #include <display.h>
-#include <error_text.h>
 #include <state.h>
 
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* ---- failures ---- */
-
-static _Thread_local struct error_text own; /* "": the paper's */
-
-enum paper_status studio_session_failed(enum paper_status status, const char *format, ...)
-{
-    char text[ERROR_TEXT_BYTES];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    error_text_fail(&own, (int)status, "%s", text);
-    return status;
-}
-
-const char *studio_session_error(void)
-{
-    return own.text[0] ? own.text : paper_error();
-}
-
-void studio_session_error_forget(void)
-{
-    own.text[0] = '\0';
-}
 
 /* ---- life ---- */
 
@@ -125,20 +97,6 @@ bool studio_session_busy(const struct studio_session *s)
 
 /* ---- time ---- */
 
-enum paper_status studio_session_air(struct studio_session *s)
-{
-    struct paper_air air = *paper_sheet_get_air(s->sheet);
-    const double *value = s->settings.value;
-    if (air.gravity[0] == value[STUDIO_TILT_X] && air.gravity[1] == value[STUDIO_TILT_Y] &&
-        air.humidity == value[STUDIO_HUMIDITY] && air.edge == value[STUDIO_EDGE])
-        return PAPER_OK;
-    air.gravity[0] = value[STUDIO_TILT_X];
-    air.gravity[1] = value[STUDIO_TILT_Y];
-    air.humidity = value[STUDIO_HUMIDITY];
-    air.edge = value[STUDIO_EDGE];
-    return paper_sheet_air(s->sheet, &air);
-}
-
 bool studio_session_held(const struct studio_session *s)
 {
     return s->held && paper_history_undone(s->sheet) > 0;
@@ -146,8 +104,8 @@ bool studio_session_held(const struct studio_session *s)
 
 void studio_session_go_on(struct studio_session *s)
 {
+    s->wet = s->wet || s->held;
     s->held = false;
-    s->wet = true;
 }
 
 bool studio_session_wet(const struct studio_session *s)

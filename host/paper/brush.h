@@ -53,7 +53,8 @@ struct paper_brush {
 /* A round brush of 160 bristles, 20 fibers wide, number 0. */
 struct paper_brush paper_brush_default(void);
 
-/* Kinds of brushes: "round", "flat", "mop", "rigger", "fan", "bristle", by number from 0; NULL: there is none of that number. */
+/* Kinds of brushes: "round", "flat", "mop", "rigger", "fan", "bristle", by number from 0; NULL: there is none of that number. They are
+ * constants of the library, valid for ever. */
 const char *paper_brush_kind(int number);
 /* Makes the brush one of that kind, of the width that it has; number, angle, follows, flow, seed and mirrored stay. False: there is no
  * such kind, and nothing changes. Threads: any. */

@@ -235,22 +235,25 @@ void scene_write(FILE *out, double zoom)
             SCENE_HEIGHT / 2.0);
     for (int i = 0; i < scene_deeds_count; i++) {
         const struct scene_deed *d = &scene_deeds[i];
+        const double begins =
+            0.25 * i; /* the numbers of seconds are exact: so are their differences */
         char tool[32];
         stage_control_text(&studio_controls[STUDIO_TOOL], d->tool, tool, sizeof tool);
-        fprintf(out, "0 set tool %s\n0 set width %g\n", tool, d->width);
+        fprintf(out, "%g set tool %s\n%g set width %g\n", begins, tool, begins, d->width);
         for (int k = 0; k < d->count; k++) {
             const double x = zoom * (d->way[k][0] - SCENE_WIDTH / 2.0),
                          y = zoom * (d->way[k][1] - SCENE_HEIGHT / 2.0);
             const char *word = !k                                            ? "down"
                                : k < d->count - 1 || d->end == SCENE_DROPPED ? "move"
                                                                              : "up";
-            fprintf(out, "%.17g %s %.17g %.17g %.17g\n", SECOND * k, word, x, y, d->way[k][2]);
+            fprintf(out, "%.17g %s %.17g %.17g %.17g\n", begins + SECOND * k, word, x, y,
+                    d->way[k][2]);
             if (d->count == 1)
-                fprintf(out, "0 up %.17g %.17g %.17g\n", x, y, d->way[k][2]);
+                fprintf(out, "%g up %.17g %.17g %.17g\n", begins, x, y, d->way[k][2]);
         }
         if (d->steps)
-            fprintf(out, "0 step %d\n", d->steps);
+            fprintf(out, "%g step %d\n", begins + 0.1875, d->steps);
         if (d->end != SCENE_KEPT)
-            fprintf(out, "0 undo\n");
+            fprintf(out, "%g undo\n", begins + 0.1875);
     }
 }
