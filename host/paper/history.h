@@ -102,6 +102,7 @@ enum { PAPER_PLANES_MAX = 21 + 3 * PAPER_PIGMENTS_MAX };
 struct paper_plane {
     char name[40];
     bool whole; /* uint32_t, else float */
+    int since;  /* the first version of the model that has it (PAPER_MODEL_VERSION) */
 };
 int paper_sheet_planes(const struct paper_sheet *sheet,
                        struct paper_plane planes[PAPER_PLANES_MAX]);

@@ -127,8 +127,9 @@ struct paper_air {     /* conditions that may change at any time */
 /* Calm air over a flat sheet, for all parts; and the weather of paper_weather_default(). */
 struct paper_air paper_air_default(void);
 
-/* The version of the model, which saved states name. A change that gives other bits is a new version. */
-enum { PAPER_MODEL_VERSION = 1 };
+/* The version of the model, which saved states name. A change that gives other bits, or another plane, is a new version. States of
+ * version 1 are read: their water and paint have the same bits, and lie on all of each fiber. */
+enum { PAPER_MODEL_VERSION = 2, PAPER_MODEL_READ = 1 };
 
 struct paper_sheet_config {
     int width, height; /* fibers, PAPER_SIDE_MIN..PAPER_SIDE_MAX */
@@ -191,6 +192,8 @@ enum paper_layer {
     PAPER_LAYER_GRIP,
     /* Of sheets with a deckle: 1; less towards the edge, and 0 where there is no paper */
     PAPER_LAYER_THICKNESS,
+    /* Of sheets with a surface: what part of each fiber its paint lies on, 0..1; 0: on all of it. It cannot be written */
+    PAPER_LAYER_STAINED_PART,
     PAPER_LAYERS_COUNT
 };
 

@@ -34,6 +34,7 @@ static const char *const layer_names[] = {[PAPER_LAYER_HEIGHT] = "height",
                                           [PAPER_LAYER_WET_PART] = "wet part",
                                           [PAPER_LAYER_GRIP] = "grip",
                                           [PAPER_LAYER_THICKNESS] = "thickness",
+                                          [PAPER_LAYER_STAINED_PART] = "stained part",
                                           [PAPER_LAYERS_COUNT] = NULL};
 
 /* Finds the layer of that name, and its pigment if it has one. */

@@ -1,5 +1,6 @@
 /* test_felt.c - measures felted paper. It has no preferred direction except a mould's lines, clouds of many sizes, the same form
- * at a finer resolution, and no seam on a torus. Measures also a brushed wash on it. */
+ * at a finer resolution, and no seam on a torus. Light on it shows relief of every direction, and rough paper rough. Measures also
+ * a brushed wash on it. */
 #include "model/felt.h"
 
 #include <brush.h>
@@ -78,17 +79,13 @@ static double slope_of(const double *power, const int *counts)
     return (n * xy - x * y) / (n * xx - x * x);
 }
 
-static struct figures figures_of(const float *values)
+/* The Fourier transform of what the values are off their mean, faded out towards the sides. Returns their variance. */
+static double spectrum_make(const float *values, double complex *plane)
 {
-    static double complex plane[FIBERS];
-    static double ring_power[SIDE];
-    static int ring_count[SIDE];
-    double sum = 0, squares = 0, total = 0, coarse = 0, power[2] = {0}, count[2] = {0};
+    double sum = 0, squares = 0;
     for (int i = 0; i < FIBERS; i++)
         sum += (double)values[i];
     double mean = sum / FIBERS;
-    memset(ring_power, 0, sizeof ring_power);
-    memset(ring_count, 0, sizeof ring_count);
     for (int i = 0; i < FIBERS; i++) {
         double off = (double)values[i] - mean;
         squares += off * off;
@@ -99,12 +96,31 @@ static struct figures figures_of(const float *values)
         transform(plane + (size_t)i * SIDE, SIDE, 1);
     for (int i = 0; i < SIDE; i++)
         transform(plane + i, SIDE, SIDE);
+    return squares / FIBERS;
+}
+
+/* The frequency, wave and power at number i of a plane. */
+static double power_at(const double complex *plane, int i, int *x, int *y, double *wave)
+{
+    *x = i % SIDE - (i % SIDE >= SIDE / 2 ? SIDE : 0);
+    *y = i / SIDE - (i / SIDE >= SIDE / 2 ? SIDE : 0);
+    *wave = SIDE / hypot(*x, *y);
+    return creal(plane[i]) * creal(plane[i]) + cimag(plane[i]) * cimag(plane[i]);
+}
+
+static struct figures figures_of(const float *values)
+{
+    static double complex plane[FIBERS];
+    static double ring_power[SIDE];
+    static int ring_count[SIDE];
+    double total = 0, coarse = 0, power[2] = {0}, count[2] = {0};
+    memset(ring_power, 0, sizeof ring_power);
+    memset(ring_count, 0, sizeof ring_count);
+    const double variance = spectrum_make(values, plane);
     for (int i = 1; i < FIBERS; i++) {
-        int x = i % SIDE, y = i / SIDE;
-        x -= x >= SIDE / 2 ? SIDE : 0;
-        y -= y >= SIDE / 2 ? SIDE : 0;
-        double radius = hypot(x, y), wave = SIDE / radius,
-               here = creal(plane[i]) * creal(plane[i]) + cimag(plane[i]) * cimag(plane[i]);
+        int x, y;
+        double wave;
+        const double here = power_at(plane, i, &x, &y, &wave);
         double turned = fmod(atan2(y, x) * 180 / PI + 360, 90);
         total += here;
         coarse += wave >= 64 ? here : 0;
@@ -113,14 +129,14 @@ static struct figures figures_of(const float *values)
             power[axis ? 0 : 1] += here;
             count[axis ? 0 : 1]++;
         }
-        int ring = (int)(radius + 0.5);
+        int ring = (int)(hypot(x, y) + 0.5);
         if (ring < SIDE) {
             ring_power[ring] += here;
             ring_count[ring]++;
         }
     }
     return (struct figures){coarse / total, power[0] / count[0] / (power[1] / count[1]),
-                            slope_of(ring_power, ring_count), sqrt(squares / FIBERS)};
+                            slope_of(ring_power, ring_count), sqrt(variance)};
 }
 
 static void figures_know_a_line_and_a_noise(void **state)
@@ -228,6 +244,98 @@ static void a_torus_has_no_seam(void **state)
     felt_free(&felt);
 }
 
+/* ---- light ---- */
+
+/* The most power of four directions to the least, at waves of `low` to 2 * low fibers. */
+static double direction_of(const double complex *plane, double low)
+{
+    double power[4] = {0}, most = 0, least = INFINITY;
+    int count[4] = {0};
+    for (int i = 1; i < FIBERS; i++) {
+        int x, y;
+        double wave;
+        const double here = power_at(plane, i, &x, &y, &wave);
+        if (wave < low || wave >= 2 * low)
+            continue;
+        const int sector = (int)floor(atan2(y, x) / (PI / 4) + 8.5) % 4;
+        power[sector] += here;
+        count[sector]++;
+    }
+    for (int i = 0; i < 4; i++) {
+        most = fmax(most, power[i] / count[i]);
+        least = fmin(least, power[i] / count[i]);
+    }
+    return most / least;
+}
+
+/* The light that bare paper sends back, green. */
+static void bare_view(const struct paper_sheet_config *config, float *light)
+{
+    struct paper_sheet *sheet;
+    uint16_t *rgb = malloc(sizeof *rgb * 3 * FIBERS);
+    assert_non_null(rgb);
+    check(paper_sheet_create(config, &sheet));
+    const struct paper_sheet_view view = paper_sheet_view_default(config);
+    check(paper_sheet_view(sheet, &view, rgb));
+    for (size_t i = 0; i < FIBERS; i++)
+        light[i] = (float)paper_light_linear(rgb[3 * i + 1] / 65535.0);
+    free(rgb);
+    paper_sheet_destroy(sheet);
+}
+
+/* The deviation of the light from its mean over 7x7 fibers, as a part of that. */
+static double contrast_of(const float *light)
+{
+    enum { REACH = 3 };
+    double squares = 0;
+    int count = 0;
+    for (int y = REACH; y < SIDE - REACH; y += 2)
+        for (int x = REACH; x < SIDE - REACH; x += 2) {
+            double sum = 0;
+            for (int v = -REACH; v <= REACH; v++)
+                for (int u = -REACH; u <= REACH; u++)
+                    sum += (double)light[(y + v) * SIDE + x + u];
+            const double off = (double)light[y * SIDE + x] * 49 / sum - 1;
+            squares += off * off;
+            count++;
+        }
+    return sqrt(squares / count);
+}
+
+/* The wires of a mould are a direction of the paper's own. */
+static void light_has_no_direction_and_rough_is_rough(void **state)
+{
+    (void)state;
+    static float light[FIBERS];
+    static double complex plane[FIBERS];
+    double rough = 0, hot = 0, glass = 0;
+    const int seeds = all_sheets_wanted() ? 20 : 1;
+    for (int i = 0; paper_stock_number(i); i++)
+        for (int seed = 0; seed < seeds; seed++) {
+            const char *name = paper_stock_number(i)->name;
+            if (seeds == 1 &&
+                (strcmp(name, "cold press") == 0 || strcmp(name, "blotting") == 0))
+                continue; /* they are like those beside them */
+            const struct paper_sheet_config config = config_of(name, SIDE, 70 + (uint64_t)seed);
+            bare_view(&config, light);
+            spectrum_make(light, plane);
+            const double contrast = contrast_of(light), fine = direction_of(plane, 2),
+                         middle = direction_of(plane, 4), coarse = direction_of(plane, 8);
+            printf("%-10s lit: contrast %.4f, directions %.1f %.1f %.1f\n", name, contrast,
+                   fine, middle, coarse);
+            const double most = strcmp(name, "laid") == 0 ? 20 : 5;
+            if (!(fine <= most && middle <= most && coarse <= most))
+                fail_msg("%s: directions differ %g, %g and %g times", name, fine, middle,
+                         coarse);
+            rough += strcmp(name, "rough") == 0 ? contrast : 0;
+            hot += strcmp(name, "hot press") == 0 ? contrast : 0;
+            glass += strcmp(name, "glass") == 0 ? contrast : 0;
+        }
+    if (!(rough >= 2.5 * hot && rough <= 5 * hot && glass <= 0.25 * hot))
+        fail_msg("contrast: rough %g, hot press %g, glass %g", rough / seeds, hot / seeds,
+                 glass / seeds);
+}
+
 /* ---- a brushed wash ---- */
 
 /* Paints nine wavering strokes of a wide flat brush and dries them after 200 steps. density: the optical density for red, which
@@ -282,8 +390,8 @@ static void washes_are_cloudy_as_real_ones(void **state)
 {
     (void)state;
     static float density[FIBERS];
-    static const char *const names[] = {"rough",     "laid", "glass",   "cold press",
-                                        "hot press", "xuan", "blotting"};
+    static const char *const names[] = {"glass",     "rough", "laid",    "cold press",
+                                        "hot press", "xuan",  "blotting"};
     enum { OFTEN = 3, ALL = sizeof names / sizeof *names };
     for (int i = 0; i < (all_sheets_wanted() ? ALL : OFTEN); i++) {
         bool laid = strcmp(names[i], "laid") == 0;
@@ -305,6 +413,7 @@ int main(void)
         cmocka_unit_test(felts_have_clouds_and_no_weave),
         cmocka_unit_test(a_felt_at_twice_the_resolution_is_the_same_finer),
         cmocka_unit_test(a_torus_has_no_seam),
+        cmocka_unit_test(light_has_no_direction_and_rough_is_rough),
         cmocka_unit_test(washes_are_cloudy_as_real_ones),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

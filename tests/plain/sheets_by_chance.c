@@ -51,7 +51,8 @@ static void planes_look(struct paper_sheet *sheet, int when)
              noise = strcmp(planes[i].name, "sizing") == 0 ||
                      strcmp(planes[i].name, "current") == 0 ||
                      strcmp(planes[i].name, "grip") == 0,
-             thick = strcmp(planes[i].name, "thickness") == 0;
+             thick = strcmp(planes[i].name, "thickness") == 0 ||
+                     strcmp(planes[i].name, "stained part") == 0;
         bool fraction = i < 10 || wet || speed || noise || thick;
         double most = noise           ? 100
                       : fraction      ? 1

@@ -81,8 +81,8 @@ static inline void sample_file_write(const char *path, const uint8_t *bytes, siz
         abort();
 }
 
-/* Makes the header agree with the changed bytes, as a forger would. */
-static inline void sample_header_mend(uint8_t *bytes, size_t count)
+/* Makes the header agree with the changed bytes, as a forger would; of that version of the model. */
+static inline void sample_header_mend_of(uint8_t *bytes, size_t count, int model)
 {
     char text[SAMPLE_HEADER] = "";
     if (count < SAMPLE_HEADER)
@@ -91,10 +91,15 @@ static inline void sample_header_mend(uint8_t *bytes, size_t count)
     for (int i = 0; i < 2; i++) {
         snprintf(text, sizeof text,
                  "LUTETIA STATE 2\nmodel %d\nprogram 0\nbytes %zu\nchecksum %08lx\nsheets 1\n",
-                 PAPER_MODEL_VERSION, count, i ? sum : 0);
+                 model, count, i ? sum : 0);
         sum = i ? sum : crc32(sum, (const Bytef *)text, sizeof text);
     }
     memcpy(bytes, text, sizeof text);
+}
+
+static inline void sample_header_mend(uint8_t *bytes, size_t count)
+{
+    sample_header_mend_of(bytes, count, PAPER_MODEL_VERSION);
 }
 
 /* Loads every sheet of the file. Returns PAPER_OK, or the status of the first failure. */

@@ -550,6 +550,36 @@ static void operations_are_ones_that_can_be(void **state)
     paper_sheet_destroy(sheet);
 }
 
+/* ---- older versions ---- */
+
+static void stained_forget(hid_t file)
+{
+    assert_true(H5Ldelete(file, "sheet-1/planes/stained part", H5P_DEFAULT) >= 0);
+}
+
+/* A state of version 1 has no stained parts: they are read as 0, and steps go on. One that has some is none of version 1. */
+static void states_of_version_1_are_read(void **state)
+{
+    (void)state;
+    for (int turn = 0; turn < 2; turn++) {
+        if (turn == 0)
+            forge(stained_forget);
+        else
+            good_save(false);
+        size_t count;
+        uint8_t *bytes = sample_file_read(path, &count);
+        sample_header_mend_of(bytes, count, 1);
+        sample_file_write(path, bytes, count);
+        free(bytes);
+        if (turn == 0)
+            assert_int_equal(sample_load_all(path), PAPER_OK);
+        else
+            refused("a plane is missing in it");
+    }
+    forge(stained_forget);
+    refused("a plane is missing in it");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -560,6 +590,7 @@ int main(void)
         cmocka_unit_test(planes_hold_what_sheets_can),
         cmocka_unit_test(brushes_hold_what_brushes_can),
         cmocka_unit_test(operations_are_ones_that_can_be),
+        cmocka_unit_test(states_of_version_1_are_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

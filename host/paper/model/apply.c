@@ -158,5 +158,6 @@ enum paper_status sheet_seal(struct paper_sheet *p, const void *arguments)
     for (int i = 0; i < p->config.pigments_count; i++)
         for (int j = sheet_pigment_fields(p, i, fields) - 1; j >= 0; j--)
             kit_f_set(fields[j], 0.0);
+    kit_f_set(p->stained, 0.0);
     return sheet_leave(p);
 }

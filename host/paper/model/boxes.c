@@ -41,16 +41,25 @@ static int spread_in_a_step(const struct paper_sheet *p)
     return sheet_has(p, PAPER_PART_SURFACE) ? sheet_around_reach(p) : 1;
 }
 
-/* mask = 1 where a fiber is not at rest. All that is added is 0 or more. Uses t[0], t[1]. */
+/* mask = 1 where a fiber is not at rest. All that is added is 0 or more. Uses t[0..2]. */
 static void active_make(struct paper_sheet *p)
 {
-    CM_field_id_t sum = p->t[0], part = p->t[1];
+    CM_field_id_t sum = p->t[0], part = p->t[1], other = p->t[2];
     const bool surface = sheet_has(p, PAPER_PART_SURFACE);
     kit_f_copy(sum, p->page.water);
     if (surface) {
         kit_f_add(sum, sum, p->surface_water);
         kit_f_add(sum, sum, p->wet_around);
         kit_f_add(sum, sum, p->wet_part);
+        sheet_paint_sum(
+            p,
+            part); /* what is stained has paint, and what has paint is stained: else a step changes it */
+        kit_f_most(part, part, 1.0);
+        kit_f_times(other, p->stained, SHEET_STAINED_SCALE);
+        kit_f_most(other, other, 1.0);
+        kit_f_sub(part, part, other);
+        kit_f_mul(part, part, part);
+        kit_f_add(sum, sum, part);
     }
     for (int axis = 0; axis < 2 && surface; axis++) {
         kit_f_times(part, p->speed[axis], -1.0);
@@ -76,6 +85,7 @@ static void active_make(struct paper_sheet *p)
     CM_set_context();
     kit_f_set(sum, 0.0);
     kit_f_set(part, 0.0);
+    kit_f_set(other, 0.0);
 }
 
 static void active_read(struct paper_sheet *p, uint8_t *active)
@@ -368,19 +378,6 @@ struct paper_sheet *sheet_boxes_touch(struct paper_sheet *p, int x1, int y1, int
     origin[0] = part->box.x;
     origin[1] = part->box.y;
     return &part->sheet;
-}
-
-void sheet_boxes_wetted(struct paper_sheet *p, const struct paper_sheet *at)
-{
-    for (int i = 0; at != p && i < PARTS_MOST; i++) {
-        struct part *part = p->boxes->parts[i];
-        if (!part || !part->open || &part->sheet == at)
-            continue;
-        CM_set_vp_set(part->sheet.page.grid.vp_set);
-        CM_set_context();
-        sheet_wet_around_make(&part->sheet);
-        kit_f_set(part->sheet.t[0], 0.0);
-    }
 }
 
 enum paper_status sheet_confine(struct paper_sheet *p, int unit)

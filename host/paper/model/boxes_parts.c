@@ -13,7 +13,7 @@ struct copied {
     unsigned bits; /* 0: a float */
     bool changes;
 };
-enum { COPIED_MOST = 20 + 3 * PAPER_PIGMENTS_MAX };
+enum { COPIED_MOST = 21 + 3 * PAPER_PIGMENTS_MAX };
 
 static int copied_fields(const struct paper_sheet *p, const struct paper_sheet *part,
                          struct copied all[COPIED_MOST])
@@ -24,25 +24,16 @@ static int copied_fields(const struct paper_sheet *p, const struct paper_sheet *
         bool there, changes;
     } rows[] = {
 #define ROW(member, there, changes) {offsetof(struct paper_sheet, member), there, changes}
-        ROW(height, true, false),
-        ROW(page.absorbency, true, false),
-        ROW(capacity, true, false),
-        ROW(face[0], true, false),
-        ROW(face[1], true, false),
-        ROW(sizing, surface, false),
-        ROW(ease[0], surface, false),
-        ROW(ease[1], surface, false),
-        ROW(swirl, surface, false),
-        ROW(page.water, true, true),
-        ROW(surface_water, surface, true),
-        ROW(wet_around, surface, true),
-        ROW(wet_part, surface, true),
-        ROW(speed[0], surface, true),
-        ROW(speed[1], surface, true),
-        ROW(salt, p->salted, true),
-        ROW(brine, p->salted, true),
-        ROW(barred, true, false),
-        ROW(grip, true, false),
+        ROW(height, true, false),          ROW(page.absorbency, true, false),
+        ROW(capacity, true, false),        ROW(face[0], true, false),
+        ROW(face[1], true, false),         ROW(sizing, surface, false),
+        ROW(ease[0], surface, false),      ROW(ease[1], surface, false),
+        ROW(swirl, surface, false),        ROW(page.water, true, true),
+        ROW(surface_water, surface, true), ROW(wet_around, surface, true),
+        ROW(wet_part, surface, true),      ROW(stained, surface, true),
+        ROW(speed[0], surface, true),      ROW(speed[1], surface, true),
+        ROW(salt, p->salted, true),        ROW(brine, p->salted, true),
+        ROW(barred, true, false),          ROW(grip, true, false),
 #undef ROW
     };
     int count = 0;
@@ -107,12 +98,15 @@ void part_fill(struct paper_sheet *p, struct part *part, void *words)
     const int count = copied_fields(p, &part->sheet, all);
     for (int i = 0; i < count; i++)
         field_fill(p, part, &all[i], words);
-    part->dressed = false;
+    part->dressed = part->lit = false;
 }
 
 void part_look(struct paper_sheet *p, struct part *part)
 {
     struct paper_sheet *s = &part->sheet;
+    if (p->relief_made && !part->lit)
+        field_fill(p, part, &(struct copied){p->relief, s->relief, 0, false}, p->boxes->words);
+    part->lit = p->relief_made;
     if (part->dressed)
         return;
     const struct copied all[] = {{p->substrate[0], s->substrate[0], 0, false},

@@ -19,6 +19,7 @@ struct part {
         [2]; /* fibers along its sides, on each axis (x, y), that look at what is beyond: 0 where it is as long as the sheet */
     bool open;
     bool dressed; /* it has what only pictures need, too */
+    bool lit;     /* ... and the relief */
     bool shown;   /* picture.c's */
 };
 

@@ -133,6 +133,10 @@ void sheet_brush_exchange(struct paper_sheet *p, struct sheet_brushes *b,
     CM_field_id_t level = b->t[0], fullness = b->t[1], part = b->t[2], water = b->t[3],
                   both = b->t[4], give = b->t[5], take = b->t[6], other = b->t[7],
                   there = b->t[8], room = b->t[9];
+    CM_set_vp_set(p->page.grid.vp_set);
+    CM_set_context();
+    if (surface)
+        kit_f_copy(p->t[1], p->surface_water);
     CM_set_vp_set(b->vp_set);
     CM_set_context();
     contacts_write(b);
@@ -174,8 +178,9 @@ void sheet_brush_exchange(struct paper_sheet *p, struct sheet_brushes *b,
     }
     CM_set_vp_set(p->page.grid.vp_set);
     CM_set_context();
-    sheet_wet_around_make(p);
-    kit_f_set(p->t[0], 0.0);
+    sheet_wet_touched(p, p->t[1]);
+    for (int i = 0; i < 6; i++)
+        kit_f_set(p->t[i], 0.0);
     CM_warm_boot(); /* so the next operation starts from the same kind of values as any other,
                      * and a step after it needs no kernels of its own */
 }

@@ -29,7 +29,8 @@ void sheet_fields_make(struct paper_sheet *p)
         &p->substrate[1],    &p->substrate[2], &p->surface_water, &p->wet_around,
         &p->varnish,         &p->salt,         &p->brine,         &p->sizing,
         &p->current,         &p->wet_part,     &p->speed[0],      &p->speed[1],
-        &p->ease[0],         &p->ease[1],      &p->swirl,         &p->grip};
+        &p->ease[0],         &p->ease[1],      &p->swirl,         &p->grip,
+        &p->relief,          &p->stained};
     for (size_t i = 0; i < sizeof floats / sizeof *floats; i++)
         *floats[i] = field_make(KIT_FLOAT_BITS);
     for (int i = 0; i < p->config.pigments_count; i++) {
@@ -57,7 +58,7 @@ void sheet_fields_make(struct paper_sheet *p)
  * the first steps. */
 enum paper_status sheet_amounts_clear(struct paper_sheet *p)
 {
-    CM_field_id_t fields[8 + 3 * PAPER_PIGMENTS_MAX];
+    CM_field_id_t fields[9 + 3 * PAPER_PIGMENTS_MAX];
     int count = 0;
     fields[count++] = p->page.water;
     if (p->config.parts)
@@ -67,6 +68,7 @@ enum paper_status sheet_amounts_clear(struct paper_sheet *p)
     if (sheet_has(p, PAPER_PART_SURFACE)) {
         fields[count++] = p->wet_around;
         fields[count++] = p->wet_part;
+        fields[count++] = p->stained;
         fields[count++] = p->speed[0];
         fields[count++] = p->speed[1];
     }

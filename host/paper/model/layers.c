@@ -34,6 +34,7 @@ static const struct {
     LAYER(WET_PART, wet_part, false, false, 0, 1),
     LAYER(GRIP, grip, false, false, PAPER_GRIP_LEAST, PAPER_GRIP_MOST),
     LAYER(THICKNESS, thickness, false, false, 0, 1),
+    LAYER(STAINED_PART, stained, false, false, 0, 1),
 #undef LAYER
 };
 
@@ -74,6 +75,10 @@ enum paper_status sheet_layer_check(const struct paper_sheet *p, const void *arg
     if (status == PAPER_OK && event->layer == PAPER_LAYER_WET_PART)
         return paper_fail(PAPER_BAD_ARGUMENT,
                           "what part of a fiber is wet follows its water and is not written");
+    if (status == PAPER_OK && event->layer == PAPER_LAYER_STAINED_PART)
+        return paper_fail(
+            PAPER_BAD_ARGUMENT,
+            "what part of a fiber is stained follows its paint and is not written");
     bool film = event->layer == PAPER_LAYER_SIZING || event->layer == PAPER_LAYER_CURRENT;
     if (status == PAPER_OK && film && !sheet_has(p, PAPER_PART_SURFACE))
         return paper_fail(PAPER_BAD_ARGUMENT,
@@ -125,12 +130,17 @@ enum paper_status sheet_layer(struct paper_sheet *p, const void *arguments)
     kit_grid_f_write(&p->page.grid, field, cut);
     if (p->config.deckled && layers[layer].amount)
         sheet_paper_heed(p, field);
+    p->relief_made = p->relief_made && layer != PAPER_LAYER_HEIGHT;
     p->varnished = p->varnished || layer == PAPER_LAYER_VARNISH;
     p->salted = p->salted || layer == PAPER_LAYER_SALT || layer == PAPER_LAYER_BRINE;
     if (layer == PAPER_LAYER_ABSORBENCY || layer == PAPER_LAYER_RESIST ||
         layer == PAPER_LAYER_SIZING || layer == PAPER_LAYER_CURRENT ||
         layer == PAPER_LAYER_THICKNESS)
         sheet_faces_make(p);
+    if (layers[layer].each) { /* paint lies on all of each fiber */
+        sheet_paint_sum(p, p->t[0]);
+        kit_f_most(p->stained, p->t[0], 1.0);
+    }
     if (layer == PAPER_LAYER_SURFACE_WATER || layer == PAPER_LAYER_INFUSED_WATER)
         sheet_wet_around_make(p);
     status = sheet_leave(p);

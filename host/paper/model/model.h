@@ -19,6 +19,10 @@ enum { SHEET_LOOK_REACH = 1 };
 #define SHEET_PUT_MOST 4.0
 /* The absorbency of a stock above which it is not sized, or less than others. */
 #define SHEET_SIZED_MOST 0.12
+/* The roughness of what is smooth. */
+#define SHEET_SMEARS 0.09
+/* A stained part times this is 1 or more unless it is 0. */
+#define SHEET_STAINED_SCALE 1e30
 /* Thickness times this is 1 or more wherever there is paper. */
 #define SHEET_THIN_SCALE 1e6
 
@@ -60,6 +64,11 @@ struct paper_sheet {
     CM_field_id_t ease[2]; /* [axis]: how easily it flows over the face; 0: closed */
     CM_field_id_t swirl;   /* of current, at the corner above on both axes */
     CM_field_id_t grip;    /* how willingly the paper takes what a bristle leaves */
+    /* What part of each fiber its paint lies on, 0..1: the most that was wet since there is paint on it; 0 where none has come with
+     * surface water, so that it lies everywhere. */
+    CM_field_id_t stained;
+    CM_field_id_t relief; /* what light of strength 1 makes of the relief, about 0 (light.c) */
+    bool relief_made;     /* of the heights as they are */
     CM_field_id_t varnish, salt, brine;
     bool varnished, salted; /* there may be some */
     double salt_reach, salt_strength;
@@ -126,8 +135,6 @@ enum paper_status sheet_boxes_expect(struct paper_sheet *p, int x1, int y1, int 
  * the sheet. Between paper_enter() and paper_leave(). */
 struct paper_sheet *sheet_boxes_touch(struct paper_sheet *p, int x1, int y1, int x2, int y2,
                                       int origin[2]);
-/* After sheet_wet_around_make() of the fibers' sheet: the same for the other boxes. */
-void sheet_boxes_wetted(struct paper_sheet *p, const struct paper_sheet *at);
 /* As paper_sheet_confine(). */
 enum paper_status sheet_confine(struct paper_sheet *p, int unit);
 /* As paper_sheet_share(). */
@@ -194,6 +201,9 @@ void sheet_amount_lose(struct paper_sheet *p, CM_field_id_t q, CM_field_id_t sha
 /* The wet area is as it is now: its edge begins to dry faster from here. Uses t[0]. */
 void sheet_wet_around_make(struct paper_sheet *p);
 
+/* ... where a brush or a print has left water; before: what was there. Uses t[0], t[2..5]. */
+void sheet_wet_touched(struct paper_sheet *p, CM_field_id_t before);
+
 /* ... where amounts were put through `share`, water among them or not: of a fiber that part is wet. Uses t[0], t[3..5]. */
 void sheet_wet_put(struct paper_sheet *p, bool water, CM_field_id_t share);
 
@@ -225,6 +235,8 @@ double sheet_settling_pace(const struct paper_sheet *p, int pigment);
 #define SHEET_STILL 4.0
 /* Fibers over which the nearness of an edge falls to 1/e. */
 double sheet_edge_length(const struct paper_sheet *p);
+/* d = all of the pigments, in all layers, in grains. */
+void sheet_paint_sum(struct paper_sheet *p, CM_field_id_t d);
 /* Uses t[7..15]; terms are t[0..6]. */
 void sheet_soak(struct paper_sheet *p, struct sheet_terms *terms);
 /* Uses t[7..15], t[32..44]. */
@@ -304,7 +316,7 @@ bool sheet_growing_painted(const struct paper_sheet *p);
 /* None grows any more. Owns: the caller frees the samples; NULL: they are freed. */
 void sheet_growing_end(struct paper_sheet *p, struct paper_stroke_sample **samples);
 
-/* ---- looking (view.c, picture.c, varnish.c) ---- */
+/* ---- looking (view.c, light.c, picture.c, varnish.c) ---- */
 
 /* Whether a view can be shown, but for its scale. Errors: BAD_ARGUMENT. */
 enum paper_status sheet_view_check(const struct paper_sheet *p,
@@ -339,8 +351,14 @@ void sheet_ground_pixels(const struct paper_sheet_view *view, const uint16_t *co
 /* Where there is no paper the colours next to it go on, so that a finer picture's edge is as dark as the paint there. Errors: as
  * above. */
 enum paper_status sheet_color_spread(struct paper_sheet *p, uint16_t *rgb);
-/* dest (three fields) = the sheet's colour as it lies, in the terms of substrate. Uses t[0..7]. */
+/* dest (three fields) = the sheet's colour as it lies, in the terms of substrate. Uses t[0..7], t[11]. */
 void sheet_color_make(struct paper_sheet *p, const CM_field_id_t dest[3]);
+/* The shade of the relief, if the heights have changed since it was made. Errors: NO_MEMORY. */
+enum paper_status sheet_relief_make(struct paper_sheet *p);
+/* Light of that strength on the relief, after sheet_relief_make(). Uses t[0..1]. */
+void sheet_relief_light(struct paper_sheet *p, const CM_field_id_t color[3], double strength);
+/* Light on the water's surface. Uses t[0..2]. */
+void sheet_water_shine(struct paper_sheet *p, const CM_field_id_t color[3]);
 /* Varnish over the colours. Uses t[0..3]. */
 void sheet_varnish_shine(struct paper_sheet *p, const CM_field_id_t color[3]);
 

@@ -156,6 +156,14 @@ static enum paper_status bands_read(struct look *l, const struct paper_area *are
         return paper_fail(PAPER_NO_MEMORY, "no memory for a picture of %dx%d", area->width,
                           area->height);
     paper_enter(&l->sheet->page);
+    const enum paper_status status = sheet_view_colored(l->view) && l->view->light > 0
+                                         ? sheet_relief_make(l->sheet)
+                                         : PAPER_OK;
+    if (status != PAPER_OK) {
+        free(words);
+        sheet_leave(l->sheet);
+        return status;
+    }
     shades_make(l, area);
     const int end = area->y + area->height;
     for (; band.y < end; band.y += band.height) {
@@ -183,6 +191,7 @@ static bool in_boxes(const struct paper_sheet *p, const struct paper_sheet_view 
     case PAPER_LAYER_SURFACE_WATER:
     case PAPER_LAYER_SURFACE_PIGMENT:
     case PAPER_LAYER_WET_PART:
+    case PAPER_LAYER_STAINED_PART:
         return surface;
     case PAPER_LAYER_FIXED_PIGMENT:
         return sheet_has(p, PAPER_PART_FIXING);

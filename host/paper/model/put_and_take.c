@@ -64,6 +64,10 @@ void sheet_paper_heed(struct paper_sheet *p, CM_field_id_t q)
  * greater depth thin strokes became rows of dots. */
 #define WETTED 0.04
 
+/* A fiber that a brush has touched is all wet where the water around it has 1 / this of the most that there is. Gaps up to two fibers
+ * wide between bristles do not count (a closing: the least of the most): only fibers at the edge of a stroke are wet in part. */
+#define TOUCHED 2.0
+
 #define SHARE_LEAST (1 / 255.0)
 
 /* By its surface water alone. Uses t[0]. */
@@ -73,6 +77,7 @@ static void wet_part_make(struct paper_sheet *p)
     kit_f_most(p->t[0], p->t[0], 1.0);
     kit_f_max(p->wet_part, p->wet_part, p->t[0]);
     kit_f_max(p->wet_around, p->wet_around, p->t[0]);
+    kit_f_max(p->stained, p->stained, p->wet_part);
 }
 
 void sheet_wet_around_make(struct paper_sheet *p)
@@ -81,16 +86,21 @@ void sheet_wet_around_make(struct paper_sheet *p)
         wet_part_make(p);
 }
 
-/* d = the most of a in a fiber and its eight neighbours. Uses t[4..5]. */
-static void most_around(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t a)
+/* d = the most of a, or the least, in a fiber and its eight neighbours. Uses t[4..5]. */
+static void extreme_around(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t a, bool most)
 {
     CM_field_id_t before = p->t[4], behind = p->t[5];
     kit_f_copy(d, a);
     for (unsigned axis = 0; axis < 2; axis++) {
         kit_f_previous(before, d, axis);
         kit_f_next(behind, d, axis);
-        kit_f_max(before, before, behind);
-        kit_f_max(d, d, before);
+        if (most) {
+            kit_f_max(before, before, behind);
+            kit_f_max(d, d, before);
+        } else {
+            kit_f_min(before, before, behind);
+            kit_f_min(d, d, before);
+        }
     }
 }
 
@@ -101,7 +111,7 @@ static void wetted_make(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t sh
     CM_field_id_t most = p->t[3];
     kit_f_most(d, p->surface_water, 1.0);
     kit_f_mul(d, d, share);
-    most_around(p, most, share);
+    extreme_around(p, most, share, true);
     kit_f_least(most, most, SHARE_LEAST);
     kit_f_div(d, d, most);
 }
@@ -113,6 +123,30 @@ void sheet_wet_put(struct paper_sheet *p, bool water, CM_field_id_t share)
     wetted_make(p, p->t[0], share);
     kit_f_max(p->wet_part, p->wet_part, p->t[0]);
     kit_f_max(p->wet_around, p->wet_around, p->t[0]);
+    kit_f_max(p->stained, p->stained, p->wet_part);
+}
+
+void sheet_wet_touched(struct paper_sheet *p, CM_field_id_t before)
+{
+    CM_field_id_t part = p->t[0], most = p->t[2], gained = p->t[3];
+    if (!sheet_has(p, PAPER_PART_SURFACE))
+        return;
+    extreme_around(p, most, p->surface_water, true);
+    extreme_around(p, part, most, false);
+    kit_f_least(most, most, 1.0);
+    kit_f_div(part, part, most);
+    kit_f_times(part, part, TOUCHED);
+    kit_f_most(part, part, 1.0);
+    kit_f_sub(gained, p->surface_water, before);
+    kit_f_least(gained, gained, 0.0);
+    kit_f_most(gained, gained, 1.0);
+    kit_f_mul(part, part, gained);
+    kit_f_max(p->stained, p->stained,
+              part); /* a brush that is nearly dry stains all that it touches */
+    kit_f_times(most, p->surface_water, 1 / (WETTED * p->unit));
+    kit_f_min(part, part, most);
+    kit_f_max(p->wet_part, p->wet_part, part);
+    kit_f_max(p->wet_around, p->wet_around, part);
 }
 
 CM_field_id_t sheet_amount_field(const struct paper_sheet *p, int substance)

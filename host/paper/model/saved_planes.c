@@ -25,7 +25,7 @@ static void plane_add(struct paper_plane *planes, struct place *places, int *cou
     struct paper_plane *plane = &planes[*count];
     int pigment = place.pigment;
     places[(*count)++] = place;
-    *plane = (struct paper_plane){0};
+    *plane = (struct paper_plane){.since = 1};
     if (pigment >= 0)
         snprintf(plane->name, sizeof plane->name, "%s %d", name, pigment + 1);
     else
@@ -67,6 +67,10 @@ static int planes_make(const struct paper_sheet_config *config, struct paper_pla
         PLANE("wet part", wet_part, 0, 1);
         PLANE("speed along y", speed[0], -1, 1);
         PLANE("speed along x", speed[1], -1, 1);
+    }
+    if (parts & (PAPER_PART_SURFACE | PAPER_PART_EDGE)) {
+        PLANE("stained part", stained, 0, 1);
+        planes[count - 1].since = 2;
     }
     if (parts)
         PLANE("grip", grip, PAPER_GRIP_LEAST, PAPER_GRIP_MOST);
@@ -156,4 +160,5 @@ void sheet_planes_written(struct paper_sheet *p)
 {
     CM_set_context();
     sheet_faces_make(p);
+    p->relief_made = false;
 }

@@ -168,6 +168,7 @@ enum paper_status sheet_reset(struct paper_sheet *p)
     kit_f_set(p->resist, 0.0);
     kit_f_set(p->wet_around, 0.0);
     kit_f_set(p->wet_part, 0.0);
+    kit_f_set(p->stained, 0.0);
     kit_f_set(p->speed[0], 0.0);
     kit_f_set(p->speed[1], 0.0);
     kit_f_set(p->surface_water, 0.0);

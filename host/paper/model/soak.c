@@ -10,7 +10,11 @@
  *
  * So type's gray edge stays as gray as it was put. `advance` is the angle at which water comes forward, as a height: it goes with
  * the sizing, is less on damp paper, and less where more of the neighbours are wet, so that edges are neither lines along the
- * axes nor frayed. */
+ * axes nor frayed.
+ *
+ * What part is stained. Paint that comes into a clean fiber lies on the part that is wet, and on more as the water comes forward in
+ * it; it stays there when the water is gone. A dark line gathers in a fiber at an edge as much paint as others have on all of
+ * them; it is seen beside the paper (view.c), not spread over it, so edges stay gray however dark they get. */
 #include "model/model.h"
 
 #include <math.h>
@@ -331,7 +335,12 @@ static void edge_move(struct paper_sheet *p, const struct sheet_terms *terms)
     kit_f_min(part, part, p->wet_part);
     kit_f_div(help, terms->depth, advance);
     kit_f_max(part, part, help);
-    kit_f_most(p->wet_part, part, 1.0);
+    kit_f_most(part, part, 1.0);
+    kit_f_sub(help, part, p->wet_part);
+    kit_f_least(help, help, 0.0);
+    kit_f_add(p->stained, p->stained, help);
+    kit_f_most(p->stained, p->stained, 1.0);
+    kit_f_copy(p->wet_part, part);
 
     kit_f_times(advance, advance, EMPTY_PART);
     kit_f_add(advance, advance, terms->depth);
@@ -344,14 +353,40 @@ static void edge_move(struct paper_sheet *p, const struct sheet_terms *terms)
     kit_f_add(terms->level, advance, part);
 }
 
-/* Four neighbours bring at most 4/5 of 15 units each; see film.c. */
-static void room_make(struct paper_sheet *p, CM_field_id_t room)
+/* d = all of the pigments, in all layers. */
+void sheet_paint_sum(struct paper_sheet *p, CM_field_id_t d)
 {
     CM_field_id_t fields[3];
-    kit_f_copy(room, sheet_has(p, PAPER_PART_SURFACE) ? p->surface_water : p->page.water);
+    kit_f_set(d, 0.0);
     for (int i = 0; i < p->config.pigments_count; i++)
         for (int j = sheet_pigment_fields(p, i, fields) - 1; j >= 0; j--)
-            kit_f_add(room, room, fields[j]);
+            kit_f_add(d, d, fields[j]);
+}
+
+/* Of a clean fiber the part that is wet would be stained. Paint that has come into one that is not wet, out of its neighbours'
+ * fibers, lies in all of it. Uses t[7..8]. */
+static void stained_follow(struct paper_sheet *p, CM_field_id_t paint)
+{
+    CM_field_id_t some = p->t[7], part = p->t[8];
+    kit_f_times(part, p->stained, SHEET_STAINED_SCALE);
+    kit_f_most(part, part, 1.0);
+    kit_f_from(part, 1.0, part);
+    kit_f_add(part, part, p->stained);
+    kit_f_most(some, paint, 1.0);
+    kit_f_mul(part, part, some);
+    kit_f_from(some, 1.0, some);
+    kit_f_mul(some, some, p->wet_part);
+    kit_f_add(p->stained, part, some);
+}
+
+/* Four neighbours bring at most 4/5 of 15 units each; see film.c. Uses t[7..8]. */
+static void room_make(struct paper_sheet *p, CM_field_id_t room)
+{
+    const bool surface = sheet_has(p, PAPER_PART_SURFACE);
+    sheet_paint_sum(p, room);
+    if (surface)
+        stained_follow(p, room);
+    kit_f_add(room, room, surface ? p->surface_water : p->page.water);
     kit_f_from(room, SHEET_LOAD_MAX * p->unit, room);
     kit_f_times(room, room, 1 / (ROOM_FROM * p->unit));
     kit_f_least(room, room, 0.0);

@@ -15,7 +15,6 @@
 #include <string.h>
 
 enum { RANDOM_BITS = 16 };
-#define SMEARS 0.09     /* the roughness of what is smooth */
 #define FACE_LEAST 1e-6 /* an open face's; see OPEN_SCALE */
 /* Of a sheet with a deckle: what is left of the height, and of how fast it drinks, where it is thinnest. */
 #define THIN_HEIGHT 0.4
@@ -243,10 +242,10 @@ static enum paper_status felted_make(struct paper_sheet *p, CM_field_id_t shade)
         felt.sizing[i] = 1.1f * felt.fibers[i] + 0.1f * felt.mass[i] - 0.2f * felt.sizing[i];
     double mean = (stock->capacity[0] + stock->capacity[1]) / 2,
            span = (stock->capacity[1] - stock->capacity[0]) / 2;
-    const double height[2] = {0.5, fmax(stock->roughness, felt.smeared ? SMEARS : 0)},
+    const double height[2] = {0.5, fmax(stock->roughness, felt.smeared ? SHEET_SMEARS : 0)},
                  drinks[2] = {stock->absorbency,
                               stock->absorbency * stock->absorbency_variation},
-                 holds[2] = {mean, 0.4 * span}, looks[2] = {0, -0.04 * stock->color_variation};
+                 holds[2] = {mean, 0.4 * span}, looks[2] = {0, 0.01 * stock->color_variation};
     felt_write(p, p->height, felt.relief, height, 0, 1);
     felt_write(p, p->page.absorbency, felt.sizing, drinks, 0.15 * stock->absorbency,
                PAPER_ABSORBENCY_MAX);
@@ -271,5 +270,6 @@ enum paper_status sheet_stock_make(struct paper_sheet *p)
     }
     color_make(p, shade);
     sheet_faces_make(p);
+    p->relief_made = false;
     return PAPER_OK;
 }

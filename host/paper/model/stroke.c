@@ -238,10 +238,8 @@ static void brush_go(struct sheet_going *g, double from, double to)
         const int rows = places - done < BRUSH_ROWS ? places - done : BRUSH_ROWS;
         struct paper_sheet *at;
         if (contacts_make(g, from + done * seconds / places, seconds / places, rows, dwell,
-                          &at)) {
+                          &at))
             sheet_brush_exchange(at, g->sheet->brushes, g->own);
-            sheet_boxes_wetted(g->sheet, at);
-        }
         done += rows;
     }
 }

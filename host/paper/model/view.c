@@ -5,6 +5,7 @@
  *
  *     D = (K + S) (1 - E^2) + Q (1 + E^2)     R = S (1 - E^2) / D     T = 2 Q E / D
  *     seen = R + T^2 below / (1 - R below)
+ *     seen = stained seen + (1 - stained) below             paint on a part of a fiber lies beside paper
  *
  * which is Kubelka and Munk's R and T (a = 1 + K/S, b S = Q) without a division by S. Q is kept from 0, where 1 - E^2
  * would lose its digits; that changes R and T by less than 2e-5.
@@ -40,13 +41,42 @@ static void mixture(struct paper_sheet *p, CM_field_id_t d, size_t member, int c
     }
 }
 
-/* d = the layer over what it lies on, in one channel. Uses t[0..7]. */
-static void kubelka_munk(struct paper_sheet *p, CM_field_id_t d, int channel)
+/* Units of paint, all pigments together, that lie above one another at most: where a part of a fiber would have more, a greater
+ * part is stained. */
+#define DEEPEST 3.0
+
+/* Whether paint may lie on parts of fibers. Paper that is not sized draws it into all of each. */
+static bool stained_in_part(const struct paper_sheet *p)
+{
+    return sheet_has(p, PAPER_PART_SURFACE) && p->config.stock.absorbency <= SHEET_SIZED_MOST;
+}
+
+/* d = the part of each fiber that is stained, above 0. Uses t[0]. */
+static void stained_make(struct paper_sheet *p, CM_field_id_t d)
+{
+    CM_field_id_t other = p->t[0];
+    kit_f_times(other, p->stained, SHEET_STAINED_SCALE); /* 0 stands for all of it */
+    kit_f_most(other, other, 1.0);
+    kit_f_from(other, 1.0, other);
+    kit_f_add(d, p->stained, other);
+    sheet_paint_sum(p, other);
+    kit_f_times(other, other, 1 / (DEEPEST * p->unit));
+    kit_f_max(d, d, other);
+    kit_f_most(d, d, 1.0);
+}
+
+/* d = the layer over what it lies on, in one channel. stained: the part of each fiber where it lies; 0: on all. Uses t[0..7]. */
+static void kubelka_munk(struct paper_sheet *p, CM_field_id_t d, int channel,
+                         CM_field_id_t stained)
 {
     CM_field_id_t k = p->t[0], s = p->t[1], q = p->t[2], e = p->t[3], r = p->t[4], t = p->t[5];
     CM_field_id_t bottom = p->t[6], part = p->t[7], below = p->substrate[channel];
     mixture(p, k, offsetof(struct paper_pigment, k), channel, false);
     mixture(p, s, offsetof(struct paper_pigment, s), channel, false);
+    if (stained) {
+        kit_f_div(k, k, stained);
+        kit_f_div(s, s, stained);
+    }
     kit_f_add(q, s, s);
     kit_f_add(q, q, k);
     kit_f_mul(q, q, k);
@@ -74,13 +104,22 @@ static void kubelka_munk(struct paper_sheet *p, CM_field_id_t d, int channel)
     kit_f_least(part, part, 1e-6);
     kit_f_div(t, t, part);
     kit_f_add(d, r, t);
+    if (stained) {
+        kit_f_sub(d, d, below);
+        kit_f_mul(d, d, stained);
+        kit_f_add(d, d, below);
+    }
 }
 
 void sheet_color_make(struct paper_sheet *p, const CM_field_id_t dest[3])
 {
+    const bool parts = p->config.rule == PAPER_RULE_KUBELKA_MUNK && stained_in_part(p);
+    CM_field_id_t stained = parts ? p->t[11] : 0;
+    if (parts)
+        stained_make(p, stained);
     for (int i = 0; i < 3; i++) {
         if (p->config.rule == PAPER_RULE_KUBELKA_MUNK) {
-            kubelka_munk(p, dest[i], i);
+            kubelka_munk(p, dest[i], i, stained);
         } else {
             mixture(p, p->t[0], offsetof(struct paper_pigment, takes), i,
                     p->config.rule == PAPER_RULE_LUMINOUS);
@@ -101,84 +140,6 @@ static void water_make(struct paper_sheet *p, CM_field_id_t d)
     else
         kit_f_copy(d, p->page.water);
     kit_f_times(d, d, 1 / p->unit);
-}
-
-/* d = the neighbour's level; at the edge of a sheet that is no torus one's own. */
-static void level_beside(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t level,
-                         unsigned axis, bool next)
-{
-    if (next)
-        kit_f_next(d, level, axis);
-    else
-        kit_f_previous(d, level, axis);
-    if (p->config.torus)
-        return;
-    sheet_end_narrow(p, axis, next);
-    kit_f_copy(d, level);
-    CM_set_context();
-}
-
-/* Depth of water, units, that hides what is below; how far light of strength 1 takes a slope of 1. */
-#define RELIEF_HIDDEN 0.3
-#define RELIEF_GAIN 0.32
-/* The light stands the lower the smoother the sheet: so that relief is seen on each. Roughness. */
-#define RELIEF_USUAL 0.16
-#define SMOOTHEST 0.04
-
-static double light_fits(double roughness)
-{
-    double smoother = RELIEF_USUAL / fmax(SMOOTHEST, roughness);
-    return smoother > 1 ? sqrt(smoother) : smoother;
-}
-
-/* Light on the paper: what rises away from the upper left is lighter, what falls away darker. Uses t[0..2]. */
-static void relief_light(struct paper_sheet *p, const CM_field_id_t color[3], double strength)
-{
-    CM_field_id_t slope = p->t[0], dry = p->t[1], other = p->t[2];
-    kit_f_set(slope, 0.0);
-    for (unsigned axis = 0; axis < 2; axis++) {
-        level_beside(p, other, p->height, axis, true);
-        kit_f_add(slope, slope, other);
-        level_beside(p, other, p->height, axis, false);
-        kit_f_sub(slope, slope, other);
-    }
-    kit_f_times(slope, slope, strength * RELIEF_GAIN * light_fits(p->config.stock.roughness));
-    if (sheet_has(p, PAPER_PART_SURFACE)) {
-        kit_f_times(dry, p->surface_water, -1 / (RELIEF_HIDDEN * p->unit));
-        kit_f_plus(dry, dry, 1.0);
-        kit_f_least(dry, dry, 0.0);
-        kit_f_mul(slope, slope, dry);
-    }
-    kit_f_plus(slope, slope, 1.0);
-    kit_f_least(slope, slope, 0.2);
-    for (int i = 0; i < 3; i++)
-        kit_f_mul(color[i], color[i], slope);
-}
-
-/* Light on the water's surface: where it falls away to the upper left it shines, on the other side it is darker; wet
- * paper is a little darker too. Uses t[0..2]. */
-static void shine(struct paper_sheet *p, const CM_field_id_t color[3])
-{
-    CM_field_id_t slope = p->t[0], level = p->t[1], other = p->t[2];
-    kit_f_times(level, p->surface_water, 1 / p->unit);
-    kit_f_most(level, level, 2.0);
-    kit_f_set(slope, 0.0);
-    for (unsigned axis = 0; axis < 2; axis++) {
-        level_beside(p, other, level, axis, true);
-        kit_f_add(slope, slope, other);
-        level_beside(p, other, level, axis, false);
-        kit_f_sub(slope, slope, other);
-    }
-    kit_f_times(slope, slope, 0.8);
-    kit_f_least(slope, slope, -0.25);
-    kit_f_most(slope, slope, 0.6);
-    kit_f_most(other, level, 0.5);
-    kit_f_times(other, other, -0.25);
-    kit_f_plus(other, other, 1.0);
-    for (int i = 0; i < 3; i++) {
-        kit_f_mul(color[i], color[i], other);
-        kit_f_add(color[i], color[i], slope);
-    }
 }
 
 /* The field's 0..1 as 16 bits of the word. */
@@ -239,9 +200,9 @@ void sheet_shades_make(struct paper_sheet *p, const struct paper_sheet_view *vie
     if (colored) {
         sheet_color_make(p, color);
         if (view->light > 0)
-            relief_light(p, color, view->light);
+            sheet_relief_light(p, color, view->light);
         if (view->show == PAPER_SHOW_WET && sheet_has(p, PAPER_PART_SURFACE))
-            shine(p, color);
+            sheet_water_shine(p, color);
         if (p->varnished)
             sheet_varnish_shine(p, color);
     } else if (view->show == PAPER_SHOW_WATER) {

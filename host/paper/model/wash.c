@@ -110,7 +110,7 @@ enum paper_status sheet_print(struct paper_sheet *p, const void *arguments)
     if (!whole)
         return paper_fail(PAPER_NO_MEMORY, "no memory for a print of %dx%d", print->width,
                           print->height);
-    CM_field_id_t open = p->t[1], part = p->t[2];
+    CM_field_id_t open = p->t[1], part = p->t[2], before = p->t[6];
     for (int i = 0; i <= p->config.pigments_count && status == PAPER_OK; i++) {
         if (!print->amount[i])
             continue;
@@ -120,8 +120,11 @@ enum paper_status sheet_print(struct paper_sheet *p, const void *arguments)
         kit_grid_f_write(&p->page.grid, part, whole);
         sheet_resist_heed(p, part, open);
         kit_f_times(part, part, p->unit);
+        if (i == 0)
+            kit_f_copy(before, sheet_amount_field(p, 0));
         sheet_amount_put(p, i, part);
-        sheet_wet_around_make(p);
+        if (i == 0)
+            sheet_wet_touched(p, before);
         status = sheet_leave(p);
     }
     free(whole);

@@ -3,7 +3,7 @@
  * The first 512 bytes, text, the rest of them 0:
  *
  *     LUTETIA STATE 2                    the version of this format
- *     model 1                            the version of the paper's model
+ *     model 2                            the version of the paper's model; 1 is read, too (sheet.h)
  *     program X.Y.Z                      that wrote it
  *     bytes 123456                       of the whole file
  *     checksum 1a2b3c4d                  CRC-32 of all from byte 512 on, then of this, with these digits 0
@@ -42,6 +42,7 @@ struct state_reading {
     int count;   /* number of sheets in the header */
     int number;  /* the one that is read */
     bool planes; /* its planes, too */
+    int model;   /* the version of the paper's model that the header names */
     unsigned long long memory_bytes;
 };
 

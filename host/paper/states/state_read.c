@@ -28,6 +28,7 @@ struct paper_state {
     char *path;
     int descriptor;
     unsigned long long memory_bytes; /* paper_state_limit() */
+    int model; /* the version of the paper's model that the header names */
     int count;
     int numbers[PAPER_STATE_SHEETS_MAX];
     /* the reader while it runs */
@@ -70,6 +71,7 @@ static enum paper_status reader_start(struct paper_state *state, int index, bool
                                              .count = state->count,
                                              .number = state->numbers[index],
                                              .planes = planes,
+                                             .model = state->model,
                                              .memory_bytes = state->memory_bytes});
     }
     close(ends[1]);
@@ -227,7 +229,8 @@ static enum paper_status header_read(struct paper_state *state, const char *head
                program, &used) != 3 ||
         used == 0)
         return file_bad(state, "it is not a saved state");
-    if (version != STATE_VERSION || model != PAPER_MODEL_VERSION)
+    state->model = model;
+    if (version != STATE_VERSION || model < PAPER_MODEL_READ || model > PAPER_MODEL_VERSION)
         return paper_fail(PAPER_BAD_FILE,
                           "%s: it was saved by program %s (format %d, model of paper %d); this "
                           "one reads format %d, model %d",

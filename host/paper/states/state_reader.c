@@ -88,6 +88,28 @@ static void *dataset_read(const struct state_reading *reading, hid_t group, cons
     return made;
 }
 
+/* A plane that the file's version of the model does not have: zeros. */
+static bool zeros_send(const struct state_reading *reading,
+                       const struct paper_sheet_config *config)
+{
+    const size_t bytes = sizeof(float) * (size_t)config->width * (size_t)config->height;
+    void *words = calloc(bytes, 1);
+    if (!words)
+        reader_fail(reading->pipe, STATE_FRAME_NO_MEMORY, "");
+    frame_write(reading->pipe, STATE_FRAME_PLANE, words, bytes);
+    free(words);
+    return true;
+}
+
+/* The planes that a file of that version of the model has. */
+static int planes_of(const struct paper_plane *planes, int count, int model)
+{
+    int had = 0;
+    for (int i = 0; i < count; i++)
+        had += planes[i].since <= model;
+    return had;
+}
+
 /* The planes' names follow from the description. Only the parent makes the sheet, so they
  * are derived from a copy of the description. */
 static bool planes_send(const struct state_reading *reading, hid_t group, const uint8_t *run,
@@ -100,9 +122,13 @@ static bool planes_send(const struct state_reading *reading, hid_t group, const 
         return false;
     int count = paper_config_planes(&config, planes);
     hid_t inner = hdf5.Gopen2(group, "planes", H5P_DEFAULT);
-    bool done =
-        inner >= 0 && hdf5.Gget_info(inner, &info) >= 0 && info.nlinks == (hsize_t)count;
+    bool done = inner >= 0 && hdf5.Gget_info(inner, &info) >= 0 &&
+                info.nlinks == (hsize_t)planes_of(planes, count, reading->model);
     for (int i = 0; i < count && done; i++) {
+        if (planes[i].since > reading->model) {
+            done = zeros_send(reading, &config);
+            continue;
+        }
         size_t bytes;
         hsize_t size[2];
         bool whole = planes[i].whole;
