@@ -219,8 +219,7 @@ static enum paper_status operation_perform(struct paper_sheet *p, const struct e
     return PAPER_OK;
 }
 
-/* Appends the operation; *joined: it was joined to the last one. */
-static enum paper_status record(struct sheet_history *h, struct event_record op, bool *joined)
+enum paper_status history_record(struct sheet_history *h, struct event_record op, bool *joined)
 {
     struct event_record *last = h->log.count > 0 ? &h->log.records[h->log.count - 1] : NULL;
     h->inserted.count = 0;
@@ -240,6 +239,8 @@ static enum paper_status record(struct sheet_history *h, struct event_record op,
         h->open = steps;
     }
     h->now = (struct position){h->log.count, 0};
+    if (h->tell)
+        h->tell(h->tell_context, &h->log.records[h->log.count - 1], *joined, 0, 0);
     return PAPER_OK;
 }
 
@@ -250,7 +251,7 @@ static enum paper_status repeat(struct sheet_history *h, struct event_record op)
     bool joined;
     enum paper_status status = history_cut(h);
     if (status == PAPER_OK)
-        status = record(h, op, &joined);
+        status = history_record(h, op, &joined);
     else
         event_record_free(&op);
     if (status == PAPER_OK)
@@ -264,7 +265,7 @@ enum paper_status history_keep(struct paper_sheet *p, struct event_record op)
 {
     struct sheet_history *h = p->history;
     bool joined;
-    enum paper_status status = record(h, op, &joined);
+    enum paper_status status = history_record(h, op, &joined);
     if (status != PAPER_OK) {
         h->at.op = -1;
         return status;

@@ -66,7 +66,13 @@ struct checkpoint {
 
 enum { CHECKPOINTS_MAX = 256, CHECKPOINT_EVERY = 24, CHECKPOINT_SPARED = 16 };
 
+/* Hears of each operation that is listed (`move` 0; joined: of a step, it went to the last operation), and of each move. */
+typedef void (*history_teller)(void *context, const struct event_record *op, bool joined,
+                               enum note_move move, long number);
+
 struct sheet_history {
+    history_teller tell; /* NULL: nobody hears */
+    void *tell_context;
     struct event_log log; /* the operations; their kinds are enum sheet_event_kind */
     struct position now, at;
     struct paper_air air; /* history_air()'s */
@@ -126,6 +132,33 @@ enum paper_status history_split(struct sheet_history *h, struct position positio
 /* Removes the operations of the last insertion, which must be h->inserted. */
 void history_insertion_remove(struct sheet_history *h);
 
+/* ---- as bytes, one by one (history/run.c): for a run and for a journal ---- */
+
+/* Names of the kinds, in the order of their numbers here; and the numbers here of those that were written. Errors: BAD_FILE. */
+void history_names_put(struct event_bytes *b);
+enum paper_status history_names_get(struct event_reader *r, int kinds[256]);
+/* An operation. Errors: BAD_FILE, NO_MEMORY. Owns: the caller frees *op by event_record_free(). */
+void history_operation_put(struct event_bytes *b, const struct event_record *op);
+enum paper_status history_operation_get(struct event_reader *r, const struct paper_sheet *p,
+                                        const int kinds[256], struct event_record *op);
+/* The brush that an operation makes, dips or leads; -1: none. Errors: BAD_FILE, NO_MEMORY. */
+enum paper_status history_operation_brush(const struct paper_sheet *p,
+                                          const struct event_record *op, int *brush);
+/* Whether the operation is possible on this sheet after others. *brushes: a bit for each brush that there is. Errors: BAD_FILE,
+ * NO_MEMORY. */
+enum paper_status history_operation_check(const struct paper_sheet *p,
+                                          const struct event_record *op, unsigned *brushes);
+
+/* ---- again what a journal tells (history/retell.c) ---- */
+
+/* NULL: none. */
+struct sheet_history *history_of(const struct paper_sheet *p);
+/* Lists the operation as if it had been done now; it is computed when somebody looks. Takes op over, also on failure. Errors: BAD_FILE (not
+ * possible here), NO_MEMORY. */
+enum paper_status history_retell(struct paper_sheet *p, struct event_record op, bool joined);
+/* Makes the move. Errors: BAD_FILE (not possible here), NO_MEMORY. */
+enum paper_status history_remake(struct paper_sheet *p, int move, long number);
+
 /* ---- positions (history/positions.c) ---- */
 
 /* Steps before the position; operations and steps before it. */
@@ -147,6 +180,9 @@ const struct paper_air *history_air(const struct paper_sheet *p);
 /* Destroys the sheet and its history. NULL is fine. */
 void history_sheet_destroy(struct paper_sheet *p);
 
+/* Lists an operation at `now`, which is the end of the list; *joined: as part of the last one. Takes op over, also on failure. Errors:
+ * NO_MEMORY. */
+enum paper_status history_record(struct sheet_history *h, struct event_record op, bool *joined);
 /* Records an operation that has been performed, and took op's steps; takes op over, also on failure. Errors: NO_MEMORY. */
 enum paper_status history_keep(struct paper_sheet *p, struct event_record op);
 

@@ -106,6 +106,8 @@ void history_followed(struct sheet_history *h)
 void history_moved(struct sheet_history *h, enum note_move what, long number)
 {
     struct note note = {(int)what, number, 0};
+    if (h->tell)
+        h->tell(h->tell_context, NULL, false, what, number);
     if (!history_foreseen(h, note, NULL))
         notes_add(&h->notes, note);
 }

@@ -28,6 +28,25 @@ enum { RUN_VERSION = 1, OPERATIONS_MAX = 1 << 24 };
 
 static const char magic[4] = {'L', 'R', 'U', 'N'};
 
+void history_names_put(struct event_bytes *b)
+{
+    event_put_number(b, SHEET_EVENT_KINDS, 1);
+    for (int i = 0; i < SHEET_EVENT_KINDS; i++) {
+        const char *name = sheet_event_name((enum sheet_event_kind)i);
+        event_put_number(b, strlen(name), 1);
+        event_put_bytes(b, name, strlen(name));
+    }
+}
+
+void history_operation_put(struct event_bytes *b, const struct event_record *op)
+{
+    event_put_number(b, (uint64_t)op->kind, 1);
+    event_put_number(b, (uint64_t)op->steps, 4);
+    event_put_number(b, op->raw, 8);
+    event_put_number(b, op->stored, 8);
+    event_put_bytes(b, op->bytes, op->stored);
+}
+
 enum paper_status paper_history_encode(struct paper_sheet *p, uint8_t **bytes, size_t *count)
 {
     const struct sheet_history *h = p->history;
@@ -54,25 +73,14 @@ enum paper_status paper_history_encode(struct paper_sheet *p, uint8_t **bytes, s
     sheet_air_encode(&b, &p->air);
     event_put_number(&b, (uint64_t)h->now.op, 4);
     event_put_number(&b, (uint64_t)h->now.step, 4);
-    event_put_number(&b, SHEET_EVENT_KINDS, 1);
-    for (int i = 0; i < SHEET_EVENT_KINDS; i++) {
-        const char *name = sheet_event_name((enum sheet_event_kind)i);
-        event_put_number(&b, strlen(name), 1);
-        event_put_bytes(&b, name, strlen(name));
-    }
+    history_names_put(&b);
     event_put_number(&b, extras.count, 8);
     event_put_bytes(&b, extras.at, extras.count);
     b.short_of_memory |= extras.short_of_memory;
     free(extras.at);
     event_put_number(&b, (uint64_t)ops_count, 4);
-    for (int i = 0; i < ops_count; i++) {
-        const struct event_record *op = &h->log.records[i];
-        event_put_number(&b, (uint64_t)op->kind, 1);
-        event_put_number(&b, (uint64_t)op->steps, 4);
-        event_put_number(&b, op->raw, 8);
-        event_put_number(&b, op->stored, 8);
-        event_put_bytes(&b, op->bytes, op->stored);
-    }
+    for (int i = 0; i < ops_count; i++)
+        history_operation_put(&b, &h->log.records[i]);
     notes_encode(&b, h);
     if (b.short_of_memory) {
         free(b.at);
@@ -130,8 +138,7 @@ static enum paper_status damaged(const char *what)
     return paper_fail(PAPER_BAD_FILE, "%s of the run is damaged", what);
 }
 
-/* Reads the names of the kinds that the file's numbers stand for. */
-static enum paper_status names_read(struct event_reader *r, int kinds[256])
+enum paper_status history_names_get(struct event_reader *r, int kinds[256])
 {
     int count = (int)event_get_number(r, 1);
     for (int i = 0; i < 256; i++)
@@ -145,7 +152,7 @@ static enum paper_status names_read(struct event_reader *r, int kinds[256])
     return r->bad ? damaged("the list of names") : PAPER_OK;
 }
 
-static enum paper_status operation_read(struct event_reader *r, const struct paper_sheet *p,
+enum paper_status history_operation_get(struct event_reader *r, const struct paper_sheet *p,
                                         const int kinds[256], struct event_record *op)
 {
     uint64_t kind = event_get_number(r, 1), steps = event_get_number(r, 4),
@@ -185,10 +192,18 @@ static int brush_of(enum sheet_event_kind kind, const void *arguments)
     return kind == SHEET_EVENT_STROKE ? ((const struct paper_stroke *)arguments)->number : -1;
 }
 
-/* Checks that every operation is possible on this sheet, after those before it. *brushes: a
- * bit for each brush made so far. */
-static enum paper_status operation_check(const struct paper_sheet *p,
-                                         const struct event_record *op, unsigned *brushes)
+enum paper_status history_operation_brush(const struct paper_sheet *p,
+                                          const struct event_record *op, int *brush)
+{
+    void *arguments;
+    enum paper_status status = operation_arguments(&p->config, op, &arguments);
+    *brush = status == PAPER_OK ? brush_of(operation_kind(op), arguments) : -1;
+    event_free(sheet_event_kind(operation_kind(op)), arguments);
+    return status;
+}
+
+enum paper_status history_operation_check(const struct paper_sheet *p,
+                                          const struct event_record *op, unsigned *brushes)
 {
     void *arguments;
     enum paper_status status = operation_arguments(&p->config, op, &arguments);
@@ -209,7 +224,7 @@ static enum paper_status operations_read(struct event_reader *r, struct paper_sh
     struct sheet_history *h = p->history;
     int kinds[256];
     uint64_t now_op = event_get_number(r, 4), now_step = event_get_number(r, 4);
-    enum paper_status status = names_read(r, kinds);
+    enum paper_status status = history_names_get(r, kinds);
     uint64_t extras_count = event_get_number(r, 8);
     extras->at = event_get_bytes(r, (size_t)extras_count);
     extras->end = extras->at ? extras->at + extras_count : NULL;
@@ -219,11 +234,11 @@ static enum paper_status operations_read(struct event_reader *r, struct paper_sh
         status = damaged("the list of operations");
     for (uint64_t i = 0; i < count && status == PAPER_OK; i++) {
         struct event_record op = {0};
-        status = operation_read(r, p, kinds, &op);
+        status = history_operation_get(r, p, kinds, &op);
         if (status == PAPER_OK)
             status = history_append(h, op);
         if (status == PAPER_OK)
-            status = operation_check(p, &h->log.records[h->log.count - 1], &brushes);
+            status = history_operation_check(p, &h->log.records[h->log.count - 1], &brushes);
     }
     bool noted = status == PAPER_OK && r->at != r->end;
     if (noted && !notes_decode(r, kinds, &h->notes))
