@@ -100,6 +100,10 @@ static void overflow_remember(struct machine *m, struct vpset *s, int node,
         if (!value_is_one_bit(context))
             flags_of(m, s)->overflow_needed = true;
     }
+    if (!flags_of(m, s)->overflow_begun) {
+        flags_of(m, s)->overflow_begun = true;
+        flags_of(m, s)->overflow_whole = value_is_one_bit(context);
+    }
     slot_accessed(m, &flags_of(m, s)->of[MACHINE_OVERFLOW], true);
     graph_ref(a);
     if (b)

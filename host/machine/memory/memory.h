@@ -48,8 +48,8 @@ struct lazy_overflow {
 struct flags {
     struct slot of[3]; /* by enum machine_flag */
     struct lazy_overflow overflow;
-    bool
-        overflow_needed; /* since the last evaluation one had to become a value, because the context had changed */
+    /* Since the last evaluation: the first overflow was recorded, it was everybody's, and one had to become a value, because the context had changed. */
+    bool overflow_begun, overflow_whole, overflow_needed;
 };
 
 /* Fields that were found lately: an id's line is where it is looked for first. Bases are multiples of 64. */

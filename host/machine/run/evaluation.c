@@ -282,7 +282,7 @@ static void release(struct machine *m, struct evaluation *e)
 /* ---- both halves, recorded between them and after them ---- */
 
 /* Computes recorded overflows, too: all of them; or those that will probably be needed, because the context changes before they are overwritten. Later their
- * operands would have to be kept, and computed again. */
+ * operands would have to be kept, and computed again. A turn whose first overflow is everybody's needs none of the turn before. */
 static void resolve_overflows(struct machine *m, bool all)
 {
     struct replay *p = m->run->replay;
@@ -290,13 +290,13 @@ static void resolve_overflows(struct machine *m, bool all)
         p->depth++; /* these belong to the calls before */
     for (int i = 1; i < m->values->sets_count; i++) {
         struct flags *f = &m->memory->flags[i];
-        const bool needed =
-            f->overflow.op && f->overflow_needed && f->overflow.context->op != NODE_CONSTANT;
+        const bool needed = f->overflow.op && f->overflow_needed && !f->overflow_whole &&
+                            f->overflow.context->op != NODE_CONSTANT;
         if (m->values->sets[i].used && (all || needed))
             flag_resolved(m, &m->values->sets[i], MACHINE_OVERFLOW);
         if (needed) /* and it is no temporary: a part of it is older */
             f->of[MACHINE_OVERFLOW].overwritten_first = false;
-        f->overflow_needed = false;
+        f->overflow_begun = f->overflow_whole = f->overflow_needed = false;
     }
     if (p)
         p->depth--;
