@@ -2,15 +2,14 @@
 #include "setup.h"
 
 #include "emphasis.h"
+#include "family.h"
 #include "page_internal.h"
 
 #include <ctype.h>
-#include <edits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 enum look {
     ROMAN,
@@ -67,51 +66,15 @@ const char *page_part_name(enum page_part part)
     return names[part];
 }
 
-/* The face's other file, where it lies beside it under such a name: one family may have several sizes of each. */
-static bool file_beside(const char *path, const char *kind, char *room, size_t bytes)
-{
-    static const char *const plain[] = {"Regular", "Roman", "Book"};
-    for (size_t i = 0; i < sizeof plain / sizeof *plain; i++) {
-        const char *at = strstr(path, plain[i]);
-        struct stat about;
-        int n = at ? snprintf(room, bytes, "%.*s%s%s", (int)(at - path), path, kind,
-                              at + strlen(plain[i]))
-                   : -1;
-        if (n > 0 && (size_t)n < bytes && stat(room, &about) == 0 && S_ISREG(about.st_mode))
-            return true;
-    }
-    return false;
-}
-
-/* The family's slanted or bold face ("Italic", "Bold"), or the font itself where the family has none. */
-static const char *family_face(const struct page_setup *s, const char *kind, char *room,
-                               size_t bytes)
-{
-    struct font_face *face;
-    struct font_face_info info;
-    if (font_edits_open(s->font, 0, false, &face) != FONT_OK)
-        return s->font;
-    font_face_describe(face, &info);
-    bool found = file_beside(info.path, kind, room, bytes);
-    if (!found) {
-        bool bold = strcmp(kind, "Bold") == 0;
-        int n = snprintf(room, bytes, "%s:%s", info.family, bold ? "bold" : "italic:weight=80");
-        char *path = n > 0 && (size_t)n < bytes ? font_face_find(room, NULL) : NULL;
-        found = path != NULL;
-        free(path);
-    }
-    font_face_close(face);
-    return found ? room : s->font;
-}
-
 static enum font_status styles_make(struct making *m)
 {
     const struct page_setup *s = m->setup;
-    const char *italic =
-        s->italic ? s->italic
-                  : family_face(s, "Italic", m->family_italic, sizeof m->family_italic);
+    const char *italic = s->italic ? s->italic
+                                   : page_family_face(s->font, "Italic", m->family_italic,
+                                                      sizeof m->family_italic);
     const char *bold =
-        s->bold ? s->bold : family_face(s, "Bold", m->family_bold, sizeof m->family_bold);
+        s->bold ? s->bold
+                : page_family_face(s->font, "Bold", m->family_bold, sizeof m->family_bold);
     const struct {
         const char *font;
         double size, raise;

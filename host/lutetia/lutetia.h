@@ -31,6 +31,7 @@ int verb_debug(int argc, char **argv);
 int verb_tune(int argc, char **argv);
 int verb_type(int argc, char **argv);
 int verb_set(int argc, char **argv);
+int verb_read(int argc, char **argv);
 int verb_font(int argc, char **argv);
 int verb_run(int argc, char **argv);
 int verb_spring(int argc, char **argv);

@@ -18,6 +18,8 @@ static const struct {
     {"paint", verb_paint, "\"Text\" [-o out.png]", "set type or a bitmap in ink on wet paper"},
     {"type", verb_type, "\"Text\" [-o out.png]", "set type at any size, place and angle"},
     {"set", verb_set, "FILE [-o page.png]", "set a text as pages: columns, notes, shapes"},
+    {"read", verb_read, "FILE.md... [-o read.pdf]",
+     "set Markdown as pages: notes, tables, formulas"},
     {"font", verb_font, "FILE [-o out.png]", "show a font, its glyphs at each level, filters"},
     {"spring", verb_spring, "\"word\"", "a word on springs, in a window, stills and films"},
     {"voice", verb_voice, "SOUND \"Text\"", "letters that a voice plays: poster, frames, film"},

@@ -136,6 +136,29 @@ const struct page pages_of_pictures[] = {
            "text that leaves an ellipse free"}},
      .files = "/usr/share/doc/lutetia/examples/pages: texts to begin with",
      .see = "lutetia-type(1), lutetia-font(1), fc-list(1)"},
+    {.verb = "read",
+     .usages = "FILE.md... [options]",
+     .about =
+         "Sets Markdown as pages: CommonMark with GitHub's tables, tasks, struck words, links "
+         "and notes, and formulas in TeX's notation. Several files are one document. The "
+         "ending "
+         "of --out says the kind of file: .png, .svg or .pdf; a PDF has all pages, its text "
+         "tagged, its headings as outline. FILE may be - for what is piped in.",
+     .notes =
+         "$x^2$ is a formula within a line; $$x^2$$, or a fence ```math, one on lines of its "
+         "own. What it does not know is shown as it is written. [^name] calls a note, which "
+         "[^name]: defines; notes of the class [^margin:name] stand in the margin that --notes "
+         "makes. A table whose columns have no room beside each other is set row by row. "
+         "Pictures are told by captions and file names; fences that will live (```lua live, "
+         "```c paris) are shown.\n"
+         "In PDF a pixel is a point, 1/72 inch: A4 is --paper 595x842.\n" FONTS,
+     .examples =
+         {{"lutetia read notes.md -o notes.pdf", "one PDF of all pages"},
+          {"lutetia read one.md two.md --paper 595x842 --columns 2 --size 11 -o both.pdf",
+           "two files as one document on A4"},
+          {"echo 'The *water* is $x^2$ deep.' | lutetia read - --plain -o page.png",
+           "what is piped in"}},
+     .see = "lutetia-set(1), lutetia-type(1)"},
     {.verb = "font",
      .usages = "FILE [options]\nFILE --glyph G [options]\nFILE --edits DIR [--glyph G [--write "
                "LEVEL]] [options]\nFILE --proof WORD [options]\nFILE --waterfall AXIS "

@@ -3,10 +3,9 @@
 #include "lutetia.h"
 #include "options.h"
 #include "type_common.h"
+#include "type_pages.h"
 
-#include <document.h>
-#include <input_file.h>
-#include <output_file.h>
+#include <paint.h>
 #include <setup.h>
 
 #include <math.h>
@@ -14,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { TEXT_BYTES_MAX = 64 << 20, ROUND_CORNERS = 72 };
+enum { ROUND_CORNERS = 72 };
 
 struct set {
     const char *out_path, *font, *edits, *italic, *bold, *language, *features, *filter, *align,
@@ -25,7 +24,6 @@ struct set {
     int page_px[2], columns, page;
     struct option_list around, inside;
     bool all, hyphenate, vertical, statistics, folios, grid;
-    struct font_layout lacking; /* only its missing characters: of all pages that were drawn */
     struct page_setup setup;
     struct option_texts filters;
     struct page_shape shapes[PAGE_SHAPES_MAX];
@@ -126,37 +124,6 @@ static int set_options(struct set *s, int argc, char **argv, const char **path, 
     return EXIT_SUCCESS;
 }
 
-static int text_read(const char *path, char **text, size_t *bytes)
-{
-    const char *why = "";
-    bool piped = strcmp(path, "-") == 0;
-    FILE *file = piped ? stdin : input_file_open(path, &why);
-    size_t room = 0;
-    *text = NULL;
-    *bytes = 0;
-    if (!file)
-        return fail("set", "%s: %s", path, why);
-    for (;;) {
-        if (*bytes == room) {
-            room = room ? 2 * room : 65536;
-            char *more = room <= TEXT_BYTES_MAX ? realloc(*text, room) : NULL;
-            if (!more)
-                break;
-            *text = more;
-        }
-        size_t got = fread(*text + *bytes, 1, room - *bytes, file);
-        *bytes += got;
-        if (!got)
-            break;
-    }
-    bool good = *text && *bytes < room && !ferror(file);
-    if (!piped)
-        fclose(file);
-    return good ? EXIT_SUCCESS
-                : fail("set", "%s cannot be read whole; a text has up to %d MB", path,
-                       TEXT_BYTES_MAX >> 20);
-}
-
 static int shapes_make(struct set *s)
 {
     const struct option_list *lists[2] = {&s->around, &s->inside};
@@ -182,192 +149,6 @@ static int shapes_make(struct set *s)
         }
     s->setup.shapes = s->shapes;
     return EXIT_SUCCESS;
-}
-
-static void lacking_add(struct set *s, const struct font_layout *layout)
-{
-    for (int i = 0; i < layout->missing_count && i < FONT_MISSING_MAX; i++)
-        font_layout_missing_add(&s->lacking, layout->missing[i]);
-    s->lacking.missing_count += layout->missing_count > FONT_MISSING_MAX; /* more than named */
-}
-
-/* What PDF and SVG are made of. Owns: the caller finishes both. */
-static int page_said(struct set *s, struct page_text *text, int page,
-                     struct font_layout *layout, struct page_said *said,
-                     struct font_drawing *drawing)
-{
-    if (page_layout_said(text, page, layout, said) != FONT_OK)
-        return fail_font("set");
-    lacking_add(s, layout);
-    *drawing = (struct font_drawing){.width_px = s->page_px[0],
-                                     .height_px = s->page_px[1],
-                                     .ink = {s->ink[0], s->ink[1], s->ink[2]},
-                                     .text = said->utf8,
-                                     .bytes = said->bytes,
-                                     .passages = said->passages,
-                                     .passages_count = said->passages_count,
-                                     .language = s->language    ? s->language
-                                                 : s->hyphenate ? "en"
-                                                                : NULL};
-    return EXIT_SUCCESS;
-}
-
-/* The title of a PDF: what was asked for, else the first heading. Owns: the caller frees it; NULL: there is none. */
-static char *title_of(const struct set *s, const struct page_said *said)
-{
-    for (int i = 0; !s->title && i < said->passages_count; i++) {
-        const struct font_passage *p = &said->passages[i];
-        if (p->role == FONT_ROLE_HEADING) /* without the end of its line */
-            return strndup(said->utf8 + p->begin, p->end - p->begin - 1);
-    }
-    return s->title ? strdup(s->title) : NULL;
-}
-
-static int page_write(struct set *s, struct page_text *text, int page, const char *path)
-{
-    struct font_layout layout;
-    struct page_said said;
-    struct font_drawing drawing;
-    int status = page_said(s, text, page, &layout, &said, &drawing);
-    if (status != EXIT_SUCCESS)
-        return status;
-    char *title = title_of(s, &said);
-    drawing.title = title;
-    status = type_drawing_write("set", path, &drawing, &layout, NULL, 0, 0);
-    font_layout_finish(&layout);
-    page_said_finish(&said);
-    free(title);
-    return status;
-}
-
-/* All pages as one PDF, its title the first one's. */
-static int book_make(struct set *s, struct page_text *text, int count,
-                     struct font_document **book)
-{
-    int status = EXIT_SUCCESS;
-    for (int i = 0; i < count && status == EXIT_SUCCESS; i++) {
-        struct font_layout layout;
-        struct page_said said;
-        struct font_drawing drawing;
-        if (interrupted()) {
-            fail("set", "interrupted at page %d of %d", i + 1, count);
-            return EXIT_INTERRUPTED;
-        }
-        status = page_said(s, text, i, &layout, &said, &drawing);
-        if (status != EXIT_SUCCESS)
-            return status;
-        if (!*book) {
-            char *title = title_of(s, &said);
-            const struct font_document_def def = {.title = title, .language = drawing.language};
-            if (font_document_create(&def, book) != FONT_OK)
-                status = fail_font("set");
-            free(title);
-        }
-        if (status == EXIT_SUCCESS &&
-            font_document_page(*book, &drawing, &layout, NULL, 0, 0) != FONT_OK)
-            status = fail_font("set");
-        font_layout_finish(&layout);
-        page_said_finish(&said);
-    }
-    return status;
-}
-
-static int book_write(struct set *s, struct page_text *text, int count)
-{
-    struct font_document *book = NULL;
-    struct output_file out;
-    int status = book_make(s, text, count, &book);
-    if (status == EXIT_SUCCESS && !output_file_open(&out, s->out_path)) {
-        status = fail("set", "%s: cannot write: %s", s->out_path, out.why);
-    } else if (status == EXIT_SUCCESS && font_document_write(book, out.stream) != FONT_OK) {
-        output_file_abandon(&out);
-        status = fail_font("set");
-    } else if (status == EXIT_SUCCESS && !output_file_commit(&out)) {
-        status = fail("set", "%s: cannot write: %s", s->out_path, out.why);
-    }
-    font_document_destroy(book);
-    return status;
-}
-
-static int page_draw(struct set *s, struct page_text *text, int page, const char *path)
-{
-    struct font_painter_def def = font_painter_def_default();
-    struct font_painter *painter = NULL;
-    struct font_layout layout = {0};
-    struct display_image image = {0};
-    if (type_out_of(path) != TYPE_OUT_PNG)
-        return page_write(s, text, page, path);
-    def.filter = s->filter;
-    def.darken_px = s->darken_px;
-    memcpy(def.ink, s->ink, sizeof def.ink);
-    int status = EXIT_SUCCESS;
-    if (page_layout(text, page, &layout) != FONT_OK ||
-        font_painter_create(&def, &painter) != FONT_OK)
-        status = fail_font("set");
-    lacking_add(s, &layout);
-    if (status == EXIT_SUCCESS)
-        status = type_image_create("set", s->page_px[0], s->page_px[1], &image);
-    struct font_picture picture = type_picture(&image);
-    if (status == EXIT_SUCCESS &&
-        font_painter_layout(painter, &layout, NULL, 0, 0, &picture) != FONT_OK)
-        status = fail_font("set");
-    if (status == EXIT_SUCCESS)
-        status = type_image_write("set", path, &image);
-    display_image_destroy(&image);
-    font_layout_finish(&layout);
-    font_painter_destroy(painter);
-    return status;
-}
-
-/* page.png becomes page-12.png. */
-static char *numbered(const char *path, int number)
-{
-    const char *base = strrchr(path, '/'), *ending = strrchr(base ? base : path, '.');
-    size_t stem = ending ? (size_t)(ending - path) : strlen(path), room = strlen(path) + 16;
-    char *name = malloc(room);
-    if (name)
-        snprintf(name, room, "%.*s-%d%s", (int)stem, path, number, ending ? ending : "");
-    return name;
-}
-
-/* Each in a file of its own. */
-static int pages_draw_each(struct set *s, struct page_text *text, int count)
-{
-    int status = EXIT_SUCCESS;
-    interrupt_catch(); /* no page is left half written */
-    for (int i = 0; i < count && status == EXIT_SUCCESS; i++) {
-        if (interrupted()) {
-            fail("set", "interrupted before page %d of %d", i + 1, count);
-            return EXIT_INTERRUPTED;
-        }
-        char *name = numbered(s->out_path, i + 1);
-        status = name ? page_draw(s, text, i, name) : fail("set", "no memory");
-        free(name);
-    }
-    return status;
-}
-
-static int pages_draw(struct set *s, struct page_text *text)
-{
-    bool book = type_out_of(s->out_path) == TYPE_OUT_PDF && !s->page && !s->all;
-    int count = 0, status = EXIT_SUCCESS;
-    if ((s->all || s->statistics || book) && page_count(text, &count) != FONT_OK)
-        return fail_font("set");
-    if (book) {
-        interrupt_catch();
-        status = book_write(s, text, count);
-    } else if (s->all) {
-        status = pages_draw_each(s, text, count);
-    } else {
-        status = page_draw(s, text, s->page ? s->page - 1 : 0, s->out_path);
-    }
-    if (status == EXIT_SUCCESS && s->statistics) {
-        struct page_stats stats;
-        page_stats_get(text, &stats);
-        printf("%d pages; %ld paragraphs; %d lines that nothing fits; %.1f MB\n", count,
-               stats.paragraphs_broken, stats.lines_overfull, (double)stats.bytes * 1e-6);
-    }
-    return status;
 }
 
 /* note=cone */
@@ -434,6 +215,23 @@ static struct page_setup setup_of(const struct set *s)
                                .tolerance = s->tolerance};
 }
 
+static struct type_pages written_of(const struct set *s)
+{
+    return (struct type_pages){.verb = "set",
+                               .out_path = s->out_path,
+                               .title = s->title,
+                               .language = s->language    ? s->language
+                                           : s->hyphenate ? "en"
+                                                          : NULL,
+                               .filter = s->filter,
+                               .ink = {s->ink[0], s->ink[1], s->ink[2]},
+                               .darken_px = s->darken_px,
+                               .page_px = {s->page_px[0], s->page_px[1]},
+                               .page = s->page,
+                               .all = s->all,
+                               .statistics = s->statistics};
+}
+
 int verb_set(int argc, char **argv)
 {
     static struct set s; /* its lists are large */
@@ -470,12 +268,13 @@ int verb_set(int argc, char **argv)
     if (status == EXIT_SUCCESS)
         status = shapes_make(&s);
     if (status == EXIT_SUCCESS)
-        status = text_read(path, &text, &bytes);
+        status = type_text_read("set", path, &text, &bytes);
     struct page_text *pages = NULL;
+    struct type_pages written = written_of(&s);
     if (status == EXIT_SUCCESS && page_setup_make(&s.setup, text, bytes, &pages) != FONT_OK)
         status = fail_font("set");
     if (status == EXIT_SUCCESS)
-        status = pages_draw(&s, pages);
+        status = type_pages_write(&written, pages);
     int damaged = status == EXIT_SUCCESS ? font_utf8_damaged(text, bytes) : 0;
     if (damaged)
         tell("set", "the text is not UTF-8 in %d places; U+FFFD stands there", damaged);
@@ -485,7 +284,7 @@ int verb_set(int argc, char **argv)
              "hyphen-fr): none is divided",
              s.language ? s.language : "en");
     if (status == EXIT_SUCCESS)
-        type_missing_tell("set", s.font, &s.lacking);
+        type_missing_tell("set", s.font, &written.lacking);
     type_left_out_tell("set");
     page_text_destroy(pages);
     free(text);

@@ -212,6 +212,48 @@ static void formulas_are_set(void **state)
     }
 }
 
+/* Markdown as one PDF, as a picture, several files as one document; without cmark-gfm a line says what to install. */
+static void markdown_is_read(void **state)
+{
+    (void)state;
+    const char *one = scratch_path("one.md"), *two = scratch_path("two.md"),
+               *pdf = scratch_path("read.pdf"), *png = scratch_path("read.png");
+    FILE *out = fopen(one, "w");
+    assert_non_null(out);
+    fputs("# One\n\nIt is *very* $x^2$ deep[^1].\n\n[^1]: By night.\n", out);
+    fclose(out);
+    out = fopen(two, "w");
+    assert_non_null(out);
+    fputs("# Two\n\n$\\foo$\n", out);
+    fclose(out);
+    struct child book = {.arguments = {"", "read", one, two, "--statistics", "-o", pdf}};
+    book.arguments[0] = lutetia;
+    child_run(&book);
+    if (book.status == 1 && strstr(book.errors, "libcmark-gfm-dev")) {
+        unlink(one);
+        unlink(two);
+        return;
+    }
+    assert_int_equal(book.status, 0);
+    assert_non_null(strstr(book.output, "1 pages"));
+    assert_non_null(strstr(book.errors, "'\\foo' is no command"));
+    int width, height;
+    struct child page = {.arguments = {"", "read", one, "--paper", "300x200", "--margin", "20",
+                                       "--size", "12", "-o", png}};
+    run(&page, 0, "");
+    assert_true(ink_of(png, &width, &height) > 100 && width == 300 && height == 200);
+    struct child small = {.arguments = {"", "read", one, "--paper", "60x60", "-o", png}};
+    run(&small, 1, "are too small");
+    struct child nothing = {.arguments = {"", "read", "/nowhere.md", "-o", png}};
+    run(&nothing, 1, "/nowhere.md: ");
+    struct child kind = {.arguments = {"", "read", one, "-o", "read.jpg"}};
+    run(&kind, 2, "-o names a picture");
+    unlink(one);
+    unlink(two);
+    unlink(pdf);
+    unlink(png);
+}
+
 static void fonts_and_filters_are_shown(void **state)
 {
     (void)state;
@@ -410,6 +452,7 @@ int main(void)
         cmocka_unit_test(lines_are_broken_to_fit),
         cmocka_unit_test(comparisons_are_shown),
         cmocka_unit_test(formulas_are_set),
+        cmocka_unit_test(markdown_is_read),
         cmocka_unit_test(fonts_and_filters_are_shown),
         cmocka_unit_test(proofs_and_versions_are_shown),
         cmocka_unit_test(wrong_lines_are_said),

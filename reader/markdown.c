@@ -1,0 +1,423 @@
+/* markdown.c - Markdown by cmark-gfm, its tree as blocks: see reader_document.h. */
+#include "builder.h"
+
+#include <cmark-gfm-core-extensions.h>
+#include <cmark-gfm.h>
+
+#include <ctype.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A list that the walk is in: the number of its next item; -1: bullets. */
+struct list {
+    long next;
+    bool bracket; /* 1) */
+};
+
+struct walk {
+    struct reader_builder b;
+    const int *lines; /* where each line of the source begins */
+    int lines_count;
+    int slanted, heavy, struck;
+    const char *link, *around; /* where letters lead to; and those around a picture */
+    struct list *lists;
+    int lists_count, lists_capacity;
+    int notes_before; /* of other sources */
+    cmark_node *table;
+};
+
+static bool is_type(cmark_node *node, const char *type)
+{
+    return strcmp(cmark_node_get_type_string(node), type) == 0;
+}
+
+static unsigned look_of(const struct walk *w)
+{
+    return (w->slanted ? (unsigned)READER_SLANTED : 0) |
+           (w->heavy ? (unsigned)READER_HEAVY : 0) | (w->struck ? (unsigned)READER_STRUCK : 0) |
+           (w->link ? (unsigned)READER_LINK : 0);
+}
+
+static void open_block(struct walk *w, enum reader_kind kind, cmark_node *node)
+{
+    reader_block_open(&w->b, kind, cmark_node_get_start_line(node),
+                      cmark_node_get_end_line(node));
+}
+
+static char *copy_of(struct walk *w, const char *text)
+{
+    char *copy = text && *text ? strdup(text) : NULL;
+    if (text && *text && !copy)
+        reader_builder_fail(&w->b);
+    return copy;
+}
+
+/* ---- blocks ---- */
+
+/* The last line's end of what was read as it is. */
+static void last_line_end_drop(struct reader_block *block)
+{
+    if (!block->bytes || block->text[block->bytes - 1] != '\n')
+        return;
+    block->text[--block->bytes] = '\0';
+    block->spans[block->spans_count - 1].end = block->bytes;
+}
+
+static void code_read(struct walk *w, cmark_node *node)
+{
+    const char *info = cmark_node_get_fence_info(node);
+    size_t first = strcspn(info ? info : "", " \t");
+    bool live =
+        info &&
+        ((strncmp(info, "lua", first) == 0 && first == 3 && strstr(info + first, "live")) ||
+         (first == 1 && *info == 'c' && strstr(info + first, "paris")));
+    bool math = info && first == 4 && strncmp(info, "math", 4) == 0;
+    open_block(w, math ? READER_MATH : live ? READER_LIVE : READER_CODE_BLOCK, node);
+    w->b.block.info = copy_of(w, info);
+    reader_code_add(&w->b, cmark_node_get_literal(node), math ? READER_FORMULA : READER_CODE);
+    if (w->b.status == READER_OK)
+        last_line_end_drop(&w->b.block);
+    reader_block_close(&w->b);
+}
+
+/* A picture that is all of its paragraph. */
+static bool is_picture(cmark_node *paragraph)
+{
+    cmark_node *child = cmark_node_first_child(paragraph);
+    return child && cmark_node_get_type(child) == CMARK_NODE_IMAGE && !cmark_node_next(child);
+}
+
+static void html_read(struct walk *w, cmark_node *node)
+{
+    const char *text = cmark_node_get_literal(node);
+    if (text && strncmp(text, "<!--", 4) == 0)
+        return;
+    open_block(w, READER_HTML, node);
+    reader_code_add(&w->b, text, READER_CODE);
+    if (w->b.status == READER_OK)
+        last_line_end_drop(&w->b.block);
+    reader_block_close(&w->b);
+}
+
+/* Its number or bullet; a task's box. */
+static void item_begin(struct walk *w, cmark_node *node)
+{
+    struct list *list = w->lists_count ? &w->lists[w->lists_count - 1] : NULL;
+    char marker[32] = "\xe2\x80\xa2";
+    if (list && list->next >= 0)
+        snprintf(marker, sizeof marker, "%ld%c", list->next++, list->bracket ? ')' : '.');
+    if (is_type(node, "tasklist"))
+        snprintf(marker, sizeof marker, "%s",
+                 cmark_gfm_extensions_get_tasklist_item_checked(node) ? "\xe2\x98\x91"
+                                                                      : "\xe2\x98\x90");
+    reader_marker_set(&w->b, marker, cmark_node_get_start_line(node));
+}
+
+static void list_begin(struct walk *w, cmark_node *node)
+{
+    struct list list = {.next = -1};
+    if (cmark_node_get_list_type(node) == CMARK_ORDERED_LIST)
+        list = (struct list){cmark_node_get_list_start(node),
+                             cmark_node_get_list_delim(node) == CMARK_PAREN_DELIM};
+    if (!array_reserve(&w->lists, &w->lists_capacity, w->lists_count + 1, sizeof *w->lists)) {
+        reader_builder_fail(&w->b);
+        return;
+    }
+    w->lists[w->lists_count++] = list;
+    w->b.items++;
+}
+
+/* What is left when one ends: an item without a block has an empty one. */
+static void marker_flush(struct walk *w, cmark_node *node)
+{
+    if (!w->b.marker)
+        return;
+    open_block(w, READER_PARAGRAPH, node);
+    reader_block_close(&w->b);
+}
+
+static void row_begin(struct walk *w, cmark_node *node, bool head)
+{
+    struct reader_block *block = &w->b.block;
+    int columns = cmark_gfm_extensions_get_table_columns(w->table);
+    const uint8_t *aligns = cmark_gfm_extensions_get_table_alignments(w->table);
+    open_block(w, READER_ROW, node);
+    block->table = w->b.document->tables_count - 1;
+    block->head = head;
+    block->columns = columns;
+    for (int i = 0; i < READER_COLUMNS_MAX; i++)
+        block->aligns[i] = i < columns && aligns && aligns[i] ? (char)aligns[i] : 'l';
+}
+
+/* A note's name stands before its definition's first letter: [^margin:name]: */
+static void note_begin(struct walk *w, cmark_node *node)
+{
+    struct reader_document *d = w->b.document;
+    struct reader_note note = {.first_block = d->note_blocks_count};
+    int line = cmark_node_get_start_line(node);
+    const char *at = "", *end = at;
+    if (d->notes_count == READER_NOTES_MAX) {
+        w->b.status =
+            reader_fail(READER_TOO_LARGE, "a document has up to %d notes", READER_NOTES_MAX);
+        return;
+    }
+    if (line >= 1 && line <= w->lines_count) {
+        const char *from = w->b.source + w->lines[line - 1];
+        const char *sign = strstr(from, "[^"), *close = sign ? strstr(sign, "]:") : NULL;
+        const char *stop = strchr(from, '\n');
+        if (close && (!stop || close < stop)) {
+            at = sign + 2;
+            end = close;
+        }
+    }
+    const char *colon = memchr(at, ':', (size_t)(end - at));
+    note.class = colon ? strndup(at, (size_t)(colon - at)) : strdup("");
+    at = colon ? colon + 1 : at;
+    note.name = strndup(at, (size_t)(end - at));
+    if (!note.name || !note.class ||
+        !array_reserve(&d->notes, &d->notes_capacity, d->notes_count + 1, sizeof *d->notes)) {
+        free(note.name);
+        free(note.class);
+        reader_builder_fail(&w->b);
+        return;
+    }
+    reader_block_close(&w->b);
+    d->notes[d->notes_count++] = note;
+    w->b.in_note = true;
+}
+
+/* ---- letters ---- */
+
+static void code_span_read(struct walk *w, cmark_node *node)
+{
+    reader_code_add(&w->b, cmark_node_get_literal(node), look_of(w) | READER_CODE);
+}
+
+/* A picture among letters is its caption, which leads to its file. */
+static void picture_enter(struct walk *w, cmark_node *node)
+{
+    w->slanted++;
+    w->around = w->link;
+    if (w->b.block.kind != READER_PICTURE)
+        w->link = cmark_node_get_url(node);
+}
+
+static void inline_enter(struct walk *w, cmark_node *node)
+{
+    struct reader_builder *b = &w->b;
+    cmark_node_type type = cmark_node_get_type(node);
+    const char *text = cmark_node_get_literal(node);
+    if (type == CMARK_NODE_TEXT)
+        reader_text_add(b, text, look_of(w), w->link);
+    else if (type == CMARK_NODE_SOFTBREAK)
+        reader_text_add(b, " ", look_of(w), w->link);
+    else if (type == CMARK_NODE_LINEBREAK)
+        reader_text_add(b, b->block.kind == READER_ROW ? " " : "\n", look_of(w), w->link);
+    else if (type == CMARK_NODE_CODE)
+        code_span_read(w, node);
+    else if (type == CMARK_NODE_HTML_INLINE && strncmp(text, "<!--", 4) != 0)
+        reader_text_add(b, text, look_of(w) | READER_CODE, NULL);
+    else if (type == CMARK_NODE_FOOTNOTE_REFERENCE && text)
+        reader_number_add(b, w->notes_before + atoi(text));
+    else if (type == CMARK_NODE_EMPH)
+        w->slanted++;
+    else if (type == CMARK_NODE_STRONG)
+        w->heavy++;
+    else if (type == CMARK_NODE_LINK)
+        w->link = cmark_node_get_url(node);
+    else if (type == CMARK_NODE_IMAGE)
+        picture_enter(w, node);
+    else if (is_type(node, "strikethrough"))
+        w->struck++;
+}
+
+static void inline_leave(struct walk *w, cmark_node *node)
+{
+    cmark_node_type type = cmark_node_get_type(node);
+    if (type == CMARK_NODE_EMPH || type == CMARK_NODE_IMAGE)
+        w->slanted--;
+    if (type == CMARK_NODE_IMAGE)
+        w->link = w->around;
+    else if (type == CMARK_NODE_STRONG)
+        w->heavy--;
+    else if (type == CMARK_NODE_LINK)
+        w->link = NULL;
+    else if (is_type(node, "strikethrough"))
+        w->struck--;
+}
+
+/* ---- the walk ---- */
+
+static bool table_enter(struct walk *w, cmark_node *node)
+{
+    if (is_type(node, "table")) {
+        w->b.document->tables_count++;
+        w->table = node;
+    } else if (is_type(node, "table_header") || is_type(node, "table_row")) {
+        row_begin(w, node, is_type(node, "table_header"));
+    } else if (is_type(node, "table_cell")) {
+        if (cmark_node_previous(node))
+            reader_cell_end(&w->b);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+static void block_enter(struct walk *w, cmark_node *node)
+{
+    cmark_node_type type = cmark_node_get_type(node);
+    if (table_enter(w, node))
+        return;
+    if (type == CMARK_NODE_PARAGRAPH) {
+        bool picture = is_picture(node);
+        open_block(w, picture ? READER_PICTURE : READER_PARAGRAPH, node);
+        if (picture)
+            w->b.block.target = copy_of(w, cmark_node_get_url(cmark_node_first_child(node)));
+    } else if (type == CMARK_NODE_HEADING) {
+        open_block(w, READER_HEADING, node);
+        w->b.block.level = cmark_node_get_heading_level(node);
+    } else if (type == CMARK_NODE_CODE_BLOCK) {
+        code_read(w, node);
+    } else if (type == CMARK_NODE_HTML_BLOCK) {
+        html_read(w, node);
+    } else if (type == CMARK_NODE_THEMATIC_BREAK) {
+        open_block(w, READER_RULE, node);
+        reader_block_close(&w->b);
+    } else if (type == CMARK_NODE_LIST) {
+        list_begin(w, node);
+    } else if (type == CMARK_NODE_ITEM || is_type(node, "tasklist")) {
+        item_begin(w, node);
+    } else if (type == CMARK_NODE_BLOCK_QUOTE) {
+        w->b.quotes++;
+    } else if (type == CMARK_NODE_FOOTNOTE_DEFINITION) {
+        note_begin(w, node);
+    }
+}
+
+static void block_leave(struct walk *w, cmark_node *node)
+{
+    cmark_node_type type = cmark_node_get_type(node);
+    if (type == CMARK_NODE_LIST) {
+        w->lists_count -= w->lists_count > 0;
+        w->b.items--;
+    } else if (type == CMARK_NODE_ITEM || is_type(node, "tasklist")) {
+        marker_flush(w, node);
+    } else if (type == CMARK_NODE_BLOCK_QUOTE) {
+        w->b.quotes--;
+    } else if (type == CMARK_NODE_FOOTNOTE_DEFINITION) {
+        w->b.in_note = false;
+    } else if (!is_type(node, "table_cell") && !is_type(node, "table")) {
+        reader_block_close(&w->b);
+    }
+}
+
+static bool is_inline(cmark_node *node)
+{
+    return (cmark_node_get_type(node) & CMARK_NODE_TYPE_MASK) == CMARK_NODE_TYPE_INLINE;
+}
+
+static void tree_walk(struct walk *w, cmark_node *root)
+{
+    cmark_iter *iter = cmark_iter_new(root);
+    cmark_event_type event;
+    while (w->b.status == READER_OK && (event = cmark_iter_next(iter)) != CMARK_EVENT_DONE) {
+        cmark_node *node = cmark_iter_get_node(iter);
+        if (is_inline(node) && !is_type(node, "table_cell"))
+            (event == CMARK_EVENT_ENTER ? inline_enter : inline_leave)(w, node);
+        else if (event == CMARK_EVENT_ENTER)
+            block_enter(w, node);
+        else
+            block_leave(w, node);
+    }
+    cmark_iter_free(iter);
+    reader_block_close(&w->b);
+}
+
+static void register_once(void)
+{
+    cmark_gfm_core_extensions_ensure_registered();
+}
+
+/* Owns: the caller frees it. */
+static cmark_node *tree_make(const char *masked, size_t bytes)
+{
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    static const char *const extensions[] = {"table", "strikethrough", "autolink", "tasklist"};
+    pthread_once(&once, register_once);
+    cmark_parser *parser = cmark_parser_new(CMARK_OPT_FOOTNOTES | CMARK_OPT_VALIDATE_UTF8);
+    for (size_t i = 0; i < sizeof extensions / sizeof *extensions; i++) {
+        cmark_syntax_extension *extension = cmark_find_syntax_extension(extensions[i]);
+        if (extension)
+            cmark_parser_attach_syntax_extension(parser, extension);
+    }
+    cmark_parser_feed(parser, masked, bytes);
+    cmark_node *root = cmark_parser_finish(parser);
+    cmark_parser_free(parser);
+    return root;
+}
+
+static int *lines_find(const char *source, int bytes, int *count)
+{
+    int lines = 1;
+    for (int i = 0; i < bytes; i++)
+        lines += source[i] == '\n';
+    int *begins = malloc((size_t)lines * sizeof *begins);
+    *count = 0;
+    if (!begins)
+        return NULL;
+    begins[(*count)++] = 0;
+    for (int i = 0; i < bytes; i++)
+        if (source[i] == '\n')
+            begins[(*count)++] = i + 1;
+    return begins;
+}
+
+/* A copy that ends, without zeros. Owns: the caller frees it. */
+static char *source_copy(const char *utf8, size_t bytes)
+{
+    char *source = malloc(bytes + 1);
+    if (!source)
+        return NULL;
+    memcpy(source, utf8, bytes);
+    source[bytes] = '\0';
+    for (size_t i = 0; i < bytes; i++)
+        if (!source[i])
+            source[i] = ' ';
+    return source;
+}
+
+enum reader_status reader_document_add(struct reader_document *d, const char *utf8,
+                                       size_t bytes)
+{
+    struct reader_mask mask = {0};
+    struct walk w = {.b.status = READER_OK, .notes_before = d->notes_count};
+    if (bytes > READER_BYTES_MAX)
+        return reader_fail(READER_TOO_LARGE, "a document has up to %d MB (this one has %zu)",
+                           READER_BYTES_MAX >> 20, bytes >> 20);
+    char *source = source_copy(utf8, bytes);
+    int *lines = source ? lines_find(source, (int)bytes, &w.lines_count) : NULL;
+    w.b.document = d;
+    w.b.source = source;
+    w.b.mask = &mask;
+    w.lines = lines;
+    if (!lines)
+        reader_builder_fail(&w.b);
+    if (w.b.status == READER_OK)
+        w.b.status = reader_mask_make(source, (int)bytes, &mask);
+    if (w.b.status == READER_OK) {
+        cmark_node *root = tree_make(mask.masked, bytes);
+        tree_walk(&w, root);
+        cmark_node_free(root);
+        d->sources_count++;
+    }
+    reader_block_finish(&w.b.block);
+    reader_mask_finish(&mask);
+    free(w.b.marker);
+    free(w.lists);
+    free(lines);
+    free(source);
+    return w.b.status;
+}

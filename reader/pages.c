@@ -1,0 +1,359 @@
+/* pages.c - see reader_pages.h. */
+#include "pages_internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct reader_pages_setup reader_pages_setup_default(void)
+{
+    static const char *const serif[] = {"EBGaramond12-Regular", "DejaVuSerif", NULL};
+    return (struct reader_pages_setup){.font = font_face_first(serif),
+                                       .mono = "DejaVuSansMono",
+                                       .size_px = 17,
+                                       .leading = 1.3,
+                                       .width_px = 600,
+                                       .height_px = 840,
+                                       .margin_px = 64,
+                                       .gap_px = 24,
+                                       .columns = 1,
+                                       .align = FONT_ALIGN_JUSTIFY,
+                                       .hyphenate = true,
+                                       .running = true};
+}
+
+struct page_text *reader_pages_text(struct reader_pages *pages)
+{
+    return pages->text;
+}
+
+bool reader_pages_lacks_math(const struct reader_pages *pages)
+{
+    return pages->math_missing;
+}
+
+const char *reader_pages_unknown(const struct reader_pages *pages, int *count)
+{
+    *count = pages->unknown_count;
+    return pages->unknown;
+}
+
+void reader_pages_destroy(struct reader_pages *p)
+{
+    if (!p)
+        return;
+    page_text_destroy(p->text);
+    pages_fonts_close(p);
+    free(p->noted);
+    free(p);
+}
+
+/* ---- kinds of blocks ---- */
+
+/* Lists and quotes are moved in. */
+static void manner_nest(const struct reader_pages *p, const struct reader_block *block,
+                        struct page_manner *manner)
+{
+    const double em = p->setup.size_px, most = pages_column(p) / 2;
+    int items = block->items < READER_DEPTH_MAX ? block->items : READER_DEPTH_MAX;
+    int quotes = block->quotes < READER_DEPTH_MAX ? block->quotes : READER_DEPTH_MAX;
+    manner->left_px += fmin(most, 1.5 * em * items + 1.5 * em * quotes);
+    manner->right_px += fmin(most / 2, 1.5 * em * quotes);
+    if (quotes)
+        manner->role = FONT_ROLE_QUOTE;
+    if (items)
+        manner->role = FONT_ROLE_ITEM;
+}
+
+/* The item's number or bullet hangs before the first line. */
+static enum reader_status marker_add(struct reader_pages *p, const struct reader_block *block,
+                                     struct paragraph_text *t, struct page_manner *manner)
+{
+    double width;
+    if (!block->marker)
+        return READER_OK;
+    if (!pages_text_add(t, block->marker, (int)strlen(block->marker), 0) ||
+        !pages_text_add(t, "\xe2\x80\x82", 3, 0))
+        return pages_no_memory();
+    enum reader_status status = pages_width(p, t, CONTEXT_TEXT, &width);
+    manner->indent_px = -width;
+    return status;
+}
+
+static enum reader_status text_add(struct reader_pages *p, const struct reader_block *block)
+{
+    struct paragraph_text t = {0};
+    struct page_manner manner = pages_manner(p, CONTEXT_TEXT);
+    const double em = p->setup.size_px;
+    bool nested = block->items || block->quotes;
+    manner_nest(p, block, &manner);
+    if (nested)
+        manner.after_px = 0.2 * em;
+    else if (!p->behind_head && !block->continues)
+        manner.indent_px = 1.2 * em;
+    enum reader_status status = marker_add(p, block, &t, &manner);
+    if (status == READER_OK && !pages_block_add(&t, block, 0, block->bytes, 0))
+        status = pages_no_memory();
+    if (status == READER_OK)
+        status = pages_paragraph_add(p, &t, CONTEXT_TEXT, &manner, false);
+    pages_text_finish(&t);
+    return status;
+}
+
+static enum reader_status heading_add(struct reader_pages *p, const struct reader_block *block)
+{
+    struct paragraph_text t = {0};
+    enum context context = block->level == 1   ? CONTEXT_HEAD_1
+                           : block->level == 2 ? CONTEXT_HEAD_2
+                                               : CONTEXT_HEAD_3;
+    struct page_manner manner = pages_manner(p, context);
+    const double em = p->setup.size_px;
+    manner_nest(p, block, &manner);
+    manner.before_px = em * (block->level == 1 ? 1.6 : block->level == 2 ? 1.3 : 0.9);
+    manner.after_px = em * (block->level <= 2 ? 0.5 : 0.3);
+    manner.keep_with_next = manner.keep_together = manner.balance = true;
+    manner.role = FONT_ROLE_HEADING;
+    manner.level = block->level;
+    enum reader_status status = marker_add(p, block, &t, &manner);
+    if (status == READER_OK && !pages_block_add(&t, block, 0, block->bytes, 0))
+        status = pages_no_memory();
+    if (status == READER_OK)
+        status = pages_paragraph_add(p, &t, context, &manner, false);
+    pages_text_finish(&t);
+    return status;
+}
+
+/* Tabs go to every fourth column, and a line that is empty is a blank: so that it has its height. */
+static bool code_line_add(struct paragraph_text *t, const char *line, int bytes)
+{
+    int column = 0;
+    bool good = true;
+    if (!bytes)
+        return pages_text_add(t, " ", 1, READER_CODE);
+    for (int at = 0; at < bytes && good;) {
+        int run = 0;
+        while (at + run < bytes && line[at + run] != '\t')
+            run++;
+        good = pages_text_add(t, line + at, run, READER_CODE);
+        column += run;
+        at += run;
+        if (at < bytes) {
+            int blanks = 4 - column % 4;
+            good = good && pages_text_add(t, "    ", blanks, READER_CODE);
+            column += blanks;
+            at++;
+        }
+    }
+    return good;
+}
+
+/* In pieces, so that no paragraph is too long for who sets it. */
+static enum reader_status code_add(struct reader_pages *p, const struct reader_block *block)
+{
+    enum { LINES_MAX = 60, BYTES_MAX = 200000 };
+    const double em = p->setup.size_px;
+    enum reader_status status = READER_OK;
+    for (int at = 0; at <= block->bytes && status == READER_OK;) {
+        struct paragraph_text t = {0};
+        struct page_manner manner = pages_manner(p, CONTEXT_CODE);
+        bool good = true;
+        manner_nest(p, block, &manner);
+        manner.left_px += em;
+        manner.role = FONT_ROLE_PARAGRAPH;
+        manner.before_px = at == 0 ? 0.45 * em : 0;
+        for (int n = 0; n < LINES_MAX && at <= block->bytes && t.bytes < BYTES_MAX && good;
+             n++) {
+            const char *line = block->text + at;
+            const char *end = memchr(line, '\n', (size_t)(block->bytes - at));
+            int bytes = end ? (int)(end - line) : block->bytes - at;
+            bytes = bytes < BYTES_MAX ? bytes : BYTES_MAX;
+            good = (n == 0 || pages_text_add(&t, "\n", 1, READER_CODE)) &&
+                   code_line_add(&t, line, bytes);
+            at += bytes + (end == line + bytes || at + bytes == block->bytes);
+        }
+        manner.after_px = at > block->bytes ? 0.6 * em : 0;
+        status =
+            good ? pages_paragraph_add(p, &t, CONTEXT_CODE, &manner, false) : pages_no_memory();
+        pages_text_finish(&t);
+    }
+    return status;
+}
+
+static enum reader_status math_add(struct reader_pages *p, const struct reader_block *block)
+{
+    struct paragraph_text t = {0};
+    struct page_manner manner = pages_manner(p, CONTEXT_TEXT);
+    manner_nest(p, block, &manner);
+    manner.align = FONT_ALIGN_CENTER;
+    manner.keep_together = true;
+    manner.hyphenate = false;
+    manner.before_px = manner.after_px = 0.5 * p->setup.size_px;
+    enum reader_status status = pages_no_memory();
+    if (pages_text_add(&t, block->text, block->bytes, READER_FORMULA)) {
+        for (int i = 0; i < t.bytes; i++)
+            if (t.text[i] == '\n' || t.text[i] == '\t')
+                t.text[i] = ' ';
+        status = pages_paragraph_add(p, &t, CONTEXT_TEXT, &manner, true);
+    }
+    pages_text_finish(&t);
+    return status;
+}
+
+static enum reader_status rule_add(struct reader_pages *p)
+{
+    struct paragraph_text t = {0};
+    struct page_manner manner = pages_manner(p, CONTEXT_TEXT);
+    manner.align = FONT_ALIGN_CENTER;
+    manner.role = FONT_ROLE_ARTIFACT;
+    manner.before_px = manner.after_px = 0.6 * p->setup.size_px;
+    enum reader_status status = pages_text_add(&t, "* * *", 5, 0)
+                                    ? pages_paragraph_add(p, &t, CONTEXT_TEXT, &manner, false)
+                                    : pages_no_memory();
+    pages_text_finish(&t);
+    return status;
+}
+
+/* Its caption, and where it lies. */
+static enum reader_status picture_add(struct reader_pages *p, const struct reader_block *block)
+{
+    struct paragraph_text t = {0};
+    struct page_manner manner = pages_manner(p, CONTEXT_TABLE);
+    const char *target = block->target ? block->target : "";
+    manner_nest(p, block, &manner);
+    manner.align = FONT_ALIGN_CENTER;
+    manner.before_px = manner.after_px = 0.6 * p->setup.size_px;
+    bool good = pages_block_add(&t, block, 0, block->bytes, READER_SLANTED) &&
+                pages_text_add(&t, " [", 2, 0) &&
+                pages_text_add(&t, target, (int)strlen(target), READER_CODE) &&
+                pages_text_add(&t, "]", 1, 0);
+    enum reader_status status =
+        good ? pages_paragraph_add(p, &t, CONTEXT_TABLE, &manner, false) : pages_no_memory();
+    pages_text_finish(&t);
+    return status;
+}
+
+static enum reader_status block_add(struct reader_pages *p, const struct reader_block *block)
+{
+    switch (block->kind) {
+    case READER_PARAGRAPH:
+        return text_add(p, block);
+    case READER_HEADING:
+        return heading_add(p, block);
+    case READER_CODE_BLOCK:
+    case READER_LIVE:
+    case READER_HTML:
+        return code_add(p, block);
+    case READER_MATH:
+        return math_add(p, block);
+    case READER_RULE:
+        return rule_add(p);
+    case READER_PICTURE:
+        return picture_add(p, block);
+    case READER_ROW:
+        return pages_table_add(p, block, 1);
+    }
+    return READER_OK;
+}
+
+static enum reader_status blocks_add(struct reader_pages *p)
+{
+    const struct reader_document *d = p->document;
+    enum reader_status status = READER_OK;
+    p->behind_head = true; /* the first paragraph is not moved in */
+    for (int i = 0; i < d->blocks_count && status == READER_OK;) {
+        const struct reader_block *block = &d->blocks[i];
+        int n = 1;
+        while (block->kind == READER_ROW && i + n < d->blocks_count &&
+               block[n].kind == READER_ROW && block[n].table == block->table)
+            n++;
+        status = n > 1 ? pages_table_add(p, block, n) : block_add(p, block);
+        p->behind_head = block->kind != READER_PARAGRAPH;
+        i += n;
+    }
+    return status;
+}
+
+/* ---- the page ---- */
+
+static enum reader_status template_set(struct reader_pages *p)
+{
+    const struct reader_pages_setup *s = &p->setup;
+    struct page_template t = {.width_px = s->width_px, .height_px = s->height_px};
+    const double width = s->columns >= 1 ? pages_column(p) : 0,
+                 height = s->height_px - 2 * s->margin_px;
+    if (s->columns < 1 || s->columns > PAGE_FRAMES_MAX)
+        return reader_fail(READER_BAD_ARGUMENT, "a page has 1..%d columns (got %d)",
+                           PAGE_FRAMES_MAX, s->columns);
+    if (!(width >= 2 * s->size_px && height >= 2 * s->size_px))
+        return reader_fail(READER_BAD_ARGUMENT,
+                           "columns of %.0fx%.0f pixels are too small for letters of %g", width,
+                           height, s->size_px);
+    for (int i = 0; i < s->columns; i++)
+        t.frames[t.frames_count++] = (struct page_frame){
+            .x = s->margin_px + i * (width + s->gap_px),
+            .y = s->margin_px,
+            .width = width,
+            .height = height,
+            .margin_x = s->width_px - s->margin_px - s->notes_px + s->gap_px / 2,
+            .margin_width = s->notes_px > 0 ? fmax(0, s->notes_px - s->gap_px / 2) : 0,
+            .foot_gap_px = 0.7 * s->size_px};
+    return page_templates_set(p->text, &t, 1) == FONT_OK ? READER_OK : pages_failed();
+}
+
+/* The chapter over the page, its number under it, in the middle of the margins. */
+static enum reader_status running_set(struct reader_pages *p)
+{
+    const struct reader_pages_setup *s = &p->setup;
+    int style;
+    if (!s->running || s->margin_px < 1.5 * s->size_px)
+        return READER_OK;
+    enum reader_status status = pages_style(p, CONTEXT_NOTE, READER_SLANTED, &style);
+    const double middle = s->margin_px / 2, half = 0.25 * s->size_px;
+    const struct page_running line = {.style = style,
+                                      .x0 = s->margin_px,
+                                      .x1 = s->width_px - s->margin_px,
+                                      .align = FONT_ALIGN_CENTER};
+    struct page_running lines[2] = {line, line};
+    lines[0].text = "%h";
+    lines[0].not_opening = true;
+    lines[0].y = middle + half;
+    lines[1].text = "%p";
+    lines[1].y = s->height_px - middle + half;
+    if (status == READER_OK)
+        status = pages_style(p, CONTEXT_NOTE, 0, &lines[1].style);
+    if (status == READER_OK && page_running_set(p->text, lines, 2) != FONT_OK)
+        status = pages_failed();
+    return status;
+}
+
+enum reader_status reader_pages_make(const struct reader_document *document,
+                                     const struct reader_pages_setup *setup,
+                                     struct reader_pages **out)
+{
+    struct reader_pages *p = calloc(1, sizeof *p);
+    *out = NULL;
+    if (!p)
+        return pages_no_memory();
+    p->setup = *setup;
+    p->document = document;
+    p->noted = calloc((size_t)document->notes_count + 1, sizeof *p->noted);
+    enum reader_status status = p->noted ? READER_OK : pages_no_memory();
+    if (status == READER_OK && page_text_create(&p->text) != FONT_OK)
+        status = pages_failed();
+    if (status == READER_OK) {
+        page_text_colour(p->text);
+        status = template_set(p);
+    }
+    if (status == READER_OK)
+        status = pages_fonts_open(p);
+    if (status == READER_OK)
+        status = running_set(p);
+    if (status == READER_OK)
+        status = blocks_add(p);
+    p->document = NULL;
+    if (status == READER_OK)
+        *out = p;
+    else
+        reader_pages_destroy(p);
+    return status;
+}

@@ -1,0 +1,404 @@
+/* pages_style.c - fonts, styles, paragraphs and their notes: see pages_internal.h. */
+#include "pages_internal.h"
+
+#include <family.h>
+#include <outline.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum reader_status pages_failed(void)
+{
+    return reader_fail(READER_FAILED, "%s", font_error());
+}
+
+enum reader_status pages_no_memory(void)
+{
+    return reader_fail(READER_NO_MEMORY, "no memory for pages");
+}
+
+/* ---- fonts ---- */
+
+/* How high an x is, of the em; half an em where there is none. */
+static double x_height(struct font_face *face)
+{
+    struct font_outline outline;
+    struct font_face_info info;
+    font_face_describe(face, &info);
+    if (font_face_outline(face, font_face_glyph(face, 'x'), &outline) != FONT_OK)
+        return 0.5;
+    struct font_box box = font_outline_box(&outline);
+    font_outline_finish(&outline);
+    return box.y1 > 0 ? box.y1 / info.units_per_em : 0.5;
+}
+
+static enum reader_status face_get(struct reader_pages *p, int i)
+{
+    if (p->faces[i])
+        return READER_OK;
+    if (font_face_open(p->fonts[i], 0, &p->faces[i]) != FONT_OK ||
+        font_shaper_create(p->faces[i], &p->shapers[i]) != FONT_OK)
+        return pages_failed();
+    return READER_OK;
+}
+
+enum reader_status pages_fonts_open(struct reader_pages *p)
+{
+    static const char *const kinds[] = {NULL, "Italic", "Bold", "BoldItalic"};
+    for (int i = 0; i < FACES; i++) {
+        char room[512];
+        const char *font = i & READER_CODE ? p->setup.mono : p->setup.font;
+        const char *kind = kinds[i & 3];
+        p->fonts[i] = strdup(kind ? page_family_face(font, kind, room, sizeof room) : font);
+        if (!p->fonts[i])
+            return pages_no_memory();
+    }
+    enum reader_status status = face_get(p, 0);
+    if (status == READER_OK)
+        status = face_get(p, READER_CODE);
+    if (status != READER_OK)
+        return status;
+    p->mono_scale = fmin(1.2, x_height(p->faces[0]) / x_height(p->faces[READER_CODE]));
+    return READER_OK;
+}
+
+/* Before the first formula. Without a font that anybody asked for formulas stand as they are written. */
+static enum reader_status math_open(struct reader_pages *p)
+{
+    const char *name = p->setup.math ? p->setup.math : font_face_first(font_math_fonts);
+    if (p->math || p->math_missing)
+        return READER_OK;
+    if (font_face_open(name, 0, &p->math_face) == FONT_OK &&
+        font_math_create(p->math_face, &p->math) == FONT_OK) {
+        p->math_scale = x_height(p->faces[0]) / x_height(p->math_face);
+        return READER_OK;
+    }
+    p->math_missing = true;
+    return p->setup.math ? pages_failed() : READER_OK;
+}
+
+void pages_fonts_close(struct reader_pages *p)
+{
+    for (int i = 0; i < FACES; i++) {
+        font_shaper_destroy(p->shapers[i]);
+        font_face_close(p->faces[i]);
+        free(p->fonts[i]);
+    }
+    font_math_destroy(p->math);
+    font_face_close(p->math_face);
+}
+
+double pages_size(const struct reader_pages *p, enum context context)
+{
+    static const double sizes[CONTEXTS] = {
+        [CONTEXT_TEXT] = 1,    [CONTEXT_HEAD_1] = 1.7, [CONTEXT_HEAD_2] = 1.3,
+        [CONTEXT_HEAD_3] = 1,  [CONTEXT_NOTE] = 0.82,  [CONTEXT_CODE] = 0.88,
+        [CONTEXT_TABLE] = 0.92};
+    return sizes[context] * p->setup.size_px;
+}
+
+/* ---- styles ---- */
+
+static unsigned face_of(unsigned look)
+{
+    return look & (READER_SLANTED | READER_HEAVY | READER_CODE);
+}
+
+static double size_of(const struct reader_pages *p, enum context context, unsigned look)
+{
+    return pages_size(p, context) * (look & READER_CODE ? p->mono_scale : 1);
+}
+
+enum reader_status pages_style(struct reader_pages *p, enum context context, unsigned look,
+                               int *style)
+{
+    struct page_style made = page_style_default();
+    if (context == CONTEXT_HEAD_3)
+        look |= READER_HEAVY;
+    int *kept =
+        look & READER_NOTE ? &p->raised[context] : &p->styles[context][look & (LOOKS - 1)];
+    *style = *kept - 1;
+    if (*kept)
+        return READER_OK;
+    made.font = p->fonts[face_of(look)];
+    made.size_px = size_of(p, context, look);
+    made.language = p->setup.language;
+    made.features = look & READER_CODE ? "-liga,-clig" : NULL;
+    if (look & READER_NOTE) {
+        made.raise_px = 0.35 * made.size_px;
+        made.size_px *= 0.65;
+    }
+    made.inked = (look & (READER_LINK | READER_STRUCK)) != 0;
+    made.ink = look & READER_STRUCK ? font_ink_plain(0.55, 0.55, 0.55, 1)
+                                    : font_ink_plain(0.08, 0.22, 0.45, 1);
+    if (page_style_add(p->text, &made, style) != FONT_OK)
+        return pages_failed();
+    *kept = *style + 1;
+    return READER_OK;
+}
+
+struct page_manner pages_manner(const struct reader_pages *p, enum context context)
+{
+    struct page_manner manner = page_manner_default();
+    bool code = context == CONTEXT_CODE,
+         running = context == CONTEXT_TEXT || context == CONTEXT_NOTE;
+    manner.align = running ? p->setup.align : FONT_ALIGN_START;
+    manner.leading_px = p->setup.leading * pages_size(p, context) *
+                        (code                                  ? 0.95
+                         : running || context == CONTEXT_TABLE ? 1
+                                                               : 0.92);
+    manner.hyphenate = p->setup.hyphenate && running;
+    manner.protrude = running ? 0.6 : 0;
+    return manner;
+}
+
+double pages_column(const struct reader_pages *p)
+{
+    const struct reader_pages_setup *s = &p->setup;
+    return (s->width_px - 2 * s->margin_px - s->notes_px - (s->columns - 1) * s->gap_px) /
+           s->columns;
+}
+
+/* ---- letters ---- */
+
+static bool span_add(struct paragraph_text *t, int begin, int end, unsigned look, int note)
+{
+    if (begin == end)
+        return true;
+    if (!array_reserve(&t->spans, &t->spans_capacity, t->spans_count + 1, sizeof *t->spans))
+        return false;
+    t->spans[t->spans_count++] = (struct line_span){begin, end, note, look};
+    return true;
+}
+
+bool pages_text_add(struct paragraph_text *t, const char *text, int bytes, unsigned look)
+{
+    if (!array_reserve(&t->text, &t->capacity, t->bytes + bytes + 1, 1))
+        return false;
+    memcpy(t->text + t->bytes, text, (size_t)bytes);
+    t->bytes += bytes;
+    t->text[t->bytes] = '\0';
+    return span_add(t, t->bytes - bytes, t->bytes, look, -1);
+}
+
+bool pages_block_add(struct paragraph_text *t, const struct reader_block *block, int begin,
+                     int end, unsigned look)
+{
+    for (int i = 0; i < block->spans_count; i++) {
+        const struct reader_span *s = &block->spans[i];
+        int from = s->begin > begin ? s->begin : begin, to = s->end < end ? s->end : end;
+        if (from >= to)
+            continue;
+        if (!pages_text_add(t, block->text + from, to - from, s->look | look))
+            return false;
+        t->spans[t->spans_count - 1].note = s->look & READER_NOTE ? s->note : -1;
+    }
+    return true;
+}
+
+void pages_text_finish(struct paragraph_text *t)
+{
+    free(t->text);
+    free(t->spans);
+    *t = (struct paragraph_text){0};
+}
+
+/* ---- formulas ---- */
+
+/* A formula's layout; one that is too large is none, and *set is false. Owns: the caller finishes *out. */
+static enum reader_status formula_layout(struct reader_pages *p, const struct paragraph_text *t,
+                                         const struct line_span *s, enum context context,
+                                         bool display, double most_px, bool *set,
+                                         struct font_layout *out)
+{
+    const char *tex = t->text + s->begin;
+    int bytes = s->end - s->begin, unknown;
+    enum reader_status opened = math_open(p);
+    *set = false;
+    if (opened != READER_OK || !p->math)
+        return opened;
+    struct font_math_options options = {.size_px = pages_size(p, context) * p->math_scale,
+                                        .display = display};
+    if (bytes >= 2 && tex[0] == '$' && tex[bytes - 1] == '$') {
+        tex++;
+        bytes -= 2;
+    }
+    enum font_status status = font_math_layout(p->math, tex, (size_t)bytes, &options, out);
+    if (status == FONT_OK && display && out->width_px > most_px) {
+        options.size_px *= fmax(0.3, most_px / out->width_px);
+        font_layout_finish(out);
+        status = font_math_layout(p->math, tex, (size_t)bytes, &options, out);
+    }
+    *set = status == FONT_OK;
+    if (status != FONT_OK)
+        return status == FONT_TOO_LARGE ? READER_OK : pages_failed();
+    const char *first = font_math_unknown(p->math, &unknown);
+    if (unknown && !p->unknown_count)
+        snprintf(p->unknown, sizeof p->unknown, "%s", first);
+    p->unknown_count += unknown;
+    return READER_OK;
+}
+
+static enum reader_status formula_style(struct reader_pages *p, const struct paragraph_text *t,
+                                        const struct line_span *s, enum context context,
+                                        bool display, double most_px, int *style)
+{
+    struct font_layout shown = {0};
+    struct page_style look = page_style_default();
+    bool set;
+    enum reader_status status =
+        formula_layout(p, t, s, context, display, most_px, &set, &shown);
+    if (status != READER_OK)
+        return status;
+    if (!set)
+        return pages_style(p, context, READER_CODE, style);
+    look.font = p->fonts[0];
+    look.size_px = pages_size(p, context);
+    enum font_status made = page_inset_add(p->text, &look, &shown, style);
+    font_layout_finish(&shown);
+    return made == FONT_OK ? READER_OK : pages_failed();
+}
+
+enum reader_status pages_width(struct reader_pages *p, const struct paragraph_text *t,
+                               enum context context, double *width)
+{
+    enum reader_status status = READER_OK;
+    *width = 0;
+    for (int i = 0; i < t->spans_count && status == READER_OK; i++) {
+        const struct line_span *s = &t->spans[i];
+        const int face = (int)face_of(s->look);
+        struct font_layout l = {0};
+        bool set = true;
+        if (s->look & READER_FORMULA)
+            status = formula_layout(p, t, s, context, false, 0, &set, &l);
+        else
+            status = face_get(p, face);
+        if (status == READER_OK && !(s->look & READER_FORMULA) &&
+            font_shaper_layout(p->shapers[face], t->text + s->begin,
+                               (size_t)(s->end - s->begin), size_of(p, context, s->look), NULL,
+                               &l) != FONT_OK)
+            status = pages_failed();
+        if (status == READER_OK)
+            *width += l.width_px * (s->look & READER_NOTE ? 0.65 : 1);
+        font_layout_finish(&l);
+    }
+    return status;
+}
+
+enum reader_status pages_styles_apply(struct reader_pages *p, int id,
+                                      const struct paragraph_text *t, enum context context,
+                                      bool display, double most_px)
+{
+    enum reader_status status = READER_OK;
+    int style;
+    for (int i = 0; i < t->spans_count && status == READER_OK; i++) {
+        const struct line_span *s = &t->spans[i];
+        status = s->look & READER_FORMULA
+                     ? formula_style(p, t, s, context, display, most_px, &style)
+                     : pages_style(p, context, s->look, &style);
+        if (status == READER_OK &&
+            page_paragraph_style(p->text, id, s->begin, s->end, style) != FONT_OK)
+            status = pages_failed();
+    }
+    return status;
+}
+
+/* ---- notes ---- */
+
+/* All blocks of a note as one paragraph, its number before it. */
+static bool note_text(const struct reader_pages *p, int note, struct paragraph_text *t)
+{
+    const struct reader_document *d = p->document;
+    const struct reader_note *n = &d->notes[note];
+    char number[16];
+    int length = snprintf(number, sizeof number, "%d", note + 1);
+    bool good = pages_text_add(t, number, length, READER_NOTE) && pages_text_add(t, " ", 1, 0);
+    for (int i = 0; good && i < n->blocks_count; i++) {
+        const struct reader_block *block = &d->note_blocks[n->first_block + i];
+        const char *marker = block->marker;
+        good = (i == 0 || pages_text_add(t, "\n", 1, 0)) &&
+               (!marker || (pages_text_add(t, marker, (int)strlen(marker), 0) &&
+                            pages_text_add(t, " ", 1, 0))) &&
+               pages_block_add(t, block, 0, block->bytes, 0);
+    }
+    for (int k = 0; good && k < t->bytes; k++)
+        if (t->text[k] == '\t')
+            t->text[k] = ' ';
+    return good;
+}
+
+static enum reader_status note_add(struct reader_pages *p, int note, int id, int byte,
+                                   struct paragraph_text *t)
+{
+    const char *class = p->document->notes[note].class;
+    bool margin = strcmp(class, "margin") == 0 && p->setup.notes_px > 0;
+    struct page_manner manner = pages_manner(p, CONTEXT_NOTE);
+    int style, note_id;
+    if (margin)
+        manner.align = FONT_ALIGN_START;
+    enum reader_status status =
+        note_text(p, note, t) ? pages_style(p, CONTEXT_NOTE, 0, &style) : pages_no_memory();
+    if (status == READER_OK &&
+        page_note_add(p->text, id, byte, margin ? PAGE_NOTE_MARGIN : PAGE_NOTE_FOOT, t->text,
+                      (size_t)t->bytes, style, &manner, &note_id) != FONT_OK)
+        status = pages_failed();
+    if (status == READER_OK)
+        status = pages_styles_apply(p, note_id, t, CONTEXT_NOTE, true,
+                                    margin ? p->setup.notes_px : pages_column(p));
+    return status;
+}
+
+/* The notes that the paragraph's letters call, and those that these call, which stand behind them at the same place. Each stands where it is
+ * called first. */
+static enum reader_status notes_add(struct reader_pages *p, int id,
+                                    const struct paragraph_text *t)
+{
+    enum reader_status status = READER_OK;
+    for (int i = 0; i < t->spans_count && status == READER_OK; i++) {
+        int *queue = NULL, count = 0, capacity = 0;
+        int note = t->spans[i].note;
+        if (note < 0 || note >= p->document->notes_count || p->noted[note])
+            continue;
+        p->noted[note] = true;
+        if (!array_reserve(&queue, &capacity, 1, sizeof *queue))
+            return pages_no_memory();
+        queue[count++] = note;
+        for (int k = 0; k < count && status == READER_OK; k++) {
+            struct paragraph_text text = {0};
+            status = note_add(p, queue[k], id, t->spans[i].end, &text);
+            for (int s = 1; s < text.spans_count && status == READER_OK; s++) {
+                int next = text.spans[s].note;
+                if (next < 0 || next >= p->document->notes_count || p->noted[next])
+                    continue;
+                p->noted[next] = true;
+                if (!array_reserve(&queue, &capacity, count + 1, sizeof *queue))
+                    status = pages_no_memory();
+                else
+                    queue[count++] = next;
+            }
+            pages_text_finish(&text);
+        }
+        free(queue);
+    }
+    return status;
+}
+
+enum reader_status pages_paragraph_add(struct reader_pages *p, const struct paragraph_text *t,
+                                       enum context context, const struct page_manner *manner,
+                                       bool display)
+{
+    int style, id;
+    const double most = pages_column(p) - manner->left_px - manner->right_px;
+    enum reader_status status = pages_style(p, context, 0, &style);
+    if (status == READER_OK &&
+        page_paragraph_add(p->text, 0, -1, t->text ? t->text : "", (size_t)t->bytes, style,
+                           manner, &id) != FONT_OK)
+        status = pages_failed();
+    if (status == READER_OK)
+        status = pages_styles_apply(p, id, t, context, display, most);
+    if (status == READER_OK)
+        status = notes_add(p, id, t);
+    return status;
+}

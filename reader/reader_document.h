@@ -1,0 +1,122 @@
+/* reader_document.h - Markdown as a list of blocks: CommonMark and GitHub's extensions, notes, formulas, fences that live. Knows nothing of type.
+ *
+ *     static const char text[] = "# In the marsh\n\nThe *water* is $x^2$ deep[^1].\n\n[^1]: By night.";
+ *     struct reader_document *document;
+ *     if (reader_document_create(&document) != READER_OK || reader_document_add(document, text, strlen(text)) != READER_OK)
+ *         die(reader_error());
+ *     for (int i = 0; i < document->blocks_count; i++)
+ *         show(&document->blocks[i]);
+ *     reader_document_destroy(document);
+ *
+ * cmark-gfm reads the Markdown. Beside it are known:
+ *     $x^2$, $$x^2$$, ```math     formulas in TeX's notation: within a line, on lines of their own
+ *     [^name], [^margin:name]     notes; what stands before a colon is the note's class
+ *     ```lua live, ```c paris     fences that will live: for now they are shown
+ * A dollar begins a formula where no blank follows, and no letter, digit or backslash stands before it; it ends one where no blank stands
+ * before it and no letter or digit follows, within the same paragraph. In code there are none.
+ *
+ * A block knows the lines of the source that it comes from. Its bytes are the source's own, never written by this library.
+ *
+ * Errors: functions that can fail return a status and leave one line in reader_error(). No text is an error, but for one that is too large.
+ *
+ * Ownership: texts are copied. Threads: documents are independent of each other; messages belong to the thread that failed. */
+#ifndef LUTETIA_READER_DOCUMENT_H
+#define LUTETIA_READER_DOCUMENT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum reader_status {
+    READER_OK = 0,
+    READER_BAD_ARGUMENT,
+    READER_TOO_LARGE,
+    READER_NO_LIBRARY, /* built without cmark-gfm */
+    READER_FAILED,     /* pages: what fontpipe says */
+    READER_NO_MEMORY
+};
+
+/* Detail of this thread's last failure, one line, never NULL. Owns: the library; valid until this thread's next failure. */
+const char *reader_error(void);
+
+enum {
+    READER_BYTES_MAX = 32 << 20,
+    READER_NOTES_MAX = 20000,
+    READER_FORMULAS_MAX = 20000,
+    READER_DEPTH_MAX = 12 /* deeper items and quotes are shown as deep as this */
+};
+
+/* How letters look; bits. */
+enum reader_look {
+    READER_SLANTED = 1,
+    READER_HEAVY = 2,
+    READER_CODE = 4,
+    READER_LINK = 8,
+    READER_STRUCK = 16,
+    READER_NOTE = 32,   /* a note's number; target: which note, as a number */
+    READER_FORMULA = 64 /* its letters are a formula with the signs around it */
+};
+
+struct reader_span {
+    int begin, end; /* bytes of the block's text; in order, without gaps */
+    unsigned look;
+    int note;     /* with NOTE: of the document's notes; else -1 */
+    char *target; /* with LINK: where it leads to; else NULL */
+};
+
+enum reader_kind {
+    READER_PARAGRAPH,
+    READER_HEADING,    /* level */
+    READER_CODE_BLOCK, /* info */
+    READER_LIVE,       /* the same, of a fence that lives */
+    READER_MATH,       /* text: the formula alone */
+    READER_RULE,
+    READER_ROW,    /* of a table: cells are parted by tabs */
+    READER_HTML,   /* as it is written */
+    READER_PICTURE /* text: its caption; target: its file */
+};
+
+enum { READER_COLUMNS_MAX = 16 };
+
+struct reader_block {
+    enum reader_kind kind;
+    int level;         /* of a heading, from 1 */
+    int items, quotes; /* how many lists and quotes it is in */
+    char *marker;      /* "1." or a bullet, of an item's first block; else NULL */
+    bool continues;    /* it goes on with a paragraph that a formula has cut */
+    char *text;        /* UTF-8, without control characters but line ends and tabs */
+    int bytes;
+    struct reader_span *spans;
+    int spans_count;
+    int source;                /* of the document's, from 0 */
+    int first_line, last_line; /* of that, from 1 */
+    char *info, *target;       /* NULL: none */
+    int table;                 /* of a row: which table, from 0 */
+    bool head;                 /* of a row: the table's first */
+    int columns;
+    char aligns[READER_COLUMNS_MAX]; /* of a row: l, c, r */
+};
+
+struct reader_note {
+    char *name, *class;            /* class: "" without one */
+    int first_block, blocks_count; /* of note_blocks */
+};
+
+struct reader_document {
+    struct reader_block *blocks, *note_blocks;
+    int blocks_count, note_blocks_count;
+    struct reader_note *notes; /* in the order of their numbers, which begin at 1 */
+    int notes_count;
+    int sources_count, tables_count;
+    /* What arrays have room for. */
+    int blocks_capacity, note_blocks_capacity, notes_capacity;
+};
+
+/* Without blocks. Errors: NO_MEMORY. Owns: the caller destroys *out. */
+enum reader_status reader_document_create(struct reader_document **out);
+/* Adds what a source says behind what is there; notes' names are each source's own, their numbers go on. Errors: TOO_LARGE (more than
+ * READER_BYTES_MAX, _NOTES_MAX or _FORMULAS_MAX), NO_LIBRARY, NO_MEMORY; the document may then have a part of it. */
+enum reader_status reader_document_add(struct reader_document *document, const char *utf8,
+                                       size_t bytes);
+void reader_document_destroy(struct reader_document *document); /* NULL is fine */
+
+#endif

@@ -1,0 +1,160 @@
+/* fuzz_document.c - takes random bytes and random pieces of Markdown as documents, and some of them as pages. Each is read, its spans cover its
+ * texts, and pages say something; or it is refused. The seeds are the same in every run, or libFuzzer's with -DLUTETIA_FUZZ_TARGET. */
+#include <reader_document.h>
+#include <reader_pages.h>
+
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count);
+
+#define must(condition)                                                                        \
+    do {                                                                                       \
+        if (!(condition)) {                                                                    \
+            fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition);            \
+            abort();                                                                           \
+        }                                                                                      \
+    } while (0)
+
+static void block_check(const struct reader_document *d, const struct reader_block *b)
+{
+    int at = 0;
+    must(b->text && strlen(b->text) == (size_t)b->bytes);
+    must(b->items >= 0 && b->quotes >= 0 && b->first_line >= 0);
+    for (int i = 0; i < b->spans_count; i++) {
+        const struct reader_span *s = &b->spans[i];
+        must(s->begin == at && s->end >= s->begin && s->end <= b->bytes);
+        must(!(s->look & READER_NOTE) || (s->note >= 0 && s->note < d->notes_count));
+        at = s->end;
+    }
+    must(at == b->bytes);
+}
+
+static void pages_check(const struct reader_document *d, unsigned choice)
+{
+    struct reader_pages_setup setup = reader_pages_setup_default();
+    struct reader_pages *pages;
+    setup.font = "DejaVuSans";
+    setup.size_px = 4 + choice % 20;
+    setup.width_px = 100 + choice % 700;
+    setup.height_px = 100 + choice % 500;
+    setup.margin_px = choice % 50;
+    setup.columns = 1 + (int)(choice % 3);
+    setup.notes_px = choice & 8 ? 60 : 0;
+    enum reader_status status = reader_pages_make(d, &setup, &pages);
+    must(status == READER_OK || status == READER_BAD_ARGUMENT);
+    for (int page = 0; status == READER_OK && page < 3; page++) {
+        struct font_layout layout;
+        struct page_said said;
+        if (page_layout_said(reader_pages_text(pages), page, &layout, &said) != FONT_OK)
+            break;
+        font_layout_finish(&layout);
+        page_said_finish(&said);
+    }
+    reader_pages_destroy(pages);
+}
+
+/* The first byte chooses what is done with it. */
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
+{
+    struct reader_document *d;
+    if (count < 1)
+        return 0;
+    must(reader_document_create(&d) == READER_OK);
+    enum reader_status status = reader_document_add(d, (const char *)bytes + 1, count - 1);
+    if (status == READER_NO_LIBRARY) {
+        printf("skipped: built without cmark-gfm\n");
+        exit(77);
+    }
+    must(status == READER_OK || status == READER_TOO_LARGE);
+    for (int i = 0; i < d->blocks_count; i++)
+        block_check(d, &d->blocks[i]);
+    for (int i = 0; i < d->note_blocks_count; i++)
+        block_check(d, &d->note_blocks[i]);
+    for (int i = 0; i < d->notes_count; i++)
+        must(d->notes[i].first_block + d->notes[i].blocks_count <= d->note_blocks_count);
+    if (status == READER_OK && bytes[0] % 8 == 0)
+        pages_check(d, (unsigned)bytes[0] * 131 + (unsigned)count);
+    reader_document_destroy(d);
+    return 0;
+}
+
+#ifndef LUTETIA_FUZZ_TARGET
+static const char *const pieces[] = {"word ",
+                                     "# ",
+                                     "\n\n",
+                                     "\n",
+                                     "*",
+                                     "**",
+                                     "`",
+                                     "``",
+                                     "$",
+                                     "$$",
+                                     "$x_1$",
+                                     "[^",
+                                     "]",
+                                     "]: ",
+                                     "[^a]",
+                                     "\n\n[^a]: ",
+                                     "> ",
+                                     "- ",
+                                     "1. ",
+                                     "    ",
+                                     "\t",
+                                     "```\n",
+                                     "```lua live\n",
+                                     "|",
+                                     "|---|\n",
+                                     "\n| a | b |\n|---|:-:|\n",
+                                     "![",
+                                     "](",
+                                     "b.png)",
+                                     "<div>",
+                                     "<!--",
+                                     "&amp;",
+                                     "\\",
+                                     "~~",
+                                     "- [x] ",
+                                     "***\n",
+                                     "http://a.b ",
+                                     "\xc2\x91",
+                                     "\xff",
+                                     "\xd8\xa8",
+                                     "\xe6\x97\xa5",
+                                     "```math\n",
+                                     "\\frac{a}{b}",
+                                     "\r\n",
+                                     "= ",
+                                     "---\n"};
+
+int main(int argc, char **argv)
+{
+    long count = argc > 1 ? strtol(argv[1], NULL, 10) : 500;
+    uint32_t state = 2463534242u;
+    for (long i = 0; i < count; i++) {
+        uint8_t bytes[1024];
+        size_t length = 1;
+        bytes[0] = (uint8_t)i;
+        for (long k = i % 80; k >= 0; k--) {
+            state ^= state << 13;
+            state ^= state >> 17;
+            state ^= state << 5;
+            const char *piece = pieces[(state >> 8) % (sizeof pieces / sizeof *pieces)];
+            size_t n = strlen(piece);
+            if (length + n > sizeof bytes)
+                break;
+            memcpy(bytes + length, piece, n);
+            length += n;
+        }
+        uint8_t *exact = malloc(length); /* so that reading beyond the end is seen */
+        must(exact);
+        memcpy(exact, bytes, length);
+        LLVMFuzzerTestOneInput(exact, length);
+        free(exact);
+    }
+    printf("%ld documents\n", count);
+    return 0;
+}
+#endif

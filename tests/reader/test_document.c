@@ -1,0 +1,346 @@
+/* test_document.c - Markdown as blocks, beside what is expected of each; and over the project's own pages: no word is lost, and each
+ * block's lines are those of the source. */
+#include <reader_document.h>
+
+/* clang-format off */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+/* clang-format on */
+
+#include <ctype.h>
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static struct reader_document *read_all(const char *text, size_t bytes)
+{
+    struct reader_document *d;
+    assert_int_equal(reader_document_create(&d), READER_OK);
+    if (reader_document_add(d, text, bytes) != READER_OK)
+        fail_msg("%s", reader_error());
+    return d;
+}
+
+/* ---- a block in words ---- */
+
+struct words {
+    char text[4096];
+    size_t used;
+};
+
+static void say(struct words *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
+static void say(struct words *w, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    int n = vsnprintf(w->text + w->used, sizeof w->text - w->used, format, args);
+    va_end(args);
+    assert_true(n >= 0 && w->used + (size_t)n < sizeof w->text);
+    w->used += (size_t)n;
+}
+
+static void block_say(struct words *w, const struct reader_block *b)
+{
+    static const char *const kinds[] = {"p",    "h",   "code", "live",   "math",
+                                        "rule", "row", "html", "picture"};
+    say(w, "%s", kinds[b->kind]);
+    if (b->kind == READER_HEADING)
+        say(w, "%d", b->level);
+    for (int i = 0; i < b->items; i++)
+        say(w, "-");
+    for (int i = 0; i < b->quotes; i++)
+        say(w, ">");
+    if (b->marker)
+        say(w, " %s", b->marker);
+    if (b->info)
+        say(w, " (%s)", b->info);
+    if (b->target)
+        say(w, " <%s>", b->target);
+    say(w, " ");
+    for (int i = 0, at = 0; i < b->spans_count; i++) {
+        const struct reader_span *s = &b->spans[i];
+        assert_int_equal(s->begin, at); /* in order, without gaps */
+        assert_true(s->end >= s->begin && s->end <= b->bytes);
+        at = s->end;
+        const char *const signs[][2] = {{"*", "*"}, {"!", "!"}, {"`", "`"}, {"[", "]"},
+                                        {"~", "~"}, {"^", "^"}, {"{", "}"}};
+        for (int k = 0; k < 7; k++)
+            if (s->look & (1u << k))
+                say(w, "%s", signs[k][0]);
+        say(w, "%.*s", s->end - s->begin, b->text + s->begin);
+        for (int k = 6; k >= 0; k--)
+            if (s->look & (1u << k))
+                say(w, "%s", signs[k][1]);
+        if (s->target)
+            say(w, "(%s)", s->target);
+    }
+    say(w, "\n");
+}
+
+static void blocks_are(const char *markdown, const char *expected)
+{
+    struct words w = {.used = 0};
+    struct reader_document *d = read_all(markdown, strlen(markdown));
+    for (int i = 0; i < d->blocks_count; i++)
+        block_say(&w, &d->blocks[i]);
+    for (int i = 0; i < d->notes_count; i++) {
+        const struct reader_note *n = &d->notes[i];
+        say(&w, "note %s:%s\n", n->class, n->name);
+        for (int k = 0; k < n->blocks_count; k++)
+            block_say(&w, &d->note_blocks[n->first_block + k]);
+    }
+    if (strcmp(w.text, expected) != 0)
+        fail_msg("of\n%s\nbecame\n%s\nexpected\n%s", markdown, w.text, expected);
+    reader_document_destroy(d);
+}
+
+/* ---- tests ---- */
+
+static void blocks_are_those_of_markdown(void **state)
+{
+    (void)state;
+    blocks_are("# A *b* `c`\n\nText\nover lines.  \nAfter.\n",
+               "h1 A *b* `c`\np Text over lines.\nAfter.\n");
+    blocks_are("**a *b***  ~~c~~ [d](e \"f\") <http://x.y>",
+               "p !a !*!b!* ~c~ [d](e) [http://x.y](http://x.y)\n");
+    blocks_are("- a\n- b\n  1. c\n\n     d\n  2. e\n- [x] f\n- [ ] g\n",
+               "p- \xe2\x80\xa2 a\np- \xe2\x80\xa2 b\np-- 1. c\np-- d\np-- 2. e\n"
+               "p- \xe2\x98\x91 f\np- \xe2\x98\x90 g\n");
+    blocks_are("7) a\n8) b\n", "p- 7) a\np- 8) b\n");
+    blocks_are("- - a\n-\n", "p- \xe2\x80\xa2 \np-- \xe2\x80\xa2 a\np- \xe2\x80\xa2 \n");
+    blocks_are("> a\nlazy\n> > b\n", "p> a lazy\np>> b\n");
+    blocks_are("```c\nint a;\n\n\tb\n```\n    x\n", "code (c) `int a;\n\n\tb`\ncode `x`\n");
+    blocks_are("```lua live\nx = 1\n```\n\n```c paris\ny\n```\n```lua\nz\n```\n",
+               "live (lua live) `x = 1`\nlive (c paris) `y`\ncode (lua) `z`\n");
+    blocks_are("a\n\n***\n\n<div>x</div>\n\n<!-- gone -->\n",
+               "p a\nrule \nhtml `<div>x</div>`\n");
+    blocks_are("![A *b*](c.png \"d\")\n", "picture <c.png> *A b*\n");
+    blocks_are("Not ![A](c.png) alone.\n", "p Not *[A]*(c.png) alone.\n");
+    blocks_are("| a | b |\n|--:|:-:|\n| 1 \\| 2 | *c* |\n| d |\n",
+               "row a\tb\nrow 1 | 2\t*c*\nrow d\t\n");
+    blocks_are("\\*a\\* &amp; &copy; `b\nc` \\\nd", "p *a* & \xc2\xa9 `b c` \nd\n");
+    blocks_are("", "");
+    blocks_are("\xff", "p \xef\xbf\xbd\n");
+}
+
+static void notes_have_numbers_names_and_classes(void **state)
+{
+    (void)state;
+    blocks_are(
+        "A[^b] b[^c:x] c[^b].\n\n[^c:x]: *One*.\n[^b]: Two[^d].\n\n    More.\n[^d]: Three.\n"
+        "[^e]: never called\n",
+        "p A^1^ b^2^ c^1^.\nnote :b\np Two^3^.\np More.\nnote c:x\np *One*.\nnote :d\n"
+        "p Three.\n");
+    blocks_are("A[^none].\n", "p A[^none].\n");
+    /* Each source has its own names, and numbers go on. */
+    struct reader_document *d = read_all("a[^1]\n\n[^1]: One.\n", 19);
+    assert_int_equal(reader_document_add(d, "b[^1]\n\n[^1]: Two.\n", 19), READER_OK);
+    assert_int_equal(d->notes_count, 2);
+    assert_int_equal(d->blocks[1].spans[1].note, 1);
+    assert_string_equal(d->note_blocks[1].text, "Two.");
+    assert_int_equal(d->blocks[0].source, 0);
+    assert_int_equal(d->blocks[1].source, 1);
+    reader_document_destroy(d);
+}
+
+static void formulas_are_kept_from_markdown(void **state)
+{
+    (void)state;
+    blocks_are("It is $a_1*b*c_2$ and $\\alpha$.", "p It is {$a_1*b*c_2$} and {$\\alpha$}.\n");
+    blocks_are("$5 or $6, a$b$c, \\$x$, $ x$, $x $.", "p $5 or $6, a$b$c, $x$, $ x$, $x $.\n");
+    blocks_are("*$a$* **b $c$** [$d$](e)", "p *{$a$}* !b !!{$c$}! {$d$}\n");
+    blocks_are("`$a$` ``b ` $c$`` $d$", "p `$a$` `b ` $c$` {$d$}\n");
+    blocks_are("    $a$\n\n```\n$b$\n```\n\n$c$\n", "code `$a$`\ncode `$b$`\np {$c$}\n");
+    blocks_are("One $a +\nb$ two.", "p One {$a + b$} two.\n");
+    blocks_are("> One $a +\n> b$ two.", "p> One {$a + > b$} two.\n");
+    blocks_are("$$\na_1\n+ b_2\n$$\n", "math {\na_1\n+ b_2\n}\n");
+    blocks_are("Before $$a*b*c$$ after *d*.\n", "p Before\nmath {a*b*c}\np after *d*.\n");
+    blocks_are("```math\na_1\n```\n", "math (math) {a_1}\n");
+    blocks_are("# $a_b$\n\n| $c_d$ | e |\n|---|---|\n| f | $g_h$ |\n",
+               "h1 {$a_b$}\nrow {$c_d$}\te\nrow f\t{$g_h$}\n");
+    blocks_are("[x](y$a$z) $b$ [p]($c$) $d$\n", "p [x](y$a$z) {$b$} [p]($c$) {$d$}\n");
+    blocks_are("a[^n] $b$\n\n[^n]: $c_d$ e.\n", "p a^1^ {$b$}\nnote :n\np {$c_d$} e.\n");
+    blocks_are("a \xc2\x91 b $c$\n", "p a \xc2\x92 b {$c$}\n");
+    blocks_are("$$ never ends\n\n$$x$$\n", "p $$ never ends\nmath {x}\n");
+}
+
+/* ---- the project's own pages ---- */
+
+static bool is_letter(unsigned char c)
+{
+    return isalnum(c) || c >= 0x80;
+}
+
+/* All that the document says, in one text. */
+static char *text_of(const struct reader_document *d)
+{
+    size_t bytes = 1, used = 0;
+    for (int pass = 0; pass < 2; pass++) {
+        char *all = pass ? malloc(bytes) : NULL;
+        for (int i = 0; i < d->blocks_count + d->note_blocks_count; i++) {
+            const struct reader_block *b =
+                i < d->blocks_count ? &d->blocks[i] : &d->note_blocks[i - d->blocks_count];
+            const char *parts[3] = {b->text, b->info ? b->info : "",
+                                    b->target ? b->target : ""};
+            for (int k = 0; k < 3; k++) {
+                size_t n = strlen(parts[k]);
+                bytes += pass ? 0 : n + 1;
+                if (!pass)
+                    continue;
+                memcpy(all + used, parts[k], n);
+                used += n;
+                all[used++] = ' ';
+            }
+            for (int k = 0; k < b->spans_count; k++) {
+                const char *target = b->spans[k].target ? b->spans[k].target : "";
+                size_t n = strlen(target);
+                bytes += pass ? 0 : n + 1;
+                if (!pass)
+                    continue;
+                memcpy(all + used, target, n);
+                used += n;
+                all[used++] = ' ';
+            }
+        }
+        if (pass) {
+            all[used] = '\0';
+            return all;
+        }
+    }
+    return NULL;
+}
+
+static char *file_read(const char *path, size_t *bytes)
+{
+    FILE *in = fopen(path, "rb");
+    if (!in)
+        fail_msg("%s cannot be read", path);
+    fseek(in, 0, SEEK_END);
+    *bytes = (size_t)ftell(in);
+    rewind(in);
+    char *text = malloc(*bytes + 1);
+    assert_int_equal(fread(text, 1, *bytes, in), *bytes);
+    text[*bytes] = '\0';
+    fclose(in);
+    return text;
+}
+
+/* The first letters of a block that are in its source as they are stand in one of the block's lines. */
+static void lines_are_right(const char *name, const char *source, const struct reader_block *b)
+{
+    const char *at = b->text;
+    while (*at && !isalpha((unsigned char)*at))
+        at++;
+    size_t n = 0;
+    while (isalpha((unsigned char)at[n]))
+        n++;
+    if (n < 4)
+        return;
+    char word[64];
+    snprintf(word, sizeof word, "%.*s", (int)n, at);
+    int line = 1;
+    const char *from = source;
+    for (; line < b->first_line && from; line++)
+        from = strchr(from, '\n') ? strchr(from, '\n') + 1 : NULL;
+    const char *to = from;
+    for (; line <= b->last_line && to; line++)
+        to = strchr(to, '\n') ? strchr(to, '\n') + 1 : NULL;
+    const char *found = from ? strstr(from, word) : NULL;
+    if (!found || (to && found >= to))
+        fail_msg("%s: '%s' is not in lines %d to %d", name, word, b->first_line, b->last_line);
+}
+
+static void page_is_whole(const char *folder, const char *name, long *words)
+{
+    char path[4096];
+    size_t bytes;
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    char *source = file_read(path, &bytes);
+    struct reader_document *d = read_all(source, bytes);
+    char *all = text_of(d);
+    for (const char *at = source; *at;) {
+        size_t n = 0;
+        while (is_letter((unsigned char)at[n]))
+            n++;
+        char word[256];
+        snprintf(word, sizeof word, "%.*s", (int)n, at);
+        if (n >= 3 && n < sizeof word) {
+            ++*words;
+            if (!strstr(all, word) && !strstr("quot amp copy nbsp", word))
+                fail_msg("%s: the word '%s' is lost", name, word);
+        }
+        at += n ? n : 1;
+    }
+    for (int i = 0; i < d->blocks_count; i++)
+        lines_are_right(name, source, &d->blocks[i]);
+    free(all);
+    free(source);
+    reader_document_destroy(d);
+}
+
+static void pages_of_ours_lose_no_word(void **state)
+{
+    (void)state;
+    DIR *folder = opendir(DOCS);
+    long words = 0;
+    int pages = 0;
+    assert_non_null(folder);
+    for (struct dirent *e; (e = readdir(folder)) != NULL;) {
+        size_t n = strlen(e->d_name);
+        if (n < 4 || strcmp(e->d_name + n - 3, ".md") != 0 ||
+            strstr(e->d_name, "reference")) /* a megabyte of the same */
+            continue;
+        page_is_whole(DOCS, e->d_name, &words);
+        pages++;
+    }
+    closedir(folder);
+    assert_true(pages > 20 && words > 10000);
+}
+
+static void what_is_too_large_is_refused(void **state)
+{
+    (void)state;
+    struct reader_document *d;
+    const size_t large = READER_BYTES_MAX + 1;
+    char *text = malloc(large);
+    assert_non_null(text);
+    memset(text, 'a', large);
+    assert_int_equal(reader_document_create(&d), READER_OK);
+    assert_int_equal(reader_document_add(d, text, large), READER_TOO_LARGE);
+    size_t used = 0; /* one formula too many */
+    for (int i = 0; i <= READER_FORMULAS_MAX; i++)
+        used += (size_t)snprintf(text + used, 16, "$x$\n");
+    assert_int_equal(reader_document_add(d, text, used), READER_TOO_LARGE);
+    assert_non_null(strstr(reader_error(), "formulas"));
+    used = 0; /* deep */
+    memset(text, '>', 20000);
+    assert_int_equal(reader_document_add(d, text, 20000), READER_OK);
+    memset(text, '[', 20000);
+    assert_int_equal(reader_document_add(d, text, 20000), READER_OK);
+    reader_document_destroy(d);
+    free(text);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(blocks_are_those_of_markdown),
+        cmocka_unit_test(notes_have_numbers_names_and_classes),
+        cmocka_unit_test(formulas_are_kept_from_markdown),
+        cmocka_unit_test(pages_of_ours_lose_no_word),
+        cmocka_unit_test(what_is_too_large_is_refused),
+    };
+    struct reader_document *d;
+    if (reader_document_create(&d) != READER_OK ||
+        reader_document_add(d, "", 0) == READER_NO_LIBRARY) {
+        printf("skipped: built without cmark-gfm\n");
+        reader_document_destroy(d);
+        return 77;
+    }
+    reader_document_destroy(d);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

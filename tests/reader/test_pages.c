@@ -1,0 +1,284 @@
+/* test_pages.c - documents as pages: all that a document says stands on a page, notes at the foot or in the margin, tables as columns or row
+ * by row; and documents that are made to be hard. */
+#include <reader_document.h>
+#include <reader_pages.h>
+
+/* clang-format off */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+/* clang-format on */
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct made {
+    struct reader_document *document;
+    struct reader_pages *pages;
+    struct page_text *text;
+    int count;
+};
+
+static struct made make(const char *markdown, const struct reader_pages_setup *setup)
+{
+    struct made m;
+    assert_int_equal(reader_document_create(&m.document), READER_OK);
+    if (reader_document_add(m.document, markdown, strlen(markdown)) != READER_OK ||
+        reader_pages_make(m.document, setup, &m.pages) != READER_OK)
+        fail_msg("%s", reader_error());
+    m.text = reader_pages_text(m.pages);
+    assert_int_equal(page_count(m.text, &m.count), FONT_OK);
+    return m;
+}
+
+static void made_finish(struct made *m)
+{
+    reader_pages_destroy(m->pages);
+    reader_document_destroy(m->document);
+}
+
+static struct reader_pages_setup plain_setup(void)
+{
+    struct reader_pages_setup setup = reader_pages_setup_default();
+    setup.font = "DejaVuSerif";
+    setup.size_px = 12;
+    setup.running = false;
+    return setup;
+}
+
+struct seen {
+    struct font_layout layout;
+    struct page_said said;
+};
+
+static struct seen look(struct made *m, int page)
+{
+    struct seen s;
+    assert_int_equal(page_layout_said(m->text, page, &s.layout, &s.said), FONT_OK);
+    return s;
+}
+
+static void seen_finish(struct seen *s)
+{
+    font_layout_finish(&s->layout);
+    page_said_finish(&s->said);
+}
+
+/* The first glyph of a text that the page says. */
+static const struct font_placed *glyph_of(const struct seen *s, const char *text)
+{
+    const char *at = strstr(s->said.utf8, text);
+    if (!at)
+        fail_msg("'%s' is not said in\n%s", text, s->said.utf8);
+    for (int i = 0; at && i < s->layout.glyphs_count; i++)
+        if (s->layout.glyphs[i].cluster == (int)(at - s->said.utf8))
+            return &s->layout.glyphs[i];
+    fail_msg("'%s' has no glyph", text);
+    return NULL;
+}
+
+/* ---- tests ---- */
+
+static void all_kinds_of_blocks_are_said(void **state)
+{
+    (void)state;
+    const struct reader_pages_setup setup = plain_setup();
+    struct made m =
+        make("# One\n\nText *slanted* `code` $x^2$.\n\n- item\n\n> quote\n\n"
+             "```\nfenced\n\tline\n```\n\n$$y_1$$\n\n***\n\n![caption](file.png)\n\n"
+             "<p>html</p>\n\n| a | b |\n|---|--:|\n| c | d |\n\n- [x] done\n",
+             &setup);
+    static const char *const parts[] = {"One\n",
+                                        "Text slanted code $x^2$.\n",
+                                        "\xe2\x80\xa2\xe2\x80\x82item",
+                                        "quote",
+                                        "fenced\n    line",
+                                        "y_1",
+                                        "* * *",
+                                        "caption [file.png]",
+                                        "<p>html</p>",
+                                        "a\tb\n",
+                                        "c\td\n",
+                                        "done"};
+    struct seen s = look(&m, 0);
+    assert_int_equal(m.count, 1);
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        if (!strstr(s.said.utf8, parts[i]))
+            fail_msg("'%s' is not said in\n%s", parts[i], s.said.utf8);
+    /* Roles: a heading of level 1, an item, a quote. */
+    unsigned roles = 0;
+    for (int i = 0; i < s.said.passages_count; i++)
+        roles |= 1u << s.said.passages[i].role;
+    assert_int_equal(
+        roles & (1u << FONT_ROLE_HEADING | 1u << FONT_ROLE_ITEM | 1u << FONT_ROLE_QUOTE),
+        1u << FONT_ROLE_HEADING | 1u << FONT_ROLE_ITEM | 1u << FONT_ROLE_QUOTE);
+    /* Looks: letters of other faces; what hangs, hangs. */
+    const struct font_placed *text = glyph_of(&s, "Text"), *slanted = glyph_of(&s, "slanted"),
+                             *code = glyph_of(&s, "code"), *item = glyph_of(&s, "item"),
+                             *bullet = glyph_of(&s, "\xe2\x80\xa2");
+    assert_true(text->face != slanted->face && slanted->face != code->face);
+    assert_true(bullet->x_px < item->x_px && item->x_px > text->x_px);
+    assert_true(fabs(item->x_px - 64 - 18) < 0.6); /* the margin and an indent */
+    assert_int_equal(s.layout.missing_count, 0);
+    seen_finish(&s);
+    made_finish(&m);
+}
+
+static void notes_stand_where_they_are_called(void **state)
+{
+    (void)state;
+    struct reader_pages_setup setup = plain_setup();
+    setup.notes_px = 150;
+    struct made m = make("Word[^a] other[^margin:b] more[^a].\n\n[^a]: At the foot[^c].\n"
+                         "[^margin:b]: Beside.\n[^c]: Behind it.\n",
+                         &setup);
+    struct seen s = look(&m, 0);
+    const struct font_placed *word = glyph_of(&s, "Word"), *foot = glyph_of(&s, "At the"),
+                             *beside = glyph_of(&s, "Beside"), *behind = glyph_of(&s, "Behind");
+    assert_true(foot->y_px > 700 && behind->y_px > foot->y_px);
+    assert_true(beside->x_px > 400 && fabs(beside->y_px - word->y_px) < 30);
+    const char *first = strstr(s.said.utf8, "At the");
+    assert_null(strstr(first + 1, "At the")); /* once, though it is called twice */
+    seen_finish(&s);
+    made_finish(&m);
+}
+
+static void tables_have_columns_or_are_told(void **state)
+{
+    (void)state;
+    struct reader_pages_setup setup = plain_setup();
+    const char *table = "| first | second | third |\n|---|:-:|--:|\n| a | bb | 1 |\n| a longer "
+                        "cell | b | 222 |\n";
+    struct made m = make(table, &setup);
+    struct seen s = look(&m, 0);
+    double one = glyph_of(&s, "1\n")->x_px, two = glyph_of(&s, "222")->x_px;
+    assert_true(fabs(glyph_of(&s, "first")->x_px - glyph_of(&s, "a longer")->x_px) < 0.01);
+    assert_true(one > two && one - two < 3 * setup.size_px); /* right */
+    assert_true(glyph_of(&s, "second")->x_px > glyph_of(&s, "first")->x_px);
+    assert_true(fabs(glyph_of(&s, "bb")->y_px - glyph_of(&s, "1\n")->y_px) < 0.01);
+    seen_finish(&s);
+    made_finish(&m);
+    setup.width_px = 250; /* narrow: nothing is lost */
+    m = make(table, &setup);
+    s = look(&m, 0);
+    assert_non_null(strstr(s.said.utf8, "first: a longer cell\nsecond: b\nthird: 222\n"));
+    seen_finish(&s);
+    made_finish(&m);
+}
+
+/* A formula on its own line that is too wide is set smaller, and stays in its column. */
+static void wide_formulas_are_made_smaller(void **state)
+{
+    (void)state;
+    struct reader_pages_setup setup = plain_setup();
+    char markdown[1200] = "$$a";
+    for (int i = 0; i < 40; i++)
+        strcat(markdown, " + \\frac{b_1}{c}");
+    strcat(markdown, "$$\n\n$$\\frac{b_1}{c}$$\n\n$\\foo$\n");
+    struct made m = make(markdown, &setup);
+    struct seen s = look(&m, 0);
+    float least = INFINITY, most = 0;
+    int unknown;
+    for (int i = 0; i < s.layout.glyphs_count; i++) {
+        const struct font_placed *g = &s.layout.glyphs[i];
+        assert_true(g->x_px >= 63 && g->x_px <= 600 - 63);
+        if (g->map) /* a bar */
+            continue;
+        least = g->size_px < least ? g->size_px : least;
+        most = g->size_px > most ? g->size_px : most;
+    }
+    assert_true(least < 0.6F * most);
+    assert_string_equal(reader_pages_unknown(m.pages, &unknown), "\\foo");
+    assert_int_equal(unknown, 1);
+    seen_finish(&s);
+    made_finish(&m);
+}
+
+static char *repeated(const char *before, const char *part, int count, const char *after)
+{
+    size_t n = strlen(part);
+    char *text = malloc(strlen(before) + n * (size_t)count + strlen(after) + 1);
+    assert_non_null(text);
+    char *at = stpcpy(text, before);
+    for (int i = 0; i < count; i++)
+        at = stpcpy(at, part);
+    strcpy(at, after);
+    return text;
+}
+
+/* Deep, long, wide and many: set, in little time and without a line over the edge of what there is. */
+static void hostile_documents_are_set(void **state)
+{
+    (void)state;
+    struct reader_pages_setup setup = plain_setup();
+    setup.hyphenate = false;
+    static const struct {
+        const char *before, *part;
+        int count;
+        const char *after;
+    } rows[] = {
+        {"", "> ", 1000, "deep\n"},      {"", "- ", 300, "deep\n"},
+        {"", "*", 2000, "a\n"},          {"```\n", "xxxxxxxxxxxxxxxx", 3000, "\n```\n"},
+        {"", "| a ", 100, "|\n|---|\n"}, {"word[^a]\n\n[^a]: x", "[^a]", 500, "\n"},
+        {"", "$x$ ", 400, "\n"},        {"$$", "{", 200, "$$\n"},
+        {"", "![a](b) ", 500, "\n"},     {"", "# h\n", 200, ""}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char *text = repeated(rows[i].before, rows[i].part, rows[i].count, rows[i].after);
+        struct made m = make(text, &setup);
+        assert_true(m.count >= 1);
+        made_finish(&m);
+        free(text);
+    }
+}
+
+static void wrong_setups_are_refused(void **state)
+{
+    (void)state;
+    struct reader_document *d;
+    struct reader_pages *pages;
+    assert_int_equal(reader_document_create(&d), READER_OK);
+    struct reader_pages_setup setup = plain_setup();
+    setup.margin_px = 400;
+    assert_int_equal(reader_pages_make(d, &setup, &pages), READER_BAD_ARGUMENT);
+    assert_null(pages);
+    setup = plain_setup();
+    setup.columns = 0;
+    assert_int_equal(reader_pages_make(d, &setup, &pages), READER_BAD_ARGUMENT);
+    setup = plain_setup();
+    setup.font = "nobody's";
+    assert_int_equal(reader_pages_make(d, &setup, &pages), READER_FAILED);
+    assert_non_null(strstr(reader_error(), "nobody's"));
+    setup = plain_setup(); /* a font for formulas that is none, once there is one */
+    setup.math = "DejaVuSansMono";
+    assert_int_equal(reader_pages_make(d, &setup, &pages), READER_OK);
+    reader_pages_destroy(pages);
+    assert_int_equal(reader_document_add(d, "$x$", 3), READER_OK);
+    assert_int_equal(reader_pages_make(d, &setup, &pages), READER_FAILED);
+    assert_non_null(strstr(reader_error(), "MATH"));
+    reader_document_destroy(d);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(all_kinds_of_blocks_are_said),
+        cmocka_unit_test(notes_stand_where_they_are_called),
+        cmocka_unit_test(tables_have_columns_or_are_told),
+        cmocka_unit_test(wide_formulas_are_made_smaller),
+        cmocka_unit_test(hostile_documents_are_set),
+        cmocka_unit_test(wrong_setups_are_refused),
+    };
+    struct reader_document *d;
+    if (reader_document_create(&d) != READER_OK ||
+        reader_document_add(d, "", 0) == READER_NO_LIBRARY) {
+        printf("skipped: built without cmark-gfm\n");
+        reader_document_destroy(d);
+        return 77;
+    }
+    reader_document_destroy(d);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
