@@ -220,12 +220,11 @@ static void hostile_documents_are_set(void **state)
         const char *before, *part;
         int count;
         const char *after;
-    } rows[] = {
-        {"", "> ", 1000, "deep\n"},      {"", "- ", 300, "deep\n"},
-        {"", "*", 2000, "a\n"},          {"```\n", "xxxxxxxxxxxxxxxx", 3000, "\n```\n"},
-        {"", "| a ", 100, "|\n|---|\n"}, {"word[^a]\n\n[^a]: x", "[^a]", 500, "\n"},
-        {"", "$x$ ", 400, "\n"},        {"$$", "{", 200, "$$\n"},
-        {"", "![a](b) ", 500, "\n"},     {"", "# h\n", 200, ""}};
+    } rows[] = {{"", "> ", 1000, "deep\n"},      {"", "- ", 300, "deep\n"},
+                {"", "*", 2000, "a\n"},          {"```\n", "xxxxxxxxxxxxxxxx", 3000, "\n```\n"},
+                {"", "| a ", 100, "|\n|---|\n"}, {"word[^a]\n\n[^a]: x", "[^a]", 500, "\n"},
+                {"", "$x$ ", 400, "\n"},         {"$$", "{", 200, "$$\n"},
+                {"", "![a](b) ", 500, "\n"},     {"", "# h\n", 200, ""}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         char *text = repeated(rows[i].before, rows[i].part, rows[i].count, rows[i].after);
         struct made m = make(text, &setup);
