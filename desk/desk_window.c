@@ -4,6 +4,7 @@
 #include <visible_text.h>
 
 #include <string.h>
+#include <unistd.h>
 
 /* ---- telling ---- */
 
@@ -29,6 +30,9 @@ static GtkWidget *notice_new(struct desk *d)
     g_signal_connect(close, "clicked", G_CALLBACK(notice_close), d);
     gtk_box_append(GTK_BOX(box), d->notice_text);
     gtk_box_append(GTK_BOX(box), close);
+    gtk_widget_add_css_class(box, "app-notification");
+    gtk_widget_set_halign(d->notice, GTK_ALIGN_CENTER);
+    gtk_widget_set_valign(d->notice, GTK_ALIGN_START);
     gtk_revealer_set_child(GTK_REVEALER(d->notice), box);
     return d->notice;
 }
@@ -278,10 +282,17 @@ static void key_released(GtkEventControllerKey *controller, guint key, guint cod
         d->space = false;
 }
 
+/* Of the past's checkpoints: a quarter of the memory, within reason. */
+static double budget_bytes(void)
+{
+    const double all = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    return CLAMP(all / 4, 256e6, 4e9);
+}
+
 void desk_window_open(struct desk *d)
 {
     GtkWidget *all = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0),
-              *middle = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
+              *middle = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0), *over = gtk_overlay_new();
     theme_set(d);
     d->changed = setting_changed;
     d->look = look;
@@ -291,7 +302,7 @@ void desk_window_open(struct desk *d)
     gtk_window_set_titlebar(GTK_WINDOW(d->window), header_new(d));
     d->paper = studio_paper_start(&(struct studio_paper_def){.config = &d->options.config,
                                                              .path = d->options.path,
-                                                             .budget_bytes = 512e6,
+                                                             .budget_bytes = budget_bytes(),
                                                              .wake = wake,
                                                              .context = d});
     GtkWidget *tools = desk_tools_new(d), *state = state_new(d);
@@ -301,8 +312,9 @@ void desk_window_open(struct desk *d)
     GtkWidget *panel = desk_panel_new(d);
     gtk_widget_set_hexpand(panel, FALSE);
     gtk_box_append(GTK_BOX(middle), panel);
-    gtk_box_append(GTK_BOX(all), notice_new(d));
-    gtk_box_append(GTK_BOX(all), middle);
+    gtk_overlay_set_child(GTK_OVERLAY(over), middle); /* a message never moves the sheet */
+    gtk_overlay_add_overlay(GTK_OVERLAY(over), notice_new(d));
+    gtk_box_append(GTK_BOX(all), over);
     gtk_box_append(GTK_BOX(all), state);
     gtk_window_set_child(GTK_WINDOW(d->window), all);
     d->pen = desk_pen_create(d->canvas);

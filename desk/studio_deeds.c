@@ -11,8 +11,6 @@
 
 /* Samples of a stroke ascend in time; two reports of one moment are this far apart. */
 #define MOMENT_S 1e-4
-/* Steps of the paper in a second of a stroke, when time stands still besides. */
-#define PACE_PAUSED 60.0
 #define THROW_LENGTH 120.0 /* fibers of a drag that throw as far as drops are ever thrown */
 #define THROW_MOST 4.0
 #define SALT_REACH 10.0
@@ -61,22 +59,23 @@ static enum paper_status brush_dip(struct studio_session *s,
     return paper_sheet_dip(s->sheet, &dip);
 }
 
-static enum paper_status stroke_do(struct studio_session *s)
+/* The brush comes down: from here on it paints as the samples come. Where time stands still, it stands still under the brush, too; else
+ * the paper makes as many steps a second as are set, or as it can. */
+static enum paper_status stroke_begin(struct studio_session *s)
 {
     const struct studio_tool *tool = studio_tool_of(&s->at);
     const bool had_brush = s->has_brush;
-    enum paper_status status = brush_ready(s, &s->at);
+    s->operations = paper_history_done(s->sheet);
+    enum paper_status status = studio_session_air(s);
+    if (status == PAPER_OK)
+        status = brush_ready(s, &s->at);
     const bool fresh = s->has_brush && !had_brush;
     if (status == PAPER_OK && (fresh || s->at.value[STUDIO_REFILL] != 0 || !tool->inked))
         status = brush_dip(s, &s->at, tool->inked);
-    if (status != PAPER_OK)
-        return status;
-    const struct paper_stroke stroke = {
-        .number = 0,
-        .pace = s->at.value[STUDIO_PAUSED] != 0 ? PACE_PAUSED : s->at.value[STUDIO_PACE],
-        .samples_count = s->samples_count,
-        .samples = s->samples};
-    return paper_sheet_stroke(s->sheet, &stroke, NULL);
+    double pace = s->at.value[STUDIO_PAUSED] != 0 ? 0 : s->at.value[STUDIO_PACE];
+    if (s->pace_most > 0)
+        pace = fmin(pace, s->pace_most);
+    return status == PAPER_OK ? paper_sheet_stroke_begin(s->sheet, 0, pace) : status;
 }
 
 enum paper_status studio_session_care(struct studio_session *s, enum studio_care care)
@@ -220,9 +219,6 @@ static enum paper_status deed_do(struct studio_session *s)
     if (status != PAPER_OK)
         return status;
     switch ((enum studio_tool_number)s->at.value[STUDIO_TOOL]) {
-    case STUDIO_TOOL_BRUSH:
-    case STUDIO_TOOL_WATER:
-        return stroke_do(s);
     case STUDIO_TOOL_WASH:
         return wash_do(s);
     case STUDIO_TOOL_SPLATTER:
@@ -236,6 +232,8 @@ static enum paper_status deed_do(struct studio_session *s)
     case STUDIO_TOOL_UNMASK:
     case STUDIO_TOOL_VARNISH:
         return swept_do(s);
+    case STUDIO_TOOL_BRUSH: /* grows while the hand moves */
+    case STUDIO_TOOL_WATER:
     case STUDIO_TOOL_TYPE: /* studio_session_type() */
     case STUDIO_TOOLS:
         break;
@@ -261,6 +259,32 @@ static enum paper_status sample_add(struct studio_session *s, const struct studi
     return PAPER_OK;
 }
 
+static bool grows(const struct studio_session *s)
+{
+    const int tool = (int)s->at.value[STUDIO_TOOL];
+    return tool == STUDIO_TOOL_BRUSH || tool == STUDIO_TOOL_WATER;
+}
+
+/* What the hand does between coming down and being lifted. */
+static enum paper_status hand_moves(struct studio_session *s, const struct studio_point *point)
+{
+    enum paper_status status = PAPER_OK;
+    if (s->samples_count == PAPER_STROKE_SAMPLES_MAX)
+        return status;
+    status = sample_add(s, point);
+    if (status == PAPER_OK && grows(s)) {
+        int steps = 0;
+        status = paper_sheet_stroke_add(s->sheet, last_of(s), 1, &steps);
+        s->stroke_steps += steps;
+    }
+    return status;
+}
+
+static enum paper_status hand_lifts(struct studio_session *s)
+{
+    return grows(s) ? paper_sheet_stroke_end(s->sheet, NULL) : deed_do(s);
+}
+
 enum paper_status studio_session_point(struct studio_session *s,
                                        const struct studio_point *point)
 {
@@ -271,17 +295,53 @@ enum paper_status studio_session_point(struct studio_session *s,
         s->down = true;
         s->at = s->settings;
         s->began_s = point->time_s;
+        s->stroke_steps = 0;
+        s->operations = paper_history_done(s->sheet);
+        if (grows(s))
+            status = stroke_begin(s);
     }
-    if (s->down && s->samples_count < PAPER_STROKE_SAMPLES_MAX)
-        status = sample_add(s, point);
-    if (s->down && point->kind == STUDIO_POINT_UP) {
-        if (status == PAPER_OK)
-            status = deed_do(s);
+    if (s->down && status == PAPER_OK)
+        status = hand_moves(s, point);
+    if (s->down && status == PAPER_OK && point->kind == STUDIO_POINT_UP) {
+        status = hand_lifts(s);
+        s->down = false;
+        s->samples_count = 0;
         s->held = false;
         s->wet = true;
-        studio_session_drop(s);
     }
+    if (status != PAPER_OK)
+        studio_session_drop(s);
     return status;
+}
+
+enum paper_status studio_session_rest(struct studio_session *s, double seconds)
+{
+    if (!s->down || !grows(s) || s->samples_count == 0 || s->at.value[STUDIO_PAUSED] != 0)
+        return PAPER_OK;
+    const struct paper_stroke_sample *last = last_of(s);
+    const struct studio_point point = {.kind = STUDIO_POINT_MOVE,
+                                       .time_s = s->began_s + last->time_s + seconds,
+                                       .x = last->x,
+                                       .y = last->y,
+                                       .pressure = last->pressure,
+                                       .tilt_x = last->tilt_x,
+                                       .tilt_y = last->tilt_y};
+    return studio_session_point(s, &point);
+}
+
+bool studio_session_grows(const struct studio_session *s)
+{
+    return s->down && grows(s);
+}
+
+int studio_session_stroke_steps(const struct studio_session *s)
+{
+    return s->stroke_steps;
+}
+
+void studio_session_pace_most(struct studio_session *s, double pace)
+{
+    s->pace_most = pace;
 }
 
 /* ---- deeds without a hand ---- */

@@ -9,6 +9,7 @@
 
 #include <array.h>
 #include <input.h>
+#include <picture.h>
 
 #include <math.h>
 #include <pthread.h>
@@ -17,9 +18,13 @@
 #include <string.h>
 
 enum { STEPS_AT_ONCE = 2 };
-#define LATE_MOST 2.0  /* steps that may be due */
-#define REST_S 0.25    /* between looks while nothing happens */
-#define UNSEEN_S 0.004 /* until a picture is looked at */
+enum { POINTS_UNSEEN = 3 }; /* samples at a stroke's end that its way is not settled for */
+#define LATE_MOST 2.0       /* steps that may be due */
+#define REST_S 0.25         /* between looks while nothing happens */
+#define UNSEEN_S 0.004      /* until a picture is looked at */
+#define STILL_S 0.05        /* a hand that is not heard for so long rests */
+#define PACE_LEAST 5.0      /* steps a second of a stroke */
+#define PACE_SHARE 0.7      /* of the time goes to a stroke, the rest to pictures */
 
 struct studio_paper {
     struct studio_paper_def def;
@@ -34,7 +39,10 @@ struct studio_paper {
     unsigned long heard;
     struct studio_message *later; /* what waits until the hand is lifted */
     int later_count, later_capacity;
-    uint16_t *view;
+    uint8_t *view;                                    /* the picture, 3 bytes a fiber */
+    bool view_other;                                  /* the whole sheet is to be looked at */
+    unsigned long points[POINTS_UNSEEN], before_hand; /* numbers of messages */
+    double rested_s, worked_s; /* when the hand was heard last; what its stroke has taken */
     struct studio_report now;
     /* shared */
     pthread_mutex_t lock;
@@ -81,17 +89,18 @@ static void complain(struct studio_paper *p)
 
 /* ---- pictures ---- */
 
-static struct studio_rectangle canvas_fill(struct studio_pictures *pictures,
-                                           const uint16_t *view)
+/* Copies an area of the picture to the canvas; where it is another one there. */
+static struct studio_rectangle canvas_fill(struct studio_pictures *pictures, const uint8_t *rgb,
+                                           const struct paper_area *area)
 {
-    struct studio_rectangle changed = {pictures->width, pictures->height, 0, 0};
-    for (int y = 0; y < pictures->height; y++) {
-        const uint16_t *from = view + 3 * (size_t)y * (size_t)pictures->width;
-        uint8_t *to = pictures->canvas + STUDIO_PIXEL * (size_t)y * (size_t)pictures->width;
+    struct studio_rectangle changed = {0};
+    for (int y = area->y; y < area->y + area->height; y++) {
+        const size_t at = (size_t)y * (size_t)pictures->width + (size_t)area->x;
+        const uint8_t *from = rgb + 3 * at;
+        uint8_t *to = pictures->canvas + STUDIO_PIXEL * at;
         int first = pictures->width, last = -1;
-        for (int x = 0; x < pictures->width; x++, from += 3, to += STUDIO_PIXEL) {
-            const uint8_t now[STUDIO_PIXEL] = {(uint8_t)(from[0] >> 8), (uint8_t)(from[1] >> 8),
-                                               (uint8_t)(from[2] >> 8), 255};
+        for (int x = area->x; x < area->x + area->width; x++, from += 3, to += STUDIO_PIXEL) {
+            const uint8_t now[STUDIO_PIXEL] = {from[0], from[1], from[2], 255};
             if (memcmp(to, now, sizeof now) == 0)
                 continue;
             memcpy(to, now, sizeof now);
@@ -105,16 +114,39 @@ static struct studio_rectangle canvas_fill(struct studio_pictures *pictures,
     return changed;
 }
 
+/* The number of the last message that can be seen: of a stroke that grows the newest samples are not painted yet, and of another deed
+ * nothing is before the hand is lifted. */
+static unsigned long seen_of(const struct studio_paper *p)
+{
+    if (!studio_session_busy(p->session))
+        return p->heard;
+    return studio_session_grows(p->session) ? p->points[0] : p->before_hand;
+}
+
 static void picture_make(struct studio_paper *p)
 {
     const struct paper_sheet_view view = studio_session_view(p->session);
-    p->dirty = false;
-    if (paper_sheet_view(studio_session_sheet(p->session), &view, p->view) != PAPER_OK) {
-        complain(p);
-        return;
+    struct paper_sheet *sheet = studio_session_sheet(p->session);
+    struct paper_area areas[PAPER_AREAS_MAX];
+    struct studio_rectangle changed = {0};
+    const int width = p->pictures->width;
+    int count = paper_sheet_changed(sheet, areas);
+    if (p->view_other) {
+        areas[0] = (struct paper_area){0, 0, width, p->pictures->height};
+        count = 1;
     }
-    const struct studio_rectangle changed = canvas_fill(p->pictures, p->view);
-    studio_pictures_publish(p->pictures, &changed, p->heard);
+    p->dirty = p->view_other = false;
+    for (int i = 0; i < count; i++) {
+        const size_t at = (size_t)areas[i].y * (size_t)width + (size_t)areas[i].x;
+        if (paper_sheet_view_area(sheet, &view, &areas[i], p->view + 3 * at,
+                                  3 * (size_t)width) != PAPER_OK) {
+            complain(p);
+            p->view_other = true; /* what was not seen is looked at with the next change */
+            break;
+        }
+        changed = studio_rectangle_join(changed, canvas_fill(p->pictures, p->view, &areas[i]));
+    }
+    studio_pictures_publish(p->pictures, &changed, seen_of(p));
     p->def.wake(p->def.context);
 }
 
@@ -123,7 +155,7 @@ static void picture_make(struct studio_paper *p)
 static bool pictures_change(struct studio_paper *p, int width, int height)
 {
     struct studio_pictures *made = calloc(1, sizeof *made);
-    uint16_t *view = malloc(3 * (size_t)width * (size_t)height * sizeof *view);
+    uint8_t *view = malloc(3 * (size_t)width * (size_t)height);
     if (!made || !view || !studio_pictures_begin(made, width, height)) {
         free(made);
         free(view);
@@ -162,7 +194,7 @@ static void sheet_change(struct studio_paper *p, struct studio_session *made, co
     p->now.settings = *studio_session_settings(made);
     p->now.changed = false;
     snprintf(p->now.path, sizeof p->now.path, "%s", path ? path : "");
-    p->dirty = true;
+    p->dirty = p->view_other = true;
     p->due = 0;
 }
 
@@ -255,13 +287,42 @@ static enum paper_status type_show(struct studio_paper *p, const struct studio_m
     return status;
 }
 
+/* How many steps a second strokes may ask for follows from what they took. */
+static void stroke_measure(struct studio_paper *p)
+{
+    const int steps = studio_session_stroke_steps(p->session);
+    if (steps >= 10 && p->worked_s > 0)
+        studio_session_pace_most(p->session,
+                                 fmax(PACE_LEAST, PACE_SHARE * steps / p->worked_s));
+}
+
+static enum paper_status point_do(struct studio_paper *p, const struct studio_message *m)
+{
+    const double began_s = input_now_s();
+    if (m->point.kind == STUDIO_POINT_DOWN) {
+        p->before_hand = m->number - 1;
+        p->worked_s = 0;
+        for (int i = 0; i < POINTS_UNSEEN; i++)
+            p->points[i] = m->number - 1;
+    }
+    for (int i = 0; i + 1 < POINTS_UNSEEN; i++)
+        p->points[i] = p->points[i + 1];
+    p->points[POINTS_UNSEEN - 1] = m->number;
+    const enum paper_status status = studio_session_point(p->session, &m->point);
+    p->rested_s = input_now_s();
+    p->worked_s += p->rested_s - began_s;
+    if (m->point.kind == STUDIO_POINT_UP)
+        stroke_measure(p);
+    return status;
+}
+
 static enum paper_status message_do(struct studio_paper *p, const struct studio_message *m)
 {
     struct studio_session *s = p->session;
     const struct studio_type type = type_of(m);
     switch (m->kind) {
     case STUDIO_MESSAGE_POINT:
-        return studio_session_point(s, &m->point);
+        return point_do(p, m);
     case STUDIO_MESSAGE_SET:
         if (m->setting == STUDIO_PAUSED && m->value == 0)
             studio_session_go_on(s);
@@ -310,7 +371,7 @@ static bool changes(const struct studio_message *m)
     return m->kind == STUDIO_MESSAGE_UNDO || m->kind == STUDIO_MESSAGE_REDO ||
            m->kind == STUDIO_MESSAGE_DRY || m->kind == STUDIO_MESSAGE_SEAL ||
            m->kind == STUDIO_MESSAGE_TYPE || m->kind == STUDIO_MESSAGE_STEP ||
-           (m->kind == STUDIO_MESSAGE_POINT && m->point.kind == STUDIO_POINT_UP);
+           m->kind == STUDIO_MESSAGE_POINT;
 }
 
 static void message_hear(struct studio_paper *p, struct studio_message *m)
@@ -327,8 +388,9 @@ static void message_hear(struct studio_paper *p, struct studio_message *m)
     else if (p->session) {
         if (message_do(p, m) != PAPER_OK)
             complain(p);
-        p->dirty = p->dirty || changes(m) ||
-                   (m->kind == STUDIO_MESSAGE_SET && m->setting == STUDIO_SHOW);
+        p->dirty = p->dirty || changes(m);
+        if (m->kind == STUDIO_MESSAGE_SET && m->setting == STUDIO_SHOW)
+            p->dirty = p->view_other = true;
         p->now.changed = p->now.changed || changes(m);
     }
     p->now.answered = m->number;
@@ -358,12 +420,24 @@ static void messages_hear(struct studio_paper *p)
 
 /* ---- time ---- */
 
+/* A hand that rests on the paper is told again, so that the paper goes on under it. */
+static void rest(struct studio_paper *p, double now_s)
+{
+    if (!studio_session_grows(p->session) || now_s - p->rested_s < STILL_S)
+        return;
+    if (studio_session_rest(p->session, now_s - p->rested_s) != PAPER_OK)
+        complain(p);
+    p->rested_s = now_s;
+    p->dirty = true;
+}
+
 static void time_go(struct studio_paper *p)
 {
     const double *value = studio_session_settings(p->session)->value, now_s = input_now_s(),
                  gone_s = now_s - p->looked_s;
     int done = 0;
     p->looked_s = now_s;
+    rest(p, now_s);
     if (value[STUDIO_PAUSED] != 0 || studio_session_busy(p->session) ||
         studio_session_held(p->session) || !studio_session_wet(p->session)) {
         p->due = 0;
@@ -384,6 +458,8 @@ static double wait_s(const struct studio_paper *p)
     const double *value = studio_session_settings(p->session)->value;
     if (p->dirty)
         return UNSEEN_S;
+    if (studio_session_grows(p->session) && value[STUDIO_PAUSED] == 0)
+        return STILL_S;
     if (value[STUDIO_PAUSED] != 0 || studio_session_busy(p->session) ||
         studio_session_held(p->session) || !studio_session_wet(p->session))
         return REST_S;

@@ -67,8 +67,14 @@ enum paper_status studio_session_set(struct studio_session *session, int setting
 
 enum paper_status studio_session_point(struct studio_session *session,
                                        const struct studio_point *point);
-/* Whether a hand is down. */
+/* Whether a hand is down; whether it paints a stroke, which is on the sheet already. */
 bool studio_session_busy(const struct studio_session *session);
+bool studio_session_grows(const struct studio_session *session);
+/* The hand has rested so long: the paper goes on under it. Nothing where time stands still, or no stroke is painted. */
+enum paper_status studio_session_rest(struct studio_session *session, double seconds);
+/* The steps that the paper has made under the stroke, or the last one; how many a second strokes may ask for at the most (0: any). */
+int studio_session_stroke_steps(const struct studio_session *session);
+void studio_session_pace_most(struct studio_session *session, double pace);
 /* A brush that is dipped, rinsed (clean water) or wiped: no deed of its own. */
 enum studio_care { STUDIO_DIP, STUDIO_RINSE, STUDIO_WIPE };
 enum paper_status studio_session_care(struct studio_session *session, enum studio_care care);

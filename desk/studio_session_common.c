@@ -33,6 +33,12 @@ void studio_session_error_forget(void)
 
 void studio_session_drop(struct studio_session *s)
 {
+    if (paper_sheet_stroke_growing(s->sheet))
+        paper_sheet_stroke_drop(s->sheet);
+    if (s->down && paper_history_done(s->sheet) > s->operations) { /* its brush, its dip */
+        paper_history_undo(s->sheet, paper_history_done(s->sheet) - s->operations);
+        s->has_brush = false;
+    }
     s->down = false;
     s->samples_count = 0;
 }

@@ -14,6 +14,9 @@ struct studio_session {
     bool down;
     struct studio_settings at;
     double began_s;
+    int operations;   /* that had been done before */
+    int stroke_steps; /* that the paper has made under it */
+    double pace_most; /* of strokes; 0: any */
     struct paper_stroke_sample *samples;
     int samples_count, samples_capacity;
     bool held; /* something was undone, and nothing done since */

@@ -119,7 +119,7 @@ static enum paper_status stroke_paint(struct painting *p, const struct scene_dee
         status = paper_sheet_dip(p->sheet, &dip);
     return status == PAPER_OK
                ? paper_sheet_stroke(p->sheet,
-                                    &(struct paper_stroke){.pace = 60,
+                                    &(struct paper_stroke){.pace = 0,
                                                            .samples_count = d->count,
                                                            .samples = samples},
                                     NULL)
