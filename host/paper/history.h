@@ -59,6 +59,21 @@ enum paper_status paper_history_moment_put(const struct paper_sheet *sheet, int 
                                            double amount[1 + PAPER_PIGMENTS_MAX], int box[4],
                                            bool *puts);
 
+/* The arguments of operation `number`: the struct of sheet.h, brush.h, techniques.h or arguments.h for what paper_moment calls "air",
+ * "put", "stroke", ...; NULL for those without any ("step", "dry", "seal"). Errors: BAD_ARGUMENT (no such operation), BAD_FILE, NO_MEMORY;
+ * *arguments is then NULL. Owns: the caller gives them to paper_history_arguments_free(), with the same moment's `what`. */
+enum paper_status paper_history_arguments(const struct paper_sheet *sheet, int number,
+                                          void **arguments);
+void paper_history_arguments_free(const char *what, void *arguments); /* NULL is fine */
+
+/* Operation `number` as bytes, and what they say done again, on this or another sheet of the same pigments (and size, for layers): as if its
+ * public function were called; of steps one. Errors: of the first BAD_ARGUMENT (no such operation), NO_MEMORY; of the second BAD_FILE (no
+ * such bytes), and the operation's own. Owns: the caller frees *bytes. */
+enum paper_status paper_history_operation(const struct paper_sheet *sheet, int number,
+                                          uint8_t **bytes, size_t *count);
+enum paper_status paper_sheet_again(struct paper_sheet *sheet, const uint8_t *bytes,
+                                    size_t count);
+
 /* Consecutive steps are one operation, until another operation or a call of this function. */
 void paper_history_mark(struct paper_sheet *sheet);
 

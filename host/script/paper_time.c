@@ -1,6 +1,7 @@
 /* paper_time.c - a paper's time in scripts: undo and redo, earlier times, other resolutions,
  * saving, loading, filming. */
 #include "script_paper.h"
+#include "script_text.h"
 
 #include <history.h>
 #include <state.h>
@@ -48,6 +49,24 @@ static int paper_to(lua_State *L)
     history_need(L, paper);
     script_paper_check(
         L, paper_history_seek(paper->sheet, script_arg_count(L, 2, "a time", 0, 0, TIME_MOST)));
+    return 0;
+}
+
+/* paper:again("..."): an operation by its bytes, as session.c writes them */
+static int paper_again(lua_State *L)
+{
+    struct script_paper *paper = script_paper_begin(L, 2);
+    size_t length, count;
+    uint8_t *bytes;
+    const char *text = luaL_checklstring(L, 2, &length);
+    if (!script_text_bytes(text, length, &bytes, &count))
+        luaL_error(
+            L, "again's text must be an operation that a session's script has (it is damaged)");
+    script_paper_stop_when_due(L, paper);
+    const enum paper_status status = paper_sheet_again(paper->sheet, bytes, count);
+    free(bytes);
+    script_paper_check(L, status);
+    script_check(L);
     return 0;
 }
 
@@ -222,10 +241,10 @@ static int expect(lua_State *L)
     return 0;
 }
 
-const luaL_Reg script_paper_time_methods[] = {{"undo", paper_undo}, {"redo", paper_redo},
-                                              {"to", paper_to},     {"moments", paper_moments},
-                                              {"save", paper_save}, {"render", paper_render},
-                                              {"film", paper_film}, {NULL, NULL}};
+const luaL_Reg script_paper_time_methods[] = {
+    {"undo", paper_undo},       {"redo", paper_redo},   {"to", paper_to},
+    {"moments", paper_moments}, {"save", paper_save},   {"render", paper_render},
+    {"film", paper_film},       {"again", paper_again}, {NULL, NULL}};
 
 const luaL_Reg script_papers_functions[] = {{"load", papers_load}, {NULL, NULL}};
 

@@ -62,8 +62,7 @@ static const struct {
     {"paper", "seal", "", ""},
     {"paper", "air", "O",
      "gravity:v seep:v spread:n relief:n film:n pinning:n absorption:n "
-     "carry:n humidity:n edge:n edge_width:n "
-     "settling:n"},
+     "carry:n humidity:n edge:n edge_width:n settling:n"},
     {"paper", "step", "i", ""},
     {"paper", "type", "SOA", "size:n x:n y:n align:S width:n"},
     {"paper", "close", "", ""},
@@ -77,6 +76,7 @@ static const struct {
     {"paper", "redo", "i", ""},
     {"paper", "to", "i", ""},
     {"paper", "moments", "", ""},
+    {"paper", "again", "S", ""},
     {"paper", "save", "h", ""},
     {"paper", "render", "r", ""},
     {"paper", "film", "O", "show:S x:n y:n width:n height:n"},

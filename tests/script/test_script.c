@@ -92,7 +92,7 @@ static void wrong_names_and_numbers_are_answered(void **state)
     static const char *const wrong[][2] = {
         {"rect(1, 1, 4, 4):turn(3)",
          "mask has no 'turn'; it has bounds, move, rotate, scale, soften"},
-        {"p:paint()", "paper has no 'paint'; it has air, at, blot, brush, close"},
+        {"p:paint()", "paper has no 'paint'; it has again, air, at, blot, brush, close"},
         {"p:put(rect(1, 1, 4, 4), {blue = 1})",
          "no pigment 'blue'; it takes water, cyan, yellow"},
         {"paper{stock = 'canvas'}", "no paper stock 'canvas'; there are cold press, hot press"},

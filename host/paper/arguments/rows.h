@@ -4,7 +4,7 @@
 #ifndef LUTETIA_PAPER_ROWS_H
 #define LUTETIA_PAPER_ROWS_H
 
-#include "arguments/arguments.h"
+#include "arguments.h"
 #include "describe.h"
 
 /* Other rows are in public headers. The order and the kinds of rows never change, because

@@ -18,7 +18,7 @@
 #ifndef LUTETIA_PAPER_EVENT_H
 #define LUTETIA_PAPER_EVENT_H
 
-#include "arguments/arguments.h"
+#include "arguments.h"
 #include "base/base.h"
 
 #include <kinds.h>

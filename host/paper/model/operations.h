@@ -6,7 +6,7 @@
 #ifndef LUTETIA_PAPER_OPERATIONS_H
 #define LUTETIA_PAPER_OPERATIONS_H
 
-#include "arguments/arguments.h"
+#include "arguments.h"
 
 enum paper_status sheet_step(struct paper_sheet *p, const void *arguments);
 enum paper_status sheet_put_check(const struct paper_sheet *p, const void *arguments);
