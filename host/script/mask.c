@@ -247,6 +247,15 @@ static int make_ellipse(lua_State *L)
     return 1;
 }
 
+static int make_circle(lua_State *L)
+{
+    double x = script_arg_at(L, 1, "circle's x", -SCRIPT_PLACE_MAX, SCRIPT_PLACE_MAX);
+    double y = script_arg_at(L, 2, "circle's y", -SCRIPT_PLACE_MAX, SCRIPT_PLACE_MAX);
+    double radius = script_arg_at(L, 3, "circle's radius", 0, SCRIPT_PLACE_MAX);
+    ellipse_push(L, x, y, radius, radius);
+    return 1;
+}
+
 /* Reads corner i (from 1) of the list at index. */
 static void corner_read(lua_State *L, int index, int i, const char *what, double out[2])
 {
@@ -564,10 +573,10 @@ static int make_function(lua_State *L)
     return 1;
 }
 
-const luaL_Reg script_mask_makers[] = {{"rect", make_rectangle},  {"ellipse", make_ellipse},
-                                       {"polygon", make_polygon}, {"line", make_line},
-                                       {"text", make_text},       {"image", make_image},
-                                       {"mask", make_function},   {NULL, NULL}};
+const luaL_Reg script_mask_makers[] = {
+    {"rect", make_rectangle},  {"ellipse", make_ellipse}, {"circle", make_circle},
+    {"polygon", make_polygon}, {"line", make_line},       {"text", make_text},
+    {"image", make_image},     {"mask", make_function},   {NULL, NULL}};
 
 void script_mask_open(lua_State *L)
 {

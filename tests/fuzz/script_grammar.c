@@ -25,12 +25,12 @@ static const struct {
     {NULL, "expect", "i", ""},
     {NULL, "rect", "nnnn", ""},
     {NULL, "ellipse", "nnnn", ""},
+    {NULL, "circle", "nnn", ""},
     {NULL, "polygon", "t", ""},
     {NULL, "line", "tn", ""},
     {NULL, "text", "SO",
      "size:n font:S x:n y:n align:S tracking:n filter:S angle:n width:n leading:n features:S "
-     "language:S anchor:n "
-     "right_to_left:b axes:S darken:n corners:t warp:S"},
+     "language:S anchor:n right_to_left:b axes:S darken:n corners:t warp:S"},
     {NULL, "page", "SO",
      "width:n height:n margin:n columns:i gap:n size:n font:S italic:S bold:S leading:n "
      "align:S indent:n notes:n page:i hyphenate:b language:S features:S protrude:n expand:n "

@@ -170,6 +170,16 @@ static void stained_parts_follow_the_paint(void **state)
                      (double)wet[i]);
     }
     assert_true(part > WIDTH);
+    static uint16_t rgb[3 * FIBERS]; /* and a picture of the layer shows it */
+    check(paper_sheet_view(
+        sheet,
+        &(struct paper_sheet_view){
+            .show = PAPER_SHOW_LAYER, .layer = PAPER_LAYER_STAINED_PART, .high = 1, .scale = 1},
+        rgb));
+    for (int i = 0; i < FIBERS; i++)
+        if (fabs(rgb[3 * i] / 65535.0 - (double)stained[i]) > 1e-4)
+            fail_msg("%g of a fiber is stained, and its picture shows %g", (double)stained[i],
+                     rgb[3 * i] / 65535.0);
     check(paper_sheet_put(sheet, NULL, 0, 0, (double[]){0.5, 0, 0}));
     steps(sheet, 2);
     check(paper_sheet_layer_read(sheet, PAPER_LAYER_STAINED_PART, 0, stained));

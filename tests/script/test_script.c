@@ -164,6 +164,27 @@ static void paint_that_goes_nowhere_is_said(void **state)
     assert_null(strstr(s.notes, "script.lua:6"));
 }
 
+static void a_circle_is_a_round_ellipse(void **state)
+{
+    (void)state;
+    struct scripted s = {.config = scripted_config()};
+    assert_int_equal(
+        scripted_run(
+            &s, "local p, q = paper{width = 24, height = 20}, paper{width = 24, height = 20}\n"
+                "p:layer('resist', circle(11.3, 9.2, 6.5))\n"
+                "q:layer('resist', ellipse(11.3, 9.2, 6.5, 6.5))\n"
+                "local inside = 0\n"
+                "for y = 0, 19 do for x = 0, 23 do\n"
+                "  local v = p:at('resist', x, y)\n"
+                "  assert(v == q:at('resist', x, y))\n"
+                "  inside = inside + v\n"
+                "end end\n"
+                "assert(math.abs(inside - math.pi * 6.5 ^ 2) < 2)\n"),
+        SCRIPT_OK);
+    assert_int_equal(scripted_run(&s, "circle(3, 4)"), SCRIPT_FAILED);
+    assert_non_null(strstr(s.errors, "circle's radius"));
+}
+
 /* A layer reads back the values of masks, which are n / 255. */
 static void masks_are_scaled_and_shifted_in_value(void **state)
 {
@@ -518,6 +539,7 @@ int main(void)
         cmocka_unit_test(wrong_names_and_numbers_are_answered),
         cmocka_unit_test(values_and_type_beyond_are_said),
         cmocka_unit_test(paint_that_goes_nowhere_is_said),
+        cmocka_unit_test(a_circle_is_a_round_ellipse),
         cmocka_unit_test(masks_are_scaled_and_shifted_in_value),
         cmocka_unit_test(the_history_tells_what_was_put),
         cmocka_unit_test(what_the_state_takes_is_limited),

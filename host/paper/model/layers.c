@@ -51,6 +51,11 @@ CM_field_id_t sheet_layer_field(const struct paper_sheet *p, enum paper_layer la
     return field;
 }
 
+bool sheet_layer_amount(enum paper_layer layer)
+{
+    return layers[layer].amount;
+}
+
 static enum paper_status layer_check(const struct paper_sheet *p, enum paper_layer layer,
                                      int pigment, CM_field_id_t *field)
 {

@@ -158,6 +158,8 @@ int sheet_pigment_fields(const struct paper_sheet *p, int pigment, CM_field_id_t
 /* The field of a layer; 0 where there is none. */
 CM_field_id_t sheet_layer_field(const struct paper_sheet *p, enum paper_layer layer,
                                 int pigment);
+/* Whether it is kept in grains. */
+bool sheet_layer_amount(enum paper_layer layer);
 /* As paper_sheet_layer_read() and paper_sheet_total(), of the sheet as it is. */
 enum paper_status sheet_layer_read(struct paper_sheet *p, enum paper_layer layer, int pigment,
                                    float *values);

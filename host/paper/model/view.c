@@ -213,7 +213,7 @@ void sheet_shades_make(struct paper_sheet *p, const struct paper_sheet_view *vie
             CM_f_u_float_2_2L(color[0], layer, SHEET_DRIED_BITS, KIT_F);
         else
             kit_f_copy(color[0], layer);
-        double unit = view->layer >= PAPER_LAYER_SURFACE_WATER ? p->unit : 1;
+        const double unit = sheet_layer_amount(view->layer) ? p->unit : 1;
         kit_f_times(color[0], color[0], 1 / (unit * (view->high - view->low)));
         kit_f_plus(color[0], color[0], -view->low / (view->high - view->low));
     }
