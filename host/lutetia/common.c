@@ -8,6 +8,7 @@
 #include <visible_text.h>
 
 #include <errno.h>
+#include <math.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -135,7 +136,31 @@ void time_left_text(char *text, size_t room, double seconds)
 struct progress progress_begin(const char *what, int total)
 {
     double now = seconds_now();
-    return (struct progress){what, total, isatty(STDERR_FILENO) != 0, now, 0};
+    return (struct progress){
+        .what = what, .total = total, .shown = isatty(STDERR_FILENO) != 0, .began_s = now};
+}
+
+#define MARKED_FROM 0.5 /* seconds */
+#define PACE_SPAN 1.0   /* seconds over which it is taken at least */
+
+double progress_left(struct progress *p, int done, double now)
+{
+    const double passed = now - p->began_s;
+    if (p->mark[0].s == 0) {
+        if (passed >= MARKED_FROM && done > 0) {
+            p->mark[0].s = p->mark[1].s = now;
+            p->mark[0].done = p->mark[1].done = done;
+        }
+        return -1;
+    }
+    if (now - p->mark[1].s >= fmax(PACE_SPAN, passed / 3)) {
+        p->mark[0] = p->mark[1];
+        p->mark[1].s = now;
+        p->mark[1].done = done;
+    }
+    const double span = now - p->mark[0].s;
+    const int steps = done - p->mark[0].done;
+    return span < PACE_SPAN || steps <= 0 ? -1 : span / steps * (p->total - done);
 }
 
 void progress_show(struct progress *p, int done)
@@ -152,8 +177,9 @@ void progress_show(struct progress *p, int done)
     bar[BAR] = '\0';
     double passed = now - p->began_s;
     char left[40] = "";
-    if (passed > 0.5 && done > 0 && done < p->total)
-        time_left_text(left, sizeof left, passed / done * (p->total - done));
+    const double seconds = progress_left(p, done, now);
+    if (seconds >= 0 && done < p->total)
+        time_left_text(left, sizeof left, seconds);
     char what[400];
     visible_text(what, sizeof what, p->what);
     fprintf(stderr, "\r%s [%s] %d/%d  %.1f steps/s  %s\033[K", what, bar, done, p->total,

@@ -70,10 +70,17 @@ struct progress {
     int total;
     bool shown;
     double began_s, drawn_s;
+    struct {
+        double s;
+        int done;
+    } mark[2]; /* progress_left(): where the pace was looked at */
 };
 struct progress progress_begin(const char *what, int total);
 void progress_show(struct progress *p, int done);
 void progress_end(struct progress *p); /* clears the line */
+/* Seconds that are left, by the pace of late: the first steps wait for kernels and say nothing about the rest. Negative: nobody can
+ * tell yet. `now` is that of seconds_now(). */
+double progress_left(struct progress *p, int done, double now);
 
 /* "12 s left", "about 3 min left" */
 void time_left_text(char *text, size_t room, double seconds);

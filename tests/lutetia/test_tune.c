@@ -1,4 +1,5 @@
 /* test_tune.c - `lutetia tune`: the measured programs give the bits of plain C with all settings; the command's messages. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -6,6 +7,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "lutetia.h" /* before cmocka, whose fail() is a macro */
 
 #include <cmocka.h>
 
@@ -151,6 +154,34 @@ static void an_interrupted_one_keeps_nothing(void **state)
     assert_int_equal(system(command), 0);
 }
 
+/* A run whose first step waits seconds for its kernels, and whose later steps come to take longer: what is said to be left is right from
+ * the first time on, and again soon after the pace has changed. */
+static void the_time_left_is_by_the_pace_of_late(void **state)
+{
+    (void)state;
+    enum { FIRST = 300, TOTAL = 500 };
+    const double begin = 1000, waited = 8, fast = 0.05, slow = 0.2,
+                 changed = begin + waited + FIRST * fast;
+    struct progress progress = {.total = TOTAL, .began_s = begin};
+    int said = 0;
+    for (int done = 1; done < TOTAL; done++) {
+        const double now = done <= FIRST ? begin + waited + (done - 1) * fast
+                                         : changed + (done - FIRST) * slow,
+                     left = progress_left(&progress, done, now);
+        const bool early = done <= FIRST;
+        const double wanted_left = early ? (TOTAL - done) * fast : (TOTAL - done) * slow;
+        if (early && now < begin + waited + 1)
+            assert_true(left < 0);
+        if (left < 0)
+            continue;
+        said++;
+        if ((early || now > changed + 20) && fabs(left - wanted_left) > 0.2 * wanted_left + 0.1)
+            fail_msg("after %d steps %g s are left, and %g s were said", done, wanted_left,
+                     left);
+    }
+    assert_true(said > TOTAL - 60);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -158,6 +189,7 @@ int main(void)
         cmocka_unit_test(costs_are_measured),
         cmocka_unit_test(wrong_lines_are_said),
         cmocka_unit_test(an_interrupted_one_keeps_nothing),
+        cmocka_unit_test(the_time_left_is_by_the_pace_of_late),
     };
     return cmocka_run_group_tests(tests, oracle, NULL);
 }
