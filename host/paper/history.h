@@ -93,9 +93,21 @@ enum paper_status paper_history_seek(struct paper_sheet *sheet, long time);
 enum paper_status paper_history_insert_begin(struct paper_sheet *sheet, long time);
 enum paper_status paper_history_insert_end(struct paper_sheet *sheet, bool keep);
 
-/* Called after every step while the past is computed again; returns false to stop. The call
- * that needed it then fails with MACHINE_FAILED, "stopped", and may be repeated. NULL: no
- * call. */
+/* Takes operation `number` (of those that are done) out of the past; what followed it flows anew when somebody looks. With
+ * `leave_time` the steps that it took stay, so that all else dries as it did: a stroke with a pace. What had been undone is dropped, and
+ * the removal itself cannot be undone. Errors: BAD_ARGUMENT (no such operation; later ones use the brush that it made; while something
+ * is inserted, changed or painted), NO_MEMORY. */
+enum paper_status paper_history_remove(struct paper_sheet *sheet, int number, bool leave_time);
+
+/* What is done between these two calls takes the place of operation `number`: another amount, pigment or way of a stroke say, from
+ * paper_history_arguments(). Undo goes back as far as to the beginning. Without `keep` the operation is as it was. Errors: as
+ * paper_history_remove(); if later operations use a brush that is no longer made, the change has not ended. */
+enum paper_status paper_history_change_begin(struct paper_sheet *sheet, int number);
+enum paper_status paper_history_change_end(struct paper_sheet *sheet, bool keep);
+
+/* Called after every step and operation while the past is computed again, with the steps done and how many there are; returns
+ * false to stop. The call that needed it then fails with MACHINE_FAILED, "stopped", and may be repeated: it goes on
+ * where it was. NULL: no call. */
 typedef bool (*paper_history_watch)(void *context, long done, long total);
 void paper_history_set_watch(struct paper_sheet *sheet, paper_history_watch watch,
                              void *context);

@@ -338,7 +338,7 @@ static enum paper_status catch_up(struct paper_sheet *p)
             status = sheet_finish(p);
         if (status != PAPER_OK)
             return status;
-        done += op->kind == SHEET_EVENT_STEP;
+        done += op->kind == SHEET_EVENT_STEP ? 1 : op->steps;
         checkpoint_offer(p, false);
         if (h->watch && !h->watch(h->watch_context, done, total))
             return paper_fail(PAPER_MACHINE_FAILED, "stopped");
@@ -493,17 +493,25 @@ enum paper_status paper_history_insert_end(struct paper_sheet *p, bool keep)
         return PAPER_OK;
     if (history_no_stroke(p) != PAPER_OK)
         return PAPER_BAD_ARGUMENT;
+    const bool replaced = h->changing && keep;
+    enum paper_status status = replaced ? history_brushes_check(p, -1, 1) : PAPER_OK;
+    if (status != PAPER_OK)
+        return status;
     history_moved(h, NOTE_INSERT_END, keep);
     if (!keep)
         h->now = (struct position){h->inserting_at, 0};
-    enum paper_status status = history_cut(h); /* at a boundary, which takes no memory */
+    status = history_cut(h); /* at a boundary, which takes no memory */
+    const int end = h->log.count;
     h->inserted.op = h->inserting_at;
-    h->inserted.count = h->log.count - h->inserting_at;
+    h->inserted.count = h->changing ? 0 : end - h->inserting_at;
     if (!event_log_put_back(&h->log, h->tail, h->tail_count) && status == PAPER_OK)
         status = paper_fail(PAPER_NO_MEMORY, "no memory for the history of a sheet");
+    if (replaced && end < h->log.count)
+        event_log_remove(&h->log, end, 1);
     h->tail = NULL;
     h->tail_count = 0;
     h->inserting_at = -1;
+    h->changing = false;
     h->now = (struct position){h->log.count, 0};
     h->open = false;
     history_followed(h);

@@ -27,6 +27,9 @@ enum note_move {
     NOTE_SEEK,
     NOTE_INSERT,
     NOTE_INSERT_END,
+    NOTE_REMOVE,
+    NOTE_REMOVE_LEAVING_TIME,
+    NOTE_CHANGE,
     NOTE_MOVES_END
 };
 struct note {
@@ -91,6 +94,7 @@ struct sheet_history {
     bool performing;            /* calls made now are part of an operation */
     bool painting;              /* the fields hold `now` and the stroke that grows so far */
     struct position painted_at; /* `at` when it began */
+    bool changing;              /* the first operation of `tail` is being replaced */
     int inserting_at;           /* operations before it cannot be undone; -1: no insertion */
     struct event_record *tail;  /* the operations after the insertion */
     int tail_count;
@@ -141,6 +145,7 @@ enum paper_status history_names_get(struct event_reader *r, int kinds[256]);
 void history_operation_put(struct event_bytes *b, const struct event_record *op);
 enum paper_status history_operation_get(struct event_reader *r, const struct paper_sheet *p,
                                         const int kinds[256], struct event_record *op);
+int history_brush_of(enum sheet_event_kind kind, const void *arguments);
 /* The brush that an operation makes, dips or leads; -1: none. Errors: BAD_FILE, NO_MEMORY. */
 enum paper_status history_operation_brush(const struct paper_sheet *p,
                                           const struct event_record *op, int *brush);
@@ -196,6 +201,12 @@ enum paper_status history_stroke_end(struct paper_sheet *p);
 void history_stroke_drop(struct paper_sheet *p);
 /* Errors: BAD_ARGUMENT while one grows. */
 enum paper_status history_no_stroke(const struct paper_sheet *p);
+
+/* ---- operations taken out or replaced (history/change.c, brushes_made.c) ---- */
+
+/* Whether each brush that is dipped or leads is made before, if the log, followed by records from `first` of the tail on, were the
+ * list. Errors: BAD_ARGUMENT (one is not), NO_MEMORY, BAD_FILE. */
+enum paper_status history_brushes_check(const struct paper_sheet *p, int without, int first);
 
 /* ---- notes (history/notes.c) ---- */
 

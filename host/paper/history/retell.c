@@ -83,6 +83,13 @@ enum paper_status history_remake(struct paper_sheet *p, int move, long number)
             return impossible();
         status = paper_history_insert_end(p, number != 0);
         break;
+    case NOTE_REMOVE:
+    case NOTE_REMOVE_LEAVING_TIME:
+        status = paper_history_remove(p, (int)number, move == NOTE_REMOVE_LEAVING_TIME);
+        break;
+    case NOTE_CHANGE:
+        status = paper_history_change_begin(p, (int)number);
+        break;
     default:
         return impossible();
     }

@@ -182,26 +182,6 @@ enum paper_status history_operation_get(struct event_reader *r, const struct pap
     return PAPER_OK;
 }
 
-/* The number of the brush that an operation uses; -1: none. */
-static int brush_of(enum sheet_event_kind kind, const void *arguments)
-{
-    if (kind == SHEET_EVENT_BRUSH)
-        return ((const struct paper_brush *)arguments)->number;
-    if (kind == SHEET_EVENT_DIP)
-        return ((const struct paper_dip *)arguments)->number;
-    return kind == SHEET_EVENT_STROKE ? ((const struct paper_stroke *)arguments)->number : -1;
-}
-
-enum paper_status history_operation_brush(const struct paper_sheet *p,
-                                          const struct event_record *op, int *brush)
-{
-    void *arguments;
-    enum paper_status status = operation_arguments(&p->config, op, &arguments);
-    *brush = status == PAPER_OK ? brush_of(operation_kind(op), arguments) : -1;
-    event_free(sheet_event_kind(operation_kind(op)), arguments);
-    return status;
-}
-
 enum paper_status history_operation_check(const struct paper_sheet *p,
                                           const struct event_record *op, unsigned *brushes)
 {
@@ -209,7 +189,7 @@ enum paper_status history_operation_check(const struct paper_sheet *p,
     enum paper_status status = operation_arguments(&p->config, op, &arguments);
     if (status == PAPER_OK)
         status = sheet_event_check(p, operation_kind(op), arguments);
-    int brush = status == PAPER_OK ? brush_of(operation_kind(op), arguments) : -1;
+    int brush = status == PAPER_OK ? history_brush_of(operation_kind(op), arguments) : -1;
     if (op->kind == SHEET_EVENT_BRUSH && brush >= 0)
         *brushes |= 1u << brush;
     if (brush >= 0 && !(*brushes & 1u << brush))
