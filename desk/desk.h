@@ -12,6 +12,7 @@
  *     desk_dish.c      the dish: wells, swatches; the tilted board
  *     desk_actions.c   actions, menus, keys
  *     desk_files.c     new, open, save, pictures
+ *     desk_unsaved.c   sheets that were never saved
  *     desk_type.c      type on the sheet
  *     desk_play.c      recorded input: events and actions from a file
  *
@@ -41,7 +42,8 @@ struct desk_ghost {
 struct desk_options {
     const char *path, *play;
     struct paper_sheet_config config;
-    int theme; /* -1: as the desktop; 0: light; 1: dark */
+    bool fresh; /* a new sheet, though one was not saved */
+    int theme;  /* -1: as the desktop; 0: light; 1: dark */
 };
 
 struct desk_gl;
@@ -85,6 +87,7 @@ struct desk {
     char *font, *features;
     struct studio_shown shown;
     struct desk_play *play;
+    bool closed;                     /* the window was, by its person */
     bool asked;                      /* whether what is not saved may go */
     void (*leaving)(struct desk *d); /* what is done when it has been saved */
     gint woken;
@@ -176,6 +179,12 @@ void desk_type_drop(struct desk *d);
 void desk_type_changed(struct desk *d);
 bool desk_type_key(struct desk *d, guint key, GdkModifierType state);
 void desk_type_text(struct desk *d, const char *text);
+
+/* desk_unsaved.c */
+/* The folder of journals of sheets that were never saved; NULL: it cannot be made. Free it by g_free(). */
+char *desk_unsaved_folder(void);
+/* The newest of them that no living program writes; NULL: there is none. */
+char *desk_unsaved_find(const char *folder);
 
 /* desk_play.c */
 /* NULL: it cannot be read; a line has been said. */

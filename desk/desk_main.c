@@ -1,5 +1,5 @@
 /* desk_main.c - the program lutetia-studio, which `lutetia studio` runs. Its words are of that verb's making, NAME=VALUE, and have been
- * checked there: file, play, width, height, stock, pigment, seed, theme. */
+ * checked there: file, play, fresh, width, height, stock, pigment, seed, theme. */
 #include "desk.h"
 
 #include <locale.h>
@@ -30,6 +30,8 @@ static bool word_take(struct desk_options *o, const char *word)
     else if (IS("pigment") && paper_pigment_find(value) &&
              o->config.pigments_count < PAPER_PIGMENTS_MAX)
         o->config.pigments[o->config.pigments_count++] = *paper_pigment_find(value);
+    else if (IS("fresh"))
+        o->fresh = true;
     else if (IS("theme"))
         o->theme = strcmp(value, "dark") == 0;
     else
@@ -51,7 +53,7 @@ static void activate(GtkApplication *application, gpointer data)
 static void desk_finish(struct desk *d)
 {
     struct studio_report last = d->report;
-    studio_paper_end(d->paper, &last);
+    studio_paper_end(d->paper, d->closed, &last);
     if (last.errors != d->report.errors) { /* after the window was closed */
         visible_say("lutetia studio: %s", last.error);
         d->status = 1;

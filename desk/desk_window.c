@@ -89,11 +89,14 @@ static void sheet_take(struct desk *d)
 {
     for (int i = STUDIO_TILT_X; i <= STUDIO_EDGE; i++)
         d->settings.value[i] = d->report.settings.value[i];
+    d->settings.value[STUDIO_PAUSED] = d->report.settings.value[STUDIO_PAUSED];
     d->viewed = false;
     desk_type_drop(d);
     desk_panel_sheet(d);
     for (int i = 0; i < STUDIO_SETTINGS; i++)
         desk_set(d, i, d->settings.value[i]);
+    if (d->report.found_again)
+        desk_say(d, _("What was not saved is here again."));
     if (d->play)
         desk_play_begin(d->play);
 }
@@ -236,6 +239,7 @@ static void gone(GtkWidget *window, struct desk *d)
 {
     (void)window;
     d->window = NULL;
+    d->closed = d->asked || !d->report.changed;
 }
 
 static gboolean close_asked(GtkWindow *window, struct desk *d)
@@ -300,11 +304,17 @@ void desk_window_open(struct desk *d)
     gtk_window_set_default_size(GTK_WINDOW(d->window), 1260, 820);
     desk_actions_add(d);
     gtk_window_set_titlebar(GTK_WINDOW(d->window), header_new(d));
+    char *folder = desk_unsaved_folder(),
+         *found = d->options.path || d->options.fresh ? NULL : desk_unsaved_find(folder);
     d->paper = studio_paper_start(&(struct studio_paper_def){.config = &d->options.config,
+                                                             .found = found,
+                                                             .folder = folder,
                                                              .path = d->options.path,
                                                              .budget_bytes = budget_bytes(),
                                                              .wake = wake,
                                                              .context = d});
+    g_free(folder);
+    g_free(found);
     GtkWidget *tools = desk_tools_new(d), *state = state_new(d);
     gtk_widget_set_hexpand(tools, FALSE); /* the sheet has what is left */
     gtk_box_append(GTK_BOX(middle), tools);

@@ -4,62 +4,34 @@
  *
  * The hand comes first: no more than STEPS_AT_ONCE steps are done between two looks at the messages. Steps that the machine is too slow for
  * are left out, so that time on the paper never runs after the hand. */
-#include "studio_paper.h"
+#include "studio_paper_internal.h"
 #include "studio_session_internal.h"
 
 #include <array.h>
 #include <input.h>
-#include <picture.h>
 
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { STEPS_AT_ONCE = 2 };
-enum { POINTS_UNSEEN = 3 }; /* samples at a stroke's end that its way is not settled for */
-#define LATE_MOST 2.0       /* steps that may be due */
-#define REST_S 0.25         /* between looks while nothing happens */
-#define UNSEEN_S 0.004      /* until a picture is looked at */
-#define STILL_S 0.05        /* a hand that is not heard for so long rests */
-#define PACE_LEAST 5.0      /* steps a second of a stroke */
-#define PACE_SHARE 0.7      /* of the time goes to a stroke, the rest to pictures */
-
-struct studio_paper {
-    struct studio_paper_def def;
-    struct paper_sheet_config config; /* of the first sheet */
-    pthread_t thread;
-    bool started;
-    struct studio_messages messages;
-    /* the thread's own */
-    struct studio_session *session;
-    bool dirty, end;
-    double due, looked_s;
-    unsigned long heard;
-    struct studio_message *later; /* what waits until the hand is lifted */
-    int later_count, later_capacity;
-    uint8_t *view;                                    /* the picture, 3 bytes a fiber */
-    bool view_other;                                  /* the whole sheet is to be looked at */
-    unsigned long points[POINTS_UNSEEN], before_hand; /* numbers of messages */
-    double rested_s, worked_s; /* when the hand was heard last; what its stroke has taken */
-    struct studio_report now;
-    /* shared */
-    pthread_mutex_t lock;
-    struct studio_report report;
-    struct studio_pictures *pictures; /* of this sheet */
-    struct studio_shown shown;
-    bool shown_new;
-    /* the window's own */
-    struct studio_pictures *looked; /* those that it looks at */
-    uint8_t *shown_gray;
-};
+#define LATE_MOST 2.0  /* steps that may be due */
+#define REST_S 0.25    /* between looks while nothing happens */
+#define UNSEEN_S 0.004 /* until a picture is looked at */
+#define STILL_S 0.05   /* a hand that is not heard for so long rests */
+#define PACE_LEAST 5.0 /* steps a second of a stroke */
+#define PACE_SHARE 0.7 /* of the time goes to a stroke, the rest to pictures */
 
 /* ---- telling ---- */
 
 static void report_make(struct studio_paper *p)
 {
     struct studio_report *r = &p->now;
+    if (p->kept && studio_keeper_failed(&p->keeper, r->error, sizeof r->error))
+        r->errors++;
     r->ready = p->session != NULL;
     if (p->session) {
         struct paper_sheet *sheet = studio_session_sheet(p->session);
@@ -79,75 +51,6 @@ static void report_make(struct studio_paper *p)
     pthread_mutex_unlock(&p->lock);
     if (other)
         p->def.wake(p->def.context);
-}
-
-static void complain(struct studio_paper *p)
-{
-    snprintf(p->now.error, sizeof p->now.error, "%s", studio_session_error());
-    p->now.errors++;
-}
-
-/* ---- pictures ---- */
-
-/* Copies an area of the picture to the canvas; where it is another one there. */
-static struct studio_rectangle canvas_fill(struct studio_pictures *pictures, const uint8_t *rgb,
-                                           const struct paper_area *area)
-{
-    struct studio_rectangle changed = {0};
-    for (int y = area->y; y < area->y + area->height; y++) {
-        const size_t at = (size_t)y * (size_t)pictures->width + (size_t)area->x;
-        const uint8_t *from = rgb + 3 * at;
-        uint8_t *to = pictures->canvas + STUDIO_PIXEL * at;
-        int first = pictures->width, last = -1;
-        for (int x = area->x; x < area->x + area->width; x++, from += 3, to += STUDIO_PIXEL) {
-            const uint8_t now[STUDIO_PIXEL] = {from[0], from[1], from[2], 255};
-            if (memcmp(to, now, sizeof now) == 0)
-                continue;
-            memcpy(to, now, sizeof now);
-            first = x < first ? x : first;
-            last = x;
-        }
-        if (last >= 0)
-            changed = studio_rectangle_join(
-                changed, (struct studio_rectangle){first, y, last + 1, y + 1});
-    }
-    return changed;
-}
-
-/* The number of the last message that can be seen: of a stroke that grows the newest samples are not painted yet, and of another deed
- * nothing is before the hand is lifted. */
-static unsigned long seen_of(const struct studio_paper *p)
-{
-    if (!studio_session_busy(p->session))
-        return p->heard;
-    return studio_session_grows(p->session) ? p->points[0] : p->before_hand;
-}
-
-static void picture_make(struct studio_paper *p)
-{
-    const struct paper_sheet_view view = studio_session_view(p->session);
-    struct paper_sheet *sheet = studio_session_sheet(p->session);
-    struct paper_area areas[PAPER_AREAS_MAX];
-    struct studio_rectangle changed = {0};
-    const int width = p->pictures->width;
-    int count = paper_sheet_changed(sheet, areas);
-    if (p->view_other) {
-        areas[0] = (struct paper_area){0, 0, width, p->pictures->height};
-        count = 1;
-    }
-    p->dirty = p->view_other = false;
-    for (int i = 0; i < count; i++) {
-        const size_t at = (size_t)areas[i].y * (size_t)width + (size_t)areas[i].x;
-        if (paper_sheet_view_area(sheet, &view, &areas[i], p->view + 3 * at,
-                                  3 * (size_t)width) != PAPER_OK) {
-            complain(p);
-            p->view_other = true; /* what was not seen is looked at with the next change */
-            break;
-        }
-        changed = studio_rectangle_join(changed, canvas_fill(p->pictures, p->view, &areas[i]));
-    }
-    studio_pictures_publish(p->pictures, &changed, seen_of(p));
-    p->def.wake(p->def.context);
 }
 
 /* ---- sheets ---- */
@@ -175,6 +78,37 @@ static bool pictures_change(struct studio_paper *p, int width, int height)
     return true;
 }
 
+/* ---- journals ---- */
+
+static void journal_path(const char *path, char *out, size_t room)
+{
+    snprintf(out, room, "%s.journal", path);
+}
+
+/* From here on what is done with the sheet is kept: beside its file, or in the folder of those that have none. found NULL: none was read. */
+static void journal_begin(struct studio_paper *p, const char *path, const char *journal,
+                          const struct paper_journal_found *found)
+{
+    char made[STUDIO_TEXT_MAX + 64];
+    struct paper_sheet *sheet = studio_session_sheet(p->session);
+    enum paper_status status = PAPER_OK;
+    if (!p->kept || (!path && !journal && !p->def.folder))
+        return;
+    if (path)
+        journal_path(path, made, sizeof made);
+    else if (journal)
+        snprintf(made, sizeof made, "%s", journal);
+    else
+        snprintf(made, sizeof made, "%s/sheet-%d-%lu.journal", p->def.folder, (int)getpid(),
+                 p->now.sheets);
+    if (found && found->continues)
+        status = studio_keeper_continue(&p->keeper, sheet, made, found);
+    else
+        status = studio_keeper_watch(&p->keeper, sheet, made, path);
+    if (status != PAPER_OK)
+        studio_paper_complain(p);
+}
+
 /* The sheet that was made takes the place of the one before. */
 static void sheet_change(struct studio_paper *p, struct studio_session *made, const char *path)
 {
@@ -183,16 +117,18 @@ static void sheet_change(struct studio_paper *p, struct studio_session *made, co
     if (!pictures_change(p, config->width, config->height)) {
         studio_session_failed(PAPER_NO_MEMORY, "no memory for pictures of %dx%d fibers",
                               config->width, config->height);
-        complain(p);
+        studio_paper_complain(p);
         studio_session_destroy(made);
         return;
     }
+    if (p->kept)
+        studio_keeper_leave(&p->keeper);
     studio_session_destroy(p->session);
     p->session = made;
     p->now.sheets++;
     p->now.config = *config;
     p->now.settings = *studio_session_settings(made);
-    p->now.changed = false;
+    p->now.changed = p->now.found_again = false;
     snprintf(p->now.path, sizeof p->now.path, "%s", path ? path : "");
     p->dirty = p->view_other = true;
     p->due = 0;
@@ -201,19 +137,39 @@ static void sheet_change(struct studio_paper *p, struct studio_session *made, co
 static void sheet_make(struct studio_paper *p, const struct paper_sheet_config *config)
 {
     struct studio_session *made;
-    if (studio_session_create(config, p->def.budget_bytes, &made) == PAPER_OK)
-        sheet_change(p, made, NULL);
-    else
-        complain(p);
+    if (studio_session_create(config, p->def.budget_bytes, &made) != PAPER_OK) {
+        studio_paper_complain(p);
+        return;
+    }
+    sheet_change(p, made, NULL);
+    if (p->session == made)
+        journal_begin(p, NULL, NULL, NULL);
 }
 
-static void sheet_open(struct studio_paper *p, const char *path)
+/* A file with the journal beside it, or a journal alone. */
+static void sheet_open(struct studio_paper *p, const char *path, const char *journal)
 {
+    char beside[STUDIO_TEXT_MAX + 64];
+    struct paper_journal_found found = {0};
     struct studio_session *made;
-    if (studio_session_open(path, p->def.budget_bytes, &made) == PAPER_OK)
-        sheet_change(p, made, path);
+    enum paper_status status;
+    if (!journal) {
+        journal_path(path, beside, sizeof beside);
+        journal = access(beside, F_OK) == 0 ? beside : NULL;
+    }
+    if (journal)
+        status = studio_session_find(journal, path, p->def.budget_bytes, &found, &made);
     else
-        complain(p);
+        status = studio_session_open(path, p->def.budget_bytes, &made);
+    if (status != PAPER_OK) {
+        studio_paper_complain(p);
+        return;
+    }
+    sheet_change(p, made, path);
+    if (p->session != made)
+        return;
+    p->now.changed = p->now.found_again = found.entries > 0;
+    journal_begin(p, path, journal, &found);
 }
 
 /* ---- messages ---- */
@@ -247,6 +203,7 @@ static enum paper_status save(struct studio_paper *p, const struct studio_messag
     if (status == PAPER_OK) {
         snprintf(p->now.path, sizeof p->now.path, "%s", m->text);
         p->now.changed = false;
+        journal_begin(p, m->text, NULL, NULL);
         note(p, false, m->text);
     }
     return status;
@@ -353,7 +310,7 @@ static enum paper_status message_do(struct studio_paper *p, const struct studio_
         sheet_make(p, m->config);
         return PAPER_OK;
     case STUDIO_MESSAGE_OPEN:
-        sheet_open(p, m->text);
+        sheet_open(p, m->text, NULL);
         return PAPER_OK;
     case STUDIO_MESSAGE_SAVE:
     case STUDIO_MESSAGE_PICTURE:
@@ -383,11 +340,12 @@ static void message_hear(struct studio_paper *p, struct studio_message *m)
     }
     studio_session_error_forget();
     p->heard = m->number;
-    if (m->kind == STUDIO_MESSAGE_END)
+    if (m->kind == STUDIO_MESSAGE_END) {
         p->end = true;
-    else if (p->session) {
+        p->forget = m->value != 0;
+    } else if (p->session) {
         if (message_do(p, m) != PAPER_OK)
-            complain(p);
+            studio_paper_complain(p);
         p->dirty = p->dirty || changes(m);
         if (m->kind == STUDIO_MESSAGE_SET && m->setting == STUDIO_SHOW)
             p->dirty = p->view_other = true;
@@ -426,7 +384,7 @@ static void rest(struct studio_paper *p, double now_s)
     if (!studio_session_grows(p->session) || now_s - p->rested_s < STILL_S)
         return;
     if (studio_session_rest(p->session, now_s - p->rested_s) != PAPER_OK)
-        complain(p);
+        studio_paper_complain(p);
     p->rested_s = now_s;
     p->dirty = true;
 }
@@ -446,7 +404,7 @@ static void time_go(struct studio_paper *p)
     p->due = fmin(LATE_MOST, p->due + gone_s * value[STUDIO_PACE]);
     const int steps = (int)fmin(STEPS_AT_ONCE, floor(p->due));
     if (steps > 0 && studio_session_steps(p->session, steps, &done) != PAPER_OK) {
-        complain(p);
+        studio_paper_complain(p);
         studio_session_set(p->session, STUDIO_PAUSED, 1); /* one line, not sixty a second */
     }
     p->due -= steps;
@@ -469,8 +427,9 @@ static double wait_s(const struct studio_paper *p)
 static void *paper_run(void *context)
 {
     struct studio_paper *p = context;
-    if (p->def.path)
-        sheet_open(p, p->def.path);
+    p->kept = studio_keeper_begin(&p->keeper);
+    if (p->def.path || p->def.found)
+        sheet_open(p, p->def.path, p->def.path ? NULL : p->def.found);
     else
         sheet_make(p, &p->config);
     p->now.failed = !p->session;
@@ -481,12 +440,16 @@ static void *paper_run(void *context)
         if (p->session && !p->end) {
             time_go(p);
             if (p->dirty && studio_pictures_taken(p->pictures))
-                picture_make(p);
+                studio_paper_look(p);
             report_make(p);
         }
         if (!p->end)
             studio_messages_wait(&p->messages, p->session ? wait_s(p) : REST_S);
     }
+    if (p->kept && (p->forget || !p->now.changed))
+        studio_keeper_leave(&p->keeper);
+    if (p->kept)
+        studio_keeper_end(&p->keeper);
     studio_session_destroy(p->session);
     p->session = NULL;
     return NULL;
@@ -501,6 +464,8 @@ struct studio_paper *studio_paper_start(const struct studio_paper_def *def)
         return NULL;
     p->def = *def;
     p->def.path = def->path ? strdup(def->path) : NULL;
+    p->def.found = def->found ? strdup(def->found) : NULL;
+    p->def.folder = def->folder ? strdup(def->folder) : NULL;
     if (def->config)
         p->config = *def->config;
     studio_messages_begin(&p->messages);
@@ -508,16 +473,17 @@ struct studio_paper *studio_paper_start(const struct studio_paper_def *def)
     p->started = pthread_create(&p->thread, NULL, paper_run, p) == 0;
     if (p->started)
         return p;
-    studio_paper_end(p, NULL);
+    studio_paper_end(p, false, NULL);
     return NULL;
 }
 
-void studio_paper_end(struct studio_paper *p, struct studio_report *last)
+void studio_paper_end(struct studio_paper *p, bool forget, struct studio_report *last)
 {
     if (!p)
         return;
     if (p->started) {
-        studio_messages_put(&p->messages, (struct studio_message){.kind = STUDIO_MESSAGE_END});
+        studio_messages_put(
+            &p->messages, (struct studio_message){.kind = STUDIO_MESSAGE_END, .value = forget});
         while (p->messages.waiting_count > 0) {
             studio_messages_flush(&p->messages);
             sched_yield();
@@ -542,6 +508,8 @@ void studio_paper_end(struct studio_paper *p, struct studio_report *last)
     free(p->shown_gray);
     free(p->view);
     free((char *)(uintptr_t)p->def.path);
+    free((char *)(uintptr_t)p->def.found);
+    free((char *)(uintptr_t)p->def.folder);
     free(p);
 }
 

@@ -5,7 +5,7 @@
  *     studio_paper_send(paper, (struct studio_message){.kind = STUDIO_MESSAGE_POINT, .point = point});
  *     const struct studio_picture *picture = studio_paper_picture(paper);
  *     studio_paper_report(paper, &report);
- *     studio_paper_end(paper, &report);
+ *     studio_paper_end(paper, true, &report);
  *
  * Threads: all functions belong to the thread that started it. `wake` is called by the paper's thread when there is a new picture or
  * another report; it returns at once. */
@@ -19,8 +19,11 @@ enum { STUDIO_TEXT_MAX = 1100 };
 
 struct studio_paper_def {
     const struct paper_sheet_config
-        *config;         /* of a new sheet; not looked at where a file is opened */
-    const char *path;    /* a saved sheet; NULL: a new one */
+        *config;       /* of a new sheet; not looked at where a file is opened */
+    const char *path;  /* a saved sheet; NULL: a new one */
+    const char *found; /* the journal of one that was never saved; NULL: none */
+    const char
+        *folder; /* for journals of sheets that have no file yet; NULL: they are not kept */
     double budget_bytes; /* of the past's checkpoints */
     void (*wake)(void *context);
     void *context;
@@ -40,6 +43,7 @@ struct studio_report {
     double history_bytes; /* of the past */
     double budget_bytes;
     unsigned long answered;      /* the number of the last message that was done */
+    bool found_again;            /* the sheet is as a journal told, not as it was saved */
     unsigned long errors, notes; /* another number: another text */
     char error[STUDIO_TEXT_MAX];
     char note[STUDIO_TEXT_MAX]; /* the file that was written */
@@ -51,8 +55,9 @@ struct studio_paper;
 
 /* NULL: there is no thread, or no memory. */
 struct studio_paper *studio_paper_start(const struct studio_paper_def *def);
-/* All that was told is done first. *last (may be NULL) gets what is reported at the end. NULL is fine. */
-void studio_paper_end(struct studio_paper *paper, struct studio_report *last);
+/* All that was told is done first. *last (may be NULL) gets what is reported at the end. forget: what is not saved may go; else its journal
+ * stays, and the sheet can be found again. NULL is fine. */
+void studio_paper_end(struct studio_paper *paper, bool forget, struct studio_report *last);
 
 unsigned long studio_paper_send(struct studio_paper *paper, struct studio_message message);
 /* Once a picture of the window's: what found no room goes on. */

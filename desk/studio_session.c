@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define NO_SURFACE "%s: a sheet without water on its surface; the studio paints on others"
+
 /* ---- life ---- */
 
 static enum paper_status session_make(struct paper_sheet *sheet, struct studio_session **out)
@@ -25,6 +27,8 @@ static enum paper_status session_make(struct paper_sheet *sheet, struct studio_s
     s->settings.value[STUDIO_HUMIDITY] = air->humidity;
     s->settings.value[STUDIO_EDGE] = air->edge;
     s->wet = paper_history_done(sheet) > 0; /* until a step says otherwise */
+    s->settings.value[STUDIO_PAUSED] =
+        s->wet; /* the moment that was saved stays until somebody lets it go on */
     return PAPER_OK;
 }
 
@@ -55,13 +59,26 @@ enum paper_status studio_session_open(const char *path, double budget_bytes,
     struct paper_sheet_config config;
     status = paper_state_describe(state, 0, &config);
     if (status == PAPER_OK && !(config.parts & PAPER_PART_SURFACE))
-        status = studio_session_failed(
-            PAPER_BAD_FILE,
-            "%s: a sheet without water on its surface; the studio paints on others", path);
+        status = studio_session_failed(PAPER_BAD_FILE, NO_SURFACE, path);
     if (status == PAPER_OK)
         status = paper_state_load(state, 0, false, budget_bytes, &sheet);
     paper_state_close(state);
     return status == PAPER_OK ? session_make(sheet, out) : status;
+}
+
+enum paper_status studio_session_find(const char *journal, const char *state,
+                                      double budget_bytes, struct paper_journal_found *found,
+                                      struct studio_session **out)
+{
+    struct paper_sheet *sheet;
+    *out = NULL;
+    enum paper_status status = paper_journal_open(journal, state, budget_bytes, found, &sheet);
+    if (status != PAPER_OK)
+        return status;
+    if (paper_sheet_get_config(sheet)->parts & PAPER_PART_SURFACE)
+        return session_make(sheet, out);
+    paper_sheet_destroy(sheet);
+    return studio_session_failed(PAPER_BAD_FILE, NO_SURFACE, state ? state : journal);
 }
 
 void studio_session_destroy(struct studio_session *s)

@@ -22,6 +22,7 @@
 #include "studio_settings.h"
 
 #include <history.h>
+#include <journal.h>
 
 enum studio_point_kind {
     STUDIO_POINT_DOWN,
@@ -55,6 +56,10 @@ enum paper_status studio_session_create(const struct paper_sheet_config *config,
 /* Opens what studio_session_save() saved, or any saved state with one sheet. Errors: as paper_state_load(), and BAD_FILE of a sheet
  * without parts. */
 enum paper_status studio_session_open(const char *path, double budget_bytes,
+                                      struct studio_session **out);
+/* The same with what its journal tells (journal.h); state NULL: a sheet that was never saved. */
+enum paper_status studio_session_find(const char *journal, const char *state,
+                                      double budget_bytes, struct paper_journal_found *found,
                                       struct studio_session **out);
 void studio_session_destroy(struct studio_session *session); /* NULL is fine */
 struct paper_sheet *studio_session_sheet(struct studio_session *session);

@@ -24,6 +24,7 @@ struct studio {
     const char *stock, *theme, *play;
     struct option_texts pigments;
     int size[2], seed;
+    bool fresh; /* a new sheet is described */
 };
 
 /* The words of the window's program. */
@@ -99,6 +100,8 @@ static void line_fill(struct line *line, const struct studio *s, const char *pat
         word_add(line, "pigment", usual[i]);
     if (s->theme)
         word_add(line, "theme", s->theme);
+    if (s->fresh)
+        word_add(line, "fresh", "1");
 }
 
 static int window_run(struct line *line)
@@ -140,6 +143,8 @@ int verb_studio(int argc, char **argv)
     if (words.count > 1)
         return fail_usage("studio", "one sheet at a time (after it came '%.60s')",
                           words.words[1]);
+    for (size_t i = 0; i < 4; i++) /* --paper, --stock, --pigment, --seed */
+        s.fresh = s.fresh || words.given[i];
     int status = names_check(&s);
     if (status == EXIT_SUCCESS && words.count)
         status = file_check(words.words[0]);

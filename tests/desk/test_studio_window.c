@@ -11,9 +11,12 @@
 #include <display.h>
 #include <state.h>
 
+#include <dirent.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "../lutetia/child.h"
@@ -139,6 +142,73 @@ static void closed_in_mid_stroke(void **state)
     assert_int_equal(saved_count("mid.h5", "blot"), 0);
 }
 
+/* ---- what was not saved ---- */
+
+/* The journal of the only sheet that was not saved; false: there is none. */
+static bool journal_find(char *path, size_t room)
+{
+    char folder_of[160];
+    snprintf(folder_of, sizeof folder_of, "%s/lutetia/studio", folder);
+    DIR *names = opendir(folder_of);
+    bool found = false;
+    for (struct dirent *entry; names && (entry = readdir(names));)
+        if (strstr(entry->d_name, ".journal") && !strstr(entry->d_name, ".part")) {
+            snprintf(path, room, "%s/%.80s", folder_of, entry->d_name);
+            found = true;
+        }
+    if (names)
+        closedir(names);
+    return found;
+}
+
+/* Killed while nobody had saved: all that is older than a second is there again, and what the journal has lost is lost alone. */
+static void killed_and_found_again(void **state)
+{
+    (void)state;
+    char *seen, *expected, journal[300];
+    struct stat now, before = {0};
+    FILE *events = events_begin();
+    scene_write(events, 2);
+    fclose(events);
+    const pid_t studio = fork();
+    if (studio == 0) {
+        setenv("GTK_A11Y", "none", 1);
+        execl(getenv("LUTETIA"), "lutetia", "studio", "--paper", "96x72", "--pigment",
+              "french ultramarine", "--pigment", "quinacridone rose", "--play",
+              in_folder("hand.events"), NULL);
+        _exit(127);
+    }
+    /* until it has not grown for three seconds after the last deed */
+    for (int still = 0, turns = 0; still < 30 && turns < 1200; turns++) {
+        usleep(100000);
+        const bool there = journal_find(journal, sizeof journal) && stat(journal, &now) == 0;
+        still = there && now.st_size == before.st_size && turns > 60 ? still + 1 : 0;
+        before = there ? now : before;
+    }
+    kill(studio, SIGKILL);
+    waitpid(studio, NULL, 0);
+    assert_true(journal_find(journal, sizeof journal));
+    events = events_begin();
+    fprintf(events, "0 picture %s\n0.1 save %s\n0.1 close\n", in_folder("seen.png"),
+            in_folder("mid.h5"));
+    fclose(events);
+    memset(&child, 0, sizeof child);
+    const char *const arguments[] = {getenv("LUTETIA"), "studio", "--play",
+                                     in_folder("hand.events")};
+    memcpy(child.arguments, arguments, sizeof arguments);
+    child.variables[0] = "GTK_A11Y=none";
+    child_run(&child);
+    assert_int_equal(child.status, 0);
+    expected_write(in_folder("expected.png"));
+    const size_t count = file_read(in_folder("seen.png"), &seen),
+                 wanted = file_read(in_folder("expected.png"), &expected);
+    assert_int_equal(count, wanted);
+    assert_memory_equal(seen, expected, count);
+    free(seen);
+    free(expected);
+    assert_false(journal_find(journal, sizeof journal)); /* saved: it is not needed any more */
+}
+
 /* ---- what is wrong ---- */
 
 /* One line that says so. */
@@ -196,7 +266,10 @@ static void wrong_files_are_told(void **state)
 static int folder_make(void **state)
 {
     (void)state;
-    return mkdtemp(folder) ? 0 : -1;
+    if (!mkdtemp(folder))
+        return -1;
+    setenv("XDG_DATA_HOME", folder, 1); /* where sheets are kept that were not saved */
+    return 0;
 }
 
 static int folder_remove(void **state)
@@ -206,6 +279,9 @@ static int folder_remove(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         unlink(in_folder(names[i]));
+    unlink(in_folder("mid.h5.journal"));
+    rmdir(in_folder("lutetia/studio"));
+    rmdir(in_folder("lutetia"));
     return rmdir(folder);
 }
 
@@ -214,6 +290,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(window_paints_what_calls_paint),
         cmocka_unit_test(closed_in_mid_stroke),
+        cmocka_unit_test(killed_and_found_again),
         cmocka_unit_test(wrong_is_one_line),
         cmocka_unit_test(wrong_files_are_told),
     };

@@ -1,0 +1,109 @@
+/* studio_keeper.c - see studio_keeper.h. */
+#include "studio_keeper.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+static void sync_now(struct studio_keeper *k)
+{
+    if (!k->journal)
+        return;
+    const bool good = paper_journal_sync(k->journal) == PAPER_OK;
+    if (!good && !k->error[0])
+        k->told = false;
+    snprintf(k->error, sizeof k->error, "%s", good ? "" : paper_error());
+}
+
+static void *keeper_run(void *context)
+{
+    struct studio_keeper *k = context;
+    pthread_mutex_lock(&k->lock);
+    while (!k->end) {
+        struct timespec until;
+        clock_gettime(CLOCK_REALTIME, &until);
+        until.tv_sec++;
+        pthread_cond_timedwait(&k->wake, &k->lock, &until);
+        sync_now(k);
+    }
+    pthread_mutex_unlock(&k->lock);
+    return NULL;
+}
+
+bool studio_keeper_begin(struct studio_keeper *k)
+{
+    *k = (struct studio_keeper){0};
+    pthread_mutex_init(&k->lock, NULL);
+    pthread_cond_init(&k->wake, NULL);
+    k->started = pthread_create(&k->thread, NULL, keeper_run, k) == 0;
+    return k->started;
+}
+
+void studio_keeper_end(struct studio_keeper *k)
+{
+    pthread_mutex_lock(&k->lock);
+    k->end = true;
+    pthread_cond_signal(&k->wake);
+    pthread_mutex_unlock(&k->lock);
+    if (k->started)
+        pthread_join(k->thread, NULL);
+    paper_journal_close(k->journal);
+    pthread_cond_destroy(&k->wake);
+    pthread_mutex_destroy(&k->lock);
+    *k = (struct studio_keeper){0};
+}
+
+/* The journal that there is goes: its file too, unless `path` is its name, whose file the next journal replaces. */
+static void journal_leave(struct studio_keeper *k, const char *path)
+{
+    paper_journal_close(k->journal);
+    if (k->journal && (!path || strcmp(path, k->path) != 0))
+        unlink(k->path);
+    k->journal = NULL;
+    k->error[0] = '\0';
+}
+
+static enum paper_status journal_take(struct studio_keeper *k, enum paper_status status,
+                                      const char *path)
+{
+    if (status == PAPER_OK)
+        snprintf(k->path, sizeof k->path, "%s", path);
+    pthread_mutex_unlock(&k->lock);
+    return status;
+}
+
+enum paper_status studio_keeper_watch(struct studio_keeper *k, struct paper_sheet *sheet,
+                                      const char *path, const char *state)
+{
+    pthread_mutex_lock(&k->lock);
+    journal_leave(k, path);
+    return journal_take(k, paper_journal_begin(sheet, path, state, &k->journal), path);
+}
+
+enum paper_status studio_keeper_continue(struct studio_keeper *k, struct paper_sheet *sheet,
+                                         const char *path,
+                                         const struct paper_journal_found *found)
+{
+    pthread_mutex_lock(&k->lock);
+    journal_leave(k, path);
+    return journal_take(k, paper_journal_continue(sheet, path, found, &k->journal), path);
+}
+
+void studio_keeper_leave(struct studio_keeper *k)
+{
+    pthread_mutex_lock(&k->lock);
+    journal_leave(k, NULL);
+    pthread_mutex_unlock(&k->lock);
+}
+
+bool studio_keeper_failed(struct studio_keeper *k, char *text, size_t room)
+{
+    pthread_mutex_lock(&k->lock);
+    const bool failed = k->error[0] && !k->told;
+    if (failed)
+        snprintf(text, room, "%s", k->error);
+    k->told = k->told || failed;
+    pthread_mutex_unlock(&k->lock);
+    return failed;
+}

@@ -1,0 +1,77 @@
+/* studio_paper_look.c - pictures of what has changed; failures. */
+#include "studio_paper_internal.h"
+#include "studio_session_internal.h"
+
+#include <picture.h>
+
+#include <stdio.h>
+#include <string.h>
+
+void studio_paper_complain(struct studio_paper *p)
+{
+    snprintf(p->now.error, sizeof p->now.error, "%s", studio_session_error());
+    p->now.errors++;
+}
+
+/* ---- pictures ---- */
+
+/* Copies an area of the picture to the canvas; where it is another one there. */
+static struct studio_rectangle canvas_fill(struct studio_pictures *pictures, const uint8_t *rgb,
+                                           const struct paper_area *area)
+{
+    struct studio_rectangle changed = {0};
+    for (int y = area->y; y < area->y + area->height; y++) {
+        const size_t at = (size_t)y * (size_t)pictures->width + (size_t)area->x;
+        const uint8_t *from = rgb + 3 * at;
+        uint8_t *to = pictures->canvas + STUDIO_PIXEL * at;
+        int first = pictures->width, last = -1;
+        for (int x = area->x; x < area->x + area->width; x++, from += 3, to += STUDIO_PIXEL) {
+            const uint8_t now[STUDIO_PIXEL] = {from[0], from[1], from[2], 255};
+            if (memcmp(to, now, sizeof now) == 0)
+                continue;
+            memcpy(to, now, sizeof now);
+            first = x < first ? x : first;
+            last = x;
+        }
+        if (last >= 0)
+            changed = studio_rectangle_join(
+                changed, (struct studio_rectangle){first, y, last + 1, y + 1});
+    }
+    return changed;
+}
+
+/* The number of the last message that can be seen: of a stroke that grows the newest samples are not painted yet, and of another deed
+ * nothing is before the hand is lifted. */
+static unsigned long seen_of(const struct studio_paper *p)
+{
+    if (!studio_session_busy(p->session))
+        return p->heard;
+    return studio_session_grows(p->session) ? p->points[0] : p->before_hand;
+}
+
+void studio_paper_look(struct studio_paper *p)
+{
+    const struct paper_sheet_view view = studio_session_view(p->session);
+    struct paper_sheet *sheet = studio_session_sheet(p->session);
+    struct paper_area areas[PAPER_AREAS_MAX];
+    struct studio_rectangle changed = {0};
+    const int width = p->pictures->width;
+    int count = paper_sheet_changed(sheet, areas);
+    if (p->view_other) {
+        areas[0] = (struct paper_area){0, 0, width, p->pictures->height};
+        count = 1;
+    }
+    p->dirty = p->view_other = false;
+    for (int i = 0; i < count; i++) {
+        const size_t at = (size_t)areas[i].y * (size_t)width + (size_t)areas[i].x;
+        if (paper_sheet_view_area(sheet, &view, &areas[i], p->view + 3 * at,
+                                  3 * (size_t)width) != PAPER_OK) {
+            studio_paper_complain(p);
+            p->view_other = true; /* what was not seen is looked at with the next change */
+            break;
+        }
+        changed = studio_rectangle_join(changed, canvas_fill(p->pictures, p->view, &areas[i]));
+    }
+    studio_pictures_publish(p->pictures, &changed, seen_of(p));
+    p->def.wake(p->def.context);
+}
