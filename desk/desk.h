@@ -167,6 +167,7 @@ void desk_file_new(struct desk *d);
 void desk_file_open(struct desk *d);
 void desk_file_save(struct desk *d, bool as);
 void desk_file_picture(struct desk *d);
+void desk_file_script(struct desk *d);
 /* Asks whether what is not saved may go; then `done`. */
 void desk_file_leave(struct desk *d, void (*done)(struct desk *d));
 

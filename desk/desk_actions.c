@@ -40,6 +40,7 @@ CALLS(open_sheet, desk_file_open(d))
 CALLS(save, desk_file_save(d, false))
 CALLS(save_as, desk_file_save(d, true))
 CALLS(picture, desk_file_picture(d))
+CALLS(script, desk_file_script(d))
 CALLS(close_window, gtk_window_close(GTK_WINDOW(d->window)))
 
 /* ---- the view ---- */
@@ -106,7 +107,7 @@ static const struct {
     {"Ctrl+Z, Ctrl+Shift+Z", "undo, redo"},
     {"Ctrl+Enter", "let the type into the paper"},
     {"Ctrl+D, Ctrl+L", "dry the sheet, seal it under a glaze"},
-    {"Ctrl+E", "write a picture"},
+    {"Ctrl+E, Ctrl+Shift+E", "write a picture, a script that makes the same sheet"},
 };
 
 static void help_row(GtkWidget *grid, int row, const char *keys, const char *does)
@@ -255,6 +256,7 @@ static const GActionEntry entries[] = {
     {.name = "save", .activate = save},
     {.name = "save-as", .activate = save_as},
     {.name = "picture", .activate = picture},
+    {.name = "script", .activate = script},
     {.name = "undo", .activate = undo},
     {.name = "redo", .activate = redo},
     {.name = "dry", .activate = dry},
@@ -282,6 +284,7 @@ static const struct {
     {"win.save", "Save", "<Control>s"},
     {"win.save-as", "Save as…", "<Control><Shift>s"},
     {"win.picture", "Write a picture…", "<Control>e"},
+    {"win.script", "Write a script…", "<Control><Shift>e"},
     {NULL, NULL, NULL},
     {"win.undo", "Undo", "<Control>z"},
     {"win.redo", "Redo", "<Control><Shift>z"},
@@ -320,7 +323,7 @@ GMenuModel *desk_menu_new(void)
         g_menu_append_section(menu, NULL, G_MENU_MODEL(part));
         g_object_unref(part);
         part = g_menu_new();
-        if (i == 5)
+        if (i == 6) /* after the files */
             g_menu_append_submenu(menu, _("Tools"), G_MENU_MODEL(tools));
     }
     g_object_unref(part);
@@ -348,6 +351,7 @@ void desk_actions_enable(struct desk *d)
                   {"save", d->report.ready},
                   {"save-as", d->report.ready},
                   {"picture", d->report.ready},
+                  {"script", d->report.ready},
                   {"dry", d->report.ready},
                   {"seal", d->report.ready}};
     for (size_t i = 0; i < G_N_ELEMENTS(states); i++)

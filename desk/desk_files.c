@@ -113,7 +113,7 @@ static void form_take(struct desk *d, const struct form *f)
     config->height = gtk_spin_button_get_value_as_int(GTK_SPIN_BUTTON(f->height));
     config->stock =
         *paper_stock_number((int)gtk_drop_down_get_selected(GTK_DROP_DOWN(f->stock)));
-    config->seed = (uint64_t)g_random_int();
+    config->seed = (uint64_t)(g_random_int() & 0x7fffffff); /* as scripts can say it */
     for (int i = 0; i < f->pigments_count; i++)
         if (gtk_check_button_get_active(GTK_CHECK_BUTTON(f->pigments[i])))
             config->pigments[config->pigments_count++] = *paper_pigment_number(i);
@@ -282,6 +282,12 @@ void desk_file_save(struct desk *d, bool as)
         send_path(d, STUDIO_MESSAGE_SAVE, d->report.path, 0);
     else
         choose(d, STUDIO_MESSAGE_SAVE, _("Save the sheet with its past"), ".h5", "sheet.h5");
+}
+
+void desk_file_script(struct desk *d)
+{
+    choose(d, STUDIO_MESSAGE_SCRIPT, _("Write a script that makes the same sheet"), ".lua",
+           "sheet.lua");
 }
 
 void desk_file_picture(struct desk *d)

@@ -126,6 +126,9 @@ static void input_do(struct desk *d, const struct studio_input *input)
     case STUDIO_INPUT_PICTURE:
         path_send(d, STUDIO_MESSAGE_PICTURE, input->text);
         break;
+    case STUDIO_INPUT_SCRIPT:
+        path_send(d, STUDIO_MESSAGE_SCRIPT, input->text);
+        break;
     }
 }
 

@@ -121,12 +121,11 @@ static gboolean report_take(gpointer data)
         }
     }
     if (d->report.notes != before.notes) {
-        char *text = g_strdup_printf(d->report.note_picture ? _("The picture is in %s.")
-                                                            : _("Saved in %s."),
-                                     d->report.note);
+        char *text = g_strdup_printf(
+            d->report.note_other ? _("Written: %s.") : _("Saved in %s."), d->report.note);
         desk_say(d, text);
         g_free(text);
-        void (*leaving)(struct desk *) = d->report.note_picture ? NULL : d->leaving;
+        void (*leaving)(struct desk *) = d->report.note_other ? NULL : d->leaving;
         if (leaving) {
             d->leaving = NULL;
             leaving(d);

@@ -32,6 +32,7 @@ static const struct word {
     {"type", STUDIO_INPUT_TYPE, INPUT_NONE, 0, 2, 2, true},
     {"save", STUDIO_INPUT_SAVE, INPUT_NONE, 0, 0, 0, true},
     {"picture", STUDIO_INPUT_PICTURE, INPUT_NONE, 0, 0, 0, true},
+    {"script", STUDIO_INPUT_SCRIPT, INPUT_NONE, 0, 0, 0, true},
 };
 /* What is an action of the window by its own name. */
 static const char *const actions[] = {"undo", "redo", "dry", "seal", "close"};

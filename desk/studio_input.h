@@ -9,7 +9,7 @@
  *
  * Words: set NAME VALUE (studio_settings.h); down, move, up X Y [PRESSURE [TILT_X TILT_Y]] with the units of input.h, no pressure being a
  * mouse; middle-down, middle-up; leave; focus-lost; action NAME [WORD]; step N; view ZOOM X Y DEGREES MIRRORED; type X Y TEXT (in fibers;
- * \n is a new line); undo, redo, dry, seal, save FILE, picture FILE, close. Times do not go back. */
+ * \n is a new line); undo, redo, dry, seal, save FILE, picture FILE, script FILE, close. Times do not go back. */
 #ifndef LUTETIA_STUDIO_INPUT_H
 #define LUTETIA_STUDIO_INPUT_H
 
@@ -25,7 +25,8 @@ enum studio_input_kind {
     STUDIO_INPUT_VIEW,
     STUDIO_INPUT_TYPE,
     STUDIO_INPUT_SAVE,
-    STUDIO_INPUT_PICTURE
+    STUDIO_INPUT_PICTURE,
+    STUDIO_INPUT_SCRIPT
 };
 
 enum { STUDIO_INPUT_TEXT = 1024 };

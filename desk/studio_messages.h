@@ -32,6 +32,7 @@ enum studio_message_kind {
     STUDIO_MESSAGE_OPEN,      /* text: the file */
     STUDIO_MESSAGE_SAVE,      /* text: the file */
     STUDIO_MESSAGE_PICTURE,   /* text: the file; value: pixels a fiber */
+    STUDIO_MESSAGE_SCRIPT,    /* text: the file */
     STUDIO_MESSAGE_END
 };
 

@@ -180,21 +180,24 @@ static bool needs_rest(enum studio_message_kind kind)
     return kind == STUDIO_MESSAGE_CARE || kind == STUDIO_MESSAGE_DRY ||
            kind == STUDIO_MESSAGE_SEAL || kind == STUDIO_MESSAGE_TYPE ||
            kind == STUDIO_MESSAGE_NEW || kind == STUDIO_MESSAGE_OPEN ||
-           kind == STUDIO_MESSAGE_SAVE || kind == STUDIO_MESSAGE_PICTURE;
+           kind == STUDIO_MESSAGE_SAVE || kind == STUDIO_MESSAGE_PICTURE ||
+           kind == STUDIO_MESSAGE_SCRIPT;
 }
 
-static void note(struct studio_paper *p, bool picture, const char *path)
+static void note(struct studio_paper *p, bool other, const char *path)
 {
     snprintf(p->now.note, sizeof p->now.note, "%s", path);
-    p->now.note_picture = picture;
+    p->now.note_other = other;
     p->now.notes++;
 }
 
 static enum paper_status save(struct studio_paper *p, const struct studio_message *m)
 {
     enum paper_status status;
-    if (m->kind == STUDIO_MESSAGE_PICTURE) {
-        status = studio_session_picture(p->session, m->text, (int)m->value);
+    if (m->kind == STUDIO_MESSAGE_PICTURE || m->kind == STUDIO_MESSAGE_SCRIPT) {
+        status = m->kind == STUDIO_MESSAGE_SCRIPT
+                     ? studio_session_script(p->session, m->text)
+                     : studio_session_picture(p->session, m->text, (int)m->value);
         if (status == PAPER_OK)
             note(p, true, m->text);
         return status;
@@ -314,6 +317,7 @@ static enum paper_status message_do(struct studio_paper *p, const struct studio_
         return PAPER_OK;
     case STUDIO_MESSAGE_SAVE:
     case STUDIO_MESSAGE_PICTURE:
+    case STUDIO_MESSAGE_SCRIPT:
         return save(p, m);
     case STUDIO_MESSAGE_END:
         p->end = true;

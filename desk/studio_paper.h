@@ -47,7 +47,7 @@ struct studio_report {
     unsigned long errors, notes; /* another number: another text */
     char error[STUDIO_TEXT_MAX];
     char note[STUDIO_TEXT_MAX]; /* the file that was written */
-    bool note_picture;          /* which was a picture, not the sheet */
+    bool note_other;            /* which was a picture or a script, not the sheet */
     char path[STUDIO_TEXT_MAX]; /* of the file; "": none yet */
 };
 

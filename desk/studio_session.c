@@ -2,6 +2,7 @@
 #include "studio_session_internal.h"
 
 #include <display.h>
+#include <script_session.h>
 #include <state.h>
 
 #include <stdlib.h>
@@ -250,6 +251,13 @@ enum paper_status studio_session_picture(struct studio_session *s, const char *p
         status = studio_session_failed(PAPER_BAD_ARGUMENT, "%s", display_error());
     free(rgb);
     return status;
+}
+
+enum paper_status studio_session_script(struct studio_session *s, const char *path)
+{
+    return script_session_write(s->sheet, path) == SCRIPT_OK
+               ? PAPER_OK
+               : studio_session_failed(PAPER_BAD_ARGUMENT, "%s", script_session_error());
 }
 
 struct paper_sheet_view studio_session_view(const struct studio_session *s)

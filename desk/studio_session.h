@@ -118,4 +118,7 @@ enum paper_status studio_session_save(struct studio_session *session, const char
 enum paper_status studio_session_picture(struct studio_session *session, const char *path,
                                          int scale);
 
+/* A script that makes the same sheet, to the bit (script_session.h); `path` ends in ".lua". */
+enum paper_status studio_session_script(struct studio_session *session, const char *path);
+
 #endif

@@ -94,7 +94,8 @@ static void window_paints_what_calls_paint(void **state)
     char *seen, *expected;
     FILE *events = events_begin();
     scene_write(events, 4);
-    fprintf(events, "4 picture %s\n4 close\n", in_folder("seen.png"));
+    fprintf(events, "4 picture %s\n4 script %s\n4 set show colour\n4 picture %s\n4 close\n",
+            in_folder("seen.png"), in_folder("scene.lua"), in_folder("colour.png"));
     fclose(events);
     studio_run(NULL);
     if (child.status != 0)
@@ -107,6 +108,27 @@ static void window_paints_what_calls_paint(void **state)
     assert_memory_equal(seen, expected, count);
     free(seen);
     free(expected);
+}
+
+/* What the script of the session before makes. */
+static void script_makes_the_same(void **state)
+{
+    (void)state;
+    struct display_image seen, expected;
+    memset(&child, 0, sizeof child);
+    const char *const arguments[] = {
+        getenv("LUTETIA"), "run", in_folder("scene.lua"), "-q", "-o", in_folder("made")};
+    memcpy(child.arguments, arguments, sizeof arguments);
+    child_run(&child);
+    if (child.status != 0)
+        print_message("%s", child.errors);
+    assert_int_equal(child.status, 0);
+    assert_int_equal(display_png_read_rgb(in_folder("made/scene.png"), &seen), DISPLAY_OK);
+    assert_int_equal(display_png_read_rgb(in_folder("colour.png"), &expected), DISPLAY_OK);
+    assert_int_equal(seen.width_px, expected.width_px);
+    assert_memory_equal(seen.pixels, expected.pixels, 3 * SCENE_WIDTH * SCENE_HEIGHT);
+    display_image_destroy(&seen);
+    display_image_destroy(&expected);
 }
 
 /* How many operations of that name the saved sheet has. */
@@ -274,21 +296,17 @@ static int folder_make(void **state)
 
 static int folder_remove(void **state)
 {
-    static const char *const names[] = {"hand.events", "seen.png", "expected.png", "mid.h5",
-                                        "bad.h5"};
+    char command[160];
     (void)state;
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        unlink(in_folder(names[i]));
-    unlink(in_folder("mid.h5.journal"));
-    rmdir(in_folder("lutetia/studio"));
-    rmdir(in_folder("lutetia"));
-    return rmdir(folder);
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    return system(command);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(window_paints_what_calls_paint),
+        cmocka_unit_test(script_makes_the_same),
         cmocka_unit_test(closed_in_mid_stroke),
         cmocka_unit_test(killed_and_found_again),
         cmocka_unit_test(wrong_is_one_line),
