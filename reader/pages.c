@@ -43,6 +43,9 @@ void reader_pages_destroy(struct reader_pages *p)
     if (!p)
         return;
     page_text_destroy(p->text);
+    for (int i = 0; i < p->pixels_count; i++)
+        free(p->pixels[i]);
+    free(p->pixels);
     pages_fonts_close(p);
     free(p->noted);
     free(p);
@@ -213,20 +216,30 @@ static enum reader_status rule_add(struct reader_pages *p)
     return status;
 }
 
-/* Its caption, and where it lies. */
+/* The picture, where it is found, and its caption; else its caption and where it lies. */
 static enum reader_status picture_add(struct reader_pages *p, const struct reader_block *block)
 {
     struct paragraph_text t = {0};
     struct page_manner manner = pages_manner(p, CONTEXT_TABLE);
     const char *target = block->target ? block->target : "";
+    const double gap = 0.6 * p->setup.size_px;
+    bool shown = false, good = true;
     manner_nest(p, block, &manner);
     manner.align = FONT_ALIGN_CENTER;
-    manner.before_px = manner.after_px = 0.6 * p->setup.size_px;
-    bool good = pages_block_add(&t, block, 0, block->bytes, READER_SLANTED) &&
-                pages_text_add(&t, " [", 2, 0) &&
-                pages_text_add(&t, target, (int)strlen(target), READER_CODE) &&
-                pages_text_add(&t, "]", 1, 0);
-    enum reader_status status =
+    manner.before_px = gap;
+    manner.keep_with_next = block->bytes > 0;
+    enum reader_status status = pages_picture_add(p, block, &manner, &shown);
+    if (status != READER_OK || (shown && !block->bytes))
+        return status;
+    manner.keep_with_next = false;
+    manner.before_px = shown ? gap / 3 : gap;
+    manner.after_px = gap;
+    good = pages_block_add(&t, block, 0, block->bytes, READER_SLANTED);
+    if (!shown)
+        good = good && pages_text_add(&t, " [", 2, 0) &&
+               pages_text_add(&t, target, (int)strlen(target), READER_CODE) &&
+               pages_text_add(&t, "]", 1, 0);
+    status =
         good ? pages_paragraph_add(p, &t, CONTEXT_TABLE, &manner, false) : pages_no_memory();
     pages_text_finish(&t);
     return status;

@@ -39,6 +39,8 @@ struct reader_pages {
     int unknown_count;
     char unknown[48];
     const struct reader_document *document;
+    uint8_t **pixels; /* of pictures */
+    int pixels_count, pixels_capacity;
     bool *noted; /* notes that stand on a page already */
     bool behind_head;
 };
@@ -83,6 +85,10 @@ double pages_column(const struct reader_pages *p); /* how wide a column is */
 enum reader_status pages_paragraph_add(struct reader_pages *p, const struct paragraph_text *t,
                                        enum context context, const struct page_manner *manner,
                                        bool display);
+
+/* pages_picture.c: a picture that is found, as a box in a line of its own. *done: it was. */
+enum reader_status pages_picture_add(struct reader_pages *p, const struct reader_block *block,
+                                     const struct page_manner *manner, bool *done);
 
 /* pages_table.c: the rows of one table, blocks[0..count). */
 enum reader_status pages_table_add(struct reader_pages *p, const struct reader_block *blocks,

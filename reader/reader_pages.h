@@ -9,7 +9,9 @@
  *
  * Formulas and code are set in fonts of their own, as large as makes their small letters as high as the text's. A formula on a line of its
  * own that is wider than its column is set smaller. A table whose columns have no room beside each other is set row by row, each
- * cell behind its column's name. Pictures are told by their captions and files. Code that lives is shown.
+ * cell behind its column's name. Pictures that are found are shown no wider than the column, and their captions under
+ * them; others, and all where the font of
+ * code has no full block (U+2588), are told by their captions and files. Code that lives is shown.
  *
  * Errors: functions that can fail return a status and leave one line in reader_error().
  *
@@ -21,7 +23,15 @@
 
 #include <page.h>
 
+#include <stdint.h>
+
 struct reader_pages;
+
+/* A picture's pixels: red, green, blue, rows without gaps. */
+struct reader_picture {
+    int width_px, height_px;
+    uint8_t *rgb; /* from malloc() */
+};
 
 struct reader_pages_setup {
     const char *font, *mono; /* names as font_face_open() has them */
@@ -36,6 +46,10 @@ struct reader_pages_setup {
     enum font_align align;
     bool hyphenate;
     bool running; /* page numbers, and the chapter over each page */
+    /* Finds the picture that stands alone in a paragraph of source number `source` as `target`; false: it is told by its caption and its file.
+     * NULL: none is found. The pages own what it gives. */
+    bool (*picture)(void *user, int source, const char *target, struct reader_picture *out);
+    void *picture_user;
 };
 /* EB Garamond (DejaVu Serif without it) of 17 pixels, justified, on a page of 600 x 840. */
 struct reader_pages_setup reader_pages_setup_default(void);

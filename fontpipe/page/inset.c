@@ -10,6 +10,19 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* An ink's places are those of its layout: they go with it. */
+static int ink_put(const struct font_ink *from, double x, double y, struct font_layout *out)
+{
+    struct font_ink ink = *from;
+    ink.x0 += x;
+    ink.y0 += y;
+    if (ink.kind == FONT_INK_LINEAR) { /* of a radial one x1 is a radius */
+        ink.x1 += x;
+        ink.y1 += y;
+    }
+    return font_layout_ink_add(out, &ink);
+}
+
 /* A copy of what is drawn, without its lines. */
 static bool shown_copy(const struct font_layout *from, struct font_layout *to)
 {
@@ -68,7 +81,7 @@ bool inset_put(const struct style *style, double x, double y, const struct font_
         if (from->map > 0)
             to->map = font_layout_map_add(out, &shown->maps[from->map - 1]);
         if (from->ink > 0)
-            to->ink = font_layout_ink_add(out, &shown->inks[from->ink - 1]);
+            to->ink = ink_put(&shown->inks[from->ink - 1], x, y, out);
         if ((from->map > 0 && !to->map) || (from->ink > 0 && !to->ink))
             return false;
     }

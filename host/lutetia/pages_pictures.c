@@ -149,7 +149,9 @@ const struct page pages_of_pictures[] = {
          "own. What it does not know is shown as it is written. [^name] calls a note, which "
          "[^name]: defines; notes of the class [^margin:name] stand in the margin that --notes "
          "makes. A table whose columns have no room beside each other is set row by row. "
-         "Pictures are told by captions and file names; fences that will live (```lua live, "
+         "Pictures alone in a paragraph are shown if they are PNG files in the document's "
+         "folder or below it, others told by captions and names; fences that will live (```lua "
+         "live, "
          "```c paris) are shown.\n"
          "In PDF a pixel is a point, 1/72 inch: A4 is --paper 595x842.\n" FONTS,
      .examples =

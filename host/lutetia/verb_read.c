@@ -5,10 +5,12 @@
 #include "type_common.h"
 #include "type_pages.h"
 
+#include <display.h>
 #include <paint.h>
 #include <reader_document.h>
 #include <reader_pages.h>
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -73,6 +75,28 @@ static int fail_reader(const char *path)
 {
     return path ? fail("read", "%s: %s", path, reader_error())
                 : fail("read", "%s", reader_error());
+}
+
+/* A PNG in the folder of the document's file, or below it. Others, and what cannot be read, are told by their names. */
+static bool picture_find(void *user, int source, const char *target, struct reader_picture *out)
+{
+    const double bytes_max = 512e6;
+    const struct option_words *words = user;
+    const char *file = words->words[source], *slash = strrchr(file, '/');
+    size_t n = strlen(target);
+    struct display_image image;
+    char *path;
+    if (n < 5 || strcmp(target + n - 4, ".png") != 0 || target[0] == '/' ||
+        strstr(target, "..") || strchr(target, ':'))
+        return false;
+    if (asprintf(&path, "%.*s%s", slash ? (int)(slash + 1 - file) : 0, file, target) < 0)
+        return false;
+    bool found = display_png_bytes(path, 3) <= bytes_max &&
+                 display_png_read_rgb(path, &image) == DISPLAY_OK;
+    free(path);
+    if (found)
+        *out = (struct reader_picture){image.width_px, image.height_px, image.pixels};
+    return found;
 }
 
 /* All files as one document; how many of their sequences are not UTF-8. */
@@ -172,6 +196,8 @@ int verb_read(int argc, char **argv)
     setup.notes_px = r.notes_px;
     setup.columns = r.columns;
     setup.running = !r.plain;
+    setup.picture = picture_find;
+    setup.picture_user = &words;
     if (r.ragged)
         setup.align = FONT_ALIGN_START;
     status = document_read(&words, &document, &damaged);

@@ -188,7 +188,7 @@ static void random_edits_lead_to_no_look_alike(void **state)
     static struct tried anchors[ANCHORS];
     struct tally tally = {0};
     const char *asked = getenv("READER_TEST_EDITS");
-    long edits = asked ? strtol(asked, NULL, 10) : 300;
+    long edits = asked ? strtol(asked, NULL, 10) : 100;
     for (long done = 0; done < edits;) {
         text_make(&t, 150);
         for (int i = 0; i < ANCHORS; i++)
@@ -227,7 +227,7 @@ static void told_edits_keep_the_letters(void **state)
     (void)state;
     static struct text t;
     long kept = 0, gone = 0;
-    for (int round = 0; round < 300; round++) {
+    for (int round = 0; round < 150; round++) {
         struct tried a;
         bool there = true;
         text_make(&t, 20);

@@ -198,6 +198,57 @@ static void wide_formulas_are_made_smaller(void **state)
     made_finish(&m);
 }
 
+/* Columns of black and white, one pixel wide; the right half red. */
+static bool stripes(void *user, int source, const char *target, struct reader_picture *out)
+{
+    int *asked = user;
+    assert_int_equal(source, 0);
+    ++*asked;
+    if (strcmp(target, "there.png") != 0)
+        return false;
+    *out = (struct reader_picture){.width_px = 2400, .height_px = 1200};
+    out->rgb = malloc((size_t)3 * 2400 * 1200);
+    assert_non_null(out->rgb);
+    for (size_t i = 0; i < (size_t)2400 * 1200; i++) {
+        bool right = i % 2400 >= 1200;
+        out->rgb[3 * i] = right || i % 2 ? 255 : 0;
+        out->rgb[3 * i + 1] = out->rgb[3 * i + 2] = !right && i % 2 ? 255 : 0;
+    }
+    return true;
+}
+
+/* As wide as the column, its light kept, its caption under it; one that is not found is told. */
+static void pictures_are_shown(void **state)
+{
+    (void)state;
+    struct reader_pages_setup setup = plain_setup();
+    int asked = 0;
+    setup.picture = stripes;
+    setup.picture_user = &asked;
+    setup.width_px = 428; /* a column of 300: eight columns of the picture become one */
+    struct made m = make("Before.\n\n![The caption](there.png)\n\n![Not](found.png)\n", &setup);
+    struct seen s = look(&m, 0);
+    const struct font_placed *picture = glyph_of(&s, "there.png"),
+                             *caption = glyph_of(&s, "The caption"),
+                             *before = glyph_of(&s, "Before");
+    assert_int_equal(asked, 2);
+    assert_true(picture->ink > 0 && picture->map > 0);
+    const struct font_ink *ink = &s.layout.inks[picture->ink - 1];
+    assert_int_equal(ink->kind, FONT_INK_PICTURE);
+    assert_int_equal(ink->width_px, 300);
+    assert_int_equal(ink->height_px, 150);
+    assert_true(fabs(ink->x0 - 64) < 0.01); /* the ink is where the box is */
+    assert_true(ink->y0 > before->y_px && fabs(ink->y0 + 150 - picture->y_px) < 60);
+    assert_true(caption->y_px > ink->y0 + 150 && caption->y_px < ink->y0 + 190);
+    assert_in_range(ink->rgb[0], 186, 190); /* half the light, not half the number */
+    assert_int_equal(ink->rgb[3 * 299], 255);
+    assert_int_equal(ink->rgb[3 * 299 + 1], 0);
+    assert_null(strstr(s.said.utf8, "caption [there.png]"));
+    assert_non_null(strstr(s.said.utf8, "Not [found.png]"));
+    seen_finish(&s);
+    made_finish(&m);
+}
+
 static char *repeated(const char *before, const char *part, int count, const char *after)
 {
     size_t n = strlen(part);
@@ -268,6 +319,7 @@ int main(void)
         cmocka_unit_test(notes_stand_where_they_are_called),
         cmocka_unit_test(tables_have_columns_or_are_told),
         cmocka_unit_test(wide_formulas_are_made_smaller),
+        cmocka_unit_test(pictures_are_shown),
         cmocka_unit_test(hostile_documents_are_set),
         cmocka_unit_test(wrong_setups_are_refused),
     };

@@ -1,0 +1,156 @@
+/* pages_picture.c - pictures in documents: a full block (U+2588) of the font of code, as large as the picture, whose ink is the picture's
+ * pixels at the page's size. So whatever draws pages draws them. See pages_internal.h. */
+#include "pages_internal.h"
+
+#include <edges.h>
+#include <outline.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { FULL_BLOCK = 0x2588 };
+
+/* What a picture's row or column i of `to` covers of `from` ones: from *begin on, at least one. */
+static void covered(int i, int to, int from, int *begin, int *end)
+{
+    *begin = (int)((long)i * from / to);
+    *end = (int)((long)(i + 1) * from / to);
+    *end = *end > *begin ? *end : *begin + 1;
+}
+
+/* As many pixels as it has on the page: the mean light of those that each covers. Owns: the caller frees it; NULL: no memory. */
+static uint8_t *pixels_shrink(const struct reader_picture *from, int width, int height)
+{
+    double light[256];
+    uint8_t *to = malloc((size_t)width * (size_t)height * 3);
+    for (int i = 0; i < 256; i++)
+        light[i] = font_light(i / 255.0, 0);
+    for (int y = 0; y < height && to; y++)
+        for (int x = 0; x < width; x++) {
+            int x0, x1, y0, y1;
+            double sums[3] = {0};
+            covered(x, width, from->width_px, &x0, &x1);
+            covered(y, height, from->height_px, &y0, &y1);
+            for (int v = y0; v < y1; v++)
+                for (int u = x0; u < x1; u++)
+                    for (int c = 0; c < 3; c++)
+                        sums[c] += light[from->rgb[3 * ((size_t)v * (size_t)from->width_px +
+                                                        (size_t)u) +
+                                                   (size_t)c]];
+            for (int c = 0; c < 3; c++)
+                to[3 * ((size_t)y * (size_t)width + (size_t)x) + (size_t)c] = (uint8_t)lrint(
+                    255 * font_number(sums[c] / ((double)(x1 - x0) * (y1 - y0)), 0));
+        }
+    return to;
+}
+
+/* The font's full block: its glyph, and its box in ems. */
+struct block {
+    uint32_t glyph;
+    double x0, y0, width, height;
+};
+
+/* False: the font has none. */
+static bool block_find(struct font_face *face, struct block *block)
+{
+    struct font_outline outline;
+    struct font_face_info info;
+    font_face_describe(face, &info);
+    *block = (struct block){.glyph = font_face_glyph(face, FULL_BLOCK)};
+    if (!block->glyph || font_face_outline(face, block->glyph, &outline) != FONT_OK)
+        return false;
+    struct font_box box = font_outline_box(&outline);
+    font_outline_finish(&outline);
+    block->x0 = box.x0 / info.units_per_em;
+    block->y0 = box.y0 / info.units_per_em;
+    block->width = (box.x1 - box.x0) / info.units_per_em;
+    block->height = (box.y1 - box.y0) / info.units_per_em;
+    return block->width > 0 && block->height > 0;
+}
+
+/* Places the block so that it is width x height over the baseline. */
+static enum reader_status picture_style(struct reader_pages *p, const struct block *block,
+                                        const uint8_t *rgb, int width, int height, int *style)
+{
+    const double side = 100; /* a size at which nothing is made darker */
+    const double sx = width / (block->width * side), sy = height / (block->height * side);
+    struct font_map map = {FONT_AFFINE, {sx, 0, 0, 0, sy, 0}};
+    struct font_ink ink = {.kind = FONT_INK_PICTURE,
+                           .rgba = {0, 0, 0, 1},
+                           .y0 = -height,
+                           .rgb = rgb,
+                           .width_px = width,
+                           .height_px = height,
+                           .pitch = 3 * width};
+    struct font_placed placed = {.face = p->faces[READER_CODE],
+                                 .glyph = block->glyph,
+                                 .x_px = -block->x0 * side * sx,
+                                 .y_px = block->y0 * side * sy,
+                                 .size_px = (float)side,
+                                 .ink = 1,
+                                 .map = 1};
+    struct font_layout shown = {.glyphs = &placed,
+                                .glyphs_count = 1,
+                                .inks = &ink,
+                                .inks_count = 1,
+                                .maps = &map,
+                                .maps_count = 1,
+                                .size_px = side,
+                                .width_px = width,
+                                .ascent_px = height};
+    struct page_style look = page_style_default();
+    look.font = p->fonts[0];
+    look.size_px = pages_size(p, CONTEXT_TABLE);
+    return page_inset_add(p->text, &look, &shown, style) == FONT_OK ? READER_OK
+                                                                    : pages_failed();
+}
+
+/* Its pixels at the size that it has on the page: as it is, or as the column and six tenths of the page have room. */
+static enum reader_status picture_keep(struct reader_pages *p,
+                                       const struct reader_picture *picture, double most_px,
+                                       int *width, int *height, uint8_t **kept)
+{
+    double scale =
+        fmin(1, fmin(most_px / picture->width_px,
+                     0.6 * (p->setup.height_px - 2 * p->setup.margin_px) / picture->height_px));
+    *width = (int)fmax(1, floor(picture->width_px * scale));
+    *height = (int)fmax(1, floor(picture->height_px * scale));
+    *kept = pixels_shrink(picture, *width, *height);
+    if (!*kept || !array_reserve(&p->pixels, &p->pixels_capacity, p->pixels_count + 1,
+                                 sizeof *p->pixels)) {
+        free(*kept);
+        return pages_no_memory();
+    }
+    p->pixels[p->pixels_count++] = *kept;
+    return READER_OK;
+}
+
+enum reader_status pages_picture_add(struct reader_pages *p, const struct reader_block *block,
+                                     const struct page_manner *manner, bool *done)
+{
+    struct reader_picture picture = {0};
+    const char *target = block->target ? block->target : "";
+    int width, height, style, plain, id;
+    uint8_t *kept;
+    struct block full;
+    *done = false;
+    if (!block_find(p->faces[READER_CODE], &full) || !p->setup.picture || !*target ||
+        !p->setup.picture(p->setup.picture_user, block->source, target, &picture))
+        return READER_OK;
+    enum reader_status status =
+        picture_keep(p, &picture, pages_column(p) - manner->left_px - manner->right_px, &width,
+                     &height, &kept);
+    free(picture.rgb);
+    if (status == READER_OK)
+        status = picture_style(p, &full, kept, width, height, &style);
+    if (status == READER_OK)
+        status = pages_style(p, CONTEXT_TABLE, 0, &plain);
+    if (status == READER_OK &&
+        (page_paragraph_add(p->text, 0, -1, target, strlen(target), plain, manner, &id) !=
+             FONT_OK ||
+         page_paragraph_style(p->text, id, 0, (int)strlen(target), style) != FONT_OK))
+        status = pages_failed();
+    *done = status == READER_OK;
+    return status;
+}
