@@ -124,6 +124,10 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
     *help = words.help;
     if (words.help)
         return help_print("type", rows, NULL);
+    if (t->math && strcmp(t->math, "display") != 0 && strcmp(t->math, "text") != 0)
+        return fail_usage(
+            "type", "--math must be display or text, and the formula follows (got '%.60s')",
+            t->math);
     if (words.count != 1)
         return fail_usage("type",
                           words.count ? "there is one text; put it in quotes (then came "
@@ -137,8 +141,6 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
         return fail_usage("type", "--corners can be given once");
     if (t->gl && (t->gamma != 0 || t->stripes || t->compare))
         return fail_usage("type", "--gl goes without --gamma, --stripes and --compare");
-    if (t->math && strcmp(t->math, "display") != 0 && strcmp(t->math, "text") != 0)
-        return fail_usage("type", "--math must be display or text (got '%.60s')", t->math);
     if (t->math &&
         (t->compare || t->features || t->language || t->to_left || t->spacing_px != 0 ||
          t->leading != 0 || t->width_px != 0 || t->align || t->no_fallback))
