@@ -66,7 +66,7 @@ enum paper_status sheet_grip_make(struct paper_sheet *p)
     return PAPER_OK;
 }
 
-/* The VP set and what all brushes share. */
+/* What all brushes share. */
 static enum paper_status brushes_make(struct paper_sheet *p)
 {
     struct sheet_brushes *b = calloc(1, sizeof *b);
@@ -78,7 +78,25 @@ static enum paper_status brushes_make(struct paper_sheet *p)
         free(b);
         return paper_fail(PAPER_NO_MEMORY, "no memory for brushes");
     }
-    int dimensions[2] = {BRUSH_ROWS, PAPER_BRISTLES_MAX};
+    for (int i = 0; i < BRUSH_SETS; i++)
+        b->sets[i].bristles = PAPER_BRISTLES_MAX >> i;
+    p->brushes = b;
+    return PAPER_OK;
+}
+
+/* The smallest VP set that has so many bristles; it is current then. */
+static int set_make(struct paper_sheet *p, int bristles)
+{
+    int number = BRUSH_SETS - 1;
+    while (p->brushes->sets[number].bristles < bristles)
+        number--;
+    struct bristle_set *b = &p->brushes->sets[number];
+    if (b->vp_set) {
+        CM_set_vp_set(b->vp_set);
+        CM_set_context();
+        return number;
+    }
+    int dimensions[2] = {BRUSH_ROWS, b->bristles};
     b->geometry = CM_create_geometry(dimensions, 2);
     b->vp_set = CM_allocate_vp_set(b->geometry);
     CM_set_vp_set(b->vp_set);
@@ -93,9 +111,7 @@ static enum paper_status brushes_make(struct paper_sheet *p)
         b->t[i] = CM_allocate_heap_field(D_BITS);
     for (int i = 0; i <= p->config.pigments_count; i++)
         b->give[i] = CM_allocate_heap_field(D_BITS);
-    CM_set_vp_set(p->page.grid.vp_set);
-    p->brushes = b;
-    return PAPER_OK;
+    return number;
 }
 
 void sheet_brushes_destroy(struct paper_sheet *p)
@@ -103,15 +119,18 @@ void sheet_brushes_destroy(struct paper_sheet *p)
     struct sheet_brushes *b = p->brushes;
     if (!b)
         return;
-    CM_deallocate_vp_set(b->vp_set);
-    CM_deallocate_geometry(b->geometry);
+    for (int i = 0; i < BRUSH_SETS; i++)
+        if (b->sets[i].vp_set) {
+            CM_deallocate_vp_set(b->sets[i].vp_set);
+            CM_deallocate_geometry(b->sets[i].geometry);
+        }
     free(b->touched);
     free(b);
     p->brushes = NULL;
 }
 
 /* grains[bristle] in all rows of the field. */
-static enum paper_status held_write(struct sheet_brushes *b, CM_field_id_t field,
+static enum paper_status held_write(const struct bristle_set *b, CM_field_id_t field,
                                     const double *grains, int bristles)
 {
     double *all = calloc(BRUSH_PLACES, sizeof *all);
@@ -120,21 +139,20 @@ static enum paper_status held_write(struct sheet_brushes *b, CM_field_id_t field
     for (int row = 0; row < BRUSH_ROWS; row++)
         memcpy(all + row * PAPER_BRISTLES_MAX, grains, (size_t)bristles * sizeof *grains);
     int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {0, 1};
-    int size[2] = {BRUSH_ROWS, PAPER_BRISTLES_MAX};
+    int end[2] = {BRUSH_ROWS, b->bristles}, size[2] = {BRUSH_ROWS, PAPER_BRISTLES_MAX};
     CM_set_vp_set(b->vp_set);
     CM_set_context();
-    CM_f_write_to_news_array_1L(all, offset, start, size, axes, field, D_S, D_E, 2, size,
+    CM_f_write_to_news_array_1L(all, offset, start, end, axes, field, D_S, D_E, 2, size,
                                 CM_float_double);
     free(all);
     return PAPER_OK;
 }
 
-static void held_read(struct sheet_brushes *b, CM_field_id_t field, double *grains,
+static void held_read(const struct bristle_set *b, CM_field_id_t field, double *grains,
                       int bristles)
 {
     double row[PAPER_BRISTLES_MAX];
-    int offset[2] = {0, 0}, start[2] = {0, 0}, end[2] = {1, PAPER_BRISTLES_MAX},
-        axes[2] = {0, 1};
+    int offset[2] = {0, 0}, start[2] = {0, 0}, end[2] = {1, b->bristles}, axes[2] = {0, 1};
     CM_set_vp_set(b->vp_set);
     CM_set_context();
     CM_f_read_from_news_array_1L(row, offset, start, end, axes, field, D_S, D_E, 2, end,
@@ -159,15 +177,17 @@ enum paper_status sheet_brush(struct paper_sheet *p, const void *arguments)
         paper_leave(&p->page);
         return status;
     }
-    struct sheet_brushes *b = p->brushes;
-    struct sheet_brush *own = &b->brush[brush->number];
-    CM_set_vp_set(b->vp_set);
-    CM_set_context();
-    if (!own->held[0]) {
-        own->gives = CM_allocate_heap_field(D_BITS);
+    struct sheet_brush *own = &p->brushes->brush[brush->number];
+    const int set = set_make(p, brush->bristles);
+    const struct bristle_set *b = &p->brushes->sets[set];
+    own->set = set;
+    if (!own->gives_in[set]) {
+        own->gives_in[set] = CM_allocate_heap_field(D_BITS);
         for (int i = 0; i <= p->config.pigments_count; i++)
-            own->held[i] = CM_allocate_heap_field(D_BITS);
+            own->held_in[set][i] = CM_allocate_heap_field(D_BITS);
     }
+    own->gives = own->gives_in[set];
+    memcpy(own->held, own->held_in[set], sizeof own->held);
     own->brush = *brush;
     /* what a stroke of the tuft's width and a full brush's reach takes, shared by its bristles */
     own->full = floor(fmin(brush->reach * brush->width * brush->load / brush->bristles, 1e6) *
@@ -214,7 +234,7 @@ enum paper_status sheet_brush_read(struct paper_sheet *p, int number, int substa
         return status;
     paper_enter(&p->page);
     const struct sheet_brush *own = &p->brushes->brush[number];
-    held_read(p->brushes, own->held[substance], grains, own->brush.bristles);
+    held_read(&p->brushes->sets[own->set], own->held[substance], grains, own->brush.bristles);
     CM_set_vp_set(p->page.grid.vp_set);
     return paper_leave(&p->page);
 }
@@ -236,7 +256,8 @@ enum paper_status sheet_brush_write(struct paper_sheet *p, int number, int subst
             return paper_fail(PAPER_BAD_ARGUMENT,
                               "a bristle holds whole grains, 0 to 2^45 (got %g)", grains[i]);
     paper_enter(&p->page);
-    status = held_write(p->brushes, own->held[substance], grains, own->brush.bristles);
+    status = held_write(&p->brushes->sets[own->set], own->held[substance], grains,
+                        own->brush.bristles);
     CM_set_vp_set(p->page.grid.vp_set);
     return status == PAPER_OK ? paper_leave(&p->page) : status;
 }

@@ -1,7 +1,7 @@
 /* brush_internal.h - a sheet's brushes on the machine.
  *
- * All brushes of a sheet share one VP set of BRUSH_ROWS x PAPER_BRISTLES_MAX processors: column b is bristle b, and its rows are the
- * places that it touches in one exchange. What a bristle holds is the same in all rows of its column.
+ * The brushes of a sheet share VP sets of BRUSH_ROWS x 64, 128, 256 or 512 processors, each the smallest that has its bristles, so that
+ * an exchange costs what the brush is: column b is bristle b, and its rows are the places that it touches in one exchange. What a bristle holds is the same in all rows of its column.
  *
  *              bristle 0   1   2   3  ...
  *     place 0        .     .   .   .        address of the fiber; contact; force; how many touch that fiber;
@@ -19,6 +19,7 @@ enum {
     BRUSH_ROWS = 32,
     BRUSH_PLACES = BRUSH_ROWS * PAPER_BRISTLES_MAX,
     BRUSH_TEMPORARIES = 10,
+    BRUSH_SETS = 4, /* of PAPER_BRISTLES_MAX bristles, of half as many, ... */
     BRUSH_CLOUD = 2
 };
 
@@ -43,27 +44,34 @@ struct sheet_brush {
     bool there;
     struct paper_brush brush;
     struct sheet_bristle bristles[PAPER_BRISTLES_MAX];
-    CM_field_id_t held[1 + PAPER_PIGMENTS_MAX];
-    CM_field_id_t gives;
+    int set; /* of brushes->sets; held and gives are those of it */
+    CM_field_id_t held[1 + PAPER_PIGMENTS_MAX], gives;
+    CM_field_id_t held_in[BRUSH_SETS][1 + PAPER_PIGMENTS_MAX], gives_in[BRUSH_SETS];
     double full;      /* grains of water in a full bristle */
     double toward[2]; /* where it goes, a unit vector; of the present stroke */
 };
 
-struct sheet_brushes {
+/* A VP set for brushes of so many bristles or fewer, if there has been one. */
+struct bristle_set {
+    int bristles;
     CM_geometry_id_t geometry;
-    CM_vp_set_id_t vp_set;
+    CM_vp_set_id_t vp_set; /* 0: not made */
     CM_field_id_t address, contact, force, sharers, places, gotten, sent, count;
     CM_field_id_t t[BRUSH_TEMPORARIES];
     CM_field_id_t give[1 + PAPER_PIGMENTS_MAX]; /* what each place gives, less what it takes */
+};
+
+struct sheet_brushes {
+    struct bristle_set sets[BRUSH_SETS];
     struct sheet_contacts contacts;
     uint16_t *
         touched; /* of each fiber, a number of this exchange: by how many places, or which of those touched; 0 between exchanges */
     struct sheet_brush brush[PAPER_BRUSHES_MAX];
 };
 
-/* Bristles and the sheet exchange where b->contacts says; call between paper_enter() and paper_leave(). The sheet's VP set is
+/* Bristles and the sheet exchange where brushes->contacts says; call between paper_enter() and paper_leave(). The sheet's VP set is
  * current before and after. */
-void sheet_brush_exchange(struct paper_sheet *p, struct sheet_brushes *b,
+void sheet_brush_exchange(struct paper_sheet *p, const struct sheet_brushes *brushes,
                           const struct sheet_brush *brush);
 /* The column or row at a place, of so many; around a torus. -1: it is beyond the sheet. */
 int sheet_fiber_at(double at, int length, bool torus);

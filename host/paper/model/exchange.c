@@ -25,39 +25,39 @@ enum { D_S = 52, D_E = 11, D_BITS = 64, GRAINS_BITS = 31, BRUSH_ROWS_LOG2 = 5 };
 /* A fiber gets up to this of water and of each pigment from a brush. */
 #define GIVE_MOST 4.0
 
-static void d_whole(struct sheet_brushes *b, CM_field_id_t d)
+static void d_whole(const struct bristle_set *b, CM_field_id_t d)
 {
     CM_u_f_truncate_2_2L(b->count, d, GRAINS_BITS, D);
     CM_f_u_float_2_2L(d, b->count, GRAINS_BITS, D);
 }
 
 /* dest = the float of the fiber at each place. */
-static void get(struct sheet_brushes *b, CM_field_id_t dest, CM_field_id_t source)
+static void get(const struct bristle_set *b, CM_field_id_t dest, CM_field_id_t source)
 {
     CM_get_1L(b->gotten, b->address, source, KIT_FLOAT_BITS);
     CM_f_move_2L(dest, b->gotten, D, KIT_F);
 }
 
-static void contacts_write(struct sheet_brushes *b)
+static void contacts_write(const struct bristle_set *b, const struct sheet_contacts *contacts)
 {
     const struct {
         CM_field_id_t field;
         const float *values;
-    } rows[] = {{b->contact, b->contacts.contact},
-                {b->force, b->contacts.force},
-                {b->sharers, b->contacts.sharers},
-                {b->places, b->contacts.places}};
+    } rows[] = {{b->contact, contacts->contact},
+                {b->force, contacts->force},
+                {b->sharers, contacts->sharers},
+                {b->places, contacts->places}};
     int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {0, 1};
-    int size[2] = {BRUSH_ROWS, PAPER_BRISTLES_MAX};
+    int end[2] = {BRUSH_ROWS, b->bristles}, size[2] = {BRUSH_ROWS, PAPER_BRISTLES_MAX};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        CM_f_write_to_news_array_1L(rows[i].values, offset, start, size, axes, rows[i].field,
+        CM_f_write_to_news_array_1L(rows[i].values, offset, start, end, axes, rows[i].field,
                                     KIT_F, 2, size, CM_float_single);
-    CM_u_write_to_news_array_1L(b->contacts.address, offset, start, size, axes, b->address, 32,
-                                2, size, CM_32_bit);
+    CM_u_write_to_news_array_1L(contacts->address, offset, start, end, axes, b->address, 32, 2,
+                                size, CM_32_bit);
 }
 
 /* fullness = w / full, and level from it; other is free. */
-static void level_make(const struct paper_sheet *p, struct sheet_brushes *b,
+static void level_make(const struct paper_sheet *p, const struct bristle_set *b,
                        const struct sheet_brush *brush, CM_field_id_t level,
                        CM_field_id_t fullness, CM_field_id_t other)
 {
@@ -72,7 +72,7 @@ static void level_make(const struct paper_sheet *p, struct sheet_brushes *b,
 }
 
 /* part = contact * touch / sharers; other is free. */
-static void part_make(struct paper_sheet *p, struct sheet_brushes *b, CM_field_id_t part,
+static void part_make(struct paper_sheet *p, const struct bristle_set *b, CM_field_id_t part,
                       CM_field_id_t fullness, CM_field_id_t other)
 {
     get(b, part, p->height);
@@ -125,9 +125,10 @@ static void held_change(CM_field_id_t held, CM_field_id_t give, CM_field_id_t su
     CM_f_subtract_2_1L(held, sum, D);
 }
 
-void sheet_brush_exchange(struct paper_sheet *p, struct sheet_brushes *b,
+void sheet_brush_exchange(struct paper_sheet *p, const struct sheet_brushes *brushes,
                           const struct sheet_brush *brush)
 {
+    const struct bristle_set *b = &brushes->sets[brush->set];
     bool surface = sheet_has(p, PAPER_PART_SURFACE);
     int substances = 1 + p->config.pigments_count;
     CM_field_id_t level = b->t[0], fullness = b->t[1], part = b->t[2], water = b->t[3],
@@ -139,7 +140,7 @@ void sheet_brush_exchange(struct paper_sheet *p, struct sheet_brushes *b,
         kit_f_copy(p->t[1], p->surface_water);
     CM_set_vp_set(b->vp_set);
     CM_set_context();
-    contacts_write(b);
+    contacts_write(b, &brushes->contacts);
     level_make(p, b, brush, level, fullness, other);
     part_make(p, b, part, fullness, other);
     get(b, water, surface ? p->surface_water : p->page.water);
