@@ -55,7 +55,8 @@ struct desk {
     int status; /* the program's exit status */
     GtkApplication *application;
     GtkWidget *window, *canvas, *notice, *notice_text, *state, *memory, *place;
-    GtkWidget *tools[STUDIO_TOOLS], *rows[STUDIO_SETTINGS], *tool_box, *dish_box, *tool_title;
+    GtkWidget *tools[STUDIO_TOOLS], *rows[STUDIO_SETTINGS], *tool_box, *dish_box, *tool_title,
+        *tool_hint;
     GtkWidget *title, *pause, *wells[DESK_WELLS], *swatch, *board;
     struct studio_paper *paper;
     struct studio_report report;

@@ -16,6 +16,7 @@ void desk_panel_fill(struct desk *d)
     gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(d->pause),
                                  d->settings.value[STUDIO_PAUSED] != 0);
     gtk_label_set_text(GTK_LABEL(d->tool_title), _(studio_tools[tool].name));
+    gtk_label_set_text(GTK_LABEL(d->tool_hint), _(studio_tools[tool].does));
     gtk_widget_set_visible(d->tool_box, tool == STUDIO_TOOL_TYPE);
     desk_dish_changed(d);
     d->filling = false;
@@ -115,6 +116,12 @@ GtkWidget *desk_panel_new(struct desk *d)
     heading(box, _("Dish"));
     gtk_box_append(GTK_BOX(box), desk_dish_new(d));
     d->tool_title = heading(box, "");
+    d->tool_hint = gtk_label_new("");
+    gtk_label_set_xalign(GTK_LABEL(d->tool_hint), 0);
+    gtk_label_set_wrap(GTK_LABEL(d->tool_hint), TRUE);
+    gtk_label_set_max_width_chars(GTK_LABEL(d->tool_hint), 40);
+    gtk_widget_add_css_class(d->tool_hint, "dim-label");
+    gtk_box_append(GTK_BOX(box), d->tool_hint);
     for (int i = STUDIO_TOOL + 1; i < STUDIO_PAUSED; i++)
         gtk_box_append(GTK_BOX(box), desk_row_new(d, i, NULL));
     d->tool_box = desk_type_new(d);
