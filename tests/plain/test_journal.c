@@ -5,9 +5,11 @@
 
 #include "state_sample.h"
 
+#include <pthread.h>
 #include <setjmp.h>
 #include <signal.h>
 #include <stdarg.h>
+#include <stdatomic.h>
 #include <stddef.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -250,6 +252,44 @@ static void it_goes_on_where_it_was_cut(void **state)
     paper_sheet_destroy(third);
 }
 
+/* Another thread syncs as fast as it can. */
+struct keeper {
+    struct paper_journal *journal;
+    atomic_bool stop;
+    int failed;
+};
+
+static void *keep(void *context)
+{
+    struct keeper *k = context;
+    while (!atomic_load(&k->stop))
+        k->failed += paper_journal_sync(k->journal) != PAPER_OK;
+    return NULL;
+}
+
+static void another_thread_syncs(void **state)
+{
+    struct keeper keeper = {0};
+    struct paper_journal_found found;
+    struct paper_sheet *sheet = sample_sheet(3), *again;
+    pthread_t thread;
+    (void)state;
+    sample_check(paper_journal_begin(sheet, path, NULL, &keeper.journal));
+    assert_int_equal(pthread_create(&thread, NULL, keep, &keeper), 0);
+    for (int i = 0; something_do(sheet, i); i++)
+        steps(sheet, i < 12 ? 3 : 0); /* none after a way back */
+    atomic_store(&keeper.stop, true);
+    pthread_join(thread, NULL);
+    assert_int_equal(keeper.failed, 0);
+    sample_check(paper_journal_close(keeper.journal));
+    sample_check(paper_journal_open(path, NULL, 1e6, &found, &again));
+    assert_int_equal(found.why[0], 0);
+    assert_int_equal(paper_history_done(sheet), paper_history_done(again));
+    same_planes(sheet, again);
+    paper_sheet_destroy(again);
+    paper_sheet_destroy(sheet);
+}
+
 static void a_full_disk_loses_nothing(void **state)
 {
     struct paper_journal *journal;
@@ -287,6 +327,7 @@ int main(void)
         cmocka_unit_test(what_is_whole_is_there_again),
         cmocka_unit_test(it_continues_its_state_and_no_other),
         cmocka_unit_test(it_goes_on_where_it_was_cut),
+        cmocka_unit_test(another_thread_syncs),
         cmocka_unit_test(a_full_disk_loses_nothing),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);
