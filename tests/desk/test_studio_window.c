@@ -191,6 +191,7 @@ static void killed_and_found_again(void **state)
     struct stat now, before = {0};
     FILE *events = events_begin();
     scene_write(events, 2);
+    fprintf(events, "4 picture %s\n", in_folder("done.png"));
     fclose(events);
     const pid_t studio = fork();
     if (studio == 0) {
@@ -200,11 +201,12 @@ static void killed_and_found_again(void **state)
               in_folder("hand.events"), NULL);
         _exit(127);
     }
-    /* until it has not grown for three seconds after the last deed */
-    for (int still = 0, turns = 0; still < 30 && turns < 1200; turns++) {
+    /* until it has not grown for some seconds after the picture that follows the last deed */
+    for (int still = 0, turns = 0; still < 50 && turns < 2000; turns++) {
         usleep(100000);
-        const bool there = journal_find(journal, sizeof journal) && stat(journal, &now) == 0;
-        still = there && now.st_size == before.st_size && turns > 60 ? still + 1 : 0;
+        const bool there = access(in_folder("done.png"), R_OK) == 0 &&
+                           journal_find(journal, sizeof journal) && stat(journal, &now) == 0;
+        still = there && now.st_size == before.st_size ? still + 1 : 0;
         before = there ? now : before;
     }
     kill(studio, SIGKILL);
