@@ -13,7 +13,7 @@
  *
  * Slopes alone have a direction: what lies along the light is not seen, and all papers look combed across it. The weights of the
  * occlusion grow with the frequency as slopes do, so that in each band relief of every direction is seen, and the lights
- * still say which side is up. The gain is the same for all stocks: smooth paper looks smooth. All distances are in fibers of the
+ * still say which side is up. The gain is the same for all bare stocks: smooth paper looks smooth. All distances are in fibers of the
  * stock's own scale, so a sheet that is drawn anew finer is lit in the same way.
  *
  * Source: Burt and Adelson, IEEE Trans. Communications 31 (1983), differences of means over wider and wider neighbourhoods. */
@@ -28,10 +28,12 @@
 #define SECOND 0.075
 #define SCALES 3
 static const double occlusion[SCALES] = {0.34, 0.28, 0.22};
-/* Smears and dust on a film without fibers: what their heights count beside fibers' where it is bare, and where it is painted: dried
- * paint stands up along them. Units of paint from which a film is painted. */
+/* Of a film without fibers the heights are smears and dust: what they count where it is bare. */
 #define SMEARS_BARE 0.12
-#define SMEARS_PAINTED 2.0
+/* Dried paint is rougher than smooth paper, and stands up along its fibers and smears: where it lies heights count the more, the less the
+ * stock's roughness is below this. Units of paint from which a fiber is painted. */
+#define PAINT_ROUGHNESS 0.2
+#define SMOOTHEST 0.04
 #define PAINTED_FROM 0.2
 /* Depth of water, units, that hides the relief below it. */
 #define RELIEF_HIDDEN 0.3
@@ -125,10 +127,16 @@ static void occlusion_shade(struct heights *of, int distance)
     }
 }
 
-/* What the heights of a bare film count. */
-static double smears_seen(const struct paper_stock *stock)
+/* What the heights count where the stock is bare, and where it is painted. */
+static double seen_bare(const struct paper_stock *stock)
 {
-    return fmax(SMEARS_BARE, fmin(1, stock->roughness / SHEET_SMEARS));
+    return felt_has_fibers(stock) ? 1
+                                  : fmax(SMEARS_BARE, fmin(1, stock->roughness / SHEET_SMEARS));
+}
+
+static double seen_painted(const struct paper_stock *stock)
+{
+    return fmax(1, sqrt(PAINT_ROUGHNESS / fmax(SMOOTHEST, stock->roughness)));
 }
 
 enum paper_status sheet_relief_make(struct paper_sheet *p)
@@ -156,14 +164,17 @@ enum paper_status sheet_relief_make(struct paper_sheet *p)
     return PAPER_OK;
 }
 
-/* light becomes what is seen of it on a film: less where it is bare. Uses t[1]. */
-static void smears_heed(struct paper_sheet *p, CM_field_id_t light)
+/* light becomes what is seen of it on a smooth stock: more where it is painted. Uses t[1]. */
+static void paint_heed(struct paper_sheet *p, CM_field_id_t light)
 {
     CM_field_id_t seen = p->t[1];
-    const double bare = smears_seen(&p->config.stock);
+    const double bare = seen_bare(&p->config.stock),
+                 more = seen_painted(&p->config.stock) - bare;
+    if (!p->config.parts || more <= 0)
+        return;
     sheet_paint_sum(p, seen);
-    kit_f_times(seen, seen, (SMEARS_PAINTED - bare) / (PAINTED_FROM * p->unit));
-    kit_f_most(seen, seen, SMEARS_PAINTED - bare);
+    kit_f_times(seen, seen, more / (PAINTED_FROM * p->unit));
+    kit_f_most(seen, seen, more);
     kit_f_plus(seen, seen, bare);
     kit_f_mul(light, light, seen);
 }
@@ -173,8 +184,7 @@ void sheet_relief_light(struct paper_sheet *p, const CM_field_id_t color[3], dou
 {
     CM_field_id_t light = p->t[0], dry = p->t[1];
     kit_f_times(light, p->relief, strength);
-    if (p->config.parts && !felt_has_fibers(&p->config.stock))
-        smears_heed(p, light);
+    paint_heed(p, light);
     if (sheet_has(p, PAPER_PART_SURFACE)) {
         kit_f_times(dry, p->surface_water, -1 / (RELIEF_HIDDEN * p->unit));
         kit_f_plus(dry, dry, 1.0);
