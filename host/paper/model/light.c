@@ -32,7 +32,7 @@ static const double occlusion[SCALES] = {0.34, 0.28, 0.22};
 #define SMEARS_BARE 0.12
 /* Dried paint is rougher than smooth paper, and stands up along its fibers and smears: where it lies heights count the more, the less the
  * stock's roughness is below this. Units of paint from which a fiber is painted. */
-#define PAINT_ROUGHNESS 0.2
+#define PAINT_ROUGHNESS 0.25
 #define SMOOTHEST 0.04
 #define PAINTED_FROM 0.2
 /* Depth of water, units, that hides the relief below it. */
