@@ -1,8 +1,9 @@
 /* h5.h - HDF5 files with one plain array, made and read without HDF5's library: it may not be let loose on files that anybody may have made
  * (docs/security.md), and it takes longer to load than a small program runs.
  *
- * What is made, and what is read, is the format of HDF5 1.0 to 1.8, which all versions write unless they are asked for another: a
- * superblock of version 0 or 1, old groups, object headers of version 1, and arrays that lie in one piece. For others there is h5repack.
+ * What is made is the format of HDF5 1.0 to 1.8: a superblock of version 0, an old group, an object header of version 1. What is read is
+ * that and the newer ones (superblocks of version 2 and 3, groups of links, object headers of version 2), which HDF5 2 writes if it is not
+ * asked for another. Arrays must lie in one piece; for others there is h5repack. Checksums are not looked at.
  *
  *     0     superblock: where the root group is        680   its local heap: names
  *     96    the root group's header                    784   its node of symbols: name, header

@@ -363,6 +363,7 @@ int main(void)
         cmocka_unit_test(damaged_npy_files_are_refused_or_read),
         cmocka_unit_test(fields_go_to_hdf5),
         cmocka_unit_test(fields_come_from_hdf5),
+        cmocka_unit_test(groups_of_all_ages_have_their_names),
         cmocka_unit_test(damaged_hdf5_files_are_refused_or_read),
     };
     return cmocka_run_group_tests(tests, start, NULL);

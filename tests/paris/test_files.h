@@ -19,6 +19,7 @@ void field_is(CM_field_id_t field, unsigned int len, uint8_t (*values)[32]);
 /* test_files_h5.c */
 void fields_go_to_hdf5(void **unused);
 void fields_come_from_hdf5(void **unused);
+void groups_of_all_ages_have_their_names(void **unused);
 void damaged_hdf5_files_are_refused_or_read(void **unused);
 
 #endif
