@@ -1,4 +1,4 @@
-/* desk_gl.c - the canvas in OpenGL, core profile: the sheet as one texture, type that is being set as another one over it, ghosts and the
+/* desk_gl.c - the canvas in OpenGL 3.2, core profile, or OpenGL ES 3, which GTK prefers from 4.14 on: the sheet as one texture, type that is being set as another one over it, ghosts and the
  * cursor as capsules. It draws into whatever framebuffer is bound, in its viewport.
  *
  * Sheet. One triangle covers the canvas; each pixel asks where on the sheet it is (the inverse of studio_view_to_canvas()). Where a pixel
@@ -20,26 +20,24 @@ struct desk_gl {
 };
 
 static const char sheet_vertex[] =
-    "#version 150\n"
     "void main()\n"
     "{\n"
     "    vec2 at = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);\n"
     "    gl_Position = vec4(at, 0.0, 1.0);\n"
     "}\n";
 static const char sheet_fragment[] =
-    "#version 150\n"
     "uniform sampler2D picture, mask;\n"
     "uniform mat2 turned;\n"         /* pixels to fibers */
     "uniform vec2 middle, origin;\n" /* the same place in pixels and in fibers */
     "uniform vec2 size;\n"           /* of the sheet, fibers */
     "uniform vec4 masked;\n"         /* corner and size of the mask; size 0: none */
     "uniform vec3 desk, ink;\n"
-    "uniform float step;\n" /* fibers that a pixel is wide */
+    "uniform float fibers;\n" /* fibers that a pixel is wide */
     "uniform float height;\n"
     "out vec4 color;\n"
     "vec3 at(vec2 place)\n"
     "{\n"
-    "    vec2 inside = clamp(0.5 + min(place, size - place) / max(step, 1e-6), 0.0, 1.0);\n"
+    "    vec2 inside = clamp(0.5 + min(place, size - place) / max(fibers, 1e-6), 0.0, 1.0);\n"
     "    vec3 paper = texture(picture, place / size).rgb;\n"
     "    vec2 on = (place - masked.xy) / max(masked.zw, vec2(1.0));\n"
     "    if (masked.z > 0.0 && all(greaterThan(on, vec2(0.0))) && all(lessThan(on, "
@@ -50,7 +48,7 @@ static const char sheet_fragment[] =
     "void main()\n"
     "{\n"
     "    vec2 pixel = vec2(gl_FragCoord.x, height - gl_FragCoord.y);\n"
-    "    int n = int(clamp(ceil(step), 1.0, 8.0));\n"
+    "    int n = int(clamp(ceil(fibers), 1.0, 8.0));\n"
     "    vec3 sum = vec3(0.0);\n"
     "    for (int j = 0; j < n; j++)\n"
     "        for (int i = 0; i < n; i++) {\n"
@@ -59,8 +57,7 @@ static const char sheet_fragment[] =
     "        }\n"
     "    color = vec4(sum / float(n * n), 1.0);\n"
     "}\n";
-static const char piece_vertex[] = "#version 150\n"
-                                   "in vec2 place;\n"
+static const char piece_vertex[] = "in vec2 place;\n"
                                    "in vec4 ends;\n"
                                    "in vec2 shape;\n"
                                    "in vec4 tint;\n"
@@ -79,7 +76,6 @@ static const char piece_vertex[] = "#version 150\n"
                                    "2.0 * place.y / size.y, 0.0, 1.0);\n"
                                    "}\n";
 static const char piece_fragment[] =
-    "#version 150\n"
     "in vec2 at;\n"
     "in vec4 between;\n"
     "in vec2 form;\n"
@@ -100,10 +96,15 @@ static const char piece_fragment[] =
 
 static GLuint shader_make(GLenum kind, const char *text, char **why)
 {
+    const char *const whole[] = {epoxy_is_desktop_gl() ? "#version 150\n"
+                                                       : "#version 300 es\n"
+                                                         "precision highp float;\n"
+                                                         "precision highp int;\n",
+                                 text};
     char log[500] = "";
     GLint good = 0;
     GLuint shader = glCreateShader(kind);
-    glShaderSource(shader, 1, &text, NULL);
+    glShaderSource(shader, 2, whole, NULL);
     glCompileShader(shader);
     glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
     if (!good) {
@@ -359,7 +360,7 @@ static void sheet_draw(const struct desk_gl *gl, const struct desk *d, int scale
                 mask ? (float)gl->shown.width : 0, mask ? (float)gl->shown.height : 0);
     glUniform3f(glGetUniformLocation(p, "desk"), 0.30f, 0.29f, 0.28f);
     glUniform3f(glGetUniformLocation(p, "ink"), (float)ink[0], (float)ink[1], (float)ink[2]);
-    glUniform1f(glGetUniformLocation(p, "step"), (float)pixel);
+    glUniform1f(glGetUniformLocation(p, "fibers"), (float)pixel);
     glUniform1f(glGetUniformLocation(p, "height"), (float)height);
     glActiveTexture(GL_TEXTURE1);
     glBindTexture(GL_TEXTURE_2D, gl->mask);
