@@ -97,6 +97,14 @@ void studio_keeper_leave(struct studio_keeper *k)
     pthread_mutex_unlock(&k->lock);
 }
 
+bool studio_keeper_set_aside(const char *path, char *kept, size_t room)
+{
+    snprintf(kept, room, "%s.kept", path);
+    for (int i = 2; access(kept, F_OK) == 0; i++)
+        snprintf(kept, room, "%s.kept-%d", path, i);
+    return rename(path, kept) == 0;
+}
+
 bool studio_keeper_failed(struct studio_keeper *k, char *text, size_t room)
 {
     pthread_mutex_lock(&k->lock);

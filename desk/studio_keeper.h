@@ -41,6 +41,9 @@ enum paper_status studio_keeper_continue(struct studio_keeper *k, struct paper_s
                                          const struct paper_journal_found *found);
 /* Closes the journal and removes its file. */
 void studio_keeper_leave(struct studio_keeper *k);
+/* A journal that cannot be gone on with gets another name, PATH.kept or PATH.kept-2 and so on, so that no other journal takes its place.
+ * False: it cannot be renamed; errno says why. */
+bool studio_keeper_set_aside(const char *path, char *kept, size_t room);
 /* True, once for each failure: the last sync failed, and `text` says why. */
 bool studio_keeper_failed(struct studio_keeper *k, char *text, size_t room);
 

@@ -109,6 +109,29 @@ static void journal_begin(struct studio_paper *p, const char *path, const char *
         studio_paper_complain(p);
 }
 
+/* What a journal that was left behind says too little about; and it is kept, if another one would take its place. False: it would not be. */
+static bool journal_judge(struct studio_paper *p, const char *journal, const char *why,
+                          bool goes_on)
+{
+    char kept[STUDIO_TEXT_MAX + 80];
+    if (goes_on) {
+        studio_session_failed(PAPER_BAD_FILE,
+                              "what was not saved is here again, but for its end: %s", why);
+    } else if (studio_keeper_set_aside(journal, kept, sizeof kept)) {
+        studio_session_failed(
+            PAPER_BAD_FILE,
+            "what was not saved cannot be found again (%s); its journal is kept: %s", why,
+            kept);
+    } else {
+        studio_session_failed(PAPER_BAD_FILE,
+                              "what was not saved cannot be found again (%s), and its journal "
+                              "stays: %s; this sheet has none",
+                              why, journal);
+    }
+    studio_paper_complain(p);
+    return goes_on || access(journal, F_OK) != 0;
+}
+
 /* The sheet that was made takes the place of the one before. */
 static void sheet_change(struct studio_paper *p, struct studio_session *made, const char *path)
 {
@@ -161,6 +184,12 @@ static void sheet_open(struct studio_paper *p, const char *path, const char *jou
         status = studio_session_find(journal, path, p->def.budget_bytes, &found, &made);
     else
         status = studio_session_open(path, p->def.budget_bytes, &made);
+    if (status == PAPER_BAD_FILE && !path) { /* a journal alone */
+        char why[STUDIO_TEXT_MAX];
+        snprintf(why, sizeof why, "%s", studio_session_error());
+        journal_judge(p, journal, why, false);
+        return;
+    }
     if (status != PAPER_OK) {
         studio_paper_complain(p);
         return;
@@ -169,7 +198,8 @@ static void sheet_open(struct studio_paper *p, const char *path, const char *jou
     if (p->session != made)
         return;
     p->now.changed = p->now.found_again = found.entries > 0;
-    journal_begin(p, path, journal, &found);
+    if (!found.why[0] || journal_judge(p, journal, found.why, found.continues))
+        journal_begin(p, path, journal, &found);
 }
 
 /* ---- messages ---- */
@@ -434,7 +464,7 @@ static void *paper_run(void *context)
     p->kept = studio_keeper_begin(&p->keeper);
     if (p->def.path || p->def.found)
         sheet_open(p, p->def.path, p->def.path ? NULL : p->def.found);
-    else
+    if (!p->session && !p->def.path)
         sheet_make(p, &p->config);
     p->now.failed = !p->session;
     p->looked_s = input_now_s();

@@ -1,0 +1,172 @@
+/* test_studio_found.c - journals that were left behind and cannot be gone on with: of another sheet, or damaged. The sheet opens all the
+ * same, a line says what is wrong, and the journal's bytes stay under another name. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "../clock.h"
+#include "studio_paper.h"
+#include "studio_scene.h"
+
+enum { WAIT_S = 100, BYTES_MOST = 1 << 16 };
+static char folder[] = "/tmp/lutetia-found-XXXXXX";
+
+static void wake(void *context)
+{
+    (void)context;
+}
+
+static const char *named(const char *name)
+{
+    static char paths[4][200];
+    static int turn;
+    char *path = paths[turn++ % 4];
+    snprintf(path, sizeof paths[0], "%s/%s", folder, name);
+    return path;
+}
+
+static struct studio_paper *begin(const char *path, const char *found)
+{
+    const struct paper_sheet_config config = scene_config();
+    struct studio_paper *paper = studio_paper_start(
+        &(struct studio_paper_def){&config, path, found, folder, 64e6, wake, NULL});
+    assert_non_null(paper);
+    return paper;
+}
+
+/* What is reported once there is a sheet, or will be none. */
+static struct studio_report opened(struct studio_paper *paper)
+{
+    struct studio_report report = {0};
+    const double until_s = clock_now_s() + WAIT_S;
+    while (!report.ready && !report.failed && clock_now_s() < until_s) {
+        usleep(2000);
+        studio_paper_report(paper, &report);
+    }
+    return report;
+}
+
+static size_t file_get(const char *path, char *bytes)
+{
+    FILE *in = fopen(path, "r");
+    assert_non_null(in);
+    const size_t count = fread(bytes, 1, BYTES_MOST, in);
+    fclose(in);
+    return count;
+}
+
+static void file_put(const char *path, const char *bytes, size_t count)
+{
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    assert_int_equal(fwrite(bytes, 1, count, out), count);
+    assert_int_equal(fclose(out), 0);
+}
+
+/* A sheet in a file, dried after it was saved; as if the studio had been killed then. */
+static void sheet_leave(const char *path, bool dried_before)
+{
+    struct studio_paper *paper = begin(NULL, NULL);
+    if (dried_before)
+        studio_paper_send(paper, (struct studio_message){.kind = STUDIO_MESSAGE_DRY});
+    studio_paper_send(
+        paper, (struct studio_message){.kind = STUDIO_MESSAGE_SAVE, .text = strdup(path)});
+    studio_paper_send(paper, (struct studio_message){.kind = STUDIO_MESSAGE_DRY});
+    struct studio_report last;
+    studio_paper_end(paper, false, &last);
+    assert_string_equal(last.error, "");
+    assert_true(last.changed);
+}
+
+/* The sheet is there, and the journal has another name. */
+static void is_kept(struct studio_paper *paper, const char *kept, const char *bytes,
+                    size_t count)
+{
+    static char now[BYTES_MOST];
+    struct studio_report report = opened(paper);
+    assert_true(report.ready);
+    assert_false(report.failed);
+    assert_false(report.found_again);
+    assert_non_null(strstr(report.error, "is kept: "));
+    assert_non_null(strstr(report.error, kept));
+    studio_paper_end(paper, true, NULL);
+    assert_int_equal(file_get(kept, now), count);
+    assert_memory_equal(now, bytes, count);
+}
+
+static void journals_of_others_are_kept(void **state)
+{
+    (void)state;
+    static char journal[BYTES_MOST];
+    sheet_leave(named("one.h5"), false);
+    sheet_leave(named("other.h5"), true);
+    /* each goes on in its own */
+    struct studio_paper *paper = begin(named("other.h5"), NULL);
+    struct studio_report report = opened(paper);
+    assert_true(report.ready && report.found_again);
+    assert_string_equal(report.error, "");
+    assert_int_equal(report.operations, 2);
+    studio_paper_end(paper, false, NULL);
+    const size_t count = file_get(named("other.h5.journal"), journal);
+    for (int again = 0; again < 2; again++) {
+        file_put(named("one.h5.journal"), journal, count);
+        is_kept(begin(named("one.h5"), NULL),
+                named(again ? "one.h5.journal.kept-2" : "one.h5.journal.kept"), journal, count);
+    }
+    /* its end is missing: what is whole is there again */
+    file_put(named("other.h5.journal"), journal, count - 1);
+    paper = begin(named("other.h5"), NULL);
+    report = opened(paper);
+    assert_true(report.ready);
+    assert_int_equal(report.operations, 1);
+    assert_non_null(strstr(report.error, "but for its end"));
+    studio_paper_end(paper, true, NULL);
+}
+
+static void damaged_journals_are_kept(void **state)
+{
+    (void)state;
+    static const char damaged[] = "this is no journal";
+    file_put(named("sheet-1-1.journal"), damaged, sizeof damaged);
+    is_kept(begin(NULL, named("sheet-1-1.journal")), named("sheet-1-1.journal.kept"), damaged,
+            sizeof damaged);
+    file_put(named("one.h5.journal"), damaged, sizeof damaged);
+    is_kept(begin(named("one.h5"), NULL), named("one.h5.journal.kept-3"), damaged,
+            sizeof damaged);
+}
+
+static int folder_make(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int folder_remove(void **state)
+{
+    (void)state;
+    static const char *const files[] = {"one.h5",
+                                        "other.h5",
+                                        "one.h5.journal.kept",
+                                        "one.h5.journal.kept-2",
+                                        "one.h5.journal.kept-3",
+                                        "sheet-1-1.journal.kept"};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+        unlink(named(files[i]));
+    return rmdir(folder);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(journals_of_others_are_kept),
+        cmocka_unit_test(damaged_journals_are_kept),
+    };
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
+}
