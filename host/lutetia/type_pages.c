@@ -228,3 +228,24 @@ int type_pages_write(struct type_pages *s, struct page_text *text)
     }
     return status;
 }
+
+int type_pages_check(const struct type_pages *s)
+{
+    return type_out_of(s->out_path) != TYPE_OUT_NONE
+               ? EXIT_SUCCESS
+               : fail_usage(s->verb, "-o names a picture: FILE.png, .svg or .pdf (got '%.80s')",
+                            s->out_path);
+}
+
+void type_pages_tell(const struct type_pages *s, const char *font, int damaged,
+                     const char *divided)
+{
+    if (damaged)
+        tell(s->verb, "the text is not UTF-8 in %d places; U+FFFD stands there", damaged);
+    if (divided && !page_language_divides(divided))
+        tell(s->verb,
+             "there are no patterns to divide words of '%.20s' by (packages hyphen-..., as "
+             "hyphen-fr): none is divided",
+             divided);
+    type_missing_tell(s->verb, font, &s->lacking);
+}

@@ -15,24 +15,17 @@
 #include <string.h>
 
 struct read {
-    const char *out_path, *title, *font, *mono, *math, *language;
+    struct type_pages pages;
+    const char *font, *mono, *math;
     double size_px, leading, margin_px, gap_px, notes_px;
-    int page_px[2], columns, page;
-    bool all, ragged, plain, statistics;
+    int columns;
+    bool ragged, plain;
 };
 
 static int read_options(struct read *r, int argc, char **argv, struct option_words *words)
 {
     const struct option_row rows[] = {
-        {"out", 'o', OPTION_TEXT, "FILE",
-         "a page as picture, .png or .svg, or all of them as one .pdf (read.pdf)", &r->out_path,
-         0, 0, 0},
-        {"page", 0, OPTION_INTEGER, "N", "which page is drawn (1; of a PDF all)", &r->page, 1,
-         99999, 0},
-        {"all", 0, OPTION_FLAG, NULL,
-         "draw all pages, each in a file: read-1.png, read-2.png, ..", &r->all, 0, 0, 0},
-        {"title", 0, OPTION_TEXT, "T", "title of a PDF (the first heading)", &r->title, 0, 0,
-         0},
+        TYPE_PAGES_OPTIONS(&r->pages, "read", "read.pdf"),
         {"font", 0, OPTION_TEXT, "F",
          "the font: a file, the name of one, or a family (EB Garamond)", &r->font, 0, 0, 0},
         {"mono", 0, OPTION_TEXT, "F", "font of code (DejaVuSansMono)", &r->mono, 0, 0, 0},
@@ -42,8 +35,6 @@ static int read_options(struct read *r, int argc, char **argv, struct option_wor
         {"size", 0, OPTION_NUMBER, "PX", "size of the em (17)", &r->size_px, 1, 1000, 0},
         {"leading", 0, OPTION_NUMBER, "L", "distance of lines, of the size (1.3)", &r->leading,
          0.5, 10, 0},
-        {"paper", 0, OPTION_SIZE, "WxH", "size of the page (600x840)", r->page_px, 16, 16384,
-         0},
         {"margin", 0, OPTION_NUMBER, "PX", "margin around the page's text (64)", &r->margin_px,
          0, 8000, 0},
         {"columns", 0, OPTION_INTEGER, "N", "number of columns (1)", &r->columns, 1, 12, 0},
@@ -51,13 +42,11 @@ static int read_options(struct read *r, int argc, char **argv, struct option_wor
         {"notes", 0, OPTION_NUMBER, "PX",
          "width of a margin at the right for notes [^margin:..] (0: at the foot)", &r->notes_px,
          0, 8000, 0},
-        {"language", 0, OPTION_TEXT, "L", "language of the text, such as fr (en)", &r->language,
-         0, 0, 0},
+        {"language", 0, OPTION_TEXT, "L", "language of the text, such as fr (en)",
+         &r->pages.language, 0, 0, 0},
         {"ragged", 0, OPTION_FLAG, NULL, "lines end where their words do", &r->ragged, 0, 0, 0},
         {"plain", 0, OPTION_FLAG, NULL, "no page numbers, and no chapter over the page",
          &r->plain, 0, 0, 0},
-        {"statistics", 0, OPTION_FLAG, NULL, "also print what was set", &r->statistics, 0, 0,
-         0},
         {0}};
     if (!options_parse("read", rows, argc, argv, words))
         return EXIT_USAGE;
@@ -65,10 +54,7 @@ static int read_options(struct read *r, int argc, char **argv, struct option_wor
         return help_print("read", rows, NULL);
     if (words->count < 1)
         return fail_usage("read", "give a Markdown file, or several, or -%s", "");
-    if (type_out_of(r->out_path) == TYPE_OUT_NONE)
-        return fail_usage("read", "-o names a picture: FILE.png, .svg or .pdf (got '%.80s')",
-                          r->out_path);
-    return EXIT_SUCCESS;
+    return type_pages_check(&r->pages);
 }
 
 static int fail_reader(const char *path)
@@ -121,12 +107,10 @@ static int document_read(const struct option_words *words, struct reader_documen
     return EXIT_SUCCESS;
 }
 
-static void told(const struct reader_pages *pages, int damaged, const char *language)
+static void told(const struct reader_pages *pages)
 {
     int unknown;
     const char *first = reader_pages_unknown(pages, &unknown);
-    if (damaged)
-        tell("read", "the text is not UTF-8 in %d places; U+FFFD stands there", damaged);
     if (unknown)
         tell("read",
              "'%s' is no command of mathematics that is known%s: it stands as it is written",
@@ -135,33 +119,18 @@ static void told(const struct reader_pages *pages, int damaged, const char *lang
         tell("read",
              "there is no font with a table MATH (package fonts-dejavu-extra): formulas "
              "stand as they are written");
-    if (!page_language_divides(language))
-        tell("read",
-             "there are no patterns to divide words of '%.20s' by (packages hyphen-..., as "
-             "hyphen-fr): none is divided",
-             language ? language : "en");
 }
 
-static int pages_write(const struct read *r, const struct reader_pages_setup *setup,
+static int pages_write(struct read *r, const struct reader_pages_setup *setup,
                        const struct reader_document *document, int damaged)
 {
-    struct type_pages written = {.verb = "read",
-                                 .out_path = r->out_path,
-                                 .title = r->title,
-                                 .language = r->language ? r->language : "en",
-                                 .filter = font_painter_def_default().filter,
-                                 .darken_px = FONT_DARKEN_BY_STEM,
-                                 .page_px = {r->page_px[0], r->page_px[1]},
-                                 .page = r->page,
-                                 .all = r->all,
-                                 .statistics = r->statistics};
     struct reader_pages *pages;
     if (reader_pages_make(document, setup, &pages) != READER_OK)
         return fail_reader(NULL);
-    int status = type_pages_write(&written, reader_pages_text(pages));
+    int status = type_pages_write(&r->pages, reader_pages_text(pages));
     if (status == EXIT_SUCCESS) {
-        told(pages, damaged, r->language);
-        type_missing_tell("read", setup->font, &written.lacking);
+        told(pages);
+        type_pages_tell(&r->pages, setup->font, damaged, setup->language);
     }
     type_left_out_tell("read");
     reader_pages_destroy(pages);
@@ -172,13 +141,17 @@ int verb_read(int argc, char **argv)
 {
     struct option_words words;
     struct reader_pages_setup setup = reader_pages_setup_default();
-    struct read r = {.out_path = "read.pdf",
+    struct read r = {.pages = {.verb = "read",
+                               .out_path = "read.pdf",
+                               .language = "en",
+                               .filter = font_painter_def_default().filter,
+                               .darken_px = FONT_DARKEN_BY_STEM,
+                               .page_px = {(int)setup.width_px, (int)setup.height_px}},
                      .size_px = setup.size_px,
                      .leading = setup.leading,
                      .margin_px = setup.margin_px,
                      .gap_px = setup.gap_px,
-                     .columns = setup.columns,
-                     .page_px = {(int)setup.width_px, (int)setup.height_px}};
+                     .columns = setup.columns};
     int status = read_options(&r, argc, argv, &words), damaged = 0;
     struct reader_document *document = NULL;
     if (status != EXIT_SUCCESS || words.help)
@@ -186,11 +159,11 @@ int verb_read(int argc, char **argv)
     setup.font = r.font ? r.font : setup.font;
     setup.mono = r.mono ? r.mono : setup.mono;
     setup.math = r.math;
-    setup.language = r.language;
+    setup.language = r.pages.language;
     setup.size_px = r.size_px;
     setup.leading = r.leading;
-    setup.width_px = r.page_px[0];
-    setup.height_px = r.page_px[1];
+    setup.width_px = r.pages.page_px[0];
+    setup.height_px = r.pages.page_px[1];
     setup.margin_px = r.margin_px;
     setup.gap_px = r.gap_px;
     setup.notes_px = r.notes_px;

@@ -16,14 +16,13 @@
 enum { ROUND_CORNERS = 72 };
 
 struct set {
-    const char *out_path, *font, *edits, *italic, *bold, *language, *features, *filter, *align,
-        *title, *head;
+    struct type_pages pages;
+    const char *font, *edits, *italic, *bold, *language, *features, *align, *head;
     double size_px, leading, margin_px, gap_px, notes_px, indent_em, protrude, expand,
         tolerance;
-    double ink[3], darken_px;
-    int page_px[2], columns, page;
+    int columns;
     struct option_list around, inside;
-    bool all, hyphenate, vertical, statistics, folios, grid;
+    bool hyphenate, vertical, folios, grid;
     struct page_setup setup;
     struct option_texts filters;
     struct page_shape shapes[PAGE_SHAPES_MAX];
@@ -33,15 +32,7 @@ struct set {
 static int set_options(struct set *s, int argc, char **argv, const char **path, bool *help)
 {
     const struct option_row rows[] = {
-        {"out", 'o', OPTION_TEXT, "FILE",
-         "a page as picture, .png or .svg, or all of them as one .pdf (page.png)", &s->out_path,
-         0, 0, 0},
-        {"page", 0, OPTION_INTEGER, "N", "which page is drawn (1; of a PDF all)", &s->page, 1,
-         99999, 0},
-        {"all", 0, OPTION_FLAG, NULL,
-         "draw all pages, each in a file: page-1.png, page-2.png, ..", &s->all, 0, 0, 0},
-        {"title", 0, OPTION_TEXT, "T", "title of a PDF (the first heading)", &s->title, 0, 0,
-         0},
+        TYPE_PAGES_OPTIONS(&s->pages, "page", "page.png"),
         {"font", 0, OPTION_TEXT, "F",
          "the font: a file, the name of one, or a family (DejaVuSerif)", &s->font, 0, 0, 0},
         TYPE_EDITS_OPTION(&s->edits),
@@ -52,8 +43,6 @@ static int set_options(struct set *s, int argc, char **argv, const char **path, 
         {"size", 0, OPTION_NUMBER, "PX", "size of the em (16)", &s->size_px, 1, 1000, 0},
         {"leading", 0, OPTION_NUMBER, "L", "distance of lines, of the size (the font's)",
          &s->leading, 0.1, 10, 0},
-        {"paper", 0, OPTION_SIZE, "WxH", "size of the page (600x840)", s->page_px, 16, 16384,
-         0},
         {"margin", 0, OPTION_NUMBER, "PX", "margin around the page's text (60)", &s->margin_px,
          0, 8000, 0},
         {"columns", 0, OPTION_INTEGER, "N", "number of columns (1)", &s->columns, 1,
@@ -93,18 +82,16 @@ static int set_options(struct set *s, int argc, char **argv, const char **path, 
          "text goes around this ellipse; as often as wanted", &s->around, -16384, 16384, 4},
         {"inside", 0, OPTION_LIST, "X,Y,RX,RY", "text stays inside of this ellipse", &s->inside,
          -16384, 16384, 4},
-        {"ink", 0, OPTION_NUMBERS, "R,G,B", "colour of the ink, each 0..1 (0,0,0)", s->ink, 0,
-         1, 3},
-        {"filter", 0, OPTION_TEXT, "F", "filter of the letters (gaussian-fast)", &s->filter, 0,
-         0, 0},
+        {"ink", 0, OPTION_NUMBERS, "R,G,B", "colour of the ink, each 0..1 (0,0,0)",
+         s->pages.ink, 0, 1, 3},
+        {"filter", 0, OPTION_TEXT, "F", "filter of the letters (gaussian-fast)",
+         &s->pages.filter, 0, 0, 0},
         {"filter-of", 0, OPTION_TEXTS, "PART=F",
          "filter of the text, of italic or bold words, of a head or a note: note=cone",
          &s->filters, 0, 0, 0},
         {"darken", 0, OPTION_NUMBER, "PX",
-         "widens the stems of small type; 0: does not (as their width needs)", &s->darken_px, 0,
-         2, 0},
-        {"statistics", 0, OPTION_FLAG, NULL, "also print what was set", &s->statistics, 0, 0,
-         0},
+         "widens the stems of small type; 0: does not (as their width needs)",
+         &s->pages.darken_px, 0, 2, 0},
         {0}};
     struct option_words words;
     if (!options_parse("set", rows, argc, argv, &words))
@@ -118,10 +105,7 @@ static int set_options(struct set *s, int argc, char **argv, const char **path, 
                                       : "give a file with the text, or -%s",
                           words.count ? words.words[1] : "");
     *path = words.words[0];
-    if (type_out_of(s->out_path) == TYPE_OUT_NONE)
-        return fail_usage("set", "-o names a picture: FILE.png, .svg or .pdf (got '%.80s')",
-                          s->out_path);
-    return EXIT_SUCCESS;
+    return type_pages_check(&s->pages);
 }
 
 static int shapes_make(struct set *s)
@@ -197,8 +181,8 @@ static struct page_setup setup_of(const struct set *s)
                                .language = s->language,
                                .size_px = s->size_px,
                                .leading = s->leading,
-                               .width_px = s->page_px[0],
-                               .height_px = s->page_px[1],
+                               .width_px = s->pages.page_px[0],
+                               .height_px = s->pages.page_px[1],
                                .margin_px = s->margin_px,
                                .gap_px = s->gap_px,
                                .columns = s->columns,
@@ -215,23 +199,6 @@ static struct page_setup setup_of(const struct set *s)
                                .tolerance = s->tolerance};
 }
 
-static struct type_pages written_of(const struct set *s)
-{
-    return (struct type_pages){.verb = "set",
-                               .out_path = s->out_path,
-                               .title = s->title,
-                               .language = s->language    ? s->language
-                                           : s->hyphenate ? "en"
-                                                          : NULL,
-                               .filter = s->filter,
-                               .ink = {s->ink[0], s->ink[1], s->ink[2]},
-                               .darken_px = s->darken_px,
-                               .page_px = {s->page_px[0], s->page_px[1]},
-                               .page = s->page,
-                               .all = s->all,
-                               .statistics = s->statistics};
-}
-
 int verb_set(int argc, char **argv)
 {
     static struct set s; /* its lists are large */
@@ -240,15 +207,16 @@ int verb_set(int argc, char **argv)
     size_t bytes = 0;
     bool help = false;
     const struct page_setup usual = page_setup_default();
-    s = (struct set){.out_path = "page.png",
+    s = (struct set){.pages = {.verb = "set",
+                               .out_path = "page.png",
+                               .page_px = {600, 840},
+                               .darken_px = FONT_DARKEN_BY_STEM},
                      .align = "justify",
                      .size_px = usual.size_px,
                      .margin_px = usual.margin_px,
                      .gap_px = usual.gap_px,
                      .indent_em = usual.indent_em,
                      .tolerance = usual.tolerance,
-                     .page_px = {600, 840},
-                     .darken_px = FONT_DARKEN_BY_STEM,
                      .columns = 1};
     int status = set_options(&s, argc, argv, &path, &help);
     if (status == EXIT_SUCCESS && !help)
@@ -256,10 +224,12 @@ int verb_set(int argc, char **argv)
     if (status != EXIT_SUCCESS || help)
         return status;
     s.font = font;
-    if (s.filter) {
-        status = type_filter_read("set", s.filter, &filter);
-        s.filter = filter;
+    if (s.pages.filter) {
+        status = type_filter_read("set", s.pages.filter, &filter);
+        s.pages.filter = filter;
     }
+    const char *divided = s.language ? s.language : s.hyphenate ? "en" : NULL;
+    s.pages.language = divided;
     s.setup = setup_of(&s);
     if (status == EXIT_SUCCESS)
         status = align_read(s.align, &s.setup.align);
@@ -270,21 +240,13 @@ int verb_set(int argc, char **argv)
     if (status == EXIT_SUCCESS)
         status = type_text_read("set", path, &text, &bytes);
     struct page_text *pages = NULL;
-    struct type_pages written = written_of(&s);
     if (status == EXIT_SUCCESS && page_setup_make(&s.setup, text, bytes, &pages) != FONT_OK)
         status = fail_font("set");
     if (status == EXIT_SUCCESS)
-        status = type_pages_write(&written, pages);
-    int damaged = status == EXIT_SUCCESS ? font_utf8_damaged(text, bytes) : 0;
-    if (damaged)
-        tell("set", "the text is not UTF-8 in %d places; U+FFFD stands there", damaged);
-    if (status == EXIT_SUCCESS && s.hyphenate && !page_language_divides(s.language))
-        tell("set",
-             "there are no patterns to divide words of '%.20s' by (packages hyphen-..., as "
-             "hyphen-fr): none is divided",
-             s.language ? s.language : "en");
+        status = type_pages_write(&s.pages, pages);
     if (status == EXIT_SUCCESS)
-        type_missing_tell("set", s.font, &written.lacking);
+        type_pages_tell(&s.pages, s.font, font_utf8_damaged(text, bytes),
+                        s.hyphenate ? divided : NULL);
     type_left_out_tell("set");
     page_text_destroy(pages);
     free(text);
