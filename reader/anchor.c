@@ -73,7 +73,7 @@ static int heading_of(const char *line, size_t bytes, const char **text, size_t 
         level++;
     if (!level || level > LEVELS || level == bytes || line[level] != ' ')
         return 0;
-    while (level < bytes && line[level] == ' ' && level < bytes)
+    while (level < bytes && line[level] == ' ')
         level++;
     *text = line + level;
     *length = bytes - level;

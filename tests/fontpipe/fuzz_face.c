@@ -4,17 +4,11 @@
 #include <drawing.h>
 #include <paint.h>
 
+#include "../must.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define must(condition)                                                                        \
-    do {                                                                                       \
-        if (!(condition)) {                                                                    \
-            fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition);            \
-            abort();                                                                           \
-        }                                                                                      \
-    } while (0)
 
 enum { GLYPHS = 8, SIDE = 96 };
 

@@ -2,6 +2,8 @@
  * for its size. The seeds are the same in every run, or libFuzzer's with -DLUTETIA_FUZZ_TARGET. */
 #include <font_math.h>
 
+#include "../must.h"
+
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -9,14 +11,6 @@
 #include <string.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count);
-
-#define must(condition)                                                                        \
-    do {                                                                                       \
-        if (!(condition)) {                                                                    \
-            fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition);            \
-            abort();                                                                           \
-        }                                                                                      \
-    } while (0)
 
 static struct font_math *math_get(void)
 {
@@ -56,6 +50,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
 }
 
 #ifndef LUTETIA_FUZZ_TARGET
+#include "../fuzz_pieces.h"
+
 static const char *const pieces[] = {"x",
                                      "1",
                                      "+",
@@ -112,30 +108,7 @@ static const char *const pieces[] = {"x",
 int main(int argc, char **argv)
 {
     long count = argc > 1 ? strtol(argv[1], NULL, 10) : 3000;
-    uint32_t state = 2463534242u;
-    for (long i = 0; i < count; i++) {
-        uint8_t bytes[1024];
-        size_t length = 1;
-        bytes[0] = (uint8_t)i;
-        for (long k = i % 60; k >= 0; k--) {
-            state ^= state << 13;
-            state ^= state >> 17;
-            state ^= state << 5;
-            const char *piece = pieces[(state >> 8) % (sizeof pieces / sizeof *pieces)];
-            size_t n = strlen(piece);
-            if (length + n > sizeof bytes)
-                break;
-            memcpy(bytes + length, piece, n);
-            length += n;
-        }
-        if (i % 7 == 0) /* and damaged */
-            bytes[1 + state % length % (sizeof bytes - 1)] = (uint8_t)(state >> 24);
-        uint8_t *exact = malloc(length); /* so that reading beyond the end is seen */
-        must(exact);
-        memcpy(exact, bytes, length);
-        LLVMFuzzerTestOneInput(exact, length);
-        free(exact);
-    }
+    fuzz_pieces(pieces, sizeof pieces / sizeof *pieces, count, 60);
     printf("%ld formulas\n", count);
     return 0;
 }

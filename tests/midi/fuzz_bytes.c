@@ -5,18 +5,11 @@
 #include <midi_encoder.h>
 #include <midi_filter.h>
 
+#include "../must.h"
 #include "../sample.h"
 
 #include <stdio.h>
 #include <string.h>
-
-#define must(condition)                                                                        \
-    do {                                                                                       \
-        if (!(condition)) {                                                                    \
-            fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition);            \
-            abort();                                                                           \
-        }                                                                                      \
-    } while (0)
 
 static void parse_in_pieces(const uint8_t *bytes, size_t count, uint64_t seed,
                             struct taken *out)

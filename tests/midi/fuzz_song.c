@@ -2,19 +2,12 @@
  * the same song. (security.md 29) With libFuzzer it is the target; without, it changes bytes of random songs. */
 #include "song_support.h"
 
+#include "../must.h"
 #include "../sample.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define must(condition)                                                                        \
-    do {                                                                                       \
-        if (!(condition)) {                                                                    \
-            fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition);            \
-            abort();                                                                           \
-        }                                                                                      \
-    } while (0)
 
 static void message_check(void *context, const struct midi_message *m)
 {

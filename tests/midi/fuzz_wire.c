@@ -5,6 +5,7 @@
 #include <midi_time.h>
 #include <midi_wire.h>
 
+#include "../must.h"
 #include "../sample.h"
 
 #include <poll.h>
@@ -15,14 +16,6 @@
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
-
-#define must(condition)                                                                        \
-    do {                                                                                       \
-        if (!(condition)) {                                                                    \
-            fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition);            \
-            abort();                                                                           \
-        }                                                                                      \
-    } while (0)
 
 static char folder[64], path[96], false_path[96];
 static struct midi_server *server;

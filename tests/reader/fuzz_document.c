@@ -3,20 +3,14 @@
 #include <reader_document.h>
 #include <reader_pages.h>
 
+#include "../must.h"
+
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count);
-
-#define must(condition)                                                                        \
-    do {                                                                                       \
-        if (!(condition)) {                                                                    \
-            fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition);            \
-            abort();                                                                           \
-        }                                                                                      \
-    } while (0)
 
 static void block_check(const struct reader_document *d, const struct reader_block *b)
 {
@@ -82,6 +76,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
 }
 
 #ifndef LUTETIA_FUZZ_TARGET
+#include "../fuzz_pieces.h"
+
 static const char *const pieces[] = {"word ",
                                      "# ",
                                      "\n\n",
@@ -132,28 +128,7 @@ static const char *const pieces[] = {"word ",
 int main(int argc, char **argv)
 {
     long count = argc > 1 ? strtol(argv[1], NULL, 10) : 500;
-    uint32_t state = 2463534242u;
-    for (long i = 0; i < count; i++) {
-        uint8_t bytes[1024];
-        size_t length = 1;
-        bytes[0] = (uint8_t)i;
-        for (long k = i % 80; k >= 0; k--) {
-            state ^= state << 13;
-            state ^= state >> 17;
-            state ^= state << 5;
-            const char *piece = pieces[(state >> 8) % (sizeof pieces / sizeof *pieces)];
-            size_t n = strlen(piece);
-            if (length + n > sizeof bytes)
-                break;
-            memcpy(bytes + length, piece, n);
-            length += n;
-        }
-        uint8_t *exact = malloc(length); /* so that reading beyond the end is seen */
-        must(exact);
-        memcpy(exact, bytes, length);
-        LLVMFuzzerTestOneInput(exact, length);
-        free(exact);
-    }
+    fuzz_pieces(pieces, sizeof pieces / sizeof *pieces, count, 80);
     printf("%ld documents\n", count);
     return 0;
 }

@@ -16,6 +16,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "without_library.h"
+
 struct made {
     struct reader_document *document;
     struct reader_pages *pages;
@@ -323,13 +325,7 @@ int main(void)
         cmocka_unit_test(hostile_documents_are_set),
         cmocka_unit_test(wrong_setups_are_refused),
     };
-    struct reader_document *d;
-    if (reader_document_create(&d) != READER_OK ||
-        reader_document_add(d, "", 0) == READER_NO_LIBRARY) {
-        printf("skipped: built without cmark-gfm\n");
-        reader_document_destroy(d);
+    if (without_library())
         return 77;
-    }
-    reader_document_destroy(d);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,13 +7,9 @@
 
 static enum paper_status number_check(struct paper_sheet *p, int number)
 {
-    struct sheet_history *h = p->history;
-    if (!h)
-        return paper_fail(PAPER_BAD_ARGUMENT, "the sheet has no history");
-    if (h->inserting_at >= 0)
-        return paper_fail(PAPER_BAD_ARGUMENT, "something is being inserted already");
-    if (history_no_stroke(p) != PAPER_OK)
-        return PAPER_BAD_ARGUMENT;
+    const enum paper_status status = history_changeable(p);
+    if (status != PAPER_OK)
+        return status;
     const int done = paper_history_done(p);
     return number >= 0 && number < done
                ? PAPER_OK

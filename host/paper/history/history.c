@@ -424,16 +424,22 @@ int paper_history_redo(struct paper_sheet *p, int count)
     return count;
 }
 
+enum paper_status history_changeable(const struct paper_sheet *p)
+{
+    if (!p->history)
+        return paper_fail(PAPER_BAD_ARGUMENT, "the sheet has no history");
+    if (p->history->inserting_at >= 0)
+        return paper_fail(PAPER_BAD_ARGUMENT, "something is being inserted already");
+    return history_no_stroke(p);
+}
+
 static enum paper_status time_check(const struct paper_sheet *p, long time, struct position end,
                                     struct position *position)
 {
     const struct sheet_history *h = p->history;
-    if (!h)
-        return paper_fail(PAPER_BAD_ARGUMENT, "the sheet has no history");
-    if (h->inserting_at >= 0)
-        return paper_fail(PAPER_BAD_ARGUMENT, "something is being inserted already");
-    if (history_no_stroke(p) != PAPER_OK)
-        return PAPER_BAD_ARGUMENT;
+    const enum paper_status status = history_changeable(p);
+    if (status != PAPER_OK)
+        return status;
     *position = history_position(h, time, end);
     if (position->op < 0)
         return paper_fail(PAPER_BAD_ARGUMENT, "a time must be 0..%ld steps (got %ld)",

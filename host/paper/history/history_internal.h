@@ -201,6 +201,8 @@ enum paper_status history_stroke_end(struct paper_sheet *p);
 void history_stroke_drop(struct paper_sheet *p);
 /* Errors: BAD_ARGUMENT while one grows. */
 enum paper_status history_no_stroke(const struct paper_sheet *p);
+/* Errors: BAD_ARGUMENT without a history, and while something is inserted or a stroke grows (history/history.c). */
+enum paper_status history_changeable(const struct paper_sheet *p);
 
 /* ---- operations taken out or replaced (history/change.c, brushes_made.c) ---- */
 
