@@ -142,7 +142,7 @@ bool desk_pen_at(struct desk_pen *pen, guint32 time_ms, double *pressure, double
 GtkWidget *desk_row_new(struct desk *d, int setting, const char *label);
 void desk_row_fill(struct desk *d, int setting);
 char *desk_label(const char *name); /* "tilt_x" as "Tilt x", translated; free it by g_free() */
-/* What a screen reader and a tooltip say. */
+/* What a screen reader and a tooltip say; tip NULL: there is none. */
 void desk_name(GtkWidget *widget, const char *name, const char *tip);
 
 /* desk_panel.c */

@@ -151,8 +151,7 @@ GtkWidget *desk_canvas_new(struct desk *d)
     gtk_widget_set_size_request(d->canvas, 240, 200);
     gtk_widget_set_focusable(d->canvas, TRUE);
     gtk_widget_set_cursor_from_name(d->canvas, "none");
-    gtk_accessible_update_property(GTK_ACCESSIBLE(d->canvas), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   _("The sheet"), -1);
+    desk_name(d->canvas, _("The sheet"), NULL);
     g_signal_connect(d->canvas, "realize", G_CALLBACK(canvas_realize), d);
     g_signal_connect(d->canvas, "unrealize", G_CALLBACK(canvas_unrealize), d);
     g_signal_connect(d->canvas, "render", G_CALLBACK(canvas_render), d);

@@ -45,9 +45,7 @@ static GtkWidget *well_new(struct desk *d, int well)
     g_object_set_data(G_OBJECT(button), "well", GINT_TO_POINTER(well + 1));
     gtk_button_set_child(GTK_BUTTON(button), area);
     gtk_widget_set_hexpand(button, TRUE);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(button), GTK_ACCESSIBLE_PROPERTY_LABEL, name,
-                                   -1);
-    gtk_widget_set_tooltip_text(button, tip);
+    desk_name(button, name, tip);
     if (well)
         gtk_toggle_button_set_group(GTK_TOGGLE_BUTTON(button), GTK_TOGGLE_BUTTON(d->wells[0]));
     g_signal_connect(button, "toggled", G_CALLBACK(well_chosen), d);
@@ -63,10 +61,9 @@ GtkWidget *desk_dish_new(struct desk *d)
     d->swatch = gtk_drawing_area_new();
     gtk_drawing_area_set_content_height(GTK_DRAWING_AREA(d->swatch), 28);
     gtk_drawing_area_set_draw_func(GTK_DRAWING_AREA(d->swatch), swatch_draw, d, NULL);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(d->swatch), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   _("What is in the dish, on this paper"), -1);
-    gtk_widget_set_tooltip_text(d->swatch, _("What is in the dish, on this paper when it is "
-                                             "dry: as it is, and ever thinner"));
+    desk_name(d->swatch, _("What is in the dish, on this paper"),
+              _("What is in the dish, on this paper when it is "
+                "dry: as it is, and ever thinner"));
     for (int i = 0; i < DESK_WELLS; i++) {
         d->wells[i] = well_new(d, i);
         gtk_box_append(GTK_BOX(wells), d->wells[i]);
@@ -180,12 +177,9 @@ GtkWidget *desk_board_new(struct desk *d)
     gtk_drawing_area_set_content_height(GTK_DRAWING_AREA(d->board), BOARD);
     gtk_drawing_area_set_draw_func(GTK_DRAWING_AREA(d->board), board_draw, d, NULL);
     gtk_widget_set_halign(d->board, GTK_ALIGN_CENTER);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(d->board), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   _("The board's tilt; tilt x and tilt y say it in numbers"),
-                                   -1);
-    gtk_widget_set_tooltip_text(d->board,
-                                _("Drag the ball: water flows where it lies. In the middle the "
-                                  "board is level."));
+    desk_name(d->board, _("The board's tilt; tilt x and tilt y say it in numbers"),
+              _("Drag the ball: water flows where it lies. In the middle the "
+                "board is level."));
     g_signal_connect(drag, "drag-begin", G_CALLBACK(board_begin), d);
     g_signal_connect(drag, "drag-update", G_CALLBACK(board_move), d);
     gtk_widget_add_controller(d->board, GTK_EVENT_CONTROLLER(drag));

@@ -141,8 +141,7 @@ static GtkWidget *side_add(GtkWidget *grid, int row, const char *name, int value
     GtkWidget *label = gtk_label_new(name), *side = gtk_spin_button_new_with_range(64, 4096, 1);
     gtk_spin_button_set_value(GTK_SPIN_BUTTON(side), value);
     gtk_label_set_xalign(GTK_LABEL(label), 0);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(side), GTK_ACCESSIBLE_PROPERTY_LABEL, name,
-                                   -1);
+    desk_name(side, name, NULL);
     gtk_grid_attach(GTK_GRID(grid), label, 0, row, 1, 1);
     gtk_grid_attach(GTK_GRID(grid), side, 1, row, 1, 1);
     return side;
@@ -161,8 +160,7 @@ static void stock_add(struct form *f, GtkWidget *grid, int row)
     f->stock = gtk_drop_down_new(G_LIST_MODEL(names), NULL);
     gtk_drop_down_set_selected(GTK_DROP_DOWN(f->stock), (guint)chosen);
     gtk_label_set_xalign(GTK_LABEL(label), 0);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(f->stock), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   _("Paper"), -1);
+    desk_name(f->stock, _("Paper"), NULL);
     gtk_grid_attach(GTK_GRID(grid), label, 0, row, 1, 1);
     gtk_grid_attach(GTK_GRID(grid), f->stock, 1, row, 1, 1);
 }

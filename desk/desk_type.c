@@ -226,14 +226,10 @@ GtkWidget *desk_type_new(struct desk *d)
               *features = gtk_entry_new(),
               *print = gtk_button_new_with_label(_("Let into the paper"));
     d->typed = g_string_new("");
-    gtk_accessible_update_property(GTK_ACCESSIBLE(fonts), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   _("Font"), -1);
-    gtk_widget_set_tooltip_text(fonts, _("Font"));
+    desk_name(fonts, _("Font"), _("Font"));
     gtk_entry_set_placeholder_text(GTK_ENTRY(features), _("OpenType features: smcp,-liga"));
-    gtk_accessible_update_property(GTK_ACCESSIBLE(features), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   _("OpenType features"), -1);
-    gtk_widget_set_tooltip_text(features,
-                                _("OpenType features, separated by commas: smcp,-liga"));
+    desk_name(features, _("OpenType features"),
+              _("OpenType features, separated by commas: smcp,-liga"));
     gtk_widget_set_tooltip_text(print, _("What is typed becomes ink (Ctrl+Enter)"));
     g_signal_connect(features, "changed", G_CALLBACK(features_typed), d);
     g_signal_connect(print, "clicked", G_CALLBACK(print_clicked), d);

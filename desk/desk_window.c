@@ -24,9 +24,7 @@ static GtkWidget *notice_new(struct desk *d)
     gtk_label_set_xalign(GTK_LABEL(d->notice_text), 0);
     gtk_widget_set_hexpand(d->notice_text, TRUE);
     gtk_widget_set_margin_start(box, 12);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(close), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   _("Put this message away"), -1);
-    gtk_widget_set_tooltip_text(close, _("Put this message away"));
+    desk_name(close, _("Put this message away"), _("Put this message away"));
     g_signal_connect(close, "clicked", G_CALLBACK(notice_close), d);
     gtk_box_append(GTK_BOX(box), d->notice_text);
     gtk_box_append(GTK_BOX(box), close);
@@ -160,9 +158,7 @@ static GtkWidget *action_button(const char *icon, const char *name, const char *
     GtkWidget *button = gtk_button_new_from_icon_name(icon);
     char *tip = g_strdup_printf("%s (%s)", name, key);
     gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(button), GTK_ACCESSIBLE_PROPERTY_LABEL, name,
-                                   -1);
-    gtk_widget_set_tooltip_text(button, tip);
+    desk_name(button, name, tip);
     g_free(tip);
     return button;
 }
@@ -192,17 +188,13 @@ static GtkWidget *header_new(struct desk *d)
             action_button(buttons[i].icon, buttons[i].name, buttons[i].action, buttons[i].key));
     d->pause = gtk_toggle_button_new();
     gtk_button_set_icon_name(GTK_BUTTON(d->pause), "media-playback-pause-symbolic");
-    gtk_accessible_update_property(GTK_ACCESSIBLE(d->pause), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   _("Time stands still"), -1);
-    gtk_widget_set_tooltip_text(d->pause, _("Time on the paper stands still (P)"));
+    desk_name(d->pause, _("Time stands still"), _("Time on the paper stands still (P)"));
     g_signal_connect(d->pause, "toggled", G_CALLBACK(pause_toggled), d);
     gtk_header_bar_pack_start(GTK_HEADER_BAR(header), d->pause);
     gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(menu), "open-menu-symbolic");
     gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(menu), model);
     gtk_menu_button_set_primary(GTK_MENU_BUTTON(menu), TRUE);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(menu), GTK_ACCESSIBLE_PROPERTY_LABEL,
-                                   _("Menu"), -1);
-    gtk_widget_set_tooltip_text(menu, _("Menu (F10)"));
+    desk_name(menu, _("Menu"), _("Menu (F10)"));
     gtk_header_bar_pack_end(GTK_HEADER_BAR(header), menu);
     g_object_unref(model);
     return header;
