@@ -255,7 +255,7 @@ enum paper_status studio_session_picture(struct studio_session *s, const char *p
 
 enum paper_status studio_session_script(struct studio_session *s, const char *path)
 {
-    return script_session_write(s->sheet, path) == SCRIPT_OK
+    return script_session_write(s->sheet, studio_session_view(s).show, path) == SCRIPT_OK
                ? PAPER_OK
                : studio_session_failed(PAPER_BAD_ARGUMENT, "%s", script_session_error());
 }

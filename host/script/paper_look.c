@@ -169,7 +169,7 @@ static int paper_total_of(lua_State *L)
 
 /* ---- looking ---- */
 
-static const char *const shows[] = {"color", "water", "wet", "layer", NULL};
+const char *const script_shows[] = {"color", "water", "wet", "layer", NULL};
 
 /* What a sheet with a deckle lies on: a colour, the usual one, or (true) nothing. */
 static bool ground_read(lua_State *L, const struct paper_sheet_config *config,
@@ -239,7 +239,7 @@ static int paper_frame(lua_State *L)
                                 &view.pigment);
     }
     if (show)
-        view.show = (enum paper_show)script_arg_choice(L, "frame show", show, shows);
+        view.show = (enum paper_show)script_arg_choice(L, "frame show", show, script_shows);
     view.low = script_arg_number(L, 3, "frame", "low", 0, -1e6, 1e6);
     view.high = script_arg_number(L, 3, "frame", "high", 1, -1e6, 1e6);
     view.light = script_arg_number(L, 3, "frame", "light", view.light, 0, 4);

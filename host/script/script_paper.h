@@ -42,4 +42,7 @@ void script_paper_stop_when_due(lua_State *L, struct script_paper *paper);
 
 /* paper:at(time, function) */
 int script_paper_at_time(lua_State *L);
+/* Words for enum paper_show; NULL ends them (paper_look.c). */
+extern const char *const script_shows[];
+
 #endif

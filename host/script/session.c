@@ -1,6 +1,7 @@
 /* session.c - see script_session.h. */
 #include "script_session.h"
 
+#include "script_paper.h"
 #include "script_text.h"
 
 #include <arguments.h>
@@ -75,10 +76,13 @@ static bool paper_say(struct session *s)
                     "                rule = \"%s\", model = ",
                     c->width, c->height, (unsigned long long)c->seed,
                     c->torus ? "true" : "false", rules[c->rule]);
-    script_text_say(text, c->parts ? "{" : "\"thesis\"");
-    for (int i = 0; i < 4 && c->parts; i++)
-        if (c->parts >> i & 1)
-            script_text_say(text, "\"%s\", ", parts[i]);
+    const char *between = "{";
+    script_text_say(text, c->parts ? "" : "\"thesis\"");
+    for (int i = 0; i < 4; i++)
+        if (c->parts >> i & 1) {
+            script_text_say(text, "%s\"%s\"", between, parts[i]);
+            between = ", ";
+        }
     script_text_say(text,
                     c->parts ? "},\n                stock = " : ",\n                stock = ");
     script_text_quoted(text, c->stock.name);
@@ -316,7 +320,7 @@ static bool names_make(struct session *s, const char *path)
     return true;
 }
 
-static bool session_say(struct session *s)
+static bool session_say(struct session *s, enum paper_show show)
 {
     script_text_say(&s->text, "-- %s.lua: a session, as it was painted.\n", s->name);
     if (!paper_say(s))
@@ -336,7 +340,7 @@ static bool session_say(struct session *s)
     char frame[PATH_ROOM + 8];
     snprintf(frame, sizeof frame, "%s.png", s->name);
     script_text_quoted(&s->text, frame);
-    script_text_say(&s->text, ")\n");
+    script_text_say(&s->text, ", {show = \"%s\", bits = 16})\n", script_shows[show]);
     return !s->text.short_of_memory || failed("no memory for a script");
 }
 
@@ -349,7 +353,8 @@ static bool text_write(const struct session *s, const char *path)
     return output_file_commit(&out) || failed("%s: cannot write: %s", path, out.why);
 }
 
-enum script_status script_session_write(struct paper_sheet *sheet, const char *path)
+enum script_status script_session_write(struct paper_sheet *sheet, enum paper_show show,
+                                        const char *path)
 {
     struct session *s = calloc(1, sizeof *s);
     const locale_t plain = newlocale(LC_NUMERIC_MASK, "C", NULL), /* Lua's decimal points */
@@ -359,7 +364,7 @@ enum script_status script_session_write(struct paper_sheet *sheet, const char *p
     if (s) {
         s->sheet = sheet;
         s->config = paper_sheet_get_config(sheet);
-        good = good && names_make(s, path) && session_say(s) && text_write(s, path);
+        good = good && names_make(s, path) && session_say(s, show) && text_write(s, path);
         free(s->text.at);
     }
     free(s);

@@ -49,15 +49,15 @@ void script_text_quoted(struct event_bytes *text, const char *string)
 /* The script's number whose quotient by per_unit is the value. */
 static bool in_units(double value, double per_unit, double *out)
 {
-    double at = value * per_unit;
-    for (int i = 0; i < 3; i++)
-        at = nextafter(at, -INFINITY);
-    for (int i = 0; i < 7; i++, at = nextafter(at, INFINITY)) {
-        const double back = at / per_unit;
-        if (memcmp(&back, &value, sizeof back) == 0) {
-            *out = at;
-            return true;
-        }
+    double below = value * per_unit, above = below;
+    for (int i = 0; i < 4;
+         i++, below = nextafter(below, -INFINITY), above = nextafter(above, INFINITY)) {
+        const double backs[2] = {below / per_unit, above / per_unit};
+        for (int k = 0; k < 2; k++)
+            if (memcmp(&backs[k], &value, sizeof value) == 0) {
+                *out = k ? above : below;
+                return true;
+            }
     }
     return false;
 }

@@ -94,8 +94,11 @@ static void window_paints_what_calls_paint(void **state)
     char *seen, *expected;
     FILE *events = events_begin();
     scene_write(events, 4);
-    fprintf(events, "4 picture %s\n4 script %s\n4 set show colour\n4 picture %s\n4 close\n",
-            in_folder("seen.png"), in_folder("scene.lua"), in_folder("colour.png"));
+    fprintf(
+        events,
+        "4 picture %s\n4 script %s\n4 set show colour\n4 picture %s\n4 script %s\n4 close\n",
+        in_folder("seen.png"), in_folder("scene.lua"), in_folder("colour.png"),
+        in_folder("bare.lua"));
     fclose(events);
     studio_run(NULL);
     if (child.status != 0)
@@ -110,25 +113,31 @@ static void window_paints_what_calls_paint(void **state)
     free(expected);
 }
 
-/* What the script of the session before makes. */
-static void script_makes_the_same(void **state)
+/* What a script of the session before makes is the picture that was written where it was: all 16 bits, and shown as it was. */
+static void script_is(const char *script, const char *made, const char *picture)
 {
-    (void)state;
-    struct display_image seen, expected;
+    char *seen, *expected;
     memset(&child, 0, sizeof child);
-    const char *const arguments[] = {
-        getenv("LUTETIA"), "run", in_folder("scene.lua"), "-q", "-o", in_folder("made")};
+    const char *const arguments[] = {getenv("LUTETIA"), "run", in_folder(script), "-q", "-o",
+                                     in_folder("made")};
     memcpy(child.arguments, arguments, sizeof arguments);
     child_run(&child);
     if (child.status != 0)
         print_message("%s", child.errors);
     assert_int_equal(child.status, 0);
-    assert_int_equal(display_png_read_rgb(in_folder("made/scene.png"), &seen), DISPLAY_OK);
-    assert_int_equal(display_png_read_rgb(in_folder("colour.png"), &expected), DISPLAY_OK);
-    assert_int_equal(seen.width_px, expected.width_px);
-    assert_memory_equal(seen.pixels, expected.pixels, 3 * SCENE_WIDTH * SCENE_HEIGHT);
-    display_image_destroy(&seen);
-    display_image_destroy(&expected);
+    const size_t count = file_read(in_folder(made), &seen),
+                 wanted = file_read(in_folder(picture), &expected);
+    assert_int_equal(count, wanted);
+    assert_memory_equal(seen, expected, count);
+    free(seen);
+    free(expected);
+}
+
+static void script_makes_the_same(void **state)
+{
+    (void)state;
+    script_is("scene.lua", "made/scene.png", "seen.png");
+    script_is("bare.lua", "made/bare.png", "colour.png");
 }
 
 /* How many operations of that name the saved sheet has. */

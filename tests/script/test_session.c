@@ -160,7 +160,7 @@ static void a_session_is_a_script(void **state)
     painted_make();
     session_paint();
     snprintf(path, sizeof path, "%s", scratch_path("session.lua"));
-    assert_int_equal(script_session_write(painted, path), SCRIPT_OK);
+    assert_int_equal(script_session_write(painted, PAPER_SHOW_COLOR, path), SCRIPT_OK);
     FILE *file = fopen(path, "r");
     static char text[1 << 18];
     assert_non_null(file);
@@ -187,9 +187,11 @@ static void what_cannot_be_written_is_said(void **state)
 {
     (void)state;
     painted_make();
-    assert_int_equal(script_session_write(painted, "/nowhere/at/all.lua"), SCRIPT_FAILED);
+    assert_int_equal(script_session_write(painted, PAPER_SHOW_COLOR, "/nowhere/at/all.lua"),
+                     SCRIPT_FAILED);
     assert_non_null(strstr(script_session_error(), "/nowhere/at/all.lua: cannot write: "));
-    assert_int_equal(script_session_write(painted, "/tmp/session.txt"), SCRIPT_FAILED);
+    assert_int_equal(script_session_write(painted, PAPER_SHOW_COLOR, "/tmp/session.txt"),
+                     SCRIPT_FAILED);
     assert_non_null(strstr(script_session_error(), "ends in .lua"));
     paper_sheet_destroy(painted);
 }
