@@ -18,7 +18,7 @@ struct desk_play {
 struct desk_play *desk_play_open(struct desk *d, const char *path)
 {
     const char *reason;
-    char line[2 * STUDIO_INPUT_TEXT], why[200];
+    char line[2 * STUDIO_INPUT_TEXT], why[1000];
     FILE *file = input_file_open(path, &reason);
     if (!file) {
         visible_say("lutetia studio: %s: cannot read: %s", path, reason);

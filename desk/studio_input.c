@@ -3,6 +3,8 @@
 
 #include "studio_settings.h"
 
+#include <error_text.h>
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,6 +43,29 @@ static int wrong(char *why, size_t room, const char *what, const char *with)
 {
     snprintf(why, room, "%s '%.60s'", what, with);
     return -1;
+}
+
+/* What is known in the place of a name that is not: `next` is called until it returns NULL. */
+static int unknown(char *why, size_t room, const char *what, const char *with,
+                   const char *(*next)(size_t i))
+{
+    wrong(why, room, what, with);
+    for (size_t i = 0; next(i); i++)
+        error_text_list(why, room, i == 0 ? "; there are " : ", ", next(i));
+    return -1;
+}
+
+static const char *word_name(size_t i)
+{
+    const size_t count = sizeof words / sizeof *words;
+    return i < count                                      ? words[i].name
+           : i < count + sizeof actions / sizeof *actions ? actions[i - count]
+                                                          : NULL;
+}
+
+static const char *setting_name(size_t i)
+{
+    return i < STUDIO_SETTINGS ? studio_controls[i].name : NULL;
 }
 
 static const char *blanks_skip(const char *text)
@@ -94,7 +119,7 @@ static int setting_read(struct studio_input *out, char *why, size_t room)
                 return wrong(why, room, "a value out of range:", out->text);
             return 1;
         }
-    return wrong(why, room, "no setting", out->name);
+    return unknown(why, room, "no setting", out->name, setting_name);
 }
 
 static int word_read(const struct word *word, const char *rest, struct studio_input *out,
@@ -156,5 +181,5 @@ int studio_input_parse(const char *line, struct studio_input *out, char *why, si
             snprintf(out->name, sizeof out->name, "%s", name);
             return 1;
         }
-    return wrong(why, room, "no such word:", name);
+    return unknown(why, room, "no such word:", name, word_name);
 }

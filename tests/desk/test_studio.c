@@ -127,7 +127,11 @@ static void input_lines(void **state)
 {
     (void)state;
     struct studio_input in;
-    char why[200];
+    char why[1000];
+    assert_int_equal(studio_input_parse("0 jump", &in, why, sizeof why), -1);
+    assert_non_null(strstr(why, "'jump'; there are down, move, "));
+    assert_int_equal(studio_input_parse("0 set widht 3", &in, why, sizeof why), -1);
+    assert_non_null(strstr(why, "'widht'; there are tool, brush, width, "));
     assert_int_equal(studio_input_parse("", &in, why, sizeof why), 0);
     assert_int_equal(studio_input_parse("  # a comment", &in, why, sizeof why), 0);
     assert_int_equal(
