@@ -110,8 +110,8 @@ static int window_run(struct line *line)
     if (!program_find(path, here, LUTETIA_LIBEXECDIR "/lutetia/lutetia-studio",
                       "desk/lutetia-studio"))
         return fail("studio",
-                    "this lutetia was built without GTK 4, which the window needs; `./run "
-                    "studio` installs libgtk-4-dev, builds and starts it");
+                    "the window's program, which needs GTK 4, is not here; it is in the package "
+                    "lutetia-studio, and `./run studio` builds and starts it");
     line->words[0] = path;
     execv(path, line->words);
     return fail("studio", "%s cannot be run: %s", path, strerror(errno));
