@@ -13,6 +13,9 @@ struct live_player {
     struct stage *stage;
     struct stage_actor actor; /* the stage's, which takes what is played */
     struct script_map *map;
+    struct knobs *knobs[LIVE_KNOBS_MAX];
+    int heard; /* the file of knobs that is */
+    struct beat beat;
     uint64_t last_ns;
     double began_s; /* when the first picture was due */
     bool began;
@@ -102,6 +105,97 @@ static enum stage_status map_open(struct live_player *p)
                             p->told[0] ? p->told : "the map cannot be read");
 }
 
+/* ---- knobs ---- */
+
+static enum stage_status knobs_begin(struct live_player *p)
+{
+    enum stage_status status = STAGE_OK;
+    if (p->def.knobs_count > LIVE_KNOBS_MAX)
+        return stage_fail(STAGE_BAD_ARGUMENT, "%d files of knobs are the most", LIVE_KNOBS_MAX);
+    for (int i = 0; i < p->def.knobs_count && status == STAGE_OK; i++)
+        status =
+            knobs_open(p->stage, p->def.knobs[i], p->def.theme, p->def.is_film, &p->knobs[i]);
+    return status;
+}
+
+static bool panel_of(void *context, int row, struct stage_panel_knob *out)
+{
+    const struct live_player *p = context;
+    return knobs_of(p->knobs[p->heard], row, out);
+}
+
+static void panel_learn(void *context, int row)
+{
+    const struct live_player *p = context;
+    knobs_learn(p->knobs[p->heard], row);
+}
+
+static void panel_forget(void *context, int row)
+{
+    const struct live_player *p = context;
+    knobs_forget(p->knobs[p->heard], row);
+}
+
+static void panel_end(void *context, int row, double along)
+{
+    const struct live_player *p = context;
+    knobs_end(p->knobs[p->heard], row, along);
+}
+
+struct stage_panel_knobs live_player_knobs(struct live_player *p)
+{
+    if (!p->knobs[0])
+        return (struct stage_panel_knobs){0};
+    return (struct stage_panel_knobs){panel_of, panel_learn, panel_forget, panel_end, p};
+}
+
+static void knobs_pass(struct live_player *p, double now_s)
+{
+    for (int i = 0; i < p->def.knobs_count; i++) {
+        knobs_frame(p->knobs[i], now_s, i == p->heard ? &p->beat : NULL);
+        const char *said = knobs_said(p->knobs[i]);
+        p->told[0] = said ? '\0' : p->told[0]; /* the same may be said again */
+        if (said)
+            tell(p, said);
+    }
+}
+
+const struct help_row *live_player_keys(const struct live_player *p, int *count)
+{
+    static const struct help_row rows[] = {
+        {"right click on a slider", "the knob that is turned next moves it"},
+        {"Shift and drag on a slider", "an end of its knob"},
+        {"Shift and right click on it", "no knob moves it"},
+        {"1 to 9, or a program change", "a scene"},
+        {"Control 1 to 9", "keep all controls as a scene"},
+        {"F1 to F8", "the knobs of another file"}};
+    *count = p->knobs[0] ? (int)(sizeof rows / sizeof *rows) : 0;
+    return rows;
+}
+
+/* True: it was a key for knobs. */
+static bool knobs_key(struct live_player *p, const struct input_event *e)
+{
+    const int digit = e->key - '0', file = e->key - INPUT_KEY_F1;
+    if (!p->knobs[0] || e->kind != INPUT_KEY_DOWN)
+        return false;
+    if (file >= 0 && file < p->def.knobs_count) {
+        char text[200];
+        p->heard = file;
+        snprintf(text, sizeof text, "knobs of %.150s", p->def.knobs[file]);
+        tell(p, text);
+        return true;
+    }
+    if (digit < 1 || digit > 9 || (e->modifiers & ~(unsigned)INPUT_CONTROL))
+        return false;
+    struct knobs *k = p->knobs[p->heard];
+    const enum stage_status status =
+        e->modifiers ? knobs_scene_keep(k, digit) : knobs_scene_play(k, digit);
+    if (status != STAGE_OK)
+        tell(p, stage_error());
+    return true;
+}
+
 /* ---- a player ---- */
 
 enum stage_status live_player_create(const struct live_player_def *def, struct stage *stage,
@@ -121,6 +215,8 @@ enum stage_status live_player_create(const struct live_player_def *def, struct s
         status = map_open(p);
         p->def.tell = told;
     }
+    if (status == STAGE_OK)
+        status = knobs_begin(p);
     if (status != STAGE_OK) {
         live_player_destroy(p);
         return status;
@@ -134,6 +230,8 @@ void live_player_destroy(struct live_player *p)
     if (!p)
         return;
     script_map_close(p->map);
+    for (int i = 0; i < LIVE_KNOBS_MAX; i++)
+        knobs_close(p->knobs[i]);
     free(p);
 }
 
@@ -151,13 +249,17 @@ enum stage_status live_player_before(void *player, struct stage *stage, double n
         if (!live_source_next(p->def.source, now_s, &m))
             break;
         p->last_ns = m.time_ns;
+        beat_take(&p->beat, &m);
         if (p->actor.kind->play)
             status = p->actor.kind->play(p->actor.self, m.bytes);
         if (p->map)
             script_map_message(p->map, &m);
+        if (p->knobs[0])
+            knobs_message(p->knobs[p->heard], &m);
     }
     if (p->map)
         script_map_frame(p->map, now_s);
+    knobs_pass(p, now_s);
     const char *said = live_source_said(p->def.source);
     if (said)
         tell(p, said);
@@ -167,7 +269,7 @@ enum stage_status live_player_before(void *player, struct stage *stage, double n
 bool live_player_key(void *player, const struct input_event *event)
 {
     struct live_player *p = player;
-    return live_source_key(p->def.source, event);
+    return live_source_key(p->def.source, event) || knobs_key(p, event);
 }
 
 uint64_t live_player_last_ns(const struct live_player *p)

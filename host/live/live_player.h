@@ -4,20 +4,29 @@
  *     live_player_create(&def, stage, &player);
  *     window.before = live_player_before, window.key = live_player_key, window.context = player;
  *
- * A script (script_map.h) is handed each message, and sets controls of the stage and its actor by their names. */
+ * A script (script_map.h) is handed each message, and sets controls of the stage and its actor by their names. Knobs (knobs.h) are learnt
+ * and move controls without one. */
 #ifndef LUTETIA_LIVE_PLAYER_H
 #define LUTETIA_LIVE_PLAYER_H
 
+#include <help_sheet.h>
 #include <script_map.h>
 #include <stage.h>
 
+#include "knobs.h"
 #include "live_source.h"
+
+enum { LIVE_KNOBS_MAX = 8 }; /* files of knobs */
 
 struct live_player_def {
     struct live_source *source;
     const char *script;       /* a file; NULL: none */
     const char *const *words; /* key=value for the script's param() */
     int words_count;
+    const char *const *knobs; /* files of knobs (knobs.h), of which one is heard at a time */
+    const char *theme;        /* the stage's, for new files of knobs */
+    bool is_film;             /* nothing is learnt: the files must be there */
+    int knobs_count;          /* LIVE_KNOBS_MAX at most */
     /* A line for whoever looks: an error of the script's, what it prints, what the server does. */
     void (*tell)(void *context, const char *text);
     void *context;
@@ -32,6 +41,11 @@ void live_player_destroy(struct live_player *player); /* NULL is fine */
 /* For stage_window_def and stage_film_def; context: the player. */
 enum stage_status live_player_before(void *player, struct stage *stage, double now_s);
 bool live_player_key(void *player, const struct input_event *event);
+
+/* The knobs that are heard, for a window's panel; zeros: there are no files of any. */
+struct stage_panel_knobs live_player_knobs(struct live_player *player);
+/* The keys that live_player_key() takes besides played notes, for the help; *count: how many. */
+const struct help_row *live_player_keys(const struct live_player *player, int *count);
 
 /* When the message that was taken last was sent, by its own time (CLOCK_MONOTONIC); 0: none was yet. */
 uint64_t live_player_last_ns(const struct live_player *player);

@@ -31,7 +31,7 @@ static enum midi_status client_begin(struct live_source *s, const struct live_so
     client.address = def->server;
     enum midi_status status = midi_client_open(&client, &s->client);
     if (status == MIDI_NO_SERVER && !def->server) {
-        s->computer = true;
+        s->computer = !def->no_computer;
         return MIDI_OK;
     }
     if (status != MIDI_OK)

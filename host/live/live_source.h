@@ -26,6 +26,7 @@ struct live_source_def {
     const char *device;  /* of the server; NULL: all */
     const char *filters; /* midi_filter.h; NULL: none */
     int lowest;          /* the note of the computer's lowest key */
+    bool no_computer;    /* its keyboard plays nothing, where there is no server either */
 };
 
 /* Without a server of the user's own the computer's keyboard plays. Errors: NO_SERVER (the one that was named), REFUSED, BAD_ARGUMENT

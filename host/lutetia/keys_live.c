@@ -69,8 +69,9 @@ static int stage_make(const struct keys_live *def, struct stage **out)
     actor.letters = def->letters;
     actor.keys = def->keys;
     stage.forgets = true;
-    if (def->theme)
-        stage.theme = def->theme;
+    const char *theme = def->theme ? def->theme : live_theme(&def->live);
+    if (theme)
+        stage.theme = theme;
     if (def->wet) {
         int made = paper_make(def, &actor, &stage.actor);
         if (made != EXIT_SUCCESS)
@@ -93,7 +94,9 @@ static int both_make(const struct keys_live *def, struct stage **stage, struct l
     int status = stage_make(def, stage);
     if (status != EXIT_SUCCESS)
         return status;
-    return live_begin("keys", &def->live, def->song, def->range[0], *stage, live);
+    struct live_options options = def->live;
+    options.theme = def->theme;
+    return live_begin("keys", &options, def->song, def->range[0], *stage, live);
 }
 
 int keys_live_window(const struct keys_live *def)

@@ -5,7 +5,22 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
+
+const char *live_theme(const struct live_options *options)
+{
+    static char theme[KNOBS_THEME_BYTES];
+    struct knobs_text *text = calloc(1, sizeof *text);
+    theme[0] = '\0';
+    for (int i = 0; text && i < options->knobs.count && !theme[0]; i++) {
+        if (knobs_file_read(options->knobs.texts[i], text) == STAGE_OK)
+            memcpy(theme, text->theme, sizeof theme);
+        knobs_text_finish(text); /* what is wrong with a file is said when it is opened */
+    }
+    free(text);
+    return theme[0] ? theme : NULL;
+}
 
 static void said(void *context, const char *text)
 {
@@ -23,7 +38,8 @@ int live_begin(const char *verb, const struct live_options *options, struct midi
                                            .server = options->server,
                                            .device = options->device,
                                            .filters = options->filters,
-                                           .lowest = lowest};
+                                           .lowest = lowest,
+                                           .no_computer = options->knobs_alone};
     *out = (struct live){.verb = verb};
     if (live_source_open(&source, &out->source) != MIDI_OK)
         return fail(verb, "%s", midi_error());
@@ -31,6 +47,10 @@ int live_begin(const char *verb, const struct live_options *options, struct midi
                                            .script = options->map,
                                            .words = options->params.texts,
                                            .words_count = options->params.count,
+                                           .knobs = options->knobs.texts,
+                                           .knobs_count = options->knobs.count,
+                                           .theme = options->theme,
+                                           .is_film = song != NULL,
                                            .tell = said,
                                            .context = out};
     return live_player_create(&player, stage, &out->player) == STAGE_OK
@@ -53,6 +73,8 @@ int live_window(struct live *live, struct stage *stage, struct stage_window_def 
         def->before = live_player_before;
         def->key = live_player_key;
         def->context = live->player;
+        def->knobs = live_player_knobs(live->player);
+        def->keys = live_player_keys(live->player, &def->keys_count);
     }
     if (live->source && live_source_by_computer(live->source))
         def->played = "notes: one row from Z, one from Q";

@@ -1,4 +1,5 @@
-/* live.h - verbs whose stage is played: by the messages of a MIDI server, a song, or the computer's keyboard, through a map in Lua. */
+/* live.h - verbs whose stage is played: by the messages of a MIDI server, a song, or the computer's keyboard, through a map in Lua, or
+ * through knobs that are learnt. */
 #ifndef LUTETIA_LIVE_H
 #define LUTETIA_LIVE_H
 
@@ -10,7 +11,9 @@
 
 struct live_options {
     const char *map, *server, *device, *filters;
-    struct option_texts params;
+    const char *theme; /* the stage's */
+    struct option_texts params, knobs;
+    bool knobs_alone; /* the computer's keyboard plays no notes */
 };
 
 struct live {
@@ -20,6 +23,9 @@ struct live {
     struct stage_window *window; /* where lines are said; NULL: standard error */
     char note[400];              /* told once the window is open; empty: nothing */
 };
+
+/* The theme that the first file of --knobs with a theme names; NULL: none does. */
+const char *live_theme(const struct live_options *options);
 
 /* song: NULL: live. lowest: the computer's lowest key. An exit status; what is wrong has been
  * said. The caller ends *out, also then. */

@@ -215,8 +215,14 @@ const struct page pages_of_pictures[] = {
      .notes =
          "--controls lists the controls that --set changes, with their ranges and what they "
          "do. A --map is a script in Lua whose function message(m) gets each message of an "
-         "instrument, or of a --song: section MAPS of lutetia-scripts(7). Files of --network, "
-         "--script and --theme are text; the documents below have their lines.\n" FONTS,
+         "instrument, or of a --song: section MAPS of lutetia-scripts(7). With --knobs no "
+         "script is needed: in the panel of controls (Tab) click a slider with the right "
+         "button, "
+         "and turn a knob; Shift and a drag set its ends, Control 1 to 9 keeps a scene, which "
+         "1 "
+         "to 9 or a program change calls. Files of --network, "
+         "--script, --knobs and --theme are text; the documents below have their "
+         "lines.\n" FONTS,
      .values = {{.option = "preset", .fill = preset_names},
                 {.option = "theme", .words = "light, dark"},
                 {.option = "way", .words = "exact, egl, osmesa"},

@@ -67,7 +67,7 @@ static int options_check(struct keys_work *w, const struct option_words *words,
         return fail_usage("keys",
                           "--range must be two notes, an octave or more: c3-c5 (got '%.40s')",
                           w->range_text);
-    w->played = w->wet;
+    w->played = w->wet || w->live.knobs.count;
     if (is_script(w->map)) {
         w->played = true;
         w->live.map = w->map;
@@ -81,9 +81,9 @@ static int options_check(struct keys_work *w, const struct option_words *words,
                                 "pictures and films are of a song: lutetia keys SONG.mid")
                    : EXIT_SUCCESS;
     if (w->played && (w->poster || w->sheet || !(w->still || w->frames || w->video)))
-        return fail_usage("keys",
-                          "what a map in Lua or wet paper makes of a song is seen by --still, "
-                          "--frames and --video");
+        return fail_usage(
+            "keys", "what a map in Lua, knobs or wet paper make of a song is seen by --still, "
+                    "--frames and --video");
     if (!pictures_wanted(w))
         w->poster = "out.png";
     return EXIT_SUCCESS;
@@ -94,12 +94,12 @@ static int options_check(struct keys_work *w, const struct option_words *words,
 
 /* With what an option has an effect. The poster is made of a song where nothing else is asked for. */
 static const struct option_need needs[] = {{"param", "map"},
-                                           {"set", "!WORD|map|wet"},
-                                           {"range", "!WORD|map|wet"},
+                                           {"set", "!WORD|map|wet|knobs"},
+                                           {"range", "!WORD|map|wet|knobs"},
                                            {"server", "!WORD"},
                                            {"device", "!WORD"},
                                            {"filter", "!WORD"},
-                                           {"theme", "!WORD|map"},
+                                           {"theme", "!WORD|map|knobs"},
                                            {"at", "still"},
                                            {"fps", "video|frames|sound"},
                                            {"seconds", "video|frames|sound"},
@@ -120,6 +120,9 @@ static int options_read(struct keys_work *w, int argc, char **argv, const char *
          "what a key plays: lines like 'c4 A'; or a script, .lua", &w->map, 0, 0, 0},
         {"param", 0, OPTION_TEXTS, "KEY=VALUE",
          "a parameter of the --map's script; as often as wanted", &w->live.params, 0, 0, 0},
+        {"knobs", 0, OPTION_TEXTS, "FILE",
+         "knobs that are learnt in the window, and scenes; kept there; as often as wanted",
+         &w->live.knobs, 0, 0, 0},
         {"set", 's', OPTION_TEXTS, "NAME=VALUE",
          "a control and its value, in a window and through a map; as often as wanted", &w->sets,
          0, 0, 0},

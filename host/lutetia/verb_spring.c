@@ -68,14 +68,19 @@ static int spring_check(struct spring *s, const struct option_words *words)
         return fail_usage("spring", "a word or --network FILE, not both");
     if ((s->film.strip[0] != 1 || s->film.strip[1] != 1) && !s->film.still)
         return fail_usage("spring", "--strip is for a --still");
-    if (s->live_options.map && s->replay)
-        return fail_usage("spring", "a session says what is done: --replay has no --map");
-    if (!s->live_options.map && (s->song_path || (s->live_options.server && !s->play)))
-        return fail_usage("spring", "what is played goes through a --map FILE.lua");
+    const bool played = s->live_options.map || s->live_options.knobs.count;
+    s->live_options.knobs_alone = !s->live_options.map;
+    if (played && s->replay)
+        return fail_usage("spring",
+                          "a session says what is done: --replay has no --map or --knobs");
+    if (!played && (s->song_path || (s->live_options.server && !s->play)))
+        return fail_usage("spring",
+                          "what is played goes through a --map FILE.lua, or --knobs FILE");
     if (!s->live_options.map && s->live_options.params.count)
         return fail_usage("spring", "--param is for a --map FILE.lua");
-    if (s->live_options.map && !s->song_path && (s->film.still || s->film.video || s->frames))
-        return fail_usage("spring", "a film through a --map is of a --song FILE.mid");
+    if (played && !s->song_path && (s->film.still || s->film.video || s->frames))
+        return fail_usage("spring",
+                          "a film through a --map or --knobs is of a --song FILE.mid");
     const struct spring_wet_def usual = spring_wet_def_default();
     if (!s->is_wet &&
         (s->wet_def.pigment != usual.pigment || s->wet_def.every_s != usual.every_s))
@@ -144,6 +149,9 @@ static int spring_options(struct spring *s, int argc, char **argv, bool *help)
          &s->scene.script, 0, 0, 0},
         {"map", 0, OPTION_TEXT, "FILE.lua", "a script that turns what is played into controls",
          &s->live_options.map, 0, 0, 0},
+        {"knobs", 0, OPTION_TEXTS, "FILE",
+         "knobs that are learnt in the window, and scenes; kept there; as often as wanted",
+         &s->live_options.knobs, 0, 0, 0},
         {"param", 0, OPTION_TEXTS, "KEY=VALUE",
          "a parameter of the --map's script; as often as wanted", &s->live_options.params, 0, 0,
          0},
@@ -230,7 +238,7 @@ static int controls_print(struct stage *stage)
 static int map_begin(struct spring *s, struct stage *stage)
 {
     enum { LOWEST = 48 };
-    if (!s->live_options.map || s->live.source)
+    if ((!s->live_options.map && !s->live_options.knobs.count) || s->live.source)
         return EXIT_SUCCESS;
     return live_begin("spring", &s->live_options, s->song, LOWEST, stage, &s->live);
 }
@@ -439,7 +447,7 @@ int verb_spring(int argc, char **argv)
     s.window.record_path = "spring.mp4";
     s.film.seconds = NAN; /* until it is known what lasts */
     const char *usual = s.scene.font;
-    s.scene.font = NULL;
+    s.scene.font = s.scene.theme = NULL;
     int status = spring_options(&s, argc, argv, &help);
     char *font = NULL, *filter = NULL;
     if (status == EXIT_SUCCESS && !help && s.film.filter)
@@ -453,6 +461,11 @@ int verb_spring(int argc, char **argv)
         return status;
     }
     s.scene.font = font;
+    if (!s.scene.theme)
+        s.scene.theme = live_theme(&s.live_options);
+    if (!s.scene.theme)
+        s.scene.theme = spring_scene_def_default().theme;
+    s.live_options.theme = s.scene.theme;
     s.scene.sets = s.sets.texts;
     s.scene.sets_count = s.sets.count;
     s.scene.forgets = !s.session;

@@ -29,9 +29,11 @@ struct stage_panel {
     struct group groups[GROUPS_MAX];
     int groups_count;
     /* What is done to it. */
-    int dragged; /* a row; -1: none */
-    int pointed; /* the same: the pointer is over it */
-    int wanted;  /* the same: to be scrolled to */
+    int dragged;  /* a row; -1: none */
+    int pointed;  /* the same: the pointer is over it */
+    int wanted;   /* the same: to be scrolled to */
+    bool of_knob; /* an end of the dragged row's knob, not its value */
+    struct stage_panel_knobs knobs;
     int typed_row;
     char typed[TYPED_MAX];
     char message[MESSAGE_MAX];
@@ -65,6 +67,16 @@ void stage_panel_destroy(struct stage_panel *p)
 bool stage_panel_shown(const struct stage_panel *p)
 {
     return p->shown;
+}
+
+bool stage_panel_typing(const struct stage_panel *p)
+{
+    return p->shown && p->typed_row >= 0;
+}
+
+void stage_panel_knobs_set(struct stage_panel *p, const struct stage_panel_knobs *knobs)
+{
+    p->knobs = *knobs;
 }
 
 void stage_panel_show(struct stage_panel *p, bool shown)
@@ -228,6 +240,27 @@ int stage_panel_beside(const struct stage_panel *p, const struct stage *stage, i
 
 /* ---- drawing ---- */
 
+/* False: no knob moves the row's control, and it waits for none. */
+static bool knob_of(const struct stage_panel *p, int row, struct stage_panel_knob *out)
+{
+    return p->knobs.of && p->knobs.of(p->knobs.context, row, out);
+}
+
+/* Between the knob's ends the way is thicker, and each end has a tick. */
+static void knob_draw(const struct stage_panel *p, const struct stage_panel_knob *knob,
+                      const struct font_box *way, const struct stage_color *colors,
+                      struct stage_draw_list *list)
+{
+    const double y = (way->y0 + way->y1) / 2, ends[2] = {knob->from, knob->to};
+    double at[2];
+    for (int i = 0; i < 2; i++) {
+        at[i] = way->x0 + ends[i] * (way->x1 - way->x0);
+        stage_draw_line(list, at[i], y - 5 * p->px, at[i], y + 5 * p->px, 1.5 * p->px,
+                        colors[STAGE_COLOR_SLIDER_KNOB]);
+    }
+    stage_draw_line(list, at[0], y, at[1], y, 3 * p->px, colors[STAGE_COLOR_SLIDER_KNOB]);
+}
+
 static void row_draw(struct stage_panel *p, struct stage *stage,
                      const struct stage_control *row, int number, struct stage_draw_list *list)
 {
@@ -236,23 +269,30 @@ static void row_draw(struct stage_panel *p, struct stage *stage,
     char value[64], text[96];
     double y = row_top(p, number) + p->text_px, now = stage_control_read(row, stage);
     bool typing = p->typed_row == number;
+    struct stage_panel_knob knob = {0};
+    const bool has_knob = knob_of(p, number, &knob);
     stage_control_text(row, now, value, sizeof value);
     if (typing)
         snprintf(text, sizeof text, "%s|", p->typed);
+    else if (knob.waits)
+        snprintf(text, sizeof text, "%s", knob.text);
     else
         snprintf(text, sizeof text, "%s%s%s", value, row->unit[0] ? " " : "", row->unit);
     stage_panel_text(p, list, row->name, p->left_px + p->text_px, y, p->text_px, false,
                      colors[STAGE_COLOR_PANEL_TEXT]);
-    stage_panel_text(p, list, text, p->width_px - p->text_px, y, p->text_px, true,
-                     colors[typing ? STAGE_COLOR_SLIDER_KNOB : STAGE_COLOR_PANEL_VALUE]);
+    stage_panel_text(
+        p, list, text, p->width_px - p->text_px, y, p->text_px, true,
+        colors[typing || knob.waits ? STAGE_COLOR_SLIDER_KNOB : STAGE_COLOR_PANEL_VALUE]);
     if (!has_slider(row))
         return;
     struct font_box box = slider_box(p, number);
     double middle = (box.y0 + box.y1) / 2;
-    double knob = box.x0 + stage_control_along(row, now) * (box.x1 - box.x0);
+    double at = box.x0 + stage_control_along(row, now) * (box.x1 - box.x0);
     stage_draw_line(list, box.x0, middle, box.x1, middle, 2 * p->px,
                     colors[STAGE_COLOR_SLIDER]);
-    stage_draw_disc(list, knob, middle, 5 * p->px, colors[STAGE_COLOR_SLIDER_KNOB]);
+    if (has_knob && !knob.waits)
+        knob_draw(p, &knob, &box, colors, list);
+    stage_draw_disc(list, at, middle, 5 * p->px, colors[STAGE_COLOR_SLIDER_KNOB]);
 }
 
 static void title_draw(struct stage_panel *p, const struct group *g,
@@ -312,6 +352,10 @@ static void help_draw(struct stage_panel *p, const struct stage_control *row, in
     else
         snprintf(text, sizeof text, "%s; %g to %g%s%s", row->does, row->least, row->most,
                  row->unit[0] ? " " : "", row->unit);
+    struct stage_panel_knob knob;
+    const size_t used = strlen(text);
+    if (knob_of(p, number, &knob) && !knob.waits)
+        snprintf(text + used, sizeof text - used, "; moved by %s", knob.text);
     const int lines = lines_draw(p, NULL, text, 0, 0, width, colors[STAGE_COLOR_PANEL_TEXT]);
     const double height = lines * line + 1.2 * pad, x = p->left_px - 2 * pad - width;
     const double y = fmax(pad, fmin(row_top(p, number), p->height_px - height - pad));
@@ -373,7 +417,12 @@ static void drag(struct stage_panel *p, struct stage *stage, double x_px)
     int count;
     const struct stage_control *row = &stage_controls(stage, &count)[p->dragged];
     struct font_box box = slider_box(p, p->dragged);
-    double value = stage_control_at(row, (x_px - box.x0) / (box.x1 - box.x0));
+    const double along = (x_px - box.x0) / (box.x1 - box.x0);
+    double value = stage_control_at(row, along);
+    if (p->of_knob) {
+        p->knobs.end(p->knobs.context, p->dragged, along);
+        return;
+    }
     if (strcmp(row->name, "skins") == 0)
         value = floor(value + 0.5);
     value_set(p, stage, row, value);
@@ -411,11 +460,18 @@ static void press(struct stage_panel *p, struct stage *stage, const struct input
 {
     int count;
     const struct stage_control *rows = stage_controls(stage, &count);
+    const bool shift = (e->modifiers & INPUT_SHIFT) != 0;
+    struct stage_panel_knob knob;
     p->typed_row = -1;
-    if (e->button != INPUT_BUTTON_LEFT || group_fold(p, e->y_px))
+    p->of_knob = false;
+    if (e->button == INPUT_BUTTON_LEFT && group_fold(p, e->y_px))
         return;
     const int number = row_at(p, e->x_px, e->y_px);
     if (number < 0 || number >= count) /* there may be fewer than on the last picture */
+        return;
+    if (e->button == INPUT_BUTTON_RIGHT && p->knobs.of)
+        (shift ? p->knobs.forget : p->knobs.learn)(p->knobs.context, number);
+    if (e->button != INPUT_BUTTON_LEFT)
         return;
     const struct stage_control *row = &rows[number];
     struct font_box slider = slider_box(p, number), value = value_box(p, number);
@@ -424,7 +480,9 @@ static void press(struct stage_panel *p, struct stage *stage, const struct input
         stage_mark(stage);
         value_set(p, stage, row, next > row->most ? row->least : next);
     } else if (has_slider(row) && inside(&slider, e)) {
-        stage_mark(stage);
+        p->of_knob = shift && knob_of(p, number, &knob) && !knob.waits;
+        if (!p->of_knob)
+            stage_mark(stage);
         p->dragged = number;
         drag(p, stage, e->x_px);
     } else if (inside(&value, e)) {

@@ -13,6 +13,9 @@
  *
  *   - world              a group of controls: a click folds it (+), and unfolds it
  *
+ * Where somebody knows of instruments (stage_panel_knobs): a click with the right button lets a control wait for the knob that is turned next,
+ * Shift and a drag set the knob's ends, Shift and a click with the right button let it go.
+ *
  * The wheel scrolls a panel that does not fit. Beside the panel stands what the control under the pointer does. Each change can be undone.
  */
 #ifndef LUTETIA_STAGE_PANEL_H
@@ -22,12 +25,31 @@
 
 #include "stage.h"
 
+/* The knob of an instrument that moves a control: text names it, from and to are its ends on the slider's way. waits: for one that is turned. */
+struct stage_panel_knob {
+    const char *text;
+    double from, to;
+    bool waits;
+};
+
+/* Who knows of knobs. of() NULL: nobody does. Rows are those of stage_controls(). */
+struct stage_panel_knobs {
+    bool (*of)(void *context, int row, struct stage_panel_knob *out); /* false: none moves it */
+    void (*learn)(void *context, int row);             /* a click with the right button */
+    void (*forget)(void *context, int row);            /* the same with Shift */
+    void (*end)(void *context, int row, double along); /* the nearer end: Shift and drag */
+    void *context;
+};
+
 struct stage_panel;
 /* font: as font_face_open() has it. Errors: FAILED (there is no such font), NO_MEMORY. */
 enum stage_status stage_panel_create(const char *font, struct stage_panel **out);
 void stage_panel_destroy(struct stage_panel *panel); /* NULL is fine */
+void stage_panel_knobs_set(struct stage_panel *panel, const struct stage_panel_knobs *knobs);
 
 bool stage_panel_shown(const struct stage_panel *panel);
+/* A value is being typed: keys are the panel's. */
+bool stage_panel_typing(const struct stage_panel *panel);
 void stage_panel_show(struct stage_panel *panel, bool shown);
 
 /* How much of a picture's width is left for the stage: what the panel does not take, unless it would take more than two thirds; then it lies

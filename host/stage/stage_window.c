@@ -1,7 +1,6 @@
 /* stage_window.c - see stage_window.h. */
 #include "stage_window.h"
 
-#include "help_sheet.h"
 #include "renderer.h"
 
 #include <video.h>
@@ -279,7 +278,7 @@ static const struct {
     {0, false, false, "drag with the right", "cut springs", NULL, HANDS},
     {0, false, false, "drop a file", "load it", NULL, LOADS},
 };
-enum { KEYS = sizeof keys / sizeof *keys };
+enum { KEYS = sizeof keys / sizeof *keys, HELP_ROWS = KEYS + 1 + STAGE_WINDOW_KEYS_MAX };
 
 const char *stage_window_key(int row, const char **does)
 {
@@ -318,9 +317,11 @@ static void hand_take(struct stage_window *w, const struct input_event *e)
 
 static void event_take(struct stage_window *w, const struct input_event *e)
 {
+    const bool typing = stage_panel_typing(w->panel) &&
+                        (e->kind == INPUT_KEY_DOWN || e->kind == INPUT_KEY_REPEAT);
     const bool key = e->kind == INPUT_KEY_DOWN || e->kind == INPUT_KEY_UP ||
                      e->kind == INPUT_KEY_REPEAT || e->kind == INPUT_FOCUS_LOST;
-    if (key && w->def.key && w->def.key(w->def.context, e))
+    if (key && !typing && w->def.key && w->def.key(w->def.context, e))
         return;
     if (help_sheet_input(&w->help, e))
         return;
@@ -364,7 +365,7 @@ static bool is_of_use(const struct stage_window *w, int row)
 }
 
 /* The keys and hands that this window has. */
-static int help_rows(const struct stage_window *w, struct help_row rows[KEYS + 1])
+static int help_rows(const struct stage_window *w, struct help_row rows[HELP_ROWS])
 {
     int count = 0;
     if (w->def.played)
@@ -372,6 +373,8 @@ static int help_rows(const struct stage_window *w, struct help_row rows[KEYS + 1
     for (int i = 0; i < KEYS; i++)
         if (is_of_use(w, i))
             rows[count++] = (struct help_row){keys[i].name, keys[i].does};
+    for (int i = 0; i < w->def.keys_count && i < STAGE_WINDOW_KEYS_MAX; i++)
+        rows[count++] = w->def.keys[i];
     return count;
 }
 
@@ -398,7 +401,7 @@ static void overlay_draw(struct stage_window *w, int width, int height, double p
     stage_draw_view(&w->list, STAGE_VIEW_PIXELS);
     stage_panel_draw(w->panel, w->stage, width, height, px, &w->list);
     stage_draw_view(&w->list, STAGE_VIEW_PIXELS);
-    struct help_row rows[KEYS + 1];
+    struct help_row rows[HELP_ROWS];
     help_sheet_draw(&w->help, rows, help_rows(w, rows), w->panel, stage_theme(w->stage), width,
                     height, px, &w->list);
     if (stage_panel_shown(w->panel))
@@ -474,6 +477,8 @@ enum stage_status stage_window_create(struct stage *stage, const struct stage_wi
         status = stage_renderer_window(w->window, &w->renderer);
     if (status == STAGE_OK)
         status = stage_panel_create(def->font, &w->panel);
+    if (status == STAGE_OK)
+        stage_panel_knobs_set(w->panel, &def->knobs);
     if (status == STAGE_OK) /* pointer events may come at once, and need a view */
         status = frame_draw(w, input_now_s());
     if (status == STAGE_OK)

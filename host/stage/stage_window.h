@@ -20,8 +20,11 @@
 #include <display.h>
 #include <input.h>
 
+#include "help_sheet.h"
 #include "panel.h"
 #include "stage.h"
+
+enum { STAGE_WINDOW_KEYS_MAX = 12 };
 
 struct stage_window_def {
     const char *title;       /* "stage" */
@@ -37,6 +40,10 @@ struct stage_window_def {
     enum stage_status (*before)(void *context, struct stage *stage, double now_s);
     bool (*key)(void *context, const struct input_event *event);
     void *context;
+    struct stage_panel_knobs knobs; /* zeros: there are none */
+    /* What key() takes besides, for the help; borrowed. */
+    const struct help_row *keys;
+    int keys_count; /* STAGE_WINDOW_KEYS_MAX at most */
     /* After a turn's steps, before they are drawn: whoever lets hear what happened in them. NULL: nobody does. */
     void (*after)(void *after_context, struct stage *stage);
     void *after_context;
