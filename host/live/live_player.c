@@ -1,6 +1,8 @@
 /* live_player.c - see live_player.h. */
 #include "live_player.h"
 
+#include "osc_stage.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,6 +18,7 @@ struct live_player {
     struct knobs *knobs[LIVE_KNOBS_MAX];
     int heard; /* the file of knobs that is */
     struct beat beat;
+    struct osc_stage *osc;
     uint64_t last_ns;
     double began_s; /* when the first picture was due */
     bool began;
@@ -196,6 +199,44 @@ static bool knobs_key(struct live_player *p, const struct input_event *e)
     return true;
 }
 
+/* ---- OSC ---- */
+
+static const char *osc_scene(void *context, int number)
+{
+    const struct live_player *p = context;
+    if (!p->knobs[0])
+        return "there are none: --knobs FILE has them";
+    return knobs_scene_play(p->knobs[p->heard], number) == STAGE_OK ? NULL : stage_error();
+}
+
+static const char *osc_knobs(void *context, int number)
+{
+    struct live_player *p = context;
+    if (number > p->def.knobs_count)
+        return "there are not so many files of --knobs";
+    p->heard = number - 1;
+    return NULL;
+}
+
+static enum stage_status osc_begin(struct live_player *p)
+{
+    const struct osc_stage_def def = {.port = p->def.osc,
+                                      .stage = p->stage,
+                                      .scene = osc_scene,
+                                      .knobs = osc_knobs,
+                                      .tell = map_tell,
+                                      .context = p};
+    if (!def.port.listen && !def.port.send)
+        return STAGE_OK;
+    return osc_stage_open(&def, &p->osc);
+}
+
+void live_player_heard(struct live_player *p, const struct stage_sound *sound)
+{
+    if (p->osc)
+        osc_stage_sound(p->osc, sound);
+}
+
 /* ---- a player ---- */
 
 enum stage_status live_player_create(const struct live_player_def *def, struct stage *stage,
@@ -217,6 +258,8 @@ enum stage_status live_player_create(const struct live_player_def *def, struct s
     }
     if (status == STAGE_OK)
         status = knobs_begin(p);
+    if (status == STAGE_OK)
+        status = osc_begin(p);
     if (status != STAGE_OK) {
         live_player_destroy(p);
         return status;
@@ -230,6 +273,7 @@ void live_player_destroy(struct live_player *p)
     if (!p)
         return;
     script_map_close(p->map);
+    osc_stage_close(p->osc);
     for (int i = 0; i < LIVE_KNOBS_MAX; i++)
         knobs_close(p->knobs[i]);
     free(p);
@@ -257,9 +301,13 @@ enum stage_status live_player_before(void *player, struct stage *stage, double n
         if (p->knobs[0])
             knobs_message(p->knobs[p->heard], &m);
     }
+    if (p->osc)
+        osc_stage_take(p->osc);
     if (p->map)
         script_map_frame(p->map, now_s);
     knobs_pass(p, now_s);
+    if (p->osc)
+        osc_stage_tell(p->osc);
     const char *said = live_source_said(p->def.source);
     if (said)
         tell(p, said);

@@ -5,7 +5,7 @@
  *     window.before = live_player_before, window.key = live_player_key, window.context = player;
  *
  * A script (script_map.h) is handed each message, and sets controls of the stage and its actor by their names. Knobs (knobs.h) are learnt
- * and move controls without one. */
+ * and move controls without one. By OSC (osc_stage.h) all of it is reached, and told. */
 #ifndef LUTETIA_LIVE_PLAYER_H
 #define LUTETIA_LIVE_PLAYER_H
 
@@ -15,6 +15,7 @@
 
 #include "knobs.h"
 #include "live_source.h"
+#include "osc_port.h"
 
 enum { LIVE_KNOBS_MAX = 8 }; /* files of knobs */
 
@@ -27,13 +28,14 @@ struct live_player_def {
     const char *theme;        /* the stage's, for new files of knobs */
     bool is_film;             /* nothing is learnt: the files must be there */
     int knobs_count;          /* LIVE_KNOBS_MAX at most */
+    struct osc_port_def osc;  /* zeros: no OSC (osc_stage.h) */
     /* A line for whoever looks: an error of the script's, what it prints, what the server does. */
     void (*tell)(void *context, const char *text);
     void *context;
 };
 
 struct live_player;
-/* Borrows the source and the stage. Errors: BAD_FILE (what the script says while it is read has been told), NO_MEMORY. */
+/* Borrows the source and the stage. Errors: BAD_FILE (what the script says while it is read has been told), BAD_ARGUMENT, FAILED (OSC), NO_MEMORY. */
 enum stage_status live_player_create(const struct live_player_def *def, struct stage *stage,
                                      struct live_player **out);
 void live_player_destroy(struct live_player *player); /* NULL is fine */
@@ -41,6 +43,9 @@ void live_player_destroy(struct live_player *player); /* NULL is fine */
 /* For stage_window_def and stage_film_def; context: the player. */
 enum stage_status live_player_before(void *player, struct stage *stage, double now_s);
 bool live_player_key(void *player, const struct input_event *event);
+
+/* What the stage's actor lets hear, for whom OSC is sent to. */
+void live_player_heard(struct live_player *player, const struct stage_sound *sound);
 
 /* The knobs that are heard, for a window's panel; zeros: there are no files of any. */
 struct stage_panel_knobs live_player_knobs(struct live_player *player);

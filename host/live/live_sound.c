@@ -29,6 +29,8 @@ struct live_sound {
     int waiting_count;
     bool ending;
     /* of the stage's thread */
+    void (*heard)(void *context, const struct stage_sound *sound);
+    void *heard_context;
     long played, dropped;
     struct live_recording recording;
 };
@@ -133,9 +135,12 @@ void live_sound_take(struct live_sound *s, struct stage *stage)
     struct stage_sound heard[AT_ONCE];
     struct sound_event e;
     for (int count; (count = actor.kind->heard(actor.self, heard, AT_ONCE)) > 0;)
-        for (int i = 0; i < count; i++)
+        for (int i = 0; i < count; i++) {
+            if (s->heard)
+                s->heard(s->heard_context, &heard[i]);
             if (live_sound_event(&heard[i], &extent, &e))
                 event_play(s, &e);
+        }
 }
 
 long live_sound_played(const struct live_sound *s)
@@ -211,6 +216,8 @@ enum midi_status live_sound_open(const struct live_sound_def *def, struct live_s
     *out = NULL;
     if (!s)
         return midi_fail(MIDI_NO_MEMORY, "no memory for sounds");
+    s->heard = def->heard;
+    s->heard_context = def->context;
     enum midi_status status = def->synth ? synth_open(s, def->driver) : MIDI_OK;
     if (status == MIDI_OK && def->device)
         status = device_open(s, def);

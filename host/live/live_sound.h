@@ -25,6 +25,9 @@ struct live_sound_def {
     /* A driver of FluidSynth, or a name that ends with .wav; NULL: JACK, PulseAudio or ALSA, the first that works. */
     const char *driver;
     const char *server, *device; /* a device of the MIDI server; device NULL: none */
+    /* Whoever else takes what is let hear; NULL: nobody. */
+    void (*heard)(void *context, const struct stage_sound *sound);
+    void *context;
 };
 
 struct live_sound;

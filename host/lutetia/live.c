@@ -50,6 +50,10 @@ int live_begin(const char *verb, const struct live_options *options, struct midi
                                            .knobs = options->knobs.texts,
                                            .knobs_count = options->knobs.count,
                                            .theme = options->theme,
+                                           .osc = {.listen = options->osc,
+                                                   .from = options->osc_from.texts,
+                                                   .from_count = options->osc_from.count,
+                                                   .send = options->osc_to},
                                            .is_film = song != NULL,
                                            .tell = said,
                                            .context = out};

@@ -12,7 +12,8 @@
 struct live_options {
     const char *map, *server, *device, *filters;
     const char *theme; /* the stage's */
-    struct option_texts params, knobs;
+    struct option_texts params, knobs, osc_from;
+    const char *osc, *osc_to;
     bool knobs_alone; /* the computer's keyboard plays no notes */
 };
 
@@ -36,5 +37,31 @@ void live_end(struct live *live);
 /* Opens a window for the stage and plays until somebody closes it. no_display: what to do where there is none. */
 int live_window(struct live *live, struct stage *stage, struct stage_window_def *def,
                 const char *no_display);
+
+/* The rows of Open Sound Control, of a table of options. */
+#define LIVE_OSC_OPTIONS(live)                                                                 \
+    {"osc",                                                                                    \
+     0,                                                                                        \
+     OPTION_TEXT,                                                                              \
+     "PORT",                                                                                   \
+     "hear Open Sound Control at this port, or ADDRESS:PORT",                                  \
+     (&(live)->osc),                                                                           \
+     0,                                                                                        \
+     0,                                                                                        \
+     0},                                                                                       \
+        {"osc-from",                                                                           \
+         0,                                                                                    \
+         OPTION_TEXTS,                                                                         \
+         "ADDRESS",                                                                            \
+         "another computer whose OSC is heard; as often as wanted",                            \
+         &(live)->osc_from,                                                                    \
+         0,                                                                                    \
+         0,                                                                                    \
+         0},                                                                                   \
+    {                                                                                          \
+        "osc-to", 0, OPTION_TEXT, "ADDRESS:PORT",                                              \
+            "send what changes and what is heard there by OSC, or to a PORT", &(live)->osc_to, \
+            0, 0, 0                                                                            \
+    }
 
 #endif

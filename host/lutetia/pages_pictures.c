@@ -220,7 +220,9 @@ const struct page pages_of_pictures[] = {
          "button, "
          "and turn a knob; Shift and a drag set its ends, Control 1 to 9 keeps a scene, which "
          "1 "
-         "to 9 or a program change calls. Files of --network, "
+         "to 9 or a program change calls. By --osc controls are set from other programs "
+         "(/control/NAME "
+         "value, /along/NAME part, /scene n), and --osc-to sends them. Files of --network, "
          "--script, --knobs and --theme are text; the documents below have their "
          "lines.\n" FONTS,
      .values = {{.option = "preset", .fill = preset_names},

@@ -68,6 +68,7 @@ static int spring_check(struct spring *s, const struct option_words *words)
         return fail_usage("spring", "a word or --network FILE, not both");
     if ((s->film.strip[0] != 1 || s->film.strip[1] != 1) && !s->film.still)
         return fail_usage("spring", "--strip is for a --still");
+    const bool film = s->film.still || s->film.video || s->frames;
     const bool played = s->live_options.map || s->live_options.knobs.count;
     s->live_options.knobs_alone = !s->live_options.map;
     if (played && s->replay)
@@ -78,7 +79,7 @@ static int spring_check(struct spring *s, const struct option_words *words)
                           "what is played goes through a --map FILE.lua, or --knobs FILE");
     if (!s->live_options.map && s->live_options.params.count)
         return fail_usage("spring", "--param is for a --map FILE.lua");
-    if (played && !s->song_path && (s->film.still || s->film.video || s->frames))
+    if (played && !s->song_path && film)
         return fail_usage("spring",
                           "a film through a --map or --knobs is of a --song FILE.mid");
     const struct spring_wet_def usual = spring_wet_def_default();
@@ -114,6 +115,9 @@ static const struct option_need needs[] = {{"record", WINDOW},
                                            {"play", WINDOW},
                                            {"session", "replay|!still+!video+!frames"},
                                            {"fps", "video|frames|sound|song|wet|strip"},
+                                           {"osc", WINDOW},
+                                           {"osc-from", "osc"},
+                                           {"osc-to", WINDOW},
                                            {"silent", "video|!still+!frames"},
                                            {"way", FILM},
                                            {"filter", FILM},
@@ -152,6 +156,7 @@ static int spring_options(struct spring *s, int argc, char **argv, bool *help)
         {"knobs", 0, OPTION_TEXTS, "FILE",
          "knobs that are learnt in the window, and scenes; kept there; as often as wanted",
          &s->live_options.knobs, 0, 0, 0},
+        LIVE_OSC_OPTIONS(&s->live_options),
         {"param", 0, OPTION_TEXTS, "KEY=VALUE",
          "a parameter of the --map's script; as often as wanted", &s->live_options.params, 0, 0,
          0},
@@ -238,7 +243,8 @@ static int controls_print(struct stage *stage)
 static int map_begin(struct spring *s, struct stage *stage)
 {
     enum { LOWEST = 48 };
-    if ((!s->live_options.map && !s->live_options.knobs.count) || s->live.source)
+    const struct live_options *o = &s->live_options;
+    if ((!o->map && !o->knobs.count && !o->osc && !o->osc_to) || s->live.source)
         return EXIT_SUCCESS;
     return live_begin("spring", &s->live_options, s->song, LOWEST, stage, &s->live);
 }
@@ -361,6 +367,13 @@ static void sounds_play(void *context, struct stage *stage)
     live_sound_take(s->sound, stage);
 }
 
+static void sound_told(void *context, const struct stage_sound *sound)
+{
+    const struct spring *s = context;
+    if (s->live.player)
+        live_player_heard(s->live.player, sound);
+}
+
 static void recording_sounds(void *context, double now_s)
 {
     struct spring *s = context;
@@ -381,16 +394,20 @@ static int recording_heard(void *context, double now_s, const char **why)
 /* A window without sound is a window, and its recordings may have some; a device that is asked for must be there. */
 static int window_sound(struct spring *s)
 {
-    const struct live_sound_def def = {
-        .synth = !s->silent, .server = s->live_options.server, .device = s->play};
-    if (s->silent && !s->play)
+    const struct live_sound_def def = {.synth = !s->silent,
+                                       .server = s->live_options.server,
+                                       .device = s->play,
+                                       .heard = s->live_options.osc_to ? sound_told : NULL,
+                                       .context = s};
+    if (s->silent && !s->play && !s->live_options.osc_to)
         return EXIT_SUCCESS;
     enum midi_status status = live_sound_open(&def, &s->sound);
     if (status != MIDI_OK && s->play)
         return fail("spring", "--play: %s", midi_error());
     if (status != MIDI_OK) {
         snprintf(s->live.note, sizeof s->live.note, "the window is silent: %s", midi_error());
-        status = live_sound_open(&(struct live_sound_def){.synth = false}, &s->sound);
+        status = live_sound_open(&(struct live_sound_def){.heard = def.heard, .context = s},
+                                 &s->sound);
     }
     if (status != MIDI_OK)
         return EXIT_SUCCESS;
