@@ -6,7 +6,7 @@
  *     desk_canvas.c    the sheet: how it is seen, the cursor, the ghost
  *     desk_gl.c        its drawing in OpenGL, core profile
  *     desk_hand.c      pointer and pen, as events (input.h), to the paper
- *     desk_pen.c       a pen's pressure on X11
+ *     desk_shared.h    what the reader's window has, too: a pen's pressure on X11, names
  *     desk_rows.c      a control as a row
  *     desk_panel.c     tools, controls
  *     desk_dish.c      the dish: wells, swatches; the tilted board
@@ -20,6 +20,7 @@
 #ifndef LUTETIA_DESK_H
 #define LUTETIA_DESK_H
 
+#include "desk_shared.h"
 #include "studio_paper.h"
 #include "studio_view.h"
 
@@ -47,7 +48,6 @@ struct desk_options {
 };
 
 struct desk_gl;
-struct desk_pen;
 struct desk_play;
 
 struct desk {
@@ -132,18 +132,10 @@ void desk_hand_event(struct desk *d,
 void desk_hand_lift(struct desk *d); /* wherever it is: a stroke that was begun is done */
 void desk_hand_drop(struct desk *d); /* a stroke that was begun is given up */
 
-/* desk_pen.c */
-struct desk_pen *desk_pen_create(GtkWidget *canvas);
-void desk_pen_destroy(struct desk_pen *pen);
-/* A pen's report at that time in milliseconds, as near as there is one. False: no pen has spoken. */
-bool desk_pen_at(struct desk_pen *pen, guint32 time_ms, double *pressure, double tilt[2]);
-
 /* desk_rows.c */
 GtkWidget *desk_row_new(struct desk *d, int setting, const char *label);
 void desk_row_fill(struct desk *d, int setting);
 char *desk_label(const char *name); /* "tilt_x" as "Tilt x", translated; free it by g_free() */
-/* What a screen reader and a tooltip say; tip NULL: there is none. */
-void desk_name(GtkWidget *widget, const char *name, const char *tip);
 
 /* desk_panel.c */
 GtkWidget *desk_tools_new(struct desk *d);

@@ -2,7 +2,7 @@
  *
  * Each report of XInput 2 passes by before GTK joins it with others. Those of devices that have an axis "Abs Pressure" are kept for a
  * moment, with their times, and found again by them. Elsewhere (Wayland) pens have tools, and nothing of this is needed. */
-#include "desk.h"
+#include "desk_shared.h"
 
 #ifdef LUTETIA_DESK_X11
 

@@ -24,15 +24,6 @@ char *desk_label(const char *name)
     return label;
 }
 
-void desk_name(GtkWidget *widget, const char *name, const char *tip)
-{
-    /* Later drop-downs are labelled by what is chosen in them, which is their value. */
-    gtk_accessible_reset_relation(GTK_ACCESSIBLE(widget), GTK_ACCESSIBLE_RELATION_LABELLED_BY);
-    gtk_accessible_update_property(GTK_ACCESSIBLE(widget), GTK_ACCESSIBLE_PROPERTY_LABEL, name,
-                                   -1);
-    gtk_widget_set_tooltip_text(widget, tip);
-}
-
 /* ---- a row ---- */
 
 static void row_fill(struct row *row)

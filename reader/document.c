@@ -28,6 +28,7 @@ void reader_document_destroy(struct reader_document *d)
         free(d->notes[i].name);
         free(d->notes[i].class);
     }
+    free(d->plain);
     free(d->blocks);
     free(d->note_blocks);
     free(d->notes);

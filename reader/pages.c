@@ -19,7 +19,9 @@ struct reader_pages_setup reader_pages_setup_default(void)
                                        .columns = 1,
                                        .align = FONT_ALIGN_JUSTIFY,
                                        .hyphenate = true,
-                                       .running = true};
+                                       .running = true,
+                                       .ink_link = {0.08, 0.22, 0.45},
+                                       .ink_struck = {0.55, 0.55, 0.55}};
 }
 
 struct page_text *reader_pages_text(struct reader_pages *pages)
@@ -127,7 +129,8 @@ static enum reader_status heading_add(struct reader_pages *p, const struct reade
 }
 
 /* Tabs go to every fourth column, and a line that is empty is a blank: so that it has its height. */
-static bool code_line_add(struct paragraph_text *t, const char *line, int bytes)
+static bool code_line_add(struct paragraph_text *t, const struct reader_block *block,
+                          const char *line, int bytes)
 {
     int column = 0;
     bool good = true;
@@ -138,6 +141,8 @@ static bool code_line_add(struct paragraph_text *t, const char *line, int bytes)
         while (at + run < bytes && line[at + run] != '\t')
             run++;
         good = pages_text_add(t, line + at, run, READER_CODE);
+        if (good && run)
+            t->spans[t->spans_count - 1].at = (long)block->at + (line + at - block->text);
         column += run;
         at += run;
         if (at < bytes) {
@@ -171,7 +176,7 @@ static enum reader_status code_add(struct reader_pages *p, const struct reader_b
             int bytes = end ? (int)(end - line) : block->bytes - at;
             bytes = bytes < BYTES_MAX ? bytes : BYTES_MAX;
             good = (n == 0 || pages_text_add(&t, "\n", 1, READER_CODE)) &&
-                   code_line_add(&t, line, bytes);
+                   code_line_add(&t, block, line, bytes);
             at += bytes + (end == line + bytes || at + bytes == block->bytes);
         }
         manner.after_px = at > block->bytes ? 0.6 * em : 0;
@@ -193,6 +198,8 @@ static enum reader_status math_add(struct reader_pages *p, const struct reader_b
     manner.before_px = manner.after_px = 0.5 * p->setup.size_px;
     enum reader_status status = pages_no_memory();
     if (pages_text_add(&t, block->text, block->bytes, READER_FORMULA)) {
+        if (t.spans_count)
+            t.spans[0].at = (long)block->at;
         for (int i = 0; i < t.bytes; i++)
             if (t.text[i] == '\n' || t.text[i] == '\t')
                 t.text[i] = ' ';
@@ -268,19 +275,32 @@ static enum reader_status block_add(struct reader_pages *p, const struct reader_
     return READER_OK;
 }
 
+int pages_passage_length(const struct reader_document *d, int first)
+{
+    const struct reader_block *block = &d->blocks[first];
+    int n = 1;
+    while (block->kind == READER_ROW && first + n < d->blocks_count &&
+           block[n].kind == READER_ROW && block[n].table == block->table)
+        n++;
+    return n;
+}
+
+enum reader_status pages_passage_add(struct reader_pages *p, int first, int count)
+{
+    const struct reader_block *block = &p->document->blocks[first];
+    enum reader_status status =
+        count > 1 ? pages_table_add(p, block, count) : block_add(p, block);
+    p->behind_head = block->kind != READER_PARAGRAPH;
+    return status;
+}
+
 static enum reader_status blocks_add(struct reader_pages *p)
 {
-    const struct reader_document *d = p->document;
     enum reader_status status = READER_OK;
     p->behind_head = true; /* the first paragraph is not moved in */
-    for (int i = 0; i < d->blocks_count && status == READER_OK;) {
-        const struct reader_block *block = &d->blocks[i];
-        int n = 1;
-        while (block->kind == READER_ROW && i + n < d->blocks_count &&
-               block[n].kind == READER_ROW && block[n].table == block->table)
-            n++;
-        status = n > 1 ? pages_table_add(p, block, n) : block_add(p, block);
-        p->behind_head = block->kind != READER_PARAGRAPH;
+    for (int i = 0; i < p->document->blocks_count && status == READER_OK;) {
+        const int n = pages_passage_length(p->document, i);
+        status = pages_passage_add(p, i, n);
         i += n;
     }
     return status;
@@ -288,12 +308,13 @@ static enum reader_status blocks_add(struct reader_pages *p)
 
 /* ---- the page ---- */
 
-static enum reader_status template_set(struct reader_pages *p)
+enum reader_status pages_template_set(struct reader_pages *p, double frame_px)
 {
     const struct reader_pages_setup *s = &p->setup;
-    struct page_template t = {.width_px = s->width_px, .height_px = s->height_px};
-    const double width = s->columns >= 1 ? pages_column(p) : 0,
-                 height = s->height_px - 2 * s->margin_px;
+    const bool scrolled = p->made != NULL;
+    const double width = s->columns >= 1 ? pages_column(p) : 0, height = frame_px;
+    struct page_template t = {.width_px = s->width_px,
+                              .height_px = scrolled ? frame_px : s->height_px};
     if (s->columns < 1 || s->columns > PAGE_FRAMES_MAX)
         return reader_fail(READER_BAD_ARGUMENT, "a page has 1..%d columns (got %d)",
                            PAGE_FRAMES_MAX, s->columns);
@@ -304,7 +325,7 @@ static enum reader_status template_set(struct reader_pages *p)
     for (int i = 0; i < s->columns; i++)
         t.frames[t.frames_count++] = (struct page_frame){
             .x = s->margin_px + i * (width + s->gap_px),
-            .y = s->margin_px,
+            .y = scrolled ? 0 : s->margin_px,
             .width = width,
             .height = height,
             .margin_x = s->width_px - s->margin_px - s->notes_px + s->gap_px / 2,
@@ -339,9 +360,9 @@ static enum reader_status running_set(struct reader_pages *p)
     return status;
 }
 
-enum reader_status reader_pages_make(const struct reader_document *document,
-                                     const struct reader_pages_setup *setup,
-                                     struct reader_pages **out)
+enum reader_status pages_begin(const struct reader_document *document,
+                               const struct reader_pages_setup *setup, double frame_px,
+                               struct made_passage *made, struct reader_pages **out)
 {
     struct reader_pages *p = calloc(1, sizeof *p);
     *out = NULL;
@@ -349,24 +370,40 @@ enum reader_status reader_pages_make(const struct reader_document *document,
         return pages_no_memory();
     p->setup = *setup;
     p->document = document;
+    p->made = made;
+    p->at = -1;
     p->noted = calloc((size_t)document->notes_count + 1, sizeof *p->noted);
     enum reader_status status = p->noted ? READER_OK : pages_no_memory();
     if (status == READER_OK && page_text_create(&p->text) != FONT_OK)
         status = pages_failed();
     if (status == READER_OK) {
         page_text_colour(p->text);
-        status = template_set(p);
+        status = pages_template_set(p, frame_px);
     }
     if (status == READER_OK)
         status = pages_fonts_open(p);
     if (status == READER_OK)
         status = running_set(p);
     if (status == READER_OK)
-        status = blocks_add(p);
-    p->document = NULL;
-    if (status == READER_OK)
         *out = p;
     else
         reader_pages_destroy(p);
+    return status;
+}
+
+enum reader_status reader_pages_make(const struct reader_document *document,
+                                     const struct reader_pages_setup *setup,
+                                     struct reader_pages **out)
+{
+    enum reader_status status =
+        pages_begin(document, setup, setup->height_px - 2 * setup->margin_px, NULL, out);
+    if (status == READER_OK)
+        status = blocks_add(*out);
+    if (status != READER_OK) {
+        reader_pages_destroy(*out);
+        *out = NULL;
+        return status;
+    }
+    (*out)->document = NULL;
     return status;
 }

@@ -19,6 +19,18 @@ enum context {
     CONTEXTS
 };
 
+/* What a passage has become: paragraphs of the text, and which bytes of the document their letters are. */
+struct made_paragraph {
+    int id, note; /* note: of the document's, or -1 */
+    struct line_span *spans;
+    int spans_count;
+};
+struct made_passage {
+    struct made_paragraph *paragraphs;
+    int count, capacity;
+    double before_px, after_px; /* what is to be left blank around it */
+};
+
 enum {
     LOOKS = 32,
     FACES = 8
@@ -35,7 +47,7 @@ struct reader_pages {
     struct font_face *faces[FACES]; /* to measure by; opened when they are needed */
     struct font_shaper *shapers[FACES];
     int styles[CONTEXTS][LOOKS], raised[CONTEXTS]; /* from 1; 0: not made yet */
-    int formulas;
+    int insets; /* formulas and pictures that were ever set: each is a style */
     int unknown_count;
     char unknown[48];
     const struct reader_document *document;
@@ -43,12 +55,19 @@ struct reader_pages {
     int pixels_count, pixels_capacity;
     bool *noted; /* notes that stand on a page already */
     bool behind_head;
+    /* A column that is scrolled: passages are made one by one. */
+    struct made_passage *made; /* NULL: pages */
+    int at;                    /* of the flow's paragraphs, the next one */
+    const int *opened; /* notes that are seen: those with the passage's number, from 1 */
+    int passage;       /* that number */
 };
 
 /* A paragraph that is put together: letters, how they look, where notes are. */
 struct line_span {
     int begin, end, note;
     unsigned look;
+    long
+        at; /* byte of the document's plain text; -1: nothing of its own, as an item's number */
 };
 struct paragraph_text {
     char *text;
@@ -81,10 +100,28 @@ enum reader_status pages_style(struct reader_pages *p, enum context context, uns
                                int *style);
 struct page_manner pages_manner(const struct reader_pages *p, enum context context);
 double pages_column(const struct reader_pages *p); /* how wide a column is */
-/* A paragraph of the text. Its notes are added by pages_notes_add(). */
-enum reader_status pages_paragraph_add(struct reader_pages *p, const struct paragraph_text *t,
+/* A paragraph of the text as it is. Where passages are made, keep it by pages_made_keep(). */
+enum reader_status pages_paragraph_put(struct reader_pages *p, const char *text, size_t bytes,
+                                       int style, const struct page_manner *manner, int *id);
+/* Keeps which bytes of the document a paragraph's letters are, where passages are made; takes the spans. */
+enum reader_status pages_made_keep(struct reader_pages *p, int id, int note,
+                                   struct paragraph_text *t);
+/* A paragraph of the text, and its notes. Takes the spans where passages are made. */
+enum reader_status pages_paragraph_add(struct reader_pages *p, struct paragraph_text *t,
                                        enum context context, const struct page_manner *manner,
                                        bool display);
+
+/* pages.c: all but the blocks; the document is borrowed as long as there are passages to be made. frame_px: how high a column is. made: of a
+ * column that is scrolled: what the next passage becomes; NULL: pages. */
+enum reader_status pages_begin(const struct reader_document *document,
+                               const struct reader_pages_setup *setup, double frame_px,
+                               struct made_passage *made, struct reader_pages **out);
+/* Another width: the columns of paragraphs that there are, too. */
+enum reader_status pages_template_set(struct reader_pages *p, double frame_px);
+/* How many blocks from this one on are one passage: a table's rows, or one. */
+int pages_passage_length(const struct reader_document *document, int first);
+/* Its paragraphs. p->behind_head is for the next one. */
+enum reader_status pages_passage_add(struct reader_pages *p, int first, int count);
 
 /* pages_picture.c: a picture that is found, as a box in a line of its own. *done: it was. */
 enum reader_status pages_picture_add(struct reader_pages *p, const struct reader_block *block,

@@ -131,8 +131,8 @@ enum reader_status pages_style(struct reader_pages *p, enum context context, uns
         made.size_px *= 0.65;
     }
     made.inked = (look & (READER_LINK | READER_STRUCK)) != 0;
-    made.ink = look & READER_STRUCK ? font_ink_plain(0.55, 0.55, 0.55, 1)
-                                    : font_ink_plain(0.08, 0.22, 0.45, 1);
+    const double *ink = look & READER_STRUCK ? p->setup.ink_struck : p->setup.ink_link;
+    made.ink = font_ink_plain(ink[0], ink[1], ink[2], 1);
     if (page_style_add(p->text, &made, style) != FONT_OK)
         return pages_failed();
     *kept = *style + 1;
@@ -169,7 +169,7 @@ static bool span_add(struct paragraph_text *t, int begin, int end, unsigned look
         return true;
     if (!array_reserve(&t->spans, &t->spans_capacity, t->spans_count + 1, sizeof *t->spans))
         return false;
-    t->spans[t->spans_count++] = (struct line_span){begin, end, note, look};
+    t->spans[t->spans_count++] = (struct line_span){begin, end, note, look, -1};
     return true;
 }
 
@@ -194,6 +194,7 @@ bool pages_block_add(struct paragraph_text *t, const struct reader_block *block,
         if (!pages_text_add(t, block->text + from, to - from, s->look | look))
             return false;
         t->spans[t->spans_count - 1].note = s->look & READER_NOTE ? s->note : -1;
+        t->spans[t->spans_count - 1].at = (long)block->at + from;
     }
     return true;
 }
@@ -257,6 +258,7 @@ static enum reader_status formula_style(struct reader_pages *p, const struct par
     look.font = p->fonts[0];
     look.size_px = pages_size(p, context);
     enum font_status made = page_inset_add(p->text, &look, &shown, style);
+    p->insets++;
     font_layout_finish(&shown);
     return made == FONT_OK ? READER_OK : pages_failed();
 }
@@ -329,76 +331,145 @@ static bool note_text(const struct reader_pages *p, int note, struct paragraph_t
     return good;
 }
 
-static enum reader_status note_add(struct reader_pages *p, int note, int id, int byte,
+enum reader_status pages_made_keep(struct reader_pages *p, int id, int note,
                                    struct paragraph_text *t)
 {
+    struct made_passage *made = p->made;
+    if (!made)
+        return READER_OK;
+    if (!array_reserve(&made->paragraphs, &made->capacity, made->count + 1,
+                       sizeof *made->paragraphs))
+        return pages_no_memory();
+    made->paragraphs[made->count++] =
+        (struct made_paragraph){id, note, t->spans, t->spans_count};
+    t->spans = NULL;
+    t->spans_count = t->spans_capacity = 0;
+    return READER_OK;
+}
+
+/* Where a column is scrolled, a note that has no margin is a paragraph behind the one that calls it, moved in. */
+static enum reader_status note_put(struct reader_pages *p, bool margin, int id, int byte,
+                                   const struct paragraph_text *t, struct page_manner *manner,
+                                   int style, int *note_id)
+{
+    enum font_status status;
+    if (!p->made || margin) {
+        status = page_note_add(p->text, id, byte, margin ? PAGE_NOTE_MARGIN : PAGE_NOTE_FOOT,
+                               t->text, (size_t)t->bytes, style, manner, note_id);
+    } else {
+        const double em = p->setup.size_px;
+        manner->left_px = fmin(1.5 * em, pages_column(p) / 8);
+        manner->before_px = manner->after_px = 0.3 * em;
+        manner->role = FONT_ROLE_NOTE;
+        status = page_paragraph_add(p->text, 0, p->at, t->text, (size_t)t->bytes, style, manner,
+                                    note_id);
+        p->at += status == FONT_OK;
+    }
+    return status == FONT_OK ? READER_OK : pages_failed();
+}
+
+static enum reader_status note_add(struct reader_pages *p, int note, int id, int byte,
+                                   struct paragraph_text *t, int *note_id)
+{
     const char *class = p->document->notes[note].class;
-    bool margin = strcmp(class, "margin") == 0 && p->setup.notes_px > 0;
+    bool margin = (p->made || strcmp(class, "margin") == 0) && p->setup.notes_px > 0;
     struct page_manner manner = pages_manner(p, CONTEXT_NOTE);
-    int style, note_id;
+    int style;
     if (margin)
         manner.align = FONT_ALIGN_START;
     enum reader_status status =
         note_text(p, note, t) ? pages_style(p, CONTEXT_NOTE, 0, &style) : pages_no_memory();
-    if (status == READER_OK &&
-        page_note_add(p->text, id, byte, margin ? PAGE_NOTE_MARGIN : PAGE_NOTE_FOOT, t->text,
-                      (size_t)t->bytes, style, &manner, &note_id) != FONT_OK)
-        status = pages_failed();
     if (status == READER_OK)
-        status = pages_styles_apply(p, note_id, t, CONTEXT_NOTE, true,
-                                    margin ? p->setup.notes_px : pages_column(p));
+        status = note_put(p, margin, id, byte, t, &manner, style, note_id);
+    if (status == READER_OK)
+        status =
+            pages_styles_apply(p, *note_id, t, CONTEXT_NOTE, true,
+                               margin ? p->setup.notes_px : pages_column(p) - manner.left_px);
     return status;
 }
 
-/* The notes that the paragraph's letters call, and those that these call, which stand behind them at the same place. Each stands where it is
- * called first. */
+/* Whether a note that is called is to be set now: once; where a column is scrolled, if it is open in this passage. */
+static bool note_wanted(struct reader_pages *p, int note)
+{
+    if (note < 0 || note >= p->document->notes_count || p->noted[note])
+        return false;
+    if (p->made && p->opened[note] != p->passage &&
+        !(p->setup.notes_px > 0 && strcmp(p->document->notes[note].class, "margin") == 0))
+        return false;
+    p->noted[note] = true;
+    return true;
+}
+
+/* The note, and those that it calls, which stand behind it at the same place. */
+static enum reader_status notes_chain(struct reader_pages *p, int note, int id, int byte)
+{
+    enum reader_status status = READER_OK;
+    int *queue = NULL, count = 0, capacity = 0;
+    if (!array_reserve(&queue, &capacity, 1, sizeof *queue))
+        return pages_no_memory();
+    queue[count++] = note;
+    for (int k = 0; k < count && status == READER_OK; k++) {
+        struct paragraph_text text = {0};
+        int note_id;
+        status = note_add(p, queue[k], id, byte, &text, &note_id);
+        for (int s = 1; s < text.spans_count && status == READER_OK; s++) {
+            int next = text.spans[s].note;
+            if (!note_wanted(p, next))
+                continue;
+            if (!array_reserve(&queue, &capacity, count + 1, sizeof *queue))
+                status = pages_no_memory();
+            else
+                queue[count++] = next;
+        }
+        if (status == READER_OK)
+            status = pages_made_keep(p, note_id, queue[k], &text);
+        pages_text_finish(&text);
+    }
+    free(queue);
+    return status;
+}
+
+/* The notes that the paragraph's letters call, each where it is called first. */
 static enum reader_status notes_add(struct reader_pages *p, int id,
                                     const struct paragraph_text *t)
 {
     enum reader_status status = READER_OK;
-    for (int i = 0; i < t->spans_count && status == READER_OK; i++) {
-        int *queue = NULL, count = 0, capacity = 0;
-        int note = t->spans[i].note;
-        if (note < 0 || note >= p->document->notes_count || p->noted[note])
-            continue;
-        p->noted[note] = true;
-        if (!array_reserve(&queue, &capacity, 1, sizeof *queue))
-            return pages_no_memory();
-        queue[count++] = note;
-        for (int k = 0; k < count && status == READER_OK; k++) {
-            struct paragraph_text text = {0};
-            status = note_add(p, queue[k], id, t->spans[i].end, &text);
-            for (int s = 1; s < text.spans_count && status == READER_OK; s++) {
-                int next = text.spans[s].note;
-                if (next < 0 || next >= p->document->notes_count || p->noted[next])
-                    continue;
-                p->noted[next] = true;
-                if (!array_reserve(&queue, &capacity, count + 1, sizeof *queue))
-                    status = pages_no_memory();
-                else
-                    queue[count++] = next;
-            }
-            pages_text_finish(&text);
-        }
-        free(queue);
-    }
+    for (int i = 0; i < t->spans_count && status == READER_OK; i++)
+        if (note_wanted(p, t->spans[i].note))
+            status = notes_chain(p, t->spans[i].note, id, t->spans[i].end);
     return status;
 }
 
-enum reader_status pages_paragraph_add(struct reader_pages *p, const struct paragraph_text *t,
+enum reader_status pages_paragraph_put(struct reader_pages *p, const char *text, size_t bytes,
+                                       int style, const struct page_manner *manner, int *id)
+{
+    struct page_manner own = *manner;
+    if (p->made) { /* each passage is a column of its own */
+        own.begins_column = p->made->count == 0;
+        own.keep_with_next = false;
+        if (!p->made->count)
+            p->made->before_px = manner->before_px;
+        p->made->after_px = manner->after_px;
+    }
+    if (page_paragraph_add(p->text, 0, p->at, text, bytes, style, &own, id) != FONT_OK)
+        return pages_failed();
+    p->at += p->made != NULL;
+    return READER_OK;
+}
+
+enum reader_status pages_paragraph_add(struct reader_pages *p, struct paragraph_text *t,
                                        enum context context, const struct page_manner *manner,
                                        bool display)
 {
     int style, id;
     const double most = pages_column(p) - manner->left_px - manner->right_px;
     enum reader_status status = pages_style(p, context, 0, &style);
-    if (status == READER_OK &&
-        page_paragraph_add(p->text, 0, -1, t->text ? t->text : "", (size_t)t->bytes, style,
-                           manner, &id) != FONT_OK)
-        status = pages_failed();
+    if (status == READER_OK)
+        status = pages_paragraph_put(p, t->text ? t->text : "", (size_t)t->bytes, style, manner,
+                                     &id);
     if (status == READER_OK)
         status = pages_styles_apply(p, id, t, context, display, most);
     if (status == READER_OK)
         status = notes_add(p, id, t);
-    return status;
+    return status == READER_OK ? pages_made_keep(p, id, -1, t) : status;
 }

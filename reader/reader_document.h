@@ -94,6 +94,7 @@ struct reader_block {
     bool head;                 /* of a row: the table's first */
     int columns;
     char aligns[READER_COLUMNS_MAX]; /* of a row: l, c, r */
+    size_t at; /* of its text in the document's plain text, once that has been made */
 };
 
 struct reader_note {
@@ -107,6 +108,8 @@ struct reader_document {
     struct reader_note *notes; /* in the order of their numbers, which begin at 1 */
     int notes_count;
     int sources_count, tables_count;
+    char *plain; /* NULL: reader_document_plain() has not made it */
+    size_t plain_bytes;
     /* What arrays have room for. */
     int blocks_capacity, note_blocks_capacity, notes_capacity;
 };
@@ -118,5 +121,21 @@ enum reader_status reader_document_create(struct reader_document **out);
 enum reader_status reader_document_add(struct reader_document *document, const char *utf8,
                                        size_t bytes);
 void reader_document_destroy(struct reader_document *document); /* NULL is fine */
+
+/* Makes its plain text: what is read, block after block, then its notes, without what only says how it looks. Places in it are what is
+ * searched, selected and annotated: they stay what they are when a word becomes bold. A heading has its signs before it, code stands
+ * between fences, so that reader_anchor.h finds the headings that a place stands under. Errors: NO_MEMORY, TOO_LARGE. */
+enum reader_status reader_document_plain(struct reader_document *document);
+/* The block that a byte of the plain text is in, or the one before it; NULL: the document is empty. Owns: the document. */
+const struct reader_block *reader_document_block(const struct reader_document *document,
+                                                 size_t byte);
+/* The span of that byte; NULL: it is in none. */
+const struct reader_span *reader_document_span(const struct reader_document *document,
+                                               size_t byte);
+
+/* The next place at or behind `from` (forward) or before it where the plain text has these letters, whatever their case, and where there is one
+ * blank there may be any. False: there is none. An empty text is nowhere. */
+bool reader_document_search(const struct reader_document *document, const char *utf8,
+                            size_t from, bool forward, size_t *begin, size_t *end);
 
 #endif

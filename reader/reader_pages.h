@@ -46,6 +46,8 @@ struct reader_pages_setup {
     enum font_align align;
     bool hyphenate;
     bool running; /* page numbers, and the chapter over each page */
+    double ink_link[3],
+        ink_struck[3]; /* sRGB, 0..1: of links and notes' signs, and of what is struck out */
     /* Finds the picture that stands alone in a paragraph of source number `source` as `target`; false: it is told by its caption and its file.
      * NULL: none is found. The pages own what it gives. */
     bool (*picture)(void *user, int source, const char *target, struct reader_picture *out);

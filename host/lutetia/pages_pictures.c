@@ -139,7 +139,9 @@ const struct page pages_of_pictures[] = {
     {.verb = "read",
      .usages = "FILE.md... [options]",
      .about =
-         "Sets Markdown as pages: CommonMark with GitHub's tables, tasks, struck words, links "
+         "Opens Markdown in a window in which it is scrolled, searched and read at any width "
+         "and size; with --out sets it as pages: CommonMark with GitHub's tables, tasks, "
+         "struck words, links "
          "and notes, and formulas in TeX's notation. Several files are one document. The "
          "ending "
          "of --out says the kind of file: .png, .svg or .pdf; a PDF has all pages, its text "
@@ -153,9 +155,13 @@ const struct page pages_of_pictures[] = {
          "folder or below it, others told by captions and names; fences that will live (```lua "
          "live, "
          "```c paris) are shown.\n"
-         "In PDF a pixel is a point, 1/72 inch: A4 is --paper 595x842.\n" FONTS,
+         "In PDF a pixel is a point, 1/72 inch: A4 is --paper 595x842.\n"
+         "The window needs GTK 4.8 or later; F10 in it opens its menu, which says its "
+         "keys.\n" FONTS,
+     .values = {{.option = "theme", .words = "light, dark"}},
      .examples =
-         {{"lutetia read notes.md -o notes.pdf", "one PDF of all pages"},
+         {{"lutetia read notes.md", "a window"},
+          {"lutetia read notes.md -o notes.pdf", "one PDF of all pages"},
           {"lutetia read one.md two.md --paper 595x842 --columns 2 --size 11 -o both.pdf",
            "two files as one document on A4"},
           {"echo 'The *water* is $x^2$ deep.' | lutetia read - --plain -o page.png",

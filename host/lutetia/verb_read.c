@@ -5,27 +5,35 @@
 #include "type_common.h"
 #include "type_pages.h"
 
+#include <beside.h>
 #include <display.h>
+#include <input_file.h>
 #include <paint.h>
+#include <program.h>
 #include <reader_document.h>
 #include <reader_pages.h>
 
+#include <errno.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 struct read {
     struct type_pages pages;
-    const char *font, *mono, *math;
+    const char *font, *mono, *math, *theme, *play;
     double size_px, leading, margin_px, gap_px, notes_px;
     int columns;
     bool ragged, plain;
 };
 
+enum { WORDS_MAX = OPTION_WORDS_MAX + 16 }; /* of the window's program */
+
 static int read_options(struct read *r, int argc, char **argv, struct option_words *words)
 {
     const struct option_row rows[] = {
-        TYPE_PAGES_OPTIONS(&r->pages, "read", "read.pdf"),
+        TYPE_PAGES_OPTIONS(&r->pages, "read", "without it a window opens"),
         {"font", 0, OPTION_TEXT, "F",
          "the font: a file, the name of one, or a family (EB Garamond)", &r->font, 0, 0, 0},
         {"mono", 0, OPTION_TEXT, "F", "font of code (DejaVuSansMono)", &r->mono, 0, 0, 0},
@@ -47,14 +55,31 @@ static int read_options(struct read *r, int argc, char **argv, struct option_wor
         {"ragged", 0, OPTION_FLAG, NULL, "lines end where their words do", &r->ragged, 0, 0, 0},
         {"plain", 0, OPTION_FLAG, NULL, "no page numbers, and no chapter over the page",
          &r->plain, 0, 0, 0},
+        {"theme", 0, OPTION_TEXT, "NAME", "of the window: light or dark (as the desktop is)",
+         &r->theme, 0, 0, 0},
+        {"play", 0, OPTION_TEXT, "FILE",
+         "recorded input in place of a hand in the window: lines of docs/reader.md", &r->play,
+         0, 0, 0},
         {0}};
+    /* What a window has in its own way, and what pages have not. */
+    static const struct option_need needs[] = {{"page", "out"},       {"all", "out"},
+                                               {"title", "out"},      {"paper", "out"},
+                                               {"leading", "out"},    {"margin", "out"},
+                                               {"columns", "out"},    {"gap", "out"},
+                                               {"notes", "out"},      {"plain", "out"},
+                                               {"statistics", "out"}, {"theme", "!out"},
+                                               {"play", "!out"},      {0}};
     if (!options_parse("read", rows, argc, argv, words))
         return EXIT_USAGE;
     if (words->help)
         return help_print("read", rows, NULL);
+    if (!options_effects("read", rows, needs, words))
+        return EXIT_USAGE;
     if (words->count < 1)
         return fail_usage("read", "give a Markdown file, or several, or -%s", "");
-    return type_pages_check(&r->pages);
+    if (r->theme && strcmp(r->theme, "light") != 0 && strcmp(r->theme, "dark") != 0)
+        return fail_usage("read", "--theme must be light or dark (got '%.40s')", r->theme);
+    return r->pages.out_path ? type_pages_check(&r->pages) : EXIT_SUCCESS;
 }
 
 static int fail_reader(const char *path)
@@ -63,26 +88,14 @@ static int fail_reader(const char *path)
                 : fail("read", "%s", reader_error());
 }
 
-/* A PNG in the folder of the document's file, or below it. Others, and what cannot be read, are told by their names. */
 static bool picture_find(void *user, int source, const char *target, struct reader_picture *out)
 {
-    const double bytes_max = 512e6;
     const struct option_words *words = user;
-    const char *file = words->words[source], *slash = strrchr(file, '/');
-    size_t n = strlen(target);
     struct display_image image;
-    char *path;
-    if (n < 5 || strcmp(target + n - 4, ".png") != 0 || target[0] == '/' ||
-        strstr(target, "..") || strchr(target, ':'))
+    if (!display_beside_read(words->words[source], target, &image))
         return false;
-    if (asprintf(&path, "%.*s%s", slash ? (int)(slash + 1 - file) : 0, file, target) < 0)
-        return false;
-    bool found = display_png_bytes(path, 3) <= bytes_max &&
-                 display_png_read_rgb(path, &image) == DISPLAY_OK;
-    free(path);
-    if (found)
-        *out = (struct reader_picture){image.width_px, image.height_px, image.pixels};
-    return found;
+    *out = (struct reader_picture){image.width_px, image.height_px, image.pixels};
+    return true;
 }
 
 /* All files as one document; how many of their sequences are not UTF-8. */
@@ -137,12 +150,91 @@ static int pages_write(struct read *r, const struct reader_pages_setup *setup,
     return status;
 }
 
+/* ---- the window ---- */
+
+static void here(void)
+{
+}
+
+struct line {
+    char *words[WORDS_MAX];
+    int count;
+    bool good;
+};
+
+__attribute__((format(printf, 2, 3))) static void word_add(struct line *line,
+                                                           const char *format, ...)
+{
+    va_list values;
+    va_start(values, format);
+    char *word = NULL;
+    line->good =
+        line->good && line->count + 1 < WORDS_MAX && vasprintf(&word, format, values) >= 0;
+    va_end(values);
+    if (line->good)
+        line->words[line->count++] = word;
+}
+
+static void line_fill(struct line *line, const struct read *r, const struct option_words *words)
+{
+    const struct {
+        const char *name, *value;
+    } texts[] = {{"font", r->font},   {"mono", r->mono}, {"math", r->math},
+                 {"theme", r->theme}, {"play", r->play}, {"language", r->pages.language}};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        if (texts[i].value)
+            word_add(line, "%s=%s", texts[i].name, texts[i].value);
+    word_add(line, "size=%g", r->size_px);
+    if (r->ragged)
+        word_add(line, "ragged=1");
+    for (int i = 0; i < words->count; i++)
+        word_add(line, "file=%s", words->words[i]);
+}
+
+/* What cannot be read is said before a window opens. */
+static int files_check(const struct option_words *words)
+{
+    for (int i = 0; i < words->count; i++) {
+        const char *why;
+        if (strcmp(words->words[i], "-") == 0)
+            return fail_usage("read", "what is piped in has no window: give -o FILE%s", "");
+        FILE *file = input_file_open(words->words[i], &why);
+        if (!file)
+            return fail("read", "%s: %s", words->words[i], why);
+        fclose(file);
+    }
+    return EXIT_SUCCESS;
+}
+
+/* The window is a program of its own (desk/reader/read_main.c): so no other verb loads GTK. */
+static int window_run(const struct read *r, const struct option_words *words)
+{
+    char path[PATH_MAX];
+    struct line line = {.count = 1, .good = true};
+    int status = files_check(words);
+    if (status != EXIT_SUCCESS)
+        return status;
+    if (!program_find(path, here, LUTETIA_LIBEXECDIR "/lutetia/lutetia-reader",
+                      "desk/reader/lutetia-reader"))
+        return fail("read",
+                    "this lutetia was built without GTK 4, which the window needs: "
+                    "install libgtk-4-dev and build again, or write pages with -o FILE");
+    line.words[0] = path;
+    line_fill(&line, r, words);
+    if (line.good)
+        execv(path, line.words);
+    status = line.good ? fail("read", "%s cannot be run: %s", path, strerror(errno))
+                       : fail("read", "a document has up to %d files", WORDS_MAX - 16);
+    for (int i = 1; i < line.count; i++)
+        free(line.words[i]);
+    return status;
+}
+
 int verb_read(int argc, char **argv)
 {
     struct option_words words;
     struct reader_pages_setup setup = reader_pages_setup_default();
     struct read r = {.pages = {.verb = "read",
-                               .out_path = "read.pdf",
                                .language = "en",
                                .filter = font_painter_def_default().filter,
                                .darken_px = FONT_DARKEN_BY_STEM,
@@ -156,6 +248,8 @@ int verb_read(int argc, char **argv)
     struct reader_document *document = NULL;
     if (status != EXIT_SUCCESS || words.help)
         return status;
+    if (!r.pages.out_path)
+        return window_run(&r, &words);
     setup.font = r.font ? r.font : setup.font;
     setup.mono = r.mono ? r.mono : setup.mono;
     setup.math = r.math;

@@ -1,0 +1,171 @@
+/* read_desk.h - the reader's window: what its files share.
+ *
+ *     read_main.c      the program: its words, the application
+ *     read_window.c    the window: header, contents, search, what is told
+ *     read_actions.c   actions, menu
+ *     read_document.c  files, links, the way back
+ *     read_search.c    what is found
+ *     read_keys.c      keys of the page
+ *     read_hand.c      pointer, wheel, touch: scrolling, selecting
+ *     read_page.c      the page: a widget that shows a reader_view
+ *     read_heard.c     the page's text for screen readers
+ *     read_tiles.c     its pictures, painted by fontpipe and kept
+ *     read_look.c      sizes, colours, how wide the text is
+ *     read_play.c      recorded input: events from a file
+ *
+ * All of this belongs to GTK's thread. */
+#ifndef LUTETIA_READ_DESK_H
+#define LUTETIA_READ_DESK_H
+
+#include <desk_shared.h>
+#include <gtk/gtk.h>
+#include <libintl.h>
+#include <reader_view.h>
+
+#define _(text) gettext(text)
+
+struct read_options {
+    GPtrArray *paths; /* of the document's files */
+    const char *font, *mono, *math, *language, *play;
+    double size_px;
+    int width, height;
+    int theme; /* -1: as the desktop; 0: light; 1: dark */
+    bool ragged;
+};
+
+/* Bytes of the plain text. */
+struct read_range {
+    size_t begin, end;
+};
+
+/* Colours, sRGB 0..1. */
+struct read_colours {
+    double paper[3], ink[3], link[3], struck[3], selected[3], found[3], current[3], marked[3];
+};
+
+/* A place that one can go back to. */
+struct read_place {
+    char *path; /* NULL: in the document that is open */
+    size_t byte;
+};
+
+struct read_tiles;
+struct read_play;
+
+struct read_desk {
+    struct read_options options;
+    int status; /* the program's exit status */
+    GtkApplication *application;
+    GtkWidget *window, *page, *scrollbar, *contents, *contents_side, *search_bar, *search_entry,
+        *search_told, *notice, *notice_text, *told;
+    /* the document */
+    struct reader_document *document;
+    struct reader_view *view;
+    struct reader_pages_setup setup;
+    const struct read_colours *colours;
+    bool dark;
+    double size_px, column_em; /* column_em: the widest column of text */
+    /* the page */
+    struct read_tiles *tiles;
+    GArray *hits; /* struct read_range */
+    int hit;      /* the current one; -1: none */
+    struct read_range selected;
+    size_t select_from;
+    size_t focused; /* the link or sign that Tab has come to; G_MAXSIZE: none */
+    bool moving;    /* the scrollbar is being set by the page */
+    /* scrolling */
+    double rest_px;  /* of a pixel */
+    double glide_px; /* that the wheel still has to go */
+    double speed_px_s;
+    gint64 tick_us;
+    guint tick;
+    bool dragging;
+    double drag_y, drag_s;
+    double pointer_x, pointer_y;
+    /* the way back */
+    GArray *way; /* struct read_place */
+    guint way_at;
+    GPtrArray *heard;       /* labels */
+    guint hearing, barring; /* sources of what is done soon */
+    struct read_play *play;
+    /* what files below the window's call of it */
+    void (*document_shown)(struct read_desk *d);
+    void (*acted)(struct read_desk *d); /* other actions are possible */
+    void (*resized)(struct read_desk *d, int width, int height);
+    void (*say)(struct read_desk *d, const char *text);
+};
+
+/* read_look.c */
+void read_look_set(struct read_desk *d); /* the setup, from the sizes and colours */
+void read_look_size(struct read_desk *d, double size_px);
+void read_look_column(struct read_desk *d, double column_em);
+void read_look_theme(struct read_desk *d, bool dark);
+void read_look_resized(struct read_desk *d, int width, int height);
+
+/* read_tiles.c */
+struct read_tiles *read_tiles_create(void);
+void read_tiles_destroy(struct read_tiles *tiles);
+/* Draws the passages that are seen. marks: boxes, and the colour of each. */
+struct read_mark {
+    struct reader_box box;
+    const double *rgb;
+};
+void read_tiles_draw(struct read_desk *d, GtkSnapshot *snapshot,
+                     const struct reader_shown *shown, int count, const struct read_mark *marks,
+                     int marks_count, int scale);
+/* How many tiles were ever painted. */
+long read_tiles_painted(const struct read_tiles *tiles);
+void read_tiles_forget(struct read_tiles *tiles); /* colours have changed */
+
+/* read_page.c */
+GtkWidget *read_page_new(struct read_desk *d);
+void read_page_changed(struct read_desk *d); /* to be drawn anew */
+
+/* read_heard.c */
+void read_heard_changed(struct read_desk *d); /* soon */
+void read_heard_place(struct read_desk *d);   /* where the labels are */
+void read_heard_finish(struct read_desk *d);
+
+/* read_hand.c */
+void read_hand_attach(struct read_desk *d);
+void read_hand_scroll(struct read_desk *d, double px); /* at once */
+void read_hand_glide(struct read_desk *d, double px);
+void read_hand_press(struct read_desk *d, double x, double y, int times);
+void read_hand_move(struct read_desk *d, double x, double y);
+void read_hand_release(struct read_desk *d, double x, double y);
+
+/* read_keys.c */
+bool read_keys_key(struct read_desk *d, guint key, GdkModifierType state);
+
+/* read_search.c */
+void read_search_text(struct read_desk *d, const char *text);
+void read_search_step(struct read_desk *d, bool forward);
+void read_search_open(struct read_desk *d, bool open);
+
+/* read_document.c */
+/* The files as one document, in place of the one that there is. False: it was said why not, and all is as it was. */
+bool read_document_open(struct read_desk *d);
+/* Follows the link, or opens the note, that a byte is of. False: there is neither. */
+bool read_document_follow(struct read_desk *d, size_t byte);
+void read_document_go(struct read_desk *d, size_t byte); /* kept on the way */
+void read_document_back(struct read_desk *d, bool forward);
+bool read_document_can(const struct read_desk *d, bool forward);
+void read_document_finish(struct read_desk *d);
+/* The text of bytes that are selected; g_free() it. */
+char *read_document_text(const struct read_desk *d, struct read_range range);
+
+/* read_actions.c */
+GMenuModel *read_menu_new(void);
+void read_actions_add(struct read_desk *d);
+void read_actions_enable(struct read_desk *d);
+
+/* read_window.c */
+void read_window_open(struct read_desk *d);
+
+/* read_play.c */
+/* NULL: it cannot be read; a line has been said. */
+struct read_play *read_play_open(struct read_desk *d, const char *path);
+void read_play_begin(struct read_play *play);
+void read_play_destroy(struct read_play *play);
+
+#endif

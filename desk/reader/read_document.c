@@ -1,0 +1,280 @@
+/* read_document.c - the document's files, what links lead to, and the way back. */
+#include "read_desk.h"
+
+#include <beside.h>
+#include <input_file.h>
+#include <string.h>
+
+/* ---- reading ---- */
+
+/* A file's bytes; NULL: it was said why not. */
+static char *file_read(struct read_desk *d, const char *path, size_t *bytes)
+{
+    const char *why = "";
+    FILE *file = input_file_open(path, &why);
+    char *text = NULL, *told = NULL;
+    size_t room = READER_BYTES_MAX + (size_t)1;
+    if (!file)
+        told = g_strdup_printf("%s: %s", path, why);
+    else {
+        GByteArray *all = g_byte_array_new();
+        guint8 piece[65536];
+        for (size_t got; (got = fread(piece, 1, sizeof piece, file)) > 0 && all->len < room;)
+            g_byte_array_append(all, piece, (guint)got);
+        if (ferror(file))
+            told = g_strdup_printf(_("%s cannot be read whole"), path);
+        *bytes = all->len;
+        text = (char *)g_byte_array_free(all, told != NULL);
+        fclose(file);
+    }
+    if (told)
+        d->say(d, told);
+    g_free(told);
+    return told ? NULL : text ? text : g_strdup("");
+}
+
+static bool picture_find(void *user, int source, const char *target, struct reader_picture *out)
+{
+    const struct read_desk *d = user;
+    struct display_image image;
+    if (source < 0 || source >= (int)d->options.paths->len ||
+        !display_beside_read(g_ptr_array_index(d->options.paths, (guint)source), target,
+                             &image))
+        return false;
+    *out = (struct reader_picture){image.width_px, image.height_px, image.pixels};
+    return true;
+}
+
+static struct reader_document *files_read(struct read_desk *d)
+{
+    struct reader_document *document = NULL;
+    bool good = reader_document_create(&document) == READER_OK;
+    for (guint i = 0; i < d->options.paths->len && good; i++) {
+        const char *path = g_ptr_array_index(d->options.paths, i);
+        size_t bytes = 0;
+        char *text = file_read(d, path, &bytes);
+        good = text && reader_document_add(document, text, bytes) == READER_OK;
+        if (text && !good) {
+            char *told = g_strdup_printf("%s: %s", path, reader_error());
+            d->say(d, told);
+            g_free(told);
+        }
+        g_free(text);
+    }
+    if (good && reader_document_plain(document) != READER_OK) {
+        d->say(d, reader_error());
+        good = false;
+    }
+    if (good)
+        return document;
+    reader_document_destroy(document);
+    return NULL;
+}
+
+bool read_document_open(struct read_desk *d)
+{
+    struct reader_document *document = files_read(d);
+    struct reader_view *view;
+    if (!document)
+        return false;
+    d->setup.picture = picture_find;
+    d->setup.picture_user = d;
+    struct reader_document *before = d->document;
+    d->document = document;
+    read_look_set(d); /* there may be notes */
+    d->document = before;
+    if (reader_view_create(document, &d->setup, &view) != READER_OK) {
+        d->say(d, reader_error());
+        reader_document_destroy(document);
+        return false;
+    }
+    reader_view_destroy(d->view);
+    reader_document_destroy(d->document);
+    d->document = document;
+    d->view = view;
+    g_array_set_size(d->hits, 0);
+    d->hit = -1;
+    d->selected = (struct read_range){0, 0};
+    d->focused = G_MAXSIZE;
+    read_tiles_forget(d->tiles);
+    d->document_shown(d);
+    read_page_changed(d);
+    return true;
+}
+
+void read_document_finish(struct read_desk *d)
+{
+    reader_view_destroy(d->view);
+    reader_document_destroy(d->document);
+    d->view = NULL;
+    d->document = NULL;
+    g_array_free(d->way, TRUE);
+}
+
+char *read_document_text(const struct read_desk *d, struct read_range range)
+{
+    return g_strndup(d->document->plain + range.begin, range.end - range.begin);
+}
+
+/* ---- the way back ---- */
+
+static void place_clear(gpointer item)
+{
+    g_free(((struct read_place *)item)->path);
+}
+
+static const char *path_now(const struct read_desk *d)
+{
+    return g_ptr_array_index(d->options.paths, 0);
+}
+
+/* The place that is being read, at the way's present end. */
+static void place_keep(struct read_desk *d)
+{
+    struct read_place place = {.path = g_strdup(path_now(d))};
+    reader_view_top(d->view, &place.byte);
+    if (!d->way->len)
+        g_array_set_clear_func(d->way, place_clear);
+    if (d->way_at < d->way->len)
+        g_array_remove_range(d->way, d->way_at, d->way->len - d->way_at);
+    g_array_append_val(d->way, place);
+    d->way_at = d->way->len;
+}
+
+void read_document_go(struct read_desk *d, size_t byte)
+{
+    place_keep(d);
+    reader_view_go(d->view, byte, d->size_px);
+    read_page_changed(d);
+    d->acted(d);
+}
+
+/* Another document in place of this one; false: it cannot be opened, and this one stays. */
+static bool other_open(struct read_desk *d, const char *path)
+{
+    GPtrArray *before = d->options.paths;
+    if (strcmp(path, path_now(d)) == 0)
+        return true;
+    d->options.paths = g_ptr_array_new_with_free_func(g_free);
+    g_ptr_array_add(d->options.paths, g_strdup(path));
+    const bool good = read_document_open(d);
+    g_ptr_array_unref(good ? before : d->options.paths);
+    if (!good)
+        d->options.paths = before;
+    return good;
+}
+
+bool read_document_can(const struct read_desk *d, bool forward)
+{
+    return forward ? d->way_at + 1 < d->way->len : d->way_at > 0;
+}
+
+void read_document_back(struct read_desk *d, bool forward)
+{
+    if (!d->view || !read_document_can(d, forward))
+        return;
+    if (!forward && d->way_at == d->way->len) { /* so that one can come forward again */
+        place_keep(d);
+        d->way_at--;
+    }
+    d->way_at = forward ? d->way_at + 1 : d->way_at - 1;
+    const struct read_place place = g_array_index(d->way, struct read_place, d->way_at);
+    if (other_open(d, place.path))
+        reader_view_go(d->view, place.byte, 0);
+    read_page_changed(d);
+    d->acted(d);
+}
+
+/* ---- links ---- */
+
+/* As a heading is called in links: small letters, digits, hyphens. */
+static char *heading_name(const struct reader_block *block)
+{
+    GString *name = g_string_new(NULL);
+    for (const char *at = block->text, *end = at + block->bytes; at < end;) {
+        uint32_t c;
+        font_utf8_next(&at, end, &c);
+        if (g_unichar_isalnum(c) || c == '-' || c == '_')
+            g_string_append_unichar(name, g_unichar_tolower(c));
+        else if (c == ' ')
+            g_string_append_c(name, '-');
+    }
+    return g_string_free(name, FALSE);
+}
+
+static bool heading_find(const struct read_desk *d, const char *wanted, size_t *byte)
+{
+    for (int i = 0; i < d->document->blocks_count; i++) {
+        const struct reader_block *block = &d->document->blocks[i];
+        char *name = block->kind == READER_HEADING ? heading_name(block) : NULL;
+        const bool found = name && strcmp(name, wanted) == 0;
+        g_free(name);
+        if (found) {
+            *byte = block->at;
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool is_markdown(const char *path)
+{
+    return g_str_has_suffix(path, ".md") || g_str_has_suffix(path, ".markdown") ||
+           g_str_has_suffix(path, ".txt");
+}
+
+/* A file beside this one, and a heading in it. */
+static bool file_link(struct read_desk *d, const char *target)
+{
+    char **parts = g_strsplit(target, "#", 2);
+    char *folder = g_path_get_dirname(path_now(d));
+    char *path = g_path_is_absolute(parts[0]) ? g_strdup(parts[0])
+                                              : g_build_filename(folder, parts[0], NULL);
+    const bool good = is_markdown(path);
+    size_t byte = 0;
+    if (good) {
+        place_keep(d);
+        if (other_open(d, path) && (!parts[1] || heading_find(d, parts[1], &byte)))
+            reader_view_go(d->view, byte, d->size_px);
+        read_page_changed(d);
+    }
+    g_free(path);
+    g_free(folder);
+    g_strfreev(parts);
+    d->acted(d);
+    return good;
+}
+
+static bool link_follow(struct read_desk *d, const char *target)
+{
+    char *told = NULL;
+    size_t byte;
+    if (target[0] == '#') {
+        if (heading_find(d, target + 1, &byte))
+            read_document_go(d, byte);
+        else
+            told = g_strdup_printf(_("There is no heading %s in this document."), target);
+    } else if (g_str_has_prefix(target, "https://") || g_str_has_prefix(target, "http://") ||
+               g_str_has_prefix(target, "mailto:")) {
+        gtk_show_uri(GTK_WINDOW(d->window), target, GDK_CURRENT_TIME);
+    } else if (strchr(target, ':') || !file_link(d, target)) {
+        told = g_strdup_printf(
+            _("%.200s is not followed: only Markdown, https: and mailto: are."), target);
+    }
+    if (told)
+        d->say(d, told);
+    g_free(told);
+    return true;
+}
+
+bool read_document_follow(struct read_desk *d, size_t byte)
+{
+    const struct reader_span *span = reader_document_span(d->document, byte);
+    if (span && (span->look & READER_NOTE)) {
+        if (reader_view_note(d->view, span->note, byte) != READER_OK)
+            d->say(d, reader_error());
+        read_page_changed(d);
+        return true;
+    }
+    return span && (span->look & READER_LINK) && span->target && link_follow(d, span->target);
+}

@@ -1,0 +1,122 @@
+/* read_main.c - the program lutetia-reader, which `lutetia read` runs. Its words are of that verb's making, NAME=VALUE, and have been checked
+ * there: file (in their order), font, mono, math, language, size, width, height, theme, ragged, play. */
+#include "read_desk.h"
+
+#include <locale.h>
+#include <stdlib.h>
+#include <string.h>
+#include <visible_text.h>
+
+static bool word_take(struct read_options *o, const char *word)
+{
+    const char *value = strchr(word, '=');
+    const size_t length = value ? (size_t)(value - word) : 0;
+    if (!value)
+        return false;
+    value++;
+#define IS(name) (length == strlen(name) && strncmp(word, name, length) == 0)
+    if (IS("file"))
+        g_ptr_array_add(o->paths, g_strdup(value));
+    else if (IS("font"))
+        o->font = value;
+    else if (IS("mono"))
+        o->mono = value;
+    else if (IS("math"))
+        o->math = value;
+    else if (IS("language"))
+        o->language = value;
+    else if (IS("size"))
+        o->size_px = g_ascii_strtod(value, NULL);
+    else if (IS("width"))
+        o->width = atoi(value);
+    else if (IS("height"))
+        o->height = atoi(value);
+    else if (IS("theme"))
+        o->theme = strcmp(value, "dark") == 0;
+    else if (IS("ragged"))
+        o->ragged = true;
+    else if (IS("play"))
+        o->play = value;
+    else
+        return false;
+#undef IS
+    return true;
+}
+
+static void activate(GtkApplication *application, gpointer data)
+{
+    struct read_desk *d = data;
+    (void)application;
+    if (d->window)
+        gtk_window_present(GTK_WINDOW(d->window));
+    else
+        read_window_open(d);
+}
+
+static void desk_begin(struct read_desk *d)
+{
+    enum { COLUMN_EM = 34 };
+    d->setup = reader_pages_setup_default();
+    d->setup.width_px = d->options.width;
+    d->setup.height_px = d->options.height;
+    d->size_px = d->options.size_px;
+    d->column_em = COLUMN_EM;
+    d->hits = g_array_new(FALSE, FALSE, sizeof(struct read_range));
+    d->way = g_array_new(FALSE, FALSE, sizeof(struct read_place));
+    d->heard = g_ptr_array_new();
+    d->hit = -1;
+    d->focused = G_MAXSIZE;
+    d->tiles = read_tiles_create();
+}
+
+static void desk_finish(struct read_desk *d)
+{
+    read_heard_finish(d);
+    read_play_destroy(d->play);
+    read_document_finish(d);
+    read_tiles_destroy(d->tiles);
+    g_array_free(d->hits, TRUE);
+    g_ptr_array_unref(d->heard);
+    g_ptr_array_unref(d->options.paths);
+}
+
+int main(int argc, char **argv)
+{
+    struct read_desk *d = g_new0(struct read_desk, 1);
+    setlocale(LC_ALL, "");
+    setlocale(LC_NUMERIC, "C");
+    bindtextdomain("lutetia", LUTETIA_LOCALEDIR);
+    bind_textdomain_codeset("lutetia", "UTF-8");
+    textdomain("lutetia");
+    d->options = (struct read_options){.paths = g_ptr_array_new_with_free_func(g_free),
+                                       .size_px = 17,
+                                       .width = 1000,
+                                       .height = 800,
+                                       .theme = -1};
+    for (int i = 1; i < argc; i++)
+        if (!word_take(&d->options, argv[i])) {
+            visible_say("lutetia-reader: `lutetia read` runs this program");
+            return 2;
+        }
+    if (!d->options.paths->len) {
+        visible_say("lutetia-reader: `lutetia read` runs this program");
+        return 2;
+    }
+    gtk_disable_setlocale();
+    if (!gtk_init_check()) {
+        visible_say("lutetia read: no display; run it where there is a desktop, set DISPLAY or "
+                    "WAYLAND_DISPLAY, or write pages with -o FILE");
+        return 1;
+    }
+    desk_begin(d);
+    if (d->options.play && !(d->play = read_play_open(d, d->options.play)))
+        return 1;
+    d->application = gtk_application_new("org.lutetia.Reader", G_APPLICATION_NON_UNIQUE);
+    g_signal_connect(d->application, "activate", G_CALLBACK(activate), d);
+    const int status = g_application_run(G_APPLICATION(d->application), 1, argv);
+    desk_finish(d);
+    g_object_unref(d->application);
+    const int own = d->status;
+    g_free(d);
+    return own ? own : status;
+}

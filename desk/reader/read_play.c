@@ -1,0 +1,289 @@
+/* read_play.c - recorded input in place of a hand: lines "SECONDS WORD VALUES", each done when its time has come (docs/reader.md). */
+#include "read_desk.h"
+
+#include <input_file.h>
+#include <math.h>
+#include <string.h>
+#include <visible_text.h>
+
+struct input {
+    double time_s, value[3];
+    const struct word *word;
+    char *text; /* of words that have one */
+};
+
+struct read_play {
+    struct read_desk *desk;
+    GArray *inputs; /* struct input */
+    guint next;
+    gint64 last_us;
+    double time_s;
+    GdkPaintable *seen; /* the window, as it was drawn last */
+};
+
+struct word {
+    const char *name;
+    int values; /* numbers; -1: the rest of the line */
+    void (*does)(struct read_desk *d, const struct input *input);
+};
+
+/* ---- what words do ---- */
+
+static void down(struct read_desk *d, const struct input *i)
+{
+    read_hand_press(d, i->value[0], i->value[1], (int)i->value[2]);
+}
+
+static void move(struct read_desk *d, const struct input *i)
+{
+    read_hand_move(d, i->value[0], i->value[1]);
+}
+
+static void up(struct read_desk *d, const struct input *i)
+{
+    read_hand_release(d, i->value[0], i->value[1]);
+}
+
+static void scroll(struct read_desk *d, const struct input *i)
+{
+    read_hand_scroll(d, i->value[0]);
+}
+
+static void glide(struct read_desk *d, const struct input *i)
+{
+    read_hand_glide(d, i->value[0]);
+}
+
+static void key(struct read_desk *d, const struct input *i)
+{
+    const guint value = gdk_keyval_from_name(i->text);
+    if (value == GDK_KEY_VoidSymbol || !read_keys_key(d, value, 0))
+        d->say(d, i->text);
+}
+
+static void size(struct read_desk *d, const struct input *i)
+{
+    read_look_size(d, i->value[0]);
+}
+
+static void column(struct read_desk *d, const struct input *i)
+{
+    read_look_column(d, i->value[0]);
+}
+
+static void window(struct read_desk *d, const struct input *i)
+{
+    gtk_window_set_default_size(GTK_WINDOW(d->window), (int)i->value[0], (int)i->value[1]);
+}
+
+static void dark(struct read_desk *d, const struct input *i)
+{
+    read_look_theme(d, i->value[0] != 0);
+}
+
+static void search(struct read_desk *d, const struct input *i)
+{
+    read_search_open(d, true);
+    gtk_editable_set_text(GTK_EDITABLE(d->search_entry), i->text);
+    read_search_text(d, i->text);
+}
+
+static void follow(struct read_desk *d, const struct input *i)
+{
+    size_t begin, end;
+    if (!reader_document_search(d->document, i->text, 0, true, &begin, &end) ||
+        !read_document_follow(d, begin))
+        d->say(d, i->text);
+}
+
+static void go(struct read_desk *d, const struct input *i)
+{
+    size_t begin, end;
+    if (reader_document_search(d->document, i->text, 0, true, &begin, &end))
+        read_document_go(d, begin);
+    else
+        d->say(d, i->text);
+}
+
+static void action(struct read_desk *d, const struct input *i)
+{
+    GAction *found = g_action_map_lookup_action(G_ACTION_MAP(d->window), i->text);
+    if (found)
+        g_action_activate(found, NULL);
+    else
+        d->say(d, i->text);
+}
+
+/* The window's pixels, as they were drawn last, as a PNG. */
+static void picture(struct read_desk *d, const struct input *i)
+{
+    GtkWidget *widget = GTK_WIDGET(d->window);
+    GdkPaintable *now = gdk_paintable_get_current_image(d->play->seen);
+    GtkSnapshot *snapshot = gtk_snapshot_new();
+    gdk_paintable_snapshot(now, snapshot, gdk_paintable_get_intrinsic_width(now),
+                           gdk_paintable_get_intrinsic_height(now));
+    GskRenderNode *node = gtk_snapshot_free_to_node(snapshot);
+    GskRenderer *renderer = gtk_native_get_renderer(GTK_NATIVE(widget));
+    GdkTexture *texture = node ? gsk_renderer_render_texture(renderer, node, NULL) : NULL;
+    if (!texture || !gdk_texture_save_to_png(texture, i->text))
+        d->say(d, i->text);
+    g_clear_object(&texture);
+    g_clear_pointer(&node, gsk_render_node_unref);
+    g_object_unref(now);
+}
+
+/* What is seen, as lines of text. */
+static void tell(struct read_desk *d, const struct input *i)
+{
+    const struct reader_shown *shown;
+    int count = 0, opened = 0;
+    size_t top = 0;
+    double above = 0, all = 0;
+    reader_view_look(d->view, &shown, &count);
+    reader_view_top(d->view, &top);
+    reader_view_extent(d->view, &above, &all);
+    for (int k = 0; k < d->document->notes_count; k++)
+        opened += reader_view_note_open(d->view, k);
+    char *line = g_strndup(d->document->plain + top, 40),
+         *selected = read_document_text(d, d->selected);
+    char *told = g_strdup_printf(
+        "top %zu\nline %s\nshown %d\nabove %.0f\nall %.0f\nset %ld\npainted %ld\nhits %u\nhit "
+        "%d\n"
+        "open %d\nselected %s\nway %u of %u\nfile %s\nheard %u\n",
+        top, g_strdelimit(line, "\n", ' '), count, above, all, reader_view_set_count(d->view),
+        read_tiles_painted(d->tiles), d->hits->len, d->hit, opened, selected, d->way_at,
+        d->way->len, (const char *)g_ptr_array_index(d->options.paths, 0), d->heard->len);
+    if (!g_file_set_contents(i->text, told, -1, NULL))
+        d->say(d, i->text);
+    g_free(told);
+    g_free(selected);
+    g_free(line);
+}
+
+static void end(struct read_desk *d, const struct input *i)
+{
+    (void)i;
+    gtk_window_close(GTK_WINDOW(d->window));
+}
+
+static const struct word words[] = {
+    {"down", 3, down},     {"move", 2, move},      {"up", 2, up},
+    {"scroll", 1, scroll}, {"glide", 1, glide},    {"key", -1, key},
+    {"size", 1, size},     {"column", 1, column},  {"window", 2, window},
+    {"dark", 1, dark},     {"search", -1, search}, {"follow", -1, follow},
+    {"go", -1, go},        {"action", -1, action}, {"picture", -1, picture},
+    {"tell", -1, tell},    {"close", 0, end}};
+
+/* ---- reading ---- */
+
+/* False: *why has the reason. A line that is empty, or begins with #, has no word. */
+static bool line_read(char *line, struct input *input, char **why)
+{
+    char *at = g_strstrip(line);
+    *input = (struct input){0};
+    if (!*at || *at == '#')
+        return true;
+    input->time_s = g_ascii_strtod(at, &at);
+    at = g_strchug(at);
+    const size_t length = strcspn(at, " ");
+    for (size_t i = 0; i < G_N_ELEMENTS(words); i++)
+        if (strlen(words[i].name) == length && strncmp(words[i].name, at, length) == 0)
+            input->word = &words[i];
+    if (!input->word) {
+        GString *known = g_string_new(NULL);
+        for (size_t i = 0; i < G_N_ELEMENTS(words); i++)
+            g_string_append_printf(known, "%s%s", i ? ", " : "", words[i].name);
+        *why = g_strdup_printf("no such word: '%.40s'; there are %s", at, known->str);
+        g_string_free(known, TRUE);
+        return false;
+    }
+    at = g_strchug(at + length);
+    if (input->word->values < 0) {
+        input->text = g_strdup(at);
+        return true;
+    }
+    for (int i = 0; i < input->word->values; i++) {
+        char *next;
+        input->value[i] = g_ascii_strtod(at, &next);
+        if (next == at) {
+            *why =
+                g_strdup_printf("'%s' has %d numbers", input->word->name, input->word->values);
+            return false;
+        }
+        at = next;
+    }
+    return true;
+}
+
+static void input_clear(gpointer item)
+{
+    g_free(((struct input *)item)->text);
+}
+
+struct read_play *read_play_open(struct read_desk *d, const char *path)
+{
+    const char *reason = "";
+    char line[4096], *why = NULL;
+    bool good = true;
+    FILE *file = input_file_open(path, &reason);
+    if (!file) {
+        visible_say("lutetia read: %s: cannot read: %s", path, reason);
+        return NULL;
+    }
+    struct read_play *play = g_new0(struct read_play, 1);
+    play->desk = d;
+    play->inputs = g_array_new(FALSE, FALSE, sizeof(struct input));
+    g_array_set_clear_func(play->inputs, input_clear);
+    for (int number = 1; good && fgets(line, sizeof line, file); number++) {
+        struct input input;
+        good = line_read(line, &input, &why);
+        if (!good)
+            visible_say("lutetia read: %s:%d: %s", path, number, why);
+        else if (input.word)
+            g_array_append_val(play->inputs, input);
+    }
+    g_free(why);
+    fclose(file);
+    if (good)
+        return play;
+    read_play_destroy(play);
+    return NULL;
+}
+
+void read_play_destroy(struct read_play *play)
+{
+    if (!play)
+        return;
+    g_array_free(play->inputs, TRUE);
+    g_clear_object(&play->seen);
+    g_free(play);
+}
+
+/* One input a frame, so that each is seen before the next one; a slow machine takes longer for the same. */
+static gboolean play_on(GtkWidget *widget, GdkFrameClock *clock, gpointer data)
+{
+    struct read_play *play = data;
+    struct read_desk *d = play->desk;
+    const gint64 now_us = gdk_frame_clock_get_frame_time(clock);
+    const double frame_s = 1.0 / 30;
+    (void)widget;
+    if (play->last_us)
+        play->time_s += fmin(frame_s, (double)(now_us - play->last_us) * 1e-6);
+    play->last_us = now_us;
+    if (!d->page || !d->view || play->next == play->inputs->len)
+        return G_SOURCE_REMOVE;
+    const struct input *input = &g_array_index(play->inputs, struct input, play->next);
+    if (input->time_s <= play->time_s) {
+        play->next++;
+        input->word->does(d, input);
+    }
+    if (d->page)
+        gtk_widget_queue_draw(d->page);
+    return d->page ? G_SOURCE_CONTINUE : G_SOURCE_REMOVE;
+}
+
+void read_play_begin(struct read_play *play)
+{
+    play->seen = gtk_widget_paintable_new(play->desk->window);
+    gtk_widget_add_tick_callback(play->desk->page, play_on, play, NULL);
+}

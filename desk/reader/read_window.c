@@ -1,0 +1,266 @@
+/* read_window.c - the window: header, contents, search, the page and its scrollbar, what is told. */
+#include "read_desk.h"
+
+#include <string.h>
+#include <visible_text.h>
+
+/* ---- telling ---- */
+
+static void say(struct read_desk *d, const char *text)
+{
+    visible_say("lutetia read: %s", text); /* whoever looks at the terminal */
+    if (!d->notice)
+        return;
+    gtk_label_set_text(GTK_LABEL(d->notice_text), text);
+    gtk_revealer_set_reveal_child(GTK_REVEALER(d->notice), TRUE);
+}
+
+static void notice_close(GtkButton *button, struct read_desk *d)
+{
+    (void)button;
+    gtk_revealer_set_reveal_child(GTK_REVEALER(d->notice), FALSE);
+}
+
+static GtkWidget *notice_new(struct read_desk *d)
+{
+    GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8),
+              *close = gtk_button_new_from_icon_name("window-close-symbolic");
+    d->notice = gtk_revealer_new();
+    d->notice_text = gtk_label_new("");
+    gtk_label_set_wrap(GTK_LABEL(d->notice_text), TRUE);
+    gtk_widget_set_margin_start(box, 12);
+    desk_name(close, _("Put this message away"), _("Put this message away"));
+    g_signal_connect(close, "clicked", G_CALLBACK(notice_close), d);
+    gtk_box_append(GTK_BOX(box), d->notice_text);
+    gtk_box_append(GTK_BOX(box), close);
+    gtk_widget_add_css_class(box, "app-notification");
+    gtk_widget_set_halign(d->notice, GTK_ALIGN_CENTER);
+    gtk_widget_set_valign(d->notice, GTK_ALIGN_START);
+    gtk_revealer_set_child(GTK_REVEALER(d->notice), box);
+    return d->notice;
+}
+
+/* ---- contents ---- */
+
+static void contents_chosen(GtkListBox *list, GtkListBoxRow *row, struct read_desk *d)
+{
+    (void)list;
+    read_document_go(d, (size_t)g_object_get_data(G_OBJECT(row), "byte"));
+    gtk_widget_grab_focus(d->page);
+}
+
+static void contents_fill(struct read_desk *d)
+{
+    GtkWidget *row;
+    while ((row = gtk_widget_get_first_child(d->contents)))
+        gtk_list_box_remove(GTK_LIST_BOX(d->contents), row);
+    for (int i = 0; i < d->document->blocks_count; i++) {
+        const struct reader_block *block = &d->document->blocks[i];
+        if (block->kind != READER_HEADING)
+            continue;
+        GtkWidget *label = gtk_label_new(block->text);
+        gtk_label_set_xalign(GTK_LABEL(label), 0);
+        gtk_label_set_ellipsize(GTK_LABEL(label), PANGO_ELLIPSIZE_END);
+        gtk_widget_set_tooltip_text(label, block->text);
+        gtk_widget_set_margin_start(label, 6 + 14 * (block->level - 1));
+        row = gtk_list_box_row_new();
+        gtk_list_box_row_set_child(GTK_LIST_BOX_ROW(row), label);
+        desk_name(row, block->text ? block->text : "", NULL);
+        g_object_set_data(G_OBJECT(row), "byte", (gpointer)block->at);
+        gtk_list_box_append(GTK_LIST_BOX(d->contents), row);
+    }
+}
+
+static GtkWidget *contents_new(struct read_desk *d)
+{
+    d->contents_side = gtk_scrolled_window_new();
+    d->contents = gtk_list_box_new();
+    gtk_widget_set_size_request(d->contents_side, 230, -1);
+    gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(d->contents_side), GTK_POLICY_NEVER,
+                                   GTK_POLICY_AUTOMATIC);
+    gtk_list_box_set_activate_on_single_click(GTK_LIST_BOX(d->contents), TRUE);
+    gtk_widget_add_css_class(d->contents, "navigation-sidebar");
+    desk_name(d->contents, _("Contents"), NULL);
+    g_signal_connect(d->contents, "row-activated", G_CALLBACK(contents_chosen), d);
+    gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(d->contents_side), d->contents);
+    gtk_widget_set_visible(d->contents_side, FALSE);
+    return d->contents_side;
+}
+
+/* ---- search ---- */
+
+static void search_changed(GtkSearchEntry *entry, struct read_desk *d)
+{
+    read_search_text(d, gtk_editable_get_text(GTK_EDITABLE(entry)));
+}
+
+static void search_activated(GtkSearchEntry *entry, struct read_desk *d)
+{
+    (void)entry;
+    read_search_step(d, true);
+}
+
+static void search_stopped(GtkSearchEntry *entry, struct read_desk *d)
+{
+    (void)entry;
+    read_search_open(d, false);
+    gtk_widget_grab_focus(d->page);
+}
+
+static GtkWidget *search_new(struct read_desk *d)
+{
+    GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6),
+              *before = gtk_button_new_from_icon_name("go-up-symbolic"),
+              *next = gtk_button_new_from_icon_name("go-down-symbolic");
+    d->search_bar = gtk_search_bar_new();
+    d->search_entry = gtk_search_entry_new();
+    d->search_told = gtk_label_new("");
+    gtk_widget_set_size_request(d->search_entry, 280, -1);
+    desk_name(d->search_entry, _("Search for"), NULL);
+    desk_name(before, _("Hit before"), _("Hit before (Ctrl+Shift+G)"));
+    desk_name(next, _("Next hit"), _("Next hit (Ctrl+G)"));
+    gtk_actionable_set_action_name(GTK_ACTIONABLE(before), "win.search-before");
+    gtk_actionable_set_action_name(GTK_ACTIONABLE(next), "win.search-next");
+    g_signal_connect(d->search_entry, "search-changed", G_CALLBACK(search_changed), d);
+    g_signal_connect(d->search_entry, "activate", G_CALLBACK(search_activated), d);
+    g_signal_connect(d->search_entry, "stop-search", G_CALLBACK(search_stopped), d);
+    gtk_box_append(GTK_BOX(box), d->search_entry);
+    gtk_box_append(GTK_BOX(box), before);
+    gtk_box_append(GTK_BOX(box), next);
+    gtk_box_append(GTK_BOX(box), d->search_told);
+    gtk_search_bar_set_child(GTK_SEARCH_BAR(d->search_bar), box);
+    return d->search_bar;
+}
+
+/* ---- the page ---- */
+
+static void bar_moved(GtkAdjustment *adjustment, struct read_desk *d)
+{
+    const double all = gtk_adjustment_get_upper(adjustment);
+    if (d->moving || !d->view || all <= 0)
+        return;
+    reader_view_go_part(d->view, gtk_adjustment_get_value(adjustment) / all);
+    read_page_changed(d);
+}
+
+static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint code,
+                            GdkModifierType state, struct read_desk *d)
+{
+    (void)controller;
+    (void)code;
+    return read_keys_key(d, key, state);
+}
+
+static GtkWidget *page_new(struct read_desk *d)
+{
+    GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
+    GtkEventController *keys = gtk_event_controller_key_new();
+    gtk_box_append(GTK_BOX(box), read_page_new(d));
+    d->scrollbar =
+        gtk_scrollbar_new(GTK_ORIENTATION_VERTICAL, gtk_adjustment_new(0, 0, 1, 1, 1, 1));
+    desk_name(d->scrollbar, _("Where in the document"), NULL);
+    g_signal_connect(gtk_scrollbar_get_adjustment(GTK_SCROLLBAR(d->scrollbar)), "value-changed",
+                     G_CALLBACK(bar_moved), d);
+    gtk_box_append(GTK_BOX(box), d->scrollbar);
+    g_signal_connect(keys, "key-pressed", G_CALLBACK(key_pressed), d);
+    gtk_widget_add_controller(d->page, keys);
+    read_hand_attach(d);
+    return box;
+}
+
+static void document_shown(struct read_desk *d)
+{
+    char *name = g_path_get_basename(g_ptr_array_index(d->options.paths, 0));
+    char *title = g_strdup_printf("%s - %s", name, _("Reader"));
+    gtk_window_set_title(GTK_WINDOW(d->window), title);
+    g_free(title);
+    g_free(name);
+    contents_fill(d);
+    read_actions_enable(d);
+}
+
+/* ---- making ---- */
+
+static GtkWidget *action_button(const char *icon, const char *name, const char *action,
+                                const char *key)
+{
+    GtkWidget *button = gtk_button_new_from_icon_name(icon);
+    char *tip = g_strdup_printf("%s (%s)", name, key);
+    gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
+    desk_name(button, name, tip);
+    g_free(tip);
+    return button;
+}
+
+static GtkWidget *header_new(void)
+{
+    GtkWidget *header = gtk_header_bar_new(), *menu = gtk_menu_button_new();
+    GMenuModel *model = read_menu_new();
+    const struct {
+        const char *icon, *name, *action, *key;
+    } buttons[] = {{"view-list-symbolic", _("Contents"), "win.contents", "F9"},
+                   {"go-previous-symbolic", _("Back"), "win.back", "Alt+Left"},
+                   {"go-next-symbolic", _("Forward"), "win.forward", "Alt+Right"},
+                   {"edit-find-symbolic", _("Search"), "win.search", "Ctrl+F"}};
+    for (size_t i = 0; i < G_N_ELEMENTS(buttons); i++)
+        gtk_header_bar_pack_start(
+            GTK_HEADER_BAR(header),
+            action_button(buttons[i].icon, buttons[i].name, buttons[i].action, buttons[i].key));
+    gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(menu), "open-menu-symbolic");
+    gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(menu), model);
+    gtk_menu_button_set_primary(GTK_MENU_BUTTON(menu), TRUE);
+    desk_name(menu, _("Menu"), _("Menu (F10)"));
+    gtk_header_bar_pack_end(GTK_HEADER_BAR(header), menu);
+    g_object_unref(model);
+    return header;
+}
+
+static gboolean close_asked(GtkWindow *window, struct read_desk *d)
+{
+    (void)window;
+    read_heard_finish(d);
+    d->notice = NULL;
+    d->page = NULL;
+    return FALSE;
+}
+
+void read_window_open(struct read_desk *d)
+{
+    GtkWidget *all = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0),
+              *middle = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0), *over = gtk_overlay_new();
+    d->say = say;
+    d->document_shown = document_shown;
+    d->acted = read_actions_enable;
+    d->resized = read_look_resized;
+    d->window = gtk_application_window_new(d->application);
+    gtk_window_set_default_size(GTK_WINDOW(d->window), d->options.width, d->options.height);
+    read_actions_add(d);
+    gtk_window_set_titlebar(GTK_WINDOW(d->window), header_new());
+    gtk_box_append(GTK_BOX(middle), contents_new(d));
+    gtk_box_append(GTK_BOX(middle), page_new(d));
+    gtk_overlay_set_child(GTK_OVERLAY(over), middle);
+    gtk_overlay_add_overlay(GTK_OVERLAY(over), notice_new(d));
+    gtk_widget_set_vexpand(over, TRUE);
+    gtk_box_append(GTK_BOX(all), search_new(d));
+    gtk_box_append(GTK_BOX(all), over);
+    gtk_window_set_child(GTK_WINDOW(d->window), all);
+    g_signal_connect(d->window, "close-request", G_CALLBACK(close_asked), d);
+    if (d->options.theme >= 0)
+        d->dark = d->options.theme == 1;
+    else
+        g_object_get(gtk_settings_get_default(), "gtk-application-prefer-dark-theme", &d->dark,
+                     NULL);
+    if (d->options.theme >= 0)
+        g_object_set(gtk_settings_get_default(), "gtk-application-prefer-dark-theme", d->dark,
+                     NULL);
+    read_look_set(d);
+    if (!read_document_open(d)) {
+        d->status = 1;
+        g_application_quit(G_APPLICATION(d->application));
+        return;
+    }
+    gtk_window_present(GTK_WINDOW(d->window));
+    gtk_widget_grab_focus(d->page);
+    if (d->play)
+        read_play_begin(d->play);
+}

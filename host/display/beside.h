@@ -1,0 +1,17 @@
+/* beside.h - pictures that a document's text names: a PNG in the folder of the document's file, or below it.
+ *
+ *     struct display_image image;
+ *     if (display_beside_read("docs/reader.md", "images/page.png", &image))
+ *         ...
+ */
+#ifndef LUTETIA_DISPLAY_BESIDE_H
+#define LUTETIA_DISPLAY_BESIDE_H
+
+#include "display.h"
+
+#include <stdbool.h>
+
+/* False: it is elsewhere, no PNG, larger than 512 MB, or cannot be read. Owns: the caller destroys *out. */
+bool display_beside_read(const char *file, const char *target, struct display_image *out);
+
+#endif

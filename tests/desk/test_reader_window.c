@@ -1,0 +1,267 @@
+/* test_reader_window.c - the reader's window on an Xvfb, played recorded input in place of a hand: it scrolls, opens notes, follows links and
+ * goes back, finds, selects, keeps the line that is read; and what it says when something is wrong. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <display.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "../lutetia/child.h"
+#include "xvfb.h"
+
+static char folder[] = "/tmp/lutetia-reader-XXXXXX";
+static struct child child;
+
+static const char *in_folder(const char *name)
+{
+    static char paths[8][128];
+    static int next;
+    char *path = paths[next++ % 8];
+    snprintf(path, sizeof paths[0], "%s/%s", folder, name);
+    return path;
+}
+
+static void file_write(const char *name, const char *text)
+{
+    FILE *file = fopen(in_folder(name), "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+}
+
+static void documents_write(void)
+{
+    FILE *file = fopen(in_folder("one.md"), "w");
+    assert_non_null(file);
+    fputs("# One\n\nA word[^a] and [the other](two.md#far), [below](#chapter-30), "
+          "[bad](file:///etc/passwd).\n\n"
+          "[^a]: What the note says, with *more*[^b].\n\n[^b]: And a deeper one.\n\n",
+          file);
+    for (int i = 0; i < 60; i++)
+        fprintf(file,
+                "## Chapter %d\n\nParagraph %d has some words that go on over a line or two, "
+                "so that there is "
+                "something to be set when the window is as narrow as it is now and then. "
+                "Reed%d.\n\n",
+                i, i, i);
+    fclose(file);
+    file_write("two.md", "# Two\n\nNear.\n\n## Far\n\nWhat is far.\n");
+}
+
+/* Runs the window with these lines until they close it. */
+static void reader_run(const char *lines, const char *document)
+{
+    char all[4096];
+    snprintf(all, sizeof all, "%s\n9 close\n", lines);
+    file_write("hand.events", all);
+    memset(&child, 0, sizeof child);
+    const char *const arguments[] = {
+        getenv("LUTETIA"),       "read", document, "--theme", "light", "--play",
+        in_folder("hand.events")};
+    memcpy(child.arguments, arguments, sizeof arguments);
+    child.variables[0] = "GTK_A11Y=none"; /* no bus is needed for this */
+    child.variables[1] = "GSK_RENDERER=cairo";
+    child_run(&child);
+}
+
+/* The value of a line of what the window told. */
+static const char *told(const char *name, const char *what)
+{
+    static char lines[4][512];
+    static int next;
+    char *line = lines[next++ % 4];
+    FILE *file = fopen(in_folder(name), "r");
+    const size_t length = strlen(what);
+    if (!file)
+        fail_msg("%s was not told: %s", name, child.errors);
+    while (fgets(line, sizeof lines[0], file))
+        if (strncmp(line, what, length) == 0 && line[length] == ' ') {
+            fclose(file);
+            line[strcspn(line, "\n")] = '\0';
+            return line + length + 1;
+        }
+    fail_msg("%s says nothing of %s", name, what);
+    return "";
+}
+
+static void runs_well(void)
+{
+    if (child.status != 0 || child.errors[0])
+        print_message("%s", child.errors);
+    assert_int_equal(child.status, 0);
+    assert_string_equal(child.errors, "");
+}
+
+static void line_is_kept(void **state)
+{
+    char lines[2000];
+    (void)state;
+    snprintf(lines, sizeof lines,
+             "0.2 go Reed25\n0.3 scroll 33\n0.4 tell %s\n0.5 window 500 700\n0.8 size 26\n1 "
+             "column 20\n1.2 dark 1\n"
+             "1.3 window 1100 600\n1.6 size 12\n1.7 column 34\n1.9 tell %s\n",
+             in_folder("before"), in_folder("after"));
+    reader_run(lines, in_folder("one.md"));
+    runs_well();
+    assert_string_equal(told("before", "top"), told("after", "top"));
+    assert_string_not_equal(told("before", "top"), "0");
+}
+
+static void notes_links_and_back(void **state)
+{
+    char lines[2000];
+    (void)state;
+    snprintf(
+        lines, sizeof lines,
+        "0.2 key Tab\n0.3 key Return\n0.4 tell %s\n0.5 key Tab\n0.5 key Return\n0.7 tell %s\n"
+        "0.8 action back\n1 tell %s\n1.1 follow below\n1.3 tell %s\n1.4 action back\n1.6 tell "
+        "%s\n",
+        in_folder("note"), in_folder("two"), in_folder("back"), in_folder("below"),
+        in_folder("again"));
+    reader_run(lines, in_folder("one.md"));
+    runs_well();
+    assert_string_equal(told("note", "open"), "1");
+    assert_non_null(strstr(told("two", "file"), "two.md"));
+    assert_non_null(strstr(told("back", "file"), "one.md"));
+    assert_non_null(strstr(told("below", "line"), "Chapter 30"));
+    assert_string_equal(told("again", "top"), told("back", "top"));
+}
+
+static void finds_and_selects(void **state)
+{
+    char lines[2000];
+    (void)state;
+    snprintf(lines, sizeof lines,
+             "0.2 search REED4\n0.4 tell %s\n0.5 action search-next\n0.6 tell %s\n"
+             "0.7 action all\n0.8 tell %s\n0.9 key Escape\n1 key End\n1.2 tell %s\n1.3 key "
+             "Home\n1.5 glide 300\n2.6 tell %s\n",
+             in_folder("found"), in_folder("next"), in_folder("all"), in_folder("end"),
+             in_folder("glide"));
+    reader_run(lines, in_folder("one.md"));
+    runs_well();
+    assert_string_equal(told("found", "hits"), "11"); /* 4, 40 to 49 */
+    assert_string_equal(told("found", "hit"), "0");
+    assert_string_equal(told("next", "hit"), "1");
+    assert_string_equal(told("all", "selected"), "# One");
+    assert_true(atof(told("end", "above")) > 1000);
+    const double above = atof(told("glide", "above"));
+    assert_true(above > 290 && above < 310);
+}
+
+/* What stays is moved: scrolled by some lines, hardly anything is painted anew. */
+static void only_new_lines_are_painted(void **state)
+{
+    char lines[4000] = "0.2 go Reed10\n0.6 tell ";
+    (void)state;
+    strcat(lines, in_folder("still"));
+    strcat(lines, "\n");
+    for (int i = 0; i < 20; i++)
+        strcat(lines, "0.7 scroll 1\n");
+    strcat(lines, "1 tell ");
+    strcat(lines, in_folder("moved"));
+    reader_run(lines, in_folder("one.md"));
+    runs_well();
+    assert_true(atol(told("moved", "painted")) - atol(told("still", "painted")) <= 2);
+    assert_string_not_equal(told("moved", "above"), told("still", "above"));
+}
+
+/* The picture is the text: both themes, nothing empty. */
+static void picture_is_seen(void **state)
+{
+    char lines[1000];
+    struct display_image light, dark;
+    (void)state;
+    snprintf(lines, sizeof lines, "0.3 picture %s\n0.4 dark 1\n0.7 picture %s\n",
+             in_folder("light.png"), in_folder("dark.png"));
+    reader_run(lines, in_folder("one.md"));
+    runs_well();
+    assert_int_equal(display_png_read_rgb(in_folder("light.png"), &light), DISPLAY_OK);
+    assert_int_equal(display_png_read_rgb(in_folder("dark.png"), &dark), DISPLAY_OK);
+    int ink = 0, lit = 0; /* pixels */
+    for (int y = 120; y < light.height_px - 20; y++)
+        for (int x = 20; x < light.width_px - 40; x++) {
+            ink += light.pixels[3 * (y * light.width_px + x)] < 140;
+            lit += dark.pixels[3 * (y * dark.width_px + x)] > 150;
+        }
+    assert_true(ink > 1500 && ink < 100000);
+    assert_true(lit > 1500 && lit < 100000);
+    display_image_destroy(&light);
+    display_image_destroy(&dark);
+}
+
+/* ---- what is wrong ---- */
+
+static void says(int status, const char *what)
+{
+    if (child.status != status || !strstr(child.errors, what))
+        print_message("%d: %s", child.status, child.errors);
+    assert_int_equal(child.status, status);
+    const char *line = strstr(child.errors, "lutetia read: ");
+    assert_non_null(line);
+    assert_non_null(strstr(line, what));
+    assert_null(strstr(line + 1, "lutetia read: "));
+}
+
+static void wrong_is_one_line(void **state)
+{
+    (void)state;
+    reader_run("0 jump", in_folder("one.md"));
+    says(1, "hand.events:1: no such word: 'jump'");
+    reader_run("0 down 1", in_folder("one.md"));
+    says(1, "hand.events:1: 'down' has 3 numbers");
+    reader_run("0.2 follow bad", in_folder("one.md"));
+    says(0, "file:///etc/passwd is not followed");
+    reader_run("", "/no/such.md");
+    says(1, "/no/such.md: ");
+    reader_run("", "-");
+    says(2, "give -o FILE");
+    const char *const arguments[] = {getenv("LUTETIA"), "read", in_folder("one.md"),
+                                     "--columns", "2"};
+    memset(&child, 0, sizeof child);
+    memcpy(child.arguments, arguments, sizeof arguments);
+    child_run(&child);
+    says(2, "--columns");
+    child.arguments[3] = NULL;
+    child.variables[0] = "DISPLAY=:4711";
+    child.variables[1] = "WAYLAND_DISPLAY=";
+    child_run(&child);
+    says(1, "no display");
+}
+
+static int folder_make(void **state)
+{
+    (void)state;
+    if (!mkdtemp(folder))
+        return -1;
+    setenv("XDG_DATA_HOME", folder, 1);
+    documents_write();
+    return 0;
+}
+
+static int folder_remove(void **state)
+{
+    char command[160];
+    (void)state;
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    return system(command);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(line_is_kept),      cmocka_unit_test(notes_links_and_back),
+        cmocka_unit_test(finds_and_selects), cmocka_unit_test(only_new_lines_are_painted),
+        cmocka_unit_test(picture_is_seen),   cmocka_unit_test(wrong_is_one_line),
+    };
+    if (!screen_start("1280x900x24"))
+        return 77;
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
+}
