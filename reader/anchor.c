@@ -1,25 +1,9 @@
 /* anchor.c - see reader_anchor.h. */
-#include "reader_anchor.h"
+#include "anchor_internal.h"
 #include "reader_internal.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-/* The quotation with one side or with both, as one row of bytes within the anchor's: how far it reaches to the left and to the right. */
-struct witness {
-    size_t left, right;
-    bool apart; /* it was there once when it was made */
-};
-
-struct reader_anchor {
-    size_t begin, end, bytes; /* of the source: its length */
-    uint64_t digest;          /* and its bytes */
-    bool gone;
-    char *text; /* the left side, the quotation, the right side */
-    size_t left, quotation, right;
-    struct witness before, behind, both;
-    char *headings;
-};
 
 static uint64_t digest_of(const char *source, size_t bytes)
 {

@@ -53,6 +53,13 @@ enum reader_found reader_anchor_find(const struct reader_anchor *anchor, const c
 bool reader_anchor_edit(struct reader_anchor *anchor, size_t at, size_t removed,
                         size_t inserted);
 
+/* As bytes, to be kept in a file, and from them; the bytes may be anybody's. Not of an anchor that reader_anchor_edit() has moved. Errors:
+ * NO_MEMORY, BAD_ARGUMENT (bytes that are no anchor). Owns: the caller frees *out, destroys the anchor. */
+enum reader_status reader_anchor_keep(const struct reader_anchor *anchor, unsigned char **out,
+                                      size_t *count);
+enum reader_status reader_anchor_restore(const unsigned char *kept, size_t count,
+                                         struct reader_anchor **out);
+
 /* Its place as it was made or moved. */
 void reader_anchor_place(const struct reader_anchor *anchor, size_t *begin, size_t *end);
 /* Never NULL. Owns: the anchor. */

@@ -1,0 +1,229 @@
+/* remarks.c - see reader_remarks.h. */
+#include "remarks_internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+struct reader_remarks {
+    struct remarks_file *file;
+    struct remark_rows rows;
+};
+
+static double now_s(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+enum reader_status reader_remarks_open(const char *path, struct reader_remarks **out)
+{
+    struct reader_remarks *remarks = calloc(1, sizeof *remarks);
+    *out = NULL;
+    if (!remarks)
+        return reader_fail(READER_NO_MEMORY, "no memory for notes");
+    enum reader_status status = remarks_file_open(path, &remarks->file, &remarks->rows);
+    if (status != READER_OK) {
+        reader_remarks_close(remarks);
+        return status;
+    }
+    for (int i = 0; i < remarks->rows.count; i++) {
+        struct remark_row *row = &remarks->rows.rows[i];
+        row->remark.anchor = row->anchor;
+        row->remark.orphan = true; /* until it is found */
+    }
+    *out = remarks;
+    return READER_OK;
+}
+
+void reader_remarks_close(struct reader_remarks *remarks)
+{
+    if (!remarks)
+        return;
+    remarks_file_close(remarks->file);
+    for (int i = 0; i < remarks->rows.count; i++)
+        remark_row_finish(&remarks->rows.rows[i]);
+    free(remarks->rows.rows);
+    free(remarks);
+}
+
+int reader_remarks_count(const struct reader_remarks *remarks)
+{
+    return remarks->rows.count;
+}
+
+const struct reader_remark *reader_remarks_get(const struct reader_remarks *remarks, int i)
+{
+    return &remarks->rows.rows[i].remark;
+}
+
+bool reader_remarks_read_only(const struct reader_remarks *remarks)
+{
+    return remarks_file_read_only(remarks->file);
+}
+
+/* ---- anchors ---- */
+
+/* An anchor of where it is now, kept too: the next change of the text is found from here. */
+static enum reader_status anchor_renew(struct reader_remarks *remarks, struct remark_row *row,
+                                       const char *plain, size_t bytes)
+{
+    struct reader_anchor *before = row->anchor, *now;
+    enum reader_status status =
+        reader_anchor_make(plain, bytes, row->remark.begin, row->remark.end, &now);
+    if (status != READER_OK)
+        return status;
+    row->anchor = now;
+    if (!reader_remarks_read_only(remarks))
+        status = remarks_file_write(remarks->file, row);
+    if (status != READER_OK) {
+        row->anchor = before;
+        reader_anchor_destroy(now);
+        return status;
+    }
+    row->remark.anchor = now;
+    reader_anchor_destroy(before);
+    return READER_OK;
+}
+
+enum reader_status reader_remarks_find(struct reader_remarks *remarks, const char *plain,
+                                       size_t bytes)
+{
+    enum reader_status status = READER_OK;
+    for (int i = 0; i < remarks->rows.count; i++) {
+        struct remark_row *row = &remarks->rows.rows[i];
+        const enum reader_found found =
+            reader_anchor_find(row->anchor, plain, bytes, &row->remark.begin, &row->remark.end);
+        row->remark.orphan = found == READER_ANCHOR_ORPHAN;
+        if (found == READER_ANCHOR_MOVED && status == READER_OK)
+            status = anchor_renew(remarks, row, plain, bytes);
+    }
+    return status;
+}
+
+/* ---- changes ---- */
+
+static enum reader_status what_check(const struct reader_remark *what)
+{
+    if (what->points_count < 0 || what->points_count > READER_INK_POINTS_MAX ||
+        (what->points_count > 0) != (what->kind == READER_REMARK_INK))
+        return reader_fail(READER_BAD_ARGUMENT, "ink has 1..%d points (got %d)",
+                           READER_INK_POINTS_MAX, what->points_count);
+    if (what->text && strlen(what->text) > READER_TYPED_MAX)
+        return reader_fail(READER_TOO_LARGE, "a note has up to %d bytes (got %zu)",
+                           READER_TYPED_MAX, strlen(what->text));
+    return READER_OK;
+}
+
+static enum reader_status row_make(const struct reader_remark *what, const char *plain,
+                                   size_t bytes, size_t begin, size_t end,
+                                   struct remark_row *row)
+{
+    const size_t size = (size_t)what->points_count * sizeof *what->points;
+    *row = (struct remark_row){.remark = *what};
+    struct reader_remark *r = &row->remark;
+    r->made_s = now_s();
+    r->gone_s = 0;
+    r->orphan = false;
+    r->begin = begin;
+    r->end = end;
+    r->text = strdup(what->text ? what->text : "");
+    r->points = malloc(size + 1);
+    enum reader_status status = r->text && r->points
+                                    ? reader_anchor_make(plain, bytes, begin, end, &row->anchor)
+                                    : reader_fail(READER_NO_MEMORY, "no memory for a note");
+    if (status == READER_OK && size)
+        memcpy(r->points, what->points, size);
+    r->anchor = row->anchor;
+    return status;
+}
+
+enum reader_status reader_remarks_add(struct reader_remarks *remarks,
+                                      const struct reader_remark *what, const char *plain,
+                                      size_t bytes, size_t begin, size_t end, int *index)
+{
+    struct remark_rows *rows = &remarks->rows;
+    struct remark_row row;
+    enum reader_status status = what_check(what);
+    if (status != READER_OK)
+        return status;
+    if (rows->count == READER_REMARKS_MAX)
+        return reader_fail(READER_TOO_LARGE, "a document has up to %d notes",
+                           READER_REMARKS_MAX);
+    status = row_make(what, plain, bytes, begin, end, &row);
+    if (status == READER_OK &&
+        !array_reserve(&rows->rows, &rows->capacity, rows->count + 1, sizeof *rows->rows))
+        status = reader_fail(READER_NO_MEMORY, "no memory for a note");
+    if (status == READER_OK)
+        status = remarks_file_write(remarks->file, &row);
+    if (status != READER_OK) {
+        remark_row_finish(&row);
+        return status;
+    }
+    *index = rows->count;
+    rows->rows[rows->count++] = row;
+    return READER_OK;
+}
+
+static struct remark_row *row_of(struct reader_remarks *remarks, int i)
+{
+    return i >= 0 && i < remarks->rows.count ? &remarks->rows.rows[i] : NULL;
+}
+
+/* Writes it, or leaves it as it was. */
+static enum reader_status row_change(struct reader_remarks *remarks, int i,
+                                     const struct reader_remark *to)
+{
+    struct remark_row *row = row_of(remarks, i);
+    if (!row)
+        return reader_fail(READER_BAD_ARGUMENT, "there is no note %d", i);
+    const struct reader_remark before = row->remark;
+    row->remark = *to;
+    enum reader_status status = remarks_file_write(remarks->file, row);
+    if (status != READER_OK)
+        row->remark = before;
+    return status;
+}
+
+enum reader_status reader_remarks_erase(struct reader_remarks *remarks, int i, bool erased)
+{
+    struct reader_remark to = {0};
+    if (row_of(remarks, i))
+        to = row_of(remarks, i)->remark;
+    to.gone_s = erased ? now_s() : 0;
+    return row_change(remarks, i, &to);
+}
+
+enum reader_status reader_remarks_move(struct reader_remarks *remarks, int i, double x,
+                                       double y)
+{
+    const double most = 1e6;
+    struct reader_remark to = {0};
+    if (!(x >= -most && x <= most && y >= -most && y <= most))
+        return reader_fail(READER_BAD_ARGUMENT, "a note cannot be moved by %g, %g", x, y);
+    if (row_of(remarks, i))
+        to = row_of(remarks, i)->remark;
+    to.x = x;
+    to.y = y;
+    return row_change(remarks, i, &to);
+}
+
+enum reader_status reader_remarks_write(struct reader_remarks *remarks, int i, const char *text)
+{
+    struct reader_remark to = {0};
+    if (row_of(remarks, i))
+        to = row_of(remarks, i)->remark;
+    char *before = to.text;
+    to.text = strlen(text) <= READER_TYPED_MAX ? strdup(text) : NULL;
+    if (!to.text)
+        return reader_fail(READER_TOO_LARGE, "a note has up to %d bytes", READER_TYPED_MAX);
+    enum reader_status status = row_change(remarks, i, &to);
+    free(status == READER_OK ? before : to.text);
+    return status;
+}
+
+enum reader_status reader_remarks_sync(struct reader_remarks *remarks)
+{
+    return remarks_file_sync(remarks->file);
+}
