@@ -2,6 +2,7 @@
 #include "live_player.h"
 
 #include "osc_stage.h"
+#include "watched_text.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,6 +20,7 @@ struct live_player {
     int heard; /* the file of knobs that is */
     struct beat beat;
     struct osc_stage *osc;
+    struct watched_text *watched;
     uint64_t last_ns;
     double began_s; /* when the first picture was due */
     bool began;
@@ -218,12 +220,19 @@ static const char *osc_knobs(void *context, int number)
     return NULL;
 }
 
+static const char *osc_text(void *context, const char *words)
+{
+    const struct live_player *p = context;
+    return stage_text(p->stage, words) == STAGE_OK ? NULL : stage_error();
+}
+
 static enum stage_status osc_begin(struct live_player *p)
 {
     const struct osc_stage_def def = {.port = p->def.osc,
                                       .stage = p->stage,
                                       .scene = osc_scene,
                                       .knobs = osc_knobs,
+                                      .text = osc_text,
                                       .tell = map_tell,
                                       .context = p};
     if (!def.port.listen && !def.port.send)
@@ -235,6 +244,18 @@ void live_player_heard(struct live_player *p, const struct stage_sound *sound)
 {
     if (p->osc)
         osc_stage_sound(p->osc, sound);
+}
+
+/* ---- a watched file ---- */
+
+static void text_pass(struct live_player *p, double now_s)
+{
+    const char *words = watched_text_look(p->watched, now_s);
+    if (words && stage_text(p->stage, words) != STAGE_OK)
+        tell(p, stage_error());
+    const char *wrong = watched_text_wrong(p->watched);
+    if (wrong)
+        tell(p, wrong);
 }
 
 /* ---- a player ---- */
@@ -260,6 +281,8 @@ enum stage_status live_player_create(const struct live_player_def *def, struct s
         status = knobs_begin(p);
     if (status == STAGE_OK)
         status = osc_begin(p);
+    if (status == STAGE_OK && def->text)
+        status = watched_text_open(def->text, &p->watched);
     if (status != STAGE_OK) {
         live_player_destroy(p);
         return status;
@@ -274,6 +297,7 @@ void live_player_destroy(struct live_player *p)
         return;
     script_map_close(p->map);
     osc_stage_close(p->osc);
+    watched_text_close(p->watched);
     for (int i = 0; i < LIVE_KNOBS_MAX; i++)
         knobs_close(p->knobs[i]);
     free(p);
@@ -301,6 +325,8 @@ enum stage_status live_player_before(void *player, struct stage *stage, double n
         if (p->knobs[0])
             knobs_message(p->knobs[p->heard], &m);
     }
+    if (p->watched)
+        text_pass(p, now_s);
     if (p->osc)
         osc_stage_take(p->osc);
     if (p->map)

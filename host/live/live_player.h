@@ -28,6 +28,7 @@ struct live_player_def {
     const char *theme;        /* the stage's, for new files of knobs */
     bool is_film;             /* nothing is learnt: the files must be there */
     int knobs_count;          /* LIVE_KNOBS_MAX at most */
+    const char *text;         /* a file whose words are the stage's as it changes; NULL: none */
     struct osc_port_def osc;  /* zeros: no OSC (osc_stage.h) */
     /* A line for whoever looks: an error of the script's, what it prints, what the server does. */
     void (*tell)(void *context, const char *text);

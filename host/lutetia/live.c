@@ -50,6 +50,7 @@ int live_begin(const char *verb, const struct live_options *options, struct midi
                                            .knobs = options->knobs.texts,
                                            .knobs_count = options->knobs.count,
                                            .theme = options->theme,
+                                           .text = options->text,
                                            .osc = {.listen = options->osc,
                                                    .from = options->osc_from.texts,
                                                    .from_count = options->osc_from.count,

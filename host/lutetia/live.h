@@ -14,6 +14,7 @@ struct live_options {
     const char *theme; /* the stage's */
     struct option_texts params, knobs, osc_from;
     const char *osc, *osc_to;
+    const char *text; /* a watched file */
     bool knobs_alone; /* the computer's keyboard plays no notes */
 };
 

@@ -183,6 +183,29 @@ static enum stage_status script_read(const char *path, struct stage_springs_def 
     return STAGE_OK;
 }
 
+/* For stage_text(): the word as it was made, of other words. */
+static enum stage_status word_again(void *context, const char *words,
+                                    struct stage_springs_def *out)
+{
+    const struct spring_scene *scene = context;
+    struct spring_scene_def def = scene->def;
+    def.text = words;
+    const enum dyn_status made = dyn_network_create(&out->network);
+    if (made != DYN_OK)
+        return fail_dyn(made);
+    const double y = height_usual(&def, scene);
+    enum stage_status status = word_put(&def, scene, out, y);
+    if (!isnan(def.view[0]))
+        out->extent = (struct font_box){def.view[0], def.view[1], def.view[2], def.view[3]};
+    if (status == STAGE_OK)
+        status = word_fit(&def, scene, out, y);
+    if (status != STAGE_OK) {
+        dyn_word_destroy(out->word);
+        dyn_network_destroy(out->network);
+    }
+    return status;
+}
+
 static enum stage_status springs_make(const struct spring_scene_def *def,
                                       struct spring_scene *scene,
                                       struct stage_springs_def *springs)
@@ -221,7 +244,9 @@ enum stage_status spring_scene_make(const struct spring_scene_def *def,
 {
     struct stage_springs_def springs = stage_springs_def_default();
     struct stage_def stage = stage_def_default();
-    *out = (struct spring_scene){0};
+    *out = (struct spring_scene){.def = *def};
+    if (!def->network)
+        springs.maker = (struct stage_springs_maker){word_again, out};
     stage.theme = def->theme;
     stage.forgets = def->forgets;
     if (!isnan(def->view[0]))

@@ -41,9 +41,11 @@ struct spring_scene {
     struct stage *stage;
     struct font_face *face;
     struct font_shaper *shaper;
+    struct spring_scene_def def; /* for other words in place of its own */
 };
 
-/* Errors: BAD_ARGUMENT (a preset, a control or a number that cannot be), those of fonts and files; *out is then zeros. */
+/* *out stays where it is as long as the stage lives, and what def points to stays, too: the words may be changed by stage_text().
+ * Errors: BAD_ARGUMENT (a preset, a control or a number that cannot be), those of fonts and files; *out is then zeros. */
 enum stage_status spring_scene_make(const struct spring_scene_def *def,
                                     struct spring_scene *out);
 void spring_scene_finish(struct spring_scene *scene);

@@ -115,6 +115,7 @@ static const struct option_need needs[] = {{"record", WINDOW},
                                            {"play", WINDOW},
                                            {"session", "replay|!still+!video+!frames"},
                                            {"fps", "video|frames|sound|song|wet|strip"},
+                                           {"watch", "!network+!still+!video+!frames"},
                                            {"osc", WINDOW},
                                            {"osc-from", "osc"},
                                            {"osc-to", WINDOW},
@@ -156,6 +157,9 @@ static int spring_options(struct spring *s, int argc, char **argv, bool *help)
         {"knobs", 0, OPTION_TEXTS, "FILE",
          "knobs that are learnt in the window, and scenes; kept there; as often as wanted",
          &s->live_options.knobs, 0, 0, 0},
+        {"watch", 0, OPTION_TEXT, "FILE",
+         "a text file whose words are the window's, as soon as it changes",
+         &s->live_options.text, 0, 0, 0},
         LIVE_OSC_OPTIONS(&s->live_options),
         {"param", 0, OPTION_TEXTS, "KEY=VALUE",
          "a parameter of the --map's script; as often as wanted", &s->live_options.params, 0, 0,
@@ -244,7 +248,7 @@ static int map_begin(struct spring *s, struct stage *stage)
 {
     enum { LOWEST = 48 };
     const struct live_options *o = &s->live_options;
-    if ((!o->map && !o->knobs.count && !o->osc && !o->osc_to) || s->live.source)
+    if ((!o->map && !o->knobs.count && !o->osc && !o->osc_to && !o->text) || s->live.source)
         return EXIT_SUCCESS;
     return live_begin("spring", &s->live_options, s->song, LOWEST, stage, &s->live);
 }

@@ -77,6 +77,8 @@ struct stage_actor_kind {
     /* Saves to a file, written whole or not at all; loads from a file: unchanged on failure. */
     enum stage_status (*save)(void *actor, const char *path);
     enum stage_status (*load)(void *actor, const char *path);
+    /* Other words in place of those that are there. Errors: the actor is as it was. */
+    enum stage_status (*text)(void *actor, const char *words);
     /* A number that differs where the words, places and files differ that it began with. */
     uint64_t (*digest)(void *actor);
     /* Takes the oldest waiting sounds, at most `most`; returns how many. */

@@ -15,8 +15,8 @@ enum { WORDS_MAX = 9, LINE_MAX_BYTES = 4400 };
 enum { PATH_MOST = 4095 };
 static const long file_bytes_max = 1L << 28;
 
-static const char *const kind_names[] = {"hand", "set",  "load", "mark",
-                                         "drop", "undo", "reset"};
+static const char *const kind_names[] = {"hand", "set",  "load", "text",
+                                         "mark", "drop", "undo", "reset"};
 static const char *const event_names[] = {"down", "move", "up", "cancel"};
 
 void stage_session_finish(struct stage_session *s)
@@ -24,6 +24,9 @@ void stage_session_finish(struct stage_session *s)
     for (int i = 0; i < s->files_count; i++)
         free(s->files[i].path);
     free(s->files);
+    for (int i = 0; i < s->texts_count; i++)
+        free(s->texts[i]);
+    free(s->texts);
     free(s->deeds);
     memset(s, 0, sizeof *s);
 }
@@ -82,6 +85,7 @@ static void rate_follow(struct rates *r, const struct stage_deed *d, int rate_co
         break;
     case STAGE_DEED_HAND:
     case STAGE_DEED_LOAD:
+    case STAGE_DEED_TEXT:
         break;
     }
 }
@@ -98,6 +102,52 @@ double stage_session_seconds(const struct stage_session *s, double rate, double 
         rate_follow(&rates, &s->deeds[i], rate_control);
     }
     return s->end > step ? seconds + (double)(s->end - step) * step_s / rates.now : seconds;
+}
+
+/* ---- texts ---- */
+
+void stage_session_add_text(struct stage_session *s, int64_t step, const char *words)
+{
+    if (s->broken)
+        return;
+    char *copy = strdup(words);
+    if (!copy ||
+        !array_reserve(&s->texts, &s->texts_capacity, s->texts_count + 1, sizeof *s->texts)) {
+        free(copy);
+        s->broken = "it is too long";
+        return;
+    }
+    s->texts[s->texts_count++] = copy;
+    stage_session_add(s, &(struct stage_deed){.step = step,
+                                              .kind = STAGE_DEED_TEXT,
+                                              .file = s->texts_count - 1});
+}
+
+static void text_print(const char *words, FILE *to)
+{
+    for (; *words; words++)
+        if (*words == '\n' || *words == '\\')
+            fprintf(to, "\\%c", *words == '\n' ? 'n' : '\\');
+        else
+            fputc(*words, to);
+}
+
+/* The other way round, in place. False: a backslash has nothing to say, or it is no text of a stage's length. */
+static bool text_unprint(char *words)
+{
+    char *to = words;
+    for (const char *at = words; *at; at++) {
+        if (*at == '\\') {
+            at++;
+            if (*at != 'n' && *at != '\\')
+                return false;
+            *to++ = *at == 'n' ? '\n' : '\\';
+        } else {
+            *to++ = *at;
+        }
+    }
+    *to = '\0';
+    return to > words && to - words <= STAGE_TEXT_BYTES;
 }
 
 /* ---- loaded files ---- */
@@ -184,6 +234,10 @@ static void deed_print(const struct stage_session *s, const struct stage_deed *d
     if (d->kind == STAGE_DEED_LOAD)
         fprintf(to, " %016llx %s", (unsigned long long)s->files[d->file].digest,
                 s->files[d->file].path);
+    if (d->kind == STAGE_DEED_TEXT) {
+        fputc(' ', to);
+        text_print(s->texts[d->file], to);
+    }
     if (d->kind == STAGE_DEED_HAND)
         fprintf(to, " %s %.17g %.17g %.17g %.17g %d %u", event_names[e->kind], e->x, e->y,
                 e->near, e->pressure, e->button, e->modifiers);
@@ -319,13 +373,33 @@ static const char *load_read(struct line *line, struct stage_session *out,
     return NULL;
 }
 
+/* STEP text WORDS. NULL: it is fine, and added; else what it must be. */
+static const char *text_read(struct line *line, struct stage_session *out,
+                             const struct stage_deed *deed)
+{
+    char *words = line->count > 2
+                      ? line->whole + (line->words[1] - line->text) + strlen(line->words[1]) + 1
+                      : NULL;
+    const size_t length = words ? strlen(words) : 0;
+    if (length && words[length - 1] == '\r')
+        words[length - 1] = '\0';
+    if (!words || !text_unprint(words))
+        return "`STEP text WORDS`, of 1000 bytes at most, \\n for a line's end, \\\\ for a "
+               "backslash";
+    stage_session_add_text(out, deed->step, words);
+    if (out->count)
+        out->deeds[out->count - 1].line = deed->line;
+    return NULL;
+}
+
 /* NULL: it is fine; else what the line must be. */
 static const char *deed_read(struct line *line, const struct stage_control *rows,
-                             int rows_count, struct stage_session *out, struct stage_deed *deed)
+                             int rows_count, int number, struct stage_session *out,
+                             struct stage_deed *deed)
 {
     int64_t least_step = out->count ? out->deeds[out->count - 1].step : 0;
     long long step;
-    *deed = (struct stage_deed){0};
+    *deed = (struct stage_deed){.line = number};
     if (line->count < 2 || !integer_read(line->words[0], INT64_MAX, &step) || step < least_step)
         return "STEP and what was done, steps in their order";
     int kind = name_find(kind_names, sizeof kind_names / sizeof *kind_names, line->words[1]);
@@ -333,6 +407,8 @@ static const char *deed_read(struct line *line, const struct stage_control *rows
     deed->kind = (enum stage_deed_kind)kind;
     if (kind == STAGE_DEED_SET)
         return set_read(line, rows, rows_count, deed);
+    if (kind == STAGE_DEED_TEXT)
+        return text_read(line, out, deed);
     if (kind == STAGE_DEED_LOAD)
         return load_read(line, out, deed);
     if (kind == STAGE_DEED_HAND)
@@ -341,7 +417,7 @@ static const char *deed_read(struct line *line, const struct stage_control *rows
                    : "`STEP hand down|move|up|cancel X Y NEAR PRESSURE BUTTON MODIFIERS`";
     return kind >= 0 && line->count == 2
                ? NULL
-               : "hand, set, load, mark, drop, undo or reset after STEP";
+               : "hand, set, load, text, mark, drop, undo or reset after STEP";
 }
 
 static enum stage_status wrong(const char *name, int number, const char *must)
@@ -384,9 +460,8 @@ static const char *line_read(struct reader *r, struct line *line, struct stage_s
         return line->count == 2 && !out->count && digest_read(line->words[1], &out->begin)
                    ? NULL
                    : "`begin DIGEST`, before what was done";
-    const char *must = deed_read(line, r->rows, r->rows_count, out, &deed);
-    deed.line = r->number;
-    if (!must)
+    const char *must = deed_read(line, r->rows, r->rows_count, r->number, out, &deed);
+    if (!must && deed.kind != STAGE_DEED_TEXT) /* which is added with its words */
         stage_session_add(out, &deed);
     return must;
 }

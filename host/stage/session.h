@@ -16,6 +16,7 @@
  *     430 hand up 0.5 2.75 0.23 0 0 1
  *     500 set gravity 3.7
  *     540 load 8a1c0f3e55d2b790 word.springs   the file's digest, and its name
+ *     560 text other words                     the rest of the line: \n is a line's end, \\ a backslash
  *     612 undo                                 and mark, drop (a mark), reset, hand cancel
  *     end 900                                  the steps that were made in all (earlier sessions lack the number)
  *
@@ -35,6 +36,7 @@ enum stage_deed_kind {
     STAGE_DEED_HAND,
     STAGE_DEED_SET,
     STAGE_DEED_LOAD,
+    STAGE_DEED_TEXT,
     STAGE_DEED_MARK,
     STAGE_DEED_DROP,
     STAGE_DEED_UNDO,
@@ -47,7 +49,7 @@ struct stage_deed {
     struct stage_event event; /* HAND */
     int control;              /* SET: the row of the stage's table */
     double value;
-    int file; /* LOAD: of the session's files */
+    int file; /* LOAD: of the session's files; TEXT: of its texts */
     int line; /* of a session that was read */
 };
 
@@ -61,7 +63,7 @@ struct stage_file {
     uint64_t digest;
 };
 
-enum { STAGE_DEEDS_MAX = 1 << 22, STAGE_SESSION_MARKS_MAX = 64 };
+enum { STAGE_DEEDS_MAX = 1 << 22, STAGE_SESSION_MARKS_MAX = 64, STAGE_TEXT_BYTES = 1000 };
 
 /* All zeros is an empty session. */
 struct stage_session {
@@ -69,6 +71,8 @@ struct stage_session {
     int count, capacity;
     struct stage_file *files;
     int files_count, files_capacity;
+    char **texts;
+    int texts_count, texts_capacity;
     uint64_t begin;     /* the actor's digest; 0: unknown */
     int64_t end;        /* the number of steps in all; 0: unknown */
     const char *broken; /* why it cannot be saved; NULL: it can */
@@ -91,6 +95,9 @@ double stage_session_seconds(const struct stage_session *session, double rate, d
 /* Adds that a file is loaded, with its present digest. If that fails the session is marked
  * broken. */
 void stage_session_add_load(struct stage_session *session, int64_t step, const char *path);
+
+/* Adds that there are other words, of STAGE_TEXT_BYTES at most. */
+void stage_session_add_text(struct stage_session *session, int64_t step, const char *words);
 
 /* Checks that a loaded file is what it was. name, line: of the session, for the error. Errors:
  * BAD_FILE (it is not there, or is another). */

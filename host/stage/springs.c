@@ -14,9 +14,6 @@
 
 enum { OWN_ROWS = 7 };
 
-/* The size of the plane in which letters have their boxes. */
-static const double plane_size = 100;
-
 struct stage_springs_def stage_springs_def_default(void)
 {
     return (struct stage_springs_def){.show_masses = true, .show_springs = true};
@@ -89,7 +86,7 @@ static enum stage_status style_write(void *actor, int index, double value)
     struct dyn_word_style style = s->set.style;
     enum dyn_status status = dyn_control_write(&dyn_word_controls[index], &style, value);
     if (status == DYN_OK)
-        status = dyn_word_style_set(s->word, s->network, &style);
+        status = dyn_word_style_set(s->text->word, s->network, &style);
     if (status != DYN_OK)
         return springs_fail(status);
     s->set.style = style;
@@ -122,13 +119,13 @@ row_of(const struct dyn_control *c, int index, double (*read)(void *actor, int i
  * rows. */
 static enum stage_status rows_make(struct springs *s)
 {
-    int most = OWN_ROWS + dyn_controls_count + (s->word ? dyn_word_controls_count : 0);
+    int most = OWN_ROWS + dyn_controls_count + (s->text->word ? dyn_word_controls_count : 0);
     s->rows = calloc((size_t)most, sizeof *s->rows);
     if (!s->rows)
         return stage_fail(STAGE_NO_MEMORY, "no memory for springs");
     memcpy(s->rows, own_rows, sizeof own_rows);
     s->rows_count = OWN_ROWS;
-    for (int i = 0; s->word && i < dyn_word_controls_count; i++)
+    for (int i = 0; s->text->word && i < dyn_word_controls_count; i++)
         if (dyn_word_controls[i].curve != DYN_CHOICE)
             s->rows[s->rows_count++] =
                 row_of(&dyn_word_controls[i], i, style_read, style_write);
@@ -159,7 +156,7 @@ static enum stage_status springs_step(void *actor, double dt_s)
     struct springs *s = actor;
     enum dyn_status status = s->clamps ? dyn_clamps_step(s->clamps, s->network, dt_s, 1)
                                        : dyn_network_step(s->network, dt_s, 1);
-    const struct dyn_word *const word = s->word;
+    const struct dyn_word *const word = s->text->word;
     if (status == DYN_OK && word && s->set.collide != 0)
         status = dyn_words_collide(s->network, &word, 1, NULL);
     if (status == DYN_OK && s->set.record_hand != 0)
@@ -185,6 +182,7 @@ static int springs_heard(void *actor, struct stage_sound *out, int most)
 
 struct kept {
     struct dyn_network *network;
+    struct springs_text *text;
     struct springs_settings set;
 };
 
@@ -193,6 +191,8 @@ static void springs_forget(void *state)
     struct kept *kept = state;
     if (kept)
         dyn_network_destroy(kept->network);
+    if (kept)
+        springs_text_let(kept->text);
     free(kept);
 }
 
@@ -204,6 +204,8 @@ static enum stage_status springs_keep(void *actor, void **state)
     if (!kept)
         return stage_fail(STAGE_NO_MEMORY, "no memory to keep springs as they are");
     kept->set = s->set;
+    kept->text = s->text;
+    kept->text->users++;
     enum dyn_status status = dyn_network_create(&kept->network);
     if (status == DYN_OK)
         status = dyn_network_copy(kept->network, s->network);
@@ -223,6 +225,9 @@ static enum stage_status springs_restore(void *actor, const void *state)
     if (status != DYN_OK)
         return springs_fail(status);
     s->set = kept->set;
+    kept->text->users++;
+    springs_text_let(s->text);
+    s->text = kept->text;
     s->hand = (struct springs_hand){0};
     return STAGE_OK;
 }
@@ -234,8 +239,8 @@ static struct font_box springs_extent(void *actor)
     const struct springs *s = actor;
     const struct dyn_state *states = dyn_network_states(s->network);
     const struct dyn_world *world = dyn_network_world(s->network);
-    if (s->extent.x1 > s->extent.x0 && s->extent.y1 > s->extent.y0)
-        return s->extent;
+    if (s->text->extent.x1 > s->text->extent.x0 && s->text->extent.y1 > s->text->extent.y0)
+        return s->text->extent;
     struct font_box box = {INFINITY, INFINITY, -INFINITY, -INFINITY};
     for (int i = 0; i < dyn_masses_count(s->network); i++) {
         box.x0 = fmin(box.x0, states[i].x);
@@ -257,9 +262,8 @@ static void springs_destroy(void *actor)
     struct springs *s = actor;
     dyn_clamps_destroy(s->clamps);
     dyn_clamps_destroy(s->recorded);
-    dyn_word_destroy(s->word);
+    springs_text_let(s->text);
     dyn_network_destroy(s->network);
-    free(s->letters);
     free(s->rows);
     free(s);
 }
@@ -276,40 +280,10 @@ static const struct stage_actor_kind springs_kind = {.name = "springs",
                                                      .save = springs_save,
                                                      .load = springs_load,
                                                      .digest = springs_digest,
+                                                     .text = springs_text_set,
                                                      .heard = springs_heard,
                                                      .destroy = springs_destroy,
                                                      .group = springs_group};
-
-/* Converts a word's letter, whose box has y upwards from its origin and corners from the
- * lower left one on. */
-static struct stage_springs_letter letter_of(const struct dyn_letter *l)
-{
-    double scale = plane_size / l->size;
-    return (struct stage_springs_letter){
-        .letter = {l->face, l->glyph, plane_size, scale * l->x0, -scale * l->y1, scale * l->x1,
-                   -scale * l->y0},
-        .masses = {l->mass[3], l->mass[2], l->mass[1], l->mass[0]}};
-}
-
-static enum stage_status letters_make(struct springs *s, const struct stage_springs_def *def)
-{
-    int own = def->letters_count, of_word = s->word ? dyn_word_glyphs_count(s->word) : 0;
-    for (int i = 0; i < own; i++)
-        for (int k = 0; k < 4; k++)
-            if (def->letters[i].masses[k] < 0 ||
-                def->letters[i].masses[k] >= dyn_masses_count(def->network))
-                return stage_fail(STAGE_BAD_ARGUMENT,
-                                  "letter %d stands on mass %d; there are %d", i,
-                                  def->letters[i].masses[k], dyn_masses_count(def->network));
-    s->letters = calloc((size_t)(own + of_word) + 1, sizeof *s->letters);
-    if (!s->letters)
-        return stage_fail(STAGE_NO_MEMORY, "no memory for letters");
-    for (int i = 0; i < own; i++)
-        s->letters[s->letters_count++] = def->letters[i];
-    for (int i = 0; i < of_word; i++)
-        s->letters[s->letters_count++] = letter_of(dyn_word_letter(s->word, i));
-    return STAGE_OK;
-}
 
 enum stage_status stage_springs_create(const struct stage_springs_def *def,
                                        struct stage_actor *out)
@@ -323,15 +297,14 @@ enum stage_status stage_springs_create(const struct stage_springs_def *def,
         return stage_fail(STAGE_NO_MEMORY, "no memory for springs");
     }
     s->network = def->network;
-    s->word = def->word;
     s->clamps = def->clamps;
-    s->extent = def->extent;
+    s->maker = def->maker;
     for (int i = 0; i < OWN_ROWS; i++)
         *own_setting(s, i) = own_rows[i].usual;
     s->set.show_masses = def->show_masses;
     s->set.show_springs = def->show_springs;
     s->set.style = def->style;
-    enum stage_status status = letters_make(s, def);
+    enum stage_status status = springs_text_make(def, &s->text);
     if (status == STAGE_OK)
         status = rows_make(s);
     if (status != STAGE_OK) {

@@ -31,6 +31,14 @@ struct stage_springs_letter {
         [4]; /* of the box's corners (x0, y0), (x1, y0), (x1, y1), (x0, y1), y0 being the top */
 };
 
+struct stage_springs_def;
+/* Who makes the word anew when its text is changed (stage_text()): fills network, word, style and extent of a def of usual values, which the
+ * actor owns then. make NULL: the text stays. */
+struct stage_springs_maker {
+    enum stage_status (*make)(void *context, const char *words, struct stage_springs_def *out);
+    void *context;
+};
+
 struct stage_springs_def {
     struct dyn_network *network;
     const struct stage_springs_letter *letters; /* their faces must outlive the actor */
@@ -42,6 +50,7 @@ struct stage_springs_def {
     bool show_masses, show_springs; /* true */
     /* The visible part of the world: x0 < x1 and y0 < y1; otherwise the actor's extent. */
     struct font_box extent;
+    struct stage_springs_maker maker;
 };
 struct stage_springs_def stage_springs_def_default(void);
 

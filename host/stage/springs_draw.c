@@ -59,11 +59,11 @@ static void strings_draw(const struct springs *s, const struct stage_look *look,
 static void letters_draw(const struct springs *s, const struct stage_look *look, double ahead_s,
                          struct stage_draw_list *list)
 {
-    for (int i = 0; i < s->letters_count; i++) {
+    for (int i = 0; i < s->text->letters_count; i++) {
         struct font_point corners[4];
         for (int k = 0; k < 4; k++)
-            corners[k] = springs_place(s, s->letters[i].masses[k], ahead_s);
-        stage_draw_letter(list, &s->letters[i].letter, corners,
+            corners[k] = springs_place(s, s->text->letters[i].masses[k], ahead_s);
+        stage_draw_letter(list, &s->text->letters[i].letter, corners,
                           look->theme->colors[STAGE_COLOR_LETTER]);
     }
 }
@@ -75,7 +75,7 @@ static void masses_draw(const struct springs *s, const struct stage_look *look, 
 {
     const struct stage_color *c = look->theme->colors;
     /* beside small letters dots are small, too; a letter's em is 1 */
-    const double most = s->letters_count ? letter_part * look->view.scale : INFINITY;
+    const double most = s->text->letters_count ? letter_part * look->view.scale : INFINITY;
     const double radius = fmin(most, look->px * look->theme->sizes[STAGE_SIZE_MASS_RADIUS]);
     for (int i = 0; i < dyn_masses_count(s->network); i++) {
         unsigned held = dyn_mass_get(s->network, i).hold;

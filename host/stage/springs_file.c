@@ -35,9 +35,9 @@ enum stage_status springs_load(void *actor, const char *path)
     if (status != DYN_OK)
         return springs_fail(status);
     int most = -1;
-    for (int i = 0; i < s->letters_count; i++)
+    for (int i = 0; i < s->text->letters_count; i++)
         for (int k = 0; k < 4; k++)
-            most = s->letters[i].masses[k] > most ? s->letters[i].masses[k] : most;
+            most = s->text->letters[i].masses[k] > most ? s->text->letters[i].masses[k] : most;
     if (most >= dyn_masses_count(read)) {
         stage_fail(STAGE_BAD_FILE,
                    "%s: a network of %d masses is not this word's, which has %d", path,

@@ -18,11 +18,11 @@ static double turn(struct font_point a, struct font_point b, double x, double y)
 /* The letter between whose masses a point lies: of several the one drawn last; -1: none. */
 static int letter_at(const struct springs *s, double x, double y)
 {
-    for (int i = s->letters_count - 1; i >= 0; i--) {
+    for (int i = s->text->letters_count - 1; i >= 0; i--) {
         int winding = 0;
         for (int k = 0; k < 4; k++) {
-            struct font_point a = springs_place(s, s->letters[i].masses[k], 0);
-            struct font_point b = springs_place(s, s->letters[i].masses[(k + 1) % 4], 0);
+            struct font_point a = springs_place(s, s->text->letters[i].masses[k], 0);
+            struct font_point b = springs_place(s, s->text->letters[i].masses[(k + 1) % 4], 0);
             if (a.y <= y && b.y > y && turn(a, b, x, y) > 0)
                 winding++;
             else if (a.y > y && b.y <= y && turn(a, b, x, y) < 0)
@@ -73,8 +73,8 @@ static bool letter_take(struct springs *s, int letter, const struct stage_event 
     struct springs_hand *h = &s->hand;
     h->mode = SPRINGS_LETTER;
     for (int k = 0; k < 4; k++) {
-        struct font_point at = springs_place(s, s->letters[letter].masses[k], 0);
-        int mass = s->letters[letter].masses[k];
+        struct font_point at = springs_place(s, s->text->letters[letter].masses[k], 0);
+        int mass = s->text->letters[letter].masses[k];
         if (dyn_pull_begin(s->network, mass, at.x, at.y, s->set.hand / 4) != DYN_OK)
             continue;
         h->away_x[h->masses_count] = at.x - e->x;

@@ -30,14 +30,21 @@ struct springs_settings {
     struct dyn_word_style style;
 };
 
-struct springs {
-    struct dyn_network *network;
+/* A word and its letters. The actor and the states that it has kept share them. */
+struct springs_text {
+    int users;
+    struct dyn_word *word; /* NULL: letters alone */
     struct stage_springs_letter *letters;
     int letters_count;
+    struct font_box extent; /* as stage_springs_def has it */
+};
+
+struct springs {
+    struct dyn_network *network;
+    struct springs_text *text;
     struct stage_control *rows;
     int rows_count;
-    struct font_box extent;
-    struct dyn_word *word;
+    struct stage_springs_maker maker;
     struct dyn_clamps *clamps;
     struct dyn_clamps *recorded; /* keys of what hands held while recording; NULL: none */
     double recorded_s;           /* the last key's time */
@@ -45,6 +52,14 @@ struct springs {
     struct springs_hand hand;
 };
 
+/* Owns: the word, also on failure; a user calls springs_text_let(). Errors: BAD_ARGUMENT (a letter on a mass that does not exist),
+ * NO_MEMORY. */
+enum stage_status springs_text_make(const struct stage_springs_def *def,
+                                    struct springs_text **out);
+/* One user less; NULL is fine. */
+void springs_text_let(struct springs_text *text);
+
+enum stage_status springs_text_set(void *actor, const char *words);
 bool springs_event(void *actor, const struct stage_event *event);
 enum stage_status springs_save(void *actor, const char *path);
 enum stage_status springs_load(void *actor, const char *path);

@@ -1,54 +1,18 @@
 /* stage.c - see stage.h. */
-#include "stage.h"
+#include "stage_internal.h"
+
+#include <text.h>
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { OWN_CONTROLS = 6 };
-
-/* The stage's own parameters, all doubles. */
-struct settings {
-    double rate, skins, skin_every_s, skin_of, grid, shadow;
-};
-
-/* A state to go back to; actor: made by its keep(), NULL if it has none. */
-struct mark {
-    struct settings settings;
-    void *actor;
-    bool kept;
-};
-
-struct stage {
-    struct stage_actor actor;
-    struct stage_theme theme;
-    struct frame_clock clock;
-    bool began, forgets;
-    struct settings settings;
-    struct stage_control *controls; /* the stage's and the actor's */
-    int controls_count;
-    const struct stage_control *actors_rows;
-    /* The view, for a size. */
-    struct stage_view view;
-    int width_px, height_px;
-    double px;
-    /* Earlier frames: a ring, the newest at skins_last. */
-    struct stage_draw_list own, skins[STAGE_SKINS_MAX];
-    int skins_last, skins_count;
-    double skin_taken_s;
-    /* States to go back to. */
-    struct mark marks[STAGE_UNDO_MAX], beginning;
-    int marks_count;
-    bool handed; /* the actor took a press that has not been released yet */
-    /* The actions so far; the actions to replay, and how many have been replayed. */
-    struct stage_session session, replay;
-    int replayed_count;
-};
-
 struct stage_def stage_def_default(void)
 {
     return (struct stage_def){.theme = "light", .step_s = 1.0 / 240};
 }
+
+enum { OWN_CONTROLS = 6 };
 
 /* ---- the session ---- */
 
@@ -70,28 +34,22 @@ static void deed_set_add(struct stage *s, int control, double value)
 
 static double own_read(void *stage, int index)
 {
-    const struct settings *s = &((struct stage *)stage)->settings;
+    const struct stage_settings *s = &((struct stage *)stage)->settings;
     const double values[OWN_CONTROLS] = {s->rate,    s->skins, s->skin_every_s,
                                          s->skin_of, s->grid,  s->shadow};
     return values[index];
 }
 
-static void skins_drop(struct stage *s)
-{
-    s->skins_count = 0;
-    s->skin_taken_s = -INFINITY;
-}
-
 static enum stage_status own_write(void *of, int index, double value)
 {
     struct stage *stage = of;
-    struct settings *s = &stage->settings;
+    struct stage_settings *s = &stage->settings;
     double *const values[OWN_CONTROLS] = {&s->rate,    &s->skins, &s->skin_every_s,
                                           &s->skin_of, &s->grid,  &s->shadow};
     *values[index] = value;
     frame_clock_rate_set(&stage->clock, s->rate);
     if (values[index] == &s->skins || values[index] == &s->skin_every_s)
-        skins_drop(stage);
+        stage_skins_drop(stage);
     deed_set_add(stage, index, value);
     return STAGE_OK;
 }
@@ -186,9 +144,9 @@ struct frame_clock *stage_clock(struct stage *s)
     return &s->clock;
 }
 
-static enum stage_status mark_keep(const struct stage *s, struct mark *mark)
+static enum stage_status mark_keep(const struct stage *s, struct stage_saved *mark)
 {
-    *mark = (struct mark){.settings = s->settings};
+    *mark = (struct stage_saved){.settings = s->settings};
     enum stage_status status = STAGE_OK;
     if (s->actor.kind->keep)
         status = s->actor.kind->keep(s->actor.self, &mark->actor);
@@ -196,19 +154,19 @@ static enum stage_status mark_keep(const struct stage *s, struct mark *mark)
     return status;
 }
 
-static void mark_forget(const struct stage *s, struct mark *mark)
+static void mark_forget(const struct stage *s, struct stage_saved *mark)
 {
     if (mark->actor)
         s->actor.kind->forget(mark->actor);
-    *mark = (struct mark){0};
+    *mark = (struct stage_saved){0};
 }
 
-static enum stage_status mark_restore(struct stage *s, const struct mark *mark)
+static enum stage_status mark_restore(struct stage *s, const struct stage_saved *mark)
 {
     s->settings = mark->settings;
     frame_clock_rate_set(&s->clock, s->settings.rate);
     s->handed = false;
-    skins_drop(s);
+    stage_skins_drop(s);
     return mark->actor ? s->actor.kind->restore(s->actor.self, mark->actor) : STAGE_OK;
 }
 
@@ -216,34 +174,6 @@ static enum stage_status mark_restore(struct stage *s, const struct mark *mark)
 static enum stage_status beginning_keep(struct stage *s)
 {
     return s->beginning.kept ? STAGE_OK : mark_keep(s, &s->beginning);
-}
-
-static struct stage_look look_of(const struct stage *s)
-{
-    return (struct stage_look){.theme = &s->theme,
-                               .view = s->view,
-                               .width_px = s->width_px,
-                               .height_px = s->height_px,
-                               .px = s->px,
-                               .fraction = frame_clock_fraction(&s->clock),
-                               .step_s = s->clock.step_s};
-}
-
-/* Keeps the letters after each step that ends a skin's interval. */
-static void skin_take(struct stage *s)
-{
-    double now_s = (double)s->clock.steps_count * s->clock.step_s;
-    if (s->settings.skins < 1 || s->width_px == 0 ||
-        now_s < s->skin_taken_s + s->settings.skin_every_s - s->clock.step_s / 2)
-        return;
-    s->skin_taken_s = now_s;
-    s->skins_last = (s->skins_last + 1) % STAGE_SKINS_MAX;
-    if (s->skins_count < STAGE_SKINS_MAX)
-        s->skins_count++;
-    struct stage_look look = look_of(s);
-    look.fraction = 0;
-    stage_draw_begin(&s->skins[s->skins_last], s->view);
-    s->actor.kind->draw(s->actor.self, &look, &s->skins[s->skins_last]);
 }
 
 /* Passes a pointer action to the actor, in world coordinates. */
@@ -268,7 +198,7 @@ static enum stage_status load_do(struct stage *s, const char *path)
     if (status == STAGE_OK && s->began)
         stage_session_add_load(&s->session, s->clock.steps_count, path);
     s->handed = false;
-    skins_drop(s);
+    stage_skins_drop(s);
     return status;
 }
 
@@ -280,6 +210,39 @@ static enum stage_status load_again(struct stage *s, const struct stage_file *fi
         status = stage_fail(STAGE_BAD_FILE, "the session:%d: %s has no files", line,
                             s->actor.kind->name);
     return status == STAGE_OK ? load_do(s, file->path) : status;
+}
+
+static enum stage_status text_check(const char *words)
+{
+    const size_t length = strlen(words);
+    bool is_text = length > 0 && font_utf8_damaged(words, length) == 0;
+    for (const char *c = words; *c; c++)
+        is_text =
+            is_text && ((unsigned char)*c >= ' ' || *c == '\n' || *c == '\t') && *c != 0x7f;
+    return is_text && length <= STAGE_TEXT_BYTES
+               ? STAGE_OK
+               : stage_fail(
+                     STAGE_BAD_ARGUMENT,
+                     "a stage's text is UTF-8, 1 to %d bytes, without control characters",
+                     STAGE_TEXT_BYTES);
+}
+
+/* A mark was set before it. */
+static enum stage_status text_do(struct stage *s, const char *words)
+{
+    enum stage_status status = text_check(words);
+    if (status == STAGE_OK && !s->actor.kind->text)
+        status = stage_fail(STAGE_BAD_ARGUMENT, "%s has no text", s->actor.kind->name);
+    if (status == STAGE_OK)
+        status = s->actor.kind->text(s->actor.self, words);
+    if (status != STAGE_OK)
+        return status;
+    if (s->began)
+        stage_session_add_text(&s->session, s->clock.steps_count, words);
+    s->handed = false;
+    stage_skins_drop(s);
+    stage_view_grow(s);
+    return STAGE_OK;
 }
 
 /* Replays the actions that are due before the next step. Errors: those of loading. */
@@ -300,6 +263,11 @@ static enum stage_status replay_do(struct stage *s)
             break;
         case STAGE_DEED_LOAD:
             status = load_again(s, &r->files[d->file], d->line);
+            break;
+        case STAGE_DEED_TEXT:
+            if (text_do(s, r->texts[d->file]) != STAGE_OK)
+                status = stage_fail(STAGE_BAD_FILE, "the session:%d: %.300s", d->line,
+                                    stage_error());
             break;
         case STAGE_DEED_MARK:
             stage_mark(s);
@@ -344,97 +312,12 @@ enum stage_status stage_frame(struct stage *s, double now_s, int *steps)
     for (int i = 0; i < due && status == STAGE_OK; i++) {
         s->clock.steps_count = last - due + i;
         status = replay_do(s);
-        skin_take(s);
+        stage_skin_take(s);
         if (status == STAGE_OK)
             status = s->actor.kind->step(s->actor.self, s->clock.step_s);
     }
     s->clock.steps_count = last;
     return status;
-}
-
-/* ---- pictures ---- */
-
-/* Centres the actor with a margin; the scale is the same along both axes. */
-static void view_make(struct stage *s, int width_px, int height_px, double px)
-{
-    struct font_box box = {-1, -1, 1, 1};
-    if (s->actor.kind->extent)
-        box = s->actor.kind->extent(s->actor.self);
-    double width = fmax(1e-6, box.x1 - box.x0), height = fmax(1e-6, box.y1 - box.y0);
-    double scale = fmin(width_px / width, height_px / height);
-    s->view.scale = scale;
-    s->view.x0_px = width_px / 2.0 - scale * (box.x0 + box.x1) / 2;
-    s->view.y0_px = height_px / 2.0 + scale * (box.y0 + box.y1) / 2;
-    s->width_px = width_px;
-    s->height_px = height_px;
-    s->px = px;
-    skins_drop(s);
-}
-
-static void grid_draw(const struct stage *s, struct stage_draw_list *list)
-{
-    double x0, y0, x1, y1, px = s->px * s->theme.sizes[STAGE_SIZE_GRID_WIDTH];
-    const struct stage_color color = s->theme.colors[STAGE_COLOR_GRID];
-    stage_view_to_world(s->view, 0, s->height_px, &x0, &y0);
-    stage_view_to_world(s->view, s->width_px, 0, &x1, &y1);
-    if (!(x1 - x0 < 500 && y1 - y0 < 500)) /* lines everywhere */
-        return;
-    for (double x = ceil(x0); x <= x1; x++)
-        stage_draw_line(list, x, y0, x, y1, px, color);
-    for (double y = ceil(y0); y <= y1; y++)
-        stage_draw_line(list, x0, y, x1, y, px, color);
-}
-
-/* The opacity of the newest skin, relative to the present. */
-static const double skin_most = 0.7;
-
-static void skins_draw(const struct stage *s, struct stage_draw_list *list)
-{
-    int count = (int)s->settings.skins;
-    bool all = s->settings.skin_of != 0;
-    if (count > s->skins_count)
-        count = s->skins_count;
-    for (int back = count - 1; back >= 0; back--) {
-        int i = (s->skins_last - back + STAGE_SKINS_MAX) % STAGE_SKINS_MAX;
-        stage_draw_again(list, &s->skins[i], 0, 0,
-                         all ? NULL : &s->theme.colors[STAGE_COLOR_SKIN],
-                         skin_most * (1 - (double)back / (count + 1)), !all);
-    }
-}
-
-void stage_picture(struct stage *s, int width_px, int height_px, double px,
-                   struct stage_draw_list *list)
-{
-    if (width_px != s->width_px || height_px != s->height_px || px != s->px)
-        view_make(s, width_px, height_px, px);
-    struct stage_look look = look_of(s);
-    stage_draw_begin(&s->own, s->view);
-    s->actor.kind->draw(s->actor.self, &look, &s->own);
-    stage_draw_begin(list, s->view);
-    if (s->settings.grid != 0)
-        grid_draw(s, list);
-    skins_draw(s, list);
-    if (s->settings.shadow != 0)
-        stage_draw_again(list, &s->own, px * s->theme.sizes[STAGE_SIZE_SHADOW_X],
-                         px * s->theme.sizes[STAGE_SIZE_SHADOW_Y],
-                         &s->theme.colors[STAGE_COLOR_SHADOW], 1, true);
-    stage_draw_again(list, &s->own, 0, 0, NULL, 1, false);
-    list->incomplete |= s->own.incomplete;
-}
-
-struct stage_view stage_view(const struct stage *s)
-{
-    return s->view;
-}
-
-const struct stage_theme *stage_theme(const struct stage *s)
-{
-    return &s->theme;
-}
-
-struct stage_color stage_background(const struct stage *s)
-{
-    return s->theme.colors[STAGE_COLOR_BACKGROUND];
 }
 
 /* ---- hands ---- */
@@ -456,7 +339,7 @@ bool stage_hand(struct stage *s, enum stage_event_kind kind, double x_px, double
 
 /* ---- going back ---- */
 
-static void mark_push(struct stage *s, struct mark mark)
+static void mark_push(struct stage *s, struct stage_saved mark)
 {
     if (s->marks_count == STAGE_UNDO_MAX) {
         mark_forget(s, &s->marks[0]);
@@ -468,7 +351,7 @@ static void mark_push(struct stage *s, struct mark mark)
 
 enum stage_status stage_mark(struct stage *s)
 {
-    struct mark mark;
+    struct stage_saved mark;
     enum stage_status status = mark_keep(s, &mark);
     if (status != STAGE_OK)
         return status;
@@ -481,7 +364,7 @@ bool stage_undo(struct stage *s)
 {
     if (!s->marks_count)
         return false;
-    struct mark mark = s->marks[--s->marks_count];
+    struct stage_saved mark = s->marks[--s->marks_count];
     deed_add(s, (struct stage_deed){.kind = STAGE_DEED_UNDO});
     bool done = mark_restore(s, &mark) == STAGE_OK;
     mark_forget(s, &mark);
@@ -498,7 +381,7 @@ void stage_mark_drop(struct stage *s)
 
 enum stage_status stage_reset(struct stage *s)
 {
-    struct mark before;
+    struct stage_saved before;
     enum stage_status status = beginning_keep(s);
     if (status == STAGE_OK)
         status = mark_keep(s, &before);
@@ -524,6 +407,17 @@ enum stage_status stage_load(struct stage *s, const char *path)
     if (status != STAGE_OK)
         return status;
     status = load_do(s, path);
+    if (status != STAGE_OK)
+        stage_mark_drop(s);
+    return status;
+}
+
+enum stage_status stage_text(struct stage *s, const char *words)
+{
+    enum stage_status status = stage_mark(s);
+    if (status != STAGE_OK)
+        return status;
+    status = text_do(s, words);
     if (status != STAGE_OK)
         stage_mark_drop(s);
     return status;

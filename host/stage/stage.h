@@ -92,6 +92,10 @@ enum stage_status stage_reset(struct stage *stage);
 enum stage_status stage_save(struct stage *stage, const char *path);
 enum stage_status stage_load(struct stage *stage, const char *path);
 
+/* Puts other words on the stage: UTF-8, STAGE_TEXT_BYTES at most, with line ends. This can be undone. Errors: BAD_ARGUMENT (no such text,
+ * or the actor has none that can be changed); the stage is as it was. */
+enum stage_status stage_text(struct stage *stage, const char *words);
+
 /* ---- sessions: see session.h ---- */
 
 /* Saves the actions since the first frame. Errors: BAD_FILE; BAD_ARGUMENT: a file was

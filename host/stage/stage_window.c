@@ -2,6 +2,7 @@
 #include "stage_window.h"
 
 #include "renderer.h"
+#include "typed_words.h"
 
 #include <video.h>
 #include <window.h>
@@ -25,6 +26,7 @@ struct stage_window {
     struct frame_pace pace;
     bool open, drawn; /* drawn: at least once */
     struct help_sheet help;
+    struct typed_words words;
     char message[240];
     double message_s; /* when it was said */
     /* A recording: pictures at times that are a thirtieth apart. */
@@ -225,6 +227,11 @@ static void key_load(struct stage_window *w)
     load(w, w->def.save_path);
 }
 
+static void key_words(struct stage_window *w)
+{
+    typed_words_begin(&w->words, stage_actor(w->stage).kind->text != NULL);
+}
+
 static void key_full(struct stage_window *w)
 {
     window_fullscreen_set(w->window, !window_fullscreen(w->window));
@@ -245,7 +252,7 @@ static void key_end(struct stage_window *w)
 }
 
 /* What a row is of use with. */
-enum need { ALWAYS, HANDS, SAVES, LOADS, PLAYED };
+enum need { ALWAYS, HANDS, SAVES, LOADS, WORDS, PLAYED };
 
 /* shift: pressed with Shift; control: with Control. Rows without a function describe the
  * pointer. */
@@ -268,6 +275,7 @@ static const struct {
     {'V', false, true, "Control V", "record, where keys play letters", key_record, PLAYED},
     {'S', false, true, "Control S", "save", key_save, SAVES},
     {'O', false, true, "Control O", "load what was saved", key_load, LOADS},
+    {'T', false, true, "Control T", "type other words; Enter shows them", key_words, WORDS},
     {'F', false, false, "F", "fill the screen", key_full, ALWAYS},
     {INPUT_KEY_F1 + 10, false, false, "F11", "fill the screen", key_full, ALWAYS},
     {'/', true, false, "?", "these keys", key_help, ALWAYS},
@@ -317,6 +325,12 @@ static void hand_take(struct stage_window *w, const struct input_event *e)
 
 static void event_take(struct stage_window *w, const struct input_event *e)
 {
+    enum stage_status typed;
+    if (typed_words_input(&w->words, w->stage, e, &typed)) {
+        if (typed != STAGE_OK)
+            say(w, "%s", stage_error());
+        return;
+    }
     const bool typing = stage_panel_typing(w->panel) &&
                         (e->kind == INPUT_KEY_DOWN || e->kind == INPUT_KEY_REPEAT);
     const bool key = e->kind == INPUT_KEY_DOWN || e->kind == INPUT_KEY_UP ||
@@ -356,6 +370,8 @@ static bool is_of_use(const struct stage_window *w, int row)
         return kind->save != NULL;
     case LOADS:
         return kind->load != NULL;
+    case WORDS:
+        return kind->text != NULL;
     case PLAYED:
         return w->def.played != NULL;
     case ALWAYS:
@@ -406,7 +422,8 @@ static void overlay_draw(struct stage_window *w, int width, int height, double p
                     height, px, &w->list);
     if (stage_panel_shown(w->panel))
         frames_draw(w, width, px);
-    if (w->message[0] && now_s < w->message_s + MESSAGE_S)
+    const bool words = typed_words_draw(&w->words, w->panel, w->stage, height, px, &w->list);
+    if (!words && w->message[0] && now_s < w->message_s + MESSAGE_S)
         stage_panel_text(w->panel, &w->list, w->message, text, height - text, text, false,
                          colors[STAGE_COLOR_PANEL_TEXT]);
     if (!w->drawn) /* the first text takes some milliseconds longer, which a played letter must not */

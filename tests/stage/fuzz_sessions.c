@@ -114,10 +114,13 @@ static void written_again(struct stage *stage, const struct stage_session *s)
     fclose(file);
     free(text);
     if (again.count != s->count || again.files_count != s->files_count ||
-        again.begin != s->begin || again.end != s->end)
+        again.texts_count != s->texts_count || again.begin != s->begin || again.end != s->end)
         abort();
     for (int i = 0; i < s->count; i++)
         if (again.deeds[i].step != s->deeds[i].step || again.deeds[i].kind != s->deeds[i].kind)
+            abort();
+    for (int i = 0; i < s->texts_count; i++)
+        if (strcmp(again.texts[i], s->texts[i]) != 0)
             abort();
     stage_session_finish(&again);
 }
@@ -155,7 +158,8 @@ int main(void)
     static const char *const seeds[] = {
         "session 1\n0 mark\n0 hand down 0 1 0.3 0 0 0\n3 hand move 1 2 0.3 0 0 0\n9 hand up 2 "
         "2 0.3 0 0 0\n"
-        "12 set gravity -40\n14 set stiffness 1000\n20 undo\n30 reset\nend\n",
+        "12 set gravity -40\n13 text a\\\\b\\nc d\n14 set stiffness 1000\n20 undo\n30 "
+        "reset\nend\n",
         "session 1\n# cut, tack, let go\n1 mark\n1 hand down -1 1.5 0.3 0 1 0\n5 hand move 3 "
         "1.5 0.3 0 1 0\n"
         "6 hand up 3 1.5 0.3 0 1 0\n8 hand down 1 1 0.4 0.9 0 1\n9 hand cancel 0 0 0.4 0 0 "
