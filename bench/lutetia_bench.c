@@ -43,6 +43,8 @@ static const struct {
      "the first picture, from the command, with warm caches and empty ones"},
     {"display", bench_display_main,
      "60 pictures a second on the frame buffer, beside the same program without"},
+    {"studio", bench_studio_main,
+     "what a hand waits for in the studio, beside the empty window"},
 };
 
 enum { BENCHES_COUNT = sizeof benches / sizeof *benches, EXIT_USAGE = 2 };

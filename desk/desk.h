@@ -14,7 +14,9 @@
  *     desk_files.c     new, open, save, pictures
  *     desk_unsaved.c   sheets that were never saved
  *     desk_type.c      type on the sheet
+ *     desk_past.c      time under the hand
  *     desk_play.c      recorded input: events and actions from a file
+ *     desk_measure.c   how long the window takes
  *
  * The window never calls what belongs to the paper's thread (studio_paper.h). All of this belongs to GTK's thread. */
 #ifndef LUTETIA_DESK_H
@@ -49,6 +51,7 @@ struct desk_options {
 
 struct desk_gl;
 struct desk_play;
+struct desk_measure;
 
 struct desk {
     struct desk_options options;
@@ -87,7 +90,13 @@ struct desk {
     double type_x, type_y;
     char *font, *features;
     struct studio_shown shown;
+    /* the past */
+    GtkWidget *past_box, *past_strip, *past_scale, *flow, *flow_bar;
+    struct studio_past past;
+    unsigned long past_seen;
+    int past_sent, past_shown, past_shown_of; /* moments that were sent; that are shown */
     struct desk_play *play;
+    struct desk_measure *measure;    /* NULL: nothing is measured */
     bool closed;                     /* the window was, by its person */
     bool asked;                      /* whether what is not saved may go */
     void (*leaving)(struct desk *d); /* what is done when it has been saved */
@@ -174,6 +183,12 @@ void desk_type_changed(struct desk *d);
 bool desk_type_key(struct desk *d, guint key, GdkModifierType state);
 void desk_type_text(struct desk *d, const char *text);
 
+/* desk_past.c */
+GtkWidget *desk_past_new(struct desk *d); /* hidden */
+GtkWidget *desk_flow_new(struct desk *d); /* seen while the past flows anew */
+void desk_past_look(struct desk *d);      /* after a report */
+void desk_past_move(struct desk *d, int by);
+
 /* desk_unsaved.c */
 /* The folder of journals of sheets that were never saved; NULL: it cannot be made. Free it by g_free(). */
 char *desk_unsaved_folder(void);
@@ -185,5 +200,11 @@ char *desk_unsaved_find(const char *folder);
 struct desk_play *desk_play_open(struct desk *d, const char *path);
 void desk_play_begin(struct desk_play *play);
 void desk_play_destroy(struct desk_play *play);
+
+/* desk_measure.c */
+void desk_measure_begin(struct desk *d, const char *name); /* ends what was measured before */
+void desk_measure_sent(struct desk *d, unsigned long number); /* this message, now */
+void desk_measure_drawn(struct desk *d);                      /* the canvas was */
+void desk_measure_end(struct desk *d); /* before the window goes; nothing is measured: fine */
 
 #endif

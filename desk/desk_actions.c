@@ -34,7 +34,16 @@ static void undo(GSimpleAction *action, GVariant *parameter, gpointer data)
 SENDS(redo, STUDIO_MESSAGE_REDO)
 SENDS(dry, STUDIO_MESSAGE_DRY)
 SENDS(seal, STUDIO_MESSAGE_SEAL)
-SENDS(go_on, STUDIO_MESSAGE_GO_ON)
+SENDS(present, STUDIO_MESSAGE_PRESENT)
+SENDS(from_here, STUDIO_MESSAGE_FROM_HERE)
+SENDS(take_out, STUDIO_MESSAGE_REMOVE)
+SENDS(dish, STUDIO_MESSAGE_DISH)
+SENDS(way, STUDIO_MESSAGE_WAY)
+CALLS(go_on, desk_send(d, d->report.stopped ? STUDIO_MESSAGE_FLOW : STUDIO_MESSAGE_GO_ON))
+CALLS(stop, studio_paper_stop(d->paper))
+CALLS(earlier, desk_past_move(d, -1))
+CALLS(later, desk_past_move(d, 1))
+CALLS(past, gtk_widget_set_visible(d->past_box, !gtk_widget_get_visible(d->past_box)))
 CALLS(new_sheet, desk_file_new(d))
 CALLS(open_sheet, desk_file_open(d))
 CALLS(save, desk_file_save(d, false))
@@ -107,6 +116,10 @@ static const struct {
     {"Ctrl+Z, Ctrl+Shift+Z", "undo, redo"},
     {"Ctrl+Enter", "let the type into the paper"},
     {"Ctrl+D, Ctrl+L", "dry the sheet, seal it under a glaze"},
+    {"Ctrl+T; Alt+Left, Alt+Right, Alt+Home",
+     "the past; an earlier or later moment, the present"},
+    {"Ctrl+Delete, Ctrl+R, Ctrl+J",
+     "there: take the deed out, do it with the dish, another way"},
     {"Ctrl+E, Ctrl+Shift+E", "write a picture, a script that makes the same sheet"},
 };
 
@@ -262,6 +275,15 @@ static const GActionEntry entries[] = {
     {.name = "dry", .activate = dry},
     {.name = "seal", .activate = seal},
     {.name = "go-on", .activate = go_on},
+    {.name = "past", .activate = past},
+    {.name = "earlier", .activate = earlier},
+    {.name = "later", .activate = later},
+    {.name = "present", .activate = present},
+    {.name = "remove", .activate = take_out},
+    {.name = "dish", .activate = dish},
+    {.name = "way", .activate = way},
+    {.name = "from-here", .activate = from_here},
+    {.name = "stop", .activate = stop},
     {.name = "zoom-in", .activate = zoom_in},
     {.name = "zoom-out", .activate = zoom_out},
     {.name = "zoom-one", .activate = zoom_one},
@@ -291,6 +313,16 @@ static const struct {
     {"win.go-on", "Let time go on after an undo", "<Control>g"},
     {"win.dry", "Dry the sheet", "<Control>d"},
     {"win.seal", "Seal under a glaze", "<Control>l"},
+    {NULL, NULL, NULL},
+    {"win.past", "The past", "<Control>t"},
+    {"win.earlier", "An earlier moment", "<Alt>Left"},
+    {"win.later", "A later moment", "<Alt>Right"},
+    {"win.present", "To the present", "<Alt>Home"},
+    {"win.remove", "Take this deed out", "<Control>Delete"},
+    {"win.dish", "Do this deed with the dish", "<Control>r"},
+    {"win.way", "Give this stroke another way", "<Control>j"},
+    {"win.from-here", "Begin anew here", "<Control><Alt>Home"},
+    {"win.stop", "Stop what flows anew", "<Control>Escape"},
     {NULL, NULL, NULL},
     {"win.zoom-in", "Larger", "<Control>plus"},
     {"win.zoom-out", "Smaller", "<Control>minus"},
@@ -347,7 +379,15 @@ void desk_actions_enable(struct desk *d)
         bool enabled;
     } states[] = {{"undo", d->report.can_undo || d->down},
                   {"redo", d->report.can_redo},
-                  {"go-on", d->report.held},
+                  {"go-on", d->report.held || d->report.stopped},
+                  {"earlier", d->report.deeds_done > 0},
+                  {"later", d->report.deeds_done < d->report.deeds},
+                  {"present", d->report.visits},
+                  {"from-here", d->report.visits && !d->report.inserts},
+                  {"remove", d->report.deeds_done > 0 && !d->report.inserts},
+                  {"dish", d->report.deeds_done > 0 && !d->report.inserts},
+                  {"way", d->report.deeds_done > 0 && !d->report.inserts},
+                  {"stop", d->report.flow_total > 0},
                   {"save", d->report.ready},
                   {"save-as", d->report.ready},
                   {"picture", d->report.ready},

@@ -78,6 +78,7 @@ static gboolean canvas_render(GtkGLArea *area, GdkGLContext *context, struct des
     if (!d->gl)
         return FALSE;
     desk_gl_draw(d->gl, d, gtk_widget_get_scale_factor(GTK_WIDGET(area)));
+    desk_measure_drawn(d);
     return TRUE;
 }
 

@@ -13,7 +13,7 @@ void desk_say(struct desk *d, const char *text)
 
 void desk_send(struct desk *d, enum studio_message_kind kind)
 {
-    studio_paper_send(d->paper, (struct studio_message){.kind = kind});
+    desk_measure_sent(d, studio_paper_send(d->paper, (struct studio_message){.kind = kind}));
 }
 
 void desk_set(struct desk *d, int setting, double value)

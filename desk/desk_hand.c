@@ -44,6 +44,7 @@ static void point_send(struct desk *d, enum studio_point_kind kind, const struct
                                        .tilt_y = TILT_MOST * (c * e->tilt_y - s * e->tilt_x)};
     const unsigned long number = studio_paper_send(
         d->paper, (struct studio_message){.kind = STUDIO_MESSAGE_POINT, .point = point});
+    desk_measure_sent(d, number);
     if (kind != STUDIO_POINT_DROP)
         desk_ghost_add(d, number, at.x, at.y, kind == STUDIO_POINT_DOWN);
 }

@@ -65,6 +65,7 @@ static void desk_finish(struct desk *d)
         g_array_free(d->ghost, TRUE);
     if (d->typed)
         g_string_free(d->typed, TRUE);
+    free(d->past.deeds);
     g_free(d->preedit);
     g_free(d->font);
     g_free(d->features);

@@ -126,6 +126,13 @@ static void input_do(struct desk *d, const struct studio_input *input)
     case STUDIO_INPUT_PICTURE:
         path_send(d, STUDIO_MESSAGE_PICTURE, input->text);
         break;
+    case STUDIO_INPUT_MOMENT:
+        studio_paper_send(d->paper, (struct studio_message){.kind = STUDIO_MESSAGE_VISIT,
+                                                            .value = input->value});
+        break;
+    case STUDIO_INPUT_MEASURE:
+        desk_measure_begin(d, input->name);
+        break;
     case STUDIO_INPUT_SCRIPT:
         path_send(d, STUDIO_MESSAGE_SCRIPT, input->text);
         break;

@@ -68,6 +68,20 @@ static void state_show(struct desk *d)
     char *text;
     if (!r->ready)
         text = g_strdup(r->failed ? _("There is no sheet.") : _("The paper is being made …"));
+    else if (r->flow_total > 0)
+        text = g_strdup_printf(_("The past flows anew: %.0f %%; what you see is of before"),
+                               100.0 * (double)r->flow_done / (double)r->flow_total);
+    else if (r->stopped)
+        text = g_strdup(_("Stopped: what you see is of before. Ctrl+G goes on."));
+    else if (r->way)
+        text = g_strdup(_("Draw the stroke's new way"));
+    else if (r->inserts)
+        text = g_strdup_printf(_("Inserting after deed %d; what followed flows anew when you "
+                                 "go to the present"),
+                               r->deeds_done);
+    else if (r->visits)
+        text = g_strdup_printf(_("After deed %d of %d: what you do now is inserted here"),
+                               r->deeds_done, r->deeds);
     else if (r->held)
         text = g_strdup(_("Undone. Time stands still until you paint, redo or let it go on."));
     else if (d->settings.value[STUDIO_PAUSED] != 0)
@@ -131,6 +145,7 @@ static gboolean report_take(gpointer data)
         }
     }
     desk_canvas_look(d);
+    desk_past_look(d);
     title_show(d);
     state_show(d);
     desk_actions_enable(d);
@@ -191,6 +206,9 @@ static GtkWidget *header_new(struct desk *d)
     desk_name(d->pause, _("Time stands still"), _("Time on the paper stands still (P)"));
     g_signal_connect(d->pause, "toggled", G_CALLBACK(pause_toggled), d);
     gtk_header_bar_pack_start(GTK_HEADER_BAR(header), d->pause);
+    gtk_header_bar_pack_start(
+        GTK_HEADER_BAR(header),
+        action_button("document-open-recent-symbolic", _("The past"), "win.past", "Ctrl+T"));
     gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(menu), "open-menu-symbolic");
     gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(menu), model);
     gtk_menu_button_set_primary(GTK_MENU_BUTTON(menu), TRUE);
@@ -214,6 +232,7 @@ static GtkWidget *state_new(struct desk *d)
     gtk_widget_set_margin_top(box, 3);
     gtk_widget_set_margin_bottom(box, 3);
     gtk_box_append(GTK_BOX(box), d->state);
+    gtk_box_append(GTK_BOX(box), desk_flow_new(d));
     gtk_box_append(GTK_BOX(box), d->memory);
     gtk_box_append(GTK_BOX(box), d->place);
     return box;
@@ -229,6 +248,7 @@ static void leave(struct desk *d)
 static void gone(GtkWidget *window, struct desk *d)
 {
     (void)window;
+    desk_measure_end(d);
     d->window = NULL;
     d->closed = d->asked || !d->report.changed;
 }
@@ -316,6 +336,7 @@ void desk_window_open(struct desk *d)
     gtk_overlay_set_child(GTK_OVERLAY(over), middle); /* a message never moves the sheet */
     gtk_overlay_add_overlay(GTK_OVERLAY(over), notice_new(d));
     gtk_box_append(GTK_BOX(all), over);
+    gtk_box_append(GTK_BOX(all), desk_past_new(d));
     gtk_box_append(GTK_BOX(all), state);
     gtk_window_set_child(GTK_WINDOW(d->window), all);
     d->pen = desk_pen_create(d->canvas);

@@ -27,11 +27,18 @@ static const struct paper_stroke_sample *last_of(const struct studio_session *s)
 
 /* ---- strokes ---- */
 
+/* An inserted brush leaves that of what follows as it is. */
+static int brush_number(const struct studio_session *s)
+{
+    return s->inserting >= 0 ? PAPER_BRUSHES_MAX - 1 : 0;
+}
+
 /* Only what a brush was dipped in is different from stroke to stroke; a brush that is as it was stays as it is. */
 static enum paper_status brush_ready(struct studio_session *s,
                                      const struct studio_settings *settings)
 {
-    const struct paper_brush brush = studio_settings_brush(settings);
+    struct paper_brush brush = studio_settings_brush(settings);
+    brush.number = brush_number(s);
     const struct paper_brush *b = &s->brush;
     if (s->has_brush && b->width == brush.width && b->angle == brush.angle &&
         b->follows == brush.follows && b->flat == brush.flat && b->point == brush.point &&
@@ -49,7 +56,7 @@ static enum paper_status brush_ready(struct studio_session *s,
 static enum paper_status brush_dip(struct studio_session *s,
                                    const struct studio_settings *settings, bool inked)
 {
-    struct paper_dip dip = {.number = 0, .part = 1, .side = {-1, 1}};
+    struct paper_dip dip = {.number = brush_number(s), .part = 1, .side = {-1, 1}};
     studio_settings_amounts(settings, dip.amount);
     if (!inked) {
         memset(dip.amount, 0, sizeof dip.amount);
@@ -72,18 +79,22 @@ static enum paper_status stroke_begin(struct studio_session *s)
     const bool fresh = s->has_brush && !had_brush;
     if (status == PAPER_OK && (fresh || s->at.value[STUDIO_REFILL] != 0 || !tool->inked))
         status = brush_dip(s, &s->at, tool->inked);
-    double pace = s->at.value[STUDIO_PAUSED] != 0 ? 0 : s->at.value[STUDIO_PACE];
+    double pace =
+        s->at.value[STUDIO_PAUSED] != 0 || s->inserting >= 0 ? 0 : s->at.value[STUDIO_PACE];
     if (s->pace_most > 0)
         pace = fmin(pace, s->pace_most);
-    return status == PAPER_OK ? paper_sheet_stroke_begin(s->sheet, 0, pace) : status;
+    return status == PAPER_OK ? paper_sheet_stroke_begin(s->sheet, brush_number(s), pace)
+                              : status;
 }
 
 enum paper_status studio_session_care(struct studio_session *s, enum studio_care care)
 {
     if (s->down)
         return studio_session_failed(PAPER_BAD_ARGUMENT, "the brush is on the paper");
-    enum paper_status status = brush_ready(s, &s->settings);
-    const struct paper_dip wipe = {.number = 0, .part = 1, .side = {-1, 1}};
+    enum paper_status status = studio_session_insert(s);
+    if (status == PAPER_OK)
+        status = brush_ready(s, &s->settings);
+    const struct paper_dip wipe = {.number = brush_number(s), .part = 1, .side = {-1, 1}};
     if (status == PAPER_OK)
         status = care == STUDIO_WIPE ? paper_sheet_dip(s->sheet, &wipe)
                                      : brush_dip(s, &s->settings, care == STUDIO_DIP);
@@ -262,7 +273,7 @@ static enum paper_status sample_add(struct studio_session *s, const struct studi
 static bool grows(const struct studio_session *s)
 {
     const int tool = (int)s->at.value[STUDIO_TOOL];
-    return tool == STUDIO_TOOL_BRUSH || tool == STUDIO_TOOL_WATER;
+    return s->way < 0 && (tool == STUDIO_TOOL_BRUSH || tool == STUDIO_TOOL_WATER);
 }
 
 /* What the hand does between coming down and being lifted. */
@@ -282,6 +293,8 @@ static enum paper_status hand_moves(struct studio_session *s, const struct studi
 
 static enum paper_status hand_lifts(struct studio_session *s)
 {
+    if (s->way >= 0)
+        return studio_session_way_end(s);
     return grows(s) ? paper_sheet_stroke_end(s->sheet, NULL) : deed_do(s);
 }
 
@@ -296,8 +309,10 @@ enum paper_status studio_session_point(struct studio_session *s,
         s->at = s->settings;
         s->began_s = point->time_s;
         s->stroke_steps = 0;
+        if (s->way < 0)
+            status = studio_session_insert(s);
         s->operations = paper_history_done(s->sheet);
-        if (grows(s))
+        if (status == PAPER_OK && grows(s))
             status = stroke_begin(s);
     }
     if (s->down && status == PAPER_OK)
@@ -316,7 +331,8 @@ enum paper_status studio_session_point(struct studio_session *s,
 
 enum paper_status studio_session_rest(struct studio_session *s, double seconds)
 {
-    if (!s->down || !grows(s) || s->samples_count == 0 || s->at.value[STUDIO_PAUSED] != 0)
+    if (!s->down || !grows(s) || s->samples_count == 0 || s->at.value[STUDIO_PAUSED] != 0 ||
+        s->inserting >= 0)
         return PAPER_OK;
     const struct paper_stroke_sample *last = last_of(s);
     const struct studio_point point = {.kind = STUDIO_POINT_MOVE,
@@ -353,16 +369,22 @@ static enum paper_status deed_done(struct studio_session *s, enum paper_status s
     return status;
 }
 
-enum paper_status studio_session_dry(struct studio_session *s)
+static enum paper_status deed_ready(struct studio_session *s)
 {
     return s->down ? studio_session_failed(PAPER_BAD_ARGUMENT, "the brush is on the paper")
-                   : deed_done(s, paper_sheet_dry(s->sheet));
+                   : studio_session_insert(s);
+}
+
+enum paper_status studio_session_dry(struct studio_session *s)
+{
+    const enum paper_status status = deed_ready(s);
+    return status == PAPER_OK ? deed_done(s, paper_sheet_dry(s->sheet)) : status;
 }
 
 enum paper_status studio_session_seal(struct studio_session *s)
 {
-    return s->down ? studio_session_failed(PAPER_BAD_ARGUMENT, "the brush is on the paper")
-                   : deed_done(s, paper_sheet_seal(s->sheet));
+    const enum paper_status status = deed_ready(s);
+    return status == PAPER_OK ? deed_done(s, paper_sheet_seal(s->sheet)) : status;
 }
 
 /* ---- type ---- */
@@ -401,6 +423,8 @@ enum paper_status studio_session_type(struct studio_session *s, const struct stu
         return studio_session_failed(PAPER_BAD_ARGUMENT, "the brush is on the paper");
     enum paper_status status =
         studio_session_type_screen(&s->settings, type, &screen, &x, &y, &missing);
+    if (status == PAPER_OK)
+        status = studio_session_insert(s);
     if (status == PAPER_OK)
         status = studio_session_air(s);
     studio_settings_amounts(&s->settings, amount);

@@ -30,11 +30,13 @@ static const struct word {
     {"set", STUDIO_INPUT_SET, INPUT_NONE, 0, 0, 0, true},
     {"action", STUDIO_INPUT_ACTION, INPUT_NONE, 0, 0, 0, true},
     {"step", STUDIO_INPUT_STEP, INPUT_NONE, 0, 1, 1, false},
+    {"moment", STUDIO_INPUT_MOMENT, INPUT_NONE, 0, 1, 1, false},
     {"view", STUDIO_INPUT_VIEW, INPUT_NONE, 0, 5, 5, false},
     {"type", STUDIO_INPUT_TYPE, INPUT_NONE, 0, 2, 2, true},
     {"save", STUDIO_INPUT_SAVE, INPUT_NONE, 0, 0, 0, true},
     {"picture", STUDIO_INPUT_PICTURE, INPUT_NONE, 0, 0, 0, true},
     {"script", STUDIO_INPUT_SCRIPT, INPUT_NONE, 0, 0, 0, true},
+    {"measure", STUDIO_INPUT_MEASURE, INPUT_NONE, 0, 0, 0, true},
 };
 /* What is an action of the window by its own name. */
 static const char *const actions[] = {"undo", "redo", "dry", "seal", "close"};
@@ -154,6 +156,8 @@ static int word_read(const struct word *word, const char *rest, struct studio_in
     }
     if (word->kind == STUDIO_INPUT_STEP && !(out->value >= 1 && out->value <= 100000))
         return wrong(why, room, "steps must be 1..100000, not", rest);
+    if (word->kind == STUDIO_INPUT_MOMENT && !(out->value >= 0 && out->value <= 1e6))
+        return wrong(why, room, "a moment is after 0..1000000 deeds, not", rest);
     if (word->kind == STUDIO_INPUT_VIEW && !(out->zoom > 0))
         return wrong(why, room, "a zoom must be above 0 in", word->name);
     return 1;

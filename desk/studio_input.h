@@ -8,8 +8,8 @@
  *     1.000      undo
  *
  * Words: set NAME VALUE (studio_settings.h); down, move, up X Y [PRESSURE [TILT_X TILT_Y]] with the units of input.h, no pressure being a
- * mouse; middle-down, middle-up; leave; focus-lost; action NAME [WORD]; step N; view ZOOM X Y DEGREES MIRRORED; type X Y TEXT (in fibers;
- * \n is a new line); undo, redo, dry, seal, save FILE, picture FILE, script FILE, close. Times do not go back. */
+ * mouse; middle-down, middle-up; leave; focus-lost; action NAME [WORD]; step N; view ZOOM X Y DEGREES MIRRORED; moment N (after so many deeds); type X Y TEXT (in fibers;
+ * \n is a new line); undo, redo, dry, seal, save FILE, picture FILE, script FILE, measure NAME (desk_measure.c), close. Times do not go back. */
 #ifndef LUTETIA_STUDIO_INPUT_H
 #define LUTETIA_STUDIO_INPUT_H
 
@@ -26,7 +26,9 @@ enum studio_input_kind {
     STUDIO_INPUT_TYPE,
     STUDIO_INPUT_SAVE,
     STUDIO_INPUT_PICTURE,
-    STUDIO_INPUT_SCRIPT
+    STUDIO_INPUT_SCRIPT,
+    STUDIO_INPUT_MEASURE,
+    STUDIO_INPUT_MOMENT
 };
 
 enum { STUDIO_INPUT_TEXT = 1024 };
@@ -36,10 +38,10 @@ struct studio_input {
     double time_s;
     struct input_event event;
     int setting;
-    double value;               /* SET, STEP */
+    double value;               /* SET, STEP, MOMENT */
     double zoom, x, y, degrees; /* VIEW; x and y also of TYPE */
     bool mirrored;
-    char name[64];                /* ACTION */
+    char name[64];                /* ACTION, MEASURE */
     char text[STUDIO_INPUT_TEXT]; /* ACTION: its word; TYPE, SAVE, PICTURE */
 };
 

@@ -83,6 +83,12 @@ bool studio_messages_take(struct studio_messages *m, struct studio_message *out)
     return true;
 }
 
+bool studio_messages_waiting(const struct studio_messages *m)
+{
+    return atomic_load_explicit(&m->taken, memory_order_relaxed) !=
+           atomic_load_explicit(&m->put, memory_order_acquire);
+}
+
 void studio_messages_wait(struct studio_messages *m, double seconds)
 {
     struct timespec until;

@@ -24,6 +24,13 @@ enum studio_message_kind {
     STUDIO_MESSAGE_GO_ON,
     STUDIO_MESSAGE_UNDO,
     STUDIO_MESSAGE_REDO,
+    STUDIO_MESSAGE_VISIT, /* value: after how many deeds */
+    STUDIO_MESSAGE_PRESENT,
+    STUDIO_MESSAGE_FROM_HERE,
+    STUDIO_MESSAGE_REMOVE,
+    STUDIO_MESSAGE_DISH,
+    STUDIO_MESSAGE_WAY,
+    STUDIO_MESSAGE_FLOW, /* what was stopped goes on */
     STUDIO_MESSAGE_DRY,
     STUDIO_MESSAGE_SEAL,
     STUDIO_MESSAGE_TYPE,      /* type: is let into the paper */
@@ -66,6 +73,8 @@ unsigned long studio_messages_put(struct studio_messages *m, struct studio_messa
 void studio_messages_flush(struct studio_messages *m);
 /* False: there is none now. */
 bool studio_messages_take(struct studio_messages *m, struct studio_message *out);
+/* Whether there is one. For the thread that takes. */
+bool studio_messages_waiting(const struct studio_messages *m);
 /* Waits for one, so long at most. */
 void studio_messages_wait(struct studio_messages *m, double seconds);
 

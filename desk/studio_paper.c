@@ -21,6 +21,7 @@ enum { STEPS_AT_ONCE = 2 };
 #define LATE_MOST 2.0  /* steps that may be due */
 #define REST_S 0.25    /* between looks while nothing happens */
 #define UNSEEN_S 0.004 /* until a picture is looked at */
+#define HEAR_S 0.02    /* of messages, then a picture */
 #define STILL_S 0.05   /* a hand that is not heard for so long rests */
 #define PACE_LEAST 5.0 /* steps a second of a stroke */
 #define PACE_SHARE 0.7 /* of the time goes to a stroke, the rest to pictures */
@@ -42,6 +43,7 @@ static void report_make(struct studio_paper *p)
         r->steps = paper_sheet_steps(sheet);
         r->operations = paper_history_done(sheet);
         r->history_bytes = paper_history_bytes(sheet);
+        studio_paper_past_look(p);
     }
     r->budget_bytes = p->def.budget_bytes;
     pthread_mutex_lock(&p->lock);
@@ -53,155 +55,6 @@ static void report_make(struct studio_paper *p)
         p->def.wake(p->def.context);
 }
 
-/* ---- sheets ---- */
-
-static bool pictures_change(struct studio_paper *p, int width, int height)
-{
-    struct studio_pictures *made = calloc(1, sizeof *made);
-    uint8_t *view = malloc(3 * (size_t)width * (size_t)height);
-    if (!made || !view || !studio_pictures_begin(made, width, height)) {
-        free(made);
-        free(view);
-        return false;
-    }
-    free(p->view);
-    p->view = view;
-    pthread_mutex_lock(&p->lock);
-    struct studio_pictures *before = p->pictures;
-    p->pictures = made;
-    const bool unseen = before != p->looked;
-    pthread_mutex_unlock(&p->lock);
-    if (before && unseen) { /* else the window ends them, when it looks again */
-        studio_pictures_finish(before);
-        free(before);
-    }
-    return true;
-}
-
-/* ---- journals ---- */
-
-static void journal_path(const char *path, char *out, size_t room)
-{
-    snprintf(out, room, "%s.journal", path);
-}
-
-/* From here on what is done with the sheet is kept: beside its file, or in the folder of those that have none. found NULL: none was read. */
-static void journal_begin(struct studio_paper *p, const char *path, const char *journal,
-                          const struct paper_journal_found *found)
-{
-    char made[STUDIO_TEXT_MAX + 64];
-    struct paper_sheet *sheet = studio_session_sheet(p->session);
-    enum paper_status status = PAPER_OK;
-    if (!p->kept || (!path && !journal && !p->def.folder))
-        return;
-    if (path)
-        journal_path(path, made, sizeof made);
-    else if (journal)
-        snprintf(made, sizeof made, "%s", journal);
-    else
-        snprintf(made, sizeof made, "%s/sheet-%d-%lu.journal", p->def.folder, (int)getpid(),
-                 p->now.sheets);
-    if (found && found->continues)
-        status = studio_keeper_continue(&p->keeper, sheet, made, found);
-    else
-        status = studio_keeper_watch(&p->keeper, sheet, made, path);
-    if (status != PAPER_OK)
-        studio_paper_complain(p);
-}
-
-/* What a journal that was left behind says too little about; and it is kept, if another one would take its place. False: it would not be. */
-static bool journal_judge(struct studio_paper *p, const char *journal, const char *why,
-                          bool goes_on)
-{
-    char kept[STUDIO_TEXT_MAX + 80];
-    if (goes_on) {
-        studio_session_failed(PAPER_BAD_FILE,
-                              "what was not saved is here again, but for its end: %s", why);
-    } else if (studio_keeper_set_aside(journal, kept, sizeof kept)) {
-        studio_session_failed(
-            PAPER_BAD_FILE,
-            "what was not saved cannot be found again (%s); its journal is kept: %s", why,
-            kept);
-    } else {
-        studio_session_failed(PAPER_BAD_FILE,
-                              "what was not saved cannot be found again (%s), and its journal "
-                              "stays: %s; this sheet has none",
-                              why, journal);
-    }
-    studio_paper_complain(p);
-    return goes_on || access(journal, F_OK) != 0;
-}
-
-/* The sheet that was made takes the place of the one before. */
-static void sheet_change(struct studio_paper *p, struct studio_session *made, const char *path)
-{
-    const struct paper_sheet_config *config =
-        paper_sheet_get_config(studio_session_sheet(made));
-    if (!pictures_change(p, config->width, config->height)) {
-        studio_session_failed(PAPER_NO_MEMORY, "no memory for pictures of %dx%d fibers",
-                              config->width, config->height);
-        studio_paper_complain(p);
-        studio_session_destroy(made);
-        return;
-    }
-    if (p->kept)
-        studio_keeper_leave(&p->keeper);
-    studio_session_destroy(p->session);
-    p->session = made;
-    p->now.sheets++;
-    p->now.config = *config;
-    p->now.settings = *studio_session_settings(made);
-    p->now.changed = p->now.found_again = false;
-    snprintf(p->now.path, sizeof p->now.path, "%s", path ? path : "");
-    p->dirty = p->view_other = true;
-    p->due = 0;
-}
-
-static void sheet_make(struct studio_paper *p, const struct paper_sheet_config *config)
-{
-    struct studio_session *made;
-    if (studio_session_create(config, p->def.budget_bytes, &made) != PAPER_OK) {
-        studio_paper_complain(p);
-        return;
-    }
-    sheet_change(p, made, NULL);
-    if (p->session == made)
-        journal_begin(p, NULL, NULL, NULL);
-}
-
-/* A file with the journal beside it, or a journal alone. */
-static void sheet_open(struct studio_paper *p, const char *path, const char *journal)
-{
-    char beside[STUDIO_TEXT_MAX + 64];
-    struct paper_journal_found found = {0};
-    struct studio_session *made;
-    enum paper_status status;
-    if (!journal) {
-        journal_path(path, beside, sizeof beside);
-        journal = access(beside, F_OK) == 0 ? beside : NULL;
-    }
-    if (journal)
-        status = studio_session_find(journal, path, p->def.budget_bytes, &found, &made);
-    else
-        status = studio_session_open(path, p->def.budget_bytes, &made);
-    if (status == PAPER_BAD_FILE && !path) { /* a journal alone */
-        char why[STUDIO_TEXT_MAX];
-        snprintf(why, sizeof why, "%s", studio_session_error());
-        journal_judge(p, journal, why, false);
-        return;
-    }
-    if (status != PAPER_OK) {
-        studio_paper_complain(p);
-        return;
-    }
-    sheet_change(p, made, path);
-    if (p->session != made)
-        return;
-    p->now.changed = p->now.found_again = found.entries > 0;
-    if (!found.why[0] || journal_judge(p, journal, found.why, found.continues))
-        journal_begin(p, path, journal, &found);
-}
-
 /* ---- messages ---- */
 
 /* What the hand must have finished before. */
@@ -211,7 +64,8 @@ static bool needs_rest(enum studio_message_kind kind)
            kind == STUDIO_MESSAGE_SEAL || kind == STUDIO_MESSAGE_TYPE ||
            kind == STUDIO_MESSAGE_NEW || kind == STUDIO_MESSAGE_OPEN ||
            kind == STUDIO_MESSAGE_SAVE || kind == STUDIO_MESSAGE_PICTURE ||
-           kind == STUDIO_MESSAGE_SCRIPT;
+           kind == STUDIO_MESSAGE_SCRIPT ||
+           (kind >= STUDIO_MESSAGE_VISIT && kind <= STUDIO_MESSAGE_WAY);
 }
 
 static void note(struct studio_paper *p, bool other, const char *path)
@@ -223,7 +77,13 @@ static void note(struct studio_paper *p, bool other, const char *path)
 
 static enum paper_status save(struct studio_paper *p, const struct studio_message *m)
 {
-    enum paper_status status;
+    enum paper_status status = PAPER_OK;
+    if (m->kind != STUDIO_MESSAGE_PICTURE && studio_session_visits(p->session)) {
+        status = studio_session_present(p->session); /* all of the past is saved */
+        p->dirty = p->flows = true;
+    }
+    if (status != PAPER_OK)
+        return status;
     if (m->kind == STUDIO_MESSAGE_PICTURE || m->kind == STUDIO_MESSAGE_SCRIPT) {
         status = m->kind == STUDIO_MESSAGE_SCRIPT
                      ? studio_session_script(p->session, m->text)
@@ -236,7 +96,7 @@ static enum paper_status save(struct studio_paper *p, const struct studio_messag
     if (status == PAPER_OK) {
         snprintf(p->now.path, sizeof p->now.path, "%s", m->text);
         p->now.changed = false;
-        journal_begin(p, m->text, NULL, NULL);
+        studio_paper_journal(p, m->text, NULL, NULL);
         note(p, false, m->text);
     }
     return status;
@@ -298,12 +158,40 @@ static enum paper_status point_do(struct studio_paper *p, const struct studio_me
     for (int i = 0; i + 1 < POINTS_UNSEEN; i++)
         p->points[i] = p->points[i + 1];
     p->points[POINTS_UNSEEN - 1] = m->number;
+    const bool way = studio_session_way_waits(p->session);
+    const int deed = way ? studio_session_deeds_done(p->session) - 1 : 0;
     const enum paper_status status = studio_session_point(p->session, &m->point);
+    if (way && !studio_session_way_waits(p->session)) { /* a stroke of the past has it */
+        studio_paper_past_forget(p, deed);
+        p->flows = true;
+    }
     p->rested_s = input_now_s();
     p->worked_s += p->rested_s - began_s;
     if (m->point.kind == STUDIO_POINT_UP)
         stroke_measure(p);
     return status;
+}
+
+static enum paper_status past_do(struct studio_paper *p, const struct studio_message *m)
+{
+    struct studio_session *s = p->session;
+    const int deed = studio_session_deeds_done(s) - 1;
+    switch ((int)m->kind) {
+    case STUDIO_MESSAGE_VISIT:
+        return studio_session_visit(s, (int)m->value);
+    case STUDIO_MESSAGE_PRESENT:
+        studio_paper_past_forget(p, studio_session_inserts(s) ? deed : p->past.count);
+        return studio_session_present(s);
+    case STUDIO_MESSAGE_FROM_HERE:
+        studio_session_from_here(s);
+        return PAPER_OK;
+    case STUDIO_MESSAGE_WAY:
+        return studio_session_way(s);
+    default:
+        studio_paper_past_forget(p, deed);
+        return m->kind == STUDIO_MESSAGE_DISH ? studio_session_dish(s)
+                                              : studio_session_remove(s);
+    }
 }
 
 static enum paper_status message_do(struct studio_paper *p, const struct studio_message *m)
@@ -331,6 +219,15 @@ static enum paper_status message_do(struct studio_paper *p, const struct studio_
     case STUDIO_MESSAGE_REDO:
         studio_session_redo(s);
         return PAPER_OK;
+    case STUDIO_MESSAGE_VISIT:
+    case STUDIO_MESSAGE_PRESENT:
+    case STUDIO_MESSAGE_FROM_HERE:
+    case STUDIO_MESSAGE_REMOVE:
+    case STUDIO_MESSAGE_DISH:
+    case STUDIO_MESSAGE_WAY:
+        return past_do(p, m);
+    case STUDIO_MESSAGE_FLOW:
+        return PAPER_OK;
     case STUDIO_MESSAGE_DRY:
         return studio_session_dry(s);
     case STUDIO_MESSAGE_SEAL:
@@ -340,10 +237,10 @@ static enum paper_status message_do(struct studio_paper *p, const struct studio_
     case STUDIO_MESSAGE_TYPE_SHOW:
         return type_show(p, m);
     case STUDIO_MESSAGE_NEW:
-        sheet_make(p, m->config);
+        studio_paper_sheet_make(p, m->config);
         return PAPER_OK;
     case STUDIO_MESSAGE_OPEN:
-        sheet_open(p, m->text, NULL);
+        studio_paper_sheet_open(p, m->text, NULL);
         return PAPER_OK;
     case STUDIO_MESSAGE_SAVE:
     case STUDIO_MESSAGE_PICTURE:
@@ -356,13 +253,18 @@ static enum paper_status message_do(struct studio_paper *p, const struct studio_
     return PAPER_OK;
 }
 
+/* Whether it goes back or forth in the past, or changes it. */
+static bool of_past(enum studio_message_kind kind)
+{
+    return kind >= STUDIO_MESSAGE_UNDO && kind <= STUDIO_MESSAGE_FLOW;
+}
+
 /* Whether the sheet is another one after it. */
 static bool changes(const struct studio_message *m)
 {
-    return m->kind == STUDIO_MESSAGE_UNDO || m->kind == STUDIO_MESSAGE_REDO ||
-           m->kind == STUDIO_MESSAGE_DRY || m->kind == STUDIO_MESSAGE_SEAL ||
-           m->kind == STUDIO_MESSAGE_TYPE || m->kind == STUDIO_MESSAGE_STEP ||
-           m->kind == STUDIO_MESSAGE_POINT;
+    return of_past(m->kind) || m->kind == STUDIO_MESSAGE_DRY ||
+           m->kind == STUDIO_MESSAGE_SEAL || m->kind == STUDIO_MESSAGE_TYPE ||
+           m->kind == STUDIO_MESSAGE_STEP || m->kind == STUDIO_MESSAGE_POINT;
 }
 
 static void message_hear(struct studio_paper *p, struct studio_message *m)
@@ -381,11 +283,14 @@ static void message_hear(struct studio_paper *p, struct studio_message *m)
         if (message_do(p, m) != PAPER_OK)
             studio_paper_complain(p);
         p->dirty = p->dirty || changes(m);
+        p->flows =
+            p->flows || (m->kind >= STUDIO_MESSAGE_UNDO && m->kind <= STUDIO_MESSAGE_FLOW);
         if (m->kind == STUDIO_MESSAGE_SET && m->setting == STUDIO_SHOW)
             p->dirty = p->view_other = true;
         p->now.changed = p->now.changed || changes(m);
     }
     p->now.answered = m->number;
+    p->now.flow_done = p->now.flow_total = 0;
     studio_message_free(m);
 }
 
@@ -401,12 +306,15 @@ static void later_hear(struct studio_paper *p)
 static void messages_hear(struct studio_paper *p)
 {
     struct studio_message m;
-    while (!p->end && studio_messages_take(&p->messages, &m)) {
+    const double until_s = input_now_s() + HEAR_S;
+    while (!p->end && input_now_s() < until_s && studio_messages_take(&p->messages, &m)) {
         message_hear(p, &m);
         if (p->later_count > 0)
             later_hear(p);
         if (p->now.error[0] || m.kind == STUDIO_MESSAGE_SAVE)
             report_make(p);
+        if (m.kind == STUDIO_MESSAGE_POINT && m.point.kind == STUDIO_POINT_UP)
+            break; /* a deed is seen before the next one */
     }
 }
 
@@ -430,7 +338,7 @@ static void time_go(struct studio_paper *p)
     int done = 0;
     p->looked_s = now_s;
     rest(p, now_s);
-    if (value[STUDIO_PAUSED] != 0 || studio_session_busy(p->session) ||
+    if (p->flows || value[STUDIO_PAUSED] != 0 || studio_session_busy(p->session) ||
         studio_session_held(p->session) || !studio_session_wet(p->session)) {
         p->due = 0;
         return;
@@ -452,7 +360,7 @@ static double wait_s(const struct studio_paper *p)
         return UNSEEN_S;
     if (studio_session_grows(p->session) && value[STUDIO_PAUSED] == 0)
         return STILL_S;
-    if (value[STUDIO_PAUSED] != 0 || studio_session_busy(p->session) ||
+    if (p->flows || value[STUDIO_PAUSED] != 0 || studio_session_busy(p->session) ||
         studio_session_held(p->session) || !studio_session_wet(p->session))
         return REST_S;
     return fmax(0, (1 - p->due) / value[STUDIO_PACE]);
@@ -463,9 +371,9 @@ static void *paper_run(void *context)
     struct studio_paper *p = context;
     p->kept = studio_keeper_begin(&p->keeper);
     if (p->def.path || p->def.found)
-        sheet_open(p, p->def.path, p->def.path ? NULL : p->def.found);
+        studio_paper_sheet_open(p, p->def.path, p->def.path ? NULL : p->def.found);
     if (!p->session && !p->def.path)
-        sheet_make(p, &p->config);
+        studio_paper_sheet_make(p, &p->config);
     p->now.failed = !p->session;
     p->looked_s = input_now_s();
     report_make(p);
@@ -477,7 +385,7 @@ static void *paper_run(void *context)
                 studio_paper_look(p);
             report_make(p);
         }
-        if (!p->end)
+        if (!p->end && !studio_messages_waiting(&p->messages))
             studio_messages_wait(&p->messages, p->session ? wait_s(p) : REST_S);
     }
     if (p->kept && (p->forget || !p->now.changed))
@@ -541,6 +449,7 @@ void studio_paper_end(struct studio_paper *p, bool forget, struct studio_report 
     free((void *)(uintptr_t)p->shown.gray);
     free(p->shown_gray);
     free(p->view);
+    free(p->past.deeds);
     free((char *)(uintptr_t)p->def.path);
     free((char *)(uintptr_t)p->def.found);
     free((char *)(uintptr_t)p->def.folder);

@@ -48,6 +48,12 @@ struct studio_report {
     char error[STUDIO_TEXT_MAX];
     char note[STUDIO_TEXT_MAX]; /* the file that was written */
     bool note_other;            /* which was a picture or a script, not the sheet */
+    int deeds, deeds_done;      /* of the past, with those that are undone */
+    unsigned long past;         /* another number: studio_paper_past() is another */
+    bool visits, inserts;       /* studio_session_visits() */
+    bool way;                   /* the hand's next stroke is another one's way */
+    long flow_done, flow_total; /* steps, while the past flows anew; total 0: it does not */
+    bool stopped;               /* it was stopped; the picture is of before */
     char path[STUDIO_TEXT_MAX]; /* of the file; "": none yet */
 };
 
@@ -65,6 +71,23 @@ void studio_paper_flush(struct studio_paper *paper);
 void studio_paper_report(struct studio_paper *paper, struct studio_report *out);
 /* NULL: no new one. It stays as it is until the next call. */
 const struct studio_picture *studio_paper_picture(struct studio_paper *paper);
+
+/* Stops a past that flows anew; the picture stays that of before, until something else is done or STUDIO_MESSAGE_FLOW comes. */
+void studio_paper_stop(struct studio_paper *paper);
+
+/* The deeds of the past, with a small picture of the sheet after each that has been seen. */
+enum { STUDIO_SMALL_WIDTH = 64, STUDIO_SMALL_HEIGHT = 48 };
+struct studio_past {
+    int count;
+    struct studio_past_deed {
+        char what[16];
+        long time, steps; /* studio_session.h */
+        bool pictured;
+        uint8_t rgb[3 * STUDIO_SMALL_WIDTH * STUDIO_SMALL_HEIGHT];
+    } * deeds;
+};
+/* Fills *past, which began as zeros. False: no memory; it is as it was. Owns: the caller frees past->deeds. */
+bool studio_paper_past(struct studio_paper *paper, struct studio_past *past);
 
 /* The type that is shown, as a screen with its place. False: none, or the same as at the last call (*same). gray belongs to the paper until
  * the next call. */

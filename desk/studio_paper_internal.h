@@ -26,6 +26,11 @@ struct studio_paper {
     bool view_other;                                  /* the whole sheet is to be looked at */
     unsigned long points[POINTS_UNSEEN], before_hand; /* numbers of messages */
     double rested_s, worked_s; /* when the hand was heard last; what its stroke has taken */
+    bool flows;                /* the past has to flow anew before time goes on */
+    bool looking, interrupted; /* a look is under way; the watch has ended it */
+    double flow_told_s, pictured_s;
+    int past_done, past_undone, past_capacity;
+    unsigned long past_sheet;
     struct studio_report now;
     /* shared */
     pthread_mutex_t lock;
@@ -33,6 +38,8 @@ struct studio_paper {
     struct studio_pictures *pictures; /* of this sheet */
     struct studio_shown shown;
     bool shown_new;
+    struct studio_past past;
+    atomic_bool stop;
     /* the window's own */
     struct studio_pictures *looked; /* those that it looks at */
     uint8_t *shown_gray;
@@ -40,6 +47,21 @@ struct studio_paper {
 
 /* The last failure is reported. */
 void studio_paper_complain(struct studio_paper *p);
+/* Sheets (studio_paper_sheets.c): a new one; a file with the journal beside it, or a journal alone. They take the place of the one before, unless
+ * they cannot be made. */
+void studio_paper_sheet_make(struct studio_paper *p, const struct paper_sheet_config *config);
+void studio_paper_sheet_open(struct studio_paper *p, const char *path, const char *journal);
+/* From here on what is done with the sheet is kept: beside its file, or in the folder of those that have none. found NULL: none was read. */
+void studio_paper_journal(struct studio_paper *p, const char *path, const char *journal,
+                          const struct paper_journal_found *found);
+
+/* The past (studio_paper_past.c): watches the sheet's, after a look that went well or not, takes a small picture, forgets small pictures from a
+ * deed on, lists the deeds where there are others. */
+void studio_paper_flow_watch(struct studio_paper *p);
+void studio_paper_flowed(struct studio_paper *p, bool good);
+void studio_paper_pictured(struct studio_paper *p);
+void studio_paper_past_forget(struct studio_paper *p, int from);
+void studio_paper_past_look(struct studio_paper *p);
 /* Makes a picture of what has changed, and gives it to the window. */
 void studio_paper_look(struct studio_paper *p);
 

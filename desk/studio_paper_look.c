@@ -56,6 +56,8 @@ void studio_paper_look(struct studio_paper *p)
     struct paper_area areas[PAPER_AREAS_MAX];
     struct studio_rectangle changed = {0};
     const int width = p->pictures->width;
+    p->looking = true;
+    p->interrupted = false;
     int count = paper_sheet_changed(sheet, areas);
     if (p->view_other) {
         areas[0] = (struct paper_area){0, 0, width, p->pictures->height};
@@ -66,12 +68,17 @@ void studio_paper_look(struct studio_paper *p)
         const size_t at = (size_t)areas[i].y * (size_t)width + (size_t)areas[i].x;
         if (paper_sheet_view_area(sheet, &view, &areas[i], p->view + 3 * at,
                                   3 * (size_t)width) != PAPER_OK) {
-            studio_paper_complain(p);
+            if (!p->interrupted)
+                studio_paper_complain(p);
             p->view_other = true; /* what was not seen is looked at with the next change */
             break;
         }
         changed = studio_rectangle_join(changed, canvas_fill(p->pictures, p->view, &areas[i]));
     }
+    studio_paper_flowed(p, !p->view_other || !p->interrupted);
+    if (p->view_other && p->interrupted)
+        return; /* the old picture is seen until the new one is whole */
     studio_pictures_publish(p->pictures, &changed, seen_of(p));
+    studio_paper_pictured(p);
     p->def.wake(p->def.context);
 }

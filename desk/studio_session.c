@@ -21,6 +21,7 @@ static enum paper_status session_make(struct paper_sheet *sheet, struct studio_s
         return studio_session_failed(PAPER_NO_MEMORY, "no memory for a studio");
     }
     s->sheet = sheet;
+    s->present = s->inserting = s->way = s->inserted = -1;
     studio_settings_usual(&s->settings);
     const struct paper_air *air = paper_sheet_get_air(sheet);
     s->settings.value[STUDIO_TILT_X] = air->gravity[0];
@@ -76,8 +77,12 @@ enum paper_status studio_session_find(const char *journal, const char *state,
     enum paper_status status = paper_journal_open(journal, state, budget_bytes, found, &sheet);
     if (status != PAPER_OK)
         return status;
-    if (paper_sheet_get_config(sheet)->parts & PAPER_PART_SURFACE)
-        return session_make(sheet, out);
+    if (paper_sheet_get_config(sheet)->parts & PAPER_PART_SURFACE) {
+        status = session_make(sheet, out);
+        if (status == PAPER_OK && paper_history_undone(sheet) > 0) /* nothing of it gets lost */
+            (*out)->present = paper_history_done(sheet) + paper_history_undone(sheet);
+        return status;
+    }
     paper_sheet_destroy(sheet);
     return studio_session_failed(PAPER_BAD_FILE, NO_SURFACE, state ? state : journal);
 }
@@ -117,11 +122,14 @@ bool studio_session_busy(const struct studio_session *s)
 
 bool studio_session_held(const struct studio_session *s)
 {
-    return s->held && paper_history_undone(s->sheet) > 0;
+    return (s->held && paper_history_undone(s->sheet) > 0) || s->present >= 0 ||
+           s->inserting >= 0;
 }
 
 void studio_session_go_on(struct studio_session *s)
 {
+    if (studio_session_visits(s))
+        studio_session_present(s);
     s->wet = s->wet || s->held;
     s->held = false;
 }
@@ -148,31 +156,18 @@ enum paper_status studio_session_steps(struct studio_session *s, int count, int 
 
 /* ---- undo: deeds among the operations ---- */
 
-enum part_of { BEFORE, DEED, AFTER };
-
-/* Brushes and dips belong to the deed that follows, time and air to the one before. */
-static enum part_of part(const struct studio_session *s, int number)
-{
-    struct paper_moment moment;
-    if (!paper_history_moment(s->sheet, number, &moment))
-        return AFTER;
-    if (!strcmp(moment.what, "brush") || !strcmp(moment.what, "dip"))
-        return BEFORE;
-    return !strcmp(moment.what, "step") || !strcmp(moment.what, "air") ? AFTER : DEED;
-}
-
 /* The number of operations that are left when the last deed is undone; -1: there is none. */
 static int undone_to(const struct studio_session *s)
 {
     int left = paper_history_done(s->sheet);
-    while (left > 0 && part(s, left - 1) != DEED)
+    while (left > 0 && studio_session_part(s, left - 1) != STUDIO_PART_DEED)
         left--;
     if (left == 0)
         return -1;
     left--;
-    while (left > 0 && part(s, left - 1) == BEFORE)
+    while (left > 0 && studio_session_part(s, left - 1) == STUDIO_PART_BEFORE)
         left--;
-    return left;
+    return s->inserting >= 0 && left < s->inserting ? -1 : left;
 }
 
 /* The number of operations that are done when the next deed is redone; -1: there is none. */
@@ -180,12 +175,12 @@ static int redone_to(const struct studio_session *s)
 {
     int done = paper_history_done(s->sheet);
     const int all = done + paper_history_undone(s->sheet);
-    while (done < all && part(s, done) != DEED)
+    while (done < all && studio_session_part(s, done) != STUDIO_PART_DEED)
         done++;
     if (done == all)
         return -1;
     done++;
-    while (done < all && part(s, done) == AFTER)
+    while (done < all && studio_session_part(s, done) == STUDIO_PART_AFTER)
         done++;
     return done;
 }
@@ -209,7 +204,9 @@ bool studio_session_undo(struct studio_session *s)
     const int left = undone_to(s);
     if (left < 0)
         return false;
-    paper_history_undo(s->sheet, paper_history_done(s->sheet) - left);
+    const int count = paper_history_done(s->sheet) - left;
+    paper_history_undo(s->sheet, studio_session_inserted(s) ? 1 : count);
+    s->inserted = -1;
     s->held = true;
     s->has_brush = false;
     s->wet = true;
@@ -222,6 +219,8 @@ bool studio_session_redo(struct studio_session *s)
     if (done < 0)
         return false;
     paper_history_redo(s->sheet, done - paper_history_done(s->sheet));
+    if (done >= s->present)
+        s->present = -1;
     s->has_brush = false;
     s->wet = true;
     return true;

@@ -99,7 +99,7 @@ enum paper_status studio_session_type(struct studio_session *session,
 enum paper_status studio_session_steps(struct studio_session *session, int count, int *done);
 /* Whether time stands still after an undo. */
 bool studio_session_held(const struct studio_session *session);
-/* Time goes on, and what was undone is gone. */
+/* Time goes on in the present, and what was undone is gone. */
 void studio_session_go_on(struct studio_session *session);
 /* Whether anything is wet, so that a step may change the sheet. */
 bool studio_session_wet(const struct studio_session *session);
@@ -110,6 +110,37 @@ bool studio_session_redo(struct studio_session *session);
 /* Whether there is. */
 bool studio_session_can_undo(const struct studio_session *session);
 bool studio_session_can_redo(const struct studio_session *session);
+
+/* ---- the past ---- */
+
+/* Deeds in their order, with those that are undone. While something is inserted, what follows it is not among them. */
+struct studio_deed {
+    const char *what; /* the operation: "stroke", "wash", "put", ... */
+    long time, steps; /* gone by before it; that it took, with the time after it */
+    bool done;
+};
+/* Owns: the caller frees *deeds. Errors: NO_MEMORY. */
+enum paper_status studio_session_deeds(const struct studio_session *session,
+                                       struct studio_deed **deeds, int *count);
+int studio_session_deeds_done(const struct studio_session *session);
+/* Goes to the moment after so many deeds and the time after the last of them. An insertion ends before, and is kept. Errors: BAD_ARGUMENT
+ * (there are not so many; a hand is down). */
+enum paper_status studio_session_visit(struct studio_session *session, int deeds);
+/* Whether an earlier moment is visited; whether something is being inserted there. A deed that is begun there is inserted: it takes no
+ * time, and has the air of that moment. */
+bool studio_session_visits(const struct studio_session *session);
+bool studio_session_inserts(const struct studio_session *session);
+/* Back to the present; what followed an insertion flows anew when somebody looks, and one undo takes the insertion out. Errors: BAD_ARGUMENT (a hand is down), NO_MEMORY. */
+enum paper_status studio_session_present(struct studio_session *session);
+/* The visited moment is the present: what followed is as if it had been undone. */
+void studio_session_from_here(struct studio_session *session);
+/* Of the last deed before the visited moment: takes it out, and its time stays; paints it with what is in the dish now; gives a stroke the
+ * way of the hand's next one. The present is gone to. Errors: BAD_ARGUMENT (no such deed; nothing of the dish was in it; no stroke; a hand
+ * is down; something is inserted), NO_MEMORY, MACHINE_FAILED. */
+enum paper_status studio_session_remove(struct studio_session *session);
+enum paper_status studio_session_dish(struct studio_session *session);
+enum paper_status studio_session_way(struct studio_session *session);
+bool studio_session_way_waits(const struct studio_session *session);
 
 /* ---- files ---- */
 

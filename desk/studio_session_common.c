@@ -5,6 +5,7 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 /* ---- failures ---- */
 
@@ -40,13 +41,35 @@ void studio_session_drop(struct studio_session *s)
         s->has_brush = false;
     }
     s->down = false;
+    s->way = -1;
     s->samples_count = 0;
+}
+
+/* ---- deeds among the operations ---- */
+
+enum studio_part studio_session_part(const struct studio_session *s, int number)
+{
+    struct paper_moment moment;
+    if (!paper_history_moment(s->sheet, number, &moment))
+        return STUDIO_PART_AFTER;
+    if (!strcmp(moment.what, "brush") || !strcmp(moment.what, "dip"))
+        return STUDIO_PART_BEFORE;
+    return !strcmp(moment.what, "step") || !strcmp(moment.what, "air") ? STUDIO_PART_AFTER
+                                                                       : STUDIO_PART_DEED;
+}
+
+bool studio_session_inserted(const struct studio_session *s)
+{
+    return s->inserted >= 0 && paper_history_done(s->sheet) == s->inserted &&
+           paper_sheet_steps(s->sheet) == s->inserted_steps;
 }
 
 /* ---- air ---- */
 
 enum paper_status studio_session_air(struct studio_session *s)
 {
+    if (s->inserting >= 0) /* the air is that of what follows, too */
+        return PAPER_OK;
     struct paper_air air = *paper_sheet_get_air(s->sheet);
     const double *value = s->settings.value;
     if (air.gravity[0] == value[STUDIO_TILT_X] && air.gravity[1] == value[STUDIO_TILT_Y] &&

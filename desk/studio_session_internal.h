@@ -20,6 +20,12 @@ struct studio_session {
     struct paper_stroke_sample *samples;
     int samples_count, samples_capacity;
     bool held; /* something was undone, and nothing done since */
+    /* The past (studio_past.c): numbers of operations, -1: none. */
+    int present;         /* that are done in the present, while an earlier moment is visited */
+    int inserting;       /* before those that are inserted */
+    int way;             /* the stroke whose way the hand draws anew */
+    int inserted;        /* that were done when an insertion had ended, */
+    long inserted_steps; /* and how many steps had gone by */
     bool wet;
 };
 
@@ -32,5 +38,17 @@ void studio_session_drop(struct studio_session *s);
 /* The sheet gets the air that is set. */
 enum paper_status studio_session_air(struct studio_session *s);
 struct paper_sheet_view studio_session_view(const struct studio_session *s);
+
+/* What an operation is to a deed: brushes and dips belong to the deed that follows, time and air to the one before. */
+enum studio_part { STUDIO_PART_BEFORE, STUDIO_PART_DEED, STUDIO_PART_AFTER };
+enum studio_part studio_session_part(const struct studio_session *s, int number);
+
+/* Nothing has been done since an insertion ended: one undo takes all of it out. */
+bool studio_session_inserted(const struct studio_session *s);
+
+/* Before a deed: where an earlier moment is visited, what is done from now on is inserted there. */
+enum paper_status studio_session_insert(struct studio_session *s);
+/* The stroke gets the way that the hand has drawn. */
+enum paper_status studio_session_way_end(struct studio_session *s);
 
 #endif

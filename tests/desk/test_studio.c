@@ -149,6 +149,12 @@ static void input_lines(void **state)
     assert_true(in.x == 20 && in.y == 30);
     assert_int_equal(studio_input_parse("1 view 2 100 50 30 1", &in, why, sizeof why), 1);
     assert_true(in.zoom == 2 && in.x == 100 && in.y == 50 && in.degrees == 30 && in.mirrored);
+    assert_int_equal(studio_input_parse("1 moment 12", &in, why, sizeof why), 1);
+    assert_int_equal(in.kind, STUDIO_INPUT_MOMENT);
+    assert_true(in.value == 12);
+    assert_int_equal(studio_input_parse("1 moment -1", &in, why, sizeof why), -1);
+    assert_int_equal(studio_input_parse("1 measure hand", &in, why, sizeof why), 1);
+    assert_string_equal(in.name, "hand");
     assert_int_equal(studio_input_parse("1 undo", &in, why, sizeof why), 1);
     assert_string_equal(in.name, "undo");
     static const char *const wrong[] = {"x down 1 2",

@@ -161,6 +161,51 @@ static void an_operation_is_replaced(void **state)
     }
 }
 
+/* Put in just before an operation, among others of its time: and out again by one undo. */
+static void before_an_operation(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 0; seed < 12; seed++) {
+        struct paper_sheet *sheet = sheet_painted(seed, seed % 2 ? 1e6 : 0),
+                           *other = sheet_new(0);
+        const int done = paper_history_done(sheet), number = (int)(seed * 5 % (uint64_t)done);
+        const uint64_t before = state_hash(sheet);
+        const double strong[3] = {1, 0.2, 0.7};
+        struct paper_moment moment;
+        for (int i = 0; i <= done; i++) {
+            uint8_t *bytes;
+            size_t count;
+            if (i == number)
+                box_put(other, 4, 5, 7, strong);
+            if (i == done)
+                break;
+            assert_true(paper_history_moment(sheet, i, &moment));
+            check(paper_history_operation(sheet, i, &bytes, &count));
+            paper_history_mark(other);
+            for (long k = strcmp(moment.what, "step") == 0 ? moment.steps : 1; k > 0; k--)
+                check(paper_sheet_again(other, bytes, count));
+            free(bytes);
+        }
+        assert_int_equal(paper_history_insert_before(sheet, done), PAPER_BAD_ARGUMENT);
+        check(paper_history_insert_before(sheet, number));
+        assert_int_equal(paper_history_insert_before(sheet, 0), PAPER_BAD_ARGUMENT);
+        assert_int_equal(paper_history_undo(sheet, 1), 0);
+        box_put(sheet, 4, 5, 7, strong);
+        check(paper_history_insert_end(sheet, true));
+        assert_int_equal(paper_history_done(sheet), done + 1);
+        assert_true(state_hash(sheet) == state_hash(other));
+        assert_int_equal(paper_history_undo(sheet, 1), 1);
+        assert_int_equal(paper_history_done(sheet), done);
+        assert_true(state_hash(sheet) == before);
+        check(paper_history_insert_before(sheet, number));
+        box_put(sheet, 4, 5, 7, strong);
+        check(paper_history_insert_end(sheet, false));
+        assert_true(state_hash(sheet) == before);
+        paper_sheet_destroy(sheet);
+        paper_sheet_destroy(other);
+    }
+}
+
 /* Stops at its n-th call; -1: never. */
 struct stopper {
     int calls, at;
@@ -217,6 +262,9 @@ static void a_journal_tells_of_it(void **state)
     check(paper_history_change_begin(sheet, 1));
     box_put(sheet, 4, 5, 7, (double[]){1, 0.2, 0.7});
     check(paper_history_change_end(sheet, true));
+    check(paper_history_insert_before(sheet, 2));
+    box_put(sheet, 2, 2, 3, (double[]){0.7, 0, 0.4});
+    check(paper_history_insert_end(sheet, true));
     operate(sheet, 50);
     check(paper_journal_close(journal));
     check(paper_journal_open(path, NULL, 1e6, &found, &again));
@@ -233,6 +281,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_operation_is_taken_out),
         cmocka_unit_test(an_operation_is_replaced),
+        cmocka_unit_test(before_an_operation),
         cmocka_unit_test(what_flows_anew_can_be_stopped),
         cmocka_unit_test(a_journal_tells_of_it),
     };

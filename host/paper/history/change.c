@@ -71,7 +71,8 @@ enum paper_status paper_history_remove(struct paper_sheet *p, int number, bool l
     return PAPER_OK;
 }
 
-enum paper_status paper_history_change_begin(struct paper_sheet *p, int number)
+/* The operations from `number` on are taken away, until paper_history_insert_end(). */
+static enum paper_status part_at(struct paper_sheet *p, int number, enum note_move move)
 {
     struct sheet_history *h = p->history;
     enum paper_status status = number_check(p, number);
@@ -82,12 +83,23 @@ enum paper_status paper_history_change_begin(struct paper_sheet *p, int number)
     change_from(h, number);
     if (!event_log_take_away(&h->log, number, &h->tail, &h->tail_count))
         return paper_fail(PAPER_NO_MEMORY, "no memory for the history of a sheet");
-    history_moved(h, NOTE_CHANGE, number);
+    history_moved(h, move, number);
     h->now = (struct position){number, 0};
     h->inserting_at = number;
-    h->changing = true;
+    h->inserted.split = false;
+    h->changing = move == NOTE_CHANGE;
     history_followed(h);
     return PAPER_OK;
+}
+
+enum paper_status paper_history_change_begin(struct paper_sheet *p, int number)
+{
+    return part_at(p, number, NOTE_CHANGE);
+}
+
+enum paper_status paper_history_insert_before(struct paper_sheet *p, int number)
+{
+    return part_at(p, number, NOTE_INSERT_BEFORE);
 }
 
 enum paper_status paper_history_change_end(struct paper_sheet *p, bool keep)

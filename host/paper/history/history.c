@@ -210,9 +210,9 @@ static enum paper_status operation_perform(struct paper_sheet *p, const struct e
         h->at = at;
     if (status != PAPER_OK)
         return status;
-    h->work++;
-    if (op->kind == SHEET_EVENT_STEP)
-        h->spared += 1 - sheet_share(p);
+    const long steps = p->steps - h->steps_before; /* a stroke makes them, too */
+    h->work += op->kind == SHEET_EVENT_STEP ? 1 : 1 + steps;
+    h->spared += (double)steps * (1 - sheet_share(p));
     at.step++;
     bool ends = op->kind != SHEET_EVENT_STEP || at.step == op->steps;
     h->at = ends ? (struct position){at.op + 1, 0} : at;

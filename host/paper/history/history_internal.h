@@ -30,6 +30,7 @@ enum note_move {
     NOTE_REMOVE,
     NOTE_REMOVE_LEAVING_TIME,
     NOTE_CHANGE,
+    NOTE_INSERT_BEFORE,
     NOTE_MOVES_END
 };
 struct note {

@@ -71,7 +71,8 @@ static enum paper_status stroke_record(struct paper_sheet *p, const struct paper
         return status;
     }
     op.steps = (int)(p->steps - h->steps_before);
-    h->work++;
+    h->work += 1 + op.steps;
+    h->spared += op.steps * (1 - sheet_share(p));
     return history_keep(p, op);
 }
 

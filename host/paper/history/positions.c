@@ -32,6 +32,7 @@ long history_work(const struct sheet_history *h, struct position position)
 {
     long work = position.step;
     for (int i = 0; i < position.op; i++)
-        work += h->log.records[i].kind == SHEET_EVENT_STEP ? h->log.records[i].steps : 1;
+        work += h->log.records[i].kind == SHEET_EVENT_STEP ? h->log.records[i].steps
+                                                           : 1 + h->log.records[i].steps;
     return work;
 }

@@ -90,6 +90,9 @@ enum paper_status history_remake(struct paper_sheet *p, int move, long number)
     case NOTE_CHANGE:
         status = paper_history_change_begin(p, (int)number);
         break;
+    case NOTE_INSERT_BEFORE:
+        status = paper_history_insert_before(p, (int)number);
+        break;
     default:
         return impossible();
     }

@@ -1,0 +1,255 @@
+/* test_studio_past.c - time under the hand: what is inserted, taken out or changed earlier makes the sheet that was painted so from the beginning, to
+ * the bit, by a session that never looked back; and nothing else goes. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "studio_scene.h"
+
+enum { NUMBERS = 3 * SCENE_WIDTH * SCENE_HEIGHT };
+static uint16_t seen[NUMBERS], expected[NUMBERS];
+
+#define good(call) assert_int_equal(call, PAPER_OK)
+
+static void look(struct studio_session *s, uint16_t *rgb)
+{
+    const struct paper_sheet_config config = scene_config();
+    struct paper_sheet_view view = paper_sheet_view_default(&config);
+    view.show = PAPER_SHOW_WET;
+    good(paper_sheet_view(studio_session_sheet(s), &view, rgb));
+}
+
+static struct studio_session *begin(void)
+{
+    const struct paper_sheet_config config = scene_config();
+    struct studio_session *s;
+    good(studio_session_create(&config, 64e6, &s));
+    return s;
+}
+
+/* A way of the hand, with this tool. */
+struct hand {
+    enum studio_tool_number tool;
+    double width, y, rises, pigment;
+};
+
+static void sweep(struct studio_session *s, double y, double rises, bool lifted)
+{
+    for (int k = 0; k < 4; k++)
+        good(studio_session_point(s, &(struct studio_point){.kind = k == 0 ? STUDIO_POINT_DOWN
+                                                                    : k < 3 || !lifted
+                                                                        ? STUDIO_POINT_MOVE
+                                                                        : STUDIO_POINT_UP,
+                                                            .time_s = 5 + 0.05 * k,
+                                                            .x = 15 + 20 * k,
+                                                            .y = y + rises * k,
+                                                            .pressure = 0.7}));
+}
+
+static void paint(struct studio_session *s, const struct hand *h)
+{
+    good(studio_session_set(s, STUDIO_TOOL, h->tool));
+    good(studio_session_set(s, STUDIO_WIDTH, h->width));
+    good(studio_session_set(s, STUDIO_PIGMENT, h->pigment));
+    sweep(s, h->y, h->rises, true);
+}
+
+static const struct hand blue = {STUDIO_TOOL_BRUSH, 14, 20, 3, 0.7},
+                         wide = {STUDIO_TOOL_BRUSH, 22, 36, -2, 0.5},
+                         wet = {STUDIO_TOOL_WATER, 10, 28, 1, 0},
+                         thin = {STUDIO_TOOL_BRUSH, 6, 50, 4, 1},
+                         cloth = {STUDIO_TOOL_BLOT, 12, 24, 2, 0},
+                         drop = {STUDIO_TOOL_DROP, 12, 30, 2, 0.8},
+                         wash = {STUDIO_TOOL_WASH, 12, 4, 12, 0.4};
+
+/* Steps go on only in the present. */
+static void paint_all(struct studio_session *s, const struct hand *const *hands,
+                      const int *steps)
+{
+    for (int i = 0; hands[i]; i++) {
+        paint(s, hands[i]);
+        good(studio_session_steps(s, steps[i], NULL));
+    }
+}
+
+static struct studio_session *painted(const struct hand *const *hands, const int *steps)
+{
+    struct studio_session *s = begin();
+    good(studio_session_set(s, STUDIO_PAUSED, 1)); /* strokes take no time */
+    paint_all(s, hands, steps);
+    return s;
+}
+
+/* The sheet of the session is that of these deeds. */
+static void is_sheet(struct studio_session *s, const struct hand *const *hands,
+                     const int *steps, int line)
+{
+    struct studio_session *other = painted(hands, steps);
+    look(s, seen);
+    look(other, expected);
+    if (memcmp(seen, expected, sizeof seen) != 0)
+        fail_msg("line %d: it is another sheet", line);
+    assert_int_equal(paper_sheet_steps(studio_session_sheet(s)),
+                     paper_sheet_steps(studio_session_sheet(other)));
+    studio_session_destroy(other);
+}
+
+#define is_sheet_of(s, hands, steps) is_sheet(s, hands, steps, __LINE__)
+
+static const struct hand *const four[] = {&wash, &blue, &wide, &thin, NULL};
+static const int four_steps[] = {5, 4, 6, 3};
+
+static void moments_are_visited(void **state)
+{
+    (void)state;
+    struct studio_session *s = painted(four, four_steps);
+    struct studio_deed *deeds;
+    int count, done;
+    good(studio_session_deeds(s, &deeds, &count));
+    assert_int_equal(count, 4);
+    assert_string_equal(deeds[0].what, "wash");
+    assert_int_equal(deeds[2].time, 9);
+    assert_int_equal(deeds[2].steps, 6);
+    free(deeds);
+    for (int k = 0; k <= 4; k++) { /* each is the sheet that had got so far */
+        const struct hand *some[5] = {four[0], four[1], four[2], four[3]};
+        good(studio_session_visit(s, k));
+        some[k] = NULL;
+        is_sheet_of(s, some, four_steps);
+        assert_int_equal(studio_session_deeds_done(s), k);
+        assert_int_equal(studio_session_visits(s), k < 4);
+        assert_true(k == 4 || studio_session_held(s));
+    }
+    good(studio_session_visit(s, 2));
+    good(studio_session_steps(s, 3, &done)); /* time stands still there */
+    assert_int_equal(done, 0);
+    good(studio_session_visit(s, 1));
+    good(studio_session_present(s));
+    assert_false(studio_session_visits(s));
+    is_sheet_of(s, four, four_steps);
+    assert_int_equal(studio_session_visit(s, 5), PAPER_BAD_ARGUMENT);
+    assert_int_equal(studio_session_visit(s, -1), PAPER_BAD_ARGUMENT);
+    studio_session_destroy(s);
+}
+
+/* Other brushes, other tools, at the beginning too; what follows finds its brushes as they were. */
+static void deeds_are_inserted(void **state)
+{
+    (void)state;
+    static const struct hand *const between[] = {&wash, &blue, &drop, &wet, &wide, &thin, NULL},
+                                    *const first[] = {&cloth, &thin, &wash, &blue, &drop,
+                                                      &wet,   &wide, &thin, NULL};
+    static const int between_steps[] = {5, 4, 0, 0, 6, 3},
+                     first_steps[] = {0, 0, 5, 4, 0, 0, 6, 3};
+    struct studio_session *s = painted(four, four_steps);
+    good(studio_session_visit(s, 2));
+    assert_false(studio_session_inserts(s));
+    sweep(s, 60, 1, false); /* given up: nothing is inserted */
+    assert_true(studio_session_undo(s));
+    good(studio_session_present(s));
+    is_sheet_of(s, four, four_steps);
+    good(studio_session_visit(s, 2));
+    paint(s, &thin);
+    assert_true(studio_session_inserts(s));
+    assert_true(studio_session_undo(s)); /* among what is inserted, as ever */
+    assert_false(studio_session_undo(s));
+    paint(s, &drop);
+    paint(s, &wet);
+    assert_int_equal(studio_session_remove(s), PAPER_BAD_ARGUMENT);
+    good(studio_session_present(s));
+    is_sheet_of(s, between, between_steps);
+    good(studio_session_visit(s, 0));
+    paint(s, &cloth);
+    paint(s, &thin);
+    good(studio_session_present(s));
+    assert_true(studio_session_undo(s)); /* takes out all that was inserted */
+    is_sheet_of(s, between, between_steps);
+    good(studio_session_visit(s, 0));
+    paint(s, &cloth);
+    paint(s, &thin);
+    good(studio_session_visit(s, 3)); /* which ends the insertion, too */
+    good(studio_session_present(s));
+    is_sheet_of(s, first, first_steps);
+    studio_session_destroy(s);
+}
+
+static void deeds_are_taken_out(void **state)
+{
+    (void)state;
+    static const struct hand *const without[] = {&wash, &wide, &thin, NULL};
+    static const int steps[] = {9, 6, 3};
+    struct studio_session *s = painted(four, four_steps);
+    good(studio_session_visit(s, 2));
+    good(studio_session_remove(s));
+    assert_false(studio_session_visits(s));
+    assert_int_equal(studio_session_deeds_done(s), 3);
+    is_sheet_of(s, without, steps);
+    good(studio_session_visit(s, 0));
+    assert_int_equal(studio_session_remove(s), PAPER_BAD_ARGUMENT);
+    studio_session_destroy(s);
+}
+
+static void deeds_are_changed(void **state)
+{
+    (void)state;
+    static const struct hand pale = {STUDIO_TOOL_BRUSH, 14, 20, 3, 0.2},
+                             other = {STUDIO_TOOL_BRUSH, 14, 44, -5, 0.2},
+                             weak = {STUDIO_TOOL_WASH, 12, 4, 12, 0.2};
+    static const struct hand *const dished[] = {&wash, &pale, &wide, &thin, NULL},
+                                    *const led[] = {&wash, &other, &wide, &thin, NULL},
+                                    *const both[] = {&weak, &other, &wide, &thin, NULL};
+    struct studio_session *s = painted(four, four_steps);
+    good(studio_session_visit(s, 2));
+    good(studio_session_set(s, STUDIO_PIGMENT, 0.2));
+    good(studio_session_dish(s));
+    is_sheet_of(s, dished, four_steps);
+    good(studio_session_visit(s, 2));
+    good(studio_session_way(s));
+    assert_true(studio_session_way_waits(s));
+    sweep(s, 44, -5, true);
+    assert_false(studio_session_way_waits(s) || studio_session_visits(s));
+    is_sheet_of(s, led, four_steps);
+    good(studio_session_visit(s, 1));
+    assert_int_equal(studio_session_way(s), PAPER_BAD_ARGUMENT); /* a wash has none */
+    good(studio_session_dish(s));
+    is_sheet_of(s, both, four_steps);
+    good(studio_session_visit(s, 2));
+    good(studio_session_way(s));
+    sweep(s, 10, 2, false);
+    assert_true(studio_session_undo(s)); /* it keeps its way */
+    good(studio_session_present(s));
+    is_sheet_of(s, both, four_steps);
+    studio_session_destroy(s);
+}
+
+static void another_present_begins(void **state)
+{
+    (void)state;
+    static const struct hand *const anew[] = {&wash, &blue, &drop, NULL};
+    static const int steps[] = {5, 4, 2};
+    struct studio_session *s = painted(four, four_steps);
+    good(studio_session_visit(s, 2));
+    studio_session_from_here(s);
+    assert_true(!studio_session_visits(s) && studio_session_can_redo(s));
+    paint(s, &drop);
+    good(studio_session_steps(s, 2, NULL));
+    assert_int_equal(studio_session_deeds_done(s), 3);
+    is_sheet_of(s, anew, steps);
+    studio_session_destroy(s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(moments_are_visited),    cmocka_unit_test(deeds_are_inserted),
+        cmocka_unit_test(deeds_are_taken_out),    cmocka_unit_test(deeds_are_changed),
+        cmocka_unit_test(another_present_begins),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
