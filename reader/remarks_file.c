@@ -167,7 +167,7 @@ enum column { ID, KIND, MADE, GONE, ANCHOR, TEXT, RGBA, WIDTH, X, Y, POINTS };
 static bool number_read(sqlite3_stmt *s, enum column column, double least, double most,
                         double *out)
 {
-    *out = sqlite3_column_double(s, column);
+    *out = sqlite3_column_double(s, (int)column);
     return *out >= least && *out <= most;
 }
 

@@ -14,7 +14,7 @@ static void copy_selected(struct read_desk *d)
 {
     if (!d->document || d->selected.begin >= d->selected.end)
         return;
-    char *text = read_document_text(d, d->selected);
+    char *text = read_text_of(d, d->selected);
     gdk_clipboard_set_text(gtk_widget_get_clipboard(d->page), text);
     g_free(text);
 }
@@ -30,6 +30,27 @@ static void select_all(struct read_desk *d)
         d->selected = (struct read_range){0, d->document->plain_bytes};
     read_page_changed(d);
     read_actions_enable(d);
+}
+
+/* Inks, translucent: red, green, blue, opacity. */
+static const struct {
+    const char *name, *label;
+    unsigned rgba;
+    double width;
+} inks[] = {{"blue", N_("Blue ink"), 0x1f4fbfc8u, 0.16},
+            {"red", N_("Red ink"), 0xc8201ec8u, 0.16},
+            {"green", N_("Green ink"), 0x0f7a3ac8u, 0.16},
+            {"marker", N_("Yellow marker"), 0xffd40070u, 0.9}};
+
+static void ink_choose(struct read_desk *d, const char *name)
+{
+    for (size_t i = 0; i < G_N_ELEMENTS(inks); i++)
+        if (g_str_equal(inks[i].name, name)) {
+            d->ink_rgba = inks[i].rgba;
+            d->ink_width = inks[i].width;
+        }
+    if (d->tool != READ_TOOL_PEN)
+        read_keys_key(d, GDK_KEY_d, 0);
 }
 
 enum { SIZE_STEP_PERCENT = 8, COLUMN_STEP = 3 };
@@ -48,6 +69,16 @@ ACTION(narrower, read_look_column(d, d->column_em - COLUMN_STEP))
 ACTION(dark, read_look_theme(d, !d->dark))
 ACTION(copy, copy_selected(d))
 ACTION(all, select_all(d))
+ACTION(undo, read_remarks_undo(d, false))
+ACTION(redo, read_remarks_undo(d, true))
+ACTION(highlight, read_keys_key(d, GDK_KEY_h, 0))
+ACTION(note, read_keys_key(d, GDK_KEY_n, 0))
+ACTION(pen, read_keys_key(d, GDK_KEY_d, 0))
+ACTION(eraser, read_keys_key(d, GDK_KEY_e, 0))
+ACTION(move_ink, read_keys_key(d, GDK_KEY_m, 0))
+ACTION(play_back, read_keys_key(d, GDK_KEY_r, 0))
+ACTION(play_back_all, read_keys_key(d, GDK_KEY_R, 0))
+ACTION(ink, ink_choose(d, g_variant_get_string(value, NULL)))
 ACTION(close_window, gtk_window_close(GTK_WINDOW(d->window)))
 
 static const GActionEntry entries[] = {
@@ -65,6 +96,16 @@ static const GActionEntry entries[] = {
     {.name = "dark", .activate = dark},
     {.name = "copy", .activate = copy},
     {.name = "all", .activate = all},
+    {.name = "undo", .activate = undo},
+    {.name = "redo", .activate = redo},
+    {.name = "highlight", .activate = highlight},
+    {.name = "note", .activate = note},
+    {.name = "pen", .activate = pen},
+    {.name = "eraser", .activate = eraser},
+    {.name = "move-ink", .activate = move_ink},
+    {.name = "play-back", .activate = play_back},
+    {.name = "play-back-all", .activate = play_back_all},
+    {.name = "ink", .activate = ink, .parameter_type = "s"},
     {.name = "close", .activate = close_window},
 };
 
@@ -83,6 +124,16 @@ static const struct {
     {"win.copy", "Copy", "<Control>c"},
     {"win.all", "Select all", "<Control>a"},
     {NULL, NULL, NULL},
+    {"win.undo", "Undo", "<Control>z"},
+    {"win.redo", "Redo", "<Control><Shift>z"},
+    {"win.highlight", "Highlight (H)", "<Control>h"},
+    {"win.note", "Note (N)", "<Control>n"},
+    {"win.pen", "Draw (D)", "<Control><Shift>d"},
+    {"win.eraser", "Erase ink (E)", "<Control>e"},
+    {"win.move-ink", "Move ink (M)", "<Control>m"},
+    {"win.play-back", "Play ink back (R)", "<Control>r"},
+    {"win.play-back-all", "Play back with what was erased", "<Control><Shift>r"},
+    {NULL, NULL, NULL},
     {"win.larger", "Larger letters", "<Control>plus"},
     {"win.smaller", "Smaller letters", "<Control>minus"},
     {"win.usual", "Usual letters", "<Control>0"},
@@ -95,7 +146,12 @@ static const struct {
 
 GMenuModel *read_menu_new(void)
 {
-    GMenu *menu = g_menu_new(), *part = g_menu_new();
+    GMenu *menu = g_menu_new(), *part = g_menu_new(), *colours = g_menu_new();
+    for (size_t i = 0; i < G_N_ELEMENTS(inks); i++) {
+        char *action = g_strdup_printf("win.ink::%s", inks[i].name);
+        g_menu_append(colours, _(inks[i].label), action);
+        g_free(action);
+    }
     for (size_t i = 0; i <= G_N_ELEMENTS(menu_rows); i++) {
         if (i < G_N_ELEMENTS(menu_rows) && menu_rows[i].action) {
             g_menu_append(part, _(menu_rows[i].label), menu_rows[i].action);
@@ -105,6 +161,8 @@ GMenuModel *read_menu_new(void)
         g_object_unref(part);
         part = g_menu_new();
     }
+    g_menu_append_submenu(menu, _("Inks"), G_MENU_MODEL(colours));
+    g_object_unref(colours);
     g_object_unref(part);
     return G_MENU_MODEL(menu);
 }
@@ -125,6 +183,8 @@ void read_actions_enable(struct read_desk *d)
         bool enabled;
     } states[] = {{"back", read_document_can(d, false)},
                   {"forward", read_document_can(d, true)},
+                  {"undo", read_remarks_can(d, false)},
+                  {"redo", read_remarks_can(d, true)},
                   {"copy", d->selected.begin < d->selected.end}};
     for (size_t i = 0; d->window && i < G_N_ELEMENTS(states); i++)
         g_simple_action_set_enabled(G_SIMPLE_ACTION(g_action_map_lookup_action(

@@ -7,7 +7,13 @@
  *     read_search.c    what is found
  *     read_keys.c      keys of the page
  *     read_hand.c      pointer, wheel, touch: scrolling, selecting
+ *     read_remarks.c   highlights, typed notes, undo
+ *     read_list.c      their list
+ *     read_ink.c       ink
+ *     read_watch.c     files that other programs change
+ *     read_text.c      words
  *     read_page.c      the page: a widget that shows a reader_view
+ *     read_changed.c   what follows when the page is other
  *     read_heard.c     the page's text for screen readers
  *     read_tiles.c     its pictures, painted by fontpipe and kept
  *     read_look.c      sizes, colours, how wide the text is
@@ -20,9 +26,11 @@
 #include <desk_shared.h>
 #include <gtk/gtk.h>
 #include <libintl.h>
+#include <reader_remarks.h>
 #include <reader_view.h>
 
 #define _(text) gettext(text)
+#define N_(text) (text) /* translated where it is shown */
 
 struct read_options {
     GPtrArray *paths; /* of the document's files */
@@ -40,7 +48,8 @@ struct read_range {
 
 /* Colours, sRGB 0..1. */
 struct read_colours {
-    double paper[3], ink[3], link[3], struck[3], selected[3], found[3], current[3], marked[3];
+    double paper[3], ink[3], link[3], struck[3], selected[3], found[3], current[3], marked[3],
+        noted[3];
 };
 
 /* A place that one can go back to. */
@@ -48,6 +57,9 @@ struct read_place {
     char *path; /* NULL: in the document that is open */
     size_t byte;
 };
+
+/* What the first button does. */
+enum read_tool { READ_TOOL_READ, READ_TOOL_PEN, READ_TOOL_ERASER, READ_TOOL_MOVE };
 
 struct read_tiles;
 struct read_play;
@@ -85,12 +97,32 @@ struct read_desk {
     /* the way back */
     GArray *way; /* struct read_place */
     guint way_at;
+    /* what readers leave */
+    struct reader_remarks *remarks;   /* NULL: none are kept */
+    GtkWidget *remarks_list, *typing; /* typing: the small window of a note */
+    GArray *deeds;                    /* struct read_deed */
+    guint deeds_done, syncing;
+    enum read_tool tool;
+    struct desk_pen *pen;
+    unsigned ink_rgba;
+    double ink_width; /* ems */
+    GArray *stroke;   /* struct reader_ink_point, in the window's pixels */
+    double stroke_s;
+    bool drawn; /* the hand is down */
+    int moving_stroke;
+    double move_x, move_y;
+    bool playing, playing_erased;
+    double play_s, play_end_s;
+    gint64 play_us;
+    GPtrArray *watches; /* GFileMonitor */
+    guint reloading;
     GPtrArray *heard;       /* labels */
     guint hearing, barring; /* sources of what is done soon */
     struct read_play *play;
     /* what files below the window's call of it */
     void (*document_shown)(struct read_desk *d);
-    void (*acted)(struct read_desk *d); /* other actions are possible */
+    void (*acted)(struct read_desk *d);  /* other actions are possible */
+    void (*listed)(struct read_desk *d); /* what readers have left is other */
     void (*resized)(struct read_desk *d, int width, int height);
     void (*say)(struct read_desk *d, const char *text);
 };
@@ -117,9 +149,11 @@ void read_tiles_draw(struct read_desk *d, GtkSnapshot *snapshot,
 long read_tiles_painted(const struct read_tiles *tiles);
 void read_tiles_forget(struct read_tiles *tiles); /* colours have changed */
 
+/* read_changed.c */
+void read_page_changed(struct read_desk *d); /* to be drawn anew */
+
 /* read_page.c */
 GtkWidget *read_page_new(struct read_desk *d);
-void read_page_changed(struct read_desk *d); /* to be drawn anew */
 
 /* read_heard.c */
 void read_heard_changed(struct read_desk *d); /* soon */
@@ -151,8 +185,48 @@ void read_document_go(struct read_desk *d, size_t byte); /* kept on the way */
 void read_document_back(struct read_desk *d, bool forward);
 bool read_document_can(const struct read_desk *d, bool forward);
 void read_document_finish(struct read_desk *d);
-/* The text of bytes that are selected; g_free() it. */
-char *read_document_text(const struct read_desk *d, struct read_range range);
+/* Its files anew, as another program has left them: the line that is being read stays, and so do notes. */
+void read_document_reload(struct read_desk *d);
+
+/* read_text.c */
+/* The text of bytes; g_free() it. */
+char *read_text_of(const struct read_desk *d, struct read_range range);
+struct read_range read_text_word(const struct read_desk *d, size_t byte);
+
+/* read_remarks.c */
+void read_remarks_open(struct read_desk *d, const char *path); /* beside that file */
+void read_remarks_find(struct read_desk *d);                   /* in another text */
+void read_remarks_close(struct read_desk *d);
+void read_remarks_finish(struct read_desk *d);
+/* Each is a deed that can be undone. The new one's number; -1: it was said why there is none. */
+int read_remarks_add(struct read_desk *d, const struct reader_remark *what, size_t begin,
+                     size_t end);
+void read_remarks_erase(struct read_desk *d, int index);
+void read_remarks_move(struct read_desk *d, int index, double x, double y);
+void read_remarks_undo(struct read_desk *d, bool redo);
+bool read_remarks_can(const struct read_desk *d, bool redo);
+int read_remarks_at(const struct read_desk *d, size_t byte);
+void read_remarks_highlight(
+    struct read_desk *d); /* what is selected, or the line that is read */
+void read_remarks_type(struct read_desk *d);
+void read_remarks_typed(struct read_desk *d, const char *text); /* without its small window */
+void read_remarks_edit(struct read_desk *d, int index);
+
+/* read_list.c */
+GtkWidget *read_list_new(struct read_desk *d);
+void read_list_fill(struct read_desk *d);
+
+/* read_ink.c */
+void read_ink_draw(struct read_desk *d, GtkSnapshot *snapshot);
+void read_ink_press(struct read_desk *d, double x, double y, double pressure, double time_s);
+void read_ink_move(struct read_desk *d, double x, double y, double pressure, double time_s);
+void read_ink_release(struct read_desk *d, double x, double y);
+double read_ink_pressure(struct read_desk *d, guint32 time_ms, GdkEvent *event);
+void read_ink_play(struct read_desk *d, bool erased); /* or ends it */
+
+/* read_watch.c */
+void read_watch_begin(struct read_desk *d, void (*changed)(struct read_desk *d));
+void read_watch_end(struct read_desk *d);
 
 /* read_actions.c */
 GMenuModel *read_menu_new(void);

@@ -71,35 +71,72 @@ static struct reader_document *files_read(struct read_desk *d)
     return NULL;
 }
 
-bool read_document_open(struct read_desk *d)
+/* In place of the document that there is. False: it was said why not, and all is as it was. */
+static bool document_take(struct read_desk *d, struct reader_document *document)
 {
-    struct reader_document *document = files_read(d);
+    struct reader_document *before = d->document;
     struct reader_view *view;
-    if (!document)
-        return false;
     d->setup.picture = picture_find;
     d->setup.picture_user = d;
-    struct reader_document *before = d->document;
     d->document = document;
     read_look_set(d); /* there may be notes */
-    d->document = before;
     if (reader_view_create(document, &d->setup, &view) != READER_OK) {
         d->say(d, reader_error());
+        d->document = before;
         reader_document_destroy(document);
         return false;
     }
     reader_view_destroy(d->view);
-    reader_document_destroy(d->document);
-    d->document = document;
+    reader_document_destroy(before);
     d->view = view;
     g_array_set_size(d->hits, 0);
     d->hit = -1;
     d->selected = (struct read_range){0, 0};
     d->focused = G_MAXSIZE;
     read_tiles_forget(d->tiles);
+    return true;
+}
+
+bool read_document_open(struct read_desk *d)
+{
+    struct reader_document *document = files_read(d);
+    if (!document || !document_take(d, document))
+        return false;
+    read_remarks_open(d, g_ptr_array_index(d->options.paths, 0));
     d->document_shown(d);
     read_page_changed(d);
     return true;
+}
+
+void read_document_reload(struct read_desk *d)
+{
+    struct reader_anchor *anchor = NULL;
+    struct reader_document *document = files_read(d);
+    size_t top = 0, begin = 0, end = 0;
+    double above, all;
+    if (!document || !d->view) {
+        reader_document_destroy(document);
+        return;
+    }
+    reader_view_extent(d->view, &above, &all);
+    if (reader_view_top(d->view, &top) == READER_OK) {
+        const size_t bytes = d->document->plain_bytes;
+        const size_t last = MIN(top + 40, bytes);
+        reader_anchor_make(d->document->plain, bytes, MIN(top, bytes), last, &anchor);
+    }
+    if (document_take(d, document)) {
+        const bool found =
+            anchor && reader_anchor_find(anchor, document->plain, document->plain_bytes, &begin,
+                                         &end) != READER_ANCHOR_ORPHAN;
+        if (found)
+            reader_view_go(d->view, begin, 0);
+        else
+            reader_view_go_part(d->view, all > 0 ? above / all : 0);
+        read_remarks_find(d);
+        d->document_shown(d);
+        read_page_changed(d);
+    }
+    reader_anchor_destroy(anchor);
 }
 
 void read_document_finish(struct read_desk *d)
@@ -109,11 +146,6 @@ void read_document_finish(struct read_desk *d)
     d->view = NULL;
     d->document = NULL;
     g_array_free(d->way, TRUE);
-}
-
-char *read_document_text(const struct read_desk *d, struct read_range range)
-{
-    return g_strndup(d->document->plain + range.begin, range.end - range.begin);
 }
 
 /* ---- the way back ---- */

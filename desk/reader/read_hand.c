@@ -131,25 +131,6 @@ static void drag_attach(struct read_desk *d, guint button, bool touch)
 
 /* ---- selecting ---- */
 
-static bool is_letter(gunichar c)
-{
-    return g_unichar_isalnum(c) || g_unichar_ismark(c) || c == '\'' || c == 0x2019;
-}
-
-static struct read_range word_around(const struct read_desk *d, size_t byte)
-{
-    const char *plain = d->document->plain, *begin = plain + byte, *end = begin;
-    for (const char *next = end; next < plain + d->document->plain_bytes; end = next) {
-        uint32_t c;
-        font_utf8_next(&next, plain + d->document->plain_bytes, &c);
-        if (!is_letter(c))
-            break;
-    }
-    while (begin > plain && is_letter(g_utf8_get_char(g_utf8_prev_char(begin))))
-        begin = g_utf8_prev_char(begin);
-    return (struct read_range){(size_t)(begin - plain), (size_t)(end - plain)};
-}
-
 void read_hand_press(struct read_desk *d, double x, double y, int times)
 {
     bool inside;
@@ -162,7 +143,7 @@ void read_hand_press(struct read_desk *d, double x, double y, int times)
     d->select_from = byte;
     d->selected = (struct read_range){0, 0};
     if (times == 2)
-        d->selected = word_around(d, byte);
+        d->selected = read_text_word(d, byte);
     else if (times >= 3) {
         const struct reader_block *block = reader_document_block(d->document, byte);
         d->selected = (struct read_range){block->at, block->at + (size_t)block->bytes};
@@ -199,32 +180,71 @@ void read_hand_release(struct read_desk *d, double x, double y)
     size_t byte;
     const bool clicked = d->dragging && d->selected.begin == d->selected.end;
     d->dragging = false;
-    if (clicked && d->view && reader_view_hit(d->view, x, y, &byte, &inside) && inside)
-        read_document_follow(d, byte);
-    read_actions_enable(d);
+    if (clicked && d->view && reader_view_hit(d->view, x, y, &byte, &inside) && inside &&
+        !read_document_follow(d, byte)) {
+        const int index = read_remarks_at(d, byte);
+        if (index >= 0 && reader_remarks_get(d->remarks, index)->kind == READER_REMARK_TYPED)
+            read_remarks_edit(d, index);
+    }
+    d->acted(d);
 }
 
 static void pressed(GtkGestureClick *click, int times, double x, double y, struct read_desk *d)
 {
-    (void)click;
-    read_hand_press(d, x, y, times);
+    GtkEventController *controller = GTK_EVENT_CONTROLLER(click);
+    const guint32 now_ms = gtk_event_controller_get_current_event_time(controller);
+    if (d->tool == READ_TOOL_READ) {
+        read_hand_press(d, x, y, times);
+        return;
+    }
+    gtk_widget_grab_focus(d->page);
+    read_ink_press(
+        d, x, y,
+        read_ink_pressure(d, now_ms, gtk_event_controller_get_current_event(controller)),
+        now_ms * 1e-3);
 }
 
 static void released(GtkGestureClick *click, int times, double x, double y, struct read_desk *d)
 {
     (void)click;
     (void)times;
-    read_hand_release(d, x, y);
+    if (d->tool == READ_TOOL_READ)
+        read_hand_release(d, x, y);
+    else
+        read_ink_release(d, x, y);
+}
+
+/* All the places that GTK has joined into this motion, and it. */
+static void ink_moved(struct read_desk *d, GdkEvent *event, double x, double y)
+{
+    guint count = 0;
+    double here_x = x, here_y = y;
+    if (!event)
+        return;
+    gdk_event_get_position(event, &here_x, &here_y);
+    GdkTimeCoord *passed = gdk_event_get_history(event, &count);
+    for (guint i = 0; i < count; i++)
+        if (passed[i].flags & GDK_AXIS_FLAG_X)
+            read_ink_move(d, x + passed[i].axes[GDK_AXIS_X] - here_x,
+                          y + passed[i].axes[GDK_AXIS_Y] - here_y,
+                          read_ink_pressure(d, passed[i].time, event), passed[i].time * 1e-3);
+    g_free(passed);
+    const guint32 now_ms = gdk_event_get_time(event);
+    read_ink_move(d, x, y, read_ink_pressure(d, now_ms, event), now_ms * 1e-3);
 }
 
 static void moved(GtkEventControllerMotion *motion, double x, double y, struct read_desk *d)
 {
-    (void)motion;
-    read_hand_move(d, x, y);
+    if (d->tool == READ_TOOL_READ)
+        read_hand_move(d, x, y);
+    else
+        ink_moved(d, gtk_event_controller_get_current_event(GTK_EVENT_CONTROLLER(motion)), x,
+                  y);
 }
 
 void read_hand_attach(struct read_desk *d)
 {
+    d->pen = desk_pen_create(d->page);
     GtkEventController *scroll = gtk_event_controller_scroll_new(
         GTK_EVENT_CONTROLLER_SCROLL_BOTH_AXES | GTK_EVENT_CONTROLLER_SCROLL_KINETIC);
     GtkEventController *motion = gtk_event_controller_motion_new();

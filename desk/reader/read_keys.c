@@ -84,6 +84,42 @@ static bool scroll_key(struct read_desk *d, guint key, bool shift)
     }
 }
 
+static void tool_set(struct read_desk *d, enum read_tool tool)
+{
+    d->tool = d->tool == tool ? READ_TOOL_READ : tool; /* the same key again: one reads */
+    gtk_widget_set_cursor_from_name(d->page, d->tool == READ_TOOL_READ   ? "text"
+                                             : d->tool == READ_TOOL_MOVE ? "move"
+                                                                         : "crosshair");
+    d->acted(d);
+}
+
+static bool tool_key(struct read_desk *d, guint key)
+{
+    switch (key) {
+    case GDK_KEY_h:
+        read_remarks_highlight(d);
+        return true;
+    case GDK_KEY_n:
+        read_remarks_type(d);
+        return true;
+    case GDK_KEY_d:
+        tool_set(d, READ_TOOL_PEN);
+        return true;
+    case GDK_KEY_e:
+        tool_set(d, READ_TOOL_ERASER);
+        return true;
+    case GDK_KEY_m:
+        tool_set(d, READ_TOOL_MOVE);
+        return true;
+    case GDK_KEY_r:
+    case GDK_KEY_R:
+        read_ink_play(d, key == GDK_KEY_R);
+        return true;
+    default:
+        return false;
+    }
+}
+
 bool read_keys_key(struct read_desk *d, guint key, GdkModifierType state)
 {
     const bool shift = state & GDK_SHIFT_MASK;
@@ -102,5 +138,9 @@ bool read_keys_key(struct read_desk *d, guint key, GdkModifierType state)
         read_page_changed(d);
         return true;
     }
-    return scroll_key(d, key, shift);
+    if (key == GDK_KEY_Escape && d->tool != READ_TOOL_READ) {
+        tool_set(d, d->tool);
+        return true;
+    }
+    return tool_key(d, key) || scroll_key(d, key, shift);
 }

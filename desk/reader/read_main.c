@@ -1,5 +1,5 @@
-/* read_main.c - the program lutetia-reader, which `lutetia read` runs. Its words are of that verb's making, NAME=VALUE, and have been checked
- * there: file (in their order), font, mono, math, language, size, width, height, theme, ragged, play. */
+/* read_main.c - the program lutetia-reader, which `lutetia read` runs. Its words are of that verb's making, NAME=VALUE, and have been
+ * checked there: file (in their order), font, mono, math, language, size, width, height, theme, ragged, play. */
 #include "read_desk.h"
 
 #include <locale.h>
@@ -64,6 +64,11 @@ static void desk_begin(struct read_desk *d)
     d->hits = g_array_new(FALSE, FALSE, sizeof(struct read_range));
     d->way = g_array_new(FALSE, FALSE, sizeof(struct read_place));
     d->heard = g_ptr_array_new();
+    d->stroke = g_array_new(FALSE, FALSE, sizeof(struct reader_ink_point));
+    d->watches = g_ptr_array_new_with_free_func(g_object_unref);
+    d->ink_rgba = 0x1f4fbfc8u; /* blue, translucent */
+    d->ink_width = 0.16;
+    d->moving_stroke = -1;
     d->hit = -1;
     d->focused = G_MAXSIZE;
     d->tiles = read_tiles_create();
@@ -73,7 +78,12 @@ static void desk_finish(struct read_desk *d)
 {
     read_heard_finish(d);
     read_play_destroy(d->play);
+    read_watch_end(d);
+    read_remarks_finish(d);
     read_document_finish(d);
+    desk_pen_destroy(d->pen);
+    g_array_free(d->stroke, TRUE);
+    g_ptr_array_unref(d->watches);
     read_tiles_destroy(d->tiles);
     g_array_free(d->hits, TRUE);
     g_ptr_array_unref(d->heard);

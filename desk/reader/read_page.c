@@ -38,6 +38,17 @@ static void hits_mark(struct read_desk *d, struct read_range seen, GArray *marks
     }
 }
 
+static void remarks_mark(struct read_desk *d, GArray *marks)
+{
+    for (int i = 0; d->remarks && i < reader_remarks_count(d->remarks); i++) {
+        const struct reader_remark *r = reader_remarks_get(d->remarks, i);
+        if (r->kind != READER_REMARK_INK && r->gone_s == 0 && !r->orphan)
+            range_mark(d, (struct read_range){r->begin, r->end},
+                       r->kind == READER_REMARK_TYPED ? d->colours->noted : d->colours->marked,
+                       marks);
+    }
+}
+
 static void focus_draw(struct read_desk *d, GtkSnapshot *snapshot)
 {
     const struct reader_span *span =
@@ -76,12 +87,14 @@ static void page_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
     if (!d->view || reader_view_look(d->view, &shown, &count) != READER_OK)
         return;
     GArray *marks = g_array_new(FALSE, FALSE, sizeof(struct read_mark));
+    remarks_mark(d, marks);
     if (count)
         hits_mark(d, (struct read_range){shown[0].begin, shown[count - 1].end}, marks);
     range_mark(d, d->selected, d->colours->selected, marks);
     gtk_snapshot_push_clip(snapshot, &GRAPHENE_RECT_INIT(0, 0, width, height));
     read_tiles_draw(d, snapshot, shown, count, (const struct read_mark *)(void *)marks->data,
                     (int)marks->len, gtk_widget_get_scale_factor(widget));
+    read_ink_draw(d, snapshot);
     focus_draw(d, snapshot);
     gtk_snapshot_pop(snapshot);
     g_array_free(marks, TRUE);
@@ -126,35 +139,6 @@ static void read_page_class_init(ReadPageClass *class)
 static void read_page_init(ReadPage *page)
 {
     (void)page;
-}
-
-/* Before the next picture, and not while one is drawn. */
-static gboolean scrollbar_set(gpointer data)
-{
-    struct read_desk *d = data;
-    const struct reader_shown *shown;
-    double above, all;
-    int count;
-    d->barring = 0;
-    if (!d->page || !d->view || reader_view_look(d->view, &shown, &count) != READER_OK)
-        return G_SOURCE_REMOVE;
-    reader_view_extent(d->view, &above, &all);
-    d->moving = true;
-    gtk_adjustment_configure(gtk_scrollbar_get_adjustment(GTK_SCROLLBAR(d->scrollbar)), above,
-                             0, fmax(all, d->setup.height_px), 40, d->setup.height_px * 0.9,
-                             d->setup.height_px);
-    d->moving = false;
-    return G_SOURCE_REMOVE;
-}
-
-void read_page_changed(struct read_desk *d)
-{
-    if (!d->page)
-        return;
-    if (!d->barring)
-        d->barring = g_idle_add_full(G_PRIORITY_DEFAULT, scrollbar_set, d, NULL);
-    gtk_widget_queue_draw(d->page);
-    read_heard_changed(d);
 }
 
 GtkWidget *read_page_new(struct read_desk *d)

@@ -44,6 +44,35 @@ static void up(struct read_desk *d, const struct input *i)
     read_hand_release(d, i->value[0], i->value[1]);
 }
 
+static void press(struct read_desk *d, const struct input *i)
+{
+    read_ink_press(d, i->value[0], i->value[1], i->value[2], i->time_s);
+}
+
+static void drag(struct read_desk *d, const struct input *i)
+{
+    read_ink_move(d, i->value[0], i->value[1], i->value[2], i->time_s);
+}
+
+static void lift(struct read_desk *d, const struct input *i)
+{
+    read_ink_release(d, i->value[0], i->value[1]);
+}
+
+static void note(struct read_desk *d, const struct input *i)
+{
+    read_remarks_typed(d, i->text);
+}
+
+/* The first place of these words. */
+static void choose(struct read_desk *d, const struct input *i)
+{
+    if (!reader_document_search(d->document, i->text, 0, true, &d->selected.begin,
+                                &d->selected.end))
+        d->say(d, i->text);
+    read_page_changed(d);
+}
+
 static void scroll(struct read_desk *d, const struct input *i)
 {
     read_hand_scroll(d, i->value[0]);
@@ -136,7 +165,8 @@ static void picture(struct read_desk *d, const struct input *i)
 static void tell(struct read_desk *d, const struct input *i)
 {
     const struct reader_shown *shown;
-    int count = 0, opened = 0;
+    int count = 0, opened = 0, remarks = 0, orphans = 0;
+    double ink_x = -1, ink_y = -1;
     size_t top = 0;
     double above = 0, all = 0;
     reader_view_look(d->view, &shown, &count);
@@ -144,15 +174,28 @@ static void tell(struct read_desk *d, const struct input *i)
     reader_view_extent(d->view, &above, &all);
     for (int k = 0; k < d->document->notes_count; k++)
         opened += reader_view_note_open(d->view, k);
+    for (int k = 0; d->remarks && k < reader_remarks_count(d->remarks); k++) {
+        const struct reader_remark *r = reader_remarks_get(d->remarks, k);
+        struct reader_box box;
+        remarks += r->gone_s == 0;
+        orphans += r->gone_s == 0 && r->orphan;
+        if (r->kind == READER_REMARK_INK && !r->orphan &&
+            reader_view_boxes(d->view, r->begin, r->begin + 1, &box, 1) > 0) {
+            ink_x = box.x + d->size_px * (r->x + (double)r->points[0].x);
+            ink_y = box.y + d->size_px * (r->y + (double)r->points[0].y);
+        }
+    }
     char *line = g_strndup(d->document->plain + top, 40),
-         *selected = read_document_text(d, d->selected);
+         *selected = read_text_of(d, d->selected);
     char *told = g_strdup_printf(
         "top %zu\nline %s\nshown %d\nabove %.0f\nall %.0f\nset %ld\npainted %ld\nhits %u\nhit "
         "%d\n"
-        "open %d\nselected %s\nway %u of %u\nfile %s\nheard %u\n",
+        "open %d\nselected %s\nway %u of %u\nfile %s\nheard %u\nremarks %d\norphans %d\nink "
+        "%.1f %.1f\n",
         top, g_strdelimit(line, "\n", ' '), count, above, all, reader_view_set_count(d->view),
         read_tiles_painted(d->tiles), d->hits->len, d->hit, opened, selected, d->way_at,
-        d->way->len, (const char *)g_ptr_array_index(d->options.paths, 0), d->heard->len);
+        d->way->len, (const char *)g_ptr_array_index(d->options.paths, 0), d->heard->len,
+        remarks, orphans, ink_x, ink_y);
     if (!g_file_set_contents(i->text, told, -1, NULL))
         d->say(d, i->text);
     g_free(told);
@@ -172,7 +215,9 @@ static const struct word words[] = {
     {"size", 1, size},     {"column", 1, column},  {"window", 2, window},
     {"dark", 1, dark},     {"search", -1, search}, {"follow", -1, follow},
     {"go", -1, go},        {"action", -1, action}, {"picture", -1, picture},
-    {"tell", -1, tell},    {"close", 0, end}};
+    {"tell", -1, tell},    {"press", 3, press},    {"drag", 3, drag},
+    {"lift", 2, lift},     {"note", -1, note},     {"select", -1, choose},
+    {"close", 0, end}};
 
 /* ---- reading ---- */
 

@@ -82,7 +82,15 @@ static GtkWidget *contents_new(struct read_desk *d)
     gtk_widget_add_css_class(d->contents, "navigation-sidebar");
     desk_name(d->contents, _("Contents"), NULL);
     g_signal_connect(d->contents, "row-activated", G_CALLBACK(contents_chosen), d);
-    gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(d->contents_side), d->contents);
+    GtkWidget *both = gtk_box_new(GTK_ORIENTATION_VERTICAL, 6),
+              *notes = gtk_label_new(_("Notes"));
+    gtk_widget_add_css_class(notes, "heading");
+    gtk_label_set_xalign(GTK_LABEL(notes), 0);
+    gtk_widget_set_margin_start(notes, 12);
+    gtk_box_append(GTK_BOX(both), d->contents);
+    gtk_box_append(GTK_BOX(both), notes);
+    gtk_box_append(GTK_BOX(both), read_list_new(d));
+    gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(d->contents_side), both);
     gtk_widget_set_visible(d->contents_side, FALSE);
     return d->contents_side;
 }
@@ -176,6 +184,7 @@ static void document_shown(struct read_desk *d)
     g_free(title);
     g_free(name);
     contents_fill(d);
+    read_watch_begin(d, read_document_reload);
     read_actions_enable(d);
 }
 
@@ -201,7 +210,12 @@ static GtkWidget *header_new(void)
     } buttons[] = {{"view-list-symbolic", _("Contents"), "win.contents", "F9"},
                    {"go-previous-symbolic", _("Back"), "win.back", "Alt+Left"},
                    {"go-next-symbolic", _("Forward"), "win.forward", "Alt+Right"},
-                   {"edit-find-symbolic", _("Search"), "win.search", "Ctrl+F"}};
+                   {"edit-find-symbolic", _("Search"), "win.search", "Ctrl+F"},
+                   {"format-text-underline-symbolic", _("Highlight"), "win.highlight", "H"},
+                   {"insert-text-symbolic", _("Note"), "win.note", "N"},
+                   {"document-edit-symbolic", _("Draw"), "win.pen", "D"},
+                   {"edit-clear-all-symbolic", _("Erase ink"), "win.eraser", "E"},
+                   {"media-playback-start-symbolic", _("Play ink back"), "win.play-back", "R"}};
     for (size_t i = 0; i < G_N_ELEMENTS(buttons); i++)
         gtk_header_bar_pack_start(
             GTK_HEADER_BAR(header),
@@ -219,6 +233,8 @@ static gboolean close_asked(GtkWindow *window, struct read_desk *d)
 {
     (void)window;
     read_heard_finish(d);
+    read_watch_end(d);
+    read_remarks_close(d);
     d->notice = NULL;
     d->page = NULL;
     return FALSE;
@@ -231,6 +247,7 @@ void read_window_open(struct read_desk *d)
     d->say = say;
     d->document_shown = document_shown;
     d->acted = read_actions_enable;
+    d->listed = read_list_fill;
     d->resized = read_look_resized;
     d->window = gtk_application_window_new(d->application);
     gtk_window_set_default_size(GTK_WINDOW(d->window), d->options.width, d->options.height);

@@ -197,6 +197,105 @@ static void picture_is_seen(void **state)
     display_image_destroy(&dark);
 }
 
+/* ---- notes ---- */
+
+static void notes_remove(void)
+{
+    unlink(in_folder("one.md.notes"));
+    unlink(in_folder("one.md.notes-wal"));
+    unlink(in_folder("one.md.notes-shm"));
+}
+
+/* Highlights, words and ink are there again, where they were; erased ones come back by undo. */
+static void notes_are_kept(void **state)
+{
+    char lines[3000];
+    (void)state;
+    notes_remove();
+    snprintf(lines, sizeof lines,
+             "0.2 select A word\n0.3 action highlight\n0.4 select Paragraph 0\n0.4 note Is it "
+             "so?\n0.5 action pen\n"
+             "0.6 press 300 150 0.3\n0.62 drag 320 160 0.5\n0.64 drag 340 150 0.9\n0.66 lift "
+             "340 150\n0.8 tell %s\n"
+             "0.9 action undo\n1 tell %s\n1.1 action redo\n1.2 tell %s\n",
+             in_folder("drawn"), in_folder("undone"), in_folder("redone"));
+    reader_run(lines, in_folder("one.md"));
+    runs_well();
+    assert_string_equal(told("drawn", "remarks"), "3");
+    assert_string_equal(told("drawn", "ink"), "300.0 150.0");
+    assert_string_equal(told("undone", "remarks"), "2");
+    assert_string_equal(told("redone", "remarks"), "3");
+    snprintf(
+        lines, sizeof lines,
+        "0.2 tell %s\n0.3 size 24\n0.5 tell %s\n0.6 size 17\n0.8 tell %s\n0.9 action eraser\n"
+        "1 press 320 160 1\n1.05 lift 320 160\n1.2 tell %s\n1.25 action undo\n1.3 action "
+        "move-ink\n"
+        "1.4 press 300 150 1\n1.5 drag 330 190 1\n1.55 lift 330 190\n1.7 tell %s\n1.8 action "
+        "play-back\n",
+        in_folder("again"), in_folder("large"), in_folder("small"), in_folder("erased"),
+        in_folder("moved"));
+    reader_run(lines, in_folder("one.md"));
+    runs_well();
+    assert_string_equal(told("again", "remarks"), "3");
+    assert_string_equal(told("again", "ink"), "300.0 150.0");
+    assert_string_not_equal(told("large", "ink"), "300.0 150.0");
+    assert_string_equal(told("small", "ink"), "300.0 150.0");
+    assert_string_equal(told("erased", "remarks"), "2");
+    assert_string_equal(told("moved", "ink"), "330.0 190.0");
+}
+
+/* Another program changes the file while it is read: the notes go with their words, or are orphans. */
+static void changed_elsewhere(void **state)
+{
+    char lines[2000], command[400];
+    (void)state;
+    notes_remove();
+    unlink(in_folder("before")); /* another test's */
+    snprintf(command, sizeof command, "cp %s %s", in_folder("one.md"), in_folder("kept.md"));
+    assert_int_equal(system(command), 0);
+    snprintf(lines, sizeof lines,
+             "0.2 select Reed3.\n0.3 action highlight\n0.4 select Paragraph 0 has\n0.4 note "
+             "Gone soon\n0.5 go Reed20\n0.6 tell %s\n"
+             "3 tell %s\n",
+             in_folder("before"), in_folder("after"));
+    snprintf(command, sizeof command,
+             "(while [ ! -s %s ]; do sleep 0.05; done; sed -i -e '1i More before it.\\n' -e "
+             "'s/Paragraph 0 has/There are/' %s) &",
+             in_folder("before"), in_folder("one.md"));
+    assert_int_equal(system(command), 0);
+    reader_run(lines, in_folder("one.md"));
+    runs_well();
+    assert_string_equal(told("before", "orphans"), "0");
+    assert_string_equal(told("after", "remarks"), "2");
+    assert_string_equal(told("after", "orphans"), "1");
+    assert_string_equal(told("after", "line"), told("before", "line"));
+    assert_string_not_equal(told("after", "top"), told("before", "top"));
+    snprintf(command, sizeof command, "mv %s %s", in_folder("kept.md"), in_folder("one.md"));
+    assert_int_equal(system(command), 0);
+}
+
+/* A notes file that is none is said, and left; the document is read all the same. */
+static void foreign_notes_are_said(void **state)
+{
+    char lines[1000];
+    (void)state;
+    notes_remove();
+    file_write("one.md.notes", "a letter that somebody put here, long enough to be looked at");
+    snprintf(lines, sizeof lines, "0.2 select A word\n0.3 tell %s\n", in_folder("foreign"));
+    reader_run(lines, in_folder("one.md"));
+    assert_int_equal(child.status, 0);
+    assert_non_null(strstr(child.errors, "one.md.notes: "));
+    assert_non_null(strstr(child.errors, "it is left as it is"));
+    assert_string_equal(told("foreign", "remarks"), "0");
+    char first[20] = "";
+    FILE *file = fopen(in_folder("one.md.notes"), "r");
+    assert_non_null(file);
+    assert_non_null(fgets(first, sizeof first, file));
+    assert_memory_equal(first, "a letter that", 13);
+    fclose(file);
+    notes_remove();
+}
+
 /* ---- what is wrong ---- */
 
 static void says(int status, const char *what)
@@ -257,9 +356,11 @@ static int folder_remove(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(line_is_kept),      cmocka_unit_test(notes_links_and_back),
-        cmocka_unit_test(finds_and_selects), cmocka_unit_test(only_new_lines_are_painted),
-        cmocka_unit_test(picture_is_seen),   cmocka_unit_test(wrong_is_one_line),
+        cmocka_unit_test(line_is_kept),           cmocka_unit_test(notes_links_and_back),
+        cmocka_unit_test(finds_and_selects),      cmocka_unit_test(only_new_lines_are_painted),
+        cmocka_unit_test(notes_are_kept),         cmocka_unit_test(changed_elsewhere),
+        cmocka_unit_test(foreign_notes_are_said), cmocka_unit_test(picture_is_seen),
+        cmocka_unit_test(wrong_is_one_line),
     };
     if (!screen_start("1280x900x24"))
         return 77;

@@ -1,0 +1,257 @@
+/* read_ink.c - ink over the page: drawn with a pen or a mouse, translucent, as wide as it was pressed; erased, moved, played back. It hangs
+ * on the word that is nearest to its middle, in ems, so it goes with the text and grows with it. */
+#include "read_desk.h"
+
+#include <math.h>
+
+#define MOUSE_PRESSURE 0.5f
+#define GAP_S 0.4 /* between strokes that are played back, at most */
+
+enum { ERASER_PX = 10, GRAB_PX = 12 };
+
+/* ---- where ---- */
+
+/* Where a stroke's points are counted from; false: it is not seen. */
+static bool origin_of(struct read_desk *d, const struct reader_remark *r, double *x, double *y)
+{
+    struct reader_box box;
+    if (r->orphan || reader_view_boxes(d->view, r->begin, r->begin + 1, &box, 1) < 1)
+        return false;
+    *x = box.x + r->x * d->size_px;
+    *y = box.y + r->y * d->size_px;
+    return true;
+}
+
+/* ---- drawing ---- */
+
+static void stroke_draw(cairo_t *cairo, const struct reader_ink_point *points, int count,
+                        double x, double y, double em, double width, unsigned rgba)
+{
+    const double red = (rgba >> 24) / 255.0, green = (rgba >> 16 & 255) / 255.0,
+                 blue = (rgba >> 8 & 255) / 255.0, alpha = (rgba & 255) / 255.0;
+    cairo_push_group(cairo); /* where it crosses itself it is no darker */
+    cairo_set_source_rgb(cairo, red, green, blue);
+    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
+    for (int i = 0; i < count; i++) {
+        const struct reader_ink_point *a = &points[i > 0 ? i - 1 : 0], *b = &points[i];
+        const double pressure = ((double)a->pressure + (double)b->pressure) / 2;
+        cairo_set_line_width(cairo, fmax(0.6, em * width * (0.25 + 0.75 * pressure)));
+        cairo_move_to(cairo, x + em * (double)a->x, y + em * (double)a->y);
+        cairo_line_to(cairo, x + em * (double)b->x, y + em * (double)b->y);
+        cairo_stroke(cairo);
+    }
+    cairo_pop_group_to_source(cairo);
+    cairo_paint_with_alpha(cairo, alpha);
+}
+
+/* How many of a stroke's points are seen when the playback has come to `time_s` of it. */
+static int points_until(const struct reader_remark *r, double time_s)
+{
+    int count = 0;
+    while (count < r->points_count && (double)r->points[count].time_s <= time_s)
+        count++;
+    return count;
+}
+
+/* When each stroke begins in the playback: behind the one before it, after the pause that there was, within reason. */
+static void strokes_draw(struct read_desk *d, cairo_t *cairo)
+{
+    double begins_s = 0, before_s = 0;
+    for (int i = 0; d->remarks && i < reader_remarks_count(d->remarks); i++) {
+        const struct reader_remark *r = reader_remarks_get(d->remarks, i);
+        double x, y;
+        if (r->kind != READER_REMARK_INK || (r->gone_s != 0 && !d->playing_erased))
+            continue;
+        const double lasts_s = (double)r->points[r->points_count - 1].time_s;
+        if (before_s > 0)
+            begins_s += CLAMP(r->made_s - lasts_s - before_s, 0, GAP_S);
+        const int count = d->playing ? points_until(r, d->play_s - begins_s) : r->points_count;
+        before_s = r->made_s;
+        begins_s += lasts_s;
+        if (count && origin_of(d, r, &x, &y))
+            stroke_draw(cairo, r->points, count, x, y, d->size_px, r->width, r->rgba);
+    }
+    d->play_end_s = begins_s;
+}
+
+void read_ink_draw(struct read_desk *d, GtkSnapshot *snapshot)
+{
+    const bool some = d->stroke->len > 0;
+    bool kept = false;
+    for (int i = 0; d->remarks && !kept && i < reader_remarks_count(d->remarks); i++)
+        kept = reader_remarks_get(d->remarks, i)->kind == READER_REMARK_INK;
+    if (!some && !kept)
+        return;
+    cairo_t *cairo =
+        gtk_snapshot_append_cairo(snapshot, &GRAPHENE_RECT_INIT(0, 0, (float)d->setup.width_px,
+                                                                (float)d->setup.height_px));
+    strokes_draw(d, cairo);
+    if (some)
+        stroke_draw(cairo, (const struct reader_ink_point *)(void *)d->stroke->data,
+                    (int)d->stroke->len, 0, 0, 1, d->ink_width * d->size_px, d->ink_rgba);
+    cairo_destroy(cairo);
+}
+
+/* ---- the hand ---- */
+
+static void point_add(struct read_desk *d, double x, double y, double pressure, double time_s)
+{
+    if (d->stroke->len >= READER_INK_POINTS_MAX)
+        return;
+    if (!d->stroke->len)
+        d->stroke_s = time_s;
+    const struct reader_ink_point point = {(float)x, (float)y, (float)CLAMP(pressure, 0, 1),
+                                           (float)fmax(0, time_s - d->stroke_s)};
+    g_array_append_val(d->stroke, point);
+    read_page_changed(d);
+}
+
+/* The newest stroke within reach of a point; -1: none is. */
+static int stroke_at(struct read_desk *d, double px, double py, double reach)
+{
+    for (int i = d->remarks ? reader_remarks_count(d->remarks) - 1 : -1; i >= 0; i--) {
+        const struct reader_remark *r = reader_remarks_get(d->remarks, i);
+        double x, y;
+        if (r->kind != READER_REMARK_INK || r->gone_s != 0 || !origin_of(d, r, &x, &y))
+            continue;
+        for (int k = 0; k < r->points_count; k++)
+            if (hypot(x + d->size_px * (double)r->points[k].x - px,
+                      y + d->size_px * (double)r->points[k].y - py) < reach)
+                return i;
+    }
+    return -1;
+}
+
+static void erase_at(struct read_desk *d, double x, double y)
+{
+    const int index = stroke_at(d, x, y, ERASER_PX);
+    if (index >= 0)
+        read_remarks_erase(d, index);
+}
+
+void read_ink_press(struct read_desk *d, double x, double y, double pressure, double time_s)
+{
+    d->drawn = true;
+    d->playing = false;
+    d->moving_stroke = -1;
+    if (d->tool == READ_TOOL_ERASER)
+        erase_at(d, x, y);
+    else if (d->tool == READ_TOOL_MOVE) {
+        d->moving_stroke = stroke_at(d, x, y, GRAB_PX);
+        d->move_x = x;
+        d->move_y = y;
+    } else
+        point_add(d, x, y, pressure, time_s);
+}
+
+void read_ink_move(struct read_desk *d, double x, double y, double pressure, double time_s)
+{
+    if (!d->drawn)
+        return;
+    if (d->tool == READ_TOOL_ERASER)
+        erase_at(d, x, y);
+    else if (d->tool == READ_TOOL_PEN)
+        point_add(d, x, y, pressure, time_s);
+}
+
+/* The word that is nearest to a stroke's middle; false: nothing is there. */
+static bool word_find(struct read_desk *d, const struct reader_ink_point *points, guint count,
+                      struct read_range *word)
+{
+    double x0 = (double)points[0].x, x1 = x0, y0 = (double)points[0].y, y1 = y0;
+    size_t byte;
+    bool inside;
+    for (guint i = 1; i < count; i++) {
+        x0 = fmin(x0, (double)points[i].x);
+        x1 = fmax(x1, (double)points[i].x);
+        y0 = fmin(y0, (double)points[i].y);
+        y1 = fmax(y1, (double)points[i].y);
+    }
+    if (!reader_view_hit(d->view, (x0 + x1) / 2, (y0 + y1) / 2, &byte, &inside))
+        return false;
+    *word = read_text_word(d, byte);
+    while (word->begin == word->end && byte > 0) /* a blank, a sign: the word before it */
+        *word = read_text_word(d, --byte);
+    return word->begin < word->end;
+}
+
+/* The stroke, in ems from the word. */
+static void stroke_keep(struct read_desk *d)
+{
+    struct reader_ink_point *points = (struct reader_ink_point *)(void *)d->stroke->data;
+    struct read_range word;
+    struct reader_box box;
+    if (!word_find(d, points, d->stroke->len, &word) ||
+        reader_view_boxes(d->view, word.begin, word.begin + 1, &box, 1) < 1)
+        return;
+    for (guint i = 0; i < d->stroke->len; i++) {
+        points[i].x = (float)(((double)points[i].x - box.x) / d->size_px);
+        points[i].y = (float)(((double)points[i].y - box.y) / d->size_px);
+    }
+    read_remarks_add(d,
+                     &(struct reader_remark){.kind = READER_REMARK_INK,
+                                             .rgba = d->ink_rgba,
+                                             .width = d->ink_width,
+                                             .points = points,
+                                             .points_count = (int)d->stroke->len},
+                     word.begin, word.end);
+}
+
+void read_ink_release(struct read_desk *d, double x, double y)
+{
+    if (!d->drawn)
+        return;
+    d->drawn = false;
+    if (d->stroke->len)
+        stroke_keep(d);
+    g_array_set_size(d->stroke, 0);
+    if (d->tool == READ_TOOL_MOVE && d->moving_stroke >= 0) {
+        const struct reader_remark *r = reader_remarks_get(d->remarks, d->moving_stroke);
+        read_remarks_move(d, d->moving_stroke, r->x + (x - d->move_x) / d->size_px,
+                          r->y + (y - d->move_y) / d->size_px);
+    }
+    d->moving_stroke = -1;
+    read_page_changed(d);
+}
+
+/* A pen's pressure, from X11 or from GTK; a mouse has one in the middle. */
+double read_ink_pressure(struct read_desk *d, guint32 time_ms, GdkEvent *event)
+{
+    double pressure = (double)MOUSE_PRESSURE, tilt[2];
+    if (!desk_pen_at(d->pen, time_ms, &pressure, tilt) && event &&
+        gdk_event_get_device_tool(event))
+        gdk_event_get_axis(event, GDK_AXIS_PRESSURE, &pressure);
+    return pressure;
+}
+
+/* ---- playing back ---- */
+
+static gboolean play_tick(GtkWidget *widget, GdkFrameClock *clock, gpointer data)
+{
+    struct read_desk *d = data;
+    const gint64 now_us = gdk_frame_clock_get_frame_time(clock);
+    (void)widget;
+    if (d->play_us)
+        d->play_s += fmin(0.1, (double)(now_us - d->play_us) * 1e-6);
+    d->play_us = now_us;
+    if (d->play_s > d->play_end_s)
+        d->playing = false;
+    if (!d->playing)
+        d->playing_erased = false;
+    read_page_changed(d);
+    return d->playing ? G_SOURCE_CONTINUE : G_SOURCE_REMOVE;
+}
+
+void read_ink_play(struct read_desk *d, bool erased)
+{
+    if (d->playing) { /* the same key ends it */
+        d->playing = false;
+        return;
+    }
+    d->playing = true;
+    d->playing_erased = erased;
+    d->play_s = 0;
+    d->play_us = 0;
+    d->play_end_s = G_MAXDOUBLE;
+    gtk_widget_add_tick_callback(d->page, play_tick, d, NULL);
+}

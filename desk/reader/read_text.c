@@ -1,0 +1,36 @@
+/* read_text.c - the document's text: words, and what is selected. */
+#include "read_desk.h"
+
+char *read_text_of(const struct read_desk *d, struct read_range range)
+{
+    return g_strndup(d->document->plain + range.begin, range.end - range.begin);
+}
+
+/* A letter of a word; a note's number is none. */
+static bool is_letter(const struct read_desk *d, const char *at, gunichar c)
+{
+    const struct reader_span *span =
+        reader_document_span(d->document, (size_t)(at - d->document->plain));
+    return (g_unichar_isalnum(c) || g_unichar_ismark(c) || c == '\'' || c == 0x2019) &&
+           !(span && span->look & READER_NOTE);
+}
+
+struct read_range read_text_word(const struct read_desk *d, size_t byte)
+{
+    const char *plain = d->document->plain, *begin = plain + byte, *end;
+    while (begin > plain && (*begin & 0xc0) == 0x80) /* to where a character begins */
+        begin--;
+    end = begin;
+    for (const char *next = end; next < plain + d->document->plain_bytes; end = next) {
+        uint32_t c;
+        font_utf8_next(&next, plain + d->document->plain_bytes, &c);
+        if (!is_letter(d, end, c))
+            break;
+    }
+    for (const char *before; begin > plain; begin = before) {
+        before = g_utf8_prev_char(begin);
+        if (!is_letter(d, before, g_utf8_get_char(before)))
+            break;
+    }
+    return (struct read_range){(size_t)(begin - plain), (size_t)(end - plain)};
+}
