@@ -7,6 +7,7 @@
  *     desk_gl.c        its drawing in OpenGL, core profile
  *     desk_hand.c      pointer and pen, as events (input.h), to the paper
  *     desk_shared.h    what the reader's window has, too: a pen's pressure on X11, names
+ *     desk_shape.c     lines, ellipses, steadying
  *     desk_rows.c      a control as a row
  *     desk_panel.c     tools, controls
  *     desk_dish.c      the dish: wells, swatches; the tilted board
@@ -79,6 +80,8 @@ struct desk {
     /* the hand */
     struct desk_pen *pen;
     bool down, panning, space;
+    bool shaping; /* a line or an ellipse, which is sent when it ends */
+    double steady_x, steady_y, steady_s;
     bool pen_presses; /* a pen has told a pressure; one that never does presses as a mouse */
     double last_x, last_y, last_s, speed;
     double down_x, down_y; /* fibers */
@@ -133,6 +136,15 @@ void desk_gl_destroy(struct desk_gl *gl);
 bool desk_gl_picture(struct desk_gl *gl, const struct studio_picture *picture);
 void desk_gl_shown(struct desk_gl *gl, const struct studio_shown *shown);
 void desk_gl_draw(struct desk_gl *gl, const struct desk *d, int scale);
+
+/* desk_shape.c */
+/* A place of the canvas as the steadied way has it; from where it begins. */
+void desk_steady(struct desk *d, double time_s, double *x, double *y);
+void desk_steady_begin(struct desk *d, double time_s, double x, double y);
+bool desk_shapes(const struct desk *d); /* the next way is a line or an ellipse */
+/* From where the hand came down to `to`, all fibers: its place at a part of the way; about how long it is. */
+struct studio_place desk_shape_at(const struct desk *d, struct studio_place to, double part);
+double desk_shape_length(const struct desk *d, struct studio_place to);
 
 /* desk_hand.c */
 void desk_hand_attach(struct desk *d);

@@ -11,6 +11,10 @@ static void undo(GSimpleAction *action, GVariant *parameter, gpointer data)
     struct desk *d = data;
     (void)action;
     (void)parameter;
+    if (d->shaping) { /* nothing of it has been sent */
+        d->down = d->shaping = false;
+        return;
+    }
     d->down = false;
     g_array_set_size(d->ghost, 0);
     desk_send(d, STUDIO_MESSAGE_UNDO);

@@ -308,6 +308,11 @@ static void drag_draw(struct desk_gl *gl, const struct desk *d, int scale,
                  y[] = {d->down_y, d->down_y, to.y, to.y, d->down_y};
     if (!d->down)
         return;
+    for (int i = 0; i < 48 && d->shaping; i++) {
+        const struct studio_place a = desk_shape_at(d, to, i / 48.0),
+                                  b = desk_shape_at(d, to, (i + 1) / 48.0);
+        piece_add(gl, pixel_of(d, scale, a.x, a.y), pixel_of(d, scale, b.x, b.y), 0, look);
+    }
     if (tool == STUDIO_TOOL_SPLATTER)
         piece_add(gl, pixel_of(d, scale, x[0], y[0]), pixel_of(d, scale, to.x, to.y), scale,
                   look);

@@ -7,9 +7,12 @@
 
 #include <math.h>
 
-#define QUICK 1500.0    /* canvas units a second: as quick as a hand is */
-#define SMOOTH_S 0.03   /* over which its speed is taken */
-#define TILT_MOST 1.047 /* radians at the most that a pen measures */
+#define QUICK 1500.0     /* canvas units a second: as quick as a hand is */
+#define SMOOTH_S 0.03    /* over which its speed is taken */
+#define TILT_MOST 1.047  /* radians at the most that a pen measures */
+#define LINE_QUICK 400.0 /* fibers a second, of a line or an ellipse */
+#define LINE_APART 3.0   /* fibers between two of its points */
+enum { LINE_POINTS_MOST = 2000 };
 
 /* ---- from events to the paper ---- */
 
@@ -32,7 +35,12 @@ static double pressure_of(struct desk *d, const struct input_event *e)
 
 static void point_send(struct desk *d, enum studio_point_kind kind, const struct input_event *e)
 {
-    const struct studio_place at = studio_view_to_sheet(&d->view, e->x_px, e->y_px);
+    double x = e->x_px, y = e->y_px;
+    if (kind == STUDIO_POINT_MOVE)
+        desk_steady(d, e->time_s, &x, &y);
+    else
+        desk_steady_begin(d, e->time_s, x, y);
+    const struct studio_place at = studio_view_to_sheet(&d->view, x, y);
     const double side = d->view.mirrored ? -1 : 1, c = cos(d->view.turn), s = sin(d->view.turn);
     const struct studio_point point = {.kind = kind,
                                        .time_s = e->time_s,
@@ -65,7 +73,41 @@ static void down(struct desk *d, const struct input_event *e)
     d->down = true;
     d->down_x = at.x;
     d->down_y = at.y;
-    point_send(d, STUDIO_POINT_DOWN, e);
+    d->shaping = desk_shapes(d);
+    if (!d->shaping)
+        point_send(d, STUDIO_POINT_DOWN, e);
+}
+
+/* A line or an ellipse, as a stroke. */
+static void shape_send(struct desk *d, const struct input_event *e)
+{
+    const struct studio_place to = studio_view_to_sheet(&d->view, e->x_px, e->y_px);
+    const double length = desk_shape_length(d, to);
+    const int count = (int)CLAMP(length / LINE_APART, 8, LINE_POINTS_MOST);
+    for (int i = 0; i <= count; i++) {
+        const struct studio_place at = desk_shape_at(d, to, (double)i / count);
+        const struct studio_point point = {.kind = i == 0       ? STUDIO_POINT_DOWN
+                                                   : i == count ? STUDIO_POINT_UP
+                                                                : STUDIO_POINT_MOVE,
+                                           .time_s =
+                                               e->time_s + length * i / count / LINE_QUICK,
+                                           .x = at.x,
+                                           .y = at.y,
+                                           .pressure = d->pressure};
+        const unsigned long number = studio_paper_send(
+            d->paper, (struct studio_message){.kind = STUDIO_MESSAGE_POINT, .point = point});
+        desk_measure_sent(d, number);
+        desk_ghost_add(d, number, at.x, at.y, i == 0);
+    }
+}
+
+static void lift(struct desk *d, const struct input_event *e)
+{
+    if (d->shaping)
+        shape_send(d, e);
+    else
+        point_send(d, STUDIO_POINT_UP, e);
+    d->down = d->shaping = false;
 }
 
 static void up(struct desk *d, const struct input_event *e)
@@ -76,8 +118,7 @@ static void up(struct desk *d, const struct input_event *e)
     }
     if (!d->down || e->button != INPUT_BUTTON_LEFT)
         return;
-    point_send(d, STUDIO_POINT_UP, e);
-    d->down = false;
+    lift(d, e);
 }
 
 void desk_hand_event(struct desk *d, const struct input_event *e)
@@ -89,7 +130,7 @@ void desk_hand_event(struct desk *d, const struct input_event *e)
     if (e->kind == INPUT_POINTER_MOVE && d->panning) {
         studio_view_pan(&d->view, e->x_px - d->last_x, e->y_px - d->last_y);
         desk_canvas_changed(d);
-    } else if (e->kind == INPUT_POINTER_MOVE && d->down)
+    } else if (e->kind == INPUT_POINTER_MOVE && d->down && !d->shaping)
         point_send(d, STUDIO_POINT_MOVE, e);
     else if (e->kind == INPUT_POINTER_DOWN)
         down(d, e);
@@ -119,16 +160,15 @@ void desk_hand_lift(struct desk *d)
     const struct input_event e = where_it_is(d);
     d->panning = d->space = false;
     if (d->down)
-        point_send(d, STUDIO_POINT_UP, &e);
-    d->down = false;
+        lift(d, &e);
 }
 
 void desk_hand_drop(struct desk *d)
 {
     const struct input_event e = where_it_is(d);
-    if (d->down)
+    if (d->down && !d->shaping)
         point_send(d, STUDIO_POINT_DROP, &e);
-    d->down = false;
+    d->down = d->shaping = false;
     g_array_set_size(d->ghost, 0);
 }
 

@@ -113,6 +113,15 @@ static void sheet_take(struct desk *d)
         desk_play_begin(d->play);
 }
 
+/* For the dialogs' list of recent files. */
+static void recent_add(const char *path)
+{
+    char *uri = path[0] ? g_filename_to_uri(path, NULL, NULL) : NULL;
+    if (uri)
+        gtk_recent_manager_add_item(gtk_recent_manager_get_default(), uri);
+    g_free(uri);
+}
+
 static gboolean report_take(gpointer data)
 {
     struct desk *d = data;
@@ -123,6 +132,8 @@ static gboolean report_take(gpointer data)
     studio_paper_report(d->paper, &d->report);
     if (d->report.sheets != before.sheets)
         sheet_take(d);
+    if (strcmp(d->report.path, before.path) != 0)
+        recent_add(d->report.path);
     if (d->report.errors != before.errors) {
         desk_say(d, d->report.error);
         d->leaving = NULL;                                  /* it is not saved: stay */

@@ -1,10 +1,46 @@
 /* studio_keeper.c - see studio_keeper.h. */
 #include "studio_keeper.h"
 
+#include <input_file.h>
+
 #include <stdio.h>
 #include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
+
+/* ---- which studio's it is ---- */
+
+static void lock_leave(struct studio_keeper *k)
+{
+    if (k->held >= 0)
+        close(k->held);
+    k->held = -1;
+}
+
+/* A journal that nobody could lock is kept all the same. */
+static void lock_take(struct studio_keeper *k)
+{
+    k->held = input_file_descriptor(k->path, NULL);
+    if (k->held >= 0 && flock(k->held, LOCK_EX | LOCK_NB) != 0)
+        lock_leave(k);
+}
+
+bool studio_keeper_held(const struct studio_keeper *k, const char *path)
+{
+    struct stat own, named;
+    const int file = input_file_descriptor(path, NULL);
+    if (file < 0)
+        return false;
+    const bool ours = k->held >= 0 && fstat(k->held, &own) == 0 && fstat(file, &named) == 0 &&
+                      own.st_dev == named.st_dev && own.st_ino == named.st_ino;
+    const bool held = !ours && flock(file, LOCK_EX | LOCK_NB) != 0;
+    close(file);
+    return held;
+}
+
+/* ---- once a second ---- */
 
 static void sync_now(struct studio_keeper *k)
 {
@@ -33,7 +69,7 @@ static void *keeper_run(void *context)
 
 bool studio_keeper_begin(struct studio_keeper *k)
 {
-    *k = (struct studio_keeper){0};
+    *k = (struct studio_keeper){.held = -1};
     pthread_mutex_init(&k->lock, NULL);
     pthread_cond_init(&k->wake, NULL);
     k->started = pthread_create(&k->thread, NULL, keeper_run, k) == 0;
@@ -49,15 +85,19 @@ void studio_keeper_end(struct studio_keeper *k)
     if (k->started)
         pthread_join(k->thread, NULL);
     paper_journal_close(k->journal);
+    lock_leave(k);
     pthread_cond_destroy(&k->wake);
     pthread_mutex_destroy(&k->lock);
-    *k = (struct studio_keeper){0};
+    *k = (struct studio_keeper){.held = -1};
 }
+
+/* ---- journals ---- */
 
 /* The journal that there is goes: its file too, unless `path` is its name, whose file the next journal replaces. */
 static void journal_leave(struct studio_keeper *k, const char *path)
 {
     paper_journal_close(k->journal);
+    lock_leave(k);
     if (k->journal && (!path || strcmp(path, k->path) != 0))
         unlink(k->path);
     k->journal = NULL;
@@ -67,8 +107,10 @@ static void journal_leave(struct studio_keeper *k, const char *path)
 static enum paper_status journal_take(struct studio_keeper *k, enum paper_status status,
                                       const char *path)
 {
-    if (status == PAPER_OK)
+    if (status == PAPER_OK) {
         snprintf(k->path, sizeof k->path, "%s", path);
+        lock_take(k);
+    }
     pthread_mutex_unlock(&k->lock);
     return status;
 }

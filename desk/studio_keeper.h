@@ -21,6 +21,7 @@ struct studio_keeper {
     pthread_mutex_t lock;
     pthread_cond_t wake;
     bool started, end;
+    int held; /* on the journal's file, while it is this studio's; -1: none */
     struct paper_journal *journal; /* NULL: none */
     char path[STUDIO_KEEPER_TEXT];
     char error[STUDIO_KEEPER_TEXT]; /* of the last sync; "": it went well */
@@ -39,6 +40,8 @@ enum paper_status studio_keeper_watch(struct studio_keeper *k, struct paper_shee
 enum paper_status studio_keeper_continue(struct studio_keeper *k, struct paper_sheet *sheet,
                                          const char *path,
                                          const struct paper_journal_found *found);
+/* Whether another studio writes this journal now: it holds a lock on its file. */
+bool studio_keeper_held(const struct studio_keeper *k, const char *path);
 /* Closes the journal and removes its file. */
 void studio_keeper_leave(struct studio_keeper *k);
 /* A journal that cannot be gone on with gets another name, PATH.kept or PATH.kept-2 and so on, so that no other journal takes its place.

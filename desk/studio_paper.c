@@ -92,6 +92,8 @@ static enum paper_status save(struct studio_paper *p, const struct studio_messag
             note(p, true, m->text);
         return status;
     }
+    if (studio_paper_held(p, m->text))
+        return PAPER_BAD_ARGUMENT;
     status = studio_session_save(p->session, m->text);
     if (status == PAPER_OK) {
         snprintf(p->now.path, sizeof p->now.path, "%s", m->text);
@@ -285,7 +287,8 @@ static void message_hear(struct studio_paper *p, struct studio_message *m)
         p->dirty = p->dirty || changes(m);
         p->flows =
             p->flows || (m->kind >= STUDIO_MESSAGE_UNDO && m->kind <= STUDIO_MESSAGE_FLOW);
-        if (m->kind == STUDIO_MESSAGE_SET && m->setting == STUDIO_SHOW)
+        if (m->kind == STUDIO_MESSAGE_SET &&
+            (m->setting == STUDIO_SHOW || m->setting == STUDIO_SHOWN))
             p->dirty = p->view_other = true;
         p->now.changed = p->now.changed || changes(m);
     }

@@ -51,6 +51,8 @@ void studio_paper_complain(struct studio_paper *p);
  * they cannot be made. */
 void studio_paper_sheet_make(struct studio_paper *p, const struct paper_sheet_config *config);
 void studio_paper_sheet_open(struct studio_paper *p, const char *path, const char *journal);
+/* Whether another studio has the file open; then that is the failure. */
+bool studio_paper_held(struct studio_paper *p, const char *path);
 /* From here on what is done with the sheet is kept: beside its file, or in the folder of those that have none. found NULL: none was read. */
 void studio_paper_journal(struct studio_paper *p, const char *path, const char *journal,
                           const struct paper_journal_found *found);

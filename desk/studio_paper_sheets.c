@@ -36,6 +36,18 @@ static void journal_path(const char *path, char *out, size_t room)
     snprintf(out, room, "%s.journal", path);
 }
 
+bool studio_paper_held(struct studio_paper *p, const char *path)
+{
+    char beside[STUDIO_TEXT_MAX + 64];
+    journal_path(path, beside, sizeof beside);
+    if (!p->kept || !studio_keeper_held(&p->keeper, beside))
+        return false;
+    studio_session_failed(
+        PAPER_BAD_ARGUMENT,
+        "%s: another studio has it open; close it there, or take another name", path);
+    return true;
+}
+
 void studio_paper_journal(struct studio_paper *p, const char *path, const char *journal,
                           const struct paper_journal_found *found)
 {
@@ -126,6 +138,10 @@ void studio_paper_sheet_open(struct studio_paper *p, const char *path, const cha
     struct paper_journal_found found = {0};
     struct studio_session *made;
     enum paper_status status;
+    if (path && studio_paper_held(p, path)) {
+        studio_paper_complain(p);
+        return;
+    }
     if (!journal) {
         journal_path(path, beside, sizeof beside);
         journal = access(beside, F_OK) == 0 ? beside : NULL;

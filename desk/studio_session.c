@@ -254,15 +254,36 @@ enum paper_status studio_session_picture(struct studio_session *s, const char *p
 
 enum paper_status studio_session_script(struct studio_session *s, const char *path)
 {
-    return script_session_write(s->sheet, studio_session_view(s).show, path) == SCRIPT_OK
+    const enum paper_show show = studio_session_view(s).show;
+    return script_session_write(s->sheet, show == PAPER_SHOW_LAYER ? PAPER_SHOW_WET : show,
+                                path) == SCRIPT_OK
                ? PAPER_OK
                : studio_session_failed(PAPER_BAD_ARGUMENT, "%s", script_session_error());
 }
 
 struct paper_sheet_view studio_session_view(const struct studio_session *s)
 {
-    static const enum paper_show shows[] = {PAPER_SHOW_COLOR, PAPER_SHOW_WET, PAPER_SHOW_WATER};
-    struct paper_sheet_view view = paper_sheet_view_default(paper_sheet_get_config(s->sheet));
-    view.show = shows[(int)s->settings.value[STUDIO_SHOW]];
+    static const struct {
+        enum paper_show show;
+        enum paper_layer layer;
+    } shows[] = {[STUDIO_SHOW_COLOR] = {PAPER_SHOW_COLOR, 0},
+                 [STUDIO_SHOW_WET] = {PAPER_SHOW_WET, 0},
+                 [STUDIO_SHOW_WATER] = {PAPER_SHOW_WATER, 0},
+                 [STUDIO_SHOW_RELIEF] = {PAPER_SHOW_COLOR, 0},
+                 [STUDIO_SHOW_MASK] = {PAPER_SHOW_LAYER, PAPER_LAYER_RESIST},
+                 [STUDIO_SHOW_SWIMMING] = {PAPER_SHOW_LAYER, PAPER_LAYER_SURFACE_PIGMENT},
+                 [STUDIO_SHOW_SUNK] = {PAPER_SHOW_LAYER, PAPER_LAYER_INFUSED_PIGMENT},
+                 [STUDIO_SHOW_SETTLED] = {PAPER_SHOW_LAYER, PAPER_LAYER_FIXED_PIGMENT}};
+    const struct paper_sheet_config *config = paper_sheet_get_config(s->sheet);
+    struct paper_sheet_view view = paper_sheet_view_default(config);
+    const int show = (int)s->settings.value[STUDIO_SHOW],
+              shown = (int)s->settings.value[STUDIO_SHOWN];
+    view.show = shows[show].show;
+    view.layer = shows[show].layer;
+    view.pigment = (shown < config->pigments_count ? shown : config->pigments_count) - 1;
+    view.low = 0;
+    view.high = 1;
+    if (show == STUDIO_SHOW_RELIEF)
+        view.light = 4;
     return view;
 }

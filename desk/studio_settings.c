@@ -63,6 +63,11 @@ const struct stage_control studio_controls[STUDIO_SETTINGS] = {
         "how much a quick mouse presses less"),
     ROW(STUDIO_CURVE, "curve", "", 0.2, 5, 1, LOGARITHMIC, NULL,
         "a pen's pressure: below 1 a light hand presses more, above 1 less"),
+    ROW(STUDIO_STEADY, "steady", "", 0, 1, 0, LINEAR, NULL,
+        "the way follows the hand, smoother and later"),
+    ROW(STUDIO_SHAPE, "shape", "", 0, 2, 0, CHOICE, "free line ellipse",
+        "a way as the hand goes; from where it came down to where it is lifted, straight or as "
+        "an ellipse"),
     ROW(STUDIO_SIZE, "size", "fibers", 0.5, 200, 8, LOGARITHMIC, NULL, "radius of a drop"),
     ROW(STUDIO_FADE, "fade", "", 0, 1, 0.2, LINEAR, NULL,
         "how much of the paint is left at the wash's end; 1: even"),
@@ -98,8 +103,12 @@ const struct stage_control studio_controls[STUDIO_SETTINGS] = {
         "water that dries in a step"),
     ROW(STUDIO_EDGE, "edge", "", 0, 200, 15, LINEAR, NULL,
         "how much faster the edge of what is wet dries: pigment is drawn there"),
-    ROW(STUDIO_SHOW, "show", "", 0, 2, 1, CHOICE, "colour wet water",
-        "colours alone, with the shine of wet paper, or the water in gray"),
+    ROW(STUDIO_SHOW, "show", "", 0, STUDIO_SHOW_SETTLED, 1, CHOICE,
+        "colour wet water relief mask swimming sunk settled",
+        "colours alone, with the shine of wet paper, the water in gray, strong light on the "
+        "relief, masking fluid; one pigment: what swims, has sunk in, has settled"),
+    ROW(STUDIO_SHOWN, "shown", "", 1, PAPER_PIGMENTS_MAX, 1, LINEAR, NULL,
+        "which pigment those views are of, in the dish's order"),
     ROW(STUDIO_WATER, "water", "", 0, 2, 0.8, LINEAR, NULL,
         "how much water is in the dish: more of it runs"),
     PIGMENT(1, 0.6),
@@ -174,10 +183,10 @@ void studio_settings_amounts(const struct studio_settings *settings,
 const struct studio_tool studio_tools[STUDIO_TOOLS] = {
     [STUDIO_TOOL_BRUSH] = {"Brush", "b",
                            "Paint with bristles that carry what is in the dish: drag.",
-                           STUDIO_BRUSH, STUDIO_CURVE, true, true},
+                           STUDIO_BRUSH, STUDIO_SHAPE, true, true},
     [STUDIO_TOOL_WATER] = {"Clean water", "w",
                            "The same brush with water alone: wets, softens edges, lifts.",
-                           STUDIO_BRUSH, STUDIO_CURVE, false, true},
+                           STUDIO_BRUSH, STUDIO_SHAPE, false, true},
     [STUDIO_TOOL_WASH] = {"Wash", "a",
                           "A broad layer that fades: drag from one corner to the other.",
                           STUDIO_FADE, STUDIO_FADE, true, false},
@@ -212,5 +221,7 @@ const struct studio_tool *studio_tool_of(const struct studio_settings *settings)
 bool studio_tool_has(enum studio_tool_number tool, int setting)
 {
     const struct studio_tool *t = &studio_tools[tool];
-    return (setting >= t->first && setting <= t->last) || (t->swept && setting == STUDIO_WIDTH);
+    return (setting >= t->first && setting <= t->last) ||
+           (t->swept &&
+            (setting == STUDIO_WIDTH || setting == STUDIO_STEADY || setting == STUDIO_SHAPE));
 }

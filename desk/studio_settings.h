@@ -36,6 +36,8 @@ enum studio_setting {
     STUDIO_PRESSURE,
     STUDIO_SPEED,
     STUDIO_CURVE,
+    STUDIO_STEADY,
+    STUDIO_SHAPE,
     /* other tools */
     STUDIO_SIZE,
     STUDIO_FADE,
@@ -60,10 +62,24 @@ enum studio_setting {
     STUDIO_HUMIDITY,
     STUDIO_EDGE,
     STUDIO_SHOW,
+    STUDIO_SHOWN,
     /* what is in the dish */
     STUDIO_WATER,
     STUDIO_PIGMENT, /* the first of PAPER_PIGMENTS_MAX, in the order of the sheet's */
     STUDIO_SETTINGS = STUDIO_PIGMENT + PAPER_PIGMENTS_MAX
+};
+
+/* Choices of STUDIO_SHAPE and STUDIO_SHOW. */
+enum studio_shape { STUDIO_SHAPE_FREE, STUDIO_SHAPE_LINE, STUDIO_SHAPE_ELLIPSE };
+enum studio_show {
+    STUDIO_SHOW_COLOR,
+    STUDIO_SHOW_WET,
+    STUDIO_SHOW_WATER,
+    STUDIO_SHOW_RELIEF,
+    STUDIO_SHOW_MASK,
+    STUDIO_SHOW_SWIMMING, /* these three: of the pigment STUDIO_SHOWN */
+    STUDIO_SHOW_SUNK,
+    STUDIO_SHOW_SETTLED
 };
 
 struct studio_settings {

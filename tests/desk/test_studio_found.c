@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include "../clock.h"
@@ -130,6 +131,43 @@ static void journals_of_others_are_kept(void **state)
     studio_paper_end(paper, true, NULL);
 }
 
+/* Two studios and one file: the second one is told, opens nothing and writes nothing there; what the first one has done stays. */
+static void one_studio_a_file(void **state)
+{
+    (void)state;
+    static char journal[BYTES_MOST], now[BYTES_MOST];
+    sheet_leave(named("held.h5"), false);
+    const size_t count = file_get(named("held.h5.journal"), journal);
+    FILE *first = fopen(named("held.h5.journal"), "r");
+    assert_non_null(first);
+    assert_int_equal(flock(fileno(first), LOCK_EX | LOCK_NB), 0);
+    struct studio_paper *paper = begin(named("held.h5"), NULL);
+    struct studio_report report = opened(paper);
+    assert_true(report.failed && !report.ready);
+    assert_non_null(strstr(report.error, "held.h5: another studio has it open"));
+    studio_paper_end(paper, true, NULL);
+    paper = begin(NULL, NULL); /* nor is it written to */
+    studio_paper_send(paper, (struct studio_message){.kind = STUDIO_MESSAGE_SAVE,
+                                                     .text = strdup(named("held.h5"))});
+    studio_paper_end(paper, true, &report);
+    assert_non_null(strstr(report.error, "another studio has it open"));
+    assert_int_equal(file_get(named("held.h5.journal"), now), count);
+    assert_memory_equal(now, journal, count);
+    fclose(first);
+    paper = begin(named("held.h5"), NULL); /* it has been closed there */
+    report = opened(paper);
+    assert_true(report.ready && report.found_again);
+    first = fopen(named("held.h5.journal"), "r");
+    assert_non_null(first);
+    assert_int_equal(flock(fileno(first), LOCK_EX | LOCK_NB), -1); /* this one holds it now */
+    fclose(first);
+    studio_paper_send(paper, (struct studio_message){.kind = STUDIO_MESSAGE_SAVE,
+                                                     .text = strdup(named("held.h5"))});
+    studio_paper_end(paper, true, &report); /* its own file it may write */
+    assert_string_equal(report.error, "");
+    assert_false(report.changed);
+}
+
 static void damaged_journals_are_kept(void **state)
 {
     (void)state;
@@ -153,6 +191,7 @@ static int folder_remove(void **state)
     (void)state;
     static const char *const files[] = {"one.h5",
                                         "other.h5",
+                                        "held.h5",
                                         "one.h5.journal.kept",
                                         "one.h5.journal.kept-2",
                                         "one.h5.journal.kept-3",
@@ -166,6 +205,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(journals_of_others_are_kept),
+        cmocka_unit_test(one_studio_a_file),
         cmocka_unit_test(damaged_journals_are_kept),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);

@@ -11,7 +11,6 @@
 #include <display.h>
 #include <state.h>
 
-#include <dirent.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,57 +18,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "../lutetia/child.h"
+#include "studio_played.h"
 #include "studio_scene.h"
 #include "xvfb.h"
-
-static char folder[] = "/tmp/lutetia-studio-XXXXXX";
-static struct child child;
-
-static const char *in_folder(const char *name)
-{
-    static char paths[8][128];
-    static int next;
-    char *path = paths[next++ % 8];
-    snprintf(path, sizeof paths[0], "%s/%s", folder, name);
-    return path;
-}
-
-static FILE *events_begin(void)
-{
-    FILE *file = fopen(in_folder("hand.events"), "w");
-    assert_non_null(file);
-    return file;
-}
-
-/* Runs the window with the events until they close it. */
-static void studio_run(const char *variable)
-{
-    memset(&child, 0, sizeof child);
-    const char *const arguments[] = {getenv("LUTETIA"), "studio",
-                                     "--paper",         "96x72",
-                                     "--pigment",       "french ultramarine",
-                                     "--pigment",       "quinacridone rose",
-                                     "--play",          in_folder("hand.events")};
-    memcpy(child.arguments, arguments, sizeof arguments);
-    child.variables[0] = "GTK_A11Y=none"; /* no bus is needed for this */
-    child.variables[1] = variable;
-    child_run(&child);
-}
-
-static size_t file_read(const char *path, char **bytes)
-{
-    FILE *file = fopen(path, "rb");
-    assert_non_null(file);
-    fseek(file, 0, SEEK_END);
-    const size_t count = (size_t)ftell(file);
-    rewind(file);
-    *bytes = malloc(count + 1);
-    assert_non_null(*bytes);
-    assert_int_equal(fread(*bytes, 1, count, file), count);
-    fclose(file);
-    return count;
-}
 
 /* ---- what is painted ---- */
 
@@ -92,41 +43,21 @@ static void window_paints_what_calls_paint(void **state)
 {
     (void)state;
     char *seen, *expected;
-    FILE *events = events_begin();
+    FILE *events = played_begin();
     scene_write(events, 4);
     fprintf(
         events,
         "4 picture %s\n4 script %s\n4 set show colour\n4 picture %s\n4 script %s\n4 close\n",
-        in_folder("seen.png"), in_folder("scene.lua"), in_folder("colour.png"),
-        in_folder("bare.lua"));
+        played_path("seen.png"), played_path("scene.lua"), played_path("colour.png"),
+        played_path("bare.lua"));
     fclose(events);
-    studio_run(NULL);
-    if (child.status != 0)
-        print_message("%s", child.errors);
-    assert_int_equal(child.status, 0);
-    expected_write(in_folder("expected.png"));
-    const size_t count = file_read(in_folder("seen.png"), &seen),
-                 wanted = file_read(in_folder("expected.png"), &expected);
-    assert_int_equal(count, wanted);
-    assert_memory_equal(seen, expected, count);
-    free(seen);
-    free(expected);
-}
-
-/* What a script of the session before makes is the picture that was written where it was: all 16 bits, and shown as it was. */
-static void script_is(const char *script, const char *made, const char *picture)
-{
-    char *seen, *expected;
-    memset(&child, 0, sizeof child);
-    const char *const arguments[] = {getenv("LUTETIA"), "run", in_folder(script), "-q", "-o",
-                                     in_folder("made")};
-    memcpy(child.arguments, arguments, sizeof arguments);
-    child_run(&child);
-    if (child.status != 0)
-        print_message("%s", child.errors);
-    assert_int_equal(child.status, 0);
-    const size_t count = file_read(in_folder(made), &seen),
-                 wanted = file_read(in_folder(picture), &expected);
+    played_run(NULL);
+    if (played.status != 0)
+        print_message("%s", played.errors);
+    assert_int_equal(played.status, 0);
+    expected_write(played_path("expected.png"));
+    const size_t count = played_file(played_path("seen.png"), &seen),
+                 wanted = played_file(played_path("expected.png"), &expected);
     assert_int_equal(count, wanted);
     assert_memory_equal(seen, expected, count);
     free(seen);
@@ -136,8 +67,8 @@ static void script_is(const char *script, const char *made, const char *picture)
 static void script_makes_the_same(void **state)
 {
     (void)state;
-    script_is("scene.lua", "made/scene.png", "seen.png");
-    script_is("bare.lua", "made/bare.png", "colour.png");
+    played_script_is("scene.lua", "made/scene.png", "seen.png");
+    played_script_is("bare.lua", "made/bare.png", "colour.png");
 }
 
 /* How many operations of that name the saved sheet has. */
@@ -147,7 +78,7 @@ static int saved_count(const char *name, const char *what)
     struct paper_sheet *sheet;
     struct paper_moment moment;
     int count = 0;
-    assert_int_equal(paper_state_open(in_folder(name), &file), PAPER_OK);
+    assert_int_equal(paper_state_open(played_path(name), &file), PAPER_OK);
     assert_int_equal(paper_state_load(file, 0, false, 0, &sheet), PAPER_OK);
     for (int i = 0; paper_history_moment(sheet, i, &moment); i++)
         count += strcmp(moment.what, what) == 0;
@@ -160,37 +91,20 @@ static int saved_count(const char *name, const char *what)
 static void closed_in_mid_stroke(void **state)
 {
     (void)state;
-    FILE *events = events_begin();
+    FILE *events = played_begin();
     fprintf(events,
             "0 set paused on\n0 down -20 0 0.5\n0.05 move 0 5 0.6\n0.1 move 20 0 0.6\n");
     fprintf(events, "0.2 focus-lost\n0.3 move 30 30 0.5\n0.3 up 30 30 0.5\n");
     fprintf(events, "0.4 down -20 20 0.5\n0.45 set tool blot\n0.5 move 0 25 0.6\n");
-    fprintf(events, "0.5 save %s\n0.55 move 20 20 0.6\n0.6 close\n", in_folder("mid.h5"));
+    fprintf(events, "0.5 save %s\n0.55 move 20 20 0.6\n0.6 close\n", played_path("mid.h5"));
     fclose(events);
-    studio_run(NULL);
-    assert_int_equal(child.status, 0);
+    played_run(NULL);
+    assert_int_equal(played.status, 0);
     assert_int_equal(saved_count("mid.h5", "stroke"), 2);
     assert_int_equal(saved_count("mid.h5", "blot"), 0);
 }
 
 /* ---- what was not saved ---- */
-
-/* The journal of the only sheet that was not saved; false: there is none. */
-static bool journal_find(char *path, size_t room)
-{
-    char folder_of[160];
-    snprintf(folder_of, sizeof folder_of, "%s/lutetia/studio", folder);
-    DIR *names = opendir(folder_of);
-    bool found = false;
-    for (struct dirent *entry; names && (entry = readdir(names));)
-        if (strstr(entry->d_name, ".journal") && !strstr(entry->d_name, ".part")) {
-            snprintf(path, room, "%s/%.80s", folder_of, entry->d_name);
-            found = true;
-        }
-    if (names)
-        closedir(names);
-    return found;
-}
 
 /* Killed while nobody had saved: all that is older than a second is there again, and what the journal has lost is lost alone. */
 static void killed_and_found_again(void **state)
@@ -198,48 +112,42 @@ static void killed_and_found_again(void **state)
     (void)state;
     char *seen, *expected, journal[300];
     struct stat now, before = {0};
-    FILE *events = events_begin();
+    FILE *events = played_begin();
     scene_write(events, 2);
-    fprintf(events, "4 picture %s\n", in_folder("done.png"));
+    fprintf(events, "4 picture %s\n", played_path("done.png"));
     fclose(events);
-    const pid_t studio = fork();
-    if (studio == 0) {
-        setenv("GTK_A11Y", "none", 1);
-        execl(getenv("LUTETIA"), "lutetia", "studio", "--paper", "96x72", "--pigment",
-              "french ultramarine", "--pigment", "quinacridone rose", "--play",
-              in_folder("hand.events"), NULL);
-        _exit(127);
-    }
+    const pid_t studio = played_start();
     /* until it has not grown for some seconds after the picture that follows the last deed */
     for (int still = 0, turns = 0; still < 50 && turns < 2000; turns++) {
         usleep(100000);
-        const bool there = access(in_folder("done.png"), R_OK) == 0 &&
-                           journal_find(journal, sizeof journal) && stat(journal, &now) == 0;
+        const bool there = access(played_path("done.png"), R_OK) == 0 &&
+                           played_journal(journal, sizeof journal) && stat(journal, &now) == 0;
         still = there && now.st_size == before.st_size ? still + 1 : 0;
         before = there ? now : before;
     }
     kill(studio, SIGKILL);
     waitpid(studio, NULL, 0);
-    assert_true(journal_find(journal, sizeof journal));
-    events = events_begin();
-    fprintf(events, "0 picture %s\n0.1 save %s\n0.1 close\n", in_folder("seen.png"),
-            in_folder("mid.h5"));
+    assert_true(played_journal(journal, sizeof journal));
+    events = played_begin();
+    fprintf(events, "0 picture %s\n0.1 save %s\n0.1 close\n", played_path("seen.png"),
+            played_path("mid.h5"));
     fclose(events);
-    memset(&child, 0, sizeof child);
+    memset(&played, 0, sizeof played);
     const char *const arguments[] = {getenv("LUTETIA"), "studio", "--play",
-                                     in_folder("hand.events")};
-    memcpy(child.arguments, arguments, sizeof arguments);
-    child.variables[0] = "GTK_A11Y=none";
-    child_run(&child);
-    assert_int_equal(child.status, 0);
-    expected_write(in_folder("expected.png"));
-    const size_t count = file_read(in_folder("seen.png"), &seen),
-                 wanted = file_read(in_folder("expected.png"), &expected);
+                                     played_path("hand.events")};
+    memcpy(played.arguments, arguments, sizeof arguments);
+    played.variables[0] = "GTK_A11Y=none";
+    child_run(&played);
+    assert_int_equal(played.status, 0);
+    expected_write(played_path("expected.png"));
+    const size_t count = played_file(played_path("seen.png"), &seen),
+                 wanted = played_file(played_path("expected.png"), &expected);
     assert_int_equal(count, wanted);
     assert_memory_equal(seen, expected, count);
     free(seen);
     free(expected);
-    assert_false(journal_find(journal, sizeof journal)); /* saved: it is not needed any more */
+    assert_false(
+        played_journal(journal, sizeof journal)); /* saved: it is not needed any more */
 }
 
 /* ---- what is wrong ---- */
@@ -247,10 +155,10 @@ static void killed_and_found_again(void **state)
 /* One line that says so. */
 static void says(int status, const char *what)
 {
-    if (child.status != status || !strstr(child.errors, what))
-        print_message("%d: %s", child.status, child.errors);
-    assert_int_equal(child.status, status);
-    const char *line = strstr(child.errors, "lutetia studio: ");
+    if (played.status != status || !strstr(played.errors, what))
+        print_message("%d: %s", played.status, played.errors);
+    assert_int_equal(played.status, status);
+    const char *line = strstr(played.errors, "lutetia studio: ");
     assert_non_null(line);
     assert_non_null(strstr(line, what));
     assert_null(strstr(line + 1, "lutetia studio: "));
@@ -259,58 +167,41 @@ static void says(int status, const char *what)
 static void wrong_is_one_line(void **state)
 {
     (void)state;
-    FILE *events = events_begin();
+    FILE *events = played_begin();
     fprintf(events, "0 down 0 0\n0.1 up 5 5\n0.2 save /proc/sheet.h5\n0.3 close\n");
     fclose(events);
-    studio_run(NULL);
+    played_run(NULL);
     says(1, "/proc/sheet.h5");
-    studio_run("GDK_DEBUG=gl-disable");
-    if (!strstr(child.errors, "OpenGL")) /* later ones name it otherwise */
-        studio_run("GDK_DISABLE=gl");
+    played_run("GDK_DEBUG=gl-disable");
+    if (!strstr(played.errors, "OpenGL")) /* later ones name it otherwise */
+        played_run("GDK_DISABLE=gl");
     says(1, "OpenGL");
-    studio_run("DISPLAY=:4711");
+    played_run("DISPLAY=:4711");
     says(1, "no display");
-    events = events_begin();
+    events = played_begin();
     fprintf(events, "0 down 0 0\n0.1 jump\n");
     fclose(events);
-    studio_run(NULL);
+    played_run(NULL);
     says(1, "hand.events:2: no such word: 'jump'");
 }
 
 static void wrong_files_are_told(void **state)
 {
     (void)state;
-    FILE *file = fopen(in_folder("bad.h5"), "w");
+    FILE *file = fopen(played_path("bad.h5"), "w");
     assert_non_null(file);
     fputs("this is no sheet", file);
     fclose(file);
-    memset(&child, 0, sizeof child);
-    child.arguments[0] = getenv("LUTETIA");
-    child.arguments[1] = "studio";
-    child.arguments[2] = in_folder("bad.h5");
-    child.variables[0] = "GTK_A11Y=none";
-    child_run(&child);
+    memset(&played, 0, sizeof played);
+    played.arguments[0] = getenv("LUTETIA");
+    played.arguments[1] = "studio";
+    played.arguments[2] = played_path("bad.h5");
+    played.variables[0] = "GTK_A11Y=none";
+    child_run(&played);
     says(1, "bad.h5");
-    child.arguments[2] = "/no/such.h5";
-    child_run(&child);
+    played.arguments[2] = "/no/such.h5";
+    child_run(&played);
     says(1, "/no/such.h5: cannot read");
-}
-
-static int folder_make(void **state)
-{
-    (void)state;
-    if (!mkdtemp(folder))
-        return -1;
-    setenv("XDG_DATA_HOME", folder, 1); /* where sheets are kept that were not saved */
-    return 0;
-}
-
-static int folder_remove(void **state)
-{
-    char command[160];
-    (void)state;
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return system(command);
 }
 
 int main(void)
@@ -325,5 +216,5 @@ int main(void)
     };
     if (!screen_start("1280x900x24"))
         return 77;
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
+    return cmocka_run_group_tests(tests, played_folder_make, played_folder_remove);
 }
