@@ -1,6 +1,7 @@
 /* springs_text.c - the word of springs, and another one in its place while they move. */
 #include "springs_internal.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 /* The size of the plane in which letters have their boxes. */
@@ -67,8 +68,8 @@ enum stage_status springs_text_make(const struct stage_springs_def *def,
 
 /* ---- another word ----
  *
- * Letters at the beginning that both words have go on as they moved. What follows them is put as far from them as it stands in the new
- * word, and moves as they do on the mean. Tacks are those of the new word. */
+ * Letters at the beginning that both words have go on as they moved. What follows them is put where it would be if the last of them were a
+ * solid body with it, and moves as that one does. Tacks are those of the new word: where they are higher, all of it is raised. */
 
 /* How many letters from the first on are the same. */
 static int common_count(const struct dyn_word *a, const struct dyn_word *b)
@@ -85,30 +86,81 @@ static int common_count(const struct dyn_word *a, const struct dyn_word *b)
     return i;
 }
 
+/* Where the last letter that both words have has gone: turned about its middle, and moved. */
+struct carried {
+    double from_x, from_y, to_x, to_y, cosine, sine, vx, vy;
+};
+
+/* How much a word has to be raised so that no tack is lower than the new word's. */
+static double lift_of(const struct springs *s, const struct dyn_network *network,
+                      const struct dyn_word *word, int common)
+{
+    double lift = 0;
+    for (int i = 0; i < 4 * common; i++) {
+        const int mass = dyn_word_letter(word, i / 4)->mass[i % 4];
+        const int old = dyn_word_letter(s->text->word, i / 4)->mass[i % 4];
+        if (dyn_mass_get(network, mass).hold & DYN_STUCK)
+            lift = fmax(lift,
+                        dyn_mass_get(network, mass).y - dyn_network_states(s->network)[old].y);
+    }
+    return lift;
+}
+
+static struct carried carried_of(const struct dyn_state was[4], const struct dyn_state is[4])
+{
+    struct carried c = {.cosine = 1};
+    double along = 0, across = 0;
+    for (int k = 0; k < 4; k++) {
+        const struct dyn_state *a = &was[k], *b = &was[(k + 1) % 4], *p = &is[k],
+                               *q = &is[(k + 1) % 4];
+        c.from_x += a->x / 4, c.from_y += a->y / 4, c.to_x += p->x / 4, c.to_y += p->y / 4;
+        c.vx += p->vx / 4, c.vy += p->vy / 4;
+        along += (b->x - a->x) * (q->x - p->x) + (b->y - a->y) * (q->y - p->y);
+        across += (b->x - a->x) * (q->y - p->y) - (b->y - a->y) * (q->x - p->x);
+    }
+    const double length = hypot(along, across);
+    if (length > 0)
+        c.cosine = along / length, c.sine = across / length;
+    return c;
+}
+
+static void mass_carry(const struct carried *c, struct dyn_mass *mass)
+{
+    const double x = mass->x - c->from_x, y = mass->y - c->from_y;
+    if (mass->hold & DYN_STUCK)
+        return;
+    mass->x = c->to_x + c->cosine * x - c->sine * y;
+    mass->y = c->to_y + c->sine * x + c->cosine * y;
+    mass->vx = c->vx, mass->vy = c->vy;
+}
+
 static enum dyn_status letters_carry(const struct springs *s, struct dyn_network *network,
                                      const struct dyn_word *word)
 {
     const int common = common_count(s->text->word, word), count = dyn_word_letters_count(word);
-    struct dyn_state shift = {0, 0, 0, 0}; /* of the last letter that both have */
+    const double lift = lift_of(s, network, word, common);
+    struct carried carried = {.cosine = 1};
     enum dyn_status status = DYN_OK;
     for (int i = 0; i < count && status == DYN_OK; i++) {
         const struct dyn_letter *l = dyn_word_letter(word, i);
+        struct dyn_state was[4], is[4];
         for (int k = 0; k < 4 && status == DYN_OK; k++) {
             struct dyn_mass mass = dyn_mass_get(network, l->mass[k]);
+            was[k] = (struct dyn_state){mass.x, mass.y, 0, 0};
             if (i < common) {
-                const struct dyn_letter *old = dyn_word_letter(s->text->word, i);
-                const struct dyn_state at = dyn_network_states(s->network)[old->mass[k]];
-                shift = k ? shift : (struct dyn_state){0, 0, 0, 0};
-                shift.x += (at.x - mass.x) / 4, shift.y += (at.y - mass.y) / 4;
-                shift.vx += at.vx / 4, shift.vy += at.vy / 4;
-                mass.x = at.x, mass.y = at.y, mass.vx = at.vx, mass.vy = at.vy;
-            } else if (!(mass.hold & DYN_STUCK)) {
-                mass.x += shift.x, mass.y += shift.y, mass.vx = shift.vx, mass.vy = shift.vy;
+                is[k] =
+                    dyn_network_states(s->network)[dyn_word_letter(s->text->word, i)->mass[k]];
+                is[k].y += lift;
+                const bool stuck = (mass.hold & DYN_STUCK) != 0;
+                mass.x = is[k].x, mass.y = is[k].y;
+                mass.vx = stuck ? 0 : is[k].vx, mass.vy = stuck ? 0 : is[k].vy;
+            } else {
+                mass_carry(&carried, &mass);
             }
-            if (mass.hold & DYN_STUCK)
-                mass.vx = mass.vy = 0;
             status = dyn_mass_set(network, l->mass[k], &mass);
         }
+        if (i == common - 1)
+            carried = carried_of(was, is);
     }
     return status;
 }

@@ -108,6 +108,31 @@ static void letters_that_stay_go_on_moving(void **unused)
     stage_destroy(stage);
 }
 
+/* A word that stands on its end goes on upwards, and what is tacked lower is raised. */
+static void new_letters_stand_as_the_last_one_does(void **unused)
+{
+    (void)unused;
+    struct stage *stage = word_stage("mm");
+    struct dyn_network *n = network_of(stage);
+    for (int i = 0; i < 8; i++) { /* turned by 90 degrees */
+        struct dyn_mass mass = dyn_mass_get(n, i);
+        const double x = mass.x, y = mass.y - 2;
+        mass.x = -y, mass.y = 2 + x;
+        assert_int_equal(dyn_mass_set(n, i, &mass), DYN_OK);
+    }
+    const struct dyn_state last = dyn_network_states(n)[5]; /* lower right: now at the top */
+    assert_int_equal(stage_text(stage, "mmm"), STAGE_OK);
+    const struct dyn_state *states = dyn_network_states(network_of(stage));
+    for (int k = 8; k < 12; k++)
+        assert_true(states[k].y > last.y && states[k].x <= last.x + 1e-9);
+    for (int k = 0; k < 4;
+         k++) { /* as the letter before, and as far from it as that from the first */
+        assert_true(fabs(states[8 + k].x - states[4 + k].x) < 1e-9);
+        assert_true(fabs(states[8 + k].y - 2 * states[4 + k].y + states[k].y) < 1e-9);
+    }
+    stage_destroy(stage);
+}
+
 static void undo_brings_words_back(void **unused)
 {
     (void)unused;
@@ -276,7 +301,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(letters_that_stay_go_on_moving),
-        cmocka_unit_test(undo_brings_words_back), cmocka_unit_test(sessions_have_the_words),
+        cmocka_unit_test(new_letters_stand_as_the_last_one_does),
+        cmocka_unit_test(undo_brings_words_back),
+        cmocka_unit_test(sessions_have_the_words),
         cmocka_unit_test(typed_words_are_the_stages),
         cmocka_unit_test(a_watched_file_is_read_when_it_has_changed)};
     if (font_face_open("DejaVuSans", 0, &face) != FONT_OK ||
