@@ -72,6 +72,12 @@ static const char *map_along(void *context, const char *name, double along)
     return NULL;
 }
 
+static const char *map_text(void *context, const char *words)
+{
+    const struct live_player *p = context;
+    return stage_text(p->stage, words) == STAGE_OK ? NULL : stage_error();
+}
+
 static const char *map_get(void *context, const char *name, double *value)
 {
     struct live_player *p = context;
@@ -101,6 +107,7 @@ static enum stage_status map_open(struct live_player *p)
                                  .set = map_set,
                                  .along = map_along,
                                  .get = map_get,
+                                 .text = map_text,
                                  .tell = map_tell,
                                  .overdue = map_overdue,
                                  .context = p};
@@ -220,19 +227,13 @@ static const char *osc_knobs(void *context, int number)
     return NULL;
 }
 
-static const char *osc_text(void *context, const char *words)
-{
-    const struct live_player *p = context;
-    return stage_text(p->stage, words) == STAGE_OK ? NULL : stage_error();
-}
-
 static enum stage_status osc_begin(struct live_player *p)
 {
     const struct osc_stage_def def = {.port = p->def.osc,
                                       .stage = p->stage,
                                       .scene = osc_scene,
                                       .knobs = osc_knobs,
-                                      .text = osc_text,
+                                      .text = map_text,
                                       .tell = map_tell,
                                       .context = p};
     if (!def.port.listen && !def.port.send)
@@ -338,6 +339,11 @@ enum stage_status live_player_before(void *player, struct stage *stage, double n
     if (said)
         tell(p, said);
     return status;
+}
+
+bool live_player_leads(const struct live_player *p)
+{
+    return p->map && script_map_leads(p->map);
 }
 
 bool live_player_key(void *player, const struct input_event *event)

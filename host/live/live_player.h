@@ -45,6 +45,9 @@ void live_player_destroy(struct live_player *player); /* NULL is fine */
 enum stage_status live_player_before(void *player, struct stage *stage, double now_s);
 bool live_player_key(void *player, const struct input_event *event);
 
+/* The script leads by time, whether anything is played or not. */
+bool live_player_leads(const struct live_player *player);
+
 /* What the stage's actor lets hear, for whom OSC is sent to. */
 void live_player_heard(struct live_player *player, const struct stage_sound *sound);
 

@@ -19,6 +19,7 @@ enum { EXIT_FAILED = 1, EXIT_USAGE = 2, EXIT_INTERRUPTED = 130 };
 /* argv[0] is the verb. */
 int verb_paint(int argc, char **argv);
 int verb_demo(int argc, char **argv);
+int verb_stage(int argc, char **argv);
 int verb_info(int argc, char **argv);
 int verb_bench(int argc, char **argv);
 int verb_keys(int argc, char **argv);

@@ -22,6 +22,8 @@ static const struct {
      "set Markdown as pages: notes, tables, formulas"},
     {"font", verb_font, "FILE [-o out.png]", "show a font, its glyphs at each level, filters"},
     {"spring", verb_spring, "\"word\"", "a word on springs, in a window, stills and films"},
+    {"stage", verb_stage, "NAME | FILE.lua | --list",
+     "short pieces on springs, led by scripts"},
     {"voice", verb_voice, "SOUND \"Text\"", "letters that a voice plays: poster, frames, film"},
     {"studio", verb_studio, "[sheet.h5]", "paint and set type by hand, on paper that flows"},
     {"run", verb_run, "script.lua [key=value...]", "run a script of papers, inks and time"},

@@ -209,6 +209,24 @@ const struct page pages_of_pictures[] = {
            "small type by another filter"},
           {"lutetia font --show-filter --filter gaussian-fast -o filter.png", "a filter"}},
      .see = "lutetia-type(1), lutetia-set(1), fc-list(1)"},
+    {.verb = "stage",
+     .usages = "NAME [options of lutetia spring]\nFILE.lua [options of lutetia "
+               "spring]\n--print NAME\n--list",
+     .about =
+         "Short pieces for a stage of springs. Each is a script in Lua of one screen, which "
+         "says "
+         "in a comment with which word and options it begins, and leads the stage's controls "
+         "by its function frame(time). All options of `lutetia spring` go with a piece: "
+         "without --still, --video and --frames there is a window.",
+     .notes =
+         "A piece is a map: section MAPS of lutetia-scripts(7). Its line `-- stage: spring "
+         "\"WORDS\" [OPTION VALUE]...` may have --preset, --set, --at, --turn, --column, "
+         "--circle, --view, --size, --param, --seconds, --theme and --font, and names no file.",
+     .examples = {{"lutetia stage --list", "what there is"},
+                  {"lutetia stage breath", "in a window"},
+                  {"lutetia stage cry --video cry.mp4", "as a film"},
+                  {"lutetia stage --print breath >mine.lua", "the start of one's own"}},
+     .see = "lutetia-spring(1), lutetia-scripts(7)"},
     {.verb = "spring",
      .usages = "\"word\" [options]\n--network FILE [options]\n--controls",
      .about =

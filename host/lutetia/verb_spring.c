@@ -34,6 +34,7 @@ struct spring {
     struct progress progress;
     struct live_options live_options;
     struct midi_song *song;
+    struct midi_song *silence; /* of a film that a map leads without a song */
     struct live live;
     const char *play;
     struct live_sound *sound;
@@ -79,9 +80,8 @@ static int spring_check(struct spring *s, const struct option_words *words)
                           "what is played goes through a --map FILE.lua, or --knobs FILE");
     if (!s->live_options.map && s->live_options.params.count)
         return fail_usage("spring", "--param is for a --map FILE.lua");
-    if (played && !s->song_path && film)
-        return fail_usage("spring",
-                          "a film through a --map or --knobs is of a --song FILE.mid");
+    if (s->live_options.knobs.count && !s->song_path && film)
+        return fail_usage("spring", "a film through --knobs is of a --song FILE.mid");
     const struct spring_wet_def usual = spring_wet_def_default();
     if (!s->is_wet &&
         (s->wet_def.pigment != usual.pigment || s->wet_def.every_s != usual.every_s))
@@ -114,7 +114,7 @@ static int spring_check(struct spring *s, const struct option_words *words)
 static const struct option_need needs[] = {{"record", WINDOW},
                                            {"play", WINDOW},
                                            {"session", "replay|!still+!video+!frames"},
-                                           {"fps", "video|frames|sound|song|wet|strip"},
+                                           {"fps", "video|frames|sound|song|map|wet|strip"},
                                            {"watch", "!network+!still+!video+!frames"},
                                            {"osc", WINDOW},
                                            {"osc-from", "osc"},
@@ -250,7 +250,16 @@ static int map_begin(struct spring *s, struct stage *stage)
     const struct live_options *o = &s->live_options;
     if ((!o->map && !o->knobs.count && !o->osc && !o->osc_to && !o->text) || s->live.source)
         return EXIT_SUCCESS;
-    return live_begin("spring", &s->live_options, s->song, LOWEST, stage, &s->live);
+    const bool film = s->film.still || s->film.video || s->frames;
+    const struct midi_song_def silence = midi_song_def_default();
+    if (film && !s->song && !s->silence && midi_song_create(&silence, &s->silence) != MIDI_OK)
+        return fail("spring", "%s", midi_error());
+    const int status =
+        live_begin("spring", o, s->song ? s->song : s->silence, LOWEST, stage, &s->live);
+    if (status == EXIT_SUCCESS && film && !s->song && !live_player_leads(s->live.player))
+        return fail_usage("spring",
+                          "a film through a --map without frame(time) is of a --song FILE.mid");
+    return status;
 }
 
 static enum stage_status frame_before(void *context, struct stage *stage, double now_s)
@@ -505,6 +514,7 @@ int verb_spring(int argc, char **argv)
     live_sound_close(s.sound);
     spring_wet_destroy(s.wet);
     midi_song_destroy(s.song);
+    midi_song_destroy(s.silence);
     spring_scene_finish(&scene);
     free(font);
     free(filter);

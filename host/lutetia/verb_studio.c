@@ -109,9 +109,10 @@ static int window_run(struct line *line)
     char path[PATH_MAX];
     if (!program_find(path, here, LUTETIA_LIBEXECDIR "/lutetia/lutetia-studio",
                       "desk/lutetia-studio"))
-        return fail("studio",
-                    "the window's program, which needs GTK 4, is not here; it is in the package "
-                    "lutetia-studio, and `./run studio` builds and starts it");
+        return fail(
+            "studio",
+            "the window's program, which needs GTK 4, is not here; it is in the package "
+            "lutetia-studio, and `./run studio` builds and starts it");
     line->words[0] = path;
     execv(path, line->words);
     return fail("studio", "%s cannot be run: %s", path, strerror(errno));

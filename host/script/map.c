@@ -74,8 +74,19 @@ static int map_get(lua_State *L)
     return 1;
 }
 
+/* text(words): other words on the stage */
+static int map_text(lua_State *L)
+{
+    const struct script_map *map = map_of(L);
+    const char *words = luaL_checkstring(L, 1);
+    if (!map->def.text)
+        return luaL_error(L, "there are no words to change here");
+    refuse(L, map->def.text(map->def.context, words));
+    return 0;
+}
+
 static const luaL_Reg functions[] = {
-    {"set", map_set}, {"along", map_along}, {"get", map_get}, {NULL, NULL}};
+    {"set", map_set}, {"along", map_along}, {"get", map_get}, {"text", map_text}, {NULL, NULL}};
 
 /* ---- what a map is told ---- */
 
@@ -135,9 +146,9 @@ static int open_protected(lua_State *L)
     if (script_load(L, map->config.path) != LUA_OK)
         lua_error(L);
     lua_call(L, 0, 0);
-    if (lua_getglobal(L, "message") != LUA_TFUNCTION)
-        luaL_error(L, "%s: a map has a function message(m)", map->config.path);
     map->frames = lua_getglobal(L, "frame") == LUA_TFUNCTION;
+    if (lua_getglobal(L, "message") != LUA_TFUNCTION && !map->frames)
+        luaL_error(L, "%s: a map has a function message(m) or frame(time)", map->config.path);
     return 0;
 }
 
@@ -165,6 +176,11 @@ bool script_map_message(struct script_map *map, const struct midi_message *m)
 {
     struct midi_message copy = *m;
     return answer(map, message_protected, &copy);
+}
+
+bool script_map_leads(const struct script_map *map)
+{
+    return map->frames;
 }
 
 bool script_map_frame(struct script_map *map, double time_s)

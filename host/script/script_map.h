@@ -5,7 +5,7 @@
  *     end
  *     function frame(time) ... end                         -- before each picture; may be left out
  *
- * It is in the same sandbox as scripts of papers, with none of their library: set(), along(), get(), print() and param() are all that
+ * It is in the same sandbox as scripts of papers, with none of their library: set(), along(), get(), text(), print() and param() are all that
  * it reaches. An answer that takes too long, or fails, is told, and the next message comes all the same.
  *
  * docs/midi.md has the reference. Threads: a map belongs to one. */
@@ -25,18 +25,21 @@ struct script_map_def {
     const char *(*along)(void *context, const char *name,
                          double along); /* 0..1: as a slider that is so far along its way */
     const char *(*get)(void *context, const char *name, double *value);
+    const char *(*text)(void *context, const char *words); /* NULL: there are none to change */
     void (*tell)(void *context, const char *text); /* a line: what it prints, and errors */
     void (*overdue)(void *context);                /* as script_host's; may be NULL */
     void *context;
 };
 
 struct script_map;
-/* Reads and runs the file, which must leave a function `message`. Errors: FAILED, which has been told. */
+/* Reads and runs the file, which must leave a function `message` or `frame`. Errors: FAILED, which has been told. */
 enum script_status script_map_open(const struct script_map_def *def, struct script_map **out);
 void script_map_close(struct script_map *map); /* NULL is fine */
 
 /* False: the script failed, which has been told. */
 bool script_map_message(struct script_map *map, const struct midi_message *m);
+/* It leads by time alone: it has a function `frame`. */
+bool script_map_leads(const struct script_map *map);
 bool script_map_frame(struct script_map *map, double time_s);
 
 #endif

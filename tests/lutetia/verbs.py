@@ -149,6 +149,7 @@ INPUTS = [
     ("spring", "song", ["spring", "a", "--map", "map.lua", "--song", "@", "--still", "o.png"]),
     ("spring", "theme", ["spring", "a", "--theme", "@", "--still", "o.png"]),
     ("spring", "replay", ["spring", "a", "--replay", "@", "--video", "o.y4m"]),
+    ("stage", None, ["stage", "@.lua", "--still", "o.png"]),
     ("voice", None, ["voice", "@", "a", "-o", "o.png"]),
     ("voice", "transcript", ["voice", "s.wav", "--transcript", "@", "-o", "o.png"]),
     ("voice", "font", ["voice", "--cry", "a", "--font", "@", "-o", "o.png"]),

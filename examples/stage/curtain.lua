@@ -1,0 +1,11 @@
+-- Lines hang from each other like a curtain, and a wind goes through them.
+-- stage: spring "the wind goes\nthrough these\nletters again" --preset curtain --set show_masses=off --set show_springs=off --view -3,-0.5,9.5,5.8 --seconds 10
+
+local hard = param("hard", 5) -- units a second
+
+function frame(time)
+  local gust = math.sin(0.9 * time) * math.sin(0.37 * time + 1)
+  set("wind_x", hard * gust)
+  set("wind_y", 0.3 * hard * math.sin(1.7 * time))
+  set("drag", 0.12)
+end

@@ -1,0 +1,103 @@
+"""The gallery: each piece of `lutetia stage` is led by its script, and pieces from elsewhere reach nothing.
+
+usage: test_gallery.py LUTETIA PIECES FOLDER
+"""
+import os
+import random
+import shutil
+import subprocess
+import sys
+
+lutetia, pieces, folder = (os.path.abspath(a) for a in sys.argv[1:4])
+shutil.rmtree(folder, ignore_errors=True)
+os.makedirs(folder)
+LOOK = ["--size", "96x64", "--fps", "10"]
+
+
+def run(*words):
+    return subprocess.run([lutetia, *words], cwd=folder, capture_output=True, timeout=100)
+
+
+def must(good, what):
+    if not good:
+        sys.exit(f"test_gallery.py: {what}")
+
+
+def still(name, *words):
+    done = run(*words, *LOOK, "--still", name)
+    must(done.returncode == 0, f"{words}: {done.stderr.decode()}")
+    with open(os.path.join(folder, name), "rb") as file:
+        return file.read()
+
+
+def gallery():
+    """Twelve pieces, each of at most a screen; with another script in its place each picture is another one."""
+    names = sorted(name[:-4] for name in os.listdir(pieces) if name.endswith(".lua"))
+    listed = run("stage", "--list").stdout.decode().splitlines()
+    must([line.split()[0] for line in listed] == names and len(names) == 12, f"--list: {listed}")
+    must(all(len(line) > 20 for line in listed), "a piece says nothing of itself")
+    for name in names:
+        with open(os.path.join(pieces, name + ".lua"), encoding="utf-8") as file:
+            text = file.read()
+        must(text.count("\n") <= 40, f"{name}: longer than a screen")
+        must(run("stage", "--print", name).stdout.decode() == text, f"{name}: --print")
+        head = "".join(line + "\n" for line in text.splitlines() if line.startswith("--"))
+        with open(os.path.join(folder, "idle.lua"), "w", encoding="utf-8") as file:
+            file.write(head + "function frame(time) end\n")
+        moment = ["--seconds", "4.5"]
+        led, again, idle = (still("a.png", "stage", name, *moment), still("b.png", "stage", name, *moment),
+                            still("c.png", "stage", "idle.lua", *moment))
+        must(led == again, f"{name}: not the same twice")
+        must(led != idle, f"{name}: its script changes nothing")
+
+
+def refused(text, says):
+    with open(os.path.join(folder, "piece.lua"), "w", encoding="utf-8") as file:
+        file.write(text)
+    done = run("stage", "piece.lua", *LOOK, "--still", "p.png")
+    lines = done.stderr.decode().strip().splitlines()
+    must(done.returncode in (1, 2) and len(lines) == 1 and says in lines[0], f"{text!r}: {done.returncode} {lines}")
+    must(not os.path.exists(os.path.join(folder, "p.png")), f"{text!r}: a picture all the same")
+
+
+def strangers():
+    """security.md 35: a piece names no file, and its options are those of a list."""
+    body = "function frame(t) end\n"
+    for option in ("--video f.y4m", "--save f", "--network f", "--script f", "--session f", "--edits f", "--map f", "--osc 1", "--frames f",
+                   "--theme ./f", "--font ../f", "-p jelly", "--wet"):
+        refused(f"-- stage: spring a {option}\n{body}", "here (got" if "/" in option else "a piece begins with")
+    refused(f"-- stage: keys a\n{body}", "must begin as")
+    refused(f"-- stage: spring --preset jelly\n{body}", "must begin as")
+    refused(f"-- stage: spring \"a\n{body}", "an open quote")
+    refused("-- nothing\n" + body, "must begin as")
+    refused("-- stage: spring a --set\n" + body, "a piece begins with")
+    refused("-- stage: spring a\nio.open('f', 'w')\n", "attempt to index")
+    refused("-- stage: spring a\nx = 1\n", "function message(m) or frame(time)")
+    refused("-- stage: spring a\nfunction message(m) end\n", "frame(time)")
+    must(sorted(os.listdir(folder)) == ["a.png", "b.png", "c.png", "idle.lua", "piece.lua"], f"left: {os.listdir(folder)}")
+    done = run("stage", "nobody")
+    must(done.returncode == 2 and b"there is no piece 'nobody'; there are apart, breakdown" in done.stderr, done.stderr)
+
+
+def damaged():
+    """Damaged beginnings: one line, and no crash."""
+    chance = random.Random(7)
+    seed = b"-- A piece.\n-- stage: spring \"a b\" --preset jelly --set gravity=3 --view -1,-1,4,4\nfunction frame(t) end\n"
+    for _ in range(150):
+        text = bytearray(seed)
+        for _ in range(chance.randrange(1, 5)):
+            at = chance.randrange(len(text))
+            if chance.random() < 0.3:
+                del text[at:at + chance.randrange(1, 20)]
+            else:
+                text[at:at + 1] = bytes([chance.choice(b"\"-\n\\n \x00\xff/a") for _ in range(chance.randrange(1, 4))])
+        with open(os.path.join(folder, "piece.lua"), "wb") as file:
+            file.write(text)
+        done = run("stage", "--print", "piece.lua")
+        lines = done.stderr.splitlines()
+        must(done.returncode == 0 or (done.returncode in (1, 2) and len(lines) == 1), f"{bytes(text)!r}: {done.returncode} {lines}")
+
+
+gallery()
+strangers()
+damaged()
