@@ -253,6 +253,7 @@ enum stage_status spring_scene_make(const struct spring_scene_def *def,
         springs.extent =
             (struct font_box){def->view[0], def->view[1], def->view[2], def->view[3]};
     enum stage_status status = springs_make(def, out, &springs);
+    springs.face = out->face;
     if (status == STAGE_OK) {
         status = stage_springs_create(&springs, &stage.actor);
     } else {

@@ -20,6 +20,7 @@
 #define LUTETIA_STAGE_SPRINGS_H
 
 #include <clamps.h>
+#include <face.h>
 #include <network.h>
 #include <word.h>
 
@@ -51,6 +52,8 @@ struct stage_springs_def {
     /* The visible part of the world: x0 < x1 and y0 < y1; otherwise the actor's extent. */
     struct font_box extent;
     struct stage_springs_maker maker;
+    /* A variable font whose axes are controls: weight, width, slant, or the axis's tag. Borrowed, must outlive the actor; NULL: none. */
+    struct font_face *face;
 };
 struct stage_springs_def stage_springs_def_default(void);
 

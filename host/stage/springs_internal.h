@@ -25,9 +25,12 @@ struct springs_hand {
 };
 
 /* Parameters besides the network's world; all doubles, so that the tables can describe them. */
+enum { SPRINGS_AXES_MAX = 16 };
+
 struct springs_settings {
     double hand, show_masses, show_springs, show_letters, full_strain, collide, record_hand;
     struct dyn_word_style style;
+    double axes[SPRINGS_AXES_MAX];
 };
 
 /* A word and its letters. The actor and the states that it has kept share them. */
@@ -49,6 +52,10 @@ struct springs {
     struct dyn_clamps *recorded; /* keys of what hands held while recording; NULL: none */
     double recorded_s;           /* the last key's time */
     struct springs_settings set;
+    /* Of the font: see springs_axes.c. */
+    struct font_face *face;
+    char axes[SPRINGS_AXES_MAX][5]; /* tags */
+    int axes_count;
     struct springs_hand hand;
 };
 
@@ -58,6 +65,11 @@ enum stage_status springs_text_make(const struct stage_springs_def *def,
                                     struct springs_text **out);
 /* One user less; NULL is fine. */
 void springs_text_let(struct springs_text *text);
+
+/* Finds the axes of the face, which is NULL or variable, and their rows: SPRINGS_AXES_MAX at most. Returns how many. */
+int springs_axes_find(struct springs *s, struct stage_control rows[SPRINGS_AXES_MAX]);
+/* Sets all axes as the settings have them. */
+void springs_axes_set(struct springs *s);
 
 enum stage_status springs_text_set(void *actor, const char *words);
 bool springs_event(void *actor, const struct stage_event *event);

@@ -6,11 +6,13 @@
 
 #include <cmocka.h>
 
+#include <exact.h>
 #include <springs.h>
 #include <typed_words.h>
 #include <watched_text.h>
 
 #include "../display/scratch.h"
+#include "../fontpipe/made_font.h"
 
 #include <fcntl.h>
 #include <math.h>
@@ -206,6 +208,86 @@ static void sessions_have_the_words(void **unused)
     }
 }
 
+static void file_write(const char *path, const char *text, size_t count)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fwrite(text, 1, count, file);
+    fclose(file);
+}
+
+/* A font with an axis: DejaVu Sans, whose outlines widen along it. */
+static struct font_face *wide_open(void)
+{
+    const char *path = scratch_path("wide.ttf");
+    struct font_face_info info;
+    struct font_face *wide;
+    size_t count, made_count;
+    font_face_describe(face, &info);
+    FILE *file = fopen(info.path, "rb");
+    assert_non_null(file);
+    fseek(file, 0, SEEK_END);
+    count = (size_t)ftell(file);
+    rewind(file);
+    uint8_t *bytes = malloc(count);
+    assert_int_equal(fread(bytes, 1, count, file), count);
+    fclose(file);
+    uint8_t *made = made_wide(bytes, count, &made_count);
+    file_write(path, (const char *)made, made_count);
+    free(made);
+    free(bytes);
+    assert_int_equal(font_face_open(path, 0, &wide), FONT_OK);
+    return wide;
+}
+
+static void picture_of(struct stage *stage, struct display_image *image)
+{
+    struct stage_draw_list list = {0};
+    struct stage_exact *exact;
+    *image = (struct display_image){.width_px = 320, .height_px = 200, .channels = 3};
+    assert_int_equal(display_image_create(image), DISPLAY_OK);
+    assert_int_equal(stage_exact_create("box", &exact), STAGE_OK);
+    stage_picture(stage, image->width_px, image->height_px, 1, &list);
+    assert_int_equal(stage_exact_draw(exact, &list, stage_background(stage), image), STAGE_OK);
+    stage_exact_destroy(exact);
+    stage_draw_finish(&list);
+}
+
+static void axes_of_a_font_are_controls(void **unused)
+{
+    (void)unused;
+    struct stage_springs_def springs = stage_springs_def_default();
+    struct stage_def def = stage_def_default();
+    struct stage *stage;
+    struct display_image pictures[4];
+    struct font_shaper *usual = shaper;
+    springs.face = wide_open();
+    assert_int_equal(font_shaper_create(springs.face, &shaper), FONT_OK);
+    assert_int_equal(word_make(NULL, "sea", &springs), STAGE_OK);
+    assert_int_equal(stage_springs_create(&springs, &def.actor), STAGE_OK);
+    assert_int_equal(stage_create(&def, &stage), STAGE_OK);
+    picture_of(stage, &pictures[0]);
+    assert_int_equal(stage_set(stage, "width=120"), STAGE_BAD_ARGUMENT);
+    assert_int_equal(stage_mark(stage), STAGE_OK);
+    assert_int_equal(stage_set(stage, "width=110"), STAGE_OK);
+    picture_of(stage, &pictures[1]);
+    assert_int_equal(stage_set(stage, "width=90"), STAGE_OK);
+    picture_of(stage, &pictures[2]);
+    assert_true(stage_undo(stage));
+    picture_of(stage, &pictures[3]);
+    const size_t bytes = (size_t)3 * 320 * 200;
+    assert_memory_not_equal(pictures[0].pixels, pictures[1].pixels, bytes);
+    assert_memory_not_equal(pictures[0].pixels, pictures[2].pixels, bytes);
+    assert_memory_not_equal(pictures[1].pixels, pictures[2].pixels, bytes);
+    assert_memory_equal(pictures[0].pixels, pictures[3].pixels, bytes);
+    for (int i = 0; i < 4; i++)
+        display_image_destroy(&pictures[i]);
+    stage_destroy(stage);
+    font_shaper_destroy(shaper);
+    font_face_close(springs.face);
+    shaper = usual;
+}
+
 static bool key(struct typed_words *w, struct stage *stage, int code, unsigned modifiers)
 {
     enum stage_status status;
@@ -253,14 +335,6 @@ static void typed_words_are_the_stages(void **unused)
     stage_destroy(stage);
 }
 
-static void file_write(const char *path, const char *text, size_t count)
-{
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fwrite(text, 1, count, file);
-    fclose(file);
-}
-
 /* security.md 6: a pipe in the file's place holds nothing up. */
 static void a_watched_file_is_read_when_it_has_changed(void **unused)
 {
@@ -304,6 +378,7 @@ int main(void)
         cmocka_unit_test(new_letters_stand_as_the_last_one_does),
         cmocka_unit_test(undo_brings_words_back),
         cmocka_unit_test(sessions_have_the_words),
+        cmocka_unit_test(axes_of_a_font_are_controls),
         cmocka_unit_test(typed_words_are_the_stages),
         cmocka_unit_test(a_watched_file_is_read_when_it_has_changed)};
     if (font_face_open("DejaVuSans", 0, &face) != FONT_OK ||
