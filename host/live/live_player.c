@@ -4,6 +4,8 @@
 #include "osc_stage.h"
 #include "watched_text.h"
 
+#include <midi_time.h>
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -88,6 +90,12 @@ static const char *map_get(void *context, const char *name, double *value)
     return NULL;
 }
 
+static bool map_beat(void *context, double *phase, double *per_minute)
+{
+    const struct live_player *p = context;
+    return beat_now(&p->beat, midi_now_ns(), phase, per_minute);
+}
+
 /* It is at work within one function of Lua's, which nothing can interrupt: the window would stand still for good. */
 static void map_overdue(void *context)
 {
@@ -108,6 +116,7 @@ static enum stage_status map_open(struct live_player *p)
                                  .along = map_along,
                                  .get = map_get,
                                  .text = map_text,
+                                 .beat = map_beat,
                                  .tell = map_tell,
                                  .overdue = map_overdue,
                                  .context = p};

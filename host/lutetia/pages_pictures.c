@@ -224,7 +224,6 @@ const struct page pages_of_pictures[] = {
          "--circle, --view, --size, --param, --seconds, --theme and --font, and names no file.",
      .examples = {{"lutetia stage --list", "what there is"},
                   {"lutetia stage breath", "in a window"},
-                  {"lutetia stage cry --video cry.mp4", "as a film"},
                   {"lutetia stage --print breath >mine.lua", "the start of one's own"}},
      .see = "lutetia-spring(1), lutetia-scripts(7)"},
     {.verb = "spring",

@@ -257,8 +257,8 @@ static int map_begin(struct spring *s, struct stage *stage)
     const int status =
         live_begin("spring", o, s->song ? s->song : s->silence, LOWEST, stage, &s->live);
     if (status == EXIT_SUCCESS && film && !s->song && !live_player_leads(s->live.player))
-        return fail_usage("spring",
-                          "a film through a --map without frame(time) is of a --song FILE.mid");
+        return fail("spring",
+                    "a film through a --map without frame(time) is of a --song FILE.mid");
     return status;
 }
 

@@ -85,8 +85,22 @@ static int map_text(lua_State *L)
     return 0;
 }
 
-static const luaL_Reg functions[] = {
-    {"set", map_set}, {"along", map_along}, {"get", map_get}, {"text", map_text}, {NULL, NULL}};
+/* beat(): the part of the quarter note that has gone, and quarter notes in a minute; nil where no clock runs */
+static int map_beat(lua_State *L)
+{
+    const struct script_map *map = map_of(L);
+    double phase, per_minute;
+    if (!map->def.beat || !map->def.beat(map->def.context, &phase, &per_minute)) {
+        lua_pushnil(L);
+        return 1;
+    }
+    lua_pushnumber(L, phase);
+    lua_pushnumber(L, per_minute);
+    return 2;
+}
+
+static const luaL_Reg functions[] = {{"set", map_set},   {"along", map_along}, {"get", map_get},
+                                     {"text", map_text}, {"beat", map_beat},   {NULL, NULL}};
 
 /* ---- what a map is told ---- */
 
@@ -147,7 +161,8 @@ static int open_protected(lua_State *L)
         lua_error(L);
     lua_call(L, 0, 0);
     map->frames = lua_getglobal(L, "frame") == LUA_TFUNCTION;
-    if (lua_getglobal(L, "message") != LUA_TFUNCTION && !map->frames)
+    const int message = lua_getglobal(L, "message");
+    if (message != LUA_TFUNCTION && (message != LUA_TNIL || !map->frames))
         luaL_error(L, "%s: a map has a function message(m) or frame(time)", map->config.path);
     return 0;
 }

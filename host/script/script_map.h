@@ -5,7 +5,7 @@
  *     end
  *     function frame(time) ... end                         -- before each picture; may be left out
  *
- * It is in the same sandbox as scripts of papers, with none of their library: set(), along(), get(), text(), print() and param() are all that
+ * It is in the same sandbox as scripts of papers, with none of their library: set(), along(), get(), text(), beat(), print() and param() are all that
  * it reaches. An answer that takes too long, or fails, is told, and the next message comes all the same.
  *
  * docs/midi.md has the reference. Threads: a map belongs to one. */
@@ -25,6 +25,7 @@ struct script_map_def {
     const char *(*along)(void *context, const char *name,
                          double along); /* 0..1: as a slider that is so far along its way */
     const char *(*get)(void *context, const char *name, double *value);
+    bool (*beat)(void *context, double *phase, double *per_minute); /* false, or NULL: no clock */
     const char *(*text)(void *context, const char *words); /* NULL: there are none to change */
     void (*tell)(void *context, const char *text); /* a line: what it prints, and errors */
     void (*overdue)(void *context);                /* as script_host's; may be NULL */

@@ -142,6 +142,7 @@ static void what_cannot_be_is_said(void **unused)
 {
     (void)unused;
     const char *song = song_written();
+    const char *by_messages = map_written("function message(m) end");
     const struct {
         const char *arguments[10], *said;
         int status;
@@ -152,7 +153,8 @@ static void what_cannot_be_is_said(void **unused)
         {{"keys", "--range", "c3-d3"}, "an octave or more", 2},
         {{"keys", "--server", "/nowhere/socket"}, "/nowhere/socket", 1},
         {{"spring", "x", "--song", song, "--still", "x.png"}, "--map FILE.lua", 2},
-        {{"spring", "x", "--map", "m.lua", "--still", "x.png"}, "--song FILE.mid", 2},
+        {{"spring", "x", "--map", "m.lua", "--still", "x.png"}, "m.lua: cannot read", 1},
+        {{"spring", "x", "--map", by_messages, "--still", "x.png"}, "--song FILE.mid", 1},
         {{"spring", "x", "--map", "m.lua", "--song", "none.mid", "--still", "x.png"},
          "none.mid",
          1},

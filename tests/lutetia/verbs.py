@@ -112,6 +112,7 @@ OUTPUTS = [
 SLOW = {"demo", "tune"}  # tried in full runs only
 # Options and verbs that write no file of their own without a window or a server.
 NOT_TRIED = {("spring", "session"): "written by a window", ("spring", "record"): "written by a window",
+             ("spring", "watch"): "read by a window",
              ("info", None): "prints only", ("run", "in"): "a folder", ("studio", None): "opens a window", ("studio", "play"): "opens a window", ("read", "play"): "opens a window", ("keys", "filter"): "of what is heard, no file"}
 
 # What a command line reads: @ is the file.

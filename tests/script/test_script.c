@@ -529,6 +529,63 @@ static void a_map_does_not_pay_for_its_host(void **state)
     free(more);
 }
 
+static bool map_beat(void *context, double *phase, double *per_minute)
+{
+    (void)context;
+    *phase = 0.25;
+    *per_minute = 132;
+    return true;
+}
+
+static const char *map_text(void *context, const char *words)
+{
+    (void)context;
+    return strcmp(words, "no") == 0 ? "not this word" : NULL;
+}
+
+/* A map leads by time alone, hears a beat, and changes words; without a clock or words it is told so. */
+static void a_map_leads_by_time(void **state)
+{
+    (void)state;
+    static char told[SCRIPTED_TEXT_MAX];
+    const char *path = scratch_path("leads.lua");
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    fputs("function frame(time) print(time, beat()) text(time > 1 and 'no' or 'yes') end",
+          file);
+    fclose(file);
+    struct script_map_def def = {.path = path,
+                                 .tell = map_tell,
+                                 .overdue = map_overdue,
+                                 .beat = map_beat,
+                                 .text = map_text,
+                                 .context = told};
+    struct script_map *map;
+    assert_int_equal(script_map_open(&def, &map), SCRIPT_OK);
+    assert_true(script_map_leads(map));
+    const struct midi_message note = midi_message_make(0, MIDI_NOTE_ON, 60, 64);
+    assert_true(script_map_message(map, &note)); /* nobody asked for messages */
+    assert_true(script_map_frame(map, 0.5));
+    assert_string_equal(told, "0.5\t0.25\t132.0");
+    told[0] = '\0';
+    assert_false(script_map_frame(map, 1.5));
+    assert_non_null(strstr(told, "not this word"));
+    script_map_close(map);
+    def.beat = NULL;
+    def.text = NULL;
+    told[0] = '\0';
+    assert_int_equal(script_map_open(&def, &map), SCRIPT_OK);
+    assert_false(script_map_frame(map, 0.5));
+    assert_non_null(strstr(told, "0.5\tnil"));
+    assert_non_null(strstr(told, "no words to change"));
+    script_map_close(map);
+    file = fopen(path, "wb");
+    fputs("x = 1", file);
+    fclose(file);
+    assert_int_equal(script_map_open(&def, &map), SCRIPT_FAILED);
+    assert_non_null(strstr(told, "message(m) or frame(time)"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -551,6 +608,7 @@ int main(void)
         cmocka_unit_test(papers_without_end_are_saved),
         cmocka_unit_test(nothing_is_shared_between_runs),
         cmocka_unit_test(a_map_does_not_pay_for_its_host),
+        cmocka_unit_test(a_map_leads_by_time),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
