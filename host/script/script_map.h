@@ -25,7 +25,8 @@ struct script_map_def {
     const char *(*along)(void *context, const char *name,
                          double along); /* 0..1: as a slider that is so far along its way */
     const char *(*get)(void *context, const char *name, double *value);
-    bool (*beat)(void *context, double *phase, double *per_minute); /* false, or NULL: no clock */
+    bool (*beat)(void *context, double *phase,
+                 double *per_minute);                      /* false, or NULL: no clock */
     const char *(*text)(void *context, const char *words); /* NULL: there are none to change */
     void (*tell)(void *context, const char *text); /* a line: what it prints, and errors */
     void (*overdue)(void *context);                /* as script_host's; may be NULL */
