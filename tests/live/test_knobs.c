@@ -6,6 +6,7 @@
 
 #include <cmocka.h>
 
+#include <exact.h>
 #include <knobs.h>
 
 #include "../display/scratch.h"
@@ -301,6 +302,25 @@ static bool pointer(struct stage_panel *panel, struct stage *stage, enum input_k
     return stage_panel_input(panel, stage, &e);
 }
 
+/* `test_knobs FOLDER` writes the panel to look at. */
+static const char *folder;
+
+static void picture_write(struct stage *stage, const struct stage_draw_list *list)
+{
+    char path[600];
+    struct stage_exact *exact;
+    struct display_image image = {1280, 720, 3, NULL};
+    if (!folder)
+        return;
+    assert_int_equal(stage_exact_create("gaussian-fast", &exact), STAGE_OK);
+    assert_int_equal(display_image_create(&image), DISPLAY_OK);
+    assert_int_equal(stage_exact_draw(exact, list, stage_background(stage), &image), STAGE_OK);
+    snprintf(path, sizeof path, "%s/knobs.png", folder);
+    assert_int_equal(display_png_write(path, &image), DISPLAY_OK);
+    display_image_destroy(&image);
+    stage_exact_destroy(exact);
+}
+
 static void hands_on_the_panel_learn_and_forget(void **unused)
 {
     (void)unused;
@@ -339,6 +359,13 @@ static void hands_on_the_panel_learn_and_forget(void **unused)
     stage_draw_begin(&list, STAGE_VIEW_PIXELS);
     stage_panel_draw(panel, stage, 1280, 720, 1, &list);
     assert_int_equal(list.count, plain + 3); /* two ticks, and what is between them */
+    if (folder) { /* with another control that waits, and what the first one does beside it */
+        knobs_learn(of_panel, scene_row(stage, "weight"));
+        pointer(panel, stage, INPUT_POINTER_MOVE, 0, 0, way.x0 + 3, y);
+        stage_draw_begin(&list, STAGE_VIEW_PIXELS);
+        stage_panel_draw(panel, stage, 1280, 720, 1, &list);
+        picture_write(stage, &list);
+    }
     pointer(panel, stage, INPUT_POINTER_DOWN, INPUT_BUTTON_RIGHT, INPUT_SHIFT, way.x0 + 3, y);
     assert_false(knobs_of(of_panel, row, &knob));
     pointer(panel, stage, INPUT_POINTER_DOWN, INPUT_BUTTON_LEFT, INPUT_SHIFT,
@@ -406,8 +433,9 @@ static void a_beat_moves_controls(void **unused)
     stage_destroy(stage);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
+    folder = argc > 1 ? argv[1] : NULL;
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_knob_is_learnt_by_turning_it),
                                        cmocka_unit_test(ends_turn_a_knob_round),
                                        cmocka_unit_test(all_kinds_of_knobs_move),
