@@ -90,6 +90,24 @@ static const char *map_get(void *context, const char *name, double *value)
     return NULL;
 }
 
+static const char *map_send(void *context, const char *address,
+                            const struct script_map_argument *arguments, int count)
+{
+    const struct live_player *p = context;
+    struct osc_argument all[OSC_ARGUMENTS_MAX];
+    uint8_t out[OSC_PACKET_MAX];
+    if (!p->osc || !p->def.osc.send)
+        return "nobody is sent to: --osc-to ADDRESS:PORT";
+    if (address[0] != '/' || count > OSC_ARGUMENTS_MAX)
+        return "an address begins with /, and a message has at most 32 arguments";
+    for (int i = 0; i < count; i++)
+        all[i] =
+            (struct osc_argument){.text = arguments[i].text, .number = arguments[i].number};
+    const size_t bytes = osc_arguments_write(out, sizeof out, address, all, count);
+    osc_stage_send(p->osc, out, bytes);
+    return bytes ? NULL : "a message has at most 8192 bytes";
+}
+
 static bool map_beat(void *context, double *phase, double *per_minute)
 {
     const struct live_player *p = context;
@@ -117,6 +135,7 @@ static enum stage_status map_open(struct live_player *p)
                                  .get = map_get,
                                  .text = map_text,
                                  .beat = map_beat,
+                                 .send = map_send,
                                  .tell = map_tell,
                                  .overdue = map_overdue,
                                  .context = p};
@@ -219,6 +238,17 @@ static bool knobs_key(struct live_player *p, const struct input_event *e)
 
 /* ---- OSC ---- */
 
+static bool osc_other(void *context, const struct osc_message *m)
+{
+    struct live_player *p = context;
+    struct script_map_argument arguments[OSC_ARGUMENTS_MAX];
+    for (int i = 0; i < m->count; i++)
+        arguments[i] =
+            (struct script_map_argument){m->arguments[i].text, m->arguments[i].number};
+    return p->map && script_map_hears_osc(p->map) &&
+           (script_map_osc(p->map, m->address, arguments, m->count), true);
+}
+
 static const char *osc_scene(void *context, int number)
 {
     const struct live_player *p = context;
@@ -243,6 +273,7 @@ static enum stage_status osc_begin(struct live_player *p)
                                       .scene = osc_scene,
                                       .knobs = osc_knobs,
                                       .text = map_text,
+                                      .other = osc_other,
                                       .tell = map_tell,
                                       .context = p};
     if (!def.port.listen && !def.port.send)

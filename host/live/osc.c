@@ -215,6 +215,34 @@ static void word_put(struct writer *w, uint32_t word)
     bytes_put(w, bytes, 4, 4);
 }
 
+static void float_put(struct writer *w, double number)
+{
+    const float value = (float)number;
+    uint32_t word;
+    memcpy(&word, &value, sizeof word);
+    word_put(w, word);
+}
+
+size_t osc_arguments_write(uint8_t *out, size_t room, const char *address,
+                           const struct osc_argument *arguments, int count)
+{
+    struct writer w = {.out = out, .room = room};
+    char types[OSC_ARGUMENTS_MAX + 2] = ",";
+    if (count < 0 || count > OSC_ARGUMENTS_MAX)
+        return 0;
+    for (int i = 0; i < count; i++)
+        types[i + 1] = arguments[i].text ? 's' : 'f';
+    types[count + 1] = '\0';
+    string_put(&w, address);
+    string_put(&w, types);
+    for (int i = 0; i < count; i++)
+        if (arguments[i].text)
+            string_put(&w, arguments[i].text);
+        else
+            float_put(&w, arguments[i].number);
+    return w.full ? 0 : w.used;
+}
+
 size_t osc_message_write(uint8_t *out, size_t room, const char *address, const char *types, ...)
 {
     struct writer w = {.out = out, .room = room};
@@ -232,10 +260,7 @@ size_t osc_message_write(uint8_t *out, size_t room, const char *address, const c
         } else if (*types == 'i') {
             word_put(&w, (uint32_t)va_arg(arguments, int));
         } else {
-            const float value = (float)va_arg(arguments, double);
-            uint32_t word;
-            memcpy(&word, &value, sizeof word);
-            word_put(&w, word);
+            float_put(&w, va_arg(arguments, double));
         }
     }
     va_end(arguments);

@@ -44,6 +44,10 @@ const char *osc_packet_read(const uint8_t *bytes, size_t count,
 size_t osc_message_write(uint8_t *out, size_t room, const char *address, const char *types,
                          ...);
 
+/* The same of arguments as they are read: texts, and numbers as f. */
+size_t osc_arguments_write(uint8_t *out, size_t room, const char *address,
+                           const struct osc_argument *arguments, int count);
+
 /* Whether a pattern names an address: ? is one character, * any number of them, [a-c] and [!a-c] one of or none of these, {one,two} one of
  * these words; none of them is /. The address has at most 63 characters. Takes time in proportion to both lengths. */
 bool osc_address_matches(const char *pattern, const char *address);

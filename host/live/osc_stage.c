@@ -174,7 +174,7 @@ static void message_take(void *context, const struct osc_message *m)
             why = "goes with one string";
         else
             why = o->def.text(o->def.context, m->arguments[0].text);
-    } else if (!number_take(o, m, &why)) {
+    } else if (!number_take(o, m, &why) && !(o->def.other && o->def.other(o->def.context, m))) {
         why = "there are /control/NAME, /along/NAME, /text, /scene, /knobs, /undo, /reset";
     }
     if (why)
@@ -206,6 +206,11 @@ void osc_stage_tell(struct osc_stage *o)
         o->sent[i] = value;
         osc_port_send(o->port, out, value_write(o, i, out, sizeof out));
     }
+}
+
+void osc_stage_send(struct osc_stage *o, const uint8_t *bytes, size_t count)
+{
+    osc_port_send(o->port, bytes, count);
 }
 
 void osc_stage_sound(struct osc_stage *o, const struct stage_sound *sound)

@@ -13,6 +13,7 @@
  *     /control/NAME         asks for its value     /sound/NAME strength x y
  *     /along/NAME part      as a slider, 0..1
  *     /scene n, /knobs n, /text words, /undo, /reset
+ *     any other address, for a map's osc()             what a map sends
  *
  * NAME may be a pattern. A control that was set by OSC is not sent back.
  *
@@ -23,6 +24,7 @@
 
 #include <stage.h>
 
+#include "osc.h"
 #include "osc_port.h"
 
 struct osc_stage_def {
@@ -32,6 +34,8 @@ struct osc_stage_def {
     const char *(*scene)(void *context, int number);
     const char *(*knobs)(void *context, int number);
     const char *(*text)(void *context, const char *text);
+    /* Any other address; false: nobody knows it. */
+    bool (*other)(void *context, const struct osc_message *m);
     void (*tell)(void *context, const char *text); /* a line: what was wrong with a message */
     void *context;
 };
@@ -43,6 +47,8 @@ void osc_stage_close(struct osc_stage *osc); /* NULL is fine */
 
 void osc_stage_take(struct osc_stage *osc);
 void osc_stage_tell(struct osc_stage *osc);
+/* A message of somebody's own, as it was written. */
+void osc_stage_send(struct osc_stage *osc, const uint8_t *bytes, size_t count);
 void osc_stage_sound(struct osc_stage *osc, const struct stage_sound *sound);
 
 /* The port that is heard, for tests. */

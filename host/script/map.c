@@ -22,7 +22,7 @@ struct script_map {
     struct script_host host;
     struct script_map_def def;
     lua_State *L;
-    bool frames; /* there is a function `frame` */
+    bool frames, hears_osc; /* there is a function `frame`, and `osc` */
 };
 
 static struct script_map *map_of(lua_State *L)
@@ -99,8 +99,33 @@ static int map_beat(lua_State *L)
     return 2;
 }
 
-static const luaL_Reg functions[] = {{"set", map_set},   {"along", map_along}, {"get", map_get},
-                                     {"text", map_text}, {"beat", map_beat},   {NULL, NULL}};
+/* send(address, ...): numbers, texts, true and false */
+static int map_send(lua_State *L)
+{
+    const struct script_map *map = map_of(L);
+    struct script_map_argument arguments[SCRIPT_MAP_ARGUMENTS];
+    const char *address = luaL_checkstring(L, 1);
+    const int count = lua_gettop(L) - 1;
+    if (!map->def.send)
+        return luaL_error(L, "nobody is sent to: --osc-to ADDRESS:PORT");
+    if (count > SCRIPT_MAP_ARGUMENTS)
+        return luaL_error(L, "a message has at most %d arguments", SCRIPT_MAP_ARGUMENTS);
+    for (int i = 0; i < count; i++) {
+        arguments[i] = (struct script_map_argument){0};
+        if (lua_type(L, i + 2) == LUA_TSTRING)
+            arguments[i].text = lua_tostring(L, i + 2);
+        else if (lua_type(L, i + 2) == LUA_TBOOLEAN)
+            arguments[i].number = lua_toboolean(L, i + 2);
+        else
+            arguments[i].number = luaL_checknumber(L, i + 2);
+    }
+    refuse(L, map->def.send(map->def.context, address, arguments, count));
+    return 0;
+}
+
+static const luaL_Reg functions[] = {
+    {"set", map_set},   {"along", map_along}, {"get", map_get}, {"text", map_text},
+    {"beat", map_beat}, {"send", map_send},   {NULL, NULL}};
 
 /* ---- what a map is told ---- */
 
@@ -161,9 +186,11 @@ static int open_protected(lua_State *L)
         lua_error(L);
     lua_call(L, 0, 0);
     map->frames = lua_getglobal(L, "frame") == LUA_TFUNCTION;
+    map->hears_osc = lua_getglobal(L, "osc") == LUA_TFUNCTION;
     const int message = lua_getglobal(L, "message");
-    if (message != LUA_TFUNCTION && (message != LUA_TNIL || !map->frames))
-        luaL_error(L, "%s: a map has a function message(m) or frame(time)", map->config.path);
+    if (message != LUA_TFUNCTION && (message != LUA_TNIL || !(map->frames || map->hears_osc)))
+        luaL_error(L, "%s: a map has a function message(m), osc(address, ...) or frame(time)",
+                   map->config.path);
     return 0;
 }
 
@@ -191,6 +218,40 @@ bool script_map_message(struct script_map *map, const struct midi_message *m)
 {
     struct midi_message copy = *m;
     return answer(map, message_protected, &copy);
+}
+
+bool script_map_hears_osc(const struct script_map *map)
+{
+    return map->hears_osc;
+}
+
+struct osc_call {
+    const char *address;
+    const struct script_map_argument *arguments;
+    int count;
+};
+
+static int osc_protected(lua_State *L)
+{
+    const struct osc_call *c = lua_touserdata(L, 1);
+    if (lua_getglobal(L, "osc") != LUA_TFUNCTION)
+        return 0;
+    luaL_checkstack(L, c->count + 2, "arguments");
+    lua_pushstring(L, c->address);
+    for (int i = 0; i < c->count; i++)
+        if (c->arguments[i].text)
+            lua_pushstring(L, c->arguments[i].text);
+        else
+            lua_pushnumber(L, c->arguments[i].number);
+    lua_call(L, c->count + 1, 0);
+    return 0;
+}
+
+bool script_map_osc(struct script_map *map, const char *address,
+                    const struct script_map_argument *arguments, int count)
+{
+    struct osc_call call = {address, arguments, count};
+    return map->hears_osc && answer(map, osc_protected, &call);
 }
 
 bool script_map_leads(const struct script_map *map)

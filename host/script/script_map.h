@@ -5,7 +5,7 @@
  *     end
  *     function frame(time) ... end                         -- before each picture; may be left out
  *
- * It is in the same sandbox as scripts of papers, with none of their library: set(), along(), get(), text(), beat(), print() and param() are all that
+ * It is in the same sandbox as scripts of papers, with none of their library: set(), along(), get(), text(), beat(), send(), print() and param() are all that
  * it reaches. An answer that takes too long, or fails, is told, and the next message comes all the same.
  *
  * docs/midi.md has the reference. Threads: a map belongs to one. */
@@ -15,6 +15,14 @@
 #include <midi_message.h>
 
 #include "script.h"
+
+enum { SCRIPT_MAP_ARGUMENTS = 32 };
+
+/* Of a message that is no instrument's: a number, or a text that is not NULL. */
+struct script_map_argument {
+    const char *text;
+    double number;
+};
 
 struct script_map_def {
     const char *path;
@@ -26,7 +34,10 @@ struct script_map_def {
                          double along); /* 0..1: as a slider that is so far along its way */
     const char *(*get)(void *context, const char *name, double *value);
     bool (*beat)(void *context, double *phase,
-                 double *per_minute);                      /* false, or NULL: no clock */
+                 double *per_minute); /* false, or NULL: no clock */
+    /* A message of the script's own, to whoever listens; NULL: nobody does. */
+    const char *(*send)(void *context, const char *address,
+                        const struct script_map_argument *arguments, int count);
     const char *(*text)(void *context, const char *words); /* NULL: there are none to change */
     void (*tell)(void *context, const char *text); /* a line: what it prints, and errors */
     void (*overdue)(void *context);                /* as script_host's; may be NULL */
@@ -42,6 +53,10 @@ void script_map_close(struct script_map *map); /* NULL is fine */
 bool script_map_message(struct script_map *map, const struct midi_message *m);
 /* It leads by time alone: it has a function `frame`. */
 bool script_map_leads(const struct script_map *map);
+/* A message with an address, for the script's function osc(address, ...), where it has one. False: it failed, which has been told, or has none. */
+bool script_map_hears_osc(const struct script_map *map);
+bool script_map_osc(struct script_map *map, const char *address,
+                    const struct script_map_argument *arguments, int count);
 bool script_map_frame(struct script_map *map, double time_s);
 
 #endif

@@ -115,6 +115,14 @@ static void what_is_written_is_read(void **unused)
     assert_int_equal(osc_message_write(out, sizeof FOO - 2, "/foo", "iisff", 1000, -1, "hello",
                                        1.234, 5.678),
                      0);
+    const struct osc_argument arguments[] = {{.text = "hello"}, {.number = -2.5}, {.text = ""}};
+    const size_t count = osc_arguments_write(out, sizeof out, "/a/b", arguments, 3);
+    assert_null(read_whole(out, count));
+    assert_string_equal(taken[0].address, "/a/b");
+    assert_string_equal(taken[0].arguments[0].text, "hello");
+    assert_true(taken[0].count == 3 && taken[0].arguments[1].number == -2.5 &&
+                !*taken[0].arguments[2].text);
+    assert_int_equal(osc_arguments_write(out, count - 1, "/a/b", arguments, 3), 0);
 }
 
 /* ---- addresses ---- */
@@ -354,6 +362,15 @@ static const char *scene(void *context, int number)
     return number == 9 ? "there is no scene 9" : NULL;
 }
 
+static char other_address[64];
+
+static bool other(void *context, const struct osc_message *m)
+{
+    (void)context;
+    snprintf(other_address, sizeof other_address, "%s", m->address);
+    return strcmp(m->address, "/mine") == 0;
+}
+
 static const char *text(void *context, const char *words)
 {
     (void)context;
@@ -379,6 +396,7 @@ static struct osc_stage *osc_open(struct stage *stage, const struct wire *heard)
                                       .stage = stage,
                                       .scene = scene,
                                       .text = text,
+                                      .other = other,
                                       .tell = tell};
     struct osc_stage *osc;
     assert_int_equal(osc_stage_open(&def, &osc), STAGE_OK);
@@ -408,6 +426,9 @@ static void a_stage_is_played(void **unused)
     assert_non_null(strstr(told, "no control 'hight'; there are"));
     SEND(&w, osc, "/hight", "");
     assert_non_null(strstr(told, "there are /control/NAME"));
+    assert_string_equal(other_address, "/hight");
+    SEND(&w, osc, "/mine", "f", 1.0);
+    assert_true(!told[0] && !strcmp(other_address, "/mine"));
     SEND(&w, osc, "/scene", "i", 3);
     assert_int_equal(scene_number, 3);
     SEND(&w, osc, "/scene", "i", 9);

@@ -72,7 +72,7 @@ def strangers():
     refused("-- nothing\n" + body, "must begin as")
     refused("-- stage: spring a --set\n" + body, "a piece begins with")
     refused("-- stage: spring a\nio.open('f', 'w')\n", "attempt to index")
-    refused("-- stage: spring a\nx = 1\n", "function message(m) or frame(time)")
+    refused("-- stage: spring a\nx = 1\n", "function message(m), osc(address, ...) or frame(time)")
     refused("-- stage: spring a\nfunction message(m) end\n", "frame(time)")
     must(sorted(os.listdir(folder)) == ["a.png", "b.png", "c.png", "idle.lua", "piece.lua"], f"left: {os.listdir(folder)}")
     done = run("stage", "nobody")
