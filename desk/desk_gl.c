@@ -13,7 +13,7 @@ struct corner {
 };
 
 struct desk_gl {
-    GLuint sheet, pieces, array, buffer, picture, mask;
+    GLuint sheet, masked, pieces, array, buffer, picture, mask;
     int width, height; /* of the picture */
     struct studio_shown shown;
     GArray *corners;
@@ -30,20 +30,21 @@ static const char sheet_fragment[] =
     "uniform mat2 turned;\n"         /* pixels to fibers */
     "uniform vec2 middle, origin;\n" /* the same place in pixels and in fibers */
     "uniform vec2 size;\n"           /* of the sheet, fibers */
-    "uniform vec4 masked;\n"         /* corner and size of the mask; size 0: none */
+    "uniform vec4 masked;\n"         /* corner and size of the mask */
     "uniform vec3 desk, ink;\n"
     "uniform float fibers;\n" /* fibers that a pixel is wide */
     "uniform float height;\n"
     "out vec4 color;\n"
     "vec3 at(vec2 place)\n"
     "{\n"
-    "    vec2 inside = clamp(0.5 + min(place, size - place) / max(fibers, 1e-6), 0.0, 1.0);\n"
     "    vec3 paper = texture(picture, place / size).rgb;\n"
+    "#ifdef MASKED\n"
     "    vec2 on = (place - masked.xy) / max(masked.zw, vec2(1.0));\n"
-    "    if (masked.z > 0.0 && all(greaterThan(on, vec2(0.0))) && all(lessThan(on, "
+    "    if (all(greaterThan(on, vec2(0.0))) && all(lessThan(on, "
     "vec2(1.0))))\n"
     "        paper = mix(paper, ink, 0.75 * texture(mask, on).r);\n"
-    "    return mix(desk, paper, inside.x * inside.y);\n"
+    "#endif\n"
+    "    return paper;\n"
     "}\n"
     "void main()\n"
     "{\n"
@@ -55,7 +56,9 @@ static const char sheet_fragment[] =
     "            vec2 part = (vec2(float(i), float(j)) + 0.5) / float(n) - 0.5;\n"
     "            sum += at(origin + turned * (pixel + part - middle));\n"
     "        }\n"
-    "    color = vec4(sum / float(n * n), 1.0);\n"
+    "    vec2 place = origin + turned * (pixel - middle);\n"
+    "    vec2 inside = clamp(0.5 + min(place, size - place) / max(fibers, 1e-6), 0.0, 1.0);\n"
+    "    color = vec4(mix(desk, sum / float(n * n), inside.x * inside.y), 1.0);\n"
     "}\n";
 static const char piece_vertex[] = "in vec2 place;\n"
                                    "in vec4 ends;\n"
@@ -94,17 +97,17 @@ static const char piece_fragment[] =
 
 /* ---- programs ---- */
 
-static GLuint shader_make(GLenum kind, const char *text, char **why)
+static GLuint shader_make(GLenum kind, const char *defined, const char *text, char **why)
 {
     const char *const whole[] = {epoxy_is_desktop_gl() ? "#version 150\n"
                                                        : "#version 300 es\n"
                                                          "precision highp float;\n"
                                                          "precision highp int;\n",
-                                 text};
+                                 defined, text};
     char log[500] = "";
     GLint good = 0;
     GLuint shader = glCreateShader(kind);
-    glShaderSource(shader, 2, whole, NULL);
+    glShaderSource(shader, 3, whole, NULL);
     glCompileShader(shader);
     glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
     if (!good) {
@@ -115,12 +118,13 @@ static GLuint shader_make(GLenum kind, const char *text, char **why)
     return shader;
 }
 
-static GLuint program_make(const char *vertex, const char *fragment, char **why)
+static GLuint program_make(const char *defined, const char *vertex, const char *fragment,
+                           char **why)
 {
     GLint good = 0;
     GLuint program = glCreateProgram(),
-           parts[] = {shader_make(GL_VERTEX_SHADER, vertex, why),
-                      shader_make(GL_FRAGMENT_SHADER, fragment, why)};
+           parts[] = {shader_make(GL_VERTEX_SHADER, defined, vertex, why),
+                      shader_make(GL_FRAGMENT_SHADER, defined, fragment, why)};
     for (int i = 0; i < 2; i++)
         glAttachShader(program, parts[i]);
     glBindAttribLocation(program, 0, "place");
@@ -158,8 +162,9 @@ struct desk_gl *desk_gl_create(char **why)
                  {2, offsetof(struct corner, radius)},
                  {4, offsetof(struct corner, color)}};
     struct desk_gl *gl = g_new0(struct desk_gl, 1);
-    gl->sheet = program_make(sheet_vertex, sheet_fragment, why);
-    gl->pieces = program_make(piece_vertex, piece_fragment, why);
+    gl->masked = program_make("#define MASKED\n", sheet_vertex, sheet_fragment, why);
+    gl->sheet = program_make("", sheet_vertex, sheet_fragment, why);
+    gl->pieces = program_make("", piece_vertex, piece_fragment, why);
     gl->picture = texture_make();
     gl->mask = texture_make();
     gl->corners = g_array_new(FALSE, FALSE, sizeof(struct corner));
@@ -183,6 +188,7 @@ void desk_gl_destroy(struct desk_gl *gl)
     if (!gl)
         return;
     glDeleteProgram(gl->sheet);
+    glDeleteProgram(gl->masked);
     glDeleteProgram(gl->pieces);
     glDeleteTextures(1, &gl->picture);
     glDeleteTextures(1, &gl->mask);
@@ -351,8 +357,9 @@ static void sheet_draw(const struct desk_gl *gl, const struct desk *d, int scale
     const double pixel = 1 / (v->zoom * scale), c = pixel * cos(v->turn),
                  s = pixel * sin(v->turn), side = v->mirrored ? -1 : 1;
     const GLfloat turned[] = {(float)(side * c), (float)-s, (float)(side * s), (float)c};
-    const GLuint p = gl->sheet;
     const bool mask = gl->shown.gray != NULL;
+    const GLuint p =
+        mask ? gl->masked : gl->sheet; /* two look-ups a place cost twice as much */
     glUseProgram(p);
     glUniform1i(glGetUniformLocation(p, "picture"), 0);
     glUniform1i(glGetUniformLocation(p, "mask"), 1);
@@ -362,7 +369,7 @@ static void sheet_draw(const struct desk_gl *gl, const struct desk *d, int scale
     glUniform2f(glGetUniformLocation(p, "origin"), (float)v->x0, (float)v->y0);
     glUniform2f(glGetUniformLocation(p, "size"), (float)gl->width, (float)gl->height);
     glUniform4f(glGetUniformLocation(p, "masked"), (float)gl->shown.x, (float)gl->shown.y,
-                mask ? (float)gl->shown.width : 0, mask ? (float)gl->shown.height : 0);
+                (float)gl->shown.width, (float)gl->shown.height);
     glUniform3f(glGetUniformLocation(p, "desk"), 0.30f, 0.29f, 0.28f);
     glUniform3f(glGetUniformLocation(p, "ink"), (float)ink[0], (float)ink[1], (float)ink[2]);
     glUniform1f(glGetUniformLocation(p, "fibers"), (float)pixel);
