@@ -9,6 +9,7 @@
 #include "studio_played.h"
 
 #include <dirent.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -70,6 +71,7 @@ pid_t played_start(void)
     const pid_t studio = fork();
     if (studio == 0) {
         setenv("GTK_A11Y", "none", 1);
+        signal(SIGXFSZ, SIG_IGN); /* files that may not grow are a full disk */
         execl(getenv("LUTETIA"), "lutetia", "studio", "--paper", "96x72", "--pigment",
               "french ultramarine", "--pigment", "quinacridone rose", "--play",
               played_path("hand.events"), NULL);

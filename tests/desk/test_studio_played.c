@@ -1,5 +1,5 @@
 /* test_studio_played.c - sessions that are played through the window: twenty deeds with insertions and a change are what their script makes; what the
- * journal has at any moment is all that is older than a second. */
+ * journal has at any moment is all that is older than a second; a full disk loses nothing. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,6 +10,7 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -203,11 +204,49 @@ static void killed_at_random_moments(void **state)
         unlink(path);
 }
 
+/* ---- a full disk ---- */
+
+static bool wait_for(const char *path)
+{
+    const double until_s = clock_now_s() + WAIT_S;
+    while (access(path, R_OK) != 0 && clock_now_s() < until_s)
+        usleep(2000);
+    return access(path, R_OK) == 0;
+}
+
+/* From some moment on no file may grow: the file of before stays, nothing is left in part, and the window closes as ever. */
+static void full_disk_loses_nothing(void **state)
+{
+    (void)state;
+    const struct rlimit full = {0, 0};
+    char *before, *after;
+    int status;
+    const char *kept = played_path("kept.h5"), *none = played_path("none.png");
+    FILE *events = played_begin();
+    fprintf(events, "0 set paused on\n");
+    deed_play(events, 0.1, "brush", 3);
+    fprintf(events, "0.3 save %s\n0.4 picture %s\n", kept, played_path("ready.png"));
+    fprintf(events, "15 save %s\n15 picture %s\n15.5 close\n", kept, none);
+    fclose(events);
+    const pid_t studio = played_start();
+    assert_true(wait_for(played_path("ready.png")));
+    assert_int_equal(prlimit(studio, RLIMIT_FSIZE, &full, NULL), 0);
+    const size_t count = played_file(kept, &before);
+    assert_int_equal(waitpid(studio, &status, 0), studio);
+    assert_int_equal(played_file(kept, &after), count);
+    assert_memory_equal(before, after, count);
+    assert_int_not_equal(access(none, F_OK), 0);
+    assert_true(WIFEXITED(status));
+    free(before);
+    free(after);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(session_is_its_script),
         cmocka_unit_test(killed_at_random_moments),
+        cmocka_unit_test(full_disk_loses_nothing),
     };
     if (!screen_start("1280x900x24"))
         return 77;
