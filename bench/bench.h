@@ -27,6 +27,7 @@ int bench_memory_main(int argc, char **argv);
 int bench_start_main(int argc, char **argv);
 int bench_display_main(int argc, char **argv);
 int bench_studio_main(int argc, char **argv);
+int bench_reader_main(int argc, char **argv);
 int bench_model_main(int argc, char **argv);
 
 #endif

@@ -43,6 +43,7 @@ static const struct {
      "the first picture, from the command, with warm caches and empty ones"},
     {"display", bench_display_main,
      "60 pictures a second on the frame buffer, beside the same program without"},
+    {"reader", bench_reader_main, "documents in the reader's window, beside Pango"},
     {"studio", bench_studio_main,
      "what a hand waits for in the studio, beside the empty window"},
 };

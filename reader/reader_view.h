@@ -86,6 +86,8 @@ int reader_view_boxes(struct reader_view *view, size_t begin, size_t end,
 /* Opens a note where the byte calls it, or closes it. Errors: BAD_ARGUMENT (no such note), NO_MEMORY. */
 enum reader_status reader_view_note(struct reader_view *view, int note, size_t byte);
 bool reader_view_note_open(const struct reader_view *view, int note);
+/* The passage in which it is open; -1: it is closed. */
+int reader_view_note_passage(const struct reader_view *view, int note);
 
 /* How often passages were set since it was made: what "only what is seen" costs. */
 long reader_view_set_count(const struct reader_view *view);

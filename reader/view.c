@@ -335,9 +335,14 @@ enum reader_status reader_view_note(struct reader_view *view, int note, size_t b
     return top_restore(view);
 }
 
+int reader_view_note_passage(const struct reader_view *view, int note)
+{
+    return note >= 0 && note < view->document->notes_count ? view->opened[note] - 1 : -1;
+}
+
 bool reader_view_note_open(const struct reader_view *view, int note)
 {
-    return note >= 0 && note < view->document->notes_count && view->opened[note] != 0;
+    return reader_view_note_passage(view, note) >= 0;
 }
 
 long reader_view_set_count(const struct reader_view *view)

@@ -175,12 +175,14 @@ static enum reader_status pages_anew(struct reader_view *view)
     return READER_OK;
 }
 
-/* Those far from from..to go. */
+/* Those far from from..to go, many at a time: each time pages behind them are counted anew. */
 static void far_drop(struct reader_view *view, int from, int to)
 {
-    while (view->end - view->begin > LOADED_MAX && from - view->begin > LOADED_MAX / 2)
+    if (view->end - view->begin <= LOADED_MAX)
+        return;
+    while (from - view->begin > LOADED_MAX / 4)
         begin_drop(view);
-    while (view->end - view->begin > LOADED_MAX && view->end - to > LOADED_MAX / 2)
+    while (view->end - to > LOADED_MAX / 4)
         end_drop(view);
 }
 

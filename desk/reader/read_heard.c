@@ -4,6 +4,23 @@
 
 enum { SOON_MS = 120, HEARD_MAX = 200 };
 
+/* What a passage says, and the notes that are open in it. */
+static char *passage_text(const struct read_desk *d, const struct reader_shown *shown)
+{
+    const struct reader_document *doc = d->document;
+    GString *all =
+        g_string_new_len(doc->plain + shown->begin, (gssize)(shown->end - shown->begin));
+    for (int i = 0; i < doc->notes_count; i++) {
+        const struct reader_note *note = &doc->notes[i];
+        if (reader_view_note_passage(d->view, i) != shown->passage)
+            continue;
+        g_string_append_printf(all, "\n%d", i + 1);
+        for (int k = note->first_block; k < note->first_block + note->blocks_count; k++)
+            g_string_append_printf(all, " %s", doc->note_blocks[k].text);
+    }
+    return g_string_free(all, FALSE);
+}
+
 static GtkWidget *label_at(struct read_desk *d, guint i)
 {
     while (d->heard->len <= i) {
@@ -28,8 +45,7 @@ static gboolean heard_fill(gpointer data)
     for (int i = 0; i < count && used < HEARD_MAX; i++) {
         const bool heading =
             reader_document_block(d->document, shown[i].begin)->kind == READER_HEADING;
-        char *text =
-            g_strndup(d->document->plain + shown[i].begin, shown[i].end - shown[i].begin);
+        char *text = passage_text(d, &shown[i]);
         GtkWidget *label = label_at(d, used++);
         gtk_label_set_text(GTK_LABEL(label), text);
         gtk_accessible_update_property(GTK_ACCESSIBLE(label),

@@ -213,9 +213,7 @@ static GtkWidget *header_new(void)
                    {"edit-find-symbolic", _("Search"), "win.search", "Ctrl+F"},
                    {"format-text-underline-symbolic", _("Highlight"), "win.highlight", "H"},
                    {"insert-text-symbolic", _("Note"), "win.note", "N"},
-                   {"document-edit-symbolic", _("Draw"), "win.pen", "D"},
-                   {"edit-clear-all-symbolic", _("Erase ink"), "win.eraser", "E"},
-                   {"media-playback-start-symbolic", _("Play ink back"), "win.play-back", "R"}};
+                   {"document-edit-symbolic", _("Draw"), "win.pen", "D"}};
     for (size_t i = 0; i < G_N_ELEMENTS(buttons); i++)
         gtk_header_bar_pack_start(
             GTK_HEADER_BAR(header),

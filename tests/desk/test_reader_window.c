@@ -56,11 +56,23 @@ static void documents_write(void)
     file_write("two.md", "# Two\n\nNear.\n\n## Far\n\nWhat is far.\n");
 }
 
-/* Runs the window with these lines until they close it. */
+/* The latest time of these lines. */
+static double last_s(const char *lines)
+{
+    double last = 0;
+    for (const char *at = lines; *at; at += *at == '\n') {
+        const double time = atof(at);
+        last = time > last ? time : last;
+        at += strcspn(at, "\n");
+    }
+    return last;
+}
+
+/* Runs the window with these lines, and closes it. */
 static void reader_run(const char *lines, const char *document)
 {
     char all[4096];
-    snprintf(all, sizeof all, "%s\n9 close\n", lines);
+    snprintf(all, sizeof all, "%s\n%g close\n", lines, last_s(lines) + 0.3);
     file_write("hand.events", all);
     memset(&child, 0, sizeof child);
     const char *const arguments[] = {

@@ -1,0 +1,279 @@
+/* test_reader_access.c - the reader's window as a screen reader, a keyboard and a mouse find it: the text that is seen is heard, every control
+ * has a name, keys and the wheel scroll, words are typed into a note, and a mouse draws. By AT-SPI and XTEST, on an Xvfb with a bus of its own. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <X11/keysym.h>
+#include <atspi/atspi.h>
+#include <reader_remarks.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "clock.h"
+#include "xtest.h"
+
+enum { WAIT_S = 60 };
+static pid_t reader;
+static Window window;
+static AtspiAccessible *frame;
+static char folder[] = "/tmp/lutetia-reader-XXXXXX", document[64];
+
+/* ---- the tree ---- */
+
+/* Calls for each of the accessible objects below; a composed control's inside is its own business. */
+static void walk(AtspiAccessible *a, void (*each)(AtspiAccessible *a, void *context),
+                 void *context)
+{
+    const AtspiRole role = atspi_accessible_get_role(a, NULL);
+    each(a, context);
+    if (role == ATSPI_ROLE_SPIN_BUTTON || role == ATSPI_ROLE_COMBO_BOX)
+        return;
+    const int count = atspi_accessible_get_child_count(a, NULL);
+    for (int i = 0; i < count; i++) {
+        AtspiAccessible *child = atspi_accessible_get_child_at_index(a, i, NULL);
+        if (child)
+            walk(child, each, context);
+        g_clear_object(&child);
+    }
+}
+
+/* All names and texts, one a line. */
+static void text_collect(AtspiAccessible *a, void *context)
+{
+    GString *all = context;
+    char *name = atspi_accessible_get_name(a, NULL);
+    AtspiText *text = atspi_accessible_get_text_iface(a);
+    const int count = text ? atspi_text_get_character_count(text, NULL) : 0;
+    char *said = count > 0 ? atspi_text_get_text(text, 0, count, NULL) : NULL;
+    g_string_append_printf(all, "%s\n%s\n", name ? name : "", said ? said : "");
+    g_free(said);
+    g_free(name);
+    g_clear_object(&text);
+}
+
+/* Waits until all that is heard has the text, or has it no more. */
+static bool heard(const char *text, bool there)
+{
+    const double until_s = clock_now_s() + WAIT_S;
+    while (clock_now_s() < until_s) {
+        GString *all = g_string_new(NULL);
+        atspi_accessible_clear_cache(frame);
+        walk(frame, text_collect, all);
+        const bool found = strstr(all->str, text) != NULL;
+        g_string_free(all, TRUE);
+        if (found == there)
+            return true;
+        usleep(100000);
+    }
+    return false;
+}
+
+struct names {
+    int named, nameless;
+};
+
+static void name_check(AtspiAccessible *a, void *context)
+{
+    struct names *names = context;
+    const AtspiRole role = atspi_accessible_get_role(a, NULL);
+    const bool control = role == ATSPI_ROLE_PUSH_BUTTON || role == ATSPI_ROLE_TOGGLE_BUTTON ||
+                         role == ATSPI_ROLE_SCROLL_BAR || role == ATSPI_ROLE_LIST ||
+                         role == ATSPI_ROLE_LIST_ITEM || role == ATSPI_ROLE_TEXT ||
+                         role == ATSPI_ROLE_ENTRY;
+    char *name = atspi_accessible_get_name(a, NULL);
+    if (control && name && name[0])
+        names->named++;
+    else if (control) {
+        char *text = atspi_accessible_get_role_name(a, NULL);
+        print_message("a %s without a name\n", text);
+        g_free(text);
+        names->nameless++;
+    }
+    g_free(name);
+}
+
+/* ---- the window ---- */
+
+static AtspiAccessible *frame_wait(void)
+{
+    const double until_s = clock_now_s() + WAIT_S;
+    while (clock_now_s() < until_s) {
+        AtspiAccessible *desktop = atspi_get_desktop(0),
+                        *program = atspi_accessible_get_child_at_index(desktop, 0, NULL);
+        if (program && atspi_accessible_get_child_count(program, NULL) > 0)
+            return atspi_accessible_get_child_at_index(program, 0, NULL);
+        g_clear_object(&program);
+        atspi_accessible_clear_cache(desktop);
+        usleep(100000);
+    }
+    return NULL;
+}
+
+static int start(void **state)
+{
+    (void)state;
+    reader = fork();
+    if (reader == 0) {
+        execl(getenv("LUTETIA"), "lutetia", "read", document, "--theme", "light", NULL);
+        _exit(127);
+    }
+    window = screen_window("Reader", WAIT_S);
+    if (!window)
+        return -1;
+    XSetInputFocus(screen_display(), window, RevertToParent, CurrentTime);
+    XSync(screen_display(), False);
+    frame = frame_wait();
+    return frame ? 0 : -1;
+}
+
+static int end(void **state)
+{
+    int status;
+    (void)state;
+    kill(reader, SIGKILL); /* what was kept is kept */
+    waitpid(reader, &status, 0);
+    g_clear_object(&frame);
+    return 0;
+}
+
+static void control_type(KeySym key)
+{
+    xtest_key(XK_Control_L, true);
+    xtest_type(key);
+    xtest_key(XK_Control_L, false);
+}
+
+/* ---- what is tried ---- */
+
+static void text_is_heard(void **state)
+{
+    (void)state;
+    struct names names = {0};
+    assert_true(heard("The reeds of paragraph 0", true));
+    assert_true(heard("What the note says", false));
+    xtest_type(XK_F9);
+    assert_true(heard("Chapter 40", true)); /* in the contents */
+    walk(frame, name_check, &names);
+    assert_int_equal(names.nameless, 0);
+    assert_true(names.named > 12);
+}
+
+static void keys_and_wheel_scroll(void **state)
+{
+    (void)state;
+    xtest_type(XK_End);
+    assert_true(heard("The reeds of paragraph 59", true));
+    assert_true(heard("The reeds of paragraph 0", false));
+    xtest_type(XK_Home);
+    assert_true(heard("The reeds of paragraph 0", true));
+    xtest_move(window, 600, 400);
+    for (int i = 0; i < 12; i++) {
+        xtest_button(5, true);
+        xtest_button(5, false);
+    }
+    assert_true(heard("The reeds of paragraph 0", false));
+    xtest_type(XK_Home);
+    assert_true(heard("The reeds of paragraph 0", true));
+    xtest_type(XK_Tab);
+    xtest_type(XK_Return);
+    assert_true(heard("What the note says", true));
+}
+
+/* A mouse draws, keys type into a note; both are in the list. */
+static void hand_leaves_notes(void **state)
+{
+    (void)state;
+    xtest_type(XK_d);
+    xtest_move(window, 500, 300);
+    usleep(200000);
+    xtest_button(1, true);
+    for (int i = 0; i < 20; i++) {
+        xtest_move(window, 500 + 4 * i, 300 + i % 5);
+        usleep(10000);
+    }
+    xtest_button(1, false);
+    assert_true(heard("Ink: ", true));
+    control_type(XK_z);
+    assert_true(heard("Ink: ", false));
+    xtest_key(XK_Control_L, true);
+    xtest_key(XK_Shift_L, true);
+    xtest_type(XK_z);
+    xtest_key(XK_Shift_L, false);
+    xtest_key(XK_Control_L, false);
+    assert_true(heard("Ink: ", true));
+    xtest_type(XK_n);
+    assert_true(heard("Erase this note", true));
+    usleep(300000);
+    xtest_type(XK_w);
+    xtest_type(XK_h);
+    xtest_type(XK_y);
+    assert_true(heard("why", true));
+    sleep(1); /* it is written as it is typed */
+}
+
+/* The window has been killed: what was left in it is kept. */
+static void notes_are_kept(void **state)
+{
+    (void)state;
+    char path[80];
+    struct reader_remarks *remarks;
+    int ink = 0, typed = 0;
+    snprintf(path, sizeof path, "%s.notes", document);
+    assert_int_equal(reader_remarks_open(path, &remarks), READER_OK);
+    for (int i = 0; i < reader_remarks_count(remarks); i++) {
+        const struct reader_remark *r = reader_remarks_get(remarks, i);
+        ink += r->kind == READER_REMARK_INK && r->gone_s == 0 && r->points_count > 2;
+        typed += r->kind == READER_REMARK_TYPED && strcmp(r->text, "why") == 0;
+    }
+    assert_int_equal(ink, 1);
+    assert_int_equal(typed, 1);
+    reader_remarks_close(remarks);
+}
+
+static bool document_write(void)
+{
+    if (!mkdtemp(folder))
+        return false;
+    snprintf(document, sizeof document, "%s/one.md", folder);
+    FILE *file = fopen(document, "w");
+    if (!file)
+        return false;
+    fputs("# One\n\nA word[^a].\n\n[^a]: What the note says.\n\n", file);
+    for (int i = 0; i < 60; i++)
+        fprintf(file,
+                "## Chapter %d\n\nThe reeds of paragraph %d stand in water that goes by.\n\n",
+                i, i);
+    return fclose(file) == 0;
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(text_is_heard),
+                                       cmocka_unit_test(keys_and_wheel_scroll),
+                                       cmocka_unit_test(hand_leaves_notes)};
+    const struct CMUnitTest again[] = {cmocka_unit_test(notes_are_kept)};
+    char command[100];
+    if (argc == 1) { /* with a bus of its own */
+        execlp("dbus-run-session", "dbus-run-session", "--", argv[0], "with-bus", NULL);
+        puts("[  SKIPPED ] dbus-run-session is not installed");
+        return 77;
+    }
+    if (!screen_start("1280x900x24"))
+        return 77;
+    if (!document_write())
+        return 1;
+    setenv("GSK_RENDERER", "cairo", 1);
+    atspi_init();
+    int failed = cmocka_run_group_tests(tests, start, end);
+    failed += cmocka_run_group_tests(again, NULL, NULL);
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    return system(command) == 0 ? failed : 1;
+}
