@@ -91,8 +91,11 @@ enum paper_status paper_history_seek(struct paper_sheet *sheet, long time);
  * `keep` false: removes the insertion. Errors: BAD_ARGUMENT (no such time, or within another
  * insertion), NO_MEMORY. */
 enum paper_status paper_history_insert_begin(struct paper_sheet *sheet, long time);
-/* The same just before operation `number` (of those that are done): where many operations have one time. */
+/* The same just before operation `number` (of those that are done), where many operations have
+ * one time. Errors: BAD_ARGUMENT (no such operation, or within another insertion), NO_MEMORY. */
 enum paper_status paper_history_insert_before(struct paper_sheet *sheet, int number);
+/* Without an insertion nothing happens. Errors: BAD_ARGUMENT (within a stroke that is being made),
+ * NO_MEMORY. */
 enum paper_status paper_history_insert_end(struct paper_sheet *sheet, bool keep);
 
 /* Takes operation `number` (of those that are done) out of the past; what followed it flows anew when somebody looks. With
