@@ -99,9 +99,11 @@ void desk_file_leave(struct desk *d, void (*done)(struct desk *d))
 
 /* ---- a new sheet ---- */
 
+enum { PAINTS_MOST = 128, PAINTS_ABREAST = 4 };
+
 struct form {
     struct desk *desk;
-    GtkWidget *window, *width, *height, *stock, *pigments[PAPER_PIGMENTS_MAX];
+    GtkWidget *window, *width, *height, *stock, *pigments[PAINTS_MOST];
     int pigments_count;
 };
 
@@ -115,7 +117,8 @@ static void form_take(struct desk *d, const struct form *f)
         *paper_stock_number((int)gtk_drop_down_get_selected(GTK_DROP_DOWN(f->stock)));
     config->seed = (uint64_t)(g_random_int() & 0x7fffffff); /* as scripts can say it */
     for (int i = 0; i < f->pigments_count; i++)
-        if (gtk_check_button_get_active(GTK_CHECK_BUTTON(f->pigments[i])))
+        if (gtk_check_button_get_active(GTK_CHECK_BUTTON(f->pigments[i])) &&
+            config->pigments_count < PAPER_PIGMENTS_MAX)
             config->pigments[config->pigments_count++] = *paper_pigment_number(i);
     if (config->pigments_count == 0)
         config->pigments[config->pigments_count++] = *paper_pigment_find(PAPER_PIGMENT_USUAL);
@@ -165,18 +168,34 @@ static void stock_add(struct form *f, GtkWidget *grid, int row)
     gtk_grid_attach(GTK_GRID(grid), f->stock, 1, row, 1, 1);
 }
 
+/* A sheet has so many and no more: when they are chosen the others cannot be. */
+static void pigments_limit(GtkCheckButton *button, struct form *f)
+{
+    int chosen = 0;
+    (void)button;
+    for (int i = 0; i < f->pigments_count; i++)
+        chosen += gtk_check_button_get_active(GTK_CHECK_BUTTON(f->pigments[i]));
+    for (int i = 0; i < f->pigments_count; i++)
+        gtk_widget_set_sensitive(
+            f->pigments[i], chosen < PAPER_PIGMENTS_MAX ||
+                                gtk_check_button_get_active(GTK_CHECK_BUTTON(f->pigments[i])));
+}
+
 static void pigments_add(struct form *f, GtkWidget *grid, int row)
 {
     const struct paper_sheet_config *now = &f->desk->report.config;
-    for (int i = 0; paper_pigment_number(i) && i < PAPER_PIGMENTS_MAX; i++) {
+    for (int i = 0; paper_pigment_number(i) && i < PAINTS_MOST; i++) {
         const char *name = paper_pigment_number(i)->name;
         GtkWidget *check = gtk_check_button_new_with_label(_(name));
         for (int k = 0; k < now->pigments_count; k++)
             if (!strcmp(now->pigments[k].name, name))
                 gtk_check_button_set_active(GTK_CHECK_BUTTON(check), TRUE);
-        gtk_grid_attach(GTK_GRID(grid), check, i % 2, row + i / 2, 1, 1);
+        gtk_grid_attach(GTK_GRID(grid), check, i % PAINTS_ABREAST, row + i / PAINTS_ABREAST, 1,
+                        1);
         f->pigments[f->pigments_count++] = check;
+        g_signal_connect(check, "toggled", G_CALLBACK(pigments_limit), f);
     }
+    pigments_limit(NULL, f);
 }
 
 static void form_show(struct desk *d)
@@ -192,7 +211,7 @@ static void form_show(struct desk *d)
     stock_add(f, grid, 2);
     label = gtk_label_new(_("Pigments: each makes every step take longer"));
     gtk_label_set_xalign(GTK_LABEL(label), 0);
-    gtk_grid_attach(GTK_GRID(grid), label, 0, 3, 2, 1);
+    gtk_grid_attach(GTK_GRID(grid), label, 0, 3, PAINTS_ABREAST, 1);
     pigments_add(f, grid, 4);
     gtk_box_append(GTK_BOX(box), grid);
     gtk_box_append(GTK_BOX(box), buttons);

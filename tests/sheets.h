@@ -17,4 +17,14 @@ static inline struct paper_sheet_config sheet_of_two(int width, int height, cons
     return config;
 }
 
+/* The same with the pigments of Curtis et al. 1997: tests whose bounds were found with their numbers. */
+static inline struct paper_sheet_config sheet_of_curtis(int width, int height,
+                                                        const char *first, const char *second)
+{
+    struct paper_sheet_config config = sheet_of_two(width, height, first, second);
+    config.pigments[0] = *paper_pigment_curtis(first);
+    config.pigments[1] = *paper_pigment_curtis(second);
+    return config;
+}
+
 #endif

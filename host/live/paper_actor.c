@@ -504,7 +504,7 @@ static const struct stage_actor_kind paper_kind = {.name = "paper",
 
 static enum stage_status sheet_make(struct paper_actor *a, const struct paper_actor_def *def)
 {
-    char known[600];
+    char known[PAPER_PIGMENT_NAMES_ROOM];
     struct paper_sheet_config config = paper_sheet_config_default();
     const struct paper_stock *stock = paper_stock_find(def->stock);
     if (!stock) {

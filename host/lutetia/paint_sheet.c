@@ -12,7 +12,7 @@
 /* NAME=AMOUNT */
 static int pigment_add(const char *text, struct paper_sheet_config *config, double *amount)
 {
-    char name[PAPER_NAME_MAX], known[600], *end = NULL;
+    char name[PAPER_NAME_MAX], known[PAPER_PIGMENT_NAMES_ROOM], *end = NULL;
     const char *equals = strchr(text, '=');
     const size_t length = equals ? (size_t)(equals - text) : strlen(text);
     snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : 0), text);

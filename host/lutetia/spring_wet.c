@@ -41,7 +41,7 @@ struct spring_wet_def spring_wet_def_default(void)
 
 static int pigment_unknown(const char *name)
 {
-    char known[600];
+    char known[PAPER_PIGMENT_NAMES_ROOM];
     paper_pigment_names(known, sizeof known);
     return fail_usage("spring", "there is no pigment '%.40s'; there are %s", name, known);
 }

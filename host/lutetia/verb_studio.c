@@ -50,7 +50,7 @@ static void number_add(struct line *line, const char *name, int value)
 
 static int names_check(const struct studio *s)
 {
-    char known[600];
+    char known[PAPER_PIGMENT_NAMES_ROOM];
     if (!paper_stock_find(s->stock)) {
         paper_stock_names(known, sizeof known);
         return fail_usage("studio", "there is no paper '%.40s'; there are %s", s->stock, known);

@@ -24,11 +24,19 @@ struct paper_separation {
               * values, 0..1 */
     int pigments_count; /* 1..PAPER_PIGMENTS_MAX */
     struct paper_pigment pigments[PAPER_PIGMENTS_MAX];
+    bool banded; /* any of them is known by bands: then this is what they do there (bands.h) */
+    double absorption[PAPER_PIGMENTS_MAX][PAPER_BANDS],
+        scattering[PAPER_PIGMENTS_MAX][PAPER_BANDS];
     double most;   /* amount of each, 0.01..4 */
     double thrift; /* price of pigment, 0..10 */
 };
 /* The rule, paper and pigments of a sheet; most 2, thrift 0.3. */
 struct paper_separation paper_separation_of(const struct paper_sheet_config *config);
+
+/* Only these of the sheet's pigments, by their numbers. */
+void paper_separation_choose(struct paper_separation *s,
+                             const struct paper_sheet_config *config, const int *number,
+                             int count);
 
 /* The colour of the amounts: linear light, 0..1. */
 void paper_mixture_color(const struct paper_separation *s, const double *amount, double rgb[3]);

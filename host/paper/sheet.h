@@ -24,7 +24,7 @@
 
 #include "paper.h"
 
-enum { PAPER_PIGMENTS_MAX = 16, PAPER_NAME_MAX = 48, PAPER_GRAINS = 1 << 20 };
+enum { PAPER_PIGMENTS_MAX = 16, PAPER_NAME_MAX = 48, PAPER_GRAINS = 1 << 20, PAPER_BANDS = 10 };
 
 /* ---- pigments ---- */
 
@@ -33,18 +33,37 @@ struct paper_pigment {
     double weight[2];   /* mobility with water in the fibers, along x and along y, 0..1 */
     double density;     /* part of it that settles in a step, 0..1 */
     double staining;    /* resistance to being lifted again, 0.5..100 */
-    double granulation; /* how much it prefers hollows when it settles, 0..1 */
+    double granulation; /* how much it prefers hollows when it settles, 0..1.6 */
     double k[3],
         s[3]; /* Kubelka-Munk absorption and scattering of one unit, red, green, blue, 0..100 */
     double takes[3]; /* rule of subtraction: what a unit takes from each channel, -1..1 */
+    /* The same by bands of 35 nm, from 380 to 730 nm, 0..100. All 0: only k and s are known. */
+    double absorption[PAPER_BANDS], scattering[PAPER_BANDS];
+    double shift; /* drying shift: how much more it absorbs while it is wet, 0..2 */
 };
 
-/* The twelve pigments of Curtis et al. 1997 and the thesis's cyan, magenta, yellow, by name
- * or by number from 0; NULL: none. They are constants of the library, valid for ever. */
+/* A paint that shops sell, or one of the thesis's inks. */
+struct paper_paint {
+    struct paper_pigment pigment;
+    const char *also;    /* shorter and other names, ", " between them; "": none */
+    const char *index;   /* what is in it, by the Colour Index: "PB29" */
+    double particle_um;  /* about how large its particles are */
+    double transparency; /* 0: it hides what is below; 4: it hides nothing */
+    const char *
+        source; /* of its spectrum: "measured", "adjusted", "fitted", "mixed", "Curtis", "thesis" (docs/paints.md) */
+};
+
+/* Paints by number from 0; NULL: none. They are constants of the library, valid for ever. */
+const struct paper_paint *paper_paint_number(int number);
+/* Their pigments by name, by a name of `also`, or by number; NULL: none. They are constants of the library, valid for ever. */
 const struct paper_pigment *paper_pigment_find(const char *name);
 const struct paper_pigment *paper_pigment_number(int number);
+/* What paper_pigment_find() found before there were paints: the twelve pigments of Curtis et al. 1997 and the thesis's inks. NULL: none.
+ * They are constants of the library, valid for ever. */
+const struct paper_pigment *paper_pigment_curtis(const char *name);
 #define PAPER_PIGMENT_USUAL "french ultramarine" /* of what is painted without naming one */
-/* Their names, "quinacridone rose, indian red, ...", cut where there is no room. */
+/* Their names, "quinacridone rose, indian red, ...", cut where there is no room; PAPER_PIGMENT_NAMES_ROOM is enough. */
+enum { PAPER_PIGMENT_NAMES_ROOM = 1200 };
 void paper_pigment_names(char *text, size_t room);
 
 /* K and S of a layer of one unit with these colours over white and over black, in linear
@@ -52,6 +71,9 @@ void paper_pigment_names(char *text, size_t room);
  * Source: Curtis et al. 1997, 5.1. */
 enum paper_status paper_pigment_colors(struct paper_pigment *pigment,
                                        const double over_white[3], const double over_black[3]);
+
+/* Of the pigment only k and s are known from now on. */
+void paper_pigment_unband(struct paper_pigment *pigment);
 
 /* Linear light of a display value, and back; both 0..1 (IEC 61966-2-1). */
 double paper_light_linear(double display);

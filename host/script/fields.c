@@ -5,7 +5,7 @@
 #include <limits.h>
 #include <math.h>
 
-enum { NAMES_MAX = 64, ELEMENTS_MAX = 4 };
+enum { NAMES_MAX = 64, ELEMENTS_MAX = 10 };
 
 void script_fields_options(lua_State *L, int index, const char *what,
                            const struct members *members, const char *const *besides)

@@ -23,12 +23,18 @@ static const struct paper_sheet_config *config_of(const struct script_paper *pap
 
 /* ---- making ---- */
 
-enum { NAMES_ROOM = 1000 };
+enum { NAMES_ROOM = PAPER_PIGMENT_NAMES_ROOM };
 
-static const struct paper_pigment *pigment_find(lua_State *L, const char *name)
+static const struct paper_pigment *pigment_find(lua_State *L, const char *name, bool curtis)
 {
-    const struct paper_pigment *pigment = paper_pigment_find(name);
+    const struct paper_pigment *pigment =
+        curtis ? paper_pigment_curtis(name) : paper_pigment_find(name);
     char known[NAMES_ROOM];
+    if (!pigment && curtis)
+        luaL_error(L,
+                   "Curtis et al. have no pigment '%s'; without paints = \"curtis\" there "
+                   "may be one",
+                   name);
     if (!pigment) {
         paper_pigment_names(known, sizeof known);
         luaL_error(L, "there is no pigment '%s'; there are %s", name, known);
@@ -47,12 +53,33 @@ static const struct paper_stock *stock_find(lua_State *L, const char *name)
     return stock;
 }
 
-/* Reads a pigment from the text or table on the top, and pops it. */
-static void pigment_read(lua_State *L, struct paper_pigment *pigment)
+/* Whether a table says anything of a field that is a list. */
+static bool field_said(lua_State *L, int t, const char *field)
 {
-    static const char *const besides[] = {"name", "like", "white", "black", NULL};
+    const bool said = lua_getfield(L, t, field) != LUA_TNIL;
+    lua_pop(L, 1);
+    return said;
+}
+
+/* What a pigment's table says of it by bands: a pigment that is told by three channels is not known by bands. */
+static void bands_read(lua_State *L, int t, struct paper_pigment *pigment)
+{
+    const bool absorbs = field_said(L, t, "absorption"),
+               scatters = field_said(L, t, "scattering");
+    if (absorbs != scatters)
+        luaL_error(L, "a pigment needs both by bands, absorption and scattering");
+    if (field_said(L, t, "K") || field_said(L, t, "S"))
+        paper_pigment_unband(pigment);
+    script_fields_read(L, t, "pigment", &paper_bands_members, pigment);
+}
+
+/* Reads a pigment from the text or table on the top, and pops it. */
+static void pigment_read(lua_State *L, struct paper_pigment *pigment, bool curtis)
+{
+    static const char *const besides[] = {"name",       "like",       "white", "black",
+                                          "absorption", "scattering", "shift", NULL};
     if (lua_type(L, -1) == LUA_TSTRING) {
-        *pigment = *pigment_find(L, lua_tostring(L, -1));
+        *pigment = *pigment_find(L, lua_tostring(L, -1), curtis);
         lua_pop(L, 1);
         return;
     }
@@ -62,7 +89,7 @@ static void pigment_read(lua_State *L, struct paper_pigment *pigment)
     script_fields_options(L, t, "pigment", &paper_pigment_members, besides);
     const char *like = script_arg_text(L, t, "pigment", "like"),
                *name = script_arg_text(L, t, "pigment", "name");
-    *pigment = *pigment_find(L, like ? like : "cyan");
+    *pigment = *pigment_find(L, like ? like : "cyan", curtis);
     if (name && (strlen(name) == 0 || strlen(name) >= PAPER_NAME_MAX))
         luaL_error(L, "a pigment's name must have 1..%d characters", PAPER_NAME_MAX - 1);
     if (name)
@@ -80,18 +107,22 @@ static void pigment_read(lua_State *L, struct paper_pigment *pigment)
         script_paper_check(L, paper_pigment_colors(pigment, white, black));
     }
     script_fields_read(L, t, "pigment", &paper_pigment_members, pigment);
+    bands_read(L, t, pigment);
     lua_pop(L, 1);
 }
 
 static void pigments_read(lua_State *L, struct paper_sheet_config *config)
 {
+    static const char *const tables[] = {"shops", "curtis", NULL};
+    const char *paints = script_arg_text(L, 1, "paper", "paints");
+    const bool curtis = paints && script_arg_choice(L, "paper paints", paints, tables) == 1;
     lua_pushliteral(L, "pigments");
     int type = lua_rawget(L, 1);
     if (type == LUA_TNIL) {
         lua_pop(L, 1);
         if (config->parts) /* the thesis's paper has none of itself */
             config->pigments[config->pigments_count++] =
-                *paper_pigment_find(PAPER_PIGMENT_USUAL);
+                *pigment_find(L, PAPER_PIGMENT_USUAL, curtis);
         return;
     }
     if (type != LUA_TTABLE || lua_rawlen(L, -1) > PAPER_PIGMENTS_MAX)
@@ -99,7 +130,7 @@ static void pigments_read(lua_State *L, struct paper_sheet_config *config)
     config->pigments_count = (int)lua_rawlen(L, -1);
     for (int i = 0; i < config->pigments_count; i++) {
         lua_rawgeti(L, -1, i + 1);
-        pigment_read(L, &config->pigments[i]);
+        pigment_read(L, &config->pigments[i], curtis);
         for (int j = 0; j < i; j++)
             if (strcmp(config->pigments[i].name, config->pigments[j].name) == 0)
                 luaL_error(L, "two pigments are called '%s'; give them names",
@@ -167,7 +198,7 @@ static int make_paper(lua_State *L)
 {
     static const char *const besides[] = {"width", "height", "torus",    "model", "rule",
                                           "stock", "seed",   "pigments", "color", "history",
-                                          "undo",  "deckle", NULL};
+                                          "undo",  "deckle", "paints",   NULL};
     lua_remove(L, 1); /* removes the table `paper`, which was called */
     lua_settop(L, 1);
     luaL_checktype(L, 1, LUA_TTABLE);

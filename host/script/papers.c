@@ -170,6 +170,10 @@ static int pigment_number(const struct paper_sheet_config *config, const char *n
     for (int i = 0; i < config->pigments_count; i++)
         if (strcmp(config->pigments[i].name, name) == 0)
             return i;
+    const struct paper_pigment *paint = paper_pigment_find(name); /* a shorter name of one */
+    for (int i = 0; paint && i < config->pigments_count; i++)
+        if (strcmp(config->pigments[i].name, paint->name) == 0)
+            return i;
     return -1;
 }
 

@@ -160,12 +160,11 @@ static void pigments_choose(lua_State *L, struct paper_sheet *sheet, struct pape
     lua_pop(L, 1);
     s->pigments_count = 0;
     for (int i = 0; i < config->pigments_count; i++)
-        if (all || chosen[i]) {
-            number[s->pigments_count] = i;
-            s->pigments[s->pigments_count++] = config->pigments[i];
-        }
+        if (all || chosen[i])
+            number[s->pigments_count++] = i;
     if (s->pigments_count == 0)
         luaL_error(L, "a separation needs pigments");
+    paper_separation_choose(s, config, number, s->pigments_count);
 }
 
 /* amounts *= the mask's values */

@@ -5,6 +5,7 @@
 #include "script_text.h"
 
 #include <arguments.h>
+#include <bands.h>
 #include <brush.h>
 #include <describe.h>
 #include <display.h>
@@ -49,16 +50,14 @@ struct session {
 static const char *const parts[] = {"infused", "surface", "fixing", "edge"};
 static const char *const rules[] = {"kubelka-munk", "subtract", "luminous"};
 
+/* All of it, so that a script paints the same when there are other paints of that name. */
 static void pigment_say(struct event_bytes *text, const struct paper_pigment *pigment)
 {
-    const struct paper_pigment *known = paper_pigment_find(pigment->name);
-    if (known && memcmp(known, pigment, sizeof *known) == 0) {
-        script_text_quoted(text, pigment->name);
-        return;
-    }
     script_text_say(text, "{name = ");
     script_text_quoted(text, pigment->name);
     script_text_fields(text, &paper_pigment_members, pigment);
+    if (paper_pigment_banded(pigment) || pigment->shift > 0)
+        script_text_fields(text, &paper_bands_members, pigment);
     script_text_say(text, "}");
 }
 

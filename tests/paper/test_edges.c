@@ -29,7 +29,7 @@ static double edge_at(double x, double top)
 static struct paper_sheet *sheet_make(const char *stock)
 {
     struct paper_sheet_config config =
-        sheet_of_two(WIDTH, HEIGHT, "phthalo green", "burnt umber");
+        sheet_of_curtis(WIDTH, HEIGHT, "phthalo green", "burnt umber");
     config.stock = *paper_stock_find(stock);
     config.seed = 5;
     struct paper_sheet *sheet;

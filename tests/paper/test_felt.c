@@ -30,7 +30,7 @@ static struct paper_sheet_config config_of(const char *stock, int side, uint64_t
     config.seed = seed;
     config.stock = *paper_stock_find(stock);
     config.pigments_count = 1;
-    config.pigments[0] = *paper_pigment_find("french ultramarine");
+    config.pigments[0] = *paper_pigment_curtis("french ultramarine");
     return config;
 }
 

@@ -31,8 +31,8 @@ static struct paper_sheet *sheet_of(uint64_t seed, const char *stock)
     config.seed = seed;
     config.stock = *paper_stock_find(stock);
     config.pigments_count = 2;
-    config.pigments[0] = *paper_pigment_find("french ultramarine");
-    config.pigments[1] = *paper_pigment_find("quinacridone rose");
+    config.pigments[0] = *paper_pigment_curtis("french ultramarine");
+    config.pigments[1] = *paper_pigment_curtis("quinacridone rose");
     struct paper_sheet *sheet;
     check(paper_sheet_create(&config, &sheet));
     return sheet;

@@ -145,11 +145,23 @@ static void glazes_are_kubelka_munk_by_hand(void **state)
     struct paper_sheet_config config = paper_sheet_config_default();
     config.width = config.height = SIDE;
     config.parts = PAPER_PART_INFUSED;
-    while (config.pigments_count < PAPER_PIGMENTS_MAX &&
-           paper_pigment_number(config.pigments_count)) {
-        config.pigments[config.pigments_count] = *paper_pigment_number(config.pigments_count);
-        config.pigments_count++;
-    }
+    static const char *const names[] = {"quinacridone rose",
+                                        "indian red",
+                                        "cadmium yellow",
+                                        "hooker's green",
+                                        "cerulean blue",
+                                        "burnt umber",
+                                        "cadmium red",
+                                        "brilliant orange",
+                                        "hansa yellow",
+                                        "phthalo green",
+                                        "french ultramarine",
+                                        "interference lilac",
+                                        "cyan",
+                                        "magenta",
+                                        "yellow"}; /* known by three channels */
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        config.pigments[config.pigments_count++] = *paper_pigment_curtis(names[i]);
     struct paper_sheet *sheet;
     check(paper_sheet_create(&config, &sheet));
     for (int i = 0; i < 3; i++)

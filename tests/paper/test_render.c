@@ -29,8 +29,8 @@ static struct paper_sheet *sheet_of(const char *stock, bool deckled)
     config.stock = *paper_stock_find(stock);
     config.deckled = deckled;
     config.pigments_count = 2;
-    config.pigments[0] = *paper_pigment_find("french ultramarine");
-    config.pigments[1] = *paper_pigment_find("quinacridone rose");
+    config.pigments[0] = *paper_pigment_curtis("french ultramarine");
+    config.pigments[1] = *paper_pigment_curtis("quinacridone rose");
     struct paper_sheet *sheet;
     check(paper_sheet_create(&config, &sheet));
     check(paper_history_begin(sheet, 0));

@@ -24,7 +24,7 @@ enum { WIDTH = 64, HEIGHT = 48, FIBERS = WIDTH * HEIGHT };
 static struct paper_sheet *sheet_make(void)
 {
     struct paper_sheet_config config =
-        sheet_of_two(WIDTH, HEIGHT, "quinacridone rose", "phthalo green");
+        sheet_of_curtis(WIDTH, HEIGHT, "quinacridone rose", "phthalo green");
     config.stock.color_variation = 0;
     struct paper_sheet *sheet;
     check(paper_sheet_create(&config, &sheet));

@@ -20,9 +20,10 @@ static void row_print(const struct member *m, int elements)
         printf("true, false");
     else
         printf("%s%.10g..%.10g",
-               elements == 3   ? "`{r, g, b}` "
-               : elements == 2 ? "`{a, b}` "
-                               : "",
+               elements == PAPER_BANDS ? "ten numbers "
+               : elements == 3         ? "`{r, g, b}` "
+               : elements == 2         ? "`{a, b}` "
+                                       : "",
                m->least * per_unit(m), m->most * per_unit(m));
     printf(" | %s | %s |\n", usual, help);
 }
@@ -62,6 +63,7 @@ int main(void)
     table_print("paper", &paper_stock_members);
     table_print("deckle", &paper_deckle_members);
     table_print("pigment", &paper_pigment_members);
+    table_print("bands", &paper_bands_members);
     table_print("air", &paper_air_members);
     table_print("brush", &paper_brush_members);
     table_print("dip", &paper_dip_members);

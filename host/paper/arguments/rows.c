@@ -101,7 +101,7 @@ static const struct member pigment_rows[] = {
            .usual = "〃", .help = "part that settles in a step"),
     MEMBER(paper_pigment, staining, DOUBLE, 1, NOT, "staining", 0.5, 100, .field = "staining",
            .usual = "〃", .help = "resistance to being lifted again"),
-    MEMBER(paper_pigment, granulation, DOUBLE, 1, NOT, "granulation", 0, 1,
+    MEMBER(paper_pigment, granulation, DOUBLE, 1, NOT, "granulation", 0, 1.6,
            .field = "granulation", .usual = "〃", .help = "how far it settles in hollows"),
     MEMBER(paper_pigment, k[0], DOUBLE, 1, NOT, "red absorption", 0, 100, .field = "K",
            .element = 1, .usual = "〃",
@@ -123,6 +123,38 @@ static const struct member pigment_rows[] = {
            .element = 2),
     MEMBER(paper_pigment, takes[2], DOUBLE, 1, NOT, "part of blue", -1, 1, .field = "takes",
            .element = 3),
+};
+
+#define BAND(of, number)                                                                       \
+    MEMBER(paper_pigment, of[number - 1], DOUBLE, 1, NOT, #of " of band " #number, 0, 100,     \
+           .field = #of, .element = number)
+static const struct member bands_rows[] = {
+    MEMBER(paper_pigment, absorption[0], DOUBLE, 1, NOT, "absorption of band 1", 0, 100,
+           .field = "absorption", .element = 1, .usual = "like's",
+           .help = "in ten bands of 35 nm, from 380 to 730 nm, in place of `K`"),
+    BAND(absorption, 2),
+    BAND(absorption, 3),
+    BAND(absorption, 4),
+    BAND(absorption, 5),
+    BAND(absorption, 6),
+    BAND(absorption, 7),
+    BAND(absorption, 8),
+    BAND(absorption, 9),
+    BAND(absorption, 10),
+    MEMBER(paper_pigment, scattering[0], DOUBLE, 1, NOT, "scattering of band 1", 0, 100,
+           .field = "scattering", .element = 1, .usual = "〃",
+           .help = "and scattering, in place of `S`"),
+    BAND(scattering, 2),
+    BAND(scattering, 3),
+    BAND(scattering, 4),
+    BAND(scattering, 5),
+    BAND(scattering, 6),
+    BAND(scattering, 7),
+    BAND(scattering, 8),
+    BAND(scattering, 9),
+    BAND(scattering, 10),
+    MEMBER(paper_pigment, shift, DOUBLE, 1, NOT, "shift", 0, 2, .field = "shift", .usual = "〃",
+           .help = "how much more it absorbs while it is wet"),
 };
 
 /* Amounts of water and pigments are checked elsewhere, where messages can name the pigment. */
@@ -256,6 +288,7 @@ const struct members paper_air_members = MEMBERS_OF(air_rows),
                      paper_stock_members = MEMBERS_OF(stock_rows),
                      paper_deckle_members = MEMBERS_OF(deckle_rows),
                      paper_pigment_members = MEMBERS_OF(pigment_rows),
+                     paper_bands_members = MEMBERS_OF(bands_rows),
                      paper_put_members = MEMBERS_OF(put_rows),
                      paper_blot_members = MEMBERS_OF(blot_rows),
                      paper_resist_members = MEMBERS_OF(resist_rows),

@@ -2,28 +2,33 @@
  * resolution. */
 #include "arguments/forms.h"
 #include "arguments/rows.h"
+#include "bands.h"
 #include "event/event.h"
 
 #include <stream.h>
 
 #include <string.h>
 
-/* Among the parts: a deckle follows the stock. */
+/* Among the parts: a deckle follows the stock; what is known of pigments by bands follows the pigments, if anything is. */
 enum { PARTS_BITS = 16 };
 #define DECKLED (UINT64_C(1) << 31)
+#define BANDED (UINT64_C(1) << 30)
 
 static void config_pass(struct event_stream *s, struct paper_sheet_config *config)
 {
     uint64_t width = event_pass_number(s, (uint64_t)config->width, 4),
              height = event_pass_number(s, (uint64_t)config->height, 4),
              torus = event_pass_number(s, config->torus, 1),
-             parts = event_pass_number(s, config->parts | (config->deckled ? DECKLED : 0), 4),
+             parts = event_pass_number(s,
+                                       config->parts | (config->deckled ? DECKLED : 0) |
+                                           (paper_config_banded(config) ? BANDED : 0),
+                                       4),
              rule = event_pass_number(s, (uint64_t)config->rule, 4),
              seed = event_pass_number(s, config->seed, 8),
              pigments = event_pass_number(s, (uint64_t)config->pigments_count, 4);
     event_stream_expect(s, width >= PAPER_SIDE_MIN && width <= PAPER_SIDE_MAX &&
                                height >= PAPER_SIDE_MIN && height <= PAPER_SIDE_MAX &&
-                               (parts & ~DECKLED) >> PARTS_BITS == 0 &&
+                               (parts & ~(DECKLED | BANDED)) >> PARTS_BITS == 0 &&
                                rule <= PAPER_RULE_LUMINOUS && pigments <= PAPER_PIGMENTS_MAX);
     if (!event_stream_good(s))
         return;
@@ -42,6 +47,8 @@ static void config_pass(struct event_stream *s, struct paper_sheet_config *confi
         event_pass_members(s, &paper_deckle_members, &config->deckle);
     for (int i = 0; i < config->pigments_count; i++)
         event_pass_members(s, &paper_pigment_members, &config->pigments[i]);
+    for (int i = 0; i < config->pigments_count && (parts & BANDED); i++)
+        event_pass_members(s, &paper_bands_members, &config->pigments[i]);
 }
 
 void sheet_config_encode(struct event_bytes *b, const struct paper_sheet_config *config)

@@ -78,8 +78,10 @@ static enum paper_status config_check(const struct paper_sheet_config *c)
     enum paper_status status =
         named_check(&paper_stock_members, &c->stock, "paper", c->stock.name);
     for (int i = 0; i < c->pigments_count && status == PAPER_OK; i++)
-        status = named_check(&paper_pigment_members, &c->pigments[i], "pigment",
-                             c->pigments[i].name);
+        if ((status = named_check(&paper_pigment_members, &c->pigments[i], "pigment",
+                                  c->pigments[i].name)) == PAPER_OK)
+            status = named_check(&paper_bands_members, &c->pigments[i], "pigment",
+                                 c->pigments[i].name);
     return status == PAPER_OK && c->deckled ? deckle_check(c) : status;
 }
 

@@ -2,6 +2,7 @@
  * each pigment, from two starts. */
 #include "separate.h"
 
+#include "bands.h"
 #include "base/base.h"
 
 #include <patience.h>
@@ -11,15 +12,26 @@
 #include <string.h>
 
 enum { GRID = 33, STEPS_MAX = 40, PIXELS_ASK = 256, N = PAPER_PIGMENTS_MAX };
-#define Q_LEAST 2e-3 /* as in model/view.c */
+
+void paper_separation_choose(struct paper_separation *s,
+                             const struct paper_sheet_config *config, const int *number,
+                             int count)
+{
+    s->pigments_count = count;
+    s->banded = paper_config_banded(config);
+    for (int i = 0; i < count; i++) {
+        s->pigments[i] = config->pigments[number[i]];
+        paper_pigment_bands(&s->pigments[i], s->absorption[i], s->scattering[i]);
+    }
+}
 
 struct paper_separation paper_separation_of(const struct paper_sheet_config *config)
 {
-    struct paper_separation s = {.rule = config->rule,
-                                 .pigments_count = config->pigments_count,
-                                 .most = 2,
-                                 .thrift = 0.3};
-    memcpy(s.pigments, config->pigments, sizeof s.pigments);
+    struct paper_separation s = {.rule = config->rule, .most = 2, .thrift = 0.3};
+    int number[PAPER_PIGMENTS_MAX];
+    for (int i = 0; i < PAPER_PIGMENTS_MAX; i++)
+        number[i] = i;
+    paper_separation_choose(&s, config, number, config->pigments_count);
     for (int i = 0; i < 3; i++)
         s.below[i] = config->rule == PAPER_RULE_KUBELKA_MUNK
                          ? paper_light_linear(config->stock.color[i])
@@ -27,30 +39,51 @@ struct paper_separation paper_separation_of(const struct paper_sheet_config *con
     return s;
 }
 
-static double kubelka_munk(double k, double s, double below)
+/* What is seen of the amounts by bands. */
+static void banded_color(const struct paper_separation *s, const double *amount, double rgb[3])
 {
-    double q = fmax(sqrt(k * (k + 2 * s)), Q_LEAST), e = exp(-fmin(q, 40)), e2 = e * e;
-    double bottom = (k + s) * (1 - e2) + q * (1 + e2);
-    double r = s * (1 - e2) / bottom, t = 2 * q * e / bottom;
-    return r + t * t * below / fmax(1 - r * below, 1e-6);
+    double k[PAPER_BANDS] = {0}, scattering[PAPER_BANDS] = {0};
+    memset(rgb, 0, 3 * sizeof *rgb);
+    for (int i = 0; i < s->pigments_count; i++)
+        for (int band = 0; band < PAPER_BANDS; band++) {
+            k[band] += amount[i] * s->absorption[i][band];
+            scattering[band] += amount[i] * s->scattering[i][band];
+        }
+    for (int band = 0; band < PAPER_BANDS; band++) {
+        double below = 0;
+        for (int c = 0; c < 3; c++)
+            below += paper_band_of_light[band][c] * s->below[c];
+        const double seen = paper_layer_seen(k[band], scattering[band], below);
+        for (int c = 0; c < 3; c++)
+            rgb[c] += paper_light_of_band[c][band] * seen;
+    }
+}
+
+static double channel_color(const struct paper_separation *s, const double *amount, int c)
+{
+    double k = 0, scattering = 0, taken = 0, shone = 0;
+    for (int i = 0; i < s->pigments_count; i++) {
+        k += amount[i] * s->pigments[i].k[c];
+        scattering += amount[i] * s->pigments[i].s[c];
+        taken += amount[i] * s->pigments[i].takes[c];
+        shone += amount[i] * (1 - s->pigments[i].takes[c]);
+    }
+    return s->rule == PAPER_RULE_KUBELKA_MUNK ? paper_layer_seen(k, scattering, s->below[c])
+           : s->rule == PAPER_RULE_SUBTRACT   ? s->below[c] - taken
+                                              : s->below[c] + shone;
 }
 
 void paper_mixture_color(const struct paper_separation *s, const double *amount, double rgb[3])
 {
+    const bool linear = s->rule == PAPER_RULE_KUBELKA_MUNK;
+    if (linear && s->banded)
+        banded_color(s, amount, rgb);
+    else
+        for (int c = 0; c < 3; c++)
+            rgb[c] = channel_color(s, amount, c);
     for (int c = 0; c < 3; c++) {
-        double k = 0, scattering = 0, taken = 0, shone = 0;
-        for (int i = 0; i < s->pigments_count; i++) {
-            k += amount[i] * s->pigments[i].k[c];
-            scattering += amount[i] * s->pigments[i].s[c];
-            taken += amount[i] * s->pigments[i].takes[c];
-            shone += amount[i] * (1 - s->pigments[i].takes[c]);
-        }
-        double seen = s->rule == PAPER_RULE_KUBELKA_MUNK
-                          ? kubelka_munk(k, scattering, s->below[c])
-                      : s->rule == PAPER_RULE_SUBTRACT ? s->below[c] - taken
-                                                       : s->below[c] + shone;
-        seen = fmin(1, fmax(0, seen));
-        rgb[c] = s->rule == PAPER_RULE_KUBELKA_MUNK ? seen : paper_light_linear(seen);
+        rgb[c] = fmin(1, fmax(0, rgb[c]));
+        rgb[c] = linear ? rgb[c] : paper_light_linear(rgb[c]);
     }
 }
 
