@@ -14,6 +14,7 @@
 #include "run/at_once_when.h"
 #include "run/evaluate.h"
 #include "run/replay.h"
+#include "sequencers/sequencers.h"
 #include "values/graph.h"
 
 struct machine_config machine_config_default(void)
@@ -50,6 +51,14 @@ struct machine_layers {
     struct device device;
     struct content content;
 };
+
+static void layers_join(struct machine_layers *l)
+{
+    l->machine.values = &l->content.values;
+    l->machine.plans = &l->content.plans;
+    l->machine.memory = &l->content.memory;
+    l->machine.run = &l->content.run;
+}
 
 /* Written here: pages of calloc()'s may be given only when the program's first calls look at them, which takes them some microseconds. */
 static struct machine_layers *layers_allocate(void)
@@ -97,6 +106,45 @@ static enum machine_status content_tables(struct machine *m)
                : machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for an empty machine");
 }
 
+static void sequencers_destroy(struct machine *m)
+{
+    struct sequencers *q = m->sequencers;
+    if (!q)
+        return;
+    m->sequencers = NULL;
+    background_finish(q->machine);
+    plans_finish(q->machine);
+    free(q->machine->values->sets);
+    free(q->machine);
+    free(q->cuts);
+    free(q);
+}
+
+/* One block for all: nobody, and functions are called directly. */
+static enum machine_status sequencers_create(struct machine *m)
+{
+    if (m->settings.blocks < 2)
+        return MACHINE_OK;
+    struct machine_layers *layers = layers_allocate();
+    struct sequencers *q = calloc(1, sizeof *q);
+    if (!layers || !q) {
+        free(layers);
+        free(q);
+        return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for blocks");
+    }
+    q->count = (int)m->settings.blocks;
+    q->machine = &layers->machine;
+    q->machine->device = m->device;
+    q->machine->settings = m->settings;
+    q->machine->owner = m->owner;
+    q->machine->watch = m->watch;
+    q->machine->front = m;
+    layers_join(layers);
+    content_begin(q->machine, m->values->processors_count);
+    m->sequencers = q;
+    return MACHINE_OK;
+}
+
 static void content_finish(struct machine *m)
 {
     m->run->calls_noted = 0; /* nothing reads the noted calls' results any more */
@@ -108,6 +156,7 @@ static void content_finish(struct machine *m)
     vpsets_finish(m);
     plans_finish(m);
     graph_finish(m);
+    sequencers_destroy(m);
 }
 
 enum machine_status machine_create(const struct machine_config *config, struct machine **out)
@@ -119,10 +168,7 @@ enum machine_status machine_create(const struct machine_config *config, struct m
     if (!m)
         return MACHINE_NO_MEMORY;
     m->device = &layers->device;
-    m->values = &layers->content.values;
-    m->plans = &layers->content.plans;
-    m->memory = &layers->content.memory;
-    m->run = &layers->content.run;
+    layers_join(layers);
     enum machine_status status = settings_read(m);
     if (status)
         return status;
@@ -142,6 +188,7 @@ enum machine_status machine_create(const struct machine_config *config, struct m
         forks_machine_made(m);
     /* After the driver, which takes milliseconds and all of the caches: so they are near when the program begins. */
     status = status ? status : content_tables(m);
+    status = status ? status : sequencers_create(m);
     if (!status && m->watch)
         be_watched(m);
     if (!status)
@@ -176,7 +223,8 @@ enum machine_status machine_empty(struct machine *m)
     memset(c, 0, sizeof *c);
     m->plans->dump_dir = dump_dir;
     content_begin(m, processors);
-    return content_tables(m);
+    enum machine_status status = content_tables(m);
+    return status ? status : sequencers_create(m);
 }
 
 void machine_leave(struct machine *m)
@@ -184,6 +232,10 @@ void machine_leave(struct machine *m)
     if (m && pthread_equal(m->owner, pthread_self())) {
         choosing_stop(m);
         background_leave(m);
+        if (m->sequencers) {
+            choosing_stop(m->sequencers->machine);
+            background_leave(m->sequencers->machine);
+        }
         aside_end(&m->device->code);
     }
     if (m && m->device->queue && device_is_ours(m->device) && m->inside == 0 &&
@@ -217,4 +269,12 @@ void machine_stats_get(const struct machine *m, struct machine_stats *out)
                                .bytes_held = m->device->held_bytes,
                                .bytes_peak = m->device->peak_bytes,
                                .busy_s = m->device->busy_s};
+    if (!m->sequencers)
+        return;
+    const struct plans *in_blocks = m->sequencers->machine->plans;
+    out->interpreted += in_blocks->interpreted;
+    out->kernels_in_place += in_blocks->kernels_in_place;
+    out->kernels_in_strips += in_blocks->kernels_in_strips;
+    out->kernels_in_tiles += in_blocks->kernels_in_tiles;
+    out->predicted_s += in_blocks->predicted_s;
 }

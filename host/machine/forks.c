@@ -8,6 +8,7 @@
 #include "base/parts.h"
 #include "build/background.h"
 #include "device/device.h"
+#include "sequencers/sequencers.h"
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static struct machine *machines; /* by made_before */
@@ -29,7 +30,15 @@ static void before_fork(void)
         if (device_is_ours(m->device)) {
             device_settle(m);
             background_rest(m);
+            if (m->sequencers)
+                background_rest(m->sequencers->machine);
         }
+}
+
+static void in_child_of(struct machine *m)
+{
+    m->watch = NULL;
+    m->settings.near = m->settings.near ? m->settings.near : 1;
 }
 
 /* Other threads are gone, whatever they were doing. Children tell nothing about their parent's machines. */
@@ -37,8 +46,9 @@ static void in_child(void)
 {
     pthread_mutex_init(&lock, NULL);
     for (struct machine *m = machines; m; m = m->made_before) {
-        m->watch = NULL;
-        m->settings.near = m->settings.near ? m->settings.near : 1;
+        in_child_of(m);
+        if (m->sequencers)
+            in_child_of(m->sequencers->machine);
     }
 }
 

@@ -25,6 +25,12 @@ struct machine_waiting machine_waiting(const struct machine *m);
 /* How these bits of a field were stored: as a float of 32 or 64 bits, or as bits. The bits lie in the field. */
 struct machine_type machine_field_stored(struct machine *m, uint32_t field, uint32_t bits);
 
+/* With LUTETIA_BLOCKS: plans run in blocks; arrays put into blocks, and together again; arrays whose ghosts were fetched. */
+struct machine_blocks {
+    uint64_t run, divided, gathered, fetched;
+};
+struct machine_blocks machine_blocks(const struct machine *m);
+
 /* The fields in the order of their ids: the i-th one. False: there are not so many. */
 bool machine_field_at(const struct machine *m, int i, struct machine_field_info *out);
 

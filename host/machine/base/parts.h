@@ -19,6 +19,9 @@ struct machine {
     struct plans *plans;
     struct memory *memory;
     struct run *run;
+    struct machine *front; /* of the sequencers' machine: the program's; else NULL */
+    struct sequencers
+        *sequencers; /* NULL: one block, and the front end's functions are called directly */
     struct machine *made_before; /* forks.c; NULL: none */
 };
 

@@ -33,8 +33,10 @@ struct settings {
     uint64_t tile;    /* width << 16 | height */
     uint64_t processors;
     uint64_t memory; /* bytes that arrays may take together; free: what the device has */
-    uint64_t tuned;  /* 0: a stored tuning is ignored */
-    uint64_t keep;   /* keep programs on disk */
+    uint64_t blocks, blocks_from,
+        ghosts; /* of large VP sets; those of so many processors are cut; what blocks repeat: sequencers/ */
+    uint64_t tuned; /* 0: a stored tuning is ignored */
+    uint64_t keep;  /* keep programs on disk */
 };
 
 enum machine_status settings_read(struct machine *m);

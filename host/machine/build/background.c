@@ -40,6 +40,7 @@
 #include "build/plans.h"
 #include "device/cache.h"
 #include "program.h"
+#include "sequencers/sequencers.h"
 
 /* START_AFTER_S: a program that ends sooner after its first request starts no process.
  * HANGS_S: a process that is silent for so long is given up. */
@@ -258,7 +259,8 @@ bool background_on(struct machine *m)
 
 bool background_busy(const struct machine *m)
 {
-    return m->plans->background && m->plans->background->begun;
+    return (m->plans->background && m->plans->background->begun) ||
+           (m->sequencers && background_busy(m->sequencers->machine));
 }
 
 /* ---- batches ---- */

@@ -1,5 +1,6 @@
 /* improve.c - makes better kernels for a plan that has run often, now or in the background. */
 #include "build/background.h"
+#include "build/division.h"
 #include "build/explained.h"
 #include "build/plans.h"
 
@@ -88,6 +89,8 @@ void improve_give_up(struct machine *m)
 
 void plans_see_to(struct machine *m)
 {
+    if (m->sequencers)
+        plans_see_to(m->sequencers->machine);
     struct plan *p = m->plans->improving;
     enum background_state state = p ? background_take(m) : BACKGROUND_WAITS;
     if (state == BACKGROUND_WAITS)
@@ -149,15 +152,25 @@ bool plan_is_of_parent(const struct machine *m, const struct plan *p)
 
 bool plan_may_run(struct machine *m, const struct plan *p, uint32_t version)
 {
+    if (p->division) /* whether better kernels are due is asked where they run */
+        return true;
     return p->version == version && !plan_is_due(m, p) && !plan_is_of_parent(m, p);
 }
 
 bool plan_waits(const struct machine *m, const struct plan *p)
 {
+    if (p->division) {
+        const struct plan *in_blocks = division_in_blocks(p);
+        return in_blocks && plan_waits(m->sequencers->machine, in_blocks);
+    }
     return p == m->plans->improving || p->undecided;
 }
 
 bool plan_wants_rehearsal(struct machine *m, const struct plan *p)
 {
+    if (p->division) {
+        const struct plan *in_blocks = division_in_blocks(p);
+        return in_blocks && plan_wants_rehearsal(m->sequencers->machine, in_blocks);
+    }
     return p->undecided && !choice_is_awaited(m);
 }

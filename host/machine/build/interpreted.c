@@ -141,7 +141,7 @@ static const double TRAFFIC_PART = 0.15;
 double plan_waits_for_memory(const struct machine *m, const struct plan *p)
 {
     const struct device_shape *shape = &m->device->shape;
-    if (p->quality != INTERPRETED || p->looks_around || !p->launches_count ||
+    if (p->division || p->quality != INTERPRETED || p->looks_around || !p->launches_count ||
         p->launches[0].code || (double)p->bytes < shape->in_place_bytes)
         return 0;
     double compute_ns = 1e9 * p->predicted_s / crew_size(m->device->crew);

@@ -8,6 +8,7 @@
 
 #include "base/errors.h"
 #include "build/background.h"
+#include "build/division.h"
 #include "build/explained.h"
 #include "build/plans.h"
 #include "codegen/numbers.h"
@@ -60,6 +61,7 @@ void plan_free(struct machine *m, struct plan *p)
         return;
     launches_free(m, p);
     choice_free(p->choice);
+    division_free(p->division);
     plan_free(m, p->better);
     free(p->stored);
     free(p->arrays);

@@ -83,7 +83,8 @@ static uint32_t take_places(const struct machine *m, const struct plan *p,
     for (int i = 0; i < l->in_place.pairs_count && global[0] == 1; i++) {
         int output = l->in_place.pairs[i].output, leaf = l->in_place.pairs[i].leaf;
         uint32_t bit = UINT32_C(1) << l->in_place.pairs[i].border;
-        if (buffers[output] || which & bit || !dies[leaf] || buffers[leaf]->refs != 1)
+        if (buffers[output] || which & bit || !dies[leaf] || buffers[leaf]->refs != 1 ||
+            buffers[leaf]->blocks)
             continue;
         buffers[output] = buffers[leaf];
         device_buffer_ref(buffers[output]);
@@ -251,7 +252,7 @@ static struct device_buffer *spare_get(const struct plan *p, struct rows rows,
 {
     for (int i = 0; fates && p->launches_count == 1 && i < fates->spare_count; i++) {
         struct device_buffer *b = fates->spare[i];
-        if (b->refs == 1 && device_rows_fit(b, rows)) {
+        if (b->refs == 1 && !b->blocks && device_rows_fit(b, rows)) {
             device_buffer_ref(b);
             return b;
         }

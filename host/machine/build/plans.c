@@ -11,6 +11,7 @@
 #include "base/arrays.h"
 #include "base/errors.h"
 #include "build/background.h"
+#include "build/division.h"
 
 /* Of a program that does not repeat, in units of some 4 kilobytes: a plan of few values is one, of many values several. */
 enum { PLANS_MOST = 8192, BUCKETS = 4096, UNIT_WORDS = 512 };
@@ -27,7 +28,8 @@ static bool too_many(const struct plans *p)
 
 bool plans_are_many(const struct machine *m)
 {
-    return too_many(m->plans) || device_kernels_are_many(m);
+    return too_many(m->plans) || device_kernels_are_many(m) ||
+           (m->sequencers && plans_are_many(m->sequencers->machine));
 }
 
 /* All that were used last before that. */
@@ -68,8 +70,21 @@ static void forget_plans(struct machine *m)
     families_sweep(m);
 }
 
+/* What divisions know of the sequencers' plans. */
+static void forget_in_blocks(struct machine *m)
+{
+    for (int i = 0; i < m->plans->table_size; i++)
+        for (struct plan *p = m->plans->table[i]; p; p = p->next)
+            if (p->division)
+                p->division->blocks.plan = p->division->whole.plan = NULL;
+}
+
 void plans_forget_oldest(struct machine *m)
 {
+    if (m->sequencers) {
+        forget_in_blocks(m);
+        plans_forget_oldest(m->sequencers->machine);
+    }
     if (too_many(m->plans))
         forget_plans(m);
     if (device_kernels_are_many(m))
@@ -93,6 +108,11 @@ void plans_finish(struct machine *m)
  * stores more than they save. */
 int plan_turns(const struct machine *m, const struct plan *p)
 {
+    if (p->division) {
+        const struct plan *in_blocks = division_in_blocks(p);
+        const int most = in_blocks ? plan_turns(p->division->blocks.machine, in_blocks) : 1;
+        return most < p->division->turns_most ? most : p->division->turns_most;
+    }
     return p->quality == BOXED && p->stored_count <= m->device->shape.arrays_foreseen
                ? p->turns_most
                : 1;
@@ -114,6 +134,10 @@ const int *plan_stored(const struct plan *p, int *count)
 
 bool plan_saves_nothing(const struct plan *p, int turns)
 {
+    if (p->division) {
+        const struct plan *in_blocks = division_in_blocks(p);
+        return in_blocks && plan_saves_nothing(in_blocks, turns);
+    }
     int sets = 0;
     for (int i = 0; i < p->launches_count; i++) {
         bool first = true;
@@ -126,7 +150,8 @@ bool plan_saves_nothing(const struct plan *p, int turns)
 
 bool plan_is_short(const struct machine *m, const struct plan *p)
 {
-    return p->quality == INTERPRETED && 1e9 * p->predicted_s < m->device->shape.short_ns;
+    return !p->division && p->quality == INTERPRETED &&
+           1e9 * p->predicted_s < m->device->shape.short_ns;
 }
 
 bool plan_is_hopeless(const struct plan *p)
@@ -252,6 +277,21 @@ static bool table_make(struct machine *m)
     m->plans->table_size = BUCKETS;
     m->plans->table = calloc((size_t)m->plans->table_size, sizeof *m->plans->table);
     return m->plans->table != NULL;
+}
+
+struct plan *plans_find(struct machine *m, const struct reach *r)
+{
+    return m->plans->table ? plan_find(m, r, words_hash(r->signature, r->length)) : NULL;
+}
+
+struct plan *plans_keep(struct machine *m, struct plan *p, const struct plan_request *q)
+{
+    const uint64_t hash = words_hash(q->reach->signature, q->reach->length);
+    if (table_make(m))
+        return plan_keep(m, p, q, hash) ? p : NULL;
+    plan_free(m, p);
+    machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for plans");
+    return NULL;
 }
 
 struct plan *plan_get(struct machine *m, const struct plan_request *wanted)

@@ -77,6 +77,8 @@ struct plan {
     bool undecided;             /* it is rehearsed, and not known yet what it stores */
     bool gone;                  /* its kernels had to go; they are on disk */
     bool hopeless;              /* of many turns that do not fit one kernel */
+    struct division
+        *division; /* it is run in blocks, and has no kernels itself; NULL: in one piece */
     struct plan *next;
 };
 
@@ -151,6 +153,9 @@ struct plan_request {
 /* Returns the plan: a new or a known one, with better kernels if these are due. NULL: error
  * set; for a plan that is not to run, it may also be impossible. */
 struct plan *plan_get(struct machine *m, const struct plan_request *q);
+/* The plan of that signature; NULL: there is none. And keeps one that was made elsewhere; NULL: error set, and it is gone. */
+struct plan *plans_find(struct machine *m, const struct reach *r);
+struct plan *plans_keep(struct machine *m, struct plan *p, const struct plan_request *q);
 /* Whether there are so many, or so many kernels, that the oldest should go; they go, all but those used lately. Nobody else may know the plans any more. */
 bool plans_are_many(const struct machine *m);
 void plans_forget_oldest(struct machine *m);
@@ -228,6 +233,14 @@ void improve_give_up(struct machine *m);
 bool improve_begin(struct machine *m, struct plan *p, const struct plan_request *q,
                    enum quality quality);
 /* ---- plan_graph.c ---- */
+
+/* A node whose operands have been added. False: no memory. */
+bool reach_add(const struct machine *m, struct reach *r, struct machine_value *v);
+/* All have been; those that are wanted belong to the signature, too. */
+bool reach_ends(struct reach *r, const struct targets *t);
+void reach_finish(struct reach *r);
+/* One more; false: no memory. */
+bool targets_add(struct targets *t, struct machine_value *v);
 
 bool plan_graph_init(struct plan_graph *g, const struct plan_request *q);
 /* What is stored in that stage (-1: in all) and VP set, in stages' order; how many. */

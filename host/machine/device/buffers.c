@@ -173,7 +173,7 @@ static void no_room(struct machine *m, size_t bytes)
     char holders[512] = "";
     device_pool_empty(d);
     if (d->name_holders)
-        d->name_holders(m, holders, sizeof holders);
+        d->name_holders(m->front ? m->front : m, holders, sizeof holders);
     machine_fail(m, MACHINE_NO_MEMORY,
                  "%.1f MB more for one field do not fit in the memory of %s (%.1f MB, %.1f in "
                  "use%s%s): deallocate fields, or take smaller VP sets or shorter fields",
@@ -189,7 +189,8 @@ struct device_buffer *device_rows_get(struct machine *m, struct rows rows)
     if (b)
         return buffer_begin(d, b, rows);
     size_t whole = rows.bytes + skew_room(&d->shape, rows.bytes) + 2 * DEVICE_GUARD_BYTES;
-    if (!fits(d, rows.bytes) && d->make_room && d->make_room(m) && (b = pool_take(d, rows)))
+    if (!fits(d, rows.bytes) && d->make_room && d->make_room(m->front ? m->front : m) &&
+        (b = pool_take(d, rows)))
         return buffer_begin(d, b, rows);
     if (d->held_bytes + d->pool_bytes + rows.bytes > d->memory_bytes)
         device_pool_empty(d);
@@ -216,6 +217,8 @@ struct device_buffer *device_rows_get(struct machine *m, struct rows rows)
 
 cl_mem device_mem(const struct device_buffer *b)
 {
+    INVARIANT(
+        b->memory); /* else somebody has not asked for it in one piece: sequencers_whole() */
     if (!b->memory->mem && b->memory->chunk)
         b->memory->mem = chunk_mem(b);
     return b->memory->mem;
@@ -233,10 +236,27 @@ void device_buffer_ref(struct device_buffer *b)
     b->refs++;
 }
 
+/* The blocks go; and the array with them, if it has no other memory. */
+static bool ends_with_blocks(struct machine *m, struct device_buffer *b)
+{
+    struct array_blocks *a = b->blocks;
+    const bool only = a->only;
+    b->blocks = NULL;
+    for (int i = 0; i < a->count; i++)
+        if (a->of[i])
+            device_buffer_unref(m, a->of[i]);
+    if (a->whole)
+        device_buffer_unref(m, a->whole);
+    free(a);
+    if (only)
+        free(b);
+    return only;
+}
+
 void device_buffer_unref(struct machine *m, struct device_buffer *b)
 {
     struct device *d = m->device;
-    if (--b->refs)
+    if (--b->refs || (b->blocks && ends_with_blocks(m, b)))
         return;
     d->held_bytes -= b->bytes;
     if (d->pool_count == d->pool_capacity) {

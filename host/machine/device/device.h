@@ -33,15 +33,30 @@ struct device_memory {
     struct chunk *chunk; /* that it is a part of; NULL: it has memory of its own */
 };
 
+struct array_blocks;
+
 struct device_buffer {
-    struct device_memory *memory;
-    size_t bytes, first; /* see struct rows */
+    struct device_memory *memory; /* NULL: it is in blocks only */
+    size_t bytes, first;          /* see struct rows */
     void *host;    /* where it is for the front end; NULL: the device has memory of its own */
     uint32_t refs; /* a buffer goes back to the pool at 0; the queue is in order, so at once */
     bool fresh;    /* no byte code has written it yet, so its memory may be in no cache */
     bool
         follows; /* from what another array holds: a state cannot take another one for it (known_places_keep()) */
-    uint32_t mark, number; /* of the last walk that came by: run/states.c */
+    uint32_t mark, number;       /* of the last walk that came by: run/states.c */
+    struct array_blocks *blocks; /* NULL: it is in one piece */
+};
+
+/* An array in blocks: sequencers/. */
+struct array_blocks {
+    struct device_buffer
+        *whole; /* whose memory an array has that was in blocks only; else NULL */
+    bool only;  /* it was made in blocks */
+    struct machine_type type;
+    size_t element;
+    int set, count;
+    int valid; /* ghost planes on each side */
+    struct device_buffer *of[];
 };
 
 /* A kernel in memory, with its program. It stays while somebody holds it, and else until there are too many: programs.c. */

@@ -29,13 +29,14 @@ static bool held_once(const struct machine *m, const struct machine_value *v)
 static bool is_own_leaf(const struct machine *m, const struct machine_value *v)
 {
     return v->op == NODE_BUFFER && v->buffer && v->buffer->host && v->buffer->refs == 1 &&
-           held_once(m, v);
+           !v->buffer->blocks && held_once(m, v);
 }
 
 bool gather_is_own(const struct machine *m, const struct field *f, uint32_t offset,
                    const struct machine_value *v)
 {
-    return v->op == NODE_BUFFER && v->buffer->host && v->buffer->refs == 1 && !v->own_address &&
+    return v->op == NODE_BUFFER && v->buffer->host && v->buffer->refs == 1 &&
+           !v->buffer->blocks && !v->own_address &&
            v->refs <= graph_borrowed(m, v) + (uint32_t)field_holds(f, offset, v);
 }
 

@@ -5,6 +5,7 @@
 #include "device/device.h"
 #include "memory/memory.h"
 #include "ops/observe.h"
+#include "sequencers/sequencers.h"
 #include "values/graph.h"
 
 const char *machine_busy(const struct machine *m)
@@ -66,4 +67,11 @@ enum machine_status machine_flag_download(struct machine *m, int vpset, enum mac
         v ? observe_out(m, vpset, v, out, "reading a flag") : m->status;
     m->values->set_current = current;
     return status;
+}
+
+struct machine_blocks machine_blocks(const struct machine *m)
+{
+    const struct sequencers *q = m->sequencers;
+    return q ? (struct machine_blocks){q->run, q->divided, q->gathered, q->exchanged}
+             : (struct machine_blocks){0};
 }

@@ -10,6 +10,7 @@
 #include "ops/near_pack.h"
 #include "run/evaluate.h"
 #include "run/materialise.h"
+#include "sequencers/sequencers.h"
 #include "values/graph.h"
 #include "values/make.h"
 
@@ -192,6 +193,9 @@ struct machine_value *message_pack(struct machine *m, struct machine_value *sour
     if (!node_is_leaf(old))
         wanted[count++] = old;
     if (!context->buffer || (count && evaluate_values(m, wanted, count, false)))
+        return NULL;
+    if (m->sequencers &&
+        (sequencers_whole(m, context->buffer) || sequencers_whole(m, old->buffer)))
         return NULL;
     source = materialise(m, set, source);
     const struct vpset *s = &m->values->sets[set];

@@ -199,7 +199,7 @@ struct machine_value *observe_own(struct machine *m, const struct field *f, uint
         known_addresses_changed(m, v->buffer);
     /* The slot's reference, and those of this call. An evaluation within an instruction may have entered a state, so what the instruction made before and what the
      * field holds are two values with one array. */
-    if (v->op != NODE_BUFFER || v->own_address || v->buffer->refs > 1 ||
+    if (v->op != NODE_BUFFER || v->own_address || v->buffer->refs > 1 || v->buffer->blocks ||
         v->refs > graph_borrowed(m, v) + 1 || !field_holds(f, offset, v))
         return own_copy(m, f->vpset, v);
     return v;

@@ -11,7 +11,8 @@ enum { UNFORESEEN_LEAST = 2048 }; /* calls */
 enum at_once_may at_once_may(const struct machine *m)
 {
     const struct settings *s = &m->settings;
-    if (!s->at_once || !m->device->is_pocl || !s->near || m->watch)
+    const bool cuts_small = s->blocks > 1 && s->blocks_from != SETTING_FREE;
+    if (!s->at_once || !m->device->is_pocl || !s->near || m->watch || cuts_small)
         return AT_ONCE_NEVER;
     if (s->at_once > 1)
         return AT_ONCE_ALWAYS;

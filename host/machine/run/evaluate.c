@@ -16,6 +16,7 @@
 #include "run/replay.h"
 #include "run/roll.h"
 #include "run/room.h"
+#include "sequencers/sequencers.h"
 #include "values/graph.h"
 #include "watch/watch.h"
 
@@ -84,12 +85,21 @@ static bool are_computed(struct machine *m, struct machine_value **wanted, int c
     return all;
 }
 
-enum machine_status evaluate_values(struct machine *m, struct machine_value **wanted, int count,
-                                    bool all)
+enum machine_status evaluate_in_blocks(struct machine *m, struct machine_value **wanted,
+                                       int count, bool all)
 {
     if (m->values->at_once && count && are_computed(m, wanted, count))
         return MACHINE_OK;
     return evaluate_now(m, wanted, count, all, RUN_LOOKED);
+}
+
+enum machine_status evaluate_values(struct machine *m, struct machine_value **wanted, int count,
+                                    bool all)
+{
+    enum machine_status status = evaluate_in_blocks(m, wanted, count, all);
+    for (int i = 0; m->sequencers && i < count && !status; i++)
+        status = sequencers_whole(m, wanted[i]->buffer);
+    return status;
 }
 
 /* ---- when ---- */

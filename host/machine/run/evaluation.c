@@ -18,8 +18,8 @@
 
 #include <stdlib.h>
 
-#include "base/arrays.h"
 #include "base/errors.h"
+#include "build/division.h"
 #include "build/explained.h"
 #include "memory/memory.h"
 #include "run/pending.h"
@@ -41,17 +41,6 @@ struct evaluation {
 
 /* ---- the nodes that are reached ---- */
 
-static bool reach_room(struct reach *r)
-{
-    bool failed = false;
-    if (r->count == r->capacity)
-        r->nodes = array_more(r->nodes, &r->capacity, sizeof *r->nodes, &failed);
-    if (!failed && r->length + 9 > (uint32_t)r->signature_capacity)
-        r->signature =
-            array_more(r->signature, &r->signature_capacity, sizeof *r->signature, &failed);
-    return !failed;
-}
-
 /* Depth first; HEIGHT_MOST limits the recursion. No value is part of itself, and none that was let go of is reached. */
 static bool reach_from(struct machine *m, struct reach *r, struct machine_value *v)
 {
@@ -68,40 +57,10 @@ static bool reach_from(struct machine *m, struct reach *r, struct machine_value 
     for (int i = 0; i < inputs; i++)
         if (!reach_from(m, r, v->in[i]))
             return false;
-    if (!reach_room(r))
-        return false;
-    v->local = (uint32_t)r->count;
-    r->nodes[r->count++] = v;
-    uint32_t *s = r->signature;
-    s[r->length++] = (uint32_t)(v->buffer ? NODE_BUFFER : v->op) | (uint32_t)v->type.kind << 8 |
-                     (uint32_t)v->type.width << 16 | (uint32_t)v->axis << 24;
-    if (v->type.s) {
-        s[r->length - 1] |= 0x8000;
-        s[r->length++] = v->type.s | (uint32_t)v->type.e << 8;
-    }
-    if (v->op != NODE_CONSTANT)
-        s[r->length++] = v->set | (uint32_t)m->values->sets[v->set].generation << 16;
-    if (!v->buffer) {
-        s[r->length++] = (uint32_t)v->detail;
-        for (int i = 0; i < inputs; i++)
-            s[r->length++] = v->in[i]->local;
-    }
-    /* for min and max with a constant, whether that is a NaN is known when recording */
-    s[r->length++] = v->maybe_nan;
-    return true;
+    return reach_add(m, r, v);
 }
 
 /* ---- targets ---- */
-
-static bool targets_add(struct targets *t, struct machine_value *v)
-{
-    bool failed = false;
-    if (t->count == t->capacity)
-        t->values = array_more(t->values, &t->capacity, sizeof *t->values, &failed);
-    if (!failed)
-        t->values[t->count++] = v;
-    return !failed;
-}
 
 /* Whether it is left an expression. */
 static bool slot_waits(const struct machine *m, const struct slot *slot)
@@ -168,12 +127,7 @@ static bool find_reach(struct machine *m, struct reach *r, const struct targets 
     m->values->mark++;
     for (int i = 0; i < t->count && good; i++)
         good = reach_from(m, r, t->values[i]);
-    for (int i = 0; i < t->count && good; i++) {
-        good = reach_room(r);
-        if (good)
-            r->signature[r->length++] = UINT32_C(0x80000000) | t->values[i]->local;
-    }
-    return good;
+    return good && reach_ends(r, t);
 }
 
 /* ---- the two halves ---- */
@@ -201,7 +155,7 @@ static enum machine_status first_half(struct machine *m, struct evaluation *e,
     uint64_t built = m->plans->built;
     const struct plan_request request = {
         .reach = &e->reach, .targets = &e->targets, .use = use};
-    e->plan = plan_get(m, &request);
+    e->plan = m->sequencers ? division_get(m, &request) : plan_get(m, &request);
     if (m->watch)
         watch_span(m, WATCH_LOOKUP, from, "\"found\":%s",
                    m->plans->built == built ? "true" : "false");
@@ -247,7 +201,9 @@ static enum machine_status second_half(struct machine *m, struct evaluation *e)
     struct device_buffer *const *buffers = e->buffers;
     if (m->watch)
         tell_computed(m, e);
-    enum machine_status status = plan_run(m, e->plan, e->buffers, nodes, NULL);
+    enum machine_status status = m->sequencers
+                                     ? division_run(m, e->plan, e->buffers, nodes, NULL)
+                                     : plan_run(m, e->plan, e->buffers, nodes, NULL);
     const int *stored = plan_stored(e->plan, &count);
     if (status)
         return status;
@@ -275,8 +231,7 @@ static void release(struct machine *m, struct evaluation *e)
         device_buffer_unref(m, e->buffers[stored[i]]);
     free(e->buffers);
     free(e->targets.values);
-    free(e->reach.nodes);
-    free(e->reach.signature);
+    reach_finish(&e->reach);
 }
 
 /* ---- both halves, recorded between them and after them ---- */

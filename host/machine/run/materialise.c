@@ -10,6 +10,7 @@
 #include "memory/memory.h"
 #include "run/evaluate.h"
 #include "run/evaluation.h"
+#include "sequencers/sequencers.h"
 #include "values/graph.h"
 #include "watch/watch.h"
 
@@ -119,7 +120,8 @@ struct machine_value *materialise(struct machine *m, int set, struct machine_val
         number->strange_nan = v->strange_nan;
         return number;
     }
-    if (!v->buffer && evaluate_values(m, &v, 1, false))
+    if (!v->buffer ? evaluate_values(m, &v, 1, false)
+                   : m->sequencers && sequencers_whole(m, v->buffer))
         return NULL;
     return v;
 }
@@ -132,6 +134,9 @@ bool materialise_all(struct machine *m, int set, struct machine_value **values, 
     for (int i = 0; i < count; i++)
         if (!values[i]->buffer)
             return evaluate_values(m, values, count, false) == MACHINE_OK;
+    for (int i = 0; m->sequencers && i < count; i++)
+        if (sequencers_whole(m, values[i]->buffer))
+            return false;
     return true;
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/arrays.h"
 #include "base/errors.h"
+#include "build/division.h"
 #include "memory/memory.h"
 #include "run/replay.h"
 #include "run/room.h"
@@ -32,7 +33,9 @@ bool perform_deed(struct machine *m, const struct deed *d, int to)
         spare[i] = s->buffers[d->spare[i]];
     const struct fates fates = {d->dies, d->kept, spare, d->spare_count};
     m->run->evaluating = true;
-    enum machine_status status = plan_run(m, d->plan, buffers, d->values, &fates);
+    enum machine_status status = m->sequencers
+                                     ? division_run(m, d->plan, buffers, d->values, &fates)
+                                     : plan_run(m, d->plan, buffers, d->values, &fates);
     m->run->evaluating = false;
     if (status)
         return false; /* the attempt will be repeated, and report the error then */

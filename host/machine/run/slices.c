@@ -4,6 +4,7 @@
 #include "memory/call_set.h"
 #include "run/near_shapes.h"
 #include "run/run.h"
+#include "sequencers/sequencers.h"
 #include "values/graph.h"
 
 enum machine_status slices_take(struct machine *m, const struct vpset *from,
@@ -53,7 +54,8 @@ bool slice_unpack(struct machine *m, struct machine_value *slice)
     }
     const struct slices_taken taken = {k, (uint32_t)first, (uint32_t)count, wanted,
                                        slice->type};
-    enum machine_status status = slices_take(m, f, s, &taken, fine->buffer, b);
+    enum machine_status status = m->sequencers ? sequencers_whole(m, fine->buffer) : MACHINE_OK;
+    status = status ? status : slices_take(m, f, s, &taken, fine->buffer, b);
     for (int i = 0; i < SLICES_BLOCK; i++)
         if (b[i] && status)
             device_buffer_unref(m, b[i]);

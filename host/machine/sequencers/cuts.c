@@ -1,0 +1,101 @@
+/* cuts.c - which VP sets are cut, and how: see sequencers.h. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/errors.h"
+#include "sequencers/sequencers.h"
+
+/* Smaller sets are not worth a message. LINE_GHOSTS: of a set with one axis, whose planes are single processors. RUN: blocks of such a
+ * set begin where a run of a reduction does, where it is long enough. */
+enum {
+    COUNT_LEAST = 65536,
+    SHEET_GHOSTS = 16,
+    SPACE_GHOSTS = 4,
+    LINE_GHOSTS = 512,
+    RUN = 4096
+};
+
+uint64_t cut_first(const struct cut *c, int block)
+{
+    const uint64_t back = (uint64_t)c->ghosts % c->length;
+    return (c->first[block] + c->length - back) % c->length;
+}
+
+static int ghosts_of(const struct machine *m, const struct vpset *s)
+{
+    if (m->settings.ghosts != SETTING_FREE)
+        return (int)m->settings.ghosts;
+    return s->rank == 1 && s->count >= COUNT_LEAST ? LINE_GHOSTS
+           : s->rank > 2                           ? SPACE_GHOSTS
+                                                   : SHEET_GHOSTS;
+}
+
+/* Where blocks begin, and how high the largest one is with its ghosts. */
+static void blocks_place(struct cut *c, int count, bool line)
+{
+    const uint64_t unit = line && c->length >= (uint64_t)RUN * (uint64_t)count ? RUN : 1,
+                   units = (c->length + unit - 1) / unit;
+    c->height = 0;
+    for (int i = 0; i <= count; i++)
+        c->first[i] = i == count ? c->length : units * (uint64_t)i / (uint64_t)count * unit;
+    for (int i = 0; i < count; i++)
+        if (c->first[i + 1] - c->first[i] > c->height)
+            c->height = c->first[i + 1] - c->first[i];
+    c->height += 2 * (uint64_t)c->ghosts;
+}
+
+/* An index of all that a block's array and the set have together fits 32 bits: see build/divided.c. */
+static bool can_cut(const struct machine *m, const struct vpset *s, const struct cut *c)
+{
+    const bool forced = m->settings.blocks_from != SETTING_FREE;
+    const uint64_t least = forced ? m->settings.blocks_from : COUNT_LEAST,
+                   plane = s->count / c->length;
+    if (s->count < least || c->length < 2 || (c->height + c->length) * plane > INT32_MAX)
+        return false;
+    return forced || c->length >= 2 * (uint64_t)m->sequencers->count * (uint64_t)c->ghosts;
+}
+
+static void cut_make(struct machine *m, int set, struct cut *c)
+{
+    struct machine *local = m->sequencers->machine;
+    const struct vpset *s = &m->values->sets[set];
+    int dimensions[MACHINE_AXES_MAX];
+    *c = (struct cut){.generation = s->generation};
+    local->values->sets[set] = *s;
+    c->length = (uint64_t)s->dimensions[0];
+    c->ghosts = ghosts_of(m, s);
+    blocks_place(c, m->sequencers->count, s->rank == 1);
+    c->is = can_cut(m, s, c);
+    if (!c->is)
+        return;
+    memcpy(dimensions, s->dimensions, sizeof dimensions);
+    dimensions[0] = (int)c->height;
+    geometry_make(local, &local->values->sets[set], dimensions, s->rank, &s->layout);
+}
+
+/* As many sets as the front end has. */
+static void sets_grow(struct machine *m)
+{
+    struct sequencers *q = m->sequencers;
+    struct values *v = q->machine->values;
+    const int count = m->values->sets_count;
+    if (count <= q->cuts_count)
+        return;
+    q->cuts = realloc(q->cuts, (size_t)count * sizeof *q->cuts);
+    v->sets = realloc(v->sets, (size_t)count * sizeof *v->sets);
+    NEEDS_MEMORY(q->cuts && v->sets);
+    memset(&q->cuts[q->cuts_count], 0, (size_t)(count - q->cuts_count) * sizeof *q->cuts);
+    memset(&v->sets[q->cuts_count], 0, (size_t)(count - q->cuts_count) * sizeof *v->sets);
+    q->cuts_count = v->sets_count = count;
+}
+
+const struct cut *sequencers_cut(struct machine *m, int set)
+{
+    sets_grow(m);
+    struct cut *c = &m->sequencers->cuts[set];
+    if (set == 0 || !m->values->sets[set].used)
+        return NULL;
+    if (c->generation != m->values->sets[set].generation)
+        cut_make(m, set, c);
+    return c->is ? c : NULL;
+}
