@@ -34,7 +34,8 @@ static struct paper_air air_make(void)
 
 static struct paper_sheet *sheet_make(const char *stock, const struct paper_air *air)
 {
-    struct paper_sheet_config config = sheet_of_two(SIDE, SIDE, "phthalo green", "burnt umber");
+    struct paper_sheet_config config =
+        sheet_of_curtis(SIDE, SIDE, "phthalo green", "burnt umber");
     config.stock = *paper_stock_find(stock);
     struct paper_sheet *sheet;
     check(paper_sheet_create(&config, &sheet));
