@@ -1,11 +1,11 @@
 /* calls.c - `lutetia bench calls`: the front end's time for a C/Paris call, which is recorded
  * and not waited for.
  *
- * Recorded: the processor time of the calling thread, which makes the calls and submits
- * their evaluation. To the end: includes the time until the device is done. Growth: of the
- * process's memory, and of the machine's, over a million calls after a warm-up.
- * Looks: reads and writes of one processor and reductions of what is in memory, and steps of the
- * diffusion listing on a sheet so small that no kernel pays.
+ * Recorded: the processor time of the calling thread, which makes the calls and submits their
+ * evaluation. To the end: includes the time until the device is done. Growth: of the process's
+ * memory, and of the machine's, over a million calls after a warm-up. Looks: reads and writes
+ * of one processor and reductions of what is in memory, and steps of the diffusion listing on a
+ * sheet so small that no kernel pays.
  */
 #include "calls.h"
 #include <visible_text.h>

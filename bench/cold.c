@@ -33,7 +33,8 @@ void cold_folder_remove(const char *folder)
     nftw(folder, entry_remove, 16, FTW_DEPTH | FTW_PHYS);
 }
 
-/* The environment, but with caches in that folder; LUTETIA_BACKGROUND as anybody's. The caller's to free. */
+/* The environment, but with caches in that folder; LUTETIA_BACKGROUND as anybody's. The
+ * caller's to free. */
 static char **environment_of(char *cache, char *driver)
 {
     static const char *const left_out[] = {

@@ -1,7 +1,7 @@
 /* cold.h - what a first run takes: in a process of its own, whose caches of kernels are empty.
  *
- * The process is this program, called `lutetia-bench BENCH --cold-into WHAT FILE`. It runs WHAT once and tells by
- * cold_tell() how that went. */
+ * The process is this program, called `lutetia-bench BENCH --cold-into WHAT FILE`. It runs WHAT
+ * once and tells by cold_tell() how that went. */
 #ifndef LUTETIA_BENCH_COLD_H
 #define LUTETIA_BENCH_COLD_H
 

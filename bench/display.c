@@ -1,9 +1,11 @@
-/* display.c - `lutetia bench display`: what 60 pictures a second on the frame buffer take from a program that computes.
+/* display.c - `lutetia bench display`: what 60 pictures a second on the frame buffer take from
+ * a program that computes.
  *
- * The program is the thesis's diffusion on 1024x512 fibers. Turns of a third of a second alternate. In the first the program computes its steps
- * alone; in the second it also computes a picture each 1/60 s; in the third it shows that picture, too. Turns are compared with those just
- * before, so that other load affects all alike. The pictures go where LUTETIA_DISPLAY says; if it says nothing, to
- * /dev/null, which leaves the program's own part:
+ * The program is the thesis's diffusion on 1024x512 fibers. Turns of a third of a second
+ * alternate. In the first the program computes its steps alone; in the second it also computes
+ * a picture each 1/60 s; in the third it shows that picture, too. Turns are compared with those
+ * just before, so that other load affects all alike. The pictures go where LUTETIA_DISPLAY
+ * says; if it says nothing, to /dev/null, which leaves the program's own part:
  *
  *     lutetia bench display
  *     lutetia display --close lutetia bench display      in windows

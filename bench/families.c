@@ -69,7 +69,8 @@ struct fields {
     ROW(f_lt, test, 1, "f_lt", 8 + BIT,                                                        \
         (CM_f_lt_1L(x->f, x->f_other, S, E), CM_store_test(x->test)))
 
-/* Reads the first processor's result, which makes the machine compute all processors (with LUTETIA_NEAR=0, else that one). */
+/* Reads the first processor's result, which makes the machine compute all processors (with
+ * LUTETIA_NEAR=0, else that one). */
 static bool observed(CM_field_id_t dest, unsigned int length)
 {
     CM_u_read_from_processor_1L(0, dest, length);

@@ -1,12 +1,12 @@
-/* fonts_peers.h - other ways to the same glyphs, for `lutetia bench fonts`: FreeType, stb_truetype, and filtering a large
- * bitmap directly.
+/* fonts_peers.h - other ways to the same glyphs, for `lutetia bench fonts`: FreeType,
+ * stb_truetype, and filtering a large bitmap directly.
  *
  *     struct peer_freetype *ft = peer_freetype_create(bytes, count, 12.25);
  *     peer_freetype_draw(ft, glyph, 0.25, 0, &gray);      // loads and renders
  *     peer_freetype_destroy(ft);
  *
- * Pictures are struct font_gray, so that they are compared as ours are; their pixels belong to the peer until its
- * next drawing. Functions return false where the peer failed. */
+ * Pictures are struct font_gray, so that they are compared as ours are; their pixels belong to
+ * the peer until its next drawing. Functions return false where the peer failed. */
 #ifndef LUTETIA_BENCH_FONTS_PEERS_H
 #define LUTETIA_BENCH_FONTS_PEERS_H
 
@@ -21,7 +21,8 @@ void peer_freetype_destroy(struct peer_freetype *p);
 /* Loads the glyph, moves it and renders it: unhinted, 256 grays. */
 bool peer_freetype_draw(struct peer_freetype *p, uint32_t glyph, double x_px, double y_px,
                         struct font_gray *gray);
-/* Keeps the scaled outline of a glyph under a number, and renders it from there: the rasteriser alone. */
+/* Keeps the scaled outline of a glyph under a number, and renders it from there: the rasteriser
+ * alone. */
 bool peer_freetype_keep(struct peer_freetype *p, int slot, uint32_t glyph, double x_px,
                         double y_px);
 bool peer_freetype_raster(struct peer_freetype *p, int slot, struct font_gray *gray);

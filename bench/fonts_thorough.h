@@ -1,7 +1,9 @@
-/* fonts_thorough.h - `lutetia bench fonts --thorough`: how exact gray is over 16x16 places between pixels, 12 angles, 4
- * filters and 3 faces, each with each; and sheared, projective and bilinear. No times.
+/* fonts_thorough.h - `lutetia bench fonts --thorough`: how exact gray is over 16x16 places
+ * between pixels, 12 angles, 4 filters and 3 faces, each with each; and sheared, projective and
+ * bilinear. No times.
  *
- *     ok = fonts_thorough_run(&report);      // false: it failed, or something was less exact than it must be */
+ *     // false: it failed, or something was less exact than it must be
+ *     ok = fonts_thorough_run(&report); */
 #ifndef LUTETIA_BENCH_FONTS_THOROUGH_H
 #define LUTETIA_BENCH_FONTS_THOROUGH_H
 

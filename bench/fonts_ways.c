@@ -151,7 +151,8 @@ enum { WAYS = sizeof ways / sizeof *ways };
 
 /* ---- exactness ---- */
 
-/* Adds a picture's difference from gold of the same filter; gold_bytes (may be NULL): and gold's own bytes'. */
+/* Adds a picture's difference from gold of the same filter; gold_bytes (may be NULL): and
+ * gold's own bytes'. */
 static bool gold_add(struct fonts *f, const struct place *p, const struct font_filter *filter,
                      const struct font_gray *gray, bool exact, struct font_difference *sum,
                      struct font_difference *gold_bytes)
@@ -426,7 +427,8 @@ static bool forty_run(struct fonts *f, struct bench_report *r)
     return ok;
 }
 
-/* ---- the thesis's typeface: a master of 860 pixels in rectangles, filtered, and filtered directly ---- */
+/* ---- the thesis's typeface: a master of 860 pixels in rectangles, filtered, and filtered
+ * directly ---- */
 
 static bool thesis_rectangles(void *context)
 {

@@ -86,7 +86,8 @@ bench_work bench_copy_work;
 /* GB/s, from the seconds of its runs; min is the best. */
 struct bench_sample bench_copy_rate(const struct bench_copy *c, struct bench_sample seconds);
 
-/* Set by `lutetia bench --quick`, before anything runs: what would be measured is only tried, and the numbers mean nothing. */
+/* Set by `lutetia bench --quick`, before anything runs: what would be measured is only tried,
+ * and the numbers mean nothing. */
 extern bool bench_quick;
 /* How many, or how large: as usual, or enough to try it. */
 int bench_many(int usual, int enough);

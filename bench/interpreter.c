@@ -1,8 +1,10 @@
-/* interpreter.c - `lutetia bench interpreter`: programs that do not repeat, as an interpreter of a vector language runs them on
- * Paris, beside plain C.
+/* interpreter.c - `lutetia bench interpreter`: programs that do not repeat, as an interpreter
+ * of a vector language runs them on Paris, beside plain C.
  *
- *     cold                     the first run of a program, in a process of its own whose caches of kernels are empty
- *     plain C, cold            likewise: its vectors, too, are memory that nobody has written before
+ *     cold                     the first run of a program, in a process of its own whose caches
+ *                              of kernels are empty
+ *     plain C, cold            likewise: its vectors, too, are memory that nobody has written
+ *                              before
  *     warm                     each further run of that program
  *     plain C                  a loop for each operation, one thread
  *     plain C, two threads     likewise, with OpenMP
@@ -10,8 +12,9 @@
  *     plain C, after a pause
  *     kernels compiled         by the cold process, for each size
  *
- * Times are for each element of each operation. Short runs are timed many together: one that follows a pause takes longer, in plain C, too,
- * since a processor that has halted begins with empty caches. All must come to the same numbers. */
+ * Times are for each element of each operation. Short runs are timed many together: one that
+ * follows a pause takes longer, in plain C, too, since a processor that has halted begins with
+ * empty caches. All must come to the same numbers. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -216,7 +219,8 @@ bool interpreter_same(uint64_t seed, int n, int turns)
 
 /* ---- cold ---- */
 
-/* A cold process: its first run of the program; the time of it, the kernels that were compiled, what it came to. */
+/* A cold process: its first run of the program; the time of it, the kernels that were compiled,
+ * what it came to. */
 static bool cold_tell_plain(const struct stack_program *program, const char *path)
 {
     struct stack_plain *of = stack_plain_create(program, 1);

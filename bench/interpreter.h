@@ -1,8 +1,10 @@
-/* interpreter.h - a stack machine of vectors, as languages on the Connection Machine were: its programs, and plain C that runs them.
+/* interpreter.h - a stack machine of vectors, as languages on the Connection Machine were: its
+ * programs, and plain C that runs them.
  *
- * There are STACK_VECTORS vectors of n words of 32 bits. A program is a list of operations on whole vectors; those that look
- * at one number add it to a sum, which is the program's result. It begins with numbers that depend on the turn, so that no
- * turn's values are known from the one before. */
+ * There are STACK_VECTORS vectors of n words of 32 bits. A program is a list of operations on
+ * whole vectors; those that look at one number add it to a sum, which is the program's result.
+ * It begins with numbers that depend on the turn, so that no turn's values are known from the
+ * one before. */
 #ifndef LUTETIA_BENCH_INTERPRETER_H
 #define LUTETIA_BENCH_INTERPRETER_H
 
@@ -54,7 +56,8 @@ struct stack_plain *stack_plain_create(const struct stack_program *p,
 uint32_t stack_plain_run(struct stack_plain *s, uint32_t turn);
 void stack_plain_destroy(struct stack_plain *s);
 
-/* interpreter.c: on Paris and in plain C they come to the same, for some turns; in bench_error() it says if not. */
+/* interpreter.c: on Paris and in plain C they come to the same, for some turns; in
+ * bench_error() it says if not. */
 bool interpreter_same(uint64_t seed, int n, int turns);
 
 #endif

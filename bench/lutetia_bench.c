@@ -1,5 +1,5 @@
-/* lutetia_bench.c - the benchmarks, a program of its own that `lutetia bench NAME` runs: the peers' libraries would make
- * each start of the command slower. */
+/* lutetia_bench.c - the benchmarks, a program of its own that `lutetia bench NAME` runs: the
+ * peers' libraries would make each start of the command slower. */
 #include "bench.h"
 #include "harness.h"
 

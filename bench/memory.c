@@ -1,4 +1,5 @@
-/* memory.c - `lutetia bench memory`: the most bytes that arrays take at once, for the programs of works.h and of memory_programs.h.
+/* memory.c - `lutetia bench memory`: the most bytes that arrays take at once, for the programs
+ * of works.h and of memory_programs.h.
  *
  *     one by one   each instruction is computed at once (LUTETIA_EAGER=1)
  *     as usual     with as much memory as the device has
@@ -41,8 +42,8 @@ static bool work_run(enum work w, uint32_t *result)
     return good;
 }
 
-/* A work, or where `grid` is not NULL that, on a machine of its own, with that many bytes at most (0: what there is). Returns the most that were held;
- * 0: an error. */
+/* A work, or where `grid` is not NULL that, on a machine of its own, with that many bytes at
+ * most (0: what there is). Returns the most that were held; 0: an error. */
 static uint64_t peak_of(enum work w, const struct grid *grid, int side, bool eager,
                         uint64_t bytes, uint32_t *result)
 {

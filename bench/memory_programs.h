@@ -1,8 +1,11 @@
-/* memory_programs.h - programs of `lutetia bench memory` that are not works of works.h: grids, each begun anew on the machine as it is.
+/* memory_programs.h - programs of `lutetia bench memory` that are not works of works.h: grids,
+ * each begun anew on the machine as it is.
  *
- *     listing          the thesis's step of water and three pigments (listing.h), a look at the end
+ *     listing          the thesis's step of water and three pigments (listing.h), a look at the
+ *                      end
  *     paper            steps of a sheet of six pigments with all parts
- *     a line's mean    two fields, of which one is the mean of itself and its neighbour, turn after turn */
+ *     a line's mean    two fields, of which one is the mean of itself and its neighbour, turn
+ *                      after turn */
 #ifndef LUTETIA_BENCH_MEMORY_PROGRAMS_H
 #define LUTETIA_BENCH_MEMORY_PROGRAMS_H
 

@@ -4,9 +4,9 @@
  * programs that listen. A thousand notes a second, five rounds of a thousand; each delivery is
  * timed, from before the write at the instrument's end to after the read in the program. The
  * cases are: an idle machine; the same whose processors may sleep between notes; as many busy
- * processes as processors; and the first and the last with real-time priority for the server, the
- * programs and the player, where that is allowed. Lost or altered messages are errors. Then a
- * program takes the place of the instrument, because the terminal's bytes go through a kernel
+ * processes as processors; and the first and the last with real-time priority for the server,
+ * the programs and the player, where that is allowed. Lost or altered messages are errors. Then
+ * a program takes the place of the instrument, because the terminal's bytes go through a kernel
  * worker, which has no such priority.
  *
  * --thorough: ten minutes of soak, too. `lutetia bench midi --soak SECONDS`: that alone
@@ -64,7 +64,8 @@ static uint32_t notes(void)
     return (uint32_t)bench_many(NOTES, 20);
 }
 
-/* A round: its notes, a millisecond apart; what all listeners took for them, and what of it went by until the server's read, in us. */
+/* A round: its notes, a millisecond apart; what all listeners took for them, and what of it
+ * went by until the server's read, in us. */
 static bool round_measure(struct midi_scene *s, uint32_t from, double part_us[PARTS])
 {
     static struct midi_histogram all, read;

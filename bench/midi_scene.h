@@ -1,4 +1,5 @@
-/* midi_scene.h - a MIDI server as a process of its own, an instrument on a pseudo-terminal, and programs that listen.
+/* midi_scene.h - a MIDI server as a process of its own, an instrument on a pseudo-terminal, and
+ * programs that listen.
  *
  *     struct midi_scene scene;
  *     if (midi_scene_begin(&scene, &(struct midi_scene_def){.real_time = true}) && midi_scene_listeners(&scene, 16, 0)) {
@@ -8,7 +9,8 @@
  *     }
  *     midi_scene_end(&scene);
  *
- * Message i is a function of i, so each listener knows what must come next, and nothing may be lost, altered or in another order. */
+ * Message i is a function of i, so each listener knows what must come next, and nothing may be
+ * lost, altered or in another order. */
 #ifndef LUTETIA_BENCH_MIDI_SCENE_H
 #define LUTETIA_BENCH_MIDI_SCENE_H
 
@@ -40,8 +42,8 @@ enum midi_player { MIDI_FROM_INSTRUMENT, MIDI_FROM_PROGRAM };
 
 struct midi_scene_def {
     enum midi_player player;
-    bool
-        real_time; /* SCHED_FIFO for the server, the listeners and whoever calls, where that is allowed */
+    /* SCHED_FIFO for the server, the listeners and whoever calls, where that is allowed */
+    bool real_time;
     bool may_sleep; /* the server does not keep the processors awake */
 };
 
@@ -64,7 +66,8 @@ bool midi_scene_listeners(struct midi_scene *s, int count, uint32_t from);
 /* Writes message i; returns how many bytes that took, 0: it cannot be written. */
 size_t midi_scene_play(struct midi_scene *s, uint32_t i);
 struct midi_message midi_scene_message(uint32_t i);
-/* Until all listeners have so many, five seconds at most after the last one got something. Errors: false, and what is missing. */
+/* Until all listeners have so many, five seconds at most after the last one got something.
+ * Errors: false, and what is missing. */
 bool midi_scene_wait(struct midi_scene *s, uint32_t count);
 void midi_scene_end(struct midi_scene *s);
 

@@ -1,5 +1,5 @@
-/* midi_soak.h - the MIDI server at the rate of a MIDI cable for as long as one likes, with programs that come, go, stall and are
- * killed beside four that check each message. */
+/* midi_soak.h - the MIDI server at the rate of a MIDI cable for as long as one likes, with
+ * programs that come, go, stall and are killed beside four that check each message. */
 #ifndef LUTETIA_BENCH_MIDI_SOAK_H
 #define LUTETIA_BENCH_MIDI_SOAK_H
 
@@ -10,8 +10,8 @@ struct midi_soak_result {
     uint64_t messages, deliveries; /* played; checked by the four */
     uint64_t wrong;                /* lost or altered at one of the four */
     uint64_t killed;               /* programs that were */
-    double
-        grown_kib; /* the server's memory: the most in the last quarter of the time less that in the second */
+    /* the server's memory: the most in the last quarter of the time less that in the second */
+    double grown_kib;
     double p99_us;
 };
 

@@ -20,8 +20,8 @@ struct bench_opencl {
     cl_command_queue queue;
 };
 
-/* wanted: part of a device's or its platform's name, or its index; NULL or "": LUTETIA_DEVICE, else
- * the first. On failure close it, too. */
+/* wanted: part of a device's or its platform's name, or its index; NULL or "": LUTETIA_DEVICE,
+ * else the first. On failure close it, too. */
 bool bench_opencl_open(struct bench_opencl *cl, const char *wanted);
 void bench_opencl_close(struct bench_opencl *cl);
 /* The build log goes to stderr if it fails. Owns: the caller. */

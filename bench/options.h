@@ -30,8 +30,9 @@ struct bench_options {
 /* `o` holds the defaults. Returns -1 to go on; else the exit status, and the error has been
  * printed. */
 int bench_options_parse(struct bench_options *o, int argc, char **argv);
-/* Prints the rows beside the row `yardstick` of their case, writes and draws them where asked to.
- * ok: whether the measurement came to its end; if not, prints bench_error(). The exit status. */
+/* Prints the rows beside the row `yardstick` of their case, writes and draws them where asked
+ * to. ok: whether the measurement came to its end; if not, prints bench_error(). The exit
+ * status. */
 int bench_options_finish(const struct bench_options *o, const struct bench_report *r,
                          const char *yardstick, bool ok);
 

@@ -1,5 +1,6 @@
-/* paper.c - `lutetia bench paper`: steps of a sheet with six pigments and all parts, and of the thesis's model, as programs in
- * C/Paris, beside the same rules in C with OpenMP. They first take the same steps, and must agree in every bit. */
+/* paper.c - `lutetia bench paper`: steps of a sheet with six pigments and all parts, and of the
+ * thesis's model, as programs in C/Paris, beside the same rules in C with OpenMP. They first
+ * take the same steps, and must agree in every bit. */
 #include <stdlib.h>
 #include <string.h>
 #include <visible_text.h>

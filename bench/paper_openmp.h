@@ -51,7 +51,8 @@ enum {
     T_THRESHOLD,
     T_LEFT,
     T_THIN,
-    T_FACES, /* along x, then along y: water out, in; pigments out, in; pigments in fibers out, in */
+    /* along x, then along y: water out, in; pigments out, in; pigments in fibers out, in */
+    T_FACES,
     T_CREEP_X = T_FACES + 12,
     T_CREEP_Y,
     T_TERMS,

@@ -1,10 +1,12 @@
-/* paper_openmp_flow.c - the rule of water that flows in plain C with OpenMP, three passes a step:
+/* paper_openmp_flow.c - the rule of water that flows in plain C with OpenMP, three passes a
+ * step:
  *
  *     own parts    row by row, in place; what faces need goes into rows of terms
  *     faces        parts of water, of pigments above, of pigments in fibers; speeds
  *     flows        for each amount: what goes up over each face, then what that leaves
  *
- * The operations are those of host/paper/model/{soak,film,capillary}.c in the same order; all rows become vectors. */
+ * The operations are those of host/paper/model/{soak,film,capillary}.c in the same order; all
+ * rows become vectors. */
 #include "paper_openmp.h"
 #include "paper_openmp_rounding.h"
 

@@ -1,4 +1,5 @@
-/* paper_openmp_rounding.h - arithmetic of the paper's model in plain C, all of which becomes vectors; flows are rounded here. */
+/* paper_openmp_rounding.h - arithmetic of the paper's model in plain C, all of which becomes
+ * vectors; flows are rounded here. */
 #ifndef LUTETIA_PAPER_OPENMP_ROUNDING_H
 #define LUTETIA_PAPER_OPENMP_ROUNDING_H
 

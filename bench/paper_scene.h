@@ -8,9 +8,9 @@
  *     bool same = paper_scene_agrees(&scene, "1024x1024");
  *     paper_scene_finish(&scene);
  *
- * A sheet of cold press with washes of all pigments, half dry. The thesis's scene is the sheet without parts with cyan,
- * magenta and yellow, beside diffusion_openmp_* of scene.h.
- * Errors. false, and bench_error() says why. */
+ * A sheet of cold press with washes of all pigments, half dry. The thesis's scene is the sheet
+ * without parts with cyan, magenta and yellow, beside diffusion_openmp_* of scene.h. Errors.
+ * false, and bench_error() says why. */
 #ifndef LUTETIA_BENCH_PAPER_SCENE_H
 #define LUTETIA_BENCH_PAPER_SCENE_H
 

@@ -1,5 +1,7 @@
-/* reader.c - `lutetia bench reader`: documents of 20,000 and 200,000 words as the reader's window has them: read and opened, seen in the middle,
- * at another width, at another size, and all of it; beside Pango, which sets the same text as a whole. One thread, its processor time. */
+/* reader.c - `lutetia bench reader`: documents of 20,000 and 200,000 words as the reader's
+ * window has them: read and opened, seen in the middle, at another width, at another size, and
+ * all of it; beside Pango, which sets the same text as a whole. One thread, its processor
+ * time. */
 #include "bench.h"
 #include "harness.h"
 #include "text_pango.h"

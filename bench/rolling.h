@@ -49,8 +49,8 @@ enum {
     ROLLING_ROWS_COUNT = 12, /* that a step keeps: along x, flows, written; of each field */
 };
 
-/* The rectangle only, with the row and the column before it; fiber (0, 0) of the rectangle is at
- * `origin` of each plane. Columns beyond the rectangle are 0. In floats. */
+/* The rectangle only, with the row and the column before it; fiber (0, 0) of the rectangle is
+ * at `origin` of each plane. Columns beyond the rectangle are 0. In floats. */
 struct rolling_layout {
     int width, height; /* of the rectangle */
     int columns;       /* width, rounded up to whole vectors */

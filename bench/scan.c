@@ -1,6 +1,7 @@
 /* scan.c - `lutetia bench scan` and `lutetia bench rank`: scans and ranks of one line of
- * processors, beside plain C on one thread in the same run: after a pause of some milliseconds, when caches hold other things and
- * threads sleep, and sixteen in a row. Results are compared first, except floats, which are added in another order. */
+ * processors, beside plain C on one thread in the same run: after a pause of some milliseconds,
+ * when caches hold other things and threads sleep, and sixteen in a row. Results are compared
+ * first, except floats, which are added in another order. */
 #include "bench.h"
 
 #include <stdint.h>

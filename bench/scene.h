@@ -53,7 +53,8 @@ void diffusion_openmp_steps(struct diffusion_openmp *o, int steps_count);
 /* field: 0..DIFFUSION_FIELDS_COUNT - 1; out: row-major, width by height. */
 void diffusion_openmp_read(const struct diffusion_openmp *o, int field, float *out);
 
-/* ---- hand-written OpenCL, one kernel an axis (hand.c, bench/kernels/diffusion_per_axis.cl) ---- */
+/* ---- hand-written OpenCL, one kernel an axis (hand.c, bench/kernels/diffusion_per_axis.cl)
+ * ---- */
 
 enum diffusion_shape { DIFFUSION_SHAPE_BEST, DIFFUSION_IN_PLACE, DIFFUSION_STREAMING };
 

@@ -20,7 +20,9 @@ struct springs_openmp {
     double *inverse; /* 1/m; 0 of those that are fixed */
     struct springs_spring *springs;
     int *first,
-        *of; /* springs of mass i: of[first[i]] .. of[first[i + 1] - 1]; ~spring where it is the second end */
+        /* springs of mass i: of[first[i]] .. of[first[i + 1] - 1]; ~spring where it is the
+         * second end */
+        *of;
     int masses_count, springs_count;
     double gravity;
 };

@@ -1,5 +1,5 @@
-/* start.c - `lutetia bench start`: the time from starting the command to its first picture, and of a first program in
- * C/Paris, with warm caches and with empty ones.
+/* start.c - `lutetia bench start`: the time from starting the command to its first picture, and
+ * of a first program in C/Paris, with warm caches and with empty ones.
  *
  * Each run is a process, in a temporary folder. One run of each kind warms the caches of
  * kernels, fonts and files. Then the kinds run alternately. Each row

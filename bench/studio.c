@@ -1,8 +1,10 @@
 /* studio.c - `lutetia bench studio`: what a hand waits for.
  *
- * The window itself is played recorded input (docs/studio.md), and measures: the empty window, the window while the paper is as busy as it
- * can be, from a pointer's report to the picture that shows its paint, a quick stroke, undo. This is the program as its users run it: kernels
- * are compiled beside it when they pay. Without a display (`xvfb-run ./run bench studio` has one) or GTK the window's rows are missing.
+ * The window itself is played recorded input (docs/studio.md), and measures: the empty window,
+ * the window while the paper is as busy as it can be, from a pointer's report to the picture
+ * that shows its paint, a quick stroke, undo. This is the program as its users run it: kernels
+ * are compiled beside it when they pay. Without a display (`xvfb-run ./run bench studio` has
+ * one) or GTK the window's rows are missing.
  *
  * Then the paper alone: studio_paper.h. */
 #include "studio_paper.h"
@@ -31,7 +33,8 @@ extern char **environ;
 
 /* ---- what is played ---- */
 
-/* Strokes back and forth over what is wet, so many fibers a second, from `at` on; when they have ended. */
+/* Strokes back and forth over what is wet, so many fibers a second, from `at` on; when they
+ * have ended. */
 static double strokes_play(FILE *out, double at_s, double seconds, double fibers_per_s)
 {
     const double half = WET / 2.0 - 20, stroke_s = 1.2, gap_s = 0.15, end_s = at_s + seconds;

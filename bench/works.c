@@ -1,6 +1,7 @@
 /* works.c - `lutetia bench families`: programs of works.h on Paris, beside plain C.
  *
- *     cold                   the first run, in a process of its own whose caches of kernels are empty
+ *     cold                   the first run, in a process of its own whose caches of kernels are
+ *                            empty
  *     warm                   each further run
  *     plain C                one thread
  *     plain C, two threads   with OpenMP

@@ -1,20 +1,28 @@
-/* works.h - the programs of `lutetia bench families`: what C/Paris was used for outside of stencils, each in Paris and in plain
- * C. All come to the same number: results are added as whole numbers, floats by their bits.
+/* works.h - the programs of `lutetia bench families`: what C/Paris was used for outside of
+ * stencils, each in Paris and in plain C. All come to the same number: results are added as
+ * whole numbers, floats by their bits.
  *
  *     histogram      seven histograms of 1,024 bins, by sends that add
- *     transposition  of an array on the front end, rows and columns in Gray code: there, by a send, and back
+ *     transposition  of an array on the front end, rows and columns in Gray code: there, by a
+ *                    send, and back
  *     sort           bitonic, by gets; in plain C qsort()
- *     list ranking   weights to the end of a list, by pointer jumping; in plain C from sublist to sublist
+ *     list ranking   weights to the end of a list, by pointer jumping; in plain C from sublist
+ *                    to sublist
  *     scans          24 segmented scans along rows of 1,000, sums and maxima
  *     wide numbers   numbers of 512 bits: a sum with carries, and its product with a word
  *     byte code      a program and an array for each processor
- *     product        of two matrices of single floats, by spreads: a column of one and a row of the other for each step
+ *     product        of two matrices of single floats, by spreads: a column of one and a row of
+ *                    the other for each step
  *     elimination    of a matrix of doubles, by spreads, without looking for pivots
- *     red and black  sweeps of Gauss and Seidel in three dimensions, one colour after the other, by contexts; the walls are fixed
- *     Fourier        a transform of complex floats along both axes, by gets; what comes out is in the order of reversed bits
+ *     red and black  sweeps of Gauss and Seidel in three dimensions, one colour after the
+ *                    other, by contexts; the walls are fixed
+ *     Fourier        a transform of complex floats along both axes, by gets; what comes out is
+ *                    in the order of reversed bits
  *     multigrid      V-cycles of five VP sets, by gets from set to set, on a torus
- *     vectors        what a library of vectors does: a call, a look at a count or a sum, the next call; in plain C a loop for each call
- *     few of many    numbers in a small part of a set, under a context; in plain C they alone */
+ *     vectors        what a library of vectors does: a call, a look at a count or a sum, the
+ *                    next call; in plain C a loop for each call
+ *     few of many    numbers in a small part of a set, under a context; in plain C they
+ *                    alone */
 #ifndef LUTETIA_BENCH_WORKS_H
 #define LUTETIA_BENCH_WORKS_H
 

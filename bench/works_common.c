@@ -1,4 +1,5 @@
-/* works_common.c - what the programs of works.h begin with and come to, in Paris and in plain C. */
+/* works_common.c - what the programs of works.h begin with and come to, in Paris and in plain
+ * C. */
 #include <math.h>
 #include <stdlib.h>
 

@@ -108,7 +108,8 @@ static uint32_t sort(struct work_plain *p, uint32_t turn)
     return sum;
 }
 
-/* Along a sublist from i on, up to the next head: what it weighs; with ranks: what is left, from `left` on. */
+/* Along a sublist from i on, up to the next head: what it weighs; with ranks: what is left,
+ * from `left` on. */
 static uint32_t walked(const struct work_plain *p, uint32_t turn, uint32_t i, uint32_t left,
                        uint32_t *ranks, uint32_t *after)
 {

@@ -1,4 +1,5 @@
-/* works_sets_paris.c - programs of works.h in C/Paris: gets along both axes, several VP sets, vectors with looks, few of many processors. */
+/* works_sets_paris.c - programs of works.h in C/Paris: gets along both axes, several VP sets,
+ * vectors with looks, few of many processors. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -54,7 +55,8 @@ bool work_fourier_prepare(struct work_paris *p)
     return good;
 }
 
-/* x, y: the number, real and imaginary. One of a pair becomes the sum, the other the difference times a factor. */
+/* x, y: the number, real and imaginary. One of a pair becomes the sum, the other the difference
+ * times a factor. */
 static void butterflies(const struct work_paris *p, unsigned int axis, unsigned int stage)
 {
     const CM_field_id_t x = p->f[0], y = p->f[1], a = p->f[2], b = p->f[3], address = p->f[4],
@@ -94,7 +96,8 @@ uint32_t work_paris_fourier(const struct work_paris *p, uint32_t turn)
 
 /* ---- multigrid ---- */
 
-/* dest: the address in that geometry of the processor whose coordinates are ours, doubled or halved. */
+/* dest: the address in that geometry of the processor whose coordinates are ours, doubled or
+ * halved. */
 static void address_make(CM_field_id_t dest, CM_geometry_id_t there, bool doubled,
                          CM_field_id_t spare)
 {

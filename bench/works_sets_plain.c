@@ -7,7 +7,8 @@
 
 enum { SIDE_MOST = 1024 };
 
-/* (x, y) and (u, v), of one row of pairs: the sums; the differences times a factor, which is the same for all, or one for each. */
+/* (x, y) and (u, v), of one row of pairs: the sums; the differences times a factor, which is
+ * the same for all, or one for each. */
 static inline void pair(float *x, float *y, float *u, float *v, float re, float im)
 {
     const float a = *x - *u, b = *y - *v;

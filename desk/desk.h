@@ -19,7 +19,8 @@
  *     desk_play.c      recorded input: events and actions from a file
  *     desk_measure.c   how long the window takes
  *
- * The window never calls what belongs to the paper's thread (studio_paper.h). All of this belongs to GTK's thread. */
+ * The window never calls what belongs to the paper's thread (studio_paper.h). All of this
+ * belongs to GTK's thread. */
 #ifndef LUTETIA_DESK_H
 #define LUTETIA_DESK_H
 
@@ -132,7 +133,8 @@ void desk_ghost_forget(struct desk *d, unsigned long heard);
 /* desk_gl.c */
 struct desk_gl *desk_gl_create(char **why);
 void desk_gl_destroy(struct desk_gl *gl);
-/* The picture's changed rectangle, or all of it where its size is another. False: it is larger than the device can. */
+/* The picture's changed rectangle, or all of it where its size is another. False: it is larger
+ * than the device can. */
 bool desk_gl_picture(struct desk_gl *gl, const struct studio_picture *picture);
 void desk_gl_shown(struct desk_gl *gl, const struct studio_shown *shown);
 void desk_gl_draw(struct desk_gl *gl, const struct desk *d, int scale);
@@ -142,7 +144,8 @@ void desk_gl_draw(struct desk_gl *gl, const struct desk *d, int scale);
 void desk_steady(struct desk *d, double time_s, double *x, double *y);
 void desk_steady_begin(struct desk *d, double time_s, double x, double y);
 bool desk_shapes(const struct desk *d); /* the next way is a line or an ellipse */
-/* From where the hand came down to `to`, all fibers: its place at a part of the way; about how long it is. */
+/* From where the hand came down to `to`, all fibers: its place at a part of the way; about how
+ * long it is. */
 struct studio_place desk_shape_at(const struct desk *d, struct studio_place to, double part);
 double desk_shape_length(const struct desk *d, struct studio_place to);
 
@@ -202,7 +205,8 @@ void desk_past_look(struct desk *d);      /* after a report */
 void desk_past_move(struct desk *d, int by);
 
 /* desk_unsaved.c */
-/* The folder of journals of sheets that were never saved; NULL: it cannot be made. Free it by g_free(). */
+/* The folder of journals of sheets that were never saved; NULL: it cannot be made. Free it by
+ * g_free(). */
 char *desk_unsaved_folder(void);
 /* The newest of them that no living program writes; NULL: there is none. */
 char *desk_unsaved_find(const char *folder);

@@ -1,4 +1,5 @@
-/* desk_actions.c - actions, the menu, the keys. Letters are keys of the window that come after whoever types has had them. */
+/* desk_actions.c - actions, the menu, the keys. Letters are keys of the window that come after
+ * whoever types has had them. */
 #include "desk.h"
 
 #include <math.h>

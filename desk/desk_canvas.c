@@ -1,4 +1,5 @@
-/* desk_canvas.c - the sheet in the window: when it is drawn, what of the hand's way is still a ghost, how it is zoomed. */
+/* desk_canvas.c - the sheet in the window: when it is drawn, what of the hand's way is still a
+ * ghost, how it is zoomed. */
 #include "desk.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
-/* desk_common.c - what all files of the window use: telling people, telling the paper, what the tool leaves. */
+/* desk_common.c - what all files of the window use: telling people, telling the paper, what the
+ * tool leaves. */
 #include "desk.h"
 
 #include "studio_swatch.h"
@@ -40,7 +41,8 @@ double desk_cursor_radius(const struct desk *d)
     const double *value = d->settings.value;
     switch ((enum studio_tool_number)value[STUDIO_TOOL]) {
     case STUDIO_TOOL_BRUSH:
-    case STUDIO_TOOL_WATER: { /* the tuft under this pressure: outer bristles touch last, pressure spreads them */
+    case STUDIO_TOOL_WATER: {
+        /* the tuft under this pressure: outer bristles touch last, pressure spreads them */
         const double touching = 1 - value[STUDIO_POINT] * (1 - d->pressure);
         return value[STUDIO_WIDTH] / 2 * touching * (1 + value[STUDIO_SPLAY] * d->pressure);
     }

@@ -1,5 +1,6 @@
-/* desk_dish.c - the dish: eight wells, each with its water and pigments; the swatch of the one that brushes dip into; the sheet's pigments.
- * The board: where the ball lies is where water flows. */
+/* desk_dish.c - the dish: eight wells, each with its water and pigments; the swatch of the one
+ * that brushes dip into; the sheet's pigments. The board: where the ball lies is where water
+ * flows. */
 #include "desk.h"
 
 #include "studio_swatch.h"
@@ -76,7 +77,8 @@ GtkWidget *desk_dish_new(struct desk *d)
     return box;
 }
 
-/* Another sheet: a row for each of its pigments, and in the wells each pigment alone, then pairs. */
+/* Another sheet: a row for each of its pigments, and in the wells each pigment alone, then
+ * pairs. */
 void desk_panel_sheet(struct desk *d)
 {
     const struct paper_sheet_config *config = &d->report.config;

@@ -1,4 +1,5 @@
-/* desk_files.c - dialogs: a new sheet, files, what is not saved. GTK 4.8 has GtkFileChooserNative and no GtkFileDialog. */
+/* desk_files.c - dialogs: a new sheet, files, what is not saved. GTK 4.8 has
+ * GtkFileChooserNative and no GtkFileDialog. */
 #include "desk.h"
 
 #include <string.h>

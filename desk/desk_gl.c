@@ -1,8 +1,10 @@
-/* desk_gl.c - the canvas in OpenGL 3.2, core profile, or OpenGL ES 3, which GTK prefers from 4.14 on: the sheet as one texture, type that is being set as another one over it, ghosts and the
- * cursor as capsules. It draws into whatever framebuffer is bound, in its viewport.
+/* desk_gl.c - the canvas in OpenGL 3.2, core profile, or OpenGL ES 3, which GTK prefers from
+ * 4.14 on: the sheet as one texture, type that is being set as another one over it, ghosts and
+ * the cursor as capsules. It draws into whatever framebuffer is bound, in its viewport.
  *
- * Sheet. One triangle covers the canvas; each pixel asks where on the sheet it is (the inverse of studio_view_to_canvas()). Where a pixel
- * covers more than a fiber, it takes the mean of several places, so nothing flickers and no seam can be. */
+ * Sheet. One triangle covers the canvas; each pixel asks where on the sheet it is (the inverse
+ * of studio_view_to_canvas()). Where a pixel covers more than a fiber, it takes the mean of
+ * several places, so nothing flickers and no seam can be. */
 #include "desk.h"
 
 #include <epoxy/gl.h>
@@ -284,7 +286,8 @@ static struct studio_place pixel_of(const struct desk *d, int scale, double x, d
     return place;
 }
 
-/* The way that the paper has not done yet: it darkens, and where it crosses itself it darkens once. */
+/* The way that the paper has not done yet: it darkens, and where it crosses itself it darkens
+ * once. */
 static void ghost_draw(struct desk_gl *gl, const struct desk *d, int scale, int width,
                        int height)
 {

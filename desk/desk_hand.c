@@ -1,8 +1,9 @@
-/* desk_hand.c - pointer and pen: from GTK's events to events of input.h, each with its own time, place and pressure, and from those to the
- * paper. GTK joins the moves of a picture into one; the history of that one has them all.
+/* desk_hand.c - pointer and pen: from GTK's events to events of input.h, each with its own
+ * time, place and pressure, and from those to the paper. GTK joins the moves of a picture into
+ * one; the history of that one has them all.
  *
- * A mouse has no pressure: it presses as much as is set, and less the quicker it is. A pen presses as it says. A pen that hovers never
- * paints, since only a press begins a stroke. */
+ * A mouse has no pressure: it presses as much as is set, and less the quicker it is. A pen
+ * presses as it says. A pen that hovers never paints, since only a press begins a stroke. */
 #include "desk.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
-/* desk_main.c - the program lutetia-studio, which `lutetia studio` runs. Its words are of that verb's making, NAME=VALUE, and have been
- * checked there: file, play, fresh, width, height, stock, pigment, seed, theme. */
+/* desk_main.c - the program lutetia-studio, which `lutetia studio` runs. Its words are of that
+ * verb's making, NAME=VALUE, and have been checked there: file, play, fresh, width, height,
+ * stock, pigment, seed, theme. */
 #include "desk.h"
 
 #include <locale.h>

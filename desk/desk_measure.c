@@ -1,10 +1,12 @@
-/* desk_measure.c - how long the window takes: from what a hand does to the picture that shows it, and pictures a second. Recorded input turns it on by
- * `measure NAME`; each measurement ends with the next one, or with the window, and is a line on the standard output:
+/* desk_measure.c - how long the window takes: from what a hand does to the picture that shows
+ * it, and pictures a second. Recorded input turns it on by `measure NAME`; each measurement
+ * ends with the next one, or with the window, and is a line on the standard output:
  *
  *     measured NAME SECONDS PICTURES PROCESSOR_SECONDS SHOWN MEDIAN_S P99_S LONGEST_S STEPS
  *
- * SHOWN counts what was sent to the paper and has been seen since. While something is measured the window draws as often as it can. A
- * picture counts when it has been given to the display. `none` is the name of what is not told. */
+ * SHOWN counts what was sent to the paper and has been seen since. While something is measured
+ * the window draws as often as it can. A picture counts when it has been given to the display.
+ * `none` is the name of what is not told. */
 #include "desk.h"
 
 #include <stdlib.h>

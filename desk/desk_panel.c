@@ -1,4 +1,5 @@
-/* desk_panel.c - tools on the left; on the right the dish, the tool's own controls, time and air: each a row made of the control's table. */
+/* desk_panel.c - tools on the left; on the right the dish, the tool's own controls, time and
+ * air: each a row made of the control's table. */
 #include "desk.h"
 
 void desk_panel_fill(struct desk *d)

@@ -1,5 +1,6 @@
-/* desk_past.c - time under the hand: the deeds of the past as a row of small pictures, which is dragged; and what can be done at the moment that is
- * visited. The slider says the same to a keyboard and to a screen reader. */
+/* desk_past.c - time under the hand: the deeds of the past as a row of small pictures, which is
+ * dragged; and what can be done at the moment that is visited. The slider says the same to a
+ * keyboard and to a screen reader. */
 #include "desk.h"
 
 enum {

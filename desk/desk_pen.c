@@ -1,7 +1,9 @@
-/* desk_pen.c - a pen's pressure and tilt on X11, where GTK tells them only of pens whose driver names their tool.
+/* desk_pen.c - a pen's pressure and tilt on X11, where GTK tells them only of pens whose driver
+ * names their tool.
  *
- * Each report of XInput 2 passes by before GTK joins it with others. Those of devices that have an axis "Abs Pressure" are kept for a
- * moment, with their times, and found again by them. Elsewhere (Wayland) pens have tools, and nothing of this is needed. */
+ * Each report of XInput 2 passes by before GTK joins it with others. Those of devices that have
+ * an axis "Abs Pressure" are kept for a moment, with their times, and found again by them.
+ * Elsewhere (Wayland) pens have tools, and nothing of this is needed. */
 #include "desk_shared.h"
 
 #ifdef LUTETIA_DESK_X11

@@ -1,5 +1,5 @@
-/* desk_play.c - recorded input (studio_input.h) in place of a hand: below GTK, as what its events have been made into, each when its time
- * has come. */
+/* desk_play.c - recorded input (studio_input.h) in place of a hand: below GTK, as what its
+ * events have been made into, each when its time has come. */
 #include "desk.h"
 
 #include "studio_input.h"

@@ -1,5 +1,5 @@
-/* desk_rows.c - a control as a row: its name, a slider or a choice or a switch, its number, and a button for what is usual. All of it is
- * made of the control's row in the table. */
+/* desk_rows.c - a control as a row: its name, a slider or a choice or a switch, its number, and
+ * a button for what is usual. All of it is made of the control's row in the table. */
 #include "desk.h"
 
 #include <ctype.h>

@@ -1,18 +1,21 @@
-/* desk_shared.h - what the studio's and the reader's window share: names for screen readers, a pen's pressure. */
+/* desk_shared.h - what the studio's and the reader's window share: names for screen readers, a
+ * pen's pressure. */
 #ifndef LUTETIA_DESK_SHARED_H
 #define LUTETIA_DESK_SHARED_H
 
 #include <gtk/gtk.h>
 #include <stdbool.h>
 
-/* desk_name.c: what a screen reader says of a control, and what is shown under the pointer (NULL: nothing). */
+/* desk_name.c: what a screen reader says of a control, and what is shown under the pointer
+ * (NULL: nothing). */
 void desk_name(GtkWidget *widget, const char *name, const char *tip);
 
 struct desk_pen;
 /* desk_pen.c */
 struct desk_pen *desk_pen_create(GtkWidget *canvas);
 void desk_pen_destroy(struct desk_pen *pen);
-/* A pen's report at that time in milliseconds, as near as there is one. False: no pen has spoken. */
+/* A pen's report at that time in milliseconds, as near as there is one. False: no pen has
+ * spoken. */
 bool desk_pen_at(struct desk_pen *pen, guint32 time_ms, double *pressure, double tilt[2]);
 
 #endif

@@ -1,5 +1,6 @@
-/* desk_type.c - type that is typed straight on the sheet, with the input method of the desktop. Until it is let into the paper it is a
- * stencil that can be changed and moved; text that the input method composes (preedit) is shown in its place. */
+/* desk_type.c - type that is typed straight on the sheet, with the input method of the desktop.
+ * Until it is let into the paper it is a stencil that can be changed and moved; text that the
+ * input method composes (preedit) is shown in its place. */
 #include "desk.h"
 
 #include <string.h>

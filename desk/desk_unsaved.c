@@ -1,4 +1,5 @@
-/* desk_unsaved.c - journals of sheets that have no file yet: sheet-PROCESS-NUMBER.journal in the user's own folder for data. */
+/* desk_unsaved.c - journals of sheets that have no file yet: sheet-PROCESS-NUMBER.journal in
+ * the user's own folder for data. */
 #include "desk.h"
 
 #include <errno.h>

@@ -1,4 +1,5 @@
-/* desk_window.c - the window: header, tools, sheet, panel, a line of state; and what the paper reports. */
+/* desk_window.c - the window: header, tools, sheet, panel, a line of state; and what the paper
+ * reports. */
 #include "desk.h"
 
 #include <visible_text.h>

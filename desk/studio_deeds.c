@@ -33,7 +33,8 @@ static int brush_number(const struct studio_session *s)
     return s->inserting >= 0 ? PAPER_BRUSHES_MAX - 1 : 0;
 }
 
-/* Only what a brush was dipped in is different from stroke to stroke; a brush that is as it was stays as it is. */
+/* Only what a brush was dipped in is different from stroke to stroke; a brush that is as it was
+ * stays as it is. */
 static enum paper_status brush_ready(struct studio_session *s,
                                      const struct studio_settings *settings)
 {
@@ -66,8 +67,9 @@ static enum paper_status brush_dip(struct studio_session *s,
     return paper_sheet_dip(s->sheet, &dip);
 }
 
-/* The brush comes down: from here on it paints as the samples come. Where time stands still, it stands still under the brush, too; else
- * the paper makes as many steps a second as are set, or as it can. */
+/* The brush comes down: from here on it paints as the samples come. Where time stands still, it
+ * stands still under the brush, too; else the paper makes as many steps a second as are set, or
+ * as it can. */
 static enum paper_status stroke_begin(struct studio_session *s)
 {
     const struct studio_tool *tool = studio_tool_of(&s->at);
@@ -137,7 +139,8 @@ static enum paper_status swept_apply(struct studio_session *s,
     return PAPER_OK;
 }
 
-/* The way as wide as the brush under the hand's pressure; a drop falls where the hand came down. */
+/* The way as wide as the brush under the hand's pressure; a drop falls where the hand came
+ * down. */
 static enum paper_status swept_do(struct studio_session *s)
 {
     const struct paper_sheet_config *config = paper_sheet_get_config(s->sheet);

@@ -7,9 +7,11 @@
  *     0.900      up         60 80 0.3
  *     1.000      undo
  *
- * Words: set NAME VALUE (studio_settings.h); down, move, up X Y [PRESSURE [TILT_X TILT_Y]] with the units of input.h, no pressure being a
- * mouse; middle-down, middle-up; leave; focus-lost; action NAME [WORD]; step N; view ZOOM X Y DEGREES MIRRORED; moment N (after so many deeds); type X Y TEXT (in fibers;
- * \n is a new line); undo, redo, dry, seal, save FILE, picture FILE, script FILE, measure NAME (desk_measure.c), close. Times do not go back. */
+ * Words: set NAME VALUE (studio_settings.h); down, move, up X Y [PRESSURE [TILT_X TILT_Y]] with
+ * the units of input.h, no pressure being a mouse; middle-down, middle-up; leave; focus-lost;
+ * action NAME [WORD]; step N; view ZOOM X Y DEGREES MIRRORED; moment N (after so many deeds);
+ * type X Y TEXT (in fibers; \n is a new line); undo, redo, dry, seal, save FILE, picture FILE,
+ * script FILE, measure NAME (desk_measure.c), close. Times do not go back. */
 #ifndef LUTETIA_STUDIO_INPUT_H
 #define LUTETIA_STUDIO_INPUT_H
 
@@ -45,7 +47,8 @@ struct studio_input {
     char text[STUDIO_INPUT_TEXT]; /* ACTION: its word; TYPE, SAVE, PICTURE */
 };
 
-/* Reads a line without its end. 1: it is something; 0: empty or a comment; -1: `why` says in some words what is wrong. */
+/* Reads a line without its end. 1: it is something; 0: empty or a comment; -1: `why` says in
+ * some words what is wrong. */
 int studio_input_parse(const char *line, struct studio_input *out, char *why, size_t room);
 
 #endif

@@ -93,7 +93,8 @@ void studio_keeper_end(struct studio_keeper *k)
 
 /* ---- journals ---- */
 
-/* The journal that there is goes: its file too, unless `path` is its name, whose file the next journal replaces. */
+/* The journal that there is goes: its file too, unless `path` is its name, whose file the next
+ * journal replaces. */
 static void journal_leave(struct studio_keeper *k, const char *path)
 {
     paper_journal_close(k->journal);

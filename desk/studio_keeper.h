@@ -1,9 +1,11 @@
-/* studio_keeper.h - the keeper's thread: once a second it brings to the disk what was done with the sheet since it was saved (journal.h).
+/* studio_keeper.h - the keeper's thread: once a second it brings to the disk what was done with
+ * the sheet since it was saved (journal.h).
  *
  *     studio_keeper_begin(&keeper);
  *     studio_keeper_watch(&keeper, sheet, "marsh.h5.journal", "marsh.h5");
  *     ...
- *     studio_keeper_leave(&keeper);           // before the sheet goes: the journal is not needed any more, and removed
+ *     // before the sheet goes: the journal is not needed any more, and removed
+ *     studio_keeper_leave(&keeper);
  *     studio_keeper_end(&keeper);
  *
  * Threads: all functions belong to the paper's thread. */
@@ -32,9 +34,10 @@ struct studio_keeper {
 bool studio_keeper_begin(struct studio_keeper *k);
 void studio_keeper_end(struct studio_keeper *k);
 
-/* Begins a journal of a sheet that was just saved in, or loaded from, `state` (NULL: as it was made), or goes on in the one that it was
- * opened with. A journal before that is closed; it is removed if it has another name. Errors: as paper_journal_begin(); then the sheet is
- * not kept. */
+/* Begins a journal of a sheet that was just saved in, or loaded from, `state` (NULL: as it was
+ * made), or goes on in the one that it was opened with. A journal before that is closed; it is
+ * removed if it has another name. Errors: as paper_journal_begin(); then the sheet is not
+ * kept. */
 enum paper_status studio_keeper_watch(struct studio_keeper *k, struct paper_sheet *sheet,
                                       const char *path, const char *state);
 enum paper_status studio_keeper_continue(struct studio_keeper *k, struct paper_sheet *sheet,
@@ -44,8 +47,8 @@ enum paper_status studio_keeper_continue(struct studio_keeper *k, struct paper_s
 bool studio_keeper_held(const struct studio_keeper *k, const char *path);
 /* Closes the journal and removes its file. */
 void studio_keeper_leave(struct studio_keeper *k);
-/* A journal that cannot be gone on with gets another name, PATH.kept or PATH.kept-2 and so on, so that no other journal takes its place.
- * False: it cannot be renamed; errno says why. */
+/* A journal that cannot be gone on with gets another name, PATH.kept or PATH.kept-2 and so on,
+ * so that no other journal takes its place. False: it cannot be renamed; errno says why. */
 bool studio_keeper_set_aside(const char *path, char *kept, size_t room);
 /* True, once for each failure: the last sync failed, and `text` says why. */
 bool studio_keeper_failed(struct studio_keeper *k, char *text, size_t room);

@@ -1,4 +1,5 @@
-/* studio_mask.h - where a hand has swept: the discs along its way as a screen, with soft edges a fiber wide.
+/* studio_mask.h - where a hand has swept: the discs along its way as a screen, with soft edges
+ * a fiber wide.
  *
  *     struct paper_screen screen;
  *     int x, y;
@@ -14,8 +15,9 @@ struct studio_disc {
     double x, y, radius; /* fibers */
 };
 
-/* Between two discs lies what a disc covers that goes from one to the other and grows evenly. It is clipped to 0, 0, width, height; if
- * nothing is left, the screen is empty (gray NULL). Errors: NO_MEMORY. Owns: the caller destroys *screen. */
+/* Between two discs lies what a disc covers that goes from one to the other and grows evenly.
+ * It is clipped to 0, 0, width, height; if nothing is left, the screen is empty (gray NULL).
+ * Errors: NO_MEMORY. Owns: the caller destroys *screen. */
 enum paper_status studio_mask_sweep(const struct studio_disc *discs, int count, int width,
                                     int height, struct paper_screen *screen, int *x, int *y);
 

@@ -1,11 +1,13 @@
-/* studio_messages.h - what a window tells the paper's thread: in order, none lost, none merged, and without waiting.
+/* studio_messages.h - what a window tells the paper's thread: in order, none lost, none merged,
+ * and without waiting.
  *
  *     window:  studio_messages_put(&ring, &message);          // as often as there are events
  *              studio_messages_flush(&ring);                  // once a picture
  *     paper:   while (studio_messages_take(&ring, &message)) ...
  *
- * A ring of STUDIO_MESSAGES_MAX places goes from one thread to the other. What finds no place there waits in a list of the window's own,
- * and moves on in its order when there is room again.
+ * A ring of STUDIO_MESSAGES_MAX places goes from one thread to the other. What finds no place
+ * there waits in a list of the window's own, and moves on in its order when there is room
+ * again.
  *
  * Threads: one that puts and flushes, one that takes. */
 #ifndef LUTETIA_STUDIO_MESSAGES_H
@@ -68,7 +70,8 @@ struct studio_messages {
 };
 void studio_messages_begin(struct studio_messages *m);
 void studio_messages_finish(struct studio_messages *m);
-/* Gives the message its number, which it returns, and takes what belongs to it over. 0: no memory for a list; the message was freed. */
+/* Gives the message its number, which it returns, and takes what belongs to it over. 0: no
+ * memory for a list; the message was freed. */
 unsigned long studio_messages_put(struct studio_messages *m, struct studio_message message);
 void studio_messages_flush(struct studio_messages *m);
 /* False: there is none now. */

@@ -2,8 +2,9 @@
  *
  *     take messages -> do them -> steps that are due -> a picture, if the last one has been looked at -> wait
  *
- * The hand comes first: no more than STEPS_AT_ONCE steps are done between two looks at the messages. Steps that the machine is too slow for
- * are left out, so that time on the paper never runs after the hand. */
+ * The hand comes first: no more than STEPS_AT_ONCE steps are done between two looks at the
+ * messages. Steps that the machine is too slow for are left out, so that time on the paper
+ * never runs after the hand. */
 #include "studio_paper_internal.h"
 #include "studio_session_internal.h"
 

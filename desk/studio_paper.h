@@ -1,5 +1,5 @@
-/* studio_paper.h - the paper's thread: it owns the machine, the sheet and its history, paints what the window tells it, lets time go by,
- * and makes pictures as fast as they are looked at.
+/* studio_paper.h - the paper's thread: it owns the machine, the sheet and its history, paints
+ * what the window tells it, lets time go by, and makes pictures as fast as they are looked at.
  *
  *     struct studio_paper *paper = studio_paper_start(&(struct studio_paper_def){.config = config, .wake = wake, .context = window});
  *     studio_paper_send(paper, (struct studio_message){.kind = STUDIO_MESSAGE_POINT, .point = point});
@@ -7,8 +7,8 @@
  *     studio_paper_report(paper, &report);
  *     studio_paper_end(paper, true, &report);
  *
- * Threads: all functions belong to the thread that started it. `wake` is called by the paper's thread when there is a new picture or
- * another report; it returns at once. */
+ * Threads: all functions belong to the thread that started it. `wake` is called by the paper's
+ * thread when there is a new picture or another report; it returns at once. */
 #ifndef LUTETIA_STUDIO_PAPER_H
 #define LUTETIA_STUDIO_PAPER_H
 
@@ -61,8 +61,9 @@ struct studio_paper;
 
 /* NULL: there is no thread, or no memory. */
 struct studio_paper *studio_paper_start(const struct studio_paper_def *def);
-/* All that was told is done first. *last (may be NULL) gets what is reported at the end. forget: what is not saved may go; else its journal
- * stays, and the sheet can be found again. NULL is fine. */
+/* All that was told is done first. *last (may be NULL) gets what is reported at the end.
+ * forget: what is not saved may go; else its journal stays, and the sheet can be found again.
+ * NULL is fine. */
 void studio_paper_end(struct studio_paper *paper, bool forget, struct studio_report *last);
 
 unsigned long studio_paper_send(struct studio_paper *paper, struct studio_message message);
@@ -72,7 +73,8 @@ void studio_paper_report(struct studio_paper *paper, struct studio_report *out);
 /* NULL: no new one. It stays as it is until the next call. */
 const struct studio_picture *studio_paper_picture(struct studio_paper *paper);
 
-/* Stops a past that flows anew; the picture stays that of before, until something else is done or STUDIO_MESSAGE_FLOW comes. */
+/* Stops a past that flows anew; the picture stays that of before, until something else is done
+ * or STUDIO_MESSAGE_FLOW comes. */
 void studio_paper_stop(struct studio_paper *paper);
 
 /* The deeds of the past, with a small picture of the sheet after each that has been seen. */
@@ -86,11 +88,12 @@ struct studio_past {
         uint8_t rgb[3 * STUDIO_SMALL_WIDTH * STUDIO_SMALL_HEIGHT];
     } * deeds;
 };
-/* Fills *past, which began as zeros. False: no memory; it is as it was. Owns: the caller frees past->deeds. */
+/* Fills *past, which began as zeros. False: no memory; it is as it was. Owns: the caller frees
+ * past->deeds. */
 bool studio_paper_past(struct studio_paper *paper, struct studio_past *past);
 
-/* The type that is shown, as a screen with its place. False: none, or the same as at the last call (*same). gray belongs to the paper until
- * the next call. */
+/* The type that is shown, as a screen with its place. False: none, or the same as at the last
+ * call (*same). gray belongs to the paper until the next call. */
 struct studio_shown {
     int x, y, width, height;
     const uint8_t *gray;

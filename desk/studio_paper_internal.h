@@ -47,18 +47,20 @@ struct studio_paper {
 
 /* The last failure is reported. */
 void studio_paper_complain(struct studio_paper *p);
-/* Sheets (studio_paper_sheets.c): a new one; a file with the journal beside it, or a journal alone. They take the place of the one before, unless
- * they cannot be made. */
+/* Sheets (studio_paper_sheets.c): a new one; a file with the journal beside it, or a journal
+ * alone. They take the place of the one before, unless they cannot be made. */
 void studio_paper_sheet_make(struct studio_paper *p, const struct paper_sheet_config *config);
 void studio_paper_sheet_open(struct studio_paper *p, const char *path, const char *journal);
 /* Whether another studio has the file open; then that is the failure. */
 bool studio_paper_held(struct studio_paper *p, const char *path);
-/* From here on what is done with the sheet is kept: beside its file, or in the folder of those that have none. found NULL: none was read. */
+/* From here on what is done with the sheet is kept: beside its file, or in the folder of those
+ * that have none. found NULL: none was read. */
 void studio_paper_journal(struct studio_paper *p, const char *path, const char *journal,
                           const struct paper_journal_found *found);
 
-/* The past (studio_paper_past.c): watches the sheet's, after a look that went well or not, takes a small picture, forgets small pictures from a
- * deed on, lists the deeds where there are others. */
+/* The past (studio_paper_past.c): watches the sheet's, after a look that went well or not,
+ * takes a small picture, forgets small pictures from a deed on, lists the deeds where there are
+ * others. */
 void studio_paper_flow_watch(struct studio_paper *p);
 void studio_paper_flowed(struct studio_paper *p, bool good);
 void studio_paper_pictured(struct studio_paper *p);

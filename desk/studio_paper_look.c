@@ -40,8 +40,8 @@ static struct studio_rectangle canvas_fill(struct studio_pictures *pictures, con
     return changed;
 }
 
-/* The number of the last message that can be seen: of a stroke that grows the newest samples are not painted yet, and of another deed
- * nothing is before the hand is lifted. */
+/* The number of the last message that can be seen: of a stroke that grows the newest samples
+ * are not painted yet, and of another deed nothing is before the hand is lifted. */
 static unsigned long seen_of(const struct studio_paper *p)
 {
     if (!studio_session_busy(p->session))

@@ -1,4 +1,5 @@
-/* studio_paper_past.c - the past as the window shows it: deeds with small pictures; and how far the past has flowed anew. */
+/* studio_paper_past.c - the past as the window shows it: deeds with small pictures; and how far
+ * the past has flowed anew. */
 #include "studio_paper_internal.h"
 
 #include <array.h>

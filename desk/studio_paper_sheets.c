@@ -1,4 +1,5 @@
-/* studio_paper_sheets.c - the paper's thread: sheets that are made and opened, and their journals. */
+/* studio_paper_sheets.c - the paper's thread: sheets that are made and opened, and their
+ * journals. */
 #include "studio_paper_internal.h"
 #include "studio_session_internal.h"
 
@@ -71,7 +72,8 @@ void studio_paper_journal(struct studio_paper *p, const char *path, const char *
         studio_paper_complain(p);
 }
 
-/* What a journal that was left behind says too little about; and it is kept, if another one would take its place. False: it would not be. */
+/* What a journal that was left behind says too little about; and it is kept, if another one
+ * would take its place. False: it would not be. */
 static bool journal_judge(struct studio_paper *p, const char *journal, const char *why,
                           bool goes_on)
 {

@@ -1,11 +1,13 @@
-/* studio_past.c - time under the hand: the deeds of the past, going there, and doing something there.
+/* studio_past.c - time under the hand: the deeds of the past, going there, and doing something
+ * there.
  *
  *     operations   brush dip stroke | dip stroke step x 90 | put step x 30
  *     deeds        0                | 1                    | 2
  *                                   ^ visited: `done`                      ^ `present`
  *
- * Who paints while an earlier moment is visited inserts: what followed is taken away until the present is gone to, and then flows anew. An
- * inserted brush has a number of its own and is made anew, so that strokes which follow find theirs as they left it. */
+ * Who paints while an earlier moment is visited inserts: what followed is taken away until the
+ * present is gone to, and then flows anew. An inserted brush has a number of its own and is
+ * made anew, so that strokes which follow find theirs as they left it. */
 #include "studio_session_internal.h"
 
 #include <arguments.h>
@@ -16,7 +18,8 @@
 
 /* ---- deeds ---- */
 
-/* Operations first..end - 1 are a deed: the brushes and dips before it, itself, and the time after it. */
+/* Operations first..end - 1 are a deed: the brushes and dips before it, itself, and the time
+ * after it. */
 struct span {
     int first, itself, end;
 };

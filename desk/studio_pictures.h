@@ -1,16 +1,20 @@
-/* studio_pictures.h - pictures from one thread to another through three places; neither waits for the other.
+/* studio_pictures.h - pictures from one thread to another through three places; neither waits
+ * for the other.
  *
  *     studio_pictures_begin(&p, width, height);
  *     one thread:  paint (p.canvas); studio_pictures_publish(&p, &changed, heard);
- *     the other:   const struct studio_picture *seen = studio_pictures_take(&p); // NULL: nothing new
+ *     // NULL: nothing new
+ *     the other:   const struct studio_picture *seen = studio_pictures_take(&p);
  *
  *     canvas ---changed rectangles---> [being written] <-> [newest] <-> [being looked at]
  *
- * The painter keeps one picture, the canvas, and copies what has changed of it to one of three places, which then becomes the newest. Who
- * looks takes the newest; what he takes stays as it is until he takes another one. A picture tells in which rectangle it may differ from
- * the one that was taken before it, though others between them were never taken.
+ * The painter keeps one picture, the canvas, and copies what has changed of it to one of three
+ * places, which then becomes the newest. Who looks takes the newest; what he takes stays as it
+ * is until he takes another one. A picture tells in which rectangle it may differ from the one
+ * that was taken before it, though others between them were never taken.
  *
- * Threads: one that publishes, one that takes. The lock is held while numbers are exchanged, never while pixels are copied. */
+ * Threads: one that publishes, one that takes. The lock is held while numbers are exchanged,
+ * never while pixels are copied. */
 #ifndef LUTETIA_STUDIO_PICTURES_H
 #define LUTETIA_STUDIO_PICTURES_H
 

@@ -1,4 +1,5 @@
-/* studio_session.h - what a hand does, done to a sheet: tools, strokes, undo. Without a window and without threads of its own.
+/* studio_session.h - what a hand does, done to a sheet: tools, strokes, undo. Without a window
+ * and without threads of its own.
  *
  *     struct studio_session *session;
  *     if (studio_session_create(&config, 256e6, &session) != PAPER_OK)
@@ -9,13 +10,16 @@
  *     studio_session_steps(session, 60);
  *     studio_session_undo(session);
  *
- * A deed is what one undo takes back: a stroke with the brush and the dip before it, a wash, a drop, type, drying; and the time after it. A
- * deed begins with the tool and the settings of that moment, and keeps them until the hand is lifted. Deeds are found in the sheet's own
+ * A deed is what one undo takes back: a stroke with the brush and the dip before it, a wash, a
+ * drop, type, drying; and the time after it. A deed begins with the tool and the settings of
+ * that moment, and keeps them until the hand is lifted. Deeds are found in the sheet's own
  * history (history.h), so a sheet that was saved and opened again can be undone, too.
  *
- * After an undo time stands still, as long as there is something to redo: a step would be the beginning of another present.
+ * After an undo time stands still, as long as there is something to redo: a step would be the
+ * beginning of another present.
  *
- * Errors: as paper.h says, but the text is where studio_session_error() finds it. Threads: as paper.h says. */
+ * Errors: as paper.h says, but the text is where studio_session_error() finds it. Threads: as
+ * paper.h says. */
 #ifndef LUTETIA_STUDIO_SESSION_H
 #define LUTETIA_STUDIO_SESSION_H
 
@@ -47,17 +51,19 @@ struct studio_type {
 
 struct studio_session;
 
-/* Detail of this thread's last failure since it was forgotten, one line; "" if there was none, never NULL. */
+/* Detail of this thread's last failure since it was forgotten, one line; "" if there was none,
+ * never NULL. */
 const char *studio_session_error(void);
 void studio_session_error_forget(void);
 
 enum paper_status studio_session_create(const struct paper_sheet_config *config,
                                         double budget_bytes, struct studio_session **out);
-/* Opens what studio_session_save() saved, or any saved state with one sheet. Errors: as paper_state_load(), and BAD_FILE of a sheet
- * without parts. */
+/* Opens what studio_session_save() saved, or any saved state with one sheet. Errors: as
+ * paper_state_load(), and BAD_FILE of a sheet without parts. */
 enum paper_status studio_session_open(const char *path, double budget_bytes,
                                       struct studio_session **out);
-/* The same with what its journal tells (journal.h); state NULL: a sheet that was never saved. */
+/* The same with what its journal tells (journal.h); state NULL: a sheet that was never
+ * saved. */
 enum paper_status studio_session_find(const char *journal, const char *state,
                                       double budget_bytes, struct paper_journal_found *found,
                                       struct studio_session **out);
@@ -75,9 +81,11 @@ enum paper_status studio_session_point(struct studio_session *session,
 /* Whether a hand is down; whether it paints a stroke, which is on the sheet already. */
 bool studio_session_busy(const struct studio_session *session);
 bool studio_session_grows(const struct studio_session *session);
-/* The hand has rested so long: the paper goes on under it. Nothing where time stands still, or no stroke is painted. */
+/* The hand has rested so long: the paper goes on under it. Nothing where time stands still, or
+ * no stroke is painted. */
 enum paper_status studio_session_rest(struct studio_session *session, double seconds);
-/* The steps that the paper has made under the stroke, or the last one; how many a second strokes may ask for at the most (0: any). */
+/* The steps that the paper has made under the stroke, or the last one; how many a second
+ * strokes may ask for at the most (0: any). */
 int studio_session_stroke_steps(const struct studio_session *session);
 void studio_session_pace_most(struct studio_session *session, double pace);
 /* A brush that is dipped, rinsed (clean water) or wiped: no deed of its own. */
@@ -85,7 +93,8 @@ enum studio_care { STUDIO_DIP, STUDIO_RINSE, STUDIO_WIPE };
 enum paper_status studio_session_care(struct studio_session *session, enum studio_care care);
 enum paper_status studio_session_dry(struct studio_session *session);
 enum paper_status studio_session_seal(struct studio_session *session);
-/* What the type covers, with its place on the sheet; the caller destroys *screen. Errors: as paper_line_screen(). */
+/* What the type covers, with its place on the sheet; the caller destroys *screen. Errors: as
+ * paper_line_screen(). */
 enum paper_status studio_session_type_screen(const struct studio_settings *settings,
                                              const struct studio_type *type,
                                              struct paper_screen *screen, int *x, int *y,
@@ -113,7 +122,8 @@ bool studio_session_can_redo(const struct studio_session *session);
 
 /* ---- the past ---- */
 
-/* Deeds in their order, with those that are undone. While something is inserted, what follows it is not among them. */
+/* Deeds in their order, with those that are undone. While something is inserted, what follows
+ * it is not among them. */
 struct studio_deed {
     const char *what; /* the operation: "stroke", "wash", "put", ... */
     long time, steps; /* gone by before it; that it took, with the time after it */
@@ -123,20 +133,22 @@ struct studio_deed {
 enum paper_status studio_session_deeds(const struct studio_session *session,
                                        struct studio_deed **deeds, int *count);
 int studio_session_deeds_done(const struct studio_session *session);
-/* Goes to the moment after so many deeds and the time after the last of them. An insertion ends before, and is kept. Errors: BAD_ARGUMENT
- * (there are not so many; a hand is down). */
+/* Goes to the moment after so many deeds and the time after the last of them. An insertion ends
+ * before, and is kept. Errors: BAD_ARGUMENT (there are not so many; a hand is down). */
 enum paper_status studio_session_visit(struct studio_session *session, int deeds);
-/* Whether an earlier moment is visited; whether something is being inserted there. A deed that is begun there is inserted: it takes no
- * time, and has the air of that moment. */
+/* Whether an earlier moment is visited; whether something is being inserted there. A deed that
+ * is begun there is inserted: it takes no time, and has the air of that moment. */
 bool studio_session_visits(const struct studio_session *session);
 bool studio_session_inserts(const struct studio_session *session);
-/* Back to the present; what followed an insertion flows anew when somebody looks, and one undo takes the insertion out. Errors: BAD_ARGUMENT (a hand is down), NO_MEMORY. */
+/* Back to the present; what followed an insertion flows anew when somebody looks, and one undo
+ * takes the insertion out. Errors: BAD_ARGUMENT (a hand is down), NO_MEMORY. */
 enum paper_status studio_session_present(struct studio_session *session);
 /* The visited moment is the present: what followed is as if it had been undone. */
 void studio_session_from_here(struct studio_session *session);
-/* Of the last deed before the visited moment: takes it out, and its time stays; paints it with what is in the dish now; gives a stroke the
- * way of the hand's next one. The present is gone to. Errors: BAD_ARGUMENT (no such deed; nothing of the dish was in it; no stroke; a hand
- * is down; something is inserted), NO_MEMORY, MACHINE_FAILED. */
+/* Of the last deed before the visited moment: takes it out, and its time stays; paints it with
+ * what is in the dish now; gives a stroke the way of the hand's next one. The present is gone
+ * to. Errors: BAD_ARGUMENT (no such deed; nothing of the dish was in it; no stroke; a hand is
+ * down; something is inserted), NO_MEMORY, MACHINE_FAILED. */
 enum paper_status studio_session_remove(struct studio_session *session);
 enum paper_status studio_session_dish(struct studio_session *session);
 enum paper_status studio_session_way(struct studio_session *session);
@@ -145,7 +157,8 @@ bool studio_session_way_waits(const struct studio_session *session);
 /* ---- files ---- */
 
 enum paper_status studio_session_save(struct studio_session *session, const char *path);
-/* The picture as it is looked at, with 16 bits a channel; scale: pixels a fiber each way, 1, 2 or 4. */
+/* The picture as it is looked at, with 16 bits a channel; scale: pixels a fiber each way, 1, 2
+ * or 4. */
 enum paper_status studio_session_picture(struct studio_session *session, const char *path,
                                          int scale);
 

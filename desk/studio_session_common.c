@@ -1,4 +1,5 @@
-/* studio_session_common.c - what the files of a session use: failures, the deed in the hand, the air. */
+/* studio_session_common.c - what the files of a session use: failures, the deed in the hand,
+ * the air. */
 #include "studio_session_internal.h"
 
 #include <error_text.h>

@@ -39,14 +39,16 @@ void studio_session_drop(struct studio_session *s);
 enum paper_status studio_session_air(struct studio_session *s);
 struct paper_sheet_view studio_session_view(const struct studio_session *s);
 
-/* What an operation is to a deed: brushes and dips belong to the deed that follows, time and air to the one before. */
+/* What an operation is to a deed: brushes and dips belong to the deed that follows, time and
+ * air to the one before. */
 enum studio_part { STUDIO_PART_BEFORE, STUDIO_PART_DEED, STUDIO_PART_AFTER };
 enum studio_part studio_session_part(const struct studio_session *s, int number);
 
 /* Nothing has been done since an insertion ended: one undo takes all of it out. */
 bool studio_session_inserted(const struct studio_session *s);
 
-/* Before a deed: where an earlier moment is visited, what is done from now on is inserted there. */
+/* Before a deed: where an earlier moment is visited, what is done from now on is inserted
+ * there. */
 enum paper_status studio_session_insert(struct studio_session *s);
 /* The stroke gets the way that the hand has drawn. */
 enum paper_status studio_session_way_end(struct studio_session *s);

@@ -1,11 +1,13 @@
-/* studio_settings.h - all that can be set in the studio, as controls (control.h), and its tools.
+/* studio_settings.h - all that can be set in the studio, as controls (control.h), and its
+ * tools.
  *
  *     struct studio_settings settings;
  *     studio_settings_usual(&settings);
  *     stage_control_write(&studio_controls[STUDIO_WIDTH], &settings, 30);
  *     const struct studio_tool *tool = studio_tool_of(&settings);
  *
- * The window's sliders, the keys, the recorded input and the tests read the same two tables. Lengths are fibers.
+ * The window's sliders, the keys, the recorded input and the tests read the same two tables.
+ * Lengths are fibers.
  *
  * Threads: each has settings of its own; the tables are constant. */
 #ifndef LUTETIA_STUDIO_SETTINGS_H
@@ -88,7 +90,8 @@ struct studio_settings {
 extern const struct stage_control studio_controls[STUDIO_SETTINGS];
 void studio_settings_usual(struct studio_settings *settings);
 
-/* The bristles' settings become those of a kind of brushes, from 0 as in the control's choices. */
+/* The bristles' settings become those of a kind of brushes, from 0 as in the control's
+ * choices. */
 void studio_settings_kind(struct studio_settings *settings, int kind);
 /* The brush that the settings describe. */
 struct paper_brush studio_settings_brush(const struct studio_settings *settings);

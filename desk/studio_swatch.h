@@ -3,7 +3,8 @@
  *     double rgb[3];
  *     studio_swatch(&config, amount, rgb);
  *
- * It is what a dry layer of these amounts looks like by the sheet's rule (docs/paper.md: Kubelka and Munk), even and without relief. */
+ * It is what a dry layer of these amounts looks like by the sheet's rule (docs/paper.md:
+ * Kubelka and Munk), even and without relief. */
 #ifndef LUTETIA_STUDIO_SWATCH_H
 #define LUTETIA_STUDIO_SWATCH_H
 

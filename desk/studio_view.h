@@ -8,8 +8,8 @@
  *
  *     middle of the canvas + zoom * turned by `turn` (mirrored if so: -(x - x0), else x - x0; y - y0)
  *
- * in the canvas's own units, which are GTK's: one is one or more pixels of the screen. So nothing depends on the screen's scale.
- * Angles are radians, from x towards y. */
+ * in the canvas's own units, which are GTK's: one is one or more pixels of the screen. So
+ * nothing depends on the screen's scale. Angles are radians, from x towards y. */
 #ifndef LUTETIA_STUDIO_VIEW_H
 #define LUTETIA_STUDIO_VIEW_H
 

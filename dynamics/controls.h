@@ -17,7 +17,8 @@
 
 #include <stddef.h>
 
-/* The curve of a slider. LOGARITHMIC and CENTRED: the usual value is in its middle. SWITCH: 0 or 1. CHOICE: the number of one of the choices. */
+/* The curve of a slider. LOGARITHMIC and CENTRED: the usual value is in its middle. SWITCH: 0
+ * or 1. CHOICE: the number of one of the choices. */
 enum dyn_curve { DYN_LINEAR, DYN_LOGARITHMIC, DYN_CENTRED, DYN_SWITCH, DYN_CHOICE };
 
 struct dyn_control {
@@ -52,8 +53,8 @@ extern const int dyn_controls_count;
  * valid for ever. */
 const struct dyn_control *dyn_control_find(const char *name);
 
-/* The row of that name in any table, valid as long as the table; NULL: there is none, and `names` has their names, as many as
- * there is room for. */
+/* The row of that name in any table, valid as long as the table; NULL: there is none, and
+ * `names` has their names, as many as there is room for. */
 const struct dyn_control *dyn_row_find(const struct dyn_control *rows, int count,
                                        const char *name, char *names, size_t room);
 

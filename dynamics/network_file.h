@@ -5,7 +5,8 @@
  *         die(dyn_error());
  *     struct dyn_network *again;
  *     if (dyn_network_read("word.springs", &again) != DYN_OK)
- *         die(dyn_error());                      // word.springs:12: a spring cannot go from mass 3 to itself
+ *         // word.springs:12: a spring cannot go from mass 3 to itself
+ *         die(dyn_error());
  *
  * Everything is written except waiting events.
  *

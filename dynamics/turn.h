@@ -2,7 +2,8 @@
  * step_kernel.h.
  *
  *     memory      x0 y0 vx0 vy0   x1 y1 vx1 vy1   ...          fx0 fy0   fx1 fy1   ...
- *     lanes       x0 x1 ...   y0 y1 ...   vx0 vx1 ...   vy0 vy1 ...        fx0 fx1 ...   fy0 fy1
+ *     lanes       x0 x1 ...   y0 y1 ...   vx0 vx1 ...   vy0 vy1 ...        fx0 fx1 ...   fy0
+ *                 fy1
  * ... */
 #ifndef LUTETIA_DYN_TURN_H
 #define LUTETIA_DYN_TURN_H

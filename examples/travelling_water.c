@@ -1,4 +1,5 @@
-/* travelling_water.c - a line of pigment, and water that moves over it from the left: five moments, one above the other.
+/* travelling_water.c - a line of pigment, and water that moves over it from the left: five
+ * moments, one above the other.
  *
  *     build/examples/example_travelling_water out.png
  *

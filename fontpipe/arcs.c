@@ -7,7 +7,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* A turning point closer to an arc's end than this part of it is left alone: it is then off by a millionth of the bend. */
+/* A turning point closer to an arc's end than this part of it is left alone: it is then off by
+ * a millionth of the bend. */
 #define TURN_PART 1e-3f
 
 struct maker {
@@ -89,8 +90,9 @@ static int up(float number)
     return floor + (number > (float)floor);
 }
 
-/* For discs: x does not turn around in it. An arc goes at most as far as its ends are apart and, where y turns around, a quarter
- * of b further; of parts alike in t none is faster than the arc is at its faster end. */
+/* For discs: x does not turn around in it. An arc goes at most as far as its ends are apart
+ * and, where y turns around, a quarter of b further; of parts alike in t none is faster than
+ * the arc is at its faster end. */
 static void disc_put(struct maker *m, const struct font_arc *a)
 {
     float across = fabsf(a->cx + a->bx), down = fabsf(a->cy + a->by) + 0.25f * fabsf(a->by);
@@ -253,8 +255,8 @@ static bool warped(const struct warp *w, double t, struct font_point *out)
            (j[0] * j[3] - j[1] * j[2]) * w->orientation > 0;
 }
 
-/* The part of a segment from t0 to t1 as arcs through its ends and its middle, halved until they pass close by two more
- * points of it. */
+/* The part of a segment from t0 to t1 as arcs through its ends and its middle, halved until
+ * they pass close by two more points of it. */
 static void warped_put(struct maker *m, const struct warp *w, double t0, struct font_point p0,
                        double t1, struct font_point p1, int depth)
 {

@@ -1,4 +1,5 @@
-/* atlas.c - see atlas.h. Time is counted in calls; what was asked for at or after frame_start is in use. */
+/* atlas.c - see atlas.h. Time is counted in calls; what was asked for at or after frame_start
+ * is in use. */
 #include "atlas.h"
 #include "internal.h"
 
@@ -166,7 +167,8 @@ static void dirty_add(struct page *p, int x, int y, int width, int height)
 
 /* ---- room ---- */
 
-/* A shelf cut from what a page has left; -1 if there is no page with so much. *status: no memory. */
+/* A shelf cut from what a page has left; -1 if there is no page with so much. *status: no
+ * memory. */
 static int shelf_cut(struct font_atlas *a, int height_px, enum font_status *status)
 {
     int page = 0;
@@ -223,7 +225,8 @@ static int shelf_compare(const void *a, const void *b)
                               : (p->y > q->y) - (p->y < q->y);
 }
 
-/* The run that was not used for longest, of those the lowest; false if there is none. Sorts the shelves. */
+/* The run that was not used for longest, of those the lowest; false if there is none. Sorts the
+ * shelves. */
 static bool run_find(struct font_atlas *a, int height_px, struct run *best)
 {
     bool found = false;
@@ -249,7 +252,8 @@ static bool run_find(struct font_atlas *a, int height_px, struct run *best)
     return found;
 }
 
-/* Empties the run's shelves and puts one of that height in their place, and another for the rest. *status: no memory. */
+/* Empties the run's shelves and puts one of that height in their place, and another for the
+ * rest. *status: no memory. */
 static int run_take(struct font_atlas *a, const struct run *run, int height_px,
                     enum font_status *status)
 {
@@ -281,7 +285,8 @@ static int run_take(struct font_atlas *a, const struct run *run, int height_px,
     struct page *p = &a->pages[run->page];
     if (p->end_y < run->y + run->height_px)
         p->end_y = run->y + run->height_px;
-    /* Where shelves begin and end has changed: what was there must not show in the gaps between them. */
+    /* Where shelves begin and end has changed: what was there must not show in the gaps between
+     * them. */
     memset(p->pixels + (size_t)run->y * (size_t)a->def.width_px, 0,
            (size_t)run->height_px * (size_t)a->def.width_px);
     dirty_add(p, 0, run->y, a->def.width_px, run->height_px);
@@ -315,7 +320,8 @@ static int shelf_for(struct font_atlas *a, int width_px, int height_px,
 
 /* ---- glyphs ---- */
 
-/* The picture and the gap right of it and below; the rest of an emptied shelf may hold anything. */
+/* The picture and the gap right of it and below; the rest of an emptied shelf may hold
+ * anything. */
 static void pixels_put(struct font_atlas *a, const struct font_gray *g, const struct shelf *s)
 {
     struct page *p = &a->pages[s->page];

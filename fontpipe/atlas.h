@@ -12,8 +12,9 @@
  *         draw(quads, count);
  *     }
  *
- * Pages are one size, bytes of coverage. A page is cut into shelves, and glyphs stand on them side by side, a blank pixel
- * between any two, so that a texture may be looked up between its pixels:
+ * Pages are one size, bytes of coverage. A page is cut into shelves, and glyphs stand on them
+ * side by side, a blank pixel between any two, so that a texture may be looked up between its
+ * pixels:
  *
  *     +--------------------------+
  *     | A | b | c |  free        |  shelf: as high as its first glyph, in steps of 4
@@ -21,13 +22,15 @@
  *     | not yet cut              |
  *     +--------------------------+
  *
- * Memory is bounded by the pages. Where they are full, the shelf that was not used for longest is emptied, or several
- * above each other that together are high enough; never one that holds a glyph asked for since font_atlas_begin(). When all of it is in use the
- * status is FULL: draw what you have, begin again, and ask again.
+ * Memory is bounded by the pages. Where they are full, the shelf that was not used for longest
+ * is emptied, or several above each other that together are high enough; never one that holds a
+ * glyph asked for since font_atlas_begin(). When all of it is in use the status is FULL: draw
+ * what you have, begin again, and ask again.
  *
  * A glyph's place between pixels is rounded to one of `places` in each direction.
  *
- * Errors: functions that can fail return a status and leave one line in font_error(). Others cannot fail.
+ * Errors: functions that can fail return a status and leave one line in font_error(). Others
+ * cannot fail.
  *
  * Ownership: faces are borrowed, and must outlive the atlas; what else is passed is copied.
  *
@@ -49,7 +52,8 @@ struct font_atlas_def {
 struct font_atlas_def font_atlas_def_default(void);
 
 struct font_atlas;
-/* Errors: BAD_ARGUMENT (a number out of its range, no such filter), NO_MEMORY. Owns: the caller destroys *out. */
+/* Errors: BAD_ARGUMENT (a number out of its range, no such filter), NO_MEMORY. Owns: the caller
+ * destroys *out. */
 enum font_status font_atlas_create(const struct font_atlas_def *def, struct font_atlas **out);
 void font_atlas_destroy(struct font_atlas *atlas); /* NULL is fine */
 
@@ -63,9 +67,10 @@ struct font_atlas_slot {
         top_px; /* of its first pixel in the picture, whose origin is the origin asked for */
 };
 
-/* The glyph at a size, through an affine map's linear part (NULL: upright), its origin at (x_px, y_px) of a picture; or through
- * a distortion, which has the place in it: x_px and y_px are then 0, and places between pixels are not rounded.
- * Errors: FULL, TOO_LARGE (for a page), BAD_ARGUMENT, those of outlines and edges. Nothing asked for before changes. */
+/* The glyph at a size, through an affine map's linear part (NULL: upright), its origin at
+ * (x_px, y_px) of a picture; or through a distortion, which has the place in it: x_px and y_px
+ * are then 0, and places between pixels are not rounded. Errors: FULL, TOO_LARGE (for a page),
+ * BAD_ARGUMENT, those of outlines and edges. Nothing asked for before changes. */
 enum font_status font_atlas_get(struct font_atlas *atlas, struct font_face *face,
                                 uint32_t glyph, double size_px, const struct font_map *map,
                                 double x_px, double y_px, struct font_atlas_slot *out);
@@ -77,17 +82,19 @@ struct font_quad {
     int ink; /* of the layout's, from 1; 0: whoever draws says */
 };
 
-/* Quads for a layout with its origin at (x_px, y_px), through any map (NULL: as it is), each glyph first through its own; glyphs without ink have none.
- * *count: how many were made, at most quads_max, and *first (0 to begin with) becomes the first glyph that is not done, so
- * that after FULL, or where quads_max was too few, it goes on from there.
- * Errors: as font_atlas_get(); quads made before stay. */
+/* Quads for a layout with its origin at (x_px, y_px), through any map (NULL: as it is), each
+ * glyph first through its own; glyphs without ink have none. *count: how many were made, at
+ * most quads_max, and *first (0 to begin with) becomes the first glyph that is not done, so
+ * that after FULL, or where quads_max was too few, it goes on from there. Errors: as
+ * font_atlas_get(); quads made before stay. */
 enum font_status font_atlas_layout(struct font_atlas *atlas, const struct font_layout *layout,
                                    const struct font_map *map, double x_px, double y_px,
                                    struct font_quad *quads, int quads_max, int *first,
                                    int *count);
 
 int font_atlas_pages(const struct font_atlas *atlas); /* that there are so far */
-/* Shape: height_px rows of width_px bytes; valid as long as the atlas, which writes into it. NULL: there is no such page. */
+/* Shape: height_px rows of width_px bytes; valid as long as the atlas, which writes into it.
+ * NULL: there is no such page. */
 const uint8_t *font_atlas_pixels(const struct font_atlas *atlas, int page);
 
 /* What of a page was written since it was last asked; false: nothing. */

@@ -40,7 +40,8 @@ bool font_gradient_prepare(struct font_gradient *g)
     return g->r[0] != g->r[1] || g->p[0].x != g->p[1].x || g->p[0].y != g->p[1].y;
 }
 
-/* Of the circles between and beyond the two that go through the place, the last whose radius is not below 0. */
+/* Of the circles between and beyond the two that go through the place, the last whose radius is
+ * not below 0. */
 static bool radial_way(const struct font_gradient *g, double x, double y, double *way)
 {
     double dx = g->p[1].x - g->p[0].x, dy = g->p[1].y - g->p[0].y, dr = g->r[1] - g->r[0];

@@ -1,4 +1,5 @@
-/* colour_gradient.h - the gradients of fonts' paints: a line of colours, and where on it a place is. */
+/* colour_gradient.h - the gradients of fonts' paints: a line of colours, and where on it a
+ * place is. */
 #ifndef LUTETIA_FONT_COLOUR_GRADIENT_H
 #define LUTETIA_FONT_COLOUR_GRADIENT_H
 
@@ -16,8 +17,9 @@ struct font_gradient {
     int count;
     float at[FONT_COLOURS_MAX];      /* not falling, once prepared */
     float rgba[FONT_COLOURS_MAX][4]; /* sRGB numbers times cover */
-    struct font_point p
-        [3]; /* LINEAR: from p[0] to p[1], the same along p[0] p[2]; RADIAL: centres of two circles; SWEEP: a centre */
+    /* LINEAR: from p[0] to p[1], the same along p[0] p[2]; RADIAL: centres of two circles;
+     * SWEEP: a centre */
+    struct font_point p[3];
     double r[2]; /* RADIAL: radii; SWEEP: angles from and to, in turns against the clock */
 };
 

@@ -9,7 +9,8 @@
 #include <hb.h>
 
 enum { FONT_COLOUR_SIDE_MAX = 4096 };
-/* The picture's place and size around a box in its pixels, y downwards; nothing for an empty one. False: too large. */
+/* The picture's place and size around a box in its pixels, y downwards; nothing for an empty
+ * one. False: too large. */
 bool font_colour_pixels_set(const struct font_box *box, int em_px,
                             struct font_colour_picture *out);
 
@@ -18,7 +19,8 @@ hb_blob_t *font_colour_table(struct font_face *face, const char tag[5]);
 struct font_colr font_colour_colr(hb_blob_t *table);
 
 bool font_colour_has_paints(struct font_face *face, uint32_t glyph);
-/* em_px: at most; less where the picture would be too large. As font_colour_picture_draw() otherwise. */
+/* em_px: at most; less where the picture would be too large. As font_colour_picture_draw()
+ * otherwise. */
 enum font_status font_colour_paints(struct font_face *face, uint32_t glyph, int em_px,
                                     const double ink[3], const struct font_filter *area,
                                     struct font_colour_picture *out);

@@ -1,5 +1,5 @@
-/* colour_mix.c - see colour_mix.h. Porter's and Duff's ways are two factors each; the others are as W3C's Compositing and Blending
- * defines them. */
+/* colour_mix.c - see colour_mix.h. Porter's and Duff's ways are two factors each; the others
+ * are as W3C's Compositing and Blending defines them. */
 #include "colour_mix.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
-/* colour_mix.h - one colour over another, in the ways that fonts' paints name. Numbers are sRGB's times cover. */
+/* colour_mix.h - one colour over another, in the ways that fonts' paints name. Numbers are
+ * sRGB's times cover. */
 #ifndef LUTETIA_FONT_COLOUR_MIX_H
 #define LUTETIA_FONT_COLOUR_MIX_H
 

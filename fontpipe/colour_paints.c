@@ -1,9 +1,10 @@
 /* colour_paints.c - glyphs as graphs of paints (COLR 1) drawn into a picture.
  *
- * A paint fills all that there is; a glyph's outline clips what is painted below it. So a canvas of colours goes down the graph with a
- * map from the paint's plane to the canvas's pixels and a clip: what is left of each pixel within a rectangle. A composite has two
- * canvases of its own. Damaged fonts have graphs that go in circles, or are as large as one likes: depth, paints and
- * pixels are bounded. */
+ * A paint fills all that there is; a glyph's outline clips what is painted below it. So a
+ * canvas of colours goes down the graph with a map from the paint's plane to the canvas's
+ * pixels and a clip: what is left of each pixel within a rectangle. A composite has two
+ * canvases of its own. Damaged fonts have graphs that go in circles, or are as large as one
+ * likes: depth, paints and pixels are bounded. */
 #include "colour_internal.h"
 #include "colour_mix.h"
 #include "gray.h"
@@ -330,7 +331,8 @@ static void graph_begin(struct graph *g, struct font_face *face, const double in
     axes_take(g);
 }
 
-/* The pixels that a glyph's graph has where an em is em_px: its clip box, or what is around its outlines. */
+/* The pixels that a glyph's graph has where an em is em_px: its clip box, or what is around its
+ * outlines. */
 static bool pixels_of(struct font_face *face, uint32_t glyph, int em_px,
                       struct font_colour_picture *out)
 {

@@ -1,5 +1,6 @@
-/* colour_read.h - a COLR table, read with all its bounds checked: layers (version 0); paints, their colours, boxes, and what a
- * variable font's axes add to each number (version 1). What lies beyond the table's end reads as 0. (FreeType reads it only where it was built to.) */
+/* colour_read.h - a COLR table, read with all its bounds checked: layers (version 0); paints,
+ * their colours, boxes, and what a variable font's axes add to each number (version 1). What
+ * lies beyond the table's end reads as 0. (FreeType reads it only where it was built to.) */
 #ifndef LUTETIA_FONT_COLOUR_READ_H
 #define LUTETIA_FONT_COLOUR_READ_H
 
@@ -58,7 +59,8 @@ bool font_colr_box(const struct font_colr *c, uint32_t glyph, struct font_box *o
 void font_colr_paint(const struct font_colr *c, uint32_t at, struct font_paint *out,
                      struct font_gradient *gradient);
 
-/* colour_vary.c: what the axes add to number n of those that vary from `base` on; 0xffffffff: nothing. */
+/* colour_vary.c: what the axes add to number n of those that vary from `base` on; 0xffffffff:
+ * nothing. */
 double font_colr_delta(const struct font_colr *c, uint32_t base, uint32_t n);
 /* colour_table.c: a number of 1 to 4 bytes; with a sign. */
 uint32_t font_colr_u(const struct font_colr *c, uint64_t at, int bytes);

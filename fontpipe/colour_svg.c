@@ -1,7 +1,9 @@
-/* colour_svg.c - glyphs as SVG documents, drawn into pictures by librsvg and Cairo where they are installed.
+/* colour_svg.c - glyphs as SVG documents, drawn into pictures by librsvg and Cairo where they
+ * are installed.
  *
- * They bring twenty libraries with them, so they are loaded when the first such glyph is looked at; of each function what it takes is
- * written here, and none of their headers is needed. librsvg reads no other file for a document that came from memory. */
+ * They bring twenty libraries with them, so they are loaded when the first such glyph is looked
+ * at; of each function what it takes is written here, and none of their headers is needed.
+ * librsvg reads no other file for a document that came from memory. */
 #include "colour_internal.h"
 
 #include <library.h>

@@ -1,4 +1,5 @@
-/* colour_table.c - a font's tables, their numbers, and the pixels that a picture takes: what all kinds of coloured glyphs need. */
+/* colour_table.c - a font's tables, their numbers, and the pixels that a picture takes: what
+ * all kinds of coloured glyphs need. */
 #include "colour_internal.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
-/* colour_vary.c - what a variable font's axes add to the numbers of its paints: OpenType's item variation store. */
+/* colour_vary.c - what a variable font's axes add to the numbers of its paints: OpenType's item
+ * variation store. */
 #include "colour_read.h"
 
 #include <math.h>

@@ -20,8 +20,8 @@ static int clusters_compare(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* A cluster's text goes up to the next cluster that stands anywhere: in lines that go to the left, and where letters change places, that is
- * none of its neighbours. */
+/* A cluster's text goes up to the next cluster that stands anywhere: in lines that go to the
+ * left, and where letters change places, that is none of its neighbours. */
 static bool texts_find(const struct font_drawing *d, const struct font_layout *layout,
                        struct drawn *out)
 {

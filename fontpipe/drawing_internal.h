@@ -1,4 +1,5 @@
-/* drawing_internal.h - what drawing.c, drawing_picture.c, drawing_svg.c and the PDF's files share. */
+/* drawing_internal.h - what drawing.c, drawing_picture.c, drawing_svg.c and the PDF's files
+ * share. */
 #ifndef LUTETIA_FONT_DRAWING_INTERNAL_H
 #define LUTETIA_FONT_DRAWING_INTERNAL_H
 
@@ -13,8 +14,9 @@ struct drawn_glyph {
     bool picture; /* it has no outline */
 };
 
-/* The bytes of the text that a glyph's cluster shows: up to the next cluster's, wherever that stands. All glyphs of a cluster on one line
- * have the same; a sign that is not in the text has none. */
+/* The bytes of the text that a glyph's cluster shows: up to the next cluster's, wherever that
+ * stands. All glyphs of a cluster on one line have the same; a sign that is not in the text has
+ * none. */
 struct drawn_text {
     size_t begin, end;
     bool begins, ends; /* it is the first, and the last, of its cluster's glyphs there */
@@ -41,7 +43,8 @@ enum font_status drawn_png(const struct font_tile *tile, FILE *file);
 /* The bytes as zlib packs them. Owns: the caller frees them; NULL: no memory. */
 uint8_t *drawn_deflated(const uint8_t *bytes, size_t count, size_t *out_count);
 
-/* Checks the inks, and draws the layout with the glyphs of colour fonts as their layers (font_colour_spread()). */
+/* Checks the inks, and draws the layout with the glyphs of colour fonts as their layers
+ * (font_colour_spread()). */
 typedef enum font_status drawn_put(const struct font_drawing *d,
                                    const struct font_layout *layout, const struct font_map *map,
                                    double x, double y, FILE *file);
@@ -52,14 +55,16 @@ enum font_status drawn_find(const struct font_drawing *d, const struct font_layo
                             struct drawn *out);
 void drawn_finish(struct drawn *drawn);
 
-/* The outline as a path, its points through a map (NULL: as they are), curves cut finely where the map distorts. pdf: its operators,
- * else SVG's letters. */
+/* The outline as a path, its points through a map (NULL: as they are), curves cut finely where
+ * the map distorts. pdf: its operators, else SVG's letters. */
 enum font_status drawn_path(const struct font_outline *outline, const struct font_map *map,
                             bool pdf, FILE *file);
-/* The map of a layout's glyph from its font's units to the picture's pixels, its place within. */
+/* The map of a layout's glyph from its font's units to the picture's pixels, its place
+ * within. */
 enum font_status drawn_map(const struct font_layout *layout, int i, const struct font_map *map,
                            double x_px, double y_px, struct font_map *out);
-/* Whether an ink is the same colour everywhere: plain, or a gradient that goes nowhere. That is then in rgba. */
+/* Whether an ink is the same colour everywhere: plain, or a gradient that goes nowhere. That is
+ * then in rgba. */
 bool drawn_flat(const struct font_ink *ink, double rgba[4]);
 /* An ink's picture, opaque. Owns: the caller frees out->rgba. */
 enum font_status drawn_ink_tile(const struct font_ink *ink, struct font_tile *out);

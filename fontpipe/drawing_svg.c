@@ -104,7 +104,8 @@ static enum font_status picture_put(const struct font_drawing *d,
     return status;
 }
 
-/* A letter: its outline used at its place; or a path where it is distorted, or has an ink whose places are the picture's. */
+/* A letter: its outline used at its place; or a path where it is distorted, or has an ink whose
+ * places are the picture's. */
 static enum font_status letter_put(const struct font_drawing *d,
                                    const struct font_layout *layout, struct drawn *drawn, int i,
                                    const struct font_map *map, double x, double y, FILE *f)

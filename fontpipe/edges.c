@@ -1,8 +1,8 @@
 /* edges.c - takes outlines apart: see edges.h and docs/fonts.md.
  *
- * A pixel is the integral over the ink of f(X - x, Y - y). By Green's theorem that is an integral along the outline of
- * F(X - x, Y - y) dx, where F is f's integral over y: each bit of edge counts by the dx it covers, ink below it
- * positive. So an edge is, in order of cost:
+ * A pixel is the integral over the ink of f(X - x, Y - y). By Green's theorem that is an
+ * integral along the outline of F(X - x, Y - y) dx, where F is f's integral over y: each bit of
+ * edge counts by the dx it covers, ink below it positive. So an edge is, in order of cost:
  *
  *     vertical     nothing: dx is 0
  *     horizontal   its two ends: along x too the filter's integral is in the table
@@ -56,7 +56,8 @@ int font_nodes_needed(const struct font_filter *f, float length, float across, i
 {
     int n = length > FONT_LENGTH_LAST ? (int)ceilf(length / FONT_LENGTH_LAST) : 1;
     for (;; n += 1 + n / 4) {
-        /* The bin of length / n, a quarter of a pixel times the fourth root of 2 each, from the number's exponent. */
+        /* The bin of length / n, a quarter of a pixel times the fourth root of 2 each, from the
+         * number's exponent. */
         float quarter = 4 * length / (float)n, power = quarter * quarter * quarter * quarter;
         union {
             float number;
@@ -65,7 +66,8 @@ int font_nodes_needed(const struct font_filter *f, float length, float across, i
         int l = (int)(u.bits >> 23) - 126;
         l = l < 0 ? 0 : l > FONT_LENGTHS - 1 ? FONT_LENGTHS - 1 : l;
         const float *error = f->node_error[slant][l];
-        /* The pieces' errors add up where they lie above each other, but not all with one sign. */
+        /* The pieces' errors add up where they lie above each other, but not all with one
+         * sign. */
         float allowed = f->piece_tolerance * (n > 1 ? sqrtf((float)n) : 1);
         int m = 1;
         for (int k = 0; k < FONT_NODES_MAX;
@@ -81,8 +83,8 @@ int font_nodes_needed(const struct font_filter *f, float length, float across, i
 
 /* ---- affine maps ---- */
 
-/* For filters that are not smooth: an outline's segment, mapped, in steps that are exact along x.
- * side: +1 or -1, which makes ink below an edge positive. */
+/* For filters that are not smooth: an outline's segment, mapped, in steps that are exact along
+ * x. side: +1 or -1, which makes ink below an edge positive. */
 static enum font_status steps_build(struct font_edges *e, const struct font_filter *f,
                                     const struct font_segment *s, double side)
 {
@@ -243,7 +245,8 @@ static int map_orientation(const struct font_map *map, const struct font_outline
     return det > 0 ? 1 : det < 0 ? -1 : 0;
 }
 
-/* The most an affine map makes of the outline, to refuse what is too large before it is taken apart. */
+/* The most an affine map makes of the outline, to refuse what is too large before it is taken
+ * apart. */
 static bool fits(const double *m, const struct font_box *box)
 {
     double x = fmax(fabs(box->x0), fabs(box->x1)), y = fmax(fabs(box->y0), fabs(box->y1));

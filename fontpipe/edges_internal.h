@@ -8,7 +8,8 @@
 #include <math.h>
 #include <stdint.h>
 
-/* A line whose ends differ less in y is horizontal: it is then wrong by less than a tenth of a 255th. */
+/* A line whose ends differ less in y is horizontal: it is then wrong by less than a tenth of a
+ * 255th. */
 #define FONT_FLAT_PX 4e-4f
 #define FONT_MOTE_PX 0.02f  /* a curve so short is its chord */
 #define FONT_SPECK_PX 0.06f /* a cubic so short needs two nodes, not three */
@@ -26,7 +27,8 @@ static inline void font_edges_line(struct font_edges *e, double x0, double x1, d
     e->line_x1[i] = (float)x1;
     e->line_y[i] = (float)y;
 }
-/* edges_tangled.c: of a tangled outline, as lines alone. Errors: BAD_ARGUMENT (a point has no picture), NO_MEMORY. */
+/* edges_tangled.c: of a tangled outline, as lines alone. Errors: BAD_ARGUMENT (a point has no
+ * picture), NO_MEMORY. */
 enum font_status font_edges_tangled(struct font_edges *e, const struct font_outline *o,
                                     const struct font_map *map, const struct font_filter *f);
 
@@ -53,16 +55,19 @@ static inline int font_slant(double across, double down)
     return s;
 }
 
-/* The number of nodes that an edge needs. If that is more than there can be, *pieces is the number of pieces to cut it into.
- * across: the distance along x; slant: where it is flattest. */
+/* The number of nodes that an edge needs. If that is more than there can be, *pieces is the
+ * number of pieces to cut it into. across: the distance along x; slant: where it is
+ * flattest. */
 int font_nodes_needed(const struct font_filter *f, float length, float across, int slant,
                       int *pieces);
 
-/* Rules: how eight nodes lie, and their weights. The first: evenly spaced ones at the beginning of an edge, with half of a
- * spacing before them; then those of Gauss with 1, 2, .. nodes; the last: evenly spaced ones from the ninth on. */
+/* Rules: how eight nodes lie, and their weights. The first: evenly spaced ones at the beginning
+ * of an edge, with half of a spacing before them; then those of Gauss with 1, 2, .. nodes; the
+ * last: evenly spaced ones from the ninth on. */
 enum { FONT_RULE_EVEN_LATER = FONT_NODES_MAX + 1, FONT_RULES };
 extern float font_rule_places[FONT_RULES * 8], font_rule_weights[FONT_RULES * 8];
-/* What weights of evenly spaced nodes are multiplied with besides: eight in the middle, the last three, and what is beyond. */
+/* What weights of evenly spaced nodes are multiplied with besides: eight in the middle, the
+ * last three, and what is beyond. */
 extern float font_even_ends[18];
 
 #endif

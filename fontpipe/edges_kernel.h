@@ -1,14 +1,17 @@
-/* edges_kernel.h - outlines to nodes through an affine map, included by edges_plain.c, edges_avx2.c and edges_avx512.c with
+/* edges_kernel.h - outlines to nodes through an affine map, included by edges_plain.c,
+ * edges_avx2.c and edges_avx512.c with
  *     LANES    floats in a vector
  *     KERNEL   the function's name
  *
- * Segments are polynomials, x0 + t (c + t (b + t a)), kept as eight arrays. A group of them is gone through three times,
- * without branches that depend on what they are: a processor would guess those wrong half of the time.
+ * Segments are polynomials, x0 + t (c + t (b + t a)), kept as eight arrays. A group of them is
+ * gone through three times, without branches that depend on what they are: a processor would
+ * guess those wrong half of the time.
  *
- *     measure    LANES at once: mapped; how long, how far across, how flat. Vertical ones are left out, horizontal lines
- *                are their ends
- *     plan       LANES at once: as many of Gauss's nodes as its row of the filter's table of errors says; a long one takes
- *                them on several pieces, or evenly spaced ones where those are fewer
+ *     measure    LANES at once: mapped; how long, how far across, how flat. Vertical ones are
+ *                left out, horizontal lines are their ends
+ *     plan       LANES at once: as many of Gauss's nodes as its row of the filter's table of
+ *                errors says; a long one takes them on several pieces, or evenly spaced ones
+ *                where those are fewer
  *     put        eight nodes of a segment at once */
 #include "edges_internal.h"
 #include "lanes.h"
@@ -57,7 +60,8 @@ struct group {
     int large[GROUP];                        /* how many of the row are */
     float least[GROUP];                      /* nodes that it takes anyway */
     int pieces[GROUP];
-    /* The plan. A turn puts up to eight nodes: those of a piece, or the next of evenly spaced ones. */
+    /* The plan. A turn puts up to eight nodes: those of a piece, or the next of evenly spaced
+     * ones. */
     int turns[GROUP];
     float part[GROUP],
         step[GROUP]; /* t is a rule's place times part, and the turn times step */
@@ -92,7 +96,8 @@ INLINE ints load_ints(const int *at)
 
 /* ---- measure ---- */
 
-/* Where rows of the table of errors begin for a length, by its fourth power in quarters of a pixel. */
+/* Where rows of the table of errors begin for a length, by its fourth power in quarters of a
+ * pixel. */
 INLINE ints row_of(vector fourth_power)
 {
     const vector none = {0};
@@ -147,7 +152,8 @@ INLINE void errors_count(struct group *q, int at, const struct font_filter *f)
     }
 }
 
-/* LANES segments, and how fast each is along x and y, without a sign: at its beginning, between, and at its end. */
+/* LANES segments, and how fast each is along x and y, without a sign: at its beginning,
+ * between, and at its end. */
 struct mapped {
     vector x, cx, bx, ax, y, cy, by, ay;
     vector dx[3], dy[3];
@@ -253,8 +259,9 @@ INLINE void measure(struct group *q, int at, const struct font_edges_job *job, i
     errors_count(q, at, f);
     lines_put(job->edges, to, lines, job->side, s.x, s.x + s.cx, s.y + s.cy * 0.5f);
 
-    /* So many nodes that the area under the curve is exact, one more where a quadratic turns around; specks can do with
-     * less. Of motes one node's weight must be all of the dx, which a cubic's speed at its middle is not. */
+    /* So many nodes that the area under the curve is exact, one more where a quadratic turns
+     * around; specks can do with less. Of motes one node's weight must be all of the dx, which
+     * a cubic's speed at its middle is not. */
     choice mote = less(s.square, none + FONT_MOTE_PX * FONT_MOTE_PX);
     choice speck = less(s.square, none + FONT_SPECK_PX * FONT_SPECK_PX);
     choice two = but_not(curved, mote);
@@ -317,8 +324,9 @@ INLINE wide wide_load(const float *at)
     return *(const wide_loose *)at;
 }
 
-/* Copies of a segment's numbers: those in memory are read again after each store, as far as a compiler knows. What is beyond a
- * turn's nodes is at the beginning of their piece, or at t = 1. */
+/* Copies of a segment's numbers: those in memory are read again after each store, as far as a
+ * compiler knows. What is beyond a turn's nodes is at the beginning of their piece, or at t =
+ * 1. */
 INLINE void segment_put(struct target *to, const struct group *q, int k)
 {
     const wide x0 = WIDE_OF(q->x[k]), y0 = WIDE_OF(q->y[k]);

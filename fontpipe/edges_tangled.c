@@ -1,14 +1,18 @@
-/* edges_tangled.c - edges of outlines that cross themselves too often for their boundary to be made (outline.h): what is filled is found
- * here, for the picture itself, by strips.
+/* edges_tangled.c - edges of outlines that cross themselves too often for their boundary to be
+ * made (outline.h): what is filled is found here, for the picture itself, by strips.
  *
- *      level ----+-----------+------ y       A strand is a part of the outline along which y only grows. Levels are the ends of
+ *      level ----+-----------+------ y       A strand is a part of the outline along which y
+ *                                            only grows. Levels are the ends of
  *                |\         /                strands, and as many others as keep strips low. In a strip strands are sorted by x in
  *                | \  ink  /                 its middle, and the winding number is the sum of the directions of those to the left.
- *      level ----+--+-----+--------- y       Strands across which the filling changes are the strip's boundary.
+ *      level ----+--+-----+--------- y       Strands across which the filling changes are the
+ *                                            strip's boundary.
  *
- * A strand counts as boundary from where it becomes one to where it ceases to be one, point for point; what the boundaries of two strips
- * lack at the level between them are horizontal lines. So the boundary is closed, and right but for strands that cross within a strip:
- * beyond their crossing they are taken in the wrong order. The work is bounded: where there would be too much of it, strips are higher.
+ * A strand counts as boundary from where it becomes one to where it ceases to be one, point for
+ * point; what the boundaries of two strips lack at the level between them are horizontal lines.
+ * So the boundary is closed, and right but for strands that cross within a strip: beyond their
+ * crossing they are taken in the wrong order. The work is bounded: where there would be too
+ * much of it, strips are higher.
  */
 #include "edges_internal.h"
 #include "internal.h"
@@ -25,7 +29,8 @@ enum {
     LEVELS_MAX = 1 << 22
 };
 
-/* Strips are so high, where strands are crowded less; where that takes too long twice that, and so on. */
+/* Strips are so high, where strands are crowded less; where that takes too long twice that, and
+ * so on. */
 static const double strip_least_px = 1.0 / 512, strip_most_px = 1.0 / 96;
 static const double level_px = 1.0 / 512; /* ends of strands that are closer are at one level */
 static const double chord_px = 1.0 / 1000;
@@ -45,7 +50,8 @@ struct runner {
     double slope, next_y;
     struct font_point kept; /* up to where the boundary has been put into edges */
     int strand, point;
-    int sense; /* in the strip above: 1 ink begins at it, -1 ink ends there, 0 it is no boundary */
+    /* in the strip above: 1 ink begins at it, -1 ink ends there, 0 it is no boundary */
+    int sense;
     int direction;
 };
 
@@ -192,8 +198,8 @@ static int level_of(const struct sweep *w, double y)
     return low;
 }
 
-/* The levels for strips of at most that height, of which those closer than `apart` are one. False: there would be too many of them, or
- * too many strands in them. */
+/* The levels for strips of at most that height, of which those closer than `apart` are one.
+ * False: there would be too many of them, or too many strands in them. */
 static bool levels_make(struct sweep *w, double high, double apart)
 {
     int n = 0, ends = 2 * w->strands_count;
@@ -238,7 +244,8 @@ static bool levels_make(struct sweep *w, double high, double apart)
 
 /* ---- the boundary ---- */
 
-/* A part of the boundary as horizontal lines; sense: 1 ink begins to the right of it, -1 it ends there. */
+/* A part of the boundary as horizontal lines; sense: 1 ink begins to the right of it, -1 it
+ * ends there. */
 static void side_put(struct sweep *w, struct font_point a, struct font_point b, int sense)
 {
     double dx = b.x - a.x, dy = b.y - a.y;
@@ -277,7 +284,8 @@ static int ends_compare(const void *a, const void *b)
     return (p->x > q->x) - (p->x < q->x);
 }
 
-/* The lines at a level between what the strip below it covers and what the one above it does. */
+/* The lines at a level between what the strip below it covers and what the one above it
+ * does. */
 static void level_close(struct sweep *w, double y)
 {
     int inside = 0;
@@ -326,7 +334,8 @@ static void runner_reach(struct sweep *w, struct runner *r, int from, double foo
     side_reach(w, r, (struct font_point){r->foot, foot_y}, false);
 }
 
-/* Where strands are in a strip, sorted by its middle. Those that bend in it have been told their point before it. */
+/* Where strands are in a strip, sorted by its middle. Those that bend in it have been told
+ * their point before it. */
 static void strip_sort(struct sweep *w, int count, double y, double foot_y)
 {
     double middle = 0.5 * (y + foot_y);
@@ -352,7 +361,8 @@ static void strip_sort(struct sweep *w, int count, double y, double foot_y)
     }
 }
 
-/* Which strands are the strip's boundary, from what is left of each; and on to the strip's foot. */
+/* Which strands are the strip's boundary, from what is left of each; and on to the strip's
+ * foot. */
 static void strip_wind(struct sweep *w, int count, double y, double foot_y)
 {
     int winding = 0;
@@ -380,7 +390,8 @@ static void strip_wind(struct sweep *w, int count, double y, double foot_y)
     }
 }
 
-/* The strands that end at a level go, and those that begin there come. Returns how many there are. */
+/* The strands that end at a level go, and those that begin there come. Returns how many there
+ * are. */
 static int level_change(struct sweep *w, int count, int level, int *next)
 {
     double y = w->levels[level];
@@ -427,8 +438,9 @@ static void sweep_go(struct sweep *w)
     }
 }
 
-/* How high strips may be. Of d strands on a pixel's side some d^2 cross in a pixel, and a crossing is wrong by the square of a strip's
- * height; half of the errors are of one sign, so that a pixel's grows as d. Measured: 0.03 over the root of d keeps it below one byte. */
+/* How high strips may be. Of d strands on a pixel's side some d^2 cross in a pixel, and a
+ * crossing is wrong by the square of a strip's height; half of the errors are of one sign, so
+ * that a pixel's grows as d. Measured: 0.03 over the root of d keeps it below one byte. */
 static double strip_height(const struct sweep *w)
 {
     double x0 = HUGE_VAL, x1 = -HUGE_VAL, y0 = HUGE_VAL, y1 = -HUGE_VAL, length = 0;

@@ -8,7 +8,8 @@
 
 #include <fontconfig/fontconfig.h>
 
-/* Of files of one name OpenType comes first, then Type 1, then what is left: bitmaps, compressed ones. */
+/* Of files of one name OpenType comes first, then Type 1, then what is left: bitmaps,
+ * compressed ones. */
 static int ending_rank(const char *path)
 {
     static const char *const endings[] = {".otf", ".ttf", ".otc", ".ttc",
@@ -27,8 +28,9 @@ static bool comes_first(const char *path, const char *other)
     return rank != others ? rank < others : strcmp(path, other) < 0;
 }
 
-/* fontconfig's pattern of a family's name, or NULL. "FAMILY-12" is a family at a size there, and fontconfig leaves out what is no
- * size after a dash: here such a dash is part of the family's name. */
+/* fontconfig's pattern of a family's name, or NULL. "FAMILY-12" is a family at a size there,
+ * and fontconfig leaves out what is no size after a dash: here such a dash is part of the
+ * family's name. */
 static FcPattern *family_parse(const char *name)
 {
     const char *end = name + strcspn(name, ":");
@@ -57,7 +59,8 @@ static char *by_fontconfig(const char *name, int *index)
     FcResult result;
     if (!FcInit())
         return NULL;
-    /* By the file's name, so that a file is always found by it. Of several the first in order. */
+    /* By the file's name, so that a file is always found by it. Of several the first in
+     * order. */
     objects = FcObjectSetBuild(FC_FILE, (char *)NULL);
     pattern = FcPatternCreate();
     all = objects && pattern ? FcFontList(NULL, pattern, objects) : NULL;

@@ -1,5 +1,5 @@
-/* face_harfbuzz.c - a face's tables for HarfBuzz, as they are in the file or as FreeType unpacks them; and FreeType's errors: see
- * face_internal.h. */
+/* face_harfbuzz.c - a face's tables for HarfBuzz, as they are in the file or as FreeType
+ * unpacks them; and FreeType's errors: see face_internal.h. */
 #include "face_internal.h"
 
 #include <stdio.h>
@@ -27,8 +27,8 @@ struct face_table {
     hb_blob_t *blob;
 };
 
-/* A table that FreeType finds: of a packed file (WOFF), unpacked. It stays until the face ends, since HarfBuzz's subsetter (6.0) reads
- * tables that it has given back. */
+/* A table that FreeType finds: of a packed file (WOFF), unpacked. It stays until the face ends,
+ * since HarfBuzz's subsetter (6.0) reads tables that it has given back. */
 static hb_blob_t *table_unpack(hb_face_t *hb, hb_tag_t tag, void *data)
 {
     struct font_face *face = data;
@@ -60,7 +60,8 @@ static bool is_packed(const struct font_face *face)
            (memcmp(face->bytes, "wOFF", 4) == 0 || memcmp(face->bytes, "wOF2", 4) == 0);
 }
 
-/* Whether its tables are listed in another order than that of their tags: HarfBuzz would find few of them. */
+/* Whether its tables are listed in another order than that of their tags: HarfBuzz would find
+ * few of them. */
 static bool is_disordered(const struct font_face *face)
 {
     enum { HEAD = 12, ROW = 16 };

@@ -19,15 +19,16 @@ struct font_setting {
     uint64_t version;
 };
 
-/* A glyph that was replaced, in every setting of the axes (0), or in one of face->own_settings, counted from 1: prepared, and what
- * whoever works on it gets, prepared or not. */
+/* A glyph that was replaced, in every setting of the axes (0), or in one of face->own_settings,
+ * counted from 1: prepared, and what whoever works on it gets, prepared or not. */
 struct font_replaced {
     uint32_t glyph;
     int setting;
     struct font_outline outline, rough;
 };
 
-/* Who reads the outlines: HarfBuzz, or FreeType where there are no tables that HarfBuzz draws. */
+/* Who reads the outlines: HarfBuzz, or FreeType where there are no tables that HarfBuzz
+ * draws. */
 enum font_reader { FONT_READER_UNKNOWN, FONT_READER_HARFBUZZ, FONT_READER_FREETYPE };
 
 struct font_face {
@@ -60,8 +61,9 @@ struct font_own_setting {
     FT_Fixed values[FACE_AXES_MAX];
 };
 
-/* face_version.c: the number of the setting as it is now among those of which something is not the font's own; a new one where there is none. 0: no memory.
- * Looks which of them the axes are set to now. */
+/* face_version.c: the number of the setting as it is now among those of which something is not
+ * the font's own; a new one where there is none. 0: no memory. Looks which of them the axes are
+ * set to now. */
 int font_face_own_setting(struct font_face *face);
 void font_face_own_setting_find(struct font_face *face);
 /* own.c */
@@ -69,8 +71,9 @@ void font_own_finish(struct font_face *face);
 /* face_replaced.c: NULL where the glyph is the font's own. */
 const struct font_replaced *font_face_replaced(const struct font_face *face, uint32_t glyph);
 void font_face_replaced_finish(struct font_face *face);
-/* face_version.c: a version that no face had before; settings that the face had are others now. The version of the axes as they are set: that
- * which such a setting had before, so that what is kept of it is found again. The setting that a face is opened with. */
+/* face_version.c: a version that no face had before; settings that the face had are others now.
+ * The version of the axes as they are set: that which such a setting had before, so that what
+ * is kept of it is found again. The setting that a face is opened with. */
 void font_face_version_renew(struct font_face *face);
 void font_face_version_find(struct font_face *face);
 void font_face_version_keep_first(struct font_face *face);

@@ -1,4 +1,5 @@
-/* face_list.c - what a font has to choose from: scripts, features, named places on its axes. See face.h. */
+/* face_list.c - what a font has to choose from: scripts, features, named places on its axes.
+ * See face.h. */
 #include "face_internal.h"
 
 #include <hb-ot.h>

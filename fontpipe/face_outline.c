@@ -1,9 +1,10 @@
 /* face_outline.c - outlines out of font files, in doubles: see face.h.
  *
- * FreeType gives the points of an outline in whole units: those of a variable font are rounded, and FT_Outline_Decompose() rounds each
- * point that lies between two others, and is not written in the file, down to a whole unit. At 400 pixels that is a third of a byte's
- * range. HarfBuzz's numbers are not rounded, so it reads TrueType's outlines and CFF's; FreeType reads the others, and its points are taken
- * apart here. */
+ * FreeType gives the points of an outline in whole units: those of a variable font are rounded,
+ * and FT_Outline_Decompose() rounds each point that lies between two others, and is not written
+ * in the file, down to a whole unit. At 400 pixels that is a third of a byte's range.
+ * HarfBuzz's numbers are not rounded, so it reads TrueType's outlines and CFF's; FreeType reads
+ * the others, and its points are taken apart here. */
 #include "face_internal.h"
 
 #include <hb-ot.h>
@@ -218,7 +219,8 @@ static bool has_table(struct font_face *face, hb_tag_t tag)
     return has;
 }
 
-/* CFF's numbers may be of another em than the font's, by a matrix that HarfBuzz does not read: then the boxes of what both read differ. */
+/* CFF's numbers may be of another em than the font's, by a matrix that HarfBuzz does not read:
+ * then the boxes of what both read differ. */
 static bool boxes_agree(const struct font_outline *a, const struct font_outline *b)
 {
     enum { UNITS = 4 };
@@ -265,7 +267,8 @@ static enum font_status outline_read(struct font_face *face, uint32_t glyph, boo
             return status;
         }
     }
-    /* What has nothing to draw has an advance, is damaged, or is nothing that HarfBuzz reads. */
+    /* What has nothing to draw has an advance, is damaged, or is nothing that HarfBuzz
+     * reads. */
     font_outline_finish(out);
     status = outline_take(face, glyph, out, rule);
     out->units_per_em = face->ft->units_per_EM;

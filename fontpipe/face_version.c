@@ -1,4 +1,5 @@
-/* face_version.c - versions of a face, by which others find what they keep of it: see face.h. */
+/* face_version.c - versions of a face, by which others find what they keep of it: see
+ * face.h. */
 #include "face_internal.h"
 
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* fill.c - finds what an outline covers more than once, and the boundary of what is filled.
  *
- * Curves are cut into pieces that are all but straight and that rise (y0 < y1). All ends and crossings of pieces
- * are levels; between two levels nothing begins, ends or crosses:
+ * Curves are cut into pieces that are all but straight and that rise (y0 < y1). All ends and
+ * crossings of pieces are levels; between two levels nothing begins, ends or crosses:
  *
  *      level 3  ------+----+--------      In a strip the pieces that pass through it, sorted by x in its middle,
  *                     |   /|              are the boundaries of spans; the winding number left of each is the sum
@@ -9,10 +9,11 @@
  *                     | /  |  /           filling changes is boundary, one across which it does not is inside.
  *      level 1  ------+----+-+------
  *
- * Spans come in pairs in every strip, whatever the outline: damaged ones cannot spill. If the winding number is
- * never but 0 or 1 (or never but 0 or -1) the outline covers nothing twice and stays as it is. Otherwise the parts
- * of pieces that are boundary are put together to parts of the curves they came from, and what differs between the
- * spans below a level and those above becomes a horizontal line. What is put together so is first cut where its curves, not
+ * Spans come in pairs in every strip, whatever the outline: damaged ones cannot spill. If the
+ * winding number is never but 0 or 1 (or never but 0 or -1) the outline covers nothing twice
+ * and stays as it is. Otherwise the parts of pieces that are boundary are put together to parts
+ * of the curves they came from, and what differs between the spans below a level and those
+ * above becomes a horizontal line. What is put together so is first cut where its curves, not
  * their pieces, cross (fill_cut.c): its corners are right at any size. */
 #include "fill_internal.h"
 
@@ -163,15 +164,16 @@ static enum font_status end_add(struct fill_work *w, double x, int change)
     return FONT_OK;
 }
 
-/* The ends at a level are +1 and -1 for spans below it, the reverse for those above: where they do not cancel there
- * is a horizontal boundary. */
+/* The ends at a level are +1 and -1 for spans below it, the reverse for those above: where they
+ * do not cancel there is a horizontal boundary. */
 static enum font_status level_close(struct fill_work *w, double y)
 {
     int inside = 0;
     for (int i = 0; i + 1 < w->ends_count; i++) {
         inside += w->ends[i].change;
         double from = w->ends[i].x, to = w->ends[i + 1].x;
-        /* More than one where a strip of no height has its pieces out of order: the boundary is closed all the same. */
+        /* More than one where a strip of no height has its pieces out of order: the boundary is
+         * closed all the same. */
         int times = to > from ? abs(inside) : 0;
         if (!array_reserve(&w->flat, &w->flat_capacity, w->flat_count + times, sizeof *w->flat))
             return fill_no_memory();
@@ -206,7 +208,8 @@ static void strip_sort(struct fill_work *w, int active_count, double low, double
     }
 }
 
-/* Closes the level at the strip's foot, and keeps what bounds it: portions, and the spans' ends at its head. */
+/* Closes the level at the strip's foot, and keeps what bounds it: portions, and the spans' ends
+ * at its head. */
 static enum font_status strip_bound(struct fill_work *w, int active_count, double low,
                                     double high, enum font_fill rule)
 {
@@ -233,7 +236,8 @@ static enum font_status strip_bound(struct fill_work *w, int active_count, doubl
     return status;
 }
 
-/* Goes through the strips: the windings met, and with `boundary` portions and horizontal lines. */
+/* Goes through the strips: the windings met, and with `boundary` portions and horizontal
+ * lines. */
 static enum font_status strips_pass(struct fill_work *w, enum font_fill rule, bool boundary,
                                     int *least, int *most)
 {
@@ -336,8 +340,8 @@ static enum font_status strips_find(struct fill_work *w, const struct font_outli
 {
     enum font_status status = FONT_OK;
     *least = *most = 0;
-    /* Looked at roughly first: what is then covered twice by less than a 12000th of the outline is not seen, here or in
-     * pictures. What is to be rebuilt is cut finely. */
+    /* Looked at roughly first: what is then covered twice by less than a 12000th of the outline
+     * is not seen, here or in pictures. What is to be rebuilt is cut finely. */
     static const double fineness[] = {12000, 32768};
     for (int pass = 0; pass < 2 && status == FONT_OK; pass++) {
         if (pass == 1 && !fill_twice(*least, *most))
@@ -347,7 +351,8 @@ static enum font_status strips_find(struct fill_work *w, const struct font_outli
         if (status != FONT_OK || !w->pieces_count)
             break;
         qsort(w->pieces, (size_t)w->pieces_count, sizeof *w->pieces, fill_pieces_compare);
-        /* What is rebuilt is cut where its curves cross; the cuts' own pieces may cross again. */
+        /* What is rebuilt is cut where its curves cross; the cuts' own pieces may cross
+         * again. */
         for (int n = 0; pass == 1 && n < FILL_CUTS_TIMES && status == FONT_OK; n++) {
             w->cuts_count = 0;
             status = crossings_find(w, o);

@@ -1,8 +1,9 @@
 /* fill_arcs.c - an outline as arcs, and where they cross: for fill_quick.c.
  *
- * Segments are cut into arcs along which neither x nor y turns around, so an arc is within the box of its ends. Of each two
- * arcs whose boxes meet it is shown that they do not cross (a line is between them, or, where one follows the other, a
- * line through the point that they share), or that they cross once; arcs for which neither is seen are halved:
+ * Segments are cut into arcs along which neither x nor y turns around, so an arc is within the
+ * box of its ends. Of each two arcs whose boxes meet it is shown that they do not cross (a line
+ * is between them, or, where one follows the other, a line through the point that they share),
+ * or that they cross once; arcs for which neither is seen are halved:
  *
  *         \ |            a and b cross once: a's ends are on both sides of the band that b stays within, b's of
  *      ----\|----- b     a's, and no direction of a is one of b's.
@@ -19,8 +20,8 @@ enum {
     ARCS_MAX = 60000,
     PAIRS_MAX = 1000000, /* of arcs whose boxes meet; as many take some tenths of a second */
     DEPTH_MAX = 24,
-    LOOKS_OF_ARC =
-        24, /* how often pairs are looked at, for each arc; for each pair; and beside that for all */
+    /* how often pairs are looked at, for each arc; for each pair; and beside that for all */
+    LOOKS_OF_ARC = 24,
     LOOKS_OF_PAIR = 8,
     LOOKS = 400,
     GROUP = 8,
@@ -206,7 +207,8 @@ static struct band band_of(const struct curve *c, struct font_point chord)
                          most_of(0, part * most_of(one, two))};
 }
 
-/* +1, -1: all of c is on that side of a band; 2: its ends are on both sides of it; 0: none of these. */
+/* +1, -1: all of c is on that side of a band; 2: its ends are on both sides of it; 0: none of
+ * these. */
 static int side_of(const struct curve *c, struct font_point from, struct font_point chord,
                    struct band band)
 {
@@ -387,7 +389,8 @@ static bool pair_look(struct fill_work *w, int a, const struct curve *ca, int b,
            pair_look(w, a, ca, b, &high, joined & AT_BEGIN, depth + 1);
 }
 
-/* The first arc of the contour that an arc is of, and behind its last: arcs of a contour follow each other. */
+/* The first arc of the contour that an arc is of, and behind its last: arcs of a contour follow
+ * each other. */
 static void contours_find(struct fill_work *w)
 {
     for (int begin = 0, end; begin < w->arcs_count; begin = end) {
@@ -398,7 +401,8 @@ static void contours_find(struct fill_work *w)
             w->arcs[i].next = i + 1 == end ? begin : i + 1;
             struct font_point last = w->arcs[i].p[w->arcs[i].degree];
             struct font_point first = w->arcs[w->arcs[i].next].p[0];
-            /* Where arcs of no length were left out the ends are the same points all the same. */
+            /* Where arcs of no length were left out the ends are the same points all the
+             * same. */
             w->arcs[i].joined = last.x == first.x && last.y == first.y;
         }
     }

@@ -41,7 +41,8 @@ static bool piece_has(const struct fill_piece *p, double t)
     return t >= fmin(p->t0, p->t1) && t <= fmax(p->t0, p->t1);
 }
 
-/* Where the curves of two pieces cross: Newton's steps from where the pieces do. False if that is beyond the pieces. */
+/* Where the curves of two pieces cross: Newton's steps from where the pieces do. False if that
+ * is beyond the pieces. */
 static bool curves_cross(const struct font_outline *o, const struct fill_piece *p,
                          const struct fill_piece *q, double *t, double *u,
                          struct font_point *at)

@@ -56,7 +56,8 @@ struct fill_arc {
     bool joined; /* which begins where this one ends */
 };
 
-/* Where two arcs cross. twice: of the winding number there, the mean of those around, which both arcs must find; once one is known. */
+/* Where two arcs cross. twice: of the winding number there, the mean of those around, which
+ * both arcs must find; once one is known. */
 struct fill_joint {
     struct font_point at;
     int twice;
@@ -142,22 +143,24 @@ static inline struct font_point fill_minus(struct font_point a, struct font_poin
 }
 
 enum font_status fill_no_memory(void);
-/* The outline as arcs, its points moved by at most `shake`. False: a curve comes back to its beginning, there are too many, or there is
- * no memory. */
+/* The outline as arcs, its points moved by at most `shake`. False: a curve comes back to its
+ * beginning, there are too many, or there is no memory. */
 bool fill_arcs_make(struct fill_work *w, const struct font_outline *o, double shake);
 /* Notes where arcs cross, in joints and meets. False: it is not seen of all of them. */
 bool fill_arcs_cross(struct fill_work *w);
 struct font_point fill_arc_at(const struct fill_arc *a, double t, struct font_point *speed);
-/* Finds the winding numbers from the curves, and where some of them are covered twice the boundary, as portions. False: it cannot
- * be seen so (contours touch, or there is no memory), and nothing in w is of use. shaken_first: where they touch they are moved
- * apart by what no picture shows. */
+/* Finds the winding numbers from the curves, and where some of them are covered twice the
+ * boundary, as portions. False: it cannot be seen so (contours touch, or there is no memory),
+ * and nothing in w is of use. shaken_first: where they touch they are moved apart by what no
+ * picture shows. */
 bool fill_quick(struct fill_work *w, const struct font_outline *o, enum font_fill rule,
                 bool shaken_first, int *least, int *most);
 /* For qsort: by y0. */
 int fill_pieces_compare(const void *a, const void *b);
 
-/* Notes that both pieces are cut where their curves cross, so that they meet there in one point; where that is on another piece,
- * that both are halved, to be looked at again. y: where the pieces cross. Errors: NO_MEMORY. */
+/* Notes that both pieces are cut where their curves cross, so that they meet there in one
+ * point; where that is on another piece, that both are halved, to be looked at again. y: where
+ * the pieces cross. Errors: NO_MEMORY. */
 enum font_status fill_crossing_cut(struct fill_work *w, const struct font_outline *o,
                                    const struct fill_piece *p, const struct fill_piece *q,
                                    double y);

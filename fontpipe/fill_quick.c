@@ -1,12 +1,14 @@
-/* fill_quick.c - the same as fill.c's strips find, from where the curves themselves cross (fill_arcs.c).
+/* fill_quick.c - the same as fill.c's strips find, from where the curves themselves cross
+ * (fill_arcs.c).
  *
- * A contour is cut into links where it crosses others and itself. Along a link the winding number beside it stays the same, and from
- * one to the next it changes by 1 or -1, by the direction of what is crossed. So one ray from one point of each contour gives it
- * everywhere; both arcs of a crossing must find the same there.
+ * A contour is cut into links where it crosses others and itself. Along a link the winding
+ * number beside it stays the same, and from one to the next it changes by 1 or -1, by the
+ * direction of what is crossed. So one ray from one point of each contour gives it everywhere;
+ * both arcs of a crossing must find the same there.
  *
- * What touches or runs along another curve is not seen so. Then each point is moved by some 10^-8 of the outline: what
- * touched is then apart, or crosses, and the ink is the same for any picture. What is not seen even then is left to
- * the strips: fill_quick() says no. */
+ * What touches or runs along another curve is not seen so. Then each point is moved by some
+ * 10^-8 of the outline: what touched is then apart, or crosses, and the ink is the same for any
+ * picture. What is not seen even then is left to the strips: fill_quick() says no. */
 #include "fill_internal.h"
 
 #include <array.h>
@@ -43,7 +45,8 @@ static double arc_across(const struct fill_arc *a, double at, bool across)
     return across ? p.y : p.x;
 }
 
-/* The winding number beside a point of an arc: to the left of it, or with `across`, for arcs that are level, below it. */
+/* The winding number beside a point of an arc: to the left of it, or with `across`, for arcs
+ * that are level, below it. */
 static bool winding_beside(const struct fill_work *w, int own, struct font_point at,
                            bool across, double close, int *winding)
 {
@@ -133,8 +136,8 @@ struct wound {
     int least, most;
 };
 
-/* The winding number to the left of one of the links first..end: of the longest, by a ray. -1: there is none, or the ray meets a
- * corner. */
+/* The winding number to the left of one of the links first..end: of the longest, by a ray. -1:
+ * there is none, or the ray meets a corner. */
 static int longest_wind(const struct fill_work *w, double close, int first, int end, int *left)
 {
     double longest = 0;
@@ -158,15 +161,17 @@ static int longest_wind(const struct fill_work *w, double close, int first, int 
     struct font_point along = fill_minus(arc->p[arc->degree], arc->p[0]);
     if (!winding_beside(w, link->arc, at, across, close, &before))
         return -1;
-    /* What lies to the left of an arc that rises lies to the right of one that falls, where the number is greater by one. */
+    /* What lies to the left of an arc that rises lies to the right of one that falls, where the
+     * number is greater by one. */
     bool beside_left = across ? along.x < 0 : along.y > 0;
     *left = beside_left ? before : before - 1;
     return best;
 }
 
-/* The contour whose links are first..end: on which of their sides ink is. Where it crosses another arc the winding number changes by
- * the one that this adds, and all around the contour it comes back to what it was. False: that it does not, or where it crosses
- * another contour they do not agree. */
+/* The contour whose links are first..end: on which of their sides ink is. Where it crosses
+ * another arc the winding number changes by the one that this adds, and all around the contour
+ * it comes back to what it was. False: that it does not, or where it crosses another contour
+ * they do not agree. */
 static bool contour_wind(struct fill_work *w, struct wound *wound, int first, int end)
 {
     int left, begin = longest_wind(w, wound->close, first, end, &left);

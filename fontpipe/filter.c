@@ -75,7 +75,8 @@ static enum font_status tables_make(struct font_filter *f)
             for (int n = 0; n < 2; n++) {
                 double phase = (double)(p + n) / FONT_PHASES;
                 for (int k = 0; k < f->taps; k++) {
-                    /* The last phase belongs to this row: a jump at the radius is approached from inside. */
+                    /* The last phase belongs to this row: a jump at the radius is approached
+                     * from inside. */
                     double at = k + 1 - phase - f->radius;
                     vx[n][16 + k] = font_term_density(f, t, fmax(at, -f->radius));
                     vh[n][16 + k] = font_term_integral(f, t, at);

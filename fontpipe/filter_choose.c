@@ -16,7 +16,8 @@ double font_display_spot(enum font_display display, double v)
     return fabs(v) <= 0.6 ? 1 / 1.2 : 0; /* a dot that runs a little */
 }
 
-/* How bright a line of this width, whose centre is at x, is at its brightest, through filter and spot; and its weight. */
+/* How bright a line of this width, whose centre is at x, is at its brightest, through filter
+ * and spot; and its weight. */
 static double line_shown(const struct font_filter *f, double width, double x,
                          enum font_display display)
 {

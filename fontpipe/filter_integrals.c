@@ -1,4 +1,5 @@
-/* filter_integrals.c - a filter's numbers without its tables: profile, densities and integrals, in double precision. */
+/* filter_integrals.c - a filter's numbers without its tables: profile, densities and integrals,
+ * in double precision. */
 #include "filter_internal.h"
 
 #include <math.h>

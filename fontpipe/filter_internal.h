@@ -1,13 +1,13 @@
 /* filter_internal.h - a filter's tables, as the kernels read them.
  *
- * A point at x adds h(X - x) to the pixel whose centre is X. With a = x - first - radius + 1/2 (see gray.c), i = floor(a)
- * and p = a - i, the pixels i .. i + taps - 1 are reached, and the k-th from there by
- * k + 1 - p - radius. Rows are the same, one more of them: what a row adds to the one above it,
- * H(k + 1 - p - radius) - H(k - p - radius).
+ * A point at x adds h(X - x) to the pixel whose centre is X. With a = x - first - radius + 1/2
+ * (see gray.c), i = floor(a) and p = a - i, the pixels i .. i + taps - 1 are reached, and the
+ * k-th from there by k + 1 - p - radius. Rows are the same, one more of them: what a row adds
+ * to the one above it, H(k + 1 - p - radius) - H(k - p - radius).
  *
- * Each table has FONT_PHASES rows for p = 0, 1/32, ..; a row is the values there and, behind them, the differences to
- * the next. Taps are surrounded by what belongs beyond them, so that 16 values at any offset
- * are one load:
+ * Each table has FONT_PHASES rows for p = 0, 1/32, ..; a row is the values there and, behind
+ * them, the differences to the next. Taps are surrounded by what belongs beyond them, so that
+ * 16 values at any offset are one load:
  *
  *     x: 16 zeros, taps, zeros up to 32          h: 16 zeros, taps, then the total up to 48
  *     y: rows, zeros up to 16
@@ -52,8 +52,9 @@ struct font_filter_kind {
     double radius_px, sigma_px; /* its usual ones */
     /* At a distance from the centre within the radius. */
     double (*profile)(const struct font_filter *f, double v);
-    /* Of round ones, where there are closed forms: the profile's integral along the chord at a distance v from the centre,
-     * from its beginning at -half up to `to`; and over the disc of radius 1. Else NULL and 0. */
+    /* Of round ones, where there are closed forms: the profile's integral along the chord at a
+     * distance v from the centre, from its beginning at -half up to `to`; and over the disc of
+     * radius 1. Else NULL and 0. */
     double (*chord)(const struct font_filter *f, double v, double half, double to);
     double volume;
     /* The fast way, of radii from the least to the most, or tables. */
@@ -84,11 +85,12 @@ struct font_filter {
     struct font_filter_term terms[FONT_TERMS_MAX];
     float *tables; /* for each term x, h, y; aligned to 64 bytes */
     bool round;
-    /* Of an edge of unit dx: what m nodes on a length are wrong by at most, by its slant: |dy| up to
-     * font_slants[s] of |dx|. */
+    /* Of an edge of unit dx: what m nodes on a length are wrong by at most, by its slant: |dy|
+     * up to font_slants[s] of |dx|. */
     float node_error[FONT_SLANTS][FONT_LENGTHS][FONT_NODES_MAX]; /* [m - 1] */
-    /* By slant; two more, for whole vectors. Of an edge as flat as its slant can be: how many pieces with FONT_NODES_MAX nodes
-     * each; and how many evenly spaced nodes on a long one (0: none). */
+    /* By slant; two more, for whole vectors. Of an edge as flat as its slant can be: how many
+     * pieces with FONT_NODES_MAX nodes each; and how many evenly spaced nodes on a long one (0:
+     * none). */
     float pieces_per_px[FONT_SLANTS + 2], even_per_px[FONT_SLANTS + 2];
     bool use_nodes; /* else steps, where it is drawn by tables */
     enum font_filter_way way;
@@ -133,19 +135,20 @@ enum font_status font_filter_decompose(struct font_filter *f);
 extern const double font_gauss_at[FONT_NODES_MAX + 1][FONT_NODES_MAX];
 extern const double font_gauss_weight[FONT_NODES_MAX + 1][FONT_NODES_MAX];
 
-/* Evenly spaced nodes on 0..1, in the middles of as many parts: weights of the first three and, turned around, of the last,
- * over the others'. The middles' rule is wrong by h^2 / 24 of the slope at the ends, which is what three values say it is. */
+/* Evenly spaced nodes on 0..1, in the middles of as many parts: weights of the first three and,
+ * turned around, of the last, over the others'. The middles' rule is wrong by h^2 / 24 of the
+ * slope at the ends, which is what three values say it is. */
 enum { FONT_EVEN_LEAST = 6 };
 extern const float font_even_weight[3];
 
-/* What an edge may be wrong by for each of its pieces: a tenth of a 255th at nodes, half of that in steps, of which there
- * are more. */
+/* What an edge may be wrong by for each of its pieces: a tenth of a 255th at nodes, half of
+ * that in steps, of which there are more. */
 #define FONT_PIECE_TOLERANCE 4e-4
 #define FONT_STEP_TOLERANCE 2e-4
 #define FONT_PATCH_TOLERANCE 2e-4
 
-/* Patches are for FONT_PATCH_PHASES places of a node between two pixels each way, and the end; a patch is four rows of four
- * values. */
+/* Patches are for FONT_PATCH_PHASES places of a node between two pixels each way, and the end;
+ * a patch is four rows of four values. */
 enum {
     FONT_PATCH_PHASES = 16,
     FONT_PATCH_TAPS = 3,

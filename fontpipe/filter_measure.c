@@ -1,8 +1,9 @@
 /* filter_measure.c - what a filter does, and how finely edges must be taken apart for it.
  *
- * An edge of ink is integrated at Gauss's nodes where the filter is smooth. How long a piece of edge m nodes are
- * enough for is found by trying: pieces of several lengths and slants, against very fine steps that are exact along
- * x. Filters with corners in their profile (the box) need steps everywhere, as fine as the same trial says. */
+ * An edge of ink is integrated at Gauss's nodes where the filter is smooth. How long a piece of
+ * edge m nodes are enough for is found by trying: pieces of several lengths and slants, against
+ * very fine steps that are exact along x. Filters with corners in their profile (the box) need
+ * steps everywhere, as fine as the same trial says. */
 #include "filter_internal.h"
 
 #include <math.h>
@@ -11,7 +12,8 @@
 
 enum { REFERENCE_PER_PX = 48, GRID_PER_PX = 4, GRID_MAX = 80, REFERENCE_MAX = 288 };
 
-/* The trial edge runs from the origin. Sums of what it adds to a pixel at (x, y) of a grid, per unit of dx. */
+/* The trial edge runs from the origin. Sums of what it adds to a pixel at (x, y) of a grid, per
+ * unit of dx. */
 struct trial {
     double x[GRID_MAX], y[GRID_MAX];
     int x_count, y_count;
@@ -28,7 +30,8 @@ static int grid_fill(double *grid, double length, double radius)
     return count;
 }
 
-/* The entries of a grid that the filter reaches from `at`, with `half` of a step: outside nothing of it lies. */
+/* The entries of a grid that the filter reaches from `at`, with `half` of a step: outside
+ * nothing of it lies. */
 static void grid_reached(const double *grid, int count, double reach, double at, int *from,
                          int *to)
 {
@@ -37,7 +40,8 @@ static void grid_reached(const double *grid, int count, double reach, double at,
     *to = (int)fmin(fmax(ceil((at + reach - begin) * GRID_PER_PX) + 1, *from), count);
 }
 
-/* Adds column(x_i) * H(Y - y_i); column holds the entries from..to - 1, and is nought elsewhere. */
+/* Adds column(x_i) * H(Y - y_i); column holds the entries from..to - 1, and is nought
+ * elsewhere. */
 static void trial_add(const struct trial *t, const struct font_filter *f, int term, double y,
                       const double *column, int from, int to, double (*sum)[GRID_MAX])
 {
@@ -53,7 +57,8 @@ static void trial_add(const struct trial *t, const struct font_filter *f, int te
     }
 }
 
-/* Steps add the difference of integrals from one end of the step to the other. A step begins where the one before ended. */
+/* Steps add the difference of integrals from one end of the step to the other. A step begins
+ * where the one before ended. */
 static void trial_steps(struct trial *t, const struct font_filter *f, int count,
                         double (*sum)[GRID_MAX])
 {

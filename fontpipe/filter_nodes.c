@@ -1,4 +1,5 @@
-/* filter_nodes.c - places and weights of nodes on an edge: Gauss-Legendre's, and those of the middles' rule. */
+/* filter_nodes.c - places and weights of nodes on an edge: Gauss-Legendre's, and those of the
+ * middles' rule. */
 #include "filter_internal.h"
 
 const double font_gauss_at[FONT_NODES_MAX + 1][FONT_NODES_MAX] = {

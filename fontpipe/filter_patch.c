@@ -1,7 +1,9 @@
-/* filter_patch.c - a filter's patches: what a node adds to the pixels around it, for each place between four of them.
+/* filter_patch.c - a filter's patches: what a node adds to the pixels around it, for each place
+ * between four of them.
  *
- * A node of an edge adds F(X - x, Y - y) to a pixel, F being f's integral over y from below: see edges.c. As differences
- * between rows that is a patch of four rows, three columns wide. Round filters have no shorter form. */
+ * A node of an edge adds F(X - x, Y - y) to a pixel, F being f's integral over y from below:
+ * see edges.c. As differences between rows that is a patch of four rows, three columns wide.
+ * Round filters have no shorter form. */
 #include "filter_internal.h"
 #include "internal.h"
 
@@ -10,8 +12,8 @@
 
 enum { SIDE = FONT_PATCH_PHASES + 1 };
 
-/* F there, less a twelfth of its second differences: straight lines between such knots are wrong by as much to either
- * side. */
+/* F there, less a twelfth of its second differences: straight lines between such knots are
+ * wrong by as much to either side. */
 static double knot(const struct font_filter *f, double u, double v)
 {
     const double d = 1.0 / FONT_PATCH_PHASES;

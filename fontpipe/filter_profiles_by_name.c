@@ -1,5 +1,6 @@
-/* filter_profiles_by_name.c - the kinds of filters: profiles, and the table that everything else is read off. A new filter is its profile and
- * a row; lists of names, help and measurements have it then. */
+/* filter_profiles_by_name.c - the kinds of filters: profiles, and the table that everything
+ * else is read off. A new filter is its profile and a row; lists of names, help and
+ * measurements have it then. */
 #include "filter_internal.h"
 
 #include <math.h>
@@ -40,7 +41,8 @@ static double gaussian(const struct font_filter *f, double v)
     return exp(-0.5 * v * v / (f->def.sigma_px * f->def.sigma_px));
 }
 
-/* Source: Mitchell and Netravali, Reconstruction filters in computer graphics, SIGGRAPH 1988; b = c = 1/3. */
+/* Source: Mitchell and Netravali, Reconstruction filters in computer graphics, SIGGRAPH 1988;
+ * b = c = 1/3. */
 static double mitchell(const struct font_filter *f, double v)
 {
     const double b = 1.0 / 3, c = 1.0 / 3;

@@ -1,10 +1,11 @@
 /* filter_round.c - a round filter as a sum of products.
  *
- * f(u, v) on a grid of cells is a symmetric matrix; its eigenvectors a_k with eigenvalues l_k give
- * f = sum of l_k a_k(u) a_k(v), and the largest few are enough: the sum's error at an edge of ink is measured for
- * edges along the axes, slanted ones and corners, and terms are added until it is below a tenth of a 255th, where eight are enough for that. f is even
- * in u and v: a quarter of the cells is all there is. The eigenvectors are found together, by multiplying a set of
- * vectors with the matrix and making them perpendicular again. */
+ * f(u, v) on a grid of cells is a symmetric matrix; its eigenvectors a_k with eigenvalues l_k
+ * give f = sum of l_k a_k(u) a_k(v), and the largest few are enough: the sum's error at an edge
+ * of ink is measured for edges along the axes, slanted ones and corners, and terms are added
+ * until it is below a tenth of a 255th, where eight are enough for that. f is even in u and v:
+ * a quarter of the cells is all there is. The eigenvectors are found together, by multiplying a
+ * set of vectors with the matrix and making them perpendicular again. */
 #include "filter_internal.h"
 #include "internal.h"
 
@@ -84,8 +85,8 @@ static void vectors_find(struct round_work *w)
     }
 }
 
-/* What `rest` leaves at an edge of ink: the largest sum over a half plane or a quarter, in cells. The quarter of cells
- * stands for all four by symmetry. */
+/* What `rest` leaves at an edge of ink: the largest sum over a half plane or a quarter, in
+ * cells. The quarter of cells stands for all four by symmetry. */
 static double rest_measure(const struct round_work *w)
 {
     enum { SIDE = 2 * CELLS };

@@ -1,6 +1,7 @@
-/* gold.c - see gold.h. A pixel is the integral along the outline of G(X - x, Y - y) dy, where G is f's integral over x:
- * ink to the right of an edge that rises in the picture. Columns right of the filter's reach get all of G's row at once,
- * so the sums are differences between columns. */
+/* gold.c - see gold.h. A pixel is the integral along the outline of G(X - x, Y - y) dy, where G
+ * is f's integral over x: ink to the right of an edge that rises in the picture. Columns right
+ * of the filter's reach get all of G's row at once, so the sums are differences between
+ * columns. */
 #include "gold.h"
 #include "filter_internal.h"
 #include "internal.h"
@@ -17,7 +18,8 @@ struct gold {
     double side;
 };
 
-/* From (x0, y0) to (x1, y1), in pixels from the picture's corner, a step that is all but straight. */
+/* From (x0, y0) to (x1, y1), in pixels from the picture's corner, a step that is all but
+ * straight. */
 static void step_add(struct gold *g, double x0, double y0, double x1, double y1)
 {
     const struct font_filter *f = g->filter;
@@ -100,8 +102,8 @@ enum font_status font_gold_draw(const struct font_outline *outline, const struct
     struct font_point middle = {(box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2}, to;
     double j[4] = {0};
     font_map_point(map, middle, &to, j);
-    /* Ink is to the right of segments with turn 1, y upwards; turned over by the map. Where it is to the right
-     * and the edge rises in the picture (y falls), the integral counts -dy. */
+    /* Ink is to the right of segments with turn 1, y upwards; turned over by the map. Where it
+     * is to the right and the edge rises in the picture (y falls), the integral counts -dy. */
     g.side = outline->turn * (j[0] * j[3] - j[1] * j[2] < 0 ? -1 : 1);
     enum font_status status = FONT_OK;
     for (int i = 0; i < outline->segments_count && status == FONT_OK; i++)

@@ -1,8 +1,9 @@
 /* gray.c - where a picture lies, and its bands: see gray.h and gray_kernel.h.
  *
- * The first column is left of all ink by the filter's radius: left = floor(x0 + 1/2 - radius). With
- * a = x - left + 1/2 - radius, floor(a) is the first column that a point at x reaches, and a - floor(a) its phase in
- * the tables. Rows are the same. Pictures whose sums would not stay in the cache are drawn in bands. */
+ * The first column is left of all ink by the filter's radius: left = floor(x0 + 1/2 - radius).
+ * With a = x - left + 1/2 - radius, floor(a) is the first column that a point at x reaches, and
+ * a - floor(a) its phase in the tables. Rows are the same. Pictures whose sums would not stay
+ * in the cache are drawn in bands. */
 #include "gray.h"
 #include "edges_internal.h"
 #include "gray_internal.h"

@@ -1,16 +1,18 @@
 /* gray_area.h - arcs to the areas that they cover in pixels, exactly: part of gray_kernel.h.
  *
- * In a row of cells between two columns' borders and two rows', a part of an arc from (x0, y0) to (x1, y1) has ink below it
- * in a share u of the cell and in all of the cells below. As differences between rows that is two numbers, with
- * dx = x1 - x0 and the area u under the arc within the row, measured from the row's top:
+ * In a row of cells between two columns' borders and two rows', a part of an arc from (x0, y0)
+ * to (x1, y1) has ink below it in a share u of the cell and in all of the cells below. As
+ * differences between rows that is two numbers, with dx = x1 - x0 and the area u under the arc
+ * within the row, measured from the row's top:
  *
  *     its row       dx - u        the rest of the ink below it
  *     the next row  u             so that from there on dx is full
  *
- * u is that of the chord and, of a curve, a lens: |c x b| h^3 / 6 of the part of length h in t. So an arc is cut where it
- * crosses borders, and each part is two additions. Mirrored so that x and y grow, columns are crossed at
- * t = 2 (k - x) / (c + sqrt(c^2 + 4 b (k - x))), as many at once as a vector holds, and rows likewise; the two lists are
- * merged as the parts are gone through. */
+ * u is that of the chord and, of a curve, a lens: |c x b| h^3 / 6 of the part of length h in t.
+ * So an arc is cut where it crosses borders, and each part is two additions. Mirrored so that x
+ * and y grow, columns are crossed at t = 2 (k - x) / (c + sqrt(c^2 + 4 b (k - x))), as many at
+ * once as a vector holds, and rows likewise; the two lists are merged as the parts are gone
+ * through. */
 #include "arcs.h"
 
 enum { CROSSINGS = 16 }; /* of an arc with columns, or rows; FONT_ARC_SPAN_PX and the ends' */

@@ -1,9 +1,12 @@
-/* gray_disc.h - arcs to the shares of discs that ink covers, for the pillbox: part of gray_kernel.h.
+/* gray_disc.h - arcs to the shares of discs that ink covers, for the pillbox: part of
+ * gray_kernel.h.
  *
- * A pixel is the area of its disc below an arc (and between the arc's ends along x), over the disc's area. With the disc's radius
- * as the unit and its centre as the origin, w(x) = sqrt(1 - x^2), and l(x) the arc,
+ * A pixel is the area of its disc below an arc (and between the arc's ends along x), over the
+ * disc's area. With the disc's radius as the unit and its centre as the origin, w(x) = sqrt(1 -
+ * x^2), and l(x) the arc,
  *
- *     area = integral of w - min(max(l, -w), w) dx   over x from a to b: the arc's ends, cut off at -1 and 1
+ *     area = integral of w - min(max(l, -w), w) dx   over x from a to b: the arc's ends, cut
+ *                                                    off at -1 and 1
  *
  *           .  -  .
  *        /         \          from p to q the arc is inside: l's own integral, a trapezium's and a parabola's
@@ -11,13 +14,14 @@
  *       \        `q /         before p and behind q it is above or below all of the disc: -w or w, whose integral
  *         '  -  '             W(x) = (x sqrt(1 - x^2) + asin x) / 2 is a polynomial but for a root
  *
- * p and q are where the arc's chord, shifted by as much as the arc is beside it there, meets the circle. All of
- * that is continuous: nothing depends on which side of a rounding error something lies. Vertical edges have no part
- * in it.
+ * p and q are where the arc's chord, shifted by as much as the arc is beside it there, meets
+ * the circle. All of that is continuous: nothing depends on which side of a rounding error
+ * something lies. Vertical edges have no part in it.
  *
- * A block of 4 by 4 pixels is done at once, of most arcs the only one. Sums are differences between rows, and below the block all
- * of 2 (W(b) - W(a)) counts. Each step of an area waits for the one before, so two vectors are gone through together: two arcs'
- * blocks, or two parts of one. */
+ * A block of 4 by 4 pixels is done at once, of most arcs the only one. Sums are differences
+ * between rows, and below the block all of 2 (W(b) - W(a)) counts. Each step of an area waits
+ * for the one before, so two vectors are gone through together: two arcs' blocks, or two parts
+ * of one. */
 enum {
     BLOCK = 4,
     BLOCK_ROWS = LANES / BLOCK,
@@ -34,8 +38,8 @@ struct discs {
     float x[DISC_BATCH], y[DISC_BATCH];               /* where it begins */
     float dx[DISC_BATCH], dy[DISC_BATCH];             /* its chord's direction */
     float length[DISC_BATCH], per_length[DISC_BATCH]; /* of the chord */
-    float bend
-        [DISC_BATCH]; /* four times the distance of the arc's middle from the chord, downwards */
+    /* four times the distance of the arc's middle from the chord, downwards */
+    float bend[DISC_BATCH];
     float lens[DISC_BATCH];   /* the area between arc and chord */
     float weight[DISC_BATCH]; /* 1 / pi, and which way it was turned */
     int column[DISC_BATCH], row[DISC_BATCH], columns[DISC_BATCH], rows[DISC_BATCH];
@@ -103,7 +107,8 @@ INLINE void discs_make(struct discs *d, const struct font_gray_job *job, int fir
     }
 }
 
-/* To 14 bits where that is much faster: no processor draws the plain ones otherwise than another. */
+/* To 14 bits where that is much faster: no processor draws the plain ones otherwise than
+ * another. */
 INLINE vector quick_root(vector v)
 {
 #if LANES == 16
@@ -132,7 +137,8 @@ INLINE vector vector_between(vector v, vector low, vector high)
     return vector_min(vector_max(v, low), high);
 }
 
-/* Of a block's columns, each as often as there are rows in a vector: the ends of the arc's part, and the integrals there. */
+/* Of a block's columns, each as often as there are rows in a vector: the ends of the arc's
+ * part, and the integrals there. */
 struct disc_columns {
     vector x0, from, to, at_from, at_to;
 };
@@ -192,8 +198,8 @@ INLINE void disc_areas(vector out[TOGETHER], const struct discs *d, const int ar
         x0[p] = c[p].x0;
         y0[p] = d->y[arc[p]] - top[p];
     }
-    /* The chord's point nearest to the centre: its distance along the chord, and from it. There the arc is about as far
-     * from the chord. */
+    /* The chord's point nearest to the centre: its distance along the chord, and from it. There
+     * the arc is about as far from the chord. */
     EACH foot[p] = -(x0[p] * dx[p] + y0[p] * dy[p]);
     EACH line[p] = y0[p] * dx[p] - x0[p] * dy[p];
     EACH t0[p] = vector_between(foot[p] * per[p], none, one);
@@ -218,7 +224,8 @@ INLINE void disc_areas(vector out[TOGETHER], const struct discs *d, const int ar
         vector_between(x0[p] + q0[p] * dx[p] - beside_q[p] * dy[p], c[p].from, c[p].to);
     EACH yp[p] = y0[p] + p0[p] * dy[p] + beside_p[p] * dx[p];
     EACH yq[p] = y0[p] + q0[p] * dy[p] + beside_q[p] * dx[p];
-    /* What is before and behind the arc's part inside, with the sign of where the arc is: above the disc or below it. */
+    /* What is before and behind the arc's part inside, with the sign of where the arc is: above
+     * the disc or below it. */
     EACH p0[p] = disc_integral(xp[p]) - c[p].at_from;
     EACH q0[p] = c[p].at_to - disc_integral(xq[p]);
     EACH p0[p] = (vector)((ints)p0[p] ^ ((ints)yp[p] & (int)0x80000000));
@@ -229,7 +236,8 @@ INLINE void disc_areas(vector out[TOGETHER], const struct discs *d, const int ar
     EACH out[p] = (c[p].at_to - c[p].at_from - p0[p] - half[p] - q0[p]) * d->weight[arc[p]];
 }
 
-/* Adds what a block's rows are more than the rows above them. above: the row before the block, and then its last. */
+/* Adds what a block's rows are more than the rows above them. above: the row before the block,
+ * and then its last. */
 INLINE void block_store(float *sums, int stride, const vector *rows, four_floats *above)
 {
     for (int r = 0; r < BLOCK; r++) {

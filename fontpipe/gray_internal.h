@@ -1,4 +1,5 @@
-/* gray_internal.h - what gray.c hands to the kernels, which are compiled once for each instruction set. */
+/* gray_internal.h - what gray.c hands to the kernels, which are compiled once for each
+ * instruction set. */
 #ifndef LUTETIA_FONT_GRAY_INTERNAL_H
 #define LUTETIA_FONT_GRAY_INTERNAL_H
 
@@ -17,7 +18,8 @@ enum {
     FONT_NARROW_ROWS = FONT_SUMS_FLOATS / FONT_NARROW_STRIDE - 2 * FONT_MARGIN_ROWS
 };
 
-/* The sums are differences between rows: row r of the band is at sums + (FONT_MARGIN_ROWS + r) * stride. */
+/* The sums are differences between rows: row r of the band is at sums + (FONT_MARGIN_ROWS +
+ * r) * stride. */
 struct font_gray_job {
     const struct font_filter *filter;
     const float *node_x, *node_y, *node_weight;

@@ -2,8 +2,8 @@
  *     LANES    floats in a vector: 4, 8 or 16
  *     KERNEL   the function's name
  *
- * Sums are kept as differences between a row and the one above it, so that a bit of edge touches only the rows within
- * the filter's reach and all the ink below it costs nothing:
+ * Sums are kept as differences between a row and the one above it, so that a bit of edge
+ * touches only the rows within the filter's reach and all the ink below it costs nothing:
  *
  *                taps ->                 a node adds an outer product:
  *          . . . x x x x . . . .         taps of its column, times its weight,
@@ -14,18 +14,21 @@
  *
  * At the end one pass down the columns adds the rows up.
  *
- * Nodes that follow each other mostly add to the same block of 8 columns, which begins at a multiple of 4 (of 2 or 1 if there
- * are more than 5 taps), of the same rows: they are added up in registers, and then once to the sums.
+ * Nodes that follow each other mostly add to the same block of 8 columns, which begins at a
+ * multiple of 4 (of 2 or 1 if there are more than 5 taps), of the same rows: they are added up
+ * in registers, and then once to the sums.
  *
- * In a small picture they seldom are, and what one node stores the next loads at once, of columns that overlap. A processor
- * hands what was just stored to the next load without waiting only if the load is of the same bytes; so there sums
- * of up to five taps are touched in whole blocks alone. Of a picture of up to 16 columns a row of sums is two rows of such
- * blocks, each aligned, added up at the end:
+ * In a small picture they seldom are, and what one node stores the next loads at once, of
+ * columns that overlap. A processor hands what was just stored to the next load without waiting
+ * only if the load is of the same bytes; so there sums of up to five taps are touched in whole
+ * blocks alone. Of a picture of up to 16 columns a row of sums is two rows of such blocks, each
+ * aligned, added up at the end:
  *
  *     even   |0       |8       |
  *     odd    |   4    |   12   |
  *
- * The tables are padded, so that a block's values are one load whatever column the taps begin at. */
+ * The tables are padded, so that a block's values are one load whatever column the taps begin
+ * at. */
 #include "gray_internal.h"
 #include "lanes.h"
 
@@ -45,7 +48,8 @@ INLINE half_vector half_load(const float *at)
     return *(const half_loose *)at;
 }
 
-/* What vectors wrote is read again one by one: a processor broadcasts from memory for nothing. */
+/* What vectors wrote is read again one by one: a processor broadcasts from memory for
+ * nothing. */
 #define IN_MEMORY() __asm__ volatile("" ::: "memory")
 
 #define SHORT(taps) ((taps) <= 5) /* they lie in a block that begins at a multiple of 4 */
@@ -91,8 +95,8 @@ INLINE bool row_in_band(const struct font_gray_job *job, int row)
 
 enum { BATCH = 64 };
 
-/* For each node: where its column's and its rows' values begin in the tables, how far it is to the next phase, and
- * where its sums are. */
+/* For each node: where its column's and its rows' values begin in the tables, how far it is to
+ * the next phase, and where its sums are. */
 struct batch {
     int column[BATCH], rows[BATCH], row[BATCH], sums[BATCH];
     float column_t[BATCH], rows_t[BATCH];
@@ -133,7 +137,8 @@ INLINE void node_weigh(half_vector *columns, half_vector *weights, const struct 
     rows_weigh(weights, ys + b->rows[k], b->rows_t[k], weight, taps);
 }
 
-/* What the compiler knows of a pointer it forgets: it then counts from it, and does not compute each row's address. */
+/* What the compiler knows of a pointer it forgets: it then counts from it, and does not compute
+ * each row's address. */
 #define OPAQUE(pointer) __asm__("" : "+r"(pointer))
 
 INLINE void block_add(float *sums, int stride, const half_vector *columns,
@@ -171,8 +176,9 @@ INLINE void run_row_copy(struct run *run, int row, int from, int parts)
         run->rows[row][p] = run->rows[from][p];
 }
 
-/* From sums to sums + way. Where that is one row further down or up, one row is added to the sums and the others stay; of few
- * rows in few registers that is slower than to add them all. */
+/* From sums to sums + way. Where that is one row further down or up, one row is added to the
+ * sums and the others stay; of few rows in few registers that is slower than to add them
+ * all. */
 INLINE void run_move(struct run *run, float *sums, int way, int stride, int last, int parts)
 {
     const bool slides = LANES == 16 || !SHORT(last);
@@ -188,16 +194,17 @@ INLINE void run_move(struct run *run, float *sums, int way, int stride, int last
         run_row_clear(run, 0, parts);
     } else {
         for (int r = 0; r <= last; r++, sums += stride) {
-            OPAQUE(
-                sums); /* else the rows' offsets take the registers that the loop around this needs */
+            /* else the rows' offsets take the registers that the loop around this needs */
+            OPAQUE(sums);
             run_row_add(run, r, sums, parts);
             run_row_clear(run, r, parts);
         }
     }
 }
 
-/* All but narrow pictures of few taps. Of nodes that follow each other many are of the same block of the same rows, or of rows
- * that begin one further down or up: their sums stay in registers. */
+/* All but narrow pictures of few taps. Of nodes that follow each other many are of the same
+ * block of the same rows, or of rows that begin one further down or up: their sums stay in
+ * registers. */
 INLINE void runs_add(const struct font_gray_job *job, int term, int stride, int taps,
                      bool banded)
 {
@@ -237,8 +244,8 @@ INLINE void node_add(const struct font_gray_job *job, const struct batch *b, int
     block_add(job->sums + b->sums[k], FONT_NARROW_STRIDE, columns, weights, taps);
 }
 
-/* Narrow pictures of few taps. Neighbours on an edge add to the same rows and each waits for what the one before has stored; so
- * a batch is gone through from three places in turns. */
+/* Narrow pictures of few taps. Neighbours on an edge add to the same rows and each waits for
+ * what the one before has stored; so a batch is gone through from three places in turns. */
 INLINE void narrow_add(const struct font_gray_job *job, int term, int taps)
 {
     const float *xs = font_filter_x(job->filter, term), *ys = font_filter_y(job->filter, term);
@@ -334,7 +341,8 @@ INLINE void pixels_store(uint8_t *out, const vector *sum)
 #endif
 }
 
-/* Of a row of odd blocks, which begins at column 4. What is before it in a narrow picture is another's. */
+/* Of a row of odd blocks, which begins at column 4. What is before it in a narrow picture is
+ * another's. */
 INLINE vector odd_load(const float *at, bool first)
 {
     vector v = load(at);

@@ -1,9 +1,11 @@
-/* gray_patch.h - nodes to sums by patches, for filters that are no short sum of products: part of gray_kernel.h.
+/* gray_patch.h - nodes to sums by patches, for filters that are no short sum of products: part
+ * of gray_kernel.h.
  *
- * Where a node lies between two columns and two rows says which four patches of the table are interpolated between. What
- * the table's straight lines are wrong by is of both signs along an edge, and next to nothing after it. A patch is
- * four rows of four columns, which together are one cache line; nodes of one pixel that follow each other are added
- * up in registers, and then once to the four rows. */
+ * Where a node lies between two columns and two rows says which four patches of the table are
+ * interpolated between. What the table's straight lines are wrong by is of both signs along an
+ * edge, and next to nothing after it. A patch is four rows of four columns, which together are
+ * one cache line; nodes of one pixel that follow each other are added up in registers, and then
+ * once to the four rows. */
 
 typedef float four_columns __attribute__((vector_size(16), aligned(4), may_alias));
 

@@ -1,14 +1,17 @@
-/* ink.h - what letters are filled with: a colour, a gradient, a picture; each may let what is below shine through.
+/* ink.h - what letters are filled with: a colour, a gradient, a picture; each may let what is
+ * below shine through.
  *
  *     struct font_ink inks[] = {font_ink_plain(0.8, 0.1, 0.1, 0.5)};     // half of a red
  *     layout.inks = inks; ...                                            // see text.h
  *
- * Places are in pixels of the layout: (0, 0) is its origin. They are not turned with a map of the text.
+ * Places are in pixels of the layout: (0, 0) is its origin. They are not turned with a map of
+ * the text.
  *
  *     struct font_ink sky = {.kind = FONT_INK_LINEAR, .y1 = 100, .stops_count = 2,
  *                            .stops = {{0, {0.2, 0.4, 0.9, 1}}, {1, {1, 1, 1, 0}}}};
  *
- * Errors: functions that can fail return a status and leave one line in font_error(). Others cannot fail.
+ * Errors: functions that can fail return a status and leave one line in font_error(). Others
+ * cannot fail.
  *
  * Ownership: a picture's pixels are borrowed as long as the ink is used. Threads: any. */
 #ifndef LUTETIA_FONT_INK_H

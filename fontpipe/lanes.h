@@ -1,5 +1,5 @@
-/* lanes.h - vectors of LANES floats, and what they have an instruction for: part of gray_kernel.h and edges_kernel.h, which are
- * compiled once for each instruction set. */
+/* lanes.h - vectors of LANES floats, and what they have an instruction for: part of
+ * gray_kernel.h and edges_kernel.h, which are compiled once for each instruction set. */
 #if defined(__AVX2__)
 #include <immintrin.h>
 #elif defined(__SSE2__)
@@ -65,7 +65,8 @@ INLINE vector vector_absolute(vector v)
     return (vector)((ints)v & 0x7fffffff);
 }
 
-/* ---- choices, lane by lane: masks have registers of their own in AVX-512; & and | work with all of them ---- */
+/* ---- choices, lane by lane: masks have registers of their own in AVX-512; & and | work with
+ * all of them ---- */
 
 #if LANES == 16
 typedef __mmask16 choice;

@@ -1,4 +1,5 @@
-/* levels.c - see levels.h. A level that must be made again is marked so, and so is all that lies below it. */
+/* levels.c - see levels.h. A level that must be made again is marked so, and so is all that
+ * lies below it. */
 #include "levels.h"
 #include "internal.h"
 
@@ -156,7 +157,8 @@ enum font_status font_levels_rectangles_merge(struct font_levels *l, int slack, 
     int before = rectangles->count;
     struct font_rectangles rows = {0};
     const struct font_master *master;
-    if (!l->rectangles_edited) { /* alike ones, though there are more of them, may merge to fewer */
+    if (!l->rectangles_edited) {
+        /* alike ones, though there are more of them, may merge to fewer */
         status = font_levels_master(l, &master);
         if (status == FONT_OK)
             status = font_rectangles_make_rows(&rows, master);
@@ -239,7 +241,8 @@ enum font_status font_levels_filter_set(struct font_levels *l, const char *name)
     font_filter_destroy(l->filter);
     l->filter = filter;
     l->made.filters++;
-    /* Edges of the outline are as fine as the filter asks for; those of rectangles are always the same. */
+    /* Edges of the outline are as fine as the filter asks for; those of rectangles are always
+     * the same. */
     if (!from_master(l))
         l->edges_made = false;
     l->gray_made = l->gray_edited = false;

@@ -1,8 +1,10 @@
-/* line_ends.c - where lines may end: by ICU, which knows Unicode's present rules and the words of Thai, Lao, Khmer and Burmese, or,
- * where it is not installed, by libunibreak, whose tables are of Unicode 6.
+/* line_ends.c - where lines may end: by ICU, which knows Unicode's present rules and the words
+ * of Thai, Lao, Khmer and Burmese, or, where it is not installed, by libunibreak, whose tables
+ * are of Unicode 6.
  *
- * ICU is large (its data alone 30 MB), and most text needs nothing of it: of plain letters, white space and usual signs
- * both say the same (tests/fontpipe/test_unicode.c). So it is loaded when the first paragraph comes that has more. */
+ * ICU is large (its data alone 30 MB), and most text needs nothing of it: of plain letters,
+ * white space and usual signs both say the same (tests/fontpipe/test_unicode.c). So it is
+ * loaded when the first paragraph comes that has more. */
 #include "text_internal.h"
 
 #include <library.h>
@@ -22,7 +24,8 @@ __attribute__((constructor)) static void unibreak_begin(void)
     init_linebreak(); /* an index to its tables */
 }
 
-/* What libunibreak is given for a character: it stops the program at flags, and emoji are unknown to it. */
+/* What libunibreak is given for a character: it stops the program at flags, and emoji are
+ * unknown to it. */
 static uint32_t known_to_unibreak(uint32_t c)
 {
     enum { IDEOGRAPH = 0x4e00, MARK = 0x308, UNKNOWN = 0xfffd };
@@ -76,8 +79,8 @@ static int iterators_count;
 static pthread_mutex_t icu_lock = PTHREAD_MUTEX_INITIALIZER;
 static pthread_once_t icu_once = PTHREAD_ONCE_INIT;
 
-/* Its functions have its version in their names, as the library has in its own. What we call is in all, so that of the headers is only
- * tried first. */
+/* Its functions have its version in their names, as the library has in its own. What we call is
+ * in all, so that of the headers is only tried first. */
 static bool icu_load(int version)
 {
     static const struct {
@@ -179,7 +182,8 @@ static bool plain(uint32_t c)
            c == '(' || c == ')' || c == ';' || c == ':' || c == '!' || c == '?' || c == '\'';
 }
 
-/* Do both say the same here? Since Unicode 15.1 a line may end between a quotation mark and an opening bracket, if there is white space. */
+/* Do both say the same here? Since Unicode 15.1 a line may end between a quotation mark and an
+ * opening bracket, if there is white space. */
 static bool plain_at(const uint32_t *characters, int at)
 {
     int before = at - 1;

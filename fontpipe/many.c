@@ -1,5 +1,6 @@
-/* many.c - see many.h. Edges are kept on the host in one array of each kind, every glyph's padded, and copied when there are
- * new ones. As many work-items as the device can run at once share the glyphs. */
+/* many.c - see many.h. Edges are kept on the host in one array of each kind, every glyph's
+ * padded, and copied when there are new ones. As many work-items as the device can run at once
+ * share the glyphs. */
 #include "many.h"
 #include "gray_internal.h"
 #include "internal.h"
@@ -142,7 +143,8 @@ enum font_status font_many_create(const char *device, const struct font_filter *
     cl_uint units = 1;
     if (status == FONT_OK)
         clGetDeviceInfo(m->device, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
-    /* PoCL hands out groups 32 at a time: so many that all threads get some, and end together. */
+    /* PoCL hands out groups 32 at a time: so many that all threads get some, and end
+     * together. */
     m->workers = 256 * (size_t)(units > 64 ? 64 : units);
     if (status == FONT_OK)
         *out = m;

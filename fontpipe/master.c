@@ -1,5 +1,6 @@
-/* master.c - see master.h. A prepared outline covers nothing twice, so a row is found by turning bits over: each edge
- * that crosses the row's middle turns all pixels right of it, and two turns are none. Of a tangled outline winding numbers are counted. */
+/* master.c - see master.h. A prepared outline covers nothing twice, so a row is found by
+ * turning bits over: each edge that crosses the row's middle turns all pixels right of it, and
+ * two turns are none. Of a tangled outline winding numbers are counted. */
 #include "master.h"
 #include "internal.h"
 
@@ -15,7 +16,8 @@ void font_master_finish(struct font_master *m)
     *m = (struct font_master){0};
 }
 
-/* Turns the first pixel right of each crossing of a row's middle; or notes in `winding` by how much the number changes there. */
+/* Turns the first pixel right of each crossing of a row's middle; or notes in `winding` by how
+ * much the number changes there. */
 static void line_turn(struct font_master *m, int *winding, struct font_point a,
                       struct font_point b)
 {
@@ -72,7 +74,8 @@ static void segments_turn(struct font_master *m, int *winding, const struct font
         double length = 0;
         for (int k = 0; k < s->degree; k++)
             length += hypot(s->p[k + 1].x - s->p[k].x, s->p[k + 1].y - s->p[k].y) * scale;
-        /* A piece of length l leaves a curve by some l^2 over its length: a small part of a pixel. */
+        /* A piece of length l leaves a curve by some l^2 over its length: a small part of a
+         * pixel. */
         int n = s->degree == 1 ? 1 : 2 + (int)ceil(2 * sqrt(length));
         struct font_point a = {s->p[0].x * scale - m->left_px, -s->p[0].y * scale - m->top_px};
         for (int k = 1; k <= n; k++) {

@@ -1,13 +1,16 @@
 /* master_outline.c - masters, and rectangles, as outlines again: see master.h.
  *
- * The boundary is walked along the sides of black pixels, ink at the right hand. Where a walk comes to a corner of pixels it sees two of them
- * ahead, and turns to the right where the right one is white: so pixels that meet in a corner alone are apart, and no walk meets itself.
+ * The boundary is walked along the sides of black pixels, ink at the right hand. Where a walk
+ * comes to a corner of pixels it sees two of them ahead, and turns to the right where the right
+ * one is white: so pixels that meet in a corner alone are apart, and no walk meets itself.
  *
- *        E             A pixel's sides are walked east above it, south at its right, west below it,
- *      +---->          north at its left. Each walk goes east somewhere, so it is enough to begin
+ *        E             A pixel's sides are walked east above it, south at its right, west below
+ *                      it,
+ *      +---->          north at its left. Each walk goes east somewhere, so it is enough to
+ *                      begin
  *    N |####| S        where a pixel has none above it.
  *      <----+
- *        W                                                                                        */
+ *        W */
 #include "internal.h"
 #include "master.h"
 

@@ -1,4 +1,5 @@
-/* master_picture.c - masters as pictures in bytes and back: for retouching in a painting program. */
+/* master_picture.c - masters as pictures in bytes and back: for retouching in a painting
+ * program. */
 #include "internal.h"
 #include "master.h"
 

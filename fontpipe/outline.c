@@ -214,8 +214,8 @@ struct font_box font_outline_box(const struct font_outline *o)
 
 /* ---- emboldening ---- */
 
-/* The direction in which the segment leaves its first point, or with `end` arrives at its last: control points
- * that coincide are passed over. */
+/* The direction in which the segment leaves its first point, or with `end` arrives at its last:
+ * control points that coincide are passed over. */
 static struct font_point direction(const struct font_segment *s, bool end)
 {
     for (int k = 1; k <= s->degree; k++) {
@@ -228,7 +228,8 @@ static struct font_point direction(const struct font_segment *s, bool end)
     return (struct font_point){0, 0};
 }
 
-/* How far a corner between two directions moves so that both sides move by 1 to the left; no further than 2. */
+/* How far a corner between two directions moves so that both sides move by 1 to the left; no
+ * further than 2. */
 static struct font_point miter(struct font_point in, struct font_point out)
 {
     struct font_point sum = {-in.y - out.y, in.x + out.x};
@@ -246,7 +247,8 @@ enum font_status font_outline_embolden(struct font_outline *o, double x, double 
     enum font_status status = font_outline_close(o);
     if (status != FONT_OK)
         return status;
-    /* Outwards is to the left where contours turn clockwise (their area is negative, y upwards). */
+    /* Outwards is to the left where contours turn clockwise (their area is negative, y
+     * upwards). */
     double area = 0;
     for (int i = 0; i < o->segments_count; i++) {
         const struct font_segment *s = &o->segments[i];

@@ -11,22 +11,26 @@
  *     ...
  *     font_outline_finish(&outline);
  *
- * Units. The font's own, y upwards, 0 on the baseline. Curves are straight lines and Bezier curves of second and
- * third degree; they are kept as curves until they meet pixels.
+ * Units. The font's own, y upwards, 0 on the baseline. Curves are straight lines and Bezier
+ * curves of second and third degree; they are kept as curves until they meet pixels.
  *
- * Prepared. What is filled afterwards must be covered once: font_outline_prepare() looks for parts that are
- * covered twice (contours that overlap or cross themselves, as variable fonts have them) and replaces such an
- * outline by the boundary of what the rule fills. Most outlines have none and stay as they are. A prepared outline is
- * not written to: adding to it or emboldening it makes it one that is not prepared.
+ * Prepared. What is filled afterwards must be covered once: font_outline_prepare() looks for
+ * parts that are covered twice (contours that overlap or cross themselves, as variable fonts
+ * have them) and replaces such an outline by the boundary of what the rule fills. Most outlines
+ * have none and stay as they are. A prepared outline is not written to: adding to it or
+ * emboldening it makes it one that is not prepared.
  *
- * Tangled. An outline that crosses itself some hundred thousand times, and more, stays as it is, and what its rule fills is found each time
- * that its edges or its master are made (edges_tangled.c). That takes at most about a second; docs/fonts.md says how exact it is.
+ * Tangled. An outline that crosses itself some hundred thousand times, and more, stays as it
+ * is, and what its rule fills is found each time that its edges or its master are made
+ * (edges_tangled.c). That takes at most about a second; docs/fonts.md says how exact it is.
  *
- * Errors: functions that can fail return a status and leave one line in font_error(). Others cannot fail.
+ * Errors: functions that can fail return a status and leave one line in font_error(). Others
+ * cannot fail.
  *
  * Ownership: an outline's arrays are its own; font_outline_finish() frees them.
  *
- * Threads: an outline belongs to one thread at a time while it is changed; any number may read a prepared one. */
+ * Threads: an outline belongs to one thread at a time while it is changed; any number may read
+ * a prepared one. */
 #ifndef LUTETIA_FONT_OUTLINE_H
 #define LUTETIA_FONT_OUTLINE_H
 
@@ -60,8 +64,8 @@ struct font_outline {
     double advance; /* to the next glyph's origin */
     /* Set by font_outline_prepare(). */
     bool prepared;
-    bool
-        rebuilt; /* parts were covered more than once: segments are pieces of a boundary, in no order */
+    /* parts were covered more than once: segments are pieces of a boundary, in no order */
+    bool rebuilt;
     bool tangled; /* it may cover parts more than once: filled by `rule` where it is drawn */
     enum font_fill rule;
     int turn; /* +1 the inside is on the right of its segments (y upwards), -1 on the left */
@@ -87,8 +91,8 @@ void font_outline_finish(struct font_outline *o); /* frees; zeros it */
 /* Replaces what *to holds. Errors: NO_MEMORY. */
 enum font_status font_outline_copy(const struct font_outline *from, struct font_outline *to);
 
-/* Errors: TOO_LARGE past FONT_SEGMENTS_MAX, NO_MEMORY, BAD_ARGUMENT for numbers that are not finite or
- * beyond 1e7. A contour that is left open is closed by a line. */
+/* Errors: TOO_LARGE past FONT_SEGMENTS_MAX, NO_MEMORY, BAD_ARGUMENT for numbers that are not
+ * finite or beyond 1e7. A contour that is left open is closed by a line. */
 enum font_status font_outline_move(struct font_outline *o, double x, double y);
 enum font_status font_outline_line(struct font_outline *o, double x, double y);
 enum font_status font_outline_quad(struct font_outline *o, double cx, double cy, double x,
@@ -99,12 +103,14 @@ enum font_status font_outline_close(struct font_outline *o);
 
 /* See above. Errors: NO_MEMORY; the outline is as it was. */
 enum font_status font_outline_prepare(struct font_outline *o, enum font_fill rule);
-/* The same by strips alone (fill.c), whatever the outline: slower, what font_outline_prepare() is tested against.
- * Errors: TOO_LARGE for outlines that cross too often, NO_MEMORY; the outline is as it was. */
+/* The same by strips alone (fill.c), whatever the outline: slower, what font_outline_prepare()
+ * is tested against. Errors: TOO_LARGE for outlines that cross too often, NO_MEMORY; the
+ * outline is as it was. */
 enum font_status font_outline_prepare_by_strips(struct font_outline *o, enum font_fill rule);
 
-/* Moves the outline outwards by half of the amounts on each side: what stem darkening asks for, and fake bold.
- * Units: the font's. Before it is prepared. Errors: BAD_ARGUMENT, TOO_LARGE, NO_MEMORY. */
+/* Moves the outline outwards by half of the amounts on each side: what stem darkening asks for,
+ * and fake bold. Units: the font's. Before it is prepared. Errors: BAD_ARGUMENT, TOO_LARGE,
+ * NO_MEMORY. */
 enum font_status font_outline_embolden(struct font_outline *o, double x, double y);
 
 /* Where the curve is at t, and how fast it goes there. */

@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-/* A piece of L pixels is cut into 2.5 sqrt(L): where it turns by no more than it is long, chords are a thirtieth of a pixel from
- * the curve at most. */
+/* A piece of L pixels is cut into 2.5 sqrt(L): where it turns by no more than it is long,
+ * chords are a thirtieth of a pixel from the curve at most. */
 static const double cuts_per_root = 2.5;
 enum { CUTS_MAX = 256, SAMPLES = 8 };
 

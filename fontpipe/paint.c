@@ -1,7 +1,8 @@
 /* paint.c - see paint.h.
  *
- * What is kept: a glyph's edges by (face, axes, glyph, map), and with `places` its gray pictures by that and the place
- * between pixels. Both are entries of one table with one budget; what was not used for longest goes first. */
+ * What is kept: a glyph's edges by (face, axes, glyph, map), and with `places` its gray
+ * pictures by that and the place between pixels. Both are entries of one table with one budget;
+ * what was not used for longest goes first. */
 #include "own.h"
 #include "paint_internal.h"
 
@@ -145,7 +146,8 @@ struct entry *font_painter_entry_make(struct font_painter *p, const struct key *
     return e;
 }
 
-/* Counts the entry's bytes and drops others while there are too many; the newest always stays. */
+/* Counts the entry's bytes and drops others while there are too many; the newest always
+ * stays. */
 void font_painter_entry_weigh(struct font_painter *p, struct entry *e, size_t bytes)
 {
     p->stats.kept_bytes += bytes - e->bytes;
@@ -158,7 +160,8 @@ void font_painter_entry_weigh(struct font_painter *p, struct entry *e, size_t by
 
 /* ---- glyphs ---- */
 
-/* How much wider stems get that are so wide, both in pixels: between these points on straight lines. */
+/* How much wider stems get that are so wide, both in pixels: between these points on straight
+ * lines. */
 static double darkening_of_stem(double stem_px)
 {
     static const double stems[] = {0.5, 1, 1.667, 2.333}, more[] = {0.4, 0.275, 0.275, 0};
@@ -301,8 +304,8 @@ static enum font_status edges_get(struct font_painter *p, struct font_face *face
     return FONT_OK;
 }
 
-/* The glyph's map: its own units to pixels at its place in the text, then the text's map. What is left over as a
- * translation is the place; distortions have it in the map. */
+/* The glyph's map: its own units to pixels at its place in the text, then the text's map. What
+ * is left over as a translation is the place; distortions have it in the map. */
 static enum font_status placed_map(const struct font_layout *layout, int i,
                                    const struct font_map *map, double x_px, double y_px,
                                    struct font_map *out, double *x, double *y)

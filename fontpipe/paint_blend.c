@@ -12,7 +12,8 @@ static inline uint8_t mixed(const struct font_painter *p, uint8_t below, float i
     return p->to_number[(int)(sqrtf(light) * TO_NUMBER + 0.5f)];
 }
 
-/* The part of a glyph's rows and columns that is on a picture; and where on it (0, 0) of the glyph lies. */
+/* The part of a glyph's rows and columns that is on a picture; and where on it (0, 0) of the
+ * glyph lies. */
 struct window {
     int left, top, column, columns_end, row, rows_end;
 };

@@ -1,4 +1,5 @@
-/* paint_colour.c - a glyph's picture through a map onto another: what each pixel covers of it is averaged, as light. */
+/* paint_colour.c - a glyph's picture through a map onto another: what each pixel covers of it
+ * is averaged, as light. */
 #include "paint_internal.h"
 
 #include <math.h>
@@ -64,7 +65,8 @@ bool font_blend_picture_box(const struct font_colour_picture *from, const struct
     return true;
 }
 
-/* Light times cover, and cover, of the picture's pixel that holds a place; nothing beyond its sides. */
+/* Light times cover, and cover, of the picture's pixel that holds a place; nothing beyond its
+ * sides. */
 static void sample_add(const struct font_painter *p, const struct font_colour_picture *from,
                        double u, double v, float sum[4])
 {
@@ -81,7 +83,8 @@ static void sample_add(const struct font_painter *p, const struct font_colour_pi
     sum[3] += cover;
 }
 
-/* The picture on its way, the pixels that it may touch, and how often each is looked at along each side. */
+/* The picture on its way, the pixels that it may touch, and how often each is looked at along
+ * each side. */
 struct passage {
     struct way way;
     double u, v; /* its middle: from where places are looked for */

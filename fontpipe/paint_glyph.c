@@ -1,4 +1,5 @@
-/* paint_glyph.c - each glyph of a layout in the way that it is drawn: as an outline, as layers of outlines, as a picture. */
+/* paint_glyph.c - each glyph of a layout in the way that it is drawn: as an outline, as layers
+ * of outlines, as a picture. */
 #include "paint_internal.h"
 
 #include <math.h>
@@ -88,7 +89,8 @@ static enum font_status picture_place(struct font_painter *p, const struct font_
                              : status;
 }
 
-/* A glyph's picture where it goes; with `box` (may be NULL) only the box around it, untouched if there is none. */
+/* A glyph's picture where it goes; with `box` (may be NULL) only the box around it, untouched
+ * if there is none. */
 static enum font_status picture_draw(struct font_painter *p, const struct font_layout *layout,
                                      int i, const struct font_map *map, double x_px,
                                      double y_px, const struct font_ink *ink,

@@ -48,7 +48,8 @@ struct font_painter {
 struct entry *font_painter_entry_find(struct font_painter *p, const struct key *key);
 struct entry *font_painter_entry_make(struct font_painter *p, const struct key *key);
 void font_painter_entry_weigh(struct font_painter *p, struct entry *e, size_t bytes);
-/* paint.c: glyph i of a layout as its outline in an ink, and the box around it, untouched if it has no ink. */
+/* paint.c: glyph i of a layout as its outline in an ink, and the box around it, untouched if it
+ * has no ink. */
 enum font_status font_painter_outline_draw(struct font_painter *p,
                                            const struct font_layout *layout, int i,
                                            const struct font_map *map, double x_px, double y_px,
@@ -59,12 +60,13 @@ enum font_status font_painter_outline_measure(struct font_painter *p,
                                               const struct font_map *map, double x_px,
                                               double y_px, struct font_box *box);
 
-/* The gray picture of a glyph, counted from the pixel (x, y), onto a picture: in one channel, or all (-1). The ink's places count
- * from (ink_x, ink_y). */
+/* The gray picture of a glyph, counted from the pixel (x, y), onto a picture: in one channel,
+ * or all (-1). The ink's places count from (ink_x, ink_y). */
 void font_blend(struct font_painter *p, const struct font_gray *gray, int x, int y, int channel,
                 const struct font_ink *ink, double ink_x, double ink_y,
                 struct font_picture *to);
-/* A glyph's own picture, of which `cover` is left, through a map that takes pixels around its origin to pixels around (x, y). */
+/* A glyph's own picture, of which `cover` is left, through a map that takes pixels around its
+ * origin to pixels around (x, y). */
 void font_blend_picture(const struct font_painter *p, const struct font_colour_picture *from,
                         const struct font_map *map, double size_px, double x, double y,
                         double cover, struct font_picture *to);

@@ -1,5 +1,5 @@
-/* pdf.c - a document's objects, one after the other, and the table at the end that says where each begins: see document.h,
- * pdf_internal.h. */
+/* pdf.c - a document's objects, one after the other, and the table at the end that says where
+ * each begins: see document.h, pdf_internal.h. */
 #include "colour.h"
 #include "pdf_internal.h"
 

@@ -1,8 +1,9 @@
 /* pdf_cff.c - CFF made of outlines, for fonts that HarfBuzz does not cut: see pdf_internal.h.
  *
- * Adobe's Technical Notes 5176 (the format) and 5177 (glyphs). A header, then lists: the font's name, its dictionary, the glyphs' names,
- * no subroutines; the order of names, the glyphs, the private dictionary. Coordinates are thousandths of an em, not rounded where they are
- * no whole numbers. Curves of degree 2 are written as those of degree 3 that they are. */
+ * Adobe's Technical Notes 5176 (the format) and 5177 (glyphs). A header, then lists: the font's
+ * name, its dictionary, the glyphs' names, no subroutines; the order of names, the glyphs, the
+ * private dictionary. Coordinates are thousandths of an em, not rounded where they are no whole
+ * numbers. Curves of degree 2 are written as those of degree 3 that they are. */
 #include "pdf_internal.h"
 
 #include <math.h>
@@ -226,7 +227,8 @@ static size_t big_read(const uint8_t *at, int bytes)
     return value;
 }
 
-/* Where the first entry of the list at *at begins and ends; *at: where the list does. False: there is none. */
+/* Where the first entry of the list at *at begins and ends; *at: where the list does. False:
+ * there is none. */
 static bool index_read(const uint8_t *bytes, size_t count, size_t *at, size_t *begin,
                        size_t *end)
 {

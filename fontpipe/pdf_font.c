@@ -1,8 +1,10 @@
 /* pdf_font.c - fonts as objects: see pdf_internal.h.
  *
- * An embedded font's codes have two bytes. Those of TrueType are mapped to its glyphs by a table (CIDToGIDMap), those of a CFF that
- * HarfBuzz cut by the font's encoding; where we made the CFF, its glyphs are in the order of the codes. What each code says is a table of
- * its own (ToUnicode). Glyphs that are pictures are drawn by the page; their fonts (Type 3) have only their text. */
+ * An embedded font's codes have two bytes. Those of TrueType are mapped to its glyphs by a
+ * table (CIDToGIDMap), those of a CFF that HarfBuzz cut by the font's encoding; where we made
+ * the CFF, its glyphs are in the order of the codes. What each code says is a table of its own
+ * (ToUnicode). Glyphs that are pictures are drawn by the page; their fonts (Type 3) have only
+ * their text. */
 #include "face_internal.h"
 #include "pdf_internal.h"
 
@@ -56,8 +58,8 @@ static int stream_close(struct font_document *p, struct stream *s, const char *m
     return number;
 }
 
-/* Which text each code shows. A glyph beside a cluster's first shows nothing: a word joiner, since programs take the code itself for a letter
- * where there is none. */
+/* Which text each code shows. A glyph beside a cluster's first shows nothing: a word joiner,
+ * since programs take the code itself for a letter where there is none. */
 static int texts_put(struct font_document *p, const struct pdf_font *font)
 {
     struct stream s;
@@ -211,7 +213,8 @@ static int encoding_put(struct font_document *p, const struct pdf_font *font,
                         "(Adobe) /Ordering (Identity) /Supplement 0 >> /WMode 0");
 }
 
-/* Widths by the numbers that the program's glyphs have in PDF: of CFF that was cut its own, else the codes. */
+/* Widths by the numbers that the program's glyphs have in PDF: of CFF that was cut its own,
+ * else the codes. */
 static void widths_put(struct font_document *p, const struct pdf_font *font,
                        const struct pdf_program *program)
 {

@@ -1,4 +1,5 @@
-/* pdf_ink.c - what letters are filled with, as PDF has it: gradients, pictures, what lets something through. See pdf_internal.h. */
+/* pdf_ink.c - what letters are filled with, as PDF has it: gradients, pictures, what lets
+ * something through. See pdf_internal.h. */
 #include "pdf_internal.h"
 
 #include <math.h>

@@ -2,12 +2,15 @@
  *
  *     document  -> pages    pdf_page.c: letters in their places, in rows (pdf_run.c), inks (pdf_ink.c), what they say
  *                         (pdf_text.c)
- *               -> fonts    pdf_letters.c: which letter is which code; pdf_font.c: fonts as objects
- *                           pdf_program.c: HarfBuzz's subsets; pdf_cff.c: CFF made of outlines
- *               -> tags     pdf_tags.c: headings, paragraphs, notes; the document's outline; its title
+ *               -> fonts    pdf_letters.c: which letter is which code; pdf_font.c: fonts as
+ *                           objects pdf_program.c: HarfBuzz's subsets; pdf_cff.c: CFF made of
+ *                           outlines
+ *               -> tags     pdf_tags.c: headings, paragraphs, notes; the document's outline;
+ *                           its title
  *
- * A letter is a glyph with the text that it shows: the same glyph may show other text elsewhere, and then has another code. Objects are
- * numbered when they are first spoken of, and written in any order. */
+ * A letter is a glyph with the text that it shows: the same glyph may show other text
+ * elsewhere, and then has another code. Objects are numbered when they are first spoken of, and
+ * written in any order. */
 #ifndef LUTETIA_FONT_PDF_INTERNAL_H
 #define LUTETIA_FONT_PDF_INTERNAL_H
 
@@ -27,7 +30,8 @@ struct pdf_letter {
     int font, code, next;
 };
 
-/* Of embedded fonts codes have two bytes; of those of pictures (Type 3, whose glyphs are blank) one. Codes begin with 1. */
+/* Of embedded fonts codes have two bytes; of those of pictures (Type 3, whose glyphs are blank)
+ * one. Codes begin with 1. */
 struct pdf_font {
     struct font_face *face;
     uint64_t version;
@@ -89,7 +93,8 @@ enum font_status pdf_no_memory(void);
 /* A text as PDF has it: <FEFF...>. */
 void pdf_text_put(const char *text, size_t bytes, FILE *f);
 
-/* pdf_letters.c: the number of such a letter, made if there is none yet; -1: no memory. Errors are the document's. */
+/* pdf_letters.c: the number of such a letter, made if there is none yet; -1: no memory. Errors
+ * are the document's. */
 int pdf_letter_find(struct font_document *p, struct font_face *face, uint32_t glyph,
                     bool picture, const char *text, size_t bytes, int parts);
 
@@ -103,7 +108,8 @@ struct pdf_program {
     size_t count;
     uint32_t *glyphs; /* of letters, by code; NULL: the codes themselves */
 };
-/* pdf_program.c: cut out by HarfBuzz. False: that cannot be done, or is not what we would draw. */
+/* pdf_program.c: cut out by HarfBuzz. False: that cannot be done, or is not what we would
+ * draw. */
 bool pdf_program_subset(const struct font_document *p, const struct pdf_font *font,
                         struct pdf_program *out);
 /* pdf_cff.c: frees what it has. */
@@ -111,10 +117,12 @@ void pdf_program_finish(struct pdf_program *program);
 /* Made of the outlines, a glyph for each code. Owns: pdf_program_finish(). */
 enum font_status pdf_program_draw(const struct font_document *p, const struct pdf_font *font,
                                   struct pdf_program *out);
-/* Whether a CFF table's glyphs are told by other numbers than their places. True where it cannot be read. */
+/* Whether a CFF table's glyphs are told by other numbers than their places. True where it
+ * cannot be read. */
 bool pdf_cff_keyed(const uint8_t *bytes, size_t count);
 
-/* pdf_tags.c: the element of a passage, and a mark of it on the page that is made; -1: no memory. */
+/* pdf_tags.c: the element of a passage, and a mark of it on the page that is made; -1: no
+ * memory. */
 int pdf_mark_begin(struct font_document *p, const struct font_drawing *d,
                    const struct font_passage *passage, double top);
 const char *pdf_tag(const struct pdf_element *e, char room[8]);
@@ -193,11 +201,12 @@ int pdf_leftward(const struct font_drawing *d, const struct drawn_text *text);
 bool pdf_is_leftward(const struct font_drawing *d, const struct drawn_text *text);
 /* Whether it shows one sign that goes with numbers, such as a point or a comma. */
 bool pdf_is_weak(const struct font_drawing *d, const struct drawn_text *text);
-/* What of them the glyph itself shows, cut off the text's end: *letters of them, 0 for nothing. Glyphs stand from the left to the right,
- * the cluster's last letters with its first glyph. */
+/* What of them the glyph itself shows, cut off the text's end: *letters of them, 0 for nothing.
+ * Glyphs stand from the left to the right, the cluster's last letters with its first glyph. */
 void pdf_share(const struct font_drawing *d, const struct drawn_text *text, size_t *end,
                int *letters);
-/* Whether something is written before a glyph, or behind it; and that: where its cluster is told as a whole what it says. */
+/* Whether something is written before a glyph, or behind it; and that: where its cluster is
+ * told as a whole what it says. */
 bool pdf_said_begins(const struct font_drawing *d, const struct drawn_text *text);
 bool pdf_said_ends(const struct font_drawing *d, const struct drawn_text *text);
 void pdf_said_begin(const struct font_drawing *d, const struct drawn_text *text, FILE *file);

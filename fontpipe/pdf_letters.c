@@ -1,4 +1,5 @@
-/* pdf_letters.c - which glyph with which text is which code of which font: see pdf_internal.h. */
+/* pdf_letters.c - which glyph with which text is which code of which font: see
+ * pdf_internal.h. */
 #include "pdf_internal.h"
 
 #include <string.h>

@@ -77,8 +77,9 @@ static bool runs_left(const struct pdf_making *m, int i)
            g[i + 1].cluster < g[i].cluster;
 }
 
-/* A point or comma in a line that goes to the left. Programs take it for a part of a number, which goes to the right, with the space behind
- * it; a mark of direction (U+200F) before it ends that. */
+/* A point or comma in a line that goes to the left. Programs take it for a part of a number,
+ * which goes to the right, with the space behind it; a mark of direction (U+200F) before it
+ * ends that. */
 static bool weak_show(struct pdf_making *m, int i, const double em[6], bool hidden)
 {
     const struct drawn_text *t = &m->drawn.texts[i];
@@ -88,8 +89,9 @@ static bool weak_show(struct pdf_making *m, int i, const double em[6], bool hidd
     return letter_show(m, i, room, 3 + bytes, 1, em, 0, hidden);
 }
 
-/* A glyph with the text that it shows: the first of its cluster has all of that. Letters that go to the left are parts of its width, the last
- * of them at the left, since programs put what they find in that order. */
+/* A glyph with the text that it shows: the first of its cluster has all of that. Letters that
+ * go to the left are parts of its width, the last of them at the left, since programs put what
+ * they find in that order. */
 static enum font_status text_show(struct pdf_making *m, int i, const double em[6], bool hidden)
 {
     const struct font_placed *g = &m->layout->glyphs[i];
@@ -117,7 +119,8 @@ static enum font_status text_show(struct pdf_making *m, int i, const double em[6
     return FONT_OK;
 }
 
-/* A space that ends a line is not seen, but parts words for who reads on. It stands where the line goes on to. */
+/* A space that ends a line is not seen, but parts words for who reads on. It stands where the
+ * line goes on to. */
 static enum font_status space_show(struct pdf_making *m, int i, const double em[6])
 {
     const struct font_placed *g = &m->layout->glyphs[i];
@@ -173,7 +176,8 @@ static enum font_status glyph_show(struct pdf_making *m, int i)
         pdf_ink_use(m, i);
         m->ink = g->ink;
     }
-    /* Distorted letters are paths; so are those in gradients, which programs clip to outlines more exactly than to letters. */
+    /* Distorted letters are paths; so are those in gradients, which programs clip to outlines
+     * more exactly than to letters. */
     bool path = !picture && !(whole.kind == FONT_AFFINE &&
                               drawn_flat(drawn_ink(m->d, m->layout, i, &own), flat));
     if (picture)
@@ -242,7 +246,8 @@ static bool mark_see(struct pdf_making *m, int i, int mark_begin)
     return true;
 }
 
-/* Glyphs of a line as its text has them: those that go to the left are else the other way around. */
+/* Glyphs of a line as its text has them: those that go to the left are else the other way
+ * around. */
 static int order_compare(const void *a, const void *b, void *layout)
 {
     const struct font_placed *glyphs = ((const struct font_layout *)layout)->glyphs;
@@ -284,8 +289,9 @@ static double right_of(const struct pdf_making *m, int i)
     return g->x_px + advance * font_placed_size(m->layout, g) / info.units_per_em;
 }
 
-/* Programs take a cluster that is told as a whole to end where its last glyph does, and a gap behind it for a space. Where another glyph ends
- * farther on (a mark stands behind its letter), that is written once more, unseen. */
+/* Programs take a cluster that is told as a whole to end where its last glyph does, and a gap
+ * behind it for a space. Where another glyph ends farther on (a mark stands behind its letter),
+ * that is written once more, unseen. */
 static enum font_status cluster_close(struct pdf_making *m, int first, int last)
 {
     const double gap_ems = 0.02;

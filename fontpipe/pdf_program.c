@@ -1,7 +1,9 @@
-/* pdf_program.c - fonts cut down to the glyphs that are used, by HarfBuzz's subsetter: see pdf_internal.h.
+/* pdf_program.c - fonts cut down to the glyphs that are used, by HarfBuzz's subsetter: see
+ * pdf_internal.h.
  *
- * Only the tables that PDF asks for are left, and no hints: outlines are drawn as they are everywhere in the pipeline. Axes are pinned to
- * where they are set. What comes out is looked at again: each glyph must have the box and the advance that it had. */
+ * Only the tables that PDF asks for are left, and no hints: outlines are drawn as they are
+ * everywhere in the pipeline. Axes are pinned to where they are set. What comes out is looked
+ * at again: each glyph must have the box and the advance that it had. */
 #include "face_internal.h"
 #include "pdf_internal.h"
 
@@ -67,7 +69,8 @@ static hb_subset_input_t *input_make(const struct font_document *p, const struct
     return NULL;
 }
 
-/* Whether glyph `cut` of the font that was cut is a glyph of the font: its box and its advance, to a unit or two, which rounding takes. */
+/* Whether glyph `cut` of the font that was cut is a glyph of the font: its box and its advance,
+ * to a unit or two, which rounding takes. */
 static bool is_same(hb_font_t *of, hb_codepoint_t glyph, hb_font_t *cut_of, hb_codepoint_t cut)
 {
     enum { NEAR = 2 };

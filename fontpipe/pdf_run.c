@@ -1,7 +1,8 @@
 /* pdf_run.c - letters in rows: see pdf_internal.h.
  *
- * A row begins where an em's map is told (Tm). Letters of the same font, under the same map and on the same line follow each other by their widths;
- * where one stands elsewhere than behind the one before, the row says by how much (TJ, in thousandths of an em). */
+ * A row begins where an em's map is told (Tm). Letters of the same font, under the same map and
+ * on the same line follow each other by their widths; where one stands elsewhere than behind
+ * the one before, the row says by how much (TJ, in thousandths of an em). */
 #include "pdf_internal.h"
 
 #include <math.h>
@@ -25,7 +26,8 @@ void pdf_run_end(struct pdf_making *m)
     m->run.open = false;
 }
 
-/* Where a map's origin is on the row, in its ems. False: it is on another, or the map is another. */
+/* Where a map's origin is on the row, in its ems. False: it is on another, or the map is
+ * another. */
 static bool row_place(const struct pdf_run *run, const double em[6], double *along)
 {
     const double near = 1e-6, off = 1e-4, far = 16;

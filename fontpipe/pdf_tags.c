@@ -1,7 +1,9 @@
-/* pdf_tags.c - what the pages' texts are, as a tree; the document's outline, its title: see pdf_internal.h.
+/* pdf_tags.c - what the pages' texts are, as a tree; the document's outline, its title: see
+ * pdf_internal.h.
  *
- * Each paragraph is an element, on however many pages it stands: its marks are contents of pages, numbered on each. Items in a row are a list.
- * Headings are made one level deeper at a time, since that is what readers expect. */
+ * Each paragraph is an element, on however many pages it stands: its marks are contents of
+ * pages, numbered on each. Items in a row are a list. Headings are made one level deeper at a
+ * time, since that is what readers expect. */
 #include "pdf_internal.h"
 
 #include <stdlib.h>

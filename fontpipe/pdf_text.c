@@ -17,7 +17,8 @@ void pdf_utf16_put(const char *text, size_t begin, size_t end, FILE *f)
     }
 }
 
-/* A hyphen of the text itself where a line ends. Programs take such a hyphen for one that was put in, and leave it out. */
+/* A hyphen of the text itself where a line ends. Programs take such a hyphen for one that was
+ * put in, and leave it out. */
 static bool is_hard_hyphen(const struct font_drawing *d, const struct drawn_text *t)
 {
     return t->line_ends && t->end > t->begin && d->text[t->end - 1] == '-';
@@ -81,8 +82,9 @@ void pdf_share(const struct font_drawing *d, const struct drawn_text *t, size_t 
     *letters = t->at >= count ? 0 : t->at + 1 == t->of ? count - t->at : 1;
 }
 
-/* Whether the glyphs of a cluster are told as a whole what they say: where there are several of them, in whatever order; where they are a sign that
- * is not in the text (a hyphen); and where a line ends in a hyphen that is. */
+/* Whether the glyphs of a cluster are told as a whole what they say: where there are several of
+ * them, in whatever order; where they are a sign that is not in the text (a hyphen); and where
+ * a line ends in a hyphen that is. */
 static bool is_said(const struct font_drawing *d, const struct drawn_text *t)
 {
     return d->text && (!t->begins || !t->ends || t->begin == t->end || is_hard_hyphen(d, t));

@@ -54,7 +54,8 @@ static enum font_status word_draw(struct font_painter *painter,
     return status;
 }
 
-/* Weighs each column's values by taps around them; rows and columns change places, so that twice is both ways. */
+/* Weighs each column's values by taps around them; rows and columns change places, so that
+ * twice is both ways. */
 static void columns_weigh(const float *from, int width, int height, const float *taps,
                           int reach, float *to)
 {
@@ -185,7 +186,8 @@ static void pixels_compare(const float *pixels, const float *exact, size_t count
     out->error = inked ? 255 * sqrt(error / (double)inked) : 0;
 }
 
-/* The blur at which as much is left as of the word without pixels at its limit, over that limit's. */
+/* The blur at which as much is left as of the word without pixels at its limit, over that
+ * limit's. */
 static double reach_find(const float *fine, const float *ideal, const struct word *w,
                          double x_height_px, float *room, float *copy)
 {

@@ -1,6 +1,6 @@
-/* rectangles.c - see master.h. A master is cut along its rows or along its columns, whichever gives fewer rectangles: at 860
- * pixels to the em 354 a letter where the fewest that there can be are 350, which takes a matching between cuts along both
- * and ten times as long. */
+/* rectangles.c - see master.h. A master is cut along its rows or along its columns, whichever
+ * gives fewer rectangles: at 860 pixels to the em 354 a letter where the fewest that there can
+ * be are 350, which takes a matching between cuts along both and ten times as long. */
 #include "edges_internal.h"
 #include "internal.h"
 #include "master.h"

@@ -3,9 +3,11 @@
  *     if (font_face_open("DejaVuSans.ttf", 0, &face) != FONT_OK)
  *         die(font_error());
  *
- * Errors: a function that can fail returns a status; font_error() then has one line: what is wrong, and where.
+ * Errors: a function that can fail returns a status; font_error() then has one line: what is
+ * wrong, and where.
  *
- * Ownership: the message is the library's. Threads: any; the message belongs to the thread that failed. */
+ * Ownership: the message is the library's. Threads: any; the message belongs to the thread that
+ * failed. */
 #ifndef LUTETIA_FONT_STATUS_H
 #define LUTETIA_FONT_STATUS_H
 
@@ -25,9 +27,10 @@ enum font_status {
  * Owns: the library; valid until this thread's next failure. */
 const char *font_error(void);
 
-/* One line that names a glyph which was left out of this thread's pictures since this was last asked, because its outline cannot be read, and
- * says how many there are; NULL: none was. Of many glyphs some may be counted more than once.
- * Owns: the library; valid until this thread asks again. */
+/* One line that names a glyph which was left out of this thread's pictures since this was last
+ * asked, because its outline cannot be read, and says how many there are; NULL: none was. Of
+ * many glyphs some may be counted more than once. Owns: the library; valid until this thread
+ * asks again. */
 const char *font_left_out(void);
 
 #endif

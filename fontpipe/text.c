@@ -1,4 +1,5 @@
-/* text.c - UTF-8, faces for HarfBuzz, and faces for what the first has not: see text.h. text_lines.c sets the lines. */
+/* text.c - UTF-8, faces for HarfBuzz, and faces for what the first has not: see text.h.
+ * text_lines.c sets the lines. */
 #include "colour.h"
 #include "internal.h"
 #include "text_internal.h"
@@ -30,7 +31,8 @@ bool font_utf8_next(const char **text, const char *end, uint32_t *character)
         c &= 0x3fu >> more;
     int taken = 1;
     for (; taken <= more && (size_t)taken < left && (s[taken] & 0xc0) == 0x80; taken++) {
-        /* The second byte rules out what is spelled too long, surrogates, and what is beyond Unicode. */
+        /* The second byte rules out what is spelled too long, surrogates, and what is beyond
+         * Unicode. */
         if (taken == 1 && ((s[0] == 0xe0 && s[1] < 0xa0) || (s[0] == 0xed && s[1] >= 0xa0) ||
                            (s[0] == 0xf0 && s[1] < 0x90) || (s[0] == 0xf4 && s[1] >= 0x90)))
             break;
@@ -74,8 +76,8 @@ enum font_status font_utf8_mend(const char *text, size_t bytes, char **out, size
 
 /* ---- faces for HarfBuzz ----
  *
- * HarfBuzz reads OpenType's tables itself: characters, advances, kerning and extents take no outline. Type 1 fonts have no such
- * tables; FreeType answers for them. */
+ * HarfBuzz reads OpenType's tables itself: characters, advances, kerning and extents take no
+ * outline. Type 1 fonts have no such tables; FreeType answers for them. */
 
 static hb_bool_t glyph_nominal(hb_font_t *font, void *data, hb_codepoint_t character,
                                hb_codepoint_t *glyph, void *user)
@@ -186,7 +188,8 @@ static void shaped_make(struct font_shaped_face *f, const struct font_face_info 
     f->units_per_em = info->units_per_em;
 }
 
-/* Makes the HarfBuzz font; if the face's axes were set or its glyphs replaced since, makes it follow: what HarfBuzz keeps of the tables stays. */
+/* Makes the HarfBuzz font; if the face's axes were set or its glyphs replaced since, makes it
+ * follow: what HarfBuzz keeps of the tables stays. */
 void font_shaped_refresh(struct font_shaped_face *f)
 {
     if (f->hb && f->version == font_face_version(f->face))
@@ -239,7 +242,8 @@ void font_shaper_destroy(struct font_shaper *s)
 
 /* ---- fallback ---- */
 
-/* All fonts there are, those most like the first face first: a bold word's other letters are bold, too. */
+/* All fonts there are, those most like the first face first: a bold word's other letters are
+ * bold, too. */
 static void candidates_find(struct font_shaper *s)
 {
     struct font_face_info info;
@@ -267,7 +271,8 @@ static bool has_glyph(const struct font_shaper *s, struct font_face *face, uint3
     return glyph && !font_colour_lost(face, glyph, s->colour);
 }
 
-/* The shaper's face that is candidate i of fontconfig's, opened if need be; -1 if it cannot be, or has not the character. */
+/* The shaper's face that is candidate i of fontconfig's, opened if need be; -1 if it cannot be,
+ * or has not the character. */
 static int candidate_open(struct font_shaper *s, int i, uint32_t character)
 {
     FcCharSet *set;
@@ -302,7 +307,8 @@ static int candidate_open(struct font_shaper *s, int i, uint32_t character)
     return s->faces_count++;
 }
 
-/* Always in fontconfig's order: which face it is does not depend on the characters that were looked for before. */
+/* Always in fontconfig's order: which face it is does not depend on the characters that were
+ * looked for before. */
 int font_shaper_face_for(struct font_shaper *s, uint32_t character)
 {
     if (has_glyph(s, s->faces[0].face, character))

@@ -1,5 +1,5 @@
-/* text.h - text as glyphs in places: HarfBuzz shapes it, FriBidi orders what runs to the left, fontconfig finds fonts
- * for what the first has not.
+/* text.h - text as glyphs in places: HarfBuzz shapes it, FriBidi orders what runs to the left,
+ * fontconfig finds fonts for what the first has not.
  *
  *     struct font_shaper *shaper;
  *     font_shaper_create(face, &shaper);
@@ -11,12 +11,14 @@
  *     font_layout_finish(&layout);
  *     font_shaper_destroy(shaper);
  *
- * Text is UTF-8. What is not is replaced, each damaged sequence by U+FFFD, and counted. Lines end at newlines (and what
- * Unicode has beside them), and with `width_px` where no more fits: at a place where a break is allowed (UAX 14), or,
- * where a word is longer than the line, between two letters. White space at the end of such a line stands in the
- * margin; a soft hyphen that ends it is seen. Places are fractions of pixels; nothing is rounded.
+ * Text is UTF-8. What is not is replaced, each damaged sequence by U+FFFD, and counted. Lines
+ * end at newlines (and what Unicode has beside them), and with `width_px` where no more fits:
+ * at a place where a break is allowed (UAX 14), or, where a word is longer than the line,
+ * between two letters. White space at the end of such a line stands in the margin; a soft
+ * hyphen that ends it is seen. Places are fractions of pixels; nothing is rounded.
  *
- * Errors: functions that can fail return a status and leave one line in font_error(). Others cannot fail.
+ * Errors: functions that can fail return a status and leave one line in font_error(). Others
+ * cannot fail.
  *
  * Ownership: faces are borrowed; what else is passed is copied. A layout's arrays are its own.
  *
@@ -30,15 +32,16 @@
 struct font_map;
 struct font_shaper;
 
-/* face: borrowed, must outlive the shaper; the first choice for every character. Errors: NO_MEMORY. Owns: the caller destroys *out. */
+/* face: borrowed, must outlive the shaper; the first choice for every character. Errors:
+ * NO_MEMORY. Owns: the caller destroys *out. */
 enum font_status font_shaper_create(struct font_face *face, struct font_shaper **out);
 void font_shaper_destroy(struct font_shaper *shaper); /* NULL is fine */
-/* Characters that no font has as outlines are looked for in fonts of colours, too: for whoever draws by font_painter_layout(),
- * gl_type_draw() or in files (drawing.h). */
+/* Characters that no font has as outlines are looked for in fonts of colours, too: for whoever
+ * draws by font_painter_layout(), gl_type_draw() or in files (drawing.h). */
 void font_shaper_colour(struct font_shaper *shaper);
 
-/* START: left, and where a paragraph runs to the left, right. JUSTIFY: white spaces are widened until lines fill the
- * column, but for a paragraph's last one. */
+/* START: left, and where a paragraph runs to the left, right. JUSTIFY: white spaces are widened
+ * until lines fill the column, but for a paragraph's last one. */
 enum font_align {
     FONT_ALIGN_START,
     FONT_ALIGN_LEFT,
@@ -53,25 +56,28 @@ struct font_text_options {
     const char *language; /* "fr"; NULL: the locale's */
     double letter_spacing_px;
     double line_height; /* of the size; 0: the fonts' own */
-    double
-        width_px; /* of the column that lines are broken for; 0: only where the text has line ends */
+    /* of the column that lines are broken for; 0: only where the text has line ends */
+    double width_px;
     enum font_align align; /* in the column, or within the longest line */
     bool no_fallback;      /* only the first face */
-    int right_to_left; /* 1 the paragraph runs to the left, -1 to the right, 0 as its first letter */
+    /* 1 the paragraph runs to the left, -1 to the right, 0 as its first letter */
+    int right_to_left;
 };
 
 struct font_placed {
     struct font_face *face; /* owned by the shaper or its creator */
     uint32_t glyph;
     double x_px,
-        y_px; /* of the origin, from the column's left edge on the first baseline; y downwards */
+        /* of the origin, from the column's left edge on the first baseline; y downwards */
+        y_px;
     int cluster; /* byte of the text that it comes from */
     int line;
     bool is_mark;  /* it moves the pen by nothing: an accent on another letter */
     float size_px; /* of the em; 0: the layout's */
     int ink;       /* of the layout's inks, from 1; 0: whoever draws says */
-    /* Of the layout's maps, from 1; 0: none. It takes pixels around the glyph's origin to pixels around it, before the glyph is
-     * put in its place and the text's own map is applied. */
+    /* Of the layout's maps, from 1; 0: none. It takes pixels around the glyph's origin to
+     * pixels around it, before the glyph is put in its place and the text's own map is
+     * applied. */
     int map;
 };
 
@@ -91,8 +97,8 @@ struct font_layout {
     int glyphs_count, glyphs_capacity, lines_count, lines_capacity;
     double width_px;              /* of the longest line or the column */
     double ascent_px, descent_px; /* of the first face; descent: below the last baseline */
-    /* From line to line, of the first face or as asked for. Where other faces' letters need more, and nothing was asked for, lines are
-     * farther apart: lines[].y_px. */
+    /* From line to line, of the first face or as asked for. Where other faces' letters need
+     * more, and nothing was asked for, lines are farther apart: lines[].y_px. */
     double line_height_px;
     double height_px; /* from the first baseline to the last */
     double size_px;
@@ -108,27 +114,30 @@ struct font_layout {
 
 /* The size that a glyph is set at. */
 double font_placed_size(const struct font_layout *layout, const struct font_placed *glyph);
-/* Where glyph i of a layout goes whose origin is at (x_px, y_px), through `map` (NULL: as it is): *out takes pixels around the
- * glyph's origin to the picture's around (*x, *y). Where nothing is distorted *out has no translation.
- * Errors: BAD_ARGUMENT (a distortion after another, unless both are projective). */
+/* Where glyph i of a layout goes whose origin is at (x_px, y_px), through `map` (NULL: as it
+ * is): *out takes pixels around the glyph's origin to the picture's around (*x, *y). Where
+ * nothing is distorted *out has no translation. Errors: BAD_ARGUMENT (a distortion after
+ * another, unless both are projective). */
 enum font_status font_placed_map(const struct font_layout *layout, int i,
                                  const struct font_map *map, double x_px, double y_px,
                                  struct font_map *out, double *x, double *y);
 /* A map or an ink of the layout's own: its number; 0: no memory. */
 int font_layout_map_add(struct font_layout *layout, const struct font_map *map);
 int font_layout_ink_add(struct font_layout *layout, const struct font_ink *ink);
-/* Counts a character that no font has, and keeps it among the first. A character that is kept already is not counted again. */
+/* Counts a character that no font has, and keeps it among the first. A character that is kept
+ * already is not counted again. */
 void font_layout_missing_add(struct font_layout *layout, uint32_t character);
 
-/* Errors: BAD_ARGUMENT (a size that is not 0.1..FONT_SIDE_MAX, features that cannot be read, a width below 0), TOO_LARGE past a million
- * characters, NO_MEMORY; *out is then empty. options: NULL for the usual. */
+/* Errors: BAD_ARGUMENT (a size that is not 0.1..FONT_SIDE_MAX, features that cannot be read, a
+ * width below 0), TOO_LARGE past a million characters, NO_MEMORY; *out is then empty. options:
+ * NULL for the usual. */
 enum font_status font_shaper_layout(struct font_shaper *shaper, const char *text, size_t bytes,
                                     double size_px, const struct font_text_options *options,
                                     struct font_layout *out);
 void font_layout_finish(struct font_layout *layout);
 
-/* What a passage of the text is, for who reads a PDF aloud or makes other things of it. ARTIFACT: nothing of the text's own, as a page's
- * number. */
+/* What a passage of the text is, for who reads a PDF aloud or makes other things of it.
+ * ARTIFACT: nothing of the text's own, as a page's number. */
 enum font_role {
     FONT_ROLE_PARAGRAPH,
     FONT_ROLE_HEADING,
@@ -144,9 +153,11 @@ struct font_passage {
     int paragraph; /* passages of the same one, on other pages too, are one */
 };
 
-/* The next character of UTF-8; *text moves on. false: it was damaged, and U+FFFD is what stands for it. text < end. */
+/* The next character of UTF-8; *text moves on. false: it was damaged, and U+FFFD is what stands
+ * for it. text < end. */
 bool font_utf8_next(const char **text, const char *end, uint32_t *character);
-/* How many sequences are not UTF-8; and the text with U+FFFD in place of each. Owns: the caller frees *out. Errors: NO_MEMORY. */
+/* How many sequences are not UTF-8; and the text with U+FFFD in place of each. Owns: the caller
+ * frees *out. Errors: NO_MEMORY. */
 int font_utf8_damaged(const char *text, size_t bytes);
 enum font_status font_utf8_mend(const char *text, size_t bytes, char **out, size_t *out_bytes);
 

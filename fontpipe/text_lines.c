@@ -1,12 +1,14 @@
 /* text_lines.c - text set in lines: see text.h.
  *
- * A paragraph is what stands between two ends of line in the text. It is cut into runs: characters of one direction (FriBidi's
- * levels), one script and one face. With a width given, its runs are shaped once to learn how far each character moves the pen,
- * and lines take as much as fits up to a place where Unicode's rules allow a break (UAX 14); where there is
- * none, up to a letter. Then each line is shaped by itself, since letters may join or kern otherwise at its ends, its
- * runs are put in the order in which they are seen (from the highest level down to the lowest odd one, what is on
- * that level or above is turned around: rule L2 of the Unicode bidirectional algorithm), and when all lines are known
- * each is moved to its side of the column. */
+ * A paragraph is what stands between two ends of line in the text. It is cut into runs:
+ * characters of one direction (FriBidi's levels), one script and one face. With a width given,
+ * its runs are shaped once to learn how far each character moves the pen, and lines take as
+ * much as fits up to a place where Unicode's rules allow a break (UAX 14); where there is none,
+ * up to a letter. Then each line is shaped by itself, since letters may join or kern otherwise
+ * at its ends, its runs are put in the order in which they are seen (from the highest level
+ * down to the lowest odd one, what is on that level or above is turned around: rule L2 of the
+ * Unicode bidirectional algorithm), and when all lines are known each is moved to its side of
+ * the column. */
 #include "internal.h"
 #include "text_internal.h"
 
@@ -32,8 +34,8 @@ struct paragraph {
     hb_script_t *scripts;
     int8_t *levels;
     struct font_run *runs;
-    double *
-        advances; /* of a character, where lines are to be broken: of a cluster, at its first; else 0 */
+    /* of a character, where lines are to be broken: of a cluster, at its first; else 0 */
+    double *advances;
     bool *clusters; /* one begins here */
     char *breaks;   /* libunibreak's signs, of the place behind a character */
     int count, runs_count, base;
@@ -97,7 +99,8 @@ static bool levels_find(struct paragraph *p, int direction)
     return font_levels_find(p->characters, p->count, direction, p->levels, &p->base);
 }
 
-/* The runs of begin..end in the order of the text. White space at its end has the paragraph's level (rule L1). */
+/* The runs of begin..end in the order of the text. White space at its end has the paragraph's
+ * level (rule L1). */
 static void runs_cut(struct paragraph *p, int begin, int end)
 {
     int ink_end = end;
@@ -220,7 +223,8 @@ static enum font_status run_shape(struct shaping *g, const struct paragraph *p,
     return FONT_OK;
 }
 
-/* What a glyph moves the pen by. Space is added between letters, not between the marks of one. */
+/* What a glyph moves the pen by. Space is added between letters, not between the marks of
+ * one. */
 static double pen_step(const hb_glyph_info_t *infos, const hb_glyph_position_t *positions,
                        unsigned i, unsigned count, double scale, double spacing)
 {
@@ -298,8 +302,8 @@ static uint32_t hyphen_for(const struct shaping *g, const struct letter *l, doub
     return glyph ? hyphen : 0;
 }
 
-/* Where a line that begins at `begin` ends if no more than width_px fits: at least one letter is in it. *hyphen: at a
- * soft hyphen that is to be seen. */
+/* Where a line that begins at `begin` ends if no more than width_px fits: at least one letter
+ * is in it. *hyphen: at a soft hyphen that is to be seen. */
 static int line_break(const struct shaping *g, const struct paragraph *p, int begin,
                       double width_px, bool *hyphen)
 {
@@ -370,8 +374,8 @@ struct font_room font_room_of(const struct font_face *face, double size_px)
     return (struct font_room){scale * above, scale * fmax(height - above, 0)};
 }
 
-/* The line of glyphs from `first` on goes down by what its other faces need above more than the first, and what they need below is kept
- * for the next. */
+/* The line of glyphs from `first` on goes down by what its other faces need above more than the
+ * first, and what they need below is kept for the next. */
 static void line_room(struct shaping *g, struct font_layout *out, int first, double *below_px)
 {
     const struct font_room own = font_room_of(g->shaper->faces[0].face, g->size_px);

@@ -1,4 +1,5 @@
-/* text_runs.c - what characters are to those who set lines of them: white, invisible, of a script, of a level. */
+/* text_runs.c - what characters are to those who set lines of them: white, invisible, of a
+ * script, of a level. */
 #include "text_internal.h"
 
 #include <stdlib.h>
@@ -69,7 +70,8 @@ static bool is_skin(uint32_t c)
     return c >= 0x1f3fb && c <= 0x1f3ff;
 }
 
-/* What may be a picture: Unicode's Extended_Pictographic, and a few signs in its blocks that nothing joins. */
+/* What may be a picture: Unicode's Extended_Pictographic, and a few signs in its blocks that
+ * nothing joins. */
 static bool is_pictographic(uint32_t c)
 {
     return c == 0xa9 || c == 0xae || c == 0x203c || c == 0x2049 || c == 0x2122 || c == 0x2139 ||
@@ -77,7 +79,8 @@ static bool is_pictographic(uint32_t c)
            c == 0x3299 || (c >= 0x1f000 && c <= 0x1faff && !is_region(c));
 }
 
-/* One picture's characters: itself, that it is one, its skin, a flag's letters. *told: there is one of these. */
+/* One picture's characters: itself, that it is one, its skin, a flag's letters. *told: there is
+ * one of these. */
 static int picture_length(const uint32_t *c, int count, bool *told)
 {
     int n = 1;

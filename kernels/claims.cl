@@ -1,16 +1,19 @@
-/* claims.cl - which work-group computes what: a part of kernels in rows and strips for CPUs of several threads, before them.
+/* claims.cl - which work-group computes what: a part of kernels in rows and strips for CPUs of
+ * several threads, before them.
  *
- * What a thread has stored is in the caches of its processor, and the next kernel reads it at the same place. So a thread computes the
- * same places in each kernel. A place is a run of columns of a row, or a strip. The places are shared out in lots, one for each thread.
- * A work-group does not know beforehand which thread runs it, so it claims a place when it begins: the next of its thread's lot, or the
- * last of another lot where that is empty. There are two sets of claims, which kernels take in turn. The work-group that gets the first
- * place clears the other set: the kernel before has used it, and the next one will.
+ * What a thread has stored is in the caches of its processor, and the next kernel reads it at
+ * the same place. So a thread computes the same places in each kernel. A place is a run of
+ * columns of a row, or a strip. The places are shared out in lots, one for each thread. A
+ * work-group does not know beforehand which thread runs it, so it claims a place when it
+ * begins: the next of its thread's lot, or the last of another lot where that is empty. There
+ * are two sets of claims, which kernels take in turn. The work-group that gets the first place
+ * clears the other set: the kernel before has used it, and the next one will.
  *
  *     claims      lots | ... | the threads of the lots | of each lot: claimed from the front, and from the end << 16 | likewise
  *     claim       places of a lot << 1 | which set
  *
- * device/claims.c has the same numbers. Clang's atomics compile faster than OpenCL's, which are functions of the driver's
- * library. */
+ * device/claims.c has the same numbers. Clang's atomics compile faster than OpenCL's, which are
+ * functions of the driver's library. */
 enum { CLAIMS_THREADS = 16, CLAIMS_MOST = 64, CLAIMS_APART = 16, CLAIMS_OF = 80 };
 
 /* Another number for each thread; where none is known, one for all. */

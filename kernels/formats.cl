@@ -1,6 +1,6 @@
-/* formats.cl - floats of short formats (s <= 24, e <= 9: see host/machine/values/soft.c) on vectors.
- * Their values are doubles that the format has; soft.cl does the same and all other formats, one
- * lane at a time. */
+/* formats.cl - floats of short formats (s <= 24, e <= 9: see host/machine/values/soft.c) on
+ * vectors. Their values are doubles that the format has; soft.cl does the same and all other
+ * formats, one lane at a time. */
 #define SHORT_SIGN ((ulong)1 << 63)
 #define SHORT_INFINITE ((ulong)0x7ff << 52)
 /* 2^n as a double's bits */
@@ -19,7 +19,8 @@ inline VD short_fit(VD x, int s, int e)
     return SEL_D(CMP_L(x == x), AS_D(r), x);
 }
 
-/* s + e + 1 bits of any double. Of a NaN the upper bits of its fraction; where these are 0, the quiet one. */
+/* s + e + 1 bits of any double. Of a NaN the upper bits of its fraction; where these are 0, the
+ * quiet one. */
 inline VL short_pack(VD x, int s, int e)
 {
     const int most = (1 << (e - 1)) - 1, least = 1 - most;

@@ -1,7 +1,9 @@
-/* glyphs.cl - edges to gray for many glyphs at once: fontpipe/gray_kernel.h in OpenCL C; see there for what it does.
+/* glyphs.cl - edges to gray for many glyphs at once: fontpipe/gray_kernel.h in OpenCL C; see
+ * there for what it does.
  *
- * A work-item draws a glyph, its sums in local memory, of as many rows at a time as fit there. TAPS, TERMS and SUMS (floats
- * of sums) are defined when it is compiled. Tables are laid out as fontpipe/filter_internal.h says. */
+ * A work-item draws a glyph, its sums in local memory, of as many rows at a time as fit there.
+ * TAPS, TERMS and SUMS (floats of sums) are defined when it is compiled. Tables are laid out as
+ * fontpipe/filter_internal.h says. */
 #pragma OPENCL FP_CONTRACT OFF
 
 #define PHASES 32

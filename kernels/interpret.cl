@@ -1,10 +1,13 @@
-/* interpret.cl - byte code on a device: one kernel that performs any plan's steps, a work-item for each processor.
+/* interpret.cl - byte code on a device: one kernel that performs any plan's steps, a work-item
+ * for each processor.
  *
- * It is for devices with memory of their own, where the front end cannot perform the steps itself (host/machine/interpret). It
- * follows lane.cl.
+ * It is for devices with memory of their own, where the front end cannot perform the steps
+ * itself (host/machine/interpret). It follows lane.cl.
  *
- *     words    rank, the axes' lengths; then the steps, STEP_WORDS each; then where neighbours are
- *     step     operation, result, three operands, widths, formats, detail, family, how many bits the result has
+ *     words    rank, the axes' lengths; then the steps, STEP_WORDS each; then where neighbours
+ *              are
+ *     step     operation, result, three operands, widths, formats, detail, family, how many
+ *              bits the result has
  *     operand  kind << 28 | log2 of its bytes << 24 | number */
 #define STEP_WORDS 10
 #define ARRAYS_MOST 48
@@ -119,7 +122,8 @@ static uint coordinate(const processor *p, int axis)
     return (uint)(row % p->lengths[axis]);
 }
 
-/* A random number: see machine_random(). detail 0: the high bits; 1: below a limit of 32 bits; 2: below any. */
+/* A random number: see machine_random(). detail 0: the high bits; 1: below a limit of 32 bits;
+ * 2: below any. */
 static ulong drawn(const step_said *s, uint index, ulong key, ulong limit)
 {
     const ulong r = random_bits(index, key);

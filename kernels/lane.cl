@@ -1,10 +1,13 @@
-/* lane.cl - one operation on one lane, whatever it is: what the interpreter of a device performs (interpret.cl).
+/* lane.cl - one operation on one lane, whatever it is: what the interpreter of a device
+ * performs (interpret.cl).
  *
- * A lane is its bits, zero-extended to 128. host/machine/interpret/lane_by_folding.c has the same operations for the front end; both
- * must agree to the bit. This file follows prelude.cl, wide.cl, soft.cl, integers.cl and, with MATH, math.cl; VECTOR is 1. Before
- * it stand the numbers of operations and families (#define MACHINE_ADD ..., #define SPELL_BITS ...).
+ * A lane is its bits, zero-extended to 128. host/machine/interpret/lane_by_folding.c has the
+ * same operations for the front end; both must agree to the bit. This file follows prelude.cl,
+ * wide.cl, soft.cl, integers.cl and, with MATH, math.cl; VECTOR is 1. Before it stand the
+ * numbers of operations and families (#define MACHINE_ADD ..., #define SPELL_BITS ...).
  *
- * A switch over a family has a case for each operation of it: test machine_operations. What is of no family gives 0. */
+ * A switch over a family has a case for each operation of it: test machine_operations. What is
+ * of no family gives 0. */
 
 /* What a step says, beside its places. */
 typedef struct {

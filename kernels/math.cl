@@ -1,8 +1,8 @@
 /* math.cl - transcendental functions of doubles, in what OpenCL C and C have in common.
  *
- * Only operations that round correctly everywhere are used (+ - * / sqrt fma rint and integers),
- * so a function gives the same bits on every device and on the host, which compiles this text
- * too (host/machine/values/math_ops.c). Singles are computed as doubles and rounded.
+ * Only operations that round correctly everywhere are used (+ - * / sqrt fma rint and
+ * integers), so a function gives the same bits on every device and on the host, which compiles
+ * this text too (host/machine/values/math_ops.c). Singles are computed as doubles and rounded.
  *
  * A number is carried as the sum of two doubles (struct math_dd) through the reductions, and a
  * function ends with one addition: results are within 0.6 ulp or so of the exact ones, in

@@ -1,5 +1,5 @@
-/* math_others.cl - the functions that are made of those in math.cl, which comes before: hyperbolic ones, powers, remainders,
- * scaling; and all of them lane by lane. */
+/* math_others.cl - the functions that are made of those in math.cl, which comes before:
+ * hyperbolic ones, powers, remainders, scaling; and all of them lane by lane. */
 
 /* ---- hyperbolic ---- */
 

@@ -348,7 +348,8 @@ inline int in_a_row(VU i, uint n)
     return (two.x | two.y) == 0 && i.s0 < n && n - i.s0 >= VECTOR;
 }
 #endif
-/* What is read at the indices i, which are j where they are inside: 0 where they are not. letter: of the container. */
+/* What is read at the indices i, which are j where they are inside: 0 where they are not.
+ * letter: of the container. */
 #define GATHER(letter, kind, type, p, i, n, j, row)                                            \
     ((row)                                                                                     \
          ? FROM_##kind(GET(type, p, FIRST(i)))                                                 \

@@ -7,7 +7,8 @@
  * Each has k finer ones: coarse (p, j) is fine (p, j * k) to (p, j * k + k - 1).
  *
  *     slices   out i of coarse (p, j) = fine (p, j * k + first + i), for i < n
- *     weave    fine (p, j * k + first + i * parts + t) = the t-th `width` bits of in i of coarse (p, j)
+ *     weave    fine (p, j * k + first + i * parts + t) = the t-th `width` bits of in i of
+ *              coarse (p, j)
  *     put      bits of one slot into images of the processors' memory
  *     get      and out of them
  *
@@ -29,7 +30,8 @@ inline uint linear(uint x, const uint *bits)
     return sum;
 }
 
-/* The row-major index; UINT_MAX if there is no such processor. base: of (p, 0), for subgrids. */
+/* The row-major index; UINT_MAX if there is no such processor. base: of (p, 0), for
+ * subgrids. */
 inline uint index_at(uint p, uint r, uint base, uint count, uint ratio, uint plog2, uint layout,
                      const uint *bits)
 {
@@ -109,8 +111,8 @@ __kernel void slices(SET(f), SET(c), uint run, uint k, uint first, uint n, uint 
     })
 }
 
-/* run counts physical processors; bits [bit, bit + width) of virtual processor r are at start + r /
- * parts * outer + r % parts * inner. */
+/* run counts physical processors; bits [bit, bit + width) of virtual processor r are at start +
+ * r / parts * outer + r % parts * inner. */
 #ifdef PAIR
 #define LOW(v) (v).x
 #define HIGH(v) (v).y

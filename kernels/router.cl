@@ -1,7 +1,7 @@
 /* router.cl - messages to other processors.
  *
- * Processors are counted by row-major index. Elements lie in rows of `width`, `pitch` apart, that
- * begin and end with `halo` columns which repeat the other end.
+ * Processors are counted by row-major index. Elements lie in rows of `width`, `pitch` apart,
+ * that begin and end with `halo` columns which repeat the other end.
  *
  * Addresses are indices already: the host makes them.
  *
@@ -14,8 +14,8 @@
  *     arrived    1 where there is an owner
  *     edges      fills the halo
  *
- * -DFLAT=1: both sets have one row. -DADDRESS= uchar .. ulong2: of address fields; -DELEMENT= the same: of messages; -DKIND=0 bits up to
- * 64, 1 float or double, 2 pairs of 64. */
+ * -DFLAT=1: both sets have one row. -DADDRESS= uchar .. ulong2: of address fields; -DELEMENT=
+ * the same: of messages; -DKIND=0 bits up to 64, 1 float or double, 2 pairs of 64. */
 #pragma OPENCL FP_CONTRACT OFF
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 
@@ -24,8 +24,9 @@
 
 #define LAYOUT(s) uint s##_width, uint s##_pitch, uint s##_halo
 
-/* Divides by a number that stays the same: with k = 31 + the least s for which it is at most 2^s, n / by is
- * n * (2^k / by + 1) >> k for all n below 2^31. A division takes ten times as long. */
+/* Divides by a number that stays the same: with k = 31 + the least s for which it is at most
+ * 2^s, n / by is n * (2^k / by + 1) >> k for all n below 2^31. A division takes ten times as
+ * long. */
 struct divisor {
     ulong factor;
     uint shift, by;
@@ -170,8 +171,8 @@ __kernel void deliver(LAYOUT(d), uint run, LAYOUT(s), const __global uint *owner
 }
 #else
 
-/* op: AND, OR, XOR, ADD, UMIN, UMAX, SMIN, SMAX, FADD, FMIN, FMAX are 1 .. 11. sign: the highest
- * bit, mask: all bits, of the width. */
+/* op: AND, OR, XOR, ADD, UMIN, UMAX, SMIN, SMAX, FADD, FMIN, FMAX are 1 .. 11. sign: the
+ * highest bit, mask: all bits, of the width. */
 #if KIND == 0
 inline ELEMENT join(uint op, ELEMENT a, ELEMENT b, ulong2 sign, ulong2 mask)
 {
@@ -250,7 +251,8 @@ __kernel void combine(LAYOUT(d), LAYOUT(s), uint op, uint senders, uint share, u
             const int mine = (d - low < share) & (d < NOBODY);
             if (!trash && !mine)
                 continue;
-            /* No branch, which could not be predicted. Places of no use take turns, or each access would wait for the one before. */
+            /* No branch, which could not be predicted. Places of no use take turns, or each
+             * access would wait for the one before. */
             const size_t keep = -(size_t)mine,
                          at = (PLACE(d, d) & keep) | (((size_t)trash + lost + x % 32) & ~keep);
             out[at] = join(op, out[at], from[(size_t)row * s_pitch + s_halo + x], sign, mask);

@@ -5,7 +5,8 @@
  * and nothing is stored there.
  */
 
-/* The last column that a store of a whole vector may end at; the halos' columns are in such vectors then. */
+/* The last column that a store of a whole vector may end at; the halos' columns are in such
+ * vectors then. */
 #define WHOLE (W % VECTOR ? W - VECTOR : W)
 
 /* Lane by lane, with their copies in the halos. */
@@ -44,8 +45,9 @@
         }                                                                                      \
     } while (0)
 
-/* Where all of a row is the strip's, in vectors as they come: the last one may end in the halo. Halos follow when the row
- * has been made. What has been stored past the caches (rows of whole vectors) is not read again. */
+/* Where all of a row is the strip's, in vectors as they come: the last one may end in the halo.
+ * Halos follow when the row has been made. What has been stored past the caches (rows of whole
+ * vectors) is not read again. */
 #define NOT_STORED(kind, q, i, v) (void)0
 #if STREAMS
 #define STORE_EVEN STORE_INSIDE

@@ -13,8 +13,8 @@
  * it. A continuing piece is refused if no system exclusive is open. So a parser always reads
  * exactly the encoded messages from the bytes.
  *
- * Errors: by the number of bytes. Ownership: the encoder is the caller's, and points to nothing. Threads: an
- * encoder belongs to one thread at a time.
+ * Errors: by the number of bytes. Ownership: the encoder is the caller's, and points to
+ * nothing. Threads: an encoder belongs to one thread at a time.
  */
 #ifndef LUTETIA_MIDI_ENCODER_H
 #define LUTETIA_MIDI_ENCODER_H

@@ -12,7 +12,8 @@
  *
  *     f0 . . . .      the first byte is f0: a first piece
  *     . . . . . .     the first byte is data: one that goes on
- *     . . . f7        the last byte is f7: a last piece (which may be a first one, too, or f7 alone)
+ *     . . . f7        the last byte is f7: a last piece (which may be a first one, too, or f7
+ *                     alone)
  *
  * Between two pieces of one system exclusive only real-time messages (f8 to ff) may come.
  *
@@ -81,7 +82,8 @@ struct midi_row {
     uint8_t data_count; /* bytes that follow */
 };
 
-/* The row of a status byte, 0x80 to 0xff; NULL for data bytes. All rows; never NULL. They are constants, valid for ever. */
+/* The row of a status byte, 0x80 to 0xff; NULL for data bytes. All rows; never NULL. They are
+ * constants, valid for ever. */
 const struct midi_row *midi_row_of(uint8_t status);
 const struct midi_row *midi_rows(int *count);
 
@@ -113,7 +115,8 @@ bool midi_message_releases(const struct midi_message *m);
 /* A name, the channel from 1, then numbers; notes as c4 (60), c#4, sysex as hexadecimal digits:
  * "note-on 10 c#2 90", "bend 1 -200", "song-position 12", "sysex f0 7e 7f 09 01 f7". */
 void midi_message_text(const struct midi_message *m, char text[MIDI_TEXT_MAX]);
-/* Reads what the above wrote; notes may be numbers, too. Errors: BAD_ARGUMENT, with the known names. */
+/* Reads what the above wrote; notes may be numbers, too. Errors: BAD_ARGUMENT, with the known
+ * names. */
 enum midi_status midi_message_read(const char *text, struct midi_message *m);
 /* Reads "c4", "f#-1", or a number, 0..127. -1: it is neither. */
 int midi_note_read(const char *word);

@@ -5,8 +5,8 @@
  *     ...
  *     midi_notes_release(&notes, now_ns, message_taken, context);   // ends all of them
  *
- * Errors: none. Ownership: the struct is the caller's, and points to nothing. Threads: it belongs to one
- * thread at a time.
+ * Errors: none. Ownership: the struct is the caller's, and points to nothing. Threads: it
+ * belongs to one thread at a time.
  */
 #ifndef LUTETIA_MIDI_NOTES_H
 #define LUTETIA_MIDI_NOTES_H

@@ -6,18 +6,20 @@
  *         midi_parser_take(&parser, midi_now_ns(), bytes, count, message_taken, context);
  *
  * The messages depend only on the bytes, not on how they are divided into reads:
- *   - a status byte stands for the channel messages after it, too (running status), until a system message other than a
- *     real-time one;
+ *   - a status byte stands for the channel messages after it, too (running status), until a
+ *     system message other than a real-time one;
  *   - real-time bytes are messages at once, also inside others, which they leave as they were;
- *   - system exclusive comes in pieces of MIDI_BYTES_MAX bytes, the last one shorter; it is ended by any status byte that is
- *     no real-time one, and then gets the f7 that it did not have;
- *   - what is undefined (f4, f5, f9, fd), data without a status, an f7 without a beginning, and a message broken off by
- *     another are dropped and counted.
+ *   - system exclusive comes in pieces of MIDI_BYTES_MAX bytes, the last one shorter; it is
+ *     ended by any status byte that is no real-time one, and then gets the f7 that it did not
+ *     have;
+ *   - what is undefined (f4, f5, f9, fd), data without a status, an f7 without a beginning, and
+ *     a message broken off by another are dropped and counted.
  *
  * A message's time is that of the read which brought its last byte.
  *
- * Errors: none; what cannot be parsed is counted. Ownership: the parser is the caller's, and allocates no
- * memory. Threads: a parser belongs to one thread at a time, in which messages are taken.
+ * Errors: none; what cannot be parsed is counted. Ownership: the parser is the caller's, and
+ * allocates no memory. Threads: a parser belongs to one thread at a time, in which messages are
+ * taken.
  */
 #ifndef LUTETIA_MIDI_PARSER_H
 #define LUTETIA_MIDI_PARSER_H

@@ -3,8 +3,8 @@
  *     char said[MIDI_REAL_TIME_TEXT];
  *     midi_real_time_begin(said);                  // "real-time priority 40", or why not
  *
- * Errors: none; without real time everything works, later on a busy machine. Threads: the calling one gets it; those that it
- * makes, and programs that it starts, do not. */
+ * Errors: none; without real time everything works, later on a busy machine. Threads: the
+ * calling one gets it; those that it makes, and programs that it starts, do not. */
 #ifndef LUTETIA_MIDI_REAL_TIME_H
 #define LUTETIA_MIDI_REAL_TIME_H
 

@@ -1,4 +1,5 @@
-/* midi_song.c - see midi_song.h: events, their order, the tempo map. Files are in midi_song_read.c and midi_song_write.c. */
+/* midi_song.c - see midi_song.h: events, their order, the tempo map. Files are in
+ * midi_song_read.c and midi_song_write.c. */
 #include "midi_song_internal.h"
 
 #include <stdlib.h>

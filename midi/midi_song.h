@@ -2,9 +2,11 @@
  *
  *     struct midi_song *song;
  *     if (midi_song_read("song.mid", &song) != MIDI_OK)
- *         die(midi_error());                                     // "song.mid: track 3 ends within an event, at byte 1234"
+ *         // "song.mid: track 3 ends within an event, at byte 1234"
+ *         die(midi_error());
  *     for (size_t i = 0; i < midi_song_info(song).events_count; i++) {
- *         struct midi_song_event e = midi_song_event(song, i);   // by time, those of one time as they stand in the file
+ *         // by time, those of one time as they stand in the file
+ *         struct midi_song_event e = midi_song_event(song, i);
  *         wait_until(e.time_ns);
  *         midi_song_play(&e, &parser, message_taken, context);
  *     }
@@ -25,7 +27,8 @@
  *
  * Errors: functions that can fail return a status and leave one line in midi_error().
  *
- * Ownership: what is passed is copied; an event's bytes are the song's, valid until an event is added.
+ * Ownership: what is passed is copied; an event's bytes are the song's, valid until an event is
+ * added.
  *
  * Threads: a song belongs to one thread at a time; those that only look sort its events first.
  */
@@ -68,12 +71,13 @@ struct midi_song;
 
 struct midi_song_def {
     int format; /* 0 or 1 */
-    int division; /* ticks of a quarter note, 1..32767; or -(frames << 8 | ticks): frames 24, 25, 29, 30 */
+    /* ticks of a quarter note, 1..32767; or -(frames << 8 | ticks): frames 24, 25, 29, 30 */
+    int division;
 };
 struct midi_song_def midi_song_def_default(void); /* format 1, MIDI_DIVISION_USUAL */
 
-/* An empty song. Errors: BAD_ARGUMENT (a format or division that cannot be), NO_MEMORY; *out is then NULL. Owns: the
- * caller destroys *out. */
+/* An empty song. Errors: BAD_ARGUMENT (a format or division that cannot be), NO_MEMORY; *out is
+ * then NULL. Owns: the caller destroys *out. */
 enum midi_status midi_song_create(const struct midi_song_def *def, struct midi_song **out);
 void midi_song_destroy(struct midi_song *song); /* takes NULL */
 
@@ -81,8 +85,8 @@ void midi_song_destroy(struct midi_song *song); /* takes NULL */
 
 /* Errors: BAD_FILE, IO_FAILED, NO_MEMORY; *out is then NULL. Owns: the caller destroys *out. */
 enum midi_status midi_song_read(const char *path, struct midi_song **out);
-/* The same of bytes in memory; name: used in errors. Errors: BAD_FILE, NO_MEMORY; *out is then NULL. Owns: the caller
- * destroys *out. */
+/* The same of bytes in memory; name: used in errors. Errors: BAD_FILE, NO_MEMORY; *out is then
+ * NULL. Owns: the caller destroys *out. */
 enum midi_status midi_song_parse(const char *name, const uint8_t *bytes, size_t count,
                                  struct midi_song **out);
 /* Writes a whole file or none. Errors: IO_FAILED, NO_MEMORY. */
@@ -122,8 +126,8 @@ enum midi_status midi_song_add(struct midi_song *song, const struct midi_song_ev
  * real-time and common messages, which are left out. Errors: those of midi_song_add(). */
 enum midi_status midi_song_record(struct midi_song *song, int track,
                                   const struct midi_message *m, uint64_t begin_ns);
-/* Ends the track at that time or at its last event, whichever is later. Errors: BAD_ARGUMENT (no such
- * track), NO_MEMORY. */
+/* Ends the track at that time or at its last event, whichever is later. Errors: BAD_ARGUMENT
+ * (no such track), NO_MEMORY. */
 enum midi_status midi_song_end(struct midi_song *song, int track, uint32_t tick);
 
 #ifdef __cplusplus

@@ -1,7 +1,8 @@
 /* midi_song_read.c - parses a Standard MIDI File.
  *
  *     MThd 6 format tracks division          numbers with the high byte first
- *     MTrk length  (delta event)...          delta: seven bits a byte, the high bit says that another follows
+ *     MTrk length  (delta event)...          delta: seven bits a byte, the high bit says that
+ *                  another follows
  */
 #include "midi_song_internal.h"
 

@@ -1,9 +1,10 @@
 /* midi_status.h - errors of MIDI bytes, files, devices and servers, and their messages.
  *
- * Errors: functions that can fail return a status; midi_error() then has one line: what, where, what
- * to do.
+ * Errors: functions that can fail return a status; midi_error() then has one line: what, where,
+ * what to do.
  *
- * Ownership: the message is the library's. Threads: any; the message belongs to the thread that failed.
+ * Ownership: the message is the library's. Threads: any; the message belongs to the thread that
+ * failed.
  */
 #ifndef LUTETIA_MIDI_STATUS_H
 #define LUTETIA_MIDI_STATUS_H
@@ -23,7 +24,8 @@ enum midi_status {
     MIDI_REFUSED    /* the server refused; its reason is in midi_error() */
 };
 
-/* Detail of this thread's last failure, one line without a newline; never NULL. Owns: the library; valid until the next failure. */
+/* Detail of this thread's last failure, one line without a newline; never NULL. Owns: the
+ * library; valid until the next failure. */
 const char *midi_error(void);
 
 #ifdef __cplusplus

@@ -6,8 +6,8 @@
  *
  * A histogram's bins are 1/16 of an octave wide: its results are exact to 4.5%.
  *
- * Errors: none. Ownership: a histogram is the caller's, and points to nothing. Threads: any; a histogram
- * belongs to one at a time.
+ * Errors: none. Ownership: a histogram is the caller's, and points to nothing. Threads: any; a
+ * histogram belongs to one at a time.
  */
 #ifndef LUTETIA_MIDI_TIME_H
 #define LUTETIA_MIDI_TIME_H

@@ -156,8 +156,8 @@ static void float_copy(size_t to_bytes, unsigned char *to, size_t from_bytes,
     }
 }
 
-/* Whether both sides have the same bits; else they must be filled. Bits that a processor's number does not use are 0, and what goes
- * to processors is cut to its width by the machine. */
+/* Whether both sides have the same bits; else they must be filled. Bits that a processor's
+ * number does not use are 0, and what goes to processors is cut to its width by the machine. */
 static bool elements_same(struct element to, struct element from)
 {
     return to.bytes == from.bytes && (to.letter != 's' || to.width == from.width);
@@ -257,7 +257,8 @@ static struct machine_block block_rows(const struct walk *w)
                                   (int)(w->processor_first % width), (int)w->extent[1]};
 }
 
-/* Checks all and allocates, unless it is direct, the dense array of the processors' elements. */
+/* Checks all and allocates, unless it is direct, the dense array of the processors'
+ * elements. */
 static bool transfer_begin(struct transfer *t, const struct paris_instruction *self,
                            const void *array, struct paris_block block,
                            struct paris_operand field, const char *role)

@@ -3,7 +3,8 @@
 
 #include "paris_state.h"
 
-/* A machine that was made just now. False: it was not, or cannot begin; paris_error() has the reason. */
+/* A machine that was made just now. False: it was not, or cannot begin; paris_error() has the
+ * reason. */
 static bool begin(bool made)
 {
     if (!made || paris_warm_up())

@@ -1,12 +1,13 @@
 /* call_line.c - where the program's source calls the library.
  *
- * The return addresses on the stack lead from the complaint through the library to its caller: the
- * first one outside the library is the call. The program's debug information (DWARF, made by -g1,
- * which `lutetia cc` asks for) gives its file and line. elfutils' libdw reads that information. It
- * is loaded at the first complaint, so a program without mistakes does not pay for it.
+ * The return addresses on the stack lead from the complaint through the library to its caller:
+ * the first one outside the library is the call. The program's debug information (DWARF, made
+ * by -g1, which `lutetia cc` asks for) gives its file and line. elfutils' libdw reads that
+ * information. It is loaded at the first complaint, so a program without mistakes does not pay
+ * for it.
  *
- * There is no line where the program has no debug information, where libdw is not installed, and
- * where the library is linked into the program itself.
+ * There is no line where the program has no debug information, where libdw is not installed,
+ * and where the library is linked into the program itself.
  */
 #include "call_line.h"
 
@@ -101,8 +102,8 @@ static void modules_read(void)
     }
 }
 
-/* The line of an instruction in a module; NULL: unknown. clang writes no table from addresses to
- * compilation units (.debug_aranges), so there each unit is asked. */
+/* The line of an instruction in a module; NULL: unknown. clang writes no table from addresses
+ * to compilation units (.debug_aranges), so there each unit is asked. */
 static Dwarf_Line *line_in(Dwfl_Module *module, Dwarf_Addr address)
 {
     Dwarf_Addr bias = 0;
@@ -114,8 +115,8 @@ static Dwarf_Line *line_in(Dwfl_Module *module, Dwarf_Addr address)
     return unit ? dw.dwarf_getsrc_die(unit, address - bias) : NULL;
 }
 
-/* The line of an instruction's address; NULL: unknown. A module that was loaded after the modules
- * were read makes them be read again. */
+/* The line of an instruction's address; NULL: unknown. A module that was loaded after the
+ * modules were read makes them be read again. */
 static Dwarf_Line *line_of(Dwarf_Addr address)
 {
     Dwfl_Module *module = session ? dw.dwfl_addrmodule(session, address) : NULL;
@@ -126,9 +127,9 @@ static Dwarf_Line *line_of(Dwarf_Addr address)
     return module ? line_in(module, address) : NULL;
 }
 
-/* The address that the first function outside the library will return to; 0: none is found, or the
- * library is part of the program. The uppermost frames may be a sanitizer's, which takes the place
- * of backtrace(). */
+/* The address that the first function outside the library will return to; 0: none is found, or
+ * the library is part of the program. The uppermost frames may be a sanitizer's, which takes
+ * the place of backtrace(). */
 static uintptr_t caller_find(void)
 {
     void *frames[FRAMES];
@@ -149,7 +150,8 @@ static uintptr_t caller_find(void)
     return 0;
 }
 
-/* Places that were looked up before: a program with a handler may make the same mistake often. */
+/* Places that were looked up before: a program with a handler may make the same mistake
+ * often. */
 static struct {
     uintptr_t address;
     char text[200];

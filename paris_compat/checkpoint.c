@@ -6,13 +6,17 @@
  *         geometries, VP sets, fields, bytes of the program's own memory
  *     the program's own memory
  *     each geometry     id, rank, then length, weight and ordering of each axis
- *     each VP set       id, geometry, context, test and overflow: a bit for each processor, row-major, the lowest of a byte first
- *     each field        id, bits, ids that are its own, VP set, region, order, root, view, parts
- *         each part     offset, bits, 1 if they are a float, 1 if all processors have the same; one element or one for each
+ *     each VP set       id, geometry, context, test and overflow: a bit for each processor,
+ *                       row-major, the lowest of a byte first
+ *     each field        id, bits, ids that are its own, VP set, region, order, root, view,
+ *                       parts
+ *         each part     offset, bits, 1 if they are a float, 1 if all processors have the same;
+ *                       one element or one for each
  *     SHA-256 of all that
  *
- * Roots of aliases come before these. A file is read twice: at first everything but the arrays is looked at, and the sum; then the
- * machine is emptied and filled. So a damaged file changes nothing.
+ * Roots of aliases come before these. A file is read twice: at first everything but the arrays
+ * is looked at, and the sum; then the machine is emptied and filled. So a damaged file changes
+ * nothing.
  */
 #include <errno.h>
 #include <stdio.h>

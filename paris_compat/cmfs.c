@@ -221,7 +221,8 @@ int CMFS_write_file_always(int file, CM_field_id_t source, unsigned int len)
     return good ? (int)len : -1;
 }
 
-/* Whether the file has so many bytes from where it stands: 1; 0 at its end; negative: it has not. */
+/* Whether the file has so many bytes from where it stands: 1; 0 at its end; negative: it has
+ * not. */
 static int has_bytes(int file, uint64_t bytes)
 {
     struct stat status;

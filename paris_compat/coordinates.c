@@ -1,8 +1,9 @@
 /* Computes send addresses from coordinates, and coordinates from send addresses, in the
  * processors, for any geometry.
  *
- * Computations use 64-bit integers, or 32-bit ones where no bit of the result depends on more. Division by a constant is a multiplication: for n <
- * 2^31 and a divisor d, with k = 31 + the least s for which d <= 2^s, n / d is n * (2^k / d
+ * Computations use 64-bit integers, or 32-bit ones where no bit of the result depends on more.
+ * Division by a constant is a multiplication: for n < 2^31 and a divisor d, with k = 31 + the
+ * least s for which d <= 2^s, n / d is n * (2^k / d
  * + 1) >> k.
  */
 #include "paris_state.h"
@@ -60,7 +61,8 @@ static struct machine_value *index_of(struct machine *m, const struct paris_geom
                           times(m, rest(m, address, g->ratio), CM_physical_processors_limit));
 }
 
-/* The lowest 32 bits of the address of an index of at most 32 bits: the number of processors is a power of two. */
+/* The lowest 32 bits of the address of an index of at most 32 bits: the number of processors is
+ * a power of two. */
 static struct machine_value *short_address_of(struct machine *m, const struct paris_geometry *g,
                                               struct machine_value *index)
 {

@@ -52,7 +52,8 @@ PARIS_PRINTF(1, 2) static void add(const char *format, ...)
         answer->text_bytes += (uint64_t)length;
 }
 
-/* The text anew: why there is no answer. Texts of ours and of the machine have no control characters. */
+/* The text anew: why there is no answer. Texts of ours and of the machine have no control
+ * characters. */
 static const void *refused(const char *why)
 {
     if (!answer && !answer_begin(0))
@@ -77,7 +78,8 @@ static const char *not_now(void)
 
 /* ---- in a child ---- */
 
-/* Waits for the child, without a word to the program's own handler of children's ends. NULL: it did what it should. */
+/* Waits for the child, without a word to the program's own handler of children's ends. NULL: it
+ * did what it should. */
 static const char *child_wait(pid_t child)
 {
     static char text[100];
@@ -95,7 +97,8 @@ static const char *child_wait(pid_t child)
     return text;
 }
 
-/* Calls the function where nothing that it does changes this process, if that can be. NULL: it was called. */
+/* Calls the function where nothing that it does changes this process, if that can be. NULL: it
+ * was called. */
 static const char *aside(void (*look)(struct machine *m, const void *what), const void *what)
 {
     /* a program that ignores its children's ends could not wait for this one */

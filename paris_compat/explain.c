@@ -64,8 +64,9 @@ static void interrupt(int number)
     interrupts = 1;
 }
 
-/* The driver's compiler installs a handler of its own with its first kernel. That one removes what is being compiled, whose
- * compilation then fails with a line of the compiler's on the standard error, before it passes the signal on. */
+/* The driver's compiler installs a handler of its own with its first kernel. That one removes
+ * what is being compiled, whose compilation then fails with a line of the compiler's on the
+ * standard error, before it passes the signal on. */
 static bool is_compilers(const struct sigaction *action)
 {
     Dl_info of;

@@ -16,7 +16,8 @@ bool paris_explain_wanted(void);
 void paris_explain_begin(struct machine *m);
 void paris_explain_end(struct machine *m);
 void paris_explain_write(void);
-/* A complaint of a call, with its line: the report has each text once, and how often it came. */
+/* A complaint of a call, with its line: the report has each text once, and how often it
+ * came. */
 void paris_explain_complaint(const char *text);
 
 /* explain_text.c, explain_json.c: the report of one machine */

@@ -1,5 +1,6 @@
-/* field_bytes.c - see field_bytes.h. A field of 8, 16, 32 or 64 bits whose values have as many bytes goes as it is; another goes in pieces of 64
- * bits at most, which are put beside each other. */
+/* field_bytes.c - see field_bytes.h. A field of 8, 16, 32 or 64 bits whose values have as many
+ * bytes goes as it is; another goes in pieces of 64 bits at most, which are put beside each
+ * other. */
 #include "field_bytes.h"
 
 #include <stdlib.h>

@@ -1,4 +1,5 @@
-/* field_bytes.h - a field's values as bytes, band by band, so that what a large set holds needs little memory on the front end.
+/* field_bytes.h - a field's values as bytes, band by band, so that what a large set holds needs
+ * little memory on the front end.
  *
  *     struct field_bytes b;
  *     if (!field_bytes_begin(&b, m, field, 24, 3))
@@ -8,8 +9,9 @@
  *             break;
  *     field_bytes_end(&b);
  *
- * Values follow each other in row-major order. Each has value_bytes bytes, the lowest first; bits of them that the field does not have
- * are 0, or as the sign says, and are ignored on the way back. Errors have been reported (paris_fail()). */
+ * Values follow each other in row-major order. Each has value_bytes bytes, the lowest first;
+ * bits of them that the field does not have are 0, or as the sign says, and are ignored on the
+ * way back. Errors have been reported (paris_fail()). */
 #ifndef PARIS_FIELD_BYTES_H
 #define PARIS_FIELD_BYTES_H
 
@@ -32,7 +34,8 @@ struct field_bytes {
     uint8_t *piece;
 };
 
-/* The current VP set's. False: no memory. type: of the whole field, if that is known; NULL: bits. */
+/* The current VP set's. False: no memory. type: of the whole field, if that is known; NULL:
+ * bits. */
 bool field_bytes_begin(struct field_bytes *b, struct machine *m, CM_field_id_t field,
                        unsigned int bits, size_t value_bytes, const struct machine_type *type,
                        bool is_signed);

@@ -1,5 +1,5 @@
-/* Floats: overflow of functions, powers and scaling by integers, two operations in one, parts of
- * floats, tests of what a float is, exchange.
+/* Floats: overflow of functions, powers and scaling by integers, two operations in one, parts
+ * of floats, tests of what a float is, exchange.
  *
  * Two operations in one round twice: the result is that of the two instructions. */
 #include <math.h>
@@ -332,8 +332,8 @@ void paris_float_part(const struct paris_instruction *self, struct paris_operand
 
 /* ---- VAX ---- */
 
-/* Both formats have sign, exponent and fraction in this order; a VAX number with exponent field E
- * is the IEEE number with E - 2, and in memory its 16-bit words stand from the highest to the
+/* Both formats have sign, exponent and fraction in this order; a VAX number with exponent field
+ * E is the IEEE number with E - 2, and in memory its 16-bit words stand from the highest to the
  * lowest. Exponent 0 is the number 0, or with the sign the reserved operand. */
 static struct machine_value *words_reversed(struct machine *m, struct machine_value *v)
 {

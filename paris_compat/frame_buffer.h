@@ -36,7 +36,8 @@ bool frame_buffer_good_buffer(unsigned int buffer);
 
 /* ---- the recording (LUTETIA_DISPLAY) ---- */
 
-/* "lutetia display 1\n", then pieces: a head of 24 bytes, numbers lowest byte first, and `bytes` bytes more.
+/* "lutetia display 1\n", then pieces: a head of 24 bytes, numbers lowest byte first, and
+ * `bytes` bytes more.
  *
  *     kind 1, display 1 (1..8), buffer 1, bytes of a pixel 1, bytes 4, microseconds since the first piece 8, x 4, y 4
  *
@@ -69,7 +70,8 @@ struct frame_buffer_piece {
 };
 
 bool frame_buffer_watched(void);
-/* Makes room for that many bytes more. False: no memory; said. The library keeps the room for the next piece. */
+/* Makes room for that many bytes more. False: no memory; said. The library keeps the room for
+ * the next piece. */
 bool frame_buffer_piece_make(struct frame_buffer_piece *piece, size_t bytes);
 void frame_buffer_piece_add(struct frame_buffer_piece *piece);
 

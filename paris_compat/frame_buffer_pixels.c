@@ -1,9 +1,11 @@
 /* frame_buffer_pixels.c - fields to pixels.
  *
- * A VP set's picture has a column for each processor along its x axis and a row for each along its y axis. The machine gives a field's values in
- * row-major order; where the last axis is the columns and the one before the rows, that is the picture. In the frame buffer's
- * order the pixels are those of the processors by their send addresses. Sets of NEWS order live in blocks, by Gray code, so the picture must
- * be shuffled first: CMFB_shuffle_from_news_always does it alone, the writes of NEWS order hide it.
+ * A VP set's picture has a column for each processor along its x axis and a row for each along
+ * its y axis. The machine gives a field's values in row-major order; where the last axis is the
+ * columns and the one before the rows, that is the picture. In the frame buffer's order the
+ * pixels are those of the processors by their send addresses. Sets of NEWS order live in
+ * blocks, by Gray code, so the picture must be shuffled first: CMFB_shuffle_from_news_always
+ * does it alone, the writes of NEWS order hide it.
  *
  *     picture (x, y) --place--> index (row-major) --order--> rank of its send address
  */
@@ -67,7 +69,8 @@ static bool picture_of(struct picture *p, const struct frame_buffer *d, struct m
     return true;
 }
 
-/* The processors' row-major indices in the order of their send addresses, for the set asked for last. */
+/* The processors' row-major indices in the order of their send addresses, for the set asked for
+ * last. */
 static struct {
     struct machine_layout layout;
     int dimensions[MACHINE_AXES_MAX], rank;

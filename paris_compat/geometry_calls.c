@@ -165,7 +165,8 @@ int CM_geometry_axis_ordering(CM_geometry_id_t geometry, unsigned int axis)
 }
 
 /* Where processors are dealt out (machine_layout.h), a processor's virtual ones are along the
- * first axis as far as that suffices, then along the next; in send order from the last axis on. */
+ * first axis as far as that suffices, then along the next; in send order from the last axis
+ * on. */
 unsigned int CM_geometry_axis_vp_ratio(CM_geometry_id_t geometry, unsigned int axis)
 {
     paris_the.call = "CM_geometry_axis_vp_ratio";

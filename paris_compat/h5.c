@@ -1,4 +1,5 @@
-/* h5.c - see h5.h. The places and numbers are those of the HDF5 File Format Specification, version 1; of newer files version 3. */
+/* h5.c - see h5.h. The places and numbers are those of the HDF5 File Format Specification,
+ * version 1; of newer files version 3. */
 #include "h5.h"
 #include "h5_file.h"
 

@@ -29,8 +29,8 @@ bool h5_bytes_at(FILE *in, uint64_t at, void *bytes, size_t count);
 /* As many of them as the file has. */
 size_t h5_bytes_upto(FILE *in, uint64_t at, void *bytes, size_t count);
 
-/* Passes each message of an object's header, of version 1 or 2; of a long one the first kilobyte. take() returns NULL, or what is wrong,
- * which ends it and is returned. */
+/* Passes each message of an object's header, of version 1 or 2; of a long one the first
+ * kilobyte. take() returns NULL, or what is wrong, which ends it and is returned. */
 enum { H5_MESSAGE_BYTES = 1024 };
 typedef const char *(*h5_message_take)(void *context, unsigned type, const uint8_t *data,
                                        size_t bytes);
@@ -51,7 +51,8 @@ const char *h5_group_search(struct h5_search *s, uint64_t header);
 
 /* One link, as a message or in a heap of links. */
 const char *h5_link_take(struct h5_search *s, const uint8_t *data, size_t bytes);
-/* All links of a group that has too many for its header: the heap with them, and the tree that lists them. */
+/* All links of a group that has too many for its header: the heap with them, and the tree that
+ * lists them. */
 const char *h5_links_read(struct h5_search *s, uint64_t heap, uint64_t tree);
 
 #endif

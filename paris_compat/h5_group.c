@@ -1,4 +1,5 @@
-/* h5_group.c - see h5_file.h: groups of HDF5 1.0 to 1.6, whose names are in a heap, and what decides between them and newer ones. */
+/* h5_group.c - see h5_file.h: groups of HDF5 1.0 to 1.6, whose names are in a heap, and what
+ * decides between them and newer ones. */
 #include "h5.h"
 #include "h5_file.h"
 

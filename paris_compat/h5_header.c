@@ -26,8 +26,8 @@ bool h5_bytes_at(FILE *in, uint64_t at, void *bytes, size_t count)
 
 enum { MESSAGES_MOST = 4096, PARTS_MOST = 64 };
 
-/* A header while it is read. A message begins with its type, its bytes and flags, of which only the bytes stand at the same place in
- * neither version. */
+/* A header while it is read. A message begins with its type, its bytes and flags, of which only
+ * the bytes stand at the same place in neither version. */
 struct header {
     FILE *in;
     unsigned version, message_head; /* bytes before a message's data */

@@ -1,5 +1,6 @@
-/* h5_links.c - see h5_file.h: the links of groups of HDF5 1.8 and later. Few of them are messages of the group's header. Many are objects
- * in a fractal heap, and a B-tree of version 2 has the place of each, by its name's hash. Here all are looked at, in the tree's order. */
+/* h5_links.c - see h5_file.h: the links of groups of HDF5 1.8 and later. Few of them are
+ * messages of the group's header. Many are objects in a fractal heap, and a B-tree of version 2
+ * has the place of each, by its name's hash. Here all are looked at, in the tree's order. */
 #include "h5.h"
 #include "h5_file.h"
 
@@ -33,7 +34,8 @@ const char *h5_link_take(struct h5_search *s, const uint8_t *data, size_t bytes)
     return NULL;
 }
 
-/* ---- the heap: an address space of blocks, row by row, whose sizes double from row to row ---- */
+/* ---- the heap: an address space of blocks, row by row, whose sizes double from row to row
+ * ---- */
 
 struct heap {
     struct h5_search *search;

@@ -1,7 +1,11 @@
 /* Quotients, remainders, powers, shifts and counts of integers: rows of the families integer,
  * integer1, power, shift, rotate.
  *
- * Lengths are treated as in arithmetic.c: sources are extended to the longest of the lengths, the operation is done at that length, the result is truncated to dest's. Overflow is 1 if the true result does not fit in dest, or is undefined (a divisor of zero, the square root of a negative number, zero to a negative power), else 0; it is computed only if it is read. The result then is:
+ * Lengths are treated as in arithmetic.c: sources are extended to the longest of the lengths,
+ * the operation is done at that length, the result is truncated to dest's. Overflow is 1 if the
+ * true result does not fit in dest, or is undefined (a divisor of zero, the square root of a
+ * negative number, zero to a negative power), else 0; it is computed only if it is read. The
+ * result then is:
  *     for a division by zero, the quotient 0 and the remainder the dividend
  *     0 for the square root of a negative number, and for zero to a negative power
  *     the low bits of the true result, otherwise

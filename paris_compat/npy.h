@@ -21,9 +21,11 @@ struct npy {
     size_t head; /* bytes before the values */
 };
 
-/* Writes the head of such an array, at most NPY_HEAD_MAX bytes; returns its length. swapped and fortran are ignored. */
+/* Writes the head of such an array, at most NPY_HEAD_MAX bytes; returns its length. swapped and
+ * fortran are ignored. */
 size_t npy_make(const struct npy *npy, char *out);
-/* How long the head is, by a file's first NPY_BEGIN bytes. 0: it is no .npy file, or one with a head that is too long. */
+/* How long the head is, by a file's first NPY_BEGIN bytes. 0: it is no .npy file, or one with a
+ * head that is too long. */
 size_t npy_head_length(const uint8_t begin[NPY_BEGIN]);
 /* Reads a whole head. NULL: well done; else what is wrong. */
 const char *npy_read(const uint8_t *head, size_t length, struct npy *npy);

@@ -28,7 +28,8 @@ enum paris_complex_binary_op {
 };
 enum paris_complex_compare_op { PARIS_C_EQ, PARIS_C_NE };
 enum paris_complex_move_op { PARIS_C_MOVE };
-/* paris_complex_unary() performs these two itself, and asks paris_complex_function() for the others. */
+/* paris_complex_unary() performs these two itself, and asks paris_complex_function() for the
+ * others. */
 enum paris_complex_sign_op { PARIS_C_NEGATE, PARIS_C_CONJUGATE, PARIS_C_SIGN_OPS };
 enum paris_complex_function_op {
     PARIS_C_RECIPROCAL = PARIS_C_SIGN_OPS,

@@ -1,4 +1,5 @@
-/* paris_saved.h - geometries and VP sets as a saved machine has them: checkpoint.c writes and reads them, vp_sets.c makes them again. */
+/* paris_saved.h - geometries and VP sets as a saved machine has them: checkpoint.c writes and
+ * reads them, vp_sets.c makes them again. */
 #ifndef PARIS_SAVED_H
 #define PARIS_SAVED_H
 
@@ -19,7 +20,8 @@ struct paris_saved_set {
 void paris_set_default_is(CM_vp_set_id_t set);
 /* False: there is no such geometry. */
 bool paris_geometry_saved(CM_geometry_id_t id, struct paris_saved_geometry *out);
-/* In place of all that there are: these, by ascending ids. False: paris_error() says why not. */
+/* In place of all that there are: these, by ascending ids. False: paris_error() says why
+ * not. */
 bool paris_sets_restore(const struct paris_saved_geometry *geometries,
                         uint64_t geometries_count, const struct paris_saved_set *sets,
                         uint64_t sets_count, int defaults);

@@ -120,7 +120,8 @@ struct paris_state {
     int *set_geometry; /* geometry of each VP set, by the machine's id; 0: unused */
     int sets_count;
     CM_field_id_t leds; /* hidden field of the VP set that latched last */
-    /* Called after a machine was made (comes), and before it is destroyed; NULL: nobody asks. */
+    /* Called after a machine was made (comes), and before it is destroyed; NULL: nobody
+     * asks. */
     void (*machine_changes)(bool comes);
     /* Called after each call while a debugger watches fields (debug.c); NULL: none does. */
     void (*watches_look)(const char *call);
@@ -134,7 +135,8 @@ bool paris_reset_to(unsigned int processors);
 void paris_machine_forget(void);
 /* Says once that messages of the last send went to no processor. */
 void paris_tell_lost(struct machine *m, struct machine_value *send_address, int vp_set);
-/* Performs something on the first machine of a process, which was made just now, and empties it: warm_up.c. False: no memory. */
+/* Performs something on the first machine of a process, which was made just now, and empties
+ * it: warm_up.c. False: no memory. */
 bool paris_warm_up(void);
 
 /* ---- the way an instruction goes ---- */
@@ -232,14 +234,14 @@ struct machine_value *paris_load(struct machine *m, struct paris_operand a, cons
 bool paris_load_two(struct machine *m, const struct paris_instruction *self,
                     struct paris_operand dest, struct paris_operand a, struct paris_operand b,
                     struct machine_value **x, struct machine_value **y);
-/* The same for integers, dest looked at too, and both made as long as the longest of the three. y_signed: whether b
- * has a sign. */
+/* The same for integers, dest looked at too, and both made as long as the longest of the three.
+ * y_signed: whether b has a sign. */
 bool paris_load_widest(struct machine *m, const struct paris_instruction *self,
                        struct paris_operand dest, struct paris_operand a,
                        struct paris_operand b, bool y_signed, struct machine_value **x,
                        struct machine_value **y);
-/* dest = a op b where that is possible at once (machine_direct()), all of one type. dest of no field: the test flag. False: nothing was done,
- * and nothing has been reported. */
+/* dest = a op b where that is possible at once (machine_direct()), all of one type. dest of no
+ * field: the test flag. False: nothing was done, and nothing has been reported. */
 bool paris_direct(struct machine *m, enum machine_op op, bool overflow,
                   struct paris_operand dest, struct paris_operand a, struct paris_operand b);
 /* value may be NULL. False: nothing was stored; the error has been reported. */
@@ -323,8 +325,9 @@ uint64_t paris_index_of_address(const struct paris_geometry *g, uint64_t send_ad
  * once. */
 uint64_t paris_index_let_pass(const struct paris_geometry *g, uint64_t send_address);
 unsigned int paris_address_bits(const struct paris_geometry *g);
-/* How many bits of dest get an address of so many. Fields for addresses are usually longer than the addresses. Then all 32 bits are stored, with zeros above:
- * the same content, as a single value. */
+/* How many bits of dest get an address of so many. Fields for addresses are usually longer than
+ * the addresses. Then all 32 bits are stored, with zeros above: the same content, as a single
+ * value. */
 unsigned int paris_address_room(struct machine *m, CM_field_id_t dest, unsigned int bits);
 void paris_sets_reset(void); /* no geometries, and only the default VP set */
 void paris_sets_forget(void);

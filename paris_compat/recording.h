@@ -1,12 +1,15 @@
-/* recording.h - what a program shows, piece by piece in a file or a pipe: the lights (LUTETIA_LEDS), the frame buffer (LUTETIA_DISPLAY).
+/* recording.h - what a program shows, piece by piece in a file or a pipe: the lights
+ * (LUTETIA_LEDS), the frame buffer (LUTETIA_DISPLAY).
  *
  *     static struct paris_recording lights = {.variable = "LUTETIA_LEDS", .verb = "leds", .line = "lutetia leds 1 4096\n"};
  *     if (paris_recording_wanted(&lights))
  *         paris_recording_add(&lights, frame, sizeof frame);
  *
- * The variable names a file, to which each piece is appended at once (growing_file.h), or says `window`: then the file is a pipe
- * to `lutetia VERB` (viewer.c). A file of that name is ./window. So the file of a program that crashes is complete up to its last
- * piece, and a pipe shows the present state. If a piece cannot be appended, what was there before the program is there again. */
+ * The variable names a file, to which each piece is appended at once (growing_file.h), or says
+ * `window`: then the file is a pipe to `lutetia VERB` (viewer.c). A file of that name is
+ * ./window. So the file of a program that crashes is complete up to its last piece, and a pipe
+ * shows the present state. If a piece cannot be appended, what was there before the program is
+ * there again. */
 #ifndef PARIS_RECORDING_H
 #define PARIS_RECORDING_H
 

@@ -39,8 +39,9 @@ bool paris_machine_make(void)
     struct machine *m = NULL;
     struct machine_config config = config_now;
     const char *leds = getenv("LUTETIA_LEDS"), *display = getenv("LUTETIA_DISPLAY");
+    /* their files are opened after the driver's compiler has caught signals */
     if ((leds && *leds) || (display && *display))
-        part_files_catch(); /* their files are opened after the driver's compiler has caught signals */
+        part_files_catch();
     config.explain = config.explain || paris_explain_wanted();
     if (machine_create(&config, &m) != MACHINE_OK) {
         paris_fail_without(m);

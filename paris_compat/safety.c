@@ -2,8 +2,8 @@
  *
  *     at a program's start    errors are reported
  *     CM_set_safety_mode (1)  every argument is also checked before the machine is called
- *     CM_set_safety_mode (0)  lenient, as LUTETIA_LENIENT=1: what the real machine accepted is accepted,
- *                             and reported once
+ *     CM_set_safety_mode (0)  lenient, as LUTETIA_LENIENT=1: what the real machine accepted is
+ *                             accepted, and reported once
  *
  * In every mode, nothing outside the machine's own memory is read or written.
  */

@@ -1,6 +1,6 @@
-/* Timers: when one starts or stops, pending work is finished first, so that its time is
- * counted on the right side. What the front end computes in the machine's place is the machine's time; it is taken while a timer runs.
- * A timer goes on when the machine goes and another comes. */
+/* Timers: when one starts or stops, pending work is finished first, so that its time is counted
+ * on the right side. What the front end computes in the machine's place is the machine's time;
+ * it is taken while a timer runs. A timer goes on when the machine goes and another comes. */
 #include <stdio.h>
 #include <time.h>
 

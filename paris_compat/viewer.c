@@ -1,4 +1,5 @@
-/* LUTETIA_LEDS=window, LUTETIA_DISPLAY=window: a verb of `lutetia` shows in a window what it reads from a pipe.
+/* LUTETIA_LEDS=window, LUTETIA_DISPLAY=window: a verb of `lutetia` shows in a window what it
+ * reads from a pipe.
  *
  * The viewer is this program's child, and outlives it, so that the last picture stays visible.
  * It writes a byte to its standard output, which is a pipe, too, when the window is ready.

@@ -1,8 +1,9 @@
 /* warm_up.c - some instructions of each common kind, before the program's first.
  *
- * Code that runs for the first time takes a multiple of its time: it comes from memory, through pages that the processor has not looked up,
- * and none of its branches has been met. A warm-up of the code that most programs use takes CM_init a fraction of what the driver takes to
- * open. Its VP set and fields are gone when it ends (machine_empty()). */
+ * Code that runs for the first time takes a multiple of its time: it comes from memory, through
+ * pages that the processor has not looked up, and none of its branches has been met. A warm-up
+ * of the code that most programs use takes CM_init a fraction of what the driver takes to open.
+ * Its VP set and fields are gone when it ends (machine_empty()). */
 #include "paris_state.h"
 
 enum { WORD = 32, SMALL = 16, COUNT = 96, VECTORS = 4 };

@@ -159,7 +159,8 @@ static bool witness_find(const struct reader_anchor *a, const struct witness *w,
     return true;
 }
 
-/* Whether the quotation stands elsewhere than at `place` beside the nearest bytes of one of its sides: then both places have a claim. */
+/* Whether the quotation stands elsewhere than at `place` beside the nearest bytes of one of its
+ * sides: then both places have a claim. */
 static bool claimed_elsewhere(const struct reader_anchor *a, const char *source, size_t bytes,
                               size_t place)
 {

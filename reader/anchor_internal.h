@@ -1,10 +1,12 @@
-/* anchor_internal.h - what an anchor is made of, for making and finding it (anchor.c) and keeping it (anchor_kept.c). */
+/* anchor_internal.h - what an anchor is made of, for making and finding it (anchor.c) and
+ * keeping it (anchor_kept.c). */
 #ifndef LUTETIA_READER_ANCHOR_INTERNAL_H
 #define LUTETIA_READER_ANCHOR_INTERNAL_H
 
 #include "reader_anchor.h"
 
-/* The quotation with one side or with both, as one row of bytes within the anchor's: how far it reaches to the left and to the right. */
+/* The quotation with one side or with both, as one row of bytes within the anchor's: how far it
+ * reaches to the left and to the right. */
 struct witness {
     size_t left, right;
     bool apart; /* it was there once when it was made */

@@ -37,8 +37,9 @@ static int masked_letters(const struct reader_builder *b, const struct reader_fo
     return n;
 }
 
-/* Where the formula is whose sign such a letter follows ('\0': its letters are on the next line), from the next on; those before it no text has
- * shown. The count of all where there is none. */
+/* Where the formula is whose sign such a letter follows ('\0': its letters are on the next
+ * line), from the next on; those before it no text has shown. The count of all where there is
+ * none. */
 static int formula_find(const struct reader_builder *b, char letter)
 {
     bool told = letter >= 'a' && letter <= 'z';
@@ -49,7 +50,8 @@ static int formula_find(const struct reader_builder *b, char letter)
     return at;
 }
 
-/* Where a link leads to: what looks like formulas there is what is written. Owns: the caller frees it; NULL: no memory. */
+/* Where a link leads to: what looks like formulas there is what is written. Owns: the caller
+ * frees it; NULL: no memory. */
 static char *target_copy(const struct reader_builder *b, const char *target)
 {
     char *copy = strdup(target);
@@ -107,7 +109,8 @@ static void look_end(struct reader_builder *b)
         b->block.spans[b->block.spans_count - 1].end = b->block.bytes;
 }
 
-/* A letter that pages can show: other control characters than line ends and tabs of code are blanks. */
+/* A letter that pages can show: other control characters than line ends and tabs of code are
+ * blanks. */
 static char shown(const struct reader_builder *b, char c)
 {
     bool code = b->block.kind == READER_CODE_BLOCK || b->block.kind == READER_LIVE ||
@@ -189,8 +192,9 @@ void reader_text_add(struct reader_builder *b, const char *utf8, unsigned look,
                      const char *target)
 {
     for (const char *at = utf8; at && *at && b->status == READER_OK;) {
-        if (b->rest >
-            0) { /* of a formula that is there already: its letters, and blanks between its lines */
+        if (b->rest > 0) {
+            /* of a formula that is there already: its letters, and blanks between its
+                 * lines */
             b->rest -= *at == b->letter;
             at++;
             continue;

@@ -1,5 +1,5 @@
-/* builder.h - blocks as they are made: text, how its letters look, and formulas put back where letters stood for them. Knows nothing of
- * cmark-gfm. */
+/* builder.h - blocks as they are made: text, how its letters look, and formulas put back where
+ * letters stood for them. Knows nothing of cmark-gfm. */
 #ifndef LUTETIA_READER_BUILDER_H
 #define LUTETIA_READER_BUILDER_H
 

@@ -1,4 +1,5 @@
-/* mask.c - finds formulas in a source, and puts letters in their places that no rule of Markdown looks at: see reader_internal.h. */
+/* mask.c - finds formulas in a source, and puts letters in their places that no rule of
+ * Markdown looks at: see reader_internal.h. */
 #include "reader_internal.h"
 
 #include <ctype.h>
@@ -139,7 +140,8 @@ static void formula_mask(struct masking *m, struct reader_formula formula)
     memcpy(out->masked + formula.begin, READER_MASK_SIGN, strlen(READER_MASK_SIGN));
 }
 
-/* A formula at a dollar: masks it, and returns the place behind it, or behind what is no formula. */
+/* A formula at a dollar: masks it, and returns the place behind it, or behind what is no
+ * formula. */
 static int dollar_take(struct masking *m, int at, int end)
 {
     const char *s = m->source;
@@ -164,7 +166,8 @@ static int dollar_take(struct masking *m, int at, int end)
     return formula.end;
 }
 
-/* What is behind the place within its line: to the next line, or to what may begin a formula's or code's end on another. */
+/* What is behind the place within its line: to the next line, or to what may begin a formula's
+ * or code's end on another. */
 static int rest_take(struct masking *m, int at, int end)
 {
     const char *s = m->source;

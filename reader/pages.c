@@ -128,7 +128,8 @@ static enum reader_status heading_add(struct reader_pages *p, const struct reade
     return status;
 }
 
-/* Tabs go to every fourth column, and a line that is empty is a blank: so that it has its height. */
+/* Tabs go to every fourth column, and a line that is empty is a blank: so that it has its
+ * height. */
 static bool code_line_add(struct paragraph_text *t, const struct reader_block *block,
                           const char *line, int bytes)
 {

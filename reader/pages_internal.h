@@ -1,4 +1,5 @@
-/* pages_internal.h - what makes pages of documents: styles and paragraphs (pages_style.c), tables (pages_table.c), the rest (pages.c). */
+/* pages_internal.h - what makes pages of documents: styles and paragraphs (pages_style.c),
+ * tables (pages_table.c), the rest (pages.c). */
 #ifndef LUTETIA_READER_PAGES_INTERNAL_H
 #define LUTETIA_READER_PAGES_INTERNAL_H
 
@@ -19,7 +20,8 @@ enum context {
     CONTEXTS
 };
 
-/* What a passage has become: paragraphs of the text, and which bytes of the document their letters are. */
+/* What a passage has become: paragraphs of the text, and which bytes of the document their
+ * letters are. */
 struct made_paragraph {
     int id, note; /* note: of the document's, or -1 */
     struct line_span *spans;
@@ -82,7 +84,8 @@ enum reader_status pages_no_memory(void);
 enum reader_status pages_fonts_open(struct reader_pages *p);
 void pages_fonts_close(struct reader_pages *p);
 double pages_size(const struct reader_pages *p, enum context context);
-/* Letters behind those that are there. spans: of the block that they are bytes begin..end of; NULL: all look so. */
+/* Letters behind those that are there. spans: of the block that they are bytes begin..end of;
+ * NULL: all look so. */
 bool pages_text_add(struct paragraph_text *t, const char *text, int bytes, unsigned look);
 bool pages_block_add(struct paragraph_text *t, const struct reader_block *block, int begin,
                      int end, unsigned look);
@@ -90,8 +93,8 @@ void pages_text_finish(struct paragraph_text *t);
 /* How wide its letters are in a context. Errors: FAILED. */
 enum reader_status pages_width(struct reader_pages *p, const struct paragraph_text *t,
                                enum context context, double *width);
-/* Its letters' styles, and its notes' signs; the notes themselves are the caller's. display: formulas are as on lines of their own, no
- * wider than most_px. */
+/* Its letters' styles, and its notes' signs; the notes themselves are the caller's. display:
+ * formulas are as on lines of their own, no wider than most_px. */
 enum reader_status pages_styles_apply(struct reader_pages *p, int id,
                                       const struct paragraph_text *t, enum context context,
                                       bool display, double most_px);
@@ -103,7 +106,8 @@ double pages_column(const struct reader_pages *p); /* how wide a column is */
 /* A paragraph of the text as it is. Where passages are made, keep it by pages_made_keep(). */
 enum reader_status pages_paragraph_put(struct reader_pages *p, const char *text, size_t bytes,
                                        int style, const struct page_manner *manner, int *id);
-/* Keeps which bytes of the document a paragraph's letters are, where passages are made; takes the spans. */
+/* Keeps which bytes of the document a paragraph's letters are, where passages are made; takes
+ * the spans. */
 enum reader_status pages_made_keep(struct reader_pages *p, int id, int note,
                                    struct paragraph_text *t);
 /* A paragraph of the text, and its notes. Takes the spans where passages are made. */
@@ -111,8 +115,9 @@ enum reader_status pages_paragraph_add(struct reader_pages *p, struct paragraph_
                                        enum context context, const struct page_manner *manner,
                                        bool display);
 
-/* pages.c: all but the blocks; the document is borrowed as long as there are passages to be made. frame_px: how high a column is. made: of a
- * column that is scrolled: what the next passage becomes; NULL: pages. */
+/* pages.c: all but the blocks; the document is borrowed as long as there are passages to be
+ * made. frame_px: how high a column is. made: of a column that is scrolled: what the next
+ * passage becomes; NULL: pages. */
 enum reader_status pages_begin(const struct reader_document *document,
                                const struct reader_pages_setup *setup, double frame_px,
                                struct made_passage *made, struct reader_pages **out);

@@ -1,5 +1,6 @@
-/* pages_picture.c - pictures in documents: a full block (U+2588) of the font of code, as large as the picture, whose ink is the picture's
- * pixels at the page's size. So whatever draws pages draws them. See pages_internal.h. */
+/* pages_picture.c - pictures in documents: a full block (U+2588) of the font of code, as large
+ * as the picture, whose ink is the picture's pixels at the page's size. So whatever draws pages
+ * draws them. See pages_internal.h. */
 #include "pages_internal.h"
 
 #include <edges.h>
@@ -11,7 +12,8 @@
 
 enum { FULL_BLOCK = 0x2588 };
 
-/* What a picture's row or column i of `to` covers of `from` ones: from *begin on, at least one. */
+/* What a picture's row or column i of `to` covers of `from` ones: from *begin on, at least
+ * one. */
 static void covered(int i, int to, int from, int *begin, int *end)
 {
     *begin = (int)((long)i * from / to);
@@ -19,7 +21,8 @@ static void covered(int i, int to, int from, int *begin, int *end)
     *end = *end > *begin ? *end : *begin + 1;
 }
 
-/* As many pixels as it has on the page: the mean light of those that each covers. Owns: the caller frees it; NULL: no memory. */
+/* As many pixels as it has on the page: the mean light of those that each covers. Owns: the
+ * caller frees it; NULL: no memory. */
 static uint8_t *pixels_shrink(const struct reader_picture *from, int width, int height)
 {
     double light[256];
@@ -106,7 +109,8 @@ static enum reader_status picture_style(struct reader_pages *p, const struct blo
                                                                     : pages_failed();
 }
 
-/* Its pixels at the size that it has on the page: as it is, or as the column and six tenths of the page have room. */
+/* Its pixels at the size that it has on the page: as it is, or as the column and six tenths of
+ * the page have room. */
 static enum reader_status picture_keep(struct reader_pages *p,
                                        const struct reader_picture *picture, double most_px,
                                        int *width, int *height, uint8_t **kept)

@@ -64,7 +64,8 @@ enum reader_status pages_fonts_open(struct reader_pages *p)
     return READER_OK;
 }
 
-/* Before the first formula. Without a font that anybody asked for formulas stand as they are written. */
+/* Before the first formula. Without a font that anybody asked for formulas stand as they are
+ * written. */
 static enum reader_status math_open(struct reader_pages *p)
 {
     const char *name = p->setup.math ? p->setup.math : font_face_first(font_math_fonts);
@@ -208,7 +209,8 @@ void pages_text_finish(struct paragraph_text *t)
 
 /* ---- formulas ---- */
 
-/* A formula's layout; one that is too large is none, and *set is false. Owns: the caller finishes *out. */
+/* A formula's layout; one that is too large is none, and *set is false. Owns: the caller
+ * finishes *out. */
 static enum reader_status formula_layout(struct reader_pages *p, const struct paragraph_text *t,
                                          const struct line_span *s, enum context context,
                                          bool display, double most_px, bool *set,
@@ -347,7 +349,8 @@ enum reader_status pages_made_keep(struct reader_pages *p, int id, int note,
     return READER_OK;
 }
 
-/* Where a column is scrolled, a note that has no margin is a paragraph behind the one that calls it, moved in. */
+/* Where a column is scrolled, a note that has no margin is a paragraph behind the one that
+ * calls it, moved in. */
 static enum reader_status note_put(struct reader_pages *p, bool margin, int id, int byte,
                                    const struct paragraph_text *t, struct page_manner *manner,
                                    int style, int *note_id)
@@ -388,7 +391,8 @@ static enum reader_status note_add(struct reader_pages *p, int note, int id, int
     return status;
 }
 
-/* Whether a note that is called is to be set now: once; where a column is scrolled, if it is open in this passage. */
+/* Whether a note that is called is to be set now: once; where a column is scrolled, if it is
+ * open in this passage. */
 static bool note_wanted(struct reader_pages *p, int note)
 {
     if (note < 0 || note >= p->document->notes_count || p->noted[note])

@@ -1,4 +1,5 @@
-/* pages_table.c - tables: columns by tabs where they have room, else row by row. See pages_internal.h. */
+/* pages_table.c - tables: columns by tabs where they have room, else row by row. See
+ * pages_internal.h. */
 #include "pages_internal.h"
 
 #include <math.h>

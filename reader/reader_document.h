@@ -1,4 +1,5 @@
-/* reader_document.h - Markdown as a list of blocks: CommonMark and GitHub's extensions, notes, formulas, fences that live. Knows nothing of type.
+/* reader_document.h - Markdown as a list of blocks: CommonMark and GitHub's extensions, notes,
+ * formulas, fences that live. Knows nothing of type.
  *
  *     static const char text[] = "# In the marsh\n\nThe *water* is $x^2$ deep[^1].\n\n[^1]: By night.";
  *     struct reader_document *document;
@@ -9,17 +10,22 @@
  *     reader_document_destroy(document);
  *
  * cmark-gfm reads the Markdown. Beside it are known:
- *     $x^2$, $$x^2$$, ```math     formulas in TeX's notation: within a line, on lines of their own
+ *     $x^2$, $$x^2$$, ```math     formulas in TeX's notation: within a line, on lines of their
+ *                                 own
  *     [^name], [^margin:name]     notes; what stands before a colon is the note's class
  *     ```lua live, ```c paris     fences that will live: for now they are shown
- * A dollar begins a formula where no blank follows, and no letter, digit or backslash stands before it; it ends one where no blank stands
- * before it and no letter or digit follows, within the same paragraph. In code there are none.
+ * A dollar begins a formula where no blank follows, and no letter, digit or backslash stands
+ * before it; it ends one where no blank stands before it and no letter or digit follows, within
+ * the same paragraph. In code there are none.
  *
- * A block knows the lines of the source that it comes from. Its bytes are the source's own, never written by this library.
+ * A block knows the lines of the source that it comes from. Its bytes are the source's own,
+ * never written by this library.
  *
- * Errors: functions that can fail return a status and leave one line in reader_error(). No text is an error, but for one that is too large.
+ * Errors: functions that can fail return a status and leave one line in reader_error(). No text
+ * is an error, but for one that is too large.
  *
- * Ownership: texts are copied. Threads: documents are independent of each other; messages belong to the thread that failed. */
+ * Ownership: texts are copied. Threads: documents are independent of each other; messages
+ * belong to the thread that failed. */
 #ifndef LUTETIA_READER_DOCUMENT_H
 #define LUTETIA_READER_DOCUMENT_H
 
@@ -35,7 +41,8 @@ enum reader_status {
     READER_NO_MEMORY
 };
 
-/* Detail of this thread's last failure, one line, never NULL. Owns: the library; valid until this thread's next failure. */
+/* Detail of this thread's last failure, one line, never NULL. Owns: the library; valid until
+ * this thread's next failure. */
 const char *reader_error(void);
 
 enum {
@@ -116,25 +123,30 @@ struct reader_document {
 
 /* Without blocks. Errors: NO_MEMORY. Owns: the caller destroys *out. */
 enum reader_status reader_document_create(struct reader_document **out);
-/* Adds what a source says behind what is there; notes' names are each source's own, their numbers go on. Errors: TOO_LARGE (more than
- * READER_BYTES_MAX, _NOTES_MAX or _FORMULAS_MAX), NO_LIBRARY, NO_MEMORY; the document may then have a part of it. */
+/* Adds what a source says behind what is there; notes' names are each source's own, their
+ * numbers go on. Errors: TOO_LARGE (more than READER_BYTES_MAX, _NOTES_MAX or _FORMULAS_MAX),
+ * NO_LIBRARY, NO_MEMORY; the document may then have a part of it. */
 enum reader_status reader_document_add(struct reader_document *document, const char *utf8,
                                        size_t bytes);
 void reader_document_destroy(struct reader_document *document); /* NULL is fine */
 
-/* Makes its plain text: what is read, block after block, then its notes, without what only says how it looks. Places in it are what is
- * searched, selected and annotated: they stay what they are when a word becomes bold. A heading has its signs before it, code stands
- * between fences, so that reader_anchor.h finds the headings that a place stands under. Errors: NO_MEMORY, TOO_LARGE. */
+/* Makes its plain text: what is read, block after block, then its notes, without what only says
+ * how it looks. Places in it are what is searched, selected and annotated: they stay what they
+ * are when a word becomes bold. A heading has its signs before it, code stands between fences,
+ * so that reader_anchor.h finds the headings that a place stands under. Errors: NO_MEMORY,
+ * TOO_LARGE. */
 enum reader_status reader_document_plain(struct reader_document *document);
-/* The block that a byte of the plain text is in, or the one before it; NULL: the document is empty. Owns: the document. */
+/* The block that a byte of the plain text is in, or the one before it; NULL: the document is
+ * empty. Owns: the document. */
 const struct reader_block *reader_document_block(const struct reader_document *document,
                                                  size_t byte);
 /* The span of that byte; NULL: it is in none. */
 const struct reader_span *reader_document_span(const struct reader_document *document,
                                                size_t byte);
 
-/* The next place at or behind `from` (forward) or before it where the plain text has these letters, whatever their case, and where there is one
- * blank there may be any. False: there is none. An empty text is nowhere. */
+/* The next place at or behind `from` (forward) or before it where the plain text has these
+ * letters, whatever their case, and where there is one blank there may be any. False: there is
+ * none. An empty text is nowhere. */
 bool reader_document_search(const struct reader_document *document, const char *utf8,
                             size_t from, bool forward, size_t *begin, size_t *end);
 

@@ -20,8 +20,8 @@ struct reader_formula {
 };
 
 struct reader_mask {
-    char *
-        masked; /* as long as the source, and with the same lines: each formula is U+0091 and letters */
+    /* as long as the source, and with the same lines: each formula is U+0091 and letters */
+    char *masked;
     struct reader_formula *formulas; /* in the order of the source */
     int formulas_count, formulas_capacity;
 };
@@ -29,7 +29,8 @@ struct reader_mask {
 /* What stands for a formula's first two bytes. */
 #define READER_MASK_SIGN "\xc2\x91"
 
-/* The letter of a formula's others, by its number: so that one is known whose sign nobody showed, as in a link's address. */
+/* The letter of a formula's others, by its number: so that one is known whose sign nobody
+ * showed, as in a link's address. */
 char reader_mask_letter(int formula);
 /* Errors: TOO_LARGE, NO_MEMORY. Owns: the caller finishes *out. */
 enum reader_status reader_mask_make(const char *source, int bytes, struct reader_mask *out);

@@ -1,4 +1,5 @@
-/* reader_pages.h - a document as pages of type: headings, lists, notes at the foot or in the margin, code, tables, formulas.
+/* reader_pages.h - a document as pages of type: headings, lists, notes at the foot or in the
+ * margin, code, tables, formulas.
  *
  *     struct reader_pages_setup setup = reader_pages_setup_default();
  *     struct reader_pages *pages;
@@ -7,15 +8,17 @@
  *     page_layout(reader_pages_text(pages), 0, &layout);       // as page.h has it
  *     reader_pages_destroy(pages);
  *
- * Formulas and code are set in fonts of their own, as large as makes their small letters as high as the text's. A formula on a line of its
- * own that is wider than its column is set smaller. A table whose columns have no room beside each other is set row by row, each
- * cell behind its column's name. Pictures that are found are shown no wider than the column, and their captions under
- * them; others, and all where the font of
- * code has no full block (U+2588), are told by their captions and files. Code that lives is shown.
+ * Formulas and code are set in fonts of their own, as large as makes their small letters as
+ * high as the text's. A formula on a line of its own that is wider than its column is set
+ * smaller. A table whose columns have no room beside each other is set row by row, each cell
+ * behind its column's name. Pictures that are found are shown no wider than the column, and
+ * their captions under them; others, and all where the font of code has no full block (U+2588),
+ * are told by their captions and files. Code that lives is shown.
  *
  * Errors: functions that can fail return a status and leave one line in reader_error().
  *
- * Ownership: documents and setups are borrowed for the call. Threads: pages belong to one thread at a time. */
+ * Ownership: documents and setups are borrowed for the call. Threads: pages belong to one
+ * thread at a time. */
 #ifndef LUTETIA_READER_PAGES_H
 #define LUTETIA_READER_PAGES_H
 
@@ -40,24 +43,25 @@ struct reader_pages_setup {
     double size_px;
     double leading; /* of the size */
     double width_px, height_px, margin_px, gap_px;
-    double
-        notes_px; /* the width of a margin for notes of the class `margin`; 0: they stand at the foot */
+    /* the width of a margin for notes of the class `margin`; 0: they stand at the foot */
+    double notes_px;
     int columns;
     enum font_align align;
     bool hyphenate;
     bool running; /* page numbers, and the chapter over each page */
     double ink_link[3],
         ink_struck[3]; /* sRGB, 0..1: of links and notes' signs, and of what is struck out */
-    /* Finds the picture that stands alone in a paragraph of source number `source` as `target`; false: it is told by its caption and its file.
-     * NULL: none is found. The pages own what it gives. */
+    /* Finds the picture that stands alone in a paragraph of source number `source` as `target`;
+     * false: it is told by its caption and its file. NULL: none is found. The pages own what it
+     * gives. */
     bool (*picture)(void *user, int source, const char *target, struct reader_picture *out);
     void *picture_user;
 };
 /* EB Garamond (DejaVu Serif without it) of 17 pixels, justified, on a page of 600 x 840. */
 struct reader_pages_setup reader_pages_setup_default(void);
 
-/* Errors: BAD_ARGUMENT, FAILED (a font that there is not), TOO_LARGE, NO_MEMORY. Owns: the caller destroys *out, which is NULL on
- * failure. */
+/* Errors: BAD_ARGUMENT, FAILED (a font that there is not), TOO_LARGE, NO_MEMORY. Owns: the
+ * caller destroys *out, which is NULL on failure. */
 enum reader_status reader_pages_make(const struct reader_document *document,
                                      const struct reader_pages_setup *setup,
                                      struct reader_pages **out);
@@ -66,7 +70,8 @@ void reader_pages_destroy(struct reader_pages *pages); /* NULL is fine */
 struct page_text *reader_pages_text(struct reader_pages *pages);
 /* There are formulas, and no font to set them in: they stand as they are written. */
 bool reader_pages_lacks_math(const struct reader_pages *pages);
-/* How many commands in formulas are not known, and the first of them ("" for none). Owns: `pages`. */
+/* How many commands in formulas are not known, and the first of them ("" for none). Owns:
+ * `pages`. */
 const char *reader_pages_unknown(const struct reader_pages *pages, int *count);
 
 #endif

@@ -1,26 +1,31 @@
-/* reader_remarks.h - what readers leave in a document: highlights, typed notes, ink; kept beside it in a file of SQLite.
+/* reader_remarks.h - what readers leave in a document: highlights, typed notes, ink; kept
+ * beside it in a file of SQLite.
  *
  *     struct reader_remarks *remarks;
  *     if (reader_remarks_open("marsh.md.notes", &remarks) != READER_OK)
- *         tell(reader_error());                                       // foreign, damaged: it is left as it is
+ *         // foreign, damaged: it is left as it is
+ *         tell(reader_error());
  *     reader_remarks_find(remarks, document->plain, document->plain_bytes);
  *     for (int i = 0; i < reader_remarks_count(remarks); i++)
  *         show(reader_remarks_get(remarks, i));
  *     reader_remarks_add(remarks, &remark, plain, bytes, 120, 145, &index);
  *     reader_remarks_close(remarks);
  *
- * A remark hangs on an anchor (reader_anchor.h) of bytes of the document's plain text. What an anchor does not find is an orphan, and is listed
- * still. Nothing is ever taken out of the file: what is erased is marked so, with the time, and can be had back.
+ * A remark hangs on an anchor (reader_anchor.h) of bytes of the document's plain text. What an
+ * anchor does not find is an orphan, and is listed still. Nothing is ever taken out of the
+ * file: what is erased is marked so, with the time, and can be had back.
  *
- * The file is made at the first remark. Each change is in it before the function returns, so a program that is killed has lost
- * nothing; reader_remarks_sync() makes it safe from a loss of power, too. Several programs may have the file open; each sees what was there
- * when it opened it, and its own.
+ * The file is made at the first remark. Each change is in it before the function returns, so a
+ * program that is killed has lost nothing; reader_remarks_sync() makes it safe from a loss of
+ * power, too. Several programs may have the file open; each sees what was there when it opened
+ * it, and its own.
  *
- * Ink. Points are in ems from the upper left corner of the anchor's first letter, with a pressure of 0..1 and the seconds since its first
- * one: so it moves with the text, grows with it, and is played back.
+ * Ink. Points are in ems from the upper left corner of the anchor's first letter, with a
+ * pressure of 0..1 and the seconds since its first one: so it moves with the text, grows with
+ * it, and is played back.
  *
- * Errors: functions that can fail return a status and leave one line in reader_error(). Ownership: what is passed is copied. Threads: one
- * at a time. */
+ * Errors: functions that can fail return a status and leave one line in reader_error().
+ * Ownership: what is passed is copied. Threads: one at a time. */
 #ifndef LUTETIA_READER_REMARKS_H
 #define LUTETIA_READER_REMARKS_H
 
@@ -55,7 +60,8 @@ struct reader_remark {
     size_t begin, end; /* where its anchor was found */
 };
 
-/* Errors: FAILED (not a file of remarks, a newer version's, damaged, cannot be read), NO_MEMORY, NO_LIBRARY. Owns: the caller closes *out. */
+/* Errors: FAILED (not a file of remarks, a newer version's, damaged, cannot be read),
+ * NO_MEMORY, NO_LIBRARY. Owns: the caller closes *out. */
 enum reader_status reader_remarks_open(const char *path, struct reader_remarks **out);
 void reader_remarks_close(struct reader_remarks *remarks); /* NULL is fine */
 int reader_remarks_count(const struct reader_remarks *remarks);
@@ -64,10 +70,12 @@ const struct reader_remark *reader_remarks_get(const struct reader_remarks *rema
 /* The file can be read only: remarks are shown, and adding some fails. */
 bool reader_remarks_read_only(const struct reader_remarks *remarks);
 
-/* Finds all anchors in a text. Those that have moved are anchored anew, there. Errors: FAILED, NO_MEMORY; what was found is known. */
+/* Finds all anchors in a text. Those that have moved are anchored anew, there. Errors: FAILED,
+ * NO_MEMORY; what was found is known. */
 enum reader_status reader_remarks_find(struct reader_remarks *remarks, const char *plain,
                                        size_t bytes);
-/* Of what: kind, text, rgba, width, points. Errors: BAD_ARGUMENT, TOO_LARGE, FAILED (it cannot be written), NO_MEMORY; there is then none more. */
+/* Of what: kind, text, rgba, width, points. Errors: BAD_ARGUMENT, TOO_LARGE, FAILED (it cannot
+ * be written), NO_MEMORY; there is then none more. */
 enum reader_status reader_remarks_add(struct reader_remarks *remarks,
                                       const struct reader_remark *what, const char *plain,
                                       size_t bytes, size_t begin, size_t end, int *index);

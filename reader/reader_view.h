@@ -1,4 +1,5 @@
-/* reader_view.h - a document as one column that is scrolled: set where it is looked at, whatever stands above.
+/* reader_view.h - a document as one column that is scrolled: set where it is looked at,
+ * whatever stands above.
  *
  *     struct reader_view *view;
  *     reader_view_create(document, &setup, 800, &view);
@@ -13,21 +14,26 @@
  *     }
  *     reader_view_destroy(view);
  *
- * The column consists of passages: a paragraph, a heading, a table, a block of code. Each is set by itself, so the middle of a long
- * document is there as soon as its beginning. Heights of passages that nobody has looked at are estimated from their letters; the
- * view's place is a passage and pixels below its top, which no estimate moves.
+ * The column consists of passages: a paragraph, a heading, a table, a block of code. Each is
+ * set by itself, so the middle of a long document is there as soon as its beginning. Heights of
+ * passages that nobody has looked at are estimated from their letters; the view's place is a
+ * passage and pixels below its top, which no estimate moves.
  *
- * What is being read is the first line that is seen whole. When the width, the size or the font changes, that line, or the one that its
- * first letter is in then, stays where it is; it is the same letter however often they change, until the view is scrolled.
+ * What is being read is the first line that is seen whole. When the width, the size or the font
+ * changes, that line, or the one that its first letter is in then, stays where it is; it is the
+ * same letter however often they change, until the view is scrolled.
  *
- * Notes are closed until they are opened; then they stand behind the paragraph that calls them, or in the margin where there is one. Notes of the
- * class `margin` are always seen where there is one.
+ * Notes are closed until they are opened; then they stand behind the paragraph that calls them,
+ * or in the margin where there is one. Notes of the class `margin` are always seen where there
+ * is one.
  *
- * Places are bytes of the document's plain text (reader_document_plain()), which must be there. Pixels are from the window's upper left.
+ * Places are bytes of the document's plain text (reader_document_plain()), which must be there.
+ * Pixels are from the window's upper left.
  *
  * Errors: functions that can fail return a status and leave one line in reader_error().
  *
- * Ownership: the document is borrowed as long as the view. Threads: a view belongs to one thread at a time. */
+ * Ownership: the document is borrowed as long as the view. Threads: a view belongs to one
+ * thread at a time. */
 #ifndef LUTETIA_READER_VIEW_H
 #define LUTETIA_READER_VIEW_H
 
@@ -35,14 +41,14 @@
 
 struct reader_view;
 
-/* setup: columns and page numbers are not looked at; width_px and height_px: of the window. Errors: as reader_pages_make(). Owns: the caller destroys
- * *out. */
+/* setup: columns and page numbers are not looked at; width_px and height_px: of the window.
+ * Errors: as reader_pages_make(). Owns: the caller destroys *out. */
 enum reader_status reader_view_create(const struct reader_document *document,
                                       const struct reader_pages_setup *setup,
                                       struct reader_view **out);
 void reader_view_destroy(struct reader_view *view); /* NULL is fine */
-/* Another width, height, size, font or colour: the line that is being read stays. Errors: as reader_view_create(); the view is then as it
- * was. */
+/* Another width, height, size, font or colour: the line that is being read stays. Errors: as
+ * reader_view_create(); the view is then as it was. */
 enum reader_status reader_view_set(struct reader_view *view,
                                    const struct reader_pages_setup *setup);
 
@@ -64,7 +70,8 @@ enum reader_status reader_view_layout(struct reader_view *view, int passage,
 
 /* Down the text, or up: as far as it goes. */
 void reader_view_scroll(struct reader_view *view, double by_px);
-/* So that the line of a byte is so far below the window's top. A note's byte is that of the place that calls it, unless the note is open. */
+/* So that the line of a byte is so far below the window's top. A note's byte is that of the
+ * place that calls it, unless the note is open. */
 enum reader_status reader_view_go(struct reader_view *view, size_t byte, double from_top_px);
 /* To a part of all, 0..1, by what is known of heights. */
 void reader_view_go_part(struct reader_view *view, double part);
@@ -73,9 +80,11 @@ void reader_view_extent(struct reader_view *view, double *above_px, double *all_
 /* The first letter of the line that is being read. */
 enum reader_status reader_view_top(struct reader_view *view, size_t *byte);
 
-/* The letter nearest to a point of the window. *inside: the point is on it. False: nothing is seen. */
+/* The letter nearest to a point of the window. *inside: the point is on it. False: nothing is
+ * seen. */
 bool reader_view_hit(struct reader_view *view, double x, double y, size_t *byte, bool *inside);
-/* The boxes of bytes begin..end that are seen, and the passage of each; at most `most` are written. Returns how many there are. */
+/* The boxes of bytes begin..end that are seen, and the passage of each; at most `most` are
+ * written. Returns how many there are. */
 struct reader_box {
     int passage;
     double x, y, width, height;
@@ -83,7 +92,8 @@ struct reader_box {
 int reader_view_boxes(struct reader_view *view, size_t begin, size_t end,
                       struct reader_box *boxes, int most);
 
-/* Opens a note where the byte calls it, or closes it. Errors: BAD_ARGUMENT (no such note), NO_MEMORY. */
+/* Opens a note where the byte calls it, or closes it. Errors: BAD_ARGUMENT (no such note),
+ * NO_MEMORY. */
 enum reader_status reader_view_note(struct reader_view *view, int note, size_t byte);
 bool reader_view_note_open(const struct reader_view *view, int note);
 /* The passage in which it is open; -1: it is closed. */

@@ -1,7 +1,7 @@
 /* remarks_file.c - remarks in a file of SQLite: see remarks_internal.h.
  *
- * What is in such a file may have been written by anybody. So nothing in it is run (no triggers, no views, a schema that is exactly ours), and each
- * row is checked as it is read. */
+ * What is in such a file may have been written by anybody. So nothing in it is run (no
+ * triggers, no views, a schema that is exactly ours), and each row is checked as it is read. */
 #include "remarks_internal.h"
 
 #include <math.h>
@@ -108,8 +108,8 @@ static enum reader_status check(struct remarks_file *file)
     return READER_OK;
 }
 
-/* Its changes go into a journal of their own, which a killed program leaves behind whole; where the folder cannot have that, SQLite keeps
- * to its usual one. */
+/* Its changes go into a journal of their own, which a killed program leaves behind whole; where
+ * the folder cannot have that, SQLite keeps to its usual one. */
 static void journal(struct remarks_file *file)
 {
     if (!file->read_only) {

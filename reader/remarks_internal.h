@@ -1,4 +1,5 @@
-/* remarks_internal.h - the file of remarks (remarks_file.c), and what is done with remarks (remarks.c). */
+/* remarks_internal.h - the file of remarks (remarks_file.c), and what is done with remarks
+ * (remarks.c). */
 #ifndef LUTETIA_READER_REMARKS_INTERNAL_H
 #define LUTETIA_READER_REMARKS_INTERNAL_H
 
@@ -21,12 +22,14 @@ struct remark_rows {
     int count, capacity;
 };
 
-/* Reads what there is; a file that there is not has no rows. Errors: as reader_remarks_open(). */
+/* Reads what there is; a file that there is not has no rows. Errors: as
+ * reader_remarks_open(). */
 enum reader_status remarks_file_open(const char *path, struct remarks_file **out,
                                      struct remark_rows *rows);
 void remarks_file_close(struct remarks_file *file);
 bool remarks_file_read_only(const struct remarks_file *file);
-/* Writes a row; id 0: a new one, whose number becomes row->id. Makes the file where there is none. Errors: FAILED, NO_MEMORY. */
+/* Writes a row; id 0: a new one, whose number becomes row->id. Makes the file where there is
+ * none. Errors: FAILED, NO_MEMORY. */
 enum reader_status remarks_file_write(struct remarks_file *file, struct remark_row *row);
 enum reader_status remarks_file_sync(struct remarks_file *file);
 void remark_row_finish(struct remark_row *row);

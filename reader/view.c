@@ -1,4 +1,5 @@
-/* view.c - the place in a scrolled column, and what stays when it is set otherwise: see reader_view.h. */
+/* view.c - the place in a scrolled column, and what stays when it is set otherwise: see
+ * reader_view.h. */
 #include "view_internal.h"
 
 #include <math.h>

@@ -1,12 +1,13 @@
-/* view_internal.h - what the files of a scrolled column share: loading passages (view_load.c), where letters are (view_point.c), the rest
- * (view.c). */
+/* view_internal.h - what the files of a scrolled column share: loading passages (view_load.c),
+ * where letters are (view_point.c), the rest (view.c). */
 #ifndef LUTETIA_READER_VIEW_INTERNAL_H
 #define LUTETIA_READER_VIEW_INTERNAL_H
 
 #include "pages_internal.h"
 #include "reader_view.h"
 
-/* Loaded passages are paragraphs of one text, each passage a column of its own, so the text's page k is passage begin + k. */
+/* Loaded passages are paragraphs of one text, each passage a column of its own, so the text's
+ * page k is passage begin + k. */
 struct view_passage {
     int first, blocks;
     double before_px, text_px, after_px; /* as whole numbers; text_px: how high its lines are */
@@ -53,10 +54,12 @@ double view_full_px(const struct reader_view *view, int passage);
 /* view_point.c */
 /* The passage of a byte; of a closed note: where it is called. */
 int view_passage_of(const struct reader_view *view, size_t byte);
-/* From the passage's upper edge to the upper and the lower edge of the line that a byte is in. The passage is loaded. */
+/* From the passage's upper edge to the upper and the lower edge of the line that a byte is in.
+ * The passage is loaded. */
 enum reader_status view_line_of(struct reader_view *view, int passage, size_t byte,
                                 double *y0_px, double *y1_px);
-/* The first line of the passage whose upper edge is at or below y_px, and its first letter. False: there is none. */
+/* The first line of the passage whose upper edge is at or below y_px, and its first letter.
+ * False: there is none. */
 bool view_line_below(struct reader_view *view, int passage, double y_px, size_t *byte,
                      double *line_px);
 

@@ -1,4 +1,5 @@
-/* view_load.c - passages that are looked at become paragraphs of the text, and go again: see view_internal.h. */
+/* view_load.c - passages that are looked at become paragraphs of the text, and go again: see
+ * view_internal.h. */
 #include "view_internal.h"
 
 #include <math.h>
@@ -138,7 +139,8 @@ static enum reader_status passage_load(struct reader_view *view, int passage)
     return READER_OK;
 }
 
-/* How high its lines are, and what is left blank around them: the ends of the text have the margin. */
+/* How high its lines are, and what is left blank around them: the ends of the text have the
+ * margin. */
 static enum reader_status passage_measure(struct reader_view *view, int passage)
 {
     struct view_passage *p = &view->passages[passage];

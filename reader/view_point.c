@@ -1,4 +1,5 @@
-/* view_point.c - which letter is where in a scrolled column, and where a letter is: see reader_view.h. */
+/* view_point.c - which letter is where in a scrolled column, and where a letter is: see
+ * reader_view.h. */
 #include "view_internal.h"
 
 #include <math.h>
@@ -106,7 +107,8 @@ enum reader_status view_line_of(struct reader_view *view, int passage, size_t by
     return READER_OK;
 }
 
-/* The first letter of the line at y of the passage's page, and the line's edges. False: there is none. */
+/* The first letter of the line at y of the passage's page, and the line's edges. False: there
+ * is none. */
 static bool line_at(struct reader_view *view, int passage, double y, struct page_place *place,
                     struct page_caret *caret)
 {

@@ -1,4 +1,5 @@
-/* fuzz_pieces.h - without libFuzzer: the same inputs in every run, each a row of pieces of the language. For targets of texts. */
+/* fuzz_pieces.h - without libFuzzer: the same inputs in every run, each a row of pieces of the
+ * language. For targets of texts. */
 #ifndef FUZZ_PIECES_H
 #define FUZZ_PIECES_H
 
@@ -9,7 +10,8 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* `count` inputs of up to `most` pieces behind one byte, which counts. Each seventh has one byte damaged. */
+/* `count` inputs of up to `most` pieces behind one byte, which counts. Each seventh has one
+ * byte damaged. */
 static inline void fuzz_pieces(const char *const *pieces, size_t pieces_count, long count,
                                long most)
 {

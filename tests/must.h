@@ -1,4 +1,5 @@
-/* must.h - what a fuzz target demands: else it says where and aborts, so that libFuzzer and the sanitizers see it. */
+/* must.h - what a fuzz target demands: else it says where and aborts, so that libFuzzer and the
+ * sanitizers see it. */
 #ifndef MUST_H
 #define MUST_H
 

@@ -1,5 +1,5 @@
-/* sample.h - random numbers that are the same on every machine. The caller holds the state; its first value is part of the
- * test.
+/* sample.h - random numbers that are the same on every machine. The caller holds the state; its
+ * first value is part of the test.
  *
  *     static uint64_t state = 1;
  *     uint64_t die = 1 + sample_word(&state) % 6;

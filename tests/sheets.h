@@ -1,4 +1,5 @@
-/* sheets.h - small sheets with two pigments, for tests in which the sheet's configuration does not matter. */
+/* sheets.h - small sheets with two pigments, for tests in which the sheet's configuration does
+ * not matter. */
 #ifndef LUTETIA_TESTS_SHEETS_H
 #define LUTETIA_TESTS_SHEETS_H
 
@@ -17,7 +18,8 @@ static inline struct paper_sheet_config sheet_of_two(int width, int height, cons
     return config;
 }
 
-/* The same with the pigments of Curtis et al. 1997: tests whose bounds were found with their numbers. */
+/* The same with the pigments of Curtis et al. 1997: tests whose bounds were found with their
+ * numbers. */
 static inline struct paper_sheet_config sheet_of_curtis(int width, int height,
                                                         const char *first, const char *second)
 {

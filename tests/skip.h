@@ -1,4 +1,5 @@
-/* skip.h - a case that cannot be tried here says why: totals.py lists the reason beside its name.
+/* skip.h - a case that cannot be tried here says why: totals.py lists the reason beside its
+ * name.
  *
  *     if (!have("midicsv"))
  *         skip_because("midicsv is not installed");

@@ -1,4 +1,5 @@
-/* microphone_internal.h - what the kinds of microphones share: a ring that one thread writes and another reads. */
+/* microphone_internal.h - what the kinds of microphones share: a ring that one thread writes
+ * and another reads. */
 #ifndef LUTETIA_VOICE_MICROPHONE_INTERNAL_H
 #define LUTETIA_VOICE_MICROPHONE_INTERNAL_H
 

@@ -1,4 +1,5 @@
-/* microphone_pulse.c - what PulseAudio records, read by a thread of ours through its simple library. */
+/* microphone_pulse.c - what PulseAudio records, read by a thread of ours through its simple
+ * library. */
 #include "microphone_internal.h"
 
 #include <library.h>

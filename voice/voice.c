@@ -2,7 +2,8 @@
  *
  *     samples ----------------------> level, envelope
  *        |
- *        '-- low-pass, every n-th --> pitch, formants, energy's upper part        about 11,000 a second
+ *        '-- low-pass, every n-th --> pitch, formants, energy's upper part        about 11,000
+ *                                                                                 a second
  *
  * Both streams are kept as far back as the next frame needs.
  */
@@ -207,7 +208,8 @@ static double level_at(const struct voice *v, double time_s)
     return sqrt(sum / weights);
 }
 
-/* The mean square of differences between neighbours of the lower-rate stream. *part: of the most that it could be. */
+/* The mean square of differences between neighbours of the lower-rate stream. *part: of the
+ * most that it could be. */
 static double upper_energy(const struct voice *v, double time_s, double *part)
 {
     int count = (int)fmax(2, LEVEL_S * v->low_hz);

@@ -3,7 +3,8 @@
  * diffusion_single_pass.cl or diffusion_time_tiled.cl behind it; bench/rolling.h explains.
  *
  * Built with -DRISES=1 if gravity is 1 or more, else 0; with -DRELAXED=1 for the variants that
- * multiply by 1 / gravity and fold constants, and so give other bits; -DABSORBENCY= its plane. */
+ * multiply by 1 / gravity and fold constants, and so give other bits; -DABSORBENCY= its
+ * plane. */
 #define INLINE static inline __attribute__((always_inline))
 
 struct constants {

@@ -1,9 +1,10 @@
-/* diffusion_row.cl - one row of one step over rolling rows: the same text in OpenCL C, after diffusion_rolling.cl, and in C,
- * included by bench/openmp_rolling.c. Before it come
+/* diffusion_row.cl - one row of one step over rolling rows: the same text in OpenCL C, after
+ * diffusion_rolling.cl, and in C, included by bench/openmp_rolling.c. Before it come
  *
  *     vector, LANES, LOAD, LOAD_ANY, STORE, STORE_PAST, all_lanes(), further(), moved()
  *     struct constants, flow_in()     what flows into fibers of field i
- *     struct rows                     of the four fields: that of field i begins at first + i * apart
+ *     struct rows                     of the four fields: that of field i begins at first + i *
+ *                                     apart
  *     INLINE                          a function that is always part of its caller
  *
  * and in C __global, which is nothing. */

@@ -1,4 +1,5 @@
-/* diffusion_vectors.cl - sixteen fibers as a vector: before the diffusion steps by hand, in the same program. */
+/* diffusion_vectors.cl - sixteen fibers as a vector: before the diffusion steps by hand, in the
+ * same program. */
 #pragma OPENCL FP_CONTRACT OFF
 
 #define LANES 16

@@ -1,4 +1,5 @@
-/* read_changed.c - what follows when the page is other: it is drawn, heard, and the scrollbar shows where it is. */
+/* read_changed.c - what follows when the page is other: it is drawn, heard, and the scrollbar
+ * shows where it is. */
 #include "read_desk.h"
 
 #include <math.h>

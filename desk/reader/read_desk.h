@@ -177,7 +177,8 @@ void read_search_step(struct read_desk *d, bool forward);
 void read_search_open(struct read_desk *d, bool open);
 
 /* read_document.c */
-/* The files as one document, in place of the one that there is. False: it was said why not, and all is as it was. */
+/* The files as one document, in place of the one that there is. False: it was said why not, and
+ * all is as it was. */
 bool read_document_open(struct read_desk *d);
 /* Follows the link, or opens the note, that a byte is of. False: there is neither. */
 bool read_document_follow(struct read_desk *d, size_t byte);
@@ -185,7 +186,8 @@ void read_document_go(struct read_desk *d, size_t byte); /* kept on the way */
 void read_document_back(struct read_desk *d, bool forward);
 bool read_document_can(const struct read_desk *d, bool forward);
 void read_document_finish(struct read_desk *d);
-/* Its files anew, as another program has left them: the line that is being read stays, and so do notes. */
+/* Its files anew, as another program has left them: the line that is being read stays, and so
+ * do notes. */
 void read_document_reload(struct read_desk *d);
 
 /* read_text.c */
@@ -198,7 +200,8 @@ void read_remarks_open(struct read_desk *d, const char *path); /* beside that fi
 void read_remarks_find(struct read_desk *d);                   /* in another text */
 void read_remarks_close(struct read_desk *d);
 void read_remarks_finish(struct read_desk *d);
-/* Each is a deed that can be undone. The new one's number; -1: it was said why there is none. */
+/* Each is a deed that can be undone. The new one's number; -1: it was said why there is
+ * none. */
 int read_remarks_add(struct read_desk *d, const struct reader_remark *what, size_t begin,
                      size_t end);
 void read_remarks_erase(struct read_desk *d, int index);

@@ -1,5 +1,6 @@
-/* read_hand.c - pointer, wheel and touch: the wheel glides, a touchpad moves exactly, a drag (touch, or the middle button) goes on with its
- * momentum; the first button selects, and follows links. */
+/* read_hand.c - pointer, wheel and touch: the wheel glides, a touchpad moves exactly, a drag
+ * (touch, or the middle button) goes on with its momentum; the first button selects, and
+ * follows links. */
 #include "read_desk.h"
 
 #include <math.h>

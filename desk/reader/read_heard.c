@@ -1,5 +1,5 @@
-/* read_heard.c - the page's text for screen readers: GTK 4.8 lets only labels say their text, so each passage that is seen has one that
- * is not drawn, where the passage is. */
+/* read_heard.c - the page's text for screen readers: GTK 4.8 lets only labels say their text,
+ * so each passage that is seen has one that is not drawn, where the passage is. */
 #include "read_desk.h"
 
 enum { SOON_MS = 120, HEARD_MAX = 200 };

@@ -1,5 +1,6 @@
-/* read_ink.c - ink over the page: drawn with a pen or a mouse, translucent, as wide as it was pressed; erased, moved, played back. It hangs
- * on the word that is nearest to its middle, in ems, so it goes with the text and grows with it. */
+/* read_ink.c - ink over the page: drawn with a pen or a mouse, translucent, as wide as it was
+ * pressed; erased, moved, played back. It hangs on the word that is nearest to its middle, in
+ * ems, so it goes with the text and grows with it. */
 #include "read_desk.h"
 
 #include <math.h>
@@ -53,7 +54,8 @@ static int points_until(const struct reader_remark *r, double time_s)
     return count;
 }
 
-/* When each stroke begins in the playback: behind the one before it, after the pause that there was, within reason. */
+/* When each stroke begins in the playback: behind the one before it, after the pause that there
+ * was, within reason. */
 static void strokes_draw(struct read_desk *d, cairo_t *cairo)
 {
     double begins_s = 0, before_s = 0;

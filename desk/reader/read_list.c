@@ -1,4 +1,5 @@
-/* read_list.c - the list of what readers have left: highlights, notes, ink; what has gone from the text is shown with its quotation. */
+/* read_list.c - the list of what readers have left: highlights, notes, ink; what has gone from
+ * the text is shown with its quotation. */
 #include "read_desk.h"
 
 static void row_chosen(GtkListBox *list, GtkListBoxRow *row, struct read_desk *d)

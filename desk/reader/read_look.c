@@ -1,4 +1,5 @@
-/* read_look.c - how the page looks: colours of both themes, sizes, and how wide the text is in the window. */
+/* read_look.c - how the page looks: colours of both themes, sizes, and how wide the text is in
+ * the window. */
 #include "read_desk.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
-/* read_main.c - the program lutetia-reader, which `lutetia read` runs. Its words are of that verb's making, NAME=VALUE, and have been
- * checked there: file (in their order), font, mono, math, language, size, width, height, theme, ragged, play. */
+/* read_main.c - the program lutetia-reader, which `lutetia read` runs. Its words are of that
+ * verb's making, NAME=VALUE, and have been checked there: file (in their order), font, mono,
+ * math, language, size, width, height, theme, ragged, play. */
 #include "read_desk.h"
 
 #include <locale.h>

@@ -1,5 +1,5 @@
-/* read_page.c - the page: a widget that shows a reader_view and what is marked in it. Its children are labels that are not drawn, for
- * screen readers (read_heard.c). */
+/* read_page.c - the page: a widget that shows a reader_view and what is marked in it. Its
+ * children are labels that are not drawn, for screen readers (read_heard.c). */
 #include "read_desk.h"
 
 #include <math.h>

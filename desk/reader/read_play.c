@@ -1,4 +1,5 @@
-/* read_play.c - recorded input in place of a hand: lines "SECONDS WORD VALUES", each done when its time has come (docs/reader.md). */
+/* read_play.c - recorded input in place of a hand: lines "SECONDS WORD VALUES", each done when
+ * its time has come (docs/reader.md). */
 #include "read_desk.h"
 
 #include <input_file.h>
@@ -304,7 +305,8 @@ void read_play_destroy(struct read_play *play)
     g_free(play);
 }
 
-/* One input a frame, so that each is seen before the next one; a slow machine takes longer for the same. */
+/* One input a frame, so that each is seen before the next one; a slow machine takes longer for
+ * the same. */
 static gboolean play_on(GtkWidget *widget, GdkFrameClock *clock, gpointer data)
 {
     struct read_play *play = data;

@@ -1,4 +1,5 @@
-/* read_remarks.c - the reader's highlights and typed notes, their list, and undo; all are kept as they are made (reader_remarks.h). */
+/* read_remarks.c - the reader's highlights and typed notes, their list, and undo; all are kept
+ * as they are made (reader_remarks.h). */
 #include "read_desk.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
-/* read_tiles.c - the page's pictures: each passage in tiles of some hundred rows, painted once by fontpipe and kept as textures, so that
- * scrolling moves what stays and paints what comes in. */
+/* read_tiles.c - the page's pictures: each passage in tiles of some hundred rows, painted once
+ * by fontpipe and kept as textures, so that scrolling moves what stays and paints what comes
+ * in. */
 #include "read_desk.h"
 
 #include <math.h>

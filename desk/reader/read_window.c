@@ -1,4 +1,5 @@
-/* read_window.c - the window: header, contents, search, the page and its scrollbar, what is told. */
+/* read_window.c - the window: header, contents, search, the page and its scrollbar, what is
+ * told. */
 #include "read_desk.h"
 
 #include <string.h>

@@ -76,8 +76,8 @@ struct dyn_word_style dyn_word_style_usual(void);
 struct dyn_preset {
     const char *name, *does;
     const char *sets; /* "control=value ..." of a style's or a world's controls */
-    bool
-        collides; /* its letters push each other apart (collide.h), which whoever steps it does */
+    /* its letters push each other apart (collide.h), which whoever steps it does */
+    bool collides;
 };
 extern const struct dyn_preset dyn_presets[];
 extern const int dyn_presets_count;

@@ -2,14 +2,15 @@
  *
  *     lutetia cc components.c -o components && ./components [seed [height width]]
  *
- * The image is random, ink in 59 of 100 pixels: about where pieces begin to hang together all across it.
- * components.ppm shows each piece in its own colour.
+ * The image is random, ink in 59 of 100 pixels: about where pieces begin to hang together all
+ * across it. components.ppm shows each piece in its own colour.
  *
- * Shows: scans and sends.  Each pixel begins with its own send address as its label.  A round has two parts.
- * First, runs of ink along both axes take their least label, by segmented scans up and down.  Then each
- * pixel sends its new label to the owner of its old one; the owner keeps the least, and all pixels get it
- * from the owner.  So a whole piece learns at once what one of its pixels has found.  A spiral takes a few
- * rounds, not as many as it is long.  The labels are compared with those of a flood fill. */
+ * Shows: scans and sends.  Each pixel begins with its own send address as its label.  A round
+ * has two parts. First, runs of ink along both axes take their least label, by segmented scans
+ * up and down.  Then each pixel sends its new label to the owner of its old one; the owner
+ * keeps the least, and all pixels get it from the owner.  So a whole piece learns at once what
+ * one of its pixels has found.  A spiral takes a few rounds, not as many as it is long.  The
+ * labels are compared with those of a flood fill. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <cm/paris.h>
@@ -36,7 +37,8 @@ void find_starts (start, ink, axis)
     CM_deallocate_stack_through (place);
 }
 
-/* Every pixel of ink gets the least label of its component; returns how many rounds that took. */
+/* Every pixel of ink gets the least label of its component; returns how many rounds that
+ * took. */
 int find_labels (label, ink)
     CM_field_id_t label, ink;
 {
@@ -70,7 +72,8 @@ int find_labels (label, ink)
     return rounds;
 }
 
-/* Labels by flood fill on the front end: plain[k] is the least address in the component of pixel k. */
+/* Labels by flood fill on the front end: plain[k] is the least address in the component of
+ * pixel k. */
 int flood (ink, address, plain, height, width)
     unsigned char *ink;
     unsigned int *address, *plain;

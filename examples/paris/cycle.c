@@ -4,7 +4,8 @@
  *
  * Four waves are added up in 8 bits; then only the colour map turns, by a row at a time.
  *
- * Shows: CMFB_write_color_map and CMFB_cycle_color_map.  After as many turns as the map has rows the colours are those of the beginning. */
+ * Shows: CMFB_write_color_map and CMFB_cycle_color_map.  After as many turns as the map has
+ * rows the colours are those of the beginning. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -2,11 +2,12 @@
  *
  *     lutetia cc diffusion.c -o diffusion && lutetia display ./diffusion [steps [height width]]
  *
- * The order is that of a program of 1990: the display, the VP set, the fields, the paper's colour, ink and water; then, again and
- * again, water flows, ink flows where it is wet, an image is made and sent to the frame buffer, and some water dries.
+ * The order is that of a program of 1990: the display, the VP set, the fields, the paper's
+ * colour, ink and water; then, again and again, water flows, ink flows where it is wet, an
+ * image is made and sent to the frame buffer, and some water dries.
  *
- * Shows: CMFB_write_rgb_news_always, which takes three channels and hides the shuffle.  What flows out of a fiber flows into its
- * neighbour, so no ink is lost: the program adds it up. */
+ * Shows: CMFB_write_rgb_news_always, which takes three channels and hides the shuffle.  What
+ * flows out of a fiber flows into its neighbour, so no ink is lost: the program adds it up. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <math.h>

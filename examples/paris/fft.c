@@ -2,10 +2,10 @@
  *
  *     lutetia cc fft.c -o fft && ./fft [log2 of the number of samples]
  *
- * Shows: complex numbers and butterflies.  In pass b each processor is paired with the one whose coordinate
- * differs in bit b (CM_get_from_power_two).  The lower one takes the sum, the upper one the difference times
- * a root of unity that it computes itself.  After all passes the coefficients are in bit-reversed order; a
- * send to the reversed address puts them right.
+ * Shows: complex numbers and butterflies.  In pass b each processor is paired with the one
+ * whose coordinate differs in bit b (CM_get_from_power_two).  The lower one takes the sum, the
+ * upper one the difference times a root of unity that it computes itself.  After all passes the
+ * coefficients are in bit-reversed order; a send to the reversed address puts them right.
  *
  * Compared with a direct transform of some coefficients, and transformed back. */
 #include <stdio.h>

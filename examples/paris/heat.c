@@ -2,11 +2,12 @@
  *
  *     lutetia cc heat.c -o heat && ./heat [steps [height width]]
  *
- * The rim is held at 0, a hot bar and a hot disk at 1; heat flows between them.  The picture heat.ppm shows
- * the last step, with lines of equal temperature.
+ * The rim is held at 0, a hot bar and a hot disk at 1; heat flows between them.  The picture
+ * heat.ppm shows the last step, with lines of equal temperature.
  *
- * Shows: floats, NEWS, and the context as boundary condition.  Points whose temperature is given are made
- * inactive once, before the loop.  At the end every point is compared with a plain loop's. */
+ * Shows: floats, NEWS, and the context as boundary condition.  Points whose temperature is
+ * given are made inactive once, before the loop.  At the end every point is compared with a
+ * plain loop's. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <math.h>

@@ -2,13 +2,14 @@
  *
  *     lutetia cc life.c -o life && ./life [generations [height width]]
  *
- * Five cells, the R-pentomino, take 1103 generations to settle down as 116.  A cell that dies keeps a glow
- * that fades, so that the picture life.pgm shows where something has happened.
+ * Five cells, the R-pentomino, take 1103 generations to settle down as 116.  A cell that dies
+ * keeps a glow that fades, so that the picture life.pgm shows where something has happened.
  *
- * Shows: NEWS.  Nine cells are summed with four fetches: first three cells above each other, then three
- * such sums beside each other.  The cell itself is counted.  With a sum of 3 it lives, with 4 it stays as it
- * is, else it is dead: two comparisons that narrow the context.  The lights on the front of the machine show
- * the living cells (`lutetia leds ./life`).  At the end every cell is compared with a plain loop's. */
+ * Shows: NEWS.  Nine cells are summed with four fetches: first three cells above each other,
+ * then three such sums beside each other.  The cell itself is counted.  With a sum of 3 it
+ * lives, with 4 it stays as it is, else it is dead: two comparisons that narrow the context.
+ * The lights on the front of the machine show the living cells (`lutetia leds ./life`).  At the
+ * end every cell is compared with a plain loop's. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -2,11 +2,12 @@
  *
  *     lutetia cc mandelbrot.c -o mandelbrot && ./mandelbrot [most [height width]]
  *
- * z = z * z + c until |z| > 2, at most `most` times; the number of turns gives the colour in mandelbrot.ppm.
+ * z = z * z + c until |z| > 2, at most `most` times; the number of turns gives the colour in
+ * mandelbrot.ppm.
  *
- * Shows: a context that shrinks.  A point that has escaped becomes inactive and keeps its numbers.  From
- * time to time the front end asks how many are active (CM_global_count_context), and stops when none has
- * escaped for long.  Every 37th row is compared with a plain loop's. */
+ * Shows: a context that shrinks.  A point that has escaped becomes inactive and keeps its
+ * numbers.  From time to time the front end asks how many are active (CM_global_count_context),
+ * and stops when none has escaped for long.  Every 37th row is compared with a plain loop's. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <math.h>
@@ -58,7 +59,8 @@ int plain_count (cx, cy, most)
     return count;
 }
 
-/* The colour of a count: from blue through white to brown and back, slower for larger counts. */
+/* The colour of a count: from blue through white to brown and back, slower for larger
+ * counts. */
 void colour (count, pixel)
     int count;
     unsigned char *pixel;

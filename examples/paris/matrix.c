@@ -2,10 +2,10 @@
  *
  *     lutetia cc matrix.c -o matrix && ./matrix [n]
  *
- * Shows: three axes, spreads and a reduction.  Processor (i, j, k) computes a[i][k] * b[k][j].  The front
- * end writes a into the plane j = 0 and b into the plane i = 0.  Two spreads copy each number to all
- * processors that need it.  After one multiplication and one sum along k, c[i][j] is in the plane k = 0.
- * Compared with three plain loops. */
+ * Shows: three axes, spreads and a reduction.  Processor (i, j, k) computes a[i][k] * b[k][j].
+ * The front end writes a into the plane j = 0 and b into the plane i = 0.  Two spreads copy
+ * each number to all processors that need it.  After one multiplication and one sum along k,
+ * c[i][j] is in the plane k = 0. Compared with three plain loops. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <math.h>

@@ -4,10 +4,10 @@
  *
  * Two turning clouds fall towards each other; nbody.pgm shows their paths from above.
  *
- * Shows: the ring.  A copy of all stars' places and masses moves round, from neighbour to neighbour along
- * the only axis.  At each stop every processor adds the pull of the star whose copy it holds.  After a whole
- * turn each star has met all others.  The first step's pulls are compared with a plain double loop's, and
- * the energy at the end with that at the beginning. */
+ * Shows: the ring.  A copy of all stars' places and masses moves round, from neighbour to
+ * neighbour along the only axis.  At each stop every processor adds the pull of the star whose
+ * copy it holds.  After a whole turn each star has met all others.  The first step's pulls are
+ * compared with a plain double loop's, and the energy at the end with that at the beginning. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <math.h>
@@ -94,7 +94,8 @@ void drift (time)
     }
 }
 
-/* The energy of all stars, computed on the front end in double; `first` gets the pulls on star 0. */
+/* The energy of all stars, computed on the front end in double; `first` gets the pulls on star
+ * 0. */
 double energy (values, first)
     float *values[2 * AXES + 1]; /* places, speeds, mass */
     double *first;
@@ -128,7 +129,8 @@ double uniform () /* -1 to 1 */
     return 2.0 * (rand () / (RAND_MAX + 1.0)) - 1.0;
 }
 
-/* Draws star i in a turning ball of radius 1; odd stars are in a second ball, which turns the other way. */
+/* Draws star i in a turning ball of radius 1; odd stars are in a second ball, which turns the
+ * other way. */
 void invent (i, values)
     int i;
     float *values[2 * AXES + 1];

@@ -1,5 +1,5 @@
-/* picture.h - writes an image in gray (channels 1: a PGM file) or colour (channels 3: PPM), rows from the
- * top.  Any image viewer shows them. */
+/* picture.h - writes an image in gray (channels 1: a PGM file) or colour (channels 3: PPM),
+ * rows from the top.  Any image viewer shows them. */
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -2,11 +2,12 @@
  *
  *     lutetia cc quicksort.c -o quicksort && ./quicksort [number of keys]
  *
- * Shows: segments.  Every part that is still to be sorted is a segment of the only axis, and each call works
- * on all segments at once.  The first key of a segment, the pivot, is copied to the others.  Each key is
- * less, equal or greater, counts the keys of its kind before it, and is sent to its place.  A new segment
- * starts where one kind ends and the next begins.  The loop ends when every key is at most its right
- * neighbour: after as many rounds as the recursion would be deep.  Compared with qsort. */
+ * Shows: segments.  Every part that is still to be sorted is a segment of the only axis, and
+ * each call works on all segments at once.  The first key of a segment, the pivot, is copied to
+ * the others.  Each key is less, equal or greater, counts the keys of its kind before it, and
+ * is sent to its place.  A new segment starts where one kind ends and the next begins.  The
+ * loop ends when every key is at most its right neighbour: after as many rounds as the
+ * recursion would be deep.  Compared with qsort. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -2,10 +2,11 @@
  *
  *     lutetia cc rings.c -o rings && lutetia display -o rings.png ./rings [height width]
  *
- * Two stones fell into a pond: rings of both, added up.  A machine that had room for a quarter of the display computed the quarters one after
- * the other, and wrote each to its place.
+ * Two stones fell into a pond: rings of both, added up.  A machine that had room for a quarter
+ * of the display computed the quarters one after the other, and wrote each to its place.
  *
- * Shows: offsets in writes; the shuffle done by hand, and a raw write.  Each pixel is compared with a plain loop's. */
+ * Shows: offsets in writes; the shuffle done by hand, and a raw write.  Each pixel is compared
+ * with a plain loop's. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <math.h>

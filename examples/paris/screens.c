@@ -2,11 +2,12 @@
  *
  *     lutetia cc screens.c -o screens && lutetia display ./screens [generations [height width]]
  *
- * The first display has 8 bits: cells that live are bright, those that died fade.  The second one has 24 bits: red counts the
- * generations that a cell has lived, green its births.
+ * The first display has 8 bits: cells that live are bright, those that died fade.  The second
+ * one has 24 bits: red counts the generations that a cell has lived, green its births.
  *
- * Shows: two displays of one program, one twice as large as its picture by the zoom.  Every generation that a cell lived is counted
- * twice, on the machine cell by cell and by the front end as a sum. */
+ * Shows: two displays of one program, one twice as large as its picture by the zoom.  Every
+ * generation that a cell lived is counted twice, on the machine cell by cell and by the front
+ * end as a sum. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <cm/cmfb.h>

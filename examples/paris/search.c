@@ -2,11 +2,11 @@
  *
  *     lutetia cc search.c -o search && ./search [word [file]]
  *
- * Shows: NEWS along a line of letters, and packing.  Each processor compares its letter with the word's
- * first, its right neighbour's letter with the second, and so on; a processor that finds a difference
- * becomes inactive.  The others number themselves (CM_enumerate) and send their place to the processor of
- * that number.  So the front end reads one number for each match, not one for each letter.
- * Compared with a search letter by letter. */
+ * Shows: NEWS along a line of letters, and packing.  Each processor compares its letter with
+ * the word's first, its right neighbour's letter with the second, and so on; a processor that
+ * finds a difference becomes inactive.  The others number themselves (CM_enumerate) and send
+ * their place to the processor of that number.  So the front end reads one number for each
+ * match, not one for each letter. Compared with a search letter by letter. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,7 +23,8 @@ static char *verse[] = {
 
 static int counts[1], zero[1], axis[1];
 
-/* Returns the file's text, or the verse many times; 0 bytes at the end prevent matches that wrap round. */
+/* Returns the file's text, or the verse many times; 0 bytes at the end prevent matches that
+ * wrap round. */
 char *get_text (name, margin)
     char *name;
     int margin;

@@ -4,12 +4,13 @@
  *
  * Shows: two ways to sort.
  *
- * Bitonic: in round k, blocks of 2^k keys that rise and then fall become blocks that only rise or only
- * fall.  Each processor compares its key with that of the processor 2^(k-1) away, then 2^(k-2), ... 1
- * (CM_get_from_power_two).  One of the two is to have the lesser key, the other the greater; both take the
- * other's key where that is not so.  No addresses are needed.
+ * Bitonic: in round k, blocks of 2^k keys that rise and then fall become blocks that only rise
+ * or only fall.  Each processor compares its key with that of the processor 2^(k-1) away, then
+ * 2^(k-2), ... 1 (CM_get_from_power_two).  One of the two is to have the lesser key, the other
+ * the greater; both take the other's key where that is not so.  No addresses are needed.
  *
- * By rank: CM_u_rank_2L gives each processor the place of its key among all; a send moves the key there.
+ * By rank: CM_u_rank_2L gives each processor the place of its key among all; a send moves the
+ * key there.
  *
  * Both are compared with the front end's qsort. */
 #include <stdio.h>

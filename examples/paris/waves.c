@@ -2,10 +2,12 @@
  *
  *     lutetia cc waves.c -o waves && lutetia display --film waves.mp4 ./waves [steps [height width]]
  *
- * Each point goes by its neighbours' heights; the light comes from the left.  A picture is drawn into the buffer that is not seen, and
- * shown by a spin, so the film never has half a picture.
+ * Each point goes by its neighbours' heights; the light comes from the left.  A picture is
+ * drawn into the buffer that is not seen, and shown by a spin, so the film never has half a
+ * picture.
  *
- * Shows: two buffers, 24 bits in one field.  The drops lie evenly about the middle column, and so must the waves. */
+ * Shows: two buffers, 24 bits in one field.  The drops lie evenly about the middle column, and
+ * so must the waves. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <cm/cmfb.h>

@@ -2,10 +2,12 @@
  *
  *     lutetia cc zoom.c -o zoom && lutetia display ./zoom [steps [height width]]
  *
- * The Mandelbrot set is computed once, on an axis of symmetry.  Then the display alone works: a zoom of 1 to 8, with the place that is looked
- * at held in the middle by the pan, and a way along the border.
+ * The Mandelbrot set is computed once, on an axis of symmetry.  Then the display alone works: a
+ * zoom of 1 to 8, with the place that is looked at held in the middle by the pan, and a way
+ * along the border.
  *
- * Shows: CMFB_set_zoom, CMFB_set_pan.  Above and below the real axis a plain comparison finds the same picture. */
+ * Shows: CMFB_set_zoom, CMFB_set_pan.  Above and below the real axis a plain comparison finds
+ * the same picture. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <math.h>

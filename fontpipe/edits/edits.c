@@ -24,7 +24,8 @@ static bool is_again(const struct font_edits *edits, int i)
     return false;
 }
 
-/* Sets the axes to what the row is for, and has that in the row in one form. own: how they are set otherwise, and now, if `*now` is NULL. */
+/* Sets the axes to what the row is for, and has that in the row in one form. own: how they are
+ * set otherwise, and now, if `*now` is NULL. */
 static enum font_status setting_go(struct edits_row *row, struct font_face *face,
                                    const char *own, const char **now)
 {

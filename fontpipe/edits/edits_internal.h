@@ -6,7 +6,7 @@
  *     edits_text.c     files of a folder as text, sums, rectangles
  *     edits_low.c      filter tables and gray, in and out
  *     edits_setting.c  settings of axes
- *     outline_path.c   SVG's paths               outline_xml.c  SVG and glif                     */
+ *     outline_path.c   SVG's paths               outline_xml.c  SVG and glif */
 #ifndef LUTETIA_FONT_EDITS_INTERNAL_H
 #define LUTETIA_FONT_EDITS_INTERNAL_H
 
@@ -49,7 +49,8 @@ struct font_edits {
     struct error_text changed;
 };
 
-/* edits_text.c: a file of the folder, whole, with a zero behind it. Owns: the caller frees *bytes. Errors: BAD_FILE, NO_MEMORY. */
+/* edits_text.c: a file of the folder, whole, with a zero behind it. Owns: the caller frees
+ * *bytes. Errors: BAD_FILE, NO_MEMORY. */
 enum font_status edits_file_read(const char *folder, const char *file, char **bytes,
                                  size_t *count);
 /* FOLDER/FILE. Owns: the caller frees it; NULL: no memory. */
@@ -58,7 +59,8 @@ char *edits_path(const char *folder, const char *file);
 bool edits_file_is_plain(const char *file);
 /* digits: 16, or 64 for all of the sum; room has one more. */
 void edits_sum(const void *bytes, size_t count, int digits, char *room);
-/* A whole number within bounds, up to white space or the end; the next word. False: it is none. */
+/* A whole number within bounds, up to white space or the end; the next word. False: it is
+ * none. */
 bool edits_number(const char **at, int least, int most, int *value);
 enum font_status edits_rectangles_read(const char *path, const char *text, double em_units,
                                        double advance, struct font_rectangles *out);
@@ -66,8 +68,8 @@ enum font_status edits_rectangles_read(const char *path, const char *text, doubl
 /* A number likewise. */
 bool edits_size(const char **at, double least, double most, double *value);
 
-/* edits_setting.c: how the face's axes are set, with an @ before. Owns: the caller frees *out. Errors: BAD_ARGUMENT (a tag that no
- * word can have), NO_MEMORY. */
+/* edits_setting.c: how the face's axes are set, with an @ before. Owns: the caller frees *out.
+ * Errors: BAD_ARGUMENT (a tag that no word can have), NO_MEMORY. */
 enum font_status edits_setting_of(const struct font_face *face, char **out);
 /* Sets the axes so; NULL: leaves them. Errors: BAD_ARGUMENT. */
 enum font_status edits_setting_set(struct font_face *face, const char *setting);
@@ -91,17 +93,20 @@ enum font_status edits_list_read(const char *folder, struct font_edits **out);
 enum font_status edits_list_write(const struct font_edits *edits);
 enum font_status edits_row_add(struct font_edits *edits, struct edits_row **out);
 
-/* edits.c: whether both are the same glyph's at the same level, for the same axes; of gray of one size, of filters for the same sizes. */
+/* edits.c: whether both are the same glyph's at the same level, for the same axes; of gray of
+ * one size, of filters for the same sizes. */
 bool edits_row_same(const struct edits_row *a, const struct edits_row *b);
 
 /* edits_read.c: the row's file, if it was edited. Errors: BAD_FILE, TOO_LARGE, NO_MEMORY. */
 enum font_status edits_row_read(struct font_edits *edits, struct edits_row *row,
                                 struct font_face *face);
 
-/* outline_path.c: a path's words, through a map (xx, yx, xy, yy, x, y as in SVG's matrix()). *why: what is wrong with it. */
+/* outline_path.c: a path's words, through a map (xx, yx, xy, yy, x, y as in SVG's matrix()).
+ * *why: what is wrong with it. */
 enum font_status edits_path_draw(const char *d, const double map[6], struct font_outline *out,
                                  const char **why);
-/* outline_xml.c: units: of the em. The advance is left as it is where the file has none. Errors: BAD_FILE with the file's path, TOO_LARGE, NO_MEMORY. */
+/* outline_xml.c: units: of the em. The advance is left as it is where the file has none.
+ * Errors: BAD_FILE with the file's path, TOO_LARGE, NO_MEMORY. */
 enum font_status edits_outline_read(const char *path, const char *bytes, size_t count,
                                     struct font_outline *out);
 

@@ -1,4 +1,5 @@
-/* edits_low.c - the levels below the rectangles in files: filter tables and gray. See edits_internal.h. */
+/* edits_low.c - the levels below the rectangles in files: filter tables and gray. See
+ * edits_internal.h. */
 #include "edits_internal.h"
 
 #include <display.h>

@@ -1,4 +1,5 @@
-/* edits_text.c - a folder's files as text, sums of bytes, and rectangles: see edits_internal.h. */
+/* edits_text.c - a folder's files as text, sums of bytes, and rectangles: see
+ * edits_internal.h. */
 #include "edits_internal.h"
 
 #include <array.h>

@@ -71,8 +71,8 @@ static void glif_put(FILE *f, const struct font_outline *o, const char *name)
 
 /* ---- files ----
  *
- * A file that no row has, and that is not what would be written, is somebody's own and stays. One that is the same is of a run that was cut
- * off before its row was written. */
+ * A file that no row has, and that is not what would be written, is somebody's own and stays.
+ * One that is the same is of a run that was cut off before its row was written. */
 
 static enum font_status refuse(const char *path)
 {
@@ -280,7 +280,8 @@ static enum font_status list_begin(const char *folder, struct font_face *face,
     return FONT_OK;
 }
 
-/* A file's name: the glyph's, and of filters and gray what they are, their sizes, and the axes. */
+/* A file's name: the glyph's, and of filters and gray what they are, their sizes, and the
+ * axes. */
 static void file_name(struct edits_row *row, const char *ending)
 {
     char more[EDITS_SETTING_BYTES + 80] = "";

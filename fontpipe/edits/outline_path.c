@@ -1,4 +1,5 @@
-/* outline_path.c - SVG's paths as outlines: see edits_internal.h. Curves stay curves; arcs are refused, since an outline has none. */
+/* outline_path.c - SVG's paths as outlines: see edits_internal.h. Curves stay curves; arcs are
+ * refused, since an outline has none. */
 #include "edits_internal.h"
 
 #include <ctype.h>

@@ -1,7 +1,9 @@
-/* outline_xml.c - outlines in files of other programs: SVG, and glif, of which a UFO is made. See edits_internal.h.
+/* outline_xml.c - outlines in files of other programs: SVG, and glif, of which a UFO is made.
+ * See edits_internal.h.
  *
- * Expat reads them. A file with a DOCTYPE is refused: so nothing in it stands for more than it is. What is drawn and is no path (a circle, a
- * component) is refused by name, since leaving it out would change the glyph. */
+ * Expat reads them. A file with a DOCTYPE is refused: so nothing in it stands for more than it
+ * is. What is drawn and is no path (a circle, a component) is refused by name, since leaving it
+ * out would change the glyph. */
 #include "edits_internal.h"
 #include "xml_line.h"
 
@@ -61,7 +63,8 @@ static const char *attribute(const char **attributes, const char *name)
     return NULL;
 }
 
-/* Numbers separated by white space and commas. Returns how many there are, at most `most`; -1: something else is there. */
+/* Numbers separated by white space and commas. Returns how many there are, at most `most`; -1:
+ * something else is there. */
 static int numbers_take(const char *at, const char *end, double *numbers, int most)
 {
     int count = 0;

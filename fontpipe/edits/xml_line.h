@@ -1,4 +1,5 @@
-/* xml_line.h - the line at which expat reads, for messages. Who includes it depends on expat. */
+/* xml_line.h - the line at which expat reads, for messages. Who includes it depends on
+ * expat. */
 #ifndef LUTETIA_FONT_XML_LINE_H
 #define LUTETIA_FONT_XML_LINE_H
 

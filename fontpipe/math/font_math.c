@@ -40,8 +40,8 @@ static uint32_t sum_of(const uint8_t *bytes, size_t count)
     return sum;
 }
 
-/* A TrueType font of two glyphs: nothing, and U+006C, a square as large as the em. Its stems are as wide, so that none is made
- * darker. */
+/* A TrueType font of two glyphs: nothing, and U+006C, a square as large as the em. Its stems
+ * are as wide, so that none is made darker. */
 static enum font_status square_open(struct font_face **out)
 {
     enum { TABLES = 8, HEAD = 12, ROW = 16, ROOM = 1024 };

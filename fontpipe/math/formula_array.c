@@ -1,5 +1,5 @@
-/* formula_array.c - matrices and lines of equations: columns as wide as their widest cell, rows at least a line apart, all of it
- * centred on the axis. */
+/* formula_array.c - matrices and lines of equations: columns as wide as their widest cell, rows
+ * at least a line apart, all of it centred on the axis. */
 #include "formula_internal.h"
 
 #include <math.h>
@@ -7,7 +7,8 @@
 /* Of a line: what it has over its baseline and under it, in ems, as LaTeX's \strut. */
 static const double strut_height = 0.84, strut_depth = 0.36;
 
-/* l, c or r; the last one that is told is for all columns after it, but in pairs they go on in turns. */
+/* l, c or r; the last one that is told is for all columns after it, but in pairs they go on in
+ * turns. */
 static char column_kind(int column, const struct formula_table *table, const char *kinds,
                         int kinds_bytes)
 {

@@ -5,13 +5,17 @@
 #include "formula_internal.h"
 
 enum formula_act {
-    FORMULA_ACT_FRACTION, /* number: 1 with a rule; style: of the fraction, -1 as it stands; character, other: delimiters */
+    /* number: 1 with a rule; style: of the fraction, -1 as it stands; character, other:
+     * delimiters */
+    FORMULA_ACT_FRACTION,
     FORMULA_ACT_RADICAL,
     FORMULA_ACT_ACCENT, /* character; stretched, under; braces take limits */
     FORMULA_ACT_BAR,
     FORMULA_ACT_ALPHABET, /* style: a FORMULA_ITALIC.. */
     FORMULA_ACT_TEXT,
-    FORMULA_ACT_FUNCTION, /* an operator's name; text: what is written, NULL: the command's own; stretched: with limits */
+    /* an operator's name; text: what is written, NULL: the command's own; stretched: with
+     * limits */
+    FORMULA_ACT_FUNCTION,
     FORMULA_ACT_OPERATOR, /* the same of an argument; a star: with limits */
     FORMULA_ACT_SPACE,    /* number: ems */
     FORMULA_ACT_STYLE,    /* style */

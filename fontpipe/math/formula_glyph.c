@@ -1,4 +1,5 @@
-/* formula_glyph.c - boxes of characters: as they are, larger, stretched: see formula_internal.h. */
+/* formula_glyph.c - boxes of characters: as they are, larger, stretched: see
+ * formula_internal.h. */
 #include "formula_internal.h"
 
 #include <math.h>
@@ -132,7 +133,8 @@ static int assembly_repeats(const struct assembly *a, double want, int *pieces)
     return (int)fmin(fmax(each, 1), repeated ? PIECES_MAX / repeated : 1);
 }
 
-/* The pieces one after the other; what is too long is taken from where they overlap, as far as the font allows. */
+/* The pieces one after the other; what is too long is taken from where they overlap, as far as
+ * the font allows. */
 static struct formula_box assembly_make(struct font_math *m, const struct assembly *a,
                                         double want, bool down, double size, int byte)
 {
@@ -166,8 +168,8 @@ static struct formula_box assembly_make(struct font_math *m, const struct assemb
     return box;
 }
 
-/* In a direction at least so long: the first variant that is, else parts, else the longest variant. most: the last one that is not
- * longer. */
+/* In a direction at least so long: the first variant that is, else parts, else the longest
+ * variant. most: the last one that is not longer. */
 static struct formula_box stretched_make(struct font_math *m, uint32_t character, double want,
                                          bool down, bool most, struct formula_style style,
                                          int byte)

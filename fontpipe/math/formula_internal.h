@@ -1,12 +1,14 @@
 /* formula_internal.h - what the files of fontpipe/math share.
  *
  *     text -> nodes             formula_read.c; the names it knows: formula_names.c
- *          -> boxes of items    formula_set.c: goes through the nodes, and has boxes made out of boxes by
- *                               formula_glyph.c (characters, variants, assemblies), formula_scripts.c, formula_stack.c, formula_array.c
+ *          -> boxes of items    formula_set.c: goes through the nodes, and has boxes made out
+ *                               of boxes by formula_glyph.c (characters, variants, assemblies),
+ *                               formula_scripts.c, formula_stack.c, formula_array.c
  *          -> a layout          font_math.c
  *
- * A box is a range of the setter's items: what it is made of was made just before it, so the ranges of its parts lie side by side,
- * and a part is moved where it is. Numbers are pixels, y downwards; heights and depths are told from the baseline. */
+ * A box is a range of the setter's items: what it is made of was made just before it, so the
+ * ranges of its parts lie side by side, and a part is moved where it is. Numbers are pixels, y
+ * downwards; heights and depths are told from the baseline. */
 #ifndef LUTETIA_FONT_FORMULA_INTERNAL_H
 #define LUTETIA_FONT_FORMULA_INTERNAL_H
 
@@ -176,7 +178,8 @@ struct font_math {
     unsigned scripts_count;
 };
 
-/* formula_constants.c: a constant of the MATH table at a style's size, in pixels; and the size. */
+/* formula_constants.c: a constant of the MATH table at a style's size, in pixels; and the
+ * size. */
 double formula_size(const struct font_math *m, struct formula_style style);
 double formula_constant(const struct font_math *m, hb_ot_math_constant_t constant,
                         struct formula_style style);
@@ -190,8 +193,8 @@ struct formula_box formula_glyph_box(struct font_math *m, uint32_t glyph, double
                                      int byte);
 /* The glyph of a character at a style; tells of one that the font has not. */
 uint32_t formula_glyph(struct font_math *m, uint32_t character, struct formula_style style);
-/* A character at least so high (wide), by a variant or put together of parts; not centred. most: at most so wide instead, and never
- * of parts. */
+/* A character at least so high (wide), by a variant or put together of parts; not centred.
+ * most: at most so wide instead, and never of parts. */
 struct formula_box formula_tall(struct font_math *m, uint32_t character, double height,
                                 struct formula_style style, int byte);
 struct formula_box formula_wide(struct font_math *m, uint32_t character, double width,
@@ -199,7 +202,8 @@ struct formula_box formula_wide(struct font_math *m, uint32_t character, double 
 /* Moves a box so that its middle is on the axis. */
 void formula_box_centre(struct font_math *m, struct formula_box *box,
                         struct formula_style style);
-/* A delimiter around what is so high and deep: TeX's rule 19. character 0: the blank that stands for none. */
+/* A delimiter around what is so high and deep: TeX's rule 19. character 0: the blank that
+ * stands for none. */
 struct formula_box formula_fence(struct font_math *m, uint32_t character, double height,
                                  double depth, struct formula_style style, int byte);
 /* Words by the font's shaping, upright. */
@@ -208,7 +212,8 @@ struct formula_box formula_words(struct font_math *m, const struct formula_node 
 struct formula_box formula_rule(struct font_math *m, double x, double y, double width,
                                 double height, int byte);
 
-/* formula_scripts.c: boxes out of boxes, which were made just before, the nucleus first. NULL: there is none. */
+/* formula_scripts.c: boxes out of boxes, which were made just before, the nucleus first. NULL:
+ * there is none. */
 struct formula_box formula_scripts(struct font_math *m, struct formula_box nucleus,
                                    struct formula_box *sup, struct formula_box *sub,
                                    bool is_operator, struct formula_style style);
@@ -238,7 +243,8 @@ struct formula_box formula_arrow(struct font_math *m, uint32_t character,
                                  struct formula_box *over, struct formula_box *under,
                                  struct formula_style style, int byte);
 
-/* formula_array.c: cells row by row, each made after the other; rows have `columns` cells, those that are missing being empty boxes. */
+/* formula_array.c: cells row by row, each made after the other; rows have `columns` cells,
+ * those that are missing being empty boxes. */
 struct formula_box formula_array(struct font_math *m, struct formula_box *cells, int rows,
                                  int columns, const struct formula_table *table,
                                  const char *kinds, int kinds_bytes,

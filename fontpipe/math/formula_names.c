@@ -1,4 +1,5 @@
-/* formula_names.c - the names of TeX's symbols, what characters are, and Unicode's mathematical alphabets. */
+/* formula_names.c - the names of TeX's symbols, what characters are, and Unicode's mathematical
+ * alphabets. */
 #include "formula_internal.h"
 
 #include <stdlib.h>
@@ -103,7 +104,8 @@ static uint32_t letter_elsewhere(uint32_t c)
     return c;
 }
 
-/* Greek letters that stand behind omega in the alphabets: epsilon, theta, kappa, phi, rho, pi as variants, and partial. */
+/* Greek letters that stand behind omega in the alphabets: epsilon, theta, kappa, phi, rho, pi
+ * as variants, and partial. */
 static uint32_t greek_variant(uint32_t c, uint32_t alpha)
 {
     static const uint32_t variants[] = {0x2202, 0x3f5, 0x3d1, 0x3f0, 0x3d5, 0x3f1, 0x3d6};

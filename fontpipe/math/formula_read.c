@@ -1,5 +1,5 @@
-/* formula_read.c - TeX's notation as nodes. What is wrong in it, as a brace that is not closed, ends where it must; nothing is refused but
- * for its size. */
+/* formula_read.c - TeX's notation as nodes. What is wrong in it, as a brace that is not closed,
+ * ends where it must; nothing is refused but for its size. */
 #include "formula_commands.h"
 #include "formula_reader.h"
 

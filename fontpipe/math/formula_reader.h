@@ -1,4 +1,5 @@
-/* formula_reader.h - what reads TeX's notation: the place where it is, nodes, and what is read without looking into it. */
+/* formula_reader.h - what reads TeX's notation: the place where it is, nodes, and what is read
+ * without looking into it. */
 #ifndef LUTETIA_FONT_FORMULA_READER_H
 #define LUTETIA_FONT_FORMULA_READER_H
 

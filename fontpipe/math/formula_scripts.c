@@ -1,4 +1,5 @@
-/* formula_scripts.c - what is raised, lowered, above and below: The TeXbook, appendix G, rules 13a and 18. */
+/* formula_scripts.c - what is raised, lowered, above and below: The TeXbook, appendix G, rules
+ * 13a and 18. */
 #include "formula_internal.h"
 
 #include <math.h>

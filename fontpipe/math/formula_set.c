@@ -1,4 +1,5 @@
-/* formula_set.c - nodes as boxes, from the leaves up; and the spaces between atoms (The TeXbook, chapter 18). */
+/* formula_set.c - nodes as boxes, from the leaves up; and the spaces between atoms (The
+ * TeXbook, chapter 18). */
 #include "formula_internal.h"
 
 #include <math.h>

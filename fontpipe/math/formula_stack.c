@@ -1,4 +1,5 @@
-/* formula_stack.c - fractions, roots, accents, bars, fences, arrows: The TeXbook, appendix G, rules 9 to 12, 15 and 19. */
+/* formula_stack.c - fractions, roots, accents, bars, fences, arrows: The TeXbook, appendix G,
+ * rules 9 to 12, 15 and 19. */
 #include "formula_internal.h"
 
 #include <math.h>

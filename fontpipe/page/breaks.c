@@ -1,7 +1,8 @@
 /* breaks.c - see breaks.h.
  *
- * A node is a way to break the text up to a place: the best one of those that end there after so many lines with a last line of that
- * fitness. Nodes are active while a line from them can still end at the place that is looked at. */
+ * A node is a way to break the text up to a place: the best one of those that end there after
+ * so many lines with a last line of that fitness. Nodes are active while a line from them can
+ * still end at the place that is looked at. */
 #include "breaks.h"
 
 #include <array.h>
@@ -13,7 +14,8 @@
 /* TeX's usual numbers. */
 static const double line_penalty = 10, adjacent_demerits = 10000, hyphens_demerits = 10000,
                     last_hyphen_demerits = 5000;
-/* Ours: of a short last line, as much as a line at TeX's usual limit of badness costs; of a word's rest more than any others together. */
+/* Ours: of a short last line, as much as a line at TeX's usual limit of badness costs; of a
+ * word's rest more than any others together. */
 static const double runt_demerits = 44100;
 
 enum fitness { VERY_LOOSE, LOOSE, DECENT, TIGHT, FITNESSES };
@@ -97,7 +99,8 @@ static double width_of(const double *widths, int count, int line)
     return widths[line < count ? line : count - 1];
 }
 
-/* The best new node of those at this place that have the line and the fitness; lines beyond the last width are alike. */
+/* The best new node of those at this place that have the line and the fitness; lines beyond the
+ * last width are alike. */
 static bool candidate_keep(struct nodes *n, int first_new, struct node node, int widths_count)
 {
     for (int i = first_new; i < n->count; i++) {

@@ -1,4 +1,5 @@
-/* carets.c - between which letters a caret may stand: between clusters of UAX 29, with its rule for conjuncts (GB9c, since Unicode 15.1). */
+/* carets.c - between which letters a caret may stand: between clusters of UAX 29, with its rule
+ * for conjuncts (GB9c, since Unicode 15.1). */
 #include "page_internal.h"
 
 /* A regional indicator: two make a flag. */
@@ -7,7 +8,8 @@ static bool flag_half(uint32_t c)
     return c >= 0x1f1e6 && c <= 0x1f1ff;
 }
 
-/* Of the six scripts whose consonants a virama joins (InCB): the block, of 128 characters; 0: it is none of theirs. */
+/* Of the six scripts whose consonants a virama joins (InCB): the block, of 128 characters; 0:
+ * it is none of theirs. */
 static uint32_t indic_block(uint32_t c)
 {
     uint32_t block = c & ~0x7fu;
@@ -17,7 +19,8 @@ static uint32_t indic_block(uint32_t c)
                : 0;
 }
 
-/* Their blocks are of one plan: consonants from KA to HA, and some behind, are at the same places in all of them. */
+/* Their blocks are of one plan: consonants from KA to HA, and some behind, are at the same
+ * places in all of them. */
 static bool indic_consonant(uint32_t c)
 {
     uint32_t at = c & 0x7f;

@@ -21,7 +21,8 @@ int emphasis_run(const char *s, int at, int end)
     return n;
 }
 
-/* A run of stars may open what it stands before, and close what it stands behind; one of lines (_) not within a word. */
+/* A run of stars may open what it stands before, and close what it stands behind; one of lines
+ * (_) not within a word. */
 static bool may_open(const char *s, int at, int run, int end)
 {
     char sign = s[at];

@@ -9,7 +9,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* The face's other file, where it lies beside it under such a name: one family may have several sizes of each. */
+/* The face's other file, where it lies beside it under such a name: one family may have several
+ * sizes of each. */
 static bool file_beside(const char *path, const char *kind, char *room, size_t bytes)
 {
     static const char *const plain[] = {"Regular", "Roman", "Book"};

@@ -1,8 +1,9 @@
 /* flow.c - paragraphs onto pages: see page_internal.h.
  *
- * A page is filled from where the one before it ended, frame after frame. A paragraph is broken for the widths of the slots that it is
- * going to stand in; then it is seen how many of its lines may stand in the frame (its keeps, the notes that its lines bring along), and
- * where fewer stand here than fit, it is broken again for the slots that it gets. */
+ * A page is filled from where the one before it ended, frame after frame. A paragraph is broken
+ * for the widths of the slots that it is going to stand in; then it is seen how many of its
+ * lines may stand in the frame (its keeps, the notes that its lines bring along), and where
+ * fewer stand here than fit, it is broken again for the slots that it gets. */
 #include "page_internal.h"
 
 #include <math.h>
@@ -111,8 +112,9 @@ static bool rest_fits(const struct paragraph *p, int from, const double *widths,
     return true;
 }
 
-/* Breaks the paragraph, from line `from` on, for the slots from here on, of which at most `limit` are in this frame. *here: of how many
- * slots in this frame that knew; -1: all slots are alike. What goes on behind another frame's lines is broken anew only where notes or keeps
+/* Breaks the paragraph, from line `from` on, for the slots from here on, of which at most
+ * `limit` are in this frame. *here: of how many slots in this frame that knew; -1: all slots
+ * are alike. What goes on behind another frame's lines is broken anew only where notes or keeps
  * have left it other slots than were foreseen there. */
 static enum font_status break_here(struct filling *f, struct paragraph *p, int from, int limit,
                                    int *here)
@@ -352,7 +354,8 @@ static enum font_status note_place(struct filling *f, struct paragraph *p, doubl
                : font_fail(FONT_NO_MEMORY, "no memory for a page");
 }
 
-/* The notes of lines that were just placed: those of the margin at once, those of the foot when the frame is full. */
+/* The notes of lines that were just placed: those of the margin at once, those of the foot when
+ * the frame is full. */
 static enum font_status notes_take(struct filling *f, struct paragraph *p, int from, int end)
 {
     const struct page_frame *frame = &f->template->frames[f->frame];
@@ -408,7 +411,8 @@ static enum font_status feet_place(struct filling *f)
     return status;
 }
 
-/* The next place of a grid from v on, for paragraphs whose lines are as high as its distances. */
+/* The next place of a grid from v on, for paragraphs whose lines are as high as its
+ * distances. */
 static double grid_next(const struct page_frame *frame, const struct paragraph *p, double v)
 {
     const double near = 1e-6;
@@ -418,7 +422,8 @@ static double grid_next(const struct page_frame *frame, const struct paragraph *
     return ceil(v / frame->grid_px - near) * frame->grid_px;
 }
 
-/* As many lines of the paragraph, from the cursor's on, as may stand in the frame. *full: the rest goes on. */
+/* As many lines of the paragraph, from the cursor's on, as may stand in the frame. *full: the
+ * rest goes on. */
 static enum font_status paragraph_place(struct filling *f, struct paragraph *p,
                                         struct cursor *cursor, bool *full)
 {

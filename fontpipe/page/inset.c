@@ -1,7 +1,7 @@
 /* inset.c - boxes in lines: see page_inset_add() in page.h.
  *
- * For what finds scripts, directions and breaks, an inset's letters are signs that are alike and that no line is broken between; all
- * of them are one cluster, as wide as the box. */
+ * For what finds scripts, directions and breaks, an inset's letters are signs that are alike
+ * and that no line is broken between; all of them are one cluster, as wide as the box. */
 #include "page_internal.h"
 
 #include "../edges.h"

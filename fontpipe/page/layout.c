@@ -19,7 +19,8 @@ struct output {
     int *inks; /* of the layout, by style; 0: not yet */
     struct font_map last;
     int last_number;
-    /* What the page says, where it is asked for; the lines that are written are the paragraph's bytes from `from` on, and begin at `begin`. */
+    /* What the page says, where it is asked for; the lines that are written are the paragraph's
+     * bytes from `from` on, and begin at `begin`. */
     struct page_said *said;
     int said_capacity, passages_capacity, begin, from, end;
 };
@@ -292,7 +293,8 @@ enum font_status page_count(struct page_text *t, int *count)
     }
 }
 
-/* The paragraph's line that a byte is in. before: where a line ends and the next begins there, the one that ends. */
+/* The paragraph's line that a byte is in. before: where a line ends and the next begins there,
+ * the one that ends. */
 int layout_line(const struct paragraph *p, int byte, bool before)
 {
     int line = 0;

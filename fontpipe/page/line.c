@@ -1,7 +1,8 @@
 /* line.c - a line of a paragraph as glyphs in their places: see page_internal.h.
  *
- * Its runs are put in the order in which they are seen, and each gives its clusters from the left to the right. What the line lacks or
- * has too much is then shared out among spaces and, where letters may be expanded, letters. */
+ * Its runs are put in the order in which they are seen, and each gives its clusters from the
+ * left to the right. What the line lacks or has too much is then shared out among spaces and,
+ * where letters may be expanded, letters. */
 #include "page_internal.h"
 
 #include <math.h>
@@ -18,7 +19,8 @@ void set_line_finish(struct set_line *l)
     *l = (struct set_line){0};
 }
 
-/* The parts of runs that are in the line, in the order in which they are seen: as numbers of runs, and letters. */
+/* The parts of runs that are in the line, in the order in which they are seen: as numbers of
+ * runs, and letters. */
 static bool pieces_order(const struct paragraph *p, const struct line *line,
                          struct set_line *out, int *count)
 {
@@ -71,7 +73,8 @@ static enum font_status piece_glyphs(struct page_text *t, const struct paragraph
     return FONT_OK;
 }
 
-/* The end of the cluster that begins at a letter, in glyphs just set: the next letter of those that begin one, or the piece's end. */
+/* The end of the cluster that begins at a letter, in glyphs just set: the next letter of those
+ * that begin one, or the piece's end. */
 static int cluster_end(const struct set_line *l, int letter, int piece_end)
 {
     int end = piece_end;
@@ -152,7 +155,8 @@ static void cluster_spaces(const struct paragraph *p, const struct set_cluster *
     }
 }
 
-/* Shares out what a line lacks (or has too much: less than 0). The space behind the line's last letter takes no part. */
+/* Shares out what a line lacks (or has too much: less than 0). The space behind the line's last
+ * letter takes no part. */
 static void shares_find(const struct paragraph *p, const struct set_line *l, int last_letter,
                         double lacks, struct shares *s)
 {

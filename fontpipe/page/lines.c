@@ -1,8 +1,10 @@
 /* lines.c - a paragraph broken into lines: see page_internal.h.
  *
- * In passes, as TeX does it: without dividing words; with them divided; with ever more looseness; and with any, where a line that nothing
- * fits is too long. At most three lines in a row end in hyphens, but for the last pass; a last line that is short costs, and one that
- * is the rest of a word is no line at all if there is another way. Paragraphs with tabs are filled line by line, since what a tab takes depends on what stands before it. */
+ * In passes, as TeX does it: without dividing words; with them divided; with ever more
+ * looseness; and with any, where a line that nothing fits is too long. At most three lines in a
+ * row end in hyphens, but for the last pass; a last line that is short costs, and one that is
+ * the rest of a word is no line at all if there is another way. Paragraphs with tabs are filled
+ * line by line, since what a tab takes depends on what stands before it. */
 #include "page_internal.h"
 
 #include <linebreak.h>
@@ -15,8 +17,9 @@ enum { HYPHEN_PENALTY = 50, LETTER_PENALTY = 3000, SOFT_HYPHEN = 0xad };
 static const double first_tolerance = 100, ragged_ems = 2;
 static const double runt_ems = 2.5; /* a last line that is shorter looks lost */
 
-/* The passes: what stretch each line has besides its spaces', in ems. It makes a line less bad, and a hyphen costs what it did: with much of
- * it at once words would hardly be divided, and lines be loose. So there is as little of it as there can be. */
+/* The passes: what stretch each line has besides its spaces', in ems. It makes a line less bad,
+ * and a hyphen costs what it did: with much of it at once words would hardly be divided, and
+ * lines be loose. So there is as little of it as there can be. */
 static const double loose_ems[] = {0, 0, 0.25, 0.5, 0.75, 1, 1.5, 2, 3, 3};
 enum { PASSES = sizeof loose_ems / sizeof *loose_ems, LADDER_MAX = 3 };
 
@@ -78,7 +81,8 @@ static double hang(const struct filling *f, int i, bool at_end)
            (double)p->letters[i].advance_px;
 }
 
-/* What a line may end with behind letter i: 0 nothing, else 1 plus the penalty; *hyphen: one is seen there that is not in the text. */
+/* What a line may end with behind letter i: 0 nothing, else 1 plus the penalty; *hyphen: one is
+ * seen there that is not in the text. */
 static int end_penalty(const struct filling *f, int i, bool letters_too, bool *hyphen)
 {
     const struct paragraph *p = f->p;
@@ -323,7 +327,8 @@ static bool balance(struct filling *f, const double *widths, int widths_count,
     return ok;
 }
 
-/* The first pass that finds a way; where its last line is the rest of a word, the first looser one in which it is not, if there is one. */
+/* The first pass that finds a way; where its last line is the rest of a word, the first looser
+ * one in which it is not, if there is one. */
 static bool passes_run(struct filling *f, const double *widths, int widths_count)
 {
     struct found best = {0};

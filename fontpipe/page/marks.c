@@ -1,4 +1,5 @@
-/* marks.c - places that stay at their letters: see page.h. Paragraphs hold them and move them when they change. */
+/* marks.c - places that stay at their letters: see page.h. Paragraphs hold them and move them
+ * when they change. */
 #include "page_internal.h"
 
 enum font_status page_mark_add(struct page_text *t, struct page_place place, bool after,

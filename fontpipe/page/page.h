@@ -1,5 +1,6 @@
-/* page.h - pages: paragraphs in many faces, sizes and inks, broken as wholes, flowing through the boxes of a template, around shapes and
- * inside them; notes at the foot and in the margin; text that can be changed, and only what changes is set anew.
+/* page.h - pages: paragraphs in many faces, sizes and inks, broken as wholes, flowing through
+ * the boxes of a template, around shapes and inside them; notes at the foot and in the margin;
+ * text that can be changed, and only what changes is set anew.
  *
  *     struct page_text *text;
  *     page_text_create(&text);
@@ -16,21 +17,25 @@
  *     struct font_layout layout;
  *     page_layout(text, 0, &layout);                   // the first page, for any painter
  *     ...
- *     page_text_replace(text, id, 3, 3, "a", 1);       // "In a beginning": that paragraph alone is set anew
+ *     // "In a beginning": that paragraph alone is set anew
+ *     page_text_replace(text, id, 3, 3, "a", 1);
  *
- * Pages are set when they are asked for: a page needs those before it, as far as they have changed since. Places in pages are
- * pixels from the upper left, y downwards.
+ * Pages are set when they are asked for: a page needs those before it, as far as they have
+ * changed since. Places in pages are pixels from the upper left, y downwards.
  *
- * Errors: functions that can fail return a status of fontpipe's and leave one line in font_error(); what was there stays.
+ * Errors: functions that can fail return a status of fontpipe's and leave one line in
+ * font_error(); what was there stays.
  *
- * Ownership: what is passed is copied, but for shapes' points. Threads: a text belongs to one thread at a time. */
+ * Ownership: what is passed is copied, but for shapes' points. Threads: a text belongs to one
+ * thread at a time. */
 #ifndef LUTETIA_PAGE_H
 #define LUTETIA_PAGE_H
 
 #include "text.h"
 
 struct page_text;
-/* Without paragraphs, styles and templates. Errors: NO_MEMORY. Owns: the caller destroys *out. */
+/* Without paragraphs, styles and templates. Errors: NO_MEMORY. Owns: the caller destroys
+ * *out. */
 enum font_status page_text_create(struct page_text **out);
 void page_text_destroy(struct page_text *text); /* NULL is fine */
 /* As font_shaper_colour(), of all faces of styles that are made from now on. */
@@ -48,8 +53,9 @@ struct page_style {
     double spacing_px; /* added between letters */
     bool inked;        /* in `ink`; else whoever draws says */
     struct font_ink ink;
-    const char *
-        filter; /* of the style's own font, as font_filter_create_named() has it, where that has no other (own.h); NULL: whoever draws says */
+    /* of the style's own font, as font_filter_create_named() has it, where that has no other
+     * (own.h); NULL: whoever draws says */
+    const char *filter;
 };
 /* DejaVu Serif at 16 pixels, without ink. */
 struct page_style page_style_default(void);
@@ -57,10 +63,12 @@ struct page_style page_style_default(void);
 enum font_status page_style_add(struct page_text *text, const struct page_style *style,
                                 int *out);
 
-/* A style whose letters are not seen: letters in a row that have it are one box, in whose place `shown` is: a formula, a sign. The box is as
- * wide as shown->width_px, and stands on the line's baseline; lines of a paragraph in which one is higher (ascent_px) or deeper
- * (descent_px) than its lines are farther apart. No line is broken within it, and a caret stands before it or behind. look: of its font only
- * the line's height counts. shown: one line; copied, its faces must outlive the text. Errors: as page_style_add(); BAD_ARGUMENT for
+/* A style whose letters are not seen: letters in a row that have it are one box, in whose place
+ * `shown` is: a formula, a sign. The box is as wide as shown->width_px, and stands on the
+ * line's baseline; lines of a paragraph in which one is higher (ascent_px) or deeper
+ * (descent_px) than its lines are farther apart. No line is broken within it, and a caret
+ * stands before it or behind. look: of its font only the line's height counts. shown: one line;
+ * copied, its faces must outlive the text. Errors: as page_style_add(); BAD_ARGUMENT for
  * numbers that are none. */
 enum font_status page_inset_add(struct page_text *text, const struct page_style *look,
                                 const struct font_layout *shown, int *out);
@@ -76,17 +84,18 @@ enum { PAGE_TABS_MAX = 16 };
 
 struct page_manner {
     enum font_align align;
-    double
-        leading_px; /* from line to line; 0: the font's, at the size of the paragraph's first style */
+    /* from line to line; 0: the font's, at the size of the paragraph's first style */
+    double leading_px;
     double indent_px;                              /* of the first line */
     double left_px, right_px, before_px, after_px; /* what is left blank around it */
     int right_to_left;                             /* as font_text_options has it */
     bool hyphenate;  /* by the dictionary of the style's language */
     double protrude; /* 0..1: how far small signs at a line's ends stand in the margin */
-    double
-        expand; /* 0..0.05: how much wider or narrower letters may be; by the font's axis of widths, where it has one */
-    double
-        tolerance; /* the badness a line may have before words are hyphenated more freely; 200 */
+    /* 0..0.05: how much wider or narrower letters may be; by the font's axis of widths, where
+     * it has one */
+    double expand;
+    /* the badness a line may have before words are hyphenated more freely; 200 */
+    double tolerance;
     bool keep_together, keep_with_next, begins_column;
     bool balance; /* its lines are about as long as each other, for headings; not justified */
     enum font_role
@@ -97,24 +106,28 @@ struct page_manner {
         tabs[PAGE_TABS_MAX]; /* a tab goes to the next; behind the last, every four ems */
     int tabs_count;
 };
-/* From where the direction of the text begins, without hyphens, two lines at least in a column. */
+/* From where the direction of the text begins, without hyphens, two lines at least in a
+ * column. */
 struct page_manner page_manner_default(void);
-/* Whether there are patterns by which words of the language are divided (NULL: English); else `hyphenate` divides none. */
+/* Whether there are patterns by which words of the language are divided (NULL: English); else
+ * `hyphenate` divides none. */
 bool page_language_divides(const char *language);
 
-/* A paragraph before the one that is number `at` of its flow (-1: as the last), all in one style. *id names it ever after. Line ends
- * in the text are kept within the paragraph. Errors: BAD_ARGUMENT, TOO_LARGE past a million characters, NO_MEMORY. */
+/* A paragraph before the one that is number `at` of its flow (-1: as the last), all in one
+ * style. *id names it ever after. Line ends in the text are kept within the paragraph. Errors:
+ * BAD_ARGUMENT, TOO_LARGE past a million characters, NO_MEMORY. */
 enum font_status page_paragraph_add(struct page_text *text, int flow, int at, const char *utf8,
                                     size_t bytes, int style, const struct page_manner *manner,
                                     int *id);
 enum font_status page_paragraph_remove(struct page_text *text, int id);
 enum font_status page_paragraph_manner(struct page_text *text, int id,
                                        const struct page_manner *manner);
-/* Bytes begin..end of it in another style. Errors: BAD_ARGUMENT (no such paragraph, style or range), NO_MEMORY. */
+/* Bytes begin..end of it in another style. Errors: BAD_ARGUMENT (no such paragraph, style or
+ * range), NO_MEMORY. */
 enum font_status page_paragraph_style(struct page_text *text, int id, int begin, int end,
                                       int style);
-/* Takes `removed` bytes out at a byte and puts others there, in the style of the letter before. Errors: BAD_ARGUMENT where that would cut
- * a character in two. */
+/* Takes `removed` bytes out at a byte and puts others there, in the style of the letter before.
+ * Errors: BAD_ARGUMENT where that would cut a character in two. */
 enum font_status page_text_replace(struct page_text *text, int id, int byte, int removed,
                                    const char *utf8, size_t bytes);
 /* Its text, valid until the paragraph is changed; NULL: there is no such paragraph. */
@@ -122,9 +135,9 @@ const char *page_paragraph_text(const struct page_text *text, int id, size_t *by
 int page_paragraph_at(const struct page_text *text, int flow,
                       int at); /* its id; -1: there is none */
 
-/* A note to a place, set where the page's template has room for such: at the foot of the column that the place is in, or in its
- * margin. Its paragraph has an id, and is changed as others are; it goes with the letter before its place. Errors: BAD_ARGUMENT,
- * TOO_LARGE, NO_MEMORY. */
+/* A note to a place, set where the page's template has room for such: at the foot of the column
+ * that the place is in, or in its margin. Its paragraph has an id, and is changed as others
+ * are; it goes with the letter before its place. Errors: BAD_ARGUMENT, TOO_LARGE, NO_MEMORY. */
 enum page_note { PAGE_NOTE_FOOT, PAGE_NOTE_MARGIN };
 enum font_status page_note_add(struct page_text *text, int id, int byte, enum page_note kind,
                                const char *utf8, size_t bytes, int style,
@@ -135,8 +148,8 @@ enum font_status page_note_add(struct page_text *text, int id, int byte, enum pa
 struct page_place {
     int paragraph, byte;
 };
-/* A place that stays at its letter when text around it is changed. after: it stays behind what is put in exactly there. Errors:
- * BAD_ARGUMENT, NO_MEMORY. */
+/* A place that stays at its letter when text around it is changed. after: it stays behind what
+ * is put in exactly there. Errors: BAD_ARGUMENT, NO_MEMORY. */
 enum font_status page_mark_add(struct page_text *text, struct page_place place, bool after,
                                int *mark);
 /* False: it has gone with its paragraph. */
@@ -154,16 +167,17 @@ struct page_frame {
     double x, y, width, height;
     int flow;
     bool vertical; /* lines go down, from the right to the left */
-    /* Of the box for its margin notes: from where, and how wide; width 0: there is none. In a vertical frame it lies above or under it:
-     * these are its y and its height. */
+    /* Of the box for its margin notes: from where, and how wide; width 0: there is none. In a
+     * vertical frame it lies above or under it: these are its y and its height. */
     double margin_x, margin_width;
     double foot_gap_px; /* between text and notes at its foot */
-    double
-        grid_px; /* paragraphs with lines so high, or twice that, begin at multiples of it, so that lines beside each other are level;
-                     * 0: none */
+    /* paragraphs with lines so high, or twice that, begin at multiples of it, so that lines
+     * beside each other are level; 0: none */
+    double grid_px;
 };
 
-/* A polygon (x, y, ...). Obstacles: text goes around, at a distance; else text stays inside of all that there are. */
+/* A polygon (x, y, ...). Obstacles: text goes around, at a distance; else text stays inside of
+ * all that there are. */
 struct page_shape {
     const double *points; /* borrowed until page_templates_set() is called again */
     int points_count;
@@ -179,12 +193,13 @@ struct page_template {
     struct page_shape shapes[PAGE_SHAPES_MAX];
     int shapes_count;
 };
-/* The first page is by the first template, and so on; the last one is for all pages after it. Errors: BAD_ARGUMENT. */
+/* The first page is by the first template, and so on; the last one is for all pages after it.
+ * Errors: BAD_ARGUMENT. */
 enum font_status page_templates_set(struct page_text *text,
                                     const struct page_template *templates, int count);
 
-/* A line that each page has besides: its number, a running head. In `text` %p is the page's number, %h the last heading of level 1 up to
- * it, %% a percent sign. */
+/* A line that each page has besides: its number, a running head. In `text` %p is the page's
+ * number, %h the last heading of level 1 up to it, %% a percent sign. */
 struct page_running {
     const char *text;
     int style;
@@ -199,8 +214,9 @@ enum font_status page_running_set(struct page_text *text, const struct page_runn
 
 /* ---- pages ---- */
 
-/* All of a page: glyphs in its pixels, each with its size, ink and map; clusters are bytes of the glyph's paragraph. Errors: NO_MEMORY,
- * BAD_ARGUMENT for a page that there is not. Owns: the caller finishes *out. */
+/* All of a page: glyphs in its pixels, each with its size, ink and map; clusters are bytes of
+ * the glyph's paragraph. Errors: NO_MEMORY, BAD_ARGUMENT for a page that there is not. Owns:
+ * the caller finishes *out. */
 enum font_status page_layout(struct page_text *text, int page, struct font_layout *out);
 /* What a page says, line after line of its paragraphs, and what each passage of that is. */
 struct page_said {
@@ -209,8 +225,8 @@ struct page_said {
     struct font_passage *passages;
     int passages_count;
 };
-/* The same with what the page says: clusters are then bytes of that. Errors: as page_layout(). Owns: the caller finishes *out
- * and *said. */
+/* The same with what the page says: clusters are then bytes of that. Errors: as page_layout().
+ * Owns: the caller finishes *out and *said. */
 enum font_status page_layout_said(struct page_text *text, int page, struct font_layout *out,
                                   struct page_said *said);
 void page_said_finish(struct page_said *said);
@@ -234,19 +250,23 @@ struct page_caret {
     int page;
     double x0, y0, x1, y1;
 };
-/* The caret at a place. before: at the edge of the letter before it, else of the letter behind: they differ at ends of lines and where
- * the direction changes. A place inside a cluster or a ligature is between its parts. Errors: BAD_ARGUMENT for no place. */
+/* The caret at a place. before: at the edge of the letter before it, else of the letter behind:
+ * they differ at ends of lines and where the direction changes. A place inside a cluster or a
+ * ligature is between its parts. Errors: BAD_ARGUMENT for no place. */
 enum font_status page_caret_get(struct page_text *text, struct page_place place, bool before,
                                 struct page_caret *out);
-/* The place nearest to a point of a page. *before: as page_caret_get() has it. Errors: BAD_ARGUMENT where the page has no text. */
+/* The place nearest to a point of a page. *before: as page_caret_get() has it. Errors:
+ * BAD_ARGUMENT where the page has no text. */
 enum font_status page_hit(struct page_text *text, int page, double x, double y,
                           struct page_place *place, bool *before);
-/* The boxes of what lies between two places of one flow, on a page: those of each line, which touch where the text does. *count: how
- * many there are; at most boxes_max are written. Errors: BAD_ARGUMENT for no place; as page_layout(). */
+/* The boxes of what lies between two places of one flow, on a page: those of each line, which
+ * touch where the text does. *count: how many there are; at most boxes_max are written. Errors:
+ * BAD_ARGUMENT for no place; as page_layout(). */
 enum font_status page_select(struct page_text *text, struct page_place from,
                              struct page_place to, int page, struct page_box *boxes,
                              int boxes_max, int *count);
-/* The next place that a caret can be at; forward: towards the text's end. False: it was the last one of its paragraph. */
+/* The next place that a caret can be at; forward: towards the text's end. False: it was the
+ * last one of its paragraph. */
 bool page_place_step(struct page_text *text, struct page_place *place, bool forward);
 
 #endif

@@ -1,8 +1,11 @@
 /* page_internal.h - what the files of fontpipe/page share.
  *
- *     page_text -> flows -> paragraphs -> letters, shaped runs        set.c: once for each change of the text
- *                                      -> lines                       lines.c: once for each change of widths
- *               -> pages: which lines of which paragraphs, where      flow.c; pages.c: those that need it */
+ *     page_text -> flows -> paragraphs -> letters, shaped runs        set.c: once for each
+ *                                                                     change of the text
+ *                                      -> lines                       lines.c: once for each
+ *                                                                     change of widths
+ *               -> pages: which lines of which paragraphs, where      flow.c; pages.c: those
+ *                                                                     that need it */
 #ifndef LUTETIA_PAGE_INTERNAL_H
 #define LUTETIA_PAGE_INTERNAL_H
 
@@ -116,7 +119,8 @@ struct paragraph {
     int owner;          /* of a note: the paragraph that it belongs to; -1 */
 };
 
-/* A piece of a line that text can stand in: the box of a line in a frame, or of what obstacles leave of it. */
+/* A piece of a line that text can stand in: the box of a line in a frame, or of what obstacles
+ * leave of it. */
 struct slot {
     double u0, u1, v; /* along the lines, across them: of its beginning, end and upper edge */
     int frame;
@@ -204,28 +208,33 @@ struct paragraph *story_paragraph(const struct page_text *t, int id); /* NULL: t
 bool templates_vertical(const struct page_text *t, int flow);
 void templates_finish(struct page_text *t);
 
-/* inset.c: puts what an inset shows, its origin at (x, y), of that byte, line and ink. False: no memory. */
+/* inset.c: puts what an inset shows, its origin at (x, y), of that byte, line and ink. False:
+ * no memory. */
 bool inset_put(const struct style *style, double x, double y, const struct font_placed *as,
                struct font_layout *out);
 
-/* words.c: marks the letters behind which words may be divided; and breaks between words of Thai, which are written together. */
+/* words.c: marks the letters behind which words may be divided; and breaks between words of
+ * Thai, which are written together. */
 void words_hyphenate(struct page_text *t, struct paragraph *p);
 void words_thai(struct paragraph *p);
 
 /* set.c: letters, levels, faces, and glyphs for all of the paragraph. */
 enum font_status set_analyse(struct page_text *t, struct paragraph *p);
-/* upright.c: which letters of a vertical paragraph stand, once their faces, scripts and places for carets are known. */
+/* upright.c: which letters of a vertical paragraph stand, once their faces, scripts and places
+ * for carets are known. */
 void upright_find(struct page_text *t, struct paragraph *p);
 /* What a script's letters do where nothing is known of them. */
 bool upright_script(hb_script_t script);
-/* Glyphs from..count of such a run, shaped from left to right, put beside each other in one place of an em. */
+/* Glyphs from..count of such a run, shaped from left to right, put beside each other in one
+ * place of an em. */
 void upright_across(struct shaped *glyphs, int count, hb_font_t *font, double scale,
                     double em_px, double centre_px);
 /* carets.c: before which letters a caret may stand. */
 void carets_find(struct paragraph *p);
 
 void set_forget(struct paragraph *p); /* all that is made of the text */
-/* Glyphs of letters begin..end, which are of one run, as they are at a line's end. Appends to *out. */
+/* Glyphs of letters begin..end, which are of one run, as they are at a line's end. Appends to
+ * *out. */
 enum font_status set_shape(struct page_text *t, const struct paragraph *p,
                            const struct set_run *run, int begin, int end, struct shaped **out,
                            int *count, int *capacity);
@@ -233,15 +242,18 @@ enum font_status set_shape(struct page_text *t, const struct paragraph *p,
 /* lines.c: breaks the paragraph for lines of these widths, the last for all after it. */
 enum font_status lines_break(struct page_text *t, struct paragraph *p, const double *widths,
                              int count);
-/* The same of what follows the first `kept` of its lines, which stay: widths are of the lines behind them. */
+/* The same of what follows the first `kept` of its lines, which stay: widths are of the lines
+ * behind them. */
 enum font_status lines_break_rest(struct page_text *t, struct paragraph *p, int kept,
                                   const double *widths, int count);
 
-/* Where the pen is behind a tab that it comes to at `pen`, in a line that ends before the letter `end`. */
+/* Where the pen is behind a tab that it comes to at `pen`, in a line that ends before the
+ * letter `end`. */
 double signs_tab(const struct page_text *t, const struct paragraph *p, int tab, int end,
                  double pen);
 
-/* A glyph of a line that has been set: u along the line from its slot's beginning, v above the baseline. */
+/* A glyph of a line that has been set: u along the line from its slot's beginning, v above the
+ * baseline. */
 struct set_glyph {
     uint32_t glyph;
     int32_t letter; /* -1: a hyphen that is not in the text */
@@ -275,13 +287,14 @@ double signs_protrusion(uint32_t character, bool at_end);
 /* The width of a hyphen in the style of a letter; *glyph: 0 if its face has none. */
 double signs_hyphen(const struct page_text *t, const struct letter *l, uint32_t *glyph);
 
-/* widths.c: the face for a glyph of the style's own face that is so much wider along the line: one whose axis of widths is set so, if it
- * has one. *scale: what is left to a map. */
+/* widths.c: the face for a glyph of the style's own face that is so much wider along the line:
+ * one whose axis of widths is set so, if it has one. *scale: what is left to a map. */
 struct font_face *widths_face(struct page_text *t, const struct style *style, uint32_t glyph,
                               float *scale);
 void widths_finish(struct page_text *t);
 
-/* slots.c: the next slot for a line so high in a frame from v on that ends above v_end. False: there is no more. */
+/* slots.c: the next slot for a line so high in a frame from v on that ends above v_end. False:
+ * there is no more. */
 bool slots_next(const struct page_template *t, int frame, double *v, int *part, double v_end,
                 double height_px, struct slot *out);
 /* The frame's length along its lines, and across them. */
@@ -306,12 +319,14 @@ void flow_changed(struct page_text *t, const struct paragraph *p); /* pages that
 void flow_moved(struct page_text *t, int flow, int at);
 void flow_changed_all(struct page_text *t);
 
-/* layout.c: the line that a byte is in (before: where one ends and the next begins there, the one that ends), its page, its slot. */
+/* layout.c: the line that a byte is in (before: where one ends and the next begins there, the
+ * one that ends), its page, its slot. */
 int layout_line(const struct paragraph *p, int byte, bool before);
 enum font_status layout_find(struct page_text *t, struct page_place place, bool before,
                              int *page, int *line, struct slot *slot);
 
-/* running.c: a page's running line as text, *text NULL where it has none there. Owns: the caller frees it. False: no memory. */
+/* running.c: a page's running line as text, *text NULL where it has none there. Owns: the
+ * caller frees it. False: no memory. */
 bool running_text(const struct page_text *t, int page, const struct page_running *running,
                   char **text, size_t *bytes);
 void running_finish(struct page_text *t);

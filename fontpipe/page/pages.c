@@ -1,13 +1,16 @@
 /* pages.c - which pages are to be filled: see page_internal.h.
  *
- * A page is what its starts give, the ends of the page before it, and the paragraphs that it looks at: those between its starts and its
- * ends, and a few behind them. So it is filled again where its starts are others, where one of those paragraphs has changed, and where
- * another page has broken one of them anew: a paragraph has one set of lines, whichever page asked last. */
+ * A page is what its starts give, the ends of the page before it, and the paragraphs that it
+ * looks at: those between its starts and its ends, and a few behind them. So it is filled again
+ * where its starts are others, where one of those paragraphs has changed, and where another
+ * page has broken one of them anew: a paragraph has one set of lines, whichever page asked
+ * last. */
 #include "page_internal.h"
 
 #include <string.h>
 
-/* Pages that looked at number `at` of a flow are to be filled anew; all_behind: those that looked at any behind it, too. */
+/* Pages that looked at number `at` of a flow are to be filled anew; all_behind: those that
+ * looked at any behind it, too. */
 static void pages_forget(struct page_text *t, int flow, int at, bool all_behind)
 {
     for (int k = 0; k < t->pages_count; k++) {
@@ -96,8 +99,10 @@ static enum font_status page_fill(struct page_text *t, int number)
     return FONT_OK;
 }
 
-/* The page to begin at, so that this one can be filled. What goes on from page to page may be broken anew on each of them, for what is
- * left of it, where lines differ: then it is done again from the page on which it begins, so that it never matters what was looked at before. */
+/* The page to begin at, so that this one can be filled. What goes on from page to page may be
+ * broken anew on each of them, for what is left of it, where lines differ: then it is done
+ * again from the page on which it begins, so that it never matters what was looked at
+ * before. */
 static int page_begin(const struct page_text *t, int number)
 {
     if (t->last_filled == number - 1)

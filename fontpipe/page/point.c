@@ -1,7 +1,8 @@
 /* point.c - carets, what a point hits, selections as boxes: see page.h.
  *
- * A line's clusters are known in the order in which they are seen, each with its level. A cluster of several letters that a caret may
- * stand between (a ligature) is divided evenly among them. */
+ * A line's clusters are known in the order in which they are seen, each with its level. A
+ * cluster of several letters that a caret may stand between (a ligature) is divided evenly
+ * among them. */
 #include "page_internal.h"
 
 #include <math.h>
@@ -41,7 +42,8 @@ static double cluster_at(const struct paragraph *p, const struct set_cluster *c,
     int all = parts_of(p, c->begin, c->end), passed = parts_of(p, c->begin, letter);
     double part = letter >= c->end || !all ? (letter > c->begin ? 1 : 0) : (double)passed / all;
     double width = (double)c->u1 - (double)c->u0;
-    /* A letter that a caret cannot stand before is at the place before the one that it goes with. */
+    /* A letter that a caret cannot stand before is at the place before the one that it goes
+     * with. */
     return c->level & 1 ? (double)c->u1 - part * width : (double)c->u0 + part * width;
 }
 
@@ -53,12 +55,14 @@ static const struct set_cluster *cluster_with(const struct set_line *l, int lett
     return NULL;
 }
 
-/* Where a caret stands that is before `letter`, at the edge of the letter before it or of that one. */
+/* Where a caret stands that is before `letter`, at the edge of the letter before it or of that
+ * one. */
 static double caret_along(const struct paragraph *p, const struct line *line,
                           const struct set_line *l, int letter, bool before)
 {
     const struct set_cluster *c = NULL;
-    /* White space at a line's end is not seen: a caret in it stands behind the last letter that is. */
+    /* White space at a line's end is not seen: a caret in it stands behind the last letter that
+     * is. */
     if (letter > line->ink_end)
         letter = line->ink_end;
     if ((before || letter >= line->ink_end) && letter > line->begin &&

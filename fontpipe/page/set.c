@@ -1,7 +1,8 @@
 /* set.c - a paragraph's text as letters and glyphs: see page_internal.h.
  *
- * All of the paragraph is shaped once, run by run. Lines are later cut out of that where HarfBuzz says that glyphs on both sides of the
- * cut are as they would be apart; else the line's part of the run is shaped by itself. */
+ * All of the paragraph is shaped once, run by run. Lines are later cut out of that where
+ * HarfBuzz says that glyphs on both sides of the cut are as they would be apart; else the
+ * line's part of the run is shaped by itself. */
 #include "page_internal.h"
 
 #include <math.h>
@@ -50,7 +51,8 @@ static void letters_read(const struct page_text *t, struct paragraph *p)
     }
 }
 
-/* The length of a picture of several characters, all of one style, that begins at letter i; 0: there is none. */
+/* The length of a picture of several characters, all of one style, that begins at letter i; 0:
+ * there is none. */
 static int picture_of(const struct paragraph *p, int i)
 {
     int n = font_text_picture(p->characters + i, p->count - i);
@@ -87,7 +89,8 @@ static void faces_choose(struct page_text *t, struct paragraph *p)
     }
 }
 
-/* Scripts that have no spaces between words, or between all letters a place to break: a line is filled there, too. */
+/* Scripts that have no spaces between words, or between all letters a place to break: a line is
+ * filled there, too. */
 static bool breathes(hb_script_t script)
 {
     return upright_script(script) || script == HB_SCRIPT_THAI || script == HB_SCRIPT_LAO ||
@@ -150,7 +153,8 @@ static bool runs_cut(struct paragraph *p)
     return true;
 }
 
-/* Half of what the style's letters are more above the baseline than below: its middle is so far above. */
+/* Half of what the style's letters are more above the baseline than below: its middle is so far
+ * above. */
 static double middle(const struct style *s)
 {
     return (s->ascent_px - s->descent_px) / 2;
@@ -268,8 +272,9 @@ static enum font_status runs_shape(struct page_text *t, struct paragraph *p)
     return FONT_OK;
 }
 
-/* From line to line: what the paragraph asks for, letters' middles being in the middle of it; else what its font's own leading is, or
- * as much more as letters of other faces need above and below the baseline. */
+/* From line to line: what the paragraph asks for, letters' middles being in the middle of it;
+ * else what its font's own leading is, or as much more as letters of other faces need above and
+ * below the baseline. */
 static void leading_find(const struct page_text *t, struct paragraph *p)
 {
     const struct style *first = t->styles[p->style];

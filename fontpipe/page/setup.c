@@ -339,7 +339,8 @@ static enum font_status notes_make(struct making *m, const char *s, int id)
 
 /* ---- kinds of paragraphs ---- */
 
-/* Whether a line s[at..end) is three signs and more of a kind, with blanks between: what parts the text, as `* * *`. */
+/* Whether a line s[at..end) is three signs and more of a kind, with blanks between: what parts
+ * the text, as `* * *`. */
 static bool is_rule(const char *s, int at, int end)
 {
     char sign = '\0';
@@ -460,7 +461,8 @@ static enum font_status paragraph_make(struct making *m, char *s, int begin, int
     return status == FONT_OK ? notes_make(m, s, id) : status;
 }
 
-/* Where the paragraph that begins at `at` ends: before a blank line, an item of a list, a line of signs; a quote before what is none. */
+/* Where the paragraph that begins at `at` ends: before a blank line, an item of a list, a line
+ * of signs; a quote before what is none. */
 static int paragraph_end(const char *s, int at, int bytes)
 {
     enum kind kind = kind_of(s, at, line_end(s, at, bytes));
@@ -493,7 +495,8 @@ static enum font_status text_read(struct making *m, char *s, int bytes)
     return status;
 }
 
-/* The text without a mark of byte order before it, its lines' ends all of one kind. Owns: the caller frees it; NULL: no memory. */
+/* The text without a mark of byte order before it, its lines' ends all of one kind. Owns: the
+ * caller frees it; NULL: no memory. */
 static char *text_tidy(const char *utf8, size_t *bytes)
 {
     char *out = malloc(*bytes + 1);

@@ -1,16 +1,20 @@
-/* setup.h - a text with few signs in it as pages, by a handful of choices: what `lutetia set` and scripts set.
+/* setup.h - a text with few signs in it as pages, by a handful of choices: what `lutetia set`
+ * and scripts set.
  *
  *     struct page_setup setup = page_setup_default();
  *     setup.columns = 2;
  *     setup.hyphenate = true;
  *     page_setup_make(&setup, "# In the marsh\n\nThe *water* rises[^By night.].", 45, &text);
  *
- * A blank line ends a paragraph; other line ends are spaces, but for those behind a backslash. `# ` begins a heading, `## ` a smaller
- * one; `- ` and `1. ` an item of a list, `> ` a quote; `* * *` alone on its line parts the text. *slanted* and _slanted_, **bold**: signs
- * that nothing closes are letters, and those with blanks on both sides. [^a note] is set at the foot of the column, with a number, and
- * [>a note] in the margin. A backslash before a sign makes it a letter. Lines end in LF, CR or both.
+ * A blank line ends a paragraph; other line ends are spaces, but for those behind a backslash.
+ * `# ` begins a heading, `## ` a smaller one; `- ` and `1. ` an item of a list, `> ` a quote;
+ * `* * *` alone on its line parts the text. *slanted* and _slanted_, **bold**: signs that
+ * nothing closes are letters, and those with blanks on both sides. [^a note] is set at the foot
+ * of the column, with a number, and [>a note] in the margin. A backslash before a sign makes it
+ * a letter. Lines end in LF, CR or both.
  *
- * Errors: as page.h says. Ownership: what is passed is copied, but for shapes' points. Threads: as page.h says. */
+ * Errors: as page.h says. Ownership: what is passed is copied, but for shapes' points. Threads:
+ * as page.h says. */
 #ifndef LUTETIA_PAGE_SETUP_H
 #define LUTETIA_PAGE_SETUP_H
 
@@ -35,8 +39,9 @@ struct page_setup {
     double leading; /* of the size; 0: the font's */
     double width_px, height_px, margin_px, gap_px;
     int columns;
-    double
-        notes_px; /* the width of a margin for notes, beside the text (under it where lines go down); 0: notes in the margin are set at the foot */
+    /* the width of a margin for notes, beside the text (under it where lines go down); 0: notes
+     * in the margin are set at the foot */
+    double notes_px;
     enum font_align align;
     double indent_em; /* of paragraphs that do not stand behind a heading */
     bool hyphenate, vertical;
@@ -55,7 +60,8 @@ struct page_setup {
 /* One justified column of DejaVu Serif on a page of 600 x 840. */
 struct page_setup page_setup_default(void);
 
-/* Sequences that are not UTF-8 become U+FFFD. Errors: those of page.h. Owns: the caller destroys *out, which is NULL on failure. */
+/* Sequences that are not UTF-8 become U+FFFD. Errors: those of page.h. Owns: the caller
+ * destroys *out, which is NULL on failure. */
 enum font_status page_setup_make(const struct page_setup *setup, const char *utf8, size_t bytes,
                                  struct page_text **out);
 

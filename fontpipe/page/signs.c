@@ -1,4 +1,5 @@
-/* signs.c - signs with a way of their own in a line: those that stand in the margin, hyphens, tabs. See page_internal.h. */
+/* signs.c - signs with a way of their own in a line: those that stand in the margin, hyphens,
+ * tabs. See page_internal.h. */
 #include "page_internal.h"
 
 #include <math.h>
@@ -36,7 +37,8 @@ double signs_hyphen(const struct page_text *t, const struct letter *l, uint32_t 
                  : 0;
 }
 
-/* The width of what a tab goes before: up to the next one or the line's end; for a decimal tab up to the point. */
+/* The width of what a tab goes before: up to the next one or the line's end; for a decimal tab
+ * up to the point. */
 static double tabbed_width(const struct paragraph *p, int begin, int end,
                            enum page_tab_align align)
 {

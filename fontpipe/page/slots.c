@@ -1,7 +1,9 @@
-/* slots.c - where a frame has room for lines: all of it, but for obstacles, and within shapes. See page_internal.h.
+/* slots.c - where a frame has room for lines: all of it, but for obstacles, and within shapes.
+ * See page_internal.h.
  *
- * A line takes a band of the frame. What of the band an obstacle covers is, seen along the lines, what it covers at the band's two
- * edges and what its own edges cover between them; a shape that text stays inside leaves what it covers at one edge, less the same. */
+ * A line takes a band of the frame. What of the band an obstacle covers is, seen along the
+ * lines, what it covers at the band's two edges and what its own edges cover between them; a
+ * shape that text stays inside leaves what it covers at one edge, less the same. */
 #include "page_internal.h"
 
 #include <math.h>

@@ -415,7 +415,8 @@ static int style_at(const struct paragraph *p, int byte)
     return p->spans[behind ? behind - 1 : 0].style;
 }
 
-/* Spans that are empty, and those like the one before, go, from span `first` on; those before it are tidy. */
+/* Spans that are empty, and those like the one before, go, from span `first` on; those before
+ * it are tidy. */
 static void spans_tidy(struct paragraph *p, int first)
 {
     int kept = first;

@@ -1,5 +1,6 @@
-/* upright.c - letters in lines that go down: which of them stand, by UTR 50 (Unicode's property Vertical_Orientation, as ICU has it), and few
- * digits beside each other in one place, as dates and numbers have them (tate-chu-yoko). Where there is no ICU, scripts say which stand. */
+/* upright.c - letters in lines that go down: which of them stand, by UTR 50 (Unicode's property
+ * Vertical_Orientation, as ICU has it), and few digits beside each other in one place, as dates
+ * and numbers have them (tate-chu-yoko). Where there is no ICU, scripts say which stand. */
 #include "page_internal.h"
 
 #include <hb-ot.h>
@@ -52,7 +53,8 @@ static bool is_digit(const struct letter *l)
     return l->character >= '0' && l->character <= '9';
 }
 
-/* Letters begin..end are digits, and what is beside them stands on one side at least and lies on none. */
+/* Letters begin..end are digits, and what is beside them stands on one side at least and lies
+ * on none. */
 static bool digits_stand(const struct paragraph *p, int begin, int end)
 {
     const struct letter *l = p->letters;
@@ -102,7 +104,8 @@ void upright_across(struct shaped *glyphs, int count, hb_font_t *font, double sc
     for (int i = 0; i < count; i++) {
         struct shaped *g = &glyphs[i];
         double advance = (double)g->advance_px;
-        /* Along the line the ink's middle is that of the place, whose end the pen has passed behind the first glyph. */
+        /* Along the line the ink's middle is that of the place, whose end the pen has passed
+         * behind the first glyph. */
         g->y_px = (float)(pen + (double)g->x_px - width / 2 + centre_px);
         g->x_px = (float)(em_px / 2 + (high + low) / 2 - (i ? em_px : 0));
         g->advance_px = i ? 0 : (float)em_px;

@@ -1,7 +1,9 @@
-/* widths.c - letters that are made wider or narrower, in fonts that have an axis for it: see page_internal.h.
+/* widths.c - letters that are made wider or narrower, in fonts that have an axis for it: see
+ * page_internal.h.
  *
- * A face is opened again for each hundredth that its width is varied by, when the first such line is looked at, and kept as long as the
- * text. What it does not do exactly (its steps, an axis that ends) is left to a map, so that a line is as wide as it was set. */
+ * A face is opened again for each hundredth that its width is varied by, when the first such
+ * line is looked at, and kept as long as the text. What it does not do exactly (its steps, an
+ * axis that ends) is left to a map, so that a line is as wide as it was set. */
 #include "page_internal.h"
 
 #include <edits.h>
@@ -22,7 +24,8 @@ static bool axis_find(const struct font_face *face, struct font_axis *axis)
     return false;
 }
 
-/* The style's face so many steps wider; NULL: it has no such axis, or cannot be opened again. */
+/* The style's face so many steps wider; NULL: it has no such axis, or cannot be opened
+ * again. */
 static struct font_face *widened(struct page_text *t, const struct style *style, int steps)
 {
     struct font_face *own = style->shaper->faces[0].face;

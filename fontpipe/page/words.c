@@ -1,5 +1,6 @@
-/* words.c - where words may be divided, by libhyphen and the dictionaries of the system; and where words of Thai end, by libthai.
- * Both libraries are loaded when they are first needed: most programs divide no words. */
+/* words.c - where words may be divided, by libhyphen and the dictionaries of the system; and
+ * where words of Thai end, by libthai. Both libraries are loaded when they are first needed:
+ * most programs divide no words. */
 #include "page_internal.h"
 
 #include <library.h>
@@ -59,7 +60,8 @@ static struct {
 static int dictionaries_count;
 static pthread_mutex_t dictionaries_lock = PTHREAD_MUTEX_INITIALIZER;
 
-/* "en" has hyph_en_US.dic where there is no hyph_en.dic; "de-AT" hyph_de_AT.dic, else hyph_de.dic or hyph_de_DE.dic. */
+/* "en" has hyph_en_US.dic where there is no hyph_en.dic; "de-AT" hyph_de_AT.dic, else
+ * hyph_de.dic or hyph_de_DE.dic. */
 static HyphenDict *patterns_load(const char *language)
 {
     static const char *const usual[] = {"en_US", "de_DE", "fr_FR", "es_ES", "it_IT", "pt_PT"};
@@ -153,7 +155,8 @@ static void word_divide(HyphenDict *patterns, struct paragraph *p, int begin, in
     if (hyphen.hnj_hyphen_hyphenate2(patterns, word, bytes, hyphens, NULL, &others, &places,
                                      &cuts))
         return;
-    /* Dictionaries of UTF-8 count characters, others bytes; what is spelled otherwise when divided stays whole. */
+    /* Dictionaries of UTF-8 count characters, others bytes; what is spelled otherwise when
+     * divided stays whole. */
     for (int i = 0; i + 1 < end - begin; i++) {
         int at = patterns->utf8 ? i : ends[i];
         struct letter *l = &p->letters[begin + i];

@@ -19,18 +19,19 @@
 #include <stdbool.h>
 #include <sys/types.h>
 
-/* The process ends with its parent (SIGKILL), leaves no core file, takes at most so many seconds of a processor, and its
- * memory grows by at most so many bytes from now on (0: any number). Memory is not limited where the address sanitizer
- * keeps terabytes of addresses for itself. Called in a child, soon after fork(). */
+/* The process ends with its parent (SIGKILL), leaves no core file, takes at most so many
+ * seconds of a processor, and its memory grows by at most so many bytes from now on (0: any
+ * number). Memory is not limited where the address sanitizer keeps terabytes of addresses for
+ * itself. Called in a child, soon after fork(). */
 void confine_resources(pid_t parent, unsigned cpu_seconds, unsigned long long memory_bytes);
 
-/* Closes all that is open but the standard streams and these: what the parent has open is none of a reader's business. Called in a
- * child. */
+/* Closes all that is open but the standard streams and these: what the parent has open is none
+ * of a reader's business. Called in a child. */
 void confine_descriptors(const int *kept, int count);
 
-/* From now on the process can read and write what it has open, ask for memory, tell the time and exit. Every other call of
- * the system (open, socket, fork, exec, kill, ...) fails with EPERM, for good: seccomp. False: the system has no seccomp; nothing
- * has changed. */
+/* From now on the process can read and write what it has open, ask for memory, tell the time
+ * and exit. Every other call of the system (open, socket, fork, exec, kill, ...) fails with
+ * EPERM, for good: seccomp. False: the system has no seccomp; nothing has changed. */
 bool confine_calls(void);
 
 #endif

@@ -1,6 +1,7 @@
 /* error_text.h - a module's last failure in words, one for each thread.
  *
- *     _Thread_local struct error_text font_last_error;                     in one file of the module
+ *     _Thread_local struct error_text font_last_error;                     in one file of the
+ *                                                                          module
  *     extern _Thread_local struct error_text font_last_error;              in its inner header
  *     #define font_fail(status, ...) ((enum font_status)error_text_fail(&font_last_error, (int)(status), __VA_ARGS__))
  *
@@ -28,8 +29,8 @@ int error_text_fail(struct error_text *e, int status, const char *format, ...)
 bool error_text_false(struct error_text *e, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* Adds a word to a list for such a text: behind `between`, unless it is the first; only whole, so nothing where the room (bytes,
- * the 0 included) does not suffice. text begins as "". */
+/* Adds a word to a list for such a text: behind `between`, unless it is the first; only whole,
+ * so nothing where the room (bytes, the 0 included) does not suffice. text begins as "". */
 void error_text_list(char *text, size_t room, const char *between, const char *word);
 
 #endif

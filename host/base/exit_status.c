@@ -1,5 +1,6 @@
-/* exit_status.c - see exit_status.h. glibc's on_exit() tells a handler the status, and its exit(), called again by a handler, goes on
- * with the handlers that are left, and with the new status. */
+/* exit_status.c - see exit_status.h. glibc's on_exit() tells a handler the status, and its
+ * exit(), called again by a handler, goes on with the handlers that are left, and with the new
+ * status. */
 #include "exit_status.h"
 
 #include <stdatomic.h>

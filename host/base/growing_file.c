@@ -28,7 +28,8 @@ static const char *digits_skip(const char *text)
     return text;
 }
 
-/* The names under which the system shows this or another process's open files. Others in /dev may be anybody's: /dev/shm is open to all. */
+/* The names under which the system shows this or another process's open files. Others in /dev
+ * may be anybody's: /dev/shm is open to all. */
 static bool is_open_file(const char *path)
 {
     const char *at = NULL;

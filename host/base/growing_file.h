@@ -1,19 +1,23 @@
-/* growing_file.h - writes a file piece by piece while the program runs: traces, recordings, reports.
+/* growing_file.h - writes a file piece by piece while the program runs: traces, recordings,
+ * reports.
  *
  *     struct growing_file trace;
  *     if (!growing_file_open(&trace, getenv("LUTETIA_TRACE")))
  *         complain(trace.why);
- *     if (!growing_file_append(&trace, event, event_bytes, "\n]\n", 3)) // the tail goes when the next piece comes
+ *     // the tail goes when the next piece comes
+ *     if (!growing_file_append(&trace, event, event_bytes, "\n]\n", 3))
  *         complain(trace.why);
  *     growing_file_close(&trace);
  *
- * The file takes its name with the first piece, in one step (output_file.h), and grows under it: whoever reads it meanwhile, or after the
- * program was killed, finds whole pieces. What had the name before is kept until the file is closed. If a piece cannot be written (a
- * full disk), the file goes, and what was there has its name again.
+ * The file takes its name with the first piece, in one step (output_file.h), and grows under
+ * it: whoever reads it meanwhile, or after the program was killed, finds whole pieces. What had
+ * the name before is kept until the file is closed. If a piece cannot be written (a full disk),
+ * the file goes, and what was there has its name again.
  *
- * A pipe or a device is written to itself, without the tail. Links are refused, but for the system's names of open files: /dev/stderr,
- * /dev/stdout, /dev/fd/N, /proc/PID/fd/N; where they lead to a file, it is appended to. A pipe of another user's (and not root's) is
- * refused, too. Opening a pipe waits for its reader. */
+ * A pipe or a device is written to itself, without the tail. Links are refused, but for the
+ * system's names of open files: /dev/stderr, /dev/stdout, /dev/fd/N, /proc/PID/fd/N; where they
+ * lead to a file, it is appended to. A pipe of another user's (and not root's) is refused, too.
+ * Opening a pipe waits for its reader. */
 #ifndef LUTETIA_GROWING_FILE_H
 #define LUTETIA_GROWING_FILE_H
 
@@ -42,13 +46,15 @@ bool growing_file_open(struct growing_file *f, const char *path);
 /* The same for a descriptor of a pipe, which belongs to the file then. */
 void growing_file_of_pipe(struct growing_file *f, int descriptor);
 
-/* Adds a piece, and behind it a tail that the next piece replaces (NULL, 0: none). False if that failed, before or now: the file is
- * closed, and what was there before is there again. Forked children may add pieces without tails to their parent's file. */
+/* Adds a piece, and behind it a tail that the next piece replaces (NULL, 0: none). False if
+ * that failed, before or now: the file is closed, and what was there before is there again.
+ * Forked children may add pieces without tails to their parent's file. */
 bool growing_file_append(struct growing_file *f, const void *bytes, size_t count,
                          const char *tail, size_t tail_count);
 
-/* Ends the file. False if it did not get onto the disk: then what was there before is there again. A file without a piece does not
- * appear. Does nothing to a file that is not open. In a forked child its parent's file stays as it is. */
+/* Ends the file. False if it did not get onto the disk: then what was there before is there
+ * again. A file without a piece does not appear. Does nothing to a file that is not open. In a
+ * forked child its parent's file stays as it is. */
 bool growing_file_close(struct growing_file *f);
 
 #endif

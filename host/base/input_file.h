@@ -25,8 +25,8 @@ int input_file_descriptor(const char *path, const char **why);
 /* The same, and the name itself may be no link (ELOOP): for files in folders of our own. */
 int input_file_descriptor_no_link(const char *path, const char **why);
 
-/* Opens a folder, within the folder `in` (AT_FDCWD: the current one), to read its names and to open what is in it. No link. Negative:
- * errno says why. */
+/* Opens a folder, within the folder `in` (AT_FDCWD: the current one), to read its names and to
+ * open what is in it. No link. Negative: errno says why. */
 int input_folder_descriptor(int in, const char *path);
 
 #endif

@@ -1,9 +1,11 @@
 /* latency.h - asks Linux that no processor goes to sleep (PM QoS).
  *
- * A processor with nothing to do is put to sleep, and takes time to wake: some hundred microseconds, in a virtual machine up to a
- * millisecond. Linux's interface for programs that cannot wait so long is a file: what is written to it is how many microseconds a processor may
- * take, of all programs that keep it open the least counts, and 0 makes processors look for work in a loop. That costs power.
- * Root may open the file, and those whom a rule of udev's lets.
+ * A processor with nothing to do is put to sleep, and takes time to wake: some hundred
+ * microseconds, in a virtual machine up to a millisecond. Linux's interface for programs that
+ * cannot wait so long is a file: what is written to it is how many microseconds a processor may
+ * take, of all programs that keep it open the least counts, and 0 makes processors look for
+ * work in a loop. That costs power. Root may open the file, and those whom a rule of udev's
+ * lets.
  *
  *     int file = latency_open (LATENCY_PATH);
  *     latency_ask (file, true);                  processors stay awake ...

@@ -97,7 +97,8 @@ void output_file_sweep(int folder_descriptor)
     closedir(names);
 }
 
-/* A film writes thousands of pictures into one folder: a process sweeps it once. The folders last swept are remembered. */
+/* A film writes thousands of pictures into one folder: a process sweeps it once. The folders
+ * last swept are remembered. */
 static void sweep_once(int folder)
 {
     static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
@@ -254,7 +255,8 @@ const char *output_file_wrong(const char *path)
     return error ? output_file_explain(error) : NULL;
 }
 
-/* Frees the memory, and removes the part file if it has not been renamed, or what had the name if it is kept. */
+/* Frees the memory, and removes the part file if it has not been renamed, or what had the name
+ * if it is kept. */
 static void output_release(struct output_file *out)
 {
     if (out->part_name)
@@ -285,7 +287,8 @@ static bool is_name_of(int folder, const char *name, int file)
            named.st_ino == opened.st_ino;
 }
 
-/* The file has appeared, and is given up: what had the name has it again, unless another process has put a file there since. */
+/* The file has appeared, and is given up: what had the name has it again, unless another
+ * process has put a file there since. */
 static void former_return(struct output_file *out)
 {
     if (out->part_name || !out->stream ||
@@ -299,8 +302,9 @@ static void former_return(struct output_file *out)
     }
 }
 
-/* Keeps what has the name, under a part file's name and with a lock, so that nobody sweeps it. Where that cannot be (it is not ours to
- * read or to link; another process is writing it), it is not kept. */
+/* Keeps what has the name, under a part file's name and with a lock, so that nobody sweeps it.
+ * Where that cannot be (it is not ours to read or to link; another process is writing it), it
+ * is not kept. */
 static void former_keep(struct output_file *out)
 {
     out->former = openat(out->folder, out->name,

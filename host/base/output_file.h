@@ -10,7 +10,8 @@
  * The bytes go to a part file in the same folder:
  *
  *     page.png                            the name in the end
- *     .page.png.0123456789abcdef.part     while it is written: 64 random bits, made anew (O_EXCL), never a link
+ *     .page.png.0123456789abcdef.part     while it is written: 64 random bits, made anew
+ *                                         (O_EXCL), never a link
  *
  * A commit flushes the part file, brings it to the disk, gives it its name in one step
  * (rename), and brings the folder to the disk. So a reader of the name sees the old file or the
@@ -21,7 +22,8 @@
  *
  * The writer holds a lock (flock) on its part file. A part file without a lock belongs to a
  * dead process. When a process opens its first file in a folder, it removes this user's
- * unlocked part files there. A signal that ends the process removes its part files (part_files.h).
+ * unlocked part files there. A signal that ends the process removes its part files
+ * (part_files.h).
  *
  * Threads: functions for different files may run at the same time.
  */
@@ -54,8 +56,9 @@ bool output_file_open(struct output_file *out, const char *path);
  * name is untouched, and the part file is removed. Releases everything either way. */
 bool output_file_commit(struct output_file *out);
 
-/* Gives the file its name while it goes on being written. What had the name is kept under a part file's name until the end: a commit
- * removes it, and if that fails, or the file is abandoned, it has its name again. False as for output_file_commit(). */
+/* Gives the file its name while it goes on being written. What had the name is kept under a
+ * part file's name until the end: a commit removes it, and if that fails, or the file is
+ * abandoned, it has its name again. False as for output_file_commit(). */
 bool output_file_appear(struct output_file *out);
 
 /* In a forked child: closes its parent's file, and leaves all names as they are. */
@@ -72,7 +75,8 @@ const char *output_file_wrong(const char *path);
 /* Says in plain words what the errno of a failed write means, and what to do about it. */
 const char *output_file_explain(int error);
 
-/* Removes the part files that dead processes of this user have left in the folder. Called by output_file_open(). */
+/* Removes the part files that dead processes of this user have left in the folder. Called by
+ * output_file_open(). */
 void output_file_sweep(int folder_descriptor);
 
 #endif

@@ -1,5 +1,5 @@
-/* part_files.c - see part_files.h. A handler may run at any moment and on any thread, so that a name has a place of its own that is
- * never freed, and counts once its flag is set. */
+/* part_files.c - see part_files.h. A handler may run at any moment and on any thread, so that a
+ * name has a place of its own that is never freed, and counts once its flag is set. */
 #include "part_files.h"
 
 #include <errno.h>
@@ -45,7 +45,8 @@ void part_files_die(int signal_number)
     errno = error;
 }
 
-/* Installs the handler where the default action is, or puts the default action back where the handler still is. */
+/* Installs the handler where the default action is, or puts the default action back where the
+ * handler still is. */
 static void catch_all(bool on)
 {
     struct sigaction ours = {.sa_handler = part_files_die, .sa_flags = SA_ONSTACK | SA_RESTART},

@@ -1,12 +1,14 @@
 /* patience.h - long work asks, every so often, whether it is still wanted.
  *
  *     const struct patience before = patience_set((struct patience){late, &deadline});
- *     if (work() != FINE)                  // it asks patience_over() between its rows, and fails where that is true
+ *     // it asks patience_over() between its rows, and fails where that is true
+ *     if (work() != FINE)
  *         ...
  *     patience_set(before);
  *
- * A script has a time limit and a memory limit. Libraries below it know nothing of scripts; each of their loops that grows with what
- * it is given asks here. A question takes less than a microsecond.
+ * A script has a time limit and a memory limit. Libraries below it know nothing of scripts;
+ * each of their loops that grows with what it is given asks here. A question takes less than a
+ * microsecond.
  *
  * Threads: each thread has its own; a thread that has set nothing is patient for ever. */
 #ifndef LUTETIA_PATIENCE_H

@@ -1,4 +1,5 @@
-/* program.h - programs of ours that our code runs: the compiler of kernels beside a machine, the benchmarks beside the command.
+/* program.h - programs of ours that our code runs: the compiler of kernels beside a machine,
+ * the benchmarks beside the command.
  *
  *     char path[PATH_MAX];
  *     if (program_find(path, of_this_code, LUTETIA_LIBEXECDIR "/lutetia/lutetia-compiler", "host/machine/lutetia-compiler"))

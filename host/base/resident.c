@@ -1,4 +1,5 @@
-/* resident.c - see resident.h; Linux tells it in /proc/self/statm, in pages: size, resident, shared, text, 0, data, 0. */
+/* resident.c - see resident.h; Linux tells it in /proc/self/statm, in pages: size, resident,
+ * shared, text, 0, data, 0. */
 #include "resident.h"
 
 #include "input_file.h"

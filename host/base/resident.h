@@ -4,12 +4,12 @@
 
 #include <stdbool.h>
 
-/* Bytes of this process that are in memory, those of libraries' files too. 0 where the system does not tell. Takes some
- * microseconds. Threads: any. */
+/* Bytes of this process that are in memory, those of libraries' files too. 0 where the system
+ * does not tell. Takes some microseconds. Threads: any. */
 double resident_bytes(void);
 
-/* The system's limit: from now on this process gets at most that much writable memory more than it has. What asks for more is
- * refused. */
+/* The system's limit: from now on this process gets at most that much writable memory more than
+ * it has. What asks for more is refused. */
 void resident_limit(double more_bytes);
 
 #endif

@@ -6,8 +6,8 @@
  *     sha256_add(&sum, bytes, count);
  *     sha256_end(&sum, digest);
  *
- * It is ours because liblutetia-midi.a, which other programs are linked with, needs it: each of them would need a library of
- * sums, too. Published values and Python's hmac are its oracles.
+ * It is ours because liblutetia-midi.a, which other programs are linked with, needs it: each of
+ * them would need a library of sums, too. Published values and Python's hmac are its oracles.
  *
  * Threads: one at a time for each sum.
  */

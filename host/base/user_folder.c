@@ -20,7 +20,8 @@
 
 /* ---- is it ours alone? ---- */
 
-/* Whether a user of another number has that group as his first: a group's list of members has no such users. */
+/* Whether a user of another number has that group as his first: a group's list of members has
+ * no such users. */
 static bool first_group_of_another(gid_t group, uid_t user)
 {
     static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
@@ -193,8 +194,9 @@ static void temporaries_sweep(const char *where, const char *begin)
         closedir(names);
 }
 
-/* Makes and locks a temporary folder; its descriptor, which holds the lock, stays open. Between making
- * and locking, another process that sweeps may take it for a dead process's and remove it; then another folder is made. */
+/* Makes and locks a temporary folder; its descriptor, which holds the lock, stays open. Between
+ * making and locking, another process that sweeps may take it for a dead process's and remove
+ * it; then another folder is made. */
 static int locked_make(const char *kind, char *path, size_t room)
 {
     char begin[32];

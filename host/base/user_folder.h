@@ -8,8 +8,10 @@
  * where nobody else can put a file:
  *
  *     $XDG_CACHE_HOME/NAME, else $HOME/.cache/NAME      made with mode 0700 where it is missing
- *     the folder itself                                 a folder, not a link; its owner this user; no write by others
- *     each folder above it                              its owner this user or root; no write by others, or sticky as /tmp is
+ *     the folder itself                                 a folder, not a link; its owner this
+ *                                                       user; no write by others
+ *     each folder above it                              its owner this user or root; no write
+ *                                                       by others, or sticky as /tmp is
  *
  * Where there is no such folder (no HOME; it cannot be made; a check fails), a private
  * temporary folder takes its place: made by mkdtemp(), mode 0700, one for each process,
@@ -31,8 +33,9 @@ enum { USER_FOLDER_MAX = 512 };
  * every call of a process, with the names below it. */
 bool user_cache_folder(const char *name, char out[static USER_FOLDER_MAX], const char **why);
 
-/* Makes a private folder in the temporary folder: /tmp/lutetia-KIND-XXXXXX, in TMPDIR if that is set. The caller removes it. Those of this
- * user's dead processes are removed, a lock tells which. False: errno says why, and the path what was tried. */
+/* Makes a private folder in the temporary folder: /tmp/lutetia-KIND-XXXXXX, in TMPDIR if that
+ * is set. The caller removes it. Those of this user's dead processes are removed, a lock tells
+ * which. False: errno says why, and the path what was tried. */
 bool user_folder_temporary(const char *kind, char *path, size_t room);
 
 /* Checks that nobody but this user (and root) can put or change a file in the folder.

@@ -2,7 +2,8 @@
  * terminal.
  *
  *     char line[1200];
- *     visible_text(line, sizeof line, "no font '\x1b]0;x\x07'");        // no font '\x1b]0;x\x07', in letters
+ *     // no font '\x1b]0;x\x07', in letters
+ *     visible_text(line, sizeof line, "no font '\x1b]0;x\x07'");
  *     fprintf(stderr, "%s\n", line);
  *
  * A name, an error of a script, a log or a font's name may hold escapes that recolour,
@@ -14,12 +15,13 @@
 
 #include <stddef.h>
 
-/* Prints the text as one line on the standard error: the way out for all that names files, variables, devices or what was read. What is
- * longer than some two thousand bytes is cut off. Threads: any. */
+/* Prints the text as one line on the standard error: the way out for all that names files,
+ * variables, devices or what was read. What is longer than some two thousand bytes is cut off.
+ * Threads: any. */
 __attribute__((format(printf, 1, 2))) void visible_say(const char *format, ...);
 
-/* Prints on the standard output, and keeps line ends and tabs: the way out for what holds such names. What is
- * longer than some four thousand bytes is cut off. Threads: any. */
+/* Prints on the standard output, and keeps line ends and tabs: the way out for what holds such
+ * names. What is longer than some four thousand bytes is cut off. Threads: any. */
 __attribute__((format(printf, 1, 2))) void visible_print(const char *format, ...);
 
 /* Writes the text as a line. Line ends and tabs become spaces; other control characters, and

@@ -1,4 +1,5 @@
-/* beside.h - pictures that a document's text names: a PNG in the folder of the document's file, or below it.
+/* beside.h - pictures that a document's text names: a PNG in the folder of the document's file,
+ * or below it.
  *
  *     struct display_image image;
  *     if (display_beside_read("docs/reader.md", "images/page.png", &image))
@@ -11,7 +12,8 @@
 
 #include <stdbool.h>
 
-/* False: it is elsewhere, no PNG, larger than 512 MB, or cannot be read. Owns: the caller destroys *out. */
+/* False: it is elsewhere, no PNG, larger than 512 MB, or cannot be read. Owns: the caller
+ * destroys *out. */
 bool display_beside_read(const char *file, const char *target, struct display_image *out);
 
 #endif

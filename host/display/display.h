@@ -32,7 +32,8 @@ enum display_status {
 /* Rows from top to bottom, pixels from left to right, channels together, no padding. */
 struct display_image {
     int width_px, height_px;
-    int channels; /* 1: gray; 3: red, green, blue; 4: with alpha, which the colours are not multiplied by */
+    /* 1: gray; 3: red, green, blue; 4: with alpha, which the colours are not multiplied by */
+    int channels;
     uint8_t *pixels;
 };
 
@@ -47,21 +48,22 @@ enum display_status display_image_create(struct display_image *image);
 /* Frees the pixels; an image of zeros is fine. */
 void display_image_destroy(struct display_image *image);
 
-/* Writes 8-bit gray, RGB or RGB with alpha. The file appears under its name only when it is whole
- * (output_file.h). Errors: BAD_ARGUMENT, IO_FAILED (a full disk, a folder that is missing or
- * closed), NO_MEMORY; a file that had the name is unchanged, and no part file is left. */
+/* Writes 8-bit gray, RGB or RGB with alpha. The file appears under its name only when it is
+ * whole (output_file.h). Errors: BAD_ARGUMENT, IO_FAILED (a full disk, a folder that is missing
+ * or closed), NO_MEMORY; a file that had the name is unchanged, and no part file is left. */
 enum display_status display_png_write(const char *path, const struct display_image *image);
 
-/* The same with 16 bits for each channel. Shape: height_px * width_px * channels numbers, as in a display_image. */
+/* The same with 16 bits for each channel. Shape: height_px * width_px * channels numbers, as in
+ * a display_image. */
 enum display_status display_png_write_16(const char *path, int width_px, int height_px,
                                          int channels, const uint16_t *pixels);
 
-/* Reads any PNG as 8-bit gray: colours by their luminance, transparency over white, 16 bits rounded to 8.
- * Errors: BAD_FILE, IO_FAILED, NO_MEMORY; *image is then zeros.
- * Owns: the caller destroys *image. */
+/* Reads any PNG as 8-bit gray: colours by their luminance, transparency over white, 16 bits
+ * rounded to 8. Errors: BAD_FILE, IO_FAILED, NO_MEMORY; *image is then zeros. Owns: the caller
+ * destroys *image. */
 enum display_status display_png_read_gray(const char *path, struct display_image *image);
-/* The memory that reading a PNG file takes, by its header alone: the image of 1 or 3 channels, and what it is read by. 0 if the file
- * is no PNG, which reading it will say. */
+/* The memory that reading a PNG file takes, by its header alone: the image of 1 or 3 channels,
+ * and what it is read by. 0 if the file is no PNG, which reading it will say. */
 double display_png_bytes(const char *path, int channels);
 
 /* The same as 8-bit red, green, blue. */

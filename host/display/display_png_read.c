@@ -1,7 +1,8 @@
 /* display_png_read.c - any PNG as gray or as red, green, blue.
  *
- * libpng's simplified reader would round-trip through colour management; the transformations asked for here
- * are plain: palette and low depths expanded, 16 bits scaled, transparency put over white, colours weighed. */
+ * libpng's simplified reader would round-trip through colour management; the transformations
+ * asked for here are plain: palette and low depths expanded, 16 bits scaled, transparency put
+ * over white, colours weighed. */
 #include "display_internal.h"
 
 #include <input_file.h>
@@ -117,7 +118,8 @@ static int png_decode(png_structp png, png_infop info, struct png_source *source
 
 double display_png_bytes(const char *path, int channels)
 {
-    /* signature, then IHDR: length, kind, width, height, depth, colour, compression, filter, interlacing */
+    /* signature, then IHDR: length, kind, width, height, depth, colour, compression, filter,
+     * interlacing */
     enum { WIDTH = 16, HEIGHT = 20, DEPTH = 24, INTERLACED = 28, HEADER = 29, PLANES = 4 };
     uint8_t header[HEADER];
     FILE *file = input_file_open(path, NULL);

@@ -1,6 +1,7 @@
 /* display_png_write.c - whole PNG files or none.
  *
- * libpng writes through sink_write() below, which keeps the system's errno. output_file.h brings the file under its name. */
+ * libpng writes through sink_write() below, which keeps the system's errno. output_file.h
+ * brings the file under its name. */
 #include "display_internal.h"
 
 #include <output_file.h>

@@ -1,5 +1,5 @@
-/* display_recording.h - reads what libparis writes where LUTETIA_DISPLAY is set: the displays of the frame buffer (<cm/cmfb.h>) as they
- * change.
+/* display_recording.h - reads what libparis writes where LUTETIA_DISPLAY is set: the displays
+ * of the frame buffer (<cm/cmfb.h>) as they change.
  *
  *     struct display_reader reader = {.take = draw, .context = &picture};
  *     while ((count = fread(bytes, 1, sizeof bytes, file)) > 0)
@@ -9,9 +9,9 @@
  *         die(display_error());
  *     display_reader_finish(&reader);
  *
- * A recording is the line "lutetia display 1\n" and then pieces (paris_compat/frame_buffer.h). Where a piece could begin the line may
- * come again: recordings one behind the other are one (the times begin anew). The reader is fed pieces of any size, from a file or a
- * pipe. */
+ * A recording is the line "lutetia display 1\n" and then pieces (paris_compat/frame_buffer.h).
+ * Where a piece could begin the line may come again: recordings one behind the other are one
+ * (the times begin anew). The reader is fed pieces of any size, from a file or a pipe. */
 #ifndef LUTETIA_DISPLAY_RECORDING_H
 #define LUTETIA_DISPLAY_RECORDING_H
 
@@ -27,7 +27,8 @@ struct display_screen {
     bool there;
     char title[68];
     int width_px, height_px;
-    int pixel_bytes; /* 1: a row of the map; 4: red, green, blue, each by its own column of it */
+    /* 1: a row of the map; 4: red, green, blue, each by its own column of it */
+    int pixel_bytes;
     uint8_t *pixels[2]; /* NULL: all 0 */
     int seen;
     uint32_t zoom[2];
@@ -58,13 +59,14 @@ struct display_reader {
 /* Errors: BAD_FILE if the bytes are no recording; NO_MEMORY. */
 enum display_status display_reader_feed(struct display_reader *reader, const uint8_t *bytes,
                                         size_t count);
-/* Errors: BAD_FILE if the recording ends within a piece, or before its first line is complete. */
+/* Errors: BAD_FILE if the recording ends within a piece, or before its first line is
+ * complete. */
 enum display_status display_reader_end(const struct display_reader *reader);
 /* Frees the screens; take() is not called any more. */
 void display_reader_finish(struct display_reader *reader);
 
-/* What is to be seen of a screen, as red, green and blue. Makes the image, or makes it anew where it has another size. Errors:
- * NO_MEMORY. Owns: the caller destroys the image. */
+/* What is to be seen of a screen, as red, green and blue. Makes the image, or makes it anew
+ * where it has another size. Errors: NO_MEMORY. Owns: the caller destroys the image. */
 enum display_status display_screen_picture(const struct display_screen *screen,
                                            struct display_image *image);
 

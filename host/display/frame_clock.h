@@ -5,7 +5,8 @@
  *     for (;;) {                                                // a frame
  *         for (int n = frame_clock_advance(&clock, now_s); n > 0; n--)
  *             simulate(clock.step_s);
- *         draw(frame_clock_fraction(&clock));                   // between the last step and the next
+ *         // between the last step and the next
+ *         draw(frame_clock_fraction(&clock));
  *     }
  *
  * All steps have the same length, so that a simulation does not depend on the screen's rate.
@@ -58,7 +59,8 @@ double frame_clock_fraction(const struct frame_clock *clock);
 /* Simulated time. */
 double frame_clock_time_s(const struct frame_clock *clock);
 
-/* Real seconds from the last frame until the simulated time is time_s; 0 if it has been; infinity while paused. */
+/* Real seconds from the last frame until the simulated time is time_s; 0 if it has been;
+ * infinity while paused. */
 double frame_clock_wait_s(const struct frame_clock *clock, double time_s);
 
 /* Moves at once to that simulated time, if it is in the future: a single step of a

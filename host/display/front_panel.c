@@ -332,8 +332,8 @@ static void sheet_shrink(const struct sheet *from, struct sheet *to)
     }
 }
 
-/* to = the running mean over 2r + 1 of from's rows, columns and rows changing places, so that two
- * of them blur both ways; outside is dark. */
+/* to = the running mean over 2r + 1 of from's rows, columns and rows changing places, so that
+ * two of them blur both ways; outside is dark. */
 static void sheet_mean(const float *from, float *to, int width, int height, int r)
 {
     float share = 1 / (float)(2 * r + 1);

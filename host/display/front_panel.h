@@ -1,5 +1,5 @@
-/* front_panel.h - a picture of the Connection Machine: a black cube made of cubes, and behind its
- * dark doors 4096 red lights.
+/* front_panel.h - a picture of the Connection Machine: a black cube made of cubes, and behind
+ * its dark doors 4096 red lights.
  *
  *     struct front_panel_config config = front_panel_config_default();
  *     struct front_panel *panel;
@@ -46,14 +46,14 @@ enum display_status front_panel_create(const struct front_panel_config *config,
                                        struct front_panel **out);
 void front_panel_destroy(struct front_panel *panel); /* NULL is fine */
 
-/* Where a light is on the front: column and row from the top left, 0..63; light l is in row l div 64
- * and column l mod 64. Each door shows 32 rows of 32: two sub-cubes, the one in front and the one
- * behind it, of sixteen boards each; a board is a column of lights. */
+/* Where a light is on the front: column and row from the top left, 0..63; light l is in row l
+ * div 64 and column l mod 64. Each door shows 32 rows of 32: two sub-cubes, the one in front
+ * and the one behind it, of sixteen boards each; a board is a column of lights. */
 void front_panel_place(int light, int *column, int *row);
 
-/* Draws the lights: light l is bit l mod 8 of byte l div 8. An image without pixels is created, and
- * the caller destroys it; otherwise its size must be the panel's, with three channels. Errors:
- * BAD_ARGUMENT, NO_MEMORY. */
+/* Draws the lights: light l is bit l mod 8 of byte l div 8. An image without pixels is created,
+ * and the caller destroys it; otherwise its size must be the panel's, with three channels.
+ * Errors: BAD_ARGUMENT, NO_MEMORY. */
 enum display_status front_panel_draw(struct front_panel *panel,
                                      const uint8_t lights[FRONT_PANEL_BYTES],
                                      struct display_image *image);

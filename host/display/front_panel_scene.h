@@ -10,7 +10,8 @@ struct vec {
     float x, y, z;
 };
 
-/* Looks from eye along forward; a point at distance d along it is scale/d pixels for a length of 1. */
+/* Looks from eye along forward; a point at distance d along it is scale/d pixels for a length
+ * of 1. */
 struct scene_camera {
     struct vec eye, forward, right, up;
     float scale, centre_x, centre_y;

@@ -1,6 +1,8 @@
-/* glfw_library.h - GLFW, loaded when a window is opened for the first time: most programs open none, and X11's library comes with it.
+/* glfw_library.h - GLFW, loaded when a window is opened for the first time: most programs open
+ * none, and X11's library comes with it.
  *
- * glfw3.CreateWindow() is GLFW's glfwCreateWindow(). A name that is not in the table yet is added there. */
+ * glfw3.CreateWindow() is GLFW's glfwCreateWindow(). A name that is not in the table yet is
+ * added there. */
 #ifndef LUTETIA_GLFW_LIBRARY_H
 #define LUTETIA_GLFW_LIBRARY_H
 

@@ -47,7 +47,8 @@ enum { INPUT_BUTTON_LEFT, INPUT_BUTTON_RIGHT, INPUT_BUTTON_MIDDLE, INPUT_BUTTONS
 
 enum { INPUT_SHIFT = 1, INPUT_CONTROL = 2, INPUT_ALT = 4, INPUT_SUPER = 8 };
 
-/* Keys that write a character are that character, capital letters for letters: 'A', '1', ' '. */
+/* Keys that write a character are that character, capital letters for letters: 'A', '1', '
+ * '. */
 enum {
     INPUT_KEY_ESCAPE = 0x110000, /* above Unicode */
     INPUT_KEY_ENTER,

@@ -8,11 +8,11 @@
  *     if (light_reader_end(&reader) != DISPLAY_OK)
  *         die(display_error());
  *
- * A recording is the line "lutetia leds 1 4096\n" and then frames of 520 bytes: the microseconds
- * since the program's first latch, 8 bytes, lowest first; and 512 bytes of lights, light l in bit
- * l mod 8 of byte l div 8. Where a frame could begin the line may come again: recordings one behind
- * the other are one (the times begin anew).  The reader is fed pieces of any size, from a file or a
- * pipe. */
+ * A recording is the line "lutetia leds 1 4096\n" and then frames of 520 bytes: the
+ * microseconds since the program's first latch, 8 bytes, lowest first; and 512 bytes of lights,
+ * light l in bit l mod 8 of byte l div 8. Where a frame could begin the line may come again:
+ * recordings one behind the other are one (the times begin anew).  The reader is fed pieces of
+ * any size, from a file or a pipe. */
 #ifndef LUTETIA_LIGHT_RECORDING_H
 #define LUTETIA_LIGHT_RECORDING_H
 

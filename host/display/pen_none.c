@@ -1,4 +1,5 @@
-/* pen_none.c - stands for pen_x11.c where Lutetia is built without XInput 2: there is no pen. */
+/* pen_none.c - stands for pen_x11.c where Lutetia is built without XInput 2: there is no
+ * pen. */
 #include "pen.h"
 
 #include <stddef.h>

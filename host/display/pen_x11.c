@@ -1,5 +1,5 @@
-/* pen_x11.c - reports of X11's input devices, by XInput 2: see pen.h. libX11 and libXi are loaded when
- * a window is opened: most programs have none. */
+/* pen_x11.c - reports of X11's input devices, by XInput 2: see pen.h. libX11 and libXi are
+ * loaded when a window is opened: most programs have none. */
 #include "pen.h"
 
 #include <X11/Xlib.h>

@@ -1,6 +1,8 @@
-/* video.c - YUV4MPEG2 to a file, or to ffmpeg through a pipe; red, green, blue (and alpha) to ffmpeg where that is what the film keeps.
+/* video.c - YUV4MPEG2 to a file, or to ffmpeg through a pipe; red, green, blue (and alpha) to
+ * ffmpeg where that is what the film keeps.
  *
- * Colours of YUV4MPEG2 go to Y'CbCr by ITU-R BT.709 in the range of 16..235 and 16..240, one chroma for each pixel (C444), as 8 bits:
+ * Colours of YUV4MPEG2 go to Y'CbCr by ITU-R BT.709 in the range of 16..235 and 16..240, one
+ * chroma for each pixel (C444), as 8 bits:
  *
  *     Y' = 0.2126 R + 0.7152 G + 0.0722 B     Cb = (B - Y') / 1.8556     Cr = (R - Y') / 1.5748
  *
@@ -27,7 +29,8 @@
 
 enum { SIDE_MOST = 16384, FPS_MOST = 240, GIF_FPS_MOST = 50 };
 
-/* What becomes of pictures. A palette is made for each picture of its own colours, so that the length of a film takes no memory. */
+/* What becomes of pictures. A palette is made for each picture of its own colours, so that the
+ * length of a film takes no memory. */
 #define PALETTE "[0:v]split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1[v]"
 #define BT709 "[0:v]scale=out_color_matrix=bt709:out_range=tv,format="
 #define BT709_SAID "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"
@@ -38,15 +41,16 @@ static const char *const ffv1[] = {"-map", "0:v", "-c:v", "ffv1", "-pix_fmt", "b
 static const char *const prores[] = {"-filter_complex", BT709 "yuva444p10le[v]", "-map", "[v]",
     "-c:v", "prores_ks", "-profile:v", "4444", BT709_SAID, NULL};
 static const char *const vp9[] = {"-filter_complex", BT709 "yuva420p[v]", "-map", "[v]",
-    "-c:v", "libvpx-vp9", "-auto-alt-ref", "0" /* which alpha wants */, "-b:v", "0", "-crf", "20", BT709_SAID, NULL};
+    "-c:v", "libvpx-vp9", "-auto-alt-ref", "0" /* which alpha wants */, "-b:v", "0",
+    "-crf", "20", BT709_SAID, NULL};
 /* clang-format on */
 
 /* The endings of names, with ffmpeg's name of the container; NULL: written by us. */
 static const struct container {
     const char *ending, *format;
     bool sounds; /* it can hold sound */
-    bool
-        counts; /* each picture is in it, at whatever rate: a .gif's times are hundredths of a second */
+    /* each picture is in it, at whatever rate: a .gif's times are hundredths of a second */
+    bool counts;
     const char *const *words; /* of ffmpeg's command line: how it is encoded */
     const char *const *alpha; /* the same with alpha; NULL: it holds none */
 } containers[] = {
@@ -75,8 +79,8 @@ struct video {
     FILE *file;      /* out's stream, or the pipe to ffmpeg */
     pid_t encoder;   /* 0: no ffmpeg, the file is written by us */
     FILE *complaint; /* ffmpeg's messages */
-    FILE *
-        pictures; /* what ffmpeg writes where sound comes later; has no name. NULL: it writes to `out` */
+    /* what ffmpeg writes where sound comes later; has no name. NULL: it writes to `out` */
+    FILE *pictures;
     uint8_t *planes;
     bool failed;
 };
@@ -219,7 +223,8 @@ static bool encoder_end(struct video *v, char said[200])
     return false;
 }
 
-/* Puts the pictures' film and the sound (-1: none) together: nothing is encoded again but the sound. */
+/* Puts the pictures' film and the sound (-1: none) together: nothing is encoded again but the
+ * sound. */
 _Noreturn static void joiner_become(const struct video *v, int sound)
 {
     enum { OUTPUT = 3, PICTURES = 4, SOUND = 5, FREE = 10, WORDS_MAX = 40 };

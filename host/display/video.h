@@ -26,12 +26,14 @@
 
 struct video;
 
-/* Width and height: even, 2 to 16384. `fps` 1 to 240. Errors: BAD_ARGUMENT, IO_FAILED, NO_MEMORY; *out is then NULL.
- * Owns: the caller ends it by video_finish() or video_abandon(). */
+/* Width and height: even, 2 to 16384. `fps` 1 to 240. Errors: BAD_ARGUMENT, IO_FAILED,
+ * NO_MEMORY; *out is then NULL. Owns: the caller ends it by video_finish() or
+ * video_abandon(). */
 enum display_status video_create(const char *path, int width_px, int height_px, int fps,
                                  struct video **out);
-/* The same with sound: `sound` is a descriptor of a whole WAV file, which is read from its beginning while the video is made; -1: none.
- * The caller may close it at once. Pictures and sound begin together. */
+/* The same with sound: `sound` is a descriptor of a whole WAV file, which is read from its
+ * beginning while the video is made; -1: none. The caller may close it at once. Pictures and
+ * sound begin together. */
 enum display_status video_create_with_sound(const char *path, int width_px, int height_px,
                                             int fps, int sound, struct video **out);
 /* All that a film can have. */
@@ -40,9 +42,9 @@ struct video_def {
     int width_px, height_px, fps;
     int sound;         /* a descriptor, as above; -1: none */
     bool sounds_later; /* sound may come with video_finish_with_sound(); then `sound` is -1 */
-    bool
-        alpha; /* pictures have four channels, and the film keeps the fourth: .mov as ProRes 4444, .mkv as FFV1, .webm as VP9, .gif as
-                 * opaque or clear */
+    /* pictures have four channels, and the film keeps the fourth: .mov as ProRes 4444, .mkv as
+     * FFV1, .webm as VP9, .gif as opaque or clear */
+    bool alpha;
 };
 /* Errors: those of video_create(); BAD_ARGUMENT: such a film holds no alpha. */
 enum display_status video_create_as(const struct video_def *def, struct video **out);
@@ -51,14 +53,15 @@ bool video_alpha(const char *path);
 
 /* Whether the film can hold sound: .gif and .y4m cannot. */
 bool video_sounds(const struct video *video);
-/* Adds a picture. Shape: height * width * 3 bytes of display values, 4 with alpha (by which colours are not multiplied). Errors: IO_FAILED (a full disk; ffmpeg failed or was
- * killed: what it said). */
+/* Adds a picture. Shape: height * width * 3 bytes of display values, 4 with alpha (by which
+ * colours are not multiplied). Errors: IO_FAILED (a full disk; ffmpeg failed or was killed:
+ * what it said). */
 enum display_status video_add(struct video *video, const uint8_t *rgb);
 /* Ends the film and renames it; a film without pictures leaves no file. Frees the video,
  * also on failure; then no file is left. Errors: IO_FAILED. */
 enum display_status video_finish(struct video *video);
-/* The same for a video that was made with sounds_later. sound: a descriptor of a whole WAV file; -1, or a format without sound: the film
- * is silent. The caller closes it. */
+/* The same for a video that was made with sounds_later. sound: a descriptor of a whole WAV
+ * file; -1, or a format without sound: the film is silent. The caller closes it. */
 enum display_status video_finish_with_sound(struct video *video, int sound);
 /* Removes the part file and frees the video. NULL is fine. */
 void video_abandon(struct video *video);

@@ -1,5 +1,5 @@
-/* video_check.c - counts a film's packets by ffmpeg's demuxer, which decodes nothing: its muxer `framecrc` prints a line for each,
- * which begins with the stream's number.
+/* video_check.c - counts a film's packets by ffmpeg's demuxer, which decodes nothing: its muxer
+ * `framecrc` prints a line for each, which begins with the stream's number.
  *
  *     #tb 0: 1/12800                    what is about streams
  *     0,     0,     0,   512,   1234, 0xcf6c5a6b
@@ -18,7 +18,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* The film is descriptor 3; what ffmpeg says goes to the same pipe as its lines, and is what begins with no number. */
+/* The film is descriptor 3; what ffmpeg says goes to the same pipe as its lines, and is what
+ * begins with no number. */
 _Noreturn static void reader_become(int file, int output, const char *format)
 {
     enum { FILM = 3 };
@@ -67,7 +68,8 @@ static void lines_count(FILE *lines, long count[2], char *said, size_t room)
     }
 }
 
-/* Where pictures cannot be counted: a .gif ends with a semicolon, and the last page of an .ogv says that it is the last. */
+/* Where pictures cannot be counted: a .gif ends with a semicolon, and the last page of an .ogv
+ * says that it is the last. */
 static bool film_ended(int file, const char *format)
 {
     enum { TAIL = 1 << 17, FLAGS = 5, LAST = 4 };

@@ -14,8 +14,9 @@ struct video_held {
     bool sounds; /* there is sound, too */
 };
 
-/* Whether ffmpeg finds the film in the open file: its index, all of its pictures, and no end too soon. That an encoder ended well
- * is no proof: what it writes last, on a full disk, is lost without a word. False: `said` has what is wrong. */
+/* Whether ffmpeg finds the film in the open file: its index, all of its pictures, and no end
+ * too soon. That an encoder ended well is no proof: what it writes last, on a full disk, is
+ * lost without a word. False: `said` has what is wrong. */
 bool video_read_back(int file, const struct video_held *held, char *said, size_t room);
 
 #endif

@@ -47,8 +47,8 @@ struct window;
  * windows. */
 bool window_possible(void);
 
-/* Errors: NO_WINDOW where there is no display, or none that can draw, or the build has no windows;
- * BAD_ARGUMENT, NO_MEMORY; *out is then NULL. Owns: the caller destroys *out. */
+/* Errors: NO_WINDOW where there is no display, or none that can draw, or the build has no
+ * windows; BAD_ARGUMENT, NO_MEMORY; *out is then NULL. Owns: the caller destroys *out. */
 enum display_status window_create(const struct window_config *config, struct window **out);
 void window_destroy(struct window *window); /* NULL is fine */
 

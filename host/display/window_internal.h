@@ -1,4 +1,5 @@
-/* window_internal.h - what window.c (OpenGL), window_input.c (events) and window_open.c share of a window. */
+/* window_internal.h - what window.c (OpenGL), window_input.c (events) and window_open.c share
+ * of a window. */
 #ifndef LUTETIA_WINDOW_INTERNAL_H
 #define LUTETIA_WINDOW_INTERNAL_H
 

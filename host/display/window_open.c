@@ -85,7 +85,8 @@ enum display_status window_create(const struct window_config *config, struct win
         status = display_fail(DISPLAY_NO_WINDOW, "no window: GLFW cannot be loaded: %s", why);
         goto failed;
     }
-#ifdef GLFW_PLATFORM /* since 3.4, which else looks for Wayland, too, and its errors are of that */
+/* since 3.4, which else looks for Wayland, too, and its errors are of that */
+#ifdef GLFW_PLATFORM
     const char *wayland = getenv("WAYLAND_DISPLAY");
     glfw3.InitHint(GLFW_PLATFORM, wayland && *wayland ? GLFW_ANY_PLATFORM : GLFW_PLATFORM_X11);
 #endif

@@ -1,12 +1,14 @@
 /* beat.h - a MIDI clock's beat and tempo.
  *
  *     struct beat beat = {0};
- *     beat_take(&beat, &message);                  // each message: those that are no clock's change nothing
+ *     // each message: those that are no clock's change nothing
+ *     beat_take(&beat, &message);
  *     if (beat_now(&beat, midi_now_ns(), &phase, &tempo))
  *         ...
  *
- * A clock (f8) comes 24 times in a quarter note; start (fa) is a beat, continue (fb) goes on, stop (fc) stands still. Between two clocks the
- * beat goes on by the tempo that was measured over the last quarter note.
+ * A clock (f8) comes 24 times in a quarter note; start (fa) is a beat, continue (fb) goes on,
+ * stop (fc) stands still. Between two clocks the beat goes on by the tempo that was measured
+ * over the last quarter note.
  */
 #ifndef LUTETIA_LIVE_BEAT_H
 #define LUTETIA_LIVE_BEAT_H
@@ -27,8 +29,9 @@ struct beat {
 
 void beat_take(struct beat *beat, const struct midi_message *m);
 
-/* phase: the part of the quarter note that has gone, 0..1. per_minute: quarter notes in a minute. now_ns: CLOCK_MONOTONIC. False: no clock
- * runs: none came for a second, or it is stopped. */
+/* phase: the part of the quarter note that has gone, 0..1. per_minute: quarter notes in a
+ * minute. now_ns: CLOCK_MONOTONIC. False: no clock runs: none came for a second, or it is
+ * stopped. */
 bool beat_now(const struct beat *beat, uint64_t now_ns, double *phase, double *per_minute);
 
 #endif

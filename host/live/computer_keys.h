@@ -20,7 +20,8 @@ struct computer_keys {
 /* What a key going down or up plays, as a message of channel 1. False: nothing. */
 bool computer_keys_take(struct computer_keys *keys, const struct input_event *event,
                         struct midi_message *m);
-/* The note-off of a key that is down: where the window has lost the keyboard. False: none is. */
+/* The note-off of a key that is down: where the window has lost the keyboard. False: none
+ * is. */
 bool computer_keys_release(struct computer_keys *keys, struct midi_message *m);
 
 #endif

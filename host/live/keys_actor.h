@@ -1,5 +1,5 @@
-/* keys_actor.h - letters that keys play, as an actor of a stage: each key has its place along the picture and its letter, which is as large
- * as the key sounds (keys_score.h).
+/* keys_actor.h - letters that keys play, as an actor of a stage: each key has its place along
+ * the picture and its letter, which is as large as the key sounds (keys_score.h).
  *
  *     struct keys_actor_def def = keys_actor_def_default();
  *     def.face = face;
@@ -8,8 +8,8 @@
  *         die(stage_error());
  *     keys_actor_play(&actor, message.bytes);               // between two steps: from then on
  *
- * Its controls: how large, how fast letters come and go, what aftertouch adds, slant; weight and width of a font that has such
- * axes. */
+ * Its controls: how large, how fast letters come and go, what aftertouch adds, slant; weight
+ * and width of a font that has such axes. */
 #ifndef LUTETIA_KEYS_ACTOR_H
 #define LUTETIA_KEYS_ACTOR_H
 
@@ -28,10 +28,12 @@ struct keys_actor_def {
 };
 struct keys_actor_def keys_actor_def_default(void); /* c3 to c5 */
 
-/* Copies all but the face. Errors: BAD_ARGUMENT (no letter in the text, a range of less than an octave), NO_MEMORY. */
+/* Copies all but the face. Errors: BAD_ARGUMENT (no letter in the text, a range of less than an
+ * octave), NO_MEMORY. */
 enum stage_status keys_actor_create(const struct keys_actor_def *def, struct stage_actor *out);
 
-/* A channel message with its status byte; a key outside of the range is played by octaves in it. Errors: NO_MEMORY. */
+/* A channel message with its status byte; a key outside of the range is played by octaves in
+ * it. Errors: NO_MEMORY. */
 enum stage_status keys_actor_play(const struct stage_actor *actor, const uint8_t *bytes);
 
 /* How large the largest of a key's notes is now, 0..1. */

@@ -4,7 +4,8 @@
 
 #include "keys_actor.h"
 
-/* Gives an empty score its keys and each key its letter. Errors: BAD_ARGUMENT (no letter in the text, a range of less than an octave). */
+/* Gives an empty score its keys and each key its letter. Errors: BAD_ARGUMENT (no letter in the
+ * text, a range of less than an octave). */
 enum stage_status keys_places_make(const struct keys_actor_def *def, struct keys_score *score,
                                    struct keys_letters *letters);
 /* The key itself, or the nearest octave of it that has a place. */

@@ -2,18 +2,22 @@
  *
  *     knobs 1
  *     theme dark                                the stage's colours; may be left out
- *     knob control 1 74 gravity 0 0.5           MIDI channel 1, controller 74: from one end of the way to the other
+ *     knob control 1 74 gravity 0 0.5           MIDI channel 1, controller 74: from one end of
+ *                                               the way to the other
  *     knob bend * stiffness 0.2 0.8             the pitch wheel of any channel
  *     knob pressure 1 rate 0 1                  the channel's aftertouch
  *     knob note 10 36 restitution 1 0           how hard a key is struck
- *     knob clock wind_x 0 1                     the beat of a MIDI clock: once along with each quarter note
+ *     knob clock wind_x 0 1                     the beat of a MIDI clock: once along with each
+ *                                               quarter note
  *     knob tempo rate 0 1                       its tempo: 0 is 40 a minute, 1 is 240
  *     fade 5 2.5                                scene 5 is reached in so many seconds
- *     scene 5 gravity 3.7                       program change 5 (programs count from 1) sets this
+ *     scene 5 gravity 3.7                       program change 5 (programs count from 1) sets
+ *                                               this
  *     end
  *
- * Ends are parts of a slider's way, 0..1. A control has one knob; a knob may move several controls. A line that begins with # is a comment.
- * What is written is read again as the same. Whether there are controls of these names the reader of the file does not know.
+ * Ends are parts of a slider's way, 0..1. A control has one knob; a knob may move several
+ * controls. A line that begins with # is a comment. What is written is read again as the same.
+ * Whether there are controls of these names the reader of the file does not know.
  *
  * Threads: any, each with values of its own.
  */
@@ -68,8 +72,8 @@ struct knobs_text {
     int sets_count, sets_capacity;
 };
 
-/* Owns: the caller calls knobs_text_finish(), also after a failure; NULL is fine there. Errors: BAD_FILE (the file's name, the line and
- * what it must be), NO_MEMORY. */
+/* Owns: the caller calls knobs_text_finish(), also after a failure; NULL is fine there. Errors:
+ * BAD_FILE (the file's name, the line and what it must be), NO_MEMORY. */
 enum stage_status knobs_text_read(const char *text, size_t bytes, const char *name,
                                   struct knobs_text *out);
 enum stage_status knobs_file_read(const char *path, struct knobs_text *out);

@@ -114,7 +114,8 @@ static bool map_beat(void *context, double *phase, double *per_minute)
     return beat_now(&p->beat, midi_now_ns(), phase, per_minute);
 }
 
-/* It is at work within one function of Lua's, which nothing can interrupt: the window would stand still for good. */
+/* It is at work within one function of Lua's, which nothing can interrupt: the window would
+ * stand still for good. */
 static void map_overdue(void *context)
 {
     static const char said[] =

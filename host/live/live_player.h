@@ -1,11 +1,13 @@
-/* live_player.h - plays a stage: what comes from a source goes to the stage's actor, if it plays, and, through a script, to any control.
+/* live_player.h - plays a stage: what comes from a source goes to the stage's actor, if it
+ * plays, and, through a script, to any control.
  *
  *     struct live_player *player;
  *     live_player_create(&def, stage, &player);
  *     window.before = live_player_before, window.key = live_player_key, window.context = player;
  *
- * A script (script_map.h) is handed each message, and sets controls of the stage and its actor by their names. Knobs (knobs.h) are learnt
- * and move controls without one. By OSC (osc_stage.h) all of it is reached, and told. */
+ * A script (script_map.h) is handed each message, and sets controls of the stage and its actor
+ * by their names. Knobs (knobs.h) are learnt and move controls without one. By OSC
+ * (osc_stage.h) all of it is reached, and told. */
 #ifndef LUTETIA_LIVE_PLAYER_H
 #define LUTETIA_LIVE_PLAYER_H
 
@@ -30,13 +32,15 @@ struct live_player_def {
     int knobs_count;          /* LIVE_KNOBS_MAX at most */
     const char *text;         /* a file whose words are the stage's as it changes; NULL: none */
     struct osc_port_def osc;  /* zeros: no OSC (osc_stage.h) */
-    /* A line for whoever looks: an error of the script's, what it prints, what the server does. */
+    /* A line for whoever looks: an error of the script's, what it prints, what the server
+     * does. */
     void (*tell)(void *context, const char *text);
     void *context;
 };
 
 struct live_player;
-/* Borrows the source and the stage. Errors: BAD_FILE (what the script says while it is read has been told), BAD_ARGUMENT, FAILED (OSC), NO_MEMORY. */
+/* Borrows the source and the stage. Errors: BAD_FILE (what the script says while it is read has
+ * been told), BAD_ARGUMENT, FAILED (OSC), NO_MEMORY. */
 enum stage_status live_player_create(const struct live_player_def *def, struct stage *stage,
                                      struct live_player **out);
 void live_player_destroy(struct live_player *player); /* NULL is fine */
@@ -53,10 +57,12 @@ void live_player_heard(struct live_player *player, const struct stage_sound *sou
 
 /* The knobs that are heard, for a window's panel; zeros: there are no files of any. */
 struct stage_panel_knobs live_player_knobs(struct live_player *player);
-/* The keys that live_player_key() takes besides played notes, for the help; *count: how many. */
+/* The keys that live_player_key() takes besides played notes, for the help; *count: how
+ * many. */
 const struct help_row *live_player_keys(const struct live_player *player, int *count);
 
-/* When the message that was taken last was sent, by its own time (CLOCK_MONOTONIC); 0: none was yet. */
+/* When the message that was taken last was sent, by its own time (CLOCK_MONOTONIC); 0: none was
+ * yet. */
 uint64_t live_player_last_ns(const struct live_player *player);
 
 #endif

@@ -1,6 +1,7 @@
 /* live_sound.c - see live_sound.h.
  *
- *     stage's thread    events -> messages -> waiting (ordered by time: a note's end waits there)
+ *     stage's thread    events -> messages -> waiting (ordered by time: a note's end waits
+ *                       there)
  *     player's thread                          waiting -> synthesizer, MIDI server
  */
 #include "live_sound.h"

@@ -1,4 +1,5 @@
-/* live_sound.h - what a stage's actor lets hear, heard at once: by a synthesizer, and by a device of the MIDI server.
+/* live_sound.h - what a stage's actor lets hear, heard at once: by a synthesizer, and by a
+ * device of the MIDI server.
  *
  *     struct live_sound_def def = {.synth = true};
  *     struct live_sound *sound;
@@ -8,8 +9,8 @@
  *     live_sound_take(sound, stage);                          // after each frame
  *     live_sound_close(sound);
  *
- * A thread of its own plays, so neither a slow device nor a sound server that hangs holds up the stage. What it cannot take in time is
- * dropped, and counted.
+ * A thread of its own plays, so neither a slow device nor a sound server that hangs holds up
+ * the stage. What it cannot take in time is dropped, and counted.
  *
  * Threads: whose thread the stage is.
  */
@@ -22,7 +23,8 @@
 
 struct live_sound_def {
     bool synth; /* with neither a synthesizer nor a device nothing is heard but in recordings */
-    /* A driver of FluidSynth, or a name that ends with .wav; NULL: JACK, PulseAudio or ALSA, the first that works. */
+    /* A driver of FluidSynth, or a name that ends with .wav; NULL: JACK, PulseAudio or ALSA,
+     * the first that works. */
     const char *driver;
     const char *server, *device; /* a device of the MIDI server; device NULL: none */
     /* Whoever else takes what is let hear; NULL: nobody. */
@@ -31,7 +33,8 @@ struct live_sound_def {
 };
 
 struct live_sound;
-/* Errors: NO_DEVICE (no sound, FluidSynth or such a device), NO_SERVER, NO_MEMORY, IO_FAILED. Owns: the caller closes *out. */
+/* Errors: NO_DEVICE (no sound, FluidSynth or such a device), NO_SERVER, NO_MEMORY, IO_FAILED.
+ * Owns: the caller closes *out. */
 enum midi_status live_sound_open(const struct live_sound_def *def, struct live_sound **out);
 void live_sound_close(struct live_sound *sound); /* ends all notes; NULL is fine */
 
@@ -44,13 +47,15 @@ long live_sound_dropped(const struct live_sound *sound);
 
 /* From now on what is played is kept, too. */
 void live_sound_record(struct live_sound *sound);
-/* Ends that, and makes a WAV file of it, as long as it took: for a film. song: was played meanwhile, and was at song_s when it began;
- * NULL: none. *file: -1 where nothing was heard. Errors: those of sound_render_open(); *file is then -1. Owns: the caller closes *file. */
+/* Ends that, and makes a WAV file of it, as long as it took: for a film. song: was played
+ * meanwhile, and was at song_s when it began; NULL: none. *file: -1 where nothing was heard.
+ * Errors: those of sound_render_open(); *file is then -1. Owns: the caller closes *file. */
 enum midi_status live_sound_recorded(struct live_sound *sound, struct midi_song *song,
                                      double song_s, int *file);
 
-/* A sound of the stage's actor as an event of sound_events.h: a clank's velocity is its speed, as MIDI has it (20 for each unit a
- * second), high and low, left and right are where it happens. `extent`: of the actor. False: it is no sound of those. */
+/* A sound of the stage's actor as an event of sound_events.h: a clank's velocity is its speed,
+ * as MIDI has it (20 for each unit a second), high and low, left and right are where it
+ * happens. `extent`: of the actor. False: it is no sound of those. */
 bool live_sound_event(const struct stage_sound *heard, const struct font_box *extent,
                       struct sound_event *out);
 

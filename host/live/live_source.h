@@ -1,6 +1,8 @@
-/* live_source.h - what is played, from wherever it comes: a MIDI server, a song in time, the computer's own keyboard.
+/* live_source.h - what is played, from wherever it comes: a MIDI server, a song in time, the
+ * computer's own keyboard.
  *
- *     struct live_source_def def = {.lowest = 48};              // the user's own server, else the computer's keyboard
+ *     // the user's own server, else the computer's keyboard
+ *     struct live_source_def def = {.lowest = 48};
  *     struct live_source *source;
  *     if (live_source_open(&def, &source) != MIDI_OK)
  *         die(midi_error());
@@ -29,8 +31,8 @@ struct live_source_def {
     bool no_computer;    /* its keyboard plays nothing, where there is no server either */
 };
 
-/* Without a server of the user's own the computer's keyboard plays. Errors: NO_SERVER (the one that was named), REFUSED, BAD_ARGUMENT
- * (filters), NO_MEMORY. */
+/* Without a server of the user's own the computer's keyboard plays. Errors: NO_SERVER (the one
+ * that was named), REFUSED, BAD_ARGUMENT (filters), NO_MEMORY. */
 enum midi_status live_source_open(const struct live_source_def *def, struct live_source **out);
 void live_source_close(struct live_source *source); /* NULL is fine */
 
@@ -39,9 +41,11 @@ bool live_source_by_computer(const struct live_source *source);
 /* A key of the window's, or that it lost the keyboard. True: it was played. */
 bool live_source_key(struct live_source *source, const struct input_event *event);
 
-/* The next message that has come, or of the song until second now_s; waits for none. False: there is none. */
+/* The next message that has come, or of the song until second now_s; waits for none. False:
+ * there is none. */
 bool live_source_next(struct live_source *source, double now_s, struct midi_message *m);
-/* What there is to say of the server since the last call: that it has gone, or is back; NULL: nothing. */
+/* What there is to say of the server since the last call: that it has gone, or is back; NULL:
+ * nothing. */
 const char *live_source_said(struct live_source *source);
 
 #endif

@@ -269,8 +269,8 @@ size_t osc_message_write(uint8_t *out, size_t room, const char *address, const c
 
 /* ---- addresses ----
  *
- * The places that a pattern's beginning can have reached are bits: bit i says that it names the address's first i characters. Each piece
- * of the pattern moves all of them at once. */
+ * The places that a pattern's beginning can have reached are bits: bit i says that it names the
+ * address's first i characters. Each piece of the pattern moves all of them at once. */
 
 enum { ADDRESS_MAX = 63 };
 

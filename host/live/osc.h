@@ -1,13 +1,16 @@
 /* osc.h - packets of Open Sound Control 1.0: read, written, and addresses matched.
  *
  *     static void take(void *context, const struct osc_message *m) { ... }
- *     const char *why = osc_packet_read(bytes, count, take, context);     // NULL: all of it was taken
+ *     // NULL: all of it was taken
+ *     const char *why = osc_packet_read(bytes, count, take, context);
  *
  *     uint8_t out[OSC_PACKET_MAX];
  *     size_t length = osc_message_write(out, sizeof out, "/control/gravity", "f", 3.7);
  *
- *     /control/gravity\0\0\0\0 ,f\0\0 406ccccd      address and types are strings, padded to 4 bytes; numbers have their high byte first
- *     #bundle\0 TTTTTTTT LLLL message LLLL ...       messages and bundles, each after its length, with a time
+ *     /control/gravity\0\0\0\0 ,f\0\0 406ccccd      address and types are strings, padded to 4
+ *                                                   bytes; numbers have their high byte first
+ *     #bundle\0 TTTTTTTT LLLL message LLLL ...       messages and bundles, each after its
+ *                                                    length, with a time
  *
  * Nothing of a damaged packet is taken. Bundles are taken at once, whatever time they name.
  *
@@ -22,7 +25,8 @@
 
 enum { OSC_PACKET_MAX = 8192, OSC_ARGUMENTS_MAX = 32, OSC_BUNDLES_MAX = 8 };
 
-/* type: i, h (64 bits), f, d, s, S; T and F (true, false); N (nothing), I (a bang); c, r, m, t and b are there without a value. */
+/* type: i, h (64 bits), f, d, s, S; T and F (true, false); N (nothing), I (a bang); c, r, m, t
+ * and b are there without a value. */
 struct osc_argument {
     char type;
     double number;    /* of i, h, f, d; 1 for T, 0 for F */
@@ -35,12 +39,14 @@ struct osc_message {
     struct osc_argument arguments[OSC_ARGUMENTS_MAX];
 };
 
-/* Hands over the packet's messages, in their order. Returns NULL, or what is wrong with the packet: then none was handed over. */
+/* Hands over the packet's messages, in their order. Returns NULL, or what is wrong with the
+ * packet: then none was handed over. */
 const char *osc_packet_read(const uint8_t *bytes, size_t count,
                             void (*take)(void *context, const struct osc_message *m),
                             void *context);
 
-/* types: of f (double), i (int) and s (const char *), one for each argument that follows. Returns the bytes; 0: there is no room. */
+/* types: of f (double), i (int) and s (const char *), one for each argument that follows.
+ * Returns the bytes; 0: there is no room. */
 size_t osc_message_write(uint8_t *out, size_t room, const char *address, const char *types,
                          ...);
 
@@ -48,8 +54,9 @@ size_t osc_message_write(uint8_t *out, size_t room, const char *address, const c
 size_t osc_arguments_write(uint8_t *out, size_t room, const char *address,
                            const struct osc_argument *arguments, int count);
 
-/* Whether a pattern names an address: ? is one character, * any number of them, [a-c] and [!a-c] one of or none of these, {one,two} one of
- * these words; none of them is /. The address has at most 63 characters. Takes time in proportion to both lengths. */
+/* Whether a pattern names an address: ? is one character, * any number of them, [a-c] and
+ * [!a-c] one of or none of these, {one,two} one of these words; none of them is /. The address
+ * has at most 63 characters. Takes time in proportion to both lengths. */
 bool osc_address_matches(const char *pattern, const char *address);
 
 #endif

@@ -30,7 +30,8 @@
 struct osc_stage_def {
     struct osc_port_def port;
     struct stage *stage; /* borrowed */
-    /* What is asked for besides controls; each may be NULL. They return NULL, or why it cannot be. */
+    /* What is asked for besides controls; each may be NULL. They return NULL, or why it cannot
+     * be. */
     const char *(*scene)(void *context, int number);
     const char *(*knobs)(void *context, int number);
     const char *(*text)(void *context, const char *text);

@@ -571,7 +571,8 @@ enum stage_status paper_actor_create(const struct paper_actor_def *def, struct s
         return status;
     }
     rows_make(a);
-    /* a letter of the most velocity: two thirds of the height, and not much wider than its place */
+    /* a letter of the most velocity: two thirds of the height, and not much wider than its
+     * place */
     a->fit_px = fmin(0.66 * def->height, 4.0 * FILL * def->width / a->score.keys_count);
     *out = (struct stage_actor){&paper_kind, a};
     return STAGE_OK;

@@ -2,7 +2,8 @@
  *
  *     a town in a marsh ...          crisp: the sheet is dry there
  *
- *      Lu te tia                     wet letters on dry paper, each syllable in an ink of its own
+ *      Lu te tia                     wet letters on dry paper, each syllable in an ink of its
+ *                                    own
  *     ~~~~~~~~~~~~~~~~  waterline
  *      (reflected)                   bleeding, the deeper the longer
  *
@@ -175,7 +176,8 @@ static enum paper_status letter_screen(struct paper_sheet *sheet,
     return paper_sheet_put(sheet, &letter->screen, letter->x_px, letter->y_px, ink->amount);
 }
 
-/* A syllable is one screen, so that drops of strong colour fall over it as a whole: first a thin wash, then the drops. */
+/* A syllable is one screen, so that drops of strong colour fall over it as a whole: first a
+ * thin wash, then the drops. */
 static enum paper_status syllable_put(const struct demo_page *page, struct paper_sheet *sheet,
                                       int syllable)
 {

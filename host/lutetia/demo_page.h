@@ -29,8 +29,8 @@ void demo_page_destroy(struct demo_page *page); /* NULL is fine */
 
 /* Puts on the dry letters and the marsh. Errors: as paper_sheet_put(). */
 enum paper_status demo_page_begin(struct demo_page *page, struct paper_sheet *sheet);
-/* Puts on what is due, and computes one cycle. Waits for the machine after every
- * STEPS_AT_ONCE cycles. Errors: as paper_sheet_put(), paper_sheet_step() and paper_sheet_finish(). */
+/* Puts on what is due, and computes one cycle. Waits for the machine after every STEPS_AT_ONCE
+ * cycles. Errors: as paper_sheet_put(), paper_sheet_step() and paper_sheet_finish(). */
 enum paper_status demo_page_step(struct demo_page *page, struct paper_sheet *sheet, int step);
 
 #endif

@@ -55,7 +55,8 @@ static double ramp(double from, double to, double x)
     return t * t * (3 - 2 * t);
 }
 
-/* Where the sheet is wet: below an uneven waterline, with soft shores at the other three sides. */
+/* Where the sheet is wet: below an uneven waterline, with soft shores at the other three
+ * sides. */
 static double wetness(const struct demo_mask *mask, double x, double y)
 {
     double edge = mask->waterline_px + 1 + 22 * (cloud(x / 90, 3, 7) - 0.5);

@@ -1,4 +1,5 @@
-/* demo_scenery.h - the marsh of the demonstration page: soft masks made of noise, and reflections.
+/* demo_scenery.h - the marsh of the demonstration page: soft masks made of noise, and
+ * reflections.
  *
  *     struct demo_mask mask = {.width_px = 1600, .height_px = 1200, .waterline_px = 640};
  *     struct paper_screen water;
@@ -38,8 +39,8 @@ void demo_letter_blend(const struct demo_letter *letter, struct paper_screen *sh
 /* A reflection is put on band by band, the deepest first, so that deeper bands bleed longer. */
 enum { DEMO_BANDS = 10, DEMO_REFLECTION_DEPTH_PX = 400 };
 
-/* Blends a band (0 the deepest) of a letter's reflection into a sheet-sized screen: mirrored at the letter's foot,
- * fading and swaying more the deeper, broken by glints of light. */
+/* Blends a band (0 the deepest) of a letter's reflection into a sheet-sized screen: mirrored at
+ * the letter's foot, fading and swaying more the deeper, broken by glints of light. */
 void demo_reflection_blend(const struct demo_letter *letter, int band,
                            struct paper_screen *sheet);
 

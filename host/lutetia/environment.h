@@ -1,5 +1,5 @@
-/* environment.h - the variables of the environment that the command and libparis look at, a row each: `lutetia info --variables`
- * and the manual pages print them. */
+/* environment.h - the variables of the environment that the command and libparis look at, a row
+ * each: `lutetia info --variables` and the manual pages print them. */
 #ifndef LUTETIA_ENVIRONMENT_H
 #define LUTETIA_ENVIRONMENT_H
 

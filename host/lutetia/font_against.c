@@ -1,5 +1,6 @@
-/* font_against.c - `lutetia font BEFORE --against AFTER`: two versions of a font, each in lines of type, both over each other, and the glyphs
- * that are others. What only the first has is red, what only the second has is blue. */
+/* font_against.c - `lutetia font BEFORE --against AFTER`: two versions of a font, each in lines
+ * of type, both over each other, and the glyphs that are others. What only the first has is
+ * red, what only the second has is blue. */
 #include "font_verb.h"
 #include "lutetia.h"
 #include "type_common.h"
@@ -48,7 +49,8 @@ static bool outlines_same(const struct font_outline *a, const struct font_outlin
     return true;
 }
 
-/* Whether a glyph is drawn as the other face's. What cannot be read is the same as what cannot be read either. */
+/* Whether a glyph is drawn as the other face's. What cannot be read is the same as what cannot
+ * be read either. */
 static bool glyph_same(struct font_face *const faces[2], const uint32_t glyphs[2])
 {
     struct font_outline o[2] = {{0}, {0}};
@@ -120,7 +122,8 @@ static enum font_status glyphs_compare(struct against *a)
 
 /* ---- pictures ---- */
 
-/* Two layouts over each other: a pixel lacks green by either, red by the second, blue by the first. */
+/* Two layouts over each other: a pixel lacks green by either, red by the second, blue by the
+ * first. */
 static enum font_status both_draw(struct against *a, const struct font_layout layouts[2],
                                   double x, double y)
 {

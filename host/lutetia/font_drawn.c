@@ -1,4 +1,5 @@
-/* font_drawn.c - boxes, lines and gray pixels, as pictures of glyphs and filters have them: see font_verb.h. */
+/* font_drawn.c - boxes, lines and gray pixels, as pictures of glyphs and filters have them: see
+ * font_verb.h. */
 #include "font_verb.h"
 #include "lutetia.h"
 #include "type_common.h"

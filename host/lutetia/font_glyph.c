@@ -1,4 +1,5 @@
-/* font_glyph.c - a glyph at each level of the pipeline, drawn, written out and taken in: see font_verb.h. */
+/* font_glyph.c - a glyph at each level of the pipeline, drawn, written out and taken in: see
+ * font_verb.h. */
 #include "font_verb.h"
 #include "lutetia.h"
 #include "type_common.h"

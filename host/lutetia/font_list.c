@@ -1,4 +1,5 @@
-/* font_list.c - what `lutetia font` prints of a font: its axes and named places on them, scripts and features. */
+/* font_list.c - what `lutetia font` prints of a font: its axes and named places on them,
+ * scripts and features. */
 #include "font_verb.h"
 
 #include <visible_text.h>

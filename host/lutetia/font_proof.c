@@ -1,4 +1,5 @@
-/* font_proof.c - `lutetia font FILE --proof WORD`: one word by every filter at several sizes on a sheet, with what it keeps in numbers. */
+/* font_proof.c - `lutetia font FILE --proof WORD`: one word by every filter at several sizes on
+ * a sheet, with what it keeps in numbers. */
 #include "font_verb.h"
 #include "lutetia.h"
 #include "type_common.h"

@@ -17,8 +17,8 @@ struct font_verb {
     bool show_filter;
 };
 
-/* font_drawn.c: a box of one colour; a line of some width through points, as type is drawn, as the outlines of its pieces; gray pixels
- * enlarged. */
+/* font_drawn.c: a box of one colour; a line of some width through points, as type is drawn, as
+ * the outlines of its pieces; gray pixels enlarged. */
 void font_box_fill(struct display_image *image, double x0, double y0, double x1, double y1,
                    const uint8_t rgb[3]);
 enum font_status font_stroke_draw(struct display_image *image, const struct font_point *p,
@@ -26,7 +26,8 @@ enum font_status font_stroke_draw(struct display_image *image, const struct font
 void font_gray_show(struct display_image *image, const struct font_gray *gray, double x,
                     double y, int zoom);
 
-/* font_glyph.c: the glyph v->glyph at each level, with its edits (NULL: none), of a face without them. */
+/* font_glyph.c: the glyph v->glyph at each level, with its edits (NULL: none), of a face
+ * without them. */
 int font_levels_show(const struct font_verb *v, struct font_face *face,
                      const struct font_edits *edits);
 /* font_proof.c: the word v->proof by every filter at several sizes. */
@@ -37,7 +38,8 @@ void font_list_print(struct font_face *face);
 int font_waterfall_show(const struct font_verb *v, struct font_face *face);
 /* font_against.c: the face and the one of v->against, and what is different. */
 int font_against_show(const struct font_verb *v, struct font_face *face);
-/* Writes the level v->write of a glyph, of a filter also of every one, to the folder v->edits, and notes it there. */
+/* Writes the level v->write of a glyph, of a filter also of every one, to the folder v->edits,
+ * and notes it there. */
 int font_level_write(const struct font_verb *v, struct font_face *face, uint32_t glyph,
                      const struct font_edits *edits, struct font_levels *levels);
 

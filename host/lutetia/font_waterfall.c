@@ -1,4 +1,5 @@
-/* font_waterfall.c - `lutetia font FILE --waterfall AXIS`: a line of type at places along an axis, others as they are set. */
+/* font_waterfall.c - `lutetia font FILE --waterfall AXIS`: a line of type at places along an
+ * axis, others as they are set. */
 #include "font_verb.h"
 #include "lutetia.h"
 #include "type_common.h"

@@ -26,7 +26,8 @@ int help_print(const char *verb, const struct option_row *rows,
 /* Prints the usage and the commands alone: what a command line without words gets. */
 void help_usage(FILE *out, const char *verb, const struct help_command *commands);
 
-/* From now on help_print() prints a table: kinds of facts and their parts, separated by tabs. */
+/* From now on help_print() prints a table: kinds of facts and their parts, separated by
+ * tabs. */
 void help_as_table(void);
 bool help_is_table(void);
 

@@ -1,4 +1,5 @@
-/* keys_live.h - `lutetia keys` on a stage: in a window, or a film of a song through a map in Lua. */
+/* keys_live.h - `lutetia keys` on a stage: in a window, or a film of a song through a map in
+ * Lua. */
 #ifndef LUTETIA_KEYS_LIVE_H
 #define LUTETIA_KEYS_LIVE_H
 

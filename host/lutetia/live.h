@@ -1,5 +1,5 @@
-/* live.h - verbs whose stage is played: by the messages of a MIDI server, a song, or the computer's keyboard, through a map in Lua, or
- * through knobs that are learnt. */
+/* live.h - verbs whose stage is played: by the messages of a MIDI server, a song, or the
+ * computer's keyboard, through a map in Lua, or through knobs that are learnt. */
 #ifndef LUTETIA_LIVE_H
 #define LUTETIA_LIVE_H
 
@@ -35,7 +35,8 @@ int live_begin(const char *verb, const struct live_options *options, struct midi
                int lowest, struct stage *stage, struct live *out);
 void live_end(struct live *live);
 
-/* Opens a window for the stage and plays until somebody closes it. no_display: what to do where there is none. */
+/* Opens a window for the stage and plays until somebody closes it. no_display: what to do where
+ * there is none. */
 int live_window(struct live *live, struct stage *stage, struct stage_window_def *def,
                 const char *no_display);
 

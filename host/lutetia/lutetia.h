@@ -58,7 +58,8 @@ int fail_usage(const char *verb, const char *format, ...) __attribute__((format(
 
 /* ---- Ctrl-C ---- */
 
-/* From now on SIGINT, SIGTERM and, unless it is ignored, SIGHUP only set a flag; a second one ends the program at once. */
+/* From now on SIGINT, SIGTERM and, unless it is ignored, SIGHUP only set a flag; a second one
+ * ends the program at once. */
 void interrupt_catch(void);
 bool interrupted(void);
 
@@ -79,8 +80,8 @@ struct progress {
 struct progress progress_begin(const char *what, int total);
 void progress_show(struct progress *p, int done);
 void progress_end(struct progress *p); /* clears the line */
-/* Seconds that are left, by the pace of late: the first steps wait for kernels and say nothing about the rest. Negative: nobody can
- * tell yet. `now` is that of seconds_now(). */
+/* Seconds that are left, by the pace of late: the first steps wait for kernels and say nothing
+ * about the rest. Negative: nobody can tell yet. `now` is that of seconds_now(). */
 double progress_left(struct progress *p, int done, double now);
 
 /* "12 s left", "about 3 min left" */

@@ -63,8 +63,9 @@ struct option_words {
     bool given[OPTION_ROWS_MAX]; /* of the rows, in their order */
 };
 
-/* With what else an option has an effect. Alternatives are separated by |, what an alternative needs by +: NAME is an option that is
- * given, WORD a word; !NAME and !WORD are not given. {"fps", "frames|video+!silent"} */
+/* With what else an option has an effect. Alternatives are separated by |, what an alternative
+ * needs by +: NAME is an option that is given, WORD a word; !NAME and !WORD are not given.
+ * {"fps", "frames|video+!silent"} */
 struct option_need {
     const char *name; /* NULL ends the table */
     const char *needs;
@@ -74,7 +75,8 @@ struct option_need {
 bool options_parse(const char *verb, const struct option_row *rows, int argc, char **argv,
                    struct option_words *words);
 
-/* After options_parse(). False: an option was given that would have no effect; an error was printed, in one line. */
+/* After options_parse(). False: an option was given that would have no effect; an error was
+ * printed, in one line. */
 bool options_effects(const char *verb, const struct option_row *rows,
                      const struct option_need *needs, const struct option_words *words);
 

@@ -1,5 +1,6 @@
-/* pages.h - what there is to say about each verb: the words of its --help and of its manual page, a row each. A sentence that is
- * missing from a manual page is missing here, or in the rows of options beside a verb's code. */
+/* pages.h - what there is to say about each verb: the words of its --help and of its manual
+ * page, a row each. A sentence that is missing from a manual page is missing here, or in the
+ * rows of options beside a verb's code. */
 #ifndef LUTETIA_PAGES_H
 #define LUTETIA_PAGES_H
 

@@ -1,4 +1,5 @@
-/* pages_machines.c - the pages of the verbs about programs in C/Paris, instruments and the machine; and which page is whose. */
+/* pages_machines.c - the pages of the verbs about programs in C/Paris, instruments and the
+ * machine; and which page is whose. */
 #include "pages.h"
 
 #include <assert.h>

@@ -1,4 +1,5 @@
-/* paint_thesis.c - `lutetia paint --model thesis`: a sheet after the thesis, in cyan, magenta and yellow. */
+/* paint_thesis.c - `lutetia paint --model thesis`: a sheet after the thesis, in cyan, magenta
+ * and yellow. */
 #include "verb_paint.h"
 
 #include <string.h>

@@ -167,8 +167,8 @@ static void overfull(void *context)
     _exit(EXIT_FAILED);
 }
 
-/* What the compiler of kernels, its threads and PoCL's may take besides: more ends in an error of memory, wherever it is asked
- * for. */
+/* What the compiler of kernels, its threads and PoCL's may take besides: more ends in an error
+ * of memory, wherever it is asked for. */
 #define SYSTEM_MORE_BYTES 2e9
 
 int run_script(struct run *run)

@@ -1,11 +1,13 @@
 /* shown_window.h - what a program shows in a window, as it changes.
  *
- * The caller says whether there is something new (stale) and draws it (draw). It calls shown_window_turn() regularly, which
- * shows the newest. The window draws at most so many pictures a second, and rests after each as long as drawing took. So it takes at
- * most half a processor from the watched program.
+ * The caller says whether there is something new (stale) and draws it (draw). It calls
+ * shown_window_turn() regularly, which shows the newest. The window draws at most so many
+ * pictures a second, and rests after each as long as drawing took. So it takes at most half a
+ * processor from the watched program.
  *
- * The pictures of a recording wait for their times on a clock: Space stops and restarts the clock, a full stop goes to the next
- * picture, - and + (or =) halve and double the rate. Several windows may have one clock. */
+ * The pictures of a recording wait for their times on a clock: Space stops and restarts the
+ * clock, a full stop goes to the next picture, - and + (or =) halve and double the rate.
+ * Several windows may have one clock. */
 #ifndef LUTETIA_SHOWN_WINDOW_H
 #define LUTETIA_SHOWN_WINDOW_H
 
@@ -20,8 +22,8 @@ struct shown_clock {
     bool began, next_wanted;
 };
 
-/* Seconds until a time of the clock; 0: it has passed. The clock begins at 0 with the first call. While it stands still the
- * result is infinity; each turn of a window may change it. */
+/* Seconds until a time of the clock; 0: it has passed. The clock begins at 0 with the first
+ * call. While it stands still the result is infinity; each turn of a window may change it. */
 double shown_clock_wait_s(struct shown_clock *clock, double time_s);
 
 struct shown_window {
@@ -35,8 +37,8 @@ struct shown_window {
     struct frame_pace pace; /* of pictures */
 };
 
-/* title: copied. fps: pictures a second at most. The functions are set before. Errors: those of window_create(). Owns: the caller
- * closes it. */
+/* title: copied. fps: pictures a second at most. The functions are set before. Errors: those of
+ * window_create(). Owns: the caller closes it. */
 enum display_status shown_window_open(struct shown_window *window, const char *title,
                                       int width_px, int height_px, double fps);
 /* NULL, and one that was not opened, are fine. */

@@ -9,9 +9,10 @@
 #include <network.h>
 #include <stage.h>
 
-/* The box around all places of masses, from now on until a pendulum as long as the network would have been on its other side and back. The network
- * does not change. sets: those that are of the world count. floorless: as if there were no floor. A network of very many masses stays where it
- * is. Errors: NO_MEMORY, BAD_ARGUMENT (a value that cannot be). */
+/* The box around all places of masses, from now on until a pendulum as long as the network
+ * would have been on its other side and back. The network does not change. sets: those that are
+ * of the world count. floorless: as if there were no floor. A network of very many masses stays
+ * where it is. Errors: NO_MEMORY, BAD_ARGUMENT (a value that cannot be). */
 enum stage_status spring_reach(const struct dyn_network *network, const char *const *sets,
                                int sets_count, bool floorless, struct font_box *box);
 

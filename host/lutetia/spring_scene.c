@@ -133,7 +133,8 @@ static bool hangs(const struct dyn_word_style *style)
 
 static const double above_floor = 0.5; /* ems */
 
-/* A word that hangs is so high that it does not reach the floor, and all that it will do is seen. */
+/* A word that hangs is so high that it does not reach the floor, and all that it will do is
+ * seen. */
 static enum stage_status word_fit(const struct spring_scene_def *def,
                                   const struct spring_scene *scene,
                                   struct stage_springs_def *springs, double y)

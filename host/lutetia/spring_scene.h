@@ -23,17 +23,18 @@ struct spring_scene_def {
     const char *preset;  /* NULL: none */
     const char *script;  /* a file of clamps that lead masses; NULL: none */
     const char *theme;
-    const char *const *
-        sets; /* NAME=VALUE: controls of the stage, the word's style, the world; after the preset */
+    /* NAME=VALUE: controls of the stage, the word's style, the world; after the preset */
+    const char *const *sets;
     int sets_count;
-    double at
-        [2]; /* where the baseline begins, in ems; the floor is at 0; at[1] is NaN: as high as the text needs */
+    /* where the baseline begins, in ems; the floor is at 0; at[1] is NaN: as high as the text
+     * needs */
+    double at[2];
     double turn;   /* degrees, to the left, round there */
     double column; /* lines are broken for so many ems; 0: only where the text has line ends */
-    double
-        circle; /* the baseline goes round a circle of that radius, over the place; 0: it is straight */
-    double view
-        [4]; /* x0, y0, x1, y1: the part of the world that is seen; x0 is NaN: around what there is */
+    /* the baseline goes round a circle of that radius, over the place; 0: it is straight */
+    double circle;
+    /* x0, y0, x1, y1: the part of the world that is seen; x0 is NaN: around what there is */
+    double view[4];
 };
 struct spring_scene_def spring_scene_def_default(void);
 
@@ -44,8 +45,9 @@ struct spring_scene {
     struct spring_scene_def def; /* for other words in place of its own */
 };
 
-/* *out stays where it is as long as the stage lives, and what def points to stays, too: the words may be changed by stage_text().
- * Errors: BAD_ARGUMENT (a preset, a control or a number that cannot be), those of fonts and files; *out is then zeros. */
+/* *out stays where it is as long as the stage lives, and what def points to stays, too: the
+ * words may be changed by stage_text(). Errors: BAD_ARGUMENT (a preset, a control or a number
+ * that cannot be), those of fonts and files; *out is then zeros. */
 enum stage_status spring_scene_make(const struct spring_scene_def *def,
                                     struct spring_scene *out);
 void spring_scene_finish(struct spring_scene *scene);

@@ -1,7 +1,9 @@
-/* spring_wet.h - a film of letters over wet paper: where they were they have left ink, which spreads.
+/* spring_wet.h - a film of letters over wet paper: where they were they have left ink, which
+ * spreads.
  *
- * Every `every_s` the letters as they are, under their maps, are screened into a sheet of paper (host/paper), a fiber a pixel; the
- * sheet goes on while they move. A picture is the sheet with the present's letters on it. */
+ * Every `every_s` the letters as they are, under their maps, are screened into a sheet of paper
+ * (host/paper), a fiber a pixel; the sheet goes on while they move. A picture is the sheet with
+ * the present's letters on it. */
 #ifndef LUTETIA_SPRING_WET_H
 #define LUTETIA_SPRING_WET_H
 
@@ -24,7 +26,8 @@ struct spring_wet;
 int spring_wet_create(const struct spring_wet_def *def, struct spring_wet **out);
 void spring_wet_destroy(struct spring_wet *wet); /* NULL is fine */
 
-/* Prints if it is time, lets the sheet go on for a picture's time, and draws: the image becomes the sheet with the letters on it. */
+/* Prints if it is time, lets the sheet go on for a picture's time, and draws: the image becomes
+ * the sheet with the letters on it. */
 enum stage_status spring_wet_picture(struct spring_wet *wet, const struct stage_draw_list *list,
                                      struct display_image *image);
 

@@ -31,7 +31,8 @@ void type_text_check(const char *verb, const char *font, struct font_face *face,
                      const char *text);
 int type_image_write(const char *verb, const char *path, const struct display_image *image);
 
-/* Says that a font has changed since its edits were made, if one has that was opened by its folder. */
+/* Says that a font has changed since its edits were made, if one has that was opened by its
+ * folder. */
 void type_edits_tell(const char *verb);
 /* The row of --edits in a verb's options, beside that of --font. */
 #define TYPE_EDITS_OPTION(folder)                                                              \
@@ -41,12 +42,13 @@ void type_edits_tell(const char *verb);
             "taken",                                                                           \
             folder, 0, 0, 0                                                                    \
     }
-/* The name of the font to be opened: `given` (NULL: none) with the edits of a folder (NULL: none); without both the usual one.
- * The caller frees *out, which is NULL on failure. */
+/* The name of the font to be opened: `given` (NULL: none) with the edits of a folder (NULL:
+ * none); without both the usual one. The caller frees *out, which is NULL on failure. */
 int type_font_name(const char *verb, const char *given, const char *edits, const char *usual,
                    char **out);
 
-/* Opens a font, or a folder of edits of one, and sets axes, "wght=700,wdth=80". coloured: also one that has nothing but pictures in colours. */
+/* Opens a font, or a folder of edits of one, and sets axes, "wght=700,wdth=80". coloured: also
+ * one that has nothing but pictures in colours. */
 int type_face_open(const char *verb, const char *name, int index, const char *axes,
                    bool coloured, struct font_face **out);
 
@@ -56,11 +58,13 @@ int type_filter_read(const char *verb, const char *name, char **out);
 
 /* lcd, crt or print. EXIT_SUCCESS, or prints what there is. */
 int type_display_read(const char *verb, const char *word, enum font_display *out);
-/* The filter of these that fits best, but one (-1: none); -1: there is no other. Prints it for lines of this width, with why, and the next. */
+/* The filter of these that fits best, but one (-1: none); -1: there is no other. Prints it for
+ * lines of this width, with why, and the next. */
 int type_fits_best(const struct font_filter_fit *fits, int count, int but);
 void type_fits_print(const char *const *names, const struct font_filter_fit *fits, int count,
                      double detail_px);
-/* The named filter that suits lines of this width on a display; prints why. NULL, and why not, on failure. */
+/* The named filter that suits lines of this width on a display; prints why. NULL, and why not,
+ * on failure. */
 const char *type_filter_choose(const char *verb, double detail_px, enum font_display display);
 
 /* Labels: a line of small black type with the left end of its baseline at (x, y). Nothing is

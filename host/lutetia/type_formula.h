@@ -6,8 +6,8 @@
 
 #include <stdbool.h>
 
-/* Sets a formula; says which commands are shown as they are written. EXIT_SUCCESS, or prints why not. The caller destroys *math, after
- * it has finished *layout. */
+/* Sets a formula; says which commands are shown as they are written. EXIT_SUCCESS, or prints
+ * why not. The caller destroys *math, after it has finished *layout. */
 int type_formula_layout(const char *verb, struct font_face *face, const char *tex,
                         double size_px, bool display, struct font_math **math,
                         struct font_layout *layout);

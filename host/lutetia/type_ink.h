@@ -20,7 +20,8 @@ struct type_ink {
 bool type_ink_given(const struct type_ink *ink);
 /* EXIT_SUCCESS, or prints what is wrong. Reads the picture. */
 int type_ink_check(const char *verb, struct type_ink *ink);
-/* Gives the ink to all of the layout's glyphs; plain: its colour if it is neither gradient nor picture. */
+/* Gives the ink to all of the layout's glyphs; plain: its colour if it is neither gradient nor
+ * picture. */
 int type_ink_apply(const char *verb, const struct type_ink *ink, const double plain[3],
                    struct font_layout *layout);
 void type_ink_finish(struct type_ink *ink);

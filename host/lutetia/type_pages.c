@@ -71,7 +71,8 @@ static int page_said(struct type_pages *s, struct page_text *text, int page,
     return EXIT_SUCCESS;
 }
 
-/* The title of a PDF: what was asked for, else the first heading. Owns: the caller frees it; NULL: there is none. */
+/* The title of a PDF: what was asked for, else the first heading. Owns: the caller frees it;
+ * NULL: there is none. */
 static char *title_of(const struct type_pages *s, const struct page_said *said)
 {
     for (int i = 0; !s->title && i < said->passages_count; i++) {

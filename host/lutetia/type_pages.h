@@ -1,4 +1,5 @@
-/* type_pages.h - a text as pages in files: pictures, drawings, one PDF. For the verbs that set pages. */
+/* type_pages.h - a text as pages in files: pictures, drawings, one PDF. For the verbs that set
+ * pages. */
 #ifndef LUTETIA_TYPE_PAGES_H
 #define LUTETIA_TYPE_PAGES_H
 
@@ -55,12 +56,14 @@ int type_pages_check(const struct type_pages *pages);
 /* Draws the page, or all of them. EXIT_SUCCESS, or prints why not. */
 int type_pages_write(struct type_pages *pages, struct page_text *text);
 
-/* Tells what was not as asked: places (damaged) that are not UTF-8, no patterns for the language whose words are divided (NULL: none
- * are), characters that neither the font nor others have. */
+/* Tells what was not as asked: places (damaged) that are not UTF-8, no patterns for the
+ * language whose words are divided (NULL: none are), characters that neither the font nor
+ * others have. */
 void type_pages_tell(const struct type_pages *pages, const char *font, int damaged,
                      const char *divided);
 
-/* All of a file, or of the standard input (-). EXIT_SUCCESS, or prints why not. The caller frees *text. */
+/* All of a file, or of the standard input (-). EXIT_SUCCESS, or prints why not. The caller
+ * frees *text. */
 int type_text_read(const char *verb, const char *path, char **text, size_t *bytes);
 
 #endif

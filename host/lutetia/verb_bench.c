@@ -1,4 +1,5 @@
-/* verb_bench.c - `lutetia bench NAME`: runs the benchmarks, which are a program of their own (bench/lutetia_bench.c). */
+/* verb_bench.c - `lutetia bench NAME`: runs the benchmarks, which are a program of their own
+ * (bench/lutetia_bench.c). */
 #include "help.h"
 #include "lutetia.h"
 

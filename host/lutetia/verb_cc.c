@@ -1,17 +1,18 @@
-/* verb_cc.c - `lutetia cc`: calls the C compiler, or the C++ compiler, with the paths of C/Paris.
+/* verb_cc.c - `lutetia cc`: calls the C compiler, or the C++ compiler, with the paths of
+ * C/Paris.
  *
  * A program of 1990 was compiled by `cc prog.c -lparis`; this adds the two folders, the
  * library, and -std=gnu89 unless a -std is given.  A command in the build tree uses the library
  * there; an installed one uses the library installed with it. All other arguments are passed to
  * the compiler.
  *
- * -g1 is taken unless the arguments choose debug information: the library's complaints then begin
- * with the source's line (paris_compat/call_line.c). In gnu89 a function without declaration
- * returns an int, so a program without <cm/paris.h> would read 0 where the machine returns a
- * double; the compiler warns of each.
+ * -g1 is taken unless the arguments choose debug information: the library's complaints then
+ * begin with the source's line (paris_compat/call_line.c). In gnu89 a function without
+ * declaration returns an int, so a program without <cm/paris.h> would read 0 where the machine
+ * returns a double; the compiler warns of each.
  *
- * If a source is C++, which its name's end or an -x says, the C++ compiler is called, without -std=gnu89. It takes all sources for C++, so
- * sources of C beside it are told to be C.
+ * If a source is C++, which its name's end or an -x says, the C++ compiler is called, without
+ * -std=gnu89. It takes all sources for C++, so sources of C beside it are told to be C.
  *
  * A program is linked into a part file, which is renamed when it is complete, because
  * linkers overwrite an existing file. The linker's output is the part file's descriptor,
@@ -152,8 +153,8 @@ static char *compiler_of(bool cpp)
     return named && *named ? named : cpp ? cxx : cc;
 }
 
-/* Adds the program's arguments. Sources of C beside C++ stay C, unless an -x says what all are; the files behind them are by their names
- * again. */
+/* Adds the program's arguments. Sources of C beside C++ stay C, unless an -x says what all are;
+ * the files behind them are by their names again. */
 static void sources_add(struct compiler_line *line, int argc, char **argv, bool cpp)
 {
     static const char *const ends[] = {".c", NULL};
@@ -173,8 +174,8 @@ static void sources_add(struct compiler_line *line, int argc, char **argv, bool 
 
 /* ---- the program, whole under its name ---- */
 
-/* The program's name: behind "-o" or "--output", or in one word with it, as "-oNAME" and "--output=NAME"; the last one counts.
- * NULL: none. */
+/* The program's name: behind "-o" or "--output", or in one word with it, as "-oNAME" and
+ * "--output=NAME"; the last one counts. NULL: none. */
 static const char *output_find(const struct compiler_line *line)
 {
     static const char word[] = "--output";
@@ -359,7 +360,8 @@ static int impossible_refuse(int argc, char **argv)
     return EXIT_SUCCESS;
 }
 
-/* Refuses sources and objects that are pipes, devices or folders: compilers wait for them. What is missing they tell themselves. */
+/* Refuses sources and objects that are pipes, devices or folders: compilers wait for them. What
+ * is missing they tell themselves. */
 static int others_refuse(int argc, char **argv)
 {
     static const char *const ends[] = {".c",   ".i", ".s", ".S", ".cc",

@@ -1,7 +1,7 @@
 /* verb_debug.c - `lutetia debug`: gdb, which knows fields.
  *
- * The command becomes gdb, with the program and its arguments. gdb reads debug/start.py, whose commands ask
- * the program's libparis (paris_compat/debug.h).
+ * The command becomes gdb, with the program and its arguments. gdb reads debug/start.py, whose
+ * commands ask the program's libparis (paris_compat/debug.h).
  */
 #include "help.h"
 #include "lutetia.h"

@@ -1,4 +1,5 @@
-/* verb_demo.c - `lutetia demo`: paints the demonstration page, with a strip of its stages and a view of its water. */
+/* verb_demo.c - `lutetia demo`: paints the demonstration page, with a strip of its stages and a
+ * view of its water. */
 #include "demo_page.h"
 #include "help.h"
 #include "lutetia.h"

@@ -1,11 +1,13 @@
-/* verb_display.c - `lutetia display`: the frame buffer's displays, in windows, stills, frames and films.
+/* verb_display.c - `lutetia display`: the frame buffer's displays, in windows, stills, frames
+ * and films.
  *
- * A recording comes from a program, a file or the standard input (shown.h), and display_recording.h makes screens of it. Each change
- * of what is seen is a picture. Where a window alone is wanted, a thread reads, and the newest picture is drawn; where pictures
- * are written, each is, and the program waits for it.
+ * A recording comes from a program, a file or the standard input (shown.h), and
+ * display_recording.h makes screens of it. Each change of what is seen is a picture. Where a
+ * window alone is wanted, a thread reads, and the newest picture is drawn; where pictures are
+ * written, each is, and the program waits for it.
  *
- * The first display's files have the names that are given. Those of display N have -N before the ending, and its frames are
- * frame-N-000001.png. */
+ * The first display's files have the names that are given. Those of display N have -N before
+ * the ending, and its frames are frame-N-000001.png. */
 #include "help.h"
 #include "lutetia.h"
 #include "options.h"
@@ -98,7 +100,8 @@ static int frame_write(struct screen *s)
                : fail("display", "%s", display_error());
 }
 
-/* The picture with a last column and row of black where a side is odd: films have even sides. */
+/* The picture with a last column and row of black where a side is odd: films have even
+ * sides. */
 static uint8_t *even_picture(const struct display_image *image, int width, int height)
 {
     uint8_t *even = calloc((size_t)width * (size_t)height, 3);
@@ -211,7 +214,8 @@ static void window_missing(struct displays *d)
     pthread_mutex_unlock(&d->source.lock);
 }
 
-/* Opens the windows of displays that are new. Where none can be opened, what comes is read all the same. */
+/* Opens the windows of displays that are new. Where none can be opened, what comes is read all
+ * the same. */
 static void windows_open(struct displays *d)
 {
     for (int i = 0; i < DISPLAY_SCREENS; i++) {

@@ -1,4 +1,5 @@
-/* verb_font.c - `lutetia font FILE`: a specimen of a font, a glyph at each level of the pipeline, and filters. */
+/* verb_font.c - `lutetia font FILE`: a specimen of a font, a glyph at each level of the
+ * pipeline, and filters. */
 #include "font_verb.h"
 #include "help.h"
 #include "lutetia.h"
@@ -348,7 +349,8 @@ static int filter_write(const struct font_verb *v, struct font_face *face,
     return status;
 }
 
-/* The picture that was asked for, of the font with its edits. A folder that is to be written to need not be there. */
+/* The picture that was asked for, of the font with its edits. A folder that is to be written to
+ * need not be there. */
 static int picture_make(const struct font_verb *v, struct font_face *face)
 {
     struct font_edits *edits = NULL;

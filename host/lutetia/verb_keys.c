@@ -1,4 +1,5 @@
-/* verb_keys.c - `lutetia keys`: letters that the keys of a song play, as a sheet of moments, a line, frames or a film. */
+/* verb_keys.c - `lutetia keys`: letters that the keys of a song play, as a sheet of moments, a
+ * line, frames or a film. */
 #include "help.h"
 #include "keys_live.h"
 #include "lutetia.h"
@@ -92,7 +93,8 @@ static int options_check(struct keys_work *w, const struct option_words *words,
 #define MOMENTS "sheet|still|frames|video|sound|!WORD"
 #define POSTER "poster|WORD+!sheet+!still+!frames+!video+!sound"
 
-/* With what an option has an effect. The poster is made of a song where nothing else is asked for. */
+/* With what an option has an effect. The poster is made of a song where nothing else is asked
+ * for. */
 static const struct option_need needs[] = {{"param", "map"},
                                            {"set", "!WORD|map|wet|knobs"},
                                            {"range", "!WORD|map|wet|knobs"},

@@ -56,7 +56,8 @@ static void serve_stop(int signal_number)
     midi_server_stop(serving);
 }
 
-/* What devices, programs and servers are called, and what they say, is shown and does nothing to the terminal. */
+/* What devices, programs and servers are called, and what they say, is shown and does nothing
+ * to the terminal. */
 static const char *shown(const char *text)
 {
     static char line[4 * MIDI_TEXT_MAX];
@@ -120,7 +121,8 @@ static void kinds_print(void)
     }
 }
 
-/* Text of many lines, piece by piece: a byte takes 4 at most, and no piece ends within a character. */
+/* Text of many lines, piece by piece: a byte takes 4 at most, and no piece ends within a
+ * character. */
 static void reply_print(const char *text)
 {
     enum { PIECE = 1000 };
@@ -396,7 +398,8 @@ static int play_song(const struct midi_verb *v, struct midi_song *song, struct p
                                                                          : fail_midi(v);
 }
 
-/* As the server does. Returns the descriptor that keeps processors awake; -1: they may sleep. */
+/* As the server does. Returns the descriptor that keeps processors awake; -1: they may
+ * sleep. */
 static int play_hurry(const struct midi_verb *v)
 {
     char said[MIDI_REAL_TIME_TEXT];
@@ -488,7 +491,8 @@ static const struct help_command *commands(void)
     return out;
 }
 
-/* Whether the help says that an option is for this verb: "monitor, record: only ...; send: ..."; without verbs it is for all. */
+/* Whether the help says that an option is for this verb: "monitor, record: only ...; send:
+ * ..."; without verbs it is for all. */
 static bool option_is_for(const char *help, const char *verb)
 {
     bool named = false;

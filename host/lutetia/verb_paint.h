@@ -1,4 +1,5 @@
-/* verb_paint.h - `lutetia paint`: what its options say, and the two kinds of sheet that it paints on. */
+/* verb_paint.h - `lutetia paint`: what its options say, and the two kinds of sheet that it
+ * paints on. */
 #ifndef LUTETIA_VERB_PAINT_H
 #define LUTETIA_VERB_PAINT_H
 
@@ -30,7 +31,8 @@ struct paint {
 int paint_sheet_config(const struct paint *paint, struct paper_sheet_config *config,
                        double amount[1 + PAPER_PIGMENTS_MAX]);
 
-/* Each makes the machine, paints the picture and writes it. EXIT_SUCCESS, EXIT_INTERRUPTED, or prints why not. */
+/* Each makes the machine, paints the picture and writes it. EXIT_SUCCESS, EXIT_INTERRUPTED, or
+ * prints why not. */
 int paint_thesis(const struct paint *paint);
 int paint_sheet(const struct paint *paint);
 

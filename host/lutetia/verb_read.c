@@ -1,4 +1,5 @@
-/* verb_read.c - `lutetia read`: Markdown as pages: headings, lists, notes, tables, code, formulas. */
+/* verb_read.c - `lutetia read`: Markdown as pages: headings, lists, notes, tables, code,
+ * formulas. */
 #include "help.h"
 #include "lutetia.h"
 #include "options.h"

@@ -1,4 +1,5 @@
-/* verb_run.c - `lutetia run script.lua`: a script of papers, once or for each value of a sweep. */
+/* verb_run.c - `lutetia run script.lua`: a script of papers, once or for each value of a
+ * sweep. */
 #include "help.h"
 #include "lutetia.h"
 #include "options.h"

@@ -1,4 +1,5 @@
-/* verb_set.c - `lutetia set`: a text as pages: columns, notes, words divided, text around and inside shapes, vertical lines. */
+/* verb_set.c - `lutetia set`: a text as pages: columns, notes, words divided, text around and
+ * inside shapes, vertical lines. */
 #include "help.h"
 #include "lutetia.h"
 #include "options.h"

@@ -404,7 +404,8 @@ static int recording_heard(void *context, double now_s, const char **why)
     return file;
 }
 
-/* A window without sound is a window, and its recordings may have some; a device that is asked for must be there. */
+/* A window without sound is a window, and its recordings may have some; a device that is asked
+ * for must be there. */
 static int window_sound(struct spring *s)
 {
     const struct live_sound_def def = {.synth = !s->silent,

@@ -1,4 +1,5 @@
-/* verb_stage.c - `lutetia stage`: short pieces for a stage of springs, each a script in Lua that says how it begins and leads it. */
+/* verb_stage.c - `lutetia stage`: short pieces for a stage of springs, each a script in Lua
+ * that says how it begins and leads it. */
 #include "help.h"
 #include "lutetia.h"
 #include "options.h"
@@ -63,7 +64,8 @@ static void line_ends_put(char *word)
     *to = '\0';
 }
 
-/* Divides a line into words between blanks; a word in "quotes" may have some. False: a quote is open, or there are too many. */
+/* Divides a line into words between blanks; a word in "quotes" may have some. False: a quote is
+ * open, or there are too many. */
 static bool words_split(struct piece *p, char *text)
 {
     for (;;) {

@@ -1,5 +1,5 @@
-/* verb_studio.c - `lutetia studio`: checks the words, and runs the window, which is a program of its own (desk/desk_main.c): so no other
- * verb loads GTK. */
+/* verb_studio.c - `lutetia studio`: checks the words, and runs the window, which is a program
+ * of its own (desk/desk_main.c): so no other verb loads GTK. */
 #include "help.h"
 #include "lutetia.h"
 #include "options.h"

@@ -1,4 +1,4 @@
-/* verb_voice.c - `lutetia voice`: letters that a voice plays, as a poster, a sheet of moments, frames or a film with the voice in it. */
+/* verb_voice.c - `lutetia voice`: letters that a voice plays: poster, moments, frames, film. */
 #include "help.h"
 #include "lutetia.h"
 #include "options.h"
@@ -54,7 +54,8 @@ static bool pictures_wanted(const struct voice_work *w)
     return w->poster || w->sheet || w->envelope || w->still || w->frames || w->video;
 }
 
-/* How many words the command line has: a sound, unless another is given; a text, unless there is a transcript. */
+/* How many words the command line has: a sound, unless another is given; a text, unless there
+ * is a transcript. */
 static int words_take(struct voice_work *w, const struct option_words *words)
 {
     const bool heard = !w->cry && !w->microphone, written = !w->transcript,

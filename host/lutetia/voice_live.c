@@ -1,7 +1,7 @@
 /* voice_live.c - see voice_live.h.
  *
- * The last seconds that were heard are a score like a file's, made anew when frames have come, and the picture is its last moment. So
- * what is loudest is the loudest of these seconds. */
+ * The last seconds that were heard are a score like a file's, made anew when frames have come,
+ * and the picture is its last moment. So what is loudest is the loudest of these seconds. */
 #include "voice_live.h"
 
 #include "lutetia.h"

@@ -1,4 +1,5 @@
-/* voice_live.h - `lutetia voice --microphone`: letters that a voice plays in a window, while it is heard. */
+/* voice_live.h - `lutetia voice --microphone`: letters that a voice plays in a window, while it
+ * is heard. */
 #ifndef LUTETIA_VOICE_LIVE_H
 #define LUTETIA_VOICE_LIVE_H
 
@@ -15,7 +16,8 @@ struct voice_live_def {
     int picture[2];
 };
 
-/* Until somebody closes the window. Each sound that begins shows the text's next word. Exit statuses; what is wrong has been said. */
+/* Until somebody closes the window. Each sound that begins shows the text's next word. Exit
+ * statuses; what is wrong has been said. */
 int voice_live_window(const struct voice_live_def *def);
 
 /* So many seconds of it. */

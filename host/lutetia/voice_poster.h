@@ -1,4 +1,5 @@
-/* voice_poster.h - the poster of `lutetia voice`: lines on which time runs, on as many pages as they need. */
+/* voice_poster.h - the poster of `lutetia voice`: lines on which time runs, on as many pages as
+ * they need. */
 #ifndef LUTETIA_VOICE_POSTER_H
 #define LUTETIA_VOICE_POSTER_H
 

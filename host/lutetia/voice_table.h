@@ -1,5 +1,6 @@
-/* voice_table.h - what was heard in a voice as a table: comma-separated values (RFC 4180), a line for each frame of voice.h, numbers with a
- * point. What there is none of (a pitch, a formant) is empty. */
+/* voice_table.h - what was heard in a voice as a table: comma-separated values (RFC 4180), a
+ * line for each frame of voice.h, numbers with a point. What there is none of (a pitch, a
+ * formant) is empty. */
 #ifndef LUTETIA_VOICE_TABLE_H
 #define LUTETIA_VOICE_TABLE_H
 

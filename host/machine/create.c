@@ -60,7 +60,8 @@ static void layers_join(struct machine_layers *l)
     l->machine.run = &l->content.run;
 }
 
-/* Written here: pages of calloc()'s may be given only when the program's first calls look at them, which takes them some microseconds. */
+/* Written here: pages of calloc()'s may be given only when the program's first calls look at
+ * them, which takes them some microseconds. */
 static struct machine_layers *layers_allocate(void)
 {
     const size_t bytes =
@@ -186,7 +187,8 @@ enum machine_status machine_create(const struct machine_config *config, struct m
     status = device_open(m, config);
     if (!status)
         forks_machine_made(m);
-    /* After the driver, which takes milliseconds and all of the caches: so they are near when the program begins. */
+    /* After the driver, which takes milliseconds and all of the caches: so they are near when
+     * the program begins. */
     status = status ? status : content_tables(m);
     status = status ? status : sequencers_create(m);
     if (!status && m->watch)

@@ -1,6 +1,7 @@
 /* forks.c - see forks.h.
  *
- * The lock is never held while something is waited for: a thread of the driver may fork, too (to link a kernel), and comes by here. */
+ * The lock is never held while something is waited for: a thread of the driver may fork, too
+ * (to link a kernel), and comes by here. */
 #include "forks.h"
 
 #include <pthread.h>
@@ -41,7 +42,8 @@ static void in_child_of(struct machine *m)
     m->settings.near = m->settings.near ? m->settings.near : 1;
 }
 
-/* Other threads are gone, whatever they were doing. Children tell nothing about their parent's machines. */
+/* Other threads are gone, whatever they were doing. Children tell nothing about their parent's
+ * machines. */
 static void in_child(void)
 {
     pthread_mutex_init(&lock, NULL);

@@ -1,9 +1,12 @@
 /* forks.h - machines when their process forks.
  *
- *     parent   fork() waits until the machines of its thread have nothing queued and nothing is being loaded
- *     child    its machines hold what they held; no kernel runs there, and plans are interpreted
+ *     parent   fork() waits until the machines of its thread have nothing queued and nothing is
+ *              being loaded
+ *     child    its machines hold what they held; no kernel runs there, and plans are
+ *              interpreted
  *
- * A machine of another thread may have been at work: then the child cannot use it, and is told so. */
+ * A machine of another thread may have been at work: then the child cannot use it, and is told
+ * so. */
 #ifndef LUTETIA_MACHINE_FORKS_H
 #define LUTETIA_MACHINE_FORKS_H
 

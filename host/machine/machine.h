@@ -1,4 +1,4 @@
-/* machine.h - a Connection Machine: virtual processors, bit-addressed fields, and a lazy value graph.
+/* machine.h - a Connection Machine: virtual processors, fields of bits, a lazy value graph.
  *
  *     struct machine *m;
  *     struct machine_config config = machine_config_default();
@@ -12,8 +12,9 @@
  *     machine_field_store(m, f, machine_binary(m, MACHINE_FADD, x, x), MACHINE_WHERE_ACTIVE);
  *     machine_field_download(m, f, MACHINE_F32, host_array);
  *
- * No call between create and download computes: each call records what a value now is. Values that are observed are computed by as few
- * generated kernels as the cost model allows. See docs/engine.md.
+ * No call between create and download computes: each call records what a value now is. Values
+ * that are observed are computed by as few generated kernels as the cost model allows. See
+ * docs/engine.md.
  *
  * Values. A `struct machine_value *` is one number for each virtual processor of a VP set, or
  * one number for all of them (a constant). It is immutable and borrowed: valid until the next
@@ -29,8 +30,9 @@
  * Errors. Functions that can fail return a status, or NULL / 0 with machine_status_last() set;
  * the detail is in machine_error(). A failed call changes nothing.
  *
- * Threads. One machine belongs to one thread at a time. With PoCL, a process that is no child of the program may compile better
- * kernels meanwhile (LUTETIA_BACKGROUND=0: none). After fork() both processes have the machine, the child without kernels (forks.h).
+ * Threads. One machine belongs to one thread at a time. With PoCL, a process that is no child
+ * of the program may compile better kernels meanwhile (LUTETIA_BACKGROUND=0: none). After
+ * fork() both processes have the machine, the child without kernels (forks.h).
  */
 #ifndef LUTETIA_MACHINE_H
 #define LUTETIA_MACHINE_H
@@ -99,7 +101,7 @@ enum machine_knob {
     MACHINE_STRIPS_EACH, /* strips for each compute unit, about */
     MACHINE_KNOBS
 };
-/* The numbers of the cost model, in nanoseconds: plans follow from them. None of them changes a bit of a result. */
+/* The cost model's numbers, in nanoseconds: plans follow from them, and no bit of a result. */
 enum machine_cost {
     MACHINE_COST_OP,   /* one vector instruction; on a GPU, an instruction for an element */
     MACHINE_COST_BYTE, /* one byte to or from memory */
@@ -134,15 +136,17 @@ struct machine_config {
 };
 struct machine_config machine_config_default(void);
 
-/* Owns: after a failure *out may be set, for its error text; machine_destroy() frees it then, too. */
+/* Owns. After a failure *out may be set for its error text; machine_destroy() frees it, too. */
 enum machine_status machine_create(const struct machine_config *config, struct machine **out);
 void machine_destroy(struct machine *m); /* NULL is fine */
 
-/* For exit handlers: waits for running kernels, which still use the driver and their buffers, and releases nothing. Returns at once where
- * waiting is impossible: in another thread, or if the exit comes from inside an evaluation (a compiler called exit()). NULL is fine. */
+/* For exit handlers: waits for running kernels, which still use the driver and their buffers,
+ * and releases nothing. Returns at once where waiting is impossible: in another thread, or if
+ * the exit comes from inside an evaluation (a compiler called exit()). NULL is fine. */
 void machine_leave(struct machine *m);
 
-/* Whether it pays to perform something and to empty the machine before the program begins: nothing is compiled for it, and nobody watches. */
+/* Whether it pays to perform something and to empty the machine before the program begins:
+ * nothing is compiled for it, and nobody watches. */
 bool machine_warms_up(const struct machine *m);
 /* Destroys all VP sets, fields, values and plans: the machine is as it was made. */
 enum machine_status machine_empty(struct machine *m);
@@ -200,15 +204,14 @@ bool machine_cache_folder(char out[static MACHINE_CACHE_FOLDER_MAX], const char 
 int machine_processors_count(const struct machine *m);
 const char *machine_device_name(const struct machine *m);
 
-/* The knobs and costs in effect: what the environment forces (docs/engine-reference.md), else config's or the
- * stored tuning, else the usual values. No knob is -1, no cost 0. */
+/* The knobs and costs in effect: what the environment forces (docs/engine-reference.md), else
+ * config's or the stored tuning, else the usual values. No knob is -1, no cost 0. */
 struct machine_tuning machine_tuning_get(const struct machine *m);
-/* Measures the costs on the machine's device, in a few seconds, by programs of its own. 0: could not be measured. Called
+/* Measures costs on the machine's device, in some seconds; 0: could not be measured. Called
  * between instructions. Errors: as of fields and evaluations. */
 enum machine_status machine_costs_measure(struct machine *m, double ns[MACHINE_COSTS]);
-/* Stores a tuning for all machines on that device from now on, in all programs. The file
- * appears when it is complete. Errors: MACHINE_BAD_ARGUMENT (the file, and why it cannot be
- * written); the old tuning stays. */
+/* Stores a tuning for all machines on that device from now on, in all programs, at once and
+ * whole. Errors: MACHINE_BAD_ARGUMENT (the file, and why): the old one stays. */
 enum machine_status machine_tuning_keep(struct machine *m, const struct machine_tuning *tuning);
 /* Says in one line whether there is a stored tuning for the device, in which file, and
  * whether it is used: */
@@ -247,8 +250,7 @@ int machine_devices_list(void (*each)(void *context, int index, const char *plat
 /* ---- VP sets ---- */
 
 /* Shape: dimensions[0..rank-1], each 1 or more, axis 0 varies slowest in memory (row-major).
- * Returns an id from 1 on, or 0. A VP set starts with context 1 and test and overflow 0
- * everywhere. */
+ * Returns an id from 1 on, or 0. A VP set starts with context 1, test and overflow 0. */
 int machine_vpset_create(struct machine *m, const int *dimensions, int rank);
 /* Where they live is told by machine_layout.h; machine_vpset_create() is NEWS order. */
 int machine_vpset_create_ordered(struct machine *m, const int *dimensions, int rank,
@@ -281,9 +283,8 @@ uint64_t machine_index(const struct machine *m, int vpset, uint64_t send_address
 enum machine_region { MACHINE_STACK, MACHINE_HEAP };
 #define MACHINE_NO_FIELD 0u
 
-/* A field id is a bit address in its own address space: id + k names the part of the field
- * that begins k bits further on, if that is inside the field. New fields are zero. Returns
- * MACHINE_NO_FIELD on failure. */
+/* A field id is a bit address in its own address space: id + k is the part of the field that
+ * begins k bits further on. New fields are zero. MACHINE_NO_FIELD: it failed. */
 uint32_t machine_field_allocate(struct machine *m, int vpset, uint32_t bits,
                                 enum machine_region region);
 enum machine_status machine_field_deallocate(struct machine *m,
@@ -306,23 +307,28 @@ int machine_field_vpset(const struct machine *m, uint32_t field);
 
 /* ---- lenient ----
  *
- * With it, what is read or stored past a field's end is in the field of the same VP set and region
- * that was allocated next after it; past the last one bits are 0, and what is stored there is lost.
- * Without, which is how a machine begins unless LUTETIA_LENIENT=1, that is an error. */
+ * With it, what is read or stored past a field's end is in the field of the same VP set and
+ * region that was allocated next after it; past the last one bits are 0, and what is stored
+ * there is lost. Without, as a machine begins unless LUTETIA_LENIENT=1, that is an error. */
 void machine_lenient_set(struct machine *m, bool on);
 bool machine_lenient(const struct machine *m);
-/* Whether so many bits from there on run past a field's end, and a lenient machine goes on after it. */
+/* Whether so many bits from there run past a field's end, and a lenient machine goes on. */
 bool machine_field_runs_over(const struct machine *m, uint32_t field, uint32_t bits);
 
 /* ---- aliases ---- */
 
-/* Makes a field that is the same memory, from that bit of the field on, seen from the VP set. Memory belongs to
- * physical processors: of a field of L bits in a set of VP ratio R each has R * L bits, VP after VP.
+/* Makes a field that is the same memory, from that bit of the field on, seen from the VP set.
+ * Memory belongs to physical processors: of a field of L bits in a set of VP ratio R each has
+ * R * L bits, VP after VP.
  *  - The set has the same ratio: its VPs see their own bits, L - offset of them.
- *  - k times the ratio: the L - offset bits of each VP are shared out among k, (L - offset) / k to each.
+ *  - k times the ratio: the L - offset bits of each VP are shared out among k, (L - offset) / k
+ *    to each.
  *  - a k-th of it: each VP sees the bits of k one after the other, without the first offset.
  *  - other ratios: the bits of the processor are shared out, one VP after the other.
- * Stores through one are visible through all. Bits of VPs beyond the set's size (if it is no multiple of the processors) are 0 and are not kept. An alias of an alias is an alias of the same memory. An alias is deallocated with its memory, or with its VP set. Its id takes offsets as any field's. MACHINE_NO_FIELD: it could not be made. */
+ * Stores through one are visible through all. Bits of VPs beyond the set's size (if it is no
+ * multiple of the processors) are 0 and are not kept. An alias of an alias is an alias of the
+ * same memory. An alias is deallocated with its memory, or with its VP set. Its id takes
+ * offsets as any field's. MACHINE_NO_FIELD: it could not be made. */
 uint32_t machine_alias_make(struct machine *m, uint32_t field, int vpset);
 /* Makes the alias one of another field, in its own VP set. */
 enum machine_status machine_alias_change(struct machine *m, uint32_t alias, uint32_t field);
@@ -338,8 +344,7 @@ enum machine_scope { MACHINE_WHERE_ACTIVE, MACHINE_EVERYWHERE };
 
 struct machine_value *machine_field_value(struct machine *m, uint32_t field,
                                           struct machine_type type, enum machine_scope scope);
-/* WHERE_ACTIVE stores under the context, EVERYWHERE ignores it. The value's type gives the
- * width. */
+/* WHERE_ACTIVE stores under the context, EVERYWHERE ignores it. Its type is the width. */
 enum machine_status machine_field_store(struct machine *m, uint32_t field,
                                         struct machine_value *value, enum machine_scope scope);
 
@@ -351,8 +356,7 @@ enum machine_status machine_flag_store(struct machine *m, enum machine_flag flag
                                        struct machine_value *value, enum machine_scope scope);
 
 struct machine_type machine_value_type(const struct machine_value *v);
-/* Whether the value is known to be 0 everywhere: the constant, or bits that were never
- * written. */
+/* Whether the value is known to be 0 everywhere: the constant, or bits never written. */
 bool machine_value_is_zero(const struct machine_value *v);
 
 /* Constants: bits above the width are ignored. */
@@ -364,8 +368,7 @@ struct machine_scalar machine_float_bits(struct machine_type type, double x);
 struct machine_value *machine_constant_float(struct machine *m, struct machine_type type,
                                              double x);
 
-/* Functions of a processor's place: NEWS coordinate, send address, row-major index; the low
- * bits up to the width. */
+/* The low bits, up to the width, of a NEWS coordinate, a send address, a row-major index. */
 struct machine_value *machine_coordinate(struct machine *m, int axis, int width);
 struct machine_value *machine_self_address(struct machine *m, int width);
 struct machine_value *machine_self_index(struct machine *m, int width);
@@ -375,13 +378,11 @@ struct machine_value *machine_self_index(struct machine *m, int width);
  * same on every device. With mix() the finaliser of splitmix64 and g = 0x9e3779b97f4a7c15,
  * draw k (from 1) of index n is z = mix(mix(mix(seed) + k*g) + n*g), and the result the high
  * width bits of z, or (z >> 32)*limit >> 32 for a limit under 2^32, or the high 64 bits of
- * z*limit. Wider than 64 bits: two draws, the low 64 bits first; with a limit the high part
- * is 0. */
+ * z*limit. Beyond 64 bits: two draws, the low 64 bits first; with a limit the high part is 0. */
 struct machine_value *machine_random(struct machine *m, int width, uint64_t limit);
 void machine_random_seed(struct machine *m, uint64_t seed);
 
-/* Whether the operation is a function of floats in kernels/math.cl: exp, sine, power,
- * remainder, ... */
+/* Whether the operation is a function of floats in kernels/math.cl: exp, sine, power, ... */
 bool machine_op_is_function(int op);
 struct machine_value *machine_unary(struct machine *m, enum machine_op op,
                                     struct machine_value *a);
@@ -410,8 +411,7 @@ struct machine_value *machine_reinterpret(struct machine *m, struct machine_valu
 /* Bits to float, rounded to nearest even; float to float. */
 struct machine_value *machine_to_float(struct machine *m, struct machine_value *a,
                                        struct machine_type type, bool is_signed);
-/* Float to bits, rounded toward zero; out of range, the nearest end of the range; a NaN
- * gives 0. */
+/* Float to bits, toward zero; out of range, the nearest end of the range; a NaN gives 0. */
 struct machine_value *machine_to_bits(struct machine *m, struct machine_value *a, int width,
                                       bool is_signed);
 
@@ -519,19 +519,18 @@ struct machine_scan {
  * the earlier runs' totals, one after the other from the segment's beginning. */
 struct machine_value *machine_scan(struct machine *m, const struct machine_scan *how,
                                    struct machine_value *value);
-/* So many bits of dest become, in each active processor, what machine_scan() adds up to of a 1 in each: how->op does not matter. */
+/* So many bits of dest become what machine_scan() adds up to of a 1 in each; how->op is unused. */
 enum machine_status machine_enumerate(struct machine *m, const struct machine_scan *how,
                                       uint32_t dest, int width);
-/* In each processor, the combination of all active ones that differ from it only on the axes of the mask (bit 0: axis 0). The order is that
- * of a scan upward along the greatest axis of the mask, then of its results along the next axis, and so on. COPY is not allowed. */
+/* In each processor, the combination of all active ones that differ from it only on the axes of
+ * the mask (bit 0: axis 0). The order is that of a scan upward along the greatest axis of the
+ * mask, then of its results along the next axis, and so on. COPY is not allowed. */
 struct machine_value *machine_spread(struct machine *m, enum machine_scan_op op, uint32_t axes,
                                      struct machine_value *value);
-/* In each processor, the value of the one on its line along the axis with that coordinate, active
- * or not. The value is taken EVERYWHERE. */
+/* In each processor, the EVERYWHERE value of the one with that coordinate on its line. */
 struct machine_value *machine_spread_coordinate(struct machine *m, int axis, int coordinate,
                                                 struct machine_value *value);
-/* In each processor, the value of the one with that row-major index, active or not. The value is
- * taken EVERYWHERE. */
+/* In each processor, the EVERYWHERE value of the one with that row-major index, active or not. */
 struct machine_value *machine_spread_index(struct machine *m, uint64_t index,
                                            struct machine_value *value);
 /* In each active processor, 32 bits: its position along the axis if the active processors of
@@ -575,8 +574,9 @@ enum machine_status machine_field_download(struct machine *m, uint32_t field,
                                            struct machine_type type, void *out);
 enum machine_status machine_field_upload(struct machine *m, uint32_t field,
                                          struct machine_type type, const void *in);
-/* A block of them: rows (all axes but the last together) and columns (the last one). The front end's rows lie `pitch` bytes apart.
- * Likewise otherwise; only the block is touched where the device's memory is the front end's. */
+/* A block of them: rows (all axes but the last together) and columns (the last one). The front
+ * end's rows lie `pitch` bytes apart. Likewise otherwise; only the block is touched where the
+ * device's memory is the front end's. */
 struct machine_block {
     uint64_t row, rows;
     int column, columns;

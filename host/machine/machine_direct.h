@@ -9,8 +9,9 @@
 
 #include "machine.h"
 
-/* dest = a op b as by machine_field_value(), machine_binary() and machine_field_store(), where all processors are active and operations on a
- * set so small are computed as they are called. */
+/* dest = a op b as by machine_field_value(), machine_binary() and machine_field_store(), where
+ * all processors are active and operations on a set so small are computed as they are
+ * called. */
 struct machine_direct {
     enum machine_op op; /* of two operands of that type */
     struct machine_type type;

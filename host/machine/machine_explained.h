@@ -43,7 +43,8 @@ enum machine_plan_way {
     MACHINE_PLAN_WAYS
 };
 
-/* What one run of each takes, by the cost model, as plan/plans_compared.c notes it; 0: it was not considered, or is not possible. */
+/* What one run of each takes, by the cost model, as plan/plans_compared.c notes it; 0: it was
+ * not considered, or is not possible. */
 struct machine_explained_plan {
     enum machine_plan_way chosen;
     bool forced; /* somebody asked for it (LUTETIA_STRIPS) */
@@ -77,8 +78,8 @@ struct machine_explained_kernel {
     /* The least times of one run: for copying as many bytes, measured when machine_explain()
      * was called (0: not measured), and for the operations by the cost model. */
     double copy_s, operations_s;
-    /* What one run takes by the cost model: 0 of one by hand, and of one that was split. The plan that the kernel was
-     * made for, and what it was preferred to. */
+    /* What one run takes by the cost model: 0 of one by hand, and of one that was split. The
+     * plan that the kernel was made for, and what it was preferred to. */
     double predicted_s;
     struct machine_explained_plan plan;
 };
@@ -94,8 +95,9 @@ enum machine_tier {
 
 /* Why a plan runs as it does. */
 enum machine_plan_why {
-    MACHINE_PLAN_SHORT,     /* interpreted: done before a kernel would begin */
-    MACHINE_PLAN_NOT_WORTH, /* interpreted: kernels would have saved less than a compiler takes */
+    MACHINE_PLAN_SHORT, /* interpreted: done before a kernel would begin */
+    /* interpreted: kernels would have saved less than a compiler takes */
+    MACHINE_PLAN_NOT_WORTH,
     MACHINE_PLAN_COMPILING, /* interpreted: kernels are being compiled */
     MACHINE_PLAN_SHARED,    /* kernels that take its numbers as arguments */
     MACHINE_PLAN_OWN,       /* kernels with its numbers in their text */

@@ -9,11 +9,12 @@
 
 #include "machine.h"
 
-/* NULL: the machine can be asked. Else why it cannot be: it belongs to another thread, or is in the midst of an evaluation. */
+/* NULL: the machine can be asked. Else why it cannot be: it belongs to another thread, or is in
+ * the midst of an evaluation. */
 const char *machine_busy(const struct machine *m);
 
-/* Whether a child after fork() has the machine, with all that waits: see machine.h. If not, asking the machine is a look as of any
- * program. */
+/* Whether a child after fork() has the machine, with all that waits: see machine.h. If not,
+ * asking the machine is a look as of any program. */
 bool machine_forks(const struct machine *m);
 
 /* What is recorded and not computed: values, and calls that were foreseen and only counted. */
@@ -22,10 +23,12 @@ struct machine_waiting {
 };
 struct machine_waiting machine_waiting(const struct machine *m);
 
-/* How these bits of a field were stored: as a float of 32 or 64 bits, or as bits. The bits lie in the field. */
+/* How these bits of a field were stored: as a float of 32 or 64 bits, or as bits. The bits lie
+ * in the field. */
 struct machine_type machine_field_stored(struct machine *m, uint32_t field, uint32_t bits);
 
-/* With LUTETIA_BLOCKS: plans run in blocks; arrays put into blocks, and together again; arrays whose ghosts were fetched. */
+/* With LUTETIA_BLOCKS: plans run in blocks; arrays put into blocks, and together again; arrays
+ * whose ghosts were fetched. */
 struct machine_blocks {
     uint64_t run, divided, gathered, fetched;
 };

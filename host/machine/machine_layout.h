@@ -9,13 +9,13 @@
  *     subgrids     NEWS order where all lengths are powers of two, as the CM-2 demanded: each
  *                  physical processor has a block, which is 2^subgrid[a] long on axis a. The
  *                  blocks along axis a are numbered in Gray code (an axis in send order: in
- *                  binary) in node[a] bits of the processor's number. In the processor's number,
- *                  and in the VP's, the last axis has the lowest bits.
+ *                  binary) in node[a] bits of the processor's number. In the processor's
+ *                  number, and in the VP's, the last axis has the lowest bits.
  *     dealt        NEWS order with any other length: the processor of row-major index n is VP
  *                  n div P of processor n mod P
  *
- * Geometries of as many processors have the same addresses, if P divides their number or none is
- * dealt.
+ * Geometries of as many processors have the same addresses, if P divides their number or none
+ * is dealt.
  */
 #ifndef LUTETIA_MACHINE_LAYOUT_H
 #define LUTETIA_MACHINE_LAYOUT_H
@@ -63,13 +63,15 @@ struct machine_value *machine_layout_address_value(struct machine *m,
 struct machine_value *machine_layout_index_value(struct machine *m,
                                                  const struct machine_layout *l,
                                                  struct machine_value *address);
-/* The addresses of the current set with that coordinate along the axis, where they are each processor's own but for some bits, and so is the coordinate. Gets by them
- * are recognised. NULL, without an error: it is not known that they are. */
+/* The addresses of the current set with that coordinate along the axis, where they are each
+ * processor's own but for some bits, and so is the coordinate. Gets by them are recognised.
+ * NULL, without an error: it is not known that they are. */
 struct machine_value *machine_address_turned(struct machine *m,
                                              const struct machine_layout *layout,
                                              struct machine_value *address, int axis,
                                              struct machine_value *coordinate);
-/* These addresses are those of these indices, by this layout. A send by them may then be recognised. */
+/* These addresses are those of these indices, by this layout. A send by them may then be
+ * recognised. */
 void machine_layout_note(struct machine *m, const struct machine_layout *layout,
                          struct machine_value *index, struct machine_value *address);
 

@@ -1,15 +1,16 @@
-/* machine_saved.h - what a machine consists of, to be saved and made again: numbers, VP sets' flags, fields with their ids, their parts
- * and aliases.
+/* machine_saved.h - what a machine consists of, to be saved and made again: numbers, VP sets'
+ * flags, fields with their ids, their parts and aliases.
  *
  *     struct machine_saved_field f;
  *     for (int i = 0; machine_field_saved (m, i, &f); i++)
  *         for (int k = 0; k < f.parts_count; k++)
  *             ... machine_part_saved (m, f.base, k, &part); machine_field_download (m, f.base + part.offset, part.type, ...)
  *
- * Into a machine that machine_empty() has emptied, with VP sets of the same ids, the same is put back by machine_field_restore() in the
- * order of bases, and uploads.
+ * Into a machine that machine_empty() has emptied, with VP sets of the same ids, the same is
+ * put back by machine_field_restore() in the order of bases, and uploads.
  *
- * Errors: as machine.h. What is put back is looked at: MACHINE_BAD_ARGUMENT where it is no machine's. Threads: as machine.h. */
+ * Errors: as machine.h. What is put back is looked at: MACHINE_BAD_ARGUMENT where it is no
+ * machine's. Threads: as machine.h. */
 #ifndef LUTETIA_MACHINE_SAVED_H
 #define LUTETIA_MACHINE_SAVED_H
 
@@ -34,10 +35,11 @@ struct machine_saved_field {
     uint32_t view[4]; /* an alias: where its bits are (struct view) */
     int parts_count;  /* 0 of aliases */
 };
-/* The i-th field by base. What was stored through its aliases is in it, and in none of them. False: there are not so many, or an error
- * that machine_status_last() tells. */
+/* The i-th field by base. What was stored through its aliases is in it, and in none of them.
+ * False: there are not so many, or an error that machine_status_last() tells. */
 bool machine_field_saved(struct machine *m, int i, struct machine_saved_field *out);
-/* Bits outside of all parts are 0. A value that is the same in all processors is `constant`, and `number`. */
+/* Bits outside of all parts are 0. A value that is the same in all processors is `constant`,
+ * and `number`. */
 struct machine_saved_part {
     uint32_t offset;
     struct machine_type type;
@@ -48,7 +50,8 @@ struct machine_saved_part {
 bool machine_part_saved(struct machine *m, uint32_t field, int k,
                         struct machine_saved_part *out);
 
-/* Whether the field can be put back behind those that are there: its set and root exist, its ids and bits are nobody else's. */
+/* Whether the field can be put back behind those that are there: its set and root exist, its
+ * ids and bits are nobody else's. */
 enum machine_status machine_field_restore(struct machine *m,
                                           const struct machine_saved_field *f);
 enum machine_status machine_part_restore(struct machine *m, uint32_t field,

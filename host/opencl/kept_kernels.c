@@ -1,6 +1,7 @@
 /* kept_kernels.c - see kept_kernels.h.
  *
- *     POCL_CACHE_DIR/AB/CDEFGH.../last_accessed       a program: PoCL touches this file when it builds or loads it
+ *     POCL_CACHE_DIR/AB/CDEFGH.../last_accessed       a program: PoCL touches this file when it
+ *                                                     builds or loads it
  *                                /program.bc, k/...
  *
  * Only folders of such names with such a file are programs. */

@@ -1,6 +1,6 @@
-/* arguments.h - structs for the arguments of operations whose public functions take them one
- * by one. The other operations' arguments are structs of the public headers. paper_history_arguments() gives
- * either. */
+/* arguments.h - structs for the arguments of operations whose public functions take them one by
+ * one. The other operations' arguments are structs of the public headers.
+ * paper_history_arguments() gives either. */
 #ifndef LUTETIA_PAPER_ARGUMENTS_H
 #define LUTETIA_PAPER_ARGUMENTS_H
 

@@ -53,11 +53,11 @@ struct paper_brush {
 /* A round brush of 160 bristles, 20 fibers wide, number 0. */
 struct paper_brush paper_brush_default(void);
 
-/* Kinds of brushes: "round", "flat", "mop", "rigger", "fan", "bristle", by number from 0; NULL: there is none of that number. They are
- * constants of the library, valid for ever. */
+/* Kinds of brushes: "round", "flat", "mop", "rigger", "fan", "bristle", by number from 0; NULL:
+ * there is none of that number. They are constants of the library, valid for ever. */
 const char *paper_brush_kind(int number);
-/* Makes the brush one of that kind, of the width that it has; number, angle, follows, flow, seed and mirrored stay. False: there is no
- * such kind, and nothing changes. Threads: any. */
+/* Makes the brush one of that kind, of the width that it has; number, angle, follows, flow,
+ * seed and mirrored stay. False: there is no such kind, and nothing changes. Threads: any. */
 bool paper_brush_of_kind(struct paper_brush *brush, const char *kind);
 
 struct paper_dip {
@@ -106,22 +106,28 @@ enum paper_status paper_sheet_stroke(struct paper_sheet *sheet,
  *         paper_sheet_stroke_add(sheet, samples, count, NULL);
  *     paper_sheet_stroke_end(sheet, NULL);
  *
- * It makes the bits of paper_sheet_stroke() with all its samples at once, and one operation in the history. A piece is painted, and the
- * paper makes its steps, as soon as samples settle it: for a moment of the stroke, when there are two samples after the end of the step
- * that follows it. So a pen that rests is told again from time to time. While a stroke grows it can be looked at; who would do something
- * else with the sheet or go elsewhere in its history hears BAD_ARGUMENT, but for undo, which drops it. */
+ * It makes the bits of paper_sheet_stroke() with all its samples at once, and one operation in
+ * the history. A piece is painted, and the paper makes its steps, as soon as samples settle it:
+ * for a moment of the stroke, when there are two samples after the end of the step that follows
+ * it. So a pen that rests is told again from time to time. While a stroke grows it can be
+ * looked at; who would do something else with the sheet or go elsewhere in its history hears
+ * BAD_ARGUMENT, but for undo, which drops it. */
 
-/* Begins a stroke of brush `number`; pace: as in struct paper_stroke. Errors: as paper_sheet_brush(), and while another one grows. */
+/* Begins a stroke of brush `number`; pace: as in struct paper_stroke. Errors: as
+ * paper_sheet_brush(), and while another one grows. */
 enum paper_status paper_sheet_stroke_begin(struct paper_sheet *sheet, int number, double pace);
-/* Adds samples, whose times go on from those before. *steps (may be NULL) gets the number of steps that the paper made. Errors:
- * BAD_ARGUMENT (none grows, or these cannot follow: then it is as it was); NO_MEMORY, MACHINE_FAILED, also where `due` said so: then
- * the stroke is dropped. */
+/* Adds samples, whose times go on from those before. *steps (may be NULL) gets the number of
+ * steps that the paper made. Errors: BAD_ARGUMENT (none grows, or these cannot follow: then it
+ * is as it was); NO_MEMORY, MACHINE_FAILED, also where `due` said so: then the stroke is
+ * dropped. */
 enum paper_status paper_sheet_stroke_add(struct paper_sheet *sheet,
                                          const struct paper_stroke_sample *samples, int count,
                                          int *steps);
-/* Paints what is left. A stroke without samples is dropped. Errors: BAD_ARGUMENT (none grows), NO_MEMORY, MACHINE_FAILED, as above. */
+/* Paints what is left. A stroke without samples is dropped. Errors: BAD_ARGUMENT (none grows),
+ * NO_MEMORY, MACHINE_FAILED, as above. */
 enum paper_status paper_sheet_stroke_end(struct paper_sheet *sheet, int *steps);
-/* Ends it as if it had not begun; without a history what has been painted stays. Nothing grows: fine. */
+/* Ends it as if it had not begun; without a history what has been painted stays. Nothing grows:
+ * fine. */
 void paper_sheet_stroke_drop(struct paper_sheet *sheet);
 /* Whether one grows; false also after it ended or was dropped. */
 bool paper_sheet_stroke_growing(const struct paper_sheet *sheet);
@@ -132,7 +138,8 @@ enum paper_status paper_sheet_brush_total(struct paper_sheet *sheet, int number,
                                           double *total);
 
 /* Long operations call `due` between steps, and end early with PAPER_OK if it returns true;
- * NULL: no call. Owns: the caller, of what `context` is; it is needed until another `due` is given. */
+ * NULL: no call. Owns: the caller, of what `context` is; it is needed until another `due` is
+ * given. */
 void paper_sheet_stop_when(struct paper_sheet *sheet, bool (*due)(void *context),
                            void *context);
 

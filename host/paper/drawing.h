@@ -1,4 +1,5 @@
-/* drawing.h - what a screen was drawn from, so that a render draws it anew, and does not interpolate it.
+/* drawing.h - what a screen was drawn from, so that a render draws it anew, and does not
+ * interpolate it.
  *
  *     struct event_bytes bytes = {0};
  *     paper_drawing_polygon (&bytes, corners, 4);
@@ -6,11 +7,14 @@
  *     paper_drawing_join (&bytes, '-');
  *     screen.drawing = &(struct paper_drawing){bytes.at, bytes.count, 1};
  *
- * A drawing is a row of bytes that is read from the left: shapes, and what is done with the last of them.
+ * A drawing is a row of bytes that is read from the left: shapes, and what is done with the
+ * last of them.
  *
- * Errors: shapes are added without a status: where there is no memory, the bytes say so (events: bytes.h).
+ * Errors: shapes are added without a status: where there is no memory, the bytes say so
+ * (events: bytes.h).
  *
- * Ownership: arguments stay the caller's, but for a drawing's bytes, which its screen only points to. Threads: any. */
+ * Ownership: arguments stay the caller's, but for a drawing's bytes, which its screen only
+ * points to. Threads: any. */
 #ifndef LUTETIA_PAPER_DRAWING_H
 #define LUTETIA_PAPER_DRAWING_H
 
@@ -31,7 +35,8 @@ struct paper_drawing {
 
 /* The shapes' numbers are in pixels, from the sheet's upper left corner. */
 void paper_drawing_polygon(struct event_bytes *b, const double *points, int points_count);
-/* Its origin is at x, y; line->x_px and y_px are not used. False: it is not kept, as its font is a file. */
+/* Its origin is at x, y; line->x_px and y_px are not used. False: it is not kept, as its font
+ * is a file. */
 bool paper_drawing_line(struct event_bytes *b, const struct paper_line *line, double x,
                         double y);
 /* Of the last two: '+', '*' or '-'. */
@@ -39,8 +44,9 @@ void paper_drawing_join(struct event_bytes *b, char operation);
 /* The last one and a number; first: number - shape. */
 void paper_drawing_number(struct event_bytes *b, char operation, double number, bool first);
 
-/* The screen `scale` times as fine as the shapes' numbers, on a sheet of that size; *x, *y: its upper left corner. Errors: BAD_FILE (it
- * is no drawing), and those of the shapes; *screen is then zeros. Owns: the caller destroys *screen. */
+/* The screen `scale` times as fine as the shapes' numbers, on a sheet of that size; *x, *y: its
+ * upper left corner. Errors: BAD_FILE (it is no drawing), and those of the shapes; *screen is
+ * then zeros. Owns: the caller destroys *screen. */
 enum paper_status paper_drawing_screen(const struct paper_drawing *d, double scale, int width,
                                        int height, struct paper_screen *screen, int *x, int *y);
 

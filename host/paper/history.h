@@ -53,21 +53,25 @@ struct paper_moment {
 bool paper_history_moment(const struct paper_sheet *sheet, int number,
                           struct paper_moment *out);
 
-/* What operation `number` put: amounts as in paper_sheet_put(), and where: x, y, width, height (all of the sheet if there was
- * no screen). *puts false: it put no amounts. Errors: BAD_FILE, NO_MEMORY. */
+/* What operation `number` put: amounts as in paper_sheet_put(), and where: x, y, width, height
+ * (all of the sheet if there was no screen). *puts false: it put no amounts. Errors: BAD_FILE,
+ * NO_MEMORY. */
 enum paper_status paper_history_moment_put(const struct paper_sheet *sheet, int number,
                                            double amount[1 + PAPER_PIGMENTS_MAX], int box[4],
                                            bool *puts);
 
-/* The arguments of operation `number`: the struct of sheet.h, brush.h, techniques.h or arguments.h for what paper_moment calls "air",
- * "put", "stroke", ...; NULL for those without any ("step", "dry", "seal"). Errors: BAD_ARGUMENT (no such operation), BAD_FILE, NO_MEMORY;
- * *arguments is then NULL. Owns: the caller gives them to paper_history_arguments_free(), with the same moment's `what`. */
+/* The arguments of operation `number`: the struct of sheet.h, brush.h, techniques.h or
+ * arguments.h for what paper_moment calls "air", "put", "stroke", ...; NULL for those without
+ * any ("step", "dry", "seal"). Errors: BAD_ARGUMENT (no such operation), BAD_FILE, NO_MEMORY;
+ * *arguments is then NULL. Owns: the caller gives them to paper_history_arguments_free(), with
+ * the same moment's `what`. */
 enum paper_status paper_history_arguments(const struct paper_sheet *sheet, int number,
                                           void **arguments);
 void paper_history_arguments_free(const char *what, void *arguments); /* NULL is fine */
 
-/* Operation `number` as bytes, and what they say done again, on this or another sheet of the same pigments (and size, for layers): as if its
- * public function were called; of steps one. Errors: of the first BAD_ARGUMENT (no such operation), NO_MEMORY; of the second BAD_FILE (no
+/* Operation `number` as bytes, and what they say done again, on this or another sheet of the
+ * same pigments (and size, for layers): as if its public function were called; of steps one.
+ * Errors: of the first BAD_ARGUMENT (no such operation), NO_MEMORY; of the second BAD_FILE (no
  * such bytes), and the operation's own. Owns: the caller frees *bytes. */
 enum paper_status paper_history_operation(const struct paper_sheet *sheet, int number,
                                           uint8_t **bytes, size_t *count);
@@ -77,9 +81,9 @@ enum paper_status paper_sheet_again(struct paper_sheet *sheet, const uint8_t *by
 /* Consecutive steps are one operation, until another operation or a call of this function. */
 void paper_history_mark(struct paper_sheet *sheet);
 
-/* Undoes the last operations, or redoes operations; returns how many. A new operation after
- * an undo replaces the undone ones. Right after an insertion, all that was inserted is the last operation; it is taken out,
- * and cannot be redone. */
+/* Undoes the last operations, or redoes operations; returns how many. A new operation after an
+ * undo replaces the undone ones. Right after an insertion, all that was inserted is the last
+ * operation; it is taken out, and cannot be redone. */
 int paper_history_undo(struct paper_sheet *sheet, int count);
 int paper_history_redo(struct paper_sheet *sheet, int count);
 /* Goes to the sheet after that many steps, and all operations before the next step;
@@ -92,27 +96,30 @@ enum paper_status paper_history_seek(struct paper_sheet *sheet, long time);
  * insertion), NO_MEMORY. */
 enum paper_status paper_history_insert_begin(struct paper_sheet *sheet, long time);
 /* The same just before operation `number` (of those that are done), where many operations have
- * one time. Errors: BAD_ARGUMENT (no such operation, or within another insertion), NO_MEMORY. */
-enum paper_status paper_history_insert_before(struct paper_sheet *sheet, int number);
-/* Without an insertion nothing happens. Errors: BAD_ARGUMENT (within a stroke that is being made),
+ * one time. Errors: BAD_ARGUMENT (no such operation, or within another insertion),
  * NO_MEMORY. */
+enum paper_status paper_history_insert_before(struct paper_sheet *sheet, int number);
+/* Without an insertion nothing happens. Errors: BAD_ARGUMENT (within a stroke that is being
+ * made), NO_MEMORY. */
 enum paper_status paper_history_insert_end(struct paper_sheet *sheet, bool keep);
 
-/* Takes operation `number` (of those that are done) out of the past; what followed it flows anew when somebody looks. With
- * `leave_time` the steps that it took stay, so that all else dries as it did: a stroke with a pace. What had been undone is dropped, and
- * the removal itself cannot be undone. Errors: BAD_ARGUMENT (no such operation; later ones use the brush that it made; while something
- * is inserted, changed or painted), NO_MEMORY. */
+/* Takes operation `number` (of those that are done) out of the past; what followed it flows
+ * anew when somebody looks. With `leave_time` the steps that it took stay, so that all else
+ * dries as it did: a stroke with a pace. What had been undone is dropped, and the removal
+ * itself cannot be undone. Errors: BAD_ARGUMENT (no such operation; later ones use the brush
+ * that it made; while something is inserted, changed or painted), NO_MEMORY. */
 enum paper_status paper_history_remove(struct paper_sheet *sheet, int number, bool leave_time);
 
-/* What is done between these two calls takes the place of operation `number`: another amount, pigment or way of a stroke say, from
- * paper_history_arguments(). Undo goes back as far as to the beginning. Without `keep` the operation is as it was. Errors: as
- * paper_history_remove(); if later operations use a brush that is no longer made, the change has not ended. */
+/* What is done between these two calls takes the place of operation `number`: another amount,
+ * pigment or way of a stroke say, from paper_history_arguments(). Undo goes back as far as to
+ * the beginning. Without `keep` the operation is as it was. Errors: as paper_history_remove();
+ * if later operations use a brush that is no longer made, the change has not ended. */
 enum paper_status paper_history_change_begin(struct paper_sheet *sheet, int number);
 enum paper_status paper_history_change_end(struct paper_sheet *sheet, bool keep);
 
-/* Called after every step and operation while the past is computed again, with the steps done and how many there are; returns
- * false to stop. The call that needed it then fails with MACHINE_FAILED, "stopped", and may be repeated: it goes on
- * where it was. NULL: no call. */
+/* Called after every step and operation while the past is computed again, with the steps done
+ * and how many there are; returns false to stop. The call that needed it then fails with
+ * MACHINE_FAILED, "stopped", and may be repeated: it goes on where it was. NULL: no call. */
 typedef bool (*paper_history_watch)(void *context, long done, long total);
 void paper_history_set_watch(struct paper_sheet *sheet, paper_history_watch watch,
                              void *context);
@@ -143,8 +150,8 @@ int paper_config_planes(const struct paper_sheet_config *config,
 /* Shape: height * width words, rows from the top. Errors: NO_MEMORY, MACHINE_FAILED. */
 enum paper_status paper_sheet_plane_read(struct paper_sheet *sheet, int number, void *words);
 
-/* The sheet's description and its operations, as bytes. Owns: the caller frees *bytes. Errors: BAD_ARGUMENT (no history),
- * NO_MEMORY. */
+/* The sheet's description and its operations, as bytes. Owns: the caller frees *bytes. Errors:
+ * BAD_ARGUMENT (no history), NO_MEMORY. */
 enum paper_status paper_history_encode(struct paper_sheet *sheet, uint8_t **bytes,
                                        size_t *count);
 /* Decodes only the description, with the size of the sheet. Errors: BAD_FILE. */

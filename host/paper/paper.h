@@ -101,8 +101,8 @@ struct paper_screen {
     double advance_px;     /* type: the length of the longest line, or the column */
     double line_height_px; /* type: the mean */
     int lines_count;
-    struct paper_drawing *
-        drawing; /* what it was drawn from, for renders; NULL: they interpolate. Not the screen's own */
+    /* what it was drawn from, for renders; NULL: they interpolate. Not the screen's own */
+    struct paper_drawing *drawing;
 };
 
 /* Adds ink to the fibers in the rectangle; its part off the sheet is ignored. Errors:
@@ -188,7 +188,8 @@ enum paper_view {
     PAPER_VIEW_WATER  /* gray: lighter where it is wetter */
 };
 
-/* Shape: rgb holds height * width * 3 bytes, rows from the top. Errors: NO_MEMORY, MACHINE_FAILED. */
+/* Shape: rgb holds height * width * 3 bytes, rows from the top. Errors: NO_MEMORY,
+ * MACHINE_FAILED. */
 enum paper_status paper_view_read(struct paper *p, enum paper_view view, uint8_t *rgb);
 
 enum paper_amount { PAPER_WATER, PAPER_CYAN, PAPER_MAGENTA, PAPER_YELLOW };

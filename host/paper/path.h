@@ -27,14 +27,15 @@ struct paper_lines {
 void paper_lines_destroy(struct paper_lines *lines); /* zeros are fine */
 
 /* An SVG path (all commands of SVG 1.1, 8.3), each of its sub-paths a line; curves become
- * chords that deviate from them by at most tolerance. Errors: BAD_ARGUMENT, NO_MEMORY. Owns: the
- * caller destroys *lines. */
+ * chords that deviate from them by at most tolerance. Errors: BAD_ARGUMENT, NO_MEMORY. Owns:
+ * the caller destroys *lines. */
 enum paper_status paper_path_parse(const char *path, double tolerance,
                                    struct paper_lines *lines);
 
-/* All <path> elements of an SVG file that are drawn (not those in <defs> and the like), transformed by their and their groups'
- * transform attributes, in user units. `name` is for messages.
- * Errors: BAD_ARGUMENT (also a file that cannot be read), NO_MEMORY. Owns: the caller destroys *lines. */
+/* All <path> elements of an SVG file that are drawn (not those in <defs> and the like),
+ * transformed by their and their groups' transform attributes, in user units. `name` is for
+ * messages. Errors: BAD_ARGUMENT (also a file that cannot be read), NO_MEMORY. Owns: the caller
+ * destroys *lines. */
 enum paper_status paper_svg_parse(const char *bytes, size_t count, const char *name,
                                   double tolerance, struct paper_lines *lines);
 enum paper_status paper_svg_read(const char *file, double tolerance, struct paper_lines *lines);

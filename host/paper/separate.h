@@ -10,7 +10,8 @@
  * unique, and continuous in the colour. The problem is solved at the points of a grid of
  * 33x33x33 colours that are needed, and interpolated between them.
  *
- * Errors and ownership: as sheet.h says. Threads: any; one separation may be used by several at a time.
+ * Errors and ownership: as sheet.h says. Threads: any; one separation may be used by several at
+ * a time.
  */
 #ifndef LUTETIA_PAPER_SEPARATE_H
 #define LUTETIA_PAPER_SEPARATE_H

@@ -49,20 +49,24 @@ struct paper_paint {
     const char *index;   /* what is in it, by the Colour Index: "PB29" */
     double particle_um;  /* about how large its particles are */
     double transparency; /* 0: it hides what is below; 4: it hides nothing */
-    const char *
-        source; /* of its spectrum: "measured", "adjusted", "fitted", "mixed", "Curtis", "thesis" (docs/paints.md) */
+    /* of its spectrum: "measured", "adjusted", "fitted", "mixed", "Curtis", "thesis"
+     * (docs/paints.md) */
+    const char *source;
 };
 
 /* Paints by number from 0; NULL: none. They are constants of the library, valid for ever. */
 const struct paper_paint *paper_paint_number(int number);
-/* Their pigments by name, by a name of `also`, or by number; NULL: none. They are constants of the library, valid for ever. */
+/* Their pigments by name, by a name of `also`, or by number; NULL: none. They are constants of
+ * the library, valid for ever. */
 const struct paper_pigment *paper_pigment_find(const char *name);
 const struct paper_pigment *paper_pigment_number(int number);
-/* What paper_pigment_find() found before there were paints: the twelve pigments of Curtis et al. 1997 and the thesis's inks. NULL: none.
- * They are constants of the library, valid for ever. */
+/* What paper_pigment_find() found before there were paints: the twelve pigments of Curtis et
+ * al. 1997 and the thesis's inks. NULL: none. They are constants of the library, valid for
+ * ever. */
 const struct paper_pigment *paper_pigment_curtis(const char *name);
 #define PAPER_PIGMENT_USUAL "french ultramarine" /* of what is painted without naming one */
-/* Their names, "quinacridone rose, indian red, ...", cut where there is no room; PAPER_PIGMENT_NAMES_ROOM is enough. */
+/* Their names, "quinacridone rose, indian red, ...", cut where there is no room;
+ * PAPER_PIGMENT_NAMES_ROOM is enough. */
 enum { PAPER_PIGMENT_NAMES_ROOM = 1200 };
 void paper_pigment_names(char *text, size_t room);
 
@@ -85,8 +89,8 @@ struct paper_stock {
     char name[PAPER_NAME_MAX];
     double color[3];        /* of dry fibers, display values, 0..1 */
     double color_variation; /* 0..1 */
-    double
-        absorbency; /* mean part of a gradient that flows across a face, 0..PAPER_ABSORBENCY_MAX */
+    /* mean part of a gradient that flows across a face, 0..PAPER_ABSORBENCY_MAX */
+    double absorbency;
     double absorbency_variation;
     double absorbency_along[2]; /* factors along x and along y, 0..1 */
     double
@@ -98,14 +102,15 @@ struct paper_stock {
         [2]; /* length of fibers along x and along y, along which the paper is uniform, 1..64 */
 };
 
-/* "cold press", "hot press", "rough", "blotting", "glass", "laid", "xuan"; by name or by number from 0; NULL: none.
- * They are constants of the library, valid for ever. */
+/* "cold press", "hot press", "rough", "blotting", "glass", "laid", "xuan"; by name or by number
+ * from 0; NULL: none. They are constants of the library, valid for ever. */
 const struct paper_stock *paper_stock_find(const char *name);
 const struct paper_stock *paper_stock_number(int number);
 /* Their names, "cold press, hot press, ...". */
 void paper_stock_names(char *text, size_t room);
 
-/* The edges of a handmade sheet: fibers seep under the frame of the mould, the deckle. Lengths in fibers. */
+/* The edges of a handmade sheet: fibers seep under the frame of the mould, the deckle. Lengths
+ * in fibers. */
 struct paper_deckle {
     double margin; /* from the picture's border to the mean edge, 2..4096 */
     double waves;  /* deviation of the edge from it, 0..256 */
@@ -149,8 +154,9 @@ struct paper_air {     /* conditions that may change at any time */
 /* Calm air over a flat sheet, for all parts; and the weather of paper_weather_default(). */
 struct paper_air paper_air_default(void);
 
-/* The version of the model, which saved states name. A change that gives other bits, or another plane, is a new version. States of
- * version 1 are read: their water and paint have the same bits, and lie on all of each fiber. */
+/* The version of the model, which saved states name. A change that gives other bits, or another
+ * plane, is a new version. States of version 1 are read: their water and paint have the same
+ * bits, and lie on all of each fiber. */
 enum { PAPER_MODEL_VERSION = 2, PAPER_MODEL_READ = 1 };
 
 struct paper_sheet_config {
@@ -162,8 +168,9 @@ struct paper_sheet_config {
     uint64_t seed;
     int pigments_count; /* 0..PAPER_PIGMENTS_MAX */
     struct paper_pigment pigments[PAPER_PIGMENTS_MAX];
-    bool
-        deckled; /* with parts and fibers, no torus: the sheet has such edges. Else it is cut at the picture's border */
+    /* with parts and fibers, no torus: the sheet has such edges. Else it is cut at the
+     * picture's border */
+    bool deckled;
     struct paper_deckle deckle;
 };
 /* A sheet of the usual model with all parts, without pigments. */
@@ -177,7 +184,8 @@ double paper_sheet_bytes(double width, double height, int pigments);
 
 struct paper_sheet;
 
-/* Errors: BAD_ARGUMENT, NO_DEVICE, NO_MEMORY, MACHINE_FAILED; *out is then NULL. Owns: the caller destroys *out. */
+/* Errors: BAD_ARGUMENT, NO_DEVICE, NO_MEMORY, MACHINE_FAILED; *out is then NULL. Owns: the
+ * caller destroys *out. */
 enum paper_status paper_sheet_create(const struct paper_sheet_config *config,
                                      struct paper_sheet **out);
 void paper_sheet_destroy(struct paper_sheet *sheet); /* NULL is fine */
@@ -206,15 +214,18 @@ enum paper_layer {
     PAPER_LAYER_SURFACE_PIGMENT, /* one for each */
     PAPER_LAYER_INFUSED_PIGMENT,
     PAPER_LAYER_FIXED_PIGMENT,
-    /* Of sheets with a surface: resistance of fibers to wetting, 0.01..100, about 1; eddies, -10..10; wet part of each fiber, 0..1 */
+    /* Of sheets with a surface: resistance of fibers to wetting, 0.01..100, about 1; eddies,
+     * -10..10; wet part of each fiber, 0..1 */
     PAPER_LAYER_SIZING,
     PAPER_LAYER_CURRENT,
     PAPER_LAYER_WET_PART,
-    /* Of sheets with parts: how willingly the paper takes what a bristle leaves, 0.15..2, about 1 */
+    /* Of sheets with parts: how willingly the paper takes what a bristle leaves, 0.15..2, about
+     * 1 */
     PAPER_LAYER_GRIP,
     /* Of sheets with a deckle: 1; less towards the edge, and 0 where there is no paper */
     PAPER_LAYER_THICKNESS,
-    /* Of sheets with a surface: what part of each fiber its paint lies on, 0..1; 0: on all of it. It cannot be written */
+    /* Of sheets with a surface: what part of each fiber its paint lies on, 0..1; 0: on all of
+     * it. It cannot be written */
     PAPER_LAYER_STAINED_PART,
     PAPER_LAYERS_COUNT
 };
@@ -231,8 +242,9 @@ enum paper_status paper_sheet_layer_read(struct paper_sheet *sheet, enum paper_l
 void paper_sheet_layer_range(const struct paper_sheet *sheet, enum paper_layer layer,
                              double range[2]);
 
-/* The total over the sheet, in units: of water (substance 0), of a pigment (1 + its number), or of the water that has dried (-1).
- * Exact on sheets with parts. Errors: NO_MEMORY, MACHINE_FAILED. */
+/* The total over the sheet, in units: of water (substance 0), of a pigment (1 + its number), or
+ * of the water that has dried (-1). Exact on sheets with parts. Errors: NO_MEMORY,
+ * MACHINE_FAILED. */
 enum paper_status paper_sheet_total(struct paper_sheet *sheet, int substance, double *total);
 
 /* Adds amount[0] of water and amount[1 + i] of pigment i (each -4..4) through a screen whose
@@ -242,8 +254,9 @@ enum paper_status paper_sheet_total(struct paper_sheet *sheet, int substance, do
 enum paper_status paper_sheet_put(struct paper_sheet *sheet, const struct paper_screen *screen,
                                   int x, int y, const double *amount);
 
-/* Removes the fraction `part` (0..1) of the water and of the pigments that move with it, on the surface and in the fibers, and the
- * fraction `lift` (0..1) of the fixed pigments. Errors: as paper_sheet_put(). */
+/* Removes the fraction `part` (0..1) of the water and of the pigments that move with it, on the
+ * surface and in the fibers, and the fraction `lift` (0..1) of the fixed pigments. Errors: as
+ * paper_sheet_put(). */
 enum paper_status paper_sheet_blot(struct paper_sheet *sheet, const struct paper_screen *screen,
                                    int x, int y, double part, double lift);
 
@@ -260,20 +273,23 @@ enum paper_status paper_sheet_seal(struct paper_sheet *sheet);
 
 /* Sets the air. Errors: BAD_ARGUMENT, NO_MEMORY, MACHINE_FAILED. */
 enum paper_status paper_sheet_air(struct paper_sheet *sheet, const struct paper_air *air);
-/* The air that the sheet has now, never NULL; valid until the sheet's air changes, or the sheet is destroyed. */
+/* The air that the sheet has now, never NULL; valid until the sheet's air changes, or the sheet
+ * is destroyed. */
 const struct paper_air *paper_sheet_get_air(const struct paper_sheet *sheet);
 /* Goes one step of time. Errors: as paper_sheet_air(). */
 enum paper_status paper_sheet_step(struct paper_sheet *sheet);
-/* Waits until all steps have been computed; else a step is computed when something of the sheet is read. Errors: NO_MEMORY,
- * MACHINE_FAILED. */
+/* Waits until all steps have been computed; else a step is computed when something of the sheet
+ * is read. Errors: NO_MEMORY, MACHINE_FAILED. */
 enum paper_status paper_sheet_finish(struct paper_sheet *sheet);
-/* Where water flows, steps are computed only in boxes around what can change, if they take less than half of the sheet. The bits are
- * the same. Their sides are a few multiples of `unit` fibers, 4..4096: 64 unless told; 0: there are none. No event: it is not
- * recorded. Errors: BAD_ARGUMENT, MACHINE_FAILED. */
+/* Where water flows, steps are computed only in boxes around what can change, if they take less
+ * than half of the sheet. The bits are the same. Their sides are a few multiples of `unit`
+ * fibers, 4..4096: 64 unless told; 0: there are none. No event: it is not recorded. Errors:
+ * BAD_ARGUMENT, MACHINE_FAILED. */
 enum paper_status paper_sheet_confine(struct paper_sheet *sheet, int unit);
 /* The part of the sheet that the last step computed: 1 without boxes. */
 double paper_sheet_share(const struct paper_sheet *sheet);
-/* The number of steps that the sheet has gone through; during a stroke, those of the stroke so far, too. */
+/* The number of steps that the sheet has gone through; during a stroke, those of the stroke so
+ * far, too. */
 long paper_sheet_now(const struct paper_sheet *sheet);
 
 /* ---- looking ---- */
@@ -292,11 +308,15 @@ struct paper_sheet_view {
     enum paper_layer layer;
     int pigment;
     double low, high;
-    double
-        light; /* on the paper's relief, from the upper left, in colours: 0 (even light) to 4; water that stands hides it */
-    int scale; /* pixels a fiber each way: 1 (or 0), 2 or 4; the mean of a fiber's pixels is what one shows */
-    /* Of colours, where the sheet has a deckle: what it lies on, display values; NULL: PAPER_GROUND_USUAL. With `alpha` there is no
-     * ground: it gets as many numbers as there are pixels, how much of what is behind is hidden by the sheet and its shadow. */
+    /* on the paper's relief, from the upper left, in colours: 0 (even light) to 4; water that
+     * stands hides it */
+    double light;
+    /* pixels a fiber each way: 1 (or 0), 2 or 4; the mean of a fiber's pixels is what one
+     * shows */
+    int scale;
+    /* Of colours, where the sheet has a deckle: what it lies on, display values; NULL:
+     * PAPER_GROUND_USUAL. With `alpha` there is no ground: it gets as many numbers as there are
+     * pixels, how much of what is behind is hidden by the sheet and its shadow. */
     const double *ground;
     uint16_t *alpha;
 };
@@ -307,14 +327,17 @@ struct paper_sheet_view {
         0.44, 0.42, 0.40                                                                       \
     }
 
-/* The colours as they are usually looked at: with light on the relief of sheets with parts, without on the thesis's page. */
+/* The colours as they are usually looked at: with light on the relief of sheets with parts,
+ * without on the thesis's page. */
 struct paper_sheet_view paper_sheet_view_default(const struct paper_sheet_config *config);
 
-/* The memory besides rgb that a picture with more than one pixel a fiber takes while it is made. */
+/* The memory besides rgb that a picture with more than one pixel a fiber takes while it is
+ * made. */
 double paper_sheet_view_bytes(const struct paper_sheet_config *config, int scale);
 
-/* Shape: rgb holds height * width * 3 display values of 16 bits, rows from the top; with more than one pixel a fiber,
- * scale times as many each way. Errors: BAD_ARGUMENT, NO_MEMORY, MACHINE_FAILED. */
+/* Shape: rgb holds height * width * 3 display values of 16 bits, rows from the top; with more
+ * than one pixel a fiber, scale times as many each way. Errors: BAD_ARGUMENT, NO_MEMORY,
+ * MACHINE_FAILED. */
 enum paper_status paper_sheet_view(struct paper_sheet *sheet,
                                    const struct paper_sheet_view *view, uint16_t *rgb);
 

@@ -40,9 +40,9 @@ enum paper_status paper_state_save(const char *path, const struct paper_state_sh
 
 struct paper_state;
 
-/* Errors: BAD_FILE (not a state, damaged, of another version), BAD_ARGUMENT (cannot be read: the system's reason, or it is no regular
- * file), NO_MEMORY;
- * *out is then NULL. Owns: the caller closes *out. */
+/* Errors: BAD_FILE (not a state, damaged, of another version), BAD_ARGUMENT (cannot be read:
+ * the system's reason, or it is no regular file), NO_MEMORY; *out is then NULL. Owns: the
+ * caller closes *out. */
 enum paper_status paper_state_open(const char *path, struct paper_state **out);
 void paper_state_close(struct paper_state *state); /* NULL is fine */
 

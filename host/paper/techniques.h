@@ -38,14 +38,15 @@ struct paper_print {
 };
 enum paper_status paper_sheet_print(struct paper_sheet *sheet, const struct paper_print *print);
 
-/* Puts letters of about that size as a painter does: a thin wash of 0.42 of the pigments, and into it, here and there, drops with 0.6 of them.
- * Where they fall follows from the sheet's seed. Errors: as paper_sheet_put(); a size below 1 is BAD_ARGUMENT. */
+/* Puts letters of about that size as a painter does: a thin wash of 0.42 of the pigments, and
+ * into it, here and there, drops with 0.6 of them. Where they fall follows from the sheet's
+ * seed. Errors: as paper_sheet_put(); a size below 1 is BAD_ARGUMENT. */
 enum paper_status paper_sheet_put_charged(struct paper_sheet *sheet,
                                           const struct paper_screen *screen, int x, int y,
                                           const double *amount, double size);
 
-/* Throws drops at random about a place: many small drops and few large ones. Drops thrown in a direction fly further and are longer.
- * Errors: as paper_sheet_put(). */
+/* Throws drops at random about a place: many small drops and few large ones. Drops thrown in a
+ * direction fly further and are longer. Errors: as paper_sheet_put(). */
 struct paper_splatter {
     double x, y, radius; /* most fall within it */
     double toward;       /* radians from x towards y */
@@ -58,31 +59,32 @@ struct paper_splatter {
 enum paper_status paper_sheet_splatter(struct paper_sheet *sheet,
                                        const struct paper_splatter *splatter);
 
-/* Strews grains of salt within a radius; grains that fall outside the place's screen are left out. Grains dissolve in water. The
- * brine spreads, draws surface water in and pushes pigments away. When the paper is dried the grains are brushed off. Errors: as
- * paper_sheet_put(). */
+/* Strews grains of salt within a radius; grains that fall outside the place's screen are left
+ * out. Grains dissolve in water. The brine spreads, draws surface water in and pushes pigments
+ * away. When the paper is dried the grains are brushed off. Errors: as paper_sheet_put(). */
 struct paper_salt {
     struct paper_place place;
     double x, y, radius;
     int grains;      /* 1..100000 */
     double size[2];  /* radii, least and most, 0.1..50 */
     double strength; /* 0..4 */
-    double
-        reach; /* how far brine goes, fibers, 1..100; the last salt's holds for all on the sheet */
+    /* how far brine goes, fibers, 1..100; the last salt's holds for all on the sheet */
+    double reach;
     uint64_t seed;
 };
 enum paper_status paper_sheet_salt(struct paper_sheet *sheet, const struct paper_salt *salt);
 
-/* Rubs with a damp sponge: removes the fraction `part` (0..1) of the pigment that is not fixed, and some of the fixed pigment too:
- * the more, the lower its `staining`. Errors: as paper_sheet_put(). */
+/* Rubs with a damp sponge: removes the fraction `part` (0..1) of the pigment that is not fixed,
+ * and some of the fixed pigment too: the more, the lower its `staining`. Errors: as
+ * paper_sheet_put(). */
 struct paper_lift {
     struct paper_place place;
     double part;
 };
 enum paper_status paper_sheet_lift(struct paper_sheet *sheet, const struct paper_lift *lift);
 
-/* Clear gloss on top: colours are deeper under it and light shows its edges. It stays when the paper is sealed. Errors: as
- * paper_sheet_put(). */
+/* Clear gloss on top: colours are deeper under it and light shows its edges. It stays when the
+ * paper is sealed. Errors: as paper_sheet_put(). */
 struct paper_varnish {
     struct paper_place place;
     double amount; /* 0..1; a fiber keeps the largest amount that it was ever given */

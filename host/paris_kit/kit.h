@@ -4,7 +4,8 @@
  *     if (kit_attach() != KIT_OK)
  *         die(kit_error());
  *     kit_enter(set);
- *     CM_f_add_2_1L(f, g, 23, 8);          Paris reports a call that fails to a handler and goes on without it,
+ *     CM_f_add_2_1L(f, g, 23, 8);          Paris reports a call that fails to a handler and
+ *                                          goes on without it,
  *     CM_f_sqrt_1_1L(f, 23, 8);            so what stands here runs to its end,
  *     if (kit_leave() != KIT_OK)           and the first complaint is what the caller hears
  *         die(kit_error());

@@ -1,7 +1,8 @@
 /* kit_grid.h - a VP set of two axes whose front-end arrays are rows from the top.
  *
  *     struct kit_grid g;
- *     kit_grid_make(&g, 640, 480);                     in place of kit_enter(): kit_leave() tells what failed
+ *     kit_grid_make(&g, 640, 480);                     in place of kit_enter(): kit_leave()
+ *                                                      tells what failed
  *     kit_grid_f_write(&g, field, floats);             floats: 480 rows of 640
  *     kit_grid_narrow(&g, 1, 1, 639, 479);             not on the rim
  *     ...
@@ -48,8 +49,8 @@ void kit_grid_u_read(const struct kit_grid *g, void *numbers, CM_field_id_t a, u
                      unsigned type);
 
 /* A part of a field: processors x1 <= x < x1 + width and so on; they lie in the front end's
- * rows from column `column` and row `row` on. As above otherwise; bits = 0: single floats; numbers of
- * more than 32 bits are 64 bits long in the array, the others 32. */
+ * rows from column `column` and row `row` on. As above otherwise; bits = 0: single floats;
+ * numbers of more than 32 bits are 64 bits long in the array, the others 32. */
 struct kit_block {
     int x1, y1, width, height;
     int column, row, array_width, array_height;

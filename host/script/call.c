@@ -9,7 +9,8 @@
  * this, a function pins its paper:
  *
  *     stack   1 .. count    arguments
- *             count + 1     a pin: to be closed when the function returns or fails, which takes it off the paper
+ *             count + 1     a pin: to be closed when the function returns or fails, which takes
+ *                           it off the paper
  *             above         what the function makes
  *
  * Objects that cannot be closed (masks, pictures, lists of lines) live as long as they are

@@ -37,7 +37,8 @@ bool script_due(const struct script *script)
     return script_interrupted(script) || late(script);
 }
 
-/* Collects garbage, which may be what is too much: C's memory is not seen by Lua's collector. */
+/* Collects garbage, which may be what is too much: C's memory is not seen by Lua's
+ * collector. */
 static void overfull_check(lua_State *L, int level)
 {
     struct script *script = script_of(L);
@@ -112,8 +113,9 @@ int script_fail(lua_State *L, const char *text)
 
 /* ---- memory ---- */
 
-/* What a process takes tells nothing of a map, which is a small part of it; nor under a sanitizer, which keeps what is freed. Where
- * nobody watches (a test's own state), it may be anything. */
+/* What a process takes tells nothing of a map, which is a small part of it; nor under a
+ * sanitizer, which keeps what is freed. Where nobody watches (a test's own state), it may be
+ * anything. */
 static bool process_tells(const struct script *script)
 {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

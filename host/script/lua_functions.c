@@ -1,8 +1,10 @@
 /* lua_functions.c - functions of Lua's own library, as untrusted scripts have them.
  *
  *     setmetatable           no finalizers
- *     tostring, format       no addresses: an object has a number, given when it is first asked for
- *     math.randomseed        without a number: the run's seed (Lua's takes an address, and tells it)
+ *     tostring, format       no addresses: an object has a number, given when it is first asked
+ *                            for
+ *     math.randomseed        without a number: the run's seed (Lua's takes an address, and
+ *                            tells it)
  *     coroutine.close, wrap, resume
  *                            not deeper within each other than the C stack has room for
  *     text's metatable       hidden
@@ -82,13 +84,15 @@ static int to_string(lua_State *L)
     return 1;
 }
 
-/* Lua's own function, which is the upvalue and has none itself, does the call in our place: its errors have the script's line. */
+/* Lua's own function, which is the upvalue and has none itself, does the call in our place: its
+ * errors have the script's line. */
 static int own(lua_State *L)
 {
     return lua_tocfunction(L, lua_upvalueindex(1))(L);
 }
 
-/* What %p writes: an object's number, and for all else what Lua writes for what has no address. */
+/* What %p writes: an object's number, and for all else what Lua writes for what has no
+ * address. */
 static void pointer_replace(lua_State *L, int index)
 {
     if (is_object(L, index))
@@ -192,8 +196,9 @@ static int set_metatable(lua_State *L)
 
 /* ---- coroutines ---- */
 
-/* Lua counts the calls of C within each other for each coroutine anew when one is closed, so a chain of coroutines that close
- * each other would overflow the C stack. What they have taken of it is measured. */
+/* Lua counts the calls of C within each other for each coroutine anew when one is closed, so a
+ * chain of coroutines that close each other would overflow the C stack. What they have taken of
+ * it is measured. */
 enum { STACK_BYTES_MOST = 1 << 20 };
 
 static void stack_check(lua_State *L)

@@ -8,11 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* An answer computes no longer, nor does the file's reading, however busy the computer is; and all of the map takes no more
- * memory. */
+/* An answer computes no longer, nor does the file's reading, however busy the computer is; and
+ * all of the map takes no more memory. */
 static const double answer_s = 0.1;
-/* A map that is cut off ends the performance, so it gets longer than a script: one call of C with much memory may take some
- * seconds on a busy computer. */
+/* A map that is cut off ends the performance, so it gets longer than a script: one call of C
+ * with much memory may take some seconds on a busy computer. */
 static const double grace_s = 10;
 static const size_t memory_bytes = (size_t)64 << 20;
 
@@ -85,7 +85,8 @@ static int map_text(lua_State *L)
     return 0;
 }
 
-/* beat(): the part of the quarter note that has gone, and quarter notes in a minute; nil where no clock runs */
+/* beat(): the part of the quarter note that has gone, and quarter notes in a minute; nil where
+ * no clock runs */
 static int map_beat(lua_State *L)
 {
     const struct script_map *map = map_of(L);

@@ -1,8 +1,8 @@
 /* mask.c - masks: shapes through which a script puts water and pigment.
  *
  * A mask is either a polygon, kept as its corners until it is used, or gray values with a
- * place. Masks never change: methods that move, join or soften a mask make a new one.
- * Outside its shape a mask is 0; what is made from masks by numbers, as 1 - m, may be more there.
+ * place. Masks never change: methods that move, join or soften a mask make a new one. Outside
+ * its shape a mask is 0; what is made from masks by numbers, as 1 - m, may be more there.
  */
 #include "script_mask.h"
 

@@ -1,4 +1,5 @@
-/* mask_change.c - new masks from masks: moved, turned, scaled, joined, with numbers, softened. */
+/* mask_change.c - new masks from masks: moved, turned, scaled, joined, with numbers,
+ * softened. */
 #include "script_mask.h"
 
 #include <math.h>
@@ -116,7 +117,8 @@ static int mask_count(lua_State *L, char operation)
     return 1;
 }
 
-/* Text has operators of its own, which call the mask's: the script's line is the first caller's that has one. */
+/* Text has operators of its own, which call the mask's: the script's line is the first caller's
+ * that has one. */
 static int operand_wrong(lua_State *L, char operation, const char *what)
 {
     enum { DEEPEST = 4 };

@@ -1,4 +1,5 @@
-/* mask_drawn.c - what masks were drawn from, in the terms of drawing.h: renders draw them anew. */
+/* mask_drawn.c - what masks were drawn from, in the terms of drawing.h: renders draw them
+ * anew. */
 #include "script_mask.h"
 
 #include <stdlib.h>

@@ -145,7 +145,8 @@ static enum font_status page_cover(const struct wanted *w, const char *text, siz
     return status;
 }
 
-/* page("text", {...}): the mask of one page, and how many pages there are. Pages beyond the last are blank. */
+/* page("text", {...}): the mask of one page, and how many pages there are. Pages beyond the
+ * last are blank. */
 static int make_page(lua_State *L)
 {
     size_t bytes;

@@ -61,7 +61,8 @@ static bool field_said(lua_State *L, int t, const char *field)
     return said;
 }
 
-/* What a pigment's table says of it by bands: a pigment that is told by three channels is not known by bands. */
+/* What a pigment's table says of it by bands: a pigment that is told by three channels is not
+ * known by bands. */
 static void bands_read(lua_State *L, int t, struct paper_pigment *pigment)
 {
     const bool absorbs = field_said(L, t, "absorption"),

@@ -221,7 +221,8 @@ static void frame_write(lua_State *L, const char *path, int width, int height, i
         script_fail(L, display_error());
 }
 
-/* paper:frame("name.png" [, {show=, layer=, pigment=, low=, high=, bits=, light=, scale=, ground=}]) */
+/* paper:frame("name.png" [, {show=, layer=, pigment=, low=, high=, bits=, light=, scale=,
+ * ground=}]) */
 static int paper_frame(lua_State *L)
 {
     static const char *const keys[] = {"show", "layer", "pigment", "low",    "high",

@@ -70,7 +70,8 @@ static int paper_again(lua_State *L)
     return 0;
 }
 
-/* Adds what the operation put to its table, which is on the top: put = {water =, ...}, and the rectangle. */
+/* Adds what the operation put to its table, which is on the top: put = {water =, ...}, and the
+ * rectangle. */
 static void put_tell(lua_State *L, const struct paper_sheet *sheet, int number)
 {
     static const char *const sides[] = {"x", "y", "width", "height"};
@@ -94,7 +95,8 @@ static void put_tell(lua_State *L, const struct paper_sheet *sheet, int number)
     }
 }
 
-/* paper:moments(): a list of {what =, time =, steps =, done =}; of what was put also put =, x =, y =, width =, height =. */
+/* paper:moments(): a list of {what =, time =, steps =, done =}; of what was put also put =, x
+ * =, y =, width =, height =. */
 static int paper_moments(lua_State *L)
 {
     struct script_paper *paper = script_paper_begin(L, 1);

@@ -42,7 +42,8 @@ struct script_paper *script_paper_new(lua_State *L)
     return paper;
 }
 
-/* What a paper of any size takes besides: the machine's arrays are not smaller than some pages. */
+/* What a paper of any size takes besides: the machine's arrays are not smaller than some
+ * pages. */
 enum { BESIDES_BYTES = 512 << 10 };
 
 void script_paper_room_take(lua_State *L, struct script_paper *paper, double width,

@@ -49,7 +49,8 @@ static uint8_t byte_of(double value)
     return (uint8_t)lround(255 * (value > 0 ? value < 1 ? value : 1 : 0));
 }
 
-/* picture("photo.png"), or picture(width, height, function(x, y) return red, green, blue end) */
+/* picture("photo.png"), or picture(width, height, function(x, y) return red, green, blue
+ * end) */
 static int make_picture(lua_State *L)
 {
     if (lua_type(L, 1) == LUA_TSTRING) {
@@ -188,7 +189,8 @@ static void mask_apply(lua_State *L, const struct paper_place *place, struct pap
     script_check(L);
 }
 
-/* paper:separate(picture [, {x =, y =, width =, height =, pigments =, most =, thrift =, strength =, water =, mask =}]) */
+/* paper:separate(picture [, {x =, y =, width =, height =, pigments =, most =, thrift =,
+ * strength =, water =, mask =}]) */
 static int paper_separate_picture(lua_State *L)
 {
     static const char *const keys[] = {"x",        "y",    "width",  "height",

@@ -23,8 +23,9 @@ struct script_config script_config_default(const char *path)
 
 /* ---- memory ---- */
 
-/* Lua drops an object whose finalizer fails, and with it what the object holds in C; and a call needs some memory. So finalizers have a
- * little beyond the limit. While one runs, Lua's collector answers nothing but -1. */
+/* Lua drops an object whose finalizer fails, and with it what the object holds in C; and a call
+ * needs some memory. So finalizers have a little beyond the limit. While one runs, Lua's
+ * collector answers nothing but -1. */
 static bool finalizer_has_room(const struct script *script, size_t more)
 {
     const double finalizer_bytes = 1 << 20;

@@ -87,8 +87,9 @@ struct script_host {
      * can be saved. Returns the run's status. */
     enum script_status (*finish)(void *context, const struct paper_state_sheet *papers,
                                  int count, enum script_status status);
-    /* Called when the process takes more memory than the script may and does not stop taking: the host should end it. Called by the
-     * separate thread; there is none if overdue is NULL. */
+    /* Called when the process takes more memory than the script may and does not stop taking:
+     * the host should end it. Called by the separate thread; there is none if overdue is
+     * NULL. */
     void (*overfull)(void *context);
     /* Called when the script should have stopped seconds ago and has not: the host should
      * end the process. Called by a separate thread, which also calls interrupted(). If
@@ -100,8 +101,8 @@ struct script_host {
 enum script_status script_run(const struct script_config *config,
                               const struct script_host *host);
 
-/* Calls each() for every function that the library has for scripts: its name, and the type that it belongs to ("paper",
- * "brush"; "" for functions that stand by themselves). Threads: any. */
+/* Calls each() for every function that the library has for scripts: its name, and the type that
+ * it belongs to ("paper", "brush"; "" for functions that stand by themselves). Threads: any. */
 void script_functions_list(void (*each)(const char *type, const char *name));
 
 #endif

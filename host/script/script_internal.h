@@ -48,8 +48,8 @@ struct script {
     size_t memory_bytes;    /* taken */
     bool memory_short;      /* an allocation of Lua's was refused */
     struct patience before; /* of the thread, before the script (limits.c) */
-    bool
-        answers; /* it is asked again and again, and each answer has its own time (script_map.h) */
+    /* it is asked again and again, and each answer has its own time (script_map.h) */
+    bool answers;
     const char *stack_begin; /* where the C stack was when the script began; NULL: not known */
     lua_Integer objects_numbered;
     bool over; /* only finalizers run, which can no longer call the library */
@@ -74,34 +74,41 @@ double script_clock_s(void); /* CLOCK_MONOTONIC */
 bool script_due(const struct script *script);
 /* It is late once its clock has gone on by these seconds. */
 void script_deadline_set(struct script *script, double seconds);
-/* Libraries that the script calls ask the script's limits from here on (patience.h), until the end. */
+/* Libraries that the script calls ask the script's limits from here on (patience.h), until the
+ * end. */
 void script_patience_begin(struct script *script);
 void script_patience_end(struct script *script);
 /* Raises the error of a library that has failed, or what made it give up. */
 int script_fail(lua_State *L, const char *text);
-/* If it is due, or the process takes too much memory, raises an error, located at level 0, the function that runs, or 1, its caller. */
+/* If it is due, or the process takes too much memory, raises an error, located at level 0, the
+ * function that runs, or 1, its caller. */
 void script_stop_if_due(lua_State *L, int level);
 void script_check(lua_State *L); /* level 1 */
-/* The same for a loop's row of that number: a row takes about as long as a look, so it is done for each thirty-second one. */
+/* The same for a loop's row of that number: a row takes about as long as a look, so it is done
+ * for each thirty-second one. */
 void script_check_row(lua_State *L, int row);
 /* Counts memory that is not Lua's. If there is not enough, raises an error and counts
  * nothing. */
 void script_memory_take(lua_State *L, double bytes, const char *what);
 void script_memory_give(struct script *script, double bytes);
-/* Before the first paper: there must be room for the machine, which is not counted. Else raises an error. */
+/* Before the first paper: there must be room for the machine, which is not counted. Else raises
+ * an error. */
 void script_memory_machine(lua_State *L);
-/* Counts memory for a while: pushes what gives it back when it is released, or collected after an error. */
+/* Counts memory for a while: pushes what gives it back when it is released, or collected after
+ * an error. */
 void script_memory_hold(lua_State *L, double bytes, const char *what);
 void script_memory_release(lua_State *L, int index);
 void script_limits_open(lua_State *L);
 /* The memory that may still be allocated. */
 double script_memory_left(const struct script *script);
 
-/* What the process takes besides what is counted: the program, C's libraries, what is freed and not given back. Papers need the machine,
- * OpenCL's driver and its compiler, some 90 to 160 MB: they are of the script's memory, as far as they have no room here. */
+/* What the process takes besides what is counted: the program, C's libraries, what is freed and
+ * not given back. Papers need the machine, OpenCL's driver and its compiler, some 90 to 160 MB:
+ * they are of the script's memory, as far as they have no room here. */
 #define SCRIPT_BESIDES_BYTES ((double)(40 << 20))
 #define SCRIPT_MACHINE_BYTES 80e6 /* as it begins */
-/* How much more than that and the script's memory the process takes; negative: it takes less, or it does not tell. */
+/* How much more than that and the script's memory the process takes; negative: it takes less,
+ * or it does not tell. */
 double script_overfull_bytes(const struct script *script);
 
 /* Starts the watchdog: if the script goes on for some seconds after it should have stopped,
@@ -115,8 +122,9 @@ void script_watchdog_pause(struct script *script, bool paused);
  * kernels may have to be compiled, so it waits longer. */
 void script_at_work(struct script *script, bool at_work);
 
-/* Lua's allocator, whose context is the script; the handler of errors that are no text; and what the host is told of an error that
- * is on the top, once a call has failed with that status. */
+/* Lua's allocator, whose context is the script; the handler of errors that are no text; and
+ * what the host is told of an error that is on the top, once a call has failed with that
+ * status. */
 void *script_allocate(void *context, void *block, size_t old, size_t new);
 int script_message(lua_State *L);
 void script_failure_tell(lua_State *L, int status);
@@ -130,7 +138,8 @@ void script_error_tell(const struct script *script, const char *text);
 void script_note_tell(const struct script *script, const char *text);
 /* The same, with the script's line. */
 void script_note_where(lua_State *L, const char *text);
-/* What is said once in a script, the first time that it happens: it is no error, and seldom meant. */
+/* What is said once in a script, the first time that it happens: it is no error, and seldom
+ * meant. */
 enum script_once { SCRIPT_OFF_PAPER, SCRIPT_NOT_DIPPED, SCRIPT_DIPPED_IN_NOTHING };
 void script_note_once(lua_State *L, enum script_once what, const char *text);
 /* NULL: the work is over. */
@@ -142,10 +151,12 @@ int script_load(lua_State *L, const char *path);
  * script's text. */
 void script_words_check(lua_State *L);
 
-/* Resolves a file's name within a folder and pushes its path; raises an error for names that lead out of it. */
+/* Resolves a file's name within a folder and pushes its path; raises an error for names that
+ * lead out of it. */
 const char *script_path(lua_State *L, const char *folder, const char *name, const char *what);
 
-/* A font's name; or with the path of a folder with edits of one, in the folder that is read, as font_edits_open() takes it. Raises an error for names of files. what: "text font". Owns: the
+/* A font's name; or with the path of a folder with edits of one, in the folder that is read, as
+ * font_edits_open() takes it. Raises an error for names of files. what: "text font". Owns: the
  * script, as long as it runs, or as `name`. */
 const char *script_font(lua_State *L, const char *name, const char *what);
 /* After a font was opened: a note if it has changed since its edits were made; once of each. */
@@ -217,7 +228,8 @@ bool script_mask_place(lua_State *L, int index, const struct paper_sheet *sheet,
 /* Calls Lua's text() with the text at an argument and the table behind it; pushes a mask, a
  * length and a height. */
 int script_mask_text_push(lua_State *L, int index);
-/* Puts a table behind the text at an argument, by which text() fills width x height, but for a margin, well. */
+/* Puts a table behind the text at an argument, by which text() fills width x height, but for a
+ * margin, well. */
 void script_mask_text_fit(lua_State *L, int index, int width, int height, double margin);
 /* Pushes a mask with a copy of the gray values. */
 void script_mask_push(lua_State *L, const uint8_t *gray, int width, int height, int x, int y);
@@ -294,9 +306,11 @@ extern const struct script_functions script_functions[];
 
 /* Opens the whole library, in the sandbox unless the script is trusted. */
 int script_open(lua_State *L);
-/* Replaces functions of Lua's own library by some that are safe for untrusted scripts (lua_functions.c). */
+/* Replaces functions of Lua's own library by some that are safe for untrusted scripts
+ * (lua_functions.c). */
 void script_lua_functions_open(lua_State *L);
-/* Pushes the value at an index as a text, as tostring() does. An object has a number there, not its address. */
+/* Pushes the value at an index as a text, as tostring() does. An object has a number there, not
+ * its address. */
 void script_text_push(lua_State *L, int index);
 /* Removes what reaches outside of the script, seeds math.random, and makes pairs() ordered. */
 void script_sandbox_open(lua_State *L);

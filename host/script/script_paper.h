@@ -27,7 +27,8 @@ void script_paper_room_take(lua_State *L, struct script_paper *paper, double wid
 /* Adds the paper, which has a sheet now, to the list of open papers; removes it. */
 void script_paper_keep(struct script_paper *paper);
 void script_paper_forget(struct script_paper *paper);
-/* The saved sheet that this paper resumes, if it is as the script describes it now; *found false: none. */
+/* The saved sheet that this paper resumes, if it is as the script describes it now; *found
+ * false: none. */
 enum paper_status script_paper_resumed(struct script_paper *paper,
                                        const struct paper_sheet_config *config,
                                        double budget_bytes, bool *found);

@@ -1,4 +1,5 @@
-/* song.c - what instruments play, in scripts: messages as tables, and song("page.mid"), a list of them. */
+/* song.c - what instruments play, in scripts: messages as tables, and song("page.mid"), a list
+ * of them. */
 #include "script_internal.h"
 
 #include <midi_message.h>
@@ -7,7 +8,8 @@
 #include <sys/stat.h>
 
 enum { EVENT_BYTES = 400 /* of a message as a table */ };
-/* Bytes of a song for each of its file's: the shortest event has two, and its place in the song and in its order has 64. */
+/* Bytes of a song for each of its file's: the shortest event has two, and its place in the song
+ * and in its order has 64. */
 #define FILE_FACTOR 33.0
 
 /* ---- messages ---- */
@@ -24,8 +26,8 @@ static void integer_set(lua_State *L, const char *name, int value)
     lua_setfield(L, -2, name);
 }
 
-/* A message as a table: kind and time; of channel messages channel and what it has, values as 0..1 (bend: -1..1); the bytes of all
- * others as a text. */
+/* A message as a table: kind and time; of channel messages channel and what it has, values as
+ * 0..1 (bend: -1..1); the bytes of all others as a text. */
 void script_midi_push(lua_State *L, const struct midi_message *m)
 {
     const struct midi_row *row = midi_row_of(m->bytes[0]);

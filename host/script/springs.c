@@ -16,8 +16,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Bytes for each mass and spring, with their copies for steps; for a network, a font as it is open, and what
- * draws letters. */
+/* Bytes for each mass and spring, with their copies for steps; for a network, a font as it is
+ * open, and what draws letters. */
 enum {
     MASS_BYTES = 300,
     SPRING_BYTES = 200,

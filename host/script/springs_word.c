@@ -1,4 +1,5 @@
-/* springs_word.c - springy words in scripts: spring.word{...}, their letters, and masks of them. */
+/* springs_word.c - springy words in scripts: spring.word{...}, their letters, and masks of
+ * them. */
 #include "script_mask.h"
 #include "script_springs.h"
 
@@ -205,7 +206,8 @@ static int network_letters(lua_State *L)
     return 1;
 }
 
-/* n:letter(number): the numbers of its masses: lower left, lower right, upper right, upper left */
+/* n:letter(number): the numbers of its masses: lower left, lower right, upper right, upper
+ * left */
 static int network_letter(lua_State *L)
 {
     int letter = 0;

@@ -93,7 +93,8 @@ static void size_check(lua_State *L, const char *what, const double size[2])
         luaL_error(L, "%s size must be {least, most} (got {%f, %f})", what, size[0], size[1]);
 }
 
-/* paper:splatter({x =, y =, radius =, drops =, size =, angle =, thrown =, seed =}, {water =, ...}) */
+/* paper:splatter({x =, y =, radius =, drops =, size =, angle =, thrown =, seed =}, {water =,
+ * ...}) */
 static int paper_splatter(lua_State *L)
 {
     static const char *const besides[] = {"seed", NULL};

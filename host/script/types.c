@@ -9,7 +9,8 @@ const char script_mask_type[] = "lutetia mask", script_papers_type[] = "lutetia 
            script_picture_type[] = "lutetia picture", script_spring_type[] = "lutetia spring",
            script_network_type[] = "lutetia network";
 
-/* What a type without such a method answers: the methods that it has. Its upvalues: the type's name, the table of methods. */
+/* What a type without such a method answers: the methods that it has. Its upvalues: the type's
+ * name, the table of methods. */
 static int method_missing(lua_State *L)
 {
     lua_settop(L, 2);
@@ -24,7 +25,8 @@ static int names_order(const void *a, const void *b)
     return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
-/* A script may have put anything into the table `spring`: only names count, and not too many. */
+/* A script may have put anything into the table `spring`: only names count, and not too
+ * many. */
 void script_method_unknown(lua_State *L, const char *type, const char *name)
 {
     enum { NAMES_MAX = 100 };

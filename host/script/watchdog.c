@@ -13,9 +13,9 @@
 #include <time.h>
 
 #define LOOK_S 0.004 /* a process takes some 4 MB in that time */
-#define PATIENCE                                                                               \
-    30 /* the factor of the grace period while papers are at work that would be lost: kernels may have to be
-        * compiled */
+/* the factor of the grace period while papers are at work that would be lost: kernels may have
+ * to be compiled */
+#define PATIENCE 30
 #define OVERFULL_MORE_BYTES                                                                    \
     ((double)(8 << 20)) /* what is over is told; so much more is ended */
 

@@ -84,8 +84,8 @@ struct stage_actor_kind {
     /* Takes the oldest waiting sounds, at most `most`; returns how many. */
     int (*heard)(void *actor, struct stage_sound *out, int most);
     void (*destroy)(void *actor);
-    /* The name of the group that one of the actor's controls belongs to, for panels; groups follow each other in the table. NULL: all
-     * belong to the actor's name. */
+    /* The name of the group that one of the actor's controls belongs to, for panels; groups
+     * follow each other in the table. NULL: all belong to the actor's name. */
     const char *(*group)(void *actor, int row);
 };
 

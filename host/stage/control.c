@@ -96,7 +96,8 @@ void stage_control_text(const struct stage_control *row, double value, char *tex
  *   least     bottom            middle                 most      value
  *      (0 or below)
  *
- * Each half is bent: it begins at the middle with half of its mean slope, and ends with one and a half times that. */
+ * Each half is bent: it begins at the middle with half of its mean slope, and ends with one and
+ * a half times that. */
 
 static const double linear_share = 0.05, bottom_part = 1e-3, middle_part = 1e-2;
 

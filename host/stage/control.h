@@ -17,7 +17,8 @@
 
 #include <stddef.h>
 
-/* The curve of a slider. LOGARITHMIC and CENTRED: the usual value is in the middle, and values near it have the most of the way. SWITCH: 0 or
+/* The curve of a slider. LOGARITHMIC and CENTRED: the usual value is in the middle, and values
+ * near it have the most of the way. SWITCH: 0 or
  * 1. CHOICE: the number of one of the choices. */
 enum stage_curve { STAGE_LINEAR, STAGE_LOGARITHMIC, STAGE_CENTRED, STAGE_SWITCH, STAGE_CHOICE };
 
@@ -49,8 +50,9 @@ enum stage_status stage_control_parse(const struct stage_control *row, const cha
 /* Writes a value as text, without its unit; at most room - 1 characters. */
 void stage_control_text(const struct stage_control *row, double value, char *text, size_t room);
 
-/* Converts a value to a slider's position, 0..1, and back, by the curve; for what MIDI plays, too. A logarithmic range whose usual value is
- * one of its ends has its geometric middle in the middle. One that begins at 0 or below is linear there, below a thousandth of the middle's
+/* Converts a value to a slider's position, 0..1, and back, by the curve; for what MIDI plays,
+ * too. A logarithmic range whose usual value is one of its ends has its geometric middle in the
+ * middle. One that begins at 0 or below is linear there, below a thousandth of the middle's
  * value. */
 double stage_control_along(const struct stage_control *row, double value);
 double stage_control_at(const struct stage_control *row, double along);

@@ -1,6 +1,6 @@
 /* draw_list.h - a picture as a list of shapes, from back to front: letters under any map,
- * lines, discs, rings, boxes, images. Actors write it; renderer.h draws it by OpenGL and exact.h
- * through fontpipe's filter.
+ * lines, discs, rings, boxes, images. Actors write it; renderer.h draws it by OpenGL and
+ * exact.h through fontpipe's filter.
  *
  *     struct stage_draw_list list = {0};
  *     stage_draw_begin(&list, view);                         // the world: y upwards

@@ -1,6 +1,6 @@
-/* exact.c - see exact.h. The picture is linear light, a float for each channel, until everything
- * is drawn. With alpha, which is the fourth, light is multiplied by it: what covers a pixel then
- * changes all channels in the same way, alpha as a light that is 1 in all ink. */
+/* exact.c - see exact.h. The picture is linear light, a float for each channel, until
+ * everything is drawn. With alpha, which is the fourth, light is multiplied by it: what covers
+ * a pixel then changes all channels in the same way, alpha as a light that is 1 in all ink. */
 #include "exact.h"
 
 #include <gray.h>
@@ -201,7 +201,8 @@ static enum font_status glyph_draw(struct stage_exact *e, const struct stage_gly
     return status;
 }
 
-/* Between the middles of its pixels an image is linear in sRGB's numbers, as OpenGL's textures are; at its edges it goes on. */
+/* Between the middles of its pixels an image is linear in sRGB's numbers, as OpenGL's textures
+ * are; at its edges it goes on. */
 static void image_draw(struct stage_exact *e, const struct stage_image *i,
                        const struct display_image *image)
 {

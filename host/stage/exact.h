@@ -25,8 +25,9 @@ struct stage_exact;
 enum stage_status stage_exact_create(const char *filter, struct stage_exact **out);
 void stage_exact_destroy(struct stage_exact *exact); /* NULL is fine */
 
-/* Draws into an image of three channels, on the background's colour, or of four, on the background with its opacity. Shapes that a map sends beyond the horizon, or that
- * are too large to be filtered, are left out. Errors: NO_MEMORY. */
+/* Draws into an image of three channels, on the background's colour, or of four, on the
+ * background with its opacity. Shapes that a map sends beyond the horizon, or that are too
+ * large to be filtered, are left out. Errors: NO_MEMORY. */
 enum stage_status stage_exact_draw(struct stage_exact *exact,
                                    const struct stage_draw_list *list,
                                    struct stage_color background, struct display_image *image);

@@ -6,7 +6,8 @@
 enum { COLUMNS_MAX = 3 };
 static const double column_texts = 36, name_texts = 13, line_texts = 1.6, margin_texts = 1.5;
 
-/* As few columns as make it fit, else as many as there is room for, in a smaller text if there is none for one. */
+/* As few columns as make it fit, else as many as there is room for, in a smaller text if there
+ * is none for one. */
 static void sheet_fit(struct help_sheet *s, int count, int width_px, int height_px,
                       double text_px)
 {

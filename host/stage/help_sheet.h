@@ -1,5 +1,5 @@
-/* help_sheet.h - what a window's keys and hands do, as a sheet over the picture: in columns where it is wide, smaller where it is narrow; what does not
- * fit is scrolled to.
+/* help_sheet.h - what a window's keys and hands do, as a sheet over the picture: in columns
+ * where it is wide, smaller where it is narrow; what does not fit is scrolled to.
  *
  *     struct help_sheet sheet = {.shown = true};
  *     const struct help_row rows[] = {{"Space", "stop, go on"}, {"Esc", "end"}};
@@ -20,7 +20,8 @@ struct help_row {
 struct help_sheet {
     bool shown;
     double scrolled_px;
-    /* The last picture's: how far it can be scrolled, a line, the text's size, and the sheet. */
+    /* The last picture's: how far it can be scrolled, a line, the text's size, and the
+     * sheet. */
     double most_px, line_px, text_px;
     int columns;
     struct font_box box;

@@ -118,7 +118,8 @@ static bool has_slider(const struct stage_control *row)
            (row->curve == STAGE_LOGARITHMIC || row->most - row->least < slider_range_max);
 }
 
-/* The stage's own controls are the first group, the actor's follow. Groups that were there keep whether they are folded. */
+/* The stage's own controls are the first group, the actor's follow. Groups that were there keep
+ * whether they are folded. */
 static void groups_find(struct stage_panel *p, struct stage *stage)
 {
     const struct stage_actor actor = stage_actor(stage);
@@ -305,8 +306,8 @@ static void title_draw(struct stage_panel *p, const struct group *g,
                      colors[STAGE_COLOR_PANEL_VALUE]);
 }
 
-/* Text in lines of at most that width, from y downwards: draws them, or only counts them (list NULL). A word that is too long has a line of
- * its own. */
+/* Text in lines of at most that width, from y downwards: draws them, or only counts them (list
+ * NULL). A word that is too long has a line of its own. */
 static int lines_draw(struct stage_panel *p, struct stage_draw_list *list, const char *text,
                       double x_px, double y_px, double width_px, struct stage_color color)
 {

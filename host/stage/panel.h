@@ -13,10 +13,12 @@
  *
  *   - world              a group of controls: a click folds it (+), and unfolds it
  *
- * Where somebody knows of instruments (stage_panel_knobs): a click with the right button lets a control wait for the knob that is turned next,
- * Shift and a drag set the knob's ends, Shift and a click with the right button let it go.
+ * Where somebody knows of instruments (stage_panel_knobs): a click with the right button lets a
+ * control wait for the knob that is turned next, Shift and a drag set the knob's ends, Shift
+ * and a click with the right button let it go.
  *
- * The wheel scrolls a panel that does not fit. Beside the panel stands what the control under the pointer does. Each change can be undone.
+ * The wheel scrolls a panel that does not fit. Beside the panel stands what the control under
+ * the pointer does. Each change can be undone.
  */
 #ifndef LUTETIA_STAGE_PANEL_H
 #define LUTETIA_STAGE_PANEL_H
@@ -25,7 +27,8 @@
 
 #include "stage.h"
 
-/* The knob of an instrument that moves a control: text names it, from and to are its ends on the slider's way. waits: for one that is turned. */
+/* The knob of an instrument that moves a control: text names it, from and to are its ends on
+ * the slider's way. waits: for one that is turned. */
 struct stage_panel_knob {
     const char *text;
     double from, to;
@@ -52,8 +55,8 @@ bool stage_panel_shown(const struct stage_panel *panel);
 bool stage_panel_typing(const struct stage_panel *panel);
 void stage_panel_show(struct stage_panel *panel, bool shown);
 
-/* How much of a picture's width is left for the stage: what the panel does not take, unless it would take more than two thirds; then it lies
- * over the stage. */
+/* How much of a picture's width is left for the stage: what the panel does not take, unless it
+ * would take more than two thirds; then it lies over the stage. */
 int stage_panel_beside(const struct stage_panel *panel, const struct stage *stage, int width_px,
                        double px);
 

@@ -26,8 +26,8 @@ struct stage_renderer;
 
 enum stage_way { STAGE_BY_EGL, STAGE_BY_OSMESA };
 
-/* Errors: BAD_ARGUMENT (the size), NO_DISPLAY (no OpenGL in that way: what is missing, or that this build has none),
- * NO_MEMORY. */
+/* Errors: BAD_ARGUMENT (the size), NO_DISPLAY (no OpenGL in that way: what is missing, or that
+ * this build has none), NO_MEMORY. */
 enum stage_status stage_renderer_offscreen(enum stage_way way, int width_px, int height_px,
                                            struct stage_renderer **out);
 /* window: borrowed; must be drawn by the caller. Pictures have the window's present size. */

@@ -132,7 +132,8 @@ static void text_print(const char *words, FILE *to)
             fputc(*words, to);
 }
 
-/* The other way round, in place. False: a backslash has nothing to say, or it is no text of a stage's length. */
+/* The other way round, in place. False: a backslash has nothing to say, or it is no text of a
+ * stage's length. */
 static bool text_unprint(char *words)
 {
     char *to = words;

@@ -11,14 +11,17 @@
  *     session 1
  *     begin 51ab7e0fd0c94c22                   of the actor as it began: actor.h
  *     412 mark
- *     412 hand down 0.25 2.5 0.23 0 0 1        what, x, y, how far is near, pressure, button, modifiers
+ *     412 hand down 0.25 2.5 0.23 0 0 1        what, x, y, how far is near, pressure, button,
+ *                                              modifiers
  *     415 hand move 0.5 2.75 0.23 0 0 1
  *     430 hand up 0.5 2.75 0.23 0 0 1
  *     500 set gravity 3.7
  *     540 load 8a1c0f3e55d2b790 word.springs   the file's digest, and its name
- *     560 text other words                     the rest of the line: \n is a line's end, \\ a backslash
+ *     560 text other words                     the rest of the line: \n is a line's end, \\ a
+ *                                              backslash
  *     612 undo                                 and mark, drop (a mark), reset, hand cancel
- *     end 900                                  the steps that were made in all (earlier sessions lack the number)
+ *     end 900                                  the steps that were made in all (earlier
+ *                                              sessions lack the number)
  *
  * Time is in steps, so pauses and slow motion do not matter. A loaded file is not part of the
  * session: it must be where it was, seen from the working folder, and have the same bytes, or
@@ -87,8 +90,9 @@ void stage_session_add(struct stage_session *session, const struct stage_deed *d
 enum stage_status stage_session_write(const struct stage_session *session,
                                       const struct stage_control *rows, const char *path);
 
-/* How long a session takes that begins with this rate, of steps of this length: rates that are set, undone and reset count. Without a
- * known end it is that of the last action. rate_control: the rate's row. */
+/* How long a session takes that begins with this rate, of steps of this length: rates that are
+ * set, undone and reset count. Without a known end it is that of the last action. rate_control:
+ * the rate's row. */
 double stage_session_seconds(const struct stage_session *session, double rate, double step_s,
                              int rate_control);
 
@@ -104,8 +108,8 @@ void stage_session_add_text(struct stage_session *session, int64_t step, const c
 enum stage_status stage_session_file_check(const struct stage_file *file, const char *name,
                                            int line);
 
-/* Errors: BAD_FILE, with the file's name and the line, also if a loaded file is not there or has
- * changed; NO_MEMORY. *out is then empty. */
+/* Errors: BAD_FILE, with the file's name and the line, also if a loaded file is not there or
+ * has changed; NO_MEMORY. *out is then empty. */
 enum stage_status stage_session_read(const char *path, const struct stage_control *rows,
                                      int rows_count, struct stage_session *out);
 /* The same for a text in memory, without a look at loaded files; name: used in errors. */

@@ -33,8 +33,8 @@ struct stage_springs_letter {
 };
 
 struct stage_springs_def;
-/* Who makes the word anew when its text is changed (stage_text()): fills network, word, style and extent of a def of usual values, which the
- * actor owns then. make NULL: the text stays. */
+/* Who makes the word anew when its text is changed (stage_text()): fills network, word, style
+ * and extent of a def of usual values, which the actor owns then. make NULL: the text stays. */
 struct stage_springs_maker {
     enum stage_status (*make)(void *context, const char *words, struct stage_springs_def *out);
     void *context;
@@ -52,7 +52,8 @@ struct stage_springs_def {
     /* The visible part of the world: x0 < x1 and y0 < y1; otherwise the actor's extent. */
     struct font_box extent;
     struct stage_springs_maker maker;
-    /* A variable font whose axes are controls: weight, width, slant, or the axis's tag. Borrowed, must outlive the actor; NULL: none. */
+    /* A variable font whose axes are controls: weight, width, slant, or the axis's tag.
+     * Borrowed, must outlive the actor; NULL: none. */
     struct font_face *face;
 };
 struct stage_springs_def stage_springs_def_default(void);

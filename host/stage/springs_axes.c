@@ -1,4 +1,5 @@
-/* springs_axes.c - the axes of a variable font as controls: letters are drawn as the axes are, in the boxes that they have. */
+/* springs_axes.c - the axes of a variable font as controls: letters are drawn as the axes are,
+ * in the boxes that they have. */
 #include "springs_internal.h"
 
 #include <stdio.h>
@@ -26,7 +27,8 @@ void springs_axes_set(struct springs *s)
                                  s->set.axes[i]); /* it was set so before */
 }
 
-/* What people call an axis; else its tag, which has to be a name: letters and digits. NULL: it is none. */
+/* What people call an axis; else its tag, which has to be a name: letters and digits. NULL: it
+ * is none. */
 static const char *name_of(const char *tag)
 {
     static const char *const names[][2] = {{"wght", "weight"},

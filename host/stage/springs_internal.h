@@ -59,14 +59,15 @@ struct springs {
     struct springs_hand hand;
 };
 
-/* Owns: the word, also on failure; a user calls springs_text_let(). Errors: BAD_ARGUMENT (a letter on a mass that does not exist),
- * NO_MEMORY. */
+/* Owns: the word, also on failure; a user calls springs_text_let(). Errors: BAD_ARGUMENT (a
+ * letter on a mass that does not exist), NO_MEMORY. */
 enum stage_status springs_text_make(const struct stage_springs_def *def,
                                     struct springs_text **out);
 /* One user less; NULL is fine. */
 void springs_text_let(struct springs_text *text);
 
-/* Finds the axes of the face, which is NULL or variable, and their rows: SPRINGS_AXES_MAX at most. Returns how many. */
+/* Finds the axes of the face, which is NULL or variable, and their rows: SPRINGS_AXES_MAX at
+ * most. Returns how many. */
 int springs_axes_find(struct springs *s, struct stage_control rows[SPRINGS_AXES_MAX]);
 /* Sets all axes as the settings have them. */
 void springs_axes_set(struct springs *s);

@@ -68,8 +68,9 @@ enum stage_status springs_text_make(const struct stage_springs_def *def,
 
 /* ---- another word ----
  *
- * Letters at the beginning that both words have go on as they moved. What follows them is put where it would be if the last of them were a
- * solid body with it, and moves as that one does. Tacks are those of the new word: where they are higher, all of it is raised. */
+ * Letters at the beginning that both words have go on as they moved. What follows them is put
+ * where it would be if the last of them were a solid body with it, and moves as that one does.
+ * Tacks are those of the new word: where they are higher, all of it is raised. */
 
 /* How many letters from the first on are the same. */
 static int common_count(const struct dyn_word *a, const struct dyn_word *b)

@@ -92,8 +92,9 @@ enum stage_status stage_reset(struct stage *stage);
 enum stage_status stage_save(struct stage *stage, const char *path);
 enum stage_status stage_load(struct stage *stage, const char *path);
 
-/* Puts other words on the stage: UTF-8, STAGE_TEXT_BYTES at most, with line ends. This can be undone. Errors: BAD_ARGUMENT (no such text,
- * or the actor has none that can be changed); the stage is as it was. */
+/* Puts other words on the stage: UTF-8, STAGE_TEXT_BYTES at most, with line ends. This can be
+ * undone. Errors: BAD_ARGUMENT (no such text, or the actor has none that can be changed); the
+ * stage is as it was. */
 enum stage_status stage_text(struct stage *stage, const char *words);
 
 /* ---- sessions: see session.h ---- */
@@ -101,11 +102,12 @@ enum stage_status stage_text(struct stage *stage, const char *words);
 /* Saves the actions since the first frame. Errors: BAD_FILE; BAD_ARGUMENT: a file was
  * loaded that was gone at once, or there were too many actions. */
 enum stage_status stage_session_save(struct stage *stage, const char *path);
-/* Repeats a session's actions at their steps; call before the first frame. Errors: BAD_FILE (also
- * if a file that it loads is not there, or has changed), NO_MEMORY. If the stage began in
+/* Repeats a session's actions at their steps; call before the first frame. Errors: BAD_FILE
+ * (also if a file that it loads is not there, or has changed), NO_MEMORY. If the stage began in
  * another way than the session did, stage_frame() says so. */
 enum stage_status stage_session_replay(struct stage *stage, const char *path);
-/* How long what is replayed takes from now on, by the stage's rate and those that are set in it; 0: nothing is. */
+/* How long what is replayed takes from now on, by the stage's rate and those that are set in
+ * it; 0: nothing is. */
 double stage_replay_seconds(const struct stage *stage);
 
 #endif

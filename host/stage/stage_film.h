@@ -7,8 +7,9 @@
  *     if (stage_film(stage, &def) != STAGE_OK)
  *         die(stage_error());
  *
- * Where the theme's background is not opaque, exact pictures have alpha: stills, frames, and films whose format holds it
- * (video_alpha()); other films are drawn on the background's colour, and so is what `over` changes.
+ * Where the theme's background is not opaque, exact pictures have alpha: stills, frames, and
+ * films whose format holds it (video_alpha()); other films are drawn on the background's
+ * colour, and so is what `over` changes.
  *
  * Time is frame / fps: the pictures are the same each time, however long drawing takes.
  */
@@ -31,20 +32,22 @@ struct stage_film_def {
     int strip[2]; /* columns and rows of moments in the still, from the first to the last; 1, 1:
               * the last only */
     int width_px, height_px; /* 1280x720; of a strip, the size of the whole */
-    double
-        px; /* pixels for each pixel of a 96 dpi screen; 0: 1, and more where the picture is larger than usual: where its
-                * shorter side (of a strip: that of a moment) has more than 720, as many times as much */
+    /* pixels for each pixel of a 96 dpi screen; 0: 1, and more where the picture is larger than
+     * usual: where its shorter side (of a strip: that of a moment) has more than 720, as many
+     * times as much */
+    double px;
     int fps;                 /* 30 */
     double seconds;          /* 5 */
     enum stage_film_way way; /* EXACT */
     const char *filter;      /* for exact pictures; "gaussian-fast" */
     /* Called before each picture's steps, for whoever plays the stage; NULL: nobody does. */
     enum stage_status (*before)(void *context, struct stage *stage, double now_s);
-    /* Called when a picture is drawn, with what it was drawn from, and may change it; then all pictures are drawn, also those that are not
-     * written. NULL: nothing is called. */
+    /* Called when a picture is drawn, with what it was drawn from, and may change it; then all
+     * pictures are drawn, also those that are not written. NULL: nothing is called. */
     enum stage_status (*over)(void *context, struct stage *stage,
                               const struct stage_draw_list *list, struct display_image *image);
-    /* Called after each picture; true: no more, what is whole by then is kept. NULL: nothing is called. */
+    /* Called after each picture; true: no more, what is whole by then is kept. NULL: nothing is
+     * called. */
     bool (*after)(void *context, int frame, int frames);
     void *context;
 };

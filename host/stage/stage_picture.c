@@ -1,4 +1,5 @@
-/* stage_picture.c - what a stage's picture has: the grid, earlier moments, shadows, the actor. */
+/* stage_picture.c - what a stage's picture has: the grid, earlier moments, shadows, the
+ * actor. */
 #include "stage_internal.h"
 
 #include <math.h>

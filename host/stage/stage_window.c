@@ -426,7 +426,8 @@ static void overlay_draw(struct stage_window *w, int width, int height, double p
     if (!words && w->message[0] && now_s < w->message_s + MESSAGE_S)
         stage_panel_text(w->panel, &w->list, w->message, text, height - text, text, false,
                          colors[STAGE_COLOR_PANEL_TEXT]);
-    if (!w->drawn) /* the first text takes some milliseconds longer, which a played letter must not */
+    /* the first text takes some milliseconds longer, which a played letter must not */
+    if (!w->drawn)
         stage_panel_text(w->panel, &w->list, "A", text, height - text, text, false,
                          stage_background(w->stage));
     if (w->video)

@@ -33,10 +33,12 @@ struct stage_window_def {
     const char *save_path;   /* where the actor is saved and loaded; "stage.net" */
     const char *font;        /* the panel's font; "DejaVuSans" */
     double fps;              /* the most pictures a second; 60 */
-    const char *
-        played; /* what the letters on the keyboard play, for the help: they do nothing else then; NULL: they play nothing */
-    /* Before a turn's steps: whoever plays the stage besides hands does so here; what it does is in the same picture. And first
-     * of all for a key that goes down or up: true, it was taken. NULL: nobody does. */
+    /* what the letters on the keyboard play, for the help: they do nothing else then; NULL:
+     * they play nothing */
+    const char *played;
+    /* Before a turn's steps: whoever plays the stage besides hands does so here; what it does
+     * is in the same picture. And first of all for a key that goes down or up: true, it was
+     * taken. NULL: nobody does. */
     enum stage_status (*before)(void *context, struct stage *stage, double now_s);
     bool (*key)(void *context, const struct input_event *event);
     void *context;
@@ -44,12 +46,14 @@ struct stage_window_def {
     /* What key() takes besides, for the help; borrowed. */
     const struct help_row *keys;
     int keys_count; /* STAGE_WINDOW_KEYS_MAX at most */
-    /* After a turn's steps, before they are drawn: whoever lets hear what happened in them. NULL: nobody does. */
+    /* After a turn's steps, before they are drawn: whoever lets hear what happened in them.
+     * NULL: nobody does. */
     void (*after)(void *after_context, struct stage *stage);
     void *after_context;
-    /* Of recordings: sound_begin() when one begins; at its end sound_end() gives a descriptor of a WAV file of what was heard since, or -1
-     * (*why: why not, or NULL). The window closes it. Their context is after_context; now_s is the window's time, as for `before`.
-     * NULL: recordings are silent. */
+    /* Of recordings: sound_begin() when one begins; at its end sound_end() gives a descriptor
+     * of a WAV file of what was heard since, or -1 (*why: why not, or NULL). The window closes
+     * it. Their context is after_context; now_s is the window's time, as for `before`. NULL:
+     * recordings are silent. */
     void (*sound_begin)(void *after_context, double now_s);
     int (*sound_end)(void *after_context, double now_s, const char **why);
 };

@@ -6,7 +6,8 @@
  *         ...it took the event; a status that is not OK: the words cannot be the stage's...
  *     typed_words_draw(&words, panel, stage, height_px, px, &list);
  *
- * Enter gives the words to the stage, Shift and Enter is a line's end, Backspace takes a character back, Esc gives up.
+ * Enter gives the words to the stage, Shift and Enter is a line's end, Backspace takes a
+ * character back, Esc gives up.
  */
 #ifndef LUTETIA_STAGE_TYPED_WORDS_H
 #define LUTETIA_STAGE_TYPED_WORDS_H
@@ -23,7 +24,8 @@ struct typed_words {
 
 void typed_words_begin(struct typed_words *words, bool can);
 
-/* True: it took the event, as it does with all keys while words are typed. *status: of the stage, where they were given to it. */
+/* True: it took the event, as it does with all keys while words are typed. *status: of the
+ * stage, where they were given to it. */
 bool typed_words_input(struct typed_words *words, struct stage *stage,
                        const struct input_event *event, enum stage_status *status);
 

@@ -55,7 +55,8 @@ static void frame_costs(const struct frame_mean *f, double costs[COSTS], double 
     *pause = 1.0 * f->spoken;
 }
 
-/* The loudest level within AROUND_S of each frame: blocks of that length, and their neighbours. */
+/* The loudest level within AROUND_S of each frame: blocks of that length, and their
+ * neighbours. */
 static double *loudest_make(const struct voice_frame *frames, int count, int around)
 {
     const int blocks = count / around + 1;
@@ -144,7 +145,8 @@ static bool heard_make(const struct voice_frame *frames, int count, const bool *
 
 /* ---- places that are expected ---- */
 
-/* Spreads units over what is spoken, by their expected lengths: one begins behind a silence, and ends before the next. */
+/* Spreads units over what is spoken, by their expected lengths: one begins behind a silence,
+ * and ends before the next. */
 static void units_spread(const struct voice_unit *units, int count, const struct heard *h,
                          double rate, int *begin, int *end)
 {
@@ -194,7 +196,8 @@ struct search {
     struct heard heard; /* of the last pass */
     struct voice_unit *units, *whole;
     int units_count;
-    /* Frames of units, or of words: units are more. First where they are about, then where they are. */
+    /* Frames of units, or of words: units are more. First where they are about, then where they
+     * are. */
     int *begin_about, *end_about, *begin, *end;
 };
 
@@ -209,8 +212,8 @@ static void search_finish(struct search *p)
     free(p->end);
 }
 
-/* Finds units' first and last frames by the cheapest path; where there is none, they are spread. `fine`: they are parts of words,
- * else whole words. */
+/* Finds units' first and last frames by the cheapest path; where there is none, they are
+ * spread. `fine`: they are parts of words, else whole words. */
 static enum voice_path_status units_find(const struct voice_words *words,
                                          const struct voice_unit *units, int count, bool fine,
                                          double reach_s, struct search *p)
@@ -455,7 +458,8 @@ static int frame_at(const struct voice_frame *frames, int count, double time_s)
     return i;
 }
 
-/* Aligns the words of one cue within its time; where the sound is not, they share the time alike. */
+/* Aligns the words of one cue within its time; where the sound is not, they share the time
+ * alike. */
 static bool cue_align(const struct voice_cue *cue, const struct voice_frame *frames, int count,
                       double silence, int first_letter, struct voice_timing *out, int *letters)
 {

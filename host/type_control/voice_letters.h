@@ -1,7 +1,8 @@
 /* voice_letters.h - which letters of a text a moment of a voice shows.
  *
- * A word is shown while it is said (voice_align.h finds when), and nothing in a silence. A text of one word is shown as a whole, as long
- * as the voice sounds. Along a line words are prolonged: a letter is repeated as long as its time lasts ("Aaaaagggh"). Punctuation is set
+ * A word is shown while it is said (voice_align.h finds when), and nothing in a silence. A text
+ * of one word is shown as a whole, as long as the voice sounds. Along a line words are
+ * prolonged: a letter is repeated as long as its time lasts ("Aaaaagggh"). Punctuation is set
  * once, with the letter beside it.
  */
 #ifndef LUTETIA_VOICE_LETTERS_H
@@ -9,7 +10,8 @@
 
 #include "voice_score.h"
 
-/* Bytes of the text: what goes before a letter, the letter with the marks on it, and what comes after it. */
+/* Bytes of the text: what goes before a letter, the letter with the marks on it, and what comes
+ * after it. */
 struct voice_letter {
     int before, begin, end, after; /* [before, begin), [begin, end), [end, after) */
     int word;
@@ -28,7 +30,8 @@ struct voice_words {
 bool voice_words_make(const char *text, struct voice_words *out, bool *empty);
 void voice_words_finish(struct voice_words *words);
 
-/* Whether a word's letters join, or stand in another order than they are said (Arabic, Devanagari): it is then set as a whole. */
+/* Whether a word's letters join, or stand in another order than they are said (Arabic,
+ * Devanagari): it is then set as a whole. */
 bool voice_word_joins(const struct voice_words *words, int word);
 /* Whether the text runs to the left: the first word with letters of a direction says. */
 bool voice_words_to_left(const struct voice_words *words);

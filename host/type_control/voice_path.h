@@ -1,4 +1,5 @@
-/* voice_path.h - the cheapest way to cut frames into segments, one for each unit, with pauses between some. */
+/* voice_path.h - the cheapest way to cut frames into segments, one for each unit, with pauses
+ * between some. */
 #ifndef LUTETIA_VOICE_PATH_H
 #define LUTETIA_VOICE_PATH_H
 

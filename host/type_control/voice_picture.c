@@ -253,7 +253,8 @@ struct line {
     struct font_picture *picture; /* NULL: it is only measured */
 };
 
-/* Sets bytes of the text at the line's position, and moves the position on. Nothing else on the line is of that time. */
+/* Sets bytes of the text at the line's position, and moves the position on. Nothing else on the
+ * line is of that time. */
 static enum font_status bytes_set(struct voice_type *t, struct line *line, int begin, int end)
 {
     struct font_layout layout = {0};
@@ -305,8 +306,9 @@ static void silence_go(const struct voice_type *t, struct line *line, double unt
     }
 }
 
-/* Sets a letter once, and again as often as its width corresponds to its time. A letter that cannot be heard is as large as its loudest
- * moment. So each letter is set, and where many letters share a short time, the line becomes longer. */
+/* Sets a letter once, and again as often as its width corresponds to its time. A letter that
+ * cannot be heard is as large as its loudest moment. So each letter is set, and where many
+ * letters share a short time, the line becomes longer. */
 static enum font_status letter_set(struct voice_type *t, struct line *line, int letter)
 {
     const struct voice_letter *l = &t->words->letters[letter];
@@ -349,7 +351,8 @@ static enum font_status whole_set(struct voice_type *t, struct line *line, int w
     return status;
 }
 
-/* Moves from one word's end to the next one's beginning: as long as the silence, and a space at least. */
+/* Moves from one word's end to the next one's beginning: as long as the silence, and a space at
+ * least. */
 static void space_go(const struct voice_type *t, struct line *line, int word)
 {
     const struct voice_span *words = t->timing->words;

@@ -152,7 +152,8 @@ static bool kept_all(struct voice_score *s)
     return memory;
 }
 
-/* Where the envelope began to rise: an attack is known where a sound has risen most in 50 ms, which is near the end of its rise. */
+/* Where the envelope began to rise: an attack is known where a sound has risen most in 50 ms,
+ * which is near the end of its rise. */
 static double rise_begin_s(const struct voice_score *s, int attack)
 {
     const struct voice_frame *f = s->frames;

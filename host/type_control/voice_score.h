@@ -7,7 +7,8 @@
  *     weight    of a font that varies: from the lightest to the boldest
  *     slant     of a font that varies, or by shearing
  *     baseline  from where it is up by `rise_em` of the most size
- *     ink       colour: feature 0 is one end of the inks, 1 the other; `vowel` mixes three inks, for [a], [i] and [u]
+ *     ink       colour: feature 0 is one end of the inks, 1 the other; `vowel` mixes three
+ *               inks, for [a], [i] and [u]
  *
  * Source of the idea: Small 1990, 3.3: the energy of a cry is the size of "Aagh".
  */
@@ -20,7 +21,8 @@ enum voice_feature {
     VOICE_NOTHING,  /* the property stays */
     VOICE_ENVELOPE, /* of the loudest in the sound */
     VOICE_LEVEL,
-    VOICE_PITCH, /* from the lowest to the highest in the sound, by octaves; kept where there is none */
+    /* from the lowest to the highest in the sound, by octaves; kept where there is none */
+    VOICE_PITCH,
     VOICE_CLARITY, /* 0 noise, 1 periodic */
     VOICE_OPEN,    /* the first formant: 0 [i] [u], 1 [a] */
     VOICE_FRONT,   /* the second: 0 [u], 1 [i] */

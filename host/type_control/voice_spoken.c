@@ -72,7 +72,8 @@ static void closures_fill(bool *spoken, int count, int most)
     }
 }
 
-/* Marks loud frames that are within `near` frames of a periodic one, and connected to it by loud ones. */
+/* Marks loud frames that are within `near` frames of a periodic one, and connected to it by
+ * loud ones. */
 static void periodic_spread(const bool *loud, const bool *periodic, int count, int near,
                             bool *spoken)
 {

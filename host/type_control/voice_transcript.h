@@ -5,8 +5,8 @@
  *     The elephant.                        00:01.000 --> 00:02.500 align:start
  *                                          The <00:01.400>elephant.
  *
- * Tags and names of speakers are left out; times within a WebVTT line divide it. Cues begin one after the other; one that lasts into
- * the next ends where that begins.
+ * Tags and names of speakers are left out; times within a WebVTT line divide it. Cues begin one
+ * after the other; one that lasts into the next ends where that begins.
  */
 #ifndef LUTETIA_VOICE_TRANSCRIPT_H
 #define LUTETIA_VOICE_TRANSCRIPT_H
@@ -25,8 +25,8 @@ struct voice_transcript {
     char *text; /* of all cues, with a space between two */
 };
 
-/* False: `why` gets the reason in one line, with the number of the line that is wrong; *out is then empty. Owns: the caller finishes
- * *out. */
+/* False: `why` gets the reason in one line, with the number of the line that is wrong; *out is
+ * then empty. Owns: the caller finishes *out. */
 bool voice_transcript_read(const char *path, struct voice_transcript *out, char *why,
                            size_t room);
 /* The same of bytes in memory; `name` is for the reason. */

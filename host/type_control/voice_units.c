@@ -162,7 +162,8 @@ static void latin_add(struct units *units, const struct voice_words *words, int 
     unit_add(units, what, mute ? VOWEL_S / 3 : usual_s[what], letter, word);
 }
 
-/* A letter that is a consonant with its vowel: Indic scripts, Hangul, kana. `vowel`: it is sounded. */
+/* A letter that is a consonant with its vowel: Indic scripts, Hangul, kana. `vowel`: it is
+ * sounded. */
 static void syllable_add(struct units *units, int letter, int word, bool consonant, bool vowel)
 {
     if (consonant)
@@ -184,7 +185,8 @@ static bool has_bytes(const struct voice_words *words, int letter, uint32_t from
     return false;
 }
 
-/* Indic blocks are alike: 128 characters each, independent vowels at 05..14, vowel signs at 3e..4c, the virama at 4d. */
+/* Indic blocks are alike: 128 characters each, independent vowels at 05..14, vowel signs at
+ * 3e..4c, the virama at 4d. */
 static void indic_add(struct units *units, const struct voice_words *words, int letter,
                       bool begins, bool ends)
 {

@@ -1,10 +1,11 @@
-/* voice_units.h - what a text sounds like, as far as its letters tell in any language: a row of short sounds, each of a class and of an
- * expected length.
+/* voice_units.h - what a text sounds like, as far as its letters tell in any language: a row of
+ * short sounds, each of a class and of an expected length.
  *
  *     "Why not?"   W voiced  hy vowel | n voiced  o vowel  t stop |  a pause is expected
  *
- * Nothing is known of the language. So letters have the class that they have most often in the languages of their script, neighbours
- * that make one sound in most of them (vowels, doubled consonants, sh, ch, th) are one unit, and lengths are rough.
+ * Nothing is known of the language. So letters have the class that they have most often in the
+ * languages of their script, neighbours that make one sound in most of them (vowels, doubled
+ * consonants, sh, ch, th) are one unit, and lengths are rough.
  */
 #ifndef LUTETIA_VOICE_UNITS_H
 #define LUTETIA_VOICE_UNITS_H
@@ -31,8 +32,8 @@ struct voice_unit {
 /* What is expected after a word. */
 enum voice_break { VOICE_BREAK_NONE, VOICE_BREAK_SHORT /* comma */, VOICE_BREAK_LONG };
 
-/* Units of all words, in their order; each word has at least one, each letter is in at least one. False: no memory.
- * Owns: the caller frees *out. */
+/* Units of all words, in their order; each word has at least one, each letter is in at least
+ * one. False: no memory. Owns: the caller frees *out. */
 bool voice_units_make(const struct voice_words *words, struct voice_unit **out, int *count);
 /* What follows a word in the text: the sign at its end says. */
 enum voice_break voice_break_after(const struct voice_words *words, int word);

@@ -17,11 +17,11 @@ struct keys_letters {
 
 /* C, C-sharp, D, ... of all keys. */
 void keys_letters_names(struct keys_letters *out);
-/* Assigns the letters of the text to the keys that are played, from the lowest, repeating
- * the text if there are more keys. Marks stay with their letters, and a consonant with those that join it (Devanagari);
- * Arabic letters have the form that they have in their word; a text that runs to the left begins at the highest key. White space
- * is skipped.
- * False: the text has no letter. */
+/* Assigns the letters of the text to the keys that are played, from the lowest, repeating the
+ * text if there are more keys. Marks stay with their letters, and a consonant with those that
+ * join it (Devanagari); Arabic letters have the form that they have in their word; a text that
+ * runs to the left begins at the highest key. White space is skipped. False: the text has no
+ * letter. */
 bool keys_letters_text(const struct keys_score *score, const char *text,
                        struct keys_letters *out);
 /* False: `why` gets one line. Keys that are not in the file keep their letters. */

@@ -32,7 +32,8 @@ void keys_type_destroy(struct keys_type *type); /* NULL is fine */
 
 enum font_status keys_type_moment(struct keys_type *type, double time_s,
                                   struct font_picture *picture);
-/* `second_px` pixels for a second, from margin_px on; the lowest key's baseline at baseline_px. */
+/* `second_px` pixels for a second, from margin_px on; the lowest key's baseline at
+ * baseline_px. */
 enum font_status keys_type_line(struct keys_type *type, double second_px, double margin_px,
                                 double baseline_px, struct font_picture *picture);
 /* The largest size at which all moments fit a picture. Errors: those of shapers. */

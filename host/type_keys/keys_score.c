@@ -153,7 +153,8 @@ void keys_score_range(struct keys_score *s, int lowest, int highest)
     }
 }
 
-/* Pressures matter from the beginning of a sounding note on; of those before `last_s`, the last one of each key and channel. */
+/* Pressures matter from the beginning of a sounding note on; of those before `last_s`, the last
+ * one of each key and channel. */
 static void pressures_forget(struct keys_score *s, double before_s, double last_s)
 {
     bool seen[MIDI_CHANNELS][1 + MIDI_NOTES] = {{false}};

@@ -348,8 +348,8 @@ static enum midi_status text_send(struct midi_client *c, uint8_t kind, const cha
                                                    .payload = (const uint8_t *)text});
 }
 
-/* Waits for a reply, until *done. A long turn is one in which this process was stopped, and the server perhaps, too: it counts as
- * a usual one. */
+/* Waits for a reply, until *done. A long turn is one in which this process was stopped, and the
+ * server perhaps, too: it counts as a usual one. */
 static enum midi_status reply_wait(struct midi_client *c, const bool *done, const char *text)
 {
     const uint64_t turn_ns = 100000000;
@@ -403,7 +403,8 @@ static enum midi_status listen_say(struct midi_client *c, const struct listen_to
 
 /* ---- connecting ---- */
 
-/* Says hello; over TCP, shows that the token is known, and asks the server to. *why: room for its refusal. */
+/* Says hello; over TCP, shows that the token is known, and asks the server to. *why: room for
+ * its refusal. */
 static enum midi_status greet(struct midi_client *c, const char *why)
 {
     char hello[400], nonce[MIDI_PROOF_DIGITS + 1], code[MIDI_PROOF_DIGITS + 1];

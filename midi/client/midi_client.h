@@ -35,8 +35,8 @@ struct midi_client;
 
 struct midi_client_def {
     const char *name; /* the program's name in the server's status */
-    const char *
-        address; /* NULL: the user's own server; a socket's path; or HOST:PORT, a TCP port of this machine */
+    /* NULL: the user's own server; a socket's path; or HOST:PORT, a TCP port of this machine */
+    const char *address;
     const char *token; /* for TCP: the server's token */
     bool stays;        /* reconnects when the server goes away; otherwise that is NO_SERVER */
 };
@@ -60,8 +60,8 @@ struct midi_client_event {
     char text[160];
 };
 
-/* Connects, and checks that the other side is this user's (or root's). Errors: NO_SERVER, REFUSED,
- * NO_MEMORY. Owns: the caller closes *out. */
+/* Connects, and checks that the other side is this user's (or root's). Errors: NO_SERVER,
+ * REFUSED, NO_MEMORY. Owns: the caller closes *out. */
 enum midi_status midi_client_open(const struct midi_client_def *def, struct midi_client **out);
 void midi_client_close(struct midi_client *client); /* takes NULL */
 
@@ -75,7 +75,8 @@ enum midi_status midi_client_command(struct midi_client *client, const char *com
                                      char *reply, size_t room);
 /* The number of a device; -1: there is no device of that name. */
 int midi_client_device(const struct midi_client *client, const char *name);
-/* The name of a device, valid until the next call of midi_client_next(); NULL: there is no device of that number. */
+/* The name of a device, valid until the next call of midi_client_next(); NULL: there is no
+ * device of that number. */
 const char *midi_client_device_name(const struct midi_client *client, int device);
 
 /* Sends to a device; time_ns 0: now. Blocks while the device is slower than the caller, as

@@ -84,7 +84,8 @@ enum midi_status midi_connect(const char *address, int *file, int *port_out)
         close(*file);
         *file = -1;
     }
-    /* A read that has a timeout is interrupted by every signal, SA_RESTART or not: signal(7). */
+    /* A read that has a timeout is interrupted by every signal, SA_RESTART or not:
+     * signal(7). */
     const struct timeval day = {.tv_sec = 86400};
     if (status == MIDI_OK)
         (void)setsockopt(*file, SOL_SOCKET, SO_RCVTIMEO, &day, sizeof day);

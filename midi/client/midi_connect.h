@@ -4,8 +4,8 @@
 
 #include <midi_status.h>
 
-/* address NULL: the user's own server. *port: the TCP port, whose owner nobody has checked; 0: a
- * socket of this user's or of root's. Errors: NO_SERVER, REFUSED (another user's),
+/* address NULL: the user's own server. *port: the TCP port, whose owner nobody has checked; 0:
+ * a socket of this user's or of root's. Errors: NO_SERVER, REFUSED (another user's),
  * BAD_ARGUMENT; *file is then -1. */
 enum midi_status midi_connect(const char *address, int *file, int *port);
 

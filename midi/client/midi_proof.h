@@ -1,14 +1,18 @@
-/* midi_proof.h - how both ends of a TCP connection show that they know the token, and never send it.
+/* midi_proof.h - how both ends of a TCP connection show that they know the token, and never
+ * send it.
  *
  *     client                                   server
  *     hello:     "lutetia-midi 2\nNAME\nNONCE"  ->
  *                                              <-  challenge: "NONCE", another one
  *     proof:     code of "client"               ->      wrong: the connection ends
- *                                              <-  welcome:   "lutetia-midi 2\n", code of "server"
+ *                                              <-  welcome:   "lutetia-midi 2\n", code of
+ *                                                  "server"
  *
- * A nonce is 64 random hexadecimal digits. A code is HMAC-SHA-256 by the token, in hexadecimal digits, of the side's name, a line
- * end, and the SHA-256 of the port, a line end, the hello, a line end and the challenge. So no code is of use in another connection,
- * for the other side, or at another port. The client shows first: who only asks a server gets no code to guess tokens by.
+ * A nonce is 64 random hexadecimal digits. A code is HMAC-SHA-256 by the token, in hexadecimal
+ * digits, of the side's name, a line end, and the SHA-256 of the port, a line end, the hello, a
+ * line end and the challenge. So no code is of use in another connection, for the other side,
+ * or at another port. The client shows first: who only asks a server gets no code to guess
+ * tokens by.
  */
 #ifndef LUTETIA_MIDI_PROOF_H
 #define LUTETIA_MIDI_PROOF_H

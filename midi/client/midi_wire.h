@@ -30,8 +30,8 @@ enum midi_wire_kind {
         1, /* client: the greeting, a line with its name; over TCP, see midi_proof.h */
     MIDI_WIRE_COMMAND = 2, /* client: words; number: chosen by the client, and repeated in
                             * the reply */
-    MIDI_WIRE_MIDI =
-        3, /* both: a message to or from the device; number: counts a client's messages from 0 */
+    /* both: a message to or from the device; number: counts a client's messages from 0 */
+    MIDI_WIRE_MIDI = 3,
     MIDI_WIRE_PROOF = 4,    /* client, over TCP: it knows the token */
     MIDI_WIRE_WELCOME = 16, /* server: the greeting */
     MIDI_WIRE_DEVICE =

@@ -35,7 +35,8 @@ struct device_kind {
     /* Writes as many of the bytes as is possible now; if not all, device_write_out() must be
      * called later. */
     size_t (*write)(struct server_device *d, const uint8_t *bytes, size_t count);
-    /* Whether what write() took has not all left yet, so that closing would lose it; may be NULL. */
+    /* Whether what write() took has not all left yet, so that closing would lose it; may be
+     * NULL. */
     bool (*busy)(const struct server_device *d);
     void (*more)(struct server_device *d,
                  bool wanted); /* call device_write_out() when the device can take bytes; may
@@ -93,8 +94,8 @@ void device_message(struct server_device *d,
                     const struct midi_message *m); /* one that is whole */
 void device_read_end(struct server_device *d);
 void device_write_out(struct server_device *d);
-/* So many messages are lost, and nobody knows which: that is told, what sounds because of those that came ends, and soon the ends of
- * the notes that were played are sent again. */
+/* So many messages are lost, and nobody knows which: that is told, what sounds because of those
+ * that came ends, and soon the ends of the notes that were played are sent again. */
 void device_lost(struct server_device *d, uint32_t in, uint32_t out);
 /* Marks the device as away; it is tried again soon. */
 void device_down(struct server_device *d, const char *why);

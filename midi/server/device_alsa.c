@@ -159,8 +159,9 @@ static enum midi_status sequencer_open(struct server_device *d, struct alsa_devi
 static enum midi_status alsa_open(struct server_device *d)
 {
     const struct alsa_library *alsa;
+    /* permanent: it will not be installed while the server runs */
     if (alsa_load(&alsa) != MIDI_OK)
-        return MIDI_BAD_ARGUMENT; /* permanent: it will not be installed while the server runs */
+        return MIDI_BAD_ARGUMENT;
     struct alsa_device *a = calloc(1, sizeof *a);
     if (!a)
         return midi_fail(MIDI_NO_MEMORY, "no memory");

@@ -169,7 +169,8 @@ static enum midi_status serial_open(struct server_device *d)
 
 /* ---- a pseudo-terminal of our own ---- */
 
-/* Whether there is a link of that name, and it leads there: whatever else has the name is not ours to remove. */
+/* Whether there is a link of that name, and it leads there: whatever else has the name is not
+ * ours to remove. */
 static bool links_to(const char *name, const char *there, bool begins)
 {
     char target[256];

@@ -1,12 +1,14 @@
 /* device_jack.c - two ports of JACK's, one in and one out.
  *
- *     JACK's thread   process(): events of the period -> heard -> the server's loop, woken by an eventfd
+ *     JACK's thread   process(): events of the period -> heard -> the server's loop, woken by
+ *                     an eventfd
  *                                events to write      <- said  <-
  *
  * A received event keeps its time within the period. Events to send are written at the
- * beginning of the next period; what does not fit goes into the one after it, and who sends more than that waits, as for a serial line.
- * What JACK or the ring of what was heard has no room for, periods that were missed and JACK's own word of an xrun are counted: the server tells it, and ends the
- * notes whose ends may be among what is lost, at both sides.
+ * beginning of the next period; what does not fit goes into the one after it, and who sends
+ * more than that waits, as for a serial line. What JACK or the ring of what was heard has no
+ * room for, periods that were missed and JACK's own word of an xrun are counted: the server
+ * tells it, and ends the notes whose ends may be among what is lost, at both sides.
  */
 #include "device_kinds.h"
 #include "jack_library.h"
@@ -24,8 +26,8 @@
 
 enum {
     EVENT_BYTES_MAX = 8192,
-    SAID_USUAL =
-        4096 /* bytes of the ring of what is to be said: further messages wait at their senders */
+    /* bytes of the ring of what is to be said: further messages wait at their senders */
+    SAID_USUAL = 4096
 };
 
 struct jack_device {
@@ -47,9 +49,10 @@ struct jack_device {
     struct jack_device *next;
 };
 
-/* Devices whose JACK has ended, and whose client is still open. JACK's library goes on handling what its server said last. Who closes the
- * client meanwhile ends the library's thread with a lock in its hand, and waits for that lock for ever. So a client is closed when
- * LEFT_MS have passed, and no other is opened before. The loop's thread alone uses the list. */
+/* Devices whose JACK has ended, and whose client is still open. JACK's library goes on handling
+ * what its server said last. Who closes the client meanwhile ends the library's thread with a
+ * lock in its hand, and waits for that lock for ever. So a client is closed when LEFT_MS have
+ * passed, and no other is opened before. The loop's thread alone uses the list. */
 static struct jack_device *left;
 enum { LEFT_MS = 900 /* less than retry_ms: the first try finds them closed */ };
 
@@ -62,8 +65,8 @@ static void wake(const struct jack_device *j)
 
 /* ---- JACK's thread: never blocks or allocates ---- */
 
-/* Periods for which this thread was too late: what came in them is gone, and who was to read what was said in the last one may not
- * have. Each counts as a message. */
+/* Periods for which this thread was too late: what came in them is gone, and who was to read
+ * what was said in the last one may not have. Each counts as a message. */
 static uint32_t periods_missed(struct jack_device *j, uint32_t frames)
 {
     const uint32_t now = j->jack->jack_last_frame_time(j->client), before = j->last_frame;
@@ -131,8 +134,9 @@ static int process(uint32_t frames, void *context)
     return 0;
 }
 
-/* Some client was late, and JACK's count of frames may not show it: who was to read what was said may not have. Nothing that was
- * heard is told as lost: a note that is held shall go on where another program was late. */
+/* Some client was late, and JACK's count of frames may not show it: who was to read what was
+ * said may not have. Nothing that was heard is told as lost: a note that is held shall go on
+ * where another program was late. */
 static int late(void *context)
 {
     struct jack_device *j = context;

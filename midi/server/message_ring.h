@@ -1,6 +1,7 @@
 /* message_ring.h - a lock-free queue of bytes with times from one thread to another.
  *
- * One thread puts, one takes. Messages that do not fit are refused and counted: who takes looks at the count, and tells it.
+ * One thread puts, one takes. Messages that do not fit are refused and counted: who takes looks
+ * at the count, and tells it.
  */
 #ifndef LUTETIA_MIDI_MESSAGE_RING_H
 #define LUTETIA_MIDI_MESSAGE_RING_H

@@ -97,7 +97,8 @@ static int clients_count(const struct midi_server *s, bool strangers)
     return count;
 }
 
-/* Strangers have few places, and none of the owner's. The one that has waited longest leaves: who knows the token says so at once. */
+/* Strangers have few places, and none of the owner's. The one that has waited longest leaves:
+ * who knows the token says so at once. */
 static void strangers_bound(struct midi_server *s)
 {
     enum { STRANGERS_MAX = 8 };

@@ -5,7 +5,8 @@
  *     struct midi_server *server;
  *     if (midi_server_create(&def, &server) != MIDI_OK)
  *         die(midi_error());
- *     midi_server_run(server);          // until midi_server_stop(), from a signal handler or a thread
+ *     // until midi_server_stop(), from a signal handler or a thread
+ *     midi_server_run(server);
  *     midi_server_destroy(server);
  *
  *     devices                  server                           programs
@@ -33,8 +34,8 @@ struct midi_server_def {
     const char *const *devices; /* [NAME=]KIND[:ARGUMENT] each */
     int devices_count;
     bool real_time; /* SCHED_FIFO, if that is allowed */
-    bool
-        awake; /* no processor sleeps while messages come, if that is allowed (server_awake.h) */
+    /* no processor sleeps while messages come, if that is allowed (server_awake.h) */
+    bool awake;
     void (*log)(void *context, const char *line);
     void *context;
 };

@@ -1,7 +1,8 @@
 /* server_awake.h - keeps the processors awake while music is played.
  *
- * To wake a processor takes up to some hundred microseconds: longer than the server's whole work. So the server asks the system (latency.h)
- * that none sleeps, from when messages come until none has come for ten seconds.
+ * To wake a processor takes up to some hundred microseconds: longer than the server's whole
+ * work. So the server asks the system (latency.h) that none sleeps, from when messages come
+ * until none has come for ten seconds.
  */
 #ifndef LUTETIA_MIDI_SERVER_AWAKE_H
 #define LUTETIA_MIDI_SERVER_AWAKE_H

@@ -38,8 +38,8 @@ struct server_client {
     struct server_loop *loop;
     uint32_t number;
     bool tcp, greeted, dead;
-    bool
-        challenged; /* over TCP: it has said hello, and was asked to show that it knows the token */
+    /* over TCP: it has said hello, and was asked to show that it knows the token */
+    bool challenged;
     struct midi_proof proof;
     char name[CLIENT_NAME_BYTES];
     uint64_t came_ns,
@@ -83,7 +83,8 @@ bool client_put_text(struct server_client *c, uint8_t kind, int device, uint32_t
 void client_put_message(struct server_client *c, int device, const struct midi_message *m);
 /* Ends the notes of that device that the client believes to sound. */
 void client_release(struct server_client *c, int device);
-/* So many messages to it are lost: it is told, and the notes that it believes to sound are ended. */
+/* So many messages to it are lost: it is told, and the notes that it believes to sound are
+ * ended. */
 void client_lose(struct server_client *c, uint32_t count);
 /* Writes what it takes. */
 void client_flush(struct server_client *c);

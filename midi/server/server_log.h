@@ -1,7 +1,9 @@
-/* server_log.h - what the server tells while it runs: a line for each event, and no more than its reader can keep.
+/* server_log.h - what the server tells while it runs: a line for each event, and no more than
+ * its reader can keep.
  *
- * A plug that makes bad contact comes and goes ten times a second, for years. After LOG_AT_ONCE lines in a row there is one in
- * LOG_EVERY_S seconds, and the next line tells how many were left out: some 700 KB a day at most.
+ * A plug that makes bad contact comes and goes ten times a second, for years. After LOG_AT_ONCE
+ * lines in a row there is one in LOG_EVERY_S seconds, and the next line tells how many were
+ * left out: some 700 KB a day at most.
  */
 #ifndef LUTETIA_MIDI_SERVER_LOG_H
 #define LUTETIA_MIDI_SERVER_LOG_H

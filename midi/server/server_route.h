@@ -8,7 +8,8 @@
 void route_received(struct server_device *d, const struct midi_message *m);
 void route_read(struct server_device *d);
 void route_drained(struct server_device *d);
-/* Messages of the device are lost: who hears it is told, and what it believes to sound is ended. */
+/* Messages of the device are lost: who hears it is told, and what it believes to sound is
+ * ended. */
 void route_device_lost(struct midi_server *s, int device, uint32_t count);
 /* The device is away: ends its sounding notes, and forgets its players. */
 void route_device_away(struct midi_server *s, int device);

@@ -36,11 +36,12 @@ struct fluid {
 
 /* Errors: NO_DEVICE: it is not installed. Threads: the first call by one thread. */
 enum midi_status fluid_load(const struct fluid **out);
-/* ALSA and JACK, which FluidSynth's drivers use, print no complaints of their own from now on, and JACK starts no server. Threads: before
- * others use them. */
+/* ALSA and JACK, which FluidSynth's drivers use, print no complaints of their own from now on,
+ * and JACK starts no server. Threads: before others use them. */
 void fluid_hush_drivers(void);
 
-/* Loads a SoundFont, and prints nothing, whatever is damaged in it. False: it cannot be read. */
+/* Loads a SoundFont, and prints nothing, whatever is damaged in it. False: it cannot be
+ * read. */
 bool fluid_font_load(const struct fluid *fluid, void *synth, const char *path);
 
 #endif

@@ -154,7 +154,8 @@ enum midi_status sound_listen(struct sound *s, const char *driver)
                            driver ? driver : "this machine");
 }
 
-/* Whether a sound server of PulseAudio's kind listens: its library would start one otherwise, which nobody ends. */
+/* Whether a sound server of PulseAudio's kind listens: its library would start one otherwise,
+ * which nobody ends. */
 static bool pulse_there(void)
 {
     char path[200];

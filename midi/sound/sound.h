@@ -22,15 +22,16 @@
 enum { SOUND_BLOCK = 64 }; /* samples: the timing error of a message is at most this, 1.5 ms */
 
 struct sound_def {
-    const char *
-        font; /* a SoundFont's path; NULL: LUTETIA_SOUNDFONT of the environment, else the distribution's */
+    /* a SoundFont's path; NULL: LUTETIA_SOUNDFONT of the environment, else the
+     * distribution's */
+    const char *font;
     int rate_hz; /* 44100 */
     double gain; /* 0..10; 0.6 */
-    double
-        tail_s; /* what a song leaves sounding is rendered until it has died, for at most so long; 30 */
+    /* what a song leaves sounding is rendered until it has died, for at most so long; 30 */
+    double tail_s;
     bool room; /* reverberation and chorus */
-    struct midi_song *
-        beside; /* for files: another song that is heard with it, on instruments of its own; NULL */
+    /* for files: another song that is heard with it, on instruments of its own; NULL */
+    struct midi_song *beside;
 };
 struct sound_def sound_def_default(void);
 
@@ -57,8 +58,9 @@ bool sound_voices(struct sound *sound);
 
 /* ---- to a file ---- */
 
-/* Renders a WAV file of 16 bits and two channels, `seconds` long; 0: the song, and on until the last sound has died, the notes
- * that the song leaves on being ended with it. The file appears when it is complete. Errors: NO_DEVICE, IO_FAILED, BAD_ARGUMENT. */
+/* Renders a WAV file of 16 bits and two channels, `seconds` long; 0: the song, and on until the
+ * last sound has died, the notes that the song leaves on being ended with it. The file appears
+ * when it is complete. Errors: NO_DEVICE, IO_FAILED, BAD_ARGUMENT. */
 enum midi_status sound_render(const struct sound_def *def, struct midi_song *song,
                               double seconds, const char *path);
 
@@ -67,8 +69,9 @@ enum midi_status sound_render(const struct sound_def *def, struct midi_song *son
 enum midi_status sound_render_open(const struct sound_def *def, struct midi_song *song,
                                    double seconds, int *file);
 
-/* The SoundFont that is used: the given one, that of LUTETIA_SOUNDFONT, or the first that exists. Errors: NO_DEVICE, if it is no
- * regular file that can be read, or does not begin as a SoundFont. */
+/* The SoundFont that is used: the given one, that of LUTETIA_SOUNDFONT, or the first that
+ * exists. Errors: NO_DEVICE, if it is no regular file that can be read, or does not begin as a
+ * SoundFont. */
 enum midi_status sound_font_find(const char *font, const char **found);
 
 #endif

@@ -112,7 +112,8 @@ static bool is_silent(const struct render *r)
     return true;
 }
 
-/* Until nothing was heard for a tenth of a second, and no voice is left that could be: an echo has pauses. */
+/* Until nothing was heard for a tenth of a second, and no voice is left that could be: an echo
+ * has pauses. */
 static enum midi_status tail_render(struct render *r, double most_s)
 {
     const double block_s = (double)SOUND_BLOCK / r->wav.rate_hz, quiet_s = 0.1;

@@ -5,9 +5,11 @@
  *
  *     RIFF size WAVE | JUNK 28 zeros | fmt  format | data size | left right left right ...
  *
- * From 4 GB on, which the sizes cannot tell, the file is an RF64 (EBU Tech 3306): then ds64 takes the place of JUNK.
+ * From 4 GB on, which the sizes cannot tell, the file is an RF64 (EBU Tech 3306): then ds64
+ * takes the place of JUNK.
  *
- * Errors: false, with errno. Ownership: the stream is the caller's, and must be able to go back. Threads: one at a time. */
+ * Errors: false, with errno. Ownership: the stream is the caller's, and must be able to go
+ * back. Threads: one at a time. */
 #ifndef LUTETIA_MIDI_WAV_FILE_H
 #define LUTETIA_MIDI_WAV_FILE_H
 

@@ -1,4 +1,5 @@
-/* own_folder.h - a new folder for each test, which is left empty: cmocka's set-up and tear-down. Include after cmocka's headers. */
+/* own_folder.h - a new folder for each test, which is left empty: cmocka's set-up and
+ * tear-down. Include after cmocka's headers. */
 #ifndef LUTETIA_TESTS_BASE_OWN_FOLDER_H
 #define LUTETIA_TESTS_BASE_OWN_FOLDER_H
 

@@ -1,4 +1,5 @@
-/* test_confine.c - a confined process reads and writes its open files, and can do nothing else. (security.md 8) */
+/* test_confine.c - a confined process reads and writes its open files, and can do nothing else.
+ * (security.md 8) */
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>

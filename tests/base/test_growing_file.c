@@ -1,5 +1,5 @@
-/* test_growing_file.c - files that grow under their name, what signals leave of files that are being written, and exit statuses that tell.
- * (security.md 11, 12, 13, 18, 25, 26) */
+/* test_growing_file.c - files that grow under their name, what signals leave of files that are
+ * being written, and exit statuses that tell. (security.md 11, 12, 13, 18, 25, 26) */
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>

@@ -1,5 +1,5 @@
-/* test_library.c - a library that is loaded fills its table; one that is missing, or lacks a function, leaves it as it was; any version that has the functions will
- * do. */
+/* test_library.c - a library that is loaded fills its table; one that is missing, or lacks a
+ * function, leaves it as it was; any version that has the functions will do. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -46,7 +46,8 @@ static void what_is_missing_is_named(void **unused)
     assert_true(!table.cos && !table.sin);
 }
 
-/* A number that is not installed: the version that is there does as well, unless no other may. */
+/* A number that is not installed: the version that is there does as well, unless no other
+ * may. */
 static void another_version_will_do(void **unused)
 {
     (void)unused;
@@ -70,7 +71,8 @@ static void file_make(const char *folder, const char *name)
     assert_int_equal(fclose(file), 0);
 }
 
-/* In a folder that the loader was told of as it began: see main(). Files that are no library are versions, too, but never loaded. */
+/* In a folder that the loader was told of as it began: see main(). Files that are no library
+ * are versions, too, but never loaded. */
 static void versions_are_listed(void **unused)
 {
     (void)unused;

@@ -1,5 +1,6 @@
-/* Tests oldest.h: of a folder's entries the oldest go, folders with all that is in them, links without what they lead to; those that were
- * used lately stay, and so does what was never added. */
+/* Tests oldest.h: of a folder's entries the oldest go, folders with all that is in them, links
+ * without what they lead to; those that were used lately stay, and so does what was never
+ * added. */
 #include <fcntl.h>
 #include <setjmp.h>
 #include <stdarg.h>

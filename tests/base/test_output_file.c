@@ -1,5 +1,5 @@
-/* test_output_file.c - files appear whole under their name or not at all. A name that is no regular file is refused.
- * (security.md 11, 12, 13) */
+/* test_output_file.c - files appear whole under their name or not at all. A name that is no
+ * regular file is refused. (security.md 11, 12, 13) */
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -143,7 +143,8 @@ static void long_names_are_refused(void **state)
     text_write(name, "x");
 }
 
-/* A limit on the file's size stands for a full disk. The reported error is that of the write, long before the commit. */
+/* A limit on the file's size stands for a full disk. The reported error is that of the write,
+ * long before the commit. */
 static void failed_write_is_reported(void **state)
 {
     (void)state;
@@ -223,7 +224,8 @@ static void next_process_sweeps(void **state)
     content_is("b.png", "");
 }
 
-/* Several processes write the same two names and sweep all the time. Each file is always the whole file of one of them. */
+/* Several processes write the same two names and sweep all the time. Each file is always the
+ * whole file of one of them. */
 static void writers_do_not_disturb_each_other(void **state)
 {
     (void)state;

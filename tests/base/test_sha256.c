@@ -1,4 +1,5 @@
-/* test_sha256.c - SHA-256 and HMAC beside published values (FIPS 180-4, RFC 4231), and beside Python's in test_challenge.py. */
+/* test_sha256.c - SHA-256 and HMAC beside published values (FIPS 180-4, RFC 4231), and beside
+ * Python's in test_challenge.py. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

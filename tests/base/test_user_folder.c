@@ -1,4 +1,5 @@
-/* test_user_folder.c - caches are in folders where no other user can put a file, or private to the process. (security.md 15) */
+/* test_user_folder.c - caches are in folders where no other user can put a file, or private to
+ * the process. (security.md 15) */
 #include <fcntl.h>
 #include <limits.h>
 #include <signal.h>

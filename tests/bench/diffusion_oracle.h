@@ -1,5 +1,5 @@
-/* diffusion_oracle.h - the diffusion step as a plain double loop with the listing's operations. The benchmark's peers are
- * compared with it. */
+/* diffusion_oracle.h - the diffusion step as a plain double loop with the listing's operations.
+ * The benchmark's peers are compared with it. */
 #ifndef TEST_DIFFUSION_ORACLE_H
 #define TEST_DIFFUSION_ORACLE_H
 

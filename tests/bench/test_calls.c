@@ -1,5 +1,5 @@
-/* test_calls.c - a call costs the front end little time, and a million calls do not make memory grow. The limits are generous;
- * `lutetia bench calls` measures. */
+/* test_calls.c - a call costs the front end little time, and a million calls do not make memory
+ * grow. The limits are generous; `lutetia bench calls` measures. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -26,7 +26,8 @@
 
 enum { GROWTH_MOST_BYTES = 8 << 20 };
 
-/* Makes that many calls; returns this thread's processor time in seconds. Does not wait for the device. */
+/* Makes that many calls; returns this thread's processor time in seconds. Does not wait for the
+ * device. */
 static double calls_record(const struct calls *c, int calls_count, int *turn)
 {
     struct timespec start, end;
@@ -39,8 +40,8 @@ static double calls_record(const struct calls *c, int calls_count, int *turn)
     return (double)(end.tv_sec - start.tv_sec) + 1e-9 * (double)(end.tv_nsec - start.tv_nsec);
 }
 
-/* Uses few processors, because the front end's work is the same for any number. Evaluates after each turn, so that there are few
- * kernels. */
+/* Uses few processors, because the front end's work is the same for any number. Evaluates after
+ * each turn, so that there are few kernels. */
 static void calls_cost_little_and_leave_nothing(void **state)
 {
     struct calls c;
@@ -51,8 +52,8 @@ static void calls_cost_little_and_leave_nothing(void **state)
     /* Without the background the moment of compilation depends on the turns only. */
     setenv("LUTETIA_BACKGROUND", "0", 1);
     calls_init(&c, 64, 16);
-    /* Builds the kernels, and after 4096 turns optimised ones, for which a compiler may have to be loaded; fills all
-     * caches. */
+    /* Builds the kernels, and after 4096 turns optimised ones, for which a compiler may have to
+     * be loaded; fills all caches. */
     calls_record(&c, 10000 * CALLS_IN_TURN, &turn);
     double recorded_s = calls_record(&c, 10000, &turn);
     machine_stats_get(paris_machine(), &before);

@@ -1,4 +1,5 @@
-/* test_diffusion.c - compares the benchmark's peers with a plain double loop that has the listing's operations. */
+/* test_diffusion.c - compares the benchmark's peers with a plain double loop that has the
+ * listing's operations. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

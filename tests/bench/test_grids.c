@@ -1,4 +1,5 @@
-/* test_grids.c - Life and heat in Paris and in C with OpenMP give the bits of a plain double loop. */
+/* test_grids.c - Life and heat in Paris and in C with OpenMP give the bits of a plain double
+ * loop. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
-/* test_interpreter.c - the programs of `lutetia bench interpreter` give the same results in Paris, interpreted and not, and
- * in plain C. */
+/* test_interpreter.c - the programs of `lutetia bench interpreter` give the same results in
+ * Paris, interpreted and not, and in plain C. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,6 @@
-/* test_kernel_shapes.c - compares the listing in strips, and in tiles that are forced on a CPU, with the plain double loop:
- * one turn and many in a kernel, on sheets whose sides are no multiples of a vector's or tile's. */
+/* test_kernel_shapes.c - compares the listing in strips, and in tiles that are forced on a CPU,
+ * with the plain double loop: one turn and many in a kernel, on sheets whose sides are no
+ * multiples of a vector's or tile's. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -90,7 +91,8 @@ static struct machine_stats agrees(const struct sheet *t)
     return stats;
 }
 
-/* Sheets larger and smaller than a tile, of odd sizes, and with rectangles that leave out some edges. */
+/* Sheets larger and smaller than a tile, of odd sizes, and with rectangles that leave out some
+ * edges. */
 static void one_turn_in_tiles(void **state)
 {
     static const struct sheet sheets[] = {
@@ -116,8 +118,8 @@ static void many_turns_in_tiles(void **state)
     assert_true(stats.kernels_in_tiles > 0 && stats.kernels_run < 35);
 }
 
-/* Strips as wide as the rows, of whole vectors and not, and narrower ones beside each other. Rectangles end inside a vector, or
- * there is none. Some strips write in place. */
+/* Strips as wide as the rows, of whole vectors and not, and narrower ones beside each other.
+ * Rectangles end inside a vector, or there is none. Some strips write in place. */
 static void in_strips(void **state)
 {
     static const struct sheet sheets[] = {

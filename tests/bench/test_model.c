@@ -1,6 +1,6 @@
-/* Compares the cost model with measurements. The plan that it prefers takes hardly longer than the alternatives, and predicted
- * times are within a factor of measured ones. Times are processor time, the least of several rounds, because other programs may
- * be running. */
+/* Compares the cost model with measurements. The plan that it prefers takes hardly longer than
+ * the alternatives, and predicted times are within a factor of measured ones. Times are
+ * processor time, the least of several rounds, because other programs may be running. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
-/* test_paper.c - the sheet in Paris and the same rule in plain C give the same bits, on tori and other sheets, with all
- * forces. */
+/* test_paper.c - the sheet in Paris and the same rule in plain C give the same bits, on tori
+ * and other sheets, with all forces. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,4 +1,5 @@
-/* test_peer.c - the peers in Python, where they are installed, and the message where a peer is missing or fails. */
+/* test_peer.c - the peers in Python, where they are installed, and the message where a peer is
+ * missing or fails. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,5 @@
-/* test_rolling.c - compares the yardsticks in rolling rows, in OpenCL and in C, with the oracle: bit for bit, except the relaxed
- * ones. */
+/* test_rolling.c - compares the yardsticks in rolling rows, in OpenCL and in C, with the
+ * oracle: bit for bit, except the relaxed ones. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,8 +15,8 @@
 #include "harness.h"
 #include "rolling.h"
 
-/* rim: the rectangle's distances from the left, top, right and bottom edge; steps: those of two calls; tiling: the size of the
- * sheet's pieces. */
+/* rim: the rectangle's distances from the left, top, right and bottom edge; steps: those of two
+ * calls; tiling: the size of the sheet's pieces. */
 static const struct {
     int width, height, rim[4], steps[2];
     struct rolling_tiling tiling;
@@ -50,7 +50,8 @@ static void scene_make(int n, struct diffusion_scene *s)
         s->field[k / 7 % DIFFUSION_FIELDS_COUNT][k] = k % 3 ? 0.0f : 1.0f;
 }
 
-/* Numbers between 0 and 1 are rounded by 6e-8 at most, and a step of diffusion makes the error only a few times larger. */
+/* Numbers between 0 and 1 are rounded by 6e-8 at most, and a step of diffusion makes the error
+ * only a few times larger. */
 static void compare_relaxed(const struct oracle *o, const char *what, int n, int field,
                             const float *mine)
 {

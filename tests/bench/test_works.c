@@ -1,4 +1,5 @@
-/* test_works.c - the programs of `lutetia bench families` give the same results in Paris, interpreted and not, and in plain C. */
+/* test_works.c - the programs of `lutetia bench families` give the same results in Paris,
+ * interpreted and not, and in plain C. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

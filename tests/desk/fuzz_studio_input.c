@@ -1,5 +1,5 @@
-/* fuzz_studio_input.c - lines of recorded input, good ones and what becomes of them: none is read past its end, and what is read is in its
- * ranges. */
+/* fuzz_studio_input.c - lines of recorded input, good ones and what becomes of them: none is
+ * read past its end, and what is read is in its ranges. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

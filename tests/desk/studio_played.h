@@ -1,5 +1,5 @@
-/* studio_played.h - the studio's window that is played recorded input, for tests: in a folder of their own, which is also where sheets are kept that
- * were not saved.
+/* studio_played.h - the studio's window that is played recorded input, for tests: in a folder
+ * of their own, which is also where sheets are kept that were not saved.
  *
  *     FILE *events = played_begin();
  *     fprintf(events, "0 down 0 0\n0.1 up 5 5\n0.2 picture %s\n0.3 close\n", played_path("seen.png"));
@@ -24,7 +24,8 @@ int played_folder_remove(void **state);
 const char *played_path(const char *name);
 /* The events of the next run. */
 FILE *played_begin(void);
-/* Runs the window with the events until they close it, on a new sheet of the scene's (studio_scene.h). */
+/* Runs the window with the events until they close it, on a new sheet of the scene's
+ * (studio_scene.h). */
 void played_run(const char *variable);
 /* The same beside the test: its process. */
 pid_t played_start(void);

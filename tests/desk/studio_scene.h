@@ -1,6 +1,8 @@
-/* studio_scene.h - a session that tests share: as what a hand does, and as calls of the paper's library that leave the same sheet.
+/* studio_scene.h - a session that tests share: as what a hand does, and as calls of the paper's
+ * library that leave the same sheet.
  *
- * The second way is the oracle: it uses nothing of the studio. A deed that is undone is not done there at all. */
+ * The second way is the oracle: it uses nothing of the studio. A deed that is undone is not
+ * done there at all. */
 #ifndef LUTETIA_TEST_STUDIO_SCENE_H
 #define LUTETIA_TEST_STUDIO_SCENE_H
 

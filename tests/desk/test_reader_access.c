@@ -1,5 +1,7 @@
-/* test_reader_access.c - the reader's window as a screen reader, a keyboard and a mouse find it: the text that is seen is heard, every control
- * has a name, keys and the wheel scroll, words are typed into a note, and a mouse draws. By AT-SPI and XTEST, on an Xvfb with a bus of its own. */
+/* test_reader_access.c - the reader's window as a screen reader, a keyboard and a mouse find
+ * it: the text that is seen is heard, every control has a name, keys and the wheel scroll,
+ * words are typed into a note, and a mouse draws. By AT-SPI and XTEST, on an Xvfb with a bus of
+ * its own. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -28,7 +30,8 @@ static char folder[] = "/tmp/lutetia-reader-XXXXXX", document[64];
 
 /* ---- the tree ---- */
 
-/* Calls for each of the accessible objects below; a composed control's inside is its own business. */
+/* Calls for each of the accessible objects below; a composed control's inside is its own
+ * business. */
 static void walk(AtspiAccessible *a, void (*each)(AtspiAccessible *a, void *context),
                  void *context)
 {

@@ -1,5 +1,6 @@
-/* test_reader_window.c - the reader's window on an Xvfb, played recorded input in place of a hand: it scrolls, opens notes, follows links and
- * goes back, finds, selects, keeps the line that is read; and what it says when something is wrong. */
+/* test_reader_window.c - the reader's window on an Xvfb, played recorded input in place of a
+ * hand: it scrolls, opens notes, follows links and goes back, finds, selects, keeps the line
+ * that is read; and what it says when something is wrong. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -256,7 +257,8 @@ static void notes_are_kept(void **state)
     assert_string_equal(told("moved", "ink"), "330.0 190.0");
 }
 
-/* Another program changes the file while it is read: the notes go with their words, or are orphans. */
+/* Another program changes the file while it is read: the notes go with their words, or are
+ * orphans. */
 static void changed_elsewhere(void **state)
 {
     char lines[2000], command[400];

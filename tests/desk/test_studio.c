@@ -1,5 +1,5 @@
-/* test_studio.c - the parts of a studio that need neither a window nor a machine: the view, the tables, recorded input, messages and
- * pictures between threads, masks. */
+/* test_studio.c - the parts of a studio that need neither a window nor a machine: the view, the
+ * tables, recorded input, messages and pictures between threads, masks. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -21,7 +21,8 @@
 
 /* ---- the view ---- */
 
-/* At any zoom, turned and mirrored, a place of the canvas is the place of the sheet that is drawn there. */
+/* At any zoom, turned and mirrored, a place of the canvas is the place of the sheet that is
+ * drawn there. */
 static void view_back_and_forth(void **state)
 {
     (void)state;
@@ -40,7 +41,8 @@ static void view_back_and_forth(void **state)
                                       back = studio_view_to_canvas(&view, at.x, at.y);
             assert_true(fabs(back.x - x) < 1e-9 && fabs(back.y - y) < 1e-9);
         }
-        /* a fiber to the right is a zoom's length away, in the direction that it is turned to */
+        /* a fiber to the right is a zoom's length away, in the direction that it is turned
+         * to */
         const struct studio_place a = studio_view_to_canvas(&view, 10, 10),
                                   b = studio_view_to_canvas(&view, 11, 10);
         const double side = view.mirrored ? -1 : 1;
@@ -243,7 +245,8 @@ static void *painter(void *context)
     return NULL;
 }
 
-/* What is taken is a whole picture of one moment, and only within its rectangle is it another than what was taken before. */
+/* What is taken is a whole picture of one moment, and only within its rectangle is it another
+ * than what was taken before. */
 static void pictures_are_whole(void **state)
 {
     (void)state;

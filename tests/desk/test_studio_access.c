@@ -1,5 +1,6 @@
-/* test_studio_access.c - the studio as a screen reader, a keyboard and a hand find it: every control has a name, each tool is reached by
- * its key, and paint lies under the pointer at any zoom, turned and mirrored. By AT-SPI and XTEST, on an Xvfb with a bus of its own. */
+/* test_studio_access.c - the studio as a screen reader, a keyboard and a hand find it: every
+ * control has a name, each tool is reached by its key, and paint lies under the pointer at any
+ * zoom, turned and mirrored. By AT-SPI and XTEST, on an Xvfb with a bus of its own. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -35,7 +36,8 @@ static char *name_of(AtspiAccessible *a)
     return name ? name : g_strdup("");
 }
 
-/* Calls for each of the accessible objects below; a composed control's inside is its own business. */
+/* Calls for each of the accessible objects below; a composed control's inside is its own
+ * business. */
 static void walk(AtspiAccessible *a, void (*each)(AtspiAccessible *a, void *context),
                  void *context)
 {
@@ -275,7 +277,8 @@ static void drop_at(double zoom, int x, int y)
                  middle[1]);
 }
 
-/* Where the canvas is: the box of all that has the desk's colour; and how many pixels in it have another one. */
+/* Where the canvas is: the box of all that has the desk's colour; and how many pixels in it
+ * have another one. */
 static bool canvas_look(int box[4], double *sheet_px)
 {
     struct display_image image = {0};

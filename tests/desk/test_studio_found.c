@@ -1,5 +1,6 @@
-/* test_studio_found.c - journals that were left behind and cannot be gone on with: of another sheet, or damaged. The sheet opens all the
- * same, a line says what is wrong, and the journal's bytes stay under another name. */
+/* test_studio_found.c - journals that were left behind and cannot be gone on with: of another
+ * sheet, or damaged. The sheet opens all the same, a line says what is wrong, and the journal's
+ * bytes stay under another name. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -131,7 +132,8 @@ static void journals_of_others_are_kept(void **state)
     studio_paper_end(paper, true, NULL);
 }
 
-/* Two studios and one file: the second one is told, opens nothing and writes nothing there; what the first one has done stays. */
+/* Two studios and one file: the second one is told, opens nothing and writes nothing there;
+ * what the first one has done stays. */
 static void one_studio_a_file(void **state)
 {
     (void)state;

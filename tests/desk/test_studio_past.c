@@ -1,5 +1,6 @@
-/* test_studio_past.c - time under the hand: what is inserted, taken out or changed earlier makes the sheet that was painted so from the beginning, to
- * the bit, by a session that never looked back; and nothing else goes. */
+/* test_studio_past.c - time under the hand: what is inserted, taken out or changed earlier
+ * makes the sheet that was painted so from the beginning, to the bit, by a session that never
+ * looked back; and nothing else goes. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -138,7 +139,8 @@ static void moments_are_visited(void **state)
     studio_session_destroy(s);
 }
 
-/* Other brushes, other tools, at the beginning too; what follows finds its brushes as they were. */
+/* Other brushes, other tools, at the beginning too; what follows finds its brushes as they
+ * were. */
 static void deeds_are_inserted(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
-/* test_studio_played.c - sessions that are played through the window: twenty deeds with insertions and a change are what their script makes; what the
- * journal has at any moment is all that is older than a second; a full disk loses nothing. */
+/* test_studio_played.c - sessions that are played through the window: twenty deeds with
+ * insertions and a change are what their script makes; what the journal has at any moment is
+ * all that is older than a second; a full disk loses nothing. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -54,8 +55,8 @@ static void deeds_play(FILE *out)
 
 /* ---- the past ---- */
 
-/* Two insertions of several deeds, a deed with another dish, one another way, one taken out: the script has all of it as if it had been so from the
- * beginning. */
+/* Two insertions of several deeds, a deed with another dish, one another way, one taken out:
+ * the script has all of it as if it had been so from the beginning. */
 static void session_is_its_script(void **state)
 {
     (void)state;
@@ -214,7 +215,8 @@ static bool wait_for(const char *path)
     return access(path, R_OK) == 0;
 }
 
-/* From some moment on no file may grow: the file of before stays, nothing is left in part, and the window closes as ever. */
+/* From some moment on no file may grow: the file of before stays, nothing is left in part, and
+ * the window closes as ever. */
 static void full_disk_loses_nothing(void **state)
 {
     (void)state;

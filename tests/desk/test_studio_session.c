@@ -1,4 +1,5 @@
-/* test_studio_session.c - a hand's deeds against the paper's own functions, bit for bit; undo and redo, in mid-stroke too; files. */
+/* test_studio_session.c - a hand's deeds against the paper's own functions, bit for bit; undo
+ * and redo, in mid-stroke too; files. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

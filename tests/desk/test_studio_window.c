@@ -1,5 +1,6 @@
-/* test_studio_window.c - the studio's window on an Xvfb, played recorded input in place of a hand: what it saves is what the paper's own
- * functions make of the same deeds, bit for bit; and what it says when something is wrong. */
+/* test_studio_window.c - the studio's window on an Xvfb, played recorded input in place of a
+ * hand: what it saves is what the paper's own functions make of the same deeds, bit for bit;
+ * and what it says when something is wrong. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -87,7 +88,8 @@ static int saved_count(const char *name, const char *what)
     return count;
 }
 
-/* Saved, and closed, in mid-stroke; the focus lost in another one: each is one stroke, and none is lost. */
+/* Saved, and closed, in mid-stroke; the focus lost in another one: each is one stroke, and none
+ * is lost. */
 static void closed_in_mid_stroke(void **state)
 {
     (void)state;
@@ -106,7 +108,8 @@ static void closed_in_mid_stroke(void **state)
 
 /* ---- what was not saved ---- */
 
-/* Killed while nobody had saved: all that is older than a second is there again, and what the journal has lost is lost alone. */
+/* Killed while nobody had saved: all that is older than a second is there again, and what the
+ * journal has lost is lost alone. */
 static void killed_and_found_again(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* display_pieces.h - makes recordings of displays for tests, by the format's description, without the library's code. */
+/* display_pieces.h - makes recordings of displays for tests, by the format's description,
+ * without the library's code. */
 #ifndef LUTETIA_TEST_DISPLAY_PIECES_H
 #define LUTETIA_TEST_DISPLAY_PIECES_H
 

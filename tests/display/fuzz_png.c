@@ -1,7 +1,8 @@
 /* fuzz_png.c - reads damaged PNGs. Each is read, or refused with a reason.
  *
- * The damage to a valid file: bytes are changed, runs are removed or doubled, or the end is cut off. Half of the files then get
- * correct checksums in their chunks, so that the reader does not refuse them at once. (security.md 7) */
+ * The damage to a valid file: bytes are changed, runs are removed or doubled, or the end is cut
+ * off. Half of the files then get correct checksums in their chunks, so that the reader does
+ * not refuse them at once. (security.md 7) */
 #include <display.h>
 
 #include <setjmp.h>
@@ -65,7 +66,8 @@ static void checksums_mend(uint8_t *bytes, size_t count)
     }
 }
 
-/* Whether the header's size is huge. The reader refuses it by its size; skipping it keeps the fuzzing quick. */
+/* Whether the header's size is huge. The reader refuses it by its size; skipping it keeps the
+ * fuzzing quick. */
 static bool header_is_huge(const uint8_t *bytes, size_t count)
 {
     return count >= 24 && (double)big_endian(bytes + 16) * big_endian(bytes + 20) > 1e8;

@@ -15,7 +15,8 @@ static bool near(double a, double b)
     return fabs(a - b) < 1e-9;
 }
 
-/* After frames of random lengths the clock has made all steps that fit into the time, and carries the remainder. */
+/* After frames of random lengths the clock has made all steps that fit into the time, and
+ * carries the remainder. */
 static void steps_follow_real_time(void **state)
 {
     (void)state;

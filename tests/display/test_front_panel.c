@@ -159,8 +159,8 @@ static void wrong_sizes_are_refused(void **state)
     front_panel_destroy(panel);
 }
 
-/* A picture of 960x960 takes less than a tenth of a second of one processor: the least of several times, because other programs
- * may be running. */
+/* A picture of 960x960 takes less than a tenth of a second of one processor: the least of
+ * several times, because other programs may be running. */
 static void pictures_are_quick(void **state)
 {
     (void)state;
@@ -201,7 +201,8 @@ static int take(void *context, const struct light_frame *frame)
     return ++t->count != t->most;
 }
 
-/* Makes a recording of FRAMES, with its first line repeated in the middle; returns its length in bytes. */
+/* Makes a recording of FRAMES, with its first line repeated in the middle; returns its length
+ * in bytes. */
 static size_t recording_make(uint8_t *out)
 {
     uint8_t *at = out;

@@ -1,4 +1,5 @@
-/* test_gl_type.c - compares type drawn by OpenGL, without a window, with the painter's, pixel by pixel. */
+/* test_gl_type.c - compares type drawn by OpenGL, without a window, with the painter's, pixel
+ * by pixel. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -78,7 +79,8 @@ static struct display_image painted(const struct stage *s, const struct font_map
     return image;
 }
 
-/* Compares the pictures. Both mix light, so a byte may differ by rounding. Returns how many pixels have ink. */
+/* Compares the pictures. Both mix light, so a byte may differ by rounding. Returns how many
+ * pixels have ink. */
 static int compare(const struct stage *s, struct display_image *wanted)
 {
     struct display_image drawn;
@@ -163,7 +165,8 @@ static void pictures_are_as_painted(void **state)
     stage_close(&s);
 }
 
-/* Each glyph has its own map, of every kind, and translucent ink; then the whole text is turned. */
+/* Each glyph has its own map, of every kind, and translucent ink; then the whole text is
+ * turned. */
 static void glyphs_have_maps_and_inks(void **state)
 {
     (void)state;
@@ -190,14 +193,16 @@ static void glyphs_have_maps_and_inks(void **state)
         struct font_map all = font_map_rotation(9);
         gl_type_begin(s.type, WIDTH, HEIGHT);
         assert_display(gl_type_draw(s.type, &s.layout, turned ? &all : NULL, 8, 50, ink));
-        /* Distorted glyphs are drawn at their exact places, so the painter may round only the whole text's translation. */
+        /* Distorted glyphs are drawn at their exact places, so the painter may round only the
+         * whole text's translation. */
         struct display_image wanted = painted(&s, turned ? &all : NULL, 8, 50, 16);
         assert_true(compare(&s, &wanted) > 1000);
         stage_close(&s);
     }
 }
 
-/* Gradients and pictures as ink, translucent, mixed as light and as numbers, side by side with plain ones; then turned. */
+/* Gradients and pictures as ink, translucent, mixed as light and as numbers, side by side with
+ * plain ones; then turned. */
 static void inks_are_as_painted(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* test_png.c - a PNG file is written whole or not at all, and reading it gives the same picture. */
+/* test_png.c - a PNG file is written whole or not at all, and reading it gives the same
+ * picture. */
 #include <display.h>
 
 #include <setjmp.h>

@@ -1,5 +1,5 @@
-/* test_video.c - videos: their contents, and encoders that fail, are killed or are missing. A script of the test plays ffmpeg.
- * (security.md 14) */
+/* test_video.c - videos: their contents, and encoders that fail, are killed or are missing. A
+ * script of the test plays ffmpeg. (security.md 14) */
 #include "scratch.h"
 
 #include <display.h>
@@ -23,12 +23,14 @@ static void check(enum display_status status)
         fail_msg("status %d: %s", (int)status, display_error());
 }
 
-/* What the script that plays ffmpeg does when the film is read back: a line for each picture. */
+/* What the script that plays ffmpeg does when the film is read back: a line for each
+ * picture. */
 static const char lines_all[] =
     "/bin/grep -ao FRAME /proc/self/fd/3 | /bin/sed 's/.*/0, 0/'; echo '1, 0'";
 static const char *read_back = lines_all;
 
-/* Sets a PATH that holds only this script as ffmpeg (NULL: nothing). Its last argument is the file. */
+/* Sets a PATH that holds only this script as ffmpeg (NULL: nothing). Its last argument is the
+ * file. */
 static void encoder_put(const char *script)
 {
     static char folder[600];
@@ -171,7 +173,8 @@ static void encoders_that_fail_are_reported(void **state)
     assert_non_null(strstr(film_fail("exec /no/such/program"), "ffmpeg"));
 }
 
-/* An encoder that ends well is no proof: a film without its end, its index or its pictures does not take the old one's place. */
+/* An encoder that ends well is no proof: a film without its end, its index or its pictures does
+ * not take the old one's place. */
 static void films_are_read_back(void **state)
 {
     (void)state;
@@ -217,7 +220,8 @@ static void what_cannot_be_is_refused(void **state)
     assert_int_equal(video_create("/no/such/x.mp4", 4, 4, 25, &video), DISPLAY_IO_FAILED);
 }
 
-/* The encoder reads the sound from its own file, from the beginning. A format without sound gets none. */
+/* The encoder reads the sound from its own file, from the beginning. A format without sound
+ * gets none. */
 static void sound_goes_to_the_encoder(void **state)
 {
     (void)state;
@@ -244,8 +248,8 @@ static void sound_goes_to_the_encoder(void **state)
         free(path_before);
         if (silent) {
             snprintf(path, sizeof path, "%s", scratch_path("sound.gif"));
-            read_back =
-                "echo '0, 0'"; /* a .gif's pictures go as they are, without a word between them */
+            /* a .gif's pictures go as they are, without a word between them */
+            read_back = "echo '0, 0'";
             encoder_put(script);
             setenv("PATH", both, 1);
         }

@@ -137,8 +137,8 @@ static void alpha_covers_black(void **state)
     window_destroy(window);
 }
 
-/* An image with quarters of four colours in a window of another ratio: bars at the edges are black, and the middle of each
- * quarter has its colour. */
+/* An image with quarters of four colours in a window of another ratio: bars at the edges are
+ * black, and the middle of each quarter has its colour. */
 static void ratios_are_kept(void **state)
 {
     (void)state;
@@ -224,8 +224,8 @@ static void shrunk_images_are_means(void **state)
     window_destroy(window);
 }
 
-/* Takes the next event, which must be of this kind. Skips moves and changes of focus, because they depend on the place of Xvfb's
- * pointer. */
+/* Takes the next event, which must be of this kind. Skips moves and changes of focus, because
+ * they depend on the place of Xvfb's pointer. */
 static void take_kind(struct window *window, enum input_kind kind, struct input_event *event)
 {
     do {

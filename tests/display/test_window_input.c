@@ -1,4 +1,5 @@
-/* test_window_input.c - actions in a window arrive as events: places, buttons, wheels, keys with modifiers, text. */
+/* test_window_input.c - actions in a window arrive as events: places, buttons, wheels, keys
+ * with modifiers, text. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -67,7 +68,8 @@ static void pointers_move_press_and_release(void **state)
     }
 }
 
-/* A program that reads events late gets the press at its place, although the pointer has moved since. */
+/* A program that reads events late gets the press at its place, although the pointer has moved
+ * since. */
 static void late_presses_are_where_they_were(void **state)
 {
     (void)state;
@@ -132,7 +134,8 @@ static void held_keys_repeat(void **state)
     assert_int_equal(next(INPUT_KEY_UP).key, INPUT_KEY_RIGHT);
 }
 
-/* Without a window manager a window fills the screen, and then returns to its place and size. */
+/* Without a window manager a window fills the screen, and then returns to its place and
+ * size. */
 static void windows_fill_the_screen_and_go_back(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* xtest.h - simulates a person on the tests' screen by XTest: the pointer, its buttons and the keyboard. Grabs, focus and
- * modifiers are the X server's own.
+/* xtest.h - simulates a person on the tests' screen by XTest: the pointer, its buttons and the
+ * keyboard. Grabs, focus and modifiers are the X server's own.
  *
  *     xtest_move(window, 100, 50);
  *     xtest_button(1, true);

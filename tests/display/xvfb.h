@@ -28,7 +28,8 @@ bool screen_window_gone(Window window, double wait_s);
 
 /* Reads a window's pixels from the screen, three channels; the caller destroys the image. */
 void screen_read(Window window, struct display_image *image);
-/* Waits until the window shows this image. False, with the first pixel that differs printed: it does not. */
+/* Waits until the window shows this image. False, with the first pixel that differs printed: it
+ * does not. */
 bool screen_shows(Window window, const struct display_image *image, double wait_s);
 
 void screen_resize(Window window, int width_px, int height_px);

@@ -1,5 +1,6 @@
-/* fuzz_network.c - reads networks and clamps from damaged text. Each is read, or refused with one line. A network that is read
- * moves without exploding, and is written and read again as the same text. (security.md 29) */
+/* fuzz_network.c - reads networks and clamps from damaged text. Each is read, or refused with
+ * one line. A network that is read moves without exploding, and is written and read again as
+ * the same text. (security.md 29) */
 #include <clamps.h>
 #include <network_file.h>
 #include <step.h>

@@ -8,12 +8,13 @@
 /* Draws a number from least to most. */
 double scene_chance(uint64_t *state, double least, double most);
 
-/* Draws a network: random masses, springs between some of them, a random world (with walls, wind, breaking springs), and tacked
- * and pulled masses. A step of 1/240 s has at most a few parts, so that tests are quick. */
+/* Draws a network: random masses, springs between some of them, a random world (with walls,
+ * wind, breaking springs), and tacked and pulled masses. A step of 1/240 s has at most a few
+ * parts, so that tests are quick. */
 struct dyn_network *scene_by_chance(uint64_t *state);
 
-/* A square of four masses with springs along its edges and diagonals; its lower left corner is at (x, y). k: the springs'
- * constant; c: their damping. */
+/* A square of four masses with springs along its edges and diagonals; its lower left corner is
+ * at (x, y). k: the springs' constant; c: their damping. */
 struct dyn_network *scene_letter(double x, double y, double k, double c);
 
 void scene_spring(struct dyn_network *n, int a, int b, double k, double c);

@@ -1,16 +1,19 @@
-/* test_bounds.c - no setting makes a network explode. Draws every control at random from its whole range, often at an end, and
- * runs 1,000 steps.
+/* test_bounds.c - no setting makes a network explode. Draws every control at random from its
+ * whole range, often at an end, and runs 1,000 steps.
  *
  *     test_springs_bounds                 a few settings, as part of the tests
- *     test_springs_bounds FIRST COUNT     settings FIRST to FIRST + COUNT - 1; all are different
+ *     test_springs_bounds FIRST COUNT     settings FIRST to FIRST + COUNT - 1; all are
+ *                                         different
  *
  * Asserts at every hundredth step:
- *   - All places and speeds are finite. Places are within the plane's edges, and speeds within the speed limit along each axis.
- *   - Speeds are within GROWTH times (√(2 E / m) + g t + w). E is the first energy of motion and springs, m the least mass, g the
- *     greatest acceleration by gravity, t the time, w the wind. A network that only loses energy stays within the parenthesis. A
- *     step near the bound of stability may exceed it for a while: with a safety of 0.95 a single oscillator's speed grows up to
- *     √(1.95 / 0.05) = 6.2 times, and a bounce may turn that speed round. This is not
- *     asserted where a mass begins beyond a side, because a force puts it back.
+ *   - All places and speeds are finite. Places are within the plane's edges, and speeds within
+ *     the speed limit along each axis.
+ *   - Speeds are within GROWTH times (√(2 E / m) + g t + w). E is the first energy of motion
+ *     and springs, m the least mass, g the greatest acceleration by gravity, t the time, w the
+ *     wind. A network that only loses energy stays within the parenthesis. A step near the
+ *     bound of stability may exceed it for a while: with a safety of 0.95 a single oscillator's
+ *     speed grows up to √(1.95 / 0.05) = 6.2 times, and a bounce may turn that speed round.
+ *     This is not asserted where a mass begins beyond a side, because a force puts it back.
  * The thesis's step is not tested here: it is kept as it was, and explodes. */
 #include <math.h>
 #include <stdbool.h>
@@ -65,7 +68,8 @@ static void fields_fill(uint64_t *state, const struct dyn_control *fields, int f
         scene_must(dyn_control_write(&fields[i], of, any_of(state, &fields[i])));
 }
 
-/* Draws a setting. near: the sides, masses and springs are moderate, so that the second bound holds. */
+/* Draws a setting. near: the sides, masses and springs are moderate, so that the second bound
+ * holds. */
 static struct dyn_network *setting(uint64_t *state, bool near)
 {
     struct dyn_network *n;
@@ -138,8 +142,9 @@ static double look(uint64_t setting_number, const struct dyn_network *n, double 
     return most;
 }
 
-/* Draws the length of a step: that of some frame rate, or less, so that few parts of a step suffice for stability. A network
- * explodes, if at all, in parts, and all parts are near their bound. 0: even the shortest steps have too many parts. */
+/* Draws the length of a step: that of some frame rate, or less, so that few parts of a step
+ * suffice for stability. A network explodes, if at all, in parts, and all parts are near their
+ * bound. 0: even the shortest steps have too many parts. */
 static double step_choose(uint64_t *state, struct dyn_network *n)
 {
     const uint64_t word = sample_word(state);
@@ -152,8 +157,8 @@ static double step_choose(uint64_t *state, struct dyn_network *n)
     return dt < 1e-9 ? 0 : dt;
 }
 
-/* One setting in HARD may have up to 1024 parts in a step, and softened springs. The others are drawn again until few parts
- * suffice, so that a million settings take minutes. */
+/* One setting in HARD may have up to 1024 parts in a step, and softened springs. The others are
+ * drawn again until few parts suffice, so that a million settings take minutes. */
 static struct dyn_network *setting_choose(uint64_t *state, bool near, double *dt)
 {
     struct dyn_network *n = setting(state, near);

@@ -36,7 +36,8 @@ static double energy_about(struct dyn_network *n)
     return sum / 240;
 }
 
-/* A letter turns, swings, and bounces on a floor that takes no energy. Compares its energy before and after a minute. */
+/* A letter turns, swings, and bounces on a floor that takes no energy. Compares its energy
+ * before and after a minute. */
 static void letter_keeps_its_energy(void **unused)
 {
     (void)unused;
@@ -64,8 +65,8 @@ static void letter_keeps_its_energy(void **unused)
         }
 }
 
-/* Draws a word on a floor: thrown, turned, tilted, and of letters that no fall turns inside out. Masses that bounce keep
- * `restitution` of their speed. */
+/* Draws a word on a floor: thrown, turned, tilted, and of letters that no fall turns inside
+ * out. Masses that bounce keep `restitution` of their speed. */
 static struct dyn_network *word_by_chance(uint64_t *state, int letters, int integrator,
                                           double restitution)
 {
@@ -100,8 +101,8 @@ static struct dyn_network *word_by_chance(uint64_t *state, int letters, int inte
     return n;
 }
 
-/* Letters and words on a floor that takes no energy, for a minute with the default settings: some hundreds of bounces of each
- * corner. */
+/* Letters and words on a floor that takes no energy, for a minute with the default settings:
+ * some hundreds of bounces of each corner. */
 static void bounces_keep_energy(void **unused)
 {
     (void)unused;
@@ -128,8 +129,9 @@ static int ascending(const void *a, const void *b)
     return (*x > *y) - (*x < *y);
 }
 
-/* The distance of letters from their places with much shorter steps, after 0.8 s with some bounces. Takes the median, because
- * for a few letters the smallest difference at a bounce decides the rest of the motion. */
+/* The distance of letters from their places with much shorter steps, after 0.8 s with some
+ * bounces. Takes the median, because for a few letters the smallest difference at a bounce
+ * decides the rest of the motion. */
 static double bounces_error(int integrator, int finer)
 {
     enum { WORDS = 41 };
@@ -154,7 +156,8 @@ static double bounces_error(int integrator, int finer)
     return far[WORDS / 2];
 }
 
-/* A bounce within a part has an error of second order, like the parts. If it used the part's speed, it would not. */
+/* A bounce within a part has an error of second order, like the parts. If it used the part's
+ * speed, it would not. */
 static void bounces_are_where_short_steps_lead(void **unused)
 {
     (void)unused;

@@ -1,5 +1,5 @@
-/* test_file.c - networks as text: a network that is written and read continues with the same bits; bad text is refused in one
- * line. */
+/* test_file.c - networks as text: a network that is written and read continues with the same
+ * bits; bad text is refused in one line. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,4 +1,5 @@
-/* test_machine.c - networks as a program in C/Paris give the results of C except for rounding. */
+/* test_machine.c - networks as a program in C/Paris give the results of C except for
+ * rounding. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -45,7 +46,8 @@ static void compare(struct dyn_network *n, int steps, double least)
     dyn_network_destroy(on_machine);
 }
 
-/* With sides, friction, wind, drag and tacks. No spring breaks, because that would change a step's number of parts. */
+/* With sides, friction, wind, drag and tacks. No spring breaks, because that would change a
+ * step's number of parts. */
 static void machine_steps_as_c_does(void **unused)
 {
     (void)unused;
@@ -65,8 +67,8 @@ static void machine_steps_as_c_does(void **unused)
     }
 }
 
-/* A cloth of several blocks whose springs come in any order and direction, with constants of their own, and masses that have
- * more springs than there are slots: their forces are sent. */
+/* A cloth of several blocks whose springs come in any order and direction, with constants of
+ * their own, and masses that have more springs than there are slots: their forces are sent. */
 static void springs_come_in_any_order(void **unused)
 {
     (void)unused;

@@ -1,5 +1,5 @@
-/* test_quad.c - maps of the unit square onto quads: a million random quads, against a second way to compute them, the
- * inverse, and moving corners. */
+/* test_quad.c - maps of the unit square onto quads: a million random quads, against a second
+ * way to compute them, the inverse, and moving corners. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -77,8 +77,9 @@ static void matrix_point(const double m[4][4], double u, double v, double *x, do
     *y = out[1] / out[3];
 }
 
-/* Mapped points are within 1e-12 for all million quads. The matrix is a difference of areas and loses precision with them. It is
- * within 1e-12 where the smallest triangle of three corners is at least a thousandth, else within 1e-14 divided by its area. */
+/* Mapped points are within 1e-12 for all million quads. The matrix is a difference of areas and
+ * loses precision with them. It is within 1e-12 where the smallest triangle of three corners is
+ * at least a thousandth, else within 1e-14 divided by its area. */
 static void corners_of_a_million_quads_are_met(void **unused)
 {
     (void)unused;
@@ -114,7 +115,8 @@ static void corners_of_a_million_quads_are_met(void **unused)
         assert_true(kinds[kind] > MANY / 50);
 }
 
-/* The thesis's product meets the corners where its divisors are not small. It is then the same map as ours at all points. */
+/* The thesis's product meets the corners where its divisors are not small. It is then the same
+ * map as ours at all points. */
 static void thesis_meets_the_corners_of_a_million_quads(void **unused)
 {
     (void)unused;
@@ -172,7 +174,8 @@ static void turned_square_has_a_map(void **unused)
     }
 }
 
-/* Only projective maps keep all lines straight. Bilinear maps keep equal parts of a side equal. */
+/* Only projective maps keep all lines straight. Bilinear maps keep equal parts of a side
+ * equal. */
 static void kinds_are_what_they_say(void **unused)
 {
     (void)unused;
@@ -246,7 +249,8 @@ static void jacobians_are_slopes(void **unused)
     }
 }
 
-/* A corner moves across the diagonal, which makes a dent, and back. All points move without a jump. */
+/* A corner moves across the diagonal, which makes a dent, and back. All points move without a
+ * jump. */
 static void smooth_is_continuous_while_a_corner_moves(void **unused)
 {
     (void)unused;

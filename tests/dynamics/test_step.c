@@ -1,5 +1,5 @@
-/* test_step.c - the motion of masses agrees with a plain loop and with formulas, and has the same bits under every instruction
- * set. */
+/* test_step.c - the motion of masses agrees with a plain loop and with formulas, and has the
+ * same bits under every instruction set. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -26,7 +26,8 @@ static struct dyn_world *world_of(struct dyn_network *n, struct dyn_world *w)
 
 /* ---- a second way ---- */
 
-/* The forces by plain loops over the network's public functions, without prepared tables and vectors. */
+/* The forces by plain loops over the network's public functions, without prepared tables and
+ * vectors. */
 static void force_of(struct dyn_network *n, int i, const struct dyn_world *w, double (*f)[2])
 {
     struct dyn_spring s = dyn_spring_get(n, i);
@@ -48,7 +49,8 @@ static void force_of(struct dyn_network *n, int i, const struct dyn_world *w, do
     f[s.end[1]][1] -= pull * dy / length;
 }
 
-/* Puts a mass back from beyond a side at 0. v is its velocity across the side, t along it. It does not bounce but stops there. */
+/* Puts a mass back from beyond a side at 0. v is its velocity across the side, t along it. It
+ * does not bounce but stops there. */
 static void side(double mu, double *p, double *v, double *t)
 {
     double grip = -mu * *v;
@@ -310,7 +312,8 @@ static void drag_never_overshoots(void **unused)
     }
 }
 
-/* Two masses, one fixed: the period is 2 pi sqrt(m / k), and the damping is that of the formula. */
+/* Two masses, one fixed: the period is 2 pi sqrt(m / k), and the damping is that of the
+ * formula. */
 static void spring_swings_as_its_formula_says(void **unused)
 {
     (void)unused;

@@ -1,5 +1,5 @@
-/* test_thesis.c - the thesis's integrator gives the bits of the thesis's listing over 10,000 steps, for random networks whose
- * masses are tacked, held and released. */
+/* test_thesis.c - the thesis's integrator gives the bits of the thesis's listing over 10,000
+ * steps, for random networks whose masses are tacked, held and released. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,4 +1,5 @@
-/* test_words.c - springy words: boxes, springs, presets, paths; letters that break apart and push each other. */
+/* test_words.c - springy words: boxes, springs, presets, paths; letters that break apart and
+ * push each other. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -100,8 +101,8 @@ static void letters_have_their_advances_and_kerning(void **state)
     dyn_network_destroy(n);
 }
 
-/* Accents have their letter's masses, no springs, and are where the text has them: from left to right, from right to left, and
- * alone. */
+/* Accents have their letter's masses, no springs, and are where the text has them: from left to
+ * right, from right to left, and alone. */
 static void marks_stand_on_their_letters(void **state)
 {
     const struct fixture *f = *state;
@@ -418,8 +419,8 @@ static double momentum(const struct dyn_network *n, bool y)
     return sum;
 }
 
-/* Two words fly towards each other. Without collisions they pass through each other; with collisions they bounce and keep their
- * momentum. */
+/* Two words fly towards each other. Without collisions they pass through each other; with
+ * collisions they bounce and keep their momentum. */
 static void words_thrown_at_each_other_bounce(void **state)
 {
     const struct fixture *f = *state;
@@ -465,7 +466,8 @@ static void words_thrown_at_each_other_bounce(void **state)
     }
 }
 
-/* The overlap of letters' boxes: the share of their sample points that lie well within another box. */
+/* The overlap of letters' boxes: the share of their sample points that lie well within another
+ * box. */
 static double overlap(const struct dyn_word *word, const struct dyn_network *n)
 {
     int in = 0, all = 0;
@@ -488,7 +490,8 @@ static double overlap(const struct dyn_word *word, const struct dyn_network *n)
     return (double)in / all;
 }
 
-/* A word's separate letters fall into a cup. They come to rest on each other, not in each other. */
+/* A word's separate letters fall into a cup. They come to rest on each other, not in each
+ * other. */
 static void letters_poured_into_a_cup_lie_on_each_other(void **state)
 {
     const struct fixture *f = *state;

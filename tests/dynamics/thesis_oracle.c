@@ -1,4 +1,5 @@
-/* thesis_oracle.c - see thesis_oracle.h. Source: the thesis, appendix 7.1, operation by operation. */
+/* thesis_oracle.c - see thesis_oracle.h. Source: the thesis, appendix 7.1, operation by
+ * operation. */
 #include "thesis_oracle.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
-/* thesis_oracle.h - the thesis's step, with the thesis's names, for test_thesis.c. It is written again operation by operation
- * (thesis_oracle.c), and compiled from the thesis's text where that is present (listing.py). */
+/* thesis_oracle.h - the thesis's step, with the thesis's names, for test_thesis.c. It is
+ * written again operation by operation (thesis_oracle.c), and compiled from the thesis's text
+ * where that is present (listing.py). */
 #ifndef LUTETIA_TESTS_THESIS_ORACLE_H
 #define LUTETIA_TESTS_THESIS_ORACLE_H
 

@@ -1,5 +1,5 @@
-/* fuzz_events.c - decodes random bytes as the arguments of an event. An event that is decoded encodes to the same bytes.
- * `fuzz_events ROUNDS` */
+/* fuzz_events.c - decodes random bytes as the arguments of an event. An event that is decoded
+ * encodes to the same bytes. `fuzz_events ROUNDS` */
 #include "wind.h"
 
 #include <stdio.h>

@@ -1,4 +1,5 @@
-/* cff_reader.h - the outlines of a CFF table, for tests alone: Type 2 charstrings in doubles. It trusts the table. */
+/* cff_reader.h - the outlines of a CFF table, for tests alone: Type 2 charstrings in doubles.
+ * It trusts the table. */
 #ifndef LUTETIA_TEST_CFF_READER_H
 #define LUTETIA_TEST_CFF_READER_H
 
@@ -13,7 +14,8 @@ struct cff_reader {
     void (*cubic)(void *context, const double *points);
 };
 
-/* False: it is no glyph that this reads (a font with CIDs, a matrix, an accented character made of others). */
+/* False: it is no glyph that this reads (a font with CIDs, a matrix, an accented character made
+ * of others). */
 bool cff_glyph_read(struct cff_reader *reader, const uint8_t *table, size_t bytes,
                     uint32_t glyph);
 

@@ -1,5 +1,5 @@
-/* fuzz_edits.c - folders of edits whose files were changed by chance: each is read and drawn with, or refused in one line.
- * LUTETIA_EDITS_FOLDERS: how many. */
+/* fuzz_edits.c - folders of edits whose files were changed by chance: each is read and drawn
+ * with, or refused in one line. LUTETIA_EDITS_FOLDERS: how many. */
 #include "edits_support.h"
 
 #include <display.h>

@@ -1,4 +1,5 @@
-/* fuzz_face.c - see fuzz_face.h. With libFuzzer it is the target; fuzz_face_seeds.c makes small fonts as its first inputs. */
+/* fuzz_face.c - see fuzz_face.h. With libFuzzer it is the target; fuzz_face_seeds.c makes small
+ * fonts as its first inputs. */
 #include "fuzz_face.h"
 
 #include <drawing.h>

@@ -1,4 +1,5 @@
-/* fuzz_face_seeds.c - writes small fonts as first inputs of a fuzzer: a few letters of each installed font, one with colours.
+/* fuzz_face_seeds.c - writes small fonts as first inputs of a fuzzer: a few letters of each
+ * installed font, one with colours.
  *
  *     fuzz_face_seeds FOLDER */
 #include "made_font.h"
@@ -88,7 +89,8 @@ static int coloured_make(const char *folder, int number, hb_blob_t *plain)
     return made;
 }
 
-/* Writes the font with a few letters only, or the whole font where it cannot be made smaller. */
+/* Writes the font with a few letters only, or the whole font where it cannot be made
+ * smaller. */
 static int seed_make(const char *file, const char *folder, int number)
 {
     enum { WHOLE_MAX = 100000, COLOURED = 900 };

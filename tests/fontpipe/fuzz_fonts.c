@@ -1,5 +1,5 @@
-/* fuzz_fonts.c - draws or refuses a thousand damaged font files, ten thousand random outlines, and random text, with the same
- * seeds in every run. (security.md 7) */
+/* fuzz_fonts.c - draws or refuses a thousand damaged font files, ten thousand random outlines,
+ * and random text, with the same seeds in every run. (security.md 7) */
 #include "fuzz_face.h"
 #include "fuzz_outline.h"
 #include "support.h"
@@ -13,8 +13,8 @@ enum { FILES = 1000, OUTLINES = 800, TEXTS = 400 };
 
 static const char *const fonts[] = {"DejaVuSansMono", "EBGaramond12-Italic", TYPE_1_FONT};
 
-/* Damages a file: changes bytes, blanks runs, copies pieces elsewhere, cuts off the end. Half of the damage is in the first
- * kilobyte, which lists the tables. */
+/* Damages a file: changes bytes, blanks runs, copies pieces elsewhere, cuts off the end. Half
+ * of the damage is in the first kilobyte, which lists the tables. */
 static size_t damage(uint8_t *bytes, size_t count, uint32_t *seed)
 {
     int kinds = 1 + (int)random_below(seed, 3);
@@ -86,8 +86,8 @@ static void random_outlines_are_drawn_or_refused(void **state)
     assert_true(ink > OUTLINES / 4);
 }
 
-/* Inputs that libFuzzer has found: a long curve with few nodes and many pieces; a line that is horizontal except for
- * rounding. */
+/* Inputs that libFuzzer has found: a long curve with few nodes and many pieces; a line that is
+ * horizontal except for rounding. */
 static void hard_outlines_are_drawn(void **state)
 {
     (void)state;

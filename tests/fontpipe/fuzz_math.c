@@ -1,5 +1,6 @@
-/* fuzz_math.c - takes random bytes and random pieces of TeX's notation as formulas. Each is set, with numbers that are numbers, or refused
- * for its size. The seeds are the same in every run, or libFuzzer's with -DLUTETIA_FUZZ_TARGET. */
+/* fuzz_math.c - takes random bytes and random pieces of TeX's notation as formulas. Each is
+ * set, with numbers that are numbers, or refused for its size. The seeds are the same in every
+ * run, or libFuzzer's with -DLUTETIA_FUZZ_TARGET. */
 #include <font_math.h>
 
 #include "../must.h"

@@ -81,7 +81,8 @@ static void gray_check(const struct font_gray *g, const struct font_filter *filt
     font_filter_describe(filter, &info);
     must(g->width_px >= 0 && g->height_px >= 0 && (!g->width_px) == (!g->pixels));
     must(g->pitch >= g->width_px && g->pitch % 16 == 0);
-    /* Where nothing is covered twice, a pixel lies between empty and full, except for the filter's overshoot. */
+    /* Where nothing is covered twice, a pixel lies between empty and full, except for the
+     * filter's overshoot. */
     float slack = (float)(0.06 + 4 * info.undershoot);
     for (int r = 0; g->exact && r < g->height_px; r++)
         for (int c = 0; c < g->width_px; c++) {

@@ -1,5 +1,6 @@
-/* fuzz_pages.c - takes random bytes as texts, sets them with random options, edits them and asks for places in them. Each is
- * set or refused. The seeds are the same in every run, or libFuzzer's with -DLUTETIA_FUZZ_TARGET. (security.md 7) */
+/* fuzz_pages.c - takes random bytes as texts, sets them with random options, edits them and
+ * asks for places in them. Each is set or refused. The seeds are the same in every run, or
+ * libFuzzer's with -DLUTETIA_FUZZ_TARGET. (security.md 7) */
 #include <page.h>
 #include <setup.h>
 

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The place where a child's offset is written. Bit 31: in the list of bases; bit 30: in that of layers; else within the
- * paints. */
+/* The place where a child's offset is written. Bit 31: in the list of bases; bit 30: in that of
+ * layers; else within the paints. */
 #define OF_BASES 0x80000000u
 #define OF_LAYERS 0x40000000u
 

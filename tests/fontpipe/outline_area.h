@@ -6,7 +6,8 @@
 
 #include <stddef.h>
 
-/* The area of an outline in its own units: half the sum of its segments' cross products, with curves in short parts. */
+/* The area of an outline in its own units: half the sum of its segments' cross products, with
+ * curves in short parts. */
 static inline double outline_area(const struct font_outline *o)
 {
     double sum = 0;

@@ -7,7 +7,8 @@
 #include <breaks.h>
 #include <page.h>
 
-/* So many of the words are used; the first few need no other font than the styles', of which some are large. */
+/* So many of the words are used; the first few need no other font than the styles', of which
+ * some are large. */
 enum { PAGE_WORDS_NEAR = 8 };
 extern uint32_t page_words_used;
 /* So many words, with spaces between. Returns how many bytes. */

@@ -8,7 +8,8 @@
 #include <string.h>
 #include <zlib.h>
 
-/* A PDF with its packed streams unpacked behind it, to look for words. Owns: the caller frees it. */
+/* A PDF with its packed streams unpacked behind it, to look for words. Owns: the caller frees
+ * it. */
 static inline char *pdf_unpacked(const char *pdf, size_t bytes)
 {
     char *out = NULL;

@@ -1,5 +1,6 @@
-/* test_arcs.c - some filters have faster code of their own. Compares it with the general code, which draws the same edges by
- * tables: letters and random outlines at any place, size, angle and distortion, with all instruction sets. */
+/* test_arcs.c - some filters have faster code of their own. Compares it with the general code,
+ * which draws the same edges by tables: letters and random outlines at any place, size, angle
+ * and distortion, with all instruction sets. */
 #include "support.h"
 
 #include <gray.h>

@@ -1,5 +1,5 @@
-/* test_atlas.c - glyphs packed into pages: their pictures are right, do not overlap and stay within bounds. The glyph that was
- * used longest ago is evicted first. */
+/* test_atlas.c - glyphs packed into pages: their pictures are right, do not overlap and stay
+ * within bounds. The glyph that was used longest ago is evicted first. */
 #include "support.h"
 
 #include <atlas.h>
@@ -134,8 +134,9 @@ static void what_is_new_is_said(void **state)
     end(&f);
 }
 
-/* Draws far more glyphs than there is room for, of many sizes, a few in each frame. At a frame's end all its glyphs are in the
- * pages, correct and without overlaps, and there are not too many pages. */
+/* Draws far more glyphs than there is room for, of many sizes, a few in each frame. At a
+ * frame's end all its glyphs are in the pages, correct and without overlaps, and there are not
+ * too many pages. */
 static void frames_keep_what_they_asked_for(void **state)
 {
     (void)state;

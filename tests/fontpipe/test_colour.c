@@ -1,5 +1,5 @@
-/* test_colour.c - glyphs with their own colours: pictures (Noto Color Emoji, where it is installed) and layers (a font made
- * here), beside glyphs without. */
+/* test_colour.c - glyphs with their own colours: pictures (Noto Color Emoji, where it is
+ * installed) and layers (a font made here), beside glyphs without. */
 #include "../skip.h"
 #include "pdf_unpack.h"
 #include "support.h"
@@ -46,7 +46,8 @@ static double painted(const uint8_t *rgb, double *green)
     return sum;
 }
 
-/* Lays out a frog, whose picture is in a fallback font. Skips the test where no such font is installed. */
+/* Lays out a frog, whose picture is in a fallback font. Skips the test where no such font is
+ * installed. */
 static void frog_lay(struct font_face *face, struct font_shaper **s, double size_px,
                      struct font_layout *l)
 {
@@ -151,8 +152,8 @@ static uint32_t get32(const uint8_t *at)
     return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
 }
 
-/* Adds the tables COLR and CPAL to a font: glyph `base` gets the layers `below`, in a half transparent red, and `above`, in the
- * text's ink. */
+/* Adds the tables COLR and CPAL to a font: glyph `base` gets the layers `below`, in a half
+ * transparent red, and `above`, in the text's ink. */
 static uint8_t *layered_make(const uint8_t *from, size_t count, uint32_t base, uint32_t below,
                              uint32_t above, size_t *made_count)
 {
@@ -162,7 +163,8 @@ static uint8_t *layered_make(const uint8_t *from, size_t count, uint32_t base, u
     uint8_t *made = calloc(1, at + 128), *entry = made + 12;
     memcpy(made, from, 12);
     put(made + 4, tables + 2, 2);
-    /* The new tables come first: tables are sorted by their tags, and these begin with capitals. */
+    /* The new tables come first: tables are sorted by their tags, and these begin with
+     * capitals. */
     memcpy(entry, "COLR", 4);
     put(put(entry + 8, (uint32_t)at, 4), COLR, 4);
     memcpy(entry + 16, "CPAL", 4);

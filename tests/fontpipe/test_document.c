@@ -1,5 +1,5 @@
-/* test_document.c - PDF as other programs see it: sound, its fonts embedded and named, its letters where the painter has them, its pages, its
- * title, its outline and its tags. */
+/* test_document.c - PDF as other programs see it: sound, its fonts embedded and named, its
+ * letters where the painter has them, its pages, its title, its outline and its tags. */
 #include "../skip.h"
 #include "support.h"
 
@@ -47,8 +47,9 @@ static void sound(const char *path)
 
 enum { WIDTH = 330, HEIGHT = 56, FINER = 32 };
 
-/* The page as another program draws it, 32 times as fine, and that made as small again: how dark each pixel is. It
- * covers each fine pixel that an outline touches: an edge is half of one too far out, 4 of 255. */
+/* The page as another program draws it, 32 times as fine, and that made as small again: how
+ * dark each pixel is. It covers each fine pixel that an outline touches: an edge is half of one
+ * too far out, 4 of 255. */
 static double *shown(const char *path)
 {
     char command[256], gray[80];
@@ -95,7 +96,8 @@ static uint8_t *painted(const struct font_layout *l, double x, double y)
     return pixels;
 }
 
-/* Faces of each kind, and how `pdffonts` calls what is embedded. A variable one at its axes' places comes by `axes`. */
+/* Faces of each kind, and how `pdffonts` calls what is embedded. A variable one at its axes'
+ * places comes by `axes`. */
 static const struct {
     const char *font, *kind, *name;
 } faces[] = {
@@ -106,7 +108,8 @@ static const struct {
     {"/usr/share/fonts/X11/Type1/C059-Bold.pfb", "CID Type 0C", "+C059-Bold"},
 };
 
-/* A line of each face, in PDF, is what the painter draws, and its font is embedded as a font. */
+/* A line of each face, in PDF, is what the painter draws, and its font is embedded as a
+ * font. */
 static void letters_are_where_they_are_painted(void **state)
 {
     (void)state;
@@ -235,7 +238,8 @@ static void books_have_tags_and_a_title(void **state)
     assert_non_null(strstr(info, "A <book> & more"));
     assert_non_null(strstr(info, "Tagged:          yes"));
     assert_non_null(strstr(info, pages));
-    /* A heading that begins one level too deep is brought up; the paragraph on two pages is one. */
+    /* A heading that begins one level too deep is brought up; the paragraph on two pages is
+     * one. */
     assert_int_equal(times(tree, "H1 (block)"), 3);
     assert_int_equal(times(tree, "H2 (block)"), 1);
     assert_int_equal(times(tree, "P (block)"), 5);
@@ -264,7 +268,8 @@ static void books_have_an_outline(void **state)
     assert_int_equal(times(json, "\"title\": \"Before\""), 1);
     assert_int_equal(times(json, "\"title\": \"The first part\""), 1);
     assert_int_equal(times(json, "\"title\": \"A part of it\""), 1);
-    /* "A part of it" is within the first part: an entry's title comes behind those that it has. */
+    /* "A part of it" is within the first part: an entry's title comes behind those that it
+     * has. */
     const char *part = strstr(json, "\"A part of it\""),
                *first = strstr(json, "\"The first part\"");
     assert_true(strstr(json, "\"Before\"") < part && part < first &&

@@ -165,8 +165,8 @@ static uint8_t *painted(const struct font_layout *l)
     return pixels;
 }
 
-/* Translucent gradients and a picture as ink look as the painter draws them, by programs that show SVG and PDF. Those mix numbers,
- * and cover edges less exactly. */
+/* Translucent gradients and a picture as ink look as the painter draws them, by programs that
+ * show SVG and PDF. Those mix numbers, and cover edges less exactly. */
 static void drawings_look_as_painted(void **state)
 {
     (void)state;

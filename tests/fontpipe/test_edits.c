@@ -1,7 +1,8 @@
-/* test_edits.c - edits of a font at the levels of the pipeline: what was edited is what is drawn, and what is damaged is refused by name.
+/* test_edits.c - edits of a font at the levels of the pipeline: what was edited is what is
+ * drawn, and what is damaged is refused by name.
  *
- * The oracles count: a master's pixels within a pixel of the picture are its gray, and a ray through a pixel's middle tells whether an outline
- * covers it. */
+ * The oracles count: a master's pixels within a pixel of the picture are its gray, and a ray
+ * through a pixel's middle tells whether an outline covers it. */
 #include "edits_support.h"
 
 #include <display.h>

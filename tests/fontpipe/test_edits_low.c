@@ -1,7 +1,8 @@
-/* test_edits_low.c - edits below the rectangles, filter tables and gray at a size, and edits for one setting of a variable font's axes.
+/* test_edits_low.c - edits below the rectangles, filter tables and gray at a size, and edits
+ * for one setting of a variable font's axes.
  *
- * Gray must come back byte for byte from the picture that was edited; a filter of edits must draw what a painter with that filter draws of
- * the font as it is. */
+ * Gray must come back byte for byte from the picture that was edited; a filter of edits must
+ * draw what a painter with that filter draws of the font as it is. */
 #include "edits_support.h"
 #include <atlas.h>
 #include <display.h>
@@ -134,7 +135,8 @@ static void gray_at_a_size_is_drawn_as_it_was_edited(void **state)
     font_face_close(plain);
 }
 
-/* A turned or sheared letter, and one that is drawn twice as large by a map, has its outline's gray. */
+/* A turned or sheared letter, and one that is drawn twice as large by a map, has its outline's
+ * gray. */
 static void gray_is_used_for_upright_letters_of_its_size(void **state)
 {
     (void)state;

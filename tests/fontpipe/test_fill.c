@@ -1,5 +1,6 @@
-/* test_fill.c - two ways to find areas that are covered twice must agree: from the curves (fill_quick.c) and by strips (fill.c).
- * Tests all glyphs of several fonts, and random tangles. */
+/* test_fill.c - two ways to find areas that are covered twice must agree: from the curves
+ * (fill_quick.c) and by strips (fill.c). Tests all glyphs of several fonts, and random
+ * tangles. */
 #include "outline_area.h"
 #include "support.h"
 
@@ -19,7 +20,8 @@ static void work_free(struct fill_work *w)
     free(w->links);
 }
 
-/* Compares both ways on an outline that is not prepared, and finishes it. False: their areas differ by more than tolerance. */
+/* Compares both ways on an outline that is not prepared, and finishes it. False: their areas
+ * differ by more than tolerance. */
 static bool alike(struct font_outline *o, enum font_fill rule, double tolerance, bool *seen,
                   bool *rebuilt)
 {
@@ -70,7 +72,8 @@ static void glyphs_are_filled_as_by_strips(void **state)
     }
 }
 
-/* Random curves that cross each other often. Every fourth contour has corners on whole numbers, so that many points coincide. */
+/* Random curves that cross each other often. Every fourth contour has corners on whole numbers,
+ * so that many points coincide. */
 static void random_tangles_are_filled_as_by_strips(void **state)
 {
     (void)state;

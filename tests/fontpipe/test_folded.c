@@ -85,8 +85,8 @@ static void lines_are_the_curves(void **state)
     font_face_close(face);
 }
 
-/* A square whose sides cross covers two triangles. A square with a dent, or with a corner folded over, covers the inside of its
- * boundary. */
+/* A square whose sides cross covers two triangles. A square with a dent, or with a corner
+ * folded over, covers the inside of its boundary. */
 static void folded_squares_cover_once(void **state)
 {
     (void)state;

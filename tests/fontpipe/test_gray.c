@@ -1,5 +1,5 @@
-/* test_gray.c - compares gray with its definition in double precision ("gold"): sizes, places between pixels, filters, angles,
- * faces, shears and distortions, with all instruction sets. */
+/* test_gray.c - compares gray with its definition in double precision ("gold"): sizes, places
+ * between pixels, filters, angles, faces, shears and distortions, with all instruction sets. */
 #include "support.h"
 
 #include <gold.h>
@@ -44,7 +44,8 @@ static int fixture_destroy(void **state)
     return 0;
 }
 
-/* Draws and compares. Adds the differences of bytes, and of values before rounding, to the sums. */
+/* Draws and compares. Adds the differences of bytes, and of values before rounding, to the
+ * sums. */
 static void compare(const struct font_outline *outline, const struct font_map *map,
                     const struct font_filter *filter, double x, double y,
                     struct font_difference *bytes, struct font_difference *exact)
@@ -153,7 +154,8 @@ static void gray_is_gold_sheared_and_distorted(void **state)
     sums_check("smooth", &bytes[3], &exact[3]);
 }
 
-/* A map of any kind after affine ones, twice, is what both do to a point; and letters through it are gold's. */
+/* A map of any kind after affine ones, twice, is what both do to a point; and letters through
+ * it are gold's. */
 static void maps_follow_each_other(void **state)
 {
     const struct fixture *f = *state;
@@ -229,8 +231,8 @@ static void gray_is_gold_with_other_filters(void **state)
     }
 }
 
-/* Curves of a hundredth of a pixel, many of them in a pixel, are as wide as they are: what they lacked would be missing all the way
- * down. */
+/* Curves of a hundredth of a pixel, many of them in a pixel, are as wide as they are: what they
+ * lacked would be missing all the way down. */
 static void motes_are_whole(void **state)
 {
     (void)state;
@@ -273,7 +275,8 @@ static void bands_join(void **state)
         struct font_map map = font_map_size(600, 1000);
         compare(&outline, &map, both[k], 0.3, 0.6, &bytes, &exact);
         sums_check("600 px", &bytes, &exact);
-        /* A picture that is narrow and higher than a band: its rows of sums lie closer together. */
+        /* A picture that is narrow and higher than a band: its rows of sums lie closer
+         * together. */
         struct font_map tall = {FONT_AFFINE, {0.009, 0, 0, 0, -2.5, 0}};
         compare(&outline, &tall, both[k], 0.3, 0.6, &tall_bytes, &tall_exact);
         sums_check("narrow and tall", &tall_bytes, &tall_exact);
@@ -321,7 +324,8 @@ static void instruction_sets_agree(void **state)
     font_edges_finish(&edges);
 }
 
-/* Checks gold itself by counting the points of a fine grid that are inside, weighed by the filter. */
+/* Checks gold itself by counting the points of a fine grid that are inside, weighed by the
+ * filter. */
 static void gold_is_what_counting_gives(void **state)
 {
     const struct fixture *f = *state;

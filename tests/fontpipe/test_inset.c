@@ -1,4 +1,5 @@
-/* test_inset.c - boxes in lines: where they stand, what lines do with them, what pages say of them. */
+/* test_inset.c - boxes in lines: where they stand, what lines do with them, what pages say of
+ * them. */
 #include "support.h"
 
 #include <edges.h>
@@ -103,7 +104,8 @@ static void inset_stands_in_the_place_of_its_letters(void **state)
     setting_finish(&plain);
 }
 
-/* No line ends within one, however many spaces its letters are; a caret stands before it and behind. */
+/* No line ends within one, however many spaces its letters are; a caret stands before it and
+ * behind. */
 static void lines_are_not_broken_within(void **state)
 {
     (void)state;
@@ -135,7 +137,8 @@ static void lines_are_not_broken_within(void **state)
     setting_finish(&s);
 }
 
-/* A high one makes room for itself, whatever distance of lines was asked for; a low one none. */
+/* A high one makes room for itself, whatever distance of lines was asked for; a low one
+ * none. */
 static void high_insets_have_room(void **state)
 {
     (void)state;

@@ -14,7 +14,8 @@ static const char marsh[] =
     "communication "
     "finds no satisfactory arrangement within the measurement of a newspaper's column.";
 
-/* A paragraph's last line as a word's rest (the line before it ends in a hyphen that is behind the text), or as a short one. */
+/* A paragraph's last line as a word's rest (the line before it ends in a hyphen that is behind
+ * the text), or as a short one. */
 static void last_line_see(const struct font_layout *l, const char *text, int *rests,
                           int *shorts)
 {
@@ -49,8 +50,8 @@ static void paragraph_see(const char *text, double width, int *rests, int *short
     page_text_destroy(t);
 }
 
-/* Of paragraphs of ever more words in columns of ever more pixels few last lines are short, or the rest of a word. (Without the rules it is 28
- * and 22 of 300.) */
+/* Of paragraphs of ever more words in columns of ever more pixels few last lines are short, or
+ * the rest of a word. (Without the rules it is 28 and 22 of 300.) */
 static void last_lines_are_seldom_short(void **state)
 {
     (void)state;

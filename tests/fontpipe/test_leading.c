@@ -1,5 +1,6 @@
-/* test_leading.c - letters that another face lends have the room that their own face asks for, in lines of type and on pages. What is
- * compared are the faces' boxes, from ascent to descent, of lines that follow each other. */
+/* test_leading.c - letters that another face lends have the room that their own face asks for,
+ * in lines of type and on pages. What is compared are the faces' boxes, from ascent to descent,
+ * of lines that follow each other. */
 #include "support.h"
 
 #include <page.h>
@@ -7,8 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-#define FIRST                                                                                  \
-    "EBGaramond12-Regular" /* a leading of an em, without Hebrew; DejaVu, which lends it, asks for 1.16 */
+/* a leading of an em, without Hebrew; DejaVu, which lends it, asks for 1.16 */
+#define FIRST "EBGaramond12-Regular"
 enum { SIZE = 40 };
 
 static const char hebrew[] = "\xd7\x9c\xd7\xa7\xd7\xa9";
@@ -42,8 +43,8 @@ static int reaches_find(const struct font_layout *l, struct reach *out, int most
     return count;
 }
 
-/* Lines never reach into each other, and at least one pair is farther apart than is usual. by_line: those of the first face alone are
- * not. */
+/* Lines never reach into each other, and at least one pair is farther apart than is usual.
+ * by_line: those of the first face alone are not. */
 static void reaches_check(const struct reach *r, int count, double usual, bool by_line)
 {
     int farther = 0;
@@ -94,7 +95,8 @@ static void lines_of_type_have_their_faces_room(void **state)
     font_face_close(face);
 }
 
-/* A page of three paragraphs, the middle one with lent letters, which a later edit takes out. */
+/* A page of three paragraphs, the middle one with lent letters, which a later edit takes
+ * out. */
 static void paragraphs_have_their_faces_room(void **state)
 {
     (void)state;

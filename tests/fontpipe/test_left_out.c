@@ -1,4 +1,5 @@
-/* test_left_out.c - a glyph whose outline is damaged is left out by name, and the text around it is set: by painters, in SVG and PDF. */
+/* test_left_out.c - a glyph whose outline is damaged is left out by name, and the text around
+ * it is set: by painters, in SVG and PDF. */
 #include "support.h"
 
 #include <document.h>

@@ -1,4 +1,5 @@
-/* test_levels.c - master, rectangles and edits of levels: an edit makes the levels that depend on it again, and no others. */
+/* test_levels.c - master, rectangles and edits of levels: an edit makes the levels that depend
+ * on it again, and no others. */
 #include "support.h"
 
 #include <gold.h>
@@ -112,7 +113,8 @@ static struct font_gray gray_copy(const struct font_gray *g)
     return copy;
 }
 
-/* Counts rectangles by a plain loop over pixels: a run of a row begins a rectangle if the row above has no such run. */
+/* Counts rectangles by a plain loop over pixels: a run of a row begins a rectangle if the row
+ * above has no such run. */
 static int cuts_count(const struct font_master *m, bool columns)
 {
     int count = 0, along = columns ? m->height_px : m->width_px,
@@ -131,8 +133,8 @@ static int cuts_count(const struct font_master *m, bool columns)
     return count;
 }
 
-/* The master is cut into rows or columns, whichever gives fewer rectangles. The masters are noise in blocks, of odd sizes and
- * across word boundaries. */
+/* The master is cut into rows or columns, whichever gives fewer rectangles. The masters are
+ * noise in blocks, of odd sizes and across word boundaries. */
 static void masters_are_cut_the_better_way(void **state)
 {
     (void)state;
@@ -227,7 +229,7 @@ static void edits_flow_down_and_no_further(void **state)
     outline_load("DejaVuSans", 'B', &o);
     assert_font(font_levels_create(&o, 1000, 24, "gaussian-fast", &l));
 
-    /* Gray is drawn straight from the outline, no other level is made, and the same place is not drawn again. */
+    /* Gray is drawn straight from the outline, and the same place is not drawn again. */
     assert_font(font_levels_gray(l, 0.2, 0.4, &gray));
     assert_font(font_levels_gray(l, 0.2, 0.4, &gray));
     struct font_gray exact = gray_copy(gray);
@@ -235,7 +237,7 @@ static void edits_flow_down_and_no_further(void **state)
     assert_true(made.masters == 0 && made.rectangles == 0 && made.edges == 1 &&
                 made.grays == 1);
 
-    /* The thesis's way, by a master of 40 pixels to one, gives the same gray within the master's precision. */
+    /* The thesis's way, by a master of 40 pixels to one, within the master's precision. */
     font_levels_use_master(l, true);
     assert_font(font_levels_gray(l, 0.2, 0.4, &gray));
     assert_true(gray_difference(gray, &exact) <= 4);
@@ -311,8 +313,8 @@ static void fine_masters_are_nearly_exact(void **state)
     font_outline_finish(&o);
 }
 
-/* A master is written as a picture, retouched there and read again. It differs only where it was retouched, and the levels
- * below are made from it. */
+/* A master is written as a picture, retouched there and read again. It differs only where it
+ * was retouched, and the levels below are made from it. */
 static void masters_are_retouched_as_pictures(void **state)
 {
     (void)state;

@@ -142,7 +142,8 @@ static void words_too_long_are_broken_between_letters(void **state)
     struct fixture f;
     begin(&f, "DejaVuSans");
     struct font_text_options options = {.width_px = 1};
-    /* In a column too narrow for a letter each letter gets a line; an accent stays with its letter. */
+    /* In a column too narrow for a letter each letter gets a line; an accent stays with its
+     * letter. */
     const struct font_layout *l = set(&f, "oe\xcc\x81v", &options);
     assert_int_equal(l->lines_count, 3);
     options.width_px = 60;
@@ -201,8 +202,9 @@ static void a_width_that_cannot_be_is_refused(void **state)
     end(&f);
 }
 
-/* Random letters of many scripts, marks, joiners, controls and damaged UTF-8, in columns of all widths. Every line fits or holds
- * one letter, every glyph belongs to a line, and lines follow the text's order. */
+/* Random letters of many scripts, marks, joiners, controls and damaged UTF-8, in columns of all
+ * widths. Every line fits or holds one letter, every glyph belongs to a line, and lines follow
+ * the text's order. */
 static void random_text_is_set(void **state)
 {
     (void)state;

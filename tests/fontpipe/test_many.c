@@ -1,4 +1,5 @@
-/* test_many.c - many glyphs drawn at once on the OpenCL device are the same as drawn one by one. */
+/* test_many.c - many glyphs drawn at once on the OpenCL device are the same as drawn one by
+ * one. */
 #include "support.h"
 
 #include <many.h>

@@ -1,5 +1,6 @@
-/* test_math.c - formulas: where letters and rules stand, beside numbers that are read out of the font's MATH table here, and TeX's
- * rules written down again; what is not known; what is too large. */
+/* test_math.c - formulas: where letters and rules stand, beside numbers that are read out of
+ * the font's MATH table here, and TeX's rules written down again; what is not known; what is
+ * too large. */
 #include "support.h"
 
 #include <edges.h>
@@ -52,7 +53,8 @@ static int word_at(const uint8_t *at)
     return (int16_t)(at[0] << 8 | at[1]);
 }
 
-/* Number n of the table MathConstants: two percents, two heights, then values of four bytes each. */
+/* Number n of the table MathConstants: two percents, two heights, then values of four bytes
+ * each. */
 static double constant(int n)
 {
     size_t count;
@@ -237,14 +239,16 @@ static void root_covers_what_is_in_it(void **state)
     }
 }
 
-/* Spaces between atoms, in eighteenths of an em: what stands between the glyphs beyond their advances. */
+/* Spaces between atoms, in eighteenths of an em: what stands between the glyphs beyond their
+ * advances. */
 static void spaces_are_tex_s(void **state)
 {
     (void)state;
     static const struct {
         const char *tex;
         int left,
-            right; /* bytes of two letters that follow each other; upright, so that nothing leans */
+            /* bytes of two letters that follow each other; upright, so that nothing leans */
+            right;
         int eighteenths;
     } rows[] = {
         {"1+2", 0, 1, 4},       {"1+2", 1, 2, 4},    {"1=2", 0, 1, 5},

@@ -1,7 +1,9 @@
-/* test_oracle.c - compares pixels of random glyphs of the installed fonts with an oracle that shares no code with the pipeline.
- * FreeType reads TrueType's outlines, which the pipeline has from HarfBuzz (and a reader of its own CFF's), at a size that has many of its 64ths to a unit of the font, and
- * their points are taken apart here; variable fonts at random places of their axes. A pixel is the integral, over rows, of the spans that
- * are inside by the nonzero rule, weighed by a closed form (or a fine table) of the filter.
+/* test_oracle.c - compares pixels of random glyphs of the installed fonts with an oracle that
+ * shares no code with the pipeline. FreeType reads TrueType's outlines, which the pipeline has
+ * from HarfBuzz (and a reader of its own CFF's), at a size that has many of its 64ths to a unit
+ * of the font, and their points are taken apart here; variable fonts at random places of their
+ * axes. A pixel is the integral, over rows, of the spans that are inside by the nonzero rule,
+ * weighed by a closed form (or a fine table) of the filter.
  *
  *     test_oracle [CASES [SEED]]        120 cases by default, of sizes from 5 to 3000 pixels */
 #include "cff_reader.h"
@@ -200,7 +202,8 @@ static void curve_add(struct glyph *g, int degree, const struct point *points)
     monotone_add(g, &c, from, 1);
 }
 
-/* Of a variable font: FreeType counts places on axes in 65536ths, where OpenType has 16384ths, and puts components at whole units. */
+/* Of a variable font: FreeType counts places on axes in 65536ths, where OpenType has 16384ths,
+ * and puts components at whole units. */
 static const double UNSURE_UNITS = 0.12;
 static bool ft_varied;
 
@@ -222,8 +225,8 @@ static struct point middle_of(struct point a, struct point b)
     return (struct point){(a.x + b.x) / 2, (a.y + b.y) / 2};
 }
 
-/* A contour's points, each on the curve or a quadratic's or a cubic's: first those between two of a quadratic's are put in, so that what
- * is left is lines and whole curves, around. */
+/* A contour's points, each on the curve or a quadratic's or a cubic's: first those between two
+ * of a quadratic's are put in, so that what is left is lines and whole curves, around. */
 static void contour_add(struct glyph *g, const FT_Outline *o, int first, int last)
 {
     static struct point points[2 * CURVES_MAX];
@@ -295,7 +298,8 @@ static void cff_load(FT_Face ft)
     cff_bytes = length;
 }
 
-/* So large that a unit of the font has many 64ths of a pixel; FreeType reads no Type 1 glyphs that are larger than 2000. */
+/* So large that a unit of the font has many 64ths of a pixel; FreeType reads no Type 1 glyphs
+ * that are larger than 2000. */
 static void size_set(FT_Face ft)
 {
     FT_UInt ppem = FT_IS_SFNT(ft) ? ft->units_per_EM * 31u : 2000;
@@ -384,8 +388,8 @@ struct pixel {
     double x, y;
 };
 
-/* Integrates rows by Gauss's three nodes, and halves the interval until that makes no difference: a nearly horizontal edge
- * crosses a pixel within few rows. */
+/* Integrates rows by Gauss's three nodes, and halves the interval until that makes no
+ * difference: a nearly horizontal edge crosses a pixel within few rows. */
 static double rows_of(const struct pixel *p, double from, double to, double before, int depth)
 {
     static const double at[3] = {0.1127016653792583, 0.5, 0.8872983346207417};

@@ -18,7 +18,8 @@ static void square(struct font_outline *o, double x, double y, double side, bool
     assert_font(font_outline_close(o));
 }
 
-/* Whether the segments form closed contours: each point must be the end of as many segments as it is the beginning of. */
+/* Whether the segments form closed contours: each point must be the end of as many segments as
+ * it is the beginning of. */
 static bool closed(const struct font_outline *o)
 {
     double x = 0, y = 0, xx = 0, yy = 0;
@@ -51,8 +52,8 @@ static void simple_shapes_stay_as_they_are(void **state)
 static void overlaps_are_covered_once(void **state)
 {
     (void)state;
-    /* Two squares of side 100, in either direction, overlap by 50 by 50. Their area is 17500 by the nonzero rule and 15000 by the
-     * even-odd rule. */
+    /* Two squares of side 100, in either direction, overlap by 50 by 50. Their area is 17500 by
+     * the nonzero rule and 15000 by the even-odd rule. */
     for (int turns = 0; turns < 4; turns++)
         for (int rule = 0; rule < 2; rule++) {
             struct font_outline o = {0};
@@ -103,7 +104,8 @@ static void crossing_curves_stay_curves(void **state)
     font_outline_finish(&o);
 }
 
-/* The winding number of a point. In random tangles the rebuilt outline must cover the points that the rule fills, each once. */
+/* The winding number of a point. In random tangles the rebuilt outline must cover the points
+ * that the rule fills, each once. */
 static int winding_at(const struct font_outline *o, double x, double y)
 {
     int winding = 0;
@@ -272,7 +274,8 @@ static void what_is_no_font_is_said(void **state)
     assert_null(face);
 }
 
-/* ---- a collection and a variable font, made here because the fonts that tests install have none ---- */
+/* ---- a collection and a variable font, made here because the fonts that tests install have
+ * none ---- */
 
 static void put16(uint8_t *at, unsigned value)
 {
@@ -291,7 +294,8 @@ static uint32_t get32(const uint8_t *at)
     return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
 }
 
-/* Puts two fonts into one file. Offsets of tables count from the file's beginning, so they change. */
+/* Puts two fonts into one file. Offsets of tables count from the file's beginning, so they
+ * change. */
 static void collections_have_faces(void **state)
 {
     (void)state;
@@ -382,8 +386,9 @@ static void axis_make(uint8_t *fvar)
     put16(fvar + 34, 256);
 }
 
-/* Makes DejaVu Sans with an axis `wght` 100..900, default 400. Along it the advance grows, and of all glyphs only `glyph` ('l')
- * changes: at 900 its first four points are 100 units further right. */
+/* Makes DejaVu Sans with an axis `wght` 100..900, default 400. Along it the advance grows, and
+ * of all glyphs only `glyph` ('l') changes: at 900 its first four points are 100 units further
+ * right. */
 static uint8_t *variable_make(const uint8_t *font, size_t count, unsigned glyph,
                               unsigned glyphs_count, size_t *out_count)
 {
@@ -483,7 +488,8 @@ static void axes_move_outlines(void **state)
     font_outline_finish(&fine);
     assert_font(font_face_axis_set(face, "wght", 400));
     assert_true(font_face_version(face) == first);
-    /* Two hundred settings have different versions; the last ones get their old versions when they are set again. */
+    /* Two hundred settings have different versions; the last ones get their old versions when
+     * they are set again. */
     uint64_t versions[200];
     for (int i = 0; i < 200; i++) {
         assert_font(font_face_axis_set(face, "wght", 101 + i));
@@ -503,7 +509,8 @@ static void axes_move_outlines(void **state)
     free(variable);
 }
 
-/* Two circles, mirror images at x = 600, cross there. The corner has the precision of doubles, not that of the curves' pieces. */
+/* Two circles, mirror images at x = 600, cross there. The corner has the precision of doubles,
+ * not that of the curves' pieces. */
 static void corners_are_where_curves_cross(void **state)
 {
     (void)state;

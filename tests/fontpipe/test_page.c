@@ -1,4 +1,5 @@
-/* test_page.c - pages: lines against a search of all ways to break; carets, selections, marks. */
+/* test_page.c - pages: lines against a search of all ways to break; carets, selections,
+ * marks. */
 #include "page_texts.h"
 
 #include <breaks.h>
@@ -110,7 +111,8 @@ static void paragraphs_are_broken_best(void **state)
     assert_true(found > 1000);
 }
 
-/* In a narrow column words are divided, rather than that spaces become wide; never in more than three lines in a row. */
+/* In a narrow column words are divided, rather than that spaces become wide; never in more than
+ * three lines in a row. */
 static void narrow_columns_are_divided(void **state)
 {
     (void)state;
@@ -164,7 +166,8 @@ static struct page_text *one_column(double width, const char *text, size_t bytes
     return t;
 }
 
-/* Hitting a caret's place gives a text place with the same caret; where the direction does not change, the same text place. */
+/* Hitting a caret's place gives a text place with the same caret; where the direction does not
+ * change, the same text place. */
 static void carets_and_hits_agree(void **state)
 {
     (void)state;
@@ -243,7 +246,8 @@ static double boxes_width(struct page_text *t, int id, int from, int to, int *co
     return width;
 }
 
-/* Two adjacent selections are together as wide as one selection of both, and a line's boxes do not overlap. */
+/* Two adjacent selections are together as wide as one selection of both, and a line's boxes do
+ * not overlap. */
 static void selections_add_up(void **state)
 {
     (void)state;
@@ -265,7 +269,8 @@ static void selections_add_up(void **state)
         assert_true(count > 0 && parts[0] + parts[1] >= count);
         page_text_destroy(t);
     }
-    /* A selection from a Latin word into an Arabic one has two boxes, because Arabic begins at the right. */
+    /* A selection from a Latin word into an Arabic one has two boxes, because Arabic begins at
+     * the right. */
     static const char both[] = "abc \xd8\xa7\xd9\x84\xd9\x85\xd8\xa7\xd8\xa1 def";
     struct page_manner manner = page_manner_default();
     int id, count;

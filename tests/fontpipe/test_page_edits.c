@@ -1,4 +1,5 @@
-/* test_page_edits.c - edited texts, with keeps, notes, shapes and tabs, against the same texts set from scratch. */
+/* test_page_edits.c - edited texts, with keeps, notes, shapes and tabs, against the same texts
+ * set from scratch. */
 #include "page_texts.h"
 
 #include <stdlib.h>
@@ -239,8 +240,9 @@ static void edited_is_as_from_scratch(void **state)
     }
 }
 
-/* Each edit is followed by a look at some page, and all other pages are left as they are: runs of 3 to 26 edits, of which each page is
- * compared at the end. LUTETIA_PAGE_RUNS says how many runs; every third has a shape that lines go around. */
+/* Each edit is followed by a look at some page, and all other pages are left as they are: runs
+ * of 3 to 26 edits, of which each page is compared at the end. LUTETIA_PAGE_RUNS says how many
+ * runs; every third has a shape that lines go around. */
 static void pages_left_unfilled_are_not_stale(void **state)
 {
     (void)state;

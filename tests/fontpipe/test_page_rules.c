@@ -1,4 +1,5 @@
-/* test_page_rules.c - the rules of pages: lines fill their column, hyphenation, keeps, notes, shapes, tabs, vertical lines. */
+/* test_page_rules.c - the rules of pages: lines fill their column, hyphenation, keeps, notes,
+ * shapes, tabs, vertical lines. */
 #include "support.h"
 
 #include "made_font.h"
@@ -189,7 +190,8 @@ static void letters_widen_a_little(void **state)
     end(&f);
 }
 
-/* Writes a font with an axis of widths to a file; path is a template that gets the file's name. */
+/* Writes a font with an axis of widths to a file; path is a template that gets the file's
+ * name. */
 static void wide_write(char path[], double *em)
 {
     struct font_face *plain;
@@ -207,8 +209,8 @@ static void wide_write(char path[], double *em)
     font_face_close(plain);
 }
 
-/* With an axis of widths lines are as wide as without it. Letters are expanded along the axis, so their maps expand them
- * hardly at all. */
+/* With an axis of widths lines are as wide as without it. Letters are expanded along the axis,
+ * so their maps expand them hardly at all. */
 static void letters_are_expanded_by_the_fonts_axis(void **state)
 {
     (void)state;
@@ -420,7 +422,8 @@ static double stands_out(const struct font_layout *l, const struct page_frame *f
     return most;
 }
 
-/* Notes shorten the column while it is filled, keeps send lines on: what then goes around a box must be broken for what it gets. */
+/* Notes shorten the column while it is filled, keeps send lines on: what then goes around a box
+ * must be broken for what it gets. */
 static void notes_and_keeps_beside_shapes(void **state)
 {
     (void)state;

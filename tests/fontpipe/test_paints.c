@@ -1,5 +1,5 @@
-/* test_paints.c - graphs of paints (COLR 1) and SVG in fonts made here, beside what their colours must be by their
- * definitions. */
+/* test_paints.c - graphs of paints (COLR 1) and SVG in fonts made here, beside what their
+ * colours must be by their definitions. */
 #include "../skip.h"
 #include "support.h"
 
@@ -15,7 +15,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* An em of 2048 units is drawn at 128 pixels, so a pixel is 16 units; the origin is at pixel (16, 112). */
+/* An em of 2048 units is drawn at 128 pixels, so a pixel is 16 units; the origin is at pixel
+ * (16, 112). */
 enum { SIDE = 144, EM = 2048, SIZE = 128, LEFT = 16, BASE = 112, ONE = 0x4000 };
 /* COLR's formats of paints. */
 enum {
@@ -203,7 +204,8 @@ static void gradients_are_what_they_are_defined_as(void **state)
         for (int extend = 0; extend < 3; extend++) {
             struct made_paints *p = made_paints_begin();
             size_t of = in_block(p, made_base(p, base));
-            /* linear from (200, 100) to (1000, 100), slanted; radial around (600, 600); sweep of half a turn from a quarter on */
+            /* linear from (200, 100) to (1000, 100), slanted; radial around (600, 600); sweep
+             * of half a turn from a quarter on */
             size_t paint =
                 kind == 0
                     ? made_paint(p, of, LINEAR, "3222222", 0, 200, 100, 1000, 100, 400, 700)
@@ -420,7 +422,8 @@ static void svg_is_drawn(void **state)
     font_face_close(face);
 }
 
-/* Two rows of what two regions add: with the axis above its usual place 300 and -1000, below it -7 and 5. */
+/* Two rows of what two regions add: with the axis above its usual place 300 and -1000, below it
+ * -7 and 5. */
 static void axes_add_to_numbers(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* test_pictures.c - pictures of several characters (flags, keycaps, skins, families) are one glyph of one face; letters that are apart have
- * no forms of letters together. */
+/* test_pictures.c - pictures of several characters (flags, keycaps, skins, families) are one
+ * glyph of one face; letters that are apart have no forms of letters together. */
 #include "support.h"
 
 #include "../skip.h"
@@ -113,7 +113,8 @@ static int glyphs_spaced(const char *text, double spacing, const char *features,
     return n;
 }
 
-/* "office fjord": no dotless i and j where an f no longer leans over them; and where they are asked for, they are there. */
+/* "office fjord": no dotless i and j where an f no longer leans over them; and where they are
+ * asked for, they are there. */
 static void letters_apart_have_their_own_forms(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* test_proof.c - what a word keeps by a filter, counted again from its pixels; and what a font has to choose from, read again from its tables. */
+/* test_proof.c - what a word keeps by a filter, counted again from its pixels; and what a font
+ * has to choose from, read again from its tables. */
 #include "support.h"
 
 #include "made_font.h"
@@ -207,7 +208,8 @@ static void scripts_and_features_are_those_of_the_tables(void **state)
 static void named_places_on_axes_are_listed(void **state)
 {
     (void)state;
-    /* An axis with two names of places: the name table's 2 ("Book"), and one that it has not. */
+    /* An axis with two names of places: the name table's 2 ("Book"), and one that it has
+     * not. */
     static const uint8_t fvar[] = {0, 1, 0,   0,    0,   16,   0,   2, 0,  1, 0,  20, 0,
                                    2, 0, 8,   'w',  'd', 't',  'h', 0, 90, 0, 0,  0,  100,
                                    0, 0, 0,   110,  0,   0,    0,   0, 1,  0, 0,  2,  0,

@@ -1,4 +1,5 @@
-/* test_setup.c - texts with few signs as paragraphs: what they say, which of it is slanted or bold, and whatever ends their lines. */
+/* test_setup.c - texts with few signs as paragraphs: what they say, which of it is slanted or
+ * bold, and whatever ends their lines. */
 #include "support.h"
 
 #include <page.h>
@@ -125,7 +126,8 @@ static struct page_text *book_made(bool grid, const char *head, int columns)
     return t;
 }
 
-/* Each page has its number below its text; a running head all but those that a chapter begins. */
+/* Each page has its number below its text; a running head all but those that a chapter
+ * begins. */
 static void pages_have_numbers_and_heads(void **state)
 {
     (void)state;
@@ -162,7 +164,8 @@ static void pages_have_numbers_and_heads(void **state)
     page_text_destroy(t);
 }
 
-/* Baselines of the text's own letters are on the grid, behind headings and beside each other. */
+/* Baselines of the text's own letters are on the grid, behind headings and beside each
+ * other. */
 static void lines_beside_each_other_are_level(void **state)
 {
     (void)state;
@@ -244,7 +247,8 @@ static int differing(const uint8_t *a, const uint8_t *b)
     return count;
 }
 
-/* A part's filter is what a painter with that filter draws of it; all parts' together are the whole page. */
+/* A part's filter is what a painter with that filter draws of it; all parts' together are the
+ * whole page. */
 static void parts_have_filters_of_their_own(void **state)
 {
     (void)state;

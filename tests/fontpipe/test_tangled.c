@@ -1,6 +1,7 @@
-/* test_tangled.c - outlines that cross themselves however often: their gray pictures against an oracle that shares no code with the
- * pipeline. It counts winding numbers along hundreds of lines in a row of pixels, from points of its own and roots in closed form; an
- * outline's pixels are right where those lines' spans say so. */
+/* test_tangled.c - outlines that cross themselves however often: their gray pictures against an
+ * oracle that shares no code with the pipeline. It counts winding numbers along hundreds of
+ * lines in a row of pixels, from points of its own and roots in closed form; an outline's
+ * pixels are right where those lines' spans say so. */
 #include "support.h"
 
 #include <edges.h>
@@ -14,7 +15,8 @@
 
 enum { LINES_A_ROW = 512, EM = 1000 };
 
-/* How many rows are looked at; LUTETIA_TANGLED_ROWS: more of them, and at sizes that take long, too. */
+/* How many rows are looked at; LUTETIA_TANGLED_ROWS: more of them, and at sizes that take long,
+ * too. */
 static int rows_of(double size_px)
 {
     const char *asked = getenv("LUTETIA_TANGLED_ROWS");
@@ -199,7 +201,8 @@ static double worst_of(const struct tangle *t, const struct font_outline *o, dou
     return worst;
 }
 
-/* Prepares it, and compares it at several sizes, but for those that are slow. Finishes the tangle. */
+/* Prepares it, and compares it at several sizes, but for those that are slow. Finishes the
+ * tangle. */
 static void tangle_check(const char *name, struct tangle *t, const double *bounds,
                          const bool *slow, uint32_t *seed)
 {
@@ -264,7 +267,8 @@ static void random_contours_are_right_to_one(void **state)
     }
 }
 
-/* Discs and bars of fonts: contours that overlap, many of them at once; all of one direction, or of both. */
+/* Discs and bars of fonts: contours that overlap, many of them at once; all of one direction,
+ * or of both. */
 static void overlapping_pieces_are_right_to_one(void **state)
 {
     (void)state;
@@ -315,7 +319,8 @@ static double master_ink(const struct font_outline *o)
     return ink;
 }
 
-/* The slow twin: an outline whose boundary can be made, filled where it is drawn all the same. */
+/* The slow twin: an outline whose boundary can be made, filled where it is drawn all the
+ * same. */
 static void boundaries_and_strips_agree(void **state)
 {
     (void)state;

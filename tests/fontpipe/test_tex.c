@@ -1,9 +1,12 @@
-/* test_tex.c - paragraphs of the same words and widths get TeX's line breaks, each line's badness, and the paragraph's demerits.
+/* test_tex.c - paragraphs of the same words and widths get TeX's line breaks, each line's
+ * badness, and the paragraph's demerits.
  *
  *     test_tex                  compares with TeX's answers (tex_answers.h)
- *     test_tex --tex            prints the paragraphs as a file for INITEX; tex_answers.py makes tex_answers.h from its log
+ *     test_tex --tex            prints the paragraphs as a file for INITEX; tex_answers.py
+ *                               makes tex_answers.h from its log
  *
- * A table gives the letters' widths in 64ths of a point, which both programs add without rounding. */
+ * A table gives the letters' widths in 64ths of a point, which both programs add without
+ * rounding. */
 #include "support.h"
 
 #include <breaks.h>
@@ -51,7 +54,8 @@ static bool vowel(char c)
     return strchr("aeiouy", c) != NULL;
 }
 
-/* Takes words of the text from a random one on. A word may be divided before a consonant between vowels. */
+/* Takes words of the text from a random one on. A word may be divided before a consonant
+ * between vowels. */
 static void paragraph_make(struct paragraph *p, uint32_t *seed)
 {
     int wanted = 40 + (int)(random_next(seed) % 90);
@@ -153,7 +157,8 @@ static void lines_are_texs(void **state)
 
 /* ---- for TeX ---- */
 
-/* Prints each piece as a box of its width that holds its number; TeX's log then shows the pieces of each line. */
+/* Prints each piece as a box of its width that holds its number; TeX's log then shows the
+ * pieces of each line. */
 static void tex_print(void)
 {
     static struct paragraph p;

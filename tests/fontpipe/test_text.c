@@ -99,7 +99,8 @@ static void type_1_fonts_kern_too(void **state)
     font_face_close(face);
 }
 
-/* HarfBuzz reads advances from OpenType tables, and asks FreeType for those of Type 1. Both must agree. */
+/* HarfBuzz reads advances from OpenType tables, and asks FreeType for those of Type 1. Both
+ * must agree. */
 static void advances_are_the_glyphs(void **state)
 {
     (void)state;
@@ -155,7 +156,8 @@ static void right_to_left_is_turned(void **state)
     assert_int_equal(l.lines_count, 2);
     assert_true(l.glyphs[4].line == 1 && l.glyphs[4].x_px > l.width_px / 2);
     assert_true(fabs(l.glyphs[4].y_px - l.line_height_px) < 1e-9);
-    /* Arabic letters take their joined shapes, whose glyphs differ from those of single letters. */
+    /* Arabic letters take their joined shapes, whose glyphs differ from those of single
+     * letters. */
     struct font_layout joined = layout_make(s, "\xd8\xa8\xd8\xa8\xd8\xa8", NULL);
     assert_int_equal(joined.glyphs_count, 3);
     assert_true(joined.glyphs[0].glyph != joined.glyphs[1].glyph &&
@@ -214,7 +216,8 @@ static void fallback_keeps_weight_and_slant(void **state)
     }
 }
 
-/* URW's faces are installed as Type 1 and as OpenType under the same name; the OpenType file is chosen. */
+/* URW's faces are installed as Type 1 and as OpenType under the same name; the OpenType file is
+ * chosen. */
 static void names_are_of_opentype_files(void **state)
 {
     (void)state;
@@ -412,7 +415,8 @@ static void glyphs_kept_are_glyphs_drawn(void **state)
     paint(&f, &def, 1, 4.25, 25);
     for (size_t i = 0; i < sizeof f.pixels[0]; i++)
         assert_true(abs(f.pixels[0][i] - f.pixels[1][i]) <= 6);
-    /* With room for less than two glyphs the painter draws them again and again; the picture is the same. */
+    /* With room for less than two glyphs the painter draws them again and again; the picture is
+     * the same. */
     def.places = 64;
     def.budget_bytes = 4096;
     assert_font(font_painter_create(&def, &p));

@@ -1,5 +1,6 @@
-/* test_unicode.c - compares directions and line breaks with Unicode's test files (Debian's unicode-data), and shaping with
- * hb-shape (libharfbuzz-bin). Skips the cases where these are not installed. */
+/* test_unicode.c - compares directions and line breaks with Unicode's test files (Debian's
+ * unicode-data), and shaping with hb-shape (libharfbuzz-bin). Skips the cases where these are
+ * not installed. */
 #include "../skip.h"
 #include "support.h"
 
@@ -84,8 +85,9 @@ static void directions_are_unicodes(void **state)
     assert_int_equal(wrong, 0);
 }
 
-/* The rules of UAX 14, and a class, by which ICU differs from the file of Unicode 15 or 15.1; NOT_A_RULE: any other difference. The file uses another
- * rule for numbers than the standard (its example 7). */
+/* The rules of UAX 14, and a class, by which ICU differs from the file of Unicode 15 or 15.1;
+ * NOT_A_RULE: any other difference. The file uses another rule for numbers than the standard
+ * (its example 7). */
 enum rule { LB15C, LB20A, LB21A, LB25, BALINESE, RULES_COUNT, NOT_A_RULE = RULES_COUNT };
 static const char *const rule_names[] = {
     "LB15c (Unicode 16): a line may end before \" .3\"",

@@ -1,5 +1,5 @@
-/* test_upright.c - lines that go down: which letters stand and which lie, and digits beside each other in one place; where carets may be;
- * and how lines of Arabic are filled. */
+/* test_upright.c - lines that go down: which letters stand and which lie, and digits beside
+ * each other in one place; where carets may be; and how lines of Arabic are filled. */
 #include "support.h"
 
 #include <edges.h>
@@ -68,7 +68,8 @@ static const struct font_placed *glyph_at(const struct font_layout *l, int byte,
     return NULL;
 }
 
-/* Letters and signs by UTR 50's table: S they stand, L they lie; D digits in one place (the font has no forms for brackets). */
+/* Letters and signs by UTR 50's table: S they stand, L they lie; D digits in one place (the
+ * font has no forms for brackets). */
 static void letters_stand_or_lie(void **state)
 {
     (void)state;
@@ -100,7 +101,8 @@ static void letters_stand_or_lie(void **state)
         if (lies != (want[i] == 'L'))
             fail_msg("U+%04X %s", (unsigned)characters[i], lies ? "lies" : "stands");
     }
-    /* 12 is one place: at one height, side by side, around the line's middle, and the next is an em below the last. */
+    /* 12 is one place: at one height, side by side, around the line's middle, and the next is
+     * an em below the last. */
     bool lies;
     const struct font_placed *before = glyph_at(&l, bytes[0], &lies),
                              *one = glyph_at(&l, bytes[1], &lies),
@@ -171,7 +173,8 @@ static void carets_stand_between_clusters(void **state)
     }
 }
 
-/* Where a glyph stands behind the one before it in its line, by the bytes of both; 0: they are not beside each other. */
+/* Where a glyph stands behind the one before it in its line, by the bytes of both; 0: they are
+ * not beside each other. */
 static double gap_of(const struct font_layout *l, int from, int to)
 {
     for (int i = 0; i + 1 < l->glyphs_count; i++)
@@ -182,7 +185,8 @@ static double gap_of(const struct font_layout *l, int from, int to)
     return 0;
 }
 
-/* Arabic's letters join, so no line is filled between them, nor by longer joints (kashida): spaces take all of it. */
+/* Arabic's letters join, so no line is filled between them, nor by longer joints (kashida):
+ * spaces take all of it. */
 static void arabic_is_justified_by_its_spaces_alone(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* test_words.c - what another program reads in our PDF are the words that were set: where lines go to the left, where letters change places, where
- * words are divided. */
+/* test_words.c - what another program reads in our PDF are the words that were set: where lines
+ * go to the left, where letters change places, where words are divided. */
 #include "../skip.h"
 #include "support.h"
 
@@ -130,7 +130,8 @@ static char *read_back(int n, bool *whole)
     return out;
 }
 
-/* The letters, one space for what is white between them (spaced) or none; without signs of direction and joiners, which programs put in. */
+/* The letters, one space for what is white between them (spaced) or none; without signs of
+ * direction and joiners, which programs put in. */
 static void tidy(const char *text, bool spaced, char *out)
 {
     bool gap = false, any = false;
@@ -154,7 +155,8 @@ static void tidy(const char *text, bool spaced, char *out)
     *out = '\0';
 }
 
-/* As tidy() leaves it, but what is behind a hyphen at a line's end goes on: "co-" and "operation". */
+/* As tidy() leaves it, but what is behind a hyphen at a line's end goes on: "co-" and
+ * "operation". */
 static void hyphens_join(char *text)
 {
     for (char *at; (at = strstr(text, "- "));)

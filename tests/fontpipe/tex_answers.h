@@ -1,4 +1,5 @@
-/* tex_answers.h - made by tex_answers.py from what TeX (3.141592653) said of the paragraphs of test_tex.c. */
+/* tex_answers.h - made by tex_answers.py from what TeX (3.141592653) said of the paragraphs of
+ * test_tex.c. */
 /* clang-format off */
 static const struct tex_answer tex_answers[PARAGRAPHS] = {
     {214033, 9, {8, 15, 21, 28, 37, 45, 51, 59, 63}, {8, 350, 20, 8, 0, 189, 12, 0, 0}},

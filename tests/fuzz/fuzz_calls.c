@@ -1,9 +1,10 @@
 /* fuzz_calls.c - makes C/Paris calls from bytes; most calls are nearly right.
  *
- * libFuzzer and seeds.c call LLVMFuzzerTestOneInput(). The first byte of input is the mode. Its bit 0 is the safety mode.
- * 0xfe and 0xff also allow calls that build and run kernels; these values are rare, because kernels take long. A call is two
- * bytes for its row of the table and the bytes of its arguments. There are at most CALLS_MAX calls. A wrong call must give
- * one line that begins with its name; the host must not be harmed. */
+ * libFuzzer and seeds.c call LLVMFuzzerTestOneInput(). The first byte of input is the mode. Its
+ * bit 0 is the safety mode. 0xfe and 0xff also allow calls that build and run kernels; these
+ * values are rare, because kernels take long. A call is two bytes for its row of the table and
+ * the bytes of its arguments. There are at most CALLS_MAX calls. A wrong call must give one
+ * line that begins with its name; the host must not be harmed. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -6,7 +6,8 @@
 #include <stdint.h>
 
 int LLVMFuzzerInitialize(int *argc, char ***argv);
-/* Makes the calls that the bytes describe. Aborts if a wrong call's message is not as it must be. Returns 0. */
+/* Makes the calls that the bytes describe. Aborts if a wrong call's message is not as it must
+ * be. Returns 0. */
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count);
 
 #endif

@@ -1,11 +1,13 @@
-/* fuzz_sandbox.c - walks everything that a script reaches in its sandbox, and calls each function with everything (security.md 1, 3).
+/* fuzz_sandbox.c - walks everything that a script reaches in its sandbox, and calls each
+ * function with everything (security.md 1, 3).
  *
  *     fuzz_sandbox                  a walk, and some thousand calls, the same in every run
  *     fuzz_sandbox --seconds S SEED random calls for so long
  *
- * Reached are: globals; what tables hold; what calls return, and so iterators and new objects. What C alone reaches (metatables,
- * the upvalues of functions) is looked at, too: every metatable that is not a script's own must be hidden, and no text may hold an
- * address of this process. Under ASan a call that trusts an argument is seen. */
+ * Reached are: globals; what tables hold; what calls return, and so iterators and new objects.
+ * What C alone reaches (metatables, the upvalues of functions) is looked at, too: every
+ * metatable that is not a script's own must be hidden, and no text may hold an address of this
+ * process. Under ASan a call that trusts an argument is seen. */
 #include "../../host/script/script_internal.h"
 
 #include <lualib.h>
@@ -21,7 +23,8 @@
 
 enum { CALLS = 12000, POOL_MAX = 700, ARGUMENTS_MAX = 5, MEMORY_BYTES = 64 << 20 };
 
-/* Objects of each kind, coroutines of each state, functions that call back, close, fail and yield. */
+/* Objects of each kind, coroutines of each state, functions that call back, close, fail and
+ * yield. */
 static const char prelude[] =
     "p = paper{width = 8, height = 8, pigments = {'cyan'}, model = {'infused'}} "
     "b = p:brush{width = 2, bristles = 4} m = rect(1, 1, 5, 5) g = m:soften(1) - 0.5 "
@@ -82,7 +85,8 @@ static void text_check(const char *text, size_t length)
             found("an address is told", text);
 }
 
-/* Appends the value on the top to a list in the registry, in the place of another one if that is full; pops it. */
+/* Appends the value on the top to a list in the registry, in the place of another one if that
+ * is full; pops it. */
 static void list_add(struct walk *w, const char *key)
 {
     lua_State *L = w->L;
@@ -111,7 +115,8 @@ static bool is_new(lua_State *L)
 
 static void reach(struct walk *w, int deep);
 
-/* A metatable of C's makes itself known by its fields: all must be hidden from getmetatable(). */
+/* A metatable of C's makes itself known by its fields: all must be hidden from
+ * getmetatable(). */
 static void metatable_check(struct walk *w)
 {
     lua_State *L = w->L;
@@ -194,7 +199,8 @@ static void hook(lua_State *L, lua_Debug *event)
     script_stop_if_due(L, 0);
 }
 
-/* Calls the function below the arguments, sometimes in a coroutine; takes in what it returns, or its error. */
+/* Calls the function below the arguments, sometimes in a coroutine; takes in what it returns,
+ * or its error. */
 static void call(struct walk *w, int arguments)
 {
     lua_State *L = w->L;
@@ -295,7 +301,8 @@ static int opened(lua_State *L)
     return 0;
 }
 
-/* In a call, as every script is: else a coroutine could resume or close the main thread, below the walk's own feet. */
+/* In a call, as every script is: else a coroutine could resume or close the main thread, below
+ * the walk's own feet. */
 static int walk_run(lua_State *L)
 {
     struct walk *w = lua_touserdata(L, 1);

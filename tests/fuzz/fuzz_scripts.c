@@ -1,4 +1,5 @@
-/* fuzz_scripts.c - runs random scripts by the library. Each ends, with one line where it fails, and does the process no harm.
+/* fuzz_scripts.c - runs random scripts by the library. Each ends, with one line where it fails,
+ * and does the process no harm.
  *
  *     fuzz_scripts                     SEEDS scripts, the same in every run
  *     fuzz_scripts FIRST COUNT         scripts from seed FIRST on; prints which one runs
@@ -6,7 +7,8 @@
  *     fuzz_scripts --show SEED         prints one
  *     fuzz_scripts FILE...             inputs that libFuzzer found
  *
- * Some scripts are trusted, some have finalizers, and some are stopped by the host, the clock or a lack of memory. */
+ * Some scripts are trusted, some have finalizers, and some are stopped by the host, the clock
+ * or a lack of memory. */
 #include "script_grammar.h"
 
 #include <script.h>

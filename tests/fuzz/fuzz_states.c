@@ -1,11 +1,13 @@
-/* fuzz_states.c - forges well-formed saved states with impossible contents. It takes a good state apart, changes members,
- * puts it together again and corrects its checksums. The state must be refused as a bad file, or load and then work like any
- * other: its history can be undone, redone, changed, rendered and saved again.
+/* fuzz_states.c - forges well-formed saved states with impossible contents. It takes a good
+ * state apart, changes members, puts it together again and corrects its checksums. The state
+ * must be refused as a bad file, or load and then work like any other: its history can be
+ * undone, redone, changed, rendered and saved again.
  *
  *     fuzz_states [SECONDS]              fixed seeds; or new ones for that long
  *
- * Bytes choose the changes, so that libFuzzer can search, too. Most states go straight to the decoder; every sixteenth goes
- * through a file, HDF5 and the confined reader. (security.md 7, 10) */
+ * Bytes choose the changes, so that libFuzzer can search, too. Most states go straight to the
+ * decoder; every sixteenth goes through a file, HDF5 and the confined reader. (security.md 7,
+ * 10) */
 #include "state_pieces.h"
 
 #include "../plain/state_sample.h"
@@ -79,7 +81,8 @@ int LLVMFuzzerInitialize(int *argc, char ***argv)
 
 /* ---- changes ---- */
 
-/* Changes a number in a piece: mostly near its beginning, where members are, sometimes anywhere. */
+/* Changes a number in a piece: mostly near its beginning, where members are, sometimes
+ * anywhere. */
 static void number_change(struct choices *c, struct piece *p)
 {
     static const uint8_t sizes[] = {8, 8, 4, 1};

@@ -1,7 +1,7 @@
 /* script_grammar.c - see script_grammar.h.
  *
- * A script begins with papers, brushes, masks and pictures in globals, and with callbacks that close, collect, fail, yield,
- * recurse and paint. Statements follow. Most call a function of the library with arguments of the right kinds, some with any. */
+ * A script begins with papers, brushes, masks and pictures in globals, and with callbacks that
+ * close, collect, fail, yield, recurse and paint. Most statements call a function of ours. */
 #include "script_grammar.h"
 
 #include <script_internal.h>

@@ -1,4 +1,5 @@
-/* script_grammar.h - writes random scripts that use all functions of the library of scripts, from its tables.
+/* script_grammar.h - writes random scripts that use all functions of the library of scripts,
+ * from its tables.
  *
  *     struct script_source source = {.at = bytes, .end = bytes + count};
  *     const char *text = script_by_chance(&source);

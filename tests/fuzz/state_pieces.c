@@ -156,8 +156,8 @@ static struct paper_sheet *sheet_made(int which)
     return sheet;
 }
 
-/* Writes a file whose planes are contiguous and without filters, and whose run has no deflated arguments, so that their bytes
- * can be changed in the file. */
+/* Writes a file whose planes are contiguous and without filters, and whose run has no deflated
+ * arguments, so that their bytes can be changed in the file. */
 static void file_make(struct state_pieces *s, const struct paper_plane *planes,
                       const char *path)
 {

@@ -1,5 +1,6 @@
-/* state_pieces.h - a saved state taken apart: the pieces of its run, its planes, and their places in a file in which nothing is
- * deflated. Changed pieces can be joined again (state_pieces_join()), or written into the file at their places. */
+/* state_pieces.h - a saved state taken apart: the pieces of its run, its planes, and their
+ * places in a file in which nothing is deflated. Changed pieces can be joined again
+ * (state_pieces_join()), or written into the file at their places. */
 #ifndef LUTETIA_TESTS_STATE_PIECES_H
 #define LUTETIA_TESTS_STATE_PIECES_H
 
@@ -27,9 +28,8 @@ struct state_pieces {
     size_t file_count, run_at, run_count, plane_at[PAPER_PLANES_MAX];
 };
 
-/* Takes a sheet apart and writes its file. which: 0 with all operations, 1 also with undone and inserted ones on a sheet with a
- * deckle, 2 the thesis's
- * paper. */
+/* Takes a sheet apart and writes its file. which: 0 with all operations, 1 also with undone and
+ * inserted ones on a sheet with a deckle, 2 the thesis's paper. */
 void state_pieces_make(struct state_pieces *s, int which, const char *path);
 
 /* Joins pieces to a run. The caller frees out->at. */

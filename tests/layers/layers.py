@@ -20,9 +20,11 @@ import sys
 
 FILE_LINES = 600
 FUNCTION_LINES = 70
+COMMENT_COLUMNS = 96
 SUFFIXES = (".c", ".h", ".cl")
 
 NOT_CODE = re.compile(r"""//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])*'""", re.DOTALL)
+DRAWN = re.compile(r"^[^/]*(?:/\*|\*) {2,}|[^\s.:;?!)] {2,}(?!\*/)\S")  # code, a drawing or columns within a comment
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*["<]([^">\n]+)[">]', re.MULTILINE)
 DIRECTIVE = re.compile(r"^[ \t]*#(?:\\\n|[^\n])*", re.MULTILINE)
 MACRO = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)(?:\([^)]*\))?((?:\\\n|[^\n])*)", re.MULTILINE)
@@ -161,6 +163,7 @@ class File:
         self.code = NOT_CODE.sub(lambda match: "\n" * match.group().count("\n") or " ", text)
         bare = DIRECTIVE.sub(lambda match: "\n" * match.group().count("\n"), self.code)
         self.lines = text.count("\n")
+        self.wide = wide_comments(text)
         macros = MACRO.findall(self.code)
         self.functions = []  # (name, first line, last line, static)
         self.bodies(bare.split("\n"))
@@ -417,6 +420,10 @@ class House:
                 self.offend(("length", file.path, name), file, first,
                             "%s() has %d lines; at most %d" % (name, last - first + 1, FUNCTION_LINES))
 
+        if file.wide:
+            self.offend(("length", file.path, "comment"), file, file.wide[0],
+                        "a comment wider than %d columns" % COMMENT_COLUMNS)
+
     def check_opens(self, file):
         """Files are opened by the few functions that the rows `opens` name; not so in tests and examples, programs of their own."""
         if self.table.reached[self.row_of[file.path]] is None or file.path.endswith(".cl"):
@@ -471,6 +478,20 @@ class House:
                 path = sorted(places.values())[0]
                 self.offend(("namesake", name), self.files[path], self.files[path].line_of(name),
                             "%s is defined in %s" % (name, " and ".join(sorted(places.values()))))
+
+
+def wide_comments(text):
+    """The numbers of lines on which a comment's words go beyond COMMENT_COLUMNS; drawings, tables and code may."""
+    lines, wide = text.split("\n"), []
+    for match in NOT_CODE.finditer(text):
+        if not match.group().startswith("/"):
+            continue
+        first = text.count("\n", 0, match.start())
+        for number in range(first, first + match.group().count("\n") + 1):
+            line = lines[number]
+            if len(line) > COMMENT_COLUMNS and not line.endswith("\\") and not DRAWN.search(line):
+                wide.append(number + 1)
+    return wide
 
 
 def above(path):

@@ -189,6 +189,12 @@ class Layers(unittest.TestCase):
         self.wrong({"low/l.c": "\n\n" + function("l", layers.FUNCTION_LINES + 1), "tests/t.c": "\n" * (layers.FILE_LINES + 1)},
                    ROWS, "low/l.c:3: l() has 71 lines; at most 70", "tests/t.c:601: 601 lines; at most 600")
 
+    def test_comments_of_words_are_narrow(self):
+        words = ("word " * 20)[:-1]
+        self.clean({"low/l.c": "/* %s*/\n/* a\n *     %sdrawn%s*/\nchar *s = \"/* %s\";\n" % (words[:80], " " * 80, "x" * 20, words * 2)})
+        self.wrong({"low/l.c": "int a;\n/* a\n * %s */\n" % words}, ROWS, "low/l.c:3: a comment wider than 96 columns")
+        self.wrong({"low/l.c": "int a; // %s\n" % words}, ROWS, "low/l.c:1: a comment wider than 96 columns")
+
     def test_functions_of_old_are_measured(self):
         old = "static int\nold (a, b)\n    int a;\n    char *b;\n{\n" + "    ;\n" * 80 + "}\n"
         self.wrong({"low/l.c": old}, ROWS, "low/l.c:1: old() has 86 lines")

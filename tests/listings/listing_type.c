@@ -1,6 +1,6 @@
 /* listing_type.c - appendix 7.5 of the thesis, included unchanged and compiled as gnu89.
- * LISTING_TYPE is the quoted path of the listing. The thesis reads the file into buff but writes red; here both names mean
- * the same gray bytes. */
+ * LISTING_TYPE is the quoted path of the listing. The thesis reads the file into buff but
+ * writes red; here both names mean the same gray bytes. */
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -181,7 +181,8 @@ static void max_constant(struct oracle *o, float *dest, float b)
     }
 }
 
-/* upward fetches from the next greater coordinate, downward from the next smaller; both wrap round */
+/* upward fetches from the next greater coordinate, downward from the next smaller; both wrap
+ * round */
 static void get_from_news(struct oracle *o, float *dest, const float *source, enum axis axis,
                           enum direction direction)
 {

@@ -1,7 +1,8 @@
-/* oracle.h - the thesis's listings as plain C loops, one double loop for each Paris instruction.
+/* oracle.h - the thesis's listings as plain C loops, one double loop for each Paris
+ * instruction.
  *
- * Knows nothing of the machine. It has arrays, float arithmetic without contraction, and the listings' own order of
- * operations. Values are returned as bits, so that tests compare bits.
+ * Knows nothing of the machine. It has arrays, float arithmetic without contraction, and the
+ * listings' own order of operations. Values are returned as bits, so that tests compare bits.
  */
 #ifndef LUTETIA_TESTS_LISTINGS_ORACLE_H
 #define LUTETIA_TESTS_LISTINGS_ORACLE_H

@@ -1,7 +1,8 @@
 /* test_dispersion.c - the thesis's dispersion listing, unchanged, gives the oracle's bits.
  *
- * The environment chooses the mode (LUTETIA_EAGER, the device's thread count); meson runs the program in four modes. It
- * compares all fields and flags, temporaries and inactive fibers included.
+ * The environment chooses the mode (LUTETIA_EAGER, the device's thread count); meson runs the
+ * program in four modes. It compares all fields and flags, temporaries and inactive fibers
+ * included.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -28,7 +29,8 @@ static uint32_t random_word(void)
     return (uint32_t)(sample_word(&random_state) >> 32);
 }
 
-/* A sheet that is wet in places, with pigment in spots. The temporaries hold arbitrary old values. */
+/* A sheet that is wet in places, with pigment in spots. The temporaries hold arbitrary old
+ * values. */
 static float random_amount(enum page_field which)
 {
     float unit = (float)(random_word() >> 8) * 0x1p-24f;

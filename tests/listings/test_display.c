@@ -1,7 +1,9 @@
-/* test_display.c - the thesis's listings joined to a display: type is screened on paper, water and ink flow, and after each step the page's
- * colour goes to the frame buffer. What is seen there is what the fields say.
+/* test_display.c - the thesis's listings joined to a display: type is screened on paper, water
+ * and ink flow, and after each step the page's colour goes to the frame buffer. What is seen
+ * there is what the fields say.
  *
- * With LUTETIA_DISPLAY set (`lutetia display test_listings_display`) it paints for who looks on, and checks nothing. */
+ * With LUTETIA_DISPLAY set (`lutetia display test_listings_display`) it paints for who looks
+ * on, and checks nothing. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>

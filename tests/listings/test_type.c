@@ -1,5 +1,6 @@
-/* test_type.c - the thesis's display of type, unchanged, gives the oracle's bits. It screens inks and water by a gray image
- * from a file, at two places, and clamps the amounts where both overlap. */
+/* test_type.c - the thesis's display of type, unchanged, gives the oracle's bits. It screens
+ * inks and water by a gray image from a file, at two places, and clamps the amounts where both
+ * overlap. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
-/* variant_bench.c - one step by the benchmark's code with the listing's instructions. It is compared with the listing's
- * oracle bit for bit, so both variants give the same bits. */
+/* variant_bench.c - one step by the benchmark's code with the listing's instructions. It is
+ * compared with the listing's oracle bit for bit, so both variants give the same bits. */
 #include "listing.h"
 #include "page.h"
 #include "variant.h"

@@ -1,4 +1,5 @@
-/* fuzz_knobs.c - files of knobs from damaged text. Each is refused in one line; or it is read, written, and read again as the same. */
+/* fuzz_knobs.c - files of knobs from damaged text. Each is refused in one line; or it is read,
+ * written, and read again as the same. */
 #include <knobs_file.h>
 
 #include "../display/scratch.h"

@@ -1,4 +1,5 @@
-/* fuzz_osc.c - packets of OSC from damaged bytes: refused whole, or messages whose texts end within the packet. */
+/* fuzz_osc.c - packets of OSC from damaged bytes: refused whole, or messages whose texts end
+ * within the packet. */
 #include <osc.h>
 
 #include <stdint.h>

@@ -1,4 +1,5 @@
-/* knobs_scene.h - a stage with an actor that has a control of each curve and does nothing, for tests of what moves controls. */
+/* knobs_scene.h - a stage with an actor that has a control of each curve and does nothing, for
+ * tests of what moves controls. */
 #ifndef LUTETIA_TESTS_KNOBS_SCENE_H
 #define LUTETIA_TESTS_KNOBS_SCENE_H
 

@@ -1,4 +1,5 @@
-/* test_knobs.c - knobs that are learnt and kept, scenes with and without a fade, a clock's beat. */
+/* test_knobs.c - knobs that are learnt and kept, scenes with and without a fade, a clock's
+ * beat. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

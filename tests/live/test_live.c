@@ -1,4 +1,5 @@
-/* test_live.c - live playing: songs, the computer's keyboard, letters that follow notes, maps in Lua. */
+/* test_live.c - live playing: songs, the computer's keyboard, letters that follow notes, maps
+ * in Lua. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -180,7 +181,8 @@ static void keys_outside_are_played_by_octaves(void **unused)
     assert_true(keys_actor_level(&actor, 48) == 1);
     assert_true(keys_actor_level(&actor, 62) == 1);
     assert_true(keys_actor_level(&actor, 60) == 0);
-    /* "All notes off" releases the whole channel. Messages that are no channel messages do nothing. */
+    /* "All notes off" releases the whole channel. Messages that are no channel messages do
+     * nothing. */
     keys_actor_play(&actor, (const uint8_t[]){0xf8, 0, 0});
     keys_actor_play(&actor, (const uint8_t[]){0xb0, 123, 0}); /* all notes off */
     stage_frame(stage, 3, NULL);

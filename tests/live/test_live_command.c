@@ -1,5 +1,5 @@
-/* test_live_command.c - `lutetia keys` and `lutetia spring`, played live. A film with a map differs from one without where
- * the song has events. Errors get one line. */
+/* test_live_command.c - `lutetia keys` and `lutetia spring`, played live. A film with a map
+ * differs from one without where the song has events. Errors get one line. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

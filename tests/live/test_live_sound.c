@@ -1,4 +1,5 @@
-/* test_live_sound.c - what happens on a stage is heard at once: by the synthesizer, and by a device of the MIDI server. */
+/* test_live_sound.c - what happens on a stage is heard at once: by the synthesizer, and by a
+ * device of the MIDI server. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -194,7 +195,8 @@ static void floods_are_dropped(void **state)
     stage_destroy(stage);
 }
 
-/* What a film of a window has: clanks from its beginning on, and the song from where it was. Nothing need sound for that. */
+/* What a film of a window has: clanks from its beginning on, and the song from where it was.
+ * Nothing need sound for that. */
 static void recordings_have_what_was_heard(void **state)
 {
     (void)state;

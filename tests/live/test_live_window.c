@@ -1,7 +1,9 @@
-/* test_live_window.c - measures the time from a note on the MIDI server's socket to its picture in a window on an Xvfb.
+/* test_live_window.c - measures the time from a note on the MIDI server's socket to its picture
+ * in a window on an Xvfb.
  *
- * Another process sends notes at random moments; each note has disappeared from the picture before the next one comes. The
- * picture is read after each turn. The first turn with ink ends the measurement. */
+ * Another process sends notes at random moments; each note has disappeared from the picture
+ * before the next one comes. The picture is read after each turn. The first turn with ink ends
+ * the measurement. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

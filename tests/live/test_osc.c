@@ -1,4 +1,5 @@
-/* test_osc.c - packets of OSC against bytes written by hand, addresses against a plain matcher, ports, and a stage both ways. */
+/* test_osc.c - packets of OSC against bytes written by hand, addresses against a plain matcher,
+ * ports, and a stage both ways. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -88,7 +89,8 @@ static void bundles_are_read_in_their_order(void **unused)
     assert_int_equal(taken_count, 2);
     assert_string_equal(taken[1].address, "/b");
     assert_true(taken[1].arguments[0].number == 5);
-    /* each packet that is cut off is refused whole, unless it ends behind a message of the bundle */
+    /* each packet that is cut off is refused whole, unless it ends behind a message of the
+     * bundle */
     for (size_t cut = 4; cut < sizeof bundle - 1; cut += 4) {
         const char *why = read_whole(bundle, cut);
         assert_true(cut == 16 || cut == 52 ? !why : why && taken_count == 0);

@@ -1,4 +1,5 @@
-/* test_paper_actor.c - paper on a stage: keys print, controls and maps act, the pointer paints, and undo takes it back. */
+/* test_paper_actor.c - paper on a stage: keys print, controls and maps act, the pointer paints,
+ * and undo takes it back. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,4 +1,5 @@
-/* test_words.c - other words on a stage of springs while it moves: typed, from a watched file, undone, and in a session. */
+/* test_words.c - other words on a stage of springs while it moves: typed, from a watched file,
+ * undone, and in a session. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,4 +1,5 @@
-/* child.c - forks, runs the command and waits. Both outputs go to files, so that neither can block. */
+/* child.c - forks, runs the command and waits. Both outputs go to files, so that neither can
+ * block. */
 #include "child.h"
 
 #include <assert.h>

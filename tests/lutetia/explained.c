@@ -5,8 +5,8 @@
  *     explained nothing    makes no machine
  *     explained twice      a step on one machine, and a step on another
  *
- * A step is one kernel that reads 8 bytes and writes 4 for each of 32 x 512 processors, with one operation. The first read
- * compiles it. Written in C of 1990, for `lutetia cc`. */
+ * A step is one kernel that reads 8 bytes and writes 4 for each of 32 x 512 processors, with
+ * one operation. The first read compiles it. Written in C of 1990, for `lutetia cc`. */
 #include <cm/paris.h>
 
 #include <stdio.h>

@@ -1,4 +1,5 @@
-/* fuzz_options.c - random command lines. Each is accepted, with values in range, or refused in one line. */
+/* fuzz_options.c - random command lines. Each is accepted, with values in range, or refused in
+ * one line. */
 #include <options.h>
 
 #include "lutetia.h"

@@ -1,7 +1,9 @@
-/* latcher.c - a C/Paris program that shows lights: the diagonal of a set of 64x64, then a chequered board.
+/* latcher.c - a C/Paris program that shows lights: the diagonal of a set of 64x64, then a
+ * chequered board.
  *
  *     latcher FILE end     latches both, a moment apart, and ends
- *     latcher FILE wait    latches both and waits for a signal; from the first latch on, FILE holds its pid */
+ *     latcher FILE wait    latches both and waits for a signal; from the first latch on, FILE
+ *                          holds its pid */
 #include <cm/paris.h>
 
 #include <signal.h>

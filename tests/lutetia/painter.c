@@ -1,5 +1,6 @@
-/* painter.c - a C/Paris program that writes to displays: an 8 bit one of 40x30 with five pictures of columns and rows, the last of them
- * seen by a spin; and one of 24 bits, 21x17, if it is asked for.
+/* painter.c - a C/Paris program that writes to displays: an 8 bit one of 40x30 with five
+ * pictures of columns and rows, the last of them seen by a spin; and one of 24 bits, 21x17, if
+ * it is asked for.
  *
  *     painter FILE end|wait [two]     once all is shown, FILE holds its pid */
 #include <cm/cmfb.h>

@@ -1,4 +1,5 @@
-/* test_command.c - the command as a user runs it: its results, and one clear line for each error. */
+/* test_command.c - the command as a user runs it: its results, and one clear line for each
+ * error. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,7 +15,8 @@ static const char *lutetia;
 #define OUT "@out@"   /* a file in the scratch folder that must not exist afterwards */
 #define JUNK "@junk@" /* a file there that is neither picture nor font */
 
-/* Wrong command lines: the mistake, the arguments, the exit status, and two texts that the one line must contain. */
+/* Wrong command lines: the mistake, the arguments, the exit status, and two texts that the one
+ * line must contain. */
 static const struct {
     const char *name;
     const char *arguments[10];
@@ -296,7 +298,8 @@ static int lines_in(const char *text)
     return lines;
 }
 
-/* A wrong command prints one line, exits with the right status, and leaves no file under the final name or beside it. */
+/* A wrong command prints one line, exits with the right status, and leaves no file under the
+ * final name or beside it. */
 static void wrong_is_said(void **state)
 {
     size_t i = (size_t)(uintptr_t)*state;

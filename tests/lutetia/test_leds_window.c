@@ -1,5 +1,5 @@
-/* test_leds_window.c - `lutetia leds` with a window: the screen shows the pictures of the PNG files. Tests also what closes the
- * window, the program, or both. */
+/* test_leds_window.c - `lutetia leds` with a window: the screen shows the pictures of the PNG
+ * files. Tests also what closes the window, the program, or both. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -56,8 +56,8 @@ static void command_start(struct command *command)
     command->said_from = ends[0];
 }
 
-/* Reads the outputs of the command and of all processes that it started to their ends, and waits for the command. Returns its
- * exit status, or 1000 plus the signal that ended it. */
+/* Reads the outputs of the command and of all processes that it started to their ends, and
+ * waits for the command. Returns its exit status, or 1000 plus the signal that ended it. */
 static int command_end(struct command *command)
 {
     size_t count = 0;
@@ -239,8 +239,8 @@ static void programs_are_shown_and_the_last_picture_stays(void **state)
     display_image_destroy(&last);
 }
 
-/* Frames wait for their time on the window's clock. The second frame is hours away; the key `.` shows it at once. With
- * --close the command then ends, and -o still writes the picture. */
+/* Frames wait for their time on the window's clock. The second frame is hours away; the key `.`
+ * shows it at once. With --close the command then ends, and -o still writes the picture. */
 static void recordings_wait_for_the_clock(void **state)
 {
     (void)state;
@@ -343,8 +343,8 @@ static void closing_stops_the_program(void **state)
     display_image_destroy(&last);
 }
 
-/* LUTETIA_LEDS=window: the program ends and closes its output, but the window stays. On the small screen its side is nine tenths
- * of 260 pixels. */
+/* LUTETIA_LEDS=window: the program ends and closes its output, but the window stays. On the
+ * small screen its side is nine tenths of 260 pixels. */
 static void programs_show_themselves(void **state)
 {
     (void)state;
@@ -373,7 +373,8 @@ static void programs_show_themselves(void **state)
     assert_true(screen_window_gone(window, 20));
     pid_in(path);
 
-    /* Without a display the viewer prints the reason, and the program that there is no window. */
+    /* Without a display the viewer prints the reason, and the program that there is no
+     * window. */
     command = (struct command){.arguments = {latcher, path, "end"},
                                .variables = {"LUTETIA_LEDS=window", "DISPLAY=:4095"}};
     command_start(&command);
@@ -384,7 +385,8 @@ static void programs_show_themselves(void **state)
     display_image_destroy(&last);
 }
 
-/* On a screen with twice the resolution the window has twice as many pixels, and the picture is drawn in that size. */
+/* On a screen with twice the resolution the window has twice as many pixels, and the picture is
+ * drawn in that size. */
 static void fine_screens_have_larger_windows(void **state)
 {
     (void)state;
@@ -419,7 +421,8 @@ static void programs_without_lights_leave_no_window(void **state)
 
 /* ---- the displays of the frame buffer ---- */
 
-/* Each display has a window, which shows the newest picture and stays when the program has ended. */
+/* Each display has a window, which shows the newest picture and stays when the program has
+ * ended. */
 static void displays_are_shown(void **state)
 {
     (void)state;
@@ -439,7 +442,8 @@ static void displays_are_shown(void **state)
     ends_with(&command, 0);
     assert_string_equal(command.said, "");
 
-    /* LUTETIA_DISPLAY=window: the program shows itself, and closing the window interrupts it. */
+    /* LUTETIA_DISPLAY=window: the program shows itself, and closing the window interrupts
+     * it. */
     unlink(pid);
     struct command alone = {.arguments = {painter, pid, "wait"},
                             .variables = {"LUTETIA_DISPLAY=window"}};
@@ -454,7 +458,8 @@ static void displays_are_shown(void **state)
     display_image_destroy(&second);
 }
 
-/* Sets the environment so that files go into the scratch folder and the built `lutetia` is on the PATH. */
+/* Sets the environment so that files go into the scratch folder and the built `lutetia` is on
+ * the PATH. */
 static void surroundings_make(void)
 {
     char path[8192];

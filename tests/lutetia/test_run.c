@@ -1,5 +1,5 @@
-/* test_run.c - `lutetia run` as a user runs it: the files that scripts make, and one clear line for what they may not or cannot
- * do. (security.md 1, 3, 4) */
+/* test_run.c - `lutetia run` as a user runs it: the files that scripts make, and one clear line
+ * for what they may not or cannot do. (security.md 1, 3, 4) */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,7 +19,8 @@
 
 static const char *lutetia;
 
-/* Wrong scripts and the text of their one line; it contains the script's line number where that is not 0. */
+/* Wrong scripts and the text of their one line; it contains the script's line number where that
+ * is not 0. */
 static const struct {
     const char *script, *says;
     int line;

@@ -1,4 +1,5 @@
-/* test_spring.c - `lutetia spring` as a user runs it: pictures in each way of drawing, and its messages. */
+/* test_spring.c - `lutetia spring` as a user runs it: pictures in each way of drawing, and its
+ * messages. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -90,8 +91,8 @@ static double moment_weight(const char *set, const char *turn)
     return weight;
 }
 
-/* --set reaches the style, which is used to make the word, and the controls of world and stage. A turned word has the same amount
- * of ink. */
+/* --set reaches the style, which is used to make the word, and the controls of world and stage.
+ * A turned word has the same amount of ink. */
 static void sets_reach_style_world_and_stage(void **state)
 {
     (void)state;
@@ -128,7 +129,8 @@ static void scripts_lead_masses(void **state)
         fail_msg("%s", text);
 }
 
-/* A session that moves and tacks a mass and changes gravity is replayed into a film. Saved again it is the same text, but for what it began with. */
+/* A session that moves and tacks a mass and changes gravity is replayed into a film. Saved
+ * again it is the same text, but for what it began with. */
 static void sessions_are_replayed(void **state)
 {
     (void)state;
@@ -207,7 +209,8 @@ static double dots_part(bool word, const char *size)
     return dots / pixels;
 }
 
-/* Dots keep their size beside a picture that is larger than usual, and beside letters that are smaller. */
+/* Dots keep their size beside a picture that is larger than usual, and beside letters that are
+ * smaller. */
 static void dots_grow_with_pictures(void **state)
 {
     (void)state;
@@ -219,7 +222,8 @@ static void dots_grow_with_pictures(void **state)
     }
 }
 
-/* Without a background a picture over white is the picture on white; one that is half there is half seen. */
+/* Without a background a picture over white is the picture on white; one that is half there is
+ * half seen. */
 static void backgrounds_may_be_clear(void **state)
 {
     (void)state;
@@ -268,7 +272,8 @@ static double lowest(const char *path)
     return least;
 }
 
-/* Whatever its length, what hangs does not reach the floor, nor the picture's left and right. */
+/* Whatever its length, what hangs does not reach the floor, nor the picture's left and
+ * right. */
 static void presets_are_for_any_word(void **state)
 {
     (void)state;
@@ -312,7 +317,8 @@ static int blue_count(const struct display_image *image, int y0, int y1)
     return count;
 }
 
-/* A word that has fallen lies on the sheet in black and has left wet tracks. Another pigment gives them another colour. */
+/* A word that has fallen lies on the sheet in black and has left wet tracks. Another pigment
+ * gives them another colour. */
 static void letters_leave_wet_tracks(void **state)
 {
     (void)state;
@@ -338,7 +344,8 @@ static void letters_leave_wet_tracks(void **state)
     one_line(&wrong, "--wet goes with --still");
 }
 
-/* Without gravity a word prints again and again in the same place; that saturates the paper and does not flood it. */
+/* Without gravity a word prints again and again in the same place; that saturates the paper and
+ * does not flood it. */
 static void still_letters_do_not_flood(void **state)
 {
     (void)state;
@@ -371,7 +378,8 @@ static void lacking_glyphs_are_named(void **state)
     one_line(&child, "no font has a glyph for U+F0000");
 }
 
-/* One run gives a folder, a film, a strip and a still. The still is the last picture of all of them. */
+/* One run gives a folder, a film, a strip and a still. The still is the last picture of all of
+ * them. */
 static void films_stills_and_strips_are_of_one_run(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
-/* test_spring_pictures.c - makes the pictures in docs/stage.md and the README again by the commands given there. Compares them by
- * similarity, because fonts differ a little between versions. */
+/* test_spring_pictures.c - makes the pictures in docs/stage.md and the README again by the
+ * commands given there. Compares them by similarity, because fonts differ a little between
+ * versions. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,7 +20,8 @@
 
 static const char *lutetia, *source;
 
-/* A picture's name stands in the document; its command is the last one before that writes it by --still. */
+/* A picture's name stands in the document; its command is the last one before that writes it by
+ * --still. */
 static const struct {
     const char *document, *still, *image;
 } pictures[] = {
@@ -45,7 +47,8 @@ static char *text_read(const char *name)
     return text;
 }
 
-/* The last `lutetia spring` command before "--still NAME" in the document, to the end of its line. Joins lines at backslashes. */
+/* The last `lutetia spring` command before "--still NAME" in the document, to the end of its
+ * line. Joins lines at backslashes. */
 static char *command_find(const char *document, const char *still)
 {
     char wanted[100], *text = text_read(document), *begin = NULL;

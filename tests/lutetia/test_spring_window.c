@@ -1,4 +1,5 @@
-/* test_spring_window.c - `lutetia spring` in a window on an Xvfb: it saves what the pointer did. */
+/* test_spring_window.c - `lutetia spring` in a window on an Xvfb: it saves what the pointer
+ * did. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -60,7 +61,8 @@ static void file_wait(const char *path)
             fail_msg("there is no %s", path);
 }
 
-/* The window shows 10 ems by 6.25 of the world, with an em of 60 pixels and the floor half an em above the lower edge. */
+/* The window shows 10 ems by 6.25 of the world, with an em of 60 pixels and the floor half an
+ * em above the lower edge. */
 static const char *const scene[] = {"--size", "600x375", "--view", "-2,-0.5,8,5.75", NULL};
 
 static void at(Window window, double x, double y)
@@ -87,7 +89,8 @@ static Window window_of(void)
     return window;
 }
 
-/* The pointer moves the first letter's upper left mass up and tacks it; the command saves this as a script, and the masses. */
+/* The pointer moves the first letter's upper left mass up and tacks it; the command saves this
+ * as a script, and the masses. */
 static void hands_are_saved_as_scripts(void **state)
 {
     (void)state;
@@ -145,7 +148,8 @@ static void control_type(KeySym key)
     usleep(200000);
 }
 
-/* What was saved is loaded after a drag. The recorded session does the same again, without a window. */
+/* What was saved is loaded after a drag. The recorded session does the same again, without a
+ * window. */
 static void sessions_in_which_files_are_loaded_are_replayed(void **state)
 {
     (void)state;
@@ -189,7 +193,8 @@ static void sessions_in_which_files_are_loaded_are_replayed(void **state)
     ends_with(start(again), 1);
 }
 
-/* On a screen with twice the resolution the window has twice as many pixels, and masses have the same size in inches. */
+/* On a screen with twice the resolution the window has twice as many pixels, and masses have
+ * the same size in inches. */
 static void fine_screens_have_larger_windows(void **state)
 {
     (void)state;
@@ -204,8 +209,8 @@ static void fine_screens_have_larger_windows(void **state)
         screen_read(window, &image);
         assert_int_equal(image.width_px, fine ? 600 : 300);
         assert_int_equal(image.height_px, fine ? 374 : 187);
-        /* A pixel up and left of the upper left mass's middle (0.098, 2.729). It is outside the mass on a usual screen,
-         * and inside on a fine one. */
+        /* A pixel up and left of the upper left mass's middle (0.098, 2.729). It is outside the
+         * mass on a usual screen, and inside on a fine one. */
         int em = fine ? 60 : 30, x = (int)(em * 2.098) - 3;
         int y = image.height_px - (int)(em * 3.229) - 3;
         int seen = image.pixels[3 * (y * image.width_px + x)];
@@ -218,7 +223,8 @@ static void fine_screens_have_larger_windows(void **state)
     screen_dpi(0);
 }
 
-/* Closing the window, Ctrl-C, and a terminal that hangs up: what was done in the window is saved each time. */
+/* Closing the window, Ctrl-C, and a terminal that hangs up: what was done in the window is
+ * saved each time. */
 static void windows_end(void **state)
 {
     (void)state;

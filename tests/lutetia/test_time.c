@@ -1,5 +1,5 @@
-/* test_time.c - scripts and the command edit time: a moment has the same bits however one gets there. Tests also films,
- * sweeps, and their errors. */
+/* test_time.c - scripts and the command edit time: a moment has the same bits however one gets
+ * there. Tests also films, sweeps, and their errors. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -161,7 +161,8 @@ static char *read_all(const char *name, size_t *count)
     return bytes;
 }
 
-/* A run that is stopped and continued makes its film in two parts. It uses undo and redo in both halves. */
+/* A run that is stopped and continued makes its film in two parts. It uses undo and redo in
+ * both halves. */
 static void films_go_on(void **state)
 {
     (void)state;

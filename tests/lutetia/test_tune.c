@@ -1,4 +1,5 @@
-/* test_tune.c - `lutetia tune`: the measured programs give the bits of plain C with all settings; the command's messages. */
+/* test_tune.c - `lutetia tune`: the measured programs give the bits of plain C with all
+ * settings; the command's messages. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -90,7 +91,8 @@ static void every_knob_gives_the_same_bits(void **state)
     }
 }
 
-/* On any device the measured costs are plausible, and measuring leaves the machine as it was. */
+/* On any device the measured costs are plausible, and measuring leaves the machine as it
+ * was. */
 static void costs_are_measured(void **state)
 {
     struct machine_config config = machine_config_default();
@@ -154,8 +156,9 @@ static void an_interrupted_one_keeps_nothing(void **state)
     assert_int_equal(system(command), 0);
 }
 
-/* A run whose first step waits seconds for its kernels, and whose later steps come to take longer: what is said to be left is right from
- * the first time on, and again soon after the pace has changed. */
+/* A run whose first step waits seconds for its kernels, and whose later steps come to take
+ * longer: what is said to be left is right from the first time on, and again soon after the
+ * pace has changed. */
 static void the_time_left_is_by_the_pace_of_late(void **state)
 {
     (void)state;

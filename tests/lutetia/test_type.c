@@ -1,4 +1,5 @@
-/* test_type.c - `lutetia type` and `lutetia font`: pictures, and one clear line for each error. */
+/* test_type.c - `lutetia type` and `lutetia font`: pictures, and one clear line for each
+ * error. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,7 +21,8 @@
 
 static const char *lutetia;
 
-/* Runs the command, which must print one line where it fails or reports something, and none otherwise. */
+/* Runs the command, which must print one line where it fails or reports something, and none
+ * otherwise. */
 static void run(struct child *child, int status, const char *says)
 {
     child->arguments[0] = lutetia;
@@ -89,7 +91,8 @@ static void type_is_set(void **state)
     run(&others, 0, "");
     assert_non_null(strstr(others.output, "filter: "));
     assert_true(ink_of(path, &width, &height) > 100);
-    /* Turned text stays between the corners, by both kinds of map, and OpenGL draws the same. */
+    /* Turned text stays between the corners, by both kinds of map, and OpenGL draws the
+     * same. */
     static char *const kinds[] = {"projective", "bilinear"};
     for (int k = 0; k < 2; k++) {
         struct child bent = {.arguments = {"", "type", "HIH", "--rotate", "40", "--corners",
@@ -106,7 +109,8 @@ static void type_is_set(void **state)
     unlink(path);
 }
 
-/* Half a cover is half of the darkness; a gradient and a picture are drawn by OpenGL as by the painter, and in drawings. */
+/* Half a cover is half of the darkness; a gradient and a picture are drawn by OpenGL as by the
+ * painter, and in drawings. */
 static void ink_is_more_than_a_colour(void **state)
 {
     (void)state;
@@ -212,7 +216,8 @@ static void formulas_are_set(void **state)
     }
 }
 
-/* Markdown as one PDF, as a picture, several files as one document; without cmark-gfm a line says what to install. */
+/* Markdown as one PDF, as a picture, several files as one document; without cmark-gfm a line
+ * says what to install. */
 static void markdown_is_read(void **state)
 {
     (void)state;
@@ -268,7 +273,8 @@ static void fonts_and_filters_are_shown(void **state)
     run(&levels, 0, "");
     assert_non_null(strstr(levels.output, "rectangles: "));
     assert_true(ink_of(path, &width, &height) > 5000);
-    /* A master that is written and read again gives the same picture; filters are read from files. */
+    /* A master that is written and read again gives the same picture; filters are read from
+     * files. */
     const char *master = scratch_path("master.png"), *words = scratch_path("filter.txt");
     struct child out = {.arguments = {"", "font", "DejaVuSans", "--glyph", "B", "--em", "300",
                                       "--master-out", master, "-o", path}};
@@ -341,7 +347,8 @@ static void proofs_and_versions_are_shown(void **state)
     assert_non_null(strstr(fall.output, "\nscripts: DFLT"));
     assert_non_null(strstr(fall.output, " liga"));
     assert_true(ink_of(path, &width, &height) > 5000);
-    /* Along the axis all but the composite glyphs are wider; where it is as usual nothing has changed. */
+    /* Along the axis all but the composite glyphs are wider; where it is as usual nothing has
+     * changed. */
     struct child same = {
         .arguments = {"", "font", "DejaVuSans", "--against", wide, "--text", "HH", "-o", path}};
     run(&same, 0, "");

@@ -1,4 +1,5 @@
-/* test_voice.c - `lutetia voice`: pictures and films of a voice, and one clear line for each error. */
+/* test_voice.c - `lutetia voice`: pictures and films of a voice, and one clear line for each
+ * error. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -43,8 +44,8 @@ static void ink_is_in(const char *path, int width, int height)
     display_image_destroy(&image);
 }
 
-/* The table of a cry, read by hand: its times ascend evenly, it is loud and has a pitch where it cries, and is silent at its end. No
- * picture and no text is wanted. */
+/* The table of a cry, read by hand: its times ascend evenly, it is loud and has a pitch where
+ * it cries, and is silent at its end. No picture and no text is wanted. */
 static void features_are_a_table(void **state)
 {
     (void)state;
@@ -112,7 +113,8 @@ static long bytes_of(const char *path)
     return stat(path, &status) == 0 ? (long)status.st_size : -1;
 }
 
-/* Without ffmpeg the film is silent, and a file beside it holds its sound, which is as long as the film. */
+/* Without ffmpeg the film is silent, and a file beside it holds its sound, which is as long as
+ * the film. */
 static void film_and_its_sound(void **state)
 {
     (void)state;

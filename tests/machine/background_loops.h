@@ -1,4 +1,5 @@
-/* background_loops.h - loops whose kernels are worth optimising, for the tests of background compilation. */
+/* background_loops.h - loops whose kernels are worth optimising, for the tests of background
+ * compilation. */
 #ifndef LUTETIA_TESTS_BACKGROUND_LOOPS_H
 #define LUTETIA_TESTS_BACKGROUND_LOOPS_H
 

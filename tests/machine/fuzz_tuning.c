@@ -1,6 +1,8 @@
-/* fuzz_tuning.c - reads damaged copies of the file that `lutetia tune` keeps. The reader returns what was written, or nothing.
+/* fuzz_tuning.c - reads damaged copies of the file that `lutetia tune` keeps. The reader
+ * returns what was written, or nothing.
  *
- *     fuzz_tuning [SEEDS]      a good file with random bytes changed, cut and moved; and files of random bytes
+ *     fuzz_tuning [SEEDS]      a good file with random bytes changed, cut and moved; and files
+ *                              of random bytes
  *
  * With -Dfuzz=true, fuzz_tuning_libfuzzer does the same with libFuzzer's inputs. */
 #include <stdio.h>

@@ -93,7 +93,8 @@ static bool same_type(struct machine_type a, struct machine_type b)
     return a.kind == b.kind && a.width == b.width && a.s == b.s && a.e == b.e;
 }
 
-/* Chooses a node of the type, mostly a recent one. Makes a leaf or a number where it finds none. */
+/* Chooses a node of the type, mostly a recent one. Makes a leaf or a number where it finds
+ * none. */
 static int of_type(struct hand_graph *h, struct machine_type type)
 {
     for (int tries = 0; tries < 12 && h->g.count; tries++) {

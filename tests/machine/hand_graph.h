@@ -1,4 +1,5 @@
-/* hand_graph.h - graphs for tests of planner and codegen, made at random or node by node, without a program. */
+/* hand_graph.h - graphs for tests of planner and codegen, made at random or node by node,
+ * without a program. */
 #ifndef LUTETIA_TESTS_HAND_GRAPH_H
 #define LUTETIA_TESTS_HAND_GRAPH_H
 
@@ -22,7 +23,8 @@ int hand_number(struct hand_graph *h, struct machine_type type);
 int hand_coordinate(struct hand_graph *h, int axis, int width);
 int hand_node(struct hand_graph *h, int op, struct machine_type type, int a, int b, int c);
 int hand_shift(struct hand_graph *h, int a, int axis, int distance);
-/* Adds count random nodes, of all operations and many types, on a VP set of that rank. The last ones are targets. */
+/* Adds count random nodes, of all operations and many types, on a VP set of that rank. The last
+ * ones are targets. */
 void hand_by_chance(struct hand_graph *h, int count, int rank);
 /* Removes the nodes that no target needs: planner and codegen are never given any. */
 void hand_prune(struct hand_graph *h);

@@ -1,5 +1,5 @@
-/* oclgrind_sample.c - runs a few instructions of each kind on small grids, under a checker of memory accesses, and
- * compares their values. Run by oclgrind.sh. */
+/* oclgrind_sample.c - runs a few instructions of each kind on small grids, under a checker of
+ * memory accesses, and compares their values. Run by oclgrind.sh. */
 #include "support.h"
 
 #include <stdlib.h>
@@ -74,7 +74,8 @@ static wide expected_got(const void *data, uint64_t n)
     return from < (uint64_t)s->last_axis ? support_word(s->type, 7, from) : 0;
 }
 
-/* Gets of whole vectors, up to the last processor and beyond: 5 further on in a set that is `longer` by so many. */
+/* Gets of whole vectors, up to the last processor and beyond: 5 further on in a set that is
+ * `longer` by so many. */
 static void gets_along_a_row(struct machine *m, int longer)
 {
     enum { LENGTH = 70 };

@@ -89,7 +89,8 @@ static uint64_t finished(struct soft_format f, mpfr_t r, int inexact)
     return encoded(f, x);
 }
 
-/* Rounds exact, which was computed with the whole range of MPFR's exponents, to the format, and clears it. */
+/* Rounds exact, which was computed with the whole range of MPFR's exponents, to the format, and
+ * clears it. */
 static uint64_t rounded(struct soft_format f, mpfr_t exact)
 {
     mpfr_t r;

@@ -1,5 +1,5 @@
-/* oracle_soft.h - computes with floats of s bits of significand and e bits of exponent by MPFR. Results are bits as a
- * field holds them. Knows nothing of the machine. */
+/* oracle_soft.h - computes with floats of s bits of significand and e bits of exponent by MPFR.
+ * Results are bits as a field holds them. Knows nothing of the machine. */
 #ifndef LUTETIA_TESTS_ORACLE_SOFT_H
 #define LUTETIA_TESTS_ORACLE_SOFT_H
 

@@ -2,7 +2,8 @@
  *
  *     struct machine *m = support_machine(0);
  *     int set = support_set(m, 2, 3, 41);
- *     uint32_t f = support_field(m, MACHINE_UINT(17));      // element n holds support_word(f's width, n)
+ *     // element n holds support_word(f's width, n)
+ *     uint32_t f = support_field(m, MACHINE_UINT(17));
  *     support_expect(m, value, expected_of, context);
  *
  * Each test program includes it after cmocka's own headers.
@@ -29,8 +30,8 @@
             fail_msg("%s:%d: %s", __FILE__, __LINE__, machine_error(m));                       \
     } while (0)
 
-/* Checks that the machine's last call failed with this status and that its message is one line with this word. Clears the
- * error. */
+/* Checks that the machine's last call failed with this status and that its message is one line
+ * with this word. Clears the error. */
 void support_failed(struct machine *m, enum machine_status status, const char *word);
 
 /* 16 processors, so that VP ratios above 1 occur. eager: 0 or 1. */
@@ -54,12 +55,13 @@ struct machine_value *support_value(struct machine *m, uint32_t field,
 wide support_element(const void *array, struct machine_type type, uint64_t n);
 void support_element_set(void *array, struct machine_type type, uint64_t n, wide value);
 
-/* Stores the value everywhere into a new field, downloads that and compares element n with expected(data, n). */
+/* Stores the value everywhere into a new field, downloads that and compares element n with
+ * expected(data, n). */
 typedef wide (*support_expected)(const void *data, uint64_t n);
 void support_expect(struct machine *m, struct machine_value *value, support_expected expected,
                     const void *data, const char *what);
-/* As support_expect(), but compares at the next support_check(). All values are then one evaluation with few kernels to
- * compile. Copies data_bytes of data, at most 64. */
+/* As support_expect(), but compares at the next support_check(). All values are then one
+ * evaluation with few kernels to compile. Copies data_bytes of data, at most 64. */
 void support_later(struct machine *m, struct machine_value *value, support_expected expected,
                    const void *data, size_t data_bytes, const char *what);
 void support_check(struct machine *m);
@@ -67,8 +69,9 @@ void support_check(struct machine *m);
 void support_expect_field(struct machine *m, uint32_t field, struct machine_type type,
                           support_expected expected, const void *data, const char *what);
 
-/* A folder for caches that only this program uses: a group's set-up and tear-down. support_cache_make() sets XDG_CACHE_HOME
- * to it, and support_cache_leave() restores the old XDG_CACHE_HOME. */
+/* A folder for caches that only this program uses: a group's set-up and tear-down.
+ * support_cache_make() sets XDG_CACHE_HOME to it, and support_cache_leave() restores the old
+ * XDG_CACHE_HOME. */
 extern char support_cache[];
 int support_cache_make(void **state);
 void support_cache_leave(void);

@@ -1,5 +1,5 @@
-/* Compares the accesses that the walk of the graph finds for each stage with the accesses in codegen's text, for random
- * graphs in rows and in strips. Needs no device. */
+/* Compares the accesses that the walk of the graph finds for each stage with the accesses in
+ * codegen's text, for random graphs in rows and in strips. Needs no device. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -114,7 +114,8 @@ static void what_is_walked_is_what_is_written(void **state)
 
 /* ---- turns ---- */
 
-/* One turn of a loop: the sum (or the difference) of two neighbours' values that the turn before stored. */
+/* One turn of a loop: the sum (or the difference) of two neighbours' values that the turn
+ * before stored. */
 static int turn(struct hand_graph *h, int before, bool other)
 {
     int west = hand_shift(h, before, 1, -1), north = hand_shift(h, before, 0, 1);

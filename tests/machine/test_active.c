@@ -1,5 +1,6 @@
-/* test_active.c - scans of lines whose first and last processors are not active: what the loops leave out changes no active processor's number. Random contexts, in
- * which the active ones lie between two places, with gaps; all of them; and none. */
+/* test_active.c - scans of lines whose first and last processors are not active: what the loops
+ * leave out changes no active processor's number. Random contexts, in which the active ones lie
+ * between two places, with gaps; all of them; and none. */
 #include "sample.h"
 #include "support.h"
 

@@ -1,7 +1,7 @@
 /* test_aliases.c - the same memory in VP sets of other ratios, against a plain array of bits.
  *
- * The oracle is each physical processor's memory, a byte for each bit, and the rule of machine.h that gives
- * each VP its bits. */
+ * The oracle is each physical processor's memory, a byte for each bit, and the rule of
+ * machine.h that gives each VP its bits. */
 #include "support.h"
 
 #include "sample.h"
@@ -12,7 +12,8 @@ enum { PROCESSORS = 16, BITS_MOST = 1 << 14, SETS = 12, VIEWS_MOST = 8 };
 struct view {
     uint32_t id, bits;
     int set;
-    /* Bit b of VP r is bit r / parts * outer + r % parts * inner + start + b of its physical processor's memory. */
+    /* Bit b of VP r is bit r / parts * outer + r % parts * inner + start + b of its physical
+     * processor's memory. */
     uint64_t start, parts, outer, inner;
 };
 
@@ -201,8 +202,8 @@ static void stores_are_seen_from_all_sides(void **unused)
     }
 }
 
-/* A loop in the set of ratio 1 stores elements one after the other. The set of ratio R computes with them, and a second
- * loop fetches them. */
+/* A loop in the set of ratio 1 stores elements one after the other. The set of ratio R computes
+ * with them, and a second loop fetches them. */
 static void loops_over_elements_agree(int log_ratio, bool computes)
 {
     int r = 1 << log_ratio, length = PROCESSORS * r;
@@ -278,7 +279,8 @@ static void elements_go_out_and_come_back_for_every_ratio(void **unused)
         loops_over_elements_agree(log_ratio, log_ratio <= 3);
 }
 
-/* Words that are written in the set of ratio 1 are read as single bits in the set of ratio r. */
+/* Words that are written in the set of ratio 1 are read as single bits in the set of ratio
+ * r. */
 static void words_become_bits_for_every_ratio(void **unused)
 {
     (void)unused;
@@ -320,7 +322,8 @@ static void words_become_bits_for_every_ratio(void **unused)
     }
 }
 
-/* Slices that are copied through an alias share the old values: no kernel runs to copy or reshape them. */
+/* Slices that are copied through an alias share the old values: no kernel runs to copy or
+ * reshape them. */
 static void copies_of_slices_cost_nothing(void **unused)
 {
     (void)unused;
@@ -377,7 +380,8 @@ static void missing_processors_have_no_memory(void **unused)
     assert_ok(machine_vpset_destroy(machine, odd), machine);
 }
 
-/* The bits of the processor that is so much further along the last axis. Rows of arrays hold their other ends, too. */
+/* The bits of the processor that is so much further along the last axis. Rows of arrays hold
+ * their other ends, too. */
 static void check_moved(const struct view *v, uint32_t at, uint32_t width, int distance)
 {
     const struct machine_type type = MACHINE_UINT(width);

@@ -1,5 +1,5 @@
-/* Tests base/aside.h: work goes on in a thread while the caller does something else; in a child after fork() it is lost, and ending it
- * does not wait. */
+/* Tests base/aside.h: work goes on in a thread while the caller does something else; in a child
+ * after fork() it is lost, and ending it does not wait. */
 #include <setjmp.h>
 #include <signal.h>
 #include <stdarg.h>

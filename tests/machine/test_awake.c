@@ -1,5 +1,5 @@
-/* test_awake.c - what keeps processors from halting: the system, here a usual file in its place, or threads of the lowest priority; for as long as
- * was asked, and no longer. */
+/* test_awake.c - what keeps processors from halting: the system, here a usual file in its
+ * place, or threads of the lowest priority; for as long as was asked, and no longer. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
-/* test_background.c - a background process compiles optimised kernels while others run. Whenever they arrive, the bits are
- * those of a machine that waits for its kernels. Where there is no such process, the machine waits. Machines and programs
- * may end while it compiles. */
+/* test_background.c - a background process compiles optimised kernels while others run.
+ * Whenever they arrive, the bits are those of a machine that waits for its kernels. Where there
+ * is no such process, the machine waits. Machines and programs may end while it compiles. */
 #include "machine_explained.h"
 #include "support.h"
 
@@ -137,7 +137,8 @@ static void bits_are_the_same_whenever_kernels_come(void **state)
     }
 }
 
-/* The kernel of many turns is compiled in the background; single turns run until it is there. What it stores is chosen by a thread. */
+/* The kernel of many turns is compiled in the background; single turns run until it is there.
+ * What it stores is chosen by a thread. */
 static void many_turns_at_once_do_not_wait(void **state)
 {
     struct sheet s;
@@ -168,7 +169,8 @@ static int folder_make(void **state)
     return status;
 }
 
-/* Makes a compiler of this shell script. It writes the id of each process that starts it, a session leader, to the log. */
+/* Makes a compiler of this shell script. It writes the id of each process that starts it, a
+ * session leader, to the log. */
 static void compiler_is(const char *does)
 {
     unlink(log_path);
@@ -244,8 +246,8 @@ static void all_end(void)
     }
 }
 
-/* Checks that with this compiler the bits and the kernels are those of a machine that waits, and that no kernel came from the
- * background. */
+/* Checks that with this compiler the bits and the kernels are those of a machine that waits,
+ * and that no kernel came from the background. */
 static void done_without(const char *compiler, int started)
 {
     static uint32_t with[CELLS_MOST], without[CELLS_MOST];
@@ -304,7 +306,8 @@ static void one_that_hangs_is_not_waited_for(void **state)
     all_end();
 }
 
-/* The disk's records tell which kernels the driver's cache holds: a second program starts no compiler for them. */
+/* The disk's records tell which kernels the driver's cache holds: a second program starts no
+ * compiler for them. */
 static void what_was_compiled_is_loaded_at_once(void **state)
 {
     struct sheet s;
@@ -450,8 +453,8 @@ static void kernel_that_does_not_compile_is_no_error(void **state)
 
 /* ---- the compiler by itself ---- */
 
-/* The compiler's answer to a request that announces strings of these lengths, of whose bytes only `given` are sent; 0: no
- * answer. */
+/* The compiler's answer to a request that announces strings of these lengths, of whose bytes
+ * only `given` are sent; 0: no answer. */
 static char answer_to(int to, const uint32_t bytes[COMPILER_STRINGS], size_t given, char fill)
 {
     struct compiler_request request = {.dimensions = 2, .widest = 1};
@@ -542,7 +545,8 @@ static void trace_has_them_on_a_track_of_their_own(void **state)
     assert_int_equal(titles, 1);
 }
 
-/* Sets PoCL's cache folder to its present place, so that later changes of XDG_CACHE_HOME do not move it. */
+/* Sets PoCL's cache folder to its present place, so that later changes of XDG_CACHE_HOME do not
+ * move it. */
 static void driver_cache_said(void)
 {
     const char *base = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");

@@ -1,10 +1,12 @@
-/* test_blocks.c - large VP sets in blocks (LUTETIA_BLOCKS): the same bits as in one piece, and really in blocks. */
+/* test_blocks.c - large VP sets in blocks (LUTETIA_BLOCKS): the same bits as in one piece, and
+ * really in blocks. */
 #include "machine_inside.h"
 #include "support.h"
 
 enum { TURNS = 24, SETS = 5 };
 
-/* Sheets, lines and spaces; blocks higher and lower than their ghosts, and of unequal height. */
+/* Sheets, lines and spaces; blocks higher and lower than their ghosts, and of unequal
+ * height. */
 static const struct form {
     int rank, lengths[3];
     const char *ghosts;
@@ -146,7 +148,8 @@ static void blocks_give_the_bits_of_one_piece(void **state)
             assert_memory_equal(&f.sum, &one.sum, sizeof f.sum);
             assert_memory_equal(&f.largest, &one.largest, sizeof f.largest);
             assert_memory_equal(&f.bits, &one.bits, sizeof f.bits);
-            /* all turns have run in blocks, nothing has been put together for them, and ghosts did not last */
+            /* all turns have run in blocks, nothing has been put together for them, and ghosts
+             * did not last */
             assert_true(f.blocks.run >= TURNS);
             assert_int_equal(f.blocks.gathered, 0);
             assert_true(f.blocks.fetched > 0);

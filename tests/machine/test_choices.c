@@ -1,5 +1,6 @@
-/* test_choices.c - what a large plan stores is chosen in a thread, while the plan is interpreted. Whenever the choice comes, the
- * bits are those of a machine that does everything itself. Machines may end, and children begin, while the thread is at work. */
+/* test_choices.c - what a large plan stores is chosen in a thread, while the plan is
+ * interpreted. Whenever the choice comes, the bits are those of a machine that does everything
+ * itself. Machines may end, and children begin, while the thread is at work. */
 #include "support.h"
 
 #include <sys/wait.h>

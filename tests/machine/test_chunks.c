@@ -1,5 +1,6 @@
-/* test_chunks.c - arrays that are parts of chunks, beside those that have memory of their own: none overlaps another, each begins where
- * it should, and commands see what the front end has written. */
+/* test_chunks.c - arrays that are parts of chunks, beside those that have memory of their own:
+ * none overlaps another, each begins where it should, and commands see what the front end has
+ * written. */
 #include "../skip.h"
 #include "support.h"
 
@@ -65,7 +66,8 @@ static void arrays_overlap_nowhere(void **unused)
     support_machine_destroy(m);
 }
 
-/* A field's array has no memory object until a command needs one; then it is the same memory. */
+/* A field's array has no memory object until a command needs one; then it is the same
+ * memory. */
 static void commands_see_the_same_memory(void **unused)
 {
     (void)unused;
@@ -90,7 +92,8 @@ static void commands_see_the_same_memory(void **unused)
     support_machine_destroy(m);
 }
 
-/* Fields that are expected and never come, pools that are emptied, machines that end at once: memory is given back (leaks are found by sanitizers). */
+/* Fields that are expected and never come, pools that are emptied, machines that end at once:
+ * memory is given back (leaks are found by sanitizers). */
 static void what_is_expected_need_not_come(void **unused)
 {
     (void)unused;

@@ -1,5 +1,6 @@
-/* test_claims.c - kernels/claims.cl, compiled as C: threads that run work-groups in any order claim each place once, kernel after
- * kernel, and a thread finds the places again that it had before. */
+/* test_claims.c - kernels/claims.cl, compiled as C: threads that run work-groups in any order
+ * claim each place once, kernel after kernel, and a thread finds the places again that it had
+ * before. */
 #include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -91,7 +92,8 @@ static void each_place_is_claimed_once(void **state)
     }
 }
 
-/* One thread by itself: its lot from the front, then the others' from the end. Where the numbers were left by others they do not matter. */
+/* One thread by itself: its lot from the front, then the others' from the end. Where the
+ * numbers were left by others they do not matter. */
 static void a_thread_begins_with_its_own(void **state)
 {
     static const int wanted[] = {0, 1, 2, 5, 4, 3, 8, 7, 6};

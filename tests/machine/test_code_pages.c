@@ -1,4 +1,5 @@
-/* test_code_pages.c - the machine's code and constants are found, and fetched: to read them afterwards takes no page fault. */
+/* test_code_pages.c - the machine's code and constants are found, and fetched: to read them
+ * afterwards takes no page fault. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

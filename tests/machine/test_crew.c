@@ -1,5 +1,6 @@
-/* Tests base/crew.h: threads share the parts of one job, and each part is done once, by a thread that is free. In a child
- * after fork(), and without threads, the caller does all parts. */
+/* Tests base/crew.h: threads share the parts of one job, and each part is done once, by a
+ * thread that is free. In a child after fork(), and without threads, the caller does all
+ * parts. */
 #include <sched.h>
 #include <setjmp.h>
 #include <signal.h>
@@ -191,8 +192,9 @@ static void part_waits(void *context, int part, int worker)
         continue;
 }
 
-/* Runs jobs until it has been measured how far the threads are apart. False: it never is, since none looks for work while the caller
- * runs (there is one processor, or others' programs are on it). */
+/* Runs jobs until it has been measured how far the threads are apart. False: it never is, since
+ * none looks for work while the caller runs (there is one processor, or others' programs are on
+ * it). */
 static bool trip_measured(struct crew *crew)
 {
     const double end = clock_s() + 2;
@@ -267,7 +269,8 @@ static void errands_are_done_beside_jobs(void **unused)
     assert_int_equal(atomic_load(&errands_done), taken);
 }
 
-/* A thread that is on an errand has no part of a job, and what has not begun when the crew ends is let go of. */
+/* A thread that is on an errand has no part of a job, and what has not begun when the crew ends
+ * is let go of. */
 static void errands_hold_up_nobody(void **unused)
 {
     (void)unused;

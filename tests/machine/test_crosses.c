@@ -1,6 +1,7 @@
-/* test_crosses.c - gets from the processor whose index differs in some bits. The interpreter's loops give the lanes that they
- * should; which gets are crosses is found, and which are choices of two neighbours; and programs of crosses, neighbours and choices
- * come to the same bits in every tier as with gets that are calls of the router. */
+/* test_crosses.c - gets from the processor whose index differs in some bits. The interpreter's
+ * loops give the lanes that they should; which gets are crosses is found, and which are choices
+ * of two neighbours; and programs of crosses, neighbours and choices come to the same bits in
+ * every tier as with gets that are calls of the router. */
 #include "support.h"
 
 #include "interpret/byte_code.h"
@@ -188,7 +189,8 @@ static void own_addresses_are_known_until_they_are_overwritten(void **state)
 
 /* ---- coordinates turned ---- */
 
-/* One's own address with the coordinate along the axis turned by these bits; NULL: it is not found. */
+/* One's own address with the coordinate along the axis turned by these bits; NULL: it is not
+ * found. */
 static struct machine_value *turned(struct machine *m, struct machine_value *address, int axis,
                                     uint32_t bits)
 {
@@ -198,7 +200,8 @@ static struct machine_value *turned(struct machine *m, struct machine_value *add
         machine_binary(m, MACHINE_XOR, machine_coordinate(m, axis, 32), number(m, 32, bits)));
 }
 
-/* The addresses of all processors are those of the front end's sums, also when two axes are turned one after the other. */
+/* The addresses of all processors are those of the front end's sums, also when two axes are
+ * turned one after the other. */
 static void turned_coordinates_give_the_addresses_they_should(void **state)
 {
     static const int shapes[][3] = {{4096}, {64, 64}, {16, 8, 32}, {1, 128, 2}, {512, 4}};
@@ -371,7 +374,8 @@ static const struct tier {
 } tiers[] = {{"2", "0", 1}, {"2", "1", 1}, {"1", "1", 1}, {"3", "1", 10}, {"0", "1", 10}};
 enum { TIERS = sizeof tiers / sizeof *tiers };
 
-/* NaNs of the program beside that of an operation: what is stored of the first has their bits, however it is come by. */
+/* NaNs of the program beside that of an operation: what is stored of the first has their bits,
+ * however it is come by. */
 static void a_crossed_nan_keeps_its_bits(void **state)
 {
     enum { COUNT = 1024, ACROSS = 5 };

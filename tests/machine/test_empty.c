@@ -1,4 +1,5 @@
-/* test_empty.c - machine_empty(): a machine that has been used is as one that was just made; and which machines warm up. */
+/* test_empty.c - machine_empty(): a machine that has been used is as one that was just made;
+ * and which machines warm up. */
 #include <unistd.h>
 
 #include "support.h"
@@ -30,8 +31,8 @@ static uint64_t reduced(struct machine *m, struct machine_value *v)
     return out.lo;
 }
 
-/* Two VP sets of other shapes, fields of both regions, an alias, a loop, a context, random numbers, messages, and values that
- * still wait at the end. */
+/* Two VP sets of other shapes, fields of both regions, an alias, a loop, a context, random
+ * numbers, messages, and values that still wait at the end. */
 static struct found use(struct machine *m, int count)
 {
     struct found f = {0};

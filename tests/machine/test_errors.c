@@ -1,4 +1,5 @@
-/* test_errors.c - a wrong call gives a status and one clear line, and changes nothing in the machine. */
+/* test_errors.c - a wrong call gives a status and one clear line, and changes nothing in the
+ * machine. */
 #include <sys/wait.h>
 #include <unistd.h>
 

@@ -1,5 +1,5 @@
-/* test_explain.c - machine_explain() on programs whose kernels, bytes and values that are never stored are known by
- * hand. */
+/* test_explain.c - machine_explain() on programs whose kernels, bytes and values that are never
+ * stored are known by hand. */
 #include "../skip.h"
 #include "machine_explained.h"
 #include "support.h"
@@ -175,7 +175,8 @@ static void overwritten_value_has_vanished(void **state)
     assert_int_equal(count_of(x->evaluations, x->evaluations_count, "somebody looked"), 1);
 }
 
-/* Three transcendental functions cost more to compute again for each neighbour than to store once. */
+/* Three transcendental functions cost more to compute again for each neighbour than to store
+ * once. */
 static void dear_value_is_stored_for_its_neighbours(void **state)
 {
     uint32_t a = field_of(1), c = field_of(3);
@@ -281,7 +282,8 @@ static void strips_keep_rows_in_no_array(void **state)
     assert_non_null(strstr(k->name, "FADD"));
 }
 
-/* In tiles, whose kernels compile faster, the costly value is kept in local memory and stored in no array. */
+/* In tiles, whose kernels compile faster, the costly value is kept in local memory and stored
+ * in no array. */
 static void tiles_are_kept_in_no_array(void **state)
 {
     struct machine_value *v = value(field_of(1));
@@ -387,7 +389,8 @@ static void bound_is_measured_when_asked_for(void **state)
     assert_true(x->copy_bytes_per_s > 1e6 && x->copy_bytes_per_s < 1e13);
 }
 
-/* Kernels with functions on many processors are optimised at once; others only after millions of elements. */
+/* Kernels with functions on many processors are optimised at once; others only after millions
+ * of elements. */
 static void functions_of_many_are_optimised_at_once(void **state)
 {
     enum { SIDE = 192 }; /* 36864 processors */

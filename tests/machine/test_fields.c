@@ -1,4 +1,5 @@
-/* test_fields.c - VP sets, fields, flags and context: which bits a store changes, and what a later read returns. */
+/* test_fields.c - VP sets, fields, flags and context: which bits a store changes, and what a
+ * later read returns. */
 #include "support.h"
 
 static struct machine *machine;
@@ -134,7 +135,8 @@ static void field_deallocate_through_takes_the_stack_above(void **state)
     assert_true(machine_field_lookup(machine, heap, &info));
 }
 
-/* A pixel of three channels is written whole, one channel is changed, and a read crosses the channels' borders. */
+/* A pixel of three channels is written whole, one channel is changed, and a read crosses the
+ * channels' borders. */
 static wide expected_pixel(const void *data, uint64_t n)
 {
     wide whole = support_word(MACHINE_UINT(24), 9, n);
@@ -245,7 +247,8 @@ static wide expected_doubled_and_written(const void *data, uint64_t n)
     return n == 5 ? 0x21 : expected_doubled(data, n);
 }
 
-/* A second field may share the value of a part of this field: a write to the part leaves the second field alone. */
+/* A second field may share the value of a part of this field: a write to the part leaves the
+ * second field alone. */
 static void write_to_a_part_leaves_its_copies_alone(void **state)
 {
     (void)state;

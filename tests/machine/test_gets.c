@@ -1,5 +1,7 @@
-/* test_gets.c - gets by the same addresses again and again: where their elements are is kept in memory (memory/known_addresses.h), and forgotten when the
- * addresses change, when a set is destroyed or arranged anew, and when memory is short. Random programs of gets and changes come to what plain C comes to. */
+/* test_gets.c - gets by the same addresses again and again: where their elements are is kept in
+ * memory (memory/known_addresses.h), and forgotten when the addresses change, when a set is
+ * destroyed or arranged anew, and when memory is short. Random programs of gets and changes
+ * come to what plain C comes to. */
 #include "sample.h"
 #include "support.h"
 
@@ -8,7 +10,8 @@
 enum { ROWS = 9, COLUMNS = 21, COUNT = ROWS * COLUMNS, OTHER = 8 * 16, FIELDS = 3 };
 static const struct machine_type word = MACHINE_UINT(32);
 
-/* Fields of addresses in one set, of numbers in both; and what they hold. Addresses of the other set, or (theirs) of their own. */
+/* Fields of addresses in one set, of numbers in both; and what they hold. Addresses of the
+ * other set, or (theirs) of their own. */
 struct gets {
     struct machine *m;
     int set, other;

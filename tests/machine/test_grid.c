@@ -1,4 +1,5 @@
-/* test_grid.c - shifts, coordinates, addresses, random numbers and reductions, over grids of odd shapes. */
+/* test_grid.c - shifts, coordinates, addresses, random numbers and reductions, over grids of
+ * odd shapes. */
 #include "oracle_random.h"
 #include "support.h"
 

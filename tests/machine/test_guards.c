@@ -1,5 +1,6 @@
-/* test_guards.c - byte code with guards gives what it gives without: random steps over registers that are used again and again, bits that
- * are joined, and selections within selections, over arrays in which bits hold in parts of rows. */
+/* test_guards.c - byte code with guards gives what it gives without: random steps over
+ * registers that are used again and again, bits that are joined, and selections within
+ * selections, over arrays in which bits hold in parts of rows. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -133,8 +134,10 @@ static bool is_stored(const struct byte_code *p)
     return stored;
 }
 
-/* Steps of which each takes what the one before it gives, in two registers in turn, and the selection that takes the last; another may. In some
- * the bit is an and, and that of the other selection is the and of the same registers, one of which has changed. In one of a program it is stored. */
+/* Steps of which each takes what the one before it gives, in two registers in turn, and the
+ * selection that takes the last; another may. In some the bit is an and, and that of the other
+ * selection is the and of the same registers, one of which has changed. In one of a program it
+ * is stored. */
 static void chain_put(struct byte_code *p)
 {
     const bool stores = !is_stored(p) && below(3) == 0, changes = !stores && below(3) == 0;

@@ -1,6 +1,6 @@
-/* test_interpret.c - the interpreter of byte code. Under every instruction set each loop gives the bits of the loop that goes
- * lane by lane. Blocks find their neighbours, in rows shorter and longer than a block. A plan is interpreted until
- * compiling its kernels pays. */
+/* test_interpret.c - the interpreter of byte code. Under every instruction set each loop gives
+ * the bits of the loop that goes lane by lane. Blocks find their neighbours, in rows shorter
+ * and longer than a block. A plan is interpreted until compiling its kernels pays. */
 #include "support.h"
 
 #include <math.h>
@@ -51,8 +51,9 @@ static void lanes_same(const struct lanes *a, const struct lanes *b, struct mach
     }
 }
 
-/* Fills in counts of shifts: -128 to 128, with those near multiples of the width among them; counts of rotations are below the
- * width. All lanes get count k; where k is 0, each lane gets another count. */
+/* Fills in counts of shifts: -128 to 128, with those near multiples of the width among them;
+ * counts of rotations are below the width. All lanes get count k; where k is 0, each lane gets
+ * another count. */
 static void counts_fill(struct lanes *l, bool below_width, int width, int k)
 {
     for (int lane = 0; lane < LANES; lane++) {
@@ -240,7 +241,8 @@ static void each_conversion_gives_what_lane_by_lane_gives(void **state)
     assert_true(steps_tried - before > 1000);
 }
 
-/* Short formats are rounded by adding and subtracting a constant; all others by the code of kernels/soft.cl only. */
+/* Short formats are rounded by adding and subtracting a constant; all others by the code of
+ * kernels/soft.cl only. */
 static void short_formats_round_as_whole_numbers_do(void **state)
 {
     const struct tables t = tables_here();
@@ -472,8 +474,9 @@ static void of_many_plans_the_oldest_go(void **state)
     support_machine_destroy(m);
 }
 
-/* A comparison of coordinates stays a node of its own, even where byte code needs it in a second stage or from a neighbour. It
- * is not replaced by an array, so that later kernels see which rows it selects. */
+/* A comparison of coordinates stays a node of its own, even where byte code needs it in a
+ * second stage or from a neighbour. It is not replaced by an array, so that later kernels see
+ * which rows it selects. */
 static void tests_of_coordinates_keep_their_definition(void **state)
 {
     enum { SIDE = 40 };

@@ -1,5 +1,6 @@
-/* test_lazy.c - the promises of lazy evaluation: a value that nobody reads is not computed, a step seen before builds no
- * kernel, and the graph does not grow. Measured by machine_stats_get(); the values are compared with the eager machine's. */
+/* test_lazy.c - the promises of lazy evaluation: a value that nobody reads is not computed, a
+ * step seen before builds no kernel, and the graph does not grow. Measured by
+ * machine_stats_get(); the values are compared with the eager machine's. */
 #include "sample.h"
 #include "support.h"
 
@@ -40,7 +41,8 @@ static void store(struct sheet *s, uint32_t field, struct machine_value *v)
     machine_begin(s->m);
 }
 
-/* water += (left neighbour's water - water) * k, by way of two temporaries and a nested context. */
+/* water += (left neighbour's water - water) * k, by way of two temporaries and a nested
+ * context. */
 static void step(struct sheet *s, uint64_t k)
 {
     struct machine *m = s->m;
@@ -303,7 +305,8 @@ static void value_outlives_the_content_it_is_a_part_of(void **state)
 
 enum { TURNED = 4 };
 
-/* Whether the i-th processor is in the k-th context: three colours, and one that is a part of two of them. */
+/* Whether the i-th processor is in the k-th context: three colours, and one that is a part of
+ * two of them. */
 static bool is_turned(int k, int i)
 {
     return k < 3 ? (i / COLUMNS + i) % 3 == k : (i / COLUMNS + i) % 3 && i % COLUMNS < 33;
@@ -334,7 +337,8 @@ static void context_load(struct sheet *s, uint32_t context, uint32_t other)
     machine_begin(s->m);
 }
 
-/* Nobody sees what a colour stored a turn ago: it is let go of, though other colours have stored since. */
+/* Nobody sees what a colour stored a turn ago: it is let go of, though other colours have
+ * stored since. */
 static void stores_of_contexts_in_turn_do_not_pile_up(void **state)
 {
     struct sheet s;
@@ -368,7 +372,8 @@ static int below(uint64_t *chance, uint64_t n)
     return (int)(sample_word(chance) % n);
 }
 
-/* Steps: the processors of one context, or of two, take what their neighbours hold in some field; sometimes somebody looks. */
+/* Steps: the processors of one context, or of two, take what their neighbours hold in some
+ * field; sometimes somebody looks. */
 static void turns_random(uint64_t chance)
 {
     struct sheet s;

@@ -1,5 +1,5 @@
-/* test_loops.c - that byte code has loops: a missing one is right, too, but takes ten to thirty times as long. test_interpret.c tests
- * what loops compute. */
+/* test_loops.c - that byte code has loops: a missing one is right, too, but takes ten to thirty
+ * times as long. test_interpret.c tests what loops compute. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,8 +11,9 @@
 #include "interpret/lanes.h"
 #include "tables.h"
 
-/* What is no operation on lanes (blocks.c reads or moves it), what is performed lane by lane because a call of a library takes
- * longer than the loop, and what is rare. A row whose operation has a loop is wrong, too. */
+/* What is no operation on lanes (blocks.c reads or moves it), what is performed lane by lane
+ * because a call of a library takes longer than the loop, and what is rare. A row whose
+ * operation has a loop is wrong, too. */
 static const char *const without_loops[] = {
     "unpack", "slice",   "shift",  "send_address", "reinterpret", "random", "pack",   "index",
     "gather", "extract", "cross",  "coordinate",   "constant",    "concat", "buffer", "FTANH",

@@ -1,6 +1,8 @@
-/* test_many_plans.c - a program that never repeats: as many different plans as its argument says (20,000). The numbers are right, and
- * the memory, the plans kept, and the folder of kept files do not grow beyond their bounds. Then the same with a kernel for each plan,
- * as many as the second argument says (40): no more than a few are in memory, and those that come back are not compiled again. */
+/* test_many_plans.c - a program that never repeats: as many different plans as its argument
+ * says (20,000). The numbers are right, and the memory, the plans kept, and the folder of kept
+ * files do not grow beyond their bounds. Then the same with a kernel for each plan, as many as
+ * the second argument says (40): no more than a few are in memory, and those that come back are
+ * not compiled again. */
 #include "support.h"
 
 #include <dirent.h>
@@ -9,7 +11,8 @@
 #include "build/plans.h"
 
 enum { PLANS_BITS = 30, PLANS_FEW = 20000, UNITS_MOST = 8192 + 4096 + 64, FILES_MOST = 64 };
-/* What may be added after the first plans, by whatever else the process does. AddressSanitizer keeps 256 MiB of what is freed. */
+/* What may be added after the first plans, by whatever else the process does. AddressSanitizer
+ * keeps 256 MiB of what is freed. */
 #ifdef __SANITIZE_ADDRESS__
 static const double ROOM_BYTES = 24e6 + 256 * 1048576.0;
 #else
@@ -146,7 +149,8 @@ static uint32_t numbers(struct machine *m, uint32_t *x)
     return f;
 }
 
-/* Kernels that had to go are loaded from the driver's cache, not compiled. What runs all the time stays. */
+/* Kernels that had to go are loaded from the driver's cache, not compiled. What runs all the
+ * time stays. */
 static void compiled_kernels_stay_bounded(void **state)
 {
     (void)state;
@@ -170,7 +174,8 @@ static void compiled_kernels_stay_bounded(void **state)
     unsetenv("LUTETIA_KERNELS");
 }
 
-/* A process that has started as many kernels as the driver has room for computes all else without. */
+/* A process that has started as many kernels as the driver has room for computes all else
+ * without. */
 static void a_process_has_so_many_kernels(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
-/* test_messages.c - messages on the front end's own thread: loops that go through them come to the same under every instruction set,
- * and an array is written over only where nobody else looks at it. */
+/* test_messages.c - messages on the front end's own thread: loops that go through them come to
+ * the same under every instruction set, and an array is written over only where nobody else
+ * looks at it. */
 #include "support.h"
 
 #include "tables.h"
@@ -122,7 +123,8 @@ static void ranks_are_put_alike(void **state)
         }
 }
 
-/* Numbers of each length that are as great as can be, so that lanes would overflow which add too many; with and without a context. */
+/* Numbers of each length that are as great as can be, so that lanes would overflow which add
+ * too many; with and without a context. */
 static void sums_are_alike(void **state)
 {
     enum { MOST = 66000, LENGTHS = 4 };
@@ -154,7 +156,8 @@ static void sums_are_alike(void **state)
         }
 }
 
-/* Copies of every class and length, at the beginning of a line and elsewhere; nothing beside them changes. */
+/* Copies of every class and length, at the beginning of a line and elsewhere; nothing beside
+ * them changes. */
 static void what_is_stored_past_the_caches_is_the_same(void **state)
 {
     enum { FREE = 64, LANES = 67 };

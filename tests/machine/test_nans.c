@@ -1,6 +1,6 @@
-/* test_nans.c - the NaN of a float operation always has the same bits, whatever NaNs its operands are and whether they were
- * computed or written. A move keeps a NaN's bits. Tested for devices whose operations keep NaNs (x86) and as if they did
- * not. */
+/* test_nans.c - the NaN of a float operation always has the same bits, whatever NaNs its
+ * operands are and whether they were computed or written. A move keeps a NaN's bits. Tested for
+ * devices whose operations keep NaNs (x86) and as if they did not. */
 #include "support.h"
 
 #include <math.h>
@@ -9,8 +9,8 @@ enum { ROWS = 8, COLUMNS = 50, COUNT = ROWS * COLUMNS, TURNS = 40, WRITTEN = 77,
 
 static struct machine *machine;
 
-/* The n-th sample: numbers, infinities, the operations' NaN, and NaNs that a program writes (signalling, positive, with
- * payloads). */
+/* The n-th sample: numbers, infinities, the operations' NaN, and NaNs that a program writes
+ * (signalling, positive, with payloads). */
 static uint64_t bits_at(int width, uint64_t n)
 {
     static const uint32_t single[] = {0x3f800000, 0x7f800000, 0xff800000, 0x00000000,
@@ -282,7 +282,8 @@ static uint64_t half_or_moved(int width, uint64_t n)
                            : without_sign(width, root(width, (n + COLUMNS) % COUNT));
 }
 
-/* In strips one stage uses a value with NaNs of any bits and keeps it, for the next stage, with the operations' NaN. */
+/* In strips one stage uses a value with NaNs of any bits and keeps it, for the next stage, with
+ * the operations' NaN. */
 static void check_kept(void)
 {
     const struct machine_type type = MACHINE_F32;

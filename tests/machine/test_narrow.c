@@ -1,5 +1,6 @@
-/* test_narrow.c - a kernel that computes with short integers only has lanes of 8 or 16 bits (plan/lanes.c). It gives the
- * numbers of plain C with vectors of every width, in rows and in strips, also where a row ends with part of a vector. */
+/* test_narrow.c - a kernel that computes with short integers only has lanes of 8 or 16 bits
+ * (plan/lanes.c). It gives the numbers of plain C with vectors of every width, in rows and in
+ * strips, also where a row ends with part of a vector. */
 #include "support.h"
 
 #include <dirent.h>
@@ -43,8 +44,8 @@ static wide of_neighbour(const struct test_case *c, uint64_t n)
     return support_integer(c->op, c->width, word(c->width, 0, n), word(c->width, 1, n));
 }
 
-/* How the result is used: as it is, in a select, extended, in part, as half of a pair, and in a sum of neighbours on both
- * sides along both axes. */
+/* How the result is used: as it is, in a select, extended, in part, as half of a pair, and in a
+ * sum of neighbours on both sides along both axes. */
 enum made { PLAIN, CHOSEN, EXTENDED, PART, PAIR, SUM, MADE };
 
 static wide made_of(const struct test_case *c, enum made made, int most, uint64_t n)
@@ -129,7 +130,8 @@ static uint32_t upload(int width, int which)
     return field;
 }
 
-/* Checks all operations on numbers of those widths, and all uses of their results, in one evaluation. */
+/* Checks all operations on numbers of those widths, and all uses of their results, in one
+ * evaluation. */
 static void check(const int *widths, int widths_count, int most)
 {
     static struct {
@@ -251,8 +253,9 @@ static void check_overflows(int width)
     assert_ok(machine_field_deallocate(machine, b), machine);
 }
 
-/* Checks operations on 8 and (in rows) 16 bits, and their overflow flags, against the oracle: in strips or in rows, with vectors
- * of that many words. Checks also that a kernel with lanes of that width was made. */
+/* Checks operations on 8 and (in rows) 16 bits, and their overflow flags, against the oracle:
+ * in strips or in rows, with vectors of that many words. Checks also that a kernel with lanes
+ * of that width was made. */
 static void agree(const char *vector, bool strips)
 {
     static const int bytes[] = {8, 5, 8, 1}, shorts[] = {16, 13};

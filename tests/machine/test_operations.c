@@ -1,5 +1,5 @@
-/* Tests the table of operations: every row keeps the promises of base/node_ops.h, and codegen has text for every row in each
- * type that it takes. */
+/* Tests the table of operations: every row keeps the promises of base/node_ops.h, and codegen
+ * has text for every row in each type that it takes. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,6 +1,7 @@
-/* test_picks.c - chains of choices that the interpreter performs as one step: the element of an array that an index names, and a
- * choice within a choice. The loops give what the chain gives; chains are found where they are, and nowhere else; and programs of
- * random chains come to the same bits on every tier. */
+/* test_picks.c - chains of choices that the interpreter performs as one step: the element of an
+ * array that an index names, and a choice within a choice. The loops give what the chain gives;
+ * chains are found where they are, and nowhere else; and programs of random chains come to the
+ * same bits on every tier. */
 #include "support.h"
 
 #include "hand_graph.h"
@@ -30,7 +31,8 @@ static uint32_t key_by_chance(int kind, int bits)
     return key & most;
 }
 
-/* index: its lanes are held in so many bytes by the key's place, and as words by what a pick takes. */
+/* index: its lanes are held in so many bytes by the key's place, and as words by what a pick
+ * takes. */
 static void a_pick_is_the_chain(const struct lanes_table *t, int c, int n, int kind, int bits)
 {
     static _Alignas(64) unsigned char values[PICK_MOST + 2][16 * LANES], keys[PICK_MOST][4];
@@ -186,8 +188,8 @@ enum { FIELDS = 6, KEYS_MOST = 70 };
 /* Fields are words of seed 0, 1, ...; `index` is of its own seed, below `limit` mostly. */
 struct chain {
     struct machine_type type, index;
-    bool
-        computed; /* index and values are results, which are taken again afterwards; of bits only */
+    /* index and values are results, which are taken again afterwards; of bits only */
+    bool computed;
     int count, inner; /* inner: this choice is one within one; -1: none is */
     uint64_t limit;
     uint64_t keys[KEYS_MOST];

@@ -1,5 +1,5 @@
-/* Tests the planner on hand-made graphs: a plan that is carried out stage by stage gives the values that the graph defines.
- * Needs no device. */
+/* Tests the planner on hand-made graphs: a plan that is carried out stage by stage gives the
+ * values that the graph defines. Needs no device. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,7 +19,8 @@ enum { GRAPHS = 300, HEIGHT = 5, WIDTH = 7, CELLS = HEIGHT * WIDTH, STAGES_MOST 
 
 /* ---- what a graph says ---- */
 
-/* Evaluates a graph on a small torus of processors; each has a number of at most 8 bits for each node. */
+/* Evaluates a graph on a small torus of processors; each has a number of at most 8 bits for
+ * each node. */
 struct evaluation {
     const struct plan_graph *g;
     uint8_t memory[HAND_NODES_MOST][CELLS]; /* leaves, numbers, and stored nodes */
@@ -153,7 +154,8 @@ static void node_by_chance(struct hand_graph *h)
     }
 }
 
-/* Adds two stores under one context c: a is stored where c holds, and a value computed from a is stored there, too. */
+/* Adds two stores under one context c: a is stored where c holds, and a value computed from a
+ * is stored there, too. */
 static void context_by_chance(struct hand_graph *h)
 {
     const struct machine_type byte = MACHINE_UINT(8);
@@ -319,7 +321,8 @@ static void the_same_graph_has_the_same_plan(void **state)
 
 /* ---- nodes that stand for others ---- */
 
-/* The targets' values do not change when every possible substitute is in memory, also beside nodes that no target needs. */
+/* The targets' values do not change when every possible substitute is in memory, also beside
+ * nodes that no target needs. */
 static void substitutes_change_no_target(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* test_products.c - a product within a sum's loop has the bits of a product and a sum, in each instruction set, with all lanes of
- * its factors or the first ones alone. */
+/* test_products.c - a product within a sum's loop has the bits of a product and a sum, in each
+ * instruction set, with all lanes of its factors or the first ones alone. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,6 @@
-/* test_programs.c - compiled programs on disk are kept once, loaded by the next machine, and compiled again where they are
- * damaged. Programs that call a function which functions.cl does not declare get the whole header. (security.md 16) */
+/* test_programs.c - compiled programs on disk are kept once, loaded by the next machine, and
+ * compiled again where they are damaged. Programs that call a function which functions.cl does
+ * not declare get the whole header. (security.md 16) */
 #include "machine_explained.h"
 #include "support.h"
 
@@ -13,7 +14,8 @@
 
 enum { COMPILED = 1, LOADED = 2 };
 
-/* Counts the programs on disk. LEAVE leaves their files alone, REMOVE removes them, a length cuts each to that many bytes. */
+/* Counts the programs on disk. LEAVE leaves their files alone, REMOVE removes them, a length
+ * cuts each to that many bytes. */
 enum { LEAVE = -1, REMOVE = -2 };
 
 static int kept(long length)

@@ -1,5 +1,5 @@
-/* test_router.c - sends, gets and combinations against plain loops, over random geometries of both orders,
- * addresses that collide or lead nowhere, and contexts. */
+/* test_router.c - sends, gets and combinations against plain loops, over random geometries of
+ * both orders, addresses that collide or lead nowhere, and contexts. */
 #include "support.h"
 
 #include "sample.h"
@@ -283,8 +283,8 @@ static void messages_arrive_as_in_a_loop(void **unused)
     messages_arrive(true, 2 * ROUNDS);
 }
 
-/* Gets that are recorded and not yet evaluated: their results are fetched again and shifted, and their sources are changed or
- * destroyed before the evaluation. */
+/* Gets that are recorded and not yet evaluated: their results are fetched again and shifted,
+ * and their sources are changed or destroyed before the evaluation. */
 static void gets_wait(void **unused)
 {
     (void)unused;
@@ -340,8 +340,8 @@ static void gets_wait(void **unused)
     }
 }
 
-/* Addresses that go up by one, for a while or throughout, up to the last processor and beyond: a whole vector is loaded at once
- * there. */
+/* Addresses that go up by one, for a while or throughout, up to the last processor and beyond:
+ * a whole vector is loaded at once there. */
 static void gets_along_rows(void **unused)
 {
     (void)unused;
@@ -381,7 +381,8 @@ static void gets_along_rows(void **unused)
     }
 }
 
-/* Pointer jumping: a field of addresses gets from itself, so each processor finds its successor's successor. */
+/* Pointer jumping: a field of addresses gets from itself, so each processor finds its
+ * successor's successor. */
 static void gets_of_gets(void **unused)
 {
     (void)unused;
@@ -543,7 +544,8 @@ int main(void)
     };
     int failed = 0;
 
-    /* Both ways of sending. Gets within kernels, and as kernels of their own; eager machines have only the latter. */
+    /* Both ways of sending. Gets within kernels, and as kernels of their own; eager machines
+     * have only the latter. */
     for (int way = 0; way < 3; way++) {
         bool eager = way == 1;
         setenv("LUTETIA_SCATTER", eager ? "0" : "1", 1);

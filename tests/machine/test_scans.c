@@ -1,5 +1,5 @@
-/* Scans, spreads and ranks as cuts of the graph: no call waits for them, their results are used like any value, and wrong
- * calls get a message. ../paris/test_scans.c checks their numbers. */
+/* Scans, spreads and ranks as cuts of the graph: no call waits for them, their results are used
+ * like any value, and wrong calls get a message. ../paris/test_scans.c checks their numbers. */
 #include "support.h"
 
 enum { ROWS = 6, COLUMNS = 40, COUNT = ROWS * COLUMNS };
@@ -62,7 +62,8 @@ static void results_go_on_like_any_value_and_nothing_waits(void **unused)
     assert_memory_equal(in, out, sizeof in);
 }
 
-/* The result of each cut is shifted at once: a shift reads the repeated columns at the ends of rows. */
+/* The result of each cut is shifted at once: a shift reads the repeated columns at the ends of
+ * rows. */
 static void repeated_columns_are_written(void **unused)
 {
     (void)unused;

@@ -1,5 +1,5 @@
-/* Schedules of strips, on hand-made graphs: each row is computed before it is read, and its ring holds it until then. Needs no
- * device. */
+/* Schedules of strips, on hand-made graphs: each row is computed before it is read, and its
+ * ring holds it until then. Needs no device. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -139,7 +139,8 @@ static void rows_are_there_when_they_are_looked_at(void **state)
 
 /* ---- a schedule that is known by hand ---- */
 
-/* Each turn of a loop reads its own row and those above and below, so it runs one row behind the turn before. */
+/* Each turn of a loop reads its own row and those above and below, so it runs one row behind
+ * the turn before. */
 static void a_turn_is_one_row_behind_the_turn_before(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
-/* Tests the cost of a choice of barriers against a slow twin, which follows the definitions stage by stage, over generated graphs and
- * barriers: the same stages, the same stored values, and the same cost to the bit. Needs no device. */
+/* Tests the cost of a choice of barriers against a slow twin, which follows the definitions
+ * stage by stage, over generated graphs and barriers: the same stages, the same stored values,
+ * and the same cost to the bit. Needs no device. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

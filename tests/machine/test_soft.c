@@ -1,5 +1,6 @@
-/* Compares floats of other formats with MPFR, on edge cases and random bits: the arithmetic, compiled as C, in many formats;
- * every operation on the device in a few formats, one kernel each. */
+/* Compares floats of other formats with MPFR, on edge cases and random bits: the arithmetic,
+ * compiled as C, in many formats; every operation on the device in a few formats, one kernel
+ * each. */
 #include "support.h"
 
 #include "oracle_soft.h"

@@ -1,5 +1,5 @@
-/* test_threads.c - several threads use a machine each at the same time, and get the results of a thread that is alone. A
- * build with -Db_sanitize=thread finds what they share. */
+/* test_threads.c - several threads use a machine each at the same time, and get the results of
+ * a thread that is alone. A build with -Db_sanitize=thread finds what they share. */
 #include "support.h"
 
 #include "build/plans.h"

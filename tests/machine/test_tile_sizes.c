@@ -1,5 +1,5 @@
-/* Tests the choice of the tile's size, of its arrays' places and of the number of turns in one kernel: on random tilings, and on
- * one that is known by hand. */
+/* Tests the choice of the tile's size, of its arrays' places and of the number of turns in one
+ * kernel: on random tilings, and on one that is known by hand. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -116,7 +116,8 @@ static void extents_are_enough(void **state)
     tiling_finish(&t);
 }
 
-/* Two stages: the first reads an array's four neighbours, the second reads the four neighbours of what the first stores. */
+/* Two stages: the first reads an array's four neighbours, the second reads the four neighbours
+ * of what the first stores. */
 static void stencil(struct tiling *t, double ns, double far_ns)
 {
     const struct tile_look look = {1, 0, 1, 1, 1, 1};
@@ -170,7 +171,8 @@ static void what_is_far_away_has_no_room(void **state)
     tiling_finish(&t);
 }
 
-/* Many turns in one kernel pay where memory takes the time, none where arithmetic does, and never more than have room. */
+/* Many turns in one kernel pay where memory takes the time, none where arithmetic does, and
+ * never more than have room. */
 static void turns_pay_where_memory_is_slow(void **state)
 {
     struct tiling t = {0};

@@ -1,5 +1,6 @@
-/* Tests tiles of local memory, forced on a CPU: elements of all sizes, on sheets whose sides are no multiples of a tile's; and
- * the plans that a GPU would get. oclgrind.sh also runs it, to find data races between work-items. */
+/* Tests tiles of local memory, forced on a CPU: elements of all sizes, on sheets whose sides
+ * are no multiples of a tile's; and the plans that a GPU would get. oclgrind.sh also runs it,
+ * to find data races between work-items. */
 #include "base/parts.h"
 #include "device/device.h"
 #include "support.h"
@@ -36,7 +37,8 @@ static size_t at(const struct grid *g, uint64_t n, int down, int right)
     return (size_t)(row * g->columns + column);
 }
 
-/* The stages one after the other: long words, bytes and bits that are read at neighbours only. */
+/* The stages one after the other: long words, bytes and bits that are read at neighbours
+ * only. */
 static uint64_t second(const struct grid *g, uint64_t n)
 {
     return dear(dear(g->first[at(g, n, 1, 0)]) + dear(g->first[at(g, n, -1, -2)]));
@@ -107,7 +109,8 @@ static void sheets_that_no_tile_fits(void **state)
     unsetenv("LUTETIA_TILE");
 }
 
-/* With a GPU's device shape the planner chooses tiles where they save a launch and arrays, and not where they save nothing. */
+/* With a GPU's device shape the planner chooses tiles where they save a launch and arrays, and
+ * not where they save nothing. */
 static void a_gpu_takes_tiles_by_itself(void **state)
 {
     struct machine_stats stats;
@@ -139,7 +142,8 @@ static void a_gpu_takes_tiles_by_itself(void **state)
     support_machine_destroy(m);
 }
 
-/* A tile too large for local memory, or a work-group too large for the device: the plan has no tiles. */
+/* A tile too large for local memory, or a work-group too large for the device: the plan has no
+ * tiles. */
 static void what_cannot_be_is_done_without(void **state)
 {
     (void)state;

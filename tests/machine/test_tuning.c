@@ -1,4 +1,5 @@
-/* test_tuning.c - the numbers that `lutetia tune` keeps: their file, which source overrides which, and their use in kernels. */
+/* test_tuning.c - the numbers that `lutetia tune` keeps: their file, which source overrides
+ * which, and their use in kernels. */
 #include "support.h"
 
 #include <dirent.h>
@@ -37,7 +38,8 @@ static void assert_tuned(const struct machine_tuning *tuning, struct machine_tun
     machine_destroy(m);
 }
 
-/* Finds the one file whose name begins with tuning-; removes it where path is NULL. False: there is none. */
+/* Finds the one file whose name begins with tuning-; removes it where path is NULL. False:
+ * there is none. */
 static bool kept_file(char *path, size_t size)
 {
     char where[300];
@@ -215,8 +217,9 @@ static void knobs_reach_the_kernels(void **state)
         fail_msg("no kernel of strips of 48 columns: %s", line);
 }
 
-/* The costs decide whether values are computed again or stored: launches that cost a second make one kernel, and launches
- * that cost nothing, with operations that cost a microsecond, make two. */
+/* The costs decide whether values are computed again or stored: launches that cost a second
+ * make one kernel, and launches that cost nothing, with operations that cost a microsecond,
+ * make two. */
 static uint64_t kernels_where(double op_ns, double launch_ns)
 {
     struct machine_tuning tuning = machine_tuning_usual();

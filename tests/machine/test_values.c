@@ -1,6 +1,8 @@
-/* test_values.c - every operation on values against plain C, over widths below, at and above those of machine words.
+/* test_values.c - every operation on values against plain C, over widths below, at and above
+ * those of machine words.
  *
- * All operations of one width are one evaluation: each stores into a field, then all fields are downloaded. */
+ * All operations of one width are one evaluation: each stores into a field, then all fields are
+ * downloaded. */
 #include "support.h"
 
 #include <math.h>

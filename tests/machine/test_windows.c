@@ -1,5 +1,5 @@
-/* test_windows.c - a guard's window has every lane where its condition holds, and a step for a window gives these lanes what it
- * gives them as a whole, and no other lane anything. */
+/* test_windows.c - a guard's window has every lane where its condition holds, and a step for a
+ * window gives these lanes what it gives them as a whole, and no other lane anything. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -190,7 +190,8 @@ static void a_step_for_a_window_gives_its_lanes_alone(void **state)
         }
 }
 
-/* A get: places for all lanes, or the first one's, from which on they go up by one; some are beyond the array. */
+/* A get: places for all lanes, or the first one's, from which on they go up by one; some are
+ * beyond the array. */
 static void a_get_for_a_window_takes_its_lanes_places(void **state)
 {
     static _Alignas(64) unsigned char index[ROOM], array[ROOM], image[ROOM];
@@ -241,7 +242,8 @@ static void what_is_repeated_is_repeated_from_the_first_lane_on(void **state)
     }
 }
 
-/* Of bits in parts of a block, all, none and every few, in each instruction set: no lane beyond the last is written. */
+/* Of bits in parts of a block, all, none and every few, in each instruction set: no lane beyond
+ * the last is written. */
 static void a_selection_has_each_lane_from_the_right_side(void **state)
 {
     static _Alignas(64) unsigned char in[2][ROOM], out[ROOM];

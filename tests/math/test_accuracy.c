@@ -1,6 +1,7 @@
-/* Compares the transcendental functions of kernels/math.cl, compiled as C, with MPFR. They are within 1 ulp in single and 2
- * ulp in double of the correctly rounded result. Special cases are compared with Annex F of C, which is written down here.
- * LUTETIA_MATH_POINTS=n takes n points of each kind. */
+/* Compares the transcendental functions of kernels/math.cl, compiled as C, with MPFR. They are
+ * within 1 ulp in single and 2 ulp in double of the correctly rounded result. Special cases are
+ * compared with Annex F of C, which is written down here. LUTETIA_MATH_POINTS=n takes n points
+ * of each kind. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -104,8 +105,9 @@ static float single_of(uint64_t bits)
     return x;
 }
 
-/* Draws a point. The kinds: numbers of all sizes, numbers near 1, numbers in the function's range, and numbers near small
- * multiples of pi/2 and other places where functions are 0 or bend. */
+/* Draws a point. The kinds: numbers of all sizes, numbers near 1, numbers in the function's
+ * range, and numbers near small multiples of pi/2 and other places where functions are 0 or
+ * bend. */
 static double point(const struct function *f, bool single, int kind)
 {
     /* the double nearest to a multiple of pi/2, others near one, and the range's ends */

@@ -1,5 +1,6 @@
-/* The transcendental operations on the device give the bits of kernels/math.cl as C: in double and single, at any vector width,
- * fused with other operations or alone, for operands of all sizes. All operations of one width are one kernel. */
+/* The transcendental operations on the device give the bits of kernels/math.cl as C: in double
+ * and single, at any vector width, fused with other operations or alone, for operands of all
+ * sizes. All operations of one width are one kernel. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -83,7 +84,8 @@ static void upload(struct machine *m, uint32_t field, struct machine_type type, 
         MACHINE_OK);
 }
 
-/* Compares every ops_step-th operation: singles use the same functions, with conversions around them. */
+/* Compares every ops_step-th operation: singles use the same functions, with conversions around
+ * them. */
 static void compare(int width, int eager, int ops_step)
 {
     struct machine *m = start(eager);

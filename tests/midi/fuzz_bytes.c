@@ -1,5 +1,6 @@
-/* fuzz_bytes.c - parses any bytes in pieces. The messages are the oracle's, and encoding and parsing them again gives the same
- * messages. Any text is a chain of filters or is refused. The first bytes choose the pieces. With libFuzzer it is the target. */
+/* fuzz_bytes.c - parses any bytes in pieces. The messages are the oracle's, and encoding and
+ * parsing them again gives the same messages. Any text is a chain of filters or is refused. The
+ * first bytes choose the pieces. With libFuzzer it is the target. */
 #include "oracle.h"
 
 #include <midi_encoder.h>

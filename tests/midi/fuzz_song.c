@@ -1,5 +1,6 @@
-/* fuzz_song.c - reads any bytes as a Standard MIDI File. A file is refused, or reading, writing and reading it again gives
- * the same song. (security.md 29) With libFuzzer it is the target; without, it changes bytes of random songs. */
+/* fuzz_song.c - reads any bytes as a Standard MIDI File. A file is refused, or reading, writing
+ * and reading it again gives the same song. (security.md 29) With libFuzzer it is the target;
+ * without, it changes bytes of random songs. */
 #include "song_support.h"
 
 #include "../must.h"

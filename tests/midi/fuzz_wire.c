@@ -1,5 +1,6 @@
-/* fuzz_wire.c - sends random frames, some of them correct, to a server as a client would, and to a client as a server would. Both
- * survive, and the server goes on serving a correct client. With libFuzzer it is the target: its bytes follow the greeting. */
+/* fuzz_wire.c - sends random frames, some of them correct, to a server as a client would, and
+ * to a client as a server would. Both survive, and the server goes on serving a correct client.
+ * With libFuzzer it is the target: its bytes follow the greeting. */
 #include <midi_client.h>
 #include <midi_server.h>
 #include <midi_time.h>

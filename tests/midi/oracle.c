@@ -32,7 +32,8 @@ static int data_of(uint8_t status)
     return status == 0xf1 || status == 0xf3 ? 1 : status == 0xf2 ? 2 : status == 0xf6 ? 0 : -1;
 }
 
-/* Adds the pieces of a system exclusive, from its f0 to the byte before the next status, which is at end_place. */
+/* Adds the pieces of a system exclusive, from its f0 to the byte before the next status, which
+ * is at end_place. */
 static void sysex_cut(struct list *l, const uint8_t *all, const size_t *places, size_t length,
                       size_t end_place)
 {

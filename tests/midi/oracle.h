@@ -1,7 +1,9 @@
-/* oracle.h - the parser's slow twin: has all bytes at once, and reads real-time messages and the others separately.
+/* oracle.h - the parser's slow twin: has all bytes at once, and reads real-time messages and
+ * the others separately.
  *
- * It takes out the real-time bytes first, each with its place. It cuts the rest at its status bytes and reads each part by
- * itself; a message has the place of its last byte. The places then give the order of all messages. */
+ * It takes out the real-time bytes first, each with its place. It cuts the rest at its status
+ * bytes and reads each part by itself; a message has the place of its last byte. The places
+ * then give the order of all messages. */
 #ifndef LUTETIA_TESTS_MIDI_ORACLE_H
 #define LUTETIA_TESTS_MIDI_ORACLE_H
 
@@ -13,7 +15,8 @@
 void oracle_parse(const uint8_t *bytes, size_t count, struct taken *out,
                   struct midi_parser_counts *counts);
 
-/* Draws bytes that an instrument, a bad cable or an attacker might send. The same seed gives the same bytes. */
+/* Draws bytes that an instrument, a bad cable or an attacker might send. The same seed gives
+ * the same bytes. */
 void oracle_bytes(uint64_t *seed, uint8_t *bytes, size_t count);
 
 #endif

@@ -1,8 +1,10 @@
-/* sequencer_twin.c - an imitation of the part of ALSA's library that talks to the kernel's sequencer, for machines whose
- * kernel has none. It is found as libasound.so.2; the coders of MIDI bytes are the real library's.
+/* sequencer_twin.c - an imitation of the part of ALSA's library that talks to the kernel's
+ * sequencer, for machines whose kernel has none. It is found as libasound.so.2; the coders of
+ * MIDI bytes are the real library's.
  *
- * One other port exists, 20:0. It sends back each event that it receives. It disappears when it receives the note-on G9
- * (127) with velocity 127, and is back after half a second. Each fifth event is refused at first, as by a full queue. */
+ * One other port exists, 20:0. It sends back each event that it receives. It disappears when it
+ * receives the note-on G9 (127) with velocity 127, and is back after half a second. Each fifth
+ * event is refused at first, as by a full queue. */
 #include <alsa_library.h>
 
 #include <dlfcn.h>

@@ -32,7 +32,8 @@ struct instrument instrument_plug(const char *name);
 void instrument_unplug(struct instrument *i); /* the link is gone, too */
 void instrument_again(struct instrument *i);  /* at the same link */
 void instrument_send(const struct instrument *i, const void *bytes, size_t count);
-/* Reads what the server sends to it, until there are `count` bytes or none came for wait_ms. Returns how many. */
+/* Reads what the server sends to it, until there are `count` bytes or none came for wait_ms.
+ * Returns how many. */
 size_t instrument_hear(const struct instrument *i, uint8_t *bytes, size_t count, int wait_ms);
 
 /* Connects a client; filters as in midi_client_listen(), NULL: it hears nothing. */

@@ -4,7 +4,8 @@
 
 #include <midi_song.h>
 
-/* Draws a song with notes, tempos, system exclusives and texts. The same seed gives the same song. Owns: the caller. */
+/* Draws a song with notes, tempos, system exclusives and texts. The same seed gives the same
+ * song. Owns: the caller. */
 struct midi_song *song_by_chance(uint64_t *seed, int events_count);
 
 /* Compares events, ticks, times and ends. Returns NULL or a text that tells what differs. */

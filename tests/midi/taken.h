@@ -1,4 +1,5 @@
-/* taken.h - keeps the messages that a parser or a filter gives, so that they can be compared. */
+/* taken.h - keeps the messages that a parser or a filter gives, so that they can be
+ * compared. */
 #ifndef LUTETIA_TESTS_MIDI_TAKEN_H
 #define LUTETIA_TESTS_MIDI_TAKEN_H
 

@@ -1,5 +1,6 @@
-/* test_alsa.c - the server's port of ALSA's sequencer. Where libasound.so.2 is sequencer_twin.c, messages go to a port and
- * come back. With the real library and a kernel without a sequencer, the device reports that. */
+/* test_alsa.c - the server's port of ALSA's sequencer. Where libasound.so.2 is
+ * sequencer_twin.c, messages go to a port and come back. With the real library and a kernel
+ * without a sequencer, the device reports that. */
 #include "../skip.h"
 #include "server_support.h"
 

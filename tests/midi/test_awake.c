@@ -1,4 +1,5 @@
-/* test_awake.c - when the server asks for processors that do not sleep, with a usual file in place of the kernel's. */
+/* test_awake.c - when the server asks for processors that do not sleep, with a usual file in
+ * place of the kernel's. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

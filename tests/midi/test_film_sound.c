@@ -1,5 +1,6 @@
-/* test_film_sound.c - `lutetia spring --sound`: the first clank is heard at its time in the network, within a picture's time.
- * Songs and devices also become sound. Skips where FluidSynth or its SoundFont is not installed. */
+/* test_film_sound.c - `lutetia spring --sound`: the first clank is heard at its time in the
+ * network, within a picture's time. Songs and devices also become sound. Skips where FluidSynth
+ * or its SoundFont is not installed. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -41,7 +42,8 @@ static void must_run(struct child *child)
         fail_msg("exit %d: %s", child->status, child->errors);
 }
 
-/* The time of the first audible clank; *events_count: the number of events in that many seconds. */
+/* The time of the first audible clank; *events_count: the number of events in that many
+ * seconds. */
 static double first_clank_s(double seconds, int *events_count)
 {
     struct dyn_network *n;
@@ -201,8 +203,8 @@ static void a_device_sounds(void **unused)
     free(w.samples);
 }
 
-/* A word that a song plays is heard with the song, which has instruments of its own, and the film is as long as the song and a
- * second. */
+/* A word that a song plays is heard with the song, which has instruments of its own, and the
+ * film is as long as the song and a second. */
 static void songs_are_heard_with_what_they_play(void **unused)
 {
     (void)unused;

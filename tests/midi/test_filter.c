@@ -1,5 +1,5 @@
-/* test_filter.c - single filters, chains, and thinning: the messages that come out and their times. The last value always comes
- * out. */
+/* test_filter.c - single filters, chains, and thinning: the messages that come out and their
+ * times. The last value always comes out. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,7 +14,8 @@
 #include "../sample.h"
 #include "oracle.h"
 
-/* Reads messages with times, "TIME_MS words|TIME_MS words". Returns the last one's time in ms. */
+/* Reads messages with times, "TIME_MS words|TIME_MS words". Returns the last one's time in
+ * ms. */
 static int messages_read(const char *text, struct taken *out)
 {
     char copy[1000], *rest = copy;
@@ -77,7 +78,8 @@ static const struct {
      "0 note-on 2 b3 1|1 note-on 1 c4 1|2 control 1 7 7"},
     {"transpose=12 notes=c4-c5 channel=3", "0 note-on 1 c3 1|1 note-on 1 c4 1|2 note-on 1 c5 1",
      "0 note-on 3 c4 1|1 note-on 3 c5 1"},
-    /* The first value goes out at once; of later values within 10 ms only the newest does, at the end of that time. */
+    /* The first value goes out at once; of later values within 10 ms only the newest does, at
+     * the end of that time. */
     {"thin=10", "0 control 1 7 1|2 control 1 7 2|4 control 1 7 3|20 control 1 7 4",
      "0 control 1 7 1|4 control 1 7 3|20 control 1 7 4"},
     {"thin=10", "0 bend 1 1|1 bend 1 2|2 bend 2 3|3 bend 2 4|4 bend 1 5",
@@ -118,8 +120,9 @@ static void filters_do_as_they_say(void **unused)
     }
 }
 
-/* Random messages: the thinned ones are some of the original ones, and each controller's last value is the same. Other
- * messages are unchanged and in order. Between two other messages of its channel no controller comes more often than it may. */
+/* Random messages: the thinned ones are some of the original ones, and each controller's last
+ * value is the same. Other messages are unchanged and in order. Between two other messages of
+ * its channel no controller comes more often than it may. */
 static void thinning_keeps_every_last_value(void **unused)
 {
     (void)unused;

@@ -1,5 +1,5 @@
-/* test_jack.c - the server's JACK ports. The test runs its own JACK server with the dummy driver, and skips where there is
- * none. (security.md 24) */
+/* test_jack.c - the server's JACK ports. The test runs its own JACK server with the dummy
+ * driver, and skips where there is none. (security.md 24) */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -30,8 +30,8 @@
 enum { ENDS = 4 /* of JACK, while the server runs */ };
 
 static char server_name[32];
-static bool
-    realtime; /* JACK is made for it: the test, its JACK and the server run so where that is allowed */
+/* JACK is made for it: the test, its JACK and the server run so where that is allowed */
+static bool realtime;
 
 static pid_t jackd_begin(const char *period)
 {
@@ -74,7 +74,8 @@ static void leftovers_remove(void)
     }
 }
 
-/* Another program of JACK's in the test: an ear at the server's output, and a mouth at its input. */
+/* Another program of JACK's in the test: an ear at the server's output, and a mouth at its
+ * input. */
 struct patch {
     const struct jack_library *jack;
     void *client, *ear, *mouth;
@@ -145,7 +146,8 @@ static bool jack_begin(const char *period)
     return true;
 }
 
-/* With an ear the patch waits for the server in each period; with a mouth alone the server waits for it. */
+/* With an ear the patch waits for the server in each period; with a mouth alone the server
+ * waits for it. */
 static void patch_begin(bool hears)
 {
     const struct jack_library *jack = patch.jack;
@@ -166,7 +168,8 @@ static void patch_begin(bool hears)
     assert_int_equal(jack->jack_connect(patch.client, "patch:mouth", "lutetia:in"), 0);
 }
 
-/* ended: its server has ended; its library goes on for a moment, and is not to be disturbed (device_jack.c). */
+/* ended: its server has ended; its library goes on for a moment, and is not to be disturbed
+ * (device_jack.c). */
 static void jack_end(bool ended)
 {
     if (ended)
@@ -248,12 +251,14 @@ struct trial {
 
 static int still_try(struct trial *t);
 
-/* On a busy machine periods are missed, by the test or by the server: a trial that fails then is made again. */
+/* On a busy machine periods are missed, by the test or by the server: a trial that fails then
+ * is made again. */
 static void tried(int (*run)(struct trial *t), const char *period, bool expects_loss)
 {
     for (int i = 0; i < 30; i++) {
         jack_name();
-        /* The server first: it is a fork() of this process, and JACK's library does not know that it has been forked. */
+        /* The server first: it is a fork() of this process, and JACK's library does not know
+         * that it has been forked. */
         struct trial t = {.s = served_begin((const char *[]){"jack", NULL}, 0, NULL),
                           .expects_loss = expects_loss};
         if (!jack_begin(period)) {
@@ -282,7 +287,8 @@ static void tried(int (*run)(struct trial *t), const char *period, bool expects_
     fail_msg("every trial was spoiled");
 }
 
-/* Faster than JACK takes them: the sender waits, and all arrive. Where the server missed periods that is told, and no note hangs. */
+/* Faster than JACK takes them: the sender waits, and all arrive. Where the server missed
+ * periods that is told, and no note hangs. */
 static int fast_try(struct trial *t)
 {
     enum { MESSAGES = 20000 };
@@ -311,7 +317,8 @@ static void a_fast_player_waits(void **unused)
     tried(fast_try, "1024", false);
 }
 
-/* The server stands still for a while: what comes meanwhile is lost, that is told, and its notes end. */
+/* The server stands still for a while: what comes meanwhile is lost, that is told, and its
+ * notes end. */
 static int still_try(struct trial *t)
 {
     static const uint8_t on[3] = {0x90, 60, 100}, off[3] = {0x80, 60, 64};
@@ -337,7 +344,8 @@ static void what_is_lost_is_told_and_ends(void **unused)
     tried(still_try, "1024", true);
 }
 
-/* The end of a note may be lost at the ear: after a loss it is sent again, and a note that is held goes on. */
+/* The end of a note may be lost at the ear: after a loss it is sent again, and a note that is
+ * held goes on. */
 static int again_try(struct trial *t)
 {
     struct midi_notes sounding = {0};
@@ -429,7 +437,8 @@ static void messages_go_through_jack(void **unused)
     tried(through_try, "512", false);
 }
 
-/* What JACK's server says last is still being handled by its library when the server is told: that must not hold the server. */
+/* What JACK's server says last is still being handled by its library when the server is told:
+ * that must not hold the server. */
 static void jack_ends_and_comes_again(void **unused)
 {
     (void)unused;

@@ -92,7 +92,8 @@ static void letters_go_to_keys(void **unused)
     assert_string_equal(l.of[67], "o\xcc\x81");
     assert_string_equal(l.of[61], "");
     assert_false(keys_letters_text(&s, " \n\t", &l));
-    /* Arabic: from the highest key, each letter as its neighbours in the word have it. Bab: beh alef beh, then meem alone */
+    /* Arabic: from the highest key, each letter as its neighbours in the word have it. Bab: beh
+     * alef beh, then meem alone */
     assert_true(keys_letters_text(&s, "\u0628\u0627\u0628 \u0645", &l));
     assert_string_equal(l.of[72], "\u0628\u200d"); /* initial */
     assert_string_equal(l.of[67], "\u200d\u0627"); /* final: an alef joins nothing after it */
@@ -198,7 +199,8 @@ static void heights_in_pixels_follow_velocity(void **unused)
     midi_song_destroy(song);
 }
 
-/* A note that is held for hours, with aftertouch all the time: what is kept has an end, and sounds the same. */
+/* A note that is held for hours, with aftertouch all the time: what is kept has an end, and
+ * sounds the same. */
 static void hours_of_aftertouch_are_not_kept(void **unused)
 {
     (void)unused;

@@ -1,4 +1,5 @@
-/* test_log.c - what the server tells is bounded, and what was left out is told. (security.md 23) */
+/* test_log.c - what the server tells is bounded, and what was left out is told. (security.md
+ * 23) */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
-/* test_midi_command.c - `lutetia midi` and a program that uses the library: played notes are heard and recorded, and errors get a
- * message. */
+/* test_midi_command.c - `lutetia midi` and a program that uses the library: played notes are
+ * heard and recorded, and errors get a message. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -264,7 +264,8 @@ static void wrong_lines_are_refused(void **unused)
     run(MIDI("monitor", "-n", "x"), 2, "--count");
 }
 
-/* What the libraries of sound cards complain about is not the user's matter. Where there is a card or a JACK server it plays. */
+/* What the libraries of sound cards complain about is not the user's matter. Where there is a
+ * card or a JACK server it plays. */
 static void no_sound_card_is_one_line(void **unused)
 {
     (void)unused;

@@ -1,5 +1,5 @@
-/* test_ring.c - passes messages between threads: all arrive, whole and in order. Those that do not fit are refused and
- * counted. */
+/* test_ring.c - passes messages between threads: all arrive, whole and in order. Those that do
+ * not fit are refused and counted. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
-/* test_server.c - the server with instruments on pseudo-terminals: who receives which messages, and what happens when one of them
- * goes away. */
+/* test_server.c - the server with instruments on pseudo-terminals: who receives which messages,
+ * and what happens when one of them goes away. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -110,7 +110,8 @@ static void a_device_plays_what_clients_send(void **unused)
     assert_int_equal(midi_client_send(b, device, &m), MIDI_OK);
     assert_int_equal(instrument_hear(&keys, bytes, 2, 2000), 2);
     assert_memory_equal(bytes, "\x3d\x64", 2);
-    /* Another client's notes wait for the end of a system exclusive; real-time messages do not. */
+    /* Another client's notes wait for the end of a system exclusive; real-time messages do
+     * not. */
     struct midi_message first = {.count = MIDI_BYTES_MAX, .bytes = {0xf0}};
     struct midi_message last = {.count = 2, .bytes = {1, 0xf7}},
                         clock = {.count = 1, .bytes = {0xf8}};
@@ -224,7 +225,8 @@ static void unplugged_and_back(void **unused)
     (void)next_message(c, NULL);
     (void)next_message(c, NULL);
     instrument_unplug(&keys);
-    /* When the instrument goes, its open system exclusive is ended, and its notes and pedals are released. */
+    /* When the instrument goes, its open system exclusive is ended, and its notes and pedals
+     * are released. */
     struct midi_message m = next_message(c, NULL);
     check_text(&m, "sysex f0 01 f7");
     m = next_message(c, NULL);

@@ -1,5 +1,5 @@
-/* test_server_bad.c - clients that send garbage, flood or never read, and sockets in the way. They get clear messages, and others
- * notice nothing. */
+/* test_server_bad.c - clients that send garbage, flood or never read, and sockets in the way.
+ * They get clear messages, and others notice nothing. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -128,8 +128,8 @@ static void garbage_is_answered_and_others_go_on(void **unused)
     instrument_unplug(&keys);
 }
 
-/* A client that never reads loses messages, is told so when it reads at last, and its notes end. The others receive
- * everything. */
+/* A client that never reads loses messages, is told so when it reads at last, and its notes
+ * end. The others receive everything. */
 static void who_does_not_read_is_told_what_it_lost(void **unused)
 {
     (void)unused;
@@ -208,7 +208,8 @@ static void a_flood_stays_where_it_is(void **unused)
     uint8_t bytes[5000];
     assert_int_equal(instrument_hear(&keys, bytes, 3, 2000), 3);
     assert_true(midi_now_ns() - before_ns < UINT64_C(1000000000));
-    /* Both clients play the full device. They take turns, so the other client's note comes soon after there is room. */
+    /* Both clients play the full device. They take turns, so the other client's note comes soon
+     * after there is room. */
     m = midi_message_make(0, 0x95, 1, 2);
     assert_int_equal(midi_client_send(good, 1, &m), MIDI_OK);
     size_t total = 0;

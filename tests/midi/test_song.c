@@ -1,4 +1,5 @@
-/* test_song.c - Standard MIDI Files: reading, writing, times, damage. Other programs read our files, and we read theirs. */
+/* test_song.c - Standard MIDI Files: reading, writing, times, damage. Other programs read our
+ * files, and we read theirs. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,7 +21,8 @@
 
 #define HEADER(format, tracks, high, low) "MThd\0\0\0\6\0" format "\0" tracks high low
 
-/* Two tracks, 96 ticks to a quarter note, 120 quarter notes a minute and from tick 192 on 60. */
+/* Two tracks, 96 ticks to a quarter note, 120 quarter notes a minute and from tick 192 on
+ * 60. */
 static const char two_tracks[] = HEADER(
     "\1", "\2", "\0",
     "\x60") "MTrk\0\0\0\x13\0\xff\x51\3\7\xa1\x20\x81\x40\xff\x51\3\x0f\x42\x40\0\xff\x2f\0"
@@ -56,7 +58,8 @@ static void a_file_is_read(void **unused)
     midi_song_destroy(song);
 }
 
-/* Times are exact to a nanosecond at any distance from the last tempo; converting back gives the tick. */
+/* Times are exact to a nanosecond at any distance from the last tempo; converting back gives
+ * the tick. */
 static void time_is_exact(void **unused)
 {
     (void)unused;

@@ -1,5 +1,5 @@
-/* test_sound.c - events to sound: three bounces give three onsets at their times, louder for faster bounces. Skips where
- * FluidSynth or its SoundFont is not installed. */
+/* test_sound.c - events to sound: three bounces give three onsets at their times, louder for
+ * faster bounces. Skips where FluidSynth or its SoundFont is not installed. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -39,7 +39,8 @@ static bool able(void)
     return false;
 }
 
-/* The times and speeds of the first three bounces of a ball, by the formulas of the springs' floor. */
+/* The times and speeds of the first three bounces of a ball, by the formulas of the springs'
+ * floor. */
 static void bounces(double times_s[3], double speeds[3])
 {
     const double gravity = 9.8, height = 1, restitution = 0.7;
@@ -136,7 +137,8 @@ static double wav_ends_s(const struct wav *w)
     return (double)last / w->channels / w->rate_hz;
 }
 
-/* A cymbal that goes on after the song, an organ's note that nobody ends, and a pause within the song. */
+/* A cymbal that goes on after the song, an organ's note that nobody ends, and a pause within
+ * the song. */
 static void songs_are_rendered_to_silence(void **unused)
 {
     (void)unused;
@@ -252,8 +254,8 @@ static void what_is_missing_is_named(void **unused)
     sound_destroy(sound);
 }
 
-/* A SoundFont whose tables are damaged, or which is cut off, is refused, or sounds as it can; nothing is printed but by us.
- * (security.md 31) */
+/* A SoundFont whose tables are damaged, or which is cut off, is refused, or sounds as it can;
+ * nothing is printed but by us. (security.md 31) */
 static void damaged_fonts_are_refused_quietly(void **unused)
 {
     (void)unused;

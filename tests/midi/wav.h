@@ -1,4 +1,5 @@
-/* wav.h - reads WAV files that FluidSynth writes, and measures their sound. Include after cmocka.h. */
+/* wav.h - reads WAV files that FluidSynth writes, and measures their sound. Include after
+ * cmocka.h. */
 #ifndef LUTETIA_TESTS_MIDI_WAV_H
 #define LUTETIA_TESTS_MIDI_WAV_H
 
@@ -67,7 +68,8 @@ static inline int wav_peak(const struct wav *w, double from_s, double to_s)
     return loudest;
 }
 
-/* Finds onsets: milliseconds that are loud, and louder than the ten before. Returns how many. */
+/* Finds onsets: milliseconds that are loud, and louder than the ten before. Returns how
+ * many. */
 static inline int wav_onsets(const struct wav *w, double *times_s, int most)
 {
     const double step_s = 0.001;

@@ -1,5 +1,5 @@
-/* Devices: a number or part of a name chooses one. Each of PoCL's threads is bound to a processor unless the environment says
- * otherwise. (security.md 15) */
+/* Devices: a number or part of a name chooses one. Each of PoCL's threads is bound to a
+ * processor unless the environment says otherwise. (security.md 15) */
 #include "../skip.h"
 #include "devices.h"
 
@@ -83,8 +83,9 @@ static cl_uint units_of(cl_device_id device)
     return units;
 }
 
-/* Opens a device in a child process. Returns 1 where its threads are bound to processors, else 0; 2 where a process of one processor has
- * several of them. Threads bind themselves when they begin. */
+/* Opens a device in a child process. Returns 1 where its threads are bound to processors, else
+ * 0; 2 where a process of one processor has several of them. Threads bind themselves when they
+ * begin. */
 static int tied_in_child(const char *name, const char *value, bool one_processor)
 {
     pid_t pid = fork();
@@ -110,7 +111,8 @@ static int tied_in_child(const char *name, const char *value, bool one_processor
         for (int i = 0; i < 50 && !tied; i++, usleep(10000))
             tied = threads_tied();
         (void)context;
-        if (one_processor) /* all threads are on the one processor: checks that none was moved off it */
+        /* all threads are on the one processor: checks that none was moved off it */
+        if (one_processor)
             _exit(getenv("POCL_AFFINITY") != NULL ? 1 : units_of(all[0].id) != 1 ? 2 : 0);
         _exit(tied > 0);
     }
@@ -135,8 +137,8 @@ static void threads_have_a_processor_each_unless_told(void **state)
     assert_int_equal(0, tied_in_child(NULL, NULL, true));
 }
 
-/* Finds, in a child, the cache folder that PoCL gets where the environment says `said` (NULL: nothing). path: "" if the child
- * ended by a signal. */
+/* Finds, in a child, the cache folder that PoCL gets where the environment says `said` (NULL:
+ * nothing). path: "" if the child ended by a signal. */
 static void pocl_cache_of(const char *home, const char *said, char path[static 512],
                           mode_t *mode)
 {
@@ -168,7 +170,8 @@ static void pocl_cache_of(const char *home, const char *said, char path[static 5
     assert_int_equal(waitpid(child, NULL, 0), child);
 }
 
-/* Files in the cache are loaded as code, so it is never in a folder where another user can put a file. */
+/* Files in the cache are loaded as code, so it is never in a folder where another user can put
+ * a file. */
 static void pocl_keeps_its_programs_where_only_we_can_write(void **state)
 {
     (void)state;

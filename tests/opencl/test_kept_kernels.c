@@ -1,5 +1,5 @@
-/* Tests kept_kernels.h on a folder that is laid out as PoCL does: the programs that were used last longest ago go, and nothing that is no
- * program does. */
+/* Tests kept_kernels.h on a folder that is laid out as PoCL does: the programs that were used
+ * last longest ago go, and nothing that is no program does. */
 #include <fcntl.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,6 @@
-/* fuzz_path.c - reads SVG paths, SVG files and recorded samples from damaged bytes. Each is read, within its bounds, or refused
- * with one line. The first byte of input chooses the kind. */
+/* fuzz_path.c - reads SVG paths, SVG files and recorded samples from damaged bytes. Each is
+ * read, within its bounds, or refused with one line. The first byte of input chooses the
+ * kind. */
 #include <path.h>
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* test_brush.c - brushes: nothing is lost between bristles and fibers, a mirrored stroke gives a mirrored picture, and dry
- * brushes touch only the paper's hills. */
+/* test_brush.c - brushes: nothing is lost between bristles and fibers, a mirrored stroke gives
+ * a mirrored picture, and dry brushes touch only the paper's hills. */
 #include <brush.h>
 #include <paper.h>
 #include <picture.h>
@@ -100,7 +100,8 @@ static void what_leaves_the_brush_arrives(void **state)
     struct paper_brush brush = brush_small();
     check(paper_sheet_brush(sheet, &brush));
     for (int i = 0; i < 3; i++) {
-        /* the second brush is clean and nearly dry, so it takes up paint; the third is full of thick paint */
+        /* the second brush is clean and nearly dry, so it takes up paint; the third is full of
+         * thick paint */
         dip(sheet, i == 1 ? 0.02 : 1, i == 1 ? 0 : 0.5, i == 2 ? 4 : 0);
         double before[3], held[3], laid[3];
         for (int j = 0; j < 3; j++) {
@@ -211,7 +212,8 @@ static void masking_fluid_is_not_painted(void **state)
     paper_sheet_destroy(sheet);
 }
 
-/* A quick stroke of little paint has streaks along it, and no rows of dots: neither where the bristles touch, nor when it has dried. */
+/* A quick stroke of little paint has streaks along it, and no rows of dots: neither where the
+ * bristles touch, nor when it has dried. */
 static void a_thin_stroke_has_no_dots(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* test_deckle.c - sheets with the edges of handmade paper: what the edge is like, that nothing gets over it, and that all that holds of
- * other sheets holds of them. */
+/* test_deckle.c - sheets with the edges of handmade paper: what the edge is like, that nothing
+ * gets over it, and that all that holds of other sheets holds of them. */
 #include <brush.h>
 #include <history.h>
 #include <paper.h>
@@ -50,7 +50,8 @@ static struct paper_sheet *sheet_small(void)
 
 /* ---- the edge ---- */
 
-/* How far the sheet ends from a side of the picture, for each row or column of it: the first fiber that is clearly there. */
+/* How far the sheet ends from a side of the picture, for each row or column of it: the first
+ * fiber that is clearly there. */
 static void edge_find(const float *thickness, int side, double edge[SIDE])
 {
     for (int i = 0; i < SIDE; i++) {
@@ -139,7 +140,8 @@ static void the_edge_wanders_without_a_period(void **state)
     printf("edge: a frequency has at most %.1f times the power around it\n", peak);
 }
 
-/* The sheet gets thinner, lower, and holds and drinks less; in the middle it is the sheet without a deckle, to the bit. */
+/* The sheet gets thinner, lower, and holds and drinks less; in the middle it is the sheet
+ * without a deckle, to the bit. */
 static void the_sheet_is_thin_at_its_edge(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* test_drawing.c - what screens were drawn from: drawn again they are the same at their own size, finer at another, and as they were read. */
+/* test_drawing.c - what screens were drawn from: drawn again they are the same at their own
+ * size, finer at another, and as they were read. */
 #include <drawing.h>
 #include <history.h>
 #include <sheet.h>
@@ -98,7 +99,8 @@ static void shapes_are_joined(void **state)
     free(b.at);
 }
 
-/* Bytes that were changed by chance, or cut off, are drawn or refused; nothing else is read or written. */
+/* Bytes that were changed by chance, or cut off, are drawn or refused; nothing else is read or
+ * written. */
 static void damaged_bytes_are_refused(void **state)
 {
     (void)state;
@@ -128,7 +130,8 @@ static void damaged_bytes_are_refused(void **state)
     free(b.at);
 }
 
-/* What type put on a sheet leaves there, in a render at 2 and after saving, is what type set twice as large leaves. */
+/* What type put on a sheet leaves there, in a render at 2 and after saving, is what type set
+ * twice as large leaves. */
 static void renders_set_type_anew(void **state)
 {
     (void)state;

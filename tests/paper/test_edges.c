@@ -1,4 +1,5 @@
-/* test_edges.c - edges of paint: they stay gray as they were put, however dark a line gathers there; what part of a fiber is stained. */
+/* test_edges.c - edges of paint: they stay gray as they were put, however dark a line gathers
+ * there; what part of a fiber is stained. */
 #include <brush.h>
 #include <paper.h>
 #include <sheet.h>
@@ -17,7 +18,8 @@
 
 #include <cmocka.h>
 
-/* A bar as wide as the sheet, at 10 degrees: its upper edge at x, and how many fibers wide it is. */
+/* A bar as wide as the sheet, at 10 degrees: its upper edge at x, and how many fibers wide it
+ * is. */
 enum { WIDTH = 240, HEIGHT = 128, FIBERS = WIDTH * HEIGHT, FROM = 24, BAR = 34 };
 #define SLOPE 0.177
 
@@ -78,7 +80,8 @@ static void steps(struct paper_sheet *sheet, int count)
         check(paper_sheet_step(sheet));
 }
 
-/* In which part of the columns the upper edge has a gray fiber, by the density of red, which the green absorbs most. */
+/* In which part of the columns the upper edge has a gray fiber, by the density of red, which
+ * the green absorbs most. */
 static double gray_part(struct paper_sheet *sheet, double top)
 {
     static uint16_t rgb[3 * FIBERS];
@@ -152,7 +155,8 @@ static void strokes_have_gray_edges(void **state)
     paper_sheet_destroy(sheet);
 }
 
-/* What is stained is what was wet since there was paint: all of what clean water has covered, a part at an edge. */
+/* What is stained is what was wet since there was paint: all of what clean water has covered, a
+ * part at an edge. */
 static void stained_parts_follow_the_paint(void **state)
 {
     (void)state;

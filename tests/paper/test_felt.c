@@ -1,6 +1,7 @@
-/* test_felt.c - measures felted paper. It has no preferred direction except a mould's lines, clouds of many sizes, the same form
- * at a finer resolution, and no seam on a torus. Light on it shows relief of every direction, and rough paper rough. Measures also
- * a brushed wash on it. */
+/* test_felt.c - measures felted paper. It has no preferred direction except a mould's lines,
+ * clouds of many sizes, the same form at a finer resolution, and no seam on a torus. Light on
+ * it shows relief of every direction, and rough paper rough. Measures also a brushed wash on
+ * it. */
 #include "model/felt.h"
 
 #include <brush.h>
@@ -68,7 +69,8 @@ struct figures {
     double deviation;
 };
 
-/* The slope of power over frequency on a log-log scale, by least squares, for rings of whole frequencies 4 to SIDE / 4. */
+/* The slope of power over frequency on a log-log scale, by least squares, for rings of whole
+ * frequencies 4 to SIDE / 4. */
 static double slope_of(const double *power, const int *counts)
 {
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
@@ -79,7 +81,8 @@ static double slope_of(const double *power, const int *counts)
     return (n * xy - x * y) / (n * xx - x * x);
 }
 
-/* The Fourier transform of what the values are off their mean, faded out towards the sides. Returns their variance. */
+/* The Fourier transform of what the values are off their mean, faded out towards the sides.
+ * Returns their variance. */
 static double spectrum_make(const float *values, double complex *plane)
 {
     double sum = 0, squares = 0;
@@ -338,8 +341,8 @@ static void light_has_no_direction_and_rough_is_rough(void **state)
 
 /* ---- a brushed wash ---- */
 
-/* Paints nine wavering strokes of a wide flat brush and dries them after 200 steps. density: the optical density for red, which
- * ultramarine absorbs most. */
+/* Paints nine wavering strokes of a wide flat brush and dries them after 200 steps. density:
+ * the optical density for red, which ultramarine absorbs most. */
 static void wash_brush(const char *stock, float *density)
 {
     enum { WIDE = 640, EDGE = (WIDE - SIDE) / 2, STROKES = 9 };

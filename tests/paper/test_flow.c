@@ -1,5 +1,5 @@
-/* test_flow.c - measures flowing water: backruns, drops, letters, drips, edges and type, all on one paper in one air. Scripts
- * choose water, pigment, gravity and time. */
+/* test_flow.c - measures flowing water: backruns, drops, letters, drips, edges and type, all on
+ * one paper in one air. Scripts choose water, pigment, gravity and time. */
 #include <history.h>
 #include <paper.h>
 #include <sheet.h>
@@ -82,8 +82,8 @@ static double value_at(const float *values, double x, double y)
 
 /* ---- a backrun: clean water put into a damp wash ---- */
 
-/* Adds the spectrum of the front's radius over the angle, relative to the mean radius squared, to `power`. Returns its sum
- * without the first term. */
+/* Adds the spectrum of the front's radius over the angle, relative to the mean radius squared,
+ * to `power`. Returns its sum without the first term. */
 static double front_power(const float *wet, double power[SPECTRUM + 1])
 {
     static double radius[RAYS];
@@ -162,7 +162,8 @@ static void backrun_has_lobes(void **state)
     assert_true(inside < 0.85 * beyond && rim > 1.3 * beyond);
 }
 
-/* How far `amounts` differ from the best fitting disc about their own middle, whose profile is an error function. */
+/* How far `amounts` differ from the best fitting disc about their own middle, whose profile is
+ * an error function. */
 static double unlike_a_disc(const float *amounts)
 {
     double mass = 0, x_sum = 0, y_sum = 0, squares = 0, best = INFINITY;
@@ -233,7 +234,8 @@ static void shapes_that_touch_run_into_each_other(void **state)
     paper_sheet_destroy(sheet);
 }
 
-/* The length of the contour line of `amounts` at level `at`, relative to the circumference of a circle of the same area. */
+/* The length of the contour line of `amounts` at level `at`, relative to the circumference of a
+ * circle of the same area. */
 static double front_ratio(const float *amounts, float at)
 {
     static const int corners[5] = {0, 1, SIDE + 1, SIDE, 0};
@@ -343,7 +345,8 @@ static void drips_differ(void **state)
     assert_true(of_spacing > 0.3 && of_length > 0.3 && of_bend > 0.3);
 }
 
-/* The width, in fibers, of the band at a disc's edge that is darker than its inside; *contrast: how much darker at most. */
+/* The width, in fibers, of the band at a disc's edge that is darker than its inside; *contrast:
+ * how much darker at most. */
 static double band_width(const float *amounts, double radius, double *contrast)
 {
     static double profile[SIDE], counts[SIDE];
@@ -440,8 +443,9 @@ static void gray_edges_stay(void **state)
     paper_sheet_destroy(sheet);
 }
 
-/* A wash that fades, as a soft mask lays it: all of each fiber is wet, under less water. Where only a part of each was, water closed over some
- * fibers and drew in that of all around them: clusters of them stood out. */
+/* A wash that fades, as a soft mask lays it: all of each fiber is wet, under less water. Where
+ * only a part of each was, water closed over some fibers and drew in that of all around them:
+ * clusters of them stood out. */
 static void water_that_fades_stays_even(void **state)
 {
     (void)state;

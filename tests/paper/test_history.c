@@ -1,4 +1,5 @@
-/* test_history.c - undo, redo, seek and insertion: the sheet at a given moment is the same to the bit, however one gets there. */
+/* test_history.c - undo, redo, seek and insertion: the sheet at a given moment is the same to
+ * the bit, however one gets there. */
 #include <brush.h>
 #include <history.h>
 #include <paper.h>
@@ -149,8 +150,8 @@ static void what_is_inserted_comes_before_what_followed(void **state)
     paper_sheet_destroy(other);
 }
 
-/* Undoes insertions at random times after random operations. The history and the sheet are then as before the insertion, and
- * further undos go on from there. */
+/* Undoes insertions at random times after random operations. The history and the sheet are then
+ * as before the insertion, and further undos go on from there. */
 static void undo_after_an_insertion_takes_it_back(void **state)
 {
     (void)state;
@@ -255,7 +256,8 @@ static void a_saved_run_goes_on(void **state)
     assert_true(state_hash(sheet) == middle);
     paper_sheet_destroy(sheet);
 
-    /* follow: the same operations come again and are not computed; two of the ways read the sheet in the middle */
+    /* follow: the same operations come again and are not computed; two of the ways read the
+     * sheet in the middle */
     for (int way = 0; way < 4; way++) {
         double budget = way % 2 ? 1e6 : 0;
         check(paper_history_decode(saved.bytes, saved.count, true, budget, saved_give, &saved,
@@ -288,7 +290,8 @@ static void a_saved_run_goes_on(void **state)
     saved.bytes = NULL;
 }
 
-/* Parts of a program with undos and redos, by number; some run before the sheet is saved and some after. */
+/* Parts of a program with undos and redos, by number; some run before the sheet is saved and
+ * some after. */
 static void wander(struct paper_sheet *sheet, int part)
 {
     struct paper_air air = *paper_sheet_get_air(sheet);
@@ -417,7 +420,8 @@ static void damaged_runs_are_refused_or_harmless(void **state)
             copy[at % saved.count] =
                 (uint8_t)(sample_word(&word) % 3 ? sample_word(&word) : 255);
         }
-        /* only the description is checked where the damage changed the size: another size would need other kernels */
+        /* only the description is checked where the damage changed the size: another size would
+         * need other kernels */
         struct paper_sheet_config config;
         if (paper_history_describe(copy, count, &config) != PAPER_OK || config.width != WIDTH ||
             config.height != HEIGHT || config.pigments_count != 2 ||

@@ -1,4 +1,5 @@
-/* test_laying.c - what washes, prints, salt and varnish lay, and where: masking fluid, screens, edges. */
+/* test_laying.c - what washes, prints, salt and varnish lay, and where: masking fluid, screens,
+ * edges. */
 #include <paper.h>
 #include <techniques.h>
 
@@ -18,7 +19,8 @@
 
 enum { WIDTH = 64, HEIGHT = 48, FIBERS = WIDTH * HEIGHT };
 
-/* Every sheet has two pigments, so that all tests have the same kernels. The first stains five times as much as the second. */
+/* Every sheet has two pigments, so that all tests have the same kernels. The first stains five
+ * times as much as the second. */
 static struct paper_sheet *sheet_make(void)
 {
     struct paper_sheet_config config =
@@ -69,7 +71,8 @@ static void masking_fluid_keeps_techniques_off(void **state)
     paper_sheet_destroy(sheet);
 }
 
-/* A fiber is wet where a wash or a print brings water to it, though the wash begins dry, and dry where they bring pigment alone. */
+/* A fiber is wet where a wash or a print brings water to it, though the wash begins dry, and
+ * dry where they bring pigment alone. */
 static void what_brings_water_wets(void **state)
 {
     (void)state;
@@ -120,7 +123,8 @@ static void varnish_goes_to_the_sheets_edge(void **state)
     paper_sheet_destroy(sheet);
 }
 
-/* Grains fall all over a disc, as far along y as along x, most of them small, and only where the screen is. */
+/* Grains fall all over a disc, as far along y as along x, most of them small, and only where
+ * the screen is. */
 static void salt_falls_where_it_is_strewn(void **state)
 {
     (void)state;

@@ -164,7 +164,8 @@ static double ink_of(const struct paper_screen *s)
     return ink / 255;
 }
 
-/* Type that is moved by parts of a fiber, turned, or drawn with another filter has the same amount of ink. */
+/* Type that is moved by parts of a fiber, turned, or drawn with another filter has the same
+ * amount of ink. */
 static void type_is_placed_turned_and_filtered(void **state)
 {
     (void)state;

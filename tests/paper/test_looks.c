@@ -1,5 +1,5 @@
-/* test_looks.c - the look of a sheet: compares its colours with Kubelka-Munk by hand, and measures each of watercolour's
- * effects. */
+/* test_looks.c - the look of a sheet: compares its colours with Kubelka-Munk by hand, and
+ * measures each of watercolour's effects. */
 #include <paper.h>
 #include <sheet.h>
 
@@ -19,8 +19,8 @@
 
 enum { SIDE = 96, FIBERS = SIDE * SIDE, MIDDLE = SIDE / 2 };
 
-/* A light pigment that hardly granulates, and a heavy one that does. All tests use both pigments and no 0 in the air's numbers,
- * so that they have the same kernels. */
+/* A light pigment that hardly granulates, and a heavy one that does. All tests use both
+ * pigments and no 0 in the air's numbers, so that they have the same kernels. */
 enum { LIGHT, HEAVY };
 #define NONE 1e-7 /* less than a grain */
 
@@ -121,8 +121,8 @@ static double difference(const double a[3], const uint16_t *shown)
                 (x[2] - y[2]) * (x[2] - y[2]));
 }
 
-/* Puts two pigments into the fibers of one sheet that has all pigments, so that all pairs share one kernel. Writes every layer,
- * so that the machine knows of none that it is 0. */
+/* Puts two pigments into the fibers of one sheet that has all pigments, so that all pairs share
+ * one kernel. Writes every layer, so that the machine knows of none that it is 0. */
 static void glaze_put(struct paper_sheet *sheet, int count, int one, int two)
 {
     static float amounts[FIBERS];
@@ -240,7 +240,8 @@ static void profile_read(struct paper_sheet *sheet, int pigment, double profile[
         profile[i] = ring_mean(values, i, i + 1);
 }
 
-/* A dried wash is even in the middle, has a dark band as wide as asked (8) at the edge of the wet area, and nothing beyond. */
+/* A dried wash is even in the middle, has a dark band as wide as asked (8) at the edge of the
+ * wet area, and nothing beyond. */
 static void edges_darken(void **state)
 {
     (void)state;
@@ -394,7 +395,8 @@ static void drop_hang(const char *stock, int *length, int *width)
     paper_sheet_destroy(sheet);
 }
 
-/* On paper that takes no water a drop runs down and hardly widens; blotting paper soaks it up. */
+/* On paper that takes no water a drop runs down and hardly widens; blotting paper soaks it
+ * up. */
 static void drops_drip_on_glass(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* test_page.c - the sheet on the machine: its pictures, the same bits in each run, and conservation in its flow. */
+/* test_page.c - the sheet on the machine: its pictures, the same bits in each run, and
+ * conservation in its flow. */
 #include <paper.h>
 #include <paris_internal.h>
 
@@ -16,10 +17,12 @@
 
 enum { WIDTH = 96, HEIGHT = 70, BYTES = 3 * WIDTH * HEIGHT };
 
-/* The FNV-1a hash of the golden page, which PoCL 3.1 on x86-64 and every other device must give. */
+/* The FNV-1a hash of the golden page, which PoCL 3.1 on x86-64 and every other device must
+ * give. */
 static const uint64_t golden_hash = 0x4abb75efe109d328u;
 
-/* Evaluates two steps at a time, as `lutetia` does: kernels of more steps take long to compile. */
+/* Evaluates two steps at a time, as `lutetia` does: kernels of more steps take long to
+ * compile. */
 static void disperse(struct paper *sheet, const struct paper_weather *weather, int steps)
 {
     for (int i = 0; i < steps; i++) {
@@ -37,7 +40,8 @@ static struct paper_config config_small(void)
     return config;
 }
 
-/* Makes a small page with pools, rectangles and type, and runs `steps` cycles of windy weather. */
+/* Makes a small page with pools, rectangles and type, and runs `steps` cycles of windy
+ * weather. */
 static struct paper *page_make(const struct paper_config *config, int steps)
 {
     struct paper *sheet;
@@ -157,7 +161,8 @@ static void type_is_crisp_before_time(void **state)
     paper_destroy(sheet);
 }
 
-/* The outflow of a fiber is its neighbour's inflow: away from the rim nothing is lost except by drying. */
+/* The outflow of a fiber is its neighbour's inflow: away from the rim nothing is lost except by
+ * drying. */
 static void flow_keeps_water_and_pigment(void **state)
 {
     (void)state;
@@ -180,8 +185,9 @@ static void flow_keeps_water_and_pigment(void **state)
     assert_true(fabs(cyan[1] - cyan[0]) < 1e-3 * cyan[0]);
 }
 
-/* With the same absorbency everywhere and no gravity the rule is symmetric. Two asymmetries remain, less than a shade: the order
- * of rounding, and that the pigment that crosses a face depends on the water of one side. */
+/* With the same absorbency everywhere and no gravity the rule is symmetric. Two asymmetries
+ * remain, less than a shade: the order of rounding, and that the pigment that crosses a face
+ * depends on the water of one side. */
 static void still_paper_is_symmetric(void **state)
 {
     (void)state;
@@ -224,7 +230,8 @@ static void dry_paper_stands_still(void **state)
     assert_memory_equal(before, after, BYTES);
 }
 
-/* Amounts stay within 0..1 in any weather: no colour channel wraps round, and no total is a NaN. */
+/* Amounts stay within 0..1 in any weather: no colour channel wraps round, and no total is a
+ * NaN. */
 static void extremes_stay_within_bounds(void **state)
 {
     (void)state;

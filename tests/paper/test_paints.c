@@ -1,8 +1,10 @@
-/* test_paints.c - paints as painters know them: their colours, what they do in mixtures, how they granulate, what a sponge lifts.
+/* test_paints.c - paints as painters know them: their colours, what they do in mixtures, how
+ * they granulate, what a sponge lifts.
  *
- * Swatches are published measurements of paint that shops sell. "measured" spectra were not made from them, "fitted" ones were
- * (docs/paints.md). Ratings are those of painters, 0..4: what makers print on tubes, and MacEvoy's guide to watercolours. Layers are
- * computed here by Kubelka and Munk's own formulas, and light from the CIE's tables. */
+ * Swatches are published measurements of paint that shops sell. "measured" spectra were not
+ * made from them, "fitted" ones were (docs/paints.md). Ratings are those of painters, 0..4:
+ * what makers print on tubes, and MacEvoy's guide to watercolours. Layers are computed here by
+ * Kubelka and Munk's own formulas, and light from the CIE's tables. */
 #include <bands.h>
 #include <paper.h>
 #include <separate.h>
@@ -51,7 +53,7 @@ static const double light_of_xyz[3][3] = {{3.2404542, -1.5371385, -0.4985314},
                                           {-0.9692660, 1.8760108, 0.0415560},
                                           {0.0556434, -0.2040259, 1.0572252}};
 
-/* What is seen of the light at each wave between two, in one channel; linear between the table's. */
+/* What one channel sees of the light between two waves; linear between the table's. */
 static double light_between(int channel, double from, double to)
 {
     double sum = 0, all = 0;
@@ -95,7 +97,8 @@ static void bands_are_the_cies(void **state)
 
 /* ---- colours by hand ---- */
 
-/* Kubelka and Munk: a layer's reflectance and transmittance, and the light between it and what is below. */
+/* Kubelka and Munk: a layer's reflectance and transmittance, and the light between it and what
+ * is below. */
 static double layer_by_hand(double k, double s, double below)
 {
     double r = 0, t = 1;
@@ -243,7 +246,8 @@ struct swatch {
     double values[3];
 };
 
-/* Gouache of Winsor & Newton, as sensuallogic.com/artistcolordata has measured it; L*a*b*: acrylics of Golden, by their maker. */
+/* Gouache of Winsor & Newton, as sensuallogic.com/artistcolordata has measured it; L*a*b*:
+ * acrylics of Golden, by their maker. */
 static const struct swatch swatches[] = {
     {"french ultramarine", 0, {49, 52, 174}},
     {"cobalt blue", 0, {33, 104, 201}},
@@ -359,7 +363,8 @@ enum { SIDE = 96, FIBERS = SIDE * SIDE, INSIDE = 12 };
 
 static float values[FIBERS], other[FIBERS];
 
-/* A picture of mixtures of two paints on white is that of the formulas by hand; water makes it darker. */
+/* A picture of mixtures of two paints on white is that of the formulas by hand; water makes it
+ * darker. */
 static void pictures_are_kubelka_munk_by_bands(void **state)
 {
     (void)state;
@@ -407,7 +412,8 @@ static void pictures_are_kubelka_munk_by_bands(void **state)
         memset(values, 0, sizeof values);
         check(paper_sheet_layer_write(sheet, PAPER_LAYER_INFUSED_PIGMENT, first, values));
     }
-    /* an ink that is known by three channels looks the same over white among paints that are known by bands */
+    /* an ink that is known by three channels looks the same over white among paints that are
+     * known by bands */
     memset(values, 0, sizeof values);
     for (int i = 0; i < 3; i++)
         check(paper_sheet_layer_write(sheet, PAPER_LAYER_INFUSED_PIGMENT, i, values));
@@ -496,7 +502,7 @@ static double spread_of_values(void)
     return sqrt(fmax(0, squares / count - sum / count * (sum / count))) / (sum / count);
 }
 
-/* Each paint's wash on rough paper, some on one sheet: paints do not hinder each other. Then a sponge. */
+/* Each paint's wash on rough paper, some on one sheet, which hinder nobody; a sponge. */
 static void rated_measure(struct rated *first, int count)
 {
     struct paper_sheet_config config = sheet_of_two(SIDE, SIDE, first[0].name, first[1].name);

@@ -1,4 +1,5 @@
-/* test_path.c - paths from outside: SVG paths against known shapes, SVG files, recorded samples. */
+/* test_path.c - paths from outside: SVG paths against known shapes, SVG files, recorded
+ * samples. */
 #include <path.h>
 
 #include <malloc.h>
@@ -184,8 +185,8 @@ static enum paper_status svg(const char *text)
     return paper_svg_parse(text, strlen(text), "a.svg", TOLERANCE, &lines);
 }
 
-/* Expat keeps each name and each attribute: what it takes is bounded by the file's length, before it goes on.
- * (security.md 32) */
+/* Expat keeps each name and each attribute: what it takes is bounded by the file's length,
+ * before it goes on. (security.md 32) */
 static void svg_attributes_are_bounded(void **state)
 {
     (void)state;

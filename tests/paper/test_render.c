@@ -1,5 +1,6 @@
-/* test_render.c - sheets painted in twelve ways, and their renders at 2: the same painting, finer. Structural similarity of both, the finer
- * one box-averaged, both in even light. (Of the first version that flows salt and drips are alike by 0.5.) */
+/* test_render.c - sheets painted in twelve ways, and their renders at 2: the same painting,
+ * finer. Structural similarity of both, the finer one box-averaged, both in even light. (Of the
+ * first version that flows salt and drips are alike by 0.5.) */
 #include <brush.h>
 #include <history.h>
 #include <paper.h>
@@ -171,7 +172,8 @@ static void backrun(struct paper_sheet *sheet)
     steps(sheet, 400);
 }
 
-/* What is seldom tried (PAPER_TEST_FULL=1) is close in kind to another painting, and was never near the least likeness. */
+/* What is seldom tried (PAPER_TEST_FULL=1) is close in kind to another painting, and was never
+ * near the least likeness. */
 static const struct painting {
     const char *name, *stock;
     void (*paint)(struct paper_sheet *sheet);

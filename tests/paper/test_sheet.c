@@ -1,4 +1,5 @@
-/* test_sheet.c - sheets with pigments: nothing is lost, mirrored sheets give mirrored bits, and each effect can be measured. */
+/* test_sheet.c - sheets with pigments: nothing is lost, mirrored sheets give mirrored bits, and
+ * each effect can be measured. */
 #include <history.h>
 #include <paper.h>
 #include <paris_internal.h>
@@ -175,8 +176,8 @@ static void nothing_is_lost_in_many_steps(void **state)
 static struct paper_air air_by_chance(void)
 {
     struct paper_air air = paper_air_default();
-    /* numbers near an end of their range differ from it a little: equal numbers would give another graph and other
-     * kernels to compile */
+    /* numbers near an end of their range differ from it a little: equal numbers would give
+     * another graph and other kernels to compile */
 #define CHOOSE(member, low, high)                                                              \
     air.member = sample_word(&chance) % 3   ? uniform(low, high)                               \
                  : sample_word(&chance) % 2 ? (low) + uniform(0, 1e-6) * ((high) - (low))      \
@@ -326,7 +327,8 @@ static void moved_sheets_give_moved_bits(void **state)
     }
 }
 
-/* The sheet has one pigment and no surface, because the eager machine compiles a kernel for each instruction. */
+/* The sheet has one pigment and no surface, because the eager machine compiles a kernel for
+ * each instruction. */
 static void eager_is_fused(void **state)
 {
     (void)state;

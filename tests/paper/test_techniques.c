@@ -1,4 +1,5 @@
-/* test_techniques.c - washes, splatter, salt, lifting, varnish, and colours separated into pigments. */
+/* test_techniques.c - washes, splatter, salt, lifting, varnish, and colours separated into
+ * pigments. */
 #include <paper.h>
 #include <separate.h>
 #include <techniques.h>
@@ -20,7 +21,8 @@
 
 enum { WIDTH = 64, HEIGHT = 48, FIBERS = WIDTH * HEIGHT };
 
-/* Every sheet has two pigments, so that all tests have the same kernels. The first stains five times as much as the second. */
+/* Every sheet has two pigments, so that all tests have the same kernels. The first stains five
+ * times as much as the second. */
 static struct paper_sheet *sheet_make(void)
 {
     struct paper_sheet_config config =
@@ -261,7 +263,8 @@ static void lifting_takes_what_does_not_stain(void **state)
     memset(gray, 255, sizeof gray); /* the upper half */
     struct paper_screen screen = {.width_px = WIDTH, .height_px = 24, .gray = gray};
     check(paper_sheet_lift(sheet, &(struct paper_lift){.place = {&screen, 0, 0}, .part = 0.8}));
-    /* half of the sheet loses 0.8 of the pigment of stain 1, and 0.8 / 5.5 of that of stain 5.5 */
+    /* half of the sheet loses 0.8 of the pigment of stain 1, and 0.8 / 5.5 of that of stain
+     * 5.5 */
     assert_true(fabs(total(sheet, 2) / before[1] - 0.6) < 1e-3);
     assert_true(fabs(total(sheet, 1) / before[0] - (1 - 0.4 / 5.5)) < 1e-3);
     assert_int_equal(paper_sheet_lift(sheet, &(struct paper_lift){.part = 2}),
@@ -300,9 +303,9 @@ static void varnish_deepens_and_shines(void **state)
     paper_sheet_destroy(sheet);
 }
 
-/* A picture with several pixels for each fiber, of a sheet with a disc and random amounts. The mean of a fiber's pixels is the
- * fiber's colour. Each pixel lies within the range of the nine fibers around it. The disc's edge is nearer to a circle than the
- * edge of its fibers. */
+/* A picture with several pixels for each fiber, of a sheet with a disc and random amounts. The
+ * mean of a fiber's pixels is the fiber's colour. Each pixel lies within the range of the nine
+ * fibers around it. The disc's edge is nearer to a circle than the edge of its fibers. */
 static void finer_pictures_have_the_same_means(void **state)
 {
     (void)state;
@@ -364,7 +367,8 @@ static void finer_pictures_have_the_same_means(void **state)
 
 /* ---- colours ---- */
 
-/* Separates the colours of mixtures that a sheet has shown, and compares the colours of the result. */
+/* Separates the colours of mixtures that a sheet has shown, and compares the colours of the
+ * result. */
 static void mixtures_are_separated_again(void **state)
 {
     (void)state;
@@ -414,7 +418,8 @@ static void mixtures_are_separated_again(void **state)
     assert_true(mean < 0.6 && worst < 2.5 && off < 0.03);
 }
 
-/* The formula of this file and the sheet give the same colour. L*a*b* of some colours is known. */
+/* The formula of this file and the sheet give the same colour. L*a*b* of some colours is
+ * known. */
 static void the_formula_is_the_sheets(void **state)
 {
     (void)state;

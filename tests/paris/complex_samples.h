@@ -1,4 +1,5 @@
-/* complex_samples.h - sample complex numbers of a format, and the largest error that each instruction may have against C. */
+/* complex_samples.h - sample complex numbers of a format, and the largest error that each
+ * instruction may have against C. */
 #ifndef PARIS_TESTS_COMPLEX_SAMPLES_H
 #define PARIS_TESTS_COMPLEX_SAMPLES_H
 

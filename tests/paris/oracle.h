@@ -1,4 +1,5 @@
-/* oracle.h - the results of C/Paris instructions in one processor, in plain C. Knows nothing of the machine.
+/* oracle.h - the results of C/Paris instructions in one processor, in plain C. Knows nothing of
+ * the machine.
  *
  * A number is 128 bits; a float's bits are in the low 32 or 64. Operations are named as in
  * instructions.tab. */

@@ -68,7 +68,8 @@ struct oracle_float oracle_by_integer(const char *op, int width, number a, numbe
         int k = magnitude > 5000 ? 5000 : (int)magnitude;
         out = result(width, (long double)ldexp(x, negative ? -k : k), 0, false);
     } else {
-        /* an odd power of a negative number is negative; the bits lost above 2^64 do not matter */
+        /* an odd power of a negative number is negative; the bits lost above 2^64 do not
+         * matter */
         long double y = (long double)magnitude;
         long double r = powl(fabsl((long double)x), negative ? -y : y);
         if (isnan(x) && magnitude == 0)
@@ -112,7 +113,8 @@ struct oracle_float oracle_pair(const char *op, int width, number a, number b, n
                                  finite && (isinf(r) || isinf(t))};
 }
 
-/* A VAX number is (-1)^sign 0.1fraction 2^(exponent - bias); its 16-bit words are in reverse order. */
+/* A VAX number is (-1)^sign 0.1fraction 2^(exponent - bias); its 16-bit words are in reverse
+ * order. */
 static struct oracle_float vax(const char *op, int width, number a)
 {
     int s = width == 32 ? 23 : 52, e = width - 1 - s, bias = 1 << (e - 1), n = 0;

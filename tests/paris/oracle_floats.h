@@ -1,5 +1,5 @@
-/* oracle_floats.h - the results of the float families of instructions.tab (float_...) in one processor, in plain C with long
- * doubles. */
+/* oracle_floats.h - the results of the float families of instructions.tab (float_...) in one
+ * processor, in plain C with long doubles. */
 #ifndef PARIS_TESTS_ORACLE_FLOATS_H
 #define PARIS_TESTS_ORACLE_FLOATS_H
 

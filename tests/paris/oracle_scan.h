@@ -1,5 +1,5 @@
-/* oracle_scan.h - scans, spreads and ranks in plain C by their definitions: each processor loops over the others of its line.
- * Knows nothing of the machine. */
+/* oracle_scan.h - scans, spreads and ranks in plain C by their definitions: each processor
+ * loops over the others of its line. Knows nothing of the machine. */
 #ifndef PARIS_TESTS_ORACLE_SCAN_H
 #define PARIS_TESTS_ORACLE_SCAN_H
 
@@ -25,8 +25,9 @@ struct scan_case {
 
 /* dest holds the old contents at the call, and the result after it. */
 void oracle_scan(const struct scan_grid *grid, const struct scan_case *c, number *dest);
-/* Combines over the axes of the mask. `to` other than -1: only processors with that coordinate on c->axis get the result. op
- * copy: the result is the value of the processor with the coordinate `from` on c->axis. */
+/* Combines over the axes of the mask. `to` other than -1: only processors with that coordinate
+ * on c->axis get the result. op copy: the result is the value of the processor with the
+ * coordinate `from` on c->axis. */
 void oracle_spread(const struct scan_grid *grid, const struct scan_case *c, unsigned int mask,
                    int to, int from, number *dest);
 void oracle_rank(const struct scan_grid *grid, const struct scan_case *c, number *dest);

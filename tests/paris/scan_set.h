@@ -1,4 +1,5 @@
-/* scan_set.h - a VP set of any geometry with numbers, masks and segments, on the device and in the oracle. */
+/* scan_set.h - a VP set of any geometry with numbers, masks and segments, on the device and in
+ * the oracle. */
 #ifndef PARIS_TESTS_SCAN_SET_H
 #define PARIS_TESTS_SCAN_SET_H
 
@@ -76,7 +77,8 @@ static struct set set_new(int rank, const int *dimensions)
     return s;
 }
 
-/* Makes fields for numbers of this width. A field that held numbers of another width would be stored in pieces. */
+/* Makes fields for numbers of this width. A field that held numbers of another width would be
+ * stored in pieces. */
 static void fields_new(struct set *s, int width)
 {
     if (s->source)
@@ -114,7 +116,8 @@ static void numbers_random(number *n, int count, int width, bool floats)
     }
 }
 
-/* Sets the context (0 few, 1 all, 2 most processors) and the segment bits (one processor in `length`). */
+/* Sets the context (0 few, 1 all, 2 most processors) and the segment bits (one processor in
+ * `length`). */
 static void set_masks(struct set *s, int who, int length)
 {
     for (int i = 0; i < s->grid.count; i++) {

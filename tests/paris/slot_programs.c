@@ -1,4 +1,5 @@
-/* slot_programs.c - random programs: see slot_programs.h; what their steps do is in slot_steps.c. */
+/* slot_programs.c - random programs: see slot_programs.h; what their steps do is in
+ * slot_steps.c. */
 #include "slot_programs.h"
 
 #include <string.h>
@@ -148,7 +149,8 @@ static int most_of(enum slot_kind kind)
     }
 }
 
-/* Whether a part of n bits overlaps one of k bits without being the same: Paris refuses that of dest and a source. */
+/* Whether a part of n bits overlaps one of k bits without being the same: Paris refuses that of
+ * dest and a source. */
 static bool parts_clash(struct slot_part a, int n, struct slot_part b, int k)
 {
     return a.field == b.field && a.at < b.at + k && b.at < a.at + n && (a.at != b.at || n != k);
@@ -217,7 +219,8 @@ static void lengths_choose(const struct slot_program *p, uint64_t *state, struct
         s->shorter = sample_below(state, 2) ? 32 : 64;
 }
 
-/* Messages often go where the step before has sent or fetched, or whose addresses it has computed. `before`: that step, or NULL. */
+/* Messages often go where the step before has sent or fetched, or whose addresses it has
+ * computed. `before`: that step, or NULL. */
 static bool goes_there(const struct slot_program *p, uint64_t *state,
                        const struct slot_step *before, struct slot_step *s)
 {
@@ -266,7 +269,8 @@ static bool step_make(const struct slot_program *p, uint64_t *state,
            !parts_clash(s->to, s->length, s->bit, 1);
 }
 
-/* Half of the programs use few kinds of steps, often, and in few sets: what needs several of one kind is met sooner. */
+/* Half of the programs use few kinds of steps, often, and in few sets: what needs several of
+ * one kind is met sooner. */
 static void kinds_choose(struct slot_program *p, uint64_t *state)
 {
     const bool few = sample_below(state, 2);

@@ -1,8 +1,10 @@
-/* slot_programs.h - random programs whose operands overlap, and what they do, in plain bits. Knows nothing of the machine.
+/* slot_programs.h - random programs whose operands overlap, and what they do, in plain bits.
+ * Knows nothing of the machine.
  *
- * A program has VP sets of one, two and four processors to each of 16 physical ones, in send order, and fields of odd lengths.
- * Its steps take parts of fields that overlap each other. Its body is performed several times, as loops are. In some
- * programs a field is also seen from another set, by an alias.
+ * A program has VP sets of one, two and four processors to each of 16 physical ones, in send
+ * order, and fields of odd lengths. Its steps take parts of fields that overlap each other. Its
+ * body is performed several times, as loops are. In some programs a field is also seen from
+ * another set, by an alias.
  *
  *     slot_program_make (&p, seed);
  *     slot_memory_init (&memory, &p);
@@ -103,7 +105,8 @@ struct slot_program {
     enum slot_kind kinds[SLOT_KINDS]; /* those that it is made of, in these sets */
     int kinds_count, sets_used;
     enum slot_look look;
-    /* A field that is seen from another set from a turn on, for as long as another turn; none: -1. */
+    /* A field that is seen from another set from a turn on, for as long as another turn; none:
+     * -1. */
     int aliased, alias_from, alias_to;
     bool safe;        /* in safety mode */
     bool parts_again; /* parts are often those of earlier steps */

@@ -1,6 +1,7 @@
 /* clang-format off */
-/* A program in the style of 1990: K&R definitions, implicit int, field ids in ints, names pasted by macros. It must compile
- * with -std=gnu89 -Wall without a warning, by gcc and clang. It returns 0 when all is right. */
+/* A program in the style of 1990: K&R definitions, implicit int, field ids in ints, names
+ * pasted by macros. It must compile with -std=gnu89 -Wall without a warning, by gcc and clang.
+ * It returns 0 when all is right. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <cm/paris.h>

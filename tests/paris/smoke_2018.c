@@ -1,5 +1,5 @@
-/* Includes the header of C/Paris in strict C17 with -Wpedantic. It must compile without a warning, and returns 0 when all is
- * right. */
+/* Includes the header of C/Paris in strict C17 with -Wpedantic. It must compile without a
+ * warning, and returns 0 when all is right. */
 #include <cm/paris.h>
 
 #include <stdio.h>

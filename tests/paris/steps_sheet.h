@@ -46,7 +46,8 @@ static void start(struct sheet *s)
     begin_sheet(s);
 }
 
-/* One turn: each cell adds differences of its neighbours' cells, and every second column adds a constant. */
+/* One turn: each cell adds differences of its neighbours' cells, and every second column adds a
+ * constant. */
 static void turn(struct sheet *s, uint32_t add)
 {
     CM_get_from_news_1L(s->flow, s->cell, 0, CM_downward, 32);

@@ -1,5 +1,5 @@
-/* Compares moves, swaps, reversals and logical operations on fields of any length, and arrays in each processor, with the same
- * operations on arrays of bits. */
+/* Compares moves, swaps, reversals and logical operations on fields of any length, and arrays
+ * in each processor, with the same operations on arrays of bits. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -46,8 +46,8 @@ static void begin(void)
     CM_deallocate_stack_through(f);
 }
 
-/* Copies the field's pieces in one evaluation, then downloads them: each download of bits that were stored in other pieces
- * would need a kernel. */
+/* Copies the field's pieces in one evaluation, then downloads them: each download of bits that
+ * were stored in other pieces would need a kernel. */
 static void expect(const char *what)
 {
     enum { PIECES = BITS / 100 };

@@ -1,5 +1,5 @@
-/* Tests calls that are no rows of the table of instructions: fields and their parts, processors, arrays, reductions, long
- * fields, random numbers, timers, lights. */
+/* Tests calls that are no rows of the table of instructions: fields and their parts,
+ * processors, arrays, reductions, long fields, random numbers, timers, lights. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -212,8 +212,8 @@ static void arrays_of_floats_move(void **unused)
     CM_deallocate_stack_through(f);
 }
 
-/* Of rows with halos, in a set of its own: a copy that shares the field's memory stays as it is, and neighbours are found round the
- * edge. */
+/* Of rows with halos, in a set of its own: a copy that shares the field's memory stays as it
+ * is, and neighbours are found round the edge. */
 static void blocks_spare_copies_and_reach_halos(void **unused)
 {
     (void)unused;
@@ -327,8 +327,8 @@ static void reductions_of_integers_are_the_oracles(void **unused)
             integer_reductions(widths[w], mask);
 }
 
-/* Sums in the order that machine.h defines: a row has sixteen sums of columns, which are added by halves; the rows' sums are
- * added pairwise. */
+/* Sums in the order that machine.h defines: a row has sixteen sums of columns, which are added
+ * by halves; the rows' sums are added pairwise. */
 static double single_sum(const float *x, const number *context)
 {
     float rows[ROWS];

@@ -1,5 +1,6 @@
-/* Long chains of choices between values, each used twice, give kernels that compile in a time that grows
- * with their length. (clang looks through the initial values of constant variables, and through both arms of a choice.) */
+/* Long chains of choices between values, each used twice, give kernels that compile in a time
+ * that grows with their length. (clang looks through the initial values of constant variables,
+ * and through both arms of a choice.) */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -34,7 +35,8 @@ static CM_sendaddr_t place(int row, int column)
     return CM_fe_deposit_news_coordinate(geometry, at, 1, (unsigned int)column);
 }
 
-/* Two numbers, of which each in turn becomes the greater, or the lesser, of both: one more choice a call. */
+/* Two numbers, of which each in turn becomes the greater, or the lesser, of both: one more
+ * choice a call. */
 static void floats_choose(const char *vector)
 {
     CM_field_id_t coordinate, a, b;

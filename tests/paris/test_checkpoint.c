@@ -1,5 +1,6 @@
-/* test_checkpoint.c - the machine to a file and back: what a program computes after CM_resume is what it would have computed; damaged
- * and forged files are refused in one line. CHECKPOINT_CASES: how many forged ones (60). */
+/* test_checkpoint.c - the machine to a file and back: what a program computes after CM_resume
+ * is what it would have computed; damaged and forged files are refused in one line.
+ * CHECKPOINT_CASES: how many forged ones (60). */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -38,7 +39,8 @@ static uint64_t mixed(uint64_t hash, uint64_t x)
     return hash ^ hash >> 29;
 }
 
-/* Sets and geometries of all kinds, some given back again; fields of many lengths, in parts; an alias; a context. */
+/* Sets and geometries of all kinds, some given back again; fields of many lengths, in parts; an
+ * alias; a context. */
 static struct own begin(void)
 {
     struct own w = {.step = 0};
@@ -287,7 +289,8 @@ static uint64_t drawn(uint64_t most)
     return (chance >> 33) % most;
 }
 
-/* Files whose sum is right: numbers in them are others. Whatever comes is a machine, or one line. */
+/* Files whose sum is right: numbers in them are others. Whatever comes is a machine, or one
+ * line. */
 static void forged_files_are_machines_or_refused(void **state)
 {
     (void)state;

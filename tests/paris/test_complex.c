@@ -1,5 +1,6 @@
-/* Compares complex instructions with C's complex long double: every instruction, on ordinary numbers, on axes and branch cuts,
- * and at the ends of the range. All results of a format are recorded before the first is read, so that there are few kernels. */
+/* Compares complex instructions with C's complex long double: every instruction, on ordinary
+ * numbers, on axes and branch cuts, and at the ends of the range. All results of a format are
+ * recorded before the first is read, so that there are few kernels. */
 #include <complex.h>
 #include <float.h>
 #include <math.h>
@@ -349,8 +350,9 @@ static void forms_agree(void **unused)
     assert_string_equal(device_message, "");
 }
 
-/* Tests comparisons, moves between formats, neighbours, sums, one processor, zero and operations on one operand. m holds thirds
- * in single floats and is overwritten; c is a field of the small format. */
+/* Tests comparisons, moves between formats, neighbours, sums, one processor, zero and
+ * operations on one operand. m holds thirds in single floats and is overwritten; c is a field
+ * of the small format. */
 static void front_end_agrees(CM_field_id_t m, CM_field_id_t c)
 {
     CM_c_write_to_processor_1L(7, m, 0.1, -2, 23, 8);

@@ -1,8 +1,9 @@
-/* test_debug_answers.c - what a debugger is told of fields and flags, by both ways of looking: in a child of fork(), and in the process
- * itself, as where the device has memory of its own. Both tell what the program reads, and neither changes a bit of what it computes.
+/* test_debug_answers.c - what a debugger is told of fields and flags, by both ways of looking:
+ * in a child of fork(), and in the process itself, as where the device has memory of its own.
+ * Both tell what the program reads, and neither changes a bit of what it computes.
  *
- * For the second way the device is said not to be PoCL's while it is asked; with LUTETIA_NEAR=0, which the test is run with, too, its
- * memory is read by the driver alone. */
+ * For the second way the device is said not to be PoCL's while it is asked; with
+ * LUTETIA_NEAR=0, which the test is run with, too, its memory is read by the driver alone. */
 #include <setjmp.h>
 #include <signal.h>
 #include <stdarg.h>

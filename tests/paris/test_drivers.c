@@ -1,5 +1,6 @@
-/* test_drivers.c - drivers other than the one at hand: what the machine does on a device that says that it has no double precision, and
- * with another log. This program answers the questions before OpenCL's loader does; kernels are still the driver's. */
+/* test_drivers.c - drivers other than the one at hand: what the machine does on a device that
+ * says that it has no double precision, and with another log. This program answers the
+ * questions before OpenCL's loader does; kernels are still the driver's. */
 #include <dlfcn.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,6 @@
-/* Wrong calls. In safety mode a message names the call, the argument and the remedy. Without safety mode no call harms the
- * host, and calls that the machine cannot carry out still get a message. */
+/* Wrong calls. In safety mode a message names the call, the argument and the remedy. Without
+ * safety mode no call harms the host, and calls that the machine cannot carry out still get a
+ * message. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

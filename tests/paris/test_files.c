@@ -1,4 +1,5 @@
-/* Fields to files and back: <cm/cmfs.h> and <lutetia/fields.h>, beside bytes that the test makes itself. */
+/* Fields to files and back: <cm/cmfs.h> and <lutetia/fields.h>, beside bytes that the test
+ * makes itself. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -33,7 +34,8 @@ void file_write(const char *path, const void *bytes, size_t count)
     assert_int_equal(fclose(file), 0);
 }
 
-/* Writes `len` random bits to each processor, bit by bit; values[i] holds those of processor i, 32 bytes each. */
+/* Writes `len` random bits to each processor, bit by bit; values[i] holds those of processor i,
+ * 32 bytes each. */
 CM_field_id_t field_make(unsigned int len, uint8_t (*values)[32])
 {
     CM_field_id_t field = CM_allocate_heap_field(len);
@@ -308,7 +310,8 @@ static void other_files_are_refused(void **unused)
     device_said("lutetia_field_read", "none.npy");
 }
 
-/* Damaged heads are read or refused; what is read has the set's shape, so the field is right. */
+/* Damaged heads are read or refused; what is read has the set's shape, so the field is
+ * right. */
 static void damaged_npy_files_are_refused_or_read(void **unused)
 {
     (void)unused;

@@ -12,7 +12,8 @@ enum { BYTES_MOST = 1 << 16 };
 size_t file_read(const char *path, uint8_t *bytes); /* at most BYTES_MOST */
 void file_write(const char *path, const void *bytes, size_t count);
 
-/* Writes `len` random bits to each processor, bit by bit; values[i] holds those of processor i. */
+/* Writes `len` random bits to each processor, bit by bit; values[i] holds those of processor
+ * i. */
 CM_field_id_t field_make(unsigned int len, uint8_t (*values)[32]);
 void field_is(CM_field_id_t field, unsigned int len, uint8_t (*values)[32]);
 

@@ -169,7 +169,8 @@ void fields_come_from_hdf5(void **unused)
     assert_int_equal(shape[1], ROWS);
 }
 
-/* A file of the oldest format that the library has, or of the newest. Newest groups may keep the order in which names came. */
+/* A file of the oldest format that the library has, or of the newest. Newest groups may keep
+ * the order in which names came. */
 static hid_t file_of(const char *path, bool newest, bool ordered)
 {
     hid_t access = H5Pcreate(H5P_FILE_ACCESS), create = H5Pcreate(H5P_FILE_CREATE);
@@ -184,7 +185,8 @@ static hid_t file_of(const char *path, bool newest, bool ordered)
     return file;
 }
 
-/* Few names are in the group's header, more in a heap, very many in a heap of blocks of blocks and in a tree of some floors. */
+/* Few names are in the group's header, more in a heap, very many in a heap of blocks of blocks
+ * and in a tree of some floors. */
 void groups_of_all_ages_have_their_names(void **unused)
 {
     (void)unused;

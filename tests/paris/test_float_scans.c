@@ -1,5 +1,6 @@
-/* test_float_scans.c - sums of floats along a line of more than a hundred runs, in the order that machine_scan() defines: for both directions,
- * inclusions, kinds of segments, contexts and lengths of floats. */
+/* test_float_scans.c - sums of floats along a line of more than a hundred runs, in the order
+ * that machine_scan() defines: for both directions, inclusions, kinds of segments, contexts and
+ * lengths of floats. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -17,8 +18,8 @@ static number plus(int width, number a, number b)
     return oracle_float("add", width, a, b).bits;
 }
 
-/* A sum of floats as machine_scan() defines it, of the only line, in one pass: before is what the segment's earlier runs come to, part what
- * this run does. */
+/* A sum of floats as machine_scan() defines it, of the only line, in one pass: before is what
+ * the segment's earlier runs come to, part what this run does. */
 static void sums_in_runs(const struct set *s, const struct scan_case *c, number *dest)
 {
     enum { RUN = 512 };

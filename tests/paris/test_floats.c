@@ -1,8 +1,9 @@
-/* Compares the float families (float_... in instructions.tab) on the device with the oracle: every row in every form, in the
- * formats 23,8 and 52,11.
+/* Compares the float families (float_... in instructions.tab) on the device with the oracle:
+ * every row in every form, in the formats 23,8 and 52,11.
  *
- * All cases share operands in fields that are filled once, and every dest is a copy of one field. So a function is computed once
- * for all its forms, and the machine compiles few kernels. A function with long code is tested at one width in each form. */
+ * All cases share operands in fields that are filled once, and every dest is a copy of one
+ * field. So a function is computed once for all its forms, and the machine compiles few
+ * kernels. A function with long code is tested at one width in each form. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

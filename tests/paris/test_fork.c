@@ -1,5 +1,6 @@
-/* test_fork.c - programs that start other processes: by system(), popen(), fork() and exec. A child after fork() ends, becomes another
- * program, or goes on with the machine as it was: with the same bits as its parent, without a kernel. It never hangs. */
+/* test_fork.c - programs that start other processes: by system(), popen(), fork() and exec. A
+ * child after fork() ends, becomes another program, or goes on with the machine as it was: with
+ * the same bits as its parent, without a kernel. It never hangs. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -46,7 +47,8 @@ static void turn(const struct work *w)
     CM_logxor_2_1L(w->cell, w->other, 32);
 }
 
-/* Also what needs hand-written kernels on other devices: sends, gets, scans, ranks, reductions, functions. */
+/* Also what needs hand-written kernels on other devices: sends, gets, scans, ranks, reductions,
+ * functions. */
 static uint64_t work(const struct work *w, int turns)
 {
     for (int i = 0; i < turns; i++)
@@ -75,7 +77,8 @@ static uint64_t work(const struct work *w, int turns)
 
 /* ---- children ---- */
 
-/* What a child says to its parent: a number, by a pipe. It ends after HANGS_S seconds, whatever it does. */
+/* What a child says to its parent: a number, by a pipe. It ends after HANGS_S seconds, whatever
+ * it does. */
 struct child {
     pid_t process;
     int from;
@@ -328,8 +331,9 @@ int main(void)
     };
     const int failed = cmocka_run_group_tests_name("first", first, NULL, NULL);
 #ifdef __SANITIZE_ADDRESS__
-    /* AddressSanitizer's memory has no part in fork(): what a thread of the parent's allocates just then leaves a lock that the child
-     * waits for, and what such threads hold is lost to a child. */
+    /* AddressSanitizer's memory has no part in fork(): what a thread of the parent's allocates
+     * just then leaves a lock that the child waits for, and what such threads hold is lost to a
+     * child. */
     return failed;
 #endif
     const struct CMUnitTest tests[] = {

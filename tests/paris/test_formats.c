@@ -1,5 +1,5 @@
-/* Compares C/Paris instructions on floats of other lengths than 23, 8 and 52, 11 with MPFR. The machine's own test has more
- * formats and numbers; this one has all instructions. */
+/* Compares C/Paris instructions on floats of other lengths than 23, 8 and 52, 11 with MPFR. The
+ * machine's own test has more formats and numbers; this one has all instructions. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -306,8 +306,8 @@ static void front_end_agrees(void **unused)
     assert_non_null(strstr(device_message, "significand must be 1..52"));
 }
 
-/* Moves keep a NaN's bits, whether all processors have the same one or not, also under a context and where no message arrives; what an operation
- * gives is *the* NaN. */
+/* Moves keep a NaN's bits, whether all processors have the same one or not, also under a
+ * context and where no message arrives; what an operation gives is *the* NaN. */
 static void nans_keep_their_bits(void **unused)
 {
     static const struct soft_format formats[] = {{10, 5}, {3, 4}, {30, 10}, {51, 11}};

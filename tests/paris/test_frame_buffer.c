@@ -1,4 +1,5 @@
-/* The frame buffer: what a program's writes record, in whatever order, size and shape, and what is refused. */
+/* The frame buffer: what a program's writes record, in whatever order, size and shape, and what
+ * is refused. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -163,7 +164,8 @@ static void fields_are_written_in_news_order(void **unused)
     no_more();
 }
 
-/* The shuffle puts the picture's pixels at the send addresses, in order; and then the raw write shows the picture. */
+/* The shuffle puts the picture's pixels at the send addresses, in order; and then the raw write
+ * shows the picture. */
 static void the_shuffle_is_by_send_addresses(void **unused)
 {
     (void)unused;

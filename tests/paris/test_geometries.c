@@ -1,4 +1,5 @@
-/* test_geometries.c - inquiries of geometries, addresses in both orders, and flags of VP sets. */
+/* test_geometries.c - inquiries of geometries, addresses in both orders, and flags of VP
+ * sets. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,9 +1,12 @@
-/* Compares every instruction of the table on the device with the oracle, over widths, values and context masks.
+/* Compares every instruction of the table on the device with the oracle, over widths, values
+ * and context masks.
  *
- * A case is one instruction with its own operands, flags and context. Cases run in batches, so that the machine compiles one
- * kernel for many of them. Each case stores dest, the context, test and overflow in fields of its own, which are compared after
- * the batch. A row is tested at every eighth width, and different rows begin at different widths, so that all rows and all
- * widths occur. PARIS_TEST_FULL=1 tests each row at each width with each mask (an hour of compiling). */
+ * A case is one instruction with its own operands, flags and context. Cases run in batches, so
+ * that the machine compiles one kernel for many of them. Each case stores dest, the context,
+ * test and overflow in fields of its own, which are compared after the batch. A row is tested
+ * at every eighth width, and different rows begin at different widths, so that all rows and all
+ * widths occur. PARIS_TEST_FULL=1 tests each row at each width with each mask (an hour of
+ * compiling). */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,9 +1,12 @@
-/* Compares the rows of paris_compat/integers.c and bits.c, and arrays in each processor, with the oracle.
+/* Compares the rows of paris_compat/integers.c and bits.c, and arrays in each processor, with
+ * the oracle.
  *
- * Thousands of processors hold pairs of numbers that are special at some width: range ends, powers of two, divisors 0 and -1.
- * Every case takes the low bits of the same two fields. So cases that differ only in their form are one computation, and a
- * kernel does dozens of them. Each row is tested at one set of lengths; some rows at all widths, on VP ratios 1, 2 and 8, whose
- * kernels are the same. Grid rows of 13 processors give kernels of one lane; vectors have a test of their own. */
+ * Thousands of processors hold pairs of numbers that are special at some width: range ends,
+ * powers of two, divisors 0 and -1. Every case takes the low bits of the same two fields. So
+ * cases that differ only in their form are one computation, and a kernel does dozens of them.
+ * Each row is tested at one set of lengths; some rows at all widths, on VP ratios 1, 2 and 8,
+ * whose kernels are the same. Grid rows of 13 processors give kernels of one lane; vectors have
+ * a test of their own. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -338,7 +341,8 @@ static const struct integer_row *row_named(const char *name)
     return NULL;
 }
 
-/* Operations on one number, of one bit: these are made in another way than those of wider numbers. */
+/* Operations on one number, of one bit: these are made in another way than those of wider
+ * numbers. */
 static void single_bits_are_the_oracles(void **unused)
 {
     (void)unused;
@@ -352,7 +356,8 @@ static void single_bits_are_the_oracles(void **unused)
     finish();
 }
 
-/* Tests every operation's form with all lengths, at several sets of lengths; PARIS_TEST_FULL=1: at hundreds. */
+/* Tests every operation's form with all lengths, at several sets of lengths; PARIS_TEST_FULL=1:
+ * at hundreds. */
 static void lengths_are_the_oracles(void **unused)
 {
     static const int lengths[][3] = {{13, 30, 9}, {128, 100, 66}};
@@ -463,7 +468,8 @@ static void all_widths_are_the_oracles(void **unused)
     }
 }
 
-/* The arguments "widths" and "forms" choose the two halves, which meson can run at the same time. */
+/* The arguments "widths" and "forms" choose the two halves, which meson can run at the same
+ * time. */
 int main(int argc, char **argv)
 {
     const struct CMUnitTest widths[] = {

@@ -34,7 +34,8 @@ static bool on(const uint8_t *lights, int l)
     return lights[l / 8] >> l % 8 & 1;
 }
 
-/* Compares the lights with their definition: a light is on if any of its processors' bits is set. */
+/* Compares the lights with their definition: a light is on if any of its processors' bits is
+ * set. */
 static void lights_stand_for_patches_of_the_set(void **unused)
 {
     (void)unused;
@@ -80,8 +81,9 @@ static uint64_t time_of(const uint8_t *frame)
     return t;
 }
 
-/* Each latch records one frame. Inactive processors keep their lights. The system's patterns replace the lights, and
- * return them afterwards. A program has one recording, so one test checks all of it. */
+/* Each latch records one frame. Inactive processors keep their lights. The system's patterns
+ * replace the lights, and return them afterwards. A program has one recording, so one test
+ * checks all of it. */
 static void latches_are_recorded(void **unused)
 {
     (void)unused;
@@ -113,7 +115,8 @@ static void latches_are_recorded(void **unused)
         assert_int_equal(on(frames + FRAME + 8, l), bits[1][l] ? bits[2][l] : bits[0][l]);
         assert_int_equal(on(frames + 4 * FRAME + 8, l), bits[2][l]);
     }
-    /* The pattern's rows have moved by one light, even rows to the right and odd rows to the left. */
+    /* The pattern's rows have moved by one light, even rows to the right and odd rows to the
+     * left. */
     const uint8_t *one = frames + 2 * FRAME + 8, *two = frames + 3 * FRAME + 8;
     int lit = 0;
     for (int row = 0; row < 64; row++)

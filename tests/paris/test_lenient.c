@@ -1,6 +1,7 @@
-/* Lenient mode: an access beyond a field's end reaches the bits after the field. A model in plain C keeps each VP set's stack
- * and heap as one row of bits, with fields in the order of their allocation. Random programs store and read across the ends of
- * fields, and must leave the model's bits. Further tests: which calls pass, which stay errors, and their messages. */
+/* Lenient mode: an access beyond a field's end reaches the bits after the field. A model in
+ * plain C keeps each VP set's stack and heap as one row of bits, with fields in the order of
+ * their allocation. Random programs store and read across the ends of fields, and must leave
+ * the model's bits. Further tests: which calls pass, which stay errors, and their messages. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -32,7 +33,8 @@ static unsigned int below(unsigned int n)
 
 /* ---- the model ---- */
 
-/* All processors of a set hold the same bits, so that constants suffice and no kernels are needed. */
+/* All processors of a set hold the same bits, so that constants suffice and no kernels are
+ * needed. */
 struct memory {
     CM_field_id_t fields[FIELDS];
     unsigned int starts[FIELDS + 1]; /* bit of the row where each begins */
@@ -77,7 +79,8 @@ static void deallocate(int set)
     struct memory *m = &memories[set][0];
     if (!m->count)
         return;
-    /* All sets share one stack: deallocating would also free newer fields of the other set. So only the newest field is freed. */
+    /* All sets share one stack: deallocating would also free newer fields of the other set. So
+     * only the newest field is freed. */
     CM_field_id_t last = m->fields[m->count - 1];
     for (int other = 0; other < SETS; other++) {
         const struct memory *o = &memories[other][0];
@@ -152,7 +155,8 @@ static void random_programs_go_on_past_ends(void **unused)
     paris_safety_usual();
 }
 
-/* Overruns with values that differ between processors, under a context, and of fields longer than a number. */
+/* Overruns with values that differ between processors, under a context, and of fields longer
+ * than a number. */
 static void processors_differ_and_long_fields_go_on(void **unused)
 {
     (void)unused;

@@ -1,5 +1,6 @@
-/* Memory: what an evaluation after each instruction can do in so many bytes, the default can do in a quarter more, with the same bits. Random programs of
- * stencils, spreads, scans, sends, contexts and several sets are run with the limit at that size. */
+/* Memory: what an evaluation after each instruction can do in so many bytes, the default can do
+ * in a quarter more, with the same bits. Random programs of stencils, spreads, scans, sends,
+ * contexts and several sets are run with the limit at that size. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -199,7 +200,8 @@ static void loops_wait_within_the_limit(void **unused)
     assert_true(bits[0] == bits[1]);
 }
 
-/* What flows from field to field under a context, along both axes: what is stored is a choice, and what comes later takes the new value without it. */
+/* What flows from field to field under a context, along both axes: what is stored is a choice,
+ * and what comes later takes the new value without it. */
 static void flows(CM_field_id_t inside)
 {
     for (unsigned int axis = 0; axis < 2; axis++) {

@@ -1,6 +1,8 @@
-/* Work that the front end does itself where it shares memory with the device: reads and writes of one processor, gathered
- * writes, reductions. Random programs mix these with instructions. They run with LUTETIA_NEAR=1, with LUTETIA_NEAR=0 (the device
- * does all of it), and on the eager machine. All three give the same numbers, and integers also agree with a model in plain C. */
+/* Work that the front end does itself where it shares memory with the device: reads and writes
+ * of one processor, gathered writes, reductions. Random programs mix these with instructions.
+ * They run with LUTETIA_NEAR=1, with LUTETIA_NEAR=0 (the device does all of it), and on the
+ * eager machine. All three give the same numbers, and integers also agree with a model in plain
+ * C. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>

@@ -1,5 +1,6 @@
-/* Plans that differ only in numbers (bit positions, widths, distances) share kernels that take the numbers as arguments.
- * Generated steps give the same bits with such kernels, by every width of vectors, as interpreted. */
+/* Plans that differ only in numbers (bit positions, widths, distances) share kernels that take
+ * the numbers as arguments. Generated steps give the same bits with such kernels, by every
+ * width of vectors, as interpreted. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -125,7 +126,8 @@ static uint64_t content_hash(uint64_t h)
     return h;
 }
 
-/* Each step is looked at, so each is an evaluation, and most are plans that nothing has had before. */
+/* Each step is looked at, so each is an evaluation, and most are plans that nothing has had
+ * before. */
 static void program_run(int program, uint64_t hashes[STEPS])
 {
     state = 88172645463325252u + (uint64_t)program * 104729;

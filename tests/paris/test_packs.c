@@ -1,6 +1,8 @@
-/* test_packs.c - sends that are recognised: by addresses made of an enumeration, and by the same addresses again and again. Random
- * programs mix them with what must not be taken for them: other contexts, ranks and addresses changed in between, numbers that
- * come twice. Plain C says what each comes to; the front end alone, its threads together, and kernels give that. */
+/* test_packs.c - sends that are recognised: by addresses made of an enumeration, and by the
+ * same addresses again and again. Random programs mix them with what must not be taken for
+ * them: other contexts, ranks and addresses changed in between, numbers that come twice. Plain
+ * C says what each comes to; the front end alone, its threads together, and kernels give
+ * that. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>

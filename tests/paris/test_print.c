@@ -1,4 +1,5 @@
-/* test_print.c - fields printed by a program itself: each number that is printed is one that was written. */
+/* test_print.c - fields printed by a program itself: each number that is printed is one that
+ * was written. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

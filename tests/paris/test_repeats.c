@@ -1,5 +1,7 @@
-/* Programs whose calls repeat, so that the machine enters states that it knows while instructions are under way. They once computed with values that
- * nobody held any more, and crashed or came to other numbers. What the front end sees must be the same however they are performed. */
+/* Programs whose calls repeat, so that the machine enters states that it knows while
+ * instructions are under way. They once computed with values that nobody held any more, and
+ * crashed or came to other numbers. What the front end sees must be the same however they are
+ * performed. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -64,7 +66,8 @@ static void flags_store(CM_field_id_t to)
     CM_store_overflow_always(to + 2);
 }
 
-/* Ranks of parts that overlap what is shifted, in a small set; then messages that combine floats in parts of integers, in another. */
+/* Ranks of parts that overlap what is shifted, in a small set; then messages that combine
+ * floats in parts of integers, in another. */
 static void ranks_then_messages(uint64_t seed)
 {
     set_of(16);

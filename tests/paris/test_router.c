@@ -1,5 +1,6 @@
-/* Compares the router, aliases and coordinates of C/Paris with plain loops: each instruction in each form, between VP sets of
- * both orders. tests/machine/test_router.c and test_aliases.c test the machine's part. */
+/* Compares the router, aliases and coordinates of C/Paris with plain loops: each instruction in
+ * each form, between VP sets of both orders. tests/machine/test_router.c and test_aliases.c
+ * test the machine's part. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

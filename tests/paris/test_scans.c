@@ -1,8 +1,9 @@
-/* Compares scans, spreads, reductions, enumerations and ranks with the oracle: over geometries of 1 to 5 axes, directions,
- * inclusions, segments, contexts and lengths.
+/* Compares scans, spreads, reductions, enumerations and ranks with the oracle: over geometries
+ * of 1 to 5 axes, directions, inclusions, segments, contexts and lengths.
  *
- * Compiling kernels takes most of the time, and each rank of VP sets needs other kernels. So all operations are tested with
- * three axes (some of length 1), and a few operations with other ranks. */
+ * Compiling kernels takes most of the time, and each rank of VP sets needs other kernels. So
+ * all operations are tested with three axes (some of length 1), and a few operations with other
+ * ranks. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -170,7 +171,8 @@ static void lines_of_many_runs_are_the_oracles(void **unused)
     }
 }
 
-/* Integers in one line, so long that sums are carried from run to run and ranks have many chunks of keys. */
+/* Integers in one line, so long that sums are carried from run to run and ranks have many
+ * chunks of keys. */
 static void a_very_long_line_is_right(void **unused)
 {
     (void)unused;
@@ -353,7 +355,8 @@ static void enumeration_counts_the_active(void **unused)
     set_free(&s);
 }
 
-/* Tests long bit fields, complex numbers, one processor's field and the longest integer. The third part is no whole word. */
+/* Tests long bit fields, complex numbers, one processor's field and the longest integer. The
+ * third part is no whole word. */
 static void long_fields_go_in_parts(void **unused)
 {
     (void)unused;

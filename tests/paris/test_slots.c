@@ -1,5 +1,6 @@
-/* Random programs whose operands overlap, with several VP sets, aliases, loops and CM_init, in all tiers: what all fields and
- * flags hold is compared with plain bits, in most programs after each call. What fails is a number of a program. */
+/* Random programs whose operands overlap, with several VP sets, aliases, loops and CM_init, in
+ * all tiers: what all fields and flags hold is compared with plain bits, in most programs after
+ * each call. What fails is a number of a program. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -236,7 +237,8 @@ static void scan(const struct slot_step *s, CM_field_id_t to, CM_field_id_t a)
     }
 }
 
-/* What else looks at other processors, or is seen by the front end. False: it sees another number. */
+/* What else looks at other processors, or is seen by the front end. False: it sees another
+ * number. */
 static bool communicate(const struct slot_step *s, CM_field_id_t to, CM_field_id_t a,
                         CM_field_id_t b)
 {

@@ -1,5 +1,7 @@
-/* Spreads of lines as values: random programs of spreads of all widths along all axes, of what is computed and of what is in memory, mixed with shifts,
- * contexts, products and parts of fields. All tiers give the bits of one instruction at a time, where each spread is an array. */
+/* Spreads of lines as values: random programs of spreads of all widths along all axes, of what
+ * is computed and of what is in memory, mixed with shifts, contexts, products and parts of
+ * fields. All tiers give the bits of one instruction at a time, where each spread is an
+ * array. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>

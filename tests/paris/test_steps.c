@@ -1,5 +1,6 @@
-/* Steps that repeat: the machine performs them without recording them again, and many in one kernel where that is forced. They
- * leave the bits of plain C, whatever other calls come between them. */
+/* Steps that repeat: the machine performs them without recording them again, and many in one
+ * kernel where that is forced. They leave the bits of plain C, whatever other calls come
+ * between them. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -48,7 +49,8 @@ static void a_loop_that_is_looked_at_is_not_either(void **state)
     assert_true(foreseen() - before >= CALLS * 60 / 2);
 }
 
-/* A loop with interruptions: reads, unfinished turns, another constant, another VP set, and a temporary field. */
+/* A loop with interruptions: reads, unfinished turns, another constant, another VP set, and a
+ * temporary field. */
 static void what_comes_between_is_seen(void **state)
 {
     (void)state;
@@ -156,8 +158,8 @@ static void many_turns_are_one_kernel(void **state)
     }
 }
 
-/* A program that reads after every twentieth turn gets two kernels of ten turns, not two of eight and four of one. The strips
- * are whole rows, whose rings are tori. */
+/* A program that reads after every twentieth turn gets two kernels of ten turns, not two of
+ * eight and four of one. The strips are whole rows, whose rings are tori. */
 static void none_is_left_over(void **state)
 {
     (void)state;
@@ -196,7 +198,8 @@ static void turn_alike_wanted(struct sheet *s)
     }
 }
 
-/* The loop's first kernels are already optimised as far as kernels in rows can be; many turns become one kernel even so. */
+/* The loop's first kernels are already optimised as far as kernels in rows can be; many turns
+ * become one kernel even so. */
 static void a_loop_without_boxes_is_many_turns_at_once(void **state)
 {
     (void)state;
@@ -220,8 +223,8 @@ static uint64_t in_place(void)
     return now.kernels_in_place;
 }
 
-/* Strips of whole rows, one below the other, overwrite the array that they read, but not while another field needs the old
- * values. */
+/* Strips of whole rows, one below the other, overwrite the array that they read, but not while
+ * another field needs the old values. */
 static void what_nobody_wants_is_written_over(void **state)
 {
     (void)state;
@@ -278,7 +281,8 @@ static void short_turn_wanted(struct sheet *s)
                                        (old[(y + HIGH - 1) % HIGH * WIDE + x] + 3);
 }
 
-/* Evaluations end with the loop's turns, whatever was called before the loop. So they store the sheet and no temporaries. */
+/* Evaluations end with the loop's turns, whatever was called before the loop. So they store the
+ * sheet and no temporaries. */
 static void only_the_sheet_is_stored(void **state)
 {
     (void)state;
@@ -309,7 +313,8 @@ static void only_the_sheet_is_stored(void **state)
     }
 }
 
-/* The program reads in the middle of each twentieth turn. Evaluations then end there, so that one or two kernels run twenty turns. */
+/* The program reads in the middle of each twentieth turn. Evaluations then end there, so that
+ * one or two kernels run twenty turns. */
 static void turns_end_where_somebody_looks(void **state)
 {
     (void)state;
@@ -338,7 +343,8 @@ static void turns_end_where_somebody_looks(void **state)
     expect(&s);
 }
 
-/* A program that reads after each turn, and later after every twentieth: then many turns are a kernel, each time. */
+/* A program that reads after each turn, and later after every twentieth: then many turns are a
+ * kernel, each time. */
 static void looks_become_fewer(void **state)
 {
     (void)state;
@@ -357,7 +363,8 @@ static void looks_become_fewer(void **state)
     }
 }
 
-/* A turn of two sheets: each adds the other's cells and their neighbours. `looks` reads in the middle of the turn. */
+/* A turn of two sheets: each adds the other's cells and their neighbours. `looks` reads in the
+ * middle of the turn. */
 static void coupled_turn(struct sheet s[2], bool looks)
 {
     for (int k = 0; k < 2; k++) {
@@ -393,7 +400,7 @@ static void coupled_turn_wanted(struct sheet s[2])
     }
 }
 
-/* Sixteen turns in one kernel would need more columns around a strip than there are; eight do not. */
+/* Sixteen turns in one kernel would need more columns than there are; eight do not. */
 static void as_many_turns_as_can_be_are_one_kernel(void **state)
 {
     (void)state;
@@ -422,7 +429,8 @@ static struct device_buffer *buffer_of(CM_field_id_t id)
     return NULL;
 }
 
-/* Temporaries that are not computed need the sheet of the turn before, but no older one. So two arrays suffice. */
+/* Temporaries that are not computed need the sheet of the turn before, but no older one. So two
+ * arrays suffice. */
 static void two_arrays_take_turns(void **state)
 {
     (void)state;

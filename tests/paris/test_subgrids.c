@@ -1,6 +1,7 @@
-/* test_subgrids.c - the physical processor of each virtual one, and its place there, by a model that follows the documented rules one
- * processor after the other. All inquiries, send addresses, coordinates on both sides, sends, gets and aliases agree with it, over
- * generated geometries of every kind and machines of several sizes. */
+/* test_subgrids.c - the physical processor of each virtual one, and its place there, by a model
+ * that follows the documented rules one processor after the other. All inquiries, send
+ * addresses, coordinates on both sides, sends, gets and aliases agree with it, over generated
+ * geometries of every kind and machines of several sizes. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -50,8 +51,9 @@ static unsigned int log2_of(unsigned int x)
     return 31 - (unsigned int)__builtin_clz(x);
 }
 
-/* What is known of the sides: in rows the last axes are whole, as far as a processor's virtual ones suffice. Of subgrids the shape is
- * asked for, and must be as good as any: inquiries_agree(). */
+/* What is known of the sides: in rows the last axes are whole, as far as a processor's virtual
+ * ones suffice. Of subgrids the shape is asked for, and must be as good as any:
+ * inquiries_agree(). */
 static void sides_find(struct grid *g)
 {
     unsigned int left = g->ratio, at = 0;
@@ -101,7 +103,8 @@ static void coordinates_of(const struct grid *g, unsigned int index, unsigned in
         c[i] = index % g->lengths[i];
 }
 
-/* The send address by the documented rules: of subgrids the block and the place in it, on each axis. */
+/* The send address by the documented rules: of subgrids the block and the place in it, on each
+ * axis. */
 static unsigned int address_of(const struct grid *g, unsigned int index)
 {
     unsigned int c[AXES], processor = 0, vp = 0;
@@ -241,7 +244,8 @@ static void addresses_tell_of_subgrids(void **unused)
                 unsigned int up =
                     CM_fe_deposit_news_coordinate(g.id, a, i, (c[i] + 1) % g.lengths[i]);
                 unsigned int wires = a / g.ratio ^ up / g.ratio;
-                /* a neighbour is on the same processor, or on one that a wire of the cube connects */
+                /* a neighbour is on the same processor, or on one that a wire of the cube
+                 * connects */
                 assert_true(g.kind != SUBGRIDS || g.binary[i] || (wires & (wires - 1)) == 0);
                 /* the block's number on the axis is these bits of the processor's */
                 const unsigned int code = a / g.ratio >> g.at[i] & ((1u << g.bits[i]) - 1);

@@ -1,5 +1,7 @@
-/* Runs random programs without loops in all tiers: byte code and C loops on the front end's threads, the same with even short
- * work shared out to threads, kernels only, one instruction at a time, and small sets' operations as they are called. After each program all fields hold the same bits. */
+/* Runs random programs without loops in all tiers: byte code and C loops on the front end's
+ * threads, the same with even short work shared out to threads, kernels only, one instruction
+ * at a time, and small sets' operations as they are called. After each program all fields hold
+ * the same bits. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>

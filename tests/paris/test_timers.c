@@ -55,7 +55,8 @@ static void communicate(int turns)
     }
 }
 
-/* Where other programs take the processor between two instructions, the machine has less of the time: then once more. */
+/* Where other programs take the processor between two instructions, the machine has less of the
+ * time: then once more. */
 enum { TRIES = 20 };
 
 /* False: the machine had less of the time. */
@@ -91,8 +92,8 @@ static void timed(const struct tier *t, unsigned int count, int turns, double le
     }
 }
 
-/* Of 300,000 processors nearly all time is the machine's; of 500 some is. What kernels do while the front end goes on is not counted, so
- * there it is some of it only. */
+/* Of 300,000 processors nearly all time is the machine's; of 500 some is. What kernels do while
+ * the front end goes on is not counted, so there it is some of it only. */
 static void what_is_computed_is_the_machines_time(void **unused)
 {
     (void)unused;

@@ -1,5 +1,6 @@
-/* test_warm_up.c - what CM_init performs before the program's first instruction leaves nothing behind: the first machine of a process,
- * which warms up, gives a program what the next one gives, which does not. */
+/* test_warm_up.c - what CM_init performs before the program's first instruction leaves nothing
+ * behind: the first machine of a process, which warms up, gives a program what the next one
+ * gives, which does not. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,6 +1,7 @@
-/* Wrong programs: each makes one mistake on a machine that has just been initialised. In safety mode the message names the call
- * and the argument in one line. Without safety mode the call may give no message, and must not harm the host. In both cases the
- * machine goes on working. Child processes test programs without an error handler. */
+/* Wrong programs: each makes one mistake on a machine that has just been initialised. In safety
+ * mode the message names the call and the argument in one line. Without safety mode the call
+ * may give no message, and must not harm the host. In both cases the machine goes on working.
+ * Child processes test programs without an error handler. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -81,7 +82,8 @@ struct row {
 
 enum { FIRST = __COUNTER__ + 1 };
 
-/* Returns wrong program number `which` in *row; run: also makes its calls. False: there is none. */
+/* Returns wrong program number `which` in *row; run: also makes its calls. False: there is
+ * none. */
 static bool wrong(int which, bool run, struct row *row)
 {
 #define WRONG(name, word, only_safe, ...)                                                      \
@@ -136,7 +138,8 @@ static bool wrong(int which, bool run, struct row *row)
         WRONG(CM_allocate_stack_field, "bits", 0, stack(0x80000000u));
         WRONG(CM_allocate_stack_field_vp_set, "vp_set", 0,
               CM_allocate_stack_field_vp_set(8, dead_set()));
-        /* fields of another VP set; where they hold zeros, the call may pass without safety mode */
+        /* fields of another VP set; where they hold zeros, the call may pass without safety
+         * mode */
         WRONG(CM_u_add_2_1L, "VP set", 0, CM_u_add_2_1L(stack(32), foreign(), 8));
         WRONG(CM_u_add_2_1L, "VP set", 0, CM_u_add_2_1L(foreign(), stack(32), 8));
         WRONG(CM_u_add_constant_2_1L, "VP set", 0, CM_u_add_constant_2_1L(foreign(), 1, 8));

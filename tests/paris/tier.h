@@ -1,5 +1,5 @@
-/* tier.h - the ways in which a machine may execute a program, for tests that run the same program in several. Include after cmocka's
- * headers. */
+/* tier.h - the ways in which a machine may execute a program, for tests that run the same
+ * program in several. Include after cmocka's headers. */
 #ifndef LUTETIA_TESTS_PARIS_TIER_H
 #define LUTETIA_TESTS_PARIS_TIER_H
 
@@ -7,7 +7,8 @@
 
 #include <stdlib.h>
 
-/* The values of LUTETIA_NEAR, _INTERPRET, _AT_ONCE, _GATHER and _REPLAY; NULL: that stays as it is. */
+/* The values of LUTETIA_NEAR, _INTERPRET, _AT_ONCE, _GATHER and _REPLAY; NULL: that stays as it
+ * is. */
 struct tier {
     const char *name, *near, *interpret, *at_once;
     bool eager;

@@ -1,7 +1,8 @@
 /* clang-format off */
-/* A small library of vectors in the style of 1990, with its tests. A vector of n elements is a field in the VP set of ratio 1,
- * with room for k elements in each processor, k a power of two. An operation copies its arguments to the stack, makes aliases of
- * them in the set of ratio k, computes there, and copies the result back. All run in both safety modes. */
+/* A small library of vectors in the style of 1990, with its tests. A vector of n elements is a
+ * field in the VP set of ratio 1, with room for k elements in each processor, k a power of two.
+ * An operation copies its arguments to the stack, makes aliases of them in the set of ratio k,
+ * computes there, and copies the result back. All run in both safety modes. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <cm/paris.h>
@@ -77,7 +78,8 @@ static void all_processors ()
     CM_set_context ();
 }
 
-/* Selects the set of ratio k and turns on its first n VPs. The set of ratio 1 must be selected at the call. */
+/* Selects the set of ratio k and turns on its first n VPs. The set of ratio 1 must be selected
+ * at the call. */
 static void elements (k, n)
     int k, n;
 {
@@ -123,7 +125,8 @@ COPIES (copy_floats, _f_, INTEGER, SINGLE)
 static vector new_vector (n, bits)
     int n, bits;
 {
-    return n ? CM_allocate_heap_field (each (n) * bits) : CM_allocate_heap_field (CM_safety_mode () ? 1 : 0); /* strict: no field is empty */
+    /* strict: no field is empty */
+    return n ? CM_allocate_heap_field (each (n) * bits) : CM_allocate_heap_field (CM_safety_mode () ? 1 : 0);
 }
 
 static void transfer (v, array, n, bits, writes)

@@ -1,4 +1,5 @@
-/* words.h - writes and reads blocks of words in fields of the current VP set, for the tests of the router. */
+/* words.h - writes and reads blocks of words in fields of the current VP set, for the tests of
+ * the router. */
 #ifndef PARIS_TESTS_WORDS_H
 #define PARIS_TESTS_WORDS_H
 

@@ -71,7 +71,8 @@ static void first_complaint_is_heard_and_the_rest_runs(void **state)
         assert_true(out[i] == 2);
 }
 
-/* All fields together may have 2^31 bits. The machine's message for this does not mention memory, but the status does. */
+/* All fields together may have 2^31 bits. The machine's message for this does not mention
+ * memory, but the status does. */
 static void lack_of_room_is_a_status_whatever_the_words(void **state)
 {
     (void)state;
@@ -88,7 +89,8 @@ static void lack_of_room_is_a_status_whatever_the_words(void **state)
     assert_int_equal(kit_finish(grid.vp_set), KIT_OK);
 }
 
-/* A grid that is too large: the error is the first message, not those of later calls without a VP set. */
+/* A grid that is too large: the error is the first message, not those of later calls without a
+ * VP set. */
 static void first_complaint_of_a_grid_is_its_size(void **state)
 {
     (void)state;

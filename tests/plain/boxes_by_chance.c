@@ -1,10 +1,12 @@
-/* boxes_by_chance.c - random sessions on two sheets, one with boxes and one without: all planes are the same, to the bit.
+/* boxes_by_chance.c - random sessions on two sheets, one with boxes and one without: all planes
+ * are the same, to the bit.
  *
  *     boxes_by_chance [COUNT [SEED]]
  *
- * Each session draws a sheet of water that flows, its air some times, and what is done: put, blotted, masked, salted, washed, painted
- * with a brush, lifted, dried, sealed, undone and done again; steps in between, and looks. Prints how many sessions there were, and how
- * many of their steps were done in boxes: without these the test would say nothing. */
+ * Each session draws a sheet of water that flows, its air some times, and what is done: put,
+ * blotted, masked, salted, washed, painted with a brush, lifted, dried, sealed, undone and done
+ * again; steps in between, and looks. Prints how many sessions there were, and how many of
+ * their steps were done in boxes: without these the test would say nothing. */
 #include <brush.h>
 #include <history.h>
 #include <techniques.h>
@@ -228,7 +230,8 @@ static void puddle_end(const char *what)
         paper_sheet_destroy(sheets[k]);
 }
 
-/* Edges get wide while boxes are open: what is active spreads faster than they were made for. */
+/* Edges get wide while boxes are open: what is active spreads faster than they were made
+ * for. */
 static void air_changes(void)
 {
     puddle_make();
@@ -260,7 +263,8 @@ static void salt_dissolves(void)
     puddle_end("salt that is dry again");
 }
 
-/* A stroke in one box while a puddle runs in another: what the bristles' exchange makes wet, it makes wet in all of them. */
+/* A stroke in one box while a puddle runs in another: what the bristles' exchange makes wet, it
+ * makes wet in all of them. */
 static void puddle_beside_stroke(void)
 {
     puddle_make();

@@ -1,5 +1,6 @@
-/* fuzz_journal.c - opens forged journals: any bytes are changed, and where the input says so the checksums of head and entries are made to
- * agree. Each must open, with as much as is good of it, or be refused as a bad file; then the sheet can be computed, or says why not. */
+/* fuzz_journal.c - opens forged journals: any bytes are changed, and where the input says so
+ * the checksums of head and entries are made to agree. Each must open, with as much as is good
+ * of it, or be refused as a bad file; then the sheet can be computed, or says why not. */
 #include <brush.h>
 #include <journal.h>
 
@@ -82,7 +83,8 @@ static void sums_mend(uint8_t *file, size_t length)
     }
 }
 
-/* Each five bytes of input are one change: where (3 bytes), what (1), how (1); the number of them says whether sums agree. */
+/* Each five bytes of input are one change: where (3 bytes), what (1), how (1); the number of
+ * them says whether sums agree. */
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
 {
     uint8_t *file = malloc(good_count);

@@ -1,6 +1,8 @@
-/* fuzz_state.c - loads forged states: any bytes are changed, and the header's checksum is made to agree.
+/* fuzz_state.c - loads forged states: any bytes are changed, and the header's checksum is made
+ * to agree.
  *
- * Each file must load, or be refused as a bad file. libFuzzer's input says which bytes are changed. */
+ * Each file must load, or be refused as a bad file. libFuzzer's input says which bytes are
+ * changed. */
 #include "state_sample.h"
 
 #include <unistd.h>
@@ -66,7 +68,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
 #ifndef LUTETIA_FUZZ_LIBFUZZER
 #include "../sample.h"
 
-/* Without libFuzzer: the same inputs in every run, first with one change each, then with several. */
+/* Without libFuzzer: the same inputs in every run, first with one change each, then with
+ * several. */
 int main(int argc, char **argv)
 {
     int files = argc > 1 ? atoi(argv[1]) : 200;

@@ -1,11 +1,12 @@
-/* looks_by_chance.c - random sessions on two sheets. One is painted with strokes that grow, steps go on in boxes, and its picture is kept
- * by looking where it has changed. The other one gets the same strokes at once, has no boxes, and is looked at whole. Pictures are the same
- * to the bit, and so are the planes and what brushes hold.
+/* looks_by_chance.c - random sessions on two sheets. One is painted with strokes that grow,
+ * steps go on in boxes, and its picture is kept by looking where it has changed. The other one
+ * gets the same strokes at once, has no boxes, and is looked at whole. Pictures are the same to
+ * the bit, and so are the planes and what brushes hold.
  *
  *     looks_by_chance [COUNT [SEED]]
  *
- * Prints how many strokes were dropped on their way, and what part of the looks was at less than the sheet: without these the test would
- * say nothing. */
+ * Prints how many strokes were dropped on their way, and what part of the looks was at less
+ * than the sheet: without these the test would say nothing. */
 #include <brush.h>
 #include <history.h>
 #include <picture.h>

@@ -1,8 +1,9 @@
-/* plain_paris.c - the C/Paris calls that sheets use, as loops over arrays: no device, no lazy evaluation, no kernels.
+/* plain_paris.c - the C/Paris calls that sheets use, as loops over arrays.
  *
- * It has two uses. Sheets must hold the same bits on it and on the machine. And it is fast on tiny sheets, so that a test can
- * run a million of them. One VP set at a time is current. A field is an array of one word for each processor, or of two words
- * where it is longer than 32 bits. The linker reports calls that are missing here. Its random numbers are not the machine's. */
+ * It has two uses. Sheets must hold the same bits on it and on the machine. And it is fast on
+ * tiny sheets, so that a test can run a million of them. One VP set at a time is current. A
+ * field is an array of one word for each processor, or of two words where it is longer than 32
+ * bits. The linker reports calls that are missing here. Random numbers are its own. */
 #include <cm/paris.h>
 
 #include <math.h>
@@ -58,7 +59,7 @@ static double *doubles(CM_field_id_t id)
     return fields[id].words;
 }
 
-/* Runs the statement for every active processor i. The loop without a test of the context can be vectorised. */
+/* For every active processor i; the loop without a test of the context can be vectorised. */
 #define EACH(statement)                                                                        \
     do {                                                                                       \
         const struct set *s_ = the();                                                          \
@@ -236,7 +237,7 @@ void CM_f_lt_zero_1L(CM_field_id_t source, unsigned int s, unsigned int e)
 
 /* ---- arithmetic ---- */
 
-/* Minimum and maximum of IEEE 754-2008, except for zeros of two signs, which sheets never compare. */
+/* As in IEEE 754-2008, but for zeros of two signs, which sheets never compare. */
 #define LEAST_OF(a, b) ((a) < (b) ? (a) : (b))
 #define MOST_OF(a, b) ((a) > (b) ? (a) : (b))
 
@@ -519,7 +520,7 @@ static int bytes_of(unsigned int format)
     return format == CM_8_bit ? 1 : format == CM_16_bit ? 2 : format >= CM_float_double ? 8 : 4;
 }
 
-/* Of a block of processors: where its rows are in the array, and their words in the field. Only axes in their order. */
+/* Where a block's rows are in the array, and their words in the field. Axes in their order. */
 struct block {
     size_t rows, columns, array_width, array_at, field_at;
 };

@@ -1,5 +1,5 @@
-/* plain_screen.c - functions of type that sheets call: one that frees a screen; and in place of the one that sets type, which needs fonts, one
- * that cannot. */
+/* plain_screen.c - functions of type that sheets call: one that frees a screen; and in place of
+ * the one that sets type, which needs fonts, one that cannot. */
 #include <paper.h>
 
 #include <stdlib.h>

@@ -1,4 +1,5 @@
-/* scenes.h - paints some sheets and prints their planes' hashes. The hashes are the same under every C/Paris. */
+/* scenes.h - paints some sheets and prints their planes' hashes. The hashes are the same under
+ * every C/Paris. */
 #ifndef LUTETIA_TESTS_SCENES_H
 #define LUTETIA_TESTS_SCENES_H
 
@@ -21,7 +22,8 @@ static inline void scene_check(enum paper_status status)
     exit(1);
 }
 
-/* Writes the paper's layers, because CM_u_random_1L() gives other numbers under each C/Paris. */
+/* Writes the paper's layers, because CM_u_random_1L() gives other numbers under each
+ * C/Paris. */
 static inline void scene_paper(struct paper_sheet *sheet, uint64_t *chance)
 {
     static const float low[3] = {0, 0.02f, 0.1f}, high[3] = {1, 0.25f, 0.9f};

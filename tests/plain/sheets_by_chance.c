@@ -1,10 +1,12 @@
-/* sheets_by_chance.c - runs random tiny sheets. Amounts stay finite, within their bounds and whole, and none is lost.
+/* sheets_by_chance.c - runs random tiny sheets. Amounts stay finite, within their bounds and
+ * whole, and none is lost.
  *
  *     sheets_by_chance [COUNT [SEED [VERSION [AIRS]]]]
  *
- * Each set draws every setting: parts, torus, paper, pigments, and an air AIRS times (2); under each air it draws what is put on,
- * blotted, masked and dried. One parameter in three is at an end of its range. VERSION: of the model, 0: any. Prints how many sheets
- * were checked, and of many the number so far. */
+ * Each set draws every setting: parts, torus, paper, pigments, and an air AIRS times (2); under
+ * each air it draws what is put on, blotted, masked and dried. One parameter in three is at an
+ * end of its range. VERSION: of the model, 0: any. Prints how many sheets were checked, and of
+ * many the number so far. */
 #include <history.h>
 #include <paper.h>
 #include <sheet.h>

@@ -1,4 +1,5 @@
-/* state_sample.h - small sheets with a history, and changed files of states whose headers agree with them. */
+/* state_sample.h - small sheets with a history, and changed files of states whose headers agree
+ * with them. */
 #ifndef LUTETIA_TESTS_STATE_SAMPLE_H
 #define LUTETIA_TESTS_STATE_SAMPLE_H
 
@@ -81,7 +82,8 @@ static inline void sample_file_write(const char *path, const uint8_t *bytes, siz
         abort();
 }
 
-/* Makes the header agree with the changed bytes, as a forger would; of that version of the model. */
+/* Makes the header agree with the changed bytes, as a forger would; of that version of the
+ * model. */
 static inline void sample_header_mend_of(uint8_t *bytes, size_t count, int model)
 {
     char text[SAMPLE_HEADER] = "";

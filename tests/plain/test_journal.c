@@ -1,5 +1,5 @@
-/* test_journal.c - journals: cut at every byte what is whole of them is there again; they go on where they were cut, and a disk that is full
- * loses nothing. */
+/* test_journal.c - journals: cut at every byte what is whole of them is there again; they go on
+ * where they were cut, and a disk that is full loses nothing. */
 #include <brush.h>
 #include <journal.h>
 

@@ -1,4 +1,5 @@
-/* test_past.c - operations of the past that are taken out or replaced: the sheet is the one that never had them, to the bit. */
+/* test_past.c - operations of the past that are taken out or replaced: the sheet is the one
+ * that never had them, to the bit. */
 #include "../paper/history_operations.h"
 
 #include <journal.h>
@@ -8,7 +9,8 @@
 
 enum { OPERATIONS = 10, SESSIONS = 60 };
 
-/* Does again on `to` what `from` has done, but for one operation; in its place so many steps. */
+/* Does again on `to` what `from` has done, but for one operation; in its place so many
+ * steps. */
 static void repeat(struct paper_sheet *to, const struct paper_sheet *from, int without,
                    long steps)
 {

@@ -1,4 +1,5 @@
-/* test_second_opinion.c - compares the scenes on the machine with those on the plain C/Paris, bit for bit. */
+/* test_second_opinion.c - compares the scenes on the machine with those on the plain C/Paris,
+ * bit for bit. */
 #include "scenes.h"
 
 #include <string.h>

@@ -1,4 +1,5 @@
-/* test_state.c - a saved state loads bit for bit; a file is written whole or not at all; damaged files are refused. */
+/* test_state.c - a saved state loads bit for bit; a file is written whole or not at all;
+ * damaged files are refused. */
 #include "state_sample.h"
 
 #include "../display/scratch.h"

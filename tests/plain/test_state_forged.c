@@ -1,5 +1,6 @@
-/* test_state_forged.c - forged states: HDF5 files with a correct header that refer to other files, have types or filters that
- * the program does not write, or hold values that no sheet can have. All are refused with a message. (security.md 8, 9, 10) */
+/* test_state_forged.c - forged states: HDF5 files with a correct header that refer to other
+ * files, have types or filters that the program does not write, or hold values that no sheet
+ * can have. All are refused with a message. (security.md 8, 9, 10) */
 #include "state_sample.h"
 
 #include "../display/scratch.h"
@@ -167,7 +168,8 @@ static void states_reach_for_no_other_file(void **state)
         {external_group, "leads elsewhere"},
         {second_name, "several names"},
     };
-    /* the other file is a good state: files are refused because they refer to it, whatever it holds */
+    /* the other file is a good state: files are refused because they refer to it, whatever it
+     * holds */
     snprintf(path, sizeof path, "%s", scratch_path("secret.h5"));
     snprintf(secret, sizeof secret, "%s", path);
     good_save(false);
@@ -450,7 +452,7 @@ static size_t run_find(const void *what, size_t size)
     return (size_t)(found - bytes);
 }
 
-/* Checks that the state is refused with and without `follow`, which reads the brushes much later. */
+/* Refused with and without `follow`, which reads the brushes much later. */
 static void refused_both_ways(const char *says)
 {
     struct paper_state *saved;
@@ -502,7 +504,7 @@ static void planes_hold_what_sheets_can(void **state)
     }
 }
 
-/* In the run, the grains of a brush's bristles follow its description; here one grain is wrong. */
+/* In the run, the grains of a brush's bristles follow its description; here one is wrong. */
 static void brushes_hold_what_brushes_can(void **state)
 {
     (void)state;
@@ -522,7 +524,8 @@ static void brushes_hold_what_brushes_can(void **state)
     }
 }
 
-/* A dip of amount -1, and dips of brushes that do not exist: each is refused before it is carried out. */
+/* A dip of amount -1, and dips of brushes that do not exist: each is refused before it is
+ * carried out. */
 static void operations_are_ones_that_can_be(void **state)
 {
     (void)state;
@@ -557,7 +560,8 @@ static void stained_forget(hid_t file)
     assert_true(H5Ldelete(file, "sheet-1/planes/stained part", H5P_DEFAULT) >= 0);
 }
 
-/* A state of version 1 has no stained parts: they are read as 0, and steps go on. One that has some is none of version 1. */
+/* A state of version 1 has no stained parts: they are read as 0, and steps go on. One that has
+ * some is none of version 1. */
 static void states_of_version_1_are_read(void **state)
 {
     (void)state;

@@ -1,8 +1,9 @@
 /* generate.c - draws a program from a seed.
  *
- * Most programs that are drawn blindly could not run. So the generator keeps a list of fields and their VP sets and draws
- * operands from it; program_normalise() drops what still cannot run. Most of a run's time goes into compiling a kernel for
- * each new shape of graph, so geometries and widths come from small pools.
+ * Most programs that are drawn blindly could not run. So the generator keeps a list of fields
+ * and their VP sets and draws operands from it; program_normalise() drops what still cannot
+ * run. Most of a run's time goes into compiling a kernel for each new shape of graph, so
+ * geometries and widths come from small pools.
  */
 #include "program.h"
 
@@ -39,7 +40,8 @@ static uint32_t draw(struct generator *g, uint32_t below)
     return (uint32_t)(sample_word(&g->state) >> 32) % below;
 }
 
-/* Draws a part, `bits` long, of a field of the current VP set; it mostly starts at the field's first bit. */
+/* Draws a part, `bits` long, of a field of the current VP set; it mostly starts at the field's
+ * first bit. */
 static bool draw_operand(struct generator *g, int bits, struct operand *out)
 {
     for (int tries = 0; tries < 40; tries++) {
@@ -82,7 +84,8 @@ static void emit_deallocate(struct generator *g)
     struct instruction in = {0};
     uint32_t slot = draw(g, PROGRAM_SLOTS);
 
-    /* normalising keeps the deallocation that fits the field's region; the stack fields allocated after it go, too */
+    /* normalising keeps the deallocation that fits the field's region; the stack fields
+     * allocated after it go, too */
     in.d.slot = (uint8_t)slot;
     in.row = ROW_CM_deallocate_heap_field;
     emit(g, &in);
@@ -174,7 +177,8 @@ static void emit_row(struct generator *g)
     emit(g, &in);
 }
 
-/* Nested context, as programs have it: stores the context, narrows it, runs instructions and loads it again. */
+/* Nested context, as programs have it: stores the context, narrows it, runs instructions and
+ * loads it again. */
 static void emit_nest(struct generator *g, int depth)
 {
     struct instruction in = {0}, compare = {0};
@@ -219,7 +223,8 @@ static void emit_observe(struct generator *g)
         emit(g, &in);
 }
 
-/* A loop: the same instructions in each turn, seldom with another constant; some turns read a field to the front end. */
+/* A loop: the same instructions in each turn, seldom with another constant; some turns read a
+ * field to the front end. */
 static void emit_loop(struct generator *g, int turns)
 {
     int first = g->p->count;

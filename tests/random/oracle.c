@@ -2,9 +2,9 @@
  *
  *     field: bits[processor * width + bit]
  *
- * An instruction reads all its sources for all processors, then stores under the context. The code is as plain as
- * possible, because it defines what the lazy machine must compute. `sabotage` makes one operation wrong, to test the
- * detector.
+ * An instruction reads all its sources for all processors, then stores under the context. The
+ * code is as plain as possible, because it defines what the lazy machine must compute.
+ * `sabotage` makes one operation wrong, to test the detector.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -174,7 +174,8 @@ static wide value_of(struct oracle *o, const struct instruction *in, uint64_t n,
             return info->op == OP_SET_BIT;
         }
     case NEWS:
-        /* a get reads the neighbour in its direction; a send is a get in the opposite direction */
+        /* a get reads the neighbour in its direction; a send is a get in the opposite
+         * direction */
         if (info->op == OP_GET_NEWS)
             return get(o, &in->a, neighbour(o, n, in->axis, in->direction ? -1 : 1));
         return get(o, &in->a, neighbour(o, n, in->axis, in->direction ? 1 : -1));

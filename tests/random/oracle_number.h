@@ -1,4 +1,5 @@
-/* oracle_number.h - the result of one instruction in one processor: 128-bit integers and IEEE floats. */
+/* oracle_number.h - the result of one instruction in one processor: 128-bit integers and IEEE
+ * floats. */
 #ifndef LUTETIA_TESTS_RANDOM_ORACLE_NUMBER_H
 #define LUTETIA_TESTS_RANDOM_ORACLE_NUMBER_H
 
@@ -13,8 +14,9 @@ wide wide_mask(int bits);
 /* The low `bits` bits of x, sign-extended. */
 signed_wide wide_signed(wide x, int bits);
 
-/* Returns a op b. The operands are already zero- or sign-extended. *overflows tells whether the exact result does not fit in
- * `bits` bits; operations that record no overflow leave it alone. */
+/* Returns a op b. The operands are already zero- or sign-extended. *overflows tells whether the
+ * exact result does not fit in `bits` bits; operations that record no overflow leave it
+ * alone. */
 wide number_integer(enum op op, bool is_signed, wide a, wide b, int bits, bool *overflows);
 /* Floats are bits, 32 or 64 of them. */
 uint64_t number_float(enum op op, int bits, uint64_t a, uint64_t b, bool *overflows);
@@ -34,7 +36,8 @@ double number_value(uint64_t a, int float_bits);
 /* The one NaN that arithmetic gives. */
 uint64_t number_nan(int float_bits);
 
-/* ADD, MIN or MAX over the active elements among count, in the order of rows along the last axis. */
+/* ADD, MIN or MAX over the active elements among count, in the order of rows along the last
+ * axis. */
 uint64_t number_float_reduce(enum op op, const uint64_t *values, const bool *active,
                              uint64_t count, int last_axis, int bits);
 

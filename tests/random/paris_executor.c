@@ -1,7 +1,7 @@
 /* paris_executor.c - runs a random program through C/Paris calls.
  *
- * Each row of table.h becomes one case of a switch: its call with the arguments of its shape. The trace has the order of
- * oracle.c. */
+ * Each row of table.h becomes one case of a switch: its call with the arguments of its shape.
+ * The trace has the order of oracle.c. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -231,8 +231,8 @@ static void step(struct execution *x, const struct instruction *in)
 
 /* ---- what is left at the end ----
  *
- * All fields are first copied into fields of at most 64 bits, then computed in one evaluation, then downloaded. That needs a
- * few kernels instead of one for each field. */
+ * All fields are first copied into fields of at most 64 bits, then computed in one evaluation,
+ * then downloaded. That needs a few kernels instead of one for each field. */
 
 enum { COPIES_MAX = PROGRAM_SETS * 3 + PROGRAM_SLOTS * 3 };
 

@@ -1,6 +1,7 @@
 /* print.c - prints a program as C with CM_ calls, for a person to read and to run.
  *
- * Fields are f0, f1, …. The C program prints what it observes, so that two modes of the machine can be compared by hand. */
+ * Fields are f0, f1, …. The C program prints what it observes, so that two modes of the machine
+ * can be compared by hand. */
 #include <inttypes.h>
 #include <math.h>
 
@@ -22,8 +23,8 @@ static void print_length(FILE *out, const struct operand *x, bool is_float)
         fprintf(out, ", %d", x->bits);
 }
 
-/* The arguments of each shape, a letter each: d a b fields, k an integer constant, r a real one, D A B integer lengths, F G
- * float lengths (of d, of a), x axis and direction, c axis. */
+/* The arguments of each shape, a letter each: d a b fields, k an integer constant, r a real
+ * one, D A B integer lengths, F G float lengths (of d, of a), x axis and direction, c axis. */
 static const char *arguments(enum shape shape)
 {
     switch (shape) {

@@ -1,4 +1,5 @@
-/* program.c - the instruction table, the checks whether an instruction can run, and the data that programs write. */
+/* program.c - the instruction table, the checks whether an instruction can run, and the data
+ * that programs write. */
 #include "program.h"
 
 #include <math.h>

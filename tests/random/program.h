@@ -2,14 +2,16 @@
  *
  *     struct program p;
  *     program_generate(&p, seed, length);
- *     program_normalise(&p);              // drops instructions that cannot run (a deallocated field)
+ *     // drops instructions that cannot run (a deallocated field)
+ *     program_normalise(&p);
  *     struct trace a = {0}, b = {0};
  *     oracle_run(&p, &a, 0);
  *     paris_run(&p, &b, eager);
  *     if (trace_differ(&a, &b, &where)) …
  *
- * Fields are numbered slots, so that an instruction can be removed without renumbering the others. program_normalise()
- * drops an instruction whose slot does not hold the field that it needs. All executors run normalised programs only.
+ * Fields are numbered slots, so that an instruction can be removed without renumbering the
+ * others. program_normalise() drops an instruction whose slot does not hold the field that it
+ * needs. All executors run normalised programs only.
  */
 #ifndef LUTETIA_TESTS_RANDOM_PROGRAM_H
 #define LUTETIA_TESTS_RANDOM_PROGRAM_H
@@ -166,7 +168,8 @@ struct program {
 uint64_t geometry_count(const struct geometry *g);
 
 void program_generate(struct program *p, uint64_t seed, int length);
-/* Draws a program that is mostly one long loop; sheet: over fields of two axes, wide enough for strips. */
+/* Draws a program that is mostly one long loop; sheet: over fields of two axes, wide enough for
+ * strips. */
 void program_generate_loop(struct program *p, uint64_t seed, bool sheet);
 /* Drops instructions that cannot run; call it before the executors. */
 void program_normalise(struct program *p);
@@ -183,8 +186,9 @@ double data_real(uint32_t stream, uint64_t index);
 
 struct trace {
     uint64_t *words;
-    uint32_t *
-        steps; /* the instruction that added each word; the program's length for words of the final state */
+    /* the instruction that added each word; the program's length for words of the final
+     * state */
+    uint32_t *steps;
     size_t count, size;
     int step; /* set by the executor */
 };
@@ -210,8 +214,8 @@ void oracle_run(const struct program *p, struct trace *out, enum sabotage sabota
 /* Runs by C/Paris calls. */
 void paris_run(const struct program *p, struct trace *out, bool eager);
 
-/* Sets these environment variables (NAME=value, ending with NULL) for all later machines, and unsets those of the previous
- * call. */
+/* Sets these environment variables (NAME=value, ending with NULL) for all later machines, and
+ * unsets those of the previous call. */
 void paris_force(const char *const *variables);
 
 struct paris_counts {
@@ -225,7 +229,8 @@ struct paris_counts paris_counts(void);
 /* ---- shrinking ---- */
 
 typedef bool (*program_fails)(void *context, const struct program *p);
-/* Makes the failing program p as small as removals and simplifications can. Returns the number of runs. */
+/* Makes the failing program p as small as removals and simplifications can. Returns the number
+ * of runs. */
 int program_shrink(struct program *p, program_fails fails, void *context);
 
 #endif

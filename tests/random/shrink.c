@@ -1,6 +1,7 @@
-/* shrink.c - makes a failing program small. It removes runs of instructions, first halves of the program, at last single
- * instructions. It then simplifies the rest (a smaller sheet, no offsets, round constants, shorter lengths), and begins again
- * until nothing helps. The order of tries is fixed, so the same failure shrinks to the same program. */
+/* shrink.c - makes a failing program small. It removes runs of instructions, first halves of
+ * the program, at last single instructions. It then simplifies the rest (a smaller sheet, no
+ * offsets, round constants, shorter lengths), and begins again until nothing helps. The order
+ * of tries is fixed, so the same failure shrinks to the same program. */
 #include <string.h>
 
 #include "program.h"
@@ -91,7 +92,8 @@ static bool plainer_geometry(struct shrinker *s)
     return better;
 }
 
-/* Tries way number `way` to simplify an instruction; false: there are no more ways. *applies: it changed something. */
+/* Tries way number `way` to simplify an instruction; false: there are no more ways. *applies:
+ * it changed something. */
 static bool make_plainer(struct instruction *in, int way, bool *applies)
 {
     struct instruction before = *in;
@@ -146,7 +148,8 @@ static bool plainer_instructions(struct shrinker *s)
             if (!applies)
                 continue;
             program_normalise(&s->candidate);
-            /* where normalising dropped an instruction, nothing is tried: removals are remove_runs()'s work */
+            /* where normalising dropped an instruction, nothing is tried: removals are
+             * remove_runs()'s work */
             if (s->candidate.count == count &&
                 memcmp(&s->candidate, s->p, sizeof s->candidate) != 0)
                 better |= try_candidate(s);

@@ -3,9 +3,10 @@
  *     test_random [--programs N] [--seed S] [--length L] [--seconds T] [--mode fused|eager|both] [--print SEED]
  *                 [--sabotage 1..3] [--shrink-seconds T] [--loops] [--sheets] [--shapes]
  *
- * Runs programs S, S+1, … of L instructions, until N are done or T seconds have passed. --shapes forces each of the device
- * shapes below in turn, for N programs or its share of the seconds. A failing program is shrunk and printed as C; the exit
- * status is then 1. Most of the time goes into compiling kernels, which the disk cache keeps.
+ * Runs programs S, S+1, … of L instructions, until N are done or T seconds have passed.
+ * --shapes forces each of the device shapes below in turn, for N programs or its share of the
+ * seconds. A failing program is shrunk and printed as C; the exit status is then 1. Most of the
+ * time goes into compiling kernels, which the disk cache keeps.
  */
 #include <getopt.h>
 #include <stdlib.h>
@@ -15,8 +16,9 @@
 #include "clock.h"
 #include "program.h"
 
-/* Each shape forces decisions that the engine otherwise makes by itself. Evaluations come early, so that the engine finds
- * loops (OFTEN). Only plans with fully optimised kernels, which take long to compile, put many turns into one kernel (BEST). */
+/* Each shape forces decisions that the engine otherwise makes by itself. Evaluations come
+ * early, so that the engine finds loops (OFTEN). Only plans with fully optimised kernels, which
+ * take long to compile, put many turns into one kernel (BEST). */
 #define OFTEN "LUTETIA_FLUSH_AFTER=48"
 #define BEST "LUTETIA_FLUSH_AFTER=48", "LUTETIA_BOX_AFTER=0"
 
@@ -65,7 +67,8 @@ static bool differs(const struct program *p, const struct mode *mode, struct tra
     return trace_differ(a, b, where);
 }
 
-/* Past the deadline every program counts as good, so that shrinking ends with the smallest program so far. */
+/* Past the deadline every program counts as good, so that shrinking ends with the smallest
+ * program so far. */
 static bool fails(void *context, const struct program *p)
 {
     const struct mode *mode = context;
@@ -118,7 +121,8 @@ static void report(const struct program *found, struct mode *mode, double shrink
     trace_finish(&b);
 }
 
-/* Whether the fault shows in this program, by comparing the right and the wrong oracle, without a device. */
+/* Whether the fault shows in this program, by comparing the right and the wrong oracle, without
+ * a device. */
 static bool sabotage_shows(const struct program *p, enum sabotage sabotage)
 {
     struct trace right = {0}, wrong = {0};
@@ -196,7 +200,8 @@ static long in_shapes(const struct options *o, long *done)
     long failed = 0;
     double first = clock_now_s();
 
-    /* If compiling kernels takes longer than the given seconds, only the first shapes are tried. */
+    /* If compiling kernels takes longer than the given seconds, only the first shapes are
+     * tried. */
     for (int i = 0; i < SHAPES_COUNT && !failed && clock_now_s() - first < 2 * o->seconds;
          i++) {
         long of_shape;

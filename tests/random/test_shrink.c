@@ -1,4 +1,5 @@
-/* test_shrink.c - the detector and the shrinker, without a device: the oracle against an oracle with a deliberate fault. */
+/* test_shrink.c - the detector and the shrinker, without a device: the oracle against an oracle
+ * with a deliberate fault. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

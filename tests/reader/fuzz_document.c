@@ -1,5 +1,6 @@
-/* fuzz_document.c - takes random bytes and random pieces of Markdown as documents, and some of them as pages. Each is read, its spans cover its
- * texts, and pages say something; or it is refused. The seeds are the same in every run, or libFuzzer's with -DLUTETIA_FUZZ_TARGET. */
+/* fuzz_document.c - takes random bytes and random pieces of Markdown as documents, and some of
+ * them as pages. Each is read, its spans cover its texts, and pages say something; or it is
+ * refused. The seeds are the same in every run, or libFuzzer's with -DLUTETIA_FUZZ_TARGET. */
 #include <reader_document.h>
 #include <reader_pages.h>
 

@@ -1,5 +1,6 @@
-/* fuzz_remarks.c - takes random bytes as a kept anchor, and as a file of remarks; and a valid file with bytes changed. What is read is whole, or
- * it is refused with a line. The seeds are the same in every run, or libFuzzer's with -DLUTETIA_FUZZ_TARGET. */
+/* fuzz_remarks.c - takes random bytes as a kept anchor, and as a file of remarks; and a valid
+ * file with bytes changed. What is read is whole, or it is refused with a line. The seeds are
+ * the same in every run, or libFuzzer's with -DLUTETIA_FUZZ_TARGET. */
 #include <reader_remarks.h>
 
 #include "../must.h"

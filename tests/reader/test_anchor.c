@@ -1,5 +1,6 @@
-/* test_anchor.c - anchors after changes that nobody told them, beside an oracle whose letters know where they come from; and after changes
- * that they were told. READER_TEST_EDITS changes the number of random edits. */
+/* test_anchor.c - anchors after changes that nobody told them, beside an oracle whose letters
+ * know where they come from; and after changes that they were told. READER_TEST_EDITS changes
+ * the number of random edits. */
 #include <reader_anchor.h>
 
 /* clang-format off */
@@ -133,7 +134,8 @@ static void tried_make(struct tried *a, const struct text *t)
                      READER_OK);
 }
 
-/* Whether more than half of its own letters stand at a place, each where it was: one that was erased may have been written again. */
+/* Whether more than half of its own letters stand at a place, each where it was: one that was
+ * erased may have been written again. */
 static bool stands(const struct tried *a, const struct text *t, size_t at)
 {
     size_t own = 0;
@@ -142,7 +144,8 @@ static bool stands(const struct tried *a, const struct text *t, size_t at)
     return 2 * own > a->count;
 }
 
-/* Of what stands before a place, and behind it, how many are what stood there: 32 bytes each. */
+/* Of what stands before a place, and behind it, how many are what stood there: 32 bytes
+ * each. */
 static int neighbours(const struct tried *a, const struct text *t, size_t at)
 {
     const char *behind = a->text + a->left + a->count;
@@ -173,8 +176,8 @@ static void tried_check(const struct tried *a, const struct text *t, struct tall
     assert_memory_equal(t->letters + begin, a->text + a->left, a->count);
     if (stands(a, t, begin))
         return;
-    /* Not its own letters: only where the same stands between the same neighbours, or, its own being gone or parted from all that stood
-     * beside them, beside one of these. */
+    /* Not its own letters: only where the same stands between the same neighbours, or, its own
+     * being gone or parted from all that stood beside them, beside one of these. */
     tally->moved_text++;
     if (neighbours(a, t, begin) < (own ? 2 : 1))
         fail_msg("'%.*s' was taken for that of '%.*s', which only looks alike", (int)a->count,
@@ -207,7 +210,8 @@ static void random_edits_lead_to_no_look_alike(void **state)
     assert_true(tally.found > tally.orphans && tally.orphans > 0);
 }
 
-/* Which letters belong to the anchor: its own, and those that were put in between two of them. */
+/* Which letters belong to the anchor: its own, and those that were put in between two of
+ * them. */
 static bool belongs[1 << 16];
 
 static void told_replace(struct text *t, size_t at, size_t removed, const char *with)

@@ -1,5 +1,5 @@
-/* test_document.c - Markdown as blocks, beside what is expected of each; and over the project's own pages: no word is lost, and each
- * block's lines are those of the source. */
+/* test_document.c - Markdown as blocks, beside what is expected of each; and over the project's
+ * own pages: no word is lost, and each block's lines are those of the source. */
 #include <reader_document.h>
 
 /* clang-format off */
@@ -231,7 +231,8 @@ static char *file_read(const char *path, size_t *bytes)
     return text;
 }
 
-/* The first letters of a block that are in its source as they are stand in one of the block's lines. */
+/* The first letters of a block that are in its source as they are stand in one of the block's
+ * lines. */
 static void lines_are_right(const char *name, const char *source, const struct reader_block *b)
 {
     const char *at = b->text;

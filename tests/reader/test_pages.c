@@ -1,5 +1,6 @@
-/* test_pages.c - documents as pages: all that a document says stands on a page, notes at the foot or in the margin, tables as columns or row
- * by row; and documents that are made to be hard. */
+/* test_pages.c - documents as pages: all that a document says stands on a page, notes at the
+ * foot or in the margin, tables as columns or row by row; and documents that are made to be
+ * hard. */
 #include <reader_document.h>
 #include <reader_pages.h>
 
@@ -219,7 +220,8 @@ static bool stripes(void *user, int source, const char *target, struct reader_pi
     return true;
 }
 
-/* As wide as the column, its light kept, its caption under it; one that is not found is told. */
+/* As wide as the column, its light kept, its caption under it; one that is not found is
+ * told. */
 static void pictures_are_shown(void **state)
 {
     (void)state;
@@ -263,7 +265,8 @@ static char *repeated(const char *before, const char *part, int count, const cha
     return text;
 }
 
-/* Deep, long, wide and many: set, in little time and without a line over the edge of what there is. */
+/* Deep, long, wide and many: set, in little time and without a line over the edge of what there
+ * is. */
 static void hostile_documents_are_set(void **state)
 {
     (void)state;

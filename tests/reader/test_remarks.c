@@ -1,5 +1,6 @@
-/* test_remarks.c - what readers leave in a document: kept, found again, erased and had back; a killed program has lost nothing; what is no file
- * of remarks, or a damaged one, is left as it is. */
+/* test_remarks.c - what readers leave in a document: kept, found again, erased and had back; a
+ * killed program has lost nothing; what is no file of remarks, or a damaged one, is left as it
+ * is. */
 #include <reader_remarks.h>
 
 /* clang-format off */

@@ -1,5 +1,6 @@
-/* test_view.c - a document as a column that is scrolled: passages stand below each other as they do on a page that is high enough, whatever
- * was looked at before; the line that is being read stays, however often the width, the size and the font change. */
+/* test_view.c - a document as a column that is scrolled: passages stand below each other as
+ * they do on a page that is high enough, whatever was looked at before; the line that is being
+ * read stays, however often the width, the size and the font change. */
 #include <reader_document.h>
 #include <reader_view.h>
 
@@ -147,7 +148,8 @@ static void same_lines(struct reader_view *a, struct reader_view *b, int passage
     font_layout_finish(&other);
 }
 
-/* Wherever one comes from, a passage is set in the same way: scrolled to, jumped to, from above and from below, after another width. */
+/* Wherever one comes from, a passage is set in the same way: scrolled to, jumped to, from above
+ * and from below, after another width. */
 static void ways_do_not_matter(void **state)
 {
     (void)state;
@@ -197,7 +199,8 @@ static void begins_anywhere(void **state)
 
 /* ---- what stays ---- */
 
-/* After 1,000 changes of width, size and font the same line is at the top: the letter that it begins with has not moved up or down. */
+/* After 1,000 changes of width, size and font the same line is at the top: the letter that it
+ * begins with has not moved up or down. */
 static void line_stays(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* fields_tables.c - prints the fields of event rows as Markdown tables, each after a line "== NAME". */
+/* fields_tables.c - prints the fields of event rows as Markdown tables, each after a line "==
+ * NAME". */
 #include <describe.h>
 
 #include <sheet.h>

@@ -1,4 +1,5 @@
-/* scripted.h - runs a script by the library in this process, and keeps the texts that its host gets.
+/* scripted.h - runs a script by the library in this process, and keeps the texts that its host
+ * gets.
  *
  *     struct scripted s = {.config = scripted_config()};
  *     assert_int_equal(scripted_run(&s, "print(1 + 1)"), SCRIPT_OK);

@@ -1,5 +1,5 @@
-/* test_hostile.c - hostile scripts: each changes or closes an object that the library is using. Under ASan none may use freed
- * memory, and each must end as its row says. */
+/* test_hostile.c - hostile scripts: each changes or closes an object that the library is using.
+ * Under ASan none may use freed memory, and each must end as its row says. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,8 +12,9 @@
 
 #include "scripted.h"
 
-/* Every row can use: a paper p, a brush b, a mask m and a picture q; open(), which must work afterwards; closing(), a table whose
- * __index closes the paper; texts(), a table whose __index returns a string that nothing else refers to. */
+/* Every row can use: a paper p, a brush b, a mask m and a picture q; open(), which must work
+ * afterwards; closing(), a table whose __index closes the paper; texts(), a table whose __index
+ * returns a string that nothing else refers to. */
 static const char prelude[] =
     "p = paper{width = 16, height = 12, pigments = {'cyan'}, model = {'infused'}} "
     "b = p:brush{width = 3, bristles = 8} m = rect(1, 1, 5, 5) "
@@ -247,7 +248,8 @@ static const struct {
      "this paper is closed", "", false},
     {"p:layer('height', function() local x <close> = p return 1 end)", "non-closable", "",
      false},
-    /* a trusted script's finalizers run during calls: they cannot close objects in use, and may use the library */
+    /* a trusted script's finalizers run during calls: they cannot close objects in use, and may
+     * use the library */
     {"setmetatable({}, {__gc = close}) p:layer('height', function() collectgarbage() return 1 "
      "end) open()",
      NULL, OPEN, true},

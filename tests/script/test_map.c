@@ -1,4 +1,5 @@
-/* test_map.c - maps as a program uses them: what they cost, time that leads them, a beat, words, messages with addresses. */
+/* test_map.c - maps as a program uses them: what they cost, time that leads them, a beat,
+ * words, messages with addresses. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -21,7 +22,8 @@ static void map_overdue(void *context)
     abort();
 }
 
-/* The process is its host's: what that takes is not the map's, which has 64 MB of its own. (security.md 30) */
+/* The process is its host's: what that takes is not the map's, which has 64 MB of its own.
+ * (security.md 30) */
 static void a_map_does_not_pay_for_its_host(void **state)
 {
     (void)state;
@@ -61,7 +63,8 @@ static const char *map_text(void *context, const char *words)
     return strcmp(words, "no") == 0 ? "not this word" : NULL;
 }
 
-/* A map leads by time alone, hears a beat, and changes words; without a clock or words it is told so. */
+/* A map leads by time alone, hears a beat, and changes words; without a clock or words it is
+ * told so. */
 static void a_map_leads_by_time(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* test_script.c - the library of scripts as a program uses it: the calls that its host gets, and the papers at the end. */
+/* test_script.c - the library of scripts as a program uses it: the calls that its host gets,
+ * and the papers at the end. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -60,7 +61,8 @@ static void words_are_read_and_must_be_asked_for(void **state)
     assert_non_null(strstr(s.errors, "up to 64"));
 }
 
-/* A word that is typed without options stands in the middle and is four fifths as wide as the sheet. */
+/* A word that is typed without options stands in the middle and is four fifths as wide as the
+ * sheet. */
 static void type_needs_no_options(void **state)
 {
     (void)state;
@@ -248,7 +250,8 @@ static void what_the_state_takes_is_limited(void **state)
     assert_int_equal(scripted_run(&s, "string.rep('x', 1 << 21)"), SCRIPT_FAILED);
     assert_int_equal(scripted_run(&s, "mask(1025, 1025, print)"), SCRIPT_FAILED);
     assert_non_null(strstr(s.errors, "not enough memory: 1 MB for a mask"));
-    /* masks that are no longer referenced are freed: one after the other they need far more than the limit */
+    /* masks that are no longer referenced are freed: one after the other they need far more
+     * than the limit */
     assert_int_equal(scripted_run(&s, "for i = 1, 200 do rect(0, 0, 300, 300):soften(1) end"),
                      SCRIPT_OK);
 }

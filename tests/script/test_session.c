@@ -1,4 +1,5 @@
-/* test_session.c - a session's history as a script: run, it makes the same planes and leaves the same in the brushes. */
+/* test_session.c - a session's history as a script: run, it makes the same planes and leaves
+ * the same in the brushes. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

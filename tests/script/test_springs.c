@@ -127,7 +127,8 @@ static void what_cannot_be_is_one_line(void **state)
         fails(bad[i][0], bad[i][1]);
 }
 
-/* A word's letters, as they are placed, are screened into a sheet: there is ink where the mask is. */
+/* A word's letters, as they are placed, are screened into a sheet: there is ink where the mask
+ * is. */
 static void words_wet_a_paper(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
-/* fuzz_sessions.c - sessions from damaged text. Each is refused in one line, or it is read, written and read again as the same,
- * and done on a stage of springs, where nothing explodes and all can be undone. */
+/* fuzz_sessions.c - sessions from damaged text. Each is refused in one line, or it is read,
+ * written and read again as the same, and done on a stage of springs, where nothing explodes
+ * and all can be undone. */
 #include <session.h>
 #include <springs.h>
 #include <stage.h>

@@ -1,5 +1,5 @@
-/* fuzz_themes.c - themes from damaged text. Each is refused in one line, and the theme is as it was; or it is read, and a stage
- * can draw with it. */
+/* fuzz_themes.c - themes from damaged text. Each is refused in one line, and the theme is as it
+ * was; or it is read, and a stage can draw with it. */
 #include <theme.h>
 
 #include <math.h>

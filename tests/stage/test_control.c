@@ -1,4 +1,5 @@
-/* test_control.c - a table of controls: they are found, read, written and refused, and converted to a slider's place and back. */
+/* test_control.c - a table of controls: they are found, read, written and refused, and
+ * converted to a slider's place and back. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -90,7 +91,8 @@ static void texts_are_values_and_back(void **state)
             fail_msg("'%s' is %g", bad[i].text, value);
 }
 
-/* A slider's value rises from least to most, and converting a value to its place and back returns the value. */
+/* A slider's value rises from least to most, and converting a value to its place and back
+ * returns the value. */
 static void sliders_are_curves(void **state)
 {
     (void)state;
@@ -110,7 +112,8 @@ static void sliders_are_curves(void **state)
     assert_true(stage_control_along(&rows[0], 1e9) == 1);
 }
 
-/* What is usual is in the middle, what is useful around it; what MIDI plays goes the same way (live_player.c). */
+/* What is usual is in the middle, what is useful around it; what MIDI plays goes the same way
+ * (live_player.c). */
 static void useful_values_are_in_the_middle(void **state)
 {
     (void)state;

@@ -1,6 +1,7 @@
-/* test_frame_rate.c - measures the frame rate of a line of 40 letters in a window of 1280x1024 on an Xvfb, whose OpenGL is
- * software, and that of an empty window. Prints rates by the wall clock and processor time per picture. Asserts only that the
- * simulation keeps real time at that rate. */
+/* test_frame_rate.c - measures the frame rate of a line of 40 letters in a window of 1280x1024
+ * on an Xvfb, whose OpenGL is software, and that of an empty window. Prints rates by the wall
+ * clock and processor time per picture. Asserts only that the simulation keeps real time at
+ * that rate. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -27,7 +28,8 @@ static double processor_s(void)
     return (double)clock() / CLOCKS_PER_SEC;
 }
 
-/* Measures pictures per second of wall clock time, and processor time for each picture in ms. */
+/* Measures pictures per second of wall clock time, and processor time for each picture in
+ * ms. */
 static void measure(struct stage *stage, const char *title, double *rate_hz, double *cost_ms)
 {
     enum { WARM = 10 };
@@ -49,7 +51,8 @@ static void measure(struct stage *stage, const char *title, double *rate_hz, dou
     const double took_s = clock_now_s() - began_s;
     *rate_hz = count / took_s;
     *cost_ms = 1e3 * (processor_s() - began_processor_s) / count;
-    /* the simulation keeps real time, except where a picture took longer than the clock's longest frame */
+    /* the simulation keeps real time, except where a picture took longer than the clock's
+     * longest frame */
     const double went_s = frame_clock_time_s(stage_clock(stage)) - simulated_s;
     assert_true(went_s > 0.2 * took_s && went_s < 1.1 * took_s);
     stage_window_destroy(window);

@@ -1,5 +1,5 @@
-/* test_panel.c - the panel and the help at sizes and scales: all of it can be reached, and none of it is outside of the picture.
- * `test_panel FOLDER` writes pictures to look at. */
+/* test_panel.c - the panel and the help at sizes and scales: all of it can be reached, and none
+ * of it is outside of the picture. `test_panel FOLDER` writes pictures to look at. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -111,7 +111,8 @@ static void help_fits(void **state)
     stage_destroy(stage);
 }
 
-/* Each row can be shown, with what it does beside the panel, or over the stage where the panel takes most of the picture. */
+/* Each row can be shown, with what it does beside the panel, or over the stage where the panel
+ * takes most of the picture. */
 static void rows_are_shown(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* test_pictures.c - draws one list in each way: exactly, by EGL, by OSMesa and in a window. The pictures agree in structural
- * similarity and in their amounts of ink. */
+/* test_pictures.c - draws one list in each way: exactly, by EGL, by OSMesa and in a window. The
+ * pictures agree in structural similarity and in their amounts of ink. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -55,8 +55,8 @@ static void letter_add(struct stage_draw_list *list, uint32_t character, double 
     stage_draw_letter(list, &letter, corners, color);
 }
 
-/* Makes a list with some of everything, at many places between pixels: letters distorted and turned (also by 90 degrees), thin
- * and thick lines, discs, rings, boxes, translucency. */
+/* Makes a list with some of everything, at many places between pixels: letters distorted and
+ * turned (also by 90 degrees), thin and thick lines, discs, rings, boxes, translucency. */
 static void scene_make(struct stage_draw_list *list)
 {
     chance_state = 11;
@@ -179,7 +179,8 @@ static void by_opengl(enum stage_way way, const char *name)
     stage_draw_finish(&list);
 }
 
-/* Images of a few sizes in boxes that begin and end between pixels, partly off the picture: the same numbers as the exact picture's. */
+/* Images of a few sizes in boxes that begin and end between pixels, partly off the picture: the
+ * same numbers as the exact picture's. */
 static void images_by_opengl(enum stage_way way)
 {
     enum { IMAGE_WIDTH = 37, IMAGE_HEIGHT = 23 };
@@ -248,7 +249,8 @@ static void wrong_sizes_are_refused(void **state)
     assert_int_equal(stage_exact_create("no-such-filter", &none), STAGE_BAD_ARGUMENT);
 }
 
-/* Shapes that are far out, or whose numbers are NaN, draw nothing. A folded letter is left out and counted. */
+/* Shapes that are far out, or whose numbers are NaN, draw nothing. A folded letter is left out
+ * and counted. */
 static void what_cannot_be_drawn_is_left_out(void **state)
 {
     (void)state;
@@ -308,7 +310,8 @@ static void lists_are_drawn_again(void **state)
     stage_draw_finish(&moved);
 }
 
-/* Letters larger than the picture are drawn within it; letters that are far too large draw nothing. */
+/* Letters larger than the picture are drawn within it; letters that are far too large draw
+ * nothing. */
 static void large_letters_agree(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* test_session.c - sessions: random actions are replayed to the bit; texts that are no sessions are refused. */
+/* test_session.c - sessions: random actions are replayed to the bit; texts that are no sessions
+ * are refused. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -64,7 +65,8 @@ static void deed_by_chance(struct stage *stage)
         stage_mark_drop(stage);
 }
 
-/* A session is recorded at one frame rate and replayed at another. Written again it is the same text. */
+/* A session is recorded at one frame rate and replayed at another. Written again it is the same
+ * text. */
 static void sessions_are_done_again_to_the_bit(void **state)
 {
     (void)state;
@@ -273,8 +275,8 @@ static void session_refused(const char *session, const char *said)
     stage_destroy(stage);
 }
 
-/* A session loads a network and goes on; it is replayed to the bit, and refused once the file has changed or gone. A file
- * that cannot be loaded is no part of it. */
+/* A session loads a network and goes on; it is replayed to the bit, and refused once the file
+ * has changed or gone. A file that cannot be loaded is no part of it. */
 static void sessions_load_files_again(void **state)
 {
     (void)state;
@@ -327,7 +329,8 @@ static void sessions_load_files_again(void **state)
     session_refused(session, "a loaded word.springs, which cannot be read: No such file");
 }
 
-/* A wheel that is turned for hours: a step has one value of a control, and who saves no session keeps none. */
+/* A wheel that is turned for hours: a step has one value of a control, and who saves no session
+ * keeps none. */
 static void what_is_set_live_is_not_kept_for_ever(void **unused)
 {
     (void)unused;

@@ -1,4 +1,5 @@
-/* test_stage.c - a word of springs on a stage, without a window: time, controls, pointers, pictures, undo. */
+/* test_stage.c - a word of springs on a stage, without a window: time, controls, pointers,
+ * pictures, undo. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -151,7 +152,8 @@ static void pictures_show_what_is_set(void **state)
     assert_false(list.incomplete);
 }
 
-/* Pictures between steps extrapolate places: a falling mass is drawn lower by its fall in half a step. */
+/* Pictures between steps extrapolate places: a falling mass is drawn lower by its fall in half
+ * a step. */
 static void pictures_are_between_steps(void **state)
 {
     (void)state;
@@ -230,7 +232,8 @@ static int sounds(const char *name)
     return found;
 }
 
-/* With Shift, or with a pen pressed hard, a mass moves to the pointer in the same frame, and stays there. */
+/* With Shift, or with a pen pressed hard, a mass moves to the pointer in the same frame, and
+ * stays there. */
 static void hands_tack(void **state)
 {
     (void)state;

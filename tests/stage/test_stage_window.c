@@ -1,4 +1,5 @@
-/* test_stage_window.c - a word of springs in a window on an Xvfb. Pointer and keys change the simulation and the screen. */
+/* test_stage_window.c - a word of springs in a window on an Xvfb. Pointer and keys change the
+ * simulation and the screen. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -254,7 +255,8 @@ static double middle_px(void)
     return x_px;
 }
 
-/* A title's click folds its group, and unfolds it; a row that is wanted is shown; the stage is beside the panel. */
+/* A title's click folds its group, and unfolds it; a row that is wanted is shown; the stage is
+ * beside the panel. */
 static void groups_fold(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* fuzz_transcripts.c - damaged subtitles: each is refused in one line, or its cues are in order and have words. `fuzz_transcripts
- * [ROUNDS]` */
+/* fuzz_transcripts.c - damaged subtitles: each is refused in one line, or its cues are in order
+ * and have words. `fuzz_transcripts [ROUNDS]` */
 #include <voice_transcript.h>
 
 #include <stdint.h>

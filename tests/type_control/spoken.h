@@ -1,5 +1,5 @@
-/* spoken.h - sentences that espeak-ng says, with the time of each word by its own account: the truth that alignments are tested
- * against. */
+/* spoken.h - sentences that espeak-ng says, with the time of each word by its own account: the
+ * truth that alignments are tested against. */
 #ifndef LUTETIA_TEST_SPOKEN_H
 #define LUTETIA_TEST_SPOKEN_H
 

@@ -1,5 +1,5 @@
-/* test_voice_align.c - words' times in a voice, against the account of the program that speaks it (espeak-ng).
- * LUTETIA_VOICE_HOURS=1 makes each language an hour long. */
+/* test_voice_align.c - words' times in a voice, against the account of the program that speaks
+ * it (espeak-ng). LUTETIA_VOICE_HOURS=1 makes each language an hour long. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -49,7 +49,8 @@ static void quiet_end(const struct spoken *s)
     quiets_count += quiets_count + 1 < (int)(sizeof quiets / sizeof *quiets);
 }
 
-/* Sentences with: 0 nothing, 1 silences, 2 silences and bursts of noise, 3 noise under all of it, too. */
+/* Sentences with: 0 nothing, 1 silences, 2 silences and bursts of noise, 3 noise under all of
+ * it, too. */
 static void say(struct spoken *s, int language, int mix, double seconds)
 {
     quiets_count = 0;
@@ -98,7 +99,8 @@ static void times_are_whole(const struct voice_words *words, const struct voice_
     }
 }
 
-/* Errors of words' beginnings. Words that the speaker joins with the one before have no time of their own. */
+/* Errors of words' beginnings. Words that the speaker joins with the one before have no time of
+ * their own. */
 static int errors_find(const struct spoken *s, const struct voice_words *words,
                        const struct voice_timing *t, double *errors)
 {
@@ -167,7 +169,8 @@ static void words_are_where_they_are_said(void **state)
             language_is_aligned(language, mix, hours ? 3600 * strtod(hours, NULL) : 0);
 }
 
-/* A transcript's cues are wrong by up to half a second at their edges, but words stay within them, as near as without. */
+/* A transcript's cues are wrong by up to half a second at their edges, but words stay within
+ * them, as near as without. */
 static void transcripts_hold_words(void **state)
 {
     (void)state;

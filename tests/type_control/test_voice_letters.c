@@ -1,4 +1,5 @@
-/* test_voice_letters.c - the letters that a voice plays: their choice, sizes and places, measured on the pictures. */
+/* test_voice_letters.c - the letters that a voice plays: their choice, sizes and places,
+ * measured on the pictures. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -103,7 +104,8 @@ static void letters_share_the_time(void **state)
     struct voice_words words;
     struct voice_timing timing;
     bool empty;
-    /* one word is spread over both sounds, a quarter of a second for each letter, and none is in the silence */
+    /* one word is spread over both sounds, a quarter of a second for each letter, and none is
+     * in the silence */
     bursts_time("\xc2\xab"
                 "Aa\xcc\x81gh!\xc2\xbb",
                 2, &words, &timing);
@@ -256,7 +258,8 @@ static void heights_follow_the_envelope(void **state)
     font_face_close(face);
 }
 
-/* An attack is marked where a sound has risen most. It begins where it began to rise, if that is not long ago. */
+/* An attack is marked where a sound has risen most. It begins where it began to rise, if that
+ * is not long ago. */
 static void sounds_begin_where_they_rise(void **state)
 {
     (void)state;

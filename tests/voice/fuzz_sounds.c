@@ -1,4 +1,5 @@
-/* fuzz_sounds.c - reads damaged WAV files. Each is refused in one line, or analysed without harm. `fuzz_sounds FILE [ROUNDS]` */
+/* fuzz_sounds.c - reads damaged WAV files. Each is refused in one line, or analysed without
+ * harm. `fuzz_sounds FILE [ROUNDS]` */
 #include <voice.h>
 #include <voice_sound.h>
 

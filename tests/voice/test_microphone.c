@@ -1,5 +1,6 @@
-/* test_microphone.c - JACK's microphone, on the test's own JACK server with the dummy driver. It hears the sound that this
- * program plays, and letters in a window follow it. Skips where there is no jackd. */
+/* test_microphone.c - JACK's microphone, on the test's own JACK server with the dummy driver.
+ * It hears the sound that this program plays, and letters in a window follow it. Skips where
+ * there is no jackd. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

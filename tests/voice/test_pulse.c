@@ -1,5 +1,6 @@
-/* test_pulse.c - PulseAudio's microphone, on the test's own server, whose only source is the monitor of its only sink. It
- * hears the buzz that is played, and notices when the server ends. Skips where there is no pulseaudio. */
+/* test_pulse.c - PulseAudio's microphone, on the test's own server, whose only source is the
+ * monitor of its only sink. It hears the buzz that is played, and notices when the server ends.
+ * Skips where there is no pulseaudio. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -118,7 +119,8 @@ static size_t hear(struct microphone *m, float *samples, size_t count)
     return at;
 }
 
-/* Plays, and hears two seconds from the sound's beginning on. The share of frames that have its pitch; 0: it did not come. */
+/* Plays, and hears two seconds from the sound's beginning on. The share of frames that have its
+ * pitch; 0: it did not come. */
 static double share_heard(struct microphone *m)
 {
     enum { COUNT = 2 * RATE_HZ };

@@ -1,9 +1,11 @@
-/* gl_functions.h - the functions of OpenGL that a file calls, found at run time. The file says which, and then includes this:
+/* gl_functions.h - the functions of OpenGL that a file calls, found at run time. The file says
+ * which, and then includes this:
  *
  *     #define GL_FUNCTIONS(X) X(void, Clear, (GLbitfield)) X(void, End, (void))
  *     #include "gl_functions.h"
  *
- * and has struct gl, with a member for each, and gl_functions_find(). No include guard: each file has its own. */
+ * and has struct gl, with a member for each, and gl_functions_find(). No include guard: each
+ * file has its own. */
 #include <GL/gl.h>
 #include <GL/glext.h>
 #include <stdbool.h>

@@ -45,8 +45,9 @@ static const char vertex_text[] = "#version 120\n"
                                   "    gl_Position = gl_Vertex;\n"
                                   "}\n";
 
-/* kind: as enum font_ink_kind. way: the gradient's two ends, or its centre and its radius; of a picture its size and its cover.
- * A stop's colour holds from it on, and goes over to the next one's where that lies further on. */
+/* kind: as enum font_ink_kind. way: the gradient's two ends, or its centre and its radius; of a
+ * picture its size and its cover. A stop's colour holds from it on, and goes over to the next
+ * one's where that lies further on. */
 static const char fragment_text[] =
     "#version 120\n"
     "varying vec2 uv;\n"
@@ -181,7 +182,8 @@ enum display_status gl_ink_use(struct gl_ink *s, const struct font_ink *of, doub
     gl->Uniform1i(s->picture, 1);
     gl->Uniform1i(s->kind, (GLint)of->kind);
     gl->Uniform1i(s->light, light);
-    /* Rows go down in the text and up in the framebuffer. A picture's own place is a whole number of its pixels away. */
+    /* Rows go down in the text and up in the framebuffer. A picture's own place is a whole
+     * number of its pixels away. */
     double x = viewport[0] + x_px, y = y_px - viewport[1] - height_px;
     gl->Uniform2f(s->origin, (GLfloat)(x + (picture ? of->x0 : 0)),
                   (GLfloat)(y + (picture ? of->y0 : 0)));

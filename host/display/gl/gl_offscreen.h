@@ -24,8 +24,8 @@ struct gl_offscreen;
 
 enum { GL_OFFSCREEN_SIDE_MAX = 8192 };
 
-/* Black at first; the viewport is all of it. Errors: BAD_ARGUMENT (1..GL_OFFSCREEN_SIDE_MAX a side), NO_WINDOW (no EGL, or
- * no OpenGL 3 by it), NO_MEMORY. */
+/* Black at first; the viewport is all of it. Errors: BAD_ARGUMENT (1..GL_OFFSCREEN_SIDE_MAX a
+ * side), NO_WINDOW (no EGL, or no OpenGL 3 by it), NO_MEMORY. */
 enum display_status gl_offscreen_create(int width_px, int height_px, struct gl_offscreen **out);
 void gl_offscreen_destroy(struct gl_offscreen *screen); /* NULL is fine */
 

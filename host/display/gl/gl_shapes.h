@@ -1,9 +1,11 @@
-/* gl_shapes.h - lines, discs, rings, boxes and images on a display, by OpenGL, their edges smooth.
+/* gl_shapes.h - lines, discs, rings, boxes and images on a display, by OpenGL, their edges
+ * smooth.
  *
  *     struct gl_shapes *shapes;
  *     if (gl_shapes_create(glfwGetProcAddress, &shapes) != DISPLAY_OK)
  *         die(display_error());
- *     gl_shapes_begin(shapes, width_px, height_px);         // a frame, the context being current
+ *     // a frame, the context being current
+ *     gl_shapes_begin(shapes, width_px, height_px);
  *     gl_shapes_bars(shapes, bars, count);
  *     gl_shapes_destroy(shapes);
  *
@@ -46,7 +48,8 @@ struct gl_image {
 };
 
 struct gl_shapes;
-/* function: finds OpenGL's functions by their names. Errors: NO_WINDOW (no OpenGL 2.1, or its shaders fail), NO_MEMORY. */
+/* function: finds OpenGL's functions by their names. Errors: NO_WINDOW (no OpenGL 2.1, or its
+ * shaders fail), NO_MEMORY. */
 enum display_status gl_shapes_create(void (*(*function)(const char *name))(void),
                                      struct gl_shapes **out);
 void gl_shapes_destroy(struct gl_shapes *shapes); /* NULL is fine */

@@ -226,8 +226,8 @@ static void state_reset(const struct gl_type *t)
         t->gl.Disable(GL_FRAMEBUFFER_SRGB);
 }
 
-/* Draws quads of the layout's inks in their order. Those that follow each other are drawn at once if their inks are plain and
- * mixed alike, or the same. */
+/* Draws quads of the layout's inks in their order. Those that follow each other are drawn at
+ * once if their inks are plain and mixed alike, or the same. */
 static enum display_status inked_draw(struct gl_type *t, const struct font_layout *layout,
                                       const double ink[3], double x_px, double y_px, int count)
 {

@@ -6,7 +6,8 @@
  *     def.function = glfwGetProcAddress;                    // or gl_offscreen_function
  *     if (gl_type_create(&def, &type) != DISPLAY_OK)
  *         die(display_error());
- *     gl_type_begin(type, width_px, height_px);             // a frame, the context being current
+ *     // a frame, the context being current
+ *     gl_type_begin(type, width_px, height_px);
  *     gl_type_draw(type, &layout, NULL, 20, 40, ink);
  *     gl_type_draw(type, &another, &map, 0, 0, red);
  *     gl_type_destroy(type);
@@ -17,8 +18,8 @@
  * is encoded as sRGB, coverage mixes light (as font_painter_layout() does, and numbers where an
  * ink says so), else numbers.
  *
- * OpenGL 2.1 is enough. The calls change the blend state, the bound textures, the program in use (none afterwards), the current
- * colour and the unpack alignment.
+ * OpenGL 2.1 is enough. The calls change the blend state, the bound textures, the program in
+ * use (none afterwards), the current colour and the unpack alignment.
  *
  * Errors. What fontpipe says is passed on as BAD_ARGUMENT, its text in display_error().
  * Threads. That of the context, which must be the same, and current, in all calls.
@@ -44,10 +45,11 @@ void gl_type_destroy(struct gl_type *type); /* NULL is fine */
 /* A new frame: the size of the viewport, which is the picture's. */
 void gl_type_begin(struct gl_type *type, int width_px, int height_px);
 
-/* A layout with its origin at (x_px, y_px), through any map (NULL: as it is), each glyph first through its own. ink: 0..1, as numbers
- * of sRGB, for glyphs that have none of the layout's.
- * Errors: BAD_ARGUMENT (a glyph larger than a page or beyond the horizon, a place out of range, an ink that cannot be drawn),
- * NO_MEMORY, NO_WINDOW (a gradient or picture as ink, and no shaders); part of the text may then have been drawn. */
+/* A layout with its origin at (x_px, y_px), through any map (NULL: as it is), each glyph first
+ * through its own. ink: 0..1, as numbers of sRGB, for glyphs that have none of the layout's.
+ * Errors: BAD_ARGUMENT (a glyph larger than a page or beyond the horizon, a place out of range,
+ * an ink that cannot be drawn), NO_MEMORY, NO_WINDOW (a gradient or picture as ink, and no
+ * shaders); part of the text may then have been drawn. */
 enum display_status gl_type_draw(struct gl_type *type, const struct font_layout *layout,
                                  const struct font_map *map, double x_px, double y_px,
                                  const double ink[3]);

@@ -2,7 +2,8 @@
  * do.
  *
  *     the program          machine_instruction()     values handed out before are given back;
- *     a call of Paris      machine_begin()           calls that are noted are performed; an evaluation that is due is made
+ *     a call of Paris      machine_begin()           calls that are noted are performed; an
+ *                          evaluation that is due is made
  *
  * Inside a call that is being performed, only values are released. Functions that read or
  * change fields settle noted calls themselves (settle.h), because not every caller begins an

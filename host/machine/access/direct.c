@@ -1,6 +1,7 @@
 /* direct.c - machine_direct(): the short way for the commonest calls on small sets.
  *
- * Operands are whole slots that are in memory. So nothing is cut, joined, selected or recorded, and no rule could apply. */
+ * Operands are whole slots that are in memory. So nothing is cut, joined, selected or recorded,
+ * and no rule could apply. */
 #include "machine_direct.h"
 
 #include "base/types.h"

@@ -4,9 +4,11 @@
  *         search (&context);                            there is no thread to be had
  *     ...
  *     if (aside_is_done (&aside))
- *         aside_end (&aside);                           what the work has written can be read now
+ *         aside_end (&aside);                           what the work has written can be read
+ *                                                       now
  *
- * The thread takes no signal. In a child after fork() it does not exist: the work is lost, and stays undone. */
+ * The thread takes no signal. In a child after fork() it does not exist: the work is lost, and
+ * stays undone. */
 #ifndef LUTETIA_MACHINE_ASIDE_H
 #define LUTETIA_MACHINE_ASIDE_H
 

@@ -1,7 +1,8 @@
 /* awake.c - see awake.h.
  *
- * A thread of the lowest priority can be stopped anywhere for long, so it holds no lock that others wait for, allocates nothing, and
- * nobody waits long for its end: who is last to let go of the memory frees it. */
+ * A thread of the lowest priority can be stopped anywhere for long, so it holds no lock that
+ * others wait for, allocates nothing, and nobody waits long for its end: who is last to let go
+ * of the memory frees it. */
 #include "base/awake.h"
 
 #include <limits.h>

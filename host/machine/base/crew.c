@@ -1,16 +1,20 @@
 /* crew.c - see crew.h.
  *
- * A ticket says what is left to take: the number of the job above, and below it the first part that nobody has taken and the end of
- * these. The caller takes the first, the threads the last: so much of what one of two has written it finds in its own cache the next
- * time. Whoever changes the ticket has taken a part. The number of the job differs from job to job, so who still thinks of an old
- * job cannot take a part of a new one. What the job is stays as it is until all its parts are done, and is looked at only with a
- * part in hand.
+ * A ticket says what is left to take: the number of the job above, and below it the first part
+ * that nobody has taken and the end of these. The caller takes the first, the threads the last:
+ * so much of what one of two has written it finds in its own cache the next time. Whoever
+ * changes the ticket has taken a part. The number of the job differs from job to job, so who
+ * still thinks of an old job cannot take a part of a new one. What the job is stays as it is
+ * until all its parts are done, and is looked at only with a part in hand.
  *
- * In a virtual machine the host may run two processors far apart, and move them from second to second: what one processor has written
- * is then four times as long on its way to the other. So now and then, after a job, the caller sends a ping, and a thread that looks for work answers
- * it. While the round trip takes long, short work is not shared out; after a while the caller tries again.
+ * In a virtual machine the host may run two processors far apart, and move them from second to
+ * second: what one processor has written is then four times as long on its way to the other. So
+ * now and then, after a job, the caller sends a ping, and a thread that looks for work answers
+ * it. While the round trip takes long, short work is not shared out; after a while the caller
+ * tries again.
  *
- * Errands are in a row of few places, behind the lock; a thread that finds no part takes the first.
+ * Errands are in a row of few places, behind the lock; a thread that finds no part takes the
+ * first.
  *
  *     caller     writes the job | ticket = job 7, 0 to 4 | takes 0, 1 .............. waits until none is undone
  *     thread     sleeps         | wakes                  | takes 3, 2 | looks for more | sleeps */
@@ -37,10 +41,12 @@ enum {
 }; /* pieces of short work that follow a late part */
 
 static const double LOOKS_S = 50e-6; /* how long before a thread sleeps */
-/* A part is late when the caller waits longer than this, and longer than half of what it did itself. */
+/* A part is late when the caller waits longer than this, and longer than half of what it did
+ * itself. */
 static const double LATE_S = 30e-6;
 
-/* A batch is so many pings, and the least time of a batch counts. A thread that looks for work answers within so many looks of the caller. */
+/* A batch is so many pings, and the least time of a batch counts. A thread that looks for work
+ * answers within so many looks of the caller. */
 enum { BATCHES = 3, PINGS = 4, ANSWER_LOOKS = 200 };
 static const double BETWEEN_PINGS_S = 5e-3, APART_S = 20e-3;
 

@@ -14,7 +14,8 @@ _Noreturn void machine_invariant_failed(const char *what, const char *file, int 
     abort();
 }
 
-/* Any thread may come here, so nothing is waited for; but what the program has printed is not lost. */
+/* Any thread may come here, so nothing is waited for; but what the program has printed is not
+ * lost. */
 _Noreturn void machine_memory_failed(void)
 {
     fflush(NULL);

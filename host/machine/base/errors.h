@@ -9,7 +9,8 @@
 #define INVARIANT(condition)                                                                   \
     ((condition) ? (void)0 : machine_invariant_failed(#condition, __FILE__, __LINE__))
 _Noreturn void machine_invariant_failed(const char *what, const char *file, int line);
-/* Of memory for small objects: without it there is no state to go back to, so the program ends with a line. */
+/* Of memory for small objects: without it there is no state to go back to, so the program ends
+ * with a line. */
 #define NEEDS_MEMORY(there) ((there) ? (void)0 : machine_memory_failed())
 _Noreturn void machine_memory_failed(void);
 enum machine_status machine_fail(struct machine *m, enum machine_status status,

@@ -1,4 +1,5 @@
-/* fill.h - elements that are all the same, as a loop of whatever instruction set the including file is compiled for. */
+/* fill.h - elements that are all the same, as a loop of whatever instruction set the including
+ * file is compiled for. */
 #ifndef LUTETIA_MACHINE_FILL_H
 #define LUTETIA_MACHINE_FILL_H
 

@@ -2,24 +2,29 @@
  *
  * What a row promises, to whoever makes kernels, byte code or numbers of the graph:
  *
- *     name, inputs   the operation has that many operands, in[0] first, and no more are looked at
- *     takes, gives   the operands' kind where machine_unary() or machine_binary() make it; the result's type: the first
- *                    operand's (GIVES_SAME), one bit (GIVES_BIT), or what the node's type says (GIVES_SAID)
- *     cost           vector instructions, about: for choosing among plans, never for what is right
+ *     name, inputs   the operation has that many operands, in[0] first, and no more are looked
+ *                    at
+ *     takes, gives   the operands' kind where machine_unary() or machine_binary() make it; the
+ *                    result's type: the first operand's (GIVES_SAME), one bit (GIVES_BIT), or
+ *                    what the node's type says (GIVES_SAID)
+ *     cost           vector instructions, about: for choosing among plans, never for what is
+ *                    right
  *     nan            which NaNs the result may be: see enum op_nan
  *     fold           who computes it of numbers on the front end, with the device's bits
- *     spell          who writes it in OpenCL C: the function of codegen/ with that family's name
+ *     spell          who writes it in OpenCL C: the function of codegen/ with that family's
+ *                    name
  *     flags          facts that more than one place asks for: see enum op_flags
  *
- * and node_words[]: the operator or function by which kernels call it, and a second one, whose use the family says.
- * A row is all that decides: nothing follows from an operation's number. The test `machine_operations` holds every row to
- * this. */
+ * and node_words[]: the operator or function by which kernels call it, and a second one, whose
+ * use the family says. A row is all that decides: nothing follows from an operation's number.
+ * The test `machine_operations` holds every row to this. */
 #ifndef LUTETIA_MACHINE_NODE_OPS_H
 #define LUTETIA_MACHINE_NODE_OPS_H
 
 #include "base/types.h"
 
-/* The operations that callers name have the numbers of enum machine_op; the graph's own follow. */
+/* The operations that callers name have the numbers of enum machine_op; the graph's own
+ * follow. */
 enum node_op {
     NODE_BEFORE = MACHINE_OP_COUNT_PUBLIC - 1,
 #define OPERATION(op, ...)
@@ -30,7 +35,8 @@ enum node_op {
     NODE_OP_COUNT
 };
 
-/* A cross within an aligned run of so many processors: what it looks at may wait to be computed. */
+/* A cross within an aligned run of so many processors: what it looks at may wait to be
+ * computed. */
 enum { CROSS_NEAR = 512 };
 /* The bits of a cross: all below CROSS_NEAR; none; some. */
 enum cross_kind { CROSS_LANES, CROSS_BLOCKS, CROSS_BOTH };
@@ -86,7 +92,8 @@ enum op_spell {
     SPELL_SELECT,
     SPELL_CONCAT,
     SPELL_CONVERSION,
-    SPELL_OVERFLOW, /* word: the operator of floats that overflows; second: soft.cl's function */
+    /* word: the operator of floats that overflows; second: soft.cl's function */
+    SPELL_OVERFLOW,
 };
 
 enum op_flags {

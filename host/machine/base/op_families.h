@@ -1,7 +1,8 @@
 /* op_families.h - the operations of each family of machine_op.tab as an enum of its own.
  *
- * A function that must know every operation of a family switches over that family's enum, without a default: when a row joins
- * the family, the compiler names each switch that lacks it (-Wswitch-enum). An enumerator is the operation's name behind OF_.
+ * A function that must know every operation of a family switches over that family's enum,
+ * without a default: when a row joins the family, the compiler names each switch that lacks it
+ * (-Wswitch-enum). An enumerator is the operation's name behind OF_.
  *
  *     switch ((enum op_float_choice)op) {
  *     case OF_MACHINE_FMIN:
@@ -11,7 +12,8 @@
  *     }
  *     INVARIANT(false); // op is of another family
  *
- * Operations on bits, integers and functions go by their column "folding", all others by their column "spelling". */
+ * Operations on bits, integers and functions go by their column "folding", all others by their
+ * column "spelling". */
 #ifndef LUTETIA_MACHINE_OP_FAMILIES_H
 #define LUTETIA_MACHINE_OP_FAMILIES_H
 

@@ -1,4 +1,5 @@
-/* process.h - which process this is: a child after fork() has none of the threads that its parent had, neither ours nor the driver's. */
+/* process.h - which process this is: a child after fork() has none of the threads that its
+ * parent had, neither ours nor the driver's. */
 #ifndef LUTETIA_MACHINE_PROCESS_H
 #define LUTETIA_MACHINE_PROCESS_H
 

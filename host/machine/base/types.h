@@ -1,4 +1,5 @@
-/* types.h - the types of values: their bytes in memory, and the floats of other formats than single and double. */
+/* types.h - the types of values: their bytes in memory, and the floats of other formats than
+ * single and double. */
 #ifndef LUTETIA_MACHINE_TYPES_H
 #define LUTETIA_MACHINE_TYPES_H
 
@@ -9,9 +10,9 @@ static inline bool type_equal(struct machine_type a, struct machine_type b)
     return a.kind == b.kind && a.width == b.width && a.s == b.s && a.e == b.e;
 }
 
-/* A format whose sums, products, quotients and roots a double holds well enough to be rounded again: with s <= 24 it has
- * 2 (s + 1) + 2 bits, so that a second rounding never sees a tie that the first one made; with e <= 9 no result has been
- * rounded as a subnormal double. */
+/* A format whose sums, products, quotients and roots a double holds well enough to be rounded
+ * again: with s <= 24 it has 2 (s + 1) + 2 bits, so that a second rounding never sees a tie
+ * that the first one made; with e <= 9 no result has been rounded as a subnormal double. */
 static inline bool type_is_short(struct machine_type t)
 {
     return t.s <= 24 && t.e <= 9;

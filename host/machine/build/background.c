@@ -5,7 +5,8 @@
  *     ... kernels run ...
  *     take: it is still wanted; start ------------>
  *     take: ask <---------------------------------- ready
- *     ... kernels run ...                           builds one, starts it: it is in PoCL's cache on disk
+ *     ... kernels run ...                           builds one, starts it: it is in PoCL's
+ *                                                   cache on disk
  *     take: load it <------------------------------ done, and the next
  *     take: load that, and use them <-------------- done
  *
@@ -14,10 +15,10 @@
  * queues, contexts or threads do not help. A kernel that another process left in PoCL's cache
  * is loaded in some 20 milliseconds.
  *
- * Nothing here blocks, and the program can end at any time. What the process has compiled is loaded between two evaluations, or by a thread (loading.h). The process
- * is not a child of the program, because a program may wait for all of its children. It ends
- * when the program does. If the process fails, the machine compiles from then on, while the
- * program waits.
+ * Nothing here blocks, and the program can end at any time. What the process has compiled is
+ * loaded between two evaluations, or by a thread (loading.h). The process is not a child of the
+ * program, because a program may wait for all of its children. It ends when the program does.
+ * If the process fails, the machine compiles from then on, while the program waits.
  */
 #include "build/background.h"
 

@@ -46,8 +46,8 @@ int background_want(struct machine *m, const struct background_wish *wish);
 void background_foresee(struct machine *m, const struct background_wish *wish);
 /* False: no memory. */
 bool background_begin(struct machine *m);
-/* Returns the state of the batch; never waits. One kernel after the other is loaded, a large one by a
- * thread (loading.h). */
+/* Returns the state of the batch; never waits. One kernel after the other is loaded, a large
+ * one by a thread (loading.h). */
 enum background_state background_take(struct machine *m);
 /* A kernel of a batch that is loaded. */
 struct device_kernel *background_kernel(const struct machine *m, int number);

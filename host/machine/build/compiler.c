@@ -46,7 +46,8 @@ static void *leave_with_machine(void *nothing)
     return nothing;
 }
 
-/* PoCL's cache, while the first kernel is compiled. A program that was removed in part is compiled again. */
+/* PoCL's cache, while the first kernel is compiled. A program that was removed in part is
+ * compiled again. */
 static void *trim(void *nothing)
 {
     const char *cache = getenv("POCL_CACHE_DIR");

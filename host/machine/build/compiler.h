@@ -1,7 +1,8 @@
 /* compiler.h - the protocol between background.c and lutetia-compiler (compiler.c), a process
  * that belongs to the machine.
  *
- *     machine                              compiler, by its standard input, a socket; its argument: the machine's process
+ *     machine                              compiler, by its standard input, a socket; its
+ *                                          argument: the machine's process
  *        <-------------------------------- COMPILER_READY, once
  *     struct compiler_request, strings -->
  *        <-------------------------------- COMPILER_DONE: the driver has it on disk; COMPILER_FAILED

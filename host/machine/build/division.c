@@ -230,7 +230,8 @@ static enum machine_status whole_compute(struct division_run *r)
     return status;
 }
 
-/* The results become the caller's, but for those that it does not keep; after a failure none does. */
+/* The results become the caller's, but for those that it does not keep; after a failure none
+ * does. */
 static void results_give(const struct division_run *r, const struct fates *fates,
                          enum machine_status status)
 {

@@ -1,18 +1,22 @@
-/* division.h - a plan in two portions: what the sequencers compute, each for its block, and what is computed in one piece.
+/* division.h - a plan in two portions: what the sequencers compute, each for its block, and
+ * what is computed in one piece.
  *
  *     a request's targets      a  b  c  d                   b: its set is not cut; d: it looks further than there are ghosts
  *     in blocks                a  c        a plan of the sequencers' machine, which each sequencer runs with its arrays
  *     in one piece             b  d        a plan of the front end's machine; arrays that are in blocks are gathered
  *
- * Each portion has a graph of its own, whose nodes are drafts: copies of the request's nodes. In blocks a processor's place is another
- * one than in the whole set, so what is made of it there is another expression, of the place in the block and of a number, which is
- * where the block begins:
+ * Each portion has a graph of its own, whose nodes are drafts: copies of the request's nodes.
+ * In blocks a processor's place is another one than in the whole set, so what is made of it
+ * there is another expression, of the place in the block and of a number, which is where the
+ * block begins:
  *
- *     coordinate (0)         wrapped (coordinate (0) + first)            wrapped (x): x - length, unless that is below 0
+ *     coordinate (0)         wrapped (coordinate (0) + first)            wrapped (x): x -
+ *                            length, unless that is below 0
  *     index, send_address    likewise, of index + first x processors of a plane
  *     random                 of that index, in integer operations: the same bits
  *
- * A portion's plan is found by its signature, like any. So whether it is interpreted or has which kernels is decided where it runs. */
+ * A portion's plan is found by its signature, like any. So whether it is interpreted or has
+ * which kernels is decided where it runs. */
 #ifndef LUTETIA_MACHINE_DIVISION_H
 #define LUTETIA_MACHINE_DIVISION_H
 
@@ -50,16 +54,19 @@ struct division {
     int *reaches;                 /* of a target in blocks: how many planes far it looks */
     int *needs;                   /* of a VP set: ghosts that arrays must have */
     int needs_count;
-    int turns_most; /* of the same, one after the other, which look no further than there are ghosts */
+    /* of the same, one after the other, which look no further than there are ghosts */
+    int turns_most;
     struct device_buffer stand_in; /* a leaf's array while nothing runs */
 };
 
 /* ---- division_graph.c ---- */
 
-/* How a request is divided. NULL: nothing of it can be computed in blocks, or there is no memory (and an error). */
+/* How a request is divided. NULL: nothing of it can be computed in blocks, or there is no
+ * memory (and an error). */
 struct division *division_make(struct machine *m, const struct plan_request *q);
 void division_free(struct division *d);
-/* What sequencers run. NULL: nothing, or it is not known; or something is computed in one piece, too. */
+/* What sequencers run. NULL: nothing, or it is not known; or something is computed in one
+ * piece, too. */
 const struct plan *division_in_blocks(const struct plan *p);
 
 /* ---- division.c ---- */

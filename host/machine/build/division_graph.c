@@ -1,4 +1,5 @@
-/* division_graph.c - which targets can be computed in blocks, and the drafts of both portions: see division.h. */
+/* division_graph.c - which targets can be computed in blocks, and the drafts of both portions:
+ * see division.h. */
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +23,8 @@ static bool is_place(int op)
            op == NODE_RANDOM;
 }
 
-/* How many planes far the node looks; NEVER: it cannot be computed in blocks. Crosses stay in their row. */
+/* How many planes far the node looks; NEVER: it cannot be computed in blocks. Crosses stay in
+ * their row. */
 static int looks(struct machine *m, const struct machine_value *v, const int *of)
 {
     const struct cut *c = v->set ? sequencers_cut(m, v->set) : NULL;
@@ -98,7 +100,8 @@ static struct machine_value *resized(struct portion *g, struct machine_value *v,
                                    : operation(g, NODE_ZERO_EXTEND, width, 0, v, NULL);
 }
 
-/* A processor's place in the whole set: along the first axis, or (times: processors of a plane) its index. */
+/* A processor's place in the whole set: along the first axis, or (times: processors of a plane)
+ * its index. */
 static struct machine_value *place(struct machine *m, struct portion *g,
                                    const struct machine_value *v, int node, bool index)
 {

@@ -11,7 +11,8 @@
 
 enum { PATH_BYTES = 600 };
 
-/* A file that cannot be written is reported once; the program goes on without dumps, and does not end with 0. */
+/* A file that cannot be written is reported once; the program goes on without dumps, and does
+ * not end with 0. */
 static void dump_fail(struct machine *m, const char *path, const char *why)
 {
     visible_say("LUTETIA_DUMP: cannot write %s: %s", path, why);

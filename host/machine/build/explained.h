@@ -1,4 +1,5 @@
-/* explained.h - the facts of each kernel: struct machine_explained_kernel (machine_explained.h). */
+/* explained.h - the facts of each kernel: struct machine_explained_kernel
+ * (machine_explained.h). */
 #ifndef LUTETIA_MACHINE_EXPLAINED_KERNELS_H
 #define LUTETIA_MACHINE_EXPLAINED_KERNELS_H
 

@@ -1,4 +1,5 @@
-/* explained_families.c - what is said of plans that differ only in numbers: struct machine_explained_family. */
+/* explained_families.c - what is said of plans that differ only in numbers: struct
+ * machine_explained_family. */
 #include <stdlib.h>
 #include <string.h>
 

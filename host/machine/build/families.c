@@ -12,7 +12,8 @@
 
 /* ---- what is alike, and what may differ ---- */
 
-/* Which kind of number the node's detail is; MACHINE_NUMBERS: it is none, and belongs to what the node does. */
+/* Which kind of number the node's detail is; MACHINE_NUMBERS: it is none, and belongs to what
+ * the node does. */
 static enum machine_number detail_is(const struct machine_value *v)
 {
     return v->op == NODE_SHIFT && !v->buffer     ? MACHINE_NUMBER_DISTANCE

@@ -1,7 +1,7 @@
 /* families.h - plans that are alike but for numbers: bit positions, widths, distances, VP sets.
  *
- * Plans of a family can share kernels, if those take the numbers as arguments (codegen/numbers.h), and what the compiler
- * costs pays for all of them together. */
+ * Plans of a family can share kernels, if those take the numbers as arguments
+ * (codegen/numbers.h), and what the compiler costs pays for all of them together. */
 #ifndef LUTETIA_MACHINE_FAMILIES_H
 #define LUTETIA_MACHINE_FAMILIES_H
 
@@ -27,7 +27,8 @@ struct plan_family {
 
 enum { FAMILY_BUCKETS = 1024 };
 
-/* From this many plans with other numbers than the first one's, kernels of a family take them as arguments. */
+/* From this many plans with other numbers than the first one's, kernels of a family take them
+ * as arguments. */
 enum { FAMILY_FROM = 2 };
 
 /* The family of a plan that is about to be made. NULL: no memory, which is no error. */

@@ -4,7 +4,8 @@
 #include "build/explained.h"
 #include "build/plans.h"
 
-/* How many times as often a plan runs before it gets kernels with its numbers in their text as before it gets boxes. */
+/* How many times as often a plan runs before it gets kernels with its numbers in their text as
+ * before it gets boxes. */
 enum { WRITTEN_AFTER_BOXES = 64 };
 
 /* Gives up the better plan. */
@@ -23,7 +24,8 @@ enum quality plan_quality_after(const struct machine *m, uint64_t worked)
                                                   : QUICK;
 }
 
-/* Text with numbers in it is some percent faster at most, and a compiler takes as long as a second. */
+/* Text with numbers in it is some percent faster at most, and a compiler takes as long as a
+ * second. */
 bool plan_is_due_written(const struct machine *m, const struct plan *p)
 {
     return p->lifted && m->settings.numbers == SETTING_FREE &&

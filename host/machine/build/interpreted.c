@@ -1,10 +1,13 @@
 /* interpreted.c - plans that are run as byte code, and when they get kernels instead.
  *
- * A compiler wins a factor of two on arithmetic, and takes 0.04 to 1.6 s to win it. So a plan that is seen for the first time is
- * interpreted (interpret/), and goes on so until
- *  - its runs have cost more than looking whether an earlier program had its kernels compiled: those are used at once;
- *  - what kernels would have saved is more than compiling takes: they are compiled, in the background where there is one.
- * What is likely to come is as much as there has been. A small set's plan, which is done before a kernel has begun, stays. */
+ * A compiler wins a factor of two on arithmetic, and takes 0.04 to 1.6 s to win it. So a plan
+ * that is seen for the first time is interpreted (interpret/), and goes on so until
+ *  - its runs have cost more than looking whether an earlier program had its kernels compiled:
+ *    those are used at once;
+ *  - what kernels would have saved is more than compiling takes: they are compiled, in the
+ *    background where there is one.
+ * What is likely to come is as much as there has been. A small set's plan, which is done before
+ * a kernel has begun, stays. */
 #include <stdlib.h>
 
 #include "base/errors.h"
@@ -29,7 +32,8 @@ static bool is_known(const struct machine_value *v)
            op_has(v->op, OP_ALONE);
 }
 
-/* Whether the device performs byte code, not the front end, which cannot look into its memory. */
+/* Whether the device performs byte code, not the front end, which cannot look into its
+ * memory. */
 static bool on_device(const struct machine *m)
 {
     return (m->settings.interpret == 3 && device_is_ours(m->device)) ||
@@ -148,8 +152,8 @@ double plan_waits_for_memory(const struct machine *m, const struct plan *p)
     return shape->byte_ns * (double)p->bytes / (TRAFFIC_PART * compute_ns);
 }
 
-/* Kernels would store what is crossed in a block, and load it again; they do not see which gets are of lines that are spread. That gains nothing, where byte
- * code has loops. */
+/* Kernels would store what is crossed in a block, and load it again; they do not see which gets
+ * are of lines that are spread. That gains nothing, where byte code has loops. */
 static bool is_best(const struct plan *p)
 {
     bool crosses = false, each = false;

@@ -1,5 +1,6 @@
-/* loading.h - a large kernel that is in the driver's cache is brought from there by a thread, while the program goes on: it takes 10 to
- * 40 milliseconds. A small one takes the caller 6 to 10; by a thread, beside the driver's own, it would come 20 later. */
+/* loading.h - a large kernel that is in the driver's cache is brought from there by a thread,
+ * while the program goes on: it takes 10 to 40 milliseconds. A small one takes the caller 6 to
+ * 10; by a thread, beside the driver's own, it would come 20 later. */
 #ifndef LUTETIA_MACHINE_LOADING_H
 #define LUTETIA_MACHINE_LOADING_H
 

@@ -1,4 +1,5 @@
-/* plan_graph.c - the graph of a request, and the arrays that a plan of it stores: what kernels and byte code have in common. */
+/* plan_graph.c - the graph of a request, and the arrays that a plan of it stores: what kernels
+ * and byte code have in common. */
 #include <stdlib.h>
 
 #include "base/arrays.h"

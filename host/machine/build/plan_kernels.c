@@ -203,8 +203,9 @@ bool plan_launches_grow(struct plan *p)
     return launches != NULL;
 }
 
-/* Whether the kernel takes its numbers as arguments: where plans that differ from it in numbers only have such kernels, or
- * there are several such plans, and nobody has compiled the written one. */
+/* Whether the kernel takes its numbers as arguments: where plans that differ from it in numbers
+ * only have such kernels, or there are several such plans, and nobody has compiled the written
+ * one. */
 static bool lifts(struct machine *m, const struct plan *p, const struct kernel_text *k,
                   const char *parts[DEVICE_PARTS], const char *written, const char *lifted)
 {
@@ -221,7 +222,8 @@ static bool lifts(struct machine *m, const struct plan *p, const struct kernel_t
     return device_kernel_at_hand(m, parts, k->options, "k");
 }
 
-/* Makes the text one of the two that it can be (codegen/numbers.h), the last of the parts. True: numbers are arguments. */
+/* Makes the text one of the two that it can be (codegen/numbers.h), the last of the parts.
+ * True: numbers are arguments. */
 static bool text_take(struct machine *m, struct plan *p, struct kernel_text *k,
                       const char *parts[DEVICE_PARTS])
 {

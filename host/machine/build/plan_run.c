@@ -197,7 +197,8 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
     return status;
 }
 
-/* By the device's own interpreter. What it costs is known from the cost model alone, since nobody waits for it. */
+/* By the device's own interpreter. What it costs is known from the cost model alone, since
+ * nobody waits for it. */
 static enum machine_status interpret_on_device(struct machine *m, struct plan *p,
                                                const struct launch *l,
                                                struct device_buffer *const *buffers,
@@ -320,7 +321,8 @@ enum machine_status plan_run(struct machine *m, struct plan *p, struct device_bu
         device_flush(m);
     if (m->watch)
         watch_span(m, WATCH_LAUNCH, start, "\"kernels\":%d", p->launches_count);
-    /* While better kernels are built, the queue has only as many as keep the device busy: all would be old ones. */
+    /* While better kernels are built, the queue has only as many as keep the device busy: all
+     * would be old ones. */
     const struct device_shape *shape = &m->device->shape;
     const int ahead = background_busy(m) ? shape->kernels_ahead_building : shape->kernels_ahead;
     status = status ? status : device_pace(m, (uint64_t)ahead);

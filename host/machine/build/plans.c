@@ -13,7 +13,8 @@
 #include "build/background.h"
 #include "build/division.h"
 
-/* Of a program that does not repeat, in units of some 4 kilobytes: a plan of few values is one, of many values several. */
+/* Of a program that does not repeat, in units of some 4 kilobytes: a plan of few values is one,
+ * of many values several. */
 enum { PLANS_MOST = 8192, BUCKETS = 4096, UNIT_WORDS = 512 };
 
 static uint64_t units_of(const struct plan *p)
@@ -210,8 +211,8 @@ static bool plan_fill(struct machine *m, struct plan *p, const struct plan_reque
     return made != NULL;
 }
 
-/* Prepares a plan's kernels without running it. What a large one stores is chosen in a thread; then it has to be rehearsed again. NULL:
- * impossible; an error may be set. */
+/* Prepares a plan's kernels without running it. What a large one stores is chosen in a thread;
+ * then it has to be rehearsed again. NULL: impossible; an error may be set. */
 static struct plan *plan_rehearse(struct machine *m, struct plan *p, struct plan_request *q,
                                   uint64_t hash)
 {
@@ -234,7 +235,8 @@ static struct plan *plan_rehearse(struct machine *m, struct plan *p, struct plan
     return p;
 }
 
-/* Its kernels had gone, or are the parent's. A large plan is interpreted until it is known again what it stores. False: error set. */
+/* Its kernels had gone, or are the parent's. A large plan is interpreted until it is known
+ * again what it stores. False: error set. */
 static bool plan_comes_back(struct machine *m, struct plan *p, struct plan_request *q)
 {
     const bool later = choice_takes_long(m, q) || !device_is_ours(m->device);

@@ -93,7 +93,8 @@ struct background;
 /* The use for which a plan is requested. */
 enum plan_use {
     PLAN_TO_RUN,
-    PLAN_TO_RUN_AT_HAND, /* if its kernels need not be compiled; else there is no plan, nor an error */
+    /* if its kernels need not be compiled; else there is no plan, nor an error */
+    PLAN_TO_RUN_AT_HAND,
     PLAN_TO_RUN_OFTEN, /* it runs often, so the best kernels are made at once */
     PLAN_TO_REHEARSE,  /* its kernels are prepared, in the background if possible; none runs
                        * now */
@@ -108,8 +109,8 @@ static inline bool plan_use_runs(enum plan_use use)
 struct plans {
     struct plan **table; /* by signature; NULL: empty */
     int table_size, count;
-    /* Both in units of plans' sizes (plans.c): of all that are kept; of all that were made, now and when the oldest were last
-     * forgotten. */
+    /* Both in units of plans' sizes (plans.c): of all that are kept; of all that were made, now
+     * and when the oldest were last forgotten. */
     uint64_t units, age, begun;
     struct background *background; /* background.c; NULL: not used yet */
     struct plan *improving;        /* the plan whose better kernels are being compiled */
@@ -153,14 +154,17 @@ struct plan_request {
 /* Returns the plan: a new or a known one, with better kernels if these are due. NULL: error
  * set; for a plan that is not to run, it may also be impossible. */
 struct plan *plan_get(struct machine *m, const struct plan_request *q);
-/* The plan of that signature; NULL: there is none. And keeps one that was made elsewhere; NULL: error set, and it is gone. */
+/* The plan of that signature; NULL: there is none. And keeps one that was made elsewhere; NULL:
+ * error set, and it is gone. */
 struct plan *plans_find(struct machine *m, const struct reach *r);
 struct plan *plans_keep(struct machine *m, struct plan *p, const struct plan_request *q);
-/* Whether there are so many, or so many kernels, that the oldest should go; they go, all but those used lately. Nobody else may know the plans any more. */
+/* Whether there are so many, or so many kernels, that the oldest should go; they go, all but
+ * those used lately. Nobody else may know the plans any more. */
 bool plans_are_many(const struct machine *m);
 void plans_forget_oldest(struct machine *m);
-/* Whether it can run as it did in that version, without being asked for. Not where better kernels are due: whether they are can change
- * at any moment, since a thread chooses what it stores. */
+/* Whether it can run as it did in that version, without being asked for. Not where better
+ * kernels are due: whether they are can change at any moment, since a thread chooses what it
+ * stores. */
 bool plan_may_run(struct machine *m, const struct plan *p, uint32_t version);
 /* Whether it has kernels, or is to get some, in a child after fork(), where none runs. */
 bool plan_is_of_parent(const struct machine *m, const struct plan *p);
@@ -178,8 +182,9 @@ bool plan_is_hopeless(const struct plan *p);
 /* Called between evaluations: a plan whose better kernels are all compiled gets them. Loads
  * at most one of them. */
 void plans_see_to(struct machine *m);
-/* How many times as much would have to be computed for each byte so that a run hardly waits for memory, if more values of the same
- * arrays were evaluated together. 0: its arrays are in the caches, it reads neighbours, or it has kernels. */
+/* How many times as much would have to be computed for each byte so that a run hardly waits for
+ * memory, if more values of the same arrays were evaluated together. 0: its arrays are in the
+ * caches, it reads neighbours, or it has kernels. */
 double plan_waits_for_memory(const struct machine *m, const struct plan *p);
 const int *plan_stored(const struct plan *p, int *count);
 /* Of all that it stores together. */
@@ -206,9 +211,11 @@ enum machine_status plan_run(struct machine *m, struct plan *p, struct device_bu
                              struct machine_value *const *nodes, const struct fates *fates);
 void plans_finish(struct machine *m);
 void plan_free(struct machine *m, struct plan *p);
-/* If it has kernels that were used last before then (device_kernel.used), it lets go of all its kernels. */
+/* If it has kernels that were used last before then (device_kernel.used), it lets go of all its
+ * kernels. */
 void plan_let_go_of_old(struct machine *m, struct plan *p, uint64_t used_before);
-/* Of one whose kernels are compiled in the background, the notes: with those, or without (NULL). */
+/* Of one whose kernels are compiled in the background, the notes: with those, or without
+ * (NULL). */
 void plan_notes_settle(struct machine *m, struct plan *p);
 bool plan_is_one_kernel(const struct plan *p);
 /* later: the kernels are only requested from the background. Many turns of a loop must fit
@@ -225,7 +232,8 @@ void plan_becomes(struct machine *m, struct plan *p, struct plan *better);
 /* Makes better kernels for the plan, now. Failures are ignored. */
 void plan_improve(struct machine *m, struct plan *p, const struct plan_request *q,
                   enum quality quality);
-/* One that is interpreted gets kernels: those at hand, or such as are compiled now or in the background. */
+/* One that is interpreted gets kernels: those at hand, or such as are compiled now or in the
+ * background. */
 void plan_promote(struct machine *m, struct plan *p, const struct plan_request *q);
 /* Drops what is being compiled in the background. */
 void improve_give_up(struct machine *m);
@@ -260,7 +268,8 @@ void launch_takes(struct launch *l, struct device_kernel *kernel);
 
 /* A plan that is run as byte code. NULL: that cannot be, or does not pay; there is no error. */
 struct plan *interpreted_make(struct machine *m, const struct plan_request *q);
-/* What its runs have cost, and are likely to cost, is worth a look at kernels, or compiling them. */
+/* What its runs have cost, and are likely to cost, is worth a look at kernels, or compiling
+ * them. */
 bool interpreted_is_due(const struct machine *m, const struct plan *p);
 /* Its family has got kernels since it was asked whether there are any. */
 bool interpreted_asks(const struct plan *p);

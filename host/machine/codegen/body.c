@@ -1,9 +1,9 @@
 /* body.c - the text of what a kernel computes.
  *
- * Comparing a coordinate with a number says that a processor is on one side of a line, and a context made of such
- * comparisons is a box. They are written BOX(...), and the body stands there twice: for vectors that are inside on
- * all lines at every offset, where BOX(...) is true and the compiler drops what only the outside needs, and for
- * the others. */
+ * Comparing a coordinate with a number says that a processor is on one side of a line, and a
+ * context made of such comparisons is a box. They are written BOX(...), and the body stands
+ * there twice: for vectors that are inside on all lines at every offset, where BOX(...) is true
+ * and the compiler drops what only the outside needs, and for the others. */
 #include "codegen/body.h"
 
 #include <stdarg.h>
@@ -167,8 +167,8 @@ bool emit_is_box(const struct plan_graph *g, const struct plan_node *n)
            place->type.width <= 32;
 }
 
-/* Writes the scalar test that it holds for a whole vector, which, since it holds on one side of a line, is that it
- * holds at both ends. */
+/* Writes the scalar test that it holds for a whole vector, which, since it holds on one side of
+ * a line, is that it holds at both ends. */
 static bool note_box(struct emitter *e, const struct plan_node *n, int row, int dx)
 {
     const char *symbol = node_words[n->op].word;
@@ -515,8 +515,9 @@ struct operand emit_value(struct emitter *e, int node, int row, int dx, bool can
         snprintf(result.text, sizeof result.text, "k%d", constant_of(e, node));
         return result;
     }
-    /* Where another stage already has this value in a variable, that is reused as it was stored (NaNs canonical or not, as
-     * bits_matter says): never a second copy that was made canonical in another way. */
+    /* Where another stage already has this value in a variable, that is reused as it was stored
+     * (NaNs canonical or not, as bits_matter says): never a second copy that was made canonical
+     * in another way. */
     bool loads = plan_loads(n, e->stage), kept = loads && in_variables(e, node, row),
          stored = loads || n->op == NODE_CROSS; /* what a cross looks at is in memory */
     canonical = n->maybe_nan && (kept ? e->together->bits_matter[node] : canonical && !stored);
@@ -552,8 +553,8 @@ struct operand emit_value(struct emitter *e, int node, int row, int dx, bool can
     }
     int name = variable_add(e, node, row, dx, canonical);
     bool box = !loads && note_box(e, n, row, dx);
-    /* Not const: clang looks through constants' initial values, and through both arms of each choice, in a time that doubles
-     * with each value of a chain. */
+    /* Not const: clang looks through constants' initial values, and through both arms of each
+     * choice, in a time that doubles with each value of a chain. */
     text_put(&e->body, box ? "        %s v%d = BOX(%s);\n" : "        %s v%d = %s;\n", type,
              name, expression);
     return named(name);

@@ -1,7 +1,8 @@
-/* body.h - the text of what a kernel computes, for all shapes: see rows.c, strips_text.c and tiles_text.c.
+/* body.h - the text of what a kernel computes, for all shapes: see rows.c, strips_text.c and
+ * tiles_text.c.
  *
- * Each (node, offset) is one variable of the loop over a row's columns; offsets along the last axis are columns,
- * along the others another row. */
+ * Each (node, offset) is one variable of the loop over a row's columns; offsets along the last
+ * axis are columns, along the others another row. */
 #ifndef LUTETIA_MACHINE_BODY_H
 #define LUTETIA_MACHINE_BODY_H
 

@@ -1,4 +1,5 @@
-/* numbers.h - numbers in a kernel's text that could be arguments of the kernel: bit positions, widths, distances.
+/* numbers.h - numbers in a kernel's text that could be arguments of the kernel: bit positions,
+ * widths, distances.
  *
  * Text is made with such numbers between marks. Then it becomes one of two:
  *
@@ -6,8 +7,8 @@
  *     written    (v0 >> 5) & 0xff                        void k(..., uint a0)
  *     lifted     (v0 >> n0) & n1                         void k(..., uint a0, int n0, uint n1)
  *
- * Written text is as fast as can be. Lifted text is the same for all plans that differ in these numbers only. What has no
- * mark is written: two texts are the same only if all of that is. */
+ * Written text is as fast as can be. Lifted text is the same for all plans that differ in these
+ * numbers only. What has no mark is written: two texts are the same only if all of that is. */
 #ifndef LUTETIA_MACHINE_NUMBERS_H
 #define LUTETIA_MACHINE_NUMBERS_H
 
@@ -24,8 +25,8 @@
 
 /* Makes the text written. */
 void numbers_write(char *text);
-/* The same text lifted, and its arguments with those for the numbers at the end. NULL: it has no numbers, or too many, or no
- * room for parameters; or there is no memory. */
+/* The same text lifted, and its arguments with those for the numbers at the end. NULL: it has
+ * no numbers, or too many, or no room for parameters; or there is no memory. */
 char *numbers_lift(const struct kernel_text *k, struct kernel_argument **arguments,
                    int *arguments_count);
 

@@ -3,7 +3,8 @@
  * The text depends only on the graph: constants and lengths of axes are arguments. The shape is
  *
  *     row = the work-group's, see claims.h; rows at other offsets; a pointer for each array and row
- *     for (x in this run of columns, VECTOR at a time)   the last vector overlaps the one before it
+ *     for (x in this run of columns, VECTOR at a time)   the last vector overlaps the one
+ *                                                        before it
  *         variables, stores
  *
  * which PoCL compiles to straight vector code (it does not vectorise scalar work-items of

@@ -1,5 +1,6 @@
-/* spell.c - each family of operations in the prelude's words: expressions of operands that are variables'
- * names. A new row of machine_op.tab with a family that there is needs no change here.
+/* spell.c - each family of operations in the prelude's words: expressions of operands that are
+ * variables' names. A new row of machine_op.tab with a family that there is needs no change
+ * here.
  *
  * Bits are held in the container that their width asks for, unused high bits 0:
  *     VI one bit, as 0 or -1     VU 2..32     VL 33..64     VQ 65..128       VF, VD  float,

@@ -1,7 +1,7 @@
 /* spell_soft.c - operations on floats of other formats than single and double.
  *
- * Sums, products, quotients and roots are the double's, rounded again, where that can do no harm: see type_is_short().
- * Elsewhere they are whole-number arithmetic. */
+ * Sums, products, quotients and roots are the double's, rounded again, where that can do no
+ * harm: see type_is_short(). Elsewhere they are whole-number arithmetic. */
 #include <stdio.h>
 #include <string.h>
 

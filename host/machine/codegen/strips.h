@@ -11,8 +11,8 @@
  *     stage 2  at row i - 3      reads a, b              writes an array
  *
  *     delay   how many rows a stage is behind: enough for the lowest row that it looks at
- *     above   how many rows above its strip a stage begins, since later ones look at those; below,
- *             left, right: likewise
+ *     above   how many rows above its strip a stage begins, since later ones look at those;
+ *             below, left, right: likewise
  *
  * Consecutive stages form *passes*: each pass is one loop over the columns of a row, VECTOR at
  * a time. Values that a stage of a pass has just computed are in variables, for the other
@@ -82,7 +82,8 @@ struct rings {
     int bytes; /* of a row of all of them, for each column */
 };
 
-/* Of some rings, the row that is so many below a pass's: where that of the first ring begins that the pass looks at. */
+/* Of some rings, the row that is so many below a pass's: where that of the first ring begins
+ * that the pass looks at. */
 struct ring_row {
     int rings, down, first;
 };
@@ -141,7 +142,8 @@ enum { WRAPS_LEFT = 1, WRAPS_RIGHT = 2 };
 
 /* ---- strips_schedule.c ---- */
 
-/* What is stored, in stages' order. Without memory s->failed is set; strips_finish() in any case. */
+/* What is stored, in stages' order. Without memory s->failed is set; strips_finish() in any
+ * case. */
 void strips_init(struct strips *s, const struct plan_graph *g, const int *stores, int count,
                  const struct vpset *set, const struct device_shape *shape, int vector);
 void strips_finish(struct strips *s);

@@ -59,8 +59,8 @@ static bool is_first_there(const struct strips *s, int store)
     return false;
 }
 
-/* That, and those that are stored together with it: what asks whether a row and a vector of it are the strip's own asks
- * for all of them. */
+/* That, and those that are stored together with it: what asks whether a row and a vector of it
+ * are the strip's own asks for all of them. */
 static void array_outputs(struct strips *s, struct pass *pass, int first)
 {
     struct emitter *e = &pass->e;
@@ -82,8 +82,8 @@ static void array_outputs(struct strips *s, struct pass *pass, int first)
     text_put(&e->body, "        }\n");
 }
 
-/* In strips as wide as a row: whether all that a pass stores is of the same columns. Those are then all of the loop's
- * but for the first ones, where it only gets ready. */
+/* In strips as wide as a row: whether all that a pass stores is of the same columns. Those are
+ * then all of the loop's but for the first ones, where it only gets ready. */
 static void find_even(const struct strips *s, struct pass *pass)
 {
     int count = 0;
@@ -162,7 +162,8 @@ bool strips_has_boxes(const struct strips *s, const struct emitter *e)
     return s->g->boxes && (e->row_tests.data || e->column_tests.data);
 }
 
-/* Of which columns on, and up to which, whole vectors are inside all boxes, and stored whole. */
+/* Of which columns on, and up to which, whole vectors are inside all boxes, and stored
+ * whole. */
 static void span_text(struct strips *s, struct pass *pass)
 {
     const struct emitter *e = &pass->e;
@@ -339,7 +340,8 @@ static void near_row(struct strips *s, struct pass *pass, struct text *t, const 
                  s->ring_at[node] - pass->ring_rows[row].first);
 }
 
-/* Its arguments: arrays' rows, rows of rings, numbers. rows: what the rings' rows are called in it. */
+/* Its arguments: arrays' rows, rows of rings, numbers. rows: what the rings' rows are called in
+ * it. */
 static void pass_head(struct strips *s, struct pass *pass, struct text *rows)
 {
     struct emitter *e = &pass->e;
@@ -383,8 +385,8 @@ static void own_rows_text(const struct strips *s, struct pass *pass)
     }
 }
 
-/* The next row of arrays is on its way to the caches while this one is computed: rows are shorter than what hardware
- * needs to find out that they follow each other. */
+/* The next row of arrays is on its way to the caches while this one is computed: rows are
+ * shorter than what hardware needs to find out that they follow each other. */
 static void pass_loops(struct strips *s, struct pass *pass)
 {
     struct text *t = &pass->text, inside = {0}, fetch = {0};

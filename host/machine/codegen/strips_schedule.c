@@ -1,5 +1,5 @@
-/* strips_schedule.c - kernels in strips: which stages are one pass, which rows and columns each of them handles, and
- * what is kept in rings. See strips.h. */
+/* strips_schedule.c - kernels in strips: which stages are one pass, which rows and columns each
+ * of them handles, and what is kept in rings. See strips.h. */
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
@@ -74,7 +74,8 @@ void strips_finish(struct strips *s)
 
 /* ---- what stages look at ---- */
 
-/* A stage alone: whether it is one again that came before, and what it costs, tells which passes there are. */
+/* A stage alone: whether it is one again that came before, and what it costs, tells which
+ * passes there are. */
 static void stage_accesses(struct strips *s, int k)
 {
     struct accesses *looks = &s->stages[k].looks;
@@ -216,7 +217,8 @@ static int up_to_vectors(const struct strips *s, int columns)
     return columns > 0 ? (columns + s->vector - 1) / s->vector * s->vector : 0;
 }
 
-/* How units are scheduled: 1 or -1 for the directions of rows and columns; aligned: all of a stage in the same row. */
+/* How units are scheduled: 1 or -1 for the directions of rows and columns; aligned: all of a
+ * stage in the same row. */
 struct way {
     int downward, rightward;
     bool aligned;
@@ -373,8 +375,8 @@ static void lay_out(struct strips *s)
     }
 }
 
-/* Elements of up to 64 bits; what all stages together look at lies in the halos of arrays; and there are so many
- * rows that which one is meant is never in doubt. */
+/* Elements of up to 64 bits; what all stages together look at lies in the halos of arrays; and
+ * there are so many rows that which one is meant is never in doubt. */
 static bool suits(const struct strips *s)
 {
     int rows = 0;

@@ -83,7 +83,8 @@ static void ring_row(const struct strips *s, struct text *t, const struct ring_r
              rings->at + row->first, row->down, rings->rows, rings->bytes);
 }
 
-/* The lowest row of arrays from `from` on, so far below its own, that the pass looks at or stores; INT_MAX: there is none. */
+/* The lowest row of arrays from `from` on, so far below its own, that the pass looks at or
+ * stores; INT_MAX: there is none. */
 static int row_from(const struct strips *s, const struct pass *pass, int from)
 {
     const struct emitter *e = &pass->e;
@@ -99,8 +100,9 @@ static int row_from(const struct strips *s, const struct pass *pass, int from)
     return lowest;
 }
 
-/* Where a pass's rows are in arrays, and in what has been copied of such as are written in place: once for all arrays, for in
- * each one's own address compilers would make questions of it again. Returns the lowest of them. */
+/* Where a pass's rows are in arrays, and in what has been copied of such as are written in
+ * place: once for all arrays, for in each one's own address compilers would make questions of
+ * it again. Returns the lowest of them. */
 static int row_places(const struct strips *s, const struct pass *pass, struct text *t)
 {
     int lowest = row_from(s, pass, INT_MIN);

@@ -46,8 +46,8 @@ static bool is_near(const struct tiles *s, int node)
     return a->last > a->stage;
 }
 
-/* Of what there is both a canonical form and another: where the array in global memory has the one, local memory may have
- * it, too. */
+/* Of what there is both a canonical form and another: where the array in global memory has the
+ * one, local memory may have it, too. */
 static bool is_canonical(const struct tiles *s, int node)
 {
     return s->g->nodes[node].target || s->bits_matter[node];
@@ -101,8 +101,8 @@ static void find_extents(struct tiles *s)
     tiling_extents(&s->tiling);
 }
 
-/* Arrays in global memory come from there to the first stage that loads them, and to later ones from a cache. In s->number,
- * which is not in use yet: the last one so far, + 1. */
+/* Arrays in global memory come from there to the first stage that loads them, and to later ones
+ * from a cache. In s->number, which is not in use yet: the last one so far, + 1. */
 static void find_costs(struct tiles *s)
 {
     const struct device_shape *shape = s->shape;
@@ -135,8 +135,9 @@ static struct operand stored_value(struct tiles *s, int k, int node)
     return emit_value(&s->stages[k].e, node, 0, 0, is_canonical(s, node));
 }
 
-/* What it takes besides the numbers: the sheet, the work-item; where it begins, how large it is, where in it the tile is, and
- * how much of that is on the sheet; then a pointer for each array and row that it loads, and for each that it stores. */
+/* What it takes besides the numbers: the sheet, the work-item; where it begins, how large it
+ * is, where in it the tile is, and how much of that is on the sheet; then a pointer for each
+ * array and row that it loads, and for each that it stores. */
 static void head(const struct tiles *s, int k, struct text *t)
 {
     const struct emitter *e = &s->stages[k].e;
@@ -287,7 +288,8 @@ static void near_pointer(const struct tiles *s, struct text *t, int node)
              s->tiling.arrays[s->array[node] - 1].at);
 }
 
-/* A shift of what is shifted already may be a stage later than what it looks at, with nothing in between. */
+/* A shift of what is shifted already may be a stage later than what it looks at, with nothing
+ * in between. */
 static bool is_empty(const struct tiles *s, int stage)
 {
     for (int i = 0; i < s->stores_count; i++)

@@ -39,8 +39,9 @@ static void CL_CALLBACK memory_free(cl_mem memory, void *address)
 
 enum { WASTE_LEAST_PART = 8 };
 
-/* A CPU reads and writes many rows of many arrays at the same time, each in a page of its own: large ones are in
- * large pages where the system has them, or looking for pages takes as long as computing. */
+/* A CPU reads and writes many rows of many arrays at the same time, each in a page of its own:
+ * large ones are in large pages where the system has them, or looking for pages takes as long
+ * as computing. */
 static cl_mem memory_get(const struct device *d, struct rows rows, void **host, cl_int *error)
 {
     void *address;
@@ -76,9 +77,9 @@ static cl_mem memory_get(const struct device *d, struct rows rows, void **host, 
 
 /* ---- arrays ---- */
 
-/* The range of offsets from a page at which arrays begin. The offsets of any nine arrays in a row differ by 384 bytes
- * or more (sub-buffers begin at multiples of 128). The offsets also spread the rows of many
- * large arrays over the sets of a cache. */
+/* The range of offsets from a page at which arrays begin. The offsets of any nine arrays in a
+ * row differ by 384 bytes or more (sub-buffers begin at multiples of 128). The offsets also
+ * spread the rows of many large arrays over the sets of a cache. */
 static size_t skew_room(const struct device_shape *shape, size_t bytes)
 {
     return bytes < shape->large_page_bytes ? shape->skew_page_bytes : shape->skew_large_bytes;

@@ -48,7 +48,8 @@ void chunk_leave(struct chunk *c)
 
 /* ---- made ready by the crew ---- */
 
-/* The system gives all pages at once, as if they were written; the program may use them meanwhile. False: it is too old for that. */
+/* The system gives all pages at once, as if they were written; the program may use them
+ * meanwhile. False: it is too old for that. */
 static bool pages_give(const struct chunk *c)
 {
 #ifdef MADV_POPULATE_WRITE
@@ -138,8 +139,9 @@ void chunks_finish(struct device *d)
 
 /* ---- parts ---- */
 
-/* Where the next part would begin: as far from the beginning of its page as arrays with memory of their own (see skew_room()), and so that the first
- * column begins a line. 0: there is no room. */
+/* Where the next part would begin: as far from the beginning of its page as arrays with memory
+ * of their own (see skew_room()), and so that the first column begins a line. 0: there is no
+ * room. */
 static size_t chunk_place(const struct device *d, const struct chunk *c, struct rows rows)
 {
     const size_t page = d->shape.skew_page_bytes,

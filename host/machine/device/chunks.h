@@ -1,8 +1,10 @@
 /* chunks.h - memory that arrays are parts of, where the device computes in the front end's.
  *
- * A page that the system gives when it is first written costs more than all that is computed there, and a large one some times as much as a
- * small one. So arrays up to half a large page are parts of chunks: the smallest of one that is written when the machine is made, others of
- * large pages. The crew has these written before they are used: one ahead of the program, and as many as the fields that it allocates will need.
+ * A page that the system gives when it is first written costs more than all that is computed
+ * there, and a large one some times as much as a small one. So arrays up to half a large page
+ * are parts of chunks: the smallest of one that is written when the machine is made, others of
+ * large pages. The crew has these written before they are used: one ahead of the program, and
+ * as many as the fields that it allocates will need.
  *
  *     small     | 2 KiB | 16 KiB | 4 KiB | ...                      512 KiB, for arrays up to 32 KiB
  *     middle    | 400 kB | 100 kB | 400 kB | 400 kB | ...           a large page

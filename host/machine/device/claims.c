@@ -1,4 +1,5 @@
-/* claims.c - the claims of kernels/claims.cl, by which a thread of the device computes the same places in each kernel. */
+/* claims.c - the claims of kernels/claims.cl, by which a thread of the device computes the same
+ * places in each kernel. */
 #include "base/parts.h"
 #include "device/device.h"
 

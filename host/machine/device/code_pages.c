@@ -66,7 +66,8 @@ int code_pages_find(size_t most_on_a_side, struct code_range out[CODE_RANGES_MOS
     return s.count;
 }
 
-/* A piece at a time, since whoever wants more memory waits meanwhile. Sanitizers are not asked: what lies between two constants is read, too. */
+/* A piece at a time, since whoever wants more memory waits meanwhile. Sanitizers are not asked:
+ * what lies between two constants is read, too. */
 __attribute__((no_sanitize("address"))) static void range_fetch(const struct code_range *r)
 {
     for (const char *at = r->begin, *next; at < r->end; at = next) {

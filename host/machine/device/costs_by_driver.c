@@ -1,13 +1,15 @@
-/* costs_by_driver.c - the numbers of each kind of device and driver that nobody has measured here: see shape.h. */
+/* costs_by_driver.c - the numbers of each kind of device and driver that nobody has measured
+ * here: see shape.h. */
 #include <string.h>
 
 #include "base/errors.h"
 #include "device/shape.h"
 
-/* What all rows have. Processors first compare only the low 12 bits of addresses, and delay a load that seems to read what a
- * slightly earlier store writes (4K aliasing): hence the skews. The front end's costs were measured on one core with AVX-512,
- * the compiler's with PoCL's clang. To wake a thread takes some microseconds, and where other programs are at work, it may not run
- * at once: hence share. */
+/* What all rows have. Processors first compare only the low 12 bits of addresses, and delay a
+ * load that seems to read what a slightly earlier store writes (4K aliasing): hence the skews.
+ * The front end's costs were measured on one core with AVX-512, the compiler's with PoCL's
+ * clang. To wake a thread takes some microseconds, and where other programs are at work, it may
+ * not run at once: hence share. */
 #define ROW_USUAL                                                                              \
     .large_page_bytes = 2 << 20, .skew_bytes = 7 * 128, .skew_page_bytes = 4096,               \
     .skew_large_bytes = 64 << 10, .pool_bytes = 1 << 30, .kernels_ahead = 256,                 \
@@ -31,8 +33,8 @@
     ROW_USUAL, .call_columns = 4096, .call_processors = 512, .scatter_units = 8,               \
                .fill_run = 1 << 16, .sort_long = 1 << 15, .step_ns = 20
 
-/* Each row is of a kind of device, and of a driver (its OpenCL platform; NULL: any). The first that fits is taken: a driver's row stands above the row for
- * any driver. */
+/* Each row is of a kind of device, and of a driver (its OpenCL platform; NULL: any). The first
+ * that fits is taken: a driver's row stands above the row for any driver. */
 static const struct driver_row {
     bool is_cpu;
     const char *platform;
@@ -54,8 +56,9 @@ static const struct driver_row {
                .arrays_foreseen = 16, .fetch_bytes = 4 << 20, .stream_bytes = 48 << 20,
                .in_place_bytes = 12 << 20, .streams = true,
                .from = "PoCL's on another CPU; not measured with this driver"}},
-    {.is_cpu =
-         false, /* 1e13 operations a second, 1 TB/s, 15 TB/s to and from local memory: plans follow from the ratios */
+    /* 1e13 operations a second, 1 TB/s, 15 TB/s to and from local memory: plans follow from the
+     * ratios */
+    {.is_cpu = false,
      .shape = {ROW_USUAL,
                .call_columns = 1,
                .call_processors = 1,

@@ -41,8 +41,9 @@ struct device_buffer {
     void *host;    /* where it is for the front end; NULL: the device has memory of its own */
     uint32_t refs; /* a buffer goes back to the pool at 0; the queue is in order, so at once */
     bool fresh;    /* no byte code has written it yet, so its memory may be in no cache */
-    bool
-        follows; /* from what another array holds: a state cannot take another one for it (known_places_keep()) */
+    /* from what another array holds: a state cannot take another one for it
+     * (known_places_keep()) */
+    bool follows;
     uint32_t mark, number;       /* of the last walk that came by: run/states.c */
     struct array_blocks *blocks; /* NULL: it is in one piece */
 };
@@ -59,7 +60,8 @@ struct array_blocks {
     struct device_buffer *of[];
 };
 
-/* A kernel in memory, with its program. It stays while somebody holds it, and else until there are too many: programs.c. */
+/* A kernel in memory, with its program. It stays while somebody holds it, and else until there
+ * are too many: programs.c. */
 struct device_kernel {
     cl_kernel cl;
     uint64_t id;   /* a hash of its key: the same when it has gone and comes back */
@@ -86,7 +88,8 @@ struct device {
     int pool_count, pool_capacity;
     uint64_t pool_bytes, held_bytes;
     uint64_t peak_bytes, largest_bytes; /* the most that was held; of one array */
-    /* Called when memory is short: whether some has become free. NULL: nothing can. And the names of what holds most, for the message. */
+    /* Called when memory is short: whether some has become free. NULL: nothing can. And the
+     * names of what holds most, for the message. */
     bool (*make_room)(struct machine *m);
     void (*name_holders)(const struct machine *m, char *out, size_t size);
     struct chunk *small, *middle, *next[CHUNKS_AHEAD]; /* that arrays are parts of: chunks.h */
@@ -125,7 +128,8 @@ enum machine_status device_open(struct machine *m, const struct machine_config *
 void device_close(struct machine *m);
 struct device_shape shape_of(const struct device *d, const struct settings *s);
 
-/* Whether the driver works here. In a child after fork() the front end does what it can by itself. */
+/* Whether the driver works here. In a child after fork() the front end does what it can by
+ * itself. */
 static inline bool device_is_ours(const struct device *d)
 {
     return d->process == process_now();
@@ -155,7 +159,8 @@ struct device_buffer *device_buffer_get(struct machine *m,
 /* On CPUs the first column begins a cache line. */
 struct device_buffer *device_rows_get(struct machine *m, struct rows rows);
 bool device_rows_fit(const struct device_buffer *b, struct rows rows);
-/* For commands. An array that only the front end looks at needs none. NULL: no memory, and the command that is given it fails. */
+/* For commands. An array that only the front end looks at needs none. NULL: no memory, and the
+ * command that is given it fails. */
 cl_mem device_mem(const struct device_buffer *b);
 cl_int device_argument(cl_kernel kernel, cl_uint at, const struct device_buffer *b);
 void device_buffer_ref(struct device_buffer *b);
@@ -170,8 +175,8 @@ bool device_programs_begin(struct device *d); /* false: no memory */
 
 void device_programs_finish(struct device *d);
 /* Gets the kernel of that name in a program of these parts, from memory, from disk, or by
- * building it. All parts but the last are the same for many programs. It is the device's, and may go where
- * device_kernels_forget() is called, unless it is held. NULL: error set. */
+ * building it. All parts but the last are the same for many programs. It is the device's, and
+ * may go where device_kernels_forget() is called, unless it is held. NULL: error set. */
 enum { DEVICE_PARTS = 8 };
 struct device_kernel *device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS],
                                     const char *options, const char *name);
@@ -188,10 +193,12 @@ void device_options(const struct device *d, const char *options, bool header,
 char *device_text_without_header(const char *const parts[DEVICE_PARTS]);
 /* Whether the kernel can be started in work-groups of that many items. */
 bool device_takes_group(const struct device *d, const struct device_kernel *kernel, int items);
-/* The program of such parts, in any thread. NULL: it cannot be built here; device_kernel() says why. */
+/* The program of such parts, in any thread. NULL: it cannot be built here; device_kernel() says
+ * why. */
 cl_program device_program_build(const struct device *d, const char *const parts[DEVICE_PARTS],
                                 const char *options);
-/* The kernel of that name in a program that was built so, which is the device's from now on. NULL: error set. */
+/* The kernel of that name in a program that was built so, which is the device's from now on.
+ * NULL: error set. */
 struct device_kernel *device_program_take(struct machine *m, cl_program program,
                                           const char *const parts[DEVICE_PARTS],
                                           const char *options, const char *name);
@@ -225,8 +232,9 @@ bool device_takes_kernels(const struct machine *m);
 enum machine_status device_launch(struct machine *m, struct device_kernel *kernel, cl_int error,
                                   cl_uint dimensions, const size_t *global, const size_t *local,
                                   const char *what);
-/* Around what the front end computes in the device's place: where it is timed, that counts as busy, too. device_work_begin() returns
- * the starting time; nothing in between waits for the device. */
+/* Around what the front end computes in the device's place: where it is timed, that counts as
+ * busy, too. device_work_begin() returns the starting time; nothing in between waits for the
+ * device. */
 static inline double device_work_begin(const struct machine *m)
 {
     return m->device->work_timed ? clock_s() : 0;
@@ -253,17 +261,20 @@ enum machine_status device_read(struct machine *m, const struct device_buffer *b
 enum machine_status device_write(struct machine *m, const struct device_buffer *b, size_t at,
                                  const void *from, size_t bytes, const char *what);
 void device_flush(struct machine *m); /* what is in the queue begins */
-/* Waits until all that is in the queue is done: the front end may look at buffers (device_buffer.host) then. */
+/* Waits until all that is in the queue is done: the front end may look at buffers
+ * (device_buffer.host) then. */
 enum machine_status device_settle(struct machine *m);
 /* The same, for a look of that name, which those who watch hear of. */
 enum machine_status device_settle_for(struct machine *m, const char *what);
 
-/* Whether the front end can do by itself what a kernel would do with arrays such as this one: it is in its memory, and the device has done
- * all that is in its queue. LUTETIA_NEAR=0: never. */
+/* Whether the front end can do by itself what a kernel would do with arrays such as this one:
+ * it is in its memory, and the device has done all that is in its queue. LUTETIA_NEAR=0:
+ * never. */
 bool device_is_near(struct machine *m, const struct device_buffer *b);
 /* Work for more than one thread begins, or goes on. */
 void device_stays_awake(struct machine *m);
-/* In how many parts the crew does what takes one thread so long. LUTETIA_NEAR=2: in several, however short. */
+/* In how many parts the crew does what takes one thread so long. LUTETIA_NEAR=2: in several,
+ * however short. */
 int device_parts(const struct machine *m, double seconds);
 /* The same of work that is shared out at other costs. */
 int device_parts_at(const struct machine *m, double seconds, const struct crew_costs *costs);

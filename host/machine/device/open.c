@@ -77,7 +77,8 @@ static enum machine_status choose(struct machine *m, const struct machine_config
     return MACHINE_OK;
 }
 
-/* What arrays may take of so much memory that the front end and other programs use, too: what is available now, but for a part. */
+/* What arrays may take of so much memory that the front end and other programs use, too: what
+ * is available now, but for a part. */
 static uint64_t memory_left(uint64_t bytes)
 {
     enum { PART = 16 };
@@ -92,9 +93,9 @@ static uint64_t memory_left(uint64_t bytes)
     return bytes - bytes / PART;
 }
 
-/* PoCL 7.1 compiles some kernels so that a work-group of one work-item is computed twice, and crashes on others where it computes values
- * again instead of keeping them (seen with LLVM 21). It asks for these settings whenever it compiles. One that the user has made
- * stays. */
+/* PoCL 7.1 compiles some kernels so that a work-group of one work-item is computed twice, and
+ * crashes on others where it computes values again instead of keeping them (seen with LLVM 21).
+ * It asks for these settings whenever it compiles. One that the user has made stays. */
 static void pocl_keep_right(const char *driver)
 {
     enum { WRONG_SINCE = 7 };

@@ -13,7 +13,8 @@
 enum { BUCKETS = 1024 };
 #define KERNEL_ROOM_BYTES 1e6 /* the most disk space that compiling a kernel takes */
 
-/* Of a kernel's memory, most is its program's as the compiler keeps it: a megabyte with PoCL, and more where the text is long. */
+/* Of a kernel's memory, most is its program's as the compiler keeps it: a megabyte with PoCL,
+ * and more where the text is long. */
 enum { UNIT_TEXT_BYTES = 1 << 15 };
 
 bool device_programs_begin(struct device *d)
@@ -145,7 +146,8 @@ static cl_program build_without_header(const struct device *d,
     return NULL;
 }
 
-/* The whole log on one line, however long: a driver gives none of it to a buffer that is too short. NULL: there is none. */
+/* The whole log on one line, however long: a driver gives none of it to a buffer that is too
+ * short. NULL: there is none. */
 static char *device_build_log(cl_program program, cl_device_id id)
 {
     size_t bytes = 0;
@@ -266,7 +268,8 @@ bool device_kernel_at_hand(struct machine *m, const char *const parts[DEVICE_PAR
     return found;
 }
 
-/* Keeps the program and its kernel under the key; both arguments are the table's from now on. NULL: error set. */
+/* Keeps the program and its kernel under the key; both arguments are the table's from now on.
+ * NULL: error set. */
 static struct device_kernel *program_keep(struct machine *m, cl_program program, char *key,
                                           const char *name)
 {

@@ -9,7 +9,8 @@
 
 enum { PARTS_FORCED = 7 };
 
-/* How long processors do not halt after a kernel was started; and at most, while the front end waits for one. */
+/* How long processors do not halt after a kernel was started; and at most, while the front end
+ * waits for one. */
 static const double AWAKE_S = 5e-3, AWAKE_WAITING_S = 1;
 
 double device_wait_begin(struct machine *m)

@@ -3,8 +3,8 @@
 
 #include "device/device.h"
 
-/* Tiles: as many work-items as a unit of a GPU has lanes for a few times over, and local memory as GPUs have it (a
- * CPU says how large a cache is). */
+/* Tiles: as many work-items as a unit of a GPU has lanes for a few times over, and local memory
+ * as GPUs have it (a CPU says how large a cache is). */
 enum { GROUP_USUAL = 256, GROUP_LEAST = 32, LOCAL_BYTES_CPU = 48 << 10 };
 
 static void shape_tiles(const struct device *d, const struct settings *s,
@@ -25,8 +25,8 @@ static void shape_tiles(const struct device *d, const struct settings *s,
     if (d->is_cpu && local > LOCAL_BYTES_CPU)
         local = LOCAL_BYTES_CPU;
     shape->local_bytes = local < (cl_ulong)INT32_MAX ? (int)local : INT32_MAX;
-    /* CPUs have vectors, which are several times as fast: there tiles are for tests. So are tiles in what is called
-     * local and is not. */
+    /* CPUs have vectors, which are several times as fast: there tiles are for tests. So are
+     * tiles in what is called local and is not. */
     bool wanted = d->is_cpu ? shape->always_strips : kind == CL_LOCAL || shape->always_strips;
     if (shape->vector > 1 || (size_t)shape->group > items || !wanted)
         shape->group = 0;
@@ -63,7 +63,8 @@ static int said(const struct settings *s, enum machine_knob knob, int usual)
     return s->knob[knob] == SETTING_FREE ? usual : (int)s->knob[knob];
 }
 
-/* For a CPU, op_ns is what an instruction of all lanes takes, until shape_of() knows how many there are. */
+/* For a CPU, op_ns is what an instruction of all lanes takes, until shape_of() knows how many
+ * there are. */
 static double *cost_in(struct device_shape *shape, enum machine_cost cost)
 {
     switch (cost) {

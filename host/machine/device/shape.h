@@ -1,8 +1,10 @@
 /* shape.h - what generated code should look like on a device, and what things cost there.
  *
- * All numbers about hardware are here (test machine_hardware): those of the front end's processor, and those of a device, of which
- * costs_by_driver.c has a row for each kind of device and driver, and says where each row comes from. Some of them `lutetia tune` chooses by measuring (enum machine_knob), some the device tells. `lutetia bench
- * model` measures programs beside what follows from the costs. */
+ * All numbers about hardware are here (test machine_hardware): those of the front end's
+ * processor, and those of a device, of which costs_by_driver.c has a row for each kind of
+ * device and driver, and says where each row comes from. Some of them `lutetia tune` chooses by
+ * measuring (enum machine_knob), some the device tells. `lutetia bench model` measures programs
+ * beside what follows from the costs. */
 #ifndef LUTETIA_MACHINE_SHAPE_H
 #define LUTETIA_MACHINE_SHAPE_H
 
@@ -11,30 +13,36 @@
 #include "base/crew.h"
 #include "machine.h"
 
-/* What the front end's own code is laid out for: numbers of its processor, which no device tells. */
+/* What the front end's own code is laid out for: numbers of its processor, which no device
+ * tells. */
 enum {
     LINE_BYTES = 64, /* of a cache */
     PAGE_BYTES = 4096,
-    /* Code that is fetched ahead, device/code_pages.h: at a time, since who wants more memory waits meanwhile; on each side of a
-     * function, for the machine and C/Paris are linked one after the other and have less; and what almost any call needs, which
-     * is less than a processor's own cache. */
+    /* Code that is fetched ahead, device/code_pages.h: at a time, since who wants more memory
+     * waits meanwhile; on each side of a function, for the machine and C/Paris are linked one
+     * after the other and have less; and what almost any call needs, which is less than a
+     * processor's own cache. */
     CODE_PIECE_BYTES = 128 << 10,
     CODE_SIDE_BYTES = 2 << 20,
     CODE_NEAR_BYTES = 448 << 10,
     /* Arrays up to such a size are parts of a chunk of such a size: device/chunks.h. */
     SMALL_ARRAY_BYTES = 32 << 10,
     SMALL_CHUNK_BYTES = 512 << 10,
-    /* The interpreter's registers have so many bytes at least: a page that is written for the first time costs more than a step. */
+    /* The interpreter's registers have so many bytes at least: a page that is written for the
+     * first time costs more than a step. */
     REGISTERS_LEAST_BYTES = 32 << 10,
-    /* A step for a window of the lanes takes longer to begin, so it leaves out so many lanes at least. */
+    /* A step for a window of the lanes takes longer to begin, so it leaves out so many lanes at
+     * least. */
     WINDOW_LANES = 128,
-    /* A processor looks ahead over some loads only. In an array of so many bytes and more the interpreter fetches places so many lanes
-     * ahead; the front end's router fetches destinations so many messages ahead. */
+    /* A processor looks ahead over some loads only. In an array of so many bytes and more the
+     * interpreter fetches places so many lanes ahead; the front end's router fetches
+     * destinations so many messages ahead. */
     GATHER_FAR_BYTES = 8 << 20,
     GATHER_AHEAD_LANES = 64,
     MESSAGES_AHEAD = 64,
-    /* Sends to few processors, ops/near_few.h: the most bytes of a table, and of each of several, which are all in the nearest
-     * cache; and the least senders for a processor, or to join the tables takes longer. */
+    /* Sends to few processors, ops/near_few.h: the most bytes of a table, and of each of
+     * several, which are all in the nearest cache; and the least senders for a processor, or to
+     * join the tables takes longer. */
     TABLE_BYTES = 32 << 10,
     TABLE_NEAR_BYTES = 8 << 10,
     TABLE_SENDERS = 16
@@ -60,7 +68,8 @@ struct device_shape {
     int strip_columns; /* the most, a multiple of the vector */
     int strip_least;   /* ... and the least */
     int near_bytes;    /* of a cache, which rings should not fill */
-    int pass_cost; /* of the stages in one loop: with more there are too few registers, and nothing is won */
+    /* of the stages in one loop: with more there are too few registers, and nothing is won */
+    int pass_cost;
     int turns;                     /* of a loop at once */
     bool no_strips, always_strips; /* or tiles: see choose.c; for tests */
     /* Tiles. */
@@ -69,8 +78,8 @@ struct device_shape {
     int tile_width, tile_height; /* forced; 0: free */
     /* Caches. */
     int arrays_foreseen; /* of more, hardware does not fetch the next rows by itself */
-    double
-        fetch_bytes; /* of fewer, all arrays together, kernels of rows fetch nothing ahead: they are near */
+    /* of fewer, all arrays together, kernels of rows fetch nothing ahead: they are near */
+    double fetch_bytes;
     double stream_bytes;       /* of more, all arrays together, storing past the caches pays */
     double stream_lanes_bytes; /* ... for the interpreter */
     double in_place_bytes; /* of more, writing over what is read pays: fewer are near anyway */
@@ -89,51 +98,59 @@ struct device_shape {
     int scan_run_least; /* ... at least, where units have use for shorter ones */
     int sort_chunk; /* elements of a line that are sorted together; 0: as units have use for */
     int sort_short,
-        sort_long; /* lines up to here are sorted by digits of 4 bits, from here by 11, others by 8 */
+        /* lines up to here are sorted by digits of 4 bits, from here by 11, others by 8 */
+        sort_long;
     /* The queue: kernels in it, and while better ones are built. */
     int kernels_ahead, kernels_ahead_building;
-    /* A text of so many bytes is loaded from the driver's cache by a thread: that takes over 10 milliseconds. */
+    /* A text of so many bytes is loaded from the driver's cache by a thread: that takes over 10
+     * milliseconds. */
     size_t load_aside_bytes;
-    /* What a graph of so many nodes times shifts stores is chosen by a thread: a node and a shift take the search some 150 ns together,
-     * so many 2.5 ms. */
+    /* What a graph of so many nodes times shifts stores is chosen by a thread: a node and a
+     * shift take the search some 150 ns together, so many 2.5 ms. */
     size_t choose_aside;
-    /* The front end's own threads, in nanoseconds: for a byte that is moved, and for an element. */
+    /* The front end's own threads, in nanoseconds: for a byte that is moved, and for an
+     * element. */
     double move_ns, reduce_ns, rank_ns, send_ns, reshape_ns, scan_ns, scan_vector_ns, fill_ns;
-    double
-        scan_cut_ns; /* a line that takes one thread so long is cut for several, even if they sleep */
+    /* a line that takes one thread so long is cut for several, even if they sleep */
+    double scan_cut_ns;
     int rank_alone_most;     /* longer lines are ranked by all threads together */
     struct crew_costs share; /* which work threads share out */
-    /* The interpreter, in nanoseconds for a lane: a step that is a loop, for each unit of an operation's cost on top, a gather on
-     * top, a pick on top; a step lane by lane, of floats' functions and of all else. */
+    /* The interpreter, in nanoseconds for a lane: a step that is a loop, for each unit of an
+     * operation's cost on top, a gather on top, a pick on top; a step lane by lane, of floats'
+     * functions and of all else. */
     double loop_ns, loop_cost_ns, gather_ns, pick_ns, each_math_ns, each_ns;
-    double
-        step_ns; /* ... a step of the device's own interpreter (kernels/interpret.cl), for a processor */
-    uint64_t
-        ahead_from; /* processors of a set whose arrays are not in the caches: they are fetched ahead */
-    uint64_t
-        at_once_lanes; /* sets of up to so many, halos included, are computed at once where nothing repeats */
-    double
-        short_ns; /* what the front end interprets in less time is as soon done as noted: run/record.c */
-    /* When plans get kernels (build/interpreted.c): nanoseconds of a launch and its wait, of the search for a plan and its
-     * text, of a compiler for a kernel and for each operation in it; the part that a kernel takes of the interpreter's
-     * time; the least time of a plan of which many turns can be one kernel. */
+    /* ... a step of the device's own interpreter (kernels/interpret.cl), for a processor */
+    double step_ns;
+    /* processors of a set whose arrays are not in the caches: they are fetched ahead */
+    uint64_t ahead_from;
+    /* sets of up to so many, halos included, are computed at once where nothing repeats */
+    uint64_t at_once_lanes;
+    /* what the front end interprets in less time is as soon done as noted: run/record.c */
+    double short_ns;
+    /* When plans get kernels (build/interpreted.c): nanoseconds of a launch and its wait, of
+     * the search for a plan and its text, of a compiler for a kernel and for each operation in
+     * it; the part that a kernel takes of the interpreter's time; the least time of a plan of
+     * which many turns can be one kernel. */
     double wait_ns, text_ns, compile_ns, compile_op_ns, kernel_part, turns_from_ns;
-    uint64_t
-        work_least; /* processors of so small a set count as so many, since a launch takes as long: build/improve.c */
+    /* processors of so small a set count as so many, since a launch takes as long:
+     * build/improve.c */
+    uint64_t work_least;
     const char *from; /* where these numbers come from */
 };
 
-/* What is usual for a driver, by the name of its OpenCL platform, but for what the device tells. A CPU's op_ns is that of an
- * instruction, of however many lanes: costs_by_driver.c. */
+/* What is usual for a driver, by the name of its OpenCL platform, but for what the device
+ * tells. A CPU's op_ns is that of an instruction, of however many lanes: costs_by_driver.c. */
 struct device_shape shape_by_driver(bool is_cpu, const char *platform);
 
 /* Bits of a digit that lines of that length are sorted by; at most 11. */
 int shape_sort_digit(const struct device_shape *shape, int length);
 
-/* Whether the interpreter stores past the caches what takes so many bytes, with all that is read. */
+/* Whether the interpreter stores past the caches what takes so many bytes, with all that is
+ * read. */
 bool shape_streams_lanes(const struct device_shape *shape, double bytes);
 
-/* What a kernel's run on so many processors counts as, where it is asked how much a plan has run. */
+/* What a kernel's run on so many processors counts as, where it is asked how much a plan has
+ * run. */
 uint64_t shape_work(const struct device_shape *shape, uint64_t processors);
 
 /* A cost in the terms of struct machine_tuning. */

@@ -1,7 +1,8 @@
 /* started.c - how many different kernels this process has started, in all its machines.
  *
- * PoCL maps a compiled kernel into memory when it is first started, and never lets go of it (3.1: five mappings each, some 23 kB). Linux
- * allows 65,530 mappings; at one more PoCL ends the process. */
+ * PoCL maps a compiled kernel into memory when it is first started, and never lets go of it
+ * (3.1: five mappings each, some 23 kB). Linux allows 65,530 mappings; at one more PoCL ends
+ * the process. */
 #include <stdatomic.h>
 
 #include "base/parts.h"

@@ -1,4 +1,5 @@
-/* ahead.c - which step is the first that takes an array, and fetches its next block: see byte_code.h. */
+/* ahead.c - which step is the first that takes an array, and fetches its next block: see
+ * byte_code.h. */
 #include <stdlib.h>
 
 #include "interpret/byte_code.h"

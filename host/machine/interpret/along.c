@@ -1,13 +1,18 @@
 /* along.c - what is the same along a row: see byte_code.h.
  *
  *     number, coordinate of another axis        the same
- *     an operation on what is the same          the same: a step for one lane, of which all make use as it is
+ *     an operation on what is the same          the same: a step for one lane, of which all
+ *                                               make use as it is
  *     a get from a place that is the same       likewise: the spread of a column
- *     coordinate of the last axis, index        goes up by one; so does what is the same, added to it: likewise
- *     a get from places that go up by one       the array itself, from the first place on: the spread of a row. Only where a place is none is it copied
+ *     coordinate of the last axis, index        goes up by one; so does what is the same, added
+ *                                               to it: likewise
+ *     a get from places that go up by one       the array itself, from the first place on: the
+ *                                               spread of a row. Only where a place is none is
+ *                                               it copied
  *     anything else                             differs
  *
- * Where a step for all lanes takes a register of which one lane is known, a step before it repeats that lane. Blocks of several rows are left as they are. */
+ * Where a step for all lanes takes a register of which one lane is known, a step before it
+ * repeats that lane. Blocks of several rows are left as they are. */
 #include <stdlib.h>
 
 #include "base/arrays.h"

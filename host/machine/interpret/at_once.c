@@ -1,7 +1,8 @@
 /* at_once.c - see at_once.h.
  *
- * Operands are arrays, numbers, and small functions of these two and of places, which are computed into registers on the stack, a block of lanes
- * at a time. Halos are lanes like others: theirs are the operands' halos.
+ * Operands are arrays, numbers, and small functions of these two and of places, which are
+ * computed into registers on the stack, a block of lanes at a time. Halos are lanes like
+ * others: theirs are the operands' halos.
  *
  *     key:  ADD (array, number)          the loop, over all lanes of the arrays
  *     key:  MUL (place, number)          a block of places, the loop, the next block */
@@ -15,7 +16,8 @@
 #include "interpret/lanes.h"
 #include "values/graph.h"
 
-/* Depth: of functions in an operand. Each node there has three operands at most in registers, and a place's index. */
+/* Depth: of functions in an operand. Each node there has three operands at most in registers,
+ * and a place's index. */
 enum { DEPTH = 4, REGISTERS = 4 * DEPTH + 4, REGISTER_BYTES = BLOCK_LANES * 8 };
 
 struct doing {
@@ -190,7 +192,8 @@ static void operand_run(struct doing *d, const struct machine_value *v, void *to
 
 /* ---- all of them ---- */
 
-/* An operation of arrays and numbers: what stays the same from block to block is made once; of arrays alone there is one block. */
+/* An operation of arrays and numbers: what stays the same from block to block is made once; of
+ * arrays alone there is one block. */
 static void arrays_run(struct doing *d, const struct machine_value *v, lanes_function *loop,
                        size_t all, char *to)
 {
@@ -232,7 +235,8 @@ static void places_run(struct doing *d, const struct machine_value *v, size_t al
     }
 }
 
-/* Of an operation, by that loop, or where that is NULL of a place. NULL: it cannot be; there is no error. */
+/* Of an operation, by that loop, or where that is NULL of a place. NULL: it cannot be; there is
+ * no error. */
 static struct device_buffer *array_of(struct machine *m, const struct machine_value *key,
                                       lanes_function *loop)
 {

@@ -1,7 +1,8 @@
 /* blocks.c - a program's steps, block after block: see blocks.h.
  *
- * A block is a part of a row, or, where rows are short, several whole rows with their halos: these are one after the other in
- * memory, so that a single processor of each row or all of them make no difference to a step.
+ * A block is a part of a row, or, where rows are short, several whole rows with their halos:
+ * these are one after the other in memory, so that a single processor of each row or all of
+ * them make no difference to a step.
  *
  *     long rows     | ---block--- | ---block--- | --b-- |     and after the row its halos
  *     short rows    halo row halo pad halo row halo pad       one block; halos anew where something was moved */
@@ -42,7 +43,8 @@ void blocks_room_free(struct blocks_room *room)
 static bool room_ready(struct blocks_registers *room, const struct byte_code *p)
 {
     if (!room->memory || room->bytes < p->registers_bytes) {
-        /* Twice as much as before, at least: a page that is written for the first time costs more than a step. */
+        /* Twice as much as before, at least: a page that is written for the first time costs
+         * more than a step. */
         size_t bytes = p->registers_bytes / PAGE_BYTES * PAGE_BYTES + PAGE_BYTES;
         bytes = bytes < 2 * room->bytes ? 2 * room->bytes : bytes;
         bytes = bytes < REGISTERS_LEAST_BYTES ? REGISTERS_LEAST_BYTES : bytes;
@@ -127,7 +129,8 @@ static void columns_copy(char *to, const char *row, int64_t x, int lanes, int wi
     }
 }
 
-/* Where a block's neighbours are: in the array itself if they are there side by side, else brought together. */
+/* Where a block's neighbours are: in the array itself if they are there side by side, else
+ * brought together. */
 static void *moved(const struct run *r, const struct place *place, const struct block *b)
 {
     const struct vpset *s = r->set;
@@ -212,8 +215,9 @@ static bool line_found(const struct run *r, const struct lanes_step *s, int lane
 
 /* ---- blocks ---- */
 
-/* The same lines of an array for the next block: a block's part is too short for the processor to see where a stream goes on. (A call of a
- * function that does nothing else would be left out.) */
+/* The same lines of an array for the next block: a block's part is too short for the processor
+ * to see where a stream goes on. (A call of a function that does nothing else would be left
+ * out.) */
 static inline __attribute__((always_inline)) void fetch(const struct run *r, int place,
                                                         int lanes, bool written)
 {

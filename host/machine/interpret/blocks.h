@@ -16,8 +16,9 @@ struct blocks_room {
     } of[CREW_MOST];
 };
 
-/* buffers: of each node that is an array; all are where the front end can look (device_buffer.host), and the device is not at them.
- * nodes: those that are numbers. In so many parts, shared out among the crew. False: no memory. */
+/* buffers: of each node that is an array; all are where the front end can look
+ * (device_buffer.host), and the device is not at them. nodes: those that are numbers. In so
+ * many parts, shared out among the crew. False: no memory. */
 bool blocks_run(struct blocks_room *room, struct crew *crew, int parts,
                 const struct byte_code *p, const struct vpset *set,
                 struct device_buffer *const *buffers, struct machine_value *const *nodes);

@@ -225,7 +225,8 @@ static void step_joined(struct making *k, const struct plan_node *n, int to, con
     register_put(k, b);
 }
 
-/* What is in an array at a place: nobody's lanes in particular, so the array is taken as it is. */
+/* What is in an array at a place: nobody's lanes in particular, so the array is taken as it
+ * is. */
 static void step_fetched(struct making *k, const struct plan_node *n, int to, const int in[3])
 {
     enum lanes_class c = lanes_bits_of(lanes_class_of(n->type));
@@ -503,7 +504,8 @@ static void node_compute(struct making *k, int node)
         }
         return;
     }
-    /* Steps of several nodes find their operands themselves: the nodes in between have no places. */
+    /* Steps of several nodes find their operands themselves: the nodes in between have no
+     * places. */
     const bool of_one =
         !pick && picks_inner(k->picks, node) < 0 && picks_product(k->picks, node) < 0;
     for (int j = 0; of_one && j < node_ops[n->op].inputs; j++)
@@ -528,7 +530,8 @@ static void node_compute(struct making *k, int node)
     }
 }
 
-/* Whether the arrays are so large that nothing of them is in the caches when somebody looks at them next. */
+/* Whether the arrays are so large that nothing of them is in the caches when somebody looks at
+ * them next. */
 static bool are_streamed(const struct making *k)
 {
     double bytes = 0;

@@ -19,8 +19,8 @@
 #include "codegen/codegen.h"
 #include "interpret/lanes.h"
 
-/* Lanes of a block, at most: a register is up to 4 KiB (of wide ones 8), a few of which are in use. What a near cross looks at is in
- * the block. */
+/* Lanes of a block, at most: a register is up to 4 KiB (of wide ones 8), a few of which are in
+ * use. What a near cross looks at is in the block. */
 enum { BLOCK_LANES = CROSS_NEAR };
 
 enum place_kind {
@@ -76,10 +76,12 @@ struct byte_code {
     bool failed;    /* no memory */
 };
 
-/* Decides what is stored and in which stage (plan_node.stage, stored): what neighbours look at, and what a later stage does. */
+/* Decides what is stored and in which stage (plan_node.stage, stored): what neighbours look at,
+ * and what a later stage does. */
 void byte_code_stages(struct plan_graph *g);
-/* What stores those nodes, all of that stage and set. shape: what steps cost. at_hand: the front end's threads perform it, which may store past the caches, and
- * pick. NULL: no memory. */
+/* What stores those nodes, all of that stage and set. shape: what steps cost. at_hand: the
+ * front end's threads perform it, which may store past the caches, and pick. NULL: no
+ * memory. */
 struct byte_code *byte_code_make(const struct device_shape *shape, const struct plan_graph *g,
                                  const int *stores, int count, const struct vpset *set,
                                  int processors_log2, bool at_hand);
@@ -93,9 +95,11 @@ void byte_code_argument_add(struct byte_code *p, int kind, int node);
 int byte_code_place(struct byte_code *p, enum place_kind kind, int bytes);
 /* Lets each array be fetched ahead by the first step that takes it. */
 void byte_code_ahead(struct byte_code *p);
-/* Of a set whose blocks are parts of rows: what is the same along a row is computed for one lane of a block. */
+/* Of a set whose blocks are parts of rows: what is the same along a row is computed for one
+ * lane of a block. */
 void byte_code_along(struct byte_code *p, const struct vpset *set);
-/* What only a selection takes, where its bit holds, is left out of blocks where the bit holds nowhere, and of lanes beyond the first and last where it holds. */
+/* What only a selection takes, where its bit holds, is left out of blocks where the bit holds
+ * nowhere, and of lanes beyond the first and last where it holds. */
 void byte_code_guards(struct byte_code *p);
 void byte_code_free(struct byte_code *p);
 

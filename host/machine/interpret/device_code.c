@@ -1,4 +1,5 @@
-/* device_code.c - byte code as the words that kernels/interpret.cl performs: see there how they are laid out. */
+/* device_code.c - byte code as the words that kernels/interpret.cl performs: see there how they
+ * are laid out. */
 #include "interpret/device_code.h"
 
 #include <stdio.h>

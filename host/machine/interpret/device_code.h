@@ -1,9 +1,13 @@
-/* device_code.h - byte code for a device with memory of its own: kernels/interpret.cl performs it, a work-item for each processor.
+/* device_code.h - byte code for a device with memory of its own: kernels/interpret.cl performs
+ * it, a work-item for each processor.
  *
- *     struct device_code *c = device_code_make(m, &kernels, program, set);     NULL: those kernels cannot perform it
+ *     struct device_code *c = device_code_make(m, &kernels, program, set);     NULL: those
+ *                                                                              kernels cannot
+ *                                                                              perform it
  *     status = device_code_run(m, c, set, buffers, nodes);
  *
- * There are two kernels: the second has the transcendental functions, too. Each is built when it is first asked for. */
+ * There are two kernels: the second has the transcendental functions, too. Each is built when
+ * it is first asked for. */
 #ifndef LUTETIA_MACHINE_DEVICE_CODE_H
 #define LUTETIA_MACHINE_DEVICE_CODE_H
 
@@ -21,7 +25,8 @@ struct device_kernels {
 };
 struct machine_value;
 
-/* NULL: the program takes more arrays, numbers or registers than the kernel has, or the kernel cannot be built. */
+/* NULL: the program takes more arrays, numbers or registers than the kernel has, or the kernel
+ * cannot be built. */
 struct device_code *device_code_make(struct machine *m, struct device_kernels *kernels,
                                      const struct byte_code *p, const struct vpset *set);
 /* buffers: of each node that is an array. nodes: those that are numbers. Does not wait. */

@@ -1,10 +1,12 @@
-/* fast_integers.h - quotients, powers, shifts and counts as loops: a part of fast_loops.h, whose macros it uses. What they come to
- * is said in machine_op.tab; the slow twin is integer_fold().
+/* fast_integers.h - quotients, powers, shifts and counts as loops: a part of fast_loops.h,
+ * whose macros it uses. What they come to is said in machine_op.tab; the slow twin is
+ * integer_fold().
  *
  * An operand's bits above its width are 0. Signed numbers are divided as magnitudes. */
 
-/* Quotients of up to 32 bits are taken of floats with room for all their bits: such a quotient is further from the next whole number
- * than it can be rounded. So there are vectors of them. */
+/* Quotients of up to 32 bits are taken of floats with room for all their bits: such a quotient
+ * is further from the next whole number than it can be rounded. So there are vectors of
+ * them. */
 #define QUOTIENT(T, F)                                                                         \
     static inline T quotient_##T(T a, T b)                                                     \
     {                                                                                          \

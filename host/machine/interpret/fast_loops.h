@@ -1,4 +1,5 @@
-/* fast_loops.h - the loops of lanes.h, included by lanes_plain.c, lanes_avx2.c and lanes_avx512.c with
+/* fast_loops.h - the loops of lanes.h, included by lanes_plain.c, lanes_avx2.c and
+ * lanes_avx512.c with
  *     TABLE    the table's name
  *
  * The result of a loop is in no place of its operands. */
@@ -53,7 +54,8 @@ typedef double f64;
         const T mask = (T)s->mask;                                                             \
         EACH d[i] = (T)((EXPRESSION)&mask);                                                    \
     }
-/* A bit, of operands of width w; by shifting up by `up` a signed number's sign is the highest bit. */
+/* A bit, of operands of width w; by shifting up by `up` a signed number's sign is the highest
+ * bit. */
 #define BIT(NAME, T, EXPRESSION)                                                               \
     LOOP(NAME, T)                                                                              \
     {                                                                                          \
@@ -403,8 +405,9 @@ static inline f64 double_of(u64 bits)
     return x;
 }
 
-/* x rounded to nearest even to a short format (s <= 24, e <= 9): by adding, and taking away again, a number so great that the
- * sum's last place is the result's. Longer ones: lane_by_folding.c. */
+/* x rounded to nearest even to a short format (s <= 24, e <= 9): by adding, and taking away
+ * again, a number so great that the sum's last place is the result's. Longer ones:
+ * lane_by_folding.c. */
 LOOP(fit, f64)
 {
     f64 *d = at[s->to];

@@ -1,13 +1,17 @@
 /* guards.c - what a context leaves out: see byte_code.h.
  *
  *     m = i > k and j = k            a bit, known before
- *     GUARD m, 2                     the next two steps are performed for the lanes of the block from the first where m holds to the last; where there is
+ *     GUARD m, 2                     the next two steps are performed for the lanes of the
+ *                                    block from the first where m holds to the last; where
+ *                                    there is
  *     x = f / p                      none they are left out
  *     y = x * g                      nothing but the selection takes it
  *     f' = m ? y : f                 so no other lane is y's
  *
- * From the last step to the first it is found for whom each register's content is: for the first choice of selections by one condition or by two, or for
- * others as well. A condition is the bit of a selection. Where it is the and of two that are known before it is, these two are looked at. */
+ * From the last step to the first it is found for whom each register's content is: for the
+ * first choice of selections by one condition or by two, or for others as well. A condition is
+ * the bit of a selection. Where it is the and of two that are known before it is, these two are
+ * looked at. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,7 +21,8 @@
 /* CONDITIONS_MOST: selections beyond are taken for ones of their own. */
 enum { DEAR = 4, CONDITIONS_MOST = 64 };
 
-/* Conditions, by the first selection that has each: none; one (first == second); two; or others as well. */
+/* Conditions, by the first selection that has each: none; one (first == second); two; or others
+ * as well. */
 struct whose {
     int first, second; /* first <= second */
     bool others;
@@ -207,7 +212,8 @@ static void bit_add(const struct guarding *g, struct guard_choice *choice, struc
     choice->one[choice->count++] = bit.one;
 }
 
-/* What is known of a condition before the step at hand: the bit, or those that it is the and of. False: nothing. */
+/* What is known of a condition before the step at hand: the bit, or those that it is the and
+ * of. False: nothing. */
 static bool choice_make(const struct guarding *g, const struct condition *c,
                         struct guard_choice *choice)
 {

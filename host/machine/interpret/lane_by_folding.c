@@ -1,7 +1,8 @@
-/* lane_by_folding.c - any operation, lane by lane: the slow twin of the loops in fast_loops.h, and the only way for what is rare there.
+/* lane_by_folding.c - any operation, lane by lane: the slow twin of the loops in fast_loops.h,
+ * and the only way for what is rare there.
  *
- * A lane is its bits, zero-extended to 128. Numbers' operations are those that fold constants (values/integer_fold.c, math_ops.c)
- * and kernels/soft.cl. */
+ * A lane is its bits, zero-extended to 128. Numbers' operations are those that fold constants
+ * (values/integer_fold.c, math_ops.c) and kernels/soft.cl. */
 #include <math.h>
 #include <string.h>
 

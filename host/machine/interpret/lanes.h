@@ -1,13 +1,16 @@
 /* lanes.h - the operations of the interpreter: each a loop over the lanes of a block.
  *
- * Lanes are held as in memory: bits in the least of 8, 16, 32, 64 or 128 bits that have room for them, unused high bits 0; a single
- * bit as 0 or 1; floats as they are. So an operand may be a register, which is in the nearest cache, or a part of an array itself.
+ * Lanes are held as in memory: bits in the least of 8, 16, 32, 64 or 128 bits that have room
+ * for them, unused high bits 0; a single bit as 0 or 1; floats as they are. So an operand may
+ * be a register, which is in the nearest cache, or a part of an array itself.
  *
  *     lanes_function *add = lanes_find(MACHINE_ADD, LANES_U32);
- *     add(&step, at, n);          at[step.to][i] = at[step.in[0]][i] + at[step.in[1]][i], for n lanes
+ *     add(&step, at, n);          at[step.to][i] = at[step.in[0]][i] + at[step.in[1]][i], for n
+ *                                 lanes
  *
- * fast_loops.h has the loops; it is compiled once for each instruction set. What has no loop there is done lane by lane
- * (lane_by_folding.c). Both give the same bits as generated kernels. */
+ * fast_loops.h has the loops; it is compiled once for each instruction set. What has no loop
+ * there is done lane by lane (lane_by_folding.c). Both give the same bits as generated
+ * kernels. */
 #ifndef LUTETIA_MACHINE_LANES_H
 #define LUTETIA_MACHINE_LANES_H
 
@@ -56,15 +59,25 @@ enum lanes_op {
     LANES_JOIN,                 /* a | b << detail */
     LANES_CANONICAL,            /* NaNs of `to` become the one that operations give */
     LANES_FIT,                  /* `to`, doubles, rounded to the format of type */
-    LANES_FETCH, /* in: places of 32 bits; an array, which is not the lanes'; how many places there are. 0 where there is none */
-    LANES_PLACE, /* a row-major index becomes a send address: PLOG2 is detail, the ratio is mask */
-    LANES_PICK, /* in: an index of 32 bits; the operands of `list` that it names: see lanes_picks.h */
-    LANES_CROSS, /* in: an aligned run of CROSS_NEAR lanes, or several; bits, of 32. The lanes whose numbers differ in those below CROSS_NEAR */
+    /* in: places of 32 bits; an array, which is not the lanes'; how many places there are. 0
+     * where there is none */
+    LANES_FETCH,
+    /* a row-major index becomes a send address: PLOG2 is detail, the ratio is mask */
+    LANES_PLACE,
+    /* in: an index of 32 bits; the operands of `list` that it names: see lanes_picks.h */
+    LANES_PICK,
+    /* in: an aligned run of CROSS_NEAR lanes, or several; bits, of 32. The lanes whose numbers
+     * differ in those below CROSS_NEAR */
+    LANES_CROSS,
     LANES_REPEAT, /* `to`: all lanes as the first, each so much more as `detail` says */
-    LANES_GUARD, /* in[0]: which guard. Its lanes are those of the next `detail` steps: guards.c, windows.h */
-    LANES_PRODUCT_SUM, /* in: x, y, z of floats. detail 0: z + x y, 1: z - x y, 2: x y + z, 3: x y - z; the product is rounded, too. axis: bit k: of in[k], k < 2,
-                        * only the first lane is there, as are all */
-    LANES_DRAW,        /* a row-major index becomes a random number: see NODE_RANDOM */
+    /* in[0]: which guard. Its lanes are those of the next `detail` steps: guards.c,
+     * windows.h */
+    LANES_GUARD,
+    /* in: x, y, z of floats. detail 0: z + x y, 1: z - x y, 2: x y + z, 3: x y - z; the product
+     * is rounded, too. axis: bit k: of in[k], k < 2, only the first lane is there, as are
+     * all */
+    LANES_PRODUCT_SUM,
+    LANES_DRAW, /* a row-major index becomes a random number: see NODE_RANDOM */
     LANES_OP_COUNT
 };
 
@@ -97,7 +110,8 @@ static inline int lanes_inputs(int op)
                                                                        : 1;
 }
 
-/* The places that a step takes lane by lane, and some that it takes otherwise: how many; the k-th; whether that is one of the others. */
+/* The places that a step takes lane by lane, and some that it takes otherwise: how many; the
+ * k-th; whether that is one of the others. */
 static inline int lanes_taken(const struct lanes_step *s)
 {
     return s->list ? 2 * s->detail + 2 : !s->run ? 0 : lanes_inputs(s->op);
@@ -113,9 +127,11 @@ static inline bool lanes_is_apart(const struct lanes_step *s, int k)
            (s->op == LANES_PRODUCT_SUM && k < 2 && s->axis >> k & 1);
 }
 
-/* Of operands of that class; of a select and of what is beside the graph, of that result. NULL: there is no loop. */
+/* Of operands of that class; of a select and of what is beside the graph, of that result. NULL:
+ * there is no loop. */
 lanes_function *lanes_find(int op, enum lanes_class c);
-/* Conversions: NODE_ZERO_EXTEND (and EXTRACT), SIGN_EXTEND, U_TO_F, S_TO_F, F_TO_U, F_TO_S, F_TO_F. */
+/* Conversions: NODE_ZERO_EXTEND (and EXTRACT), SIGN_EXTEND, U_TO_F, S_TO_F, F_TO_U, F_TO_S,
+ * F_TO_F. */
 lanes_function *lanes_find_conversion(int op, enum lanes_class from, enum lanes_class to);
 
 /* Lane by lane, any operation: the slow twin of all loops. lane_by_folding.c */
@@ -125,8 +141,9 @@ lanes_function lane_each;
 typedef void lanes_count_function(uint32_t *to, uint32_t first, int n);
 /* n elements of so many bytes that are all the same. */
 typedef void lanes_fill_function(void *to, const void *element, size_t bytes, size_t n);
-/* Of n processors' indices those from `first` on, `count` of them, where the context (NULL: everywhere) holds: `place` and `lane`
- * become their indices, so much further, and their lanes, one after the other. n is 512 at most; both have room for 16 more. Returns how many. */
+/* Of n processors' indices those from `first` on, `count` of them, where the context (NULL:
+ * everywhere) holds: `place` and `lane` become their indices, so much further, and their lanes,
+ * one after the other. n is 512 at most; both have room for 16 more. Returns how many. */
 struct lanes_filter {
     const uint32_t *index;
     uint32_t first, count;
@@ -134,8 +151,8 @@ struct lanes_filter {
 };
 typedef size_t lanes_filter_function(const struct lanes_filter *p, const uint8_t *context,
                                      int n, uint32_t *place, uint16_t *lane);
-/* Addresses of 1, 2, 4, 8 or 16 bytes each become indices: the bits of mask, and `nobody` where that is greater or the context (NULL: everywhere) does
- * not hold. */
+/* Addresses of 1, 2, 4, 8 or 16 bytes each become indices: the bits of mask, and `nobody` where
+ * that is greater or the context (NULL: everywhere) does not hold. */
 struct lanes_aim {
     const void *address;
     const uint8_t *context;
@@ -145,12 +162,12 @@ struct lanes_aim {
 typedef void lanes_aim_function(const struct lanes_aim *a, int n, uint32_t *index);
 /* The greatest of n numbers where the context (NULL: everywhere) holds; 0 of none. */
 typedef uint32_t lanes_greatest_function(const uint32_t *x, const uint8_t *context, int n);
-/* The elements of so many bytes where the context holds, one after the other; nothing is written from element `room` on. Returns how
- * many. */
+/* The elements of so many bytes where the context holds, one after the other; nothing is
+ * written from element `room` on. Returns how many. */
 typedef size_t lanes_pack_function(const void *from, const uint8_t *context, size_t n,
                                    size_t bytes, void *to, size_t room);
-/* n numbers of 32 bits: what was there, NULL: a number; but where the context holds, `rank` and one more each time, as far as the bits of mask. to may be
- * old. */
+/* n numbers of 32 bits: what was there, NULL: a number; but where the context holds, `rank` and
+ * one more each time, as far as the bits of mask. to may be old. */
 struct lanes_ranks {
     const uint8_t *context;
     const uint32_t *old;
@@ -172,8 +189,8 @@ enum reduction_op {
     REDUCE_LEAST,
     REDUCE_GREATEST
 };
-/* A part of a line of numbers of 32 bits: see near_loops.h. before: what the numbers before come to; returns that
- * of all, neither cut nor flipped. */
+/* A part of a line of numbers of 32 bits: see near_loops.h. before: what the numbers before
+ * come to; returns that of all, neither cut nor flipped. */
 struct lanes_scan {
     const uint32_t *in;
     uint32_t *out;
@@ -188,8 +205,8 @@ typedef uint32_t lanes_scan_function(const struct lanes_scan *s, size_t n, uint3
 struct lanes_sum {
     enum reduction_op op;
     size_t element; /* bytes: 1, 2, 4 or 8 */
-    bool
-        plain; /* they are as long as the result, or added without a sign; else they are made longer */
+    /* they are as long as the result, or added without a sign; else they are made longer */
+    bool plain;
     uint64_t none; /* what is joined where the context does not hold */
     uint64_t flip; /* turned over: exclusive or */
     uint64_t

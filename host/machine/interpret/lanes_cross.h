@@ -1,7 +1,9 @@
-/* lanes_cross.h - the loop of a near cross, included by fast_loops.h: each lane takes the one whose number differs in these bits, all
- * in an aligned run of CROSS_NEAR lanes. n: a multiple of CROSS_NEAR.
+/* lanes_cross.h - the loop of a near cross, included by fast_loops.h: each lane takes the one
+ * whose number differs in these bits, all in an aligned run of CROSS_NEAR lanes. n: a multiple
+ * of CROSS_NEAR.
  *
- *     bits 18, vectors of 16 lanes:   vector i takes vector i ^ 1, and of it lane k takes lane k ^ 2 */
+ *     bits 18, vectors of 16 lanes:   vector i takes vector i ^ 1, and of it lane k takes lane
+ *                                     k ^ 2 */
 
 #define CROSS_BITS ((int)(*(const u32 *)at[s->in[1]] % CROSS_NEAR))
 
@@ -14,7 +16,8 @@
         const int bits = CROSS_BITS;                                                           \
         EACH d[i] = a[i ^ bits];                                                               \
     }
-/* So many lanes at once: EXPRESSION is the vector v's, its lanes crossed by `low`, for which index is made before. */
+/* So many lanes at once: EXPRESSION is the vector v's, its lanes crossed by `low`, for which
+ * index is made before. */
 #define CROSS_VECTORS(T, VECTOR, LANES, LOAD, STORE, INDEX, EXPRESSION)                        \
     LOOP(cross, T)                                                                             \
     {                                                                                          \

@@ -16,7 +16,8 @@ static inline u64 mixed(u64 z)
     return z ^ (z >> 31);
 }
 
-/* in[1]: the key and the limit. detail 0: the high bits; 1: below a limit of 32 bits; 2: below any. */
+/* in[1]: the key and the limit. detail 0: the high bits; 1: below a limit of 32 bits; 2: below
+ * any. */
 LOOP(draw, u32)
 {
     TO(u64);

@@ -1,5 +1,5 @@
-/* lanes_lines.h - lines and messages as vectors: a part of lanes_kernel.h. The slow twins are the loops of ops/near_loops.c, and
- * the tables without vectors of 16 numbers. */
+/* lanes_lines.h - lines and messages as vectors: a part of lanes_kernel.h. The slow twins are
+ * the loops of ops/near_loops.c, and the tables without vectors of 16 numbers. */
 
 /* ---- places and numbers ---- */
 
@@ -234,8 +234,9 @@ static void places(u32 *place, size_t n, const struct lanes_rows *r)
 
 #ifdef __AVX512F__
 
-/* The places of a large array are in memory: they are fetched ahead, and sixteen loads wait together. In the caches one load
- * after the other is as fast, and faster where places lie side by side. */
+/* The places of a large array are in memory: they are fetched ahead, and sixteen loads wait
+ * together. In the caches one load after the other is as fast, and faster where places lie side
+ * by side. */
 static inline void fetch_ahead(const u32 *place, const void *array, u32 count, size_t bytes)
 {
     for (int k = 0; k < 16; k++)
@@ -302,8 +303,8 @@ SCANNED __m512i scan_join(const enum reduction_op op, __m512i a, __m512i b)
                                 : _mm512_xor_si512(a, b);
 }
 
-/* v joined with what is k lanes before, but not across a lane where a segment begins; begins: such lanes, or lanes that are joined
- * with all since one. */
+/* v joined with what is k lanes before, but not across a lane where a segment begins; begins:
+ * such lanes, or lanes that are joined with all since one. */
 #define SCAN_JOIN_BEFORE(k)                                                                    \
     joined = scan_join(op, v, _mm512_alignr_epi32(v, none, 16 - (k)));                         \
     v = segmented ? _mm512_mask_mov_epi32(joined, (__mmask16)begins, v) : joined;              \

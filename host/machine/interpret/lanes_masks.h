@@ -1,9 +1,12 @@
-/* lanes_masks.h - bits of a block as a whole. Part of fast_loops.h, which is compiled once for each instruction set. */
+/* lanes_masks.h - bits of a block as a whole. Part of fast_loops.h, which is compiled once for
+ * each instruction set. */
 
 enum { MASK_RUN = 64 };
-/* From so many lanes that are alike on they are copied: those of 32 bits are chosen fast enough one by one. */
+/* From so many lanes that are alike on they are copied: those of 32 bits are chosen fast enough
+ * one by one. */
 #define MASK_PAYS(T) (sizeof(T) == 4 ? 2 * MASK_RUN : MASK_RUN)
-/* Lane i of a where bit i is 1, else of b. Compilers have no good loop of 8 or 16 bits for the choice. */
+/* Lane i of a where bit i is 1, else of b. Compilers have no good loop of 8 or 16 bits for the
+ * choice. */
 #define CHOSEN(T)                                                                              \
     (sizeof(T) <= 2 ? (T)(b[i] ^ ((a[i] ^ b[i]) & (T)(0u - c[i]))) : c[i] ? a[i] : b[i])
 

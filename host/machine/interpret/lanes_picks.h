@@ -1,8 +1,9 @@
 /* lanes_picks.h - picks as loops: a part of fast_loops.h, whose macros it uses.
  *
- * A step's list names keys and values in turn, and what is left. A lane whose index is a key takes its value; of equal keys the first
- * counts. A key is the same in all lanes, but not known before the program runs. Where keys are near one another there is a table of
- * values, and a lane takes what stands at its index; else one key after the other is compared. */
+ * A step's list names keys and values in turn, and what is left. A lane whose index is a key
+ * takes its value; of equal keys the first counts. A key is the same in all lanes, but not
+ * known before the program runs. Where keys are near one another there is a table of values,
+ * and a lane takes what stands at its index; else one key after the other is compared. */
 #include "interpret/picks.h"
 
 static u32 key_of(const struct lanes_step *s, void *const *at, int k)

@@ -1,5 +1,5 @@
-/* lanes_products.h - a product within a sum: a part of fast_loops.h, whose macros it uses. Both are rounded. Of a factor that is the same in all lanes only
- * the first may be there. */
+/* lanes_products.h - a product within a sum: a part of fast_loops.h, whose macros it uses. Both
+ * are rounded. Of a factor that is the same in all lanes only the first may be there. */
 
 #define PRODUCT_SUM(F, PRODUCT)                                                                \
     {                                                                                          \

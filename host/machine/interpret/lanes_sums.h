@@ -1,4 +1,5 @@
-/* lanes_sums.h - reductions of whole numbers, in any order: a part of fast_loops.h. The slow twin is the kernel of kernels/reduce.cl. */
+/* lanes_sums.h - reductions of whole numbers, in any order: a part of fast_loops.h. The slow
+ * twin is the kernel of kernels/reduce.cl. */
 
 #include "interpret/joins.h"
 

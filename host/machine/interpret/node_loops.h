@@ -1,4 +1,5 @@
-/* node_loops.h - which loop performs a node of a plan, and whether its result is rounded again. */
+/* node_loops.h - which loop performs a node of a plan, and whether its result is rounded
+ * again. */
 #ifndef LUTETIA_MACHINE_NODE_LOOPS_H
 #define LUTETIA_MACHINE_NODE_LOOPS_H
 

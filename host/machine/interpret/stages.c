@@ -9,8 +9,9 @@ static int root_of(const struct plan_graph *g, int node)
     return node;
 }
 
-/* Each stage makes it anew: it is read from what is stored anyway, or is a cheap function of places. Were that stored, later
- * plans would find it in memory, and no kernel of theirs could tell from a test of coordinates which rows it concerns. */
+/* Each stage makes it anew: it is read from what is stored anyway, or is a cheap function of
+ * places. Were that stored, later plans would find it in memory, and no kernel of theirs could
+ * tell from a test of coordinates which rows it concerns. */
 static bool is_free(const struct plan_node *n)
 {
     return n->op == NODE_SHIFT || n->generator <= GENERATOR_CHEAP;

@@ -1,4 +1,5 @@
-/* windows.h - the lanes of a block where a guard's condition holds, and steps for these lanes alone: see guards.c. */
+/* windows.h - the lanes of a block where a guard's condition holds, and steps for these lanes
+ * alone: see guards.c. */
 #ifndef LUTETIA_MACHINE_WINDOWS_H
 #define LUTETIA_MACHINE_WINDOWS_H
 

@@ -1,12 +1,14 @@
 /* device_costs.c - measures the numbers of the cost model on the machine's device.
  *
- * A program of one kernel runs at several sizes and lengths. What it takes is what plan/search_cost.c predicts:
+ * A program of one kernel runs at several sizes and lengths. What it takes is what
+ * plan/search_cost.c predicts:
  *
  *     launch + processors * (operations + bytes)
  *
- * So a small one tells what a launch costs; the difference between many and few operations, what one costs; the
- * difference between two sizes whose arrays are in the caches, what their bytes cost; and arrays that are larger than
- * any cache, what memory's cost. Each time is the least of many, as other programs only add to it.
+ * So a small one tells what a launch costs; the difference between many and few operations,
+ * what one costs; the difference between two sizes whose arrays are in the caches, what their
+ * bytes cost; and arrays that are larger than any cache, what memory's cost. Each time is the
+ * least of many, as other programs only add to it.
  */
 #include <math.h>
 #include <stdint.h>
@@ -101,8 +103,9 @@ static double processor_s(void)
                : (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* What a turn takes, in nanoseconds; negative: failed. On a CPU that other programs use, too, the time of the process on
- * all units tells more than the clock; it is no measure of many small launches, which leave units idle. */
+/* What a turn takes, in nanoseconds; negative: failed. On a CPU that other programs use, too,
+ * the time of the process on all units tells more than the clock; it is no measure of many
+ * small launches, which leave units idle. */
 static double turn_ns(struct machine *m, int rows, int columns, int links, int turns)
 {
     struct work w;

@@ -1,7 +1,8 @@
-/* known_addresses.h - what is known of addresses: of those that messages have gone by more than once, and of those made of ranks.
+/* known_addresses.h - what is known of addresses: of those that messages have gone by more than
+ * once, and of those made of ranks.
  *
- * A value never changes, so what was found of it stays true. An index for each address is kept, and what has been found of these;
- * of one value, the last that two sends in a row went by. */
+ * A value never changes, so what was found of it stays true. An index for each address is kept,
+ * and what has been found of these; of one value, the last that two sends in a row went by. */
 #ifndef LUTETIA_MACHINE_KNOWN_ADDRESSES_H
 #define LUTETIA_MACHINE_KNOWN_ADDRESSES_H
 
@@ -20,13 +21,15 @@ struct known_addresses {
 /* What is known of these addresses of that set; NULL: nothing. */
 struct known_addresses *known_addresses_find(struct machine *m,
                                              const struct machine_value *address, int set);
-/* A send goes by them, and the index of each is in memory. True: for the second time in a row, so they are kept. */
+/* A send goes by them, and the index of each is in memory. True: for the second time in a row,
+ * so they are kept. */
 bool known_addresses_note(struct machine *m, struct machine_value *address, int set,
                           struct machine_value *index);
 void known_addresses_forget(struct machine *m);
 
-/* Gets by addresses that are in memory: where each one's element is, which takes some thirty operations for each processor, is kept in memory when so many have
- * gone by them. Of some addresses: a grid that is part of several has a field of them for each. */
+/* Gets by addresses that are in memory: where each one's element is, which takes some thirty
+ * operations for each processor, is kept in memory when so many have gone by them. Of some
+ * addresses: a grid that is part of several has a field of them for each. */
 enum { KNOWN_PLACES = 8, KNOWN_PLACES_FROM = 8 };
 
 struct known_place {
@@ -50,8 +53,9 @@ void known_places_keep(struct machine *m, struct machine_value *address, int set
                        struct machine_value *place);
 void known_places_forget(struct machine *m);
 
-/* The last enumeration of a context: each active processor's rank among these, from 0 on; and the addresses that were made of the
- * ranks. A send by these puts the messages of the active processors one after the other. */
+/* The last enumeration of a context: each active processor's rank among these, from 0 on; and
+ * the addresses that were made of the ranks. A send by these puts the messages of the active
+ * processors one after the other. */
 struct known_ranks {
     struct machine_value *rank, *context; /* held; NULL: none */
     struct machine_value *address;        /* held; NULL: none was made */
@@ -60,11 +64,13 @@ struct known_ranks {
 
 void known_ranks_note(struct machine *m, struct machine_value *rank,
                       struct machine_value *context);
-/* Whether a send by these addresses, in the current set under its present context, and to that set, is by ranks. */
+/* Whether a send by these addresses, in the current set under its present context, and to that
+ * set, is by ranks. */
 bool known_ranks_are(const struct machine *m, const struct machine_value *address, int set);
 void known_ranks_forget(struct machine *m);
 
-/* This array is written over: what is known of it is forgotten. Two values may share an array. */
+/* This array is written over: what is known of it is forgotten. Two values may share an
+ * array. */
 void known_addresses_changed(struct machine *m, const struct device_buffer *b);
 
 #endif

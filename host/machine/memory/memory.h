@@ -48,11 +48,13 @@ struct lazy_overflow {
 struct flags {
     struct slot of[3]; /* by enum machine_flag */
     struct lazy_overflow overflow;
-    /* Since the last evaluation: the first overflow was recorded, it was everybody's, and one had to become a value, because the context had changed. */
+    /* Since the last evaluation: the first overflow was recorded, it was everybody's, and one
+     * had to become a value, because the context had changed. */
     bool overflow_begun, overflow_whole, overflow_needed;
 };
 
-/* Fields that were found lately: an id's line is where it is looked for first. Bases are multiples of 64. */
+/* Fields that were found lately: an id's line is where it is looked for first. Bases are
+ * multiples of 64. */
 enum { FIELDS_FOUND = 64 };
 static inline uint32_t field_line(uint32_t id)
 {
@@ -80,8 +82,8 @@ static inline struct flags *flags_of(const struct machine *m, const struct vpset
     return &m->memory->flags[s - m->values->sets];
 }
 
-/* A flag's value, held until the next instruction: evaluations may put another in its place. Overflow: what is recorded
- * is not part of it. */
+/* A flag's value, held until the next instruction: evaluations may put another in its place.
+ * Overflow: what is recorded is not part of it. */
 static inline struct machine_value *flag_held(struct machine *m, int set,
                                               enum machine_flag flag)
 {
@@ -117,7 +119,8 @@ static inline struct field *field_find(struct machine *m, uint32_t id, uint32_t 
     *offset = id - f->base;
     return f;
 }
-/* The field that the id is in, or past the end of but not yet in the next; NULL if there is none. */
+/* The field that the id is in, or past the end of but not yet in the next; NULL if there is
+ * none. */
 struct field *field_near(const struct machine *m, uint32_t id, uint32_t *offset);
 /* The field that begins at the id; NULL if none does. */
 struct field *field_exact(struct machine *m, uint32_t id);

@@ -1,4 +1,5 @@
-/* blocks.c - blocks of fields, in and out. Where the front end can look into the device's memory it touches nothing but the block. */
+/* blocks.c - blocks of fields, in and out. Where the front end can look into the device's
+ * memory it touches nothing but the block. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,7 +1,8 @@
 /* enumerate.c - how many active processors there are before each.
  *
- * Along a single axis the front end counts by itself, from the context alone, and puts the ranks where they belong: into the field's own array, if
- * nobody else looks at it. Otherwise it is a scan that adds 1, which is stored under the context. */
+ * Along a single axis the front end counts by itself, from the context alone, and puts the
+ * ranks where they belong: into the field's own array, if nobody else looks at it. Otherwise it
+ * is a scan that adds 1, which is stored under the context. */
 #include "base/scalar.h"
 #include "base/types.h"
 #include "memory/memory.h"
@@ -33,7 +34,8 @@ static struct device_buffer *room_for(struct machine *m, const struct vpset *s,
     return old->buffer;
 }
 
-/* What the field holds then, in all processors. NULL: it cannot be done so, or there is an error. */
+/* What the field holds then, in all processors. NULL: it cannot be done so, or there is an
+ * error. */
 static struct machine_value *ranks_near(struct machine *m, const struct machine_scan *how,
                                         uint32_t dest, struct machine_type type)
 {

@@ -18,7 +18,8 @@ static bool is_worth_keeping(const struct machine *m, const struct machine_value
            !(index_is_address(from) && from->rows == 1);
 }
 
-/* Where each address's element is in an array of the set. Of addresses by which many gets have gone it is kept. */
+/* Where each address's element is in an array of the set. Of addresses by which many gets have
+ * gone it is kept. */
 static struct machine_value *place_of(struct machine *m, struct machine_value *address, int set)
 {
     struct machine_value *bare = index_address_bare(address, machine_address_bits(m, set));
@@ -77,7 +78,8 @@ bool gets_has_functions(struct machine *m, struct machine_value *v)
     return has_functions(m, v, &budget);
 }
 
-/* Whether each processor's address is its own but for some bits. *differ: which, of the address. */
+/* Whether each processor's address is its own but for some bits. *differ: which, of the
+ * address. */
 static bool is_own_but(struct machine_value *address, const struct vpset *s, int set,
                        int length, uint64_t *differ)
 {
@@ -111,7 +113,8 @@ bool gets_turned(struct machine *m, struct machine_value *address, int set, uint
     return differ <= INT32_MAX;
 }
 
-/* Which axis these bits of the index turn one bit of: *distance is that of the coordinates. -1: none, or a coordinate would get out of its axis. */
+/* Which axis these bits of the index turn one bit of: *distance is that of the coordinates. -1:
+ * none, or a coordinate would get out of its axis. */
 static int turned_axis(const struct vpset *s, uint32_t bits, int *distance)
 {
     uint64_t stride = 1;
@@ -123,7 +126,8 @@ static int turned_axis(const struct vpset *s, uint32_t bits, int *distance)
     return axis >= 0 && one_bit && s->dimensions[axis] % (2 * *distance) == 0 ? axis : -1;
 }
 
-/* What is in memory is taken from there at any distance along the other axes; along a row kernels reach as far as its halo. */
+/* What is in memory is taken from there at any distance along the other axes; along a row
+ * kernels reach as far as its halo. */
 static bool is_near(const struct vpset *s, int axis, int distance)
 {
     return axis >= 0 && (axis < s->rank - 1 || distance <= s->halo);
@@ -173,7 +177,8 @@ struct machine_value *gets_made(struct machine *m, struct machine_value *address
     return gets_node(m, address, source, set);
 }
 
-/* A coordinate of the current set along that axis but for some bits, none of which is beyond its length of so many bits. */
+/* A coordinate of the current set along that axis but for some bits, none of which is beyond
+ * its length of so many bits. */
 static bool is_coordinate_but(const struct machine *m, struct machine_value *v, int axis,
                               int length, uint64_t *differ)
 {

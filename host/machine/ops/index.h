@@ -1,5 +1,5 @@
-/* index.h - indices of send addresses, as operations: computed for each lane in the kernel of what
- * needs them. */
+/* index.h - indices of send addresses, as operations: computed for each lane in the kernel of
+ * what needs them. */
 #ifndef LUTETIA_MACHINE_INDEX_H
 #define LUTETIA_MACHINE_INDEX_H
 

@@ -112,7 +112,8 @@ bool message_over(const struct machine *m, const struct message *g, const struct
            b != g->source->buffer && b != g->context->buffer;
 }
 
-/* What is known of the addresses grows with their use: to find out whether they are distinct takes longer than a send. */
+/* What is known of the addresses grows with their use: to find out whether they are distinct
+ * takes longer than a send. */
 static void known_look(struct machine *m, const struct message *g)
 {
     enum { THERE_AFTER = 2, DISTINCT_AFTER = 4 };

@@ -76,7 +76,8 @@ static bool moves_bits(int op)
     }
 }
 
-/* The value of one processor, if it is in memory, a number, a place, or made of such by moving bits. */
+/* The value of one processor, if it is in memory, a number, a place, or made of such by moving
+ * bits. */
 static bool moved(const struct vpset *s, const struct machine_value *v, uint64_t index,
                   int depth, struct machine_scalar *out)
 {

@@ -4,8 +4,8 @@
 
 #include "ops/near_loops.h"
 
-/* From the first active element of a line along a row to the last: others add nothing, and what they get is not defined. Of segments all, since they begin
- * where nobody is active, too. */
+/* From the first active element of a line along a row to the last: others add nothing, and what
+ * they get is not defined. Of segments all, since they begin where nobody is active, too. */
 struct stretch near_active_part(const struct stretch *s);
 
 #endif

@@ -1,4 +1,5 @@
-/* near_addresses.h - where the messages of sends and gets go that the front end performs by itself. */
+/* near_addresses.h - where the messages of sends and gets go that the front end performs by
+ * itself. */
 #ifndef LUTETIA_MACHINE_NEAR_ADDRESSES_H
 #define LUTETIA_MACHINE_NEAR_ADDRESSES_H
 
@@ -8,8 +9,8 @@
 #include "interpret/lanes.h"
 #include "values/values.h"
 
-/* Where messages go, or come from: senders, and the row-major indices of the processors they address. The arrays are the front end's,
- * and the device is not at them. */
+/* Where messages go, or come from: senders, and the row-major indices of the processors they
+ * address. The arrays are the front end's, and the device is not at them. */
 struct near_route {
     const struct vpset *from, *to;
     const struct device_buffer *address, *context; /* context NULL: all send */
@@ -21,8 +22,8 @@ struct near_route {
     bool distinct;     /* ... and no two are of the same */
     size_t near_bytes; /* of a cache: what is in a larger array is fetched ahead */
     const struct lanes_table *lanes;
-    atomic_bool *
-        beyond; /* becomes true where a message goes to no processor; NULL: nobody wants to know */
+    /* becomes true where a message goes to no processor; NULL: nobody wants to know */
+    atomic_bool *beyond;
 };
 
 /* Senders that are looked at together. */
@@ -42,7 +43,8 @@ static inline void near_aims(const struct near_route *r, size_t at, int n, uint3
                                 r->address_bytes, r->mask, (uint32_t)r->to->count};
     r->lanes->aim(&a, n, to);
 }
-/* Looks whether a message of these senders goes to no processor; to: their near_addresses() or near_aims(). */
+/* Looks whether a message of these senders goes to no processor; to: their near_addresses() or
+ * near_aims(). */
 static inline void near_look_beyond(const struct near_route *r, size_t at, int n,
                                     const uint32_t *to)
 {

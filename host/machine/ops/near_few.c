@@ -1,9 +1,10 @@
 /* near_few.c - see near_few.h.
  *
- * Each part has some of the senders, one after the other, and tables of its own with an element for each processor and one more,
- * where the messages go that nobody gets. So no branch depends on an address. A processor that gets many messages in a row would
- * have each wait for the one before, so the tables are four, in turn. What is in them is combined at the end: the order of whole
- * numbers makes no difference.
+ * Each part has some of the senders, one after the other, and tables of its own with an element
+ * for each processor and one more, where the messages go that nobody gets. So no branch depends
+ * on an address. A processor that gets many messages in a row would have each wait for the one
+ * before, so the tables are four, in turn. What is in them is combined at the end: the order of
+ * whole numbers makes no difference.
  *
  *     senders of part 0        3  3  1  9           3 processors: 9 is nobody
  *     table 0, 1, 2, 3         0 . . . .            3 becomes the place "nobody", as 9 does */
@@ -139,7 +140,8 @@ FUNCTIONS(u128)
         FUNCTION##_u128(__VA_ARGS__);                                                          \
     }
 
-/* Some of the senders. Those of a part lie one after the other, which the processor's own fetching ahead follows. */
+/* Some of the senders. Those of a part lie one after the other, which the processor's own
+ * fetching ahead follows. */
 static void part_few(void *of, int part, int worker)
 {
     const struct few *f = of;

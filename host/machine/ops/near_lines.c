@@ -99,7 +99,8 @@ static void part_scan(void *of, int part, int worker)
         lanes_table()->settle();
 }
 
-/* Lines along rows, one after the other, each in chunks. False: no memory, or one chunk is all. */
+/* Lines along rows, one after the other, each in chunks. False: no memory, or one chunk is
+ * all. */
 static bool chunks_scan(struct crew *crew, struct share *s)
 {
     const struct lines *l = s->l;

@@ -1,7 +1,8 @@
 /* near_loops.c - see near_loops.h.
  *
- * Each loop is there for each combination, with and without a context and segments, so that it tests nothing inside. Integers are
- * combined from a line's one end to the other: their order makes no difference. Floats are combined run by run, as the kernel does. */
+ * Each loop is there for each combination, with and without a context and segments, so that it
+ * tests nothing inside. Integers are combined from a line's one end to the other: their order
+ * makes no difference. Floats are combined run by run, as the kernel does. */
 #include "ops/near_loops.h"
 
 #include <string.h>
@@ -115,8 +116,9 @@ ALWAYS struct flags flags_at(const unsigned char *context, const unsigned char *
     size_t at = s->at, back = s->begin ? whole : 0;                                            \
     (void)context, (void)bits, (void)starts
 
-/* n lines, or LOOPS_RUNS runs of one line, from what acc says on; first: where a segment first begins in each; write: what has been
- * combined, to out (of runs as it is: what finishes them makes NaNs the NaN). */
+/* n lines, or LOOPS_RUNS runs of one line, from what acc says on; first: where a segment first
+ * begins in each; write: what has been combined, to out (of runs as it is: what finishes them
+ * makes NaNs the NaN). */
 #define SCAN_OF(T)                                                                             \
     ALWAYS void scan_##T(const struct stretch *s, enum lines_op op, bool masked,               \
                          bool segmented, bool exclusive, bool write, int n, T *acc,            \
@@ -316,7 +318,8 @@ INTEGERS_LINES(u128, line_u128, 1)
 INTEGERS_LINES(u32, lines_u32, LOOPS_LANES)
 INTEGERS_LINES(u64, lines_u64, LOOPS_LANES)
 
-/* n numbers side by side from that element on, in any order, where the context (NULL: everywhere) holds. */
+/* n numbers side by side from that element on, in any order, where the context (NULL:
+ * everywhere) holds. */
 #define SUM_OF(T)                                                                              \
     static T sum_##T(const struct line_scan *j, const T *in, const unsigned char *context,     \
                      size_t n)                                                                 \
@@ -342,7 +345,8 @@ static u128 sum_u128(const struct line_scan *j, const u128 *in, const unsigned c
     return acc;
 }
 
-/* What a chunk comes to depends on its last segment alone: the stretch from there on, or all of it. */
+/* What a chunk comes to depends on its last segment alone: the stretch from there on, or all of
+ * it. */
 static struct stretch segment_last(const struct stretch *s)
 {
     const struct line_scan *j = s->j;
@@ -528,7 +532,8 @@ FLOATS_LINES(f64, line_f64, 1)
 FLOATS_LINES(f32, lines_f32, 16)
 FLOATS_LINES(f64, lines_f64, 16)
 
-/* Chunks of floats are runs: each by itself, written; then what goes before each; then it is combined with that. */
+/* Chunks of floats are runs: each by itself, written; then what goes before each; then it is
+ * combined with that. */
 #define FLOATS_CHUNKS(T)                                                                       \
     static void chunk_sum_##T(const struct stretch *s, struct chunk *c)                        \
     {                                                                                          \

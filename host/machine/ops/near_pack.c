@@ -1,6 +1,7 @@
 /* near_pack.c - see near_pack.h.
  *
- * Each part has some of the elements. How many are active in each says where each begins to write.
+ * Each part has some of the elements. How many are active in each says where each begins to
+ * write.
  *
  *     context    1 0 1 1 | 0 0 1 0 | 1 1 0 1       3, 1, 3: the parts write from 0, 3, 4 on */
 #include "ops/near_pack.h"

@@ -1,4 +1,5 @@
-/* near_rank.c - see near_rank.h: a radix sort from the lowest digit up, of keys with their places in the line. */
+/* near_rank.c - see near_rank.h: a radix sort from the lowest digit up, of keys with their
+ * places in the line. */
 #include "ops/near_rank.h"
 
 #include <stdlib.h>
@@ -76,14 +77,12 @@ static void part_rank(void *of, int part, int worker)
 
 /* ---- a line that all share ----
  *
- * As in kernels/sort.cl: each part of the line counts its digits; the counts, by digit and then by part, are summed up and say where
- * each part's first key of each digit goes; each part puts its keys there in order, so that equal digits keep theirs. */
+ * As in kernels/sort.cl: each part of the line counts its digits; the counts, by digit and then
+ * by part, are summed up and say where each part's first key of each digit goes; each part puts
+ * its keys there in order, so that equal digits keep theirs. */
 
-enum source {
-    WORD,
-    PAIR,
-    GATHER
-}; /* of keys: the word itself, pairs of the digit before, the word at the places of such pairs */
+/* Of keys: the word itself, pairs of the digit before, the word at the places of such pairs. */
+enum source { WORD, PAIR, GATHER };
 
 struct sharing {
     const uint32_t *word; /* of the line's first processor */
@@ -93,9 +92,8 @@ struct sharing {
     enum source source;
     bool last; /* digit: ranks are written */
     pair *from, *to;
-    uint32_t (*place)
-        [1
-         << DIGIT_MOST]; /* of each part: how many keys have a digit, then where the next one goes */
+    /* of each part: how many keys have a digit, then where the next one goes */
+    uint32_t (*place)[1 << DIGIT_MOST];
 };
 
 static size_t part_begin(const struct sharing *s, int part)
@@ -187,7 +185,8 @@ bool near_rank_shared(const struct device *d, int parts, const struct lines *l,
 {
     const size_t columns = (size_t)l->columns, n = (size_t)l->length;
     const int digit = shape_sort_digit(&d->shape, l->length);
-    /* Each part goes to all places that a digit has: few parts, so that each puts many keys beside each other. */
+    /* Each part goes to all places that a digit has: few parts, so that each puts many keys
+     * beside each other. */
     const int most = 2 * crew_size(d->crew);
     struct sharing s = {.n = n, .step = (size_t)l->step, .parts = parts < most ? parts : most};
     if (!(s.place = malloc((size_t)s.parts * sizeof *s.place)))

@@ -1,8 +1,9 @@
 /* near_router.c - see near_router.h.
  *
- * A block of senders at a time: their addresses become places in the array of the other set, without those who do not send; then
- * the messages go, in the order of the senders. So no loop has a branch that could not be predicted. Of a send each part has some of
- * the destinations, and passes all senders; of a get, some of the blocks.
+ * A block of senders at a time: their addresses become places in the array of the other set,
+ * without those who do not send; then the messages go, in the order of the senders. So no loop
+ * has a branch that could not be predicted. Of a send each part has some of the destinations,
+ * and passes all senders; of a get, some of the blocks.
  *
  *     addresses      5  1  -  7        (-: not active)
  *     hops           place 5, lane 0 | place 1, lane 1 | place 7, lane 3 */
@@ -247,7 +248,8 @@ static void floats_join(const struct hops *h, enum machine_combiner combiner,
             to[index[i] & mask] = in[i];                                                       \
     }
 
-/* All of a block's messages to a set of one row. False: somebody does not send, or to nobody; nothing has been done. */
+/* All of a block's messages to a set of one row. False: somebody does not send, or to nobody;
+ * nothing has been done. */
 static bool messages_move_all(const struct near_route *r, const struct block *b, size_t bytes,
                               const void *source, size_t from, void *out)
 {
@@ -308,7 +310,8 @@ static void part_send(void *of, int part, int worker)
 {
     const struct routing *g = of;
     const struct near_route *r = g->r;
-    /* Each part has some of the destinations, or where no two messages go to the same one, some of the senders. */
+    /* Each part has some of the destinations, or where no two messages go to the same one, some
+     * of the senders. */
     const uint64_t count = r->to->count, parts = r->distinct ? 1 : (uint64_t)r->parts,
                    own = r->distinct ? 0 : (uint64_t)part;
     const struct range to = {count * own / parts, count * (own + 1) / parts},

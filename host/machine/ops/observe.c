@@ -64,7 +64,8 @@ enum machine_status observe_out(struct machine *m, int set, struct machine_value
         repeat_put(out, s->count * element, v->imm, element);
         return MACHINE_OK;
     }
-    /* Bits of floats are in the field's own array: another one would leave the field waiting. */
+    /* Bits of floats are in the field's own array: another one would leave the field
+     * waiting. */
     v = materialise(m, set, graph_same_bits(m, v));
     if (!v)
         return m->status;
@@ -197,8 +198,9 @@ struct machine_value *observe_own(struct machine *m, const struct field *f, uint
     values_before_change(m);
     if (v->op == NODE_BUFFER)
         known_addresses_changed(m, v->buffer);
-    /* The slot's reference, and those of this call. An evaluation within an instruction may have entered a state, so what the instruction made before and what the
-     * field holds are two values with one array. */
+    /* The slot's reference, and those of this call. An evaluation within an instruction may
+     * have entered a state, so what the instruction made before and what the field holds are
+     * two values with one array. */
     if (v->op != NODE_BUFFER || v->own_address || v->buffer->refs > 1 || v->buffer->blocks ||
         v->refs > graph_borrowed(m, v) + 1 || !field_holds(f, offset, v))
         return own_copy(m, f->vpset, v);
@@ -370,8 +372,8 @@ static bool is_everywhere(const struct machine_value *context)
     return !context || value_is_one_bit(context);
 }
 
-/* On the front end: of numbers in memory that are few, or were only made longer since, in processors that a context in memory
- * says. False: it is not so. */
+/* On the front end: of numbers in memory that are few, or were only made longer since, in
+ * processors that a context in memory says. False: it is not so. */
 static bool reduce_near(struct machine *m, const struct vpset *s, struct machine_value *v,
                         const struct machine_value *context, const struct reduction_info *info,
                         struct machine_scalar identity, struct machine_scalar *out)
@@ -461,8 +463,8 @@ static enum machine_status reduce_buffer(struct machine *m, const struct vpset *
     return status;
 }
 
-/* Puts what was made longer into memory as it was before: it takes less room, and a field may hold it. True: it is there, and the front end may be
- * able to reduce it now. */
+/* Puts what was made longer into memory as it was before: it takes less room, and a field may
+ * hold it. True: it is there, and the front end may be able to reduce it now. */
 static bool brought_near(struct machine *m, struct machine_value *value,
                          const struct machine_value *context)
 {
@@ -473,8 +475,8 @@ static bool brought_near(struct machine *m, struct machine_value *value,
     return evaluate_values(m, &in, 1, false) == MACHINE_OK && in->buffer;
 }
 
-/* Computes what a field holds and the context, where the value, or what was made longer, is no more than that. True: the front end may be able to reduce it
- * now. */
+/* Computes what a field holds and the context, where the value, or what was made longer, is no
+ * more than that. True: the front end may be able to reduce it now. */
 static bool held_near(struct machine *m, struct machine_value **value,
                       struct machine_value *context)
 {

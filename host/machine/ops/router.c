@@ -281,7 +281,8 @@ static enum machine_status wrong_far(struct machine *m, const struct message *g,
     return status;
 }
 
-/* Looks whether messages go to no processor. That costs a wait, so it is done for the first sends, and for ever fewer later ones. */
+/* Looks whether messages go to no processor. That costs a wait, so it is done for the first
+ * sends, and for ever fewer later ones. */
 static enum machine_status beyond_look(struct machine *m, const struct message *g)
 {
     enum { SENDS_LOOKED_AT = 8 };

@@ -4,7 +4,8 @@
  * maximum of any type become a minimum of unsigned integers in another order; "and" becomes
  * "or" of complements; elements have 32, 64 or 128 bits. Integers of more than 16 bits are used
  * as they are in memory. Other conversions are ordinary values, which are fused with the
- * operations around them. Long lines are divided into runs: see kernels/scan.cl. For floats machine_scan() specifies the length of a run; else the device does.
+ * operations around them. Long lines are divided into runs: see kernels/scan.cl. For floats
+ * machine_scan() specifies the length of a run; else the device does.
  */
 #include "ops/scan.h"
 
@@ -160,8 +161,9 @@ static double elements_of(const struct lines *l)
     return (double)lines_count(l) * (double)l->length;
 }
 
-/* How many parts to make of lines. Those that are fewer than the threads are cut, and then read twice (near_lines.c): that pays where the threads
- * are at work anyway, and have parts of the line in their caches; else in long loops, or for more threads than two. */
+/* How many parts to make of lines. Those that are fewer than the threads are cut, and then read
+ * twice (near_lines.c): that pays where the threads are at work anyway, and have parts of the
+ * line in their caches; else in long loops, or for more threads than two. */
 static int parts_of(const struct machine *m, const struct lines *l, const struct line_scan *j)
 {
     const struct device_shape *shape = &m->device->shape;

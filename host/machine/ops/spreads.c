@@ -1,11 +1,14 @@
 /* spreads.c - see spreads.h.
  *
- * A spread of an array is a get (NODE_GATHER) whose place follows from the processor's coordinates, but for those along which it is spread: they are
- * numbers. So the row that a program takes is an argument of a plan, and another row is the same plan. Byte code sees that a place goes up by one along
- * a row, or is the same there (interpret/along.c).
+ * A spread of an array is a get (NODE_GATHER) whose place follows from the processor's
+ * coordinates, but for those along which it is spread: they are numbers. So the row that a
+ * program takes is an argument of a plan, and another row is the same plan. Byte code sees that
+ * a place goes up by one along a row, or is the same there (interpret/along.c).
  *
- *     spread (a * b)    where that is little to compute, the spread of a times the spread of b, so nothing is stored before it is spread
- *     spread (x)        a coordinate is a number along these axes, and itself along others; the spread of a spread is a get, too
+ *     spread (a * b)    where that is little to compute, the spread of a times the spread of b,
+ *                       so nothing is stored before it is spread
+ *     spread (x)        a coordinate is a number along these axes, and itself along others; the
+ *                       spread of a spread is a get, too
  *     spread (array)    get (place)
  *
  * Everything else is put into memory first. */
@@ -25,8 +28,8 @@ struct spread_from {
     int at[32];    /* the coordinate there */
 };
 
-/* What is computed anew by each processor that reads it, at most: nodes; and their cost, unless all of a row read the same, which is computed once for
- * many of them. */
+/* What is computed anew by each processor that reads it, at most: nodes; and their cost, unless
+ * all of a row read the same, which is computed once for many of them. */
 enum { SPREAD_NODES = 32, SPREAD_COST = 12, SPREAD_COST_ROW = 200 };
 
 struct pushing {

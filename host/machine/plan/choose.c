@@ -9,17 +9,18 @@
  *
  *     water --shift--> ... flux ==barrier?== shift --> new water        stage 0 | stage 1
  *
- * A cross loads what is in memory, so there is a barrier between it and a value that is computed, always.
+ * A cross loads what is in memory, so there is a barrier between it and a value that is
+ * computed, always.
  *
  * The cost of a choice is estimated as
  *
  *     for each kernel: N * (max(c, b) + min(c, b) / 4) + launch
  *     c = op_ns * operations, b = byte_ns * bytes
  *
- * with operations counted for each (node, offset) pair that the kernel evaluates (op_ns is
- * less where lanes are narrow), and bytes for each array that it reads or writes. The search
- * begins with a barrier at every shift of a computed value, and removes one after the other
- * if that is cheaper. Measured constants: device/costs_by_driver.c. All stages may be one kernel of
+ * with operations counted for each (node, offset) pair that the kernel evaluates (op_ns is less
+ * where lanes are narrow), and bytes for each array that it reads or writes. The search begins
+ * with a barrier at every shift of a computed value, and removes one after the other if that is
+ * cheaper. Measured constants: device/costs_by_driver.c. All stages may be one kernel of
  * strips, or of tiles, whose time is that of tiles.c.
  */
 #include <math.h>
@@ -48,8 +49,8 @@ static bool is_stopped(const struct search *s)
     return s->g->stop && atomic_load_explicit(s->g->stop, memory_order_relaxed);
 }
 
-/* Twice, tries each remaining barrier, and removes them in the order of the expected gain. If the first time removes none, the
- * second would try the same again. */
+/* Twice, tries each remaining barrier, and removes them in the order of the expected gain. If
+ * the first time removes none, the second would try the same again. */
 static double descend(struct search *s, double best)
 {
     struct gain *gains = malloc(((size_t)s->shifts_count + 1) * sizeof *gains);

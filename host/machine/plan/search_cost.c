@@ -44,7 +44,8 @@ static bool visited(struct search *s, int node, int offset)
     return false;
 }
 
-/* Arrays come from global memory once; of later stages, from a cache near. Those of earlier stages are in local memory. */
+/* Arrays come from global memory once; of later stages, from a cache near. Those of earlier
+ * stages are in local memory. */
 static void tile_loads(struct search *s, int index, int offset, int stage)
 {
     const struct plan_node *n = &s->g->nodes[index];
@@ -113,7 +114,8 @@ static int stage_before(const struct search *s, int node, int stage)
     return stage - (s->barrier[node] ? 1 : 0);
 }
 
-/* Values that a later kernel needs of this node's operands are stored, unless another stored value can replace them. */
+/* Values that a later kernel needs of this node's operands are stored, unless another stored
+ * value can replace them. */
 static void operands_store(struct search *s, int node)
 {
     struct plan_graph *g = s->g;
@@ -207,8 +209,8 @@ static double kernel_time(struct search *s, const struct vpset *on, int stage, u
     return ns;
 }
 
-/* What a stage of tiles stores: in global memory, and in local memory if a later one is going to look at it, which is known
- * when all are done. */
+/* What a stage of tiles stores: in global memory, and in local memory if a later one is going
+ * to look at it, which is known when all are done. */
 static void tile_stores(struct search *s, int node, double bytes)
 {
     const struct plan_node *n = &s->g->nodes[node];
@@ -240,8 +242,8 @@ static double tiles_time(struct search *s, const struct vpset *set)
 
 /* ---- kernels ---- */
 
-/* One kernel, or in strips and tiles a part of one: what is stored in that stage and VP set, the first of it at `at` of the stage's
- * list. False: too much for a kernel. */
+/* One kernel, or in strips and tiles a part of one: what is stored in that stage and VP set,
+ * the first of it at `at` of the stage's list. False: too much for a kernel. */
 static bool stage_of_set(struct search *s, int stage, int at)
 {
     const struct plan_graph *g = s->g;

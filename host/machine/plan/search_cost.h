@@ -50,9 +50,10 @@ struct search {
     bool strips; /* all stages in one kernel */
     bool tiles;  /* ... of tiles */
     struct tiling tiling;
-    int *array;     /* of a node that is stored: in the tiling */
-    int cost_began; /* loads_stamp then: what has a later one was loaded by some stage already */
-    bool first;     /* the first plan is taken, whatever it costs */
+    int *array; /* of a node that is stored: in the tiling */
+    /* loads_stamp then: what has a later one was loaded by some stage already */
+    int cost_began;
+    bool first;                           /* the first plan is taken, whatever it costs */
     double operations, bytes, near_bytes; /* near: of rings */
     int lane;                             /* the widest that the kernel needs; bits */
     bool too_much;

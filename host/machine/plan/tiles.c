@@ -1,4 +1,5 @@
-/* tiles.c - how large tiles are, where in local memory each array is, and how many turns of a loop pay. See tiles.h.
+/* tiles.c - how large tiles are, where in local memory each array is, and how many turns of a
+ * loop pay. See tiles.h.
  *
  * The time of a kernel of tiles is estimated as that of any other (choose.c),
  *
@@ -6,12 +7,13 @@
  *
  *     c    = of each stage, ns * (rounds * group) / (width * height)
  *            rounds = (width + left + right) * (height + above + below) / group, rounded up
- *     b    = of each stage, far_ns * (width + left + right) * (height + above + below) / (width * height); and stored_ns
+ *     b    = of each stage, far_ns * (width + left + right) * (height + above + below) /
+ *          (width * height); and stored_ns
  *     fill = what a device of so many units does in the time that the tiles take, of which the sheet is a part: tiles that
  *            are partly beyond the sheet, and units that are idle while others make the last tiles
  *
- * and a quarter more where there is no room in local memory for a second group, which works while the first waits at a
- * barrier. */
+ * and a quarter more where there is no room in local memory for a second group, which works
+ * while the first waits at a barrier. */
 #include "plan/tiles.h"
 
 #include <math.h>
@@ -90,7 +92,8 @@ static const double ALONE = 1.25;
 
 /* ---- local memory ---- */
 
-/* 0: no stage looks at it, and it is in no local memory. What is looked at far away makes it large. */
+/* 0: no stage looks at it, and it is in no local memory. What is looked at far away makes it
+ * large. */
 static int64_t array_bytes(const struct tiling *t, const struct tile_array *a, int width,
                            int height)
 {
@@ -121,8 +124,8 @@ static bool live_together(const struct tile_array *a, const struct tile_array *b
     return a->stage <= b->last && b->stage <= a->last;
 }
 
-/* Each where first there is room, in the order of stages. Returns how many bytes that takes, not much more than are alive at
- * the same time. */
+/* Each where first there is room, in the order of stages. Returns how many bytes that takes,
+ * not much more than are alive at the same time. */
 static int64_t place(struct tiling *t, int width, int height)
 {
     int64_t most = 0;
@@ -212,8 +215,8 @@ bool tiles_choose(struct tiling *t, const struct vpset *set, const struct device
 
 /* ---- turns of a loop ---- */
 
-/* So many turns, one after the other: later ones find in local memory what earlier ones leave in arrays, and that much
- * more is looked at around the tile. */
+/* So many turns, one after the other: later ones find in local memory what earlier ones leave
+ * in arrays, and that much more is looked at around the tile. */
 static void turns_of(const struct tiling *one, const struct device_shape *shape, int turns,
                      struct tiling *all)
 {

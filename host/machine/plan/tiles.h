@@ -48,7 +48,8 @@ struct tile_array {
     int at;          /* decided: where in local memory */
 };
 
-/* A stage looks at what another has stored, or at arrays in global memory (from -1): so far from where it is. */
+/* A stage looks at what another has stored, or at arrays in global memory (from -1): so far
+ * from where it is. */
 struct tile_look {
     int to, from;
     int left, right, above, below;
@@ -81,8 +82,9 @@ void tiling_extents(struct tiling *t);
  * fits. */
 bool tiles_choose(struct tiling *t, const struct vpset *set, const struct device_shape *shape,
                   bool placed);
-/* How many turns of a loop, of which one is that, are best evaluated at once: those that take least time each, and less
- * than other_ns, which one takes in another way; at most twice as many as usual. 1: that is best one by one. */
+/* How many turns of a loop, of which one is that, are best evaluated at once: those that take
+ * least time each, and less than other_ns, which one takes in another way; at most twice as
+ * many as usual. 1: that is best one by one. */
 int tiles_turns(const struct tiling *t, const struct vpset *set,
                 const struct device_shape *shape, double other_ns);
 void tiling_finish(struct tiling *t);

@@ -1,7 +1,8 @@
 /* at_once_when.c - see at_once_when.h.
  *
- * Calls that repeat are worth recording: whole turns of a loop become one kernel, and their calls need only be compared. So
- * operations are computed at once until a loop is found (history.c), and again some time after the last foreseen call. */
+ * Calls that repeat are worth recording: whole turns of a loop become one kernel, and their
+ * calls need only be compared. So operations are computed at once until a loop is found
+ * (history.c), and again some time after the last foreseen call. */
 #include "run/at_once_when.h"
 
 #include "interpret/at_once.h"

@@ -8,7 +8,8 @@
 enum at_once_may at_once_may(const struct machine *m);
 void at_once_choose(struct machine *m);
 
-/* Called before a call is performed that nobody foresaw: decides for this call, and what follows until the next one. */
+/* Called before a call is performed that nobody foresaw: decides for this call, and what
+ * follows until the next one. */
 static inline void at_once_decide(struct machine *m)
 {
     struct replay *p = m->run->replay;

@@ -61,9 +61,9 @@ static enum machine_status evaluate_now(struct machine *m, struct machine_value 
         graph_borrow(m, wanted[i]); /* a value that contains it may release it */
         held = held && (node_is_leaf(wanted[i]) || is_held(m, wanted[i]));
     }
+    /* while there is room for some arrays: what is computed only later holds others */
     if (!m->settings.eager && room_is_short(m))
-        room_make(
-            m); /* while there is room for some arrays: what is computed only later holds others */
+        room_make(m);
     /* Values that only the observer holds, such as a count, are evaluated apart. Then the
      * calls before lead from state to state, and are foreseen. */
     if (!held && record_follows(m)) {
@@ -76,7 +76,8 @@ static enum machine_status evaluate_now(struct machine *m, struct machine_value 
     return evaluate_rolled(m, &wish, why);
 }
 
-/* Where operations are computed at once, so is what stayed a node when somebody looks at it. What else waits need not be evaluated with it. */
+/* Where operations are computed at once, so is what stayed a node when somebody looks at it.
+ * What else waits need not be evaluated with it. */
 static bool are_computed(struct machine *m, struct machine_value **wanted, int count)
 {
     bool all = true;

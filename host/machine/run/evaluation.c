@@ -1,14 +1,15 @@
-/* evaluation.c - an evaluation, in two halves. The first finds the targets, the nodes that they reach, and a plan. The
- * second runs the plan's kernels. record.c records the evaluation between the halves and after them.
+/* evaluation.c - an evaluation, in two halves. The first finds the targets, the nodes that they
+ * reach, and a plan. The second runs the plan's kernels. record.c records the evaluation
+ * between the halves and after them.
  *
  * An evaluation has targets: the values asked for, and the content of every live field and flag
  * that is not
  *  - in memory already, a number, or a cheap function of coordinates;
  *  - an address that is a processor's own but for some bits, and all new
  *  - a temporary: a slot that was overwritten before it was read since the last
- * evaluation, whose present value is shallow and all new. It stays an expression; most temporaries are
- * overwritten again and never computed. If a temporary, or a value made of it, is still there at the
- * next evaluation it is computed then.
+ * evaluation, whose present value is shallow and all new. It stays an expression; most
+ * temporaries are overwritten again and never computed. If a temporary, or a value made of it,
+ * is still there at the next evaluation it is computed then.
  *
  * Plans are kept by signature: a number for each node reached, in the order in which the
  * nodes are reached. The values of constants are not part of it. A step seen before costs a
@@ -41,7 +42,8 @@ struct evaluation {
 
 /* ---- the nodes that are reached ---- */
 
-/* Depth first; HEIGHT_MOST limits the recursion. No value is part of itself, and none that was let go of is reached. */
+/* Depth first; HEIGHT_MOST limits the recursion. No value is part of itself, and none that was
+ * let go of is reached. */
 static bool reach_from(struct machine *m, struct reach *r, struct machine_value *v)
 {
     INVARIANT(v->refs);
@@ -182,8 +184,9 @@ static void tell_computed(struct machine *m, const struct evaluation *e)
     watch_computed(m, computed, stored);
 }
 
-/* Byte code stores a cheap function of coordinates where it needs its neighbours. Only the value's definition tells later
- * kernels which rows a test of coordinates concerns. So such an array is given back, unless somebody asked for the value. */
+/* Byte code stores a cheap function of coordinates where it needs its neighbours. Only the
+ * value's definition tells later kernels which rows a test of coordinates concerns. So such an
+ * array is given back, unless somebody asked for the value. */
 static bool is_kept(const struct evaluation *e, const struct machine_value *v)
 {
     if (!node_is_cheap(v))
@@ -236,8 +239,10 @@ static void release(struct machine *m, struct evaluation *e)
 
 /* ---- both halves, recorded between them and after them ---- */
 
-/* Computes recorded overflows, too: all of them; or those that will probably be needed, because the context changes before they are overwritten. Later their
- * operands would have to be kept, and computed again. A turn whose first overflow is everybody's needs none of the turn before. */
+/* Computes recorded overflows, too: all of them; or those that will probably be needed, because
+ * the context changes before they are overwritten. Later their operands would have to be kept,
+ * and computed again. A turn whose first overflow is everybody's needs none of the turn
+ * before. */
 static void resolve_overflows(struct machine *m, bool all)
 {
     struct replay *p = m->run->replay;
@@ -274,7 +279,8 @@ static enum watch_why watch_why_of(const struct machine *m, const struct wish *w
                                : WATCH_ASKED_TO;
 }
 
-/* A turn of a loop whose plan waits for memory: several turns at once go through the caches together. */
+/* A turn of a loop whose plan waits for memory: several turns at once go through the caches
+ * together. */
 static void wait_longer(struct machine *m, const struct evaluation *e)
 {
     const uint64_t most = PENDING_TRAFFIC * m->settings.flush_after;
@@ -321,7 +327,8 @@ static enum machine_status evaluate_piece(struct machine *m, struct machine_valu
     return status;
 }
 
-/* Memory is short: what was stored into a field or flag first is computed first, by itself. Nothing is left to compute. */
+/* Memory is short: what was stored into a field or flag first is computed first, by itself.
+ * Nothing is left to compute. */
 static enum machine_status evaluate_in_pieces(struct machine *m, const struct wish *wish)
 {
     enum machine_status status = MACHINE_OK;

@@ -14,7 +14,8 @@
 #include "values/graph.h"
 #include "watch/watch.h"
 
-/* Whether a NaN of any kind is among so many: loops without branches, which compilers make vectors of. */
+/* Whether a NaN of any kind is among so many: loops without branches, which compilers make
+ * vectors of. */
 static bool nan_among(size_t bytes, const unsigned char *in, size_t count)
 {
     unsigned found = 0;

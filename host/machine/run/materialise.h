@@ -14,8 +14,9 @@ struct machine_value *materialise_upload(struct machine *m, int set, struct mach
                                          const void *in);
 void materialise_put(unsigned char *to, struct machine_scalar x, size_t element);
 
-/* What a field of the current set holds that is v where the context holds, and that the next evaluation computes anyway: then v need not be computed by itself. v: there
- * is none, or it is in memory. Of those who look at it only where the context holds. */
+/* What a field of the current set holds that is v where the context holds, and that the next
+ * evaluation computes anyway: then v need not be computed by itself. v: there is none, or it is
+ * in memory. Of those who look at it only where the context holds. */
 struct machine_value *materialise_instead(struct machine *m, struct machine_value *v,
                                           const struct machine_value *context);
 

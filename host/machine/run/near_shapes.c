@@ -61,7 +61,8 @@ static inline uint32_t index_of(const struct homes *h, uint32_t base, uint32_t r
     return n < h->set->count ? n : NOBODY;
 }
 
-/* How an array of the set lies in memory. Loops have copies of their own: what they store cannot change these. */
+/* How an array of the set lies in memory. Loops have copies of their own: what they store
+ * cannot change these. */
 struct grid {
     uint32_t width, halo;
     size_t pitch;

@@ -54,7 +54,8 @@ bool notes_take(struct machine *m, const struct machine_call *call)
     return true;
 }
 
-/* A program that looked after each turn of a loop, and has not for so many, is expected to look no more. */
+/* A program that looked after each turn of a loop, and has not for so many, is expected to look
+ * no more. */
 enum { TURNS_UNSEEN = 8 };
 
 static bool looks_no_more(const struct machine *m, const struct machine_call *call)

@@ -7,8 +7,9 @@
 #include "run/replay.h"
 #include "values/graph.h"
 
-/* A program that does not repeat, of short plans, pays more for states that nobody finds again than for its work. After so many
- * evaluations in vain states are looked for after some of them only. */
+/* A program that does not repeat, of short plans, pays more for states that nobody finds again
+ * than for its work. After so many evaluations in vain states are looked for after some of them
+ * only. */
 enum { IN_VAIN_MOST = 256, IN_VAIN_RESTS = 192, IN_VAIN_TRIES = 64 };
 
 static bool rests(struct machine *m)

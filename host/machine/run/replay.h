@@ -5,14 +5,15 @@
  * calls are only compared with the expected ones the next time. At the last of them, the plan
  * that was made for the step runs again, on other buffers.
  *
- *     state   what all fields and flags hold, as a graph whose leaves are numbered buffers: which
- *             buffers they are is no part of it. Found again by its signature.
+ *     state   what all fields and flags hold, as a graph whose leaves are numbered buffers:
+ *             which buffers they are is no part of it. Found again by its signature.
  *     edge    the calls that lead from a state to a state (often the same one), and what their
- *             evaluation ran: for each argument of its kernels, which buffer of the first state or which
- *             number, and for each buffer of the second, where it comes from.
+ *             evaluation ran: for each argument of its kernels, which buffer of the first state
+ *             or which number, and for each buffer of the second, where it comes from.
  *
  *          calls 1..n      evaluation
- *     S ---------------- > ---------- > T        S, T: found by signature when the evaluation is over
+ *     S ---------------- > ---------- > T        S, T: found by signature when the evaluation
+ *                                                is over
  *
  * A state keeps a graph of its own. While the machine is in it, that graph is what fields and
  * flags hold: running an edge then only moves buffers from leaf to leaf (S = T), or puts T's
@@ -165,7 +166,8 @@ struct replay {
     bool forgets; /* all states are forgotten after it, because the loop was evaluated
                    * otherwise in them */
 
-    /* Evaluations after which a state was looked for, and no call was foreseen since: see record.c. */
+    /* Evaluations after which a state was looked for, and no call was foreseen since: see
+     * record.c. */
     int in_vain;
     uint64_t foreseen; /* calls foreseen by then */
     enum at_once_may at_once;

@@ -1,17 +1,22 @@
 /* room.c - memory: what waits is bounded by bytes, and gives way where memory is short.
  *
- * A value that waits holds the arrays that it will be computed from, and an evaluation of many values stores some of them for their neighbours. So
+ * A value that waits holds the arrays that it will be computed from, and an evaluation of many
+ * values stores some of them for their neighbours. So
  *
- *   wanted        the arrays in use are twice as many bytes as after the last evaluation; or they are with those that may have to be stored, and that
- *                 is more than an eighth of the memory: an evaluation is due, in a loop at the end of a turn.
- *   exceeded      with what fields hold, and what will be stored besides, that would be more than the memory: an evaluation is due at once, in the
- *                 middle of a turn, too.
+ *   wanted        the arrays in use are twice as many bytes as after the last evaluation; or
+ *                 they are with those that may have to be stored, and that is more than an
+ *                 eighth of the memory: an evaluation is due, in a loop at the end of a turn.
+ *   exceeded      with what fields hold, and what will be stored besides, that would be more
+ *                 than the memory: an evaluation is due at once, in the middle of a turn, too.
  *   short         few more arrays would fit: all that waits is computed at once, in pieces.
- *   in pieces     what was stored into a field or flag first is computed first, by itself. Then memory is used as by an evaluation after each
- *                 instruction (LUTETIA_EAGER=1): an array is free as soon as no later value and no field needs it. A plan whose arrays do not fit
- *                 is not run, but computed in pieces, too; a foreseen one is performed call by call.
+ *   in pieces     what was stored into a field or flag first is computed first, by itself. Then
+ *                 memory is used as by an evaluation after each instruction (LUTETIA_EAGER=1):
+ *                 an array is free as soon as no later value and no field needs it. A plan
+ *                 whose arrays do not fit is not run, but computed in pieces, too; a foreseen
+ *                 one is performed call by call.
  *
- * Where an array finds no memory all the same (in the middle of a scan, say), all that waits is computed, and it is tried once more. */
+ * Where an array finds no memory all the same (in the middle of a scan, say), all that waits is
+ * computed, and it is tried once more. */
 #include "run/room.h"
 
 #include <stdio.h>
@@ -38,7 +43,8 @@ bool room_make(struct machine *m)
 
 bool room_would_lack(const struct machine *m)
 {
-    /* an array for what a neighbour looks at, and as a rule another one for what is computed from it and later */
+    /* an array for what a neighbour looks at, and as a rule another one for what is computed
+     * from it and later */
     uint64_t bytes = m->device->held_bytes + 2 * (m->values->pending_kb << 10);
     for (int i = 0; i < m->memory->fields_count; i++) {
         const struct field *f = m->memory->fields[i];

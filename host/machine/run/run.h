@@ -5,7 +5,8 @@
 #include "values/values.h"
 
 struct replay;
-/* The heights of expressions: up to the first a temporary is not computed; at the second an evaluation is due. */
+/* The heights of expressions: up to the first a temporary is not computed; at the second an
+ * evaluation is due. */
 enum { HEIGHT_DEFERRED = 96, HEIGHT_MOST = 1500 };
 enum { TRACE_LENGTH = 128 };
 
@@ -66,8 +67,9 @@ struct run {
     enum run_mode mode;
     struct plan *rehearsed; /* by the last rehearsal; NULL: nothing to compute */
     uint64_t room_held;     /* arrays that are held are to take no more */
-    uint64_t
-        room_bytes; /* arrays that are held, and those that may have to be stored, are to take no more: see room.c */
+    /* arrays that are held, and those that may have to be stored, are to take no more: see
+     * room.c */
+    uint64_t room_bytes;
     bool evaluating;      /* an evaluation is under way, or foreseen calls are */
     bool in_pieces;       /* ... of all, what was stored first before the rest, by itself */
     uint64_t flush_place; /* trace_hash where it became due */

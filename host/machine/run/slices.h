@@ -22,7 +22,8 @@ static inline struct kernel_call slices_call(struct machine *m, struct machine_t
     return call_begin(m, kernel_reshape_cl, options, name);
 }
 
-/* Slices first .. first + count - 1 of the k of a value of that type, those whose bit in `wanted` is set: at least one. */
+/* Slices first .. first + count - 1 of the k of a value of that type, those whose bit in
+ * `wanted` is set: at least one. */
 struct slices_taken {
     uint32_t k, first, count, wanted;
     struct machine_type type;

@@ -25,9 +25,10 @@ static int evaluations(int turns, int at_once)
     return turns / at_once + turns % at_once;
 }
 
-/* How many turns of such a plan are evaluated at once. Unless the number is forced, it is up
- * to a quarter more or fewer than usual, if that takes fewer evaluations for a program that
- * always looks after the same number of turns; up to a half where the usual number fits between two looks only once. */
+/* How many turns of such a plan are evaluated at once. Unless the number is forced, it is up to
+ * a quarter more or fewer than usual, if that takes fewer evaluations for a program that always
+ * looks after the same number of turns; up to a half where the usual number fits between two
+ * looks only once. */
 static int turns_at_once(const struct machine *m, const struct edge *e)
 {
     int most = plan_turns(m, e->deed.plan), usual = m->device->shape.turns,

@@ -119,7 +119,8 @@ static int owner_of(const struct cut *c, int count, uint64_t plane, uint64_t *at
     return i;
 }
 
-/* Planes of a block's array, from that one on, which are other blocks' (or its own, once more round the torus). */
+/* Planes of a block's array, from that one on, which are other blocks' (or its own, once more
+ * round the torus). */
 static enum machine_status ghosts_fetch(struct machine *m, const struct array_blocks *a,
                                         const struct cut *c, int block, uint64_t from,
                                         uint64_t count)

@@ -5,8 +5,9 @@
 #include "base/errors.h"
 #include "sequencers/sequencers.h"
 
-/* Smaller sets are not worth a message. LINE_GHOSTS: of a set with one axis, whose planes are single processors. RUN: blocks of such a
- * set begin where a run of a reduction does, where it is long enough. */
+/* Smaller sets are not worth a message. LINE_GHOSTS: of a set with one axis, whose planes are
+ * single processors. RUN: blocks of such a set begin where a run of a reduction does, where it
+ * is long enough. */
 enum {
     COUNT_LEAST = 65536,
     SHEET_GHOSTS = 16,
@@ -44,7 +45,8 @@ static void blocks_place(struct cut *c, int count, bool line)
     c->height += 2 * (uint64_t)c->ghosts;
 }
 
-/* An index of all that a block's array and the set have together fits 32 bits: see build/divided.c. */
+/* An index of all that a block's array and the set have together fits 32 bits: see
+ * build/divided.c. */
 static bool can_cut(const struct machine *m, const struct vpset *s, const struct cut *c)
 {
     const bool forced = m->settings.blocks_from != SETTING_FREE;

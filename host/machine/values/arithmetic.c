@@ -64,7 +64,8 @@ static struct machine_value *equal_bits(struct machine *m, struct machine_value 
     return exclusive_or(m, a, rules_not(m, b));
 }
 
-/* Two single bits: each operation is an and, an or, or an exclusive or. As a signed number the bit 1 is -1. */
+/* Two single bits: each operation is an and, an or, or an exclusive or. As a signed number the
+ * bit 1 is -1. */
 static struct machine_value *of_bits(struct machine *m, enum machine_op op,
                                      struct machine_value *a, struct machine_value *b)
 {

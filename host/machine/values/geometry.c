@@ -1,6 +1,7 @@
 /* geometry.c - see geometry.h.
  *
- * Rows run along the last axis, with columns of padding on both sides where vectors are used. */
+ * Rows run along the last axis, with columns of padding on both sides where vectors are
+ * used. */
 #include <string.h>
 
 #include "base/errors.h"

@@ -1,4 +1,5 @@
-/* geometry.h - VP sets: their geometries, where their processors are in memory, their addresses. */
+/* geometry.h - VP sets: their geometries, where their processors are in memory, their
+ * addresses. */
 #ifndef LUTETIA_MACHINE_GEOMETRY_H
 #define LUTETIA_MACHINE_GEOMETRY_H
 
@@ -25,7 +26,8 @@ void geometry_layout(const struct machine *m, struct machine_layout *l, const in
                      int rank, enum machine_order order);
 /* The position of a processor in a buffer, in elements. */
 size_t geometry_place(const struct vpset *s, uint64_t index);
-/* Of a buffer for one value of that type: its rows, and 16 elements more where they have a halo. */
+/* Of a buffer for one value of that type: its rows, and 16 elements more where they have a
+ * halo. */
 size_t geometry_bytes(const struct vpset *s, struct machine_type type);
 struct rows geometry_rows(const struct vpset *s, struct machine_type type);
 

@@ -34,9 +34,10 @@ void graph_finish(struct machine *m)
     free(m->values->release_stack);
 }
 
-/* A node that was let go of has no references and no array, and is reused after the instruction, not within it: what
- * still points to it then finds a node without references, which is checked wherever a reference is taken, and not another
- * value. Under ASan each node is allocated separately, so that every use after release is found. */
+/* A node that was let go of has no references and no array, and is reused after the
+ * instruction, not within it: what still points to it then finds a node without references,
+ * which is checked wherever a reference is taken, and not another value. Under ASan each node
+ * is allocated separately, so that every use after release is found. */
 #if defined(LUTETIA_FUZZ) || defined(__SANITIZE_ADDRESS__)
 
 static struct machine_value *node_new(struct machine *m)
@@ -90,7 +91,8 @@ static void node_free(struct machine *m, struct machine_value *v)
     m->values->live--;
 }
 
-/* Puts the nodes that the instruction has let go of before the free ones, as they are in the list. */
+/* Puts the nodes that the instruction has let go of before the free ones, as they are in the
+ * list. */
 static void nodes_reuse(struct machine *m)
 {
     if (!m->values->let_go)
@@ -229,7 +231,8 @@ uint8_t graph_generator(const struct machine_value *v)
     return generator > GENERATOR_NONE ? GENERATOR_NONE : (uint8_t)generator;
 }
 
-/* An own address is still known when some of its bits are turned, and when it is longer or shorter but whole. */
+/* An own address is still known when some of its bits are turned, and when it is longer or
+ * shorter but whole. */
 static void derive_address(const struct machine *m, struct machine_value *v)
 {
     const bool turns = v->op == MACHINE_XOR,

@@ -14,9 +14,11 @@ struct machine_value *graph_buffer_node(struct machine *m, struct machine_type t
                                         struct device_buffer *buffer);
 /* The same if there is one, else NULL. */
 struct machine_value *graph_find(struct machine *m, const struct machine_value *key);
-/* What v is made of by leaving out or adding high bits, as far as at least so many low ones stay. */
+/* What v is made of by leaving out or adding high bits, as far as at least so many low ones
+ * stay. */
 struct machine_value *graph_low_bits(struct machine_value *v, int bits);
-/* What follows from its operation and operands: which NaNs it may hold, and its cost where nothing is read from memory. */
+/* What follows from its operation and operands: which NaNs it may hold, and its cost where
+ * nothing is read from memory. */
 void graph_derive_nan(const struct machine *m, struct machine_value *v);
 uint8_t graph_generator(const struct machine_value *v);
 /* Redefines a pending node by another way of computing the same values. Two nodes with the
@@ -41,9 +43,9 @@ static inline void graph_unref(struct machine *m, struct machine_value *v)
 }
 /* Makes room for one more borrowed value. */
 void graph_borrowed_grow(struct machine *m);
-/* A reference that lasts until the next instruction. Every value that an instruction uses after an evaluation needs
- * one: the evaluation lets go of the operands of what it computes, and a state that is entered puts nodes of its own in
- * the place of what fields and flags held. */
+/* A reference that lasts until the next instruction. Every value that an instruction uses after
+ * an evaluation needs one: the evaluation lets go of the operands of what it computes, and a
+ * state that is entered puts nodes of its own in the place of what fields and flags held. */
 static inline struct machine_value *graph_borrow(struct machine *m, struct machine_value *v)
 {
     struct values *all = m->values;
@@ -54,7 +56,8 @@ static inline struct machine_value *graph_borrow(struct machine *m, struct machi
     v->refs++;
     return v;
 }
-/* The value of which v is the same bits as another type, borrowed: where only bits count, its array serves as well. */
+/* The value of which v is the same bits as another type, borrowed: where only bits count, its
+ * array serves as well. */
 struct machine_value *graph_same_bits(struct machine *m, struct machine_value *v);
 void graph_give_back(struct machine *m); /* releases everything that was borrowed */
 /* How many of a value's references are the instruction's. */

@@ -1,5 +1,5 @@
-/* integer_fold.c - values of integers' quotients, powers, shifts and counts: kernels/integers.cl
- * computes them; results of constants are computed here.
+/* integer_fold.c - values of integers' quotients, powers, shifts and counts:
+ * kernels/integers.cl computes them; results of constants are computed here.
  *
  * A single bit is represented differently from wider numbers (spell.c). An operation on one
  * operand of one bit is computed here, for 0 and for 1. For operations on two, the bits are

@@ -7,7 +7,8 @@
 struct machine_value *integer_value(struct machine *m, enum machine_op op,
                                     struct machine_value *a, struct machine_value *b);
 
-/* Of numbers of that width, unused high bits 0: what those operations give. Bits above the result's width may be anything. */
+/* Of numbers of that width, unused high bits 0: what those operations give. Bits above the
+ * result's width may be anything. */
 unsigned __int128 integer_fold(enum machine_op op, int width, unsigned __int128 a,
                                unsigned __int128 b);
 

@@ -106,7 +106,8 @@ bool math_evaluate(int op, double a, double b, double *out)
     return false; /* it is of another family */
 }
 
-/* Almost always the C library's result says which single it is. Its error is below a 2^53rd, and 2^50ths are allowed for. */
+/* Almost always the C library's result says which single it is. Its error is below a 2^53rd,
+ * and 2^50ths are allowed for. */
 static bool exp_single(double a, double *out)
 {
     double r = fabs(a) < 80 ? exp(a) : 0, less = r - r * 0x1p-50, more = r + r * 0x1p-50;

@@ -12,7 +12,8 @@
  *     x, read only where c holds              = x with each select(c, a, b) in it replaced by a
  *     select(c, new, select(d, y, select(c, x, old)))
  *                                             = select(c, new, select(d, y, old))
- * So values overwritten under the same context disappear, and a test that was stored under c and is and-ed into c loses its select.
+ * So values overwritten under the same context disappear, and a test that was stored under c
+ * and is and-ed into c loses its select.
  */
 #include "values/rules.h"
 
@@ -110,12 +111,14 @@ static int factor_class(const struct machine_value *v)
     return v->imm.lo >= one ? 1 : -1;
 }
 
-/* Where t is above 0 it is multiplied by g, where below it is divided by g: for g of 1 or more that is the larger of
- * both, for less the smaller, since rounding keeps the order; and both can be computed at the same time.
+/* Where t is above 0 it is multiplied by g, where below it is divided by g: for g of 1 or more
+ * that is the larger of both, for less the smaller, since rounding keeps the order; and both
+ * can be computed at the same time.
  *
  *     select(u < 0, u / g, u) with u = select(t > 0, t * g, t)
  *
- * Zeros of either sign come out as they are, and NaNs of an operation are stored as one and the same. */
+ * Zeros of either sign come out as they are, and NaNs of an operation are stored as one and the
+ * same. */
 static struct machine_value *scaled_by_sign(struct machine *m, struct machine_value *c,
                                             struct machine_value *a, struct machine_value *u)
 {
@@ -140,14 +143,16 @@ static struct machine_value *scaled_by_sign(struct machine *m, struct machine_va
 /* Contexts that take turns, at most: colours of a grid, say. */
 enum { COLOURS = 4 };
 
-/* Whether others than this instruction hold the value: two and more, for one is the field or the choice that is about to let go of it. */
+/* Whether others than this instruction hold the value: two and more, for one is the field or
+ * the choice that is about to let go of it. */
 static bool is_looked_at(const struct machine *m, const struct machine_value *v)
 {
     return v->refs > graph_borrowed(m, v) + 1;
 }
 
-/* b, read only where c does not hold, without the last choice in it that takes another value only where c holds. A choice that somebody else looks at stays as it is:
- * it will be in memory. */
+/* b, read only where c does not hold, without the last choice in it that takes another value
+ * only where c holds. A choice that somebody else looks at stays as it is: it will be in
+ * memory. */
 static struct machine_value *rest_of(struct machine *m, const struct machine_value *c,
                                      struct machine_value *b)
 {

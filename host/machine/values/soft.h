@@ -1,4 +1,5 @@
-/* soft.h - floats of other formats than single and double, on their way between values and fields. */
+/* soft.h - floats of other formats than single and double, on their way between values and
+ * fields. */
 #ifndef LUTETIA_MACHINE_SOFT_H
 #define LUTETIA_MACHINE_SOFT_H
 

@@ -22,8 +22,9 @@ struct machine_value {
     uint16_t height;   /* longest path to something materialised */
     bool interned;
     bool kept : 1; /* kept by a state: see run/replay.h. Not counted as pending */
-    bool
-        own_address : 1; /* it is each processor's own send address but for `turned`; no field writes over its array */
+    /* it is each processor's own send address but for `turned`; no field writes over its
+     * array */
+    bool own_address : 1;
     bool told : 1;   /* observers have been told its fate */
     bool stored : 1; /* it has been put into a field or flag */
     uint32_t turned; /* the bits of an address in which an own_address differs from it */
@@ -55,7 +56,8 @@ struct values {
     struct machine_value **table;
     uint32_t table_size, table_count;
     struct machine_value *free; /* nodes that are in use no more */
-    /* Nodes that the instruction has let go of, the last one first; they are reused after it. */
+    /* Nodes that the instruction has let go of, the last one first; they are reused after
+     * it. */
     struct machine_value *let_go, *let_go_first;
     void **blocks; /* of nodes */
     int blocks_count, blocks_capacity;
@@ -76,8 +78,8 @@ struct values {
      * states are left. NULL: there are no states. */
     void (*before_change)(struct machine *m);
 
-    /* Computes an operation of a small set at once, into memory, instead of making it a node: interpret/at_once.c. NULL from it: it must be a
-     * node. NULL: all are nodes. */
+    /* Computes an operation of a small set at once, into memory, instead of making it a node:
+     * interpret/at_once.c. NULL from it: it must be a node. NULL: all are nodes. */
     struct machine_value *(*at_once)(struct machine *m, struct machine_value *key);
 
     struct vpset *sets; /* 1 .. sets_count - 1; sets[0] is none */

@@ -1,7 +1,8 @@
 /* trace.c - writes the file of trace.h.
  *
- * Events are collected in a buffer and written in pieces; each piece takes the place of the closing bracket that was behind the one
- * before, and has another behind it. So the file can be loaded whenever the program ends.
+ * Events are collected in a buffer and written in pieces; each piece takes the place of the
+ * closing bracket that was behind the one before, and has another behind it. So the file can be
+ * loaded whenever the program ends.
  */
 #include "watch/trace.h"
 #include <visible_text.h>

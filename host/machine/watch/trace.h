@@ -1,15 +1,17 @@
 /* trace.h - a file of what happens when, in Chrome's trace event format (a JSON array;
  * about://tracing and Perfetto show it).
  *
- *     int machine = trace_open("run.json", "65536 processors on pocl");      // 0: the reason has been printed
+ *     // 0: the reason has been printed
+ *     int machine = trace_open("run.json", "65536 processors on pocl");
  *     trace_event(machine, TRACE_FRONT_END, "plan", "plan", start_s, end_s, "\"nodes\":12");
  *     trace_flush();                     // everything so far is in the file
  *     trace_leave();                     // the file is complete, unless more events follow
  *     trace_close(machine);
  *
  * A process has one file, in which each machine is a process of the trace. Only whole events
- * are written, and a closing bracket behind them. So a killed program leaves a file that can be loaded, up to the last flush
- * (growing_file.h). Where the file cannot be written, a line says so, and the process does not end with 0. Threads. Any.
+ * are written, and a closing bracket behind them. So a killed program leaves a file that can be
+ * loaded, up to the last flush (growing_file.h). Where the file cannot be written, a line says
+ * so, and the process does not end with 0. Threads. Any.
  */
 #ifndef LUTETIA_MACHINE_TRACE_H
 #define LUTETIA_MACHINE_TRACE_H

@@ -1,5 +1,6 @@
-/* forms.c - see arguments/forms.h. A screen is stored as a byte (enum place_kind), x, y, width, height (4
- * bytes each) and its gray; then, if there is one, its drawing: length (4 bytes), scale, bytes. */
+/* forms.c - see arguments/forms.h. A screen is stored as a byte (enum place_kind), x, y, width,
+ * height (4 bytes each) and its gray; then, if there is one, its drawing: length (4 bytes),
+ * scale, bytes. */
 #include "arguments/forms.h"
 
 #include "arguments/resample.h"
@@ -124,7 +125,8 @@ static void place_pass(struct event_stream *s, void *start, void *of)
     }
 }
 
-/* The screen, drawn anew from what it was drawn from. False: it cannot be: there is no drawing, or its font is not here. */
+/* The screen, drawn anew from what it was drawn from. False: it cannot be: there is no drawing,
+ * or its font is not here. */
 static bool place_draw(struct paper_place *place, struct paper_screen *screen,
                        const struct event_scaling *scaling)
 {

@@ -15,7 +15,8 @@ struct paper_resampling {
     bool edge_goes_on;
 };
 
-/* Shape: `old` holds old_height rows of old_width, `new` height rows of width. False: no memory. */
+/* Shape: `old` holds old_height rows of old_width, `new` height rows of width. False: no
+ * memory. */
 bool paper_resample(const struct paper_resampling *r, const float *old, float *new);
 /* Replaces *values, an allocated array, by one of the new size. */
 bool paper_array_resample(const struct paper_resampling *r, const float **values);

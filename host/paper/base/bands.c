@@ -1,8 +1,9 @@
 /* bands.c - see bands.h.
  *
- * Both tables are computed from the CIE's of 1931 (2 degrees) and of D65, every 10 nm: the light of a band is the sum over its nm. The
- * second table is the smoothest one with numbers from 0 on, sums of 1, and the first one's inverse, after Mallett and Yuksel,
- * "Spectral Primary Decomposition for Rendering with sRGB Reflectance" (EGSR 2019).
+ * Both tables are computed from the CIE's of 1931 (2 degrees) and of D65, every 10 nm: the
+ * light of a band is the sum over its nm. The second table is the smoothest one with numbers
+ * from 0 on, sums of 1, and the first one's inverse, after Mallett and Yuksel, "Spectral
+ * Primary Decomposition for Rendering with sRGB Reflectance" (EGSR 2019).
  */
 #include "bands.h"
 

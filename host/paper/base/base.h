@@ -16,7 +16,8 @@ static inline bool paper_within(double x, double low, double high)
     return x >= low && x <= high; /* false for NaN */
 }
 
-/* K and S of a layer that looks so over white and over black, 0 < black < white < 1. Source: Curtis et al. 1997, 5.1. */
+/* K and S of a layer that looks so over white and over black, 0 < black < white < 1. Source:
+ * Curtis et al. 1997, 5.1. */
 void paper_layer_of(double white, double black, double *k, double *s);
 
 #endif

@@ -47,7 +47,8 @@ void paper_enter(struct paper *p);
 enum paper_status paper_leave(struct paper *p);
 
 enum paper_status paper_weather_check(const struct paper_weather *weather);
-/* One cycle on any number of pigments, with a molecular weight for each; every processor is active before and after. */
+/* One cycle on any number of pigments, with a molecular weight for each; every processor is
+ * active before and after. */
 void paper_cycle(struct paper *p, const struct paper_weather *weather,
                  const CM_field_id_t *pigments, const double *weights, int count);
 

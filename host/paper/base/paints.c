@@ -1,8 +1,10 @@
 /* paints.c - the table of paints: what shops sell, under the names that they use.
  *
- * Each row: the name; mobility in fibers, along x and y; density, staining, granulation; K and S of a unit as three channels see them; what
- * a unit takes by the other rules; absorption and scattering by bands (bands.h); drying shift. Then other names, Colour Index, the size of
- * particles in um, transparency, and where the spectrum comes from. docs/paints.md says how each was made, and which were fitted. */
+ * Each row: the name; mobility in fibers, along x and y; density, staining, granulation; K and
+ * S of a unit as three channels see them; what a unit takes by the other rules; absorption and
+ * scattering by bands (bands.h); drying shift. Then other names, Colour Index, the size of
+ * particles in um, transparency, and where the spectrum comes from. docs/paints.md says how
+ * each was made, and which were fitted. */
 #include "sheet.h"
 
 // clang-format off

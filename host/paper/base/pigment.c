@@ -1,8 +1,10 @@
 /* pigment.c - paints by their names, and Kubelka and Munk's K and S from two colours.
  *
- * K, S, density, staining and granulation of the first twelve pigments are those of Curtis et al. 1997, table 1. Their mobility in
- * fibers is our choice: it falls with density. Cyan, magenta and yellow are the thesis's; their K and S are those of ideal inks that
- * take one channel and scatter a little. Names mean these in scripts that were recorded before there were paints (paints.c).
+ * K, S, density, staining and granulation of the first twelve pigments are those of Curtis et
+ * al. 1997, table 1. Their mobility in fibers is our choice: it falls with density. Cyan,
+ * magenta and yellow are the thesis's; their K and S are those of ideal inks that take one
+ * channel and scatter a little. Names mean these in scripts that were recorded before there
+ * were paints (paints.c).
  */
 #include "sheet.h"
 

@@ -1,5 +1,5 @@
-/* stocks.c - papers by name. The first five are kinds of the first model too, where they are woven noise; what they are made of from
- * the second on is in model/felt.c. */
+/* stocks.c - papers by name. The first five are kinds of the first model too, where they are
+ * woven noise; what they are made of from the second on is in model/felt.c. */
 #include "sheet.h"
 
 #include <stdio.h>

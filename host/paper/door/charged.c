@@ -1,4 +1,5 @@
-/* charged.c - letters as a painter fills them: with a thin wash first, and while they are wet with drops of strong colour, here and there. */
+/* charged.c - letters as a painter fills them: with a thin wash first, and while they are wet
+ * with drops of strong colour, here and there. */
 #include "drawing.h"
 #include "model/brush_internal.h"
 #include "techniques.h"
@@ -14,7 +15,8 @@ enum { CORNERS = 24, DROPS_MOST = 120 };
 #define DROPS_IN_SQUARE 3.2 /* of a letter's size */
 #define RADIUS_LEAST 0.14   /* of a letter's size, of a drop's middle */
 #define RADIUS_MORE 0.22
-/* A drop has no edge: it is put in so many times, wider and wider. With hard edges eddies made spots of them, in letters as large as a hand. */
+/* A drop has no edge: it is put in so many times, wider and wider. With hard edges eddies made
+ * spots of them, in letters as large as a hand. */
 enum { RINGS = 4 };
 #define RING_WIDER 0.07 /* of a letter's size */
 #define FROM_TOP 0.15   /* of the screen's height: the tips of letters stay light */

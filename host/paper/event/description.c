@@ -9,7 +9,8 @@
 
 #include <string.h>
 
-/* Among the parts: a deckle follows the stock; what is known of pigments by bands follows the pigments, if anything is. */
+/* Among the parts: a deckle follows the stock; what is known of pigments by bands follows the
+ * pigments, if anything is. */
 enum { PARTS_BITS = 16 };
 #define DECKLED (UINT64_C(1) << 31)
 #define BANDED (UINT64_C(1) << 30)

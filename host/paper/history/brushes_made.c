@@ -1,4 +1,5 @@
-/* brushes_made.c - which brushes operations use, and whether each has been made before it is used. */
+/* brushes_made.c - which brushes operations use, and whether each has been made before it is
+ * used. */
 #include "history/history_internal.h"
 #include "model/model.h"
 

@@ -1,5 +1,6 @@
-/* change.c - operations of the past that are taken out, or replaced by others. What followed flows anew: checkpoints behind them are
- * dropped, and the rest is history.c's, as after an insertion. */
+/* change.c - operations of the past that are taken out, or replaced by others. What followed
+ * flows anew: checkpoints behind them are dropped, and the rest is history.c's, as after an
+ * insertion. */
 #include "history/history_internal.h"
 #include "model/model.h"
 

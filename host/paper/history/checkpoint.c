@@ -1,9 +1,9 @@
 /* checkpoint.c - copies of the whole sheet in the front end's memory, within a budget.
  *
- * A checkpoint is offered every CHECKPOINT_EVERY steps and operations: of steps that are done in boxes, as many more as
- * take as long, up to CHECKPOINT_SPARED times as many. Unchanged planes are
- * shared with the checkpoint before; those of the paper itself hardly change. When the
- * budget is full, the checkpoint is dropped whose neighbours are nearest to each other
+ * A checkpoint is offered every CHECKPOINT_EVERY steps and operations: of steps that are done
+ * in boxes, as many more as take as long, up to CHECKPOINT_SPARED times as many. Unchanged
+ * planes are shared with the checkpoint before; those of the paper itself hardly change. When
+ * the budget is full, the checkpoint is dropped whose neighbours are nearest to each other
  * relative to their age. So the recent past is kept in fine steps and the far past in coarse
  * ones.
  */

@@ -1,4 +1,5 @@
-/* half_stroke.c - while a stroke grows: what is refused meanwhile, and how it ends without being an operation. */
+/* half_stroke.c - while a stroke grows: what is refused meanwhile, and how it ends without
+ * being an operation. */
 #include "history/history_internal.h"
 #include "model/model.h"
 

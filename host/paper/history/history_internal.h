@@ -70,7 +70,8 @@ struct checkpoint {
 
 enum { CHECKPOINTS_MAX = 256, CHECKPOINT_EVERY = 24, CHECKPOINT_SPARED = 16 };
 
-/* Hears of each operation that is listed (`move` 0; joined: of a step, it went to the last operation), and of each move. */
+/* Hears of each operation that is listed (`move` 0; joined: of a step, it went to the last
+ * operation), and of each move. */
 typedef void (*history_teller)(void *context, const struct event_record *op, bool joined,
                                enum note_move move, long number);
 
@@ -101,7 +102,8 @@ struct sheet_history {
     int tail_count;
     struct {
         int op,
-            count; /* the last insertion's operations; count 0: something was done or moved since */
+            /* the last insertion's operations; count 0: something was done or moved since */
+            count;
         bool split; /* it divided the steps around it */
     } inserted;
     struct checkpoint points[CHECKPOINTS_MAX]; /* by position */
@@ -139,10 +141,12 @@ void history_insertion_remove(struct sheet_history *h);
 
 /* ---- as bytes, one by one (history/run.c): for a run and for a journal ---- */
 
-/* Names of the kinds, in the order of their numbers here; and the numbers here of those that were written. Errors: BAD_FILE. */
+/* Names of the kinds, in the order of their numbers here; and the numbers here of those that
+ * were written. Errors: BAD_FILE. */
 void history_names_put(struct event_bytes *b);
 enum paper_status history_names_get(struct event_reader *r, int kinds[256]);
-/* An operation. Errors: BAD_FILE, NO_MEMORY. Owns: the caller frees *op by event_record_free(). */
+/* An operation. Errors: BAD_FILE, NO_MEMORY. Owns: the caller frees *op by
+ * event_record_free(). */
 void history_operation_put(struct event_bytes *b, const struct event_record *op);
 enum paper_status history_operation_get(struct event_reader *r, const struct paper_sheet *p,
                                         const int kinds[256], struct event_record *op);
@@ -150,8 +154,8 @@ int history_brush_of(enum sheet_event_kind kind, const void *arguments);
 /* The brush that an operation makes, dips or leads; -1: none. Errors: BAD_FILE, NO_MEMORY. */
 enum paper_status history_operation_brush(const struct paper_sheet *p,
                                           const struct event_record *op, int *brush);
-/* Whether the operation is possible on this sheet after others. *brushes: a bit for each brush that there is. Errors: BAD_FILE,
- * NO_MEMORY. */
+/* Whether the operation is possible on this sheet after others. *brushes: a bit for each brush
+ * that there is. Errors: BAD_FILE, NO_MEMORY. */
 enum paper_status history_operation_check(const struct paper_sheet *p,
                                           const struct event_record *op, unsigned *brushes);
 
@@ -159,8 +163,8 @@ enum paper_status history_operation_check(const struct paper_sheet *p,
 
 /* NULL: none. */
 struct sheet_history *history_of(const struct paper_sheet *p);
-/* Lists the operation as if it had been done now; it is computed when somebody looks. Takes op over, also on failure. Errors: BAD_FILE (not
- * possible here), NO_MEMORY. */
+/* Lists the operation as if it had been done now; it is computed when somebody looks. Takes op
+ * over, also on failure. Errors: BAD_FILE (not possible here), NO_MEMORY. */
 enum paper_status history_retell(struct paper_sheet *p, struct event_record op, bool joined);
 /* Makes the move. Errors: BAD_FILE (not possible here), NO_MEMORY. */
 enum paper_status history_remake(struct paper_sheet *p, int move, long number);
@@ -186,10 +190,11 @@ const struct paper_air *history_air(const struct paper_sheet *p);
 /* Destroys the sheet and its history. NULL is fine. */
 void history_sheet_destroy(struct paper_sheet *p);
 
-/* Lists an operation at `now`, which is the end of the list; *joined: as part of the last one. Takes op over, also on failure. Errors:
- * NO_MEMORY. */
+/* Lists an operation at `now`, which is the end of the list; *joined: as part of the last one.
+ * Takes op over, also on failure. Errors: NO_MEMORY. */
 enum paper_status history_record(struct sheet_history *h, struct event_record op, bool *joined);
-/* Records an operation that has been performed, and took op's steps; takes op over, also on failure. Errors: NO_MEMORY. */
+/* Records an operation that has been performed, and took op's steps; takes op over, also on
+ * failure. Errors: NO_MEMORY. */
 enum paper_status history_keep(struct paper_sheet *p, struct event_record op);
 
 /* ---- a stroke that grows (history/painting.c, half_stroke.c) ---- */
@@ -202,13 +207,15 @@ enum paper_status history_stroke_end(struct paper_sheet *p);
 void history_stroke_drop(struct paper_sheet *p);
 /* Errors: BAD_ARGUMENT while one grows. */
 enum paper_status history_no_stroke(const struct paper_sheet *p);
-/* Errors: BAD_ARGUMENT without a history, and while something is inserted or a stroke grows (history/history.c). */
+/* Errors: BAD_ARGUMENT without a history, and while something is inserted or a stroke grows
+ * (history/history.c). */
 enum paper_status history_changeable(const struct paper_sheet *p);
 
 /* ---- operations taken out or replaced (history/change.c, brushes_made.c) ---- */
 
-/* Whether each brush that is dipped or leads is made before, if the log, followed by records from `first` of the tail on, were the
- * list. Errors: BAD_ARGUMENT (one is not), NO_MEMORY, BAD_FILE. */
+/* Whether each brush that is dipped or leads is made before, if the log, followed by records
+ * from `first` of the tail on, were the list. Errors: BAD_ARGUMENT (one is not), NO_MEMORY,
+ * BAD_FILE. */
 enum paper_status history_brushes_check(const struct paper_sheet *p, int without, int first);
 
 /* ---- notes (history/notes.c) ---- */

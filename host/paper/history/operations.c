@@ -1,4 +1,5 @@
-/* operations.c - single operations of a history, for others: their arguments, and as bytes that can be done again.
+/* operations.c - single operations of a history, for others: their arguments, and as bytes that
+ * can be done again.
  *
  *     name: length, bytes                1; of the kind
  *     operation                          history_operation_put()

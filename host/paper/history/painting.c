@@ -1,8 +1,10 @@
-/* painting.c - a stroke that grows, in a history: one operation, which is recorded when it ends.
+/* painting.c - a stroke that grows, in a history: one operation, which is recorded when it
+ * ends.
  *
- * Until then the fields are beyond `now`, where the list ends for everybody else. If the stroke is dropped they are computed again from
- * what is listed. While a saved run is followed a stroke's samples are only gathered: at its end it is an operation like any other, which
- * the run may have. */
+ * Until then the fields are beyond `now`, where the list ends for everybody else. If the stroke
+ * is dropped they are computed again from what is listed. While a saved run is followed a
+ * stroke's samples are only gathered: at its end it is an operation like any other, which the
+ * run may have. */
 #include "history/history_internal.h"
 #include "model/model.h"
 

@@ -1,4 +1,5 @@
-/* retell.c - what a journal tells of is done again: operations are listed and not performed, as where a saved run is followed. */
+/* retell.c - what a journal tells of is done again: operations are listed and not performed, as
+ * where a saved run is followed. */
 #include "history/history_internal.h"
 #include "model/model.h"
 
@@ -12,7 +13,8 @@ static enum paper_status impossible(void)
     return paper_fail(PAPER_BAD_FILE, "a journal tells of what this sheet's history cannot do");
 }
 
-/* Whether the brush that an operation dips or leads has been made before `now`: mostly just before. */
+/* Whether the brush that an operation dips or leads has been made before `now`: mostly just
+ * before. */
 static enum paper_status brush_check(const struct paper_sheet *p, const struct event_record *op)
 {
     const struct sheet_history *h = p->history;

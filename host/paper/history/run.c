@@ -8,9 +8,11 @@
  *     extras: length                     8: brushes and what they hold
  *       sheet_extras_encode()
  *     operations: count                  4
- *       kind, steps, raw, stored         1, 4, 8, 8: lengths of the arguments, before and after deflating
+ *       kind, steps, raw, stored         1, 4, 8, 8: lengths of the arguments, before and after
+ *                                        deflating
  *       arguments                        stored bytes, event_encode()
- *     notes: count                       4; if something was undone or inserted (history/notes.c)
+ *     notes: count                       4; if something was undone or inserted
+ *                                        (history/notes.c)
  *       what, number, digest             1, 8, 8
  */
 #include "arguments/forms.h"

@@ -1,5 +1,6 @@
-/* apply.c - what is put on a sheet and taken from it: through screens, or everywhere. What the public functions ask
- * for are events (event/event.h); the sheet_...() below perform them, when they happen and when they are replayed. */
+/* apply.c - what is put on a sheet and taken from it: through screens, or everywhere. What the
+ * public functions ask for are events (event/event.h); the sheet_...() below perform them, when
+ * they happen and when they are replayed. */
 #include "model/model.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
-/* areas.c - where the picture of a sheet has changed since somebody asked: a few rectangles. Where there would be more than there is
- * room for, those two become one that lose least by it. */
+/* areas.c - where the picture of a sheet has changed since somebody asked: a few rectangles.
+ * Where there would be more than there is room for, those two become one that lose least by
+ * it. */
 #include "model/model.h"
 
 static struct paper_area joined(const struct paper_area *a, const struct paper_area *b)

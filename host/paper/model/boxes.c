@@ -1,8 +1,10 @@
-/* boxes.c - a step costs what is wet, not what the sheet is: steps of water that flows are computed in boxes around what can change.
+/* boxes.c - a step costs what is wet, not what the sheet is: steps of water that flows are
+ * computed in boxes around what can change.
  *
- * A fiber is at rest where there is no water, nothing flows, wet_around and brine are 0, and no pigment in the fibers still settles. A
- * fiber at rest among fibers at rest stays as it is, to the bit: every flow has a factor that is 0. In a step activity spreads by one
- * fiber, and by as many as wet_around reaches.
+ * A fiber is at rest where there is no water, nothing flows, wet_around and brine are 0, and no
+ * pigment in the fibers still settles. A fiber at rest among fibers at rest stays as it is, to
+ * the bit: every flow has a factor that is 0. In a step activity spreads by one fiber, and by
+ * as many as wet_around reaches.
  *
  *      +------------------------------+
  *      | sheet        +----------+    |      A box is a VP set of its own, of a few lengths (boxes_find.h), so that its kernels are
@@ -13,9 +15,11 @@
  *      |              +----------+    |
  *      +------------------------------+
  *
- * So a step in boxes gives the same bits as one of the whole sheet. The boxes are good for as many steps as what is active is away
- * from their sides; then they are looked at again, and cut anew where it has come too near or has shrunk. Whoever changes the sheet
- * closes them. Where more than a half would lie in boxes there are none, and the sheet is looked at again some steps later. */
+ * So a step in boxes gives the same bits as one of the whole sheet. The boxes are good for as
+ * many steps as what is active is away from their sides; then they are looked at again, and cut
+ * anew where it has come too near or has shrunk. Whoever changes the sheet closes them. Where
+ * more than a half would lie in boxes there are none, and the sheet is looked at again some
+ * steps later. */
 #include "model/boxes_parts.h"
 
 #include <limits.h>
@@ -25,7 +29,8 @@
 
 enum {
     UNIT_USUAL = 64,
-    /* fibers that stay at rest along a box's sides: a picture looks over the first of them to the next */
+    /* fibers that stay at rest along a box's sides: a picture looks over the first of them to
+     * the next */
     REST = 2 * SHEET_LOOK_REACH,
     SHEET_LEAST = 64, /* units x units: a step of less takes no longer than a box's beginning */
     WAIT_MOST = 384
@@ -53,7 +58,9 @@ static void active_make(struct paper_sheet *p)
         kit_f_add(sum, sum, p->wet_part);
         sheet_paint_sum(
             p,
-            part); /* what is stained has paint, and what has paint is stained: else a step changes it */
+            /* what is stained has paint, and what has paint is stained: else a step changes
+             * it */
+            part);
         kit_f_most(part, part, 1.0);
         kit_f_times(other, p->stained, SHEET_STAINED_SCALE);
         kit_f_most(other, other, 1.0);
@@ -96,7 +103,8 @@ static void active_read(struct paper_sheet *p, uint8_t *active)
     kit_grid_u_read(&p->page.grid, active, p->mask, 8, CM_8_bit);
 }
 
-/* Steps for which boxes get a margin: fewer where wet_around reaches far, or they would be large. */
+/* Steps for which boxes get a margin: fewer where wet_around reaches far, or they would be
+ * large. */
 static int steps_ahead(const struct paper_sheet *p)
 {
     const int reach = spread_in_a_step(p), most = p->boxes_unit / 2,

@@ -1,7 +1,8 @@
 /* boxes_find.c - see boxes_find.h.
  *
- * The sheet is divided into cells of unit x unit fibers. Each cell that has an active fiber is a box, as small as can be; boxes that
- * would touch with their margins become one, until none do, and then the two that lose least by it, until there are few. */
+ * The sheet is divided into cells of unit x unit fibers. Each cell that has an active fiber is
+ * a box, as small as can be; boxes that would touch with their margins become one, until none
+ * do, and then the two that lose least by it, until there are few. */
 #include "model/boxes_find.h"
 
 #include <limits.h>

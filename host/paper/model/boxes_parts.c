@@ -1,5 +1,5 @@
-/* boxes_parts.c - boxes of a sheet as VP sets of their own: which fields they have, and how these come and go. model/boxes.c says
- * when. */
+/* boxes_parts.c - boxes of a sheet as VP sets of their own: which fields they have, and how
+ * these come and go. model/boxes.c says when. */
 #include "model/boxes_parts.h"
 
 #include <stddef.h>
@@ -56,7 +56,8 @@ static int copied_fields(const struct paper_sheet *p, const struct paper_sheet *
     return count;
 }
 
-/* Calls block_do() for each of the up to four blocks of the sheet that a box is made of: it may go over the sheet's edge. */
+/* Calls block_do() for each of the up to four blocks of the sheet that a box is made of: it may
+ * go over the sheet's edge. */
 static void blocks_each(const struct paper_sheet *p, const struct box *box, CM_field_id_t field,
                         unsigned bits, void *words, bool read)
 {
@@ -165,7 +166,8 @@ void sheet_boxes_destroy(struct paper_sheet *p)
     p->boxes = NULL;
 }
 
-/* Coordinates of the sheet's first and last fibers on an axis in a box that begins at `from`. */
+/* Coordinates of the sheet's first and last fibers on an axis in a box that begins at
+ * `from`. */
 static void ends_find(int from, int length, int all, int ends[2])
 {
     const int first = (all - from) % all, last = all - 1 - from;

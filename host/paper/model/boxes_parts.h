@@ -15,8 +15,9 @@ enum {
 struct part {
     struct paper_sheet sheet;
     struct box box;
-    int rim
-        [2]; /* fibers along its sides, on each axis (x, y), that look at what is beyond: 0 where it is as long as the sheet */
+    /* fibers along its sides, on each axis (x, y), that look at what is beyond: 0 where it is
+     * as long as the sheet */
+    int rim[2];
     bool open;
     bool dressed; /* it has what only pictures need, too */
     bool lit;     /* ... and the relief */
@@ -36,17 +37,20 @@ struct sheet_boxes {
     void *words;          /* of the largest open part */
 };
 
-/* A part that is as large as the box and not open; a new one if there is none. Errors: NO_MEMORY, MACHINE_FAILED. */
+/* A part that is as large as the box and not open; a new one if there is none. Errors:
+ * NO_MEMORY, MACHINE_FAILED. */
 enum paper_status part_get(struct paper_sheet *p, const struct box *box, struct part **out);
 /* Its fields from the sheet's; words: room for it. Between paper_enter() and paper_leave(). */
 void part_fill(struct paper_sheet *p, struct part *part, void *words);
-/* What pictures need of the sheet and steps do not, unless it is there. Between paper_enter() and paper_leave(). */
+/* What pictures need of the sheet and steps do not, unless it is there. Between paper_enter()
+ * and paper_leave(). */
 void part_look(struct paper_sheet *p, struct part *part);
 /* The box without its rim. */
 void part_inside(const struct part *part, struct box *inside);
 /* Parts that are closed stay, as long as they and the open ones take no more than boxes may. */
 void parts_closed_few(struct paper_sheet *p);
-/* What open parts have changed, into the sheet's fields, if that has not been done. Between paper_enter() and paper_leave(). */
+/* What open parts have changed, into the sheet's fields, if that has not been done. Between
+ * paper_enter() and paper_leave(). */
 void parts_give(struct paper_sheet *p);
 void parts_close(struct sheet_boxes *b);
 /* sheet_look(), and steps go on in the sheet's own fields, which have not changed by this. */

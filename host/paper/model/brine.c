@@ -1,15 +1,16 @@
 /* brine.c - what salt does on wet paint: a part of a step.
  *
- * A grain dissolves where it is wet and keeps the water on it saturated; brine spreads from fiber to fiber through what is wet and
- * fades, so that it reaches about `reach` fibers. Along its slope pigments are pushed outwards, and surface water is drawn
- * inwards half as fast:
+ * A grain dissolves where it is wet and keeps the water on it saturated; brine spreads from
+ * fiber to fiber through what is wet and fades, so that it reaches about `reach` fibers. Along
+ * its slope pigments are pushed outwards, and surface water is drawn inwards half as fast:
  *
  *       salt |>                    brine c         d = strength (c(x) - c(x+1)), at most 1/8 either way
  *            |  >                                  pigment: part max (d, 0) of x's goes up, part max (-d, 0) of x+1's down
  *            |    > > >                            water: the other way, half of that
  *
- * Flows are whole grains of matter, computed once for each face, as in model/step.c: nothing is lost, and mirrored sheets give
- * mirrored bits. Brine is no matter of the sheet's; it is only where it pushes from. */
+ * Flows are whole grains of matter, computed once for each face, as in model/step.c: nothing is
+ * lost, and mirrored sheets give mirrored bits. Brine is no matter of the sheet's; it is only
+ * where it pushes from. */
 #include "model/model.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
-/* bristles.c - where a tuft's bristles are at rest, and what each is like, from the brush's description. */
+/* bristles.c - where a tuft's bristles are at rest, and what each is like, from the brush's
+ * description. */
 #include "model/brush_internal.h"
 
 #include <math.h>

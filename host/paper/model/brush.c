@@ -1,5 +1,5 @@
-/* brush.c - a sheet's brushes: making, dipping, counting. The stroke is in model/stroke.c, what passes between bristles and
- * fibers in model/exchange.c. */
+/* brush.c - a sheet's brushes: making, dipping, counting. The stroke is in model/stroke.c, what
+ * passes between bristles and fibers in model/exchange.c. */
 #include "model/brush_internal.h"
 #include "model/clouds.h"
 #include "model/felt.h"
@@ -46,8 +46,9 @@ static struct clouds clouds_of(const struct paper_sheet *p)
                            .seed = clouds_word(p->config.seed, 77)};
 }
 
-/* How much of its level a bristle leaves, on each fiber, in a layer of the sheet: no sheet is sized, and no hand presses, alike everywhere. A sheet whose layers are mirrored takes a mirrored stroke as
- * the mirror image. */
+/* How much of its level a bristle leaves, on each fiber, in a layer of the sheet: no sheet is
+ * sized, and no hand presses, alike everywhere. A sheet whose layers are mirrored takes a
+ * mirrored stroke as the mirror image. */
 enum paper_status sheet_grip_make(struct paper_sheet *p)
 {
     const int width = p->page.grid.width, height = p->page.grid.height;
@@ -189,7 +190,8 @@ enum paper_status sheet_brush(struct paper_sheet *p, const void *arguments)
     own->gives = own->gives_in[set];
     memcpy(own->held, own->held_in[set], sizeof own->held);
     own->brush = *brush;
-    /* what a stroke of the tuft's width and a full brush's reach takes, shared by its bristles */
+    /* what a stroke of the tuft's width and a full brush's reach takes, shared by its
+     * bristles */
     own->full = floor(fmin(brush->reach * brush->width * brush->load / brush->bristles, 1e6) *
                       PAPER_GRAINS);
     sheet_brush_bristles_make(own);

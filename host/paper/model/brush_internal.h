@@ -1,10 +1,13 @@
 /* brush_internal.h - a sheet's brushes on the machine.
  *
- * The brushes of a sheet share VP sets of BRUSH_ROWS x 64, 128, 256 or 512 processors, each the smallest that has its bristles, so that
- * an exchange costs what the brush is: column b is bristle b, and its rows are the places that it touches in one exchange. What a bristle holds is the same in all rows of its column.
+ * The brushes of a sheet share VP sets of BRUSH_ROWS x 64, 128, 256 or 512 processors, each the
+ * smallest that has its bristles, so that an exchange costs what the brush is: column b is
+ * bristle b, and its rows are the places that it touches in one exchange. What a bristle holds
+ * is the same in all rows of its column.
  *
  *              bristle 0   1   2   3  ...
- *     place 0        .     .   .   .        address of the fiber; contact; force; how many touch that fiber;
+ *     place 0        .     .   .   .        address of the fiber; contact; force; how many
+ *                    touch that fiber;
  *     place 1        .     .   .   .        in how many places the bristle touches
  *      ...
  *     held           w     w   w   w        in grains, doubles: whole numbers up to 2^53
@@ -64,19 +67,21 @@ struct bristle_set {
 struct sheet_brushes {
     struct bristle_set sets[BRUSH_SETS];
     struct sheet_contacts contacts;
-    uint16_t *
-        touched; /* of each fiber, a number of this exchange: by how many places, or which of those touched; 0 between exchanges */
+    /* of each fiber, a number of this exchange: by how many places, or which of those touched;
+     * 0 between exchanges */
+    uint16_t *touched;
     struct sheet_brush brush[PAPER_BRUSHES_MAX];
 };
 
-/* Bristles and the sheet exchange where brushes->contacts says; call between paper_enter() and paper_leave(). The sheet's VP set is
- * current before and after. */
+/* Bristles and the sheet exchange where brushes->contacts says; call between paper_enter() and
+ * paper_leave(). The sheet's VP set is current before and after. */
 void sheet_brush_exchange(struct paper_sheet *p, const struct sheet_brushes *brushes,
                           const struct sheet_brush *brush);
 /* The column or row at a place, of so many; around a torus. -1: it is beyond the sheet. */
 int sheet_fiber_at(double at, int length, bool torus);
 
-/* A bristle's place in an exchange (touches.c): the fibers that it lies over, and how much of it lies over each. */
+/* A bristle's place in an exchange (touches.c): the fibers that it lies over, and how much of
+ * it lies over each. */
 struct sheet_place {
     int fiber[4], part[4];
     int force; /* 0: it touches nothing */
@@ -85,11 +90,12 @@ struct sheet_place {
 /* force: 0..1. False: it is beyond the sheet. */
 bool sheet_place_make(const struct paper_sheet *p, double x, double y, double force,
                       struct sheet_place *place);
-/* fibers[i] = the fiber that place i talks to, by row-major number, -1: none; touch[i] = how many places of full force lie over that
- * fiber. Writes b->contacts.sharers. */
+/* fibers[i] = the fiber that place i talks to, by row-major number, -1: none; touch[i] = how
+ * many places of full force lie over that fiber. Writes b->contacts.sharers. */
 void sheet_places_deal(struct sheet_brushes *b, const struct sheet_place *places,
                        int fibers[BRUSH_PLACES], double touch[BRUSH_PLACES]);
-/* ---- a stroke on its way over the sheet (stroke.c): as many intervals as it takes steps ---- */
+/* ---- a stroke on its way over the sheet (stroke.c): as many intervals as it takes steps
+ * ---- */
 
 struct sheet_going {
     struct paper_sheet *sheet;
@@ -102,10 +108,12 @@ struct sheet_going {
 
 void sheet_going_begin(struct sheet_going *g, struct paper_sheet *p,
                        const struct paper_stroke *stroke);
-/* Intervals of the stroke as it is; and of those at its beginning that stay the same whatever samples come. */
+/* Intervals of the stroke as it is; and of those at its beginning that stay the same whatever
+ * samples come. */
 int sheet_going_intervals(const struct paper_stroke *stroke);
 int sheet_going_settled(const struct paper_stroke *stroke);
-/* Goes on until so many intervals have been done. Errors: MACHINE_FAILED (also: stopped), NO_MEMORY. */
+/* Goes on until so many intervals have been done. Errors: MACHINE_FAILED (also: stopped),
+ * NO_MEMORY. */
 enum paper_status sheet_going_on(struct sheet_going *g, int until);
 /* How far from a sample the brush may touch, fibers. */
 double sheet_stroke_around(const struct paper_sheet *p, const struct paper_brush *brush);

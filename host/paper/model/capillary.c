@@ -1,15 +1,18 @@
-/* capillary.c - water that creeps from fiber to fiber, where water flows (model/film.c), and the pigments in it.
+/* capillary.c - water that creeps from fiber to fiber, where water flows (model/film.c), and
+ * the pigments in it.
  *
- * Fibers suck by how empty they are, and let through the better the fuller they are and the more they absorb. A dry fiber is
- * entered only from one that is fuller than a threshold, which is low for fibers that absorb well: ink on absorbent paper runs along
- * these and comes to fingers, and sized paper, all of whose thresholds are high, keeps what is in it.
+ * Fibers suck by how empty they are, and let through the better the fuller they are and the
+ * more they absorb. A dry fiber is entered only from one that is fuller than a threshold, which
+ * is low for fibers that absorb well: ink on absorbent paper runs along these and comes to
+ * fingers, and sized paper, all of whose thresholds are high, keeps what is in it.
  *
  *     s    = water / capacity
  *     flow = face * CONDUCTION min (capacity, capacity') * (max (s - s', 0) s gate' + min (s - s', 0) s' gate)
- *     gate' = 0..1 from s = threshold' on;   threshold' = (1.5 - 4.5 absorbency') max (0, 1 - 16 s')
+ *     gate' = 0..1 from s = threshold' on;   threshold' = (1.5 - 4.5 absorbency') max (0, 1 -
+ *                                            16 s')
  *
- * at most a quarter of the room that the neighbour has, and an eighth of what a fiber holds. Pigments go with the water by their
- * weight, and spread a little where both sides are wet. */
+ * at most a quarter of the room that the neighbour has, and an eighth of what a fiber holds.
+ * Pigments go with the water by their weight, and spread a little where both sides are wet. */
 #include "model/model.h"
 
 #include <math.h>
@@ -34,7 +37,8 @@ struct pores {
     CM_field_id_t left, threshold, inverse;
 };
 
-/* Sized paper has no fiber that is entered before it must: single ones that absorb more than others stuck out of edges as hairs. */
+/* Sized paper has no fiber that is entered before it must: single ones that absorb more than
+ * others stuck out of edges as hairs. */
 static double threshold_base(const struct paper_sheet *p)
 {
     const double mean = p->config.stock.absorbency,

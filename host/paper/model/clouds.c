@@ -2,7 +2,8 @@
  *
  * A size's grid is interpolated in two turns, so that a fiber costs four products:
  *
- *     grid   .   .   .   .        a row of fibers lies between rows of the grid: these are summed with the spline's four weights
+ *     grid   .   .   .   .        a row of fibers lies between rows of the grid: these are
+ *            summed with the spline's four weights
  *     row    -------------        and what comes out is interpolated along the row with four weights more
  */
 #include "model/clouds.h"
@@ -14,7 +15,8 @@
 /* Of the spline through uniform numbers in -1..1: its deviation, a mean over places. */
 #define SPLINE_DEVIATION 0.277
 
-/* One size along one axis: which of the grid's numbers a fiber lies between, and the weights of the four around it. */
+/* One size along one axis: which of the grid's numbers a fiber lies between, and the weights of
+ * the four around it. */
 struct places {
     int count; /* of the grid's numbers; more would be the same ones again */
     int *first;
@@ -64,7 +66,8 @@ static void grid_row(float *row, int columns, uint64_t y, uint64_t seed)
         row[x] = (float)(clouds_word(own, (uint64_t)x) >> 40) * 0x1p-23f - 1;
 }
 
-/* Cosines and sines of angles that are as far as may be from the axes, from whole numbers: 53, 23, 67, 37 and 44 degrees. */
+/* Cosines and sines of angles that are as far as may be from the axes, from whole numbers: 53,
+ * 23, 67, 37 and 44 degrees. */
 static const double turns[][2] = {{3 / 5.0, 4 / 5.0},
                                   {12 / 13.0, 5 / 13.0},
                                   {5 / 13.0, 12 / 13.0},

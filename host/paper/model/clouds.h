@@ -1,4 +1,5 @@
-/* clouds.h - random clouds of many sizes on the front end, the same bits everywhere: sums, products, quotients and square roots only. */
+/* clouds.h - random clouds of many sizes on the front end, the same bits everywhere: sums,
+ * products, quotients and square roots only. */
 #ifndef LUTETIA_PAPER_CLOUDS_H
 #define LUTETIA_PAPER_CLOUDS_H
 
@@ -10,14 +11,16 @@ struct clouds {
     double finest, coarsest; /* fibers between the random numbers, 1.. */
     double step;             /* amplitude of each size, to that of the next coarser */
     uint64_t seed;
-    bool
-        turned; /* each size by an angle of its own, but on a torus: nothing in them lies along the axes */
-    int border; /* turned ones are made only so far from the sheet's sides, and are 0 farther in; 0: everywhere */
+    /* each size by an angle of its own, but on a torus: nothing in them lies along the axes */
+    bool turned;
+    /* turned ones are made only so far from the sheet's sides, and are 0 farther in; 0:
+     * everywhere */
+    int border;
 };
 
-/* Shape: out holds height * width numbers, rows from the top; mean about 0, deviation about 1, over a large sheet. Sizes may be any
- * numbers, so a sheet at another resolution with sizes in proportion gets the same clouds, drawn finer. A torus has no seam.
- * False: no memory. */
+/* Shape: out holds height * width numbers, rows from the top; mean about 0, deviation about 1,
+ * over a large sheet. Sizes may be any numbers, so a sheet at another resolution with sizes in
+ * proportion gets the same clouds, drawn finer. A torus has no seam. False: no memory. */
 bool clouds_make(float *out, int width, int height, bool torus, const struct clouds *of);
 
 /* 64 bits by chance, from a number and its seed. */

@@ -1,9 +1,10 @@
 /* deckle.c - the edge of a sheet that was made in a mould by hand.
  *
- * A mould is a screen; the deckle is a loose frame upon it that holds the pulp. Some pulp seeps under the frame before it is taken
- * off, so the sheet does not end at once: it gets thinner over some millimetres, its edge wanders by one or two, and single fibers
- * reach over it. All four sides are like that; where sheets are torn from each other the edge is thicker and frays by whole tufts, and
- * that is not what is made here.
+ * A mould is a screen; the deckle is a loose frame upon it that holds the pulp. Some pulp seeps
+ * under the frame before it is taken off, so the sheet does not end at once: it gets thinner
+ * over some millimetres, its edge wanders by one or two, and single fibers reach over it. All
+ * four sides are like that; where sheets are torn from each other the edge is thicker and frays
+ * by whole tufts, and that is not what is made here.
  *
  *          picture's border
  *          |   margin    :  thin                       d, from the mean edge, a rectangle with round corners, plus
@@ -14,7 +15,8 @@
  *     a fiber of the pulp lies where d is above its own reach: one in four beyond the edge, fewer the farther
  *     thickness = what has no form (fines, short hairs) where d > 0, growing with d, and the fibers that lie there
  *
- * So the same fibers make the sheet and its edge, and a sheet with a deckle is in its middle the sheet without one, to the bit. */
+ * So the same fibers make the sheet and its edge, and a sheet with a deckle is in its middle
+ * the sheet without one, to the bit. */
 #include "model/deckle.h"
 
 #include "model/clouds.h"

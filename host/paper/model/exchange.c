@@ -1,16 +1,20 @@
-/* exchange.c - what passes between bristles and fibers, as a program on the bristles' own processors.
+/* exchange.c - what passes between bristles and fibers, as a program on the bristles' own
+ * processors.
  *
- * A place is a bristle on a fiber. It looks at the fiber's height, whether it is barred, water s and pigments by CM_get, and at its own
- * water w. With
+ * A place is a bristle on a fiber. It looks at the fiber's height, whether it is barred, water
+ * s and pigments by CM_get, and at its own water w. With
  *
- *     level   = load * gives * takes * f (2 - f), f = w / full what the bristle would leave on a fiber
- *     touch   = 1 where height >= 1 - reach; reach grows with force and f: a dry brush skips the hollows
+ *     level   = load * gives * takes * f (2 - f), f = w / full what the bristle would leave on
+ *             a fiber
+ *     touch   = 1 where height >= 1 - reach; reach grows with force and f: a dry brush skips
+ *             the hollows
  *     part    = contact * touch / sharers
  *     given   = part * (max (level - s, 0) + mixing * min (level, s))
  *     taken   = part * (max (s - level, 0) + mixing * min (level, s))
  *
- * the same part of water and of each pigment moves: given / w of the bristle's, at most 1 / places of it; taken / s of the fiber's, at
- * most 1 / sharers. Each is cut to whole grains, so neither side gives more than it has, whoever else is there, and the sums that
+ * the same part of water and of each pigment moves: given / w of the bristle's, at most 1 /
+ * places of it; taken / s of the fiber's, at most 1 / sharers. Each is cut to whole grains, so
+ * neither side gives more than it has, whoever else is there, and the sums that
  * CM_send_with_f_add and the shifts along a bristle's places make are exact in any order. */
 #include "model/brush_internal.h"
 
@@ -112,8 +116,8 @@ static void share_make(CM_field_id_t share, CM_field_id_t part, CM_field_id_t he
     CM_f_min_2_1L(share, other, D);
 }
 
-/* held loses what all places of its bristle give. The rows form a ring: after shifts by 16, 8, 4,
- * 2 and 1 rows each row has the sum of all. */
+/* held loses what all places of its bristle give. The rows form a ring: after shifts by 16, 8,
+ * 4, 2 and 1 rows each row has the sum of all. */
 static void held_change(CM_field_id_t held, CM_field_id_t give, CM_field_id_t sum,
                         CM_field_id_t other)
 {

@@ -1,17 +1,21 @@
-/* felt.c - a sheet as a mould makes it: fibers that settle out of water, pressed between felts, and sized.
+/* felt.c - a sheet as a mould makes it: fibers that settle out of water, pressed between felts,
+ * and sized.
  *
  *     clouds     pulp flocks together: noise of sizes 256, 128, ... 8
- *     fibers     thrown on by chance, more where a cloud is: each goes 0.7 on, turns by its bend, and leaves mass where it
- *                passes. Bends wander, so fibers curl; lengths go from a fifth to three times the usual one; no direction is
- *                dearer than another, but by stock.fiber_length: a sheet from a machine has a grain
+ *     fibers     thrown on by chance, more where a cloud is: each goes 0.7 on, turns by its
+ *                bend, and leaves mass where it passes. Bends wander, so fibers curl; lengths
+ *                go from a fifth to three times the usual one; no direction is dearer than
+ *                another, but by stock.fiber_length: a sheet from a machine has a grain
  *     tooth      the felts' marks, as large as stock.grain_px
- *     grit       short hairs and filler: noise of sizes 6 to 1.5. Pigments that granulate gather in it; with fibers alone they
- *                drew a net
- *     laid       on a mould of wires, which are ridges in the sheet: lines close together, and chains across them far apart, both
- *                wavering, and fainter in some clouds than in others
+ *     grit       short hairs and filler: noise of sizes 6 to 1.5. Pigments that granulate
+ *                gather in it; with fibers alone they drew a net
+ *     laid       on a mould of wires, which are ridges in the sheet: lines close together, and
+ *                chains across them far apart, both wavering, and fainter in some clouds than
+ *                in others
  *     sizing     glue goes into some places more than into others: noise of sizes 256 to 16
  *
- * All lengths are in the stock's own scale: at another resolution of the same sheet the same fibers are drawn finer. */
+ * All lengths are in the stock's own scale: at another resolution of the same sheet the same
+ * fibers are drawn finer. */
 #include "model/felt.h"
 
 #include "base/base.h"
@@ -22,7 +26,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What each kind of paper is made of: lengths in fibers of the model, at the stock's own grain and fiber_length. */
+/* What each kind of paper is made of: lengths in fibers of the model, at the stock's own grain
+ * and fiber_length. */
 struct recipe {
     const char *stock;
     double length;                /* of a usual fiber */
@@ -34,9 +39,11 @@ struct recipe {
         chain_step; /* the lines' part, and how far apart they are; 0: wove */
 };
 
-/* cold press: a mould-made watercolour paper of cotton, 300 g/m2, with the marks of woollen felts. hot press: the same, pressed between
- * hot rollers. rough: handmade, dried without pressing. blotting: cotton linters, unsized and loose. glass: no fibers. laid: Ingres
- * paper, with its wires' lines. xuan: the bark of the wingceltis and rice straw, long fine fibers, unsized, on a screen of bamboo. */
+/* cold press: a mould-made watercolour paper of cotton, 300 g/m2, with the marks of woollen
+ * felts. hot press: the same, pressed between hot rollers. rough: handmade, dried without
+ * pressing. blotting: cotton linters, unsized and loose. glass: no fibers. laid: Ingres paper,
+ * with its wires' lines. xuan: the bark of the wingceltis and rice straw, long fine fibers,
+ * unsized, on a screen of bamboo. */
 static const struct recipe recipes[] = {
     {"cold press", 60, 2.6, .006, .75, .55, .20, .5, 0, 0, 0},
     {"hot press", 60, 2.6, .006, .40, .85, .30, .3, 0, 0, 0},
@@ -218,7 +225,8 @@ static bool stays(const struct making *m, double x, double y, double reach)
     return inside > reach && inside < m->config->deckle.thin + 2 * m->scale;
 }
 
-/* No mass can come to the sheet from within `reach` of x, y, in fibers of the stock's own scale. */
+/* No mass can come to the sheet from within `reach` of x, y, in fibers of the stock's own
+ * scale. */
 static bool beyond(const struct making *m, double x, double y, double reach)
 {
     const double far = (reach + STRIDE + 1) * m->scale + 2;
@@ -227,7 +235,8 @@ static bool beyond(const struct making *m, double x, double y, double reach)
             y * m->scale > m->height + far);
 }
 
-/* One fiber from x, y, in fibers of the stock's own scale. At finer scales it is as wide as it is there: it is drawn in strands. */
+/* One fiber from x, y, in fibers of the stock's own scale. At finer scales it is as wide as it
+ * is there: it is drawn in strands. */
 static void fiber_draw(const struct making *m, float *mass, struct chances *c, double x,
                        double y)
 {
@@ -266,7 +275,8 @@ static void fiber_draw(const struct making *m, float *mass, struct chances *c, d
     }
 }
 
-/* Those that begin in one square of the stock's scale are the same at every scale. Fibers from beyond the edge reach in. */
+/* Those that begin in one square of the stock's scale are the same at every scale. Fibers from
+ * beyond the edge reach in. */
 static void fibers_make(const struct making *m, float *mass, const float *clouds)
 {
     enum { SQUARE = 16 };
@@ -351,7 +361,8 @@ static void marked_free(struct marked *of)
     free(of->squared);
 }
 
-/* Those of an axis of that length around `middle`; `step`: from one place to the next in the sheet. */
+/* Those of an axis of that length around `middle`; `step`: from one place to the next in the
+ * sheet. */
 static void marked_find(struct marked *of, const struct making *m, int length, size_t step,
                         double middle, double radius)
 {
@@ -365,14 +376,16 @@ static void marked_find(struct marked *of, const struct making *m, int length, s
     }
 }
 
-/* What a mark of that height adds where `inside` is 1 in its middle, 0 at its edge and less beyond. */
+/* What a mark of that height adds where `inside` is 1 in its middle, 0 at its edge and less
+ * beyond. */
 static float pressed(double height, double inside)
 {
     inside = inside > 0 ? inside : 0;
     return (float)(height * inside * inside);
 }
 
-/* One round mark, highest in its middle. Its places are side by side unless the mark goes around the sheet. */
+/* One round mark, highest in its middle. Its places are side by side unless the mark goes
+ * around the sheet. */
 static void mark_press(float *relief, const struct marked *across, const struct marked *down,
                        double height)
 {
@@ -391,7 +404,8 @@ static void mark_press(float *relief, const struct marked *across, const struct 
     }
 }
 
-/* Round marks of about that radius everywhere: no direction is before another. False: no memory. */
+/* Round marks of about that radius everywhere: no direction is before another. False: no
+ * memory. */
 static bool marks_add(const struct making *m, float *relief, double radius, double height,
                       uint64_t which)
 {

@@ -1,6 +1,8 @@
-/* film.c - water that flows over the paper as a thin film, with a speed of its own at each face.
+/* film.c - water that flows over the paper as a thin film, with a speed of its own at each
+ * face.
  *
- * A step: what happens in each fiber by itself (soak.c), then what flows over faces, from the state that this left:
+ * A step: what happens in each fiber by itself (soak.c), then what flows over faces, from the
+ * state that this left:
  *
  *        level H + relief      drives      speed u at a face, damped by the paper: thin water is slow (H^2)
  *             u                moves       water, and with it what floats in it
@@ -10,26 +12,33 @@
  *                                                           high as water must be to come in: no edge is a special case
  *     m  = ease H^2,  at most MOBILITY_MOST                 ease = 2 / (sizing + sizing'), H the deeper side's depth
  *     u' = (u k + g D) m / ((m + g) k),  k = 1 + H c        drag is implicit; k keeps deep water from swinging
- *     out, in = u' where it is > 0 or < 0, times gates      water comes into a fiber less wet than its own only from one nearly all wet
+ *     out, in = u' where it is > 0 or < 0, times gates      water comes into a fiber less wet
+ *                                                           than its own only from one nearly
+ *                                                           all wet
  *
- * Eddies: at each corner of four fibers a stream function, times the depth that is least around it, so that what flows over the
- * faces of a fiber sums to nothing: water need not move for it. Edge: water that dries at the edge of what is wet is replaced from
- * inside, and brings pigment. That flow keeps the film as it is, so only pigments are moved by it, along the slope of wet_around,
- * less towards the very edge: a dark band as wide as edge_width says.
+ * Eddies: at each corner of four fibers a stream function, times the depth that is least around
+ * it, so that what flows over the faces of a fiber sums to nothing: water need not move for it.
+ * Edge: water that dries at the edge of what is wet is replaced from inside, and brings
+ * pigment. That flow keeps the film as it is, so only pigments are moved by it, along the slope
+ * of wet_around, less towards the very edge: a dark band as wide as edge_width says.
  *
- * A sheet that is drawn anew `finer` times as fine goes finer^2 steps in the time of one: speeds are 1 / finer, and the
- * drag works 1 / finer^2 as fast. What drives the water falls by itself.
+ * A sheet that is drawn anew `finer` times as fine goes finer^2 steps in the time of one:
+ * speeds are 1 / finer, and the drag works 1 / finer^2 as fast. What drives the water falls by
+ * itself.
  *
- * Pigments do not mix in the thinnest water, of SHEET_STILL times `film`. In what is left of a film that dries unevenly they would
- * all gather in the last wet fibers: the wash would have measles.
+ * Pigments do not mix in the thinnest water, of SHEET_STILL times `film`. In what is left of a
+ * film that dries unevenly they would all gather in the last wet fibers: the wash would have
+ * measles.
  *
- * Pigments go with all these flows, and spread a little. Parts of a fiber that go over one face are at most 1/5 of what it has
- * beyond 4 grains: of q at most 4 ((q - 4)/5 + 1/2) < q, so none gives more than it has; step.c has the rest of the argument. The
- * speeds are numbers of each fiber, kept; those below TOO_SLOW are none, or they would fade into the smallest of floats, which are
- * slow to compute with.
+ * Pigments go with all these flows, and spread a little. Parts of a fiber that go over one face
+ * are at most 1/5 of what it has beyond 4 grains: of q at most 4 ((q - 4)/5 + 1/2) < q, so none
+ * gives more than it has; step.c has the rest of the argument. The speeds are numbers of each
+ * fiber, kept; those below TOO_SLOW are none, or they would fade into the smallest of floats,
+ * which are slow to compute with.
  *
- * Sources: Oron, Davis and Bankoff, Rev. Mod. Phys. 69 (1997), thin films; de Gennes, Rev. Mod. Phys. 57 (1985), contact angles that
- * differ forward and back; Curtis et al. 1997, flow outward at edges. */
+ * Sources: Oron, Davis and Bankoff, Rev. Mod. Phys. 69 (1997), thin films; de Gennes, Rev. Mod.
+ * Phys. 57 (1985), contact angles that differ forward and back; Curtis et al. 1997, flow
+ * outward at edges. */
 #include "model/model.h"
 
 #include <math.h>
@@ -160,13 +169,16 @@ static void eddies_make(CM_field_id_t d, CM_field_id_t q, unsigned axis)
 
 /* d = how fast pigments go to the edge over the faces of the axis. Uses t[8], t[11].
  *
- * With s the distance from the edge over L = sheet_edge_length(), wet_around is 1 - exp (-s) / 2 inside; so u = wet_around +
- * wet_around' - 1 is 1 - exp (-s), and the slope is (1 - u) / (2 L). The speed is
+ * With s the distance from the edge over L = sheet_edge_length(), wet_around is 1 - exp (-s) /
+ * 2 inside; so u = wet_around + wet_around' - 1 is 1 - exp (-s), and the slope is (1 - u) / (2
+ * L). The speed is
  *
- *     (dries L + balance / root of L) u (1 - u) (1 + 12 u^2)          which grows in line with s up to about s = 1
+ *     (dries L + balance / root of L) u (1 - u) (1 + 12 u^2)          which grows in line with
+ *                                                                     s up to about s = 1
  *
- * A speed that falls to 0 in line towards the edge keeps an even band even. One that grows with L moves wide and narrow bands
- * alike in the same time; it goes with humidity, as what dries is what draws. The last part keeps narrow bands against mixing. */
+ * A speed that falls to 0 in line towards the edge keeps an even band even. One that grows with
+ * L moves wide and narrow bands alike in the same time; it goes with humidity, as what dries is
+ * what draws. The last part keeps narrow bands against mixing. */
 static void edge_flow_make(struct paper_sheet *p, unsigned axis, CM_field_id_t d)
 {
     CM_field_id_t other = p->t[8], bent = p->t[11];
@@ -239,7 +251,8 @@ static void room_heed(struct paper_sheet *p, CM_field_id_t room, unsigned axis,
     kit_f_mul(in, in, room);
 }
 
-/* The depth that eddies move at a corner is the least depth of its four fibers. Uses t[7..9]. */
+/* The depth that eddies move at a corner is the least depth of its four fibers. Uses
+ * t[7..9]. */
 static void swirl_make(struct paper_sheet *p, CM_field_id_t swirled)
 {
     CM_field_id_t other = p->t[7];

@@ -1,15 +1,20 @@
 /* finer.c - a picture with 2 or 4 pixels a fiber each way, from the picture with one.
  *
  *     coarse a -> fine f:   f = interpolated a (Catmull-Rom), then three times
- *                           f += interpolated (a - mean of the fiber's pixels),  within the neighbours' least and most
+ *                           f += interpolated (a - mean of the fiber's pixels),  within the
+ *                                                                                neighbours'
+ *                                                                                least and most
  *                           and at last the mean of each fiber's pixels is made a again
  *
- * The part of a fiber that paint covers is in its shade. The corrections put that part on the side where the paint is, so a
- * gray staircase becomes a smooth edge, sharper than interpolation alone makes it. Limits keep halos away: no pixel is lighter or
- * darker than the lightest and darkest of the nine fibers around it. The mean of a fiber's pixels is the fiber's shade,
- * except for rounding, so a finer picture that is made smaller again is the picture with one pixel a fiber.
+ * The part of a fiber that paint covers is in its shade. The corrections put that part on the
+ * side where the paint is, so a gray staircase becomes a smooth edge, sharper than
+ * interpolation alone makes it. Limits keep halos away: no pixel is lighter or darker than the
+ * lightest and darkest of the nine fibers around it. The mean of a fiber's pixels is the
+ * fiber's shade, except for rounding, so a finer picture that is made smaller again is the
+ * picture with one pixel a fiber.
  *
- * Sources: Irani and Peleg, CVGIP 53 (1991), iterative back-projection; Keys, IEEE Trans. ASSP 29 (1981), the interpolation. */
+ * Sources: Irani and Peleg, CVGIP 53 (1991), iterative back-projection; Keys, IEEE Trans. ASSP
+ * 29 (1981), the interpolation. */
 #include "model/model.h"
 
 #include <math.h>
@@ -25,7 +30,8 @@ struct finer {
     float *fine;
 };
 
-/* The weights of four fibers for each of a fiber's pixels; the first is two or one before it. */
+/* The weights of four fibers for each of a fiber's pixels; the first is two or one before
+ * it. */
 struct taps {
     int first[4];
     float weight[4][TAPS];
@@ -50,7 +56,8 @@ static void taps_make(struct taps *taps, int scale, bool cubic)
     }
 }
 
-/* The place of fiber i of `count`: beyond the edges that of the last one, or on a torus of the other side. */
+/* The place of fiber i of `count`: beyond the edges that of the last one, or on a torus of the
+ * other side. */
 static int place_of(int i, int count, bool torus)
 {
     if (torus)
@@ -117,7 +124,8 @@ static float block_limit(const struct finer *f, int x, int y, float least, float
     return sum / (float)(f->scale * f->scale);
 }
 
-/* Moves a fiber's pixels towards the limit until their mean is `mean`: each by the same part of its way. */
+/* Moves a fiber's pixels towards the limit until their mean is `mean`: each by the same part of
+ * its way. */
 static void block_settle(const struct finer *f, int x, int y, float limit, float is, float mean)
 {
     const size_t wide = (size_t)f->width * (size_t)f->scale;

@@ -1,4 +1,5 @@
-/* flow.c - what all flows between fibers share: how much room a fiber has, and what goes through a face in whole grains. */
+/* flow.c - what all flows between fibers share: how much room a fiber has, and what goes
+ * through a face in whole grains. */
 #include "model/model.h"
 
 #define FLOWS_FROM 4.0 /* grains; model/film.c */

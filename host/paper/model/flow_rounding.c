@@ -1,5 +1,6 @@
-/* flow_rounding.c - where flows through faces become whole grains; what moves within a fiber does in sheet_whole_of().
- * bench/paper_openmp_rounding.h does the same in plain C. Other bits are a new version of the model: PAPER_MODEL_VERSION in sheet.h. */
+/* flow_rounding.c - where flows through faces become whole grains; what moves within a fiber
+ * does in sheet_whole_of(). bench/paper_openmp_rounding.h does the same in plain C. Other bits
+ * are a new version of the model: PAPER_MODEL_VERSION in sheet.h. */
 #include "model/model.h"
 
 void sheet_flow_round(CM_field_id_t flow)

@@ -1,11 +1,13 @@
-/* ground.c - a sheet with a deckle as it lies on something: the ground around it, and the sheet's shadow there.
+/* ground.c - a sheet with a deckle as it lies on something: the ground around it, and the
+ * sheet's shadow there.
  *
  *     light  \                        alpha   = 1 - (1 - thickness / OPAQUE)^2: the edge is so thin that the ground shows through
  *             \   ______sheet         shadow  = 1 - (1 - near) (1 - far): alpha, blurred and moved away from the light
  *      ________\_/      ~~~~ shadow   picture = alpha * sheet + (1 - alpha) * (1 - shadow) * ground, in linear light
  *
- * Both are made with one number a fiber and drawn finer as colours are (finer.c). The sheet's colours go on where there is no paper,
- * by the means of their neighbours: a paint's edge at the sheet's edge does not get lighter when it is drawn finer. */
+ * Both are made with one number a fiber and drawn finer as colours are (finer.c). The sheet's
+ * colours go on where there is no paper, by the means of their neighbours: a paint's edge at
+ * the sheet's edge does not get lighter when it is drawn finer. */
 #include "model/model.h"
 
 #include <math.h>
@@ -26,7 +28,8 @@ static float opaque_of(float thickness)
     return 1 - left * left;
 }
 
-/* Means of 2 radius + 1 numbers that are `step` apart; beyond the ends there is nothing. `line` has room for `count`. */
+/* Means of 2 radius + 1 numbers that are `step` apart; beyond the ends there is nothing. `line`
+ * has room for `count`. */
 static void means_make(float *values, int count, size_t step, int radius, float *line)
 {
     double sum = 0;
@@ -78,7 +81,8 @@ static enum paper_status thickness_read(struct paper_sheet *p, float **out)
                              p->page.grid.width, p->page.grid.height);
 }
 
-/* covers: alpha, shadow and 0 of each fiber, as a picture. `opaque` becomes 1 - the light that the ground gets. */
+/* covers: alpha, shadow and 0 of each fiber, as a picture. `opaque` becomes 1 - the light that
+ * the ground gets. */
 static bool covers_make(const struct paper_sheet *p, double light, float *opaque,
                         uint16_t *covers)
 {
@@ -192,7 +196,8 @@ enum paper_status sheet_ground_lay(struct paper_sheet *p, const struct paper_she
     return status;
 }
 
-/* known[i] of fiber i: it has a colour. Those beside them get the mean of their four neighbours', in pairs. */
+/* known[i] of fiber i: it has a colour. Those beside them get the mean of their four
+ * neighbours', in pairs. */
 static void spread_once(int width, int height, uint8_t *known, uint16_t *rgb)
 {
     for (int y = 0; y < height; y++)

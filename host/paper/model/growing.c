@@ -4,7 +4,8 @@
  *     settled      |----------------|                   a spline needs one sample beyond the next
  *     intervals    |---|---|---|---|                    of a step of the paper: done one by one, as those of a whole stroke
  *
- * So the bits are those of the whole stroke. Boxes have room for where it has been and for some way ahead: they are cut seldom. */
+ * So the bits are those of the whole stroke. Boxes have room for where it has been and for some
+ * way ahead: they are cut seldom. */
 #include "model/brush_internal.h"
 
 #include <array.h>

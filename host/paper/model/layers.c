@@ -1,4 +1,5 @@
-/* layers.c - what a sheet is made of and what is in it, layer by layer, in and out; and its totals. */
+/* layers.c - what a sheet is made of and what is in it, layer by layer, in and out; and its
+ * totals. */
 #include "model/model.h"
 
 #include <math.h>

@@ -1,37 +1,43 @@
 /* light.c - light on a sheet: on the paper's relief, and on the water that stands on it.
  *
- * The relief's shade follows from the heights alone. It is made when a lit picture is first asked for, on the front end, and
- * kept as a field until the heights change:
+ * The relief's shade follows from the heights alone. It is made when a lit picture is first
+ * asked for, on the front end, and kept as a field until the heights change:
  *
- *     two lights    the key light from the upper left, a weaker one from the lower left: a slope that faces a light gets more of
- *                   it, h(x+1) - h(x-1) along each axis
- *     occlusion     hollows see less of the sky than hills: the height, less its mean over wider and wider neighbourhoods
+ *     two lights    the key light from the upper left, a weaker one from the lower left: a
+ *                   slope that faces a light gets more of it, h(x+1) - h(x-1) along each axis
+ *     occlusion     hollows see less of the sky than hills: the height, less its mean over
+ *                   wider and wider neighbourhoods
  *
  *     h ---> [1 2 1] ---> [1 . 2 . 1] ---> [1 . . . 2 . . . 1]        along x, then along y
  *        |            |                |                    |
  *        +- h - a1 ---+--- a1 - a2 ----+----- a2 - a3 ------+---> times OCCLUSION[], summed
  *
- * Slopes alone have a direction: what lies along the light is not seen, and all papers look combed across it. The weights of the
- * occlusion grow with the frequency as slopes do, so that in each band relief of every direction is seen, and the lights
- * still say which side is up. The gain is the same for all bare stocks: smooth paper looks smooth. All distances are in fibers of the
- * stock's own scale, so a sheet that is drawn anew finer is lit in the same way.
+ * Slopes alone have a direction: what lies along the light is not seen, and all papers look
+ * combed across it. The weights of the occlusion grow with the frequency as slopes do, so that
+ * in each band relief of every direction is seen, and the lights still say which side is up.
+ * The gain is the same for all bare stocks: smooth paper looks smooth. All distances are in
+ * fibers of the stock's own scale, so a sheet that is drawn anew finer is lit in the same way.
  *
- * Source: Burt and Adelson, IEEE Trans. Communications 31 (1983), differences of means over wider and wider neighbourhoods. */
+ * Source: Burt and Adelson, IEEE Trans. Communications 31 (1983), differences of means over
+ * wider and wider neighbourhoods. */
 #include "model/felt.h"
 #include "model/model.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* Light from the key light, of strength 1, on a slope of 1; from the second one; and what occlusion takes or gives. */
+/* Light from the key light, of strength 1, on a slope of 1; from the second one; and what
+ * occlusion takes or gives. */
 #define KEY 0.20
 #define SECOND 0.075
 #define SCALES 3
 static const double occlusion[SCALES] = {0.34, 0.28, 0.22};
-/* Of a film without fibers the heights are smears and dust: what they count where it is bare. */
+/* Of a film without fibers the heights are smears and dust: what they count where it is
+ * bare. */
 #define SMEARS_BARE 0.12
-/* Dried paint is rougher than smooth paper, and stands up along its fibers and smears: where it lies heights count the more, the less the
- * stock's roughness is below this. Units of paint from which a fiber is painted. */
+/* Dried paint is rougher than smooth paper, and stands up along its fibers and smears: where it
+ * lies heights count the more, the less the stock's roughness is below this. Units of paint
+ * from which a fiber is painted. */
 #define PAINT_ROUGHNESS 0.25
 #define SMOOTHEST 0.04
 #define PAINTED_FROM 0.2
@@ -46,7 +52,8 @@ struct heights {
     float *shade;
 };
 
-/* The place `by` from i of `count`: beyond the edges that of the last fiber, or on a torus of the other side. */
+/* The place `by` from i of `count`: beyond the edges that of the last fiber, or on a torus of
+ * the other side. */
 static int place_beside(int i, int by, int count, bool torus)
 {
     const int at = i + by;
@@ -55,7 +62,8 @@ static int place_beside(int i, int by, int count, bool torus)
     return at < 0 ? 0 : at < count ? at : count - 1;
 }
 
-/* to = means of three of `from` along x that are `distance` apart, the middle one counted twice. */
+/* to = means of three of `from` along x that are `distance` apart, the middle one counted
+ * twice. */
 static void means_along_x(const struct heights *of, const float *from, float *to, int distance)
 {
     const int width = of->width, whole = width - 2 * distance;
@@ -212,8 +220,8 @@ static void level_beside(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t l
     CM_set_context();
 }
 
-/* Light on the water's surface: where it falls away to the upper left it shines, on the other side it is darker; wet
- * paper is a little darker too. Uses t[0..2]. */
+/* Light on the water's surface: where it falls away to the upper left it shines, on the other
+ * side it is darker; wet paper is a little darker too. Uses t[0..2]. */
 void sheet_water_shine(struct paper_sheet *p, const CM_field_id_t color[3])
 {
     CM_field_id_t slope = p->t[0], level = p->t[1], other = p->t[2];

@@ -1,4 +1,5 @@
-/* model.h - the fields of a sheet with pigments, and what the files of this folder do with them. */
+/* model.h - the fields of a sheet with pigments, and what the files of this folder do with
+ * them. */
 #ifndef LUTETIA_PAPER_MODEL_H
 #define LUTETIA_PAPER_MODEL_H
 
@@ -15,7 +16,8 @@ enum { SHEET_LOOK_REACH = 1 };
 
 /* What a fiber holds at most: more does not flow in. */
 #define SHEET_LOAD_MAX 15.0
-/* What a fiber gets of a pigment in all layers, or of water in one, by putting it there; more may flow in. */
+/* What a fiber gets of a pigment in all layers, or of water in one, by putting it there; more
+ * may flow in. */
 #define SHEET_PUT_MOST 4.0
 /* The absorbency of a stock above which it is not sized, or less than others. */
 #define SHEET_SIZED_MOST 0.12
@@ -40,17 +42,20 @@ struct paper_sheet {
         *history; /* history/; nothing in this folder looks at it. NULL: nothing is recorded */
     long steps;   /* that were computed */
     bool touched; /* something was done, and not recorded */
-    double
-        finer; /* how many times finer than its stock is known the sheet is, 1 or more; a render at 2 is 2 */
+    /* how many times finer than its stock is known the sheet is, 1 or more; a render at 2 is
+     * 2 */
+    double finer;
     double unit; /* of amounts: PAPER_GRAINS, or 1 without parts */
-    /* VP set, contexts, coordinates, and what the thesis's cycle needs: water and absorbency are in the fibers */
+    /* VP set, contexts, coordinates, and what the thesis's cycle needs: water and absorbency
+     * are in the fibers */
     struct paper page;
-    int ends
-        [2]
-        [2]; /* [axis]: coordinates of the sheet's first and last fibers; 0 of a box that does not have them */
+    /* [axis]: coordinates of the sheet's first and last fibers; 0 of a box that does not have
+     * them */
+    int ends[2][2];
     CM_field_id_t height, capacity, resist;
     CM_field_id_t thickness; /* of the paper, 0..1; 0 where there is none. Only with a deckle */
-    /* Where nothing can be put and nothing flows: resist, and, with a deckle, where there is no paper (sheet_faces_make()) */
+    /* Where nothing can be put and nothing flows: resist, and, with a deckle, where there is no
+     * paper (sheet_faces_make()) */
     CM_field_id_t barred;
     CM_field_id_t face
         [2]; /* [axis]: part of a gradient that flows to the neighbour above; 0: none, closed */
@@ -58,14 +63,14 @@ struct paper_sheet {
     CM_field_id_t surface_water;
     CM_field_id_t dried; /* grains, SHEET_DRIED_BITS */
     CM_field_id_t wet_around;
-    /* Where water flows (model/film.c): how hard fibers are to wet, and eddies; what part of each fiber is wet; how fast
-     * water flows to the neighbour above, [axis]. */
+    /* Where water flows (model/film.c): how hard fibers are to wet, and eddies; what part of
+     * each fiber is wet; how fast water flows to the neighbour above, [axis]. */
     CM_field_id_t sizing, current, wet_part, speed[2];
     CM_field_id_t ease[2]; /* [axis]: how easily it flows over the face; 0: closed */
     CM_field_id_t swirl;   /* of current, at the corner above on both axes */
     CM_field_id_t grip;    /* how willingly the paper takes what a bristle leaves */
-    /* What part of each fiber its paint lies on, 0..1: the most that was wet since there is paint on it; 0 where none has come with
-     * surface water, so that it lies everywhere. */
+    /* What part of each fiber its paint lies on, 0..1: the most that was wet since there is
+     * paint on it; 0 where none has come with surface water, so that it lies everywhere. */
     CM_field_id_t stained;
     CM_field_id_t relief; /* what light of strength 1 makes of the relief, about 0 (light.c) */
     bool relief_made;     /* of the heights as they are */
@@ -104,7 +109,8 @@ static inline unsigned sheet_parts_whole(unsigned parts)
 
 /* ---- a sheet's life (sheet.c) ---- */
 
-/* Errors: BAD_ARGUMENT, NO_DEVICE, NO_MEMORY, MACHINE_FAILED; *out is then NULL. Owns: the caller gives it to sheet_destroy(). */
+/* Errors: BAD_ARGUMENT, NO_DEVICE, NO_MEMORY, MACHINE_FAILED; *out is then NULL. Owns: the
+ * caller gives it to sheet_destroy(). */
 enum paper_status sheet_create(const struct paper_sheet_config *config,
                                struct paper_sheet **out);
 void sheet_destroy(struct paper_sheet *p);
@@ -119,9 +125,11 @@ void sheet_extras_reset(struct paper_sheet *p);
 
 /* A step of all of the VP set's fibers. Between paper_enter() and paper_leave(). */
 void sheet_step_everywhere(struct paper_sheet *p);
-/* Steps go on in boxes around what can change, away from the sheet's own fields. So who looks at these begins with sheet_look(), who
- * changes some of them with sheet_change(), or with sheet_change_area() or sheet_change_place() where all that can be seen of the
- * change is there, and who writes all that steps change with sheet_change_all(): paper_enter(), and more. */
+/* Steps go on in boxes around what can change, away from the sheet's own fields. So who looks
+ * at these begins with sheet_look(), who changes some of them with sheet_change(), or with
+ * sheet_change_area() or sheet_change_place() where all that can be seen of the change is
+ * there, and who writes all that steps change with sheet_change_all(): paper_enter(), and
+ * more. */
 void sheet_look(struct paper_sheet *p);
 void sheet_change(struct paper_sheet *p);
 void sheet_change_area(struct paper_sheet *p, int x, int y, int width, int height);
@@ -129,10 +137,11 @@ void sheet_change_place(struct paper_sheet *p, const struct paper_place *place);
 void sheet_change_all(struct paper_sheet *p);
 void sheet_boxes_init(struct paper_sheet *p);
 void sheet_boxes_destroy(struct paper_sheet *p);
-/* A stroke is going to touch fibers x1..x2 - 1, y1..y2 - 1, or nothing (x1 = x2) from now on: boxes have room for it. */
+/* A stroke is going to touch fibers x1..x2 - 1, y1..y2 - 1, or nothing (x1 = x2) from now on:
+ * boxes have room for it. */
 enum paper_status sheet_boxes_expect(struct paper_sheet *p, int x1, int y1, int x2, int y2);
-/* For who changes these fibers: the sheet whose fields hold them, the sheet itself or a box of it, and where its first fiber is on
- * the sheet. Between paper_enter() and paper_leave(). */
+/* For who changes these fibers: the sheet whose fields hold them, the sheet itself or a box of
+ * it, and where its first fiber is on the sheet. Between paper_enter() and paper_leave(). */
 struct paper_sheet *sheet_boxes_touch(struct paper_sheet *p, int x1, int y1, int x2, int y2,
                                       int origin[2]);
 /* As paper_sheet_confine(). */
@@ -145,12 +154,13 @@ double sheet_share(const struct paper_sheet *p);
 /* Between paper_enter() and paper_leave(), like all below that return nothing. */
 void sheet_fields_make(struct paper_sheet *p);
 enum paper_status sheet_amounts_clear(struct paper_sheet *p);
-/* What is left in temporaries is a value like any other: the machine would have to be able to tell it, keep for that what it is made
- * of, and store what it cannot have as an expression. So they are cleared before anybody looks, and at the end by sheet_leave(), which
- * is paper_leave() otherwise. */
+/* What is left in temporaries is a value like any other: the machine would have to be able to
+ * tell it, keep for that what it is made of, and store what it cannot have as an expression. So
+ * they are cleared before anybody looks, and at the end by sheet_leave(), which is
+ * paper_leave() otherwise. */
 void sheet_temporaries_clear(struct paper_sheet *p);
-/* Narrows the context to fibers at the sheet's end on an axis: its last ones, or its first. Of a box without such fibers those along
- * its side are taken for them. */
+/* Narrows the context to fibers at the sheet's end on an axis: its last ones, or its first. Of
+ * a box without such fibers those along its side are taken for them. */
 void sheet_end_narrow(const struct paper_sheet *p, unsigned axis, bool last);
 enum paper_status sheet_leave(struct paper_sheet *p);
 /* Fields of each pigment that the parts use, in the order surface, infused, fixed; how many. */
@@ -187,7 +197,8 @@ void sheet_faces_make(struct paper_sheet *p);
 
 /* Errors: BAD_ARGUMENT (a screen of nothing). */
 enum paper_status sheet_place_check(const struct paper_place *place);
-/* share = the place's gray (1 where there is no screen) as 0..1; then 0 where there is resist, or no paper. `open` is free. */
+/* share = the place's gray (1 where there is no screen) as 0..1; then 0 where there is resist,
+ * or no paper. `open` is free. */
 enum paper_status sheet_share_make(struct paper_sheet *p, const struct paper_place *place,
                                    CM_field_id_t share);
 void sheet_resist_heed(struct paper_sheet *p, CM_field_id_t share, CM_field_id_t open);
@@ -195,7 +206,8 @@ void sheet_resist_heed(struct paper_sheet *p, CM_field_id_t share, CM_field_id_t
 void sheet_paper_heed(struct paper_sheet *p, CM_field_id_t q);
 /* Where water (0) or a pigment (1 + its number) is put. */
 CM_field_id_t sheet_amount_field(const struct paper_sheet *p, int substance);
-/* q gets whole grains of part (the same field is free afterwards), up to what may be put in a fiber. Uses t[3]. */
+/* q gets whole grains of part (the same field is free afterwards), up to what may be put in a
+ * fiber. Uses t[3]. */
 void sheet_amount_put(struct paper_sheet *p, int substance, CM_field_id_t part);
 /* q loses whole grains of share * part. */
 void sheet_amount_lose(struct paper_sheet *p, CM_field_id_t q, CM_field_id_t share, double part,
@@ -206,7 +218,8 @@ void sheet_wet_around_make(struct paper_sheet *p);
 /* ... where a brush or a print has left water; before: what was there. Uses t[0], t[2..5]. */
 void sheet_wet_touched(struct paper_sheet *p, CM_field_id_t before);
 
-/* ... where amounts were put through `share`, water among them or not: of a fiber that part is wet. Uses t[0], t[3..5]. */
+/* ... where amounts were put through `share`, water among them or not: of a fiber that part is
+ * wet. Uses t[0], t[3..5]. */
 void sheet_wet_put(struct paper_sheet *p, bool water, CM_field_id_t share);
 
 /* ---- water that flows (sizing.c, soak.c, film.c, capillary.c) ---- */
@@ -223,8 +236,9 @@ struct sheet_terms {
     CM_field_id_t room;      /* 1 to 0 as it fills up */
     CM_field_id_t saturated; /* infused water to capacity */
     CM_field_id_t depth;     /* of surface water, units */
-    CM_field_id_t
-        level; /* of its surface where the fiber is wet; where it is dry, what water must stand above to come in */
+    /* of its surface where the fiber is wet; where it is dry, what water must stand above to
+     * come in */
+    CM_field_id_t level;
     CM_field_id_t deep;    /* depth of the part that is wet */
     CM_field_id_t inverse; /* 1 / depth */
     CM_field_id_t swirled; /* depth that eddies move: none at the edge of what is wet */
@@ -243,14 +257,15 @@ void sheet_paint_sum(struct paper_sheet *p, CM_field_id_t d);
 void sheet_soak(struct paper_sheet *p, struct sheet_terms *terms);
 /* Uses t[7..15], t[32..44]. */
 void sheet_capillary_flow(struct paper_sheet *p, const struct sheet_terms *terms);
-/* Parts of a gradient at the four faces of a fiber, as step.c explains them: out and in at that above a fiber on the axis, and at
- * that below. */
+/* Parts of a gradient at the four faces of a fiber, as step.c explains them: out and in at that
+ * above a fiber on the axis, and at that below. */
 struct sheet_faces {
     CM_field_id_t out[2], in[2], out_below[2], in_below[2];
 };
 /* The faces below from those above. */
 void sheet_faces_below(struct sheet_faces *faces);
-/* q gets what flows through its four faces, all parts times weight[axis] (x, y). Uses t[8..15]. */
+/* q gets what flows through its four faces, all parts times weight[axis] (x, y). Uses
+ * t[8..15]. */
 void sheet_flow_through(struct paper_sheet *p, CM_field_id_t q, const struct sheet_faces *faces,
                         const double weight[2]);
 /* A step of a sheet whose water flows. Between paper_enter() and paper_leave(). */
@@ -262,8 +277,8 @@ void sheet_film_step(struct paper_sheet *p);
 void sheet_room_make(struct paper_sheet *p, CM_field_id_t room);
 /* flow becomes whole grains. */
 void sheet_flow_round(CM_field_id_t flow);
-/* flow = out * lower + in * upper in whole grains, and KIT_WHOLE more: the difference of two such sums is exact. part: a
- * temporary. */
+/* flow = out * lower + in * upper in whole grains, and KIT_WHOLE more: the difference of two
+ * such sums is exact. part: a temporary. */
 void sheet_flow_sum(CM_field_id_t flow, CM_field_id_t out, CM_field_id_t lower,
                     CM_field_id_t in, CM_field_id_t upper, CM_field_id_t part);
 /* flow = whole grains of up * q(x) - down * q(x+1). Uses t[14]. */
@@ -283,7 +298,8 @@ const struct paper_brush *sheet_brush_get(const struct paper_sheet *p, int numbe
 enum paper_status sheet_brush_number_check(int number);
 /* Whether a bristle can hold so many grains. */
 bool sheet_bristle_may_hold(double grains);
-/* What a brush holds of a substance in each bristle, in grains, to be kept and put back. Shape: as many numbers as bristles. */
+/* What a brush holds of a substance in each bristle, in grains, to be kept and put back. Shape:
+ * as many numbers as bristles. */
 enum paper_status sheet_brush_read(struct paper_sheet *p, int number, int substance,
                                    double *grains);
 enum paper_status sheet_brush_write(struct paper_sheet *p, int number, int substance,
@@ -302,11 +318,12 @@ void sheet_area_mark_all(struct paper_sheet *p);
 
 /* ---- a stroke that grows (growing.c) ---- */
 
-/* A stroke of no samples yet is on its way: the sheet's brush is there, and nothing else is painted until it has ended. `painted`
- * false: samples are gathered only. Errors: NO_MEMORY. */
+/* A stroke of no samples yet is on its way: the sheet's brush is there, and nothing else is
+ * painted until it has ended. `painted` false: samples are gathered only. Errors: NO_MEMORY. */
 enum paper_status sheet_growing_begin(struct paper_sheet *p, int number, double pace,
                                       bool painted);
-/* Paints what they settle. Errors: BAD_ARGUMENT (nothing has changed then), NO_MEMORY, MACHINE_FAILED. */
+/* Paints what they settle. Errors: BAD_ARGUMENT (nothing has changed then), NO_MEMORY,
+ * MACHINE_FAILED. */
 enum paper_status sheet_growing_add(struct paper_sheet *p,
                                     const struct paper_stroke_sample *samples, int count);
 /* Paints the rest. */
@@ -326,7 +343,8 @@ enum paper_status sheet_view_check(const struct paper_sheet *p,
 /* It has three channels; they are roots of linear light. */
 bool sheet_view_colored(const struct paper_sheet_view *view);
 bool sheet_view_linear(const struct paper_sheet *p, const struct paper_sheet_view *view);
-/* shades = each fiber's channels, the first of them lowest; of a gray view one. Of a sheet or of a box of it. */
+/* shades = each fiber's channels, the first of them lowest; of a gray view one. Of a sheet or
+ * of a box of it. */
 void sheet_shades_make(struct paper_sheet *p, const struct paper_sheet_view *view);
 
 /* As paper_sheet_view(), of the sheet as it is. */
@@ -336,24 +354,26 @@ enum paper_status sheet_view(struct paper_sheet *p, const struct paper_sheet_vie
 enum paper_status sheet_view_area(struct paper_sheet *p, const struct paper_sheet_view *view,
                                   const struct paper_area *area, uint8_t *rgb,
                                   size_t pitch_bytes);
-/* rgb = the picture with `scale` pixels a fiber each way (finer.c), from the one with one. Errors: NO_MEMORY. */
+/* rgb = the picture with `scale` pixels a fiber each way (finer.c), from the one with one.
+ * Errors: NO_MEMORY. */
 enum paper_status sheet_finer(const uint16_t *coarse, int width, int height, bool torus,
                               int scale, uint16_t *rgb);
-/* The same sheet on its ground, where it has a deckle (ground.c); the picture is `scale` times as fine as the sheet.
- * Errors: NO_MEMORY, MACHINE_FAILED. */
+/* The same sheet on its ground, where it has a deckle (ground.c); the picture is `scale` times
+ * as fine as the sheet. Errors: NO_MEMORY, MACHINE_FAILED. */
 enum paper_status sheet_ground_lay(struct paper_sheet *p, const struct paper_sheet_view *view,
                                    uint16_t *rgb);
-/* covers: what the sheet and its shadow hide, 3 numbers a fiber, under a view's light. They are the sheet's, until it gets another
- * thickness or light. Errors: as above. */
+/* covers: what the sheet and its shadow hide, 3 numbers a fiber, under a view's light. They are
+ * the sheet's, until it gets another thickness or light. Errors: as above. */
 enum paper_status sheet_ground_covers(struct paper_sheet *p, double light,
                                       const uint16_t **covers);
 /* So many pixels of a picture on the ground, where these covers are. */
 void sheet_ground_pixels(const struct paper_sheet_view *view, const uint16_t *covers,
                          size_t count, uint16_t *rgb);
-/* Where there is no paper the colours next to it go on, so that a finer picture's edge is as dark as the paint there. Errors: as
- * above. */
+/* Where there is no paper the colours next to it go on, so that a finer picture's edge is as
+ * dark as the paint there. Errors: as above. */
 enum paper_status sheet_color_spread(struct paper_sheet *p, uint16_t *rgb);
-/* dest (three fields) = the sheet's colour as it lies, in the terms of substrate. Uses t[0..7], t[11]. */
+/* dest (three fields) = the sheet's colour as it lies, in the terms of substrate. Uses t[0..7],
+ * t[11]. */
 void sheet_color_make(struct paper_sheet *p, const CM_field_id_t dest[3]);
 /* The shade of the relief, if the heights have changed since it was made. Errors: NO_MEMORY. */
 enum paper_status sheet_relief_make(struct paper_sheet *p);

@@ -1,8 +1,10 @@
-/* operations.h - what operations do to a sheet: the functions of the event table's rows (event/event.c).
+/* operations.h - what operations do to a sheet: the functions of the event table's rows
+ * (event/event.c).
  *
- * `arguments` is the struct of the operation's kind. A check looks at the arguments and at what the sheet is made of, and changes
- * nothing; what depends on what has been done to the sheet, the operation itself finds. Nothing here knows of histories.
- * Errors: BAD_ARGUMENT, NO_MEMORY, MACHINE_FAILED. */
+ * `arguments` is the struct of the operation's kind. A check looks at the arguments and at what
+ * the sheet is made of, and changes nothing; what depends on what has been done to the sheet,
+ * the operation itself finds. Nothing here knows of histories. Errors: BAD_ARGUMENT, NO_MEMORY,
+ * MACHINE_FAILED. */
 #ifndef LUTETIA_PAPER_OPERATIONS_H
 #define LUTETIA_PAPER_OPERATIONS_H
 

@@ -1,10 +1,12 @@
-/* picture.c - the picture of a sheet or of a part of it: made where the numbers are, read once, and taken to display values.
+/* picture.c - the picture of a sheet or of a part of it: made where the numbers are, read once,
+ * and taken to display values.
  *
- * While steps go on in boxes, boxes know better than the sheet what is in them, and beyond them nothing has changed since they were
- * opened. So a picture takes boxes' insides from the boxes, and the rest from the sheet's own fields, if the area has any of it; nothing
- * is copied back. A box is a torus, and a fiber's picture looks SHEET_LOOK_REACH fibers aside: its inside is what is so far from its
- * sides. Fibers on the rim that is left are at rest, and so are those they look at (boxes.c): their picture is that of the sheet's
- * fields, too. */
+ * While steps go on in boxes, boxes know better than the sheet what is in them, and beyond them
+ * nothing has changed since they were opened. So a picture takes boxes' insides from the boxes,
+ * and the rest from the sheet's own fields, if the area has any of it; nothing is copied back.
+ * A box is a torus, and a fiber's picture looks SHEET_LOOK_REACH fibers aside: its inside is
+ * what is so far from its sides. Fibers on the rim that is left are at rest, and so are those
+ * they look at (boxes.c): their picture is that of the sheet's fields, too. */
 #include "model/boxes_parts.h"
 
 #include <math.h>
@@ -22,7 +24,8 @@ struct look {
     bool boxes; /* what is shown is also in boxes */
 };
 
-/* From roots of linear light to display values: made once. Threads: the one that has the machine. */
+/* From roots of linear light to display values: made once. Threads: the one that has the
+ * machine. */
 static const uint16_t *table_of(bool linear)
 {
     static uint16_t table[SHADES];
@@ -36,7 +39,8 @@ static const uint16_t *table_of(bool linear)
 
 /* ---- making ---- */
 
-/* Calls `use` for each block of the area that lies inside an open box: in the box, and in the area's rows. */
+/* Calls `use` for each block of the area that lies inside an open box: in the box, and in the
+ * area's rows. */
 typedef void (*block_use)(void *context, struct part *part, const struct kit_block *block);
 
 static void blocks_of(const struct paper_sheet *p, struct part *part,

@@ -1,4 +1,5 @@
-/* put_and_take.c - what every operation on a place needs: the part of each fiber that a screen covers, and amounts that come and go. */
+/* put_and_take.c - what every operation on a place needs: the part of each fiber that a screen
+ * covers, and amounts that come and go. */
 #include "model/model.h"
 
 #include <stdlib.h>
@@ -59,13 +60,15 @@ void sheet_paper_heed(struct paper_sheet *p, CM_field_id_t q)
     kit_f_whole(q);
 }
 
-/* Depth of water, units, that was laid on all of a fiber: what a brush that is nearly dry leaves. Water of fibers that are wet in part
- * stands as high as it must be to come forward, and where all are, each draws in what its neighbours have, or loses its own: with a
- * greater depth thin strokes became rows of dots. */
+/* Depth of water, units, that was laid on all of a fiber: what a brush that is nearly dry
+ * leaves. Water of fibers that are wet in part stands as high as it must be to come forward,
+ * and where all are, each draws in what its neighbours have, or loses its own: with a greater
+ * depth thin strokes became rows of dots. */
 #define WETTED 0.04
 
-/* A fiber that a brush has touched is all wet where the water around it has 1 / this of the most that there is. Gaps up to two fibers
- * wide between bristles do not count (a closing: the least of the most): only fibers at the edge of a stroke are wet in part. */
+/* A fiber that a brush has touched is all wet where the water around it has 1 / this of the
+ * most that there is. Gaps up to two fibers wide between bristles do not count (a closing: the
+ * least of the most): only fibers at the edge of a stroke are wet in part. */
 #define TOUCHED 2.0
 
 #define SHARE_LEAST (1 / 255.0)
@@ -104,8 +107,10 @@ static void extreme_around(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t
     }
 }
 
-/* d = what part of a fiber was wetted by water put on it through `share`: the share of the most that fibers around got. Of an edge as sharp as type's a part is wet, but where a shape fades all of each fiber is, under less water. A film on
- * parts of fibers everywhere breaks up: where it comes to close over some, it draws in the water of all around them. Uses t[3..5]. */
+/* d = what part of a fiber was wetted by water put on it through `share`: the share of the most
+ * that fibers around got. Of an edge as sharp as type's a part is wet, but where a shape fades
+ * all of each fiber is, under less water. A film on parts of fibers everywhere breaks up: where
+ * it comes to close over some, it draws in the water of all around them. Uses t[3..5]. */
 static void wetted_make(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t share)
 {
     CM_field_id_t most = p->t[3];

@@ -1,4 +1,5 @@
-/* saved_planes.c - the fields of a sheet that a saved state and a checkpoint hold, to the bit: a row each. */
+/* saved_planes.c - the fields of a sheet that a saved state and a checkpoint hold, to the bit:
+ * a row each. */
 #include "history.h" /* what a plane is */
 #include "model/model.h"
 
@@ -7,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Where the field of a plane is: beside the others, or one for each pigment; and what numbers there can be in it. */
+/* Where the field of a plane is: beside the others, or one for each pigment; and what numbers
+ * there can be in it. */
 struct place {
     size_t member;
     int pigment;
@@ -32,8 +34,9 @@ static void plane_add(struct paper_plane *planes, struct place *places, int *cou
         snprintf(plane->name, sizeof plane->name, "%s", name);
 }
 
-/* Their order is that of files: it changes with the model's version only (PAPER_MODEL_VERSION in
- * sheet.h). A new field is a member in model.h, made in fields.c, cleared in sheet_reset(). */
+/* Their order is that of files: it changes with the model's version only (PAPER_MODEL_VERSION
+ * in sheet.h). A new field is a member in model.h, made in fields.c, cleared in
+ * sheet_reset(). */
 static int planes_make(const struct paper_sheet_config *config, struct paper_plane *planes,
                        struct place *places)
 {

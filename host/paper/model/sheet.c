@@ -87,7 +87,8 @@ static enum paper_status config_check(const struct paper_sheet_config *c)
 
 /* ---- life ---- */
 
-/* A fresh sheet: its stock from the seed, nothing on it. Between paper_enter() and paper_leave(). */
+/* A fresh sheet: its stock from the seed, nothing on it. Between paper_enter() and
+ * paper_leave(). */
 static enum paper_status fresh_make(struct paper_sheet *p)
 {
     enum paper_status status = PAPER_OK;

@@ -1,4 +1,5 @@
-/* sizing.c - how hard a dry fiber is to wet, and the eddies of the water above it: noises of many sizes, from the seed. */
+/* sizing.c - how hard a dry fiber is to wet, and the eddies of the water above it: noises of
+ * many sizes, from the seed. */
 #include "model/clouds.h"
 #include "model/model.h"
 
@@ -18,9 +19,10 @@ struct octaves {
     uint32_t seed;
 };
 
-/* (1 + d n / 8)^8, nearly exp (d n), n cut off at 3 either way: no function of a library, whose last bits may differ. What is above 1 is
- * drawn in to HARD of it: the hardest paper lets a hanging bead through in the end, or a band's lower edge would stay as it was
- * put, straight, between few drips. */
+/* (1 + d n / 8)^8, nearly exp (d n), n cut off at 3 either way: no function of a library, whose
+ * last bits may differ. What is above 1 is drawn in to HARD of it: the hardest paper lets a
+ * hanging bead through in the end, or a band's lower edge would stay as it was put, straight,
+ * between few drips. */
 static void spread_out(float *values, size_t count, float deviation)
 {
     for (size_t i = 0; i < count; i++) {
@@ -49,9 +51,10 @@ static void edges_calm(float *values, const struct paper_sheet_config *config, d
         }
 }
 
-/* Only the slope of the stream function moves anything; but what its value is times how much the depth differs from fiber to fiber
- * moves pigments too, hither and thither, and into single fibers that cannot give as much as they get. So it is folded, like a
- * ruler, into -EDDY_MOST..EDDY_MOST. */
+/* Only the slope of the stream function moves anything; but what its value is times how much
+ * the depth differs from fiber to fiber moves pigments too, hither and thither, and into single
+ * fibers that cannot give as much as they get. So it is folded, like a ruler, into
+ * -EDDY_MOST..EDDY_MOST. */
 static void eddies_fold(float *values, size_t count)
 {
     for (size_t i = 0; i < count; i++) {

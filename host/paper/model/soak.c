@@ -1,33 +1,36 @@
-/* soak.c - a fiber's own part of a step where water flows (model/film.c): what sinks in, settles and dries; and what part of it is
- * wet.
+/* soak.c - a fiber's own part of a step where water flows (model/film.c): what sinks in,
+ * settles and dries; and what part of it is wet.
  *
- * What part. Water on a fiber that is not all wet stands on that part alone, as high as a neighbour's that is:
+ * What part. Water on a fiber that is not all wet stands on that part alone, as high as a
+ * neighbour's that is:
  *
  *         ____________                    depth h, wet part f:  height H = h / f
  *        |            |____               the edge comes forward where H would be more than `advance`,
  *     ___|____________|____|____                 f = h / advance,
  *         f = 1        f = 0.4   f = 0    goes back where H is less than `film`, f = h / film, and else stays where it is.
  *
- * So type's gray edge stays as gray as it was put. `advance` is the angle at which water comes forward, as a height: it goes with
- * the sizing, is less on damp paper, and less where more of the neighbours are wet, so that edges are neither lines along the
- * axes nor frayed.
+ * So type's gray edge stays as gray as it was put. `advance` is the angle at which water comes
+ * forward, as a height: it goes with the sizing, is less on damp paper, and less where more of
+ * the neighbours are wet, so that edges are neither lines along the axes nor frayed.
  *
- * What part is stained. Paint that comes into a clean fiber lies on the part that is wet, and on more as the water comes forward in
- * it; it stays there when the water is gone. A dark line gathers in a fiber at an edge as much paint as others have on all of
- * them; it is seen beside the paper (view.c), not spread over it, so edges stay gray however dark they get. */
+ * What part is stained. Paint that comes into a clean fiber lies on the part that is wet, and
+ * on more as the water comes forward in it; it stays there when the water is gone. A dark line
+ * gathers in a fiber at an edge as much paint as others have on all of them; it is seen beside
+ * the paper (view.c), not spread over it, so edges stay gray however dark they get. */
 #include "model/model.h"
 
 #include <math.h>
 
 #define ADVANCE 4.375      /* of pinning */
 #define ADVANCE_LEAST 1e-3 /* units */
-/* The most by which wet neighbours lower it; along a straight edge a quarter of the neighbours are wet. With 1.2 rows of fibers filled
- * from end to end: edges came to lie along the axes. */
+/* The most by which wet neighbours lower it; along a straight edge a quarter of the neighbours
+ * are wet. With 1.2 rows of fibers filled from end to end: edges came to lie along the axes. */
 #define NEIGHBOURS_HELP 0.3
 #define NEIGHBOURS_LEAST 0.1
-/* Sixteenths of how wet the neighbours are at which water closes over a fiber; all eight are 12. How wet the fiber itself is does
- * not count: where a wash fades out all fibers are wet in part, and water would close over one after the other, in facets along the axes
- * and the diagonals. */
+/* Sixteenths of how wet the neighbours are at which water closes over a fiber; all eight
+ * are 12. How wet the fiber itself is does not count: where a wash fades out all fibers are wet
+ * in part, and water would close over one after the other, in facets along the axes and the
+ * diagonals. */
 #define HOLE_FROM 12.0
 #define HOLE_STEEPNESS 0.5
 #define DAMP_HELP 0.85
@@ -36,12 +39,14 @@
 #define SUCTION 10.0  /* of the stock's absorbency: well absorbing paper sucks the more */
 #define SUCTION_LOCAL 0.25
 #define SETTLING 4.0
-#define HOLLOWS                                                                                \
-    0.6 /* of granulation; below 1, because pigment that is lifted and settles again gathers in hollows by itself */
+/* of granulation; below 1, because pigment that is lifted and settles again gathers in hollows
+ * by itself */
+#define HOLLOWS 0.6
 #define LIFTING 0.4
 #define LIFTED_FROM 0.25 /* depth, units, at which water lifts as fast as it can */
-/* Water that lifts nothing, times `film`. In the last of a film each fiber that is still wet would draw the pigments of those
- * around it up to its surface, and keep them: the wash would have measles. */
+/* Water that lifts nothing, times `film`. In the last of a film each fiber that is still wet
+ * would draw the pigments of those around it up to its surface, and keep them: the wash would
+ * have measles. */
 #define LIFTS_NOT 8.0
 /* Nothing is lifted from a fiber of which less than 1 - 1 / this is wet: otherwise the edge
  * would be washed out. */
@@ -57,14 +62,16 @@
 #define EDGE_LEAST 1.0
 #define ROOM_FROM 13.0 /* units that may be taken in before a fiber is full */
 
-/* How much faster a stock takes water in that is not sized, or less than others: in proportion to what it absorbs. (By the cube of that
- * blotting paper takes a drop before it can run, and a wash keeps the strokes it was laid by.) */
+/* How much faster a stock takes water in that is not sized, or less than others: in proportion
+ * to what it absorbs. (By the cube of that blotting paper takes a drop before it can run, and a
+ * wash keeps the strokes it was laid by.) */
 static double unsized(const struct paper_sheet *p)
 {
     return fmax(1, p->config.stock.absorbency / SHEET_SIZED_MOST);
 }
 
-/* Surface water sinks in where it wets the fiber, pigments with it by their weight. Uses t[8..11]. */
+/* Surface water sinks in where it wets the fiber, pigments with it by their weight. Uses
+ * t[8..11]. */
 static void sink_in(struct paper_sheet *p)
 {
     CM_field_id_t taken = p->t[8], left = p->t[9], part = p->t[10], moved = p->t[11];
@@ -114,7 +121,8 @@ double sheet_settling_pace(const struct paper_sheet *p, int pigment)
     return p->air.settling * SETTLING * p->config.pigments[pigment].density;
 }
 
-/* Part of what is fixed, and of what is in the fibers, is lifted into the water above. Uses t[11..15]. */
+/* Part of what is fixed, and of what is in the fibers, is lifted into the water above. Uses
+ * t[11..15]. */
 static void pigment_settle(struct paper_sheet *p, int i, CM_field_id_t thin, CM_field_id_t slow,
                            CM_field_id_t dry, CM_field_id_t inside)
 {
@@ -150,7 +158,8 @@ static void pigment_settle(struct paper_sheet *p, int i, CM_field_id_t thin, CM_
     kit_f_add(surface, surface, up);
 }
 
-/* Pigments settle, in hollows more than on hills, slower from deep water; what falls dry stays. Uses t[8..15]. */
+/* Pigments settle, in hollows more than on hills, slower from deep water; what falls dry stays.
+ * Uses t[8..15]. */
 static void settle_under(struct paper_sheet *p)
 {
     CM_field_id_t thin = p->t[8], slow = p->t[9], wet = p->t[10], dry = p->t[14],
@@ -232,8 +241,8 @@ static void dry_out(struct paper_sheet *p)
 }
 
 /* How far apart the fibers are among which wet_around spreads. Wide edges take greater
- * distances, so that they form in as many steps as narrow ones: else a band would be as wide as wet_around has come when the water has dried,
- * and not as wide as was asked for. */
+ * distances, so that they form in as many steps as narrow ones: else a band would be as wide as
+ * wet_around has come when the water has dried, and not as wide as was asked for. */
 int sheet_around_reach(const struct paper_sheet *p)
 {
     const double width = p->air.edge_width / p->finer;
@@ -259,8 +268,9 @@ double sheet_edge_length(const struct paper_sheet *p)
     return p->finer * fmax(EDGE_LEAST, EDGE_SLOPE * p->air.edge_width / p->finer - EDGE_BLUR);
 }
 
-/* wet_around follows the wet part and spreads, to the neighbours and to those at `reach`: in the long run it is 1 well inside, 1/2 at
- * a straight edge and 0 outside, over a distance that goes with edge_width. Uses t[8..12]. */
+/* wet_around follows the wet part and spreads, to the neighbours and to those at `reach`: in
+ * the long run it is 1 well inside, 1/2 at a straight edge and 0 outside, over a distance that
+ * goes with edge_width. Uses t[8..12]. */
 static void around_follow(struct paper_sheet *p)
 {
     CM_field_id_t sum = p->t[8], along_y = p->t[9], along_x = p->t[10], near = p->t[12];
@@ -283,8 +293,9 @@ static void around_follow(struct paper_sheet *p)
     kit_f_least(p->wet_around, sum, 0.0);
 }
 
-/* d = how wet the eight neighbours are, sixteenths: by weights of 2 and 1, the fiber's own being 4. Sums go in pairs of opposite sides, so a
- * mirrored sheet has the same bits. Uses t[10..14]. */
+/* d = how wet the eight neighbours are, sixteenths: by weights of 2 and 1, the fiber's own
+ * being 4. Sums go in pairs of opposite sides, so a mirrored sheet has the same bits. Uses
+ * t[10..14]. */
 static void neighbourhood_make(struct paper_sheet *p, CM_field_id_t d)
 {
     CM_field_id_t right = p->t[10], left = p->t[11], one = p->t[12], other = p->t[13],
@@ -363,8 +374,8 @@ void sheet_paint_sum(struct paper_sheet *p, CM_field_id_t d)
             kit_f_add(d, d, fields[j]);
 }
 
-/* Of a clean fiber the part that is wet would be stained. Paint that has come into one that is not wet, out of its neighbours'
- * fibers, lies in all of it. Uses t[7..8]. */
+/* Of a clean fiber the part that is wet would be stained. Paint that has come into one that is
+ * not wet, out of its neighbours' fibers, lies in all of it. Uses t[7..8]. */
 static void stained_follow(struct paper_sheet *p, CM_field_id_t paint)
 {
     CM_field_id_t some = p->t[7], part = p->t[8];

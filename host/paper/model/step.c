@@ -1,4 +1,5 @@
-/* step.c - one step of time on a sheet: the thesis's page by its own rule (thesis/cycle.c), a sheet with layers by model/film.c.
+/* step.c - one step of time on a sheet: the thesis's page by its own rule (thesis/cycle.c), a
+ * sheet with layers by model/film.c.
  *
  * A fiber of a sheet with layers holds water and pigments in up to three of them:
  *
@@ -9,8 +10,9 @@
  *            |  ^            v   |
  *            v  |          fixed[i]       stays
  *
- * First comes what happens in each fiber by itself, then what flows over faces, from the state that this left. A flow is computed once
- * for each face, that between a fiber and its upper neighbour on the axis:
+ * First comes what happens in each fiber by itself, then what flows over faces, from the state
+ * that this left. A flow is computed once for each face, that between a fiber and its upper
+ * neighbour on the axis:
  *
  *          x-1          x          x+1
  *       +--------+--------+--------+      out: part of x's that goes up    (0 or more)
@@ -19,12 +21,14 @@
  *
  *       q(x) += F(x-1) - F(x)
  *
- * Grains are rounded, and still no fiber gives more than it has: film.c and capillary.c say why. Amounts are whole numbers up to 2^24,
- * so sums are exact. That amounts stay there is seen to by `room` (flow.c): it is 1 where a fiber is loaded with up to half of
- * SHEET_LOAD_MAX and falls to 0 at that. A mirrored sheet gives mirrored bits, for every expression is symmetric in a face's two sides.
+ * Grains are rounded, and still no fiber gives more than it has: film.c and capillary.c say
+ * why. Amounts are whole numbers up to 2^24, so sums are exact. That amounts stay there is seen
+ * to by `room` (flow.c): it is 1 where a fiber is loaded with up to half of SHEET_LOAD_MAX and
+ * falls to 0 at that. A mirrored sheet gives mirrored bits, for every expression is symmetric
+ * in a face's two sides.
  *
- * Sources: Small 1991 (displacement by gravity, absorption, evaporation); Curtis et al. 1997 (wet area, edge darkening, transfer of
- * pigment, capacities). */
+ * Sources: Small 1991 (displacement by gravity, absorption, evaporation); Curtis et al. 1997
+ * (wet area, edge darkening, transfer of pigment, capacities). */
 #include "model/model.h"
 
 struct paper_air paper_air_default(void)

@@ -1,12 +1,15 @@
 /* stock.c - what a dry sheet is like: heights, absorbency, capacity and colour from the seed.
  *
- * Sheets are felted: model/felt.c. The thesis's page has two noises, both a torus's.  Hills: random numbers smoothed along both axes with their neighbours at 1, 1, 2, 2, 4, ..., sums of
+ * Sheets are felted: model/felt.c. The thesis's page has two noises, both a torus's.  Hills:
+ * random numbers smoothed along both axes with their neighbours at 1, 1, 2, 2, 4, ..., sums of
  * boxes and so nearly round bells, in three octaves, the coarsest as wide as the paper's grain:
  *
- *     hills = (coarse + fine / 2 + finest / 4), mean 0, deviation about 1;  height = 1/2 + roughness * hills
+ *     hills = (coarse + fine / 2 + finest / 4), mean 0, deviation about 1;  height = 1/2 +
+ *                                                                           roughness * hills
  *
- * Fibers: as thesis/fiber.c makes them, laid along x and along y, each as long as the stock says. Absorbency comes from fibers and
- * a little from hills, so paper bleeds as it looks; capacity from height. */
+ * Fibers: as thesis/fiber.c makes them, laid along x and along y, each as long as the stock
+ * says. Absorbency comes from fibers and a little from hills, so paper bleeds as it looks;
+ * capacity from height. */
 #include "model/felt.h"
 #include "model/model.h"
 
@@ -16,7 +19,8 @@
 
 enum { RANDOM_BITS = 16 };
 #define FACE_LEAST 1e-6 /* an open face's; see OPEN_SCALE */
-/* Of a sheet with a deckle: what is left of the height, and of how fast it drinks, where it is thinnest. */
+/* Of a sheet with a deckle: what is left of the height, and of how fast it drinks, where it is
+ * thinnest. */
 #define THIN_HEIGHT 0.4
 #define THIN_DRINKS 0.3
 
@@ -47,7 +51,8 @@ static void smear(CM_field_id_t d, CM_field_id_t far, unsigned axis, int length)
     }
 }
 
-/* The deviation of `boxes` boxes after each other along one axis: the root of the sum of squares of the weights. */
+/* The deviation of `boxes` boxes after each other along one axis: the root of the sum of
+ * squares of the weights. */
 static double bell_gain(int length, int boxes)
 {
     double weights[512] = {1}, sum = 0;
@@ -116,8 +121,9 @@ static void keep(CM_field_id_t d, double low, double high)
     kit_f_most(d, d, high);
 }
 
-/* What pigments lie on, from display values: in linear light for Kubelka-Munk. The square of display values is near
- * enough to it for variations of some percent about the colour itself. */
+/* What pigments lie on, from display values: in linear light for Kubelka-Munk. The square of
+ * display values is near enough to it for variations of some percent about the colour
+ * itself. */
 static void color_make(struct paper_sheet *p, CM_field_id_t shade)
 {
     const struct paper_stock *stock = &p->config.stock;
@@ -130,7 +136,8 @@ static void color_make(struct paper_sheet *p, CM_field_id_t shade)
     }
 }
 
-/* All of a fiber is barred where there is no paper at all, and nothing of it where there is a little. Uses t[0]. */
+/* All of a fiber is barred where there is no paper at all, and nothing of it where there is a
+ * little. Uses t[0]. */
 static void barred_make(struct paper_sheet *p)
 {
     if (!p->config.deckled)
@@ -226,9 +233,10 @@ static void thickness_heed(struct paper_sheet *p, float *thickness)
     kit_f_least(p->capacity, p->capacity, 0.01);
 }
 
-/* All comes from the same fibers. Where more of them lie, the sheet stands up, holds more and drinks faster; where more
- * size went in, slower. It is the fibers that drink, more than their clouds: ink on unsized paper runs out in fingers
- * everywhere, and not only where the sheet as a whole drinks little. */
+/* All comes from the same fibers. Where more of them lie, the sheet stands up, holds more and
+ * drinks faster; where more size went in, slower. It is the fibers that drink, more than their
+ * clouds: ink on unsized paper runs out in fingers everywhere, and not only where the sheet as
+ * a whole drinks little. */
 static enum paper_status felted_make(struct paper_sheet *p, CM_field_id_t shade)
 {
     const struct paper_stock *stock = &p->config.stock;

@@ -1,13 +1,17 @@
 /* stroke.c - where the bristles are: the tuft, and its way over the paper.
  *
- *            width                     across: -1..1 from left to right, along: -1..1 from heel to toe
+ *            width                     across: -1..1 from left to right, along: -1..1 from heel
+ *                                      to toe
  *        .-----------.
  *       (  . . . . .  )  depth         pressure p presses bristle i down by p (1 + tilt) - shorter[i]; it touches
- *        '-----------'                 where that is above 0, and its force is that over FORCE_FULL, at most 1
+ *        '-----------'                 where that is above 0, and its force is that over
+ *                                      FORCE_FULL, at most 1
  *
- * While a step of the paper lasts the tuft goes some way; each bristle touches the fibers along it at even distances, at most
- * BRUSH_ROWS in one exchange. Which fibers a place lies over, and which it talks to, says touches.c. A place lasts as long as the bristle's thickness takes to pass; contact = 1 - exp (-flow * that).
- * Places lie evenly in a line as wide as the bristle is thick, which follows from the bristle and the number of the place alone. */
+ * While a step of the paper lasts the tuft goes some way; each bristle touches the fibers along
+ * it at even distances, at most BRUSH_ROWS in one exchange. Which fibers a place lies over, and
+ * which it talks to, says touches.c. A place lasts as long as the bristle's thickness takes to
+ * pass; contact = 1 - exp (-flow * that). Places lie evenly in a line as wide as the bristle is
+ * thick, which follows from the bristle and the number of the place alone. */
 #include "model/brush_internal.h"
 
 #include <math.h>
@@ -107,14 +111,16 @@ static float whole_contact(double contact)
     return (float)(rint(contact * CONTACT_STEPS) / CONTACT_STEPS);
 }
 
-/* What all touches of a fiber in one exchange come to, of the way to equal levels. It is the same whether they come in
- * one exchange or in two, so there are no bars where one ends and the next begins. */
+/* What all touches of a fiber in one exchange come to, of the way to equal levels. It is the
+ * same whether they come in one exchange or in two, so there are no bars where one ends and the
+ * next begins. */
 static double contact_of(const struct sheet_brush *own, double dwell, double touches)
 {
     return 1 - exp(-TOUCH_SHARE * own->brush.flow * dwell * touches);
 }
 
-/* Where the fibers (those of 0 or more, by row-major number on the sheet) are on the sheet or on a box of it, which is returned. */
+/* Where the fibers (those of 0 or more, by row-major number on the sheet) are on the sheet or
+ * on a box of it, which is returned. */
 static struct paper_sheet *addresses_make(struct paper_sheet *p, const int fibers[BRUSH_PLACES],
                                           uint32_t address[BRUSH_PLACES])
 {
@@ -171,8 +177,8 @@ static void places_count(struct sheet_contacts *c, int rows, int bristles)
     }
 }
 
-/* Fills p->brushes->contacts for the times from..from + rows * length; false: nothing touches. *exchanging: the sheet, or a box of
- * it, that the addresses are of. */
+/* Fills p->brushes->contacts for the times from..from + rows * length; false: nothing touches.
+ * *exchanging: the sheet, or a box of it, that the addresses are of. */
 static bool contacts_make(struct sheet_going *g, double from, double length, int rows,
                           double dwell, struct paper_sheet **exchanging)
 {
@@ -317,7 +323,8 @@ int sheet_going_intervals(const struct paper_stroke *stroke)
 
 int sheet_going_settled(const struct paper_stroke *stroke)
 {
-    /* a tuft looks up to half an interval ahead (tuft_at()); the spline before a sample is settled by the next one */
+    /* a tuft looks up to half an interval ahead (tuft_at()); the spline before a sample is
+     * settled by the next one */
     if (stroke->samples_count < 2)
         return 0;
     const double until = stroke->samples[stroke->samples_count - 2].time_s - 2e-6;
@@ -332,7 +339,8 @@ enum paper_status sheet_going_on(struct sheet_going *g, int until)
     enum paper_status status = PAPER_OK;
     for (; g->interval < until && status == PAPER_OK; g->interval++) {
         if (p->due && p->due(p->due_context)) {
-            if (p->history) /* half a stroke is no operation: it is as if it had not been begun */
+            /* half a stroke is no operation: it is as if it had not been begun */
+            if (p->history)
                 return paper_fail(PAPER_MACHINE_FAILED, "stopped");
             break;
         }

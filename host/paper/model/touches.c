@@ -2,18 +2,21 @@
  *
  * A place is as large as a fiber and lies over up to four of them, as a pixel of type does:
  *
- *         +------+------+      a fiber's touch is the sum, over all places of an exchange, of the part of the place
+ *         +------+------+      a fiber's touch is the sum, over all places of an exchange, of
+ *                              the part of the place
  *         |   .--|---.  |      that lies over it, times its force: even inside a stroke, less and less towards its
  *         +---|--+---|--+      edge
  *         |   '--|---'  |
  *         +------+------+
  *
- * But a place has one processor, which talks to one fiber. So each place takes that one of its four which nobody has taken yet and
- * of which it and others have most, else that which has most left when what has been dealt out is taken off: so all fibers that are touched
- * are taken, where there are places enough, and each gets its own sum from those who took it. The nearest fiber for each place left
- * holes in a stroke, in rows along it.
+ * But a place has one processor, which talks to one fiber. So each place takes that one of its
+ * four which nobody has taken yet and of which it and others have most, else that which has
+ * most left when what has been dealt out is taken off: so all fibers that are touched are
+ * taken, where there are places enough, and each gets its own sum from those who took it. The
+ * nearest fiber for each place left holes in a stroke, in rows along it.
  *
- * Parts are whole numbers, so sums are the same in any order, and a mirrored stroke deals mirrored fibers out. */
+ * Parts are whole numbers, so sums are the same in any order, and a mirrored stroke deals
+ * mirrored fibers out. */
 #include "model/brush_internal.h"
 
 #include <math.h>

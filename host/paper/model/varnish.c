@@ -1,5 +1,6 @@
-/* varnish.c - clear gloss on the paper. Under it less light is scattered at the fibers, so colours are deeper; where it
- * begins and ends it shines or is in shade, with light from the upper left. */
+/* varnish.c - clear gloss on the paper. Under it less light is scattered at the fibers, so
+ * colours are deeper; where it begins and ends it shines or is in shade, with light from the
+ * upper left. */
 #include "model/model.h"
 #include "techniques.h"
 

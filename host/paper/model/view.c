@@ -1,25 +1,30 @@
-/* view.c - looking at a sheet: its colour by Kubelka-Munk or by the thesis's rule, its water, any layer.
+/* view.c - looking at a sheet: its colour by Kubelka-Munk or by the thesis's rule, its water,
+ * any layer.
  *
- * The pigments of a fiber are one layer on what they lie on; K and S are the sums over them, times their amounts. With
- * Q = sqrt(K (K + 2 S)) and E = exp(-Q),
+ * The pigments of a fiber are one layer on what they lie on; K and S are the sums over them,
+ * times their amounts. With Q = sqrt(K (K + 2 S)) and E = exp(-Q),
  *
  *     D = (K + S) (1 - E^2) + Q (1 + E^2)     R = S (1 - E^2) / D     T = 2 Q E / D
  *     seen = R + T^2 below / (1 - R below)
- *     seen = stained seen + (1 - stained) below             paint on a part of a fiber lies beside paper
+ *     seen = stained seen + (1 - stained) below             paint on a part of a fiber lies
+ *                                                           beside paper
  *
- * Where pigments are known by bands (bands.h), K and S of a band are sums like those of a channel, but for wet paint, which absorbs more;
- * what a band throws back is the same in another form,
+ * Where pigments are known by bands (bands.h), K and S of a band are sums like those of a
+ * channel, but for wet paint, which absorbs more; what a band throws back is the same in
+ * another form,
  *
  *     c = Q coth Q     seen = (S + below (c - K - S)) / (K + S + c - S below)
  *
- * and the colour is the sum over bands. coth Q = 1 + 2 / (exp (2 Q) - 1); exp (2 Q) - 1 is a polynomial for Q / 4, doubled three times, so
- * that it needs no function of the machine and keeps its digits near 0. That is off by less than 5e-7.
+ * and the colour is the sum over bands. coth Q = 1 + 2 / (exp (2 Q) - 1); exp (2 Q) - 1 is a
+ * polynomial for Q / 4, doubled three times, so that it needs no function of the machine and
+ * keeps its digits near 0. That is off by less than 5e-7.
  *
- * which is Kubelka and Munk's R and T (a = 1 + K/S, b S = Q) without a division by S. Q is kept from 0, where 1 - E^2
- * would lose its digits; that changes R and T by less than 2e-5.
+ * which is Kubelka and Munk's R and T (a = 1 + K/S, b S = Q) without a division by S. Q is kept
+ * from 0, where 1 - E^2 would lose its digits; that changes R and T by less than 2e-5.
  *
- * The machine computes 16 bits of each channel, of linear light its root (dark shades need the finer steps), all three in
- * one word, so that a picture is one kernel and one array to read; picture.c reads it. */
+ * The machine computes 16 bits of each channel, of linear light its root (dark shades need the
+ * finer steps), all three in one word, so that a picture is one kernel and one array to read;
+ * picture.c reads it. */
 #include "bands.h"
 #include "model/model.h"
 
@@ -32,7 +37,8 @@
 #define WET_FROM                                                                               \
     2.0 /* of the water in a fiber and on it: half a unit is as wet as can be seen */
 
-/* d = sum over pigments of amount * share[pigment], or of amount * (1 - share); amounts of all layers. Uses t[6]. */
+/* d = sum over pigments of amount * share[pigment], or of amount * (1 - share); amounts of all
+ * layers. Uses t[6]. */
 static void mixture(struct paper_sheet *p, CM_field_id_t d, size_t member, int channel,
                     bool inverted)
 {
@@ -53,11 +59,12 @@ static void mixture(struct paper_sheet *p, CM_field_id_t d, size_t member, int c
     }
 }
 
-/* Units of paint, all pigments together, that lie above one another at most: where a part of a fiber would have more, a greater
- * part is stained. */
+/* Units of paint, all pigments together, that lie above one another at most: where a part of a
+ * fiber would have more, a greater part is stained. */
 #define DEEPEST 3.0
 
-/* Whether paint may lie on parts of fibers. Paper that is not sized draws it into all of each. */
+/* Whether paint may lie on parts of fibers. Paper that is not sized draws it into all of
+ * each. */
 static bool stained_in_part(const struct paper_sheet *p)
 {
     return sheet_has(p, PAPER_PART_SURFACE) && p->config.stock.absorbency <= SHEET_SIZED_MOST;
@@ -77,7 +84,8 @@ static void stained_make(struct paper_sheet *p, CM_field_id_t d)
     kit_f_most(d, d, 1.0);
 }
 
-/* d = the layer over what it lies on, in one channel. stained: the part of each fiber where it lies; 0: on all. Uses t[0..7]. */
+/* d = the layer over what it lies on, in one channel. stained: the part of each fiber where it
+ * lies; 0: on all. Uses t[0..7]. */
 static void kubelka_munk(struct paper_sheet *p, CM_field_id_t d, int channel,
                          CM_field_id_t stained)
 {
@@ -146,13 +154,15 @@ static void amount_make(struct paper_sheet *p, CM_field_id_t d, int i, CM_field_
         kit_f_mul(d, d, per);
 }
 
-/* What is known of the sheet's pigments, by bands, and by wet bands; where each fiber is wet; the inverse of its stained part, 0: 1. */
+/* What is known of the sheet's pigments, by bands, and by wet bands; where each fiber is wet;
+ * the inverse of its stained part, 0: 1. */
 struct bands {
     double k[PAPER_PIGMENTS_MAX][PAPER_BANDS], s[PAPER_PIGMENTS_MAX][PAPER_BANDS];
     CM_field_id_t wet, per;
 };
 
-/* k, s = those of the mixture in a band. The amounts are the same values in every band: the machine makes them once. Uses t[6..7]. */
+/* k, s = those of the mixture in a band. The amounts are the same values in every band: the
+ * machine makes them once. Uses t[6..7]. */
 static void band_mix(struct paper_sheet *p, const struct bands *bands, int band,
                      CM_field_id_t k, CM_field_id_t s)
 {
@@ -229,7 +239,8 @@ static void band_see(struct paper_sheet *p, const struct bands *bands, int band,
     }
 }
 
-/* dest = the layer over what it lies on. stained: the part of each fiber where it lies; 0: on all. Uses t[0..7], t[12..13]. */
+/* dest = the layer over what it lies on. stained: the part of each fiber where it lies; 0: on
+ * all. Uses t[0..7], t[12..13]. */
 static void bands_see(struct paper_sheet *p, const CM_field_id_t dest[3], CM_field_id_t stained)
 {
     struct bands bands = {.wet = p->t[12], .per = stained ? p->t[13] : 0};

@@ -1,4 +1,5 @@
-/* wash.c - amounts that are not the same everywhere: graded washes, printed amounts; and lifting them again. */
+/* wash.c - amounts that are not the same everywhere: graded washes, printed amounts; and
+ * lifting them again. */
 #include "model/model.h"
 #include "techniques.h"
 

@@ -5,7 +5,8 @@
  *     '+' '*' '-'                           the last two become one
  *     'N' operation(1) first(1) number      the last one, and a number
  *
- * Bytes may come from a file: numbers and counts are checked, and no shape is larger than the sheet. */
+ * Bytes may come from a file: numbers and counts are checked, and no shape is larger than the
+ * sheet. */
 #include "drawing.h"
 
 #include "base/base.h"

@@ -125,7 +125,8 @@ static void draw_cubic(struct pen *pen, const double *a)
 {
     double x = pen->x, y = pen->y;
     line_open(pen);
-    /* the chord of 1/n of a cubic is off by at most 1/8 of its greatest second derivative over n^2 */
+    /* the chord of 1/n of a cubic is off by at most 1/8 of its greatest second derivative over
+     * n^2 */
     double bend = fmax(hypot(x - 2 * a[0] + a[2], y - 2 * a[1] + a[3]),
                        hypot(a[0] - 2 * a[2] + a[4], a[1] - 2 * a[3] + a[5]));
     int count = chords(sqrt(0.75 * bend / pen->tolerance));

@@ -31,7 +31,8 @@ struct reading {
     enum paper_status status;
 };
 
-/* ---- expat's memory: a file of names and attributes takes twenty times as much as it is long ---- */
+/* ---- expat's memory: a file of names and attributes takes twenty times as much as it is long
+ * ---- */
 
 enum { BLOCK_HEAD = 16, PARSER_BYTES = 1 << 20, PARSER_SHARE = 5 /* times the file */ };
 
@@ -201,7 +202,8 @@ static const char *attribute(const XML_Char **attributes, const char *name)
     return NULL;
 }
 
-/* Entities of a DOCTYPE can name each other, so deep that expat overflows the stack; no path needs any. */
+/* Entities of a DOCTYPE can name each other, so deep that expat overflows the stack; no path
+ * needs any. */
 static void doctype_begin(void *context, const XML_Char *name, const XML_Char *system,
                           const XML_Char *public, int internal)
 {

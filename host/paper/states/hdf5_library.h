@@ -1,8 +1,9 @@
-/* hdf5_library.h - HDF5, loaded when a state is saved or read for the first time: with the libraries that it needs itself it would
- * take longer to load than all others that the program is linked with.
+/* hdf5_library.h - HDF5, loaded when a state is saved or read for the first time: with the
+ * libraries that it needs itself it would take longer to load than all others that the program
+ * is linked with.
  *
- * hdf5.Fopen() is HDF5's H5Fopen(); *hdf5.T_STD_U8LE_g is what its headers call H5T_STD_U8LE. A name that is not in the table yet
- * is added there. */
+ * hdf5.Fopen() is HDF5's H5Fopen(); *hdf5.T_STD_U8LE_g is what its headers call H5T_STD_U8LE. A
+ * name that is not in the table yet is added there. */
 #ifndef LUTETIA_PAPER_HDF5_LIBRARY_H
 #define LUTETIA_PAPER_HDF5_LIBRARY_H
 
@@ -41,11 +42,11 @@ extern struct hdf5 {
     HDF5_NAMES(HDF5_MEMBER)
 } hdf5;
 
-/* Loads it, for work on the file of that name. Errors: PAPER_BAD_ARGUMENT: there is none. Before a process gives up its right to
- * open files. */
+/* Loads it, for work on the file of that name. Errors: PAPER_BAD_ARGUMENT: there is none.
+ * Before a process gives up its right to open files. */
 enum paper_status hdf5_load(const char *path);
-/* Before the first call in a process: HDF5 then prints nothing, and does nothing at exit, where it would try again to write what
- * failed on a full disk, or crash on what it read. */
+/* Before the first call in a process: HDF5 then prints nothing, and does nothing at exit, where
+ * it would try again to write what failed on a full disk, or crash on what it read. */
 void hdf5_begin(void);
 
 #endif

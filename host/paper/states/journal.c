@@ -3,7 +3,8 @@
  *     the sheet's thread    told() ---> pending ---.  (under the lock)
  *     the syncing thread                           '--> writing ---> file, fdatasync
  *
- * What could not be written stays in `writing`, and goes to the same place of the file when it can: a disk that was full loses nothing. */
+ * What could not be written stays in `writing`, and goes to the same place of the file when it
+ * can: a disk that was full loses nothing. */
 #include "states/journal_entries.h"
 
 #include "brush.h"

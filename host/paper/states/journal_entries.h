@@ -9,7 +9,8 @@
  *
  *     entry: length, checksum            4, 8: of the number and the content
  *       number                           8: of the entry, from 0
- *       what                             1: 0 an operation, 1 one that is joined to the last; else the move (enum note_move)
+ *       what                             1: 0 an operation, 1 one that is joined to the last;
+ *                                        else the move (enum note_move)
  *       operation                        history_operation_put(), or
  *       number                           8: the move's
  */
@@ -34,7 +35,8 @@ enum paper_status journal_head_get(struct event_reader *r, struct journal_head *
 /* An operation, or a move (op NULL). */
 void journal_entry_put(struct event_bytes *b, uint64_t number, const struct event_record *op,
                        bool joined, int move, long move_number);
-/* Does with the sheet what the next entry tells. Errors: BAD_FILE (damaged, or impossible), NO_MEMORY; r->at is then before it. */
+/* Does with the sheet what the next entry tells. Errors: BAD_FILE (damaged, or impossible),
+ * NO_MEMORY; r->at is then before it. */
 enum paper_status journal_entry_do(struct event_reader *r, uint64_t number,
                                    const struct journal_head *head, struct paper_sheet *p);
 

@@ -171,7 +171,8 @@ static hid_t access_make(const struct driver_access *of)
     return number < 0 || access < 0 || hdf5.Pset_driver(access, number, of) < 0 ? -1 : access;
 }
 
-/* The driver does not look at the name. It is absolute because HDF5 2 asks for the current folder otherwise, and readers may not ask. */
+/* The driver does not look at the name. It is absolute because HDF5 2 asks for the current
+ * folder otherwise, and readers may not ask. */
 static const char NAME[] = "/state";
 
 int64_t state_file_open(int descriptor)

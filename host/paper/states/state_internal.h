@@ -3,10 +3,12 @@
  * The first 512 bytes, text, the rest of them 0:
  *
  *     LUTETIA STATE 2                    the version of this format
- *     model 2                            the version of the paper's model; 1 is read, too (sheet.h)
+ *     model 2                            the version of the paper's model; 1 is read, too
+ *                                        (sheet.h)
  *     program X.Y.Z                      that wrote it
  *     bytes 123456                       of the whole file
- *     checksum 1a2b3c4d                  CRC-32 of all from byte 512 on, then of this, with these digits 0
+ *     checksum 1a2b3c4d                  CRC-32 of all from byte 512 on, then of this, with
+ *                                        these digits 0
  *     sheets 1 2 5                       their numbers
  *
  * Then HDF5: a group sheet-N for each, with attributes for people and programs that look at
@@ -46,7 +48,8 @@ struct state_reading {
     unsigned long long memory_bytes;
 };
 
-/* Confines the process, reads a sheet by HDF5 and writes it to the pipe; does not return (states/state_reader.c). */
+/* Confines the process, reads a sheet by HDF5 and writes it to the pipe; does not return
+ * (states/state_reader.c). */
 _Noreturn void state_reader(const struct state_reading *reading);
 
 /* The format of its output: frames of a kind, a length (8 bytes, low first), and that many
@@ -61,12 +64,14 @@ enum {
 /* Opens an HDF5 file (hid_t) on a descriptor, for reading only; negative: failed
  * (states/state_driver.c). */
 int64_t state_file_open(int descriptor);
-/* What became of a file that is written: the first error, as errno has it; 0: none. It lasts as long as the file is open. */
+/* What became of a file that is written: the first error, as errno has it; 0: none. It lasts as
+ * long as the file is open. */
 struct state_writing {
     int error;
 };
-/* Makes an HDF5 file (hid_t) on a descriptor of an empty file, with creation properties (hid_t); negative: failed. What cannot be
- * written is noted in *writing, and HDF5 does not hear of it (states/state_driver.c). */
+/* Makes an HDF5 file (hid_t) on a descriptor of an empty file, with creation properties
+ * (hid_t); negative: failed. What cannot be written is noted in *writing, and HDF5 does not
+ * hear of it (states/state_driver.c). */
 int64_t state_file_create(int descriptor, struct state_writing *writing, int64_t how);
 /* Checks that the HDF5 file (hid_t) has the sheets of its header, and that the sheet
  * `number` has exactly what we write. Returns NULL if so, else the error in words. Reads no

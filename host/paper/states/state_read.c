@@ -1,6 +1,7 @@
 /* state_read.c - reads sheets from an untrusted file.
  *
- *     this process                          the reader's, forked for each sheet (states/state_reader.c)
+ *     this process                          the reader's, forked for each sheet
+ *                                           (states/state_reader.c)
  *     header, length, checksum
  *     frames  <------------ pipe ---------- HDF5: run, then planes, or an error in words
  *     run decoded, planes checked (history/run.c, checkpoint.c)

@@ -4,7 +4,8 @@
  *     /                    a hard link to a group for each sheet, none else
  *       sheet-N            "run" and "planes", none else
  *         run              bytes, all in one piece in this file
- *         planes           datasets of height x width words, in chunks of this file, shuffled and deflated
+ *         planes           datasets of height x width words, in chunks of this file, shuffled
+ *                          and deflated
  *
  * HDF5 can do much more: links by name to other places and other files, data kept in other
  * files or gathered from them, references, filters that are loaded as programs, types that

@@ -1,4 +1,5 @@
-/* apply.c - putting water and pigment on the sheet: through a rectangle, and through a screen. */
+/* apply.c - putting water and pigment on the sheet: through a rectangle, and through a
+ * screen. */
 #include "base/page.h"
 
 #include <math.h>
@@ -62,7 +63,8 @@ enum paper_status paper_rectangle(struct paper *p, int x, int y, int width, int 
     return paper_leave(p);
 }
 
-/* A sheet-sized copy of the screen, so that it goes to the machine as one array. NULL: no memory. */
+/* A sheet-sized copy of the screen, so that it goes to the machine as one array. NULL: no
+ * memory. */
 static uint8_t *screen_on_sheet(const struct paper *p, const struct paper_screen *screen, int x,
                                 int y)
 {

@@ -1,6 +1,7 @@
 /* disperse.c - one cycle of time: water and pigments spread, then fibers dry.
  *
- * Every fiber looks at the gradient towards itself across one face, that to the neighbour below it on the axis:
+ * Every fiber looks at the gradient towards itself across one face, that to the neighbour below
+ * it on the axis:
  *
  *          x-1          x          x+1
  *       +--------+--------+--------+
@@ -10,13 +11,15 @@
  *
  *       w(x) += inward(x) - outward(x)
  *
- * so what leaves one fiber arrives in the next.  A pigment's gradient is multiplied by the water at the receiving
- * fiber and by the pigment's molecular weight too: it moves where it is wet, and a light pigment runs ahead.
- * Gravity is a factor: gradients along it are multiplied by it, those against it divided.
+ * so what leaves one fiber arrives in the next.  A pigment's gradient is multiplied by the
+ * water at the receiving fiber and by the pigment's molecular weight too: it moves where it is
+ * wet, and a light pigment runs ahead. Gravity is a factor: gradients along it are multiplied
+ * by it, those against it divided.
  *
  * Two fibers at each edge take no part; what flows out over the rim is gone.  At most
- * PAPER_ABSORBENCY_MAX * PAPER_GRAVITY_MAX = 1/2 of a gradient flows across a face, so the explicit scheme is stable
- * and amounts stay within 0..1, which the limits below only enforce against rounding and against gravity's pile-up. */
+ * PAPER_ABSORBENCY_MAX * PAPER_GRAVITY_MAX = 1/2 of a gradient flows across a face, so the
+ * explicit scheme is stable and amounts stay within 0..1, which the limits below only enforce
+ * against rounding and against gravity's pile-up. */
 #include "base/page.h"
 
 #include <math.h>

@@ -1,9 +1,10 @@
 /* fiber.c - what a dry sheet is like: each fiber's absorbency and colour, from the seed.
  *
- * Both come from one noise, so that paper looks as it behaves: where fibers lie thick it is a little darker and
- * takes water better.  The noise is made as paper is, of fibers laid in both directions: a random number at each
- * pixel, averaged along x with its neighbours at 1, 2, 4, ... (a box as long as the fibers), another likewise
- * along y, and a third left as it is: the grain.  The sheet is a torus to it.
+ * Both come from one noise, so that paper looks as it behaves: where fibers lie thick it is a
+ * little darker and takes water better.  The noise is made as paper is, of fibers laid in both
+ * directions: a random number at each pixel, averaged along x with its neighbours at 1, 2, 4,
+ * ... (a box as long as the fibers), another likewise along y, and a third left as it is: the
+ * grain.  The sheet is a torus to it.
  *
  *     noise = amount * (along x + along y + grain / 2), mean 0, deviation about 1
  */
@@ -25,8 +26,8 @@ static void noise_white(CM_field_id_t dest, CM_field_id_t bits)
     CM_f_subtract_constant_2_1L(dest, 0.5, KIT_F);
 }
 
-/* Averages over `length` (a power of two) neighbours along the axis, and brings the deviation back to what it
- * was.  Copying over distance d takes d NEWS steps. */
+/* Averages over `length` (a power of two) neighbours along the axis, and brings the deviation
+ * back to what it was.  Copying over distance d takes d NEWS steps. */
 static void noise_smear(CM_field_id_t field, CM_field_id_t neighbour, unsigned axis, int length)
 {
     for (int distance = 1; distance < length; distance *= 2) {
@@ -38,7 +39,8 @@ static void noise_smear(CM_field_id_t field, CM_field_id_t neighbour, unsigned a
     }
 }
 
-/* One channel of fiber_color = 255 * color * (1 + lightness), cut off to 0..255; lightness is in `noise`. */
+/* One channel of fiber_color = 255 * color * (1 + lightness), cut off to 0..255; lightness is
+ * in `noise`. */
 static void color_channel(struct paper *p, int channel, double color, CM_field_id_t noise,
                           CM_field_id_t temporary)
 {
@@ -52,7 +54,8 @@ static void color_channel(struct paper *p, int channel, double color, CM_field_i
 
 void paper_fibers_make(struct paper *p, const struct paper_config *config)
 {
-    /* The deviation of a uniform number on -1/2..1/2 is 1/sqrt(12); three parts add up in squares. */
+    /* The deviation of a uniform number on -1/2..1/2 is 1/sqrt(12); three parts add up in
+     * squares. */
     double unit = sqrt(12.0) / sqrt(1 + 1 + 0.25);
     CM_field_id_t noise = p->inward, other = p->outward, neighbour = p->inflow;
 
