@@ -378,7 +378,7 @@ struct machine_value *machine_self_index(struct machine *m, int width);
  * same on every device. With mix() the finaliser of splitmix64 and g = 0x9e3779b97f4a7c15,
  * draw k (from 1) of index n is z = mix(mix(mix(seed) + k*g) + n*g), and the result the high
  * width bits of z, or (z >> 32)*limit >> 32 for a limit under 2^32, or the high 64 bits of
- * z*limit. Beyond 64 bits: two draws, the low 64 bits first; with a limit the high part is 0. */
+ * z*limit. Beyond 64 bits: two draws, low bits first; with a limit the high part is 0. */
 struct machine_value *machine_random(struct machine *m, int width, uint64_t limit);
 void machine_random_seed(struct machine *m, uint64_t seed);
 

@@ -8,7 +8,7 @@ import re
 import sys
 
 SENTENCE = re.compile(r"^(\d+)\. \S", re.MULTILINE)
-QUOTE = re.compile(r"security\.md (\d+(?:, \d+)*)")
+QUOTE = re.compile(r"security\.md[\s*]+(\d+(?:,[\s*]+\d+)*)")  # also where a comment's line ends in between
 SUFFIXES = (".c", ".h", ".py", ".sh")
 
 
@@ -20,7 +20,7 @@ def wrongs(page, tests):
     quoted = {}
     for name, text in tests:
         for quote in QUOTE.findall(text):
-            for number in quote.split(", "):
+            for number in re.findall(r"\d+", quote):
                 quoted.setdefault(int(number), []).append(name)
     found += ["docs/security.md: no test quotes sentence %d" % number for number in numbers if number not in quoted]
     found += ["%s: docs/security.md has no sentence %d" % (name, number)
@@ -32,6 +32,7 @@ def checked():
     """Tests wrongs()."""
     page = "1. One.\n\ntext\n2. Two.\n"
     assert wrongs(page, [("a.c", "/* (security.md 1, 2) */")]) == []
+    assert wrongs(page, [("a.c", "/* (security.md\n * 1,\n * 2) */")]) == []
     assert len(wrongs(page, [("a.c", "/* security.md 1 */")])) == 1
     assert len(wrongs(page, [("a.c", "/* security.md 1, 2, 3 */")])) == 1
     assert len(wrongs("1. One.\n3. Three.\n", [("a.c", "security.md 1, 3")])) == 1
