@@ -519,7 +519,7 @@ struct machine_scan {
  * the earlier runs' totals, one after the other from the segment's beginning. */
 struct machine_value *machine_scan(struct machine *m, const struct machine_scan *how,
                                    struct machine_value *value);
-/* So many bits of dest become what machine_scan() adds up to of a 1 in each; how->op is unused. */
+/* So many bits of dest become what machine_scan() adds up to of a 1 in each, whatever the op. */
 enum machine_status machine_enumerate(struct machine *m, const struct machine_scan *how,
                                       uint32_t dest, int width);
 /* In each processor, the combination of all active ones that differ from it only on the axes of
@@ -530,7 +530,7 @@ struct machine_value *machine_spread(struct machine *m, enum machine_scan_op op,
 /* In each processor, the EVERYWHERE value of the one with that coordinate on its line. */
 struct machine_value *machine_spread_coordinate(struct machine *m, int axis, int coordinate,
                                                 struct machine_value *value);
-/* In each processor, the EVERYWHERE value of the one with that row-major index, active or not. */
+/* In each processor, the EVERYWHERE value of that with the row-major index, active or not. */
 struct machine_value *machine_spread_index(struct machine *m, uint64_t index,
                                            struct machine_value *value);
 /* In each active processor, 32 bits: its position along the axis if the active processors of
