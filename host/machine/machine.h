@@ -519,7 +519,7 @@ struct machine_scan {
  * the earlier runs' totals, one after the other from the segment's beginning. */
 struct machine_value *machine_scan(struct machine *m, const struct machine_scan *how,
                                    struct machine_value *value);
-/* So many bits of dest become what machine_scan() adds up to of a 1 in each, whatever the op. */
+/* So many bits of dest become what machine_scan() adds up to of a 1 in each, by whatever op. */
 enum machine_status machine_enumerate(struct machine *m, const struct machine_scan *how,
                                       uint32_t dest, int width);
 /* In each processor, the combination of all active ones that differ from it only on the axes of
