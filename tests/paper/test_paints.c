@@ -242,7 +242,7 @@ static void paints_have_names(void **state)
 /* Display values 0..255, or L*a*b*. */
 struct swatch {
     const char *name;
-    double lab;
+    bool lab;
     double values[3];
 };
 
