@@ -77,7 +77,7 @@ local effects = {
     steps(p, 300)
   end},
   {"lift", "cold press", function(p)
-    p:put(square, {water = 0.5, [green] = 0.5}) steps(p, 80)
+    p:put(square, {water = 0.5, [blue] = 0.5}) steps(p, 80)
     p:blot(ellipse(px(80), px(70), px(40), px(20)):soften(px(6)) * 0.9, 0.9, 0.8) steps(p, 250) p:dry()
     p:lift(line({{px(30), px(140), px(4)}, {px(96), px(128), px(16)}, {px(164), px(142), px(4)}}):soften(px(3)), 0.95)
   end},
