@@ -13,6 +13,7 @@ OTHER = {
     "CACHE_FILES_MOST", "MACHINE_CACHE_FOLDER_MAX",  # of the cache on disk
     "CHUNKS_AHEAD",  # how many there is room for
     "CROSS_NEAR",  # a block of lanes: what a cross may look at before it is in memory
+    "LINE_GHOSTS",  # processors of a set with one axis
     "LINE_MOST",  # of text
     "NEAR_SHARED",  # for tests
     "NEAR_ROWS", "FAR_ROWS",  # of what is measured
