@@ -266,6 +266,11 @@ static void page_is_whole(const char *folder, const char *name, long *words)
     struct reader_document *d = read_all(source, bytes);
     char *all = text_of(d);
     for (const char *at = source; *at;) {
+        const char *comment = strncmp(at, "<!--", 4) == 0 ? strstr(at, "-->") : NULL;
+        if (comment) { /* HTML's: nobody reads it */
+            at = comment + 3;
+            continue;
+        }
         size_t n = 0;
         while (is_letter((unsigned char)at[n]))
             n++;
