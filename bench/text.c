@@ -2,10 +2,9 @@
  * one thread. The words are random, but the same each time. Both set the whole book in each
  * run, and the time is the thread's processor time. */
 #include "bench.h"
-#include "harness.h"
+#include "options.h"
 #include "text_edit.h"
 #include "text_pango.h"
-#include <visible_text.h>
 
 #include <face.h>
 #include <text.h>
@@ -15,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { EXIT_WRONG = 2, TURNS = 7, LINES = 5000, PARAGRAPH_WORDS = 110, BYTES_MAX = 900000 };
+enum { LINES = 5000, PARAGRAPH_WORDS = 110, BYTES_MAX = 900000 };
 
 #define SIZE_PX 12.0
 #define WIDTH_PX 400.0
@@ -125,56 +124,42 @@ static void reading_finish(struct reading *r)
     free(r->text);
 }
 
-static bool book_run(const struct book *b, struct bench_report *report)
+static bool book_run(const struct book *b, int turns, struct bench_report *report)
 {
     struct reading r = {.lines = 0};
-    double seconds[2][TURNS];
+    double *seconds = calloc((size_t)turns, 2 * sizeof *seconds);
+    if (!seconds)
+        return bench_fail("no memory");
     bool ok = reading_begin(&r, b);
-    for (int i = -1; ok && i < TURNS; i++) /* -1 warms up */
+    for (int i = -1; ok && i < turns; i++) /* -1 warms up */
         for (int who = 0; ok && who < (r.pango ? 2 : 1); who++) {
             double began_s = bench_thread_s();
             ok = who ? pangos(&r) : ours(&r);
             if (i >= 0)
-                seconds[who][i] = bench_thread_s() - began_s;
+                seconds[who * turns + i] = bench_thread_s() - began_s;
         }
     for (int who = 0; ok && who < (r.pango ? 2 : 1); who++) {
-        struct bench_sample s = bench_sample_of(seconds[who], TURNS);
+        struct bench_sample s = bench_sample_of(&seconds[who * turns], turns);
         double lines = who ? r.pango_lines : r.lines;
         bench_report_add(report, who ? "pango" : "lutetia", b->name,
                          (struct bench_sample){lines / s.median, lines / s.min}, 1, "lines/s");
     }
     reading_finish(&r);
+    free(seconds);
     return ok;
 }
 
 int bench_text_main(int argc, char **argv)
 {
-    const char *json = NULL;
-    for (int i = 1; i < argc; i++) {
-        if (strcmp(argv[i], "--json") == 0 && i + 1 < argc) {
-            json = argv[++i];
-            continue;
-        }
-        bool help = strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0;
-        fputs("usage: lutetia bench text [--json FILE]\n\n"
-              "Justified lines of a book a second, TrueType, CFF and Arabic, beside Pango "
-              "where it "
-              "was there when this was built; and changes in the middle of pages of 200,000 "
-              "words.\n",
-              help ? stdout : stderr);
-        return help ? EXIT_SUCCESS : EXIT_WRONG;
-    }
+    struct bench_options o = {.name = "text", .repeat_least = 1, .repeat_count = 7};
     static struct bench_report report;
-    bench_report_init(&report, "text", 1, "one thread");
-    bool ok = !json || bench_can_write(json);
+    const int status = bench_options_parse(&o, argc, argv);
+    if (status >= 0)
+        return status;
+    bench_report_init(&report, o.name, 1, "one thread");
+    bool ok = true;
     for (int i = 0; ok && i < BOOKS; i++)
-        ok = book_run(&books[i], &report);
+        ok = book_run(&books[i], o.repeat_count, &report);
     ok = ok && bench_text_edit(&report, latin, sizeof latin / sizeof *latin);
-    if (ok)
-        bench_report_print(&report, "pango", stdout);
-    if (!ok || (json && !bench_report_write(&report, json))) {
-        visible_say("lutetia bench text: %s", bench_error());
-        return EXIT_FAILURE;
-    }
-    return EXIT_SUCCESS;
+    return bench_options_finish(&o, &report, "pango", ok);
 }

@@ -24,6 +24,7 @@
 #ifndef LUTETIA_DESK_H
 #define LUTETIA_DESK_H
 
+#include "desk_frame.h"
 #include "desk_shared.h"
 #include "studio_paper.h"
 #include "studio_view.h"

@@ -302,17 +302,14 @@ static const GActionEntry entries[] = {
     {.name = "close", .activate = close_window},
 };
 
-/* Rows of the menu; a row without an action begins another part. */
-static const struct {
-    const char *action, *label, *key;
-} menu_rows[] = {
+static const struct desk_row menu_rows[] = {
     {"win.new", "New sheet…", "<Control>n"},
     {"win.open", "Open…", "<Control>o"},
     {"win.save", "Save", "<Control>s"},
     {"win.save-as", "Save as…", "<Control><Shift>s"},
     {"win.picture", "Write a picture…", "<Control>e"},
     {"win.script", "Write a script…", "<Control><Shift>e"},
-    {NULL, NULL, NULL},
+    {NULL, "Tools", NULL},
     {"win.undo", "Undo", "<Control>z"},
     {"win.redo", "Redo", "<Control><Shift>z"},
     {"win.go-on", "Let time go on after an undo", "<Control>g"},
@@ -344,7 +341,7 @@ static const struct {
 
 GMenuModel *desk_menu_new(void)
 {
-    GMenu *menu = g_menu_new(), *part = g_menu_new(), *tools = g_menu_new();
+    GMenu *tools = g_menu_new();
     for (int i = 0; i < STUDIO_TOOLS; i++) {
         char name[64];
         stage_control_text(&studio_controls[STUDIO_TOOL], i, name, sizeof name);
@@ -352,55 +349,36 @@ GMenuModel *desk_menu_new(void)
         g_menu_append(tools, _(studio_tools[i].name), action);
         g_free(action);
     }
-    for (size_t i = 0; i <= G_N_ELEMENTS(menu_rows); i++) {
-        if (i < G_N_ELEMENTS(menu_rows) && menu_rows[i].action) {
-            g_menu_append(part, _(menu_rows[i].label), menu_rows[i].action);
-            continue;
-        }
-        g_menu_append_section(menu, NULL, G_MENU_MODEL(part));
-        g_object_unref(part);
-        part = g_menu_new();
-        if (i == 6) /* after the files */
-            g_menu_append_submenu(menu, _("Tools"), G_MENU_MODEL(tools));
-    }
-    g_object_unref(part);
+    GMenuModel *menu = desk_frame_menu(menu_rows, G_N_ELEMENTS(menu_rows), G_MENU_MODEL(tools));
     g_object_unref(tools);
-    return G_MENU_MODEL(menu);
+    return menu;
 }
 
 void desk_actions_add(struct desk *d)
 {
     g_action_map_add_action_entries(G_ACTION_MAP(d->window), entries, G_N_ELEMENTS(entries), d);
-    for (size_t i = 0; i < G_N_ELEMENTS(menu_rows); i++)
-        if (menu_rows[i].action)
-            gtk_application_set_accels_for_action(d->application, menu_rows[i].action,
-                                                  (const char *[]){menu_rows[i].key, NULL});
+    desk_frame_keys(d->application, menu_rows, G_N_ELEMENTS(menu_rows));
 }
 
 void desk_actions_enable(struct desk *d)
 {
-    const struct {
-        const char *name;
-        bool enabled;
-    } states[] = {{"undo", d->report.can_undo || d->down},
-                  {"redo", d->report.can_redo},
-                  {"go-on", d->report.held || d->report.stopped},
-                  {"earlier", d->report.deeds_done > 0},
-                  {"later", d->report.deeds_done < d->report.deeds},
-                  {"present", d->report.visits},
-                  {"from-here", d->report.visits && !d->report.inserts},
-                  {"remove", d->report.deeds_done > 0 && !d->report.inserts},
-                  {"dish", d->report.deeds_done > 0 && !d->report.inserts},
-                  {"way", d->report.deeds_done > 0 && !d->report.inserts},
-                  {"stop", d->report.flow_total > 0},
-                  {"save", d->report.ready},
-                  {"save-as", d->report.ready},
-                  {"picture", d->report.ready},
-                  {"script", d->report.ready},
-                  {"dry", d->report.ready},
-                  {"seal", d->report.ready}};
-    for (size_t i = 0; i < G_N_ELEMENTS(states); i++)
-        g_simple_action_set_enabled(G_SIMPLE_ACTION(g_action_map_lookup_action(
-                                        G_ACTION_MAP(d->window), states[i].name)),
-                                    states[i].enabled);
+    const struct desk_state states[] = {
+        {"undo", d->report.can_undo || d->down},
+        {"redo", d->report.can_redo},
+        {"go-on", d->report.held || d->report.stopped},
+        {"earlier", d->report.deeds_done > 0},
+        {"later", d->report.deeds_done < d->report.deeds},
+        {"present", d->report.visits},
+        {"from-here", d->report.visits && !d->report.inserts},
+        {"remove", d->report.deeds_done > 0 && !d->report.inserts},
+        {"dish", d->report.deeds_done > 0 && !d->report.inserts},
+        {"way", d->report.deeds_done > 0 && !d->report.inserts},
+        {"stop", d->report.flow_total > 0},
+        {"save", d->report.ready},
+        {"save-as", d->report.ready},
+        {"picture", d->report.ready},
+        {"script", d->report.ready},
+        {"dry", d->report.ready},
+        {"seal", d->report.ready}};
+    desk_frame_enable(d->window, states, G_N_ELEMENTS(states));
 }

@@ -3,41 +3,34 @@
  * stock, pigment, seed, theme. */
 #include "desk.h"
 
-#include <locale.h>
 #include <stdlib.h>
 #include <string.h>
 #include <visible_text.h>
 
-static bool word_take(struct desk_options *o, const char *word)
+static bool word_take(void *context, const char *name, const char *value)
 {
-    const char *value = strchr(word, '=');
-    const size_t length = value ? (size_t)(value - word) : 0;
-    if (!value)
-        return false;
-    value++;
-#define IS(name) (length == strlen(name) && strncmp(word, name, length) == 0)
-    if (IS("file"))
+    struct desk_options *o = context;
+    if (strcmp(name, "file") == 0)
         o->path = value;
-    else if (IS("play"))
+    else if (strcmp(name, "play") == 0)
         o->play = value;
-    else if (IS("width"))
+    else if (strcmp(name, "width") == 0)
         o->config.width = atoi(value);
-    else if (IS("height"))
+    else if (strcmp(name, "height") == 0)
         o->config.height = atoi(value);
-    else if (IS("seed"))
+    else if (strcmp(name, "seed") == 0)
         o->config.seed = strtoull(value, NULL, 10);
-    else if (IS("stock") && paper_stock_find(value))
+    else if (strcmp(name, "stock") == 0 && paper_stock_find(value))
         o->config.stock = *paper_stock_find(value);
-    else if (IS("pigment") && paper_pigment_find(value) &&
+    else if (strcmp(name, "pigment") == 0 && paper_pigment_find(value) &&
              o->config.pigments_count < PAPER_PIGMENTS_MAX)
         o->config.pigments[o->config.pigments_count++] = *paper_pigment_find(value);
-    else if (IS("fresh"))
+    else if (strcmp(name, "fresh") == 0)
         o->fresh = true;
-    else if (IS("theme"))
+    else if (strcmp(name, "theme") == 0)
         o->theme = strcmp(value, "dark") == 0;
     else
         return false;
-#undef IS
     return true;
 }
 
@@ -75,30 +68,16 @@ static void desk_finish(struct desk *d)
 int main(int argc, char **argv)
 {
     struct desk *d = g_new0(struct desk, 1);
-    setlocale(LC_ALL, "");
-    setlocale(LC_NUMERIC, "C"); /* numbers in files and scripts have points */
-    bindtextdomain("lutetia", LUTETIA_LOCALEDIR);
-    bind_textdomain_codeset("lutetia", "UTF-8");
-    textdomain("lutetia");
     d->options.config = paper_sheet_config_default();
     d->options.theme = -1;
-    for (int i = 1; i < argc; i++)
-        if (!word_take(&d->options, argv[i])) {
-            visible_say("lutetia-studio: `lutetia studio` runs this program");
-            return 2;
-        }
+    const int wrong = desk_frame_begin("studio", "", argc, argv, word_take, &d->options);
+    if (wrong)
+        return wrong;
     studio_settings_usual(&d->settings);
-    gtk_disable_setlocale();
-    if (!gtk_init_check()) {
-        visible_say("lutetia studio: no display; run it where there is a desktop, or set "
-                    "DISPLAY or WAYLAND_DISPLAY");
-        return 1;
-    }
     if (d->options.play && !(d->play = desk_play_open(d, d->options.play)))
         return 1;
     d->application = gtk_application_new("org.lutetia.Studio", G_APPLICATION_NON_UNIQUE);
-    g_signal_connect(d->application, "activate", G_CALLBACK(activate), d);
-    const int status = g_application_run(G_APPLICATION(d->application), 1, argv);
+    const int status = desk_frame_run(d->application, argv, G_CALLBACK(activate), d);
     desk_finish(d);
     g_object_unref(d->application);
     const int own = d->status;

@@ -179,17 +179,6 @@ static void look(struct desk *d)
 
 /* ---- making ---- */
 
-static GtkWidget *action_button(const char *icon, const char *name, const char *action,
-                                const char *key)
-{
-    GtkWidget *button = gtk_button_new_from_icon_name(icon);
-    char *tip = g_strdup_printf("%s (%s)", name, key);
-    gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
-    desk_name(button, name, tip);
-    g_free(tip);
-    return button;
-}
-
 static void pause_toggled(GtkToggleButton *button, struct desk *d)
 {
     if (!d->filling)
@@ -198,35 +187,24 @@ static void pause_toggled(GtkToggleButton *button, struct desk *d)
 
 static GtkWidget *header_new(struct desk *d)
 {
-    GtkWidget *header = gtk_header_bar_new(), *menu = gtk_menu_button_new();
-    GMenuModel *model = desk_menu_new();
-    const struct {
-        const char *icon, *name, *action, *key;
-    } buttons[] = {
-        {"document-new-symbolic", _("New sheet"), "win.new", "Ctrl+N"},
-        {"document-open-symbolic", _("Open"), "win.open", "Ctrl+O"},
-        {"document-save-symbolic", _("Save"), "win.save", "Ctrl+S"},
-        {"edit-undo-symbolic", _("Undo"), "win.undo", "Ctrl+Z"},
-        {"edit-redo-symbolic", _("Redo"), "win.redo", "Ctrl+Shift+Z"},
+    static const struct desk_button buttons[] = {
+        {"document-new-symbolic", "New sheet", "win.new", "Ctrl+N"},
+        {"document-open-symbolic", "Open", "win.open", "Ctrl+O"},
+        {"document-save-symbolic", "Save", "win.save", "Ctrl+S"},
+        {"edit-undo-symbolic", "Undo", "win.undo", "Ctrl+Z"},
+        {"edit-redo-symbolic", "Redo", "win.redo", "Ctrl+Shift+Z"},
     };
-    for (size_t i = 0; i < G_N_ELEMENTS(buttons); i++)
-        gtk_header_bar_pack_start(
-            GTK_HEADER_BAR(header),
-            action_button(buttons[i].icon, buttons[i].name, buttons[i].action, buttons[i].key));
+    static const struct desk_button past = {"document-open-recent-symbolic", "The past",
+                                            "win.past", "Ctrl+T"};
+    GMenuModel *menu = desk_menu_new();
+    GtkWidget *header = desk_frame_header(buttons, G_N_ELEMENTS(buttons), menu);
     d->pause = gtk_toggle_button_new();
     gtk_button_set_icon_name(GTK_BUTTON(d->pause), "media-playback-pause-symbolic");
     desk_name(d->pause, _("Time stands still"), _("Time on the paper stands still (P)"));
     g_signal_connect(d->pause, "toggled", G_CALLBACK(pause_toggled), d);
     gtk_header_bar_pack_start(GTK_HEADER_BAR(header), d->pause);
-    gtk_header_bar_pack_start(
-        GTK_HEADER_BAR(header),
-        action_button("document-open-recent-symbolic", _("The past"), "win.past", "Ctrl+T"));
-    gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(menu), "open-menu-symbolic");
-    gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(menu), model);
-    gtk_menu_button_set_primary(GTK_MENU_BUTTON(menu), TRUE);
-    desk_name(menu, _("Menu"), _("Menu (F10)"));
-    gtk_header_bar_pack_end(GTK_HEADER_BAR(header), menu);
-    g_object_unref(model);
+    gtk_header_bar_pack_start(GTK_HEADER_BAR(header), desk_frame_button(&past));
+    g_object_unref(menu);
     return header;
 }
 
@@ -284,13 +262,6 @@ static gboolean flush(gpointer data)
     return G_SOURCE_CONTINUE;
 }
 
-static void theme_set(const struct desk *d)
-{
-    if (d->options.theme >= 0)
-        g_object_set(gtk_settings_get_default(), "gtk-application-prefer-dark-theme",
-                     d->options.theme == 1, NULL);
-}
-
 static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint code,
                             GdkModifierType state, struct desk *d)
 {
@@ -320,7 +291,7 @@ void desk_window_open(struct desk *d)
 {
     GtkWidget *all = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0),
               *middle = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0), *over = gtk_overlay_new();
-    theme_set(d);
+    desk_frame_theme(d->options.theme);
     d->changed = setting_changed;
     d->look = look;
     d->window = gtk_application_window_new(d->application);

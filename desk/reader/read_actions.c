@@ -109,10 +109,7 @@ static const GActionEntry entries[] = {
     {.name = "close", .activate = close_window},
 };
 
-/* Rows of the menu; a row without an action begins another part. */
-static const struct {
-    const char *action, *label, *key;
-} menu_rows[] = {
+static const struct desk_row menu_rows[] = {
     {"win.back", "Back", "<Alt>Left"},
     {"win.forward", "Forward", "<Alt>Right"},
     {"win.contents", "Contents", "F9"},
@@ -142,52 +139,36 @@ static const struct {
     {"win.dark", "Light or dark", "<Control>d"},
     {NULL, NULL, NULL},
     {"win.close", "Close", "<Control>w"},
+    {NULL, "Inks", NULL},
 };
 
 GMenuModel *read_menu_new(void)
 {
-    GMenu *menu = g_menu_new(), *part = g_menu_new(), *colours = g_menu_new();
+    GMenu *colours = g_menu_new();
     for (size_t i = 0; i < G_N_ELEMENTS(inks); i++) {
         char *action = g_strdup_printf("win.ink::%s", inks[i].name);
         g_menu_append(colours, _(inks[i].label), action);
         g_free(action);
     }
-    for (size_t i = 0; i <= G_N_ELEMENTS(menu_rows); i++) {
-        if (i < G_N_ELEMENTS(menu_rows) && menu_rows[i].action) {
-            g_menu_append(part, _(menu_rows[i].label), menu_rows[i].action);
-            continue;
-        }
-        g_menu_append_section(menu, NULL, G_MENU_MODEL(part));
-        g_object_unref(part);
-        part = g_menu_new();
-    }
-    g_menu_append_submenu(menu, _("Inks"), G_MENU_MODEL(colours));
+    GMenuModel *menu =
+        desk_frame_menu(menu_rows, G_N_ELEMENTS(menu_rows), G_MENU_MODEL(colours));
     g_object_unref(colours);
-    g_object_unref(part);
-    return G_MENU_MODEL(menu);
+    return menu;
 }
 
 void read_actions_add(struct read_desk *d)
 {
     g_action_map_add_action_entries(G_ACTION_MAP(d->window), entries, G_N_ELEMENTS(entries), d);
-    for (size_t i = 0; i < G_N_ELEMENTS(menu_rows); i++)
-        if (menu_rows[i].action)
-            gtk_application_set_accels_for_action(d->application, menu_rows[i].action,
-                                                  (const char *[]){menu_rows[i].key, NULL});
+    desk_frame_keys(d->application, menu_rows, G_N_ELEMENTS(menu_rows));
 }
 
 void read_actions_enable(struct read_desk *d)
 {
-    const struct {
-        const char *name;
-        bool enabled;
-    } states[] = {{"back", read_document_can(d, false)},
-                  {"forward", read_document_can(d, true)},
-                  {"undo", read_remarks_can(d, false)},
-                  {"redo", read_remarks_can(d, true)},
-                  {"copy", d->selected.begin < d->selected.end}};
-    for (size_t i = 0; d->window && i < G_N_ELEMENTS(states); i++)
-        g_simple_action_set_enabled(G_SIMPLE_ACTION(g_action_map_lookup_action(
-                                        G_ACTION_MAP(d->window), states[i].name)),
-                                    states[i].enabled);
+    const struct desk_state states[] = {{"back", read_document_can(d, false)},
+                                        {"forward", read_document_can(d, true)},
+                                        {"undo", read_remarks_can(d, false)},
+                                        {"redo", read_remarks_can(d, true)},
+                                        {"copy", d->selected.begin < d->selected.end}};
+    if (d->window)
+        desk_frame_enable(d->window, states, G_N_ELEMENTS(states));
 }

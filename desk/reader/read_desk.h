@@ -23,6 +23,7 @@
 #ifndef LUTETIA_READ_DESK_H
 #define LUTETIA_READ_DESK_H
 
+#include <desk_frame.h>
 #include <desk_shared.h>
 #include <gtk/gtk.h>
 #include <libintl.h>

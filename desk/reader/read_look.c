@@ -77,7 +77,7 @@ void read_look_column(struct read_desk *d, double column_em)
 void read_look_theme(struct read_desk *d, bool dark)
 {
     d->dark = dark;
-    g_object_set(gtk_settings_get_default(), "gtk-application-prefer-dark-theme", dark, NULL);
+    desk_frame_theme(dark);
     read_tiles_forget(d->tiles);
     look_changed(d);
 }

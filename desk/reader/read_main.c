@@ -3,44 +3,37 @@
  * math, language, size, width, height, theme, ragged, play. */
 #include "read_desk.h"
 
-#include <locale.h>
 #include <stdlib.h>
 #include <string.h>
 #include <visible_text.h>
 
-static bool word_take(struct read_options *o, const char *word)
+static bool word_take(void *context, const char *name, const char *value)
 {
-    const char *value = strchr(word, '=');
-    const size_t length = value ? (size_t)(value - word) : 0;
-    if (!value)
-        return false;
-    value++;
-#define IS(name) (length == strlen(name) && strncmp(word, name, length) == 0)
-    if (IS("file"))
+    struct read_options *o = context;
+    if (strcmp(name, "file") == 0)
         g_ptr_array_add(o->paths, g_strdup(value));
-    else if (IS("font"))
+    else if (strcmp(name, "font") == 0)
         o->font = value;
-    else if (IS("mono"))
+    else if (strcmp(name, "mono") == 0)
         o->mono = value;
-    else if (IS("math"))
+    else if (strcmp(name, "math") == 0)
         o->math = value;
-    else if (IS("language"))
+    else if (strcmp(name, "language") == 0)
         o->language = value;
-    else if (IS("size"))
+    else if (strcmp(name, "size") == 0)
         o->size_px = g_ascii_strtod(value, NULL);
-    else if (IS("width"))
+    else if (strcmp(name, "width") == 0)
         o->width = atoi(value);
-    else if (IS("height"))
+    else if (strcmp(name, "height") == 0)
         o->height = atoi(value);
-    else if (IS("theme"))
+    else if (strcmp(name, "theme") == 0)
         o->theme = strcmp(value, "dark") == 0;
-    else if (IS("ragged"))
+    else if (strcmp(name, "ragged") == 0)
         o->ragged = true;
-    else if (IS("play"))
+    else if (strcmp(name, "play") == 0)
         o->play = value;
     else
         return false;
-#undef IS
     return true;
 }
 
@@ -94,37 +87,24 @@ static void desk_finish(struct read_desk *d)
 int main(int argc, char **argv)
 {
     struct read_desk *d = g_new0(struct read_desk, 1);
-    setlocale(LC_ALL, "");
-    setlocale(LC_NUMERIC, "C");
-    bindtextdomain("lutetia", LUTETIA_LOCALEDIR);
-    bind_textdomain_codeset("lutetia", "UTF-8");
-    textdomain("lutetia");
     d->options = (struct read_options){.paths = g_ptr_array_new_with_free_func(g_free),
                                        .size_px = 17,
                                        .width = 1000,
                                        .height = 800,
                                        .theme = -1};
-    for (int i = 1; i < argc; i++)
-        if (!word_take(&d->options, argv[i])) {
-            visible_say("lutetia-reader: `lutetia read` runs this program");
-            return 2;
-        }
+    const int wrong = desk_frame_begin("read", ", or write pages with -o FILE", argc, argv,
+                                       word_take, &d->options);
+    if (wrong)
+        return wrong;
     if (!d->options.paths->len) {
-        visible_say("lutetia-reader: `lutetia read` runs this program");
+        visible_say("lutetia read: `lutetia read` runs this program, with a file");
         return 2;
-    }
-    gtk_disable_setlocale();
-    if (!gtk_init_check()) {
-        visible_say("lutetia read: no display; run it where there is a desktop, set DISPLAY or "
-                    "WAYLAND_DISPLAY, or write pages with -o FILE");
-        return 1;
     }
     desk_begin(d);
     if (d->options.play && !(d->play = read_play_open(d, d->options.play)))
         return 1;
     d->application = gtk_application_new("org.lutetia.Reader", G_APPLICATION_NON_UNIQUE);
-    g_signal_connect(d->application, "activate", G_CALLBACK(activate), d);
-    const int status = g_application_run(G_APPLICATION(d->application), 1, argv);
+    const int status = desk_frame_run(d->application, argv, G_CALLBACK(activate), d);
     desk_finish(d);
     g_object_unref(d->application);
     const int own = d->status;

@@ -191,40 +191,19 @@ static void document_shown(struct read_desk *d)
 
 /* ---- making ---- */
 
-static GtkWidget *action_button(const char *icon, const char *name, const char *action,
-                                const char *key)
-{
-    GtkWidget *button = gtk_button_new_from_icon_name(icon);
-    char *tip = g_strdup_printf("%s (%s)", name, key);
-    gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
-    desk_name(button, name, tip);
-    g_free(tip);
-    return button;
-}
-
 static GtkWidget *header_new(void)
 {
-    GtkWidget *header = gtk_header_bar_new(), *menu = gtk_menu_button_new();
-    GMenuModel *model = read_menu_new();
-    const struct {
-        const char *icon, *name, *action, *key;
-    } buttons[] = {{"view-list-symbolic", _("Contents"), "win.contents", "F9"},
-                   {"go-previous-symbolic", _("Back"), "win.back", "Alt+Left"},
-                   {"go-next-symbolic", _("Forward"), "win.forward", "Alt+Right"},
-                   {"edit-find-symbolic", _("Search"), "win.search", "Ctrl+F"},
-                   {"format-text-underline-symbolic", _("Highlight"), "win.highlight", "H"},
-                   {"insert-text-symbolic", _("Note"), "win.note", "N"},
-                   {"document-edit-symbolic", _("Draw"), "win.pen", "D"}};
-    for (size_t i = 0; i < G_N_ELEMENTS(buttons); i++)
-        gtk_header_bar_pack_start(
-            GTK_HEADER_BAR(header),
-            action_button(buttons[i].icon, buttons[i].name, buttons[i].action, buttons[i].key));
-    gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(menu), "open-menu-symbolic");
-    gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(menu), model);
-    gtk_menu_button_set_primary(GTK_MENU_BUTTON(menu), TRUE);
-    desk_name(menu, _("Menu"), _("Menu (F10)"));
-    gtk_header_bar_pack_end(GTK_HEADER_BAR(header), menu);
-    g_object_unref(model);
+    static const struct desk_button buttons[] = {
+        {"view-list-symbolic", "Contents", "win.contents", "F9"},
+        {"go-previous-symbolic", "Back", "win.back", "Alt+Left"},
+        {"go-next-symbolic", "Forward", "win.forward", "Alt+Right"},
+        {"edit-find-symbolic", "Search", "win.search", "Ctrl+F"},
+        {"format-text-underline-symbolic", "Highlight", "win.highlight", "H"},
+        {"insert-text-symbolic", "Note", "win.note", "N"},
+        {"document-edit-symbolic", "Draw", "win.pen", "D"}};
+    GMenuModel *menu = read_menu_new();
+    GtkWidget *header = desk_frame_header(buttons, G_N_ELEMENTS(buttons), menu);
+    g_object_unref(menu);
     return header;
 }
 
@@ -261,14 +240,7 @@ void read_window_open(struct read_desk *d)
     gtk_box_append(GTK_BOX(all), over);
     gtk_window_set_child(GTK_WINDOW(d->window), all);
     g_signal_connect(d->window, "close-request", G_CALLBACK(close_asked), d);
-    if (d->options.theme >= 0)
-        d->dark = d->options.theme == 1;
-    else
-        g_object_get(gtk_settings_get_default(), "gtk-application-prefer-dark-theme", &d->dark,
-                     NULL);
-    if (d->options.theme >= 0)
-        g_object_set(gtk_settings_get_default(), "gtk-application-prefer-dark-theme", d->dark,
-                     NULL);
+    d->dark = desk_frame_theme(d->options.theme);
     read_look_set(d);
     if (!read_document_open(d)) {
         d->status = 1;

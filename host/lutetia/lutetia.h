@@ -10,6 +10,7 @@
 
 #include <paper.h>
 
+#include <limits.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -55,6 +56,12 @@ int interrupt_report(const char *verb, int status, const char *untouched);
  * nothing. */
 int fail_paper(const char *verb);
 int fail_usage(const char *verb, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* ---- what comes with the command ---- */
+
+/* Where a file or folder that comes with the command is: built, from the command's folder in
+ * the build, or installed, in Lutetia's folder of data. False: in neither. */
+bool data_find(char path[PATH_MAX], const char *built, const char *installed);
 
 /* ---- Ctrl-C ---- */
 

@@ -72,30 +72,11 @@ static int file_check(const char *name, bool runs)
     return EXIT_SUCCESS;
 }
 
-/* What gdb reads, from the folder of the command: in the build, and where it is installed. */
-static bool start_find(char path[PATH_MAX])
-{
-    static const char *const places[] = {"debug/start.py",
-                                         "../" LUTETIA_DATADIR "/lutetia/debug/start.py"};
-    char home[PATH_MAX];
-    const ssize_t length = readlink("/proc/self/exe", home, sizeof home - 1);
-    home[length > 0 ? length : 0] = '\0';
-    char *slash = strrchr(home, '/');
-    if (!slash)
-        return false;
-    *slash = '\0';
-    for (size_t i = 0; i < sizeof places / sizeof *places; i++)
-        if (snprintf(path, PATH_MAX, "%s/%s", home, places[i]) < PATH_MAX &&
-            access(path, R_OK) == 0)
-            return true;
-    return false;
-}
-
 static int debug(const struct option_texts *executed, const char *file, bool batch,
                  const char *path, char **program, int program_count)
 {
     char start[PATH_MAX];
-    if (!start_find(start))
+    if (!data_find(start, "debug/start.py", "debug/start.py"))
         return fail("debug",
                     "its commands for gdb (debug/start.py) are not where this command is; "
                     "install Lutetia, or run it from its build folder");

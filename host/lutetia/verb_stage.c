@@ -31,25 +31,6 @@ struct piece {
     int count;
 };
 
-/* The folder of the pieces: in the build, and where they are installed. */
-static bool folder_find(char path[PATH_MAX])
-{
-    static const char *const places[] = {"../../examples/stage",
-                                         "../" LUTETIA_DATADIR "/lutetia/stage"};
-    char home[PATH_MAX];
-    const ssize_t length = readlink("/proc/self/exe", home, sizeof home - 1);
-    home[length > 0 ? length : 0] = '\0';
-    char *slash = strrchr(home, '/');
-    if (!slash)
-        return false;
-    *slash = '\0';
-    for (size_t i = 0; i < sizeof places / sizeof *places; i++)
-        if (snprintf(path, PATH_MAX, "%s/%s", home, places[i]) < PATH_MAX &&
-            access(path, R_OK) == 0)
-            return true;
-    return false;
-}
-
 /* ---- a piece ---- */
 
 /* \n within a word is a line's end. */
@@ -149,7 +130,7 @@ static int by_name(const void *a, const void *b)
 static int names_find(char folder[PATH_MAX], char names[PIECES_MAX][NAME_BYTES])
 {
     int count = 0;
-    DIR *dir = folder_find(folder) ? opendir(folder) : NULL;
+    DIR *dir = data_find(folder, "../../examples/stage", "stage") ? opendir(folder) : NULL;
     if (!dir) {
         fail("stage", "its pieces are not where this command is; install Lutetia, or run it "
                       "from its build folder");

@@ -257,3 +257,19 @@ void scene_write(FILE *out, double zoom)
             fprintf(out, "%g undo\n", begins + 0.1875);
     }
 }
+
+enum paper_status scene_sweep(struct studio_session *session, double y, double rises,
+                              bool lifted)
+{
+    enum paper_status status = PAPER_OK;
+    for (int k = 0; k < 4 && status == PAPER_OK; k++)
+        status = studio_session_point(
+            session, &(struct studio_point){.kind = k == 0             ? STUDIO_POINT_DOWN
+                                                    : k < 3 || !lifted ? STUDIO_POINT_MOVE
+                                                                       : STUDIO_POINT_UP,
+                                            .time_s = 5 + 0.05 * k,
+                                            .x = 15 + 20 * k,
+                                            .y = y + rises * k,
+                                            .pressure = 0.7});
+    return status;
+}

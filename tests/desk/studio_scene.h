@@ -33,6 +33,10 @@ extern const int scene_deeds_count;
 struct paper_sheet_config scene_config(void);
 /* The sheet after all deeds, by the paper's own functions. */
 enum paper_status scene_paint(struct paper_sheet *sheet);
+/* A hand from left to right in four points, from y on, `rises` fibers lower at each; its last
+ * point lifts it, or only moves it on. */
+enum paper_status scene_sweep(struct studio_session *session, double y, double rises,
+                              bool lifted);
 /* A hand's points. */
 enum paper_status scene_play(struct studio_session *session);
 /* The same as recorded input, at that zoom, with the sheet's middle in the canvas's. */

@@ -19,6 +19,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "accessible.h"
 #include "clock.h"
 #include "xtest.h"
 
@@ -29,24 +30,6 @@ static AtspiAccessible *frame;
 static char folder[] = "/tmp/lutetia-reader-XXXXXX", document[64];
 
 /* ---- the tree ---- */
-
-/* Calls for each of the accessible objects below; a composed control's inside is its own
- * business. */
-static void walk(AtspiAccessible *a, void (*each)(AtspiAccessible *a, void *context),
-                 void *context)
-{
-    const AtspiRole role = atspi_accessible_get_role(a, NULL);
-    each(a, context);
-    if (role == ATSPI_ROLE_SPIN_BUTTON || role == ATSPI_ROLE_COMBO_BOX)
-        return;
-    const int count = atspi_accessible_get_child_count(a, NULL);
-    for (int i = 0; i < count; i++) {
-        AtspiAccessible *child = atspi_accessible_get_child_at_index(a, i, NULL);
-        if (child)
-            walk(child, each, context);
-        g_clear_object(&child);
-    }
-}
 
 /* All names and texts, one a line. */
 static void text_collect(AtspiAccessible *a, void *context)
@@ -69,7 +52,7 @@ static bool heard(const char *text, bool there)
     while (clock_now_s() < until_s) {
         GString *all = g_string_new(NULL);
         atspi_accessible_clear_cache(frame);
-        walk(frame, text_collect, all);
+        accessible_walk(frame, text_collect, all);
         const bool found = strstr(all->str, text) != NULL;
         g_string_free(all, TRUE);
         if (found == there)
@@ -105,21 +88,6 @@ static void name_check(AtspiAccessible *a, void *context)
 
 /* ---- the window ---- */
 
-static AtspiAccessible *frame_wait(void)
-{
-    const double until_s = clock_now_s() + WAIT_S;
-    while (clock_now_s() < until_s) {
-        AtspiAccessible *desktop = atspi_get_desktop(0),
-                        *program = atspi_accessible_get_child_at_index(desktop, 0, NULL);
-        if (program && atspi_accessible_get_child_count(program, NULL) > 0)
-            return atspi_accessible_get_child_at_index(program, 0, NULL);
-        g_clear_object(&program);
-        atspi_accessible_clear_cache(desktop);
-        usleep(100000);
-    }
-    return NULL;
-}
-
 static int start(void **state)
 {
     (void)state;
@@ -133,7 +101,7 @@ static int start(void **state)
         return -1;
     XSetInputFocus(screen_display(), window, RevertToParent, CurrentTime);
     XSync(screen_display(), False);
-    frame = frame_wait();
+    frame = accessible_frame_wait(WAIT_S);
     return frame ? 0 : -1;
 }
 
@@ -164,7 +132,7 @@ static void text_is_heard(void **state)
     assert_true(heard("What the note says", false));
     xtest_type(XK_F9);
     assert_true(heard("Chapter 40", true)); /* in the contents */
-    walk(frame, name_check, &names);
+    accessible_walk(frame, name_check, &names);
     assert_int_equal(names.nameless, 0);
     assert_true(names.named > 12);
 }

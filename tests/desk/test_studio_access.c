@@ -18,6 +18,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "accessible.h"
 #include "clock.h"
 #include "studio_settings.h"
 #include "xtest.h"
@@ -34,24 +35,6 @@ static char *name_of(AtspiAccessible *a)
 {
     char *name = atspi_accessible_get_name(a, NULL);
     return name ? name : g_strdup("");
-}
-
-/* Calls for each of the accessible objects below; a composed control's inside is its own
- * business. */
-static void walk(AtspiAccessible *a, void (*each)(AtspiAccessible *a, void *context),
-                 void *context)
-{
-    const AtspiRole role = atspi_accessible_get_role(a, NULL);
-    each(a, context);
-    if (role == ATSPI_ROLE_SPIN_BUTTON || role == ATSPI_ROLE_COMBO_BOX)
-        return;
-    const int count = atspi_accessible_get_child_count(a, NULL);
-    for (int i = 0; i < count; i++) {
-        AtspiAccessible *child = atspi_accessible_get_child_at_index(a, i, NULL);
-        if (child)
-            walk(child, each, context);
-        g_clear_object(&child);
-    }
 }
 
 struct wanted {
@@ -73,7 +56,7 @@ static AtspiAccessible *find(const char *name)
 {
     struct wanted wanted = {name, NULL};
     atspi_accessible_clear_cache(frame);
-    walk(frame, name_compare, &wanted);
+    accessible_walk(frame, name_compare, &wanted);
     return wanted.found;
 }
 
@@ -86,21 +69,6 @@ static bool state_has(AtspiAccessible *a, AtspiStateType state)
 }
 
 /* ---- the window ---- */
-
-static AtspiAccessible *frame_wait(void)
-{
-    const double until_s = clock_now_s() + WAIT_S;
-    while (clock_now_s() < until_s) {
-        AtspiAccessible *desktop = atspi_get_desktop(0),
-                        *program = atspi_accessible_get_child_at_index(desktop, 0, NULL);
-        if (program && atspi_accessible_get_child_count(program, NULL) > 0)
-            return atspi_accessible_get_child_at_index(program, 0, NULL);
-        g_clear_object(&program);
-        atspi_accessible_clear_cache(desktop);
-        usleep(100000);
-    }
-    return NULL;
-}
 
 static void studio_start(const char *view)
 {
@@ -165,7 +133,7 @@ static GHashTable *names_now(void)
 {
     GHashTable *all = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
     atspi_accessible_clear_cache(frame);
-    walk(frame, name_collect, all);
+    accessible_walk(frame, name_collect, all);
     return all;
 }
 
@@ -192,7 +160,7 @@ static void controls_have_names(void **state)
     for (int i = 0; i < STUDIO_TOOLS; i++)
         assert_true(g_hash_table_contains(all, studio_tools[i].name));
     g_hash_table_unref(all);
-    walk(frame, name_check, &names);
+    accessible_walk(frame, name_check, &names);
     assert_int_equal(names.nameless, 0);
     assert_true(names.named > 60);
 }
@@ -346,7 +314,7 @@ static int start(void **state)
 {
     (void)state;
     studio_start("");
-    frame = frame_wait();
+    frame = accessible_frame_wait(WAIT_S);
     return frame && tool_waits(STUDIO_TOOL_BRUSH) ? 0 : -1;
 }
 

@@ -40,25 +40,12 @@ struct hand {
     double width, y, rises, pigment;
 };
 
-static void sweep(struct studio_session *s, double y, double rises, bool lifted)
-{
-    for (int k = 0; k < 4; k++)
-        good(studio_session_point(s, &(struct studio_point){.kind = k == 0 ? STUDIO_POINT_DOWN
-                                                                    : k < 3 || !lifted
-                                                                        ? STUDIO_POINT_MOVE
-                                                                        : STUDIO_POINT_UP,
-                                                            .time_s = 5 + 0.05 * k,
-                                                            .x = 15 + 20 * k,
-                                                            .y = y + rises * k,
-                                                            .pressure = 0.7}));
-}
-
 static void paint(struct studio_session *s, const struct hand *h)
 {
     good(studio_session_set(s, STUDIO_TOOL, h->tool));
     good(studio_session_set(s, STUDIO_WIDTH, h->width));
     good(studio_session_set(s, STUDIO_PIGMENT, h->pigment));
-    sweep(s, h->y, h->rises, true);
+    good(scene_sweep(s, h->y, h->rises, true));
 }
 
 static const struct hand blue = {STUDIO_TOOL_BRUSH, 14, 20, 3, 0.7},
@@ -152,7 +139,7 @@ static void deeds_are_inserted(void **state)
     struct studio_session *s = painted(four, four_steps);
     good(studio_session_visit(s, 2));
     assert_false(studio_session_inserts(s));
-    sweep(s, 60, 1, false); /* given up: nothing is inserted */
+    good(scene_sweep(s, 60, 1, false)); /* given up: nothing is inserted */
     assert_true(studio_session_undo(s));
     good(studio_session_present(s));
     is_sheet_of(s, four, four_steps);
@@ -214,7 +201,7 @@ static void deeds_are_changed(void **state)
     good(studio_session_visit(s, 2));
     good(studio_session_way(s));
     assert_true(studio_session_way_waits(s));
-    sweep(s, 44, -5, true);
+    good(scene_sweep(s, 44, -5, true));
     assert_false(studio_session_way_waits(s) || studio_session_visits(s));
     is_sheet_of(s, led, four_steps);
     good(studio_session_visit(s, 1));
@@ -223,7 +210,7 @@ static void deeds_are_changed(void **state)
     is_sheet_of(s, both, four_steps);
     good(studio_session_visit(s, 2));
     good(studio_session_way(s));
-    sweep(s, 10, 2, false);
+    good(scene_sweep(s, 10, 2, false));
     assert_true(studio_session_undo(s)); /* it keeps its way */
     good(studio_session_present(s));
     is_sheet_of(s, both, four_steps);

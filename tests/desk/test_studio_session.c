@@ -34,19 +34,6 @@ static struct studio_session *begin(void)
     return s;
 }
 
-static void stroke(struct studio_session *s, double y, bool lifted)
-{
-    for (int k = 0; k < 4; k++)
-        good(studio_session_point(s, &(struct studio_point){.kind = k == 0 ? STUDIO_POINT_DOWN
-                                                                    : k < 3 || !lifted
-                                                                        ? STUDIO_POINT_MOVE
-                                                                        : STUDIO_POINT_UP,
-                                                            .time_s = 5 + 0.05 * k,
-                                                            .x = 15 + 20 * k,
-                                                            .y = y,
-                                                            .pressure = 0.7}));
-}
-
 /* ---- deeds ---- */
 
 static void hand_paints_what_calls_paint(void **state)
@@ -76,12 +63,12 @@ static void stroke_is_one_undo(void **state)
     int done;
     assert_false(studio_session_can_undo(s));
     assert_false(studio_session_undo(s));
-    stroke(s, 20, true);
+    good(scene_sweep(s, 20, 0, true));
     good(studio_session_steps(s, 5, &done));
     assert_int_equal(done, 5);
     look(studio_session_sheet(s), once);
     good(studio_session_set(s, STUDIO_WIDTH, 12));
-    stroke(s, 50, true);
+    good(scene_sweep(s, 50, 0, true));
     good(studio_session_steps(s, 7, NULL));
     look(studio_session_sheet(s), twice);
     const int operations = paper_history_done(studio_session_sheet(s));
@@ -117,10 +104,10 @@ static void mid_stroke_undo_drops_it_alone(void **state)
 {
     (void)state;
     struct studio_session *s = begin();
-    stroke(s, 20, true);
+    good(scene_sweep(s, 20, 0, true));
     look(studio_session_sheet(s), expected);
     const int operations = paper_history_done(studio_session_sheet(s));
-    stroke(s, 40, false);
+    good(scene_sweep(s, 40, 0, false));
     assert_true(studio_session_busy(s));
     assert_true(studio_session_undo(s));
     assert_false(studio_session_busy(s));
@@ -132,7 +119,7 @@ static void mid_stroke_undo_drops_it_alone(void **state)
     look(studio_session_sheet(s), seen);
     assert_memory_equal(seen, expected, sizeof seen);
     assert_int_equal(paper_history_done(studio_session_sheet(s)), operations);
-    stroke(s, 60, false);
+    good(scene_sweep(s, 60, 0, false));
     good(studio_session_point(s, &(struct studio_point){.kind = STUDIO_POINT_DROP}));
     assert_int_equal(paper_history_done(studio_session_sheet(s)), operations);
     assert_true(studio_session_undo(s)); /* the first one */
@@ -144,7 +131,7 @@ static void other_deeds_are_undone_too(void **state)
 {
     (void)state;
     struct studio_session *s = begin();
-    stroke(s, 30, true);
+    good(scene_sweep(s, 30, 0, true));
     look(studio_session_sheet(s), expected);
     good(studio_session_set(s, STUDIO_TYPE_SIZE, 30));
     good(studio_session_type(s, &(struct studio_type){"Ag", "DejaVuSans", "", 10.25, 50}));
@@ -174,7 +161,7 @@ static void wrong_is_told(void **state)
         studio_session_type(s, &(struct studio_type){"a", "no such font at all", "", 1, 1}),
         PAPER_BAD_FONT);
     assert_non_null(strstr(studio_session_error(), "no such font"));
-    stroke(s, 20, false);
+    good(scene_sweep(s, 20, 0, false));
     assert_int_equal(studio_session_dry(s), PAPER_BAD_ARGUMENT); /* the brush is on the paper */
     studio_session_destroy(s);
 }
@@ -188,11 +175,11 @@ static void opened_again_with_its_past(void **state)
     struct studio_session *s = begin(), *again;
     snprintf(path, sizeof path, "%s/sheet.h5", folder);
     snprintf(picture, sizeof picture, "%s/sheet.png", folder);
-    stroke(s, 20, true);
+    good(scene_sweep(s, 20, 0, true));
     good(studio_session_steps(s, 4, NULL));
     look(studio_session_sheet(s), expected);
     good(studio_session_set(s, STUDIO_TILT_X, 0.25));
-    stroke(s, 50, true);
+    good(scene_sweep(s, 50, 0, true));
     good(studio_session_save(s, path));
     good(studio_session_picture(s, picture, 1));
     assert_int_equal(access(picture, R_OK), 0);
