@@ -50,6 +50,8 @@ static bool same_host(const union address *a, const union address *b)
 static bool host_read(const char *text, union address *out)
 {
     memset(out, 0, sizeof *out);
+    if (strcmp(text, "localhost") == 0)
+        text = "127.0.0.1";
     if (inet_pton(AF_INET, text, &out->v4.sin_addr) == 1) {
         out->any.sa_family = AF_INET;
         return true;

@@ -393,7 +393,7 @@ static const char *text(void *context, const char *words)
 static struct osc_stage *osc_open(struct stage *stage, const struct wire *heard)
 {
     char to[40];
-    snprintf(to, sizeof to, "127.0.0.1:%d", wire_port(heard));
+    snprintf(to, sizeof to, "localhost:%d", wire_port(heard));
     const struct osc_stage_def def = {.port = {.listen = "0", .send = to},
                                       .stage = stage,
                                       .scene = scene,
