@@ -63,6 +63,8 @@ static enum machine_status bytes_move(struct machine *m, const struct device_buf
                                       size_t from_at, const struct device_buffer *to,
                                       size_t to_at, size_t bytes)
 {
+    if (!bytes) /* a block without planes of its own, which OpenCL refuses to copy */
+        return MACHINE_OK;
     if (m->settings.near && from->host && to->host) {
         enum machine_status status = device_settle(m);
         if (!status)
