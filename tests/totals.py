@@ -1,6 +1,6 @@
 """totals.py TESTLOG.json: reads the log of `meson test` and prints `N passed, N failed[, N skipped]`.
 
-Before it, a line each: what failed, and what was skipped with its reason, the last line that it printed before it was.
+Before it, a line each: what failed, with the last of what it printed, and what was skipped with its reason, the last line that it printed before it was.
 Counts the cases of cmocka programs, which have many each. Any other test counts as one, and so does a program that ended
 before its total. Ends with 1 if anything failed.
 """
@@ -42,6 +42,14 @@ def reason(test, name):
     return said[-1].removeprefix("skipped: ") if said else "no reason was printed"
 
 
+def last_words(test):
+    """The last lines of what a test printed, less what cmocka says of cases that passed."""
+    text = test.get("stdout", "") + "\n" + test.get("stderr", "")
+    said = [line.rstrip() for line in text.splitlines()
+            if line.strip() and not re.match(r"\[ *(RUN|OK|PASSED|=+) *\]", line)]
+    return ["    " + line[:200] for line in said[-12:]]
+
+
 def main(path):
     totals = {"passed": 0, "failed": 0, "skipped": 0}
     with open(path, encoding="utf-8") as log:
@@ -50,7 +58,7 @@ def main(path):
             for name, outcome in cases(test):
                 totals[outcome] += 1
                 if outcome == "failed":
-                    print("FAILED %s %s" % (test["name"], name))
+                    print("\n".join(["FAILED %s %s" % (test["name"], name)] + last_words(test)))
                 elif outcome == "skipped":
                     print("skipped %s: %s" % ((test["name"] + " " + name).strip(), reason(test, name)))
     skipped = ", %d skipped" % totals["skipped"] if totals["skipped"] else ""
