@@ -1,4 +1,4 @@
-/* studio_settings.h - all that can be set in the studio, as controls (control.h), and its
+/* studio_settings.h - all that can be set in the studio, as controls (control_table.h), and its
  * tools.
  *
  *     struct studio_settings settings;
@@ -14,7 +14,7 @@
 #define LUTETIA_STUDIO_SETTINGS_H
 
 #include <brush.h>
-#include <control.h>
+#include <control_table.h>
 
 #include <stdbool.h>
 

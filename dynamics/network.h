@@ -21,7 +21,7 @@
  * Masses and springs are numbered from 0 in the order in which they were added, and keep their
  * numbers. All their parameters can be changed at any time: by dyn_mass_set() and
  * dyn_spring_set(), or field by field (fields.h), for one or for all. Common parameters are in
- * struct dyn_world (controls.h).
+ * struct dyn_world (spring_controls.h).
  *
  * A mass is free, or stuck (tacked to its place), or held (by a hand), or both; only a free one
  * moves.
@@ -34,7 +34,7 @@
 #ifndef LUTETIA_DYN_NETWORK_H
 #define LUTETIA_DYN_NETWORK_H
 
-#include "controls.h"
+#include "spring_controls.h"
 #include "status.h"
 
 #include <stdbool.h>

@@ -1,7 +1,7 @@
 /* spring_reach.c - see spring_reach.h. */
 #include "spring_reach.h"
 
-#include <controls.h>
+#include <spring_controls.h>
 #include <step.h>
 
 #include <math.h>

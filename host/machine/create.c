@@ -4,13 +4,13 @@
 #include <string.h>
 
 #include "base/errors.h"
-#include "build/background.h"
-#include "build/plans.h"
 #include "device/code_pages.h"
 #include "forks.h"
 #include "machine_told.h"
 #include "measure/copies.h"
 #include "memory/memory.h"
+#include "plans/background.h"
+#include "plans/plans.h"
 #include "run/at_once_when.h"
 #include "run/evaluate.h"
 #include "run/replay.h"

@@ -7,8 +7,8 @@
 #include <pthread.h>
 
 #include "base/parts.h"
-#include "build/background.h"
 #include "device/device.h"
+#include "plans/background.h"
 #include "sequencers/sequencers.h"
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;

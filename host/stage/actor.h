@@ -11,7 +11,7 @@
 #ifndef LUTETIA_STAGE_ACTOR_H
 #define LUTETIA_STAGE_ACTOR_H
 
-#include "control.h"
+#include "control_table.h"
 #include "draw_list.h"
 #include "theme.h"
 

@@ -8,7 +8,7 @@
  *         die(stage_error());
  *
  * A letter's box is mapped to four masses. Its controls are those of the network's world
- * (dynamics/controls.h), those of the word's style, and how it is shown.
+ * (dynamics/spring_controls.h), those of the word's style, and how it is shown.
  *
  * Hands. Dragging a mass pulls it by a spring, until it is released. With Shift, or a pen
  * pressed hard, the mass is moved to the pointer, and stays there tacked, with a click. A

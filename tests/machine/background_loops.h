@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <unistd.h>
 
-#include "build/plans.h"
+#include "plans/plans.h"
 #include "support.h"
 
 struct sheet {

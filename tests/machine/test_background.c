@@ -7,9 +7,9 @@
 #include "background_loops.h"
 #include "base/clock.h"
 #include "base/parts.h"
-#include "build/background.h"
-#include "build/compiler.h"
-#include "build/plans.h"
+#include "plans/background.h"
+#include "plans/compiler.h"
+#include "plans/plans.h"
 
 #include <dirent.h>
 #include <errno.h>

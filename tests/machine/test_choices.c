@@ -6,7 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "build/plans.h"
+#include "plans/plans.h"
 
 enum { FIELDS = 10, SIDE = 64, CALLS = 1500, TURNS_MOST = 4000 };
 

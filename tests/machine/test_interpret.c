@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "build/plans.h"
+#include "plans/plans.h"
 #include "tables.h"
 #include "values/graph.h"
 

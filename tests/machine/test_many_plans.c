@@ -8,7 +8,7 @@
 #include <dirent.h>
 
 #include "base/clock.h"
-#include "build/plans.h"
+#include "plans/plans.h"
 
 enum { PLANS_BITS = 30, PLANS_FEW = 20000, UNITS_MOST = 8192 + 4096 + 64, FILES_MOST = 64 };
 /* What may be added after the first plans, by whatever else the process does. AddressSanitizer

@@ -4,7 +4,7 @@
 #include "machine_explained.h"
 #include "support.h"
 
-#include "device/cache.h"
+#include "device/disk_cache.h"
 
 #include <dirent.h>
 #include <fcntl.h>

@@ -1,6 +1,6 @@
 /* test_scaled.c - a value multiplied by g where it is above 0 and divided by g where it is
  * below 0 equals the larger or the smaller of product and quotient. scaled_by_sign() in
- * values/rules.c replaces it so, for the factors for which that holds. The bits are those of
+ * values/simplify.c replaces it so, for the factors for which that holds. The bits are those of
  * the recorded operations, one by one, and of plain C. */
 #include <math.h>
 

@@ -2,7 +2,7 @@
  * a thread that is alone. A build with -Db_sanitize=thread finds what they share. */
 #include "support.h"
 
-#include "build/plans.h"
+#include "plans/plans.h"
 
 #include <pthread.h>
 #include <unistd.h>

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include <control.h>
+#include <control_table.h>
 
 #include <math.h>
 #include <string.h>

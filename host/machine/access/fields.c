@@ -8,7 +8,7 @@
 #include "run/notes.h"
 #include "values/graph.h"
 #include "values/make.h"
-#include "values/rules.h"
+#include "values/simplify.h"
 #include "values/soft.h"
 
 enum machine_status machine_field_deallocate(struct machine *m, uint32_t field)
@@ -109,7 +109,7 @@ struct machine_value *machine_field_value(struct machine *m, uint32_t field,
         slot_accessed(m, &f->slots[i], false);
     struct machine_value *v = field_content(m, f, offset, type.width);
     if (v && scope == MACHINE_WHERE_ACTIVE && f->vpset == m->values->set_current)
-        v = rules_under(m, v, m->memory->flags[f->vpset].of[MACHINE_CONTEXT].value, 12);
+        v = simplify_under(m, v, m->memory->flags[f->vpset].of[MACHINE_CONTEXT].value, 12);
     v = machine_reinterpret(m, v, type);
     return v ? graph_borrow(m, v) : NULL; /* the result may be a part of the content that
                                            * outlives it */

@@ -10,7 +10,7 @@
 #include "run/notes.h"
 #include "values/graph.h"
 #include "values/make.h"
-#include "values/rules.h"
+#include "values/simplify.h"
 
 /* ---- flags ---- */
 
@@ -24,7 +24,7 @@ struct machine_value *machine_flag_value(struct machine *m, enum machine_flag fl
     slot_accessed(m, &flags_of(m, s)->of[flag], false);
     struct machine_value *v = graph_borrow(m, flag_resolved(m, s, flag));
     if (scope == MACHINE_WHERE_ACTIVE && flag != MACHINE_CONTEXT)
-        v = rules_under(m, v, flags_of(m, s)->of[MACHINE_CONTEXT].value, 12);
+        v = simplify_under(m, v, flags_of(m, s)->of[MACHINE_CONTEXT].value, 12);
     return v ? graph_borrow(m, v) : NULL;
 }
 

@@ -69,7 +69,7 @@ static inline bool node_reads_bits(int op)
 /* The front end's folding, where all operands are numbers. */
 enum op_fold {
     FOLD_NEVER,
-    FOLD_MAKER,    /* by the function that makes it: values/shapes.c, rules.c, make.c */
+    FOLD_MAKER,    /* by the function that makes it: values/shapes.c, simplify.c, make.c */
     FOLD_BITS,     /* values/arithmetic.c */
     FOLD_QUOTIENT, /* these four: values/integer_fold.c */
     FOLD_POWER,

@@ -18,7 +18,7 @@ bool claims_declare(struct text *t, const struct kernel_argument *a)
 
 const char *claims_place(bool claimed)
 {
-    /* A kernel that is only compiled computes nothing: RUN is negative (build/compiler.c). */
+    /* A kernel that is only compiled computes nothing: RUN is negative (plans/compiler.c). */
     return claimed ? "    int down = get_global_id(1), across = get_global_id(0);\n"
                      "    if (RUN > 0 && claim) {\n"
                      "        const int wide = get_global_size(0);\n"

@@ -1,12 +1,12 @@
-/* programs.c - kernels, found by their key (cache.h): in memory by a hash table, on
- * disk by a file of cache.c. */
+/* programs.c - kernels, found by their key (disk_cache.h): in memory by a hash table, on
+ * disk by a file of disk_cache.c. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/statvfs.h>
 
 #include "base/errors.h"
-#include "device/cache.h"
+#include "device/disk_cache.h"
 #include "kernels.h"
 #include "watch/watch.h"
 

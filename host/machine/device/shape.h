@@ -127,13 +127,13 @@ struct device_shape {
     uint64_t at_once_lanes;
     /* what the front end interprets in less time is as soon done as noted: run/record.c */
     double short_ns;
-    /* When plans get kernels (build/interpreted.c): nanoseconds of a launch and its wait, of
+    /* When plans get kernels (plans/interpreted.c): nanoseconds of a launch and its wait, of
      * the search for a plan and its text, of a compiler for a kernel and for each operation in
      * it; the part that a kernel takes of the interpreter's time; the least time of a plan of
      * which many turns can be one kernel. */
     double wait_ns, text_ns, compile_ns, compile_op_ns, kernel_part, turns_from_ns;
     /* processors of so small a set count as so many, since a launch takes as long:
-     * build/improve.c */
+     * plans/improve.c */
     uint64_t work_least;
     const char *from; /* where these numbers come from */
 };

@@ -1,7 +1,7 @@
 /* tuning.c - the file with a device's knobs, which `lutetia tune` writes.
  *
- * Each device has a text file tuning-HASH in the folder of cache.c, with all of these lines in
- * this order. A file with another version number is ignored.
+ * Each device has a text file tuning-HASH in the folder of disk_cache.c, with all of these
+ * lines in this order. A file with another version number is ignored.
  *
  *     lutetia tuning 2
  *     platform Portable Computing Language
@@ -27,7 +27,7 @@
 
 #include "base/errors.h"
 #include "base/parts.h"
-#include "device/cache.h"
+#include "device/disk_cache.h"
 #include "output_file.h"
 
 #define FIRST_LINE "lutetia tuning 2"

@@ -1,5 +1,5 @@
 /* totals.c - machine_explain(): the facts of a whole run, from the sums of watch/sums.c. The
- * facts of a kernel are build/explained_kernels.c's.
+ * facts of a kernel are plans/explained_kernels.c's.
  *
  * The fate of each value is counted once: it was computed, in the first evaluation that reached
  * it, or released before any evaluation did. Foreseen calls make no values; the kernels that
@@ -12,8 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "build/plans.h"
 #include "measure/copies.h"
+#include "plans/plans.h"
 #include "run/run.h"
 
 /* ---- the whole ---- */

@@ -20,9 +20,9 @@
 #include <stdlib.h>
 
 #include "base/errors.h"
-#include "build/division.h"
-#include "build/explained.h"
 #include "memory/memory.h"
+#include "plans/division.h"
+#include "plans/explained.h"
 #include "run/pending.h"
 #include "run/replay.h"
 #include "run/room.h"

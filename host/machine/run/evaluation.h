@@ -6,8 +6,8 @@
 #ifndef LUTETIA_MACHINE_EVALUATION_H
 #define LUTETIA_MACHINE_EVALUATION_H
 
-#include "build/plans.h"
 #include "machine.h"
+#include "plans/plans.h"
 #include "run/run.h"
 
 /* What an evaluation must compute. */

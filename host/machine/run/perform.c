@@ -3,8 +3,8 @@
 
 #include "base/arrays.h"
 #include "base/errors.h"
-#include "build/division.h"
 #include "memory/memory.h"
+#include "plans/division.h"
 #include "run/replay.h"
 #include "run/room.h"
 #include "values/graph.h"

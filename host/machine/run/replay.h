@@ -36,8 +36,8 @@
 #ifndef LUTETIA_MACHINE_REPLAY_H
 #define LUTETIA_MACHINE_REPLAY_H
 
-#include "build/plans.h"
 #include "memory/lifetimes.h"
+#include "plans/plans.h"
 #include "run/run.h"
 
 enum { STATES_MOST = 16, EDGES_MOST = 8, CALLS_MOST = 8192, HASHES_SEEN = 64 };

@@ -4,7 +4,7 @@
  * turns are noted and evaluated together. For this all turns must begin alike, so
  * evaluations are thorough (they leave nothing to compute) while such loops run.
  */
-#include "build/background.h"
+#include "plans/background.h"
 #include "run/evaluate.h"
 #include "run/replay.h"
 #include "values/graph.h"

@@ -6,7 +6,7 @@
 #include "values/integers.h"
 #include "values/make.h"
 #include "values/math_ops.h"
-#include "values/rules.h"
+#include "values/simplify.h"
 
 static struct machine_value *unary(struct machine *m, enum machine_op op,
                                    struct machine_value *a)
@@ -25,8 +25,8 @@ static struct machine_value *unary(struct machine *m, enum machine_op op,
         return make_number(m, a->type,
                            scalar_narrow(bits_fold(op, a->type.width, scalar_wide(a->imm), 0)));
     if (op == MACHINE_NOT && a->type.width == 1)
-        return rules_not(m, a);
-    if (op == MACHINE_NOT && rules_chooses_number(a, 4))
+        return simplify_not(m, a);
+    if (op == MACHINE_NOT && simplify_chooses_number(a, 4))
         return machine_select(m, a->in[0], machine_unary(m, op, a->in[1]),
                               machine_unary(m, op, a->in[2]));
     if (op == MACHINE_NEG && a->type.width == 1)
@@ -46,9 +46,9 @@ static struct machine_value *exclusive_or(struct machine *m, struct machine_valu
                                           struct machine_value *b)
 {
     if (value_is_number(b))
-        return b->imm.lo ? rules_not(m, a) : a;
+        return b->imm.lo ? simplify_not(m, a) : a;
     if (value_is_number(a))
-        return a->imm.lo ? rules_not(m, b) : b;
+        return a->imm.lo ? simplify_not(m, b) : b;
     if (a == b)
         return make_bit(m, 0);
     return make_node(m, MACHINE_XOR, MAKE_BIT_TYPE, 0, a, b, NULL);
@@ -58,10 +58,10 @@ static struct machine_value *equal_bits(struct machine *m, struct machine_value 
                                         struct machine_value *b)
 {
     if (value_is_number(b))
-        return b->imm.lo ? a : rules_not(m, a);
+        return b->imm.lo ? a : simplify_not(m, a);
     if (value_is_number(a))
-        return a->imm.lo ? b : rules_not(m, b);
-    return exclusive_or(m, a, rules_not(m, b));
+        return a->imm.lo ? b : simplify_not(m, b);
+    return exclusive_or(m, a, simplify_not(m, b));
 }
 
 /* Two single bits: each operation is an and, an or, or an exclusive or. As a signed number the
@@ -74,19 +74,19 @@ static struct machine_value *of_bits(struct machine *m, enum machine_op op,
     case OF_MACHINE_MUL:
     case OF_MACHINE_UMIN:
     case OF_MACHINE_SMAX:
-        return rules_and(m, a, b);
+        return simplify_and(m, a, b);
     case OF_MACHINE_OR:
     case OF_MACHINE_UMAX:
     case OF_MACHINE_SMIN:
-        return rules_or(m, a, b);
+        return simplify_or(m, a, b);
     case OF_MACHINE_ULT:
-        return rules_and(m, rules_not(m, a), b);
+        return simplify_and(m, simplify_not(m, a), b);
     case OF_MACHINE_ULE:
-        return rules_or(m, rules_not(m, a), b);
+        return simplify_or(m, simplify_not(m, a), b);
     case OF_MACHINE_SLT:
-        return rules_and(m, a, rules_not(m, b));
+        return simplify_and(m, a, simplify_not(m, b));
     case OF_MACHINE_SLE:
-        return rules_or(m, a, rules_not(m, b));
+        return simplify_or(m, a, simplify_not(m, b));
     case OF_MACHINE_EQ:
         return equal_bits(m, a, b);
     case OF_MACHINE_XOR:

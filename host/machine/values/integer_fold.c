@@ -13,7 +13,7 @@
 #include "base/parts.h"
 #include "base/scalar.h"
 #include "values/make.h"
-#include "values/rules.h"
+#include "values/simplify.h"
 
 typedef unsigned __int128 number;
 
@@ -251,7 +251,7 @@ static struct machine_value *of_one_bit(struct machine *m, enum machine_op op,
     bool zero = integer_fold(op, 1, 0, 0) & 1, one = integer_fold(op, 1, 1, 0) & 1;
     if (zero == one)
         return machine_constant(m, MACHINE_BIT, scalar(zero));
-    return one ? a : rules_not(m, a);
+    return one ? a : simplify_not(m, a);
 }
 
 /* Operands have one width but for shifts, whose b is a count of 32 bits. */
@@ -273,7 +273,7 @@ struct machine_value *integer_value(struct machine *m, enum machine_op op,
     if (width > 1)
         return make_operation(m, op, type, a, b);
     if (gives_bit) { /* 0 and 1 to the power fit; -1 (a signed 1) does unless it becomes 1 */
-        struct machine_value *even = rules_not(m, b);
+        struct machine_value *even = simplify_not(m, b);
         return keeps_sign ? even : machine_constant(m, type, (struct machine_scalar){0, 0});
     }
     /* One bit is done as two, for operations whose low bit does not depend on the width. */

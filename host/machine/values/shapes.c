@@ -2,7 +2,7 @@
 #include "base/parts.h"
 #include "base/types.h"
 #include "values/make.h"
-#include "values/rules.h"
+#include "values/simplify.h"
 
 static struct machine_value *as_bits(struct machine *m, struct machine_value *a)
 {
@@ -49,7 +49,7 @@ static struct machine_value *extracted(struct machine *m, struct machine_value *
     if (value_is_number(a))
         return make_number(m, MACHINE_UINT(width),
                            scalar_narrow(scalar_wide(a->imm) >> offset));
-    if (rules_chooses_number(a, 4))
+    if (simplify_chooses_number(a, 4))
         return machine_select(m, a->in[0], machine_extract(m, a->in[1], offset, width),
                               machine_extract(m, a->in[2], offset, width));
     if (!a->buffer && a->op == NODE_EXTRACT)

@@ -44,7 +44,7 @@ struct machine_value {
     struct device_buffer *buffer;
 };
 
-/* How often each rule applied, by which values need not be computed: rules.c,
+/* How often each rule applied, by which values need not be computed: simplify.c,
  * memory/flags.c, run/evaluate.c. */
 struct vanished {
     uint64_t overwritten, nested, under_context, numbers, known, overflows, expressions;
@@ -69,7 +69,7 @@ struct values {
     struct machine_value **release_stack;
     int release_count, release_capacity;
 
-    int simplify_budget; /* the nodes that rules_under() may still visit in this instruction */
+    int simplify_budget; /* nodes that simplify_under() may still visit in this instruction */
     uint32_t epoch;      /* evaluations so far, from 1 on */
     uint32_t mark;       /* of the walk under way */
     struct vanished vanished;

@@ -1,11 +1,11 @@
-/* kept_kernels.c - see kept_kernels.h.
+/* pocl_cache.c - see pocl_cache.h.
  *
  *     POCL_CACHE_DIR/AB/CDEFGH.../last_accessed       a program: PoCL touches this file when it
  *                                                     builds or loads it
  *                                /program.bc, k/...
  *
  * Only folders of such names with such a file are programs. */
-#include "kept_kernels.h"
+#include "pocl_cache.h"
 
 #include <dirent.h>
 #include <stdio.h>
@@ -62,7 +62,7 @@ static int programs_all(DIR *cache, struct oldest *o)
     return count;
 }
 
-int kept_kernels_trim(const char *folder, int most, double unused_s)
+int pocl_cache_trim(const char *folder, int most, double unused_s)
 {
     DIR *cache = folder_open(AT_FDCWD, folder);
     int removed = 0;

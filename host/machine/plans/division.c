@@ -1,10 +1,10 @@
 /* division.c - plans in two portions are made and run: see division.h. */
-#include "build/division.h"
+#include "plans/division.h"
 
 #include <stdlib.h>
 
 #include "base/errors.h"
-#include "build/background.h"
+#include "plans/background.h"
 
 /* ---- plans ---- */
 

@@ -1,6 +1,6 @@
-/* cache.h - built programs, and tunings, on disk. */
-#ifndef LUTETIA_MACHINE_CACHE_H
-#define LUTETIA_MACHINE_CACHE_H
+/* disk_cache.h - built programs, and tunings, on disk. */
+#ifndef LUTETIA_MACHINE_DISK_CACHE_H
+#define LUTETIA_MACHINE_DISK_CACHE_H
 
 #include <stdio.h>
 

@@ -1,5 +1,5 @@
 /* explained_kernels.c - see explained.h. */
-#include "build/explained.h"
+#include "plans/explained.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 
 #include "base/parts.h"
 #include "base/types.h"
-#include "build/plans.h"
+#include "plans/plans.h"
 
 void explained_nodes(struct machine *m, struct machine_value *const *nodes,
                      struct machine_value *const *wanted, int wanted_count,

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <sys/stat.h>
 
-#include "build/plans.h"
+#include "plans/plans.h"
 
 enum { PATH_BYTES = 600 };
 

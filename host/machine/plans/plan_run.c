@@ -2,10 +2,10 @@
 #include <math.h>
 
 #include "base/errors.h"
-#include "build/background.h"
-#include "build/plans.h"
 #include "device/call.h"
 #include "kernels.h"
+#include "plans/background.h"
+#include "plans/plans.h"
 
 size_t plan_run_columns(const struct machine *m, int vector)
 {

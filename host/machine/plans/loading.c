@@ -1,5 +1,5 @@
 /* loading.c - see loading.h. */
-#include "build/loading.h"
+#include "plans/loading.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,8 +1,8 @@
 /* improve.c - makes better kernels for a plan that has run often, now or in the background. */
-#include "build/background.h"
-#include "build/division.h"
-#include "build/explained.h"
-#include "build/plans.h"
+#include "plans/background.h"
+#include "plans/division.h"
+#include "plans/explained.h"
+#include "plans/plans.h"
 
 /* How many times as often a plan runs before it gets kernels with its numbers in their text as
  * before it gets boxes. */

@@ -7,12 +7,12 @@
 #include <sys/stat.h>
 
 #include "base/errors.h"
-#include "build/background.h"
-#include "build/division.h"
-#include "build/explained.h"
-#include "build/plans.h"
 #include "codegen/numbers.h"
 #include "kernels.h"
+#include "plans/background.h"
+#include "plans/division.h"
+#include "plans/explained.h"
+#include "plans/plans.h"
 
 /* ---- life ---- */
 

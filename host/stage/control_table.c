@@ -1,5 +1,5 @@
-/* control.c - see control.h. */
-#include "control.h"
+/* control_table.c - see control_table.h. */
+#include "control_table.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -3,15 +3,15 @@
  *
  * The values of constants are not part of a signature.
  */
-#include "build/plans.h"
+#include "plans/plans.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/arrays.h"
 #include "base/errors.h"
-#include "build/background.h"
-#include "build/division.h"
+#include "plans/background.h"
+#include "plans/division.h"
 
 /* Of a program that does not repeat, in units of some 4 kilobytes: a plan of few values is one,
  * of many values several. */

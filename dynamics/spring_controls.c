@@ -1,5 +1,5 @@
-/* controls.c - see controls.h. */
-#include "controls.h"
+/* spring_controls.c - see spring_controls.h. */
+#include "spring_controls.h"
 #include "internal.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* cache.c - files kept on disk from run to run: compiled programs, and tunings (tuning.c).
+/* disk_cache.c - files kept on disk from run to run: compiled programs, and tunings (tuning.c).
  *
  * Files are in $XDG_CACHE_HOME/lutetia, or ~/.cache/lutetia, if only this user can write there
  * (user_folder.h). A program's file is named by a hash of its key. The file begins with the
@@ -10,7 +10,7 @@
  * written, the cache is not used. An empty file, named in the same way, is a mark: it says
  * that the driver has the program in its own cache (background.c).
  */
-#include "device/cache.h"
+#include "device/disk_cache.h"
 
 #include <dirent.h>
 #include <fcntl.h>

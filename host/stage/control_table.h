@@ -1,5 +1,5 @@
-/* control.h - the controls of an actor, as a table: the only source of names, units, ranges and
- * usual values, for the command line, scripts, sliders and the reference.
+/* control_table.h - the controls of an actor, as a table: the only source of names, units,
+ * ranges and usual values, for the command line, scripts, sliders and the reference.
  *
  *     static const struct stage_control rows[] = {
  *         {.name = "gravity", .unit = "em/s2", .least = -100, .most = 100, .usual = 9.81,
@@ -10,8 +10,8 @@
  *
  * Everything adjustable is in such a table.
  */
-#ifndef LUTETIA_STAGE_CONTROL_H
-#define LUTETIA_STAGE_CONTROL_H
+#ifndef LUTETIA_STAGE_CONTROL_TABLE_H
+#define LUTETIA_STAGE_CONTROL_TABLE_H
 
 #include "stage_status.h"
 

@@ -4,7 +4,7 @@
 
 #include "base/arrays.h"
 #include "base/errors.h"
-#include "build/plans.h"
+#include "plans/plans.h"
 
 /* ---- what is reached, and its signature ---- */
 

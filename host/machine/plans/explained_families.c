@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "build/plans.h"
+#include "plans/plans.h"
 
 /* Why the plan runs as it does. */
 static enum machine_plan_why why_of(const struct machine *m, const struct plan *p)

@@ -1,11 +1,11 @@
 /* choices.c - see choices.h. */
-#include "build/choices.h"
+#include "plans/choices.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "build/background.h"
-#include "build/plans.h"
+#include "plans/background.h"
+#include "plans/plans.h"
 
 void choice_free(struct choice *c)
 {

@@ -1,4 +1,4 @@
-/* Tests kept_kernels.h on a folder that is laid out as PoCL does: the programs that were used
+/* Tests pocl_cache.h on a folder that is laid out as PoCL does: the programs that were used
  * last longest ago go, and nothing that is no program does. */
 #include <fcntl.h>
 #include <setjmp.h>
@@ -15,7 +15,7 @@
 
 #include <cmocka.h>
 
-#include "kept_kernels.h"
+#include "pocl_cache.h"
 
 enum { PROGRAMS = 60 };
 
@@ -84,15 +84,15 @@ static void the_oldest_programs_go(void **state)
     make("AB/short/last_accessed", S_IFREG);
     make("AB/PONMLKJIHGFEDCBAPONMLKJIHGFEDCBAPOPXX", S_IFDIR);
     make("tempfile", S_IFREG);
-    assert_int_equal(kept_kernels_trim(folder, PROGRAMS, 0), 0);
-    assert_int_equal(kept_kernels_trim(folder, 40, 0), PROGRAMS - 40);
+    assert_int_equal(pocl_cache_trim(folder, PROGRAMS, 0), 0);
+    assert_int_equal(pocl_cache_trim(folder, 40, 0), PROGRAMS - 40);
     for (int i = 0; i < PROGRAMS; i++)
         assert_int_equal(is_there(name_of(i, "")), hours_of(i) < 40);
     /* one that may be in use is kept, however many there are */
-    assert_int_equal(kept_kernels_trim(folder, 0, 3600 * 29.5), 10);
+    assert_int_equal(pocl_cache_trim(folder, 0, 3600 * 29.5), 10);
     assert_true(is_there("AB/short/last_accessed") && is_there("tempfile") &&
                 is_there("AB/PONMLKJIHGFEDCBAPONMLKJIHGFEDCBAPOPXX"));
-    assert_int_equal(kept_kernels_trim("/tmp/lutetia-nothing-is-here", 0, 0), 0);
+    assert_int_equal(pocl_cache_trim("/tmp/lutetia-nothing-is-here", 0, 0), 0);
     snprintf(command, sizeof command, "rm -rf '%s'", folder);
     assert_int_equal(system(command), 0);
 }

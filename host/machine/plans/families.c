@@ -1,14 +1,14 @@
 /* families.c - see families.h. */
-#include "build/families.h"
+#include "plans/families.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/arrays.h"
-#include "build/plans.h"
 #include "codegen/spell.h"
 #include "codegen/text.h"
+#include "plans/plans.h"
 
 /* ---- what is alike, and what may differ ---- */
 

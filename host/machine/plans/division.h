@@ -20,7 +20,7 @@
 #ifndef LUTETIA_MACHINE_DIVISION_H
 #define LUTETIA_MACHINE_DIVISION_H
 
-#include "build/plans.h"
+#include "plans/plans.h"
 #include "sequencers/sequencers.h"
 
 /* What a draft's array or number is. */

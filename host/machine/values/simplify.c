@@ -1,4 +1,4 @@
-/* rules.c - the rules that keep the graph small.
+/* simplify.c - the rules that keep the graph small.
  *
  * Rules are exact: they hold for every bit, NaNs included. Float arithmetic is never
  * rearranged. No rule looks at the value of a number other than a bit's 0 or 1, and whether a
@@ -15,7 +15,7 @@
  * So values overwritten under the same context disappear, and a test that was stored under c
  * and is and-ed into c loses its select.
  */
-#include "values/rules.h"
+#include "values/simplify.h"
 
 #include "base/parts.h"
 #include "base/types.h"
@@ -34,8 +34,8 @@ static bool implies(const struct machine_value *a, const struct machine_value *b
 
 enum { DEPTH = 12 };
 
-struct machine_value *rules_and(struct machine *m, struct machine_value *a,
-                                struct machine_value *b)
+struct machine_value *simplify_and(struct machine *m, struct machine_value *a,
+                                   struct machine_value *b)
 {
     if (value_is_zero_bit(a) || value_is_one_bit(b))
         return a;
@@ -47,7 +47,7 @@ struct machine_value *rules_and(struct machine *m, struct machine_value *a,
         return b;
     if ((a->op == MACHINE_NOT && a->in[0] == b) || (b->op == MACHINE_NOT && b->in[0] == a))
         return make_bit(m, 0);
-    b = rules_under(m, b, a, DEPTH);
+    b = simplify_under(m, b, a, DEPTH);
     if (value_is_one_bit(b))
         return a;
     if (value_is_zero_bit(b))
@@ -55,8 +55,8 @@ struct machine_value *rules_and(struct machine *m, struct machine_value *a,
     return make_node(m, MACHINE_AND, MAKE_BIT_TYPE, 0, a, b, NULL);
 }
 
-struct machine_value *rules_or(struct machine *m, struct machine_value *a,
-                               struct machine_value *b)
+struct machine_value *simplify_or(struct machine *m, struct machine_value *a,
+                                  struct machine_value *b)
 {
     if (value_is_one_bit(a) || value_is_zero_bit(b))
         return a;
@@ -69,7 +69,7 @@ struct machine_value *rules_or(struct machine *m, struct machine_value *a,
     return make_node(m, MACHINE_OR, MAKE_BIT_TYPE, 0, a, b, NULL);
 }
 
-struct machine_value *rules_not(struct machine *m, struct machine_value *a)
+struct machine_value *simplify_not(struct machine *m, struct machine_value *a)
 {
     if (value_is_number(a))
         return make_bit(m, !a->imm.lo);
@@ -89,7 +89,7 @@ static struct machine_value *residual(struct machine *m, struct machine_value *c
         struct machine_value *q = residual(m, c->in[1], known, depth - 1);
         if (p == c->in[0] && q == c->in[1])
             return c;
-        return !p ? q : !q ? p : rules_and(m, p, q);
+        return !p ? q : !q ? p : simplify_and(m, p, q);
     }
     return c;
 }
@@ -175,8 +175,8 @@ static struct machine_value *rest_of(struct machine *m, const struct machine_val
     return v;
 }
 
-struct machine_value *rules_select(struct machine *m, struct machine_value *c,
-                                   struct machine_value *a, struct machine_value *b)
+struct machine_value *simplify_select(struct machine *m, struct machine_value *c,
+                                      struct machine_value *a, struct machine_value *b)
 {
     struct machine_value *scaled = scaled_by_sign(m, c, a, b);
     if (scaled)
@@ -199,41 +199,41 @@ struct machine_value *rules_select(struct machine *m, struct machine_value *c,
     if (b->op == NODE_SELECT && implies(c, b->in[0], DEPTH)) {
         struct machine_value *outer = b->in[0], *rest = residual(m, c, outer, DEPTH);
         m->values->vanished.nested++;
-        struct machine_value *inner = rest ? rules_select(m, rest, a, b->in[1]) : a;
-        return inner ? rules_select(m, outer, inner, b->in[2]) : NULL;
+        struct machine_value *inner = rest ? simplify_select(m, rest, a, b->in[1]) : a;
+        return inner ? simplify_select(m, outer, inner, b->in[2]) : NULL;
     }
     if (!(b = rest_of(m, c, b)))
         return NULL;
     if (a->type.width == 1 && a->type.kind == MACHINE_BITS) {
         if (value_is_number(a) && value_is_number(b))
-            return a->imm.lo ? c : rules_not(m, c);
+            return a->imm.lo ? c : simplify_not(m, c);
         if (value_is_number(a))
-            return a->imm.lo ? rules_or(m, c, b) : rules_and(m, rules_not(m, c), b);
+            return a->imm.lo ? simplify_or(m, c, b) : simplify_and(m, simplify_not(m, c), b);
         if (value_is_number(b))
-            return b->imm.lo ? rules_or(m, rules_not(m, c), a) : rules_and(m, c, a);
+            return b->imm.lo ? simplify_or(m, simplify_not(m, c), a) : simplify_and(m, c, a);
     }
     return make_node(m, NODE_SELECT, a->type, 0, c, a, b);
 }
 
 /* v, for readers that read it only where context holds. */
-struct machine_value *rules_under(struct machine *m, struct machine_value *v,
-                                  struct machine_value *context, int depth)
+struct machine_value *simplify_under(struct machine *m, struct machine_value *v,
+                                     struct machine_value *context, int depth)
 {
     if (depth <= 0 || node_is_leaf(v) || value_is_number(context) ||
         m->values->simplify_budget-- <= 0)
         return v;
     if (v->op == NODE_SELECT) {
         struct machine_value *c = residual(m, v->in[0], context, DEPTH);
-        struct machine_value *a = rules_under(m, v->in[1], context, depth - 1);
+        struct machine_value *a = simplify_under(m, v->in[1], context, depth - 1);
         m->values->vanished.under_context += !c;
         if (!c)
             return a;
         if (c->op == MACHINE_NOT && implies(context, c->in[0], DEPTH))
-            return rules_under(m, v->in[2], context, depth - 1);
-        struct machine_value *b = rules_under(m, v->in[2], context, depth - 1);
+            return simplify_under(m, v->in[2], context, depth - 1);
+        struct machine_value *b = simplify_under(m, v->in[2], context, depth - 1);
         if (c == v->in[0] && a == v->in[1] && b == v->in[2])
             return v;
-        return rules_select(m, c, a, b);
+        return simplify_select(m, c, a, b);
     }
     if (v->type.width == 1 && v->op == MACHINE_AND) {
         struct machine_value *c = residual(m, v, context, DEPTH);
@@ -241,7 +241,7 @@ struct machine_value *rules_under(struct machine *m, struct machine_value *v,
         return c ? c : make_bit(m, 1);
     }
     if (v->op == NODE_REINTERPRET) {
-        struct machine_value *a = rules_under(m, v->in[0], context, depth - 1);
+        struct machine_value *a = simplify_under(m, v->in[0], context, depth - 1);
         return a == v->in[0] ? v : machine_reinterpret(m, a, v->type);
     }
     return v;
@@ -254,7 +254,7 @@ static struct machine_value *selected(struct machine *m, struct machine_value *c
         return NULL;
     if (!type_equal(a->type, b->type) || !type_equal(condition->type, MAKE_BIT_TYPE))
         return make_bad(m, "select takes a bit and two values of one type");
-    return rules_select(m, condition, a, b);
+    return simplify_select(m, condition, a, b);
 }
 
 struct machine_value *machine_select(struct machine *m, struct machine_value *condition,
@@ -263,9 +263,9 @@ struct machine_value *machine_select(struct machine *m, struct machine_value *co
     return make_handed(m, selected(m, condition, a, b));
 }
 
-bool rules_chooses_number(const struct machine_value *v, int depth)
+bool simplify_chooses_number(const struct machine_value *v, int depth)
 {
     return value_is_number(v) || (depth > 0 && !v->buffer && v->op == NODE_SELECT &&
-                                  rules_chooses_number(v->in[1], depth - 1) &&
-                                  rules_chooses_number(v->in[2], depth - 1));
+                                  simplify_chooses_number(v->in[1], depth - 1) &&
+                                  simplify_chooses_number(v->in[2], depth - 1));
 }

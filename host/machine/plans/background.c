@@ -20,7 +20,7 @@
  * program, because a program may wait for all of its children. It ends when the program does.
  * If the process fails, the machine compiles from then on, while the program waits.
  */
-#include "build/background.h"
+#include "plans/background.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -36,10 +36,10 @@
 
 #include "base/arrays.h"
 #include "base/process.h"
-#include "build/compiler.h"
-#include "build/loading.h"
-#include "build/plans.h"
-#include "device/cache.h"
+#include "device/disk_cache.h"
+#include "plans/compiler.h"
+#include "plans/loading.h"
+#include "plans/plans.h"
 #include "program.h"
 #include "sequencers/sequencers.h"
 

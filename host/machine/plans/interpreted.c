@@ -11,8 +11,8 @@
 #include <stdlib.h>
 
 #include "base/errors.h"
-#include "build/background.h"
-#include "build/plans.h"
+#include "plans/background.h"
+#include "plans/plans.h"
 
 static double compile_time(const struct machine *m, const struct plan *p)
 {

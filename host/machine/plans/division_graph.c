@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/errors.h"
-#include "build/division.h"
+#include "plans/division.h"
 #include "values/graph.h"
 
 /* ---- what can be in blocks ---- */

@@ -2,12 +2,12 @@
 #ifndef LUTETIA_MACHINE_PLANS_H
 #define LUTETIA_MACHINE_PLANS_H
 
-#include "build/choices.h"
-#include "build/explained.h"
-#include "build/families.h"
 #include "codegen/codegen.h"
 #include "interpret/blocks.h"
 #include "interpret/device_code.h"
+#include "plans/choices.h"
+#include "plans/explained.h"
+#include "plans/families.h"
 #include "watch/sums.h"
 
 /* The quality of a plan's kernels: small work that runs once is not worth a second of

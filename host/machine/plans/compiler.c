@@ -5,7 +5,7 @@
  * ends at once when the machine closes the socket or the machine's process has ended, and
  * when it has been idle for a while.
  */
-#include "build/compiler.h"
+#include "plans/compiler.h"
 
 #include <CL/cl.h>
 #include <poll.h>
@@ -20,7 +20,7 @@
 #include <sys/types.h>
 #include <unistd.h>
 
-#include "kept_kernels.h"
+#include "pocl_cache.h"
 
 enum { IDLE_MS = 30000, MOST = 64, TEXT_MOST = 16 << 20, MEMORY_BYTES = 1 << 16 };
 
@@ -52,7 +52,7 @@ static void *trim(void *nothing)
 {
     const char *cache = getenv("POCL_CACHE_DIR");
     if (cache)
-        kept_kernels_trim(cache, KEPT_KERNELS_MOST, 3600);
+        pocl_cache_trim(cache, POCL_CACHE_MOST, 3600);
     return nothing;
 }
 

@@ -1,5 +1,5 @@
-/* controls.h - the parameters of a network, as a table: the only source of names, units, ranges
- * and usual values, for options, scripts, sliders and the reference.
+/* spring_controls.h - the parameters of a network, as a table: the only source of names,
+ * units, ranges and usual values, for options, scripts, sliders and the reference.
  *
  *     struct dyn_world world = dyn_world_usual();
  *     const struct dyn_control *c = dyn_control_find("gravity");
@@ -10,8 +10,8 @@
  *
  * Ownership: tables and their texts are the library's, and constant. Threads: any.
  */
-#ifndef LUTETIA_DYN_CONTROLS_H
-#define LUTETIA_DYN_CONTROLS_H
+#ifndef LUTETIA_DYN_SPRING_CONTROLS_H
+#define LUTETIA_DYN_SPRING_CONTROLS_H
 
 #include "status.h"
 
