@@ -1,4 +1,4 @@
-/* brine.c - what salt does on wet paint: a part of a step.
+/* salt_spread.c - what salt does on wet paint: a part of a step.
  *
  * A grain dissolves where it is wet and keeps the water on it saturated; brine spreads from
  * fiber to fiber through what is wet and fades, so that it reaches about `reach` fibers. Along

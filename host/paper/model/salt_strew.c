@@ -1,4 +1,4 @@
-/* salt.c - grains of salt strewn on wet paint; model/brine.c has what they do there. */
+/* salt_strew.c - grains of salt strewn on wet paint; salt_spread.c has what they do there. */
 #include "model/model.h"
 #include "techniques.h"
 
