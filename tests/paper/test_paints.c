@@ -4,7 +4,8 @@
  * Swatches are published measurements of paint that shops sell. "measured" spectra were not
  * made from them, "fitted" ones were (docs/paints.md). Ratings are those of painters, 0..4:
  * what makers print on tubes, and MacEvoy's guide to watercolours. Layers are computed here by
- * Kubelka and Munk's own formulas, and light from the CIE's tables. */
+ * Kubelka and Munk's own formulas, means over a fiber as sums over amounts, and light from the
+ * CIE's tables. */
 #include <bands.h>
 #include <paper.h>
 #include <separate.h>
@@ -113,6 +114,14 @@ static double layer_by_hand(double k, double s, double below)
     return r + t * t * below / (1 - r * below);
 }
 
+/* Paint whose amounts are spread by a gamma distribution of shape 2 lets pass what an even
+ * layer of log (1 + Q) / Q as much does. */
+static double uneven_by_hand(double k, double s, double below)
+{
+    const double q = sqrt(k * (k + 2 * s)), part = q > 1e-9 ? log1p(q) / q : 1;
+    return layer_by_hand(part * k, part * s, below);
+}
+
 struct part {
     const char *name;
     double amount;
@@ -131,7 +140,7 @@ static void mixture_by_hand(const struct part *parts, int count, double rgb[3])
             s += parts[i].amount * pigment->scattering[band];
         }
         for (int i = 0; i < 3; i++)
-            rgb[i] += paper_light_of_band[i][band] * layer_by_hand(k, s, 1);
+            rgb[i] += paper_light_of_band[i][band] * uneven_by_hand(k, s, 1);
     }
 }
 
@@ -318,7 +327,7 @@ static void blue_and_yellow_are_green(void **state)
     for (int i = 0; i < 5; i++)
         for (int k = 0; k < 3; k++) {
             double lab[3], most = 0, hue = 0;
-            for (double part = 0.1; part < 0.9; part += 0.05) {
+            for (double part = 0.1; part < 0.9; part += 0.01) {
                 mixture_lab((struct part[]){{blues[i], part}, {yellows[k], 1 - part}}, 2, lab);
                 const double angle = atan2(lab[2], lab[1]) * DEGREES;
                 if (angle > 120 && angle < 190 && hypot(lab[1], lab[2]) > most) {
@@ -355,6 +364,129 @@ static void complements_are_gray(void **state)
         if (!(least <= 10))
             fail_msg("%s with %s gives no gray", pairs[i][0], pairs[i][1]);
     }
+}
+
+/* ---- uneven paint and its tints ---- */
+
+/* The mean over amounts x of what a layer of x times as much throws back; x is spread by the
+ * density 4 x exp (-2 x). */
+static double mean_by_hand(double k, double s, double below)
+{
+    double sum = 0, all = 0;
+    for (double x = 0.01; x < 14; x += 0.02) {
+        const double weight = x * exp(-2 * x);
+        all += weight;
+        sum += weight * layer_by_hand(x * k, x * s, below);
+    }
+    return sum / all;
+}
+
+/* The formula is the mean, exactly where nothing scatters, and nearly for every paint. */
+static void uneven_paint_is_the_mean_over_amounts(void **state)
+{
+    (void)state;
+    static const double ground[] = {0.93, 0.5, 0}, most[] = {0.01, 0.04, 0.08};
+    double worst[3] = {0};
+    for (double k = 0.01; k < 20; k *= 3)
+        assert_true(fabs(paper_uneven_seen(k, 0, ground[0]) - mean_by_hand(k, 0, ground[0])) <
+                    5e-4);
+    const struct paper_paint *paint;
+    for (int number = 0; (paint = paper_paint_number(number)); number++) {
+        double k[PAPER_BANDS], s[PAPER_BANDS];
+        if (!paper_pigment_banded(&paint->pigment))
+            continue;
+        paper_pigment_bands(&paint->pigment, k, s);
+        for (int i = 0; i < 3; i++)
+            for (double amount = 0.1; amount < 5; amount *= 3)
+                for (int band = 0; band < PAPER_BANDS; band++)
+                    worst[i] = fmax(
+                        worst[i],
+                        fabs(paper_uneven_seen(amount * k[band], amount * s[band], ground[i]) -
+                             mean_by_hand(amount * k[band], amount * s[band], ground[i])));
+    }
+    for (int i = 0; i < 3; i++) {
+        printf("over %.2f the formula is off the mean by %.4f\n", ground[i], worst[i]);
+        assert_true(worst[i] < most[i]);
+    }
+}
+
+/* The tint of a paint on white that is as light as this. */
+static void tint_lab(const char *name, double light, double lab[3])
+{
+    double low = 1e-4, high = 100;
+    for (int i = 0; i < 60; i++) {
+        const double amount = sqrt(low * high);
+        mixture_lab(&(struct part){name, amount}, 1, lab);
+        *(lab[0] > light ? &low : &high) = amount;
+    }
+}
+
+/* Tints of the measured pigments with titanium white, by their absorption and scattering in
+ * Berns's database (docs/paints.md): L*, chroma, hue. The paints were fitted to these. */
+static void tints_are_those_of_paint(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        double light, chroma, hue;
+    } rows[] = {
+        {"french ultramarine", 85, 20, 273},
+        {"french ultramarine", 75, 33, 277},
+        {"french ultramarine", 65, 44, 282},
+        {"cobalt blue", 85, 21, 266},
+        {"cobalt blue", 75, 33, 271},
+        {"cobalt blue", 65, 43, 275},
+        {"cerulean blue", 85, 18, 251},
+        {"cerulean blue", 75, 27, 254},
+        {"cerulean blue", 65, 33, 257},
+        {"phthalo green", 85, 26, 187},
+        {"phthalo green", 75, 37, 184},
+        {"phthalo green", 65, 42, 182},
+        {"phthalo green yellow shade", 85, 39, 170},
+        {"phthalo green yellow shade", 75, 56, 167},
+        {"phthalo green yellow shade", 65, 55, 161},
+        {"phthalo blue", 85, 24, 238},
+        {"phthalo blue", 75, 35, 243},
+        {"phthalo blue", 65, 43, 250},
+        {"phthalo blue red shade", 85, 20, 252},
+        {"phthalo blue red shade", 75, 31, 256},
+        {"phthalo blue red shade", 65, 40, 261},
+        {"dioxazine violet", 85, 19, 300},
+        {"dioxazine violet", 75, 29, 300},
+        {"dioxazine violet", 65, 38, 301},
+        {"quinacridone rose", 85, 25, 347},
+        {"quinacridone rose", 75, 38, 349},
+        {"quinacridone rose", 65, 49, 354},
+        {"quinacridone magenta", 85, 25, 335},
+        {"quinacridone magenta", 75, 38, 337},
+        {"quinacridone magenta", 65, 48, 340},
+    };
+    int worse = 0;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        double lab[3];
+        tint_lab(rows[i].name, rows[i].light, lab);
+        const double chroma = hypot(lab[1], lab[2]);
+        double hue = atan2(lab[2], lab[1]) * DEGREES;
+        hue += hue < 0 ? 360 : 0;
+        printf("%s at L %.0f: chroma %.0f, hue %.0f; with white %.0f, %.0f\n", rows[i].name,
+               rows[i].light, chroma, hue, rows[i].chroma, rows[i].hue);
+        worse += !(fabs(chroma - rows[i].chroma) <= 8 && fabs(hue - rows[i].hue) <= 10);
+    }
+    assert_int_equal(worse, 0);
+}
+
+/* A wash is never purer than the paint at its best depth, which is a deep one. */
+static void washes_are_less_pure_than_deep_paint(void **state)
+{
+    (void)state;
+    double tint[3], deep[3];
+    tint_lab("french ultramarine", 75, tint);
+    tint_lab("french ultramarine", 35, deep);
+    assert_true(hypot(tint[1], tint[2]) < 0.6 * hypot(deep[1], deep[2]));
+    tint_lab("phthalo green", 80, tint);
+    assert_true(hypot(tint[1], tint[2]) < 45 && tint[1] < 0);
+    tint_lab("quinacridone rose", 75, tint);
+    assert_true(hypot(tint[1], tint[2]) < 45 && tint[1] > 0);
 }
 
 /* ---- on paper ---- */
@@ -412,21 +544,21 @@ static void pictures_are_kubelka_munk_by_bands(void **state)
         memset(values, 0, sizeof values);
         check(paper_sheet_layer_write(sheet, PAPER_LAYER_INFUSED_PIGMENT, first, values));
     }
-    /* an ink that is known by three channels looks the same over white among paints that are
-     * known by bands */
+    /* half a unit of an ink that is known by three channels looks the same over white among
+     * paints that are known by bands */
     memset(values, 0, sizeof values);
     for (int i = 0; i < 3; i++)
         check(paper_sheet_layer_write(sheet, PAPER_LAYER_INFUSED_PIGMENT, i, values));
     for (int i = 0; i < FIBERS; i++)
-        values[i] = 1;
+        values[i] = 0.5f;
     check(paper_sheet_layer_write(sheet, PAPER_LAYER_INFUSED_PIGMENT, 3, values));
     check(paper_sheet_view(sheet, &(struct paper_sheet_view){.show = PAPER_SHOW_COLOR}, rgb));
     for (int c = 0; c < 3; c++) {
         const double wanted = paper_light_display(
-            layer_by_hand(config.pigments[3].k[c], config.pigments[3].s[c], 1));
+            layer_by_hand(config.pigments[3].k[c] / 2, config.pigments[3].s[c] / 2, 1));
         if (!(fabs(rgb[c] / 65535.0 - wanted) < 0.01))
-            fail_msg("a unit of cyan: channel %d is %g, and should be %g", c, rgb[c] / 65535.0,
-                     wanted);
+            fail_msg("half a unit of cyan: channel %d is %g, and should be %g", c,
+                     rgb[c] / 65535.0, wanted);
     }
     paper_sheet_destroy(sheet);
 }
@@ -592,6 +724,9 @@ int main(void)
         cmocka_unit_test(paints_look_like_swatches),
         cmocka_unit_test(blue_and_yellow_are_green),
         cmocka_unit_test(complements_are_gray),
+        cmocka_unit_test(uneven_paint_is_the_mean_over_amounts),
+        cmocka_unit_test(tints_are_those_of_paint),
+        cmocka_unit_test(washes_are_less_pure_than_deep_paint),
         cmocka_unit_test(pictures_are_kubelka_munk_by_bands),
         cmocka_unit_test(wet_paint_is_darker),
         cmocka_unit_test(paints_stain_and_granulate_as_painters_say),

@@ -9,18 +9,23 @@
  *     seen = stained seen + (1 - stained) below             paint on a part of a fiber lies
  *                                                           beside paper
  *
+ * which is Kubelka and Munk's R and T (a = 1 + K/S, b S = Q) without a division by S. Q is kept
+ * from 0, where 1 - E^2 would lose its digits; that changes R and T by less than 2e-5.
+ *
  * Where pigments are known by bands (bands.h), K and S of a band are sums like those of a
- * channel, but for wet paint, which absorbs more; what a band throws back is the same in
+ * channel, but for wet paint, which absorbs more; what an even layer throws back is the same in
  * another form,
  *
  *     c = Q coth Q     seen = (S + below (c - K - S)) / (K + S + c - S below)
  *
- * and the colour is the sum over bands. coth Q = 1 + 2 / (exp (2 Q) - 1); exp (2 Q) - 1 is a
- * polynomial for Q / 4, doubled three times, so that it needs no function of the machine and
- * keeps its digits near 0. That is off by less than 5e-7.
+ * and the colour is the sum over bands. Paint does not lie evenly within a fiber. Its amounts
+ * are spread there by a gamma distribution of shape 2, and what passes, exp (-2 Q), is in the
+ * mean 1 / (1 + Q)^2. With this instead of E^2
  *
- * which is Kubelka and Munk's R and T (a = 1 + K/S, b S = Q) without a division by S. Q is kept
- * from 0, where 1 - E^2 would lose its digits; that changes R and T by less than 2e-5.
+ *     c = Q + 2 / (Q + 2)
+ *
+ * which is the mean of what is seen where nothing scatters, and off by less than 0.01 over
+ * paper where paint does (tests/paper/test_paints.c).
  *
  * The machine computes 16 bits of each channel, of linear light its root (dark shades need the
  * finer steps), all three in one word, so that a picture is one kernel and one array to read;
@@ -33,7 +38,6 @@
 
 #define Q_LEAST 2e-3
 #define EXPONENT_LEAST (-40.0)
-#define Q_MOST 10.0 /* coth of more is 1 */
 #define WET_FROM                                                                               \
     2.0 /* of the water in a fiber and on it: half a unit is as wet as can be seen */
 
@@ -186,30 +190,19 @@ static void band_mix(struct paper_sheet *p, const struct bands *bands, int band,
     }
 }
 
-/* c = Q coth Q. Uses t[2..4]. */
-static void coth_make(struct paper_sheet *p, CM_field_id_t c, CM_field_id_t k, CM_field_id_t s)
+/* c = Q + 2 / (Q + 2). Uses t[2..4]. */
+static void uneven_make(struct paper_sheet *p, CM_field_id_t c, CM_field_id_t k,
+                        CM_field_id_t s)
 {
-    CM_field_id_t q = p->t[2], x = p->t[3], m = p->t[4];
+    CM_field_id_t q = p->t[2], more = p->t[3], part = p->t[4];
     kit_f_add(q, s, s);
     kit_f_add(q, q, k);
     kit_f_mul(q, q, k);
     CM_f_sqrt_1_1L(q, KIT_F);
-    kit_f_least(q, q, Q_LEAST);
-    kit_f_most(x, q, Q_MOST);
-    kit_f_times(x, x, 0.25);
-    kit_f_times(m, x, 1.0 / 6);
-    for (int i = 5; i > 0; i--) { /* x (1 + x/2 (1 + x/3 (...))): exp x - 1 */
-        kit_f_plus(m, m, 1.0);
-        kit_f_mul(m, m, x);
-        kit_f_times(m, m, 1.0 / i);
-    }
-    for (int i = 0; i < 3; i++) { /* of twice as much: m (m + 2) */
-        kit_f_plus(x, m, 2.0);
-        kit_f_mul(m, m, x);
-    }
-    kit_f_plus(x, m, 2.0);
-    kit_f_div(x, x, m);
-    kit_f_mul(c, q, x);
+    kit_f_plus(more, q, 2.0);
+    kit_f_set(part, 2.0);
+    kit_f_div(part, part, more);
+    kit_f_add(c, q, part);
 }
 
 /* d += what a band throws back, as one channel of light sees it. */
@@ -219,7 +212,7 @@ static void band_see(struct paper_sheet *p, const struct bands *bands, int band,
     CM_field_id_t k = p->t[0], s = p->t[1], below = p->t[2], c = p->t[5], part = p->t[3],
                   bottom = p->t[4];
     band_mix(p, bands, band, k, s);
-    coth_make(p, c, k, s);
+    uneven_make(p, c, k, s);
     kit_f_times(below, p->substrate[0], paper_band_of_light[band][0]);
     for (int i = 1; i < 3; i++) {
         kit_f_times(part, p->substrate[i], paper_band_of_light[band][i]);

@@ -53,7 +53,7 @@ static void banded_color(const struct paper_separation *s, const double *amount,
         double below = 0;
         for (int c = 0; c < 3; c++)
             below += paper_band_of_light[band][c] * s->below[c];
-        const double seen = paper_layer_seen(k[band], scattering[band], below);
+        const double seen = paper_uneven_seen(k[band], scattering[band], below);
         for (int c = 0; c < 3; c++)
             rgb[c] += paper_light_of_band[c][band] * seen;
     }
