@@ -1,16 +1,14 @@
-/* test_paints.c - paints as painters know them: their colours, what they do in mixtures, how
- * they granulate, what a sponge lifts.
+/* test_paints.c - paints as painters know them: their colours, their tints, what they do in
+ * mixtures. How they stain and granulate: test_staining.c.
  *
  * Swatches are published measurements of paint that shops sell. "measured" spectra were not
- * made from them, "fitted" ones were (docs/paints.md). Ratings are those of painters, 0..4:
- * what makers print on tubes, and MacEvoy's guide to watercolours. Layers are computed here by
- * Kubelka and Munk's own formulas, means over a fiber as sums over amounts, and light from the
- * CIE's tables. */
+ * made from them, "fitted" ones were (docs/paints.md). Layers are computed here by Kubelka and
+ * Munk's own formulas, means over a fiber as sums over amounts, and light from the CIE's
+ * tables. */
 #include <bands.h>
 #include <paper.h>
 #include <separate.h>
 #include <sheet.h>
-#include <techniques.h>
 
 #include "sheet_calls.h"
 #include "sheets.h"
@@ -23,7 +21,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include <cmocka.h>
 
@@ -490,7 +487,7 @@ static void washes_are_less_pure_than_deep_paint(void **state)
 
 /* ---- on paper ---- */
 
-enum { SIDE = 96, FIBERS = SIDE * SIDE, INSIDE = 12 };
+enum { SIDE = 96, FIBERS = SIDE * SIDE };
 
 static float values[FIBERS], other[FIBERS];
 
@@ -582,137 +579,6 @@ static void wet_paint_is_darker(void **state)
     paper_sheet_destroy(sheet);
 }
 
-struct rated {
-    const char *name;
-    double staining, granulation; /* painters', 0..4 */
-    double kept, spread;          /* measured here */
-};
-
-static struct rated rated[] = {
-    {"quinacridone rose", 3, 0, 0, 0}, {"cadmium yellow", 2, 0, 0, 0},
-    {"cerulean blue", 1, 4, 0, 0},     {"burnt umber", 2, 2, 0, 0},
-    {"cadmium red", 2, 0, 0, 0},       {"hansa yellow", 2, 0, 0, 0},
-    {"phthalo green", 4, 0, 0, 0},     {"french ultramarine", 1, 4, 0, 0},
-    {"yellow ochre", 1, 1, 0, 0},      {"raw sienna", 1, 1, 0, 0},
-    {"quinacridone gold", 3, 0, 0, 0}, {"pyrrole red", 4, 0, 0, 0},
-    {"burnt sienna", 1, 2, 0, 0},      {"alizarin crimson", 3, 0, 0, 0},
-    {"dioxazine violet", 4, 0, 0, 0},  {"cobalt blue", 1, 3, 0, 0},
-    {"indanthrone blue", 3, 1, 0, 0},  {"phthalo blue", 4, 0, 0, 0},
-    {"prussian blue", 3, 0, 0, 0},     {"cobalt turquoise", 1, 3, 0, 0},
-    {"viridian", 1, 3, 0, 0},          {"oxide of chromium", 2, 1, 0, 0},
-    {"raw umber", 1, 2, 0, 0},         {"ivory black", 2, 2, 0, 0},
-};
-enum { RATED = sizeof rated / sizeof *rated, AT_ONCE = 8 };
-
-static void steps(struct paper_sheet *sheet, int count)
-{
-    for (int i = 0; i < count; i++)
-        check(paper_sheet_step(sheet));
-    check(paper_sheet_finish(sheet));
-}
-
-static void settled_read(struct paper_sheet *sheet, int pigment)
-{
-    check(paper_sheet_layer_read(sheet, PAPER_LAYER_FIXED_PIGMENT, pigment, values));
-    check(paper_sheet_layer_read(sheet, PAPER_LAYER_INFUSED_PIGMENT, pigment, other));
-    for (int i = 0; i < FIBERS; i++)
-        values[i] += other[i];
-}
-
-/* The deviation of `values` away from the sheet's edges, as a part of their mean. */
-static double spread_of_values(void)
-{
-    double sum = 0, squares = 0, count = 0;
-    for (int y = INSIDE; y < SIDE - INSIDE; y++)
-        for (int x = INSIDE; x < SIDE - INSIDE; x++) {
-            const double value = (double)values[y * SIDE + x];
-            sum += value;
-            squares += value * value;
-            count++;
-        }
-    return sqrt(fmax(0, squares / count - sum / count * (sum / count))) / (sum / count);
-}
-
-/* Each paint's wash on rough paper, some on one sheet, which hinder nobody; a sponge. */
-static void rated_measure(struct rated *first, int count)
-{
-    struct paper_sheet_config config = sheet_of_two(SIDE, SIDE, first[0].name, first[1].name);
-    double amount[1 + PAPER_PIGMENTS_MAX] = {0.8}, before, after;
-    config.stock = *paper_stock_find("rough");
-    config.pigments_count = count;
-    for (int i = 0; i < count; i++) {
-        config.pigments[i] = *paper_pigment_find(first[i].name);
-        amount[1 + i] = 0.2;
-    }
-    struct paper_sheet *sheet;
-    check(paper_sheet_create(&config, &sheet));
-    check(paper_sheet_put(sheet, NULL, 0, 0, amount));
-    steps(sheet, 1200);
-    check(paper_sheet_dry(sheet));
-    for (int i = 0; i < count; i++) {
-        settled_read(sheet, i);
-        first[i].spread = spread_of_values();
-    }
-    double all[PAPER_PIGMENTS_MAX];
-    for (int i = 0; i < count; i++)
-        check(paper_sheet_total(sheet, 1 + i, &all[i]));
-    check(paper_sheet_lift(sheet, &(struct paper_lift){.part = 0.9}));
-    for (int i = 0; i < count; i++) {
-        before = all[i];
-        check(paper_sheet_total(sheet, 1 + i, &after));
-        first[i].kept = after / before;
-    }
-    paper_sheet_destroy(sheet);
-}
-
-/* How many of the others are less, ties by half. */
-static double rank_of(const double *of, int i)
-{
-    double rank = 0;
-    for (int k = 0; k < RATED; k++)
-        rank += of[k] < of[i] ? 1 : of[k] == of[i] ? 0.5 : 0;
-    return rank;
-}
-
-/* Spearman's correlation. */
-static double ranks_agree(const double *one, const double *two)
-{
-    double sum[5] = {0};
-    for (int i = 0; i < RATED; i++) {
-        const double p = rank_of(one, i) - RATED / 2.0, q = rank_of(two, i) - RATED / 2.0;
-        sum[0] += p * q;
-        sum[1] += p * p;
-        sum[2] += q * q;
-    }
-    return sum[0] / sqrt(sum[1] * sum[2]);
-}
-
-static void paints_stain_and_granulate_as_painters_say(void **state)
-{
-    (void)state;
-    double stains[RATED], kept[RATED], grains[RATED], spread[RATED], ultramarine = 0, rose = 1;
-    for (int i = 0; i < RATED; i += AT_ONCE)
-        rated_measure(&rated[i], RATED - i < AT_ONCE ? RATED - i : AT_ONCE);
-    for (int i = 0; i < RATED; i++) {
-        stains[i] = rated[i].staining;
-        grains[i] = rated[i].granulation;
-        kept[i] = rated[i].kept;
-        spread[i] = rated[i].spread;
-        printf("%-20s a sponge leaves %3.0f%%, spread %4.1f%%\n", rated[i].name, 100 * kept[i],
-               100 * spread[i]);
-        if (strcmp(rated[i].name, "french ultramarine") == 0)
-            ultramarine = spread[i];
-        if (strcmp(rated[i].name, "quinacridone rose") == 0)
-            rose = spread[i];
-    }
-    const double lifting = ranks_agree(stains, kept), granulating = ranks_agree(grains, spread);
-    printf("ranks: staining %.2f, granulation %.2f\n", lifting, granulating);
-    if (!(lifting >= 0.8 && granulating >= 0.8))
-        fail_msg("ranks agree by %.2f (staining) and %.2f (granulation)", lifting, granulating);
-    if (!(ultramarine >= 0.30 && rose <= 0.04))
-        fail_msg("ultramarine's spread is %.3f, quinacridone rose's %.3f", ultramarine, rose);
-}
-
 int main(void)
 {
     setvbuf(stdout, NULL, _IONBF, 0);
@@ -728,7 +594,6 @@ int main(void)
         cmocka_unit_test(washes_are_less_pure_than_deep_paint),
         cmocka_unit_test(pictures_are_kubelka_munk_by_bands),
         cmocka_unit_test(wet_paint_is_darker),
-        cmocka_unit_test(paints_stain_and_granulate_as_painters_say),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
