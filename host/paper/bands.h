@@ -30,8 +30,8 @@ extern const double paper_band_of_light[PAPER_BANDS][3];
 bool paper_pigment_banded(const struct paper_pigment *pigment);
 bool paper_config_banded(const struct paper_sheet_config *config);
 
-/* Absorption and scattering of a unit in each band: the pigment's own, or such that half a unit
- * of it, uneven, looks over white and over black as an even layer of k and s does. */
+/* Absorption and scattering of a unit in each band: the pigment's own, or such that a unit of
+ * it, uneven, looks over white and over black as an even layer of k and s does. */
 void paper_pigment_bands(const struct paper_pigment *pigment, double k[PAPER_BANDS],
                          double s[PAPER_BANDS]);
 

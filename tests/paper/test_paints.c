@@ -382,13 +382,11 @@ static void uneven_paint_is_the_mean_over_amounts(void **state)
 {
     (void)state;
     static const double ground[] = {0.93, 0.5, 0}, most[] = {0.01, 0.04, 0.08};
-    double worst[3] = {0};
-    for (double k = 0.01; k < 20; k *= 3)
-        assert_true(fabs(paper_uneven_seen(k, 0, ground[0]) - mean_by_hand(k, 0, ground[0])) <
-                    5e-4);
+    double worst[3] = {0}, k[PAPER_BANDS], s[PAPER_BANDS];
+    for (double x = 0.01; x < 20; x *= 3)
+        assert_true(fabs(paper_uneven_seen(x, 0, 1) - mean_by_hand(x, 0, 1)) < 5e-4);
     const struct paper_paint *paint;
     for (int number = 0; (paint = paper_paint_number(number)); number++) {
-        double k[PAPER_BANDS], s[PAPER_BANDS];
         if (!paper_pigment_banded(&paint->pigment))
             continue;
         paper_pigment_bands(&paint->pigment, k, s);
@@ -400,6 +398,9 @@ static void uneven_paint_is_the_mean_over_amounts(void **state)
                         fabs(paper_uneven_seen(amount * k[band], amount * s[band], ground[i]) -
                              mean_by_hand(amount * k[band], amount * s[band], ground[i])));
     }
+    paper_pigment_bands(&(struct paper_pigment){.k = {100, 10, 30}}, k, s);
+    for (int band = 0; band < PAPER_BANDS; band++)
+        assert_true(paper_uneven_seen(k[band], s[band], 1) < 1e-3);
     for (int i = 0; i < 3; i++) {
         printf("over %.2f the formula is off the mean by %.4f\n", ground[i], worst[i]);
         assert_true(worst[i] < most[i]);
@@ -540,21 +541,21 @@ static void pictures_are_kubelka_munk_by_bands(void **state)
         memset(values, 0, sizeof values);
         check(paper_sheet_layer_write(sheet, PAPER_LAYER_INFUSED_PIGMENT, first, values));
     }
-    /* half a unit of an ink that is known by three channels looks the same over white among
-     * paints that are known by bands */
+    /* a unit of an ink that is known by three channels looks the same over white among paints
+     * that are known by bands */
     memset(values, 0, sizeof values);
     for (int i = 0; i < 3; i++)
         check(paper_sheet_layer_write(sheet, PAPER_LAYER_INFUSED_PIGMENT, i, values));
     for (int i = 0; i < FIBERS; i++)
-        values[i] = 0.5f;
+        values[i] = 1;
     check(paper_sheet_layer_write(sheet, PAPER_LAYER_INFUSED_PIGMENT, 3, values));
     check(paper_sheet_view(sheet, &(struct paper_sheet_view){.show = PAPER_SHOW_COLOR}, rgb));
     for (int c = 0; c < 3; c++) {
         const double wanted = paper_light_display(
-            layer_by_hand(config.pigments[3].k[c] / 2, config.pigments[3].s[c] / 2, 1));
+            layer_by_hand(config.pigments[3].k[c], config.pigments[3].s[c], 1));
         if (!(fabs(rgb[c] / 65535.0 - wanted) < 0.01))
-            fail_msg("half a unit of cyan: channel %d is %g, and should be %g", c,
-                     rgb[c] / 65535.0, wanted);
+            fail_msg("a unit of cyan: channel %d is %g, and should be %g", c, rgb[c] / 65535.0,
+                     wanted);
     }
     paper_sheet_destroy(sheet);
 }

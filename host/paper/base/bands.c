@@ -74,16 +74,15 @@ void paper_pigment_bands(const struct paper_pigment *pigment, double k[PAPER_BAN
         double white = 0, black = 0;
         for (int i = 0; i < 3; i++) {
             const double part = paper_band_of_light[band][i];
-            white += part * paper_layer_seen(pigment->k[i] / 2, pigment->s[i] / 2, 1);
-            black += part * paper_layer_seen(pigment->k[i] / 2, pigment->s[i] / 2, 0);
+            white += part * paper_layer_seen(pigment->k[i], pigment->s[i], 1);
+            black += part * paper_layer_seen(pigment->k[i], pigment->s[i], 0);
         }
-        white = fmin(white, 1 - BLACK_LEAST);
+        white = fmax(fmin(white, 1 - BLACK_LEAST), 2 * BLACK_LEAST);
         paper_layer_of(white, fmax(fmin(black, white - BLACK_LEAST), BLACK_LEAST / 10),
                        &k[band], &s[band]);
-        /* what was found is of half a unit; an uneven layer of Q lets as much pass as an even
-         * one of log (1 + Q) */
+        /* an uneven layer of Q lets as much pass as an even one of log (1 + Q) */
         const double q = fmax(sqrt(k[band] * (k[band] + 2 * s[band])), Q_LEAST);
-        k[band] *= 2 * expm1(q) / q;
-        s[band] *= 2 * expm1(q) / q;
+        k[band] *= expm1(q) / q;
+        s[band] *= expm1(q) / q;
     }
 }
