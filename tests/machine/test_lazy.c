@@ -120,6 +120,8 @@ static void unobserved_values_are_never_computed(void **state)
     machine_destroy(s.m);
 }
 
+/* No plan gets better kernels here for having run on many processors: in seven blocks with
+ * ghosts these steps run on more than are needed for that. */
 static void repeated_step_builds_nothing_new(void **state)
 {
     struct sheet s;
@@ -128,7 +130,9 @@ static void repeated_step_builds_nothing_new(void **state)
 
     (void)state;
     assert_non_null(out);
+    setenv("LUTETIA_OPTIMISE_AFTER", "1000000000", 1);
     sheet_open(&s, 0);
+    unsetenv("LUTETIA_OPTIMISE_AFTER");
     for (int n = 0; n < 8; n++) {
         step(&s, 3);
         look(&s, out);

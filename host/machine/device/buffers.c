@@ -254,10 +254,10 @@ static bool ends_with_blocks(struct machine *m, struct device_buffer *b)
     return only;
 }
 
-void device_buffer_unref(struct machine *m, struct device_buffer *b)
+void device_buffer_end(struct machine *m, struct device_buffer *b)
 {
     struct device *d = m->device;
-    if (--b->refs || (b->blocks && ends_with_blocks(m, b)))
+    if (b->blocks && ends_with_blocks(m, b))
         return;
     d->held_bytes -= b->bytes;
     if (d->pool_count == d->pool_capacity) {

@@ -164,7 +164,14 @@ bool device_rows_fit(const struct device_buffer *b, struct rows rows);
 cl_mem device_mem(const struct device_buffer *b);
 cl_int device_argument(cl_kernel kernel, cl_uint at, const struct device_buffer *b);
 void device_buffer_ref(struct device_buffer *b);
-void device_buffer_unref(struct machine *m, struct device_buffer *b);
+/* Nobody holds it: its memory goes back to the pool. */
+void device_buffer_end(struct machine *m, struct device_buffer *b);
+static inline void device_buffer_unref(struct machine *m, struct device_buffer *b)
+{
+    if (!--b->refs)
+        device_buffer_end(m, b);
+}
+
 void device_pool_empty(struct device *d);
 /* Another array like this one may soon be needed: memory for it is got ready by the way. */
 void device_expect(struct device *d, struct rows rows);

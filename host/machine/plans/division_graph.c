@@ -6,6 +6,7 @@
 
 #include "base/errors.h"
 #include "plans/division.h"
+#include "plans/reach.h"
 #include "values/graph.h"
 
 /* ---- what can be in blocks ---- */
@@ -65,7 +66,8 @@ static struct machine_value *draft_add(struct portion *g, struct machine_value k
         NEEDS_MEMORY(g->from);
     }
     g->from[g->reach.count] = from;
-    NEEDS_MEMORY(reach_add(g->machine, &g->reach, v));
+    const int inputs = v->buffer ? 0 : node_ops[v->op].inputs;
+    NEEDS_MEMORY(reach_add(g->machine, &g->reach, v, inputs));
     return v;
 }
 

@@ -6,49 +6,23 @@
 #include "base/errors.h"
 #include "plans/plans.h"
 
-/* ---- what is reached, and its signature ---- */
+/* ---- what is reached, and its signature: reach.h ---- */
 
-static bool reach_room(struct reach *r)
+bool reach_grow(struct reach *r)
 {
     bool failed = false;
     if (r->count == r->capacity)
         r->nodes = array_more(r->nodes, &r->capacity, sizeof *r->nodes, &failed);
-    if (!failed && r->length + 9 > (uint32_t)r->signature_capacity)
+    if (!failed && r->length + REACH_WORDS > (uint32_t)r->signature_capacity)
         r->signature =
             array_more(r->signature, &r->signature_capacity, sizeof *r->signature, &failed);
     return !failed;
 }
 
-bool reach_add(const struct machine *m, struct reach *r, struct machine_value *v)
-{
-    const int inputs = v->buffer ? 0 : node_ops[v->op].inputs;
-    if (!reach_room(r))
-        return false;
-    v->local = (uint32_t)r->count;
-    r->nodes[r->count++] = v;
-    uint32_t *s = r->signature;
-    s[r->length++] = (uint32_t)(v->buffer ? NODE_BUFFER : v->op) | (uint32_t)v->type.kind << 8 |
-                     (uint32_t)v->type.width << 16 | (uint32_t)v->axis << 24;
-    if (v->type.s) {
-        s[r->length - 1] |= 0x8000;
-        s[r->length++] = v->type.s | (uint32_t)v->type.e << 8;
-    }
-    if (v->op != NODE_CONSTANT)
-        s[r->length++] = v->set | (uint32_t)m->values->sets[v->set].generation << 16;
-    if (!v->buffer) {
-        s[r->length++] = (uint32_t)v->detail;
-        for (int i = 0; i < inputs; i++)
-            s[r->length++] = v->in[i]->local;
-    }
-    /* for min and max with a constant, whether that is a NaN is known when recording */
-    s[r->length++] = v->maybe_nan;
-    return true;
-}
-
 bool reach_ends(struct reach *r, const struct targets *t)
 {
     for (int i = 0; i < t->count; i++) {
-        if (!reach_room(r))
+        if (!reach_grow(r))
             return false;
         r->signature[r->length++] = UINT32_C(0x80000000) | t->values[i]->local;
     }

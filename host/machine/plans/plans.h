@@ -242,9 +242,10 @@ bool improve_begin(struct machine *m, struct plan *p, const struct plan_request 
                    enum quality quality);
 /* ---- plan_graph.c ---- */
 
-/* A node whose operands have been added. False: no memory. */
-bool reach_add(const struct machine *m, struct reach *r, struct machine_value *v);
-/* All have been; those that are wanted belong to the signature, too. */
+/* Makes room for one node of so many words at most, if there is none. False: no memory. */
+enum { REACH_WORDS = 9 };
+bool reach_grow(struct reach *r);
+/* All nodes have been added (reach.h); those that are wanted belong to the signature, too. */
 bool reach_ends(struct reach *r, const struct targets *t);
 void reach_finish(struct reach *r);
 /* One more; false: no memory. */

@@ -23,6 +23,7 @@
 #include "memory/memory.h"
 #include "plans/division.h"
 #include "plans/explained.h"
+#include "plans/reach.h"
 #include "run/pending.h"
 #include "run/replay.h"
 #include "run/room.h"
@@ -55,11 +56,11 @@ static bool reach_from(struct machine *m, struct reach *r, struct machine_value 
     v->local = NODE_UNDER_WAY;
     if (v->op == NODE_SLICE && !v->buffer && !slice_unpack(m, v))
         return false;
-    int inputs = v->buffer ? 0 : node_ops[v->op].inputs;
+    const int inputs = v->buffer ? 0 : node_ops[v->op].inputs;
     for (int i = 0; i < inputs; i++)
         if (!reach_from(m, r, v->in[i]))
             return false;
-    return reach_add(m, r, v);
+    return reach_add(m, r, v, inputs);
 }
 
 /* ---- targets ---- */
