@@ -3,6 +3,8 @@
 
 #include <fribidi.h>
 
+enum { LETTERS_MOST = 256 };
+
 void pdf_utf16_put(const char *text, size_t begin, size_t end, FILE *f)
 {
     const char *at = text + begin, *last = text + end;
@@ -24,12 +26,15 @@ static bool is_hard_hyphen(const struct font_drawing *d, const struct drawn_text
     return t->line_ends && t->end > t->begin && d->text[t->end - 1] == '-';
 }
 
-/* How many letters it has; whether any goes to the left. */
+/* How many letters it has; whether any goes to the left. One of more than LETTERS_MOST, such as
+ * a letter under thousands of accents, is told as a whole: as though none did. */
 static int letters_see(const struct font_drawing *d, const struct drawn_text *t, bool *left)
 {
     const char *at = d->text + t->begin, *end = d->text + t->end;
     int count = 0;
     *left = false;
+    if (t->end - t->begin > 4 * LETTERS_MOST)
+        return 0;
     for (; at < end; count++) {
         uint32_t c;
         font_utf8_next(&at, end, &c);

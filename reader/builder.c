@@ -91,7 +91,13 @@ static void look_begin(struct reader_builder *b, unsigned look, int note, const 
     if (last && last->look == look && !(look & (READER_FORMULA | READER_NOTE)) &&
         (target ? last->target && strcmp(last->target, target) == 0 : !last->target))
         return;
-    char *copy = target ? target_copy(b, target) : NULL;
+    b->targets_bytes += target ? strlen(target) : 0;
+    if (b->status == READER_OK && b->targets_bytes > READER_TARGETS_BYTES)
+        b->status = reader_fail(READER_TOO_LARGE,
+                                "line %d: a document's links have up to %d MB of addresses: "
+                                "shorten them",
+                                block->first_line, READER_TARGETS_BYTES >> 20);
+    char *copy = target && b->status == READER_OK ? target_copy(b, target) : NULL;
     if (b->status != READER_OK || (target && !copy) ||
         !array_reserve(&block->spans, &b->spans_capacity, block->spans_count + 1,
                        sizeof *block->spans)) {
@@ -118,6 +124,32 @@ static char shown(const struct reader_builder *b, char c)
     if ((unsigned char)c >= 0x20 && c != 0x7f)
         return c;
     return c == '\n' || (code && c == '\t') ? c : ' ';
+}
+
+/* A passage goes on with a paragraph of its own where it gets too long to be set at once: at a
+ * blank, or soon behind where one should be. Only between letters. */
+static void passage_split(struct reader_builder *b, const char *at, unsigned look,
+                          const char *target)
+{
+    enum { BLANK_WITHIN = 1024 };
+    const struct reader_block *block = &b->block;
+    const bool long_enough =
+        block->bytes >= READER_PASSAGE_BYTES &&
+        (*at == ' ' || block->bytes >= READER_PASSAGE_BYTES + BLANK_WITHIN);
+    const bool flows = block->kind == READER_PARAGRAPH || block->kind == READER_HEADING ||
+                       block->kind == READER_PICTURE;
+    if (!long_enough || !flows || ((unsigned char)*at & 0xc0) == 0x80 || b->status != READER_OK)
+        return;
+    const int first_line = block->first_line, last_line = block->last_line,
+              formula = b->formula, rest = b->rest;
+    const char letter = b->letter;
+    look_end(b);
+    reader_block_open(b, READER_PARAGRAPH, first_line, last_line);
+    b->block.continues = true;
+    b->formula = formula;
+    b->rest = rest;
+    b->letter = letter;
+    look_begin(b, look, -1, target);
 }
 
 /* ---- formulas ---- */
@@ -173,6 +205,8 @@ static void formula_put(struct reader_builder *b, unsigned look, char letter)
         formula_display(b, f);
         return;
     }
+    if (b->block.spans_count)
+        passage_split(b, " ", look, NULL);
     look_begin(b, (look & ~(unsigned)READER_LINK) | READER_FORMULA, -1, NULL);
     byte_add(b, '$');
     source_add(b, f->inner_begin, f->inner_end, false);
@@ -209,9 +243,11 @@ void reader_text_add(struct reader_builder *b, const char *utf8, unsigned look,
             continue;
         }
         look_begin(b, look, -1, target);
-        for (; *at && !is_sign(at) && b->status == READER_OK; at++)
+        for (; *at && !is_sign(at) && b->status == READER_OK; at++) {
+            passage_split(b, at, look, target);
             if (*at != ' ' || !blank_is_enough(b))
                 byte_add(b, shown(b, *at));
+        }
         look_end(b);
     }
 }
@@ -222,6 +258,7 @@ void reader_code_add(struct reader_builder *b, const char *utf8, unsigned look)
     for (const char *at = utf8; at && *at && b->status == READER_OK; at++) {
         const struct reader_formula *f = is_sign(at) ? formula_next(b, at[2]) : NULL;
         if (!f) {
+            passage_split(b, at, look, NULL);
             byte_add(b, shown(b, *at));
             continue;
         }
@@ -245,6 +282,8 @@ void reader_number_add(struct reader_builder *b, int number)
 {
     char digits[16];
     snprintf(digits, sizeof digits, "%d", number);
+    if (b->block.spans_count)
+        passage_split(b, " ", 0, NULL);
     look_begin(b, READER_NOTE, number - 1, NULL);
     for (const char *d = digits; *d; d++)
         byte_add(b, *d);
@@ -286,6 +325,11 @@ void reader_block_close(struct reader_builder *b)
     if (!b->open)
         return;
     b->open = false;
+    b->note_bytes += b->in_note ? block->bytes : 0;
+    if (b->note_bytes > READER_NOTE_BYTES && b->status == READER_OK)
+        b->status =
+            reader_fail(READER_TOO_LARGE, "line %d: a note has up to %d KB: make it a section",
+                        block->first_line, READER_NOTE_BYTES >> 10);
     bool empty = !block->bytes && !block->marker && block->kind == READER_PARAGRAPH;
     struct reader_block **blocks = b->in_note ? &d->note_blocks : &d->blocks;
     int *count = b->in_note ? &d->note_blocks_count : &d->blocks_count;

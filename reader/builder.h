@@ -11,9 +11,11 @@ struct reader_builder {
     const struct reader_mask *mask;
     enum reader_status status;
     bool in_note; /* blocks are those of the last note */
+    int note_bytes;
     int items, quotes;
-    char *marker;     /* of the item that has no block yet */
-    int marker_items; /* and how many lists that is in */
+    size_t targets_bytes; /* of links */
+    char *marker;         /* of the item that has no block yet */
+    int marker_items;     /* and how many lists that is in */
     /* The block that is being made. */
     struct reader_block block;
     int text_capacity, spans_capacity;

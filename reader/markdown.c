@@ -73,7 +73,8 @@ static void code_read(struct walk *w, cmark_node *node)
         info &&
         ((strncmp(info, "lua", first) == 0 && first == 3 && strstr(info + first, "live")) ||
          (first == 1 && *info == 'c' && strstr(info + first, "paris")));
-    bool math = info && first == 4 && strncmp(info, "math", 4) == 0;
+    bool math = info && first == 4 && strncmp(info, "math", 4) == 0 &&
+                strlen(cmark_node_get_literal(node)) <= READER_FORMULA_BYTES;
     open_block(w, math ? READER_MATH : live ? READER_LIVE : READER_CODE_BLOCK, node);
     w->b.block.info = copy_of(w, info);
     reader_code_add(&w->b, cmark_node_get_literal(node), math ? READER_FORMULA : READER_CODE);
@@ -159,8 +160,9 @@ static void note_begin(struct walk *w, cmark_node *node)
     int line = cmark_node_get_start_line(node);
     const char *at = "", *end = at;
     if (d->notes_count == READER_NOTES_MAX) {
-        w->b.status =
-            reader_fail(READER_TOO_LARGE, "a document has up to %d notes", READER_NOTES_MAX);
+        w->b.status = reader_fail(READER_TOO_LARGE,
+                                  "a document has up to %d notes: part it into several files",
+                                  READER_NOTES_MAX);
         return;
     }
     if (line >= 1 && line <= w->lines_count) {
@@ -186,6 +188,7 @@ static void note_begin(struct walk *w, cmark_node *node)
     reader_block_close(&w->b);
     d->notes[d->notes_count++] = note;
     w->b.in_note = true;
+    w->b.note_bytes = 0;
 }
 
 /* ---- letters ---- */
@@ -405,6 +408,8 @@ enum reader_status reader_document_add(struct reader_document *d, const char *ut
     w.lines = lines;
     if (!lines)
         reader_builder_fail(&w.b);
+    if (w.b.status == READER_OK)
+        w.b.status = reader_guard_check(source, (int)bytes);
     if (w.b.status == READER_OK)
         w.b.status = reader_mask_make(source, (int)bytes, &mask);
     if (w.b.status == READER_OK) {

@@ -82,8 +82,9 @@ static int paragraph_end(const struct masking *m, int at)
 /* Behind the code that begins with backticks at `at`, or behind those alone. */
 static int code_end(const struct masking *m, int at, int end)
 {
+    enum { BACKTICKS_MOST = 80 }; /* as cmark-gfm has it */
     int n = run_of(m, at, end, '`');
-    for (int k = at + n; k < end;) {
+    for (int k = n <= BACKTICKS_MOST ? at + n : end; k < end;) {
         if (m->source[k] != '`') {
             k++;
             continue;
@@ -105,6 +106,8 @@ static bool is_word(char c)
 static int formula_end(const struct masking *m, int inner, int end, bool display)
 {
     const char *s = m->source;
+    if (end - inner > READER_FORMULA_BYTES + 2)
+        end = inner + READER_FORMULA_BYTES + 2;
     for (int k = inner; k < end; k++) {
         if (s[k] == '\\') {
             k++;
@@ -124,8 +127,10 @@ static void formula_mask(struct masking *m, struct reader_formula formula)
 {
     struct reader_mask *out = m->out;
     if (out->formulas_count == READER_FORMULAS_MAX) {
-        m->status = reader_fail(READER_TOO_LARGE, "a document has up to %d formulas",
-                                READER_FORMULAS_MAX);
+        m->status = reader_fail(READER_TOO_LARGE,
+                                "line %d: a document has up to %d formulas: part it into "
+                                "several files",
+                                m->line, READER_FORMULAS_MAX);
         return;
     }
     if (!array_reserve(&out->formulas, &out->formulas_capacity, out->formulas_count + 1,
@@ -152,7 +157,7 @@ static int dollar_take(struct masking *m, int at, int end)
         (!display && (isspace((unsigned char)s[inner]) || (at > 0 && is_word(s[at - 1])))))
         return at + dollars;
     int close = formula_end(m, inner, end, display);
-    if (close < 0 || (!display && close - at < 2))
+    if (close < 0 || close - inner > READER_FORMULA_BYTES || (!display && close - at < 2))
         return at + dollars;
     struct reader_formula formula = {.begin = at,
                                      .end = close + (display ? 2 : 1),

@@ -159,7 +159,7 @@ static bool code_line_add(struct paragraph_text *t, const struct reader_block *b
 /* In pieces, so that no paragraph is too long for who sets it. */
 static enum reader_status code_add(struct reader_pages *p, const struct reader_block *block)
 {
-    enum { LINES_MAX = 60, BYTES_MAX = 200000 };
+    enum { LINES_MAX = 60, BYTES_MAX = READER_PASSAGE_BYTES };
     const double em = p->setup.size_px;
     enum reader_status status = READER_OK;
     for (int at = 0; at <= block->bytes && status == READER_OK;) {
@@ -228,10 +228,15 @@ static enum reader_status rule_add(struct reader_pages *p)
 static enum reader_status picture_add(struct reader_pages *p, const struct reader_block *block)
 {
     struct paragraph_text t = {0};
+    enum { TARGET_BYTES = 1000 };
     struct page_manner manner = pages_manner(p, CONTEXT_TABLE);
     const char *target = block->target ? block->target : "";
+    const bool whole = strlen(target) <= TARGET_BYTES;
+    int told = whole ? (int)strlen(target) : TARGET_BYTES;
     const double gap = 0.6 * p->setup.size_px;
     bool shown = false, good = true;
+    while (!whole && told && ((unsigned char)target[told] & 0xc0) == 0x80)
+        told--;
     manner_nest(p, block, &manner);
     manner.align = FONT_ALIGN_CENTER;
     manner.before_px = gap;
@@ -245,8 +250,8 @@ static enum reader_status picture_add(struct reader_pages *p, const struct reade
     good = pages_block_add(&t, block, 0, block->bytes, READER_SLANTED);
     if (!shown)
         good = good && pages_text_add(&t, " [", 2, 0) &&
-               pages_text_add(&t, target, (int)strlen(target), READER_CODE) &&
-               pages_text_add(&t, "]", 1, 0);
+               pages_text_add(&t, target, told, READER_CODE) &&
+               pages_text_add(&t, whole ? "]" : "\xe2\x80\xa6]", whole ? 1 : 4, 0);
     status =
         good ? pages_paragraph_add(p, &t, CONTEXT_TABLE, &manner, false) : pages_no_memory();
     pages_text_finish(&t);

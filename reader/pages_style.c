@@ -184,12 +184,28 @@ bool pages_text_add(struct paragraph_text *t, const char *text, int bytes, unsig
     return span_add(t, t->bytes - bytes, t->bytes, look, -1);
 }
 
+/* The first span that ends behind a byte: rows have many cells. */
+static int span_behind(const struct reader_block *block, int byte)
+{
+    int low = 0, high = block->spans_count;
+    while (low < high) {
+        const int half = low + (high - low) / 2;
+        if (block->spans[half].end > byte)
+            high = half;
+        else
+            low = half + 1;
+    }
+    return low;
+}
+
 bool pages_block_add(struct paragraph_text *t, const struct reader_block *block, int begin,
                      int end, unsigned look)
 {
-    for (int i = 0; i < block->spans_count; i++) {
+    for (int i = span_behind(block, begin); i < block->spans_count; i++) {
         const struct reader_span *s = &block->spans[i];
         int from = s->begin > begin ? s->begin : begin, to = s->end < end ? s->end : end;
+        if (s->begin >= end)
+            break;
         if (from >= to)
             continue;
         if (!pages_text_add(t, block->text + from, to - from, s->look | look))

@@ -49,7 +49,11 @@ enum {
     READER_BYTES_MAX = 32 << 20,
     READER_NOTES_MAX = 20000,
     READER_FORMULAS_MAX = 20000,
-    READER_DEPTH_MAX = 12 /* deeper items and quotes are shown as deep as this */
+    READER_TARGETS_BYTES = 64 << 20, /* of its links' addresses, for each span again */
+    READER_NOTE_BYTES = 128 << 10,
+    READER_FORMULA_BYTES = 8192,  /* what is longer is no formula: it stands as it is written */
+    READER_PASSAGE_BYTES = 32768, /* a longer paragraph is several, which go on */
+    READER_DEPTH_MAX = 12         /* deeper items and quotes are shown as deep as this */
 };
 
 /* How letters look; bits. */
@@ -89,7 +93,7 @@ struct reader_block {
     int level;         /* of a heading, from 1 */
     int items, quotes; /* how many lists and quotes it is in */
     char *marker;      /* "1." or a bullet, of an item's first block; else NULL */
-    bool continues;    /* it goes on with a paragraph that a formula has cut */
+    bool continues;    /* it goes on with a paragraph that a formula, or its length, has cut */
     char *text;        /* UTF-8, without control characters but line ends and tabs */
     int bytes;
     struct reader_span *spans;
@@ -124,7 +128,8 @@ struct reader_document {
 /* Without blocks. Errors: NO_MEMORY. Owns: the caller destroys *out. */
 enum reader_status reader_document_create(struct reader_document **out);
 /* Adds what a source says behind what is there; notes' names are each source's own, their
- * numbers go on. Errors: TOO_LARGE (more than READER_BYTES_MAX, _NOTES_MAX or _FORMULAS_MAX),
+ * numbers go on. Errors: TOO_LARGE (more than READER_BYTES_MAX, _NOTES_MAX, _NOTE_BYTES,
+ * _FORMULAS_MAX or _TARGETS_BYTES; or what cmark-gfm would take hours for), with the line;
  * NO_LIBRARY, NO_MEMORY; the document may then have a part of it. */
 enum reader_status reader_document_add(struct reader_document *document, const char *utf8,
                                        size_t bytes);

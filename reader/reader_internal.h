@@ -11,6 +11,11 @@ extern _Thread_local struct error_text reader_last_error;
 #define reader_fail(status, ...)                                                               \
     ((enum reader_status)error_text_fail(&reader_last_error, (int)(status), __VA_ARGS__))
 
+/* ---- guard.c ---- */
+
+/* Whether cmark-gfm is to read it. Errors: TOO_LARGE, with the line. */
+enum reader_status reader_guard_check(const char *source, int bytes);
+
 /* ---- mask.c: formulas out of cmark's way ---- */
 
 /* A formula in the source: with its dollars, and without. */

@@ -51,14 +51,11 @@ static void pages_check(const struct reader_document *d, unsigned choice)
     reader_pages_destroy(pages);
 }
 
-/* The first byte chooses what is done with it. */
-int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
+static void document_check(const char *text, size_t count, uint8_t choice)
 {
     struct reader_document *d;
-    if (count < 1)
-        return 0;
     must(reader_document_create(&d) == READER_OK);
-    enum reader_status status = reader_document_add(d, (const char *)bytes + 1, count - 1);
+    enum reader_status status = reader_document_add(d, text, count);
     if (status == READER_NO_LIBRARY) {
         printf("skipped: built without cmark-gfm\n");
         exit(77);
@@ -70,9 +67,32 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
         block_check(d, &d->note_blocks[i]);
     for (int i = 0; i < d->notes_count; i++)
         must(d->notes[i].first_block + d->notes[i].blocks_count <= d->note_blocks_count);
-    if (status == READER_OK && bytes[0] % 8 == 0)
-        pages_check(d, (unsigned)bytes[0] * 131 + (unsigned)count);
+    if (status == READER_OK && choice % 8 == 0)
+        pages_check(d, (unsigned)choice * 131 + (unsigned)count);
     reader_document_destroy(d);
+}
+
+/* The same again and again, so that passages become too long to be set at once. */
+static void repeated_check(const char *text, size_t count, uint8_t choice)
+{
+    enum { TIMES = 200 };
+    char *all = malloc(TIMES * count + 1);
+    must(all != NULL);
+    for (size_t i = 0; i < TIMES; i++)
+        memcpy(all + i * count, text, count);
+    document_check(all, TIMES * count, choice);
+    free(all);
+}
+
+/* The first byte chooses what is done with it. */
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
+{
+    if (count < 1)
+        return 0;
+    const char *text = (const char *)bytes + 1;
+    if (bytes[0] % 32 == 1)
+        repeated_check(text, count - 1, 0);
+    document_check(text, count - 1, bytes[0]);
     return 0;
 }
 
@@ -124,6 +144,20 @@ static const char *const pieces[] = {"word ",
                                      "\\frac{a}{b}",
                                      "\r\n",
                                      "= ",
+                                     "\xef\xbb\xbf",
+                                     "\xe2\x80\xae",
+                                     "\xe2\x80\x8d",
+                                     "\xcc\x81",
+                                     "\r",
+                                     "<![CDATA[",
+                                     "<?",
+                                     "a@b.",
+                                     "[a]: <",
+                                     "[^a]:",
+                                     "|\n|-\n",
+                                     "\\sqrt{",
+                                     "\\left(",
+                                     "x^",
                                      "---\n"};
 
 int main(int argc, char **argv)
