@@ -160,6 +160,7 @@ static void keys_show(struct desk *d)
     for (size_t i = 0; i < G_N_ELEMENTS(help_rows); i++)
         help_row(grid, row++, _(help_rows[i].keys), _(help_rows[i].does));
     gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scrolled), grid);
+    desk_name_bars(scrolled, _("Scrolls the keys"));
     gtk_window_set_child(GTK_WINDOW(window), scrolled);
     gtk_window_present(GTK_WINDOW(window));
 }

@@ -9,3 +9,10 @@ void desk_name(GtkWidget *widget, const char *name, const char *tip)
                                    -1);
     gtk_widget_set_tooltip_text(widget, tip);
 }
+
+void desk_name_bars(GtkWidget *scrolled, const char *name)
+{
+    GtkScrolledWindow *window = GTK_SCROLLED_WINDOW(scrolled);
+    desk_name(gtk_scrolled_window_get_hscrollbar(window), name, NULL);
+    desk_name(gtk_scrolled_window_get_vscrollbar(window), name, NULL);
+}

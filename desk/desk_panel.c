@@ -136,5 +136,6 @@ GtkWidget *desk_panel_new(struct desk *d)
     gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scrolled), GTK_POLICY_NEVER,
                                    GTK_POLICY_AUTOMATIC);
     gtk_widget_set_size_request(scrolled, 350, -1);
+    desk_name_bars(scrolled, _("Scrolls the settings"));
     return scrolled;
 }

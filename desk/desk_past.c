@@ -140,6 +140,7 @@ static GtkWidget *strip_new(struct desk *d)
     gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scrolled), d->past_strip);
     gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scrolled), GTK_POLICY_AUTOMATIC,
                                    GTK_POLICY_NEVER);
+    desk_name_bars(scrolled, _("Scrolls the past"));
     return scrolled;
 }
 

@@ -9,6 +9,8 @@
 /* desk_name.c: what a screen reader says of a control, and what is shown under the pointer
  * (NULL: nothing). */
 void desk_name(GtkWidget *widget, const char *name, const char *tip);
+/* The same for the bars of a scrolled window, which later GTK shows to screen readers. */
+void desk_name_bars(GtkWidget *scrolled, const char *name);
 
 struct desk_pen;
 /* desk_pen.c */

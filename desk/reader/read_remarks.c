@@ -297,6 +297,7 @@ void read_remarks_edit(struct read_desk *d, int index)
     desk_name(t->text, _("What the note says"), NULL);
     gtk_widget_set_size_request(scrolled, 280, 120);
     gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scrolled), t->text);
+    desk_name_bars(scrolled, _("Scrolls the note"));
     gtk_box_append(GTK_BOX(all), scrolled);
     gtk_box_append(GTK_BOX(all), erase);
     gtk_popover_set_child(GTK_POPOVER(t->popover), all);

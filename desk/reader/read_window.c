@@ -92,6 +92,7 @@ static GtkWidget *contents_new(struct read_desk *d)
     gtk_box_append(GTK_BOX(both), notes);
     gtk_box_append(GTK_BOX(both), read_list_new(d));
     gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(d->contents_side), both);
+    desk_name_bars(d->contents_side, _("Scrolls the contents"));
     gtk_widget_set_visible(d->contents_side, FALSE);
     return d->contents_side;
 }

@@ -109,7 +109,8 @@ static void name_check(AtspiAccessible *a, void *context)
     const bool control = role == ATSPI_ROLE_PUSH_BUTTON || role == ATSPI_ROLE_TOGGLE_BUTTON ||
                          role == ATSPI_ROLE_SLIDER || role == ATSPI_ROLE_SPIN_BUTTON ||
                          role == ATSPI_ROLE_COMBO_BOX || role == ATSPI_ROLE_CHECK_BOX ||
-                         role == ATSPI_ROLE_TEXT || role == ATSPI_ROLE_ENTRY;
+                         role == ATSPI_ROLE_SCROLL_BAR || role == ATSPI_ROLE_TEXT ||
+                         role == ATSPI_ROLE_ENTRY;
     char *name = name_of(a);
     if (control && name[0])
         names->named++;
