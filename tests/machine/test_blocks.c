@@ -1,5 +1,6 @@
 /* test_blocks.c - large VP sets in blocks (LUTETIA_BLOCKS): the same bits as in one piece, and
  * really in blocks. */
+#include "machine_explained.h"
 #include "machine_inside.h"
 #include "support.h"
 
@@ -220,6 +221,41 @@ static void small_sets_and_low_ones_are_whole(void **state)
     machine_destroy(m);
 }
 
+/* Kernels of blocks are no kernels of the program's own nodes, and are told all the same. */
+static void blocks_are_explained(void **state)
+{
+    (void)state;
+    const struct form *s = &forms[0];
+    struct machine_config config = machine_config_default();
+    struct machine *m;
+    int told = 0;
+    config.explain = 1;
+    setenv("LUTETIA_BLOCKS", "3", 1);
+    setenv("LUTETIA_BLOCKS_FROM", "2", 1);
+    assert_int_equal(machine_create(&config, &m), MACHINE_OK);
+    unsetenv("LUTETIA_BLOCKS");
+    unsetenv("LUTETIA_BLOCKS_FROM");
+    const int set = machine_vpset_create(m, s->lengths, s->rank);
+    assert_ok(machine_vpset_select(m, set), m);
+    const uint32_t water = machine_field_allocate(m, set, 32, MACHINE_HEAP),
+                   life = machine_field_allocate(m, set, 32, MACHINE_HEAP);
+    begin(m, s, water, life);
+    for (int i = 0; i < TURNS; i++) {
+        turn(m, s, water, life);
+        assert_ok(machine_flush(m), m);
+    }
+    assert_true(machine_blocks(m).run >= TURNS);
+    const struct machine_explained *x = machine_explain(m, false);
+    assert_non_null(x);
+    for (int i = 0; i < x->kernels_count; i++)
+        for (int k = 0; x->kernels[i].generated && k < x->kernels[i].stores_count; k++) {
+            assert_true(x->kernels[i].stores[k].operation[0] != '\0');
+            told++;
+        }
+    assert_true(told > 0);
+    machine_destroy(m);
+}
+
 static void a_wrong_number_of_blocks_is_one_line(void **state)
 {
     (void)state;
@@ -241,6 +277,7 @@ int main(void)
         cmocka_unit_test(blocks_give_the_bits_of_one_piece),
         cmocka_unit_test(writes_between_turns_are_seen_by_all_blocks),
         cmocka_unit_test(small_sets_and_low_ones_are_whole),
+        cmocka_unit_test(blocks_are_explained),
         cmocka_unit_test(a_wrong_number_of_blocks_is_one_line),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -5,11 +5,15 @@
 
 #include "base/errors.h"
 #include "plans/background.h"
+#include "plans/explained.h"
 
 /* ---- plans ---- */
 
+/* A portion's nodes are not numbered as the program's are: its kernels are described without
+ * the fields that they store to. */
 static struct plan *portion_plan(struct portion *g, enum plan_use use)
 {
+    explained_nodes(g->machine, NULL, NULL, 0, NULL);
     const struct plan_request q = {.reach = &g->reach, .targets = &g->targets, .use = use};
     g->plan = plan_get(g->machine, &q);
     return g->plan;

@@ -19,8 +19,8 @@ struct describing {
     explained_where *where;
 };
 
-/* The values that the next plan is for (kept until the next evaluation); a kernel of that
- * plan. */
+/* The values that the next plan is for (kept until the next evaluation); NULL: they are no
+ * values of the program. A kernel of that plan. */
 void explained_nodes(struct machine *m, struct machine_value *const *nodes,
                      struct machine_value *const *wanted, int wanted_count,
                      explained_where *where);

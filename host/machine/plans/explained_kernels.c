@@ -149,7 +149,8 @@ struct kernel_note *explained_kernel(struct machine *m, const struct device_kern
                                                        g->strips && !g->nodes[stores[i]].target,
                                                    .type = g->nodes[stores[i]].type,
                                                    .operation = operation_of(g, stores[i])};
-        e->where(m, e->nodes[stores[i]], list[i].where, sizeof list[i].where);
+        if (e->where)
+            e->where(m, e->nodes[stores[i]], list[i].where, sizeof list[i].where);
     }
     char *name = name_of(list, stores_count);
     if (name) {
