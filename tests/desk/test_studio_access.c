@@ -168,19 +168,21 @@ static void controls_have_names(void **state)
 
 /* ---- keys ---- */
 
+/* The button is looked for each time: the one that was seen may have been replaced. */
 static bool tool_waits(int tool)
 {
     const double until_s = clock_now_s() + WAIT_S;
-    AtspiAccessible *button = find(studio_tools[tool].name);
     bool chosen = false;
-    while (button && !chosen && clock_now_s() < until_s) {
-        atspi_accessible_clear_cache(button);
-        chosen =
-            state_has(button, ATSPI_STATE_PRESSED) || state_has(button, ATSPI_STATE_CHECKED);
+    while (!chosen && clock_now_s() < until_s) {
+        AtspiAccessible *button = find(studio_tools[tool].name);
+        if (button)
+            atspi_accessible_clear_cache(button);
+        chosen = button && (state_has(button, ATSPI_STATE_PRESSED) ||
+                            state_has(button, ATSPI_STATE_CHECKED));
+        g_clear_object(&button);
         if (!chosen)
             usleep(50000);
     }
-    g_clear_object(&button);
     return chosen;
 }
 
@@ -316,7 +318,13 @@ static int start(void **state)
     (void)state;
     studio_start("");
     frame = accessible_frame_wait(WAIT_S);
-    return frame && tool_waits(STUDIO_TOOL_BRUSH) ? 0 : -1;
+    if (!frame)
+        puts("no tree of the window's");
+    else if (!tool_waits(STUDIO_TOOL_BRUSH))
+        puts("the brush does not wait");
+    else
+        return 0;
+    return -1;
 }
 
 static int end(void **state)
