@@ -97,6 +97,17 @@ static int child_wait(pid_t child)
     return status;
 }
 
+/* A child that was ended before it could act, as by SIGKILL or by two signals at once (the
+ * driver's compiler catches only the first), leaves part files in the folder. */
+static void parts_sweep(const struct explain *e)
+{
+    const int folder = input_folder_descriptor(AT_FDCWD, e->folder);
+    if (folder < 0)
+        return;
+    output_file_sweep(folder);
+    close(folder);
+}
+
 static bool is_source(const char *name)
 {
     size_t length = strlen(name);
@@ -224,7 +235,9 @@ static int explain(struct explain *e, char **arguments)
         return fail("explain", "no process: %s", strerror(errno));
     if (child == 0)
         become(e, program, arguments);
-    return show(e, name, child_wait(child));
+    const int ended = child_wait(child);
+    parts_sweep(e);
+    return show(e, name, ended);
 }
 
 int verb_explain(int argc, char **argv)

@@ -251,12 +251,25 @@ def wrong_arguments_are_one_line(folder):
     one_line(result.stderr, "LUTETIA_EXPLAIN", "No such file")
 
 
+def killed_program_leaves_nothing(folder):
+    """A program that is ended by SIGKILL, or by the second of two signals, leaves its part files in explain's folder."""
+    kept = f"{folder}/kept"
+    os.makedirs(kept)
+    for number in ("KILL", "TERM"):
+        result = run(LUTETIA, "explain", "/bin/sh", "-c",
+                     'for of in "$LUTETIA_EXPLAIN" "$LUTETIA_EXPLAIN_JSON"; do '
+                     'echo >"${of%%/*}/.${of##*/}.0123456789abcdef.part"; done; kill -%s $$' % number, TMPDIR=kept)
+        assert result.returncode == 1, result
+        one_line(result.stderr, "ended by signal")
+        assert os.listdir(kept) == [], os.listdir(kept)
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         for test in (trace_has_every_part_in_its_place, trace_of_two_machines_is_one_file,
                      killed_program_leaves_a_trace, trace_that_cannot_be_written_is_said_once, explanation_is_exact,
                      explanation_of_two_machines, explanation_of_a_source, interrupted_program_explains_itself,
-                     wrong_arguments_are_one_line):
+                     killed_program_leaves_nothing, wrong_arguments_are_one_line):
             began = time.monotonic()
             test(folder)
             print(f"{test.__name__}: {time.monotonic() - began:.2f} s", flush=True)
