@@ -7,11 +7,43 @@
 #include "face_internal.h"
 #include "pdf_internal.h"
 
+#include <library.h>
+
 #include <hb-ot.h>
 #include <hb-subset.h>
 
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* The subsetter, loaded when the first font is cut: most programs cut none. */
+/* clang-format off */
+#define SUBSET_NAMES(X)                                                                        \
+    X(input_create_or_fail) X(input_destroy) X(input_glyph_set) X(input_pin_axis_location)     \
+    X(input_set) X(input_set_flags) X(plan_create_or_fail) X(plan_destroy)                     \
+    X(plan_execute_or_fail) X(plan_old_to_new_glyph_mapping)
+/* clang-format on */
+#define SUBSET_MEMBER(name) __typeof__(hb_subset_##name) *name;
+#define SUBSET_ROW(name) {"hb_subset_" #name, offsetof(struct subset_library, name)},
+static struct subset_library {
+    SUBSET_NAMES(SUBSET_MEMBER)
+} subset;
+static bool subset_loaded;
+
+static void subset_load(void)
+{
+    static const struct library_function functions[] = {SUBSET_NAMES(SUBSET_ROW)};
+    const char *missing;
+    subset_loaded = library_load("libharfbuzz-subset.so.0", functions,
+                                 sizeof functions / sizeof *functions, &subset, &missing);
+}
+
+static bool subset_there(void)
+{
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, subset_load);
+    return subset_loaded;
+}
 
 /* What is cut, or is needed to pin axes. */
 static bool is_cut(hb_tag_t tag)
@@ -49,23 +81,23 @@ static void tables_drop(hb_face_t *face, hb_set_t *dropped)
 static hb_subset_input_t *input_make(const struct font_document *p, const struct pdf_font *font,
                                      hb_face_t *face)
 {
-    hb_subset_input_t *input = hb_subset_input_create_or_fail();
+    hb_subset_input_t *input = subset.input_create_or_fail();
     if (!input)
         return NULL;
-    hb_set_t *glyphs = hb_subset_input_glyph_set(input);
+    hb_set_t *glyphs = subset.input_glyph_set(input);
     for (int i = 0; i < font->count; i++)
         hb_set_add(glyphs, p->letters[font->letters[i]].glyph);
-    tables_drop(face, hb_subset_input_set(input, HB_SUBSET_SETS_DROP_TABLE_TAG));
-    hb_subset_input_set_flags(input, HB_SUBSET_FLAGS_NO_HINTING);
+    tables_drop(face, subset.input_set(input, HB_SUBSET_SETS_DROP_TABLE_TAG));
+    subset.input_set_flags(input, HB_SUBSET_FLAGS_NO_HINTING);
     const struct font_face *of = font->face;
     bool good = true;
     for (int i = 0; i < of->axes_count; i++)
-        good = good &&
-               hb_subset_input_pin_axis_location(input, face, (hb_tag_t)of->axes->axis[i].tag,
-                                                 (float)((double)of->values[i] / 65536));
+        good =
+            good && subset.input_pin_axis_location(input, face, (hb_tag_t)of->axes->axis[i].tag,
+                                                   (float)((double)of->values[i] / 65536));
     if (good)
         return input;
-    hb_subset_input_destroy(input);
+    subset.input_destroy(input);
     return NULL;
 }
 
@@ -127,7 +159,7 @@ static bool truetype_take(hb_face_t *face, struct pdf_program *out)
 static bool glyphs_take(const struct font_document *p, const struct pdf_font *font,
                         const hb_subset_plan_t *plan, hb_face_t *cut, struct pdf_program *out)
 {
-    const hb_map_t *map = hb_subset_plan_old_to_new_glyph_mapping(plan);
+    const hb_map_t *map = subset.plan_old_to_new_glyph_mapping(plan);
     hb_font_t *of = hb_font_create(font_face_harfbuzz(font->face)),
               *cut_of = hb_font_create(cut);
     bool good = true;
@@ -167,21 +199,21 @@ bool pdf_program_subset(const struct font_document *p, const struct pdf_font *fo
     hb_face_t *face = font_face_harfbuzz(font->face), *cut = NULL;
     bool truetype = has_table(face, HB_TAG('g', 'l', 'y', 'f'));
     *out = (struct pdf_program){0};
-    if (font->version != font_face_version(font->face) || !is_own(p, font) ||
+    if (!subset_there() || font->version != font_face_version(font->face) || !is_own(p, font) ||
         (!truetype && (has_parts(p, font) || !has_table(face, HB_TAG('C', 'F', 'F', ' ')))))
         return false;
     hb_subset_input_t *input = input_make(p, font, face);
-    hb_subset_plan_t *plan = input ? hb_subset_plan_create_or_fail(face, input) : NULL;
+    hb_subset_plan_t *plan = input ? subset.plan_create_or_fail(face, input) : NULL;
     if (plan)
-        cut = hb_subset_plan_execute_or_fail(plan);
+        cut = subset.plan_execute_or_fail(plan);
     bool good = cut && glyphs_take(p, font, plan, cut, out) &&
                 (truetype ? truetype_take(cut, out)
                           : table_take(cut, HB_TAG('C', 'F', 'F', ' '), out) &&
                                 !pdf_cff_keyed(out->bytes, out->count));
     hb_face_destroy(cut);
     if (plan)
-        hb_subset_plan_destroy(plan);
-    hb_subset_input_destroy(input);
+        subset.plan_destroy(plan);
+    subset.input_destroy(input);
     if (!good)
         pdf_program_finish(out);
     return good;

@@ -44,7 +44,7 @@ static void prefix_read(const struct guard *g, double *marks, double *prefix)
     *marks = 0;
     for (; at < g->end; at = named ? named : at + 1) {
         named = name_end(g, at);
-        if (!named && !strchr(" \t>*+-.)", *at) && !isdigit((unsigned char)*at))
+        if (!named && !(*at && strchr(" \t>*+-.)", *at)) && !isdigit((unsigned char)*at))
             break;
         *marks += named || strchr(">*+-.)", *at);
     }

@@ -1,11 +1,8 @@
 /* markdown.c - Markdown by cmark-gfm, its tree as blocks: see reader_document.h. */
 #include "builder.h"
-
-#include <cmark-gfm-core-extensions.h>
-#include <cmark-gfm.h>
+#include "cmark_library.h"
 
 #include <ctype.h>
-#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,7 +27,7 @@ struct walk {
 
 static bool is_type(cmark_node *node, const char *type)
 {
-    return strcmp(cmark_node_get_type_string(node), type) == 0;
+    return strcmp(cmark.node_get_type_string(node), type) == 0;
 }
 
 static unsigned look_of(const struct walk *w)
@@ -42,8 +39,8 @@ static unsigned look_of(const struct walk *w)
 
 static void open_block(struct walk *w, enum reader_kind kind, cmark_node *node)
 {
-    reader_block_open(&w->b, kind, cmark_node_get_start_line(node),
-                      cmark_node_get_end_line(node));
+    reader_block_open(&w->b, kind, cmark.node_get_start_line(node),
+                      cmark.node_get_end_line(node));
 }
 
 static char *copy_of(struct walk *w, const char *text)
@@ -67,17 +64,17 @@ static void last_line_end_drop(struct reader_block *block)
 
 static void code_read(struct walk *w, cmark_node *node)
 {
-    const char *info = cmark_node_get_fence_info(node);
+    const char *info = cmark.node_get_fence_info(node);
     size_t first = strcspn(info ? info : "", " \t");
     bool live =
         info &&
         ((strncmp(info, "lua", first) == 0 && first == 3 && strstr(info + first, "live")) ||
          (first == 1 && *info == 'c' && strstr(info + first, "paris")));
     bool math = info && first == 4 && strncmp(info, "math", 4) == 0 &&
-                strlen(cmark_node_get_literal(node)) <= READER_FORMULA_BYTES;
+                strlen(cmark.node_get_literal(node)) <= READER_FORMULA_BYTES;
     open_block(w, math ? READER_MATH : live ? READER_LIVE : READER_CODE_BLOCK, node);
     w->b.block.info = copy_of(w, info);
-    reader_code_add(&w->b, cmark_node_get_literal(node), math ? READER_FORMULA : READER_CODE);
+    reader_code_add(&w->b, cmark.node_get_literal(node), math ? READER_FORMULA : READER_CODE);
     if (w->b.status == READER_OK)
         last_line_end_drop(&w->b.block);
     reader_block_close(&w->b);
@@ -86,13 +83,13 @@ static void code_read(struct walk *w, cmark_node *node)
 /* A picture that is all of its paragraph. */
 static bool is_picture(cmark_node *paragraph)
 {
-    cmark_node *child = cmark_node_first_child(paragraph);
-    return child && cmark_node_get_type(child) == CMARK_NODE_IMAGE && !cmark_node_next(child);
+    cmark_node *child = cmark.node_first_child(paragraph);
+    return child && cmark.node_get_type(child) == CMARK_NODE_IMAGE && !cmark.node_next(child);
 }
 
 static void html_read(struct walk *w, cmark_node *node)
 {
-    const char *text = cmark_node_get_literal(node);
+    const char *text = cmark.node_get_literal(node);
     if (text && strncmp(text, "<!--", 4) == 0)
         return;
     open_block(w, READER_HTML, node);
@@ -111,17 +108,17 @@ static void item_begin(struct walk *w, cmark_node *node)
         snprintf(marker, sizeof marker, "%ld%c", list->next++, list->bracket ? ')' : '.');
     if (is_type(node, "tasklist"))
         snprintf(marker, sizeof marker, "%s",
-                 cmark_gfm_extensions_get_tasklist_item_checked(node) ? "\xe2\x98\x91"
+                 cmark.gfm_extensions_get_tasklist_item_checked(node) ? "\xe2\x98\x91"
                                                                       : "\xe2\x98\x90");
-    reader_marker_set(&w->b, marker, cmark_node_get_start_line(node));
+    reader_marker_set(&w->b, marker, cmark.node_get_start_line(node));
 }
 
 static void list_begin(struct walk *w, cmark_node *node)
 {
     struct list list = {.next = -1};
-    if (cmark_node_get_list_type(node) == CMARK_ORDERED_LIST)
-        list = (struct list){cmark_node_get_list_start(node),
-                             cmark_node_get_list_delim(node) == CMARK_PAREN_DELIM};
+    if (cmark.node_get_list_type(node) == CMARK_ORDERED_LIST)
+        list = (struct list){cmark.node_get_list_start(node),
+                             cmark.node_get_list_delim(node) == CMARK_PAREN_DELIM};
     if (!array_reserve(&w->lists, &w->lists_capacity, w->lists_count + 1, sizeof *w->lists)) {
         reader_builder_fail(&w->b);
         return;
@@ -142,8 +139,8 @@ static void marker_flush(struct walk *w, cmark_node *node)
 static void row_begin(struct walk *w, cmark_node *node, bool head)
 {
     struct reader_block *block = &w->b.block;
-    int columns = cmark_gfm_extensions_get_table_columns(w->table);
-    const uint8_t *aligns = cmark_gfm_extensions_get_table_alignments(w->table);
+    int columns = cmark.gfm_extensions_get_table_columns(w->table);
+    const uint8_t *aligns = cmark.gfm_extensions_get_table_alignments(w->table);
     open_block(w, READER_ROW, node);
     block->table = w->b.document->tables_count - 1;
     block->head = head;
@@ -157,7 +154,7 @@ static void note_begin(struct walk *w, cmark_node *node)
 {
     struct reader_document *d = w->b.document;
     struct reader_note note = {.first_block = d->note_blocks_count};
-    int line = cmark_node_get_start_line(node);
+    int line = cmark.node_get_start_line(node);
     const char *at = "", *end = at;
     if (d->notes_count == READER_NOTES_MAX) {
         w->b.status = reader_fail(READER_TOO_LARGE,
@@ -195,7 +192,7 @@ static void note_begin(struct walk *w, cmark_node *node)
 
 static void code_span_read(struct walk *w, cmark_node *node)
 {
-    reader_code_add(&w->b, cmark_node_get_literal(node), look_of(w) | READER_CODE);
+    reader_code_add(&w->b, cmark.node_get_literal(node), look_of(w) | READER_CODE);
 }
 
 /* A picture among letters is its caption, which leads to its file. */
@@ -204,14 +201,14 @@ static void picture_enter(struct walk *w, cmark_node *node)
     w->slanted++;
     w->around = w->link;
     if (w->b.block.kind != READER_PICTURE)
-        w->link = cmark_node_get_url(node);
+        w->link = cmark.node_get_url(node);
 }
 
 static void inline_enter(struct walk *w, cmark_node *node)
 {
     struct reader_builder *b = &w->b;
-    cmark_node_type type = cmark_node_get_type(node);
-    const char *text = cmark_node_get_literal(node);
+    cmark_node_type type = cmark.node_get_type(node);
+    const char *text = cmark.node_get_literal(node);
     if (type == CMARK_NODE_TEXT)
         reader_text_add(b, text, look_of(w), w->link);
     else if (type == CMARK_NODE_SOFTBREAK)
@@ -229,7 +226,7 @@ static void inline_enter(struct walk *w, cmark_node *node)
     else if (type == CMARK_NODE_STRONG)
         w->heavy++;
     else if (type == CMARK_NODE_LINK)
-        w->link = cmark_node_get_url(node);
+        w->link = cmark.node_get_url(node);
     else if (type == CMARK_NODE_IMAGE)
         picture_enter(w, node);
     else if (is_type(node, "strikethrough"))
@@ -238,7 +235,7 @@ static void inline_enter(struct walk *w, cmark_node *node)
 
 static void inline_leave(struct walk *w, cmark_node *node)
 {
-    cmark_node_type type = cmark_node_get_type(node);
+    cmark_node_type type = cmark.node_get_type(node);
     if (type == CMARK_NODE_EMPH || type == CMARK_NODE_IMAGE)
         w->slanted--;
     if (type == CMARK_NODE_IMAGE)
@@ -261,7 +258,7 @@ static bool table_enter(struct walk *w, cmark_node *node)
     } else if (is_type(node, "table_header") || is_type(node, "table_row")) {
         row_begin(w, node, is_type(node, "table_header"));
     } else if (is_type(node, "table_cell")) {
-        if (cmark_node_previous(node))
+        if (cmark.node_previous(node))
             reader_cell_end(&w->b);
     } else {
         return false;
@@ -271,17 +268,17 @@ static bool table_enter(struct walk *w, cmark_node *node)
 
 static void block_enter(struct walk *w, cmark_node *node)
 {
-    cmark_node_type type = cmark_node_get_type(node);
+    cmark_node_type type = cmark.node_get_type(node);
     if (table_enter(w, node))
         return;
     if (type == CMARK_NODE_PARAGRAPH) {
         bool picture = is_picture(node);
         open_block(w, picture ? READER_PICTURE : READER_PARAGRAPH, node);
         if (picture)
-            w->b.block.target = copy_of(w, cmark_node_get_url(cmark_node_first_child(node)));
+            w->b.block.target = copy_of(w, cmark.node_get_url(cmark.node_first_child(node)));
     } else if (type == CMARK_NODE_HEADING) {
         open_block(w, READER_HEADING, node);
-        w->b.block.level = cmark_node_get_heading_level(node);
+        w->b.block.level = cmark.node_get_heading_level(node);
     } else if (type == CMARK_NODE_CODE_BLOCK) {
         code_read(w, node);
     } else if (type == CMARK_NODE_HTML_BLOCK) {
@@ -302,7 +299,7 @@ static void block_enter(struct walk *w, cmark_node *node)
 
 static void block_leave(struct walk *w, cmark_node *node)
 {
-    cmark_node_type type = cmark_node_get_type(node);
+    cmark_node_type type = cmark.node_get_type(node);
     if (type == CMARK_NODE_LIST) {
         w->lists_count -= w->lists_count > 0;
         w->b.items--;
@@ -319,15 +316,15 @@ static void block_leave(struct walk *w, cmark_node *node)
 
 static bool is_inline(cmark_node *node)
 {
-    return (cmark_node_get_type(node) & CMARK_NODE_TYPE_MASK) == CMARK_NODE_TYPE_INLINE;
+    return (cmark.node_get_type(node) & CMARK_NODE_TYPE_MASK) == CMARK_NODE_TYPE_INLINE;
 }
 
 static void tree_walk(struct walk *w, cmark_node *root)
 {
-    cmark_iter *iter = cmark_iter_new(root);
+    cmark_iter *iter = cmark.iter_new(root);
     cmark_event_type event;
-    while (w->b.status == READER_OK && (event = cmark_iter_next(iter)) != CMARK_EVENT_DONE) {
-        cmark_node *node = cmark_iter_get_node(iter);
+    while (w->b.status == READER_OK && (event = cmark.iter_next(iter)) != CMARK_EVENT_DONE) {
+        cmark_node *node = cmark.iter_get_node(iter);
         if (is_inline(node) && !is_type(node, "table_cell"))
             (event == CMARK_EVENT_ENTER ? inline_enter : inline_leave)(w, node);
         else if (event == CMARK_EVENT_ENTER)
@@ -335,30 +332,23 @@ static void tree_walk(struct walk *w, cmark_node *root)
         else
             block_leave(w, node);
     }
-    cmark_iter_free(iter);
+    cmark.iter_free(iter);
     reader_block_close(&w->b);
-}
-
-static void register_once(void)
-{
-    cmark_gfm_core_extensions_ensure_registered();
 }
 
 /* Owns: the caller frees it. */
 static cmark_node *tree_make(const char *masked, size_t bytes)
 {
-    static pthread_once_t once = PTHREAD_ONCE_INIT;
     static const char *const extensions[] = {"table", "strikethrough", "autolink", "tasklist"};
-    pthread_once(&once, register_once);
-    cmark_parser *parser = cmark_parser_new(CMARK_OPT_FOOTNOTES | CMARK_OPT_VALIDATE_UTF8);
+    cmark_parser *parser = cmark.parser_new(CMARK_OPT_FOOTNOTES | CMARK_OPT_VALIDATE_UTF8);
     for (size_t i = 0; i < sizeof extensions / sizeof *extensions; i++) {
-        cmark_syntax_extension *extension = cmark_find_syntax_extension(extensions[i]);
+        cmark_syntax_extension *extension = cmark.find_syntax_extension(extensions[i]);
         if (extension)
-            cmark_parser_attach_syntax_extension(parser, extension);
+            cmark.parser_attach_syntax_extension(parser, extension);
     }
-    cmark_parser_feed(parser, masked, bytes);
-    cmark_node *root = cmark_parser_finish(parser);
-    cmark_parser_free(parser);
+    cmark.parser_feed(parser, masked, bytes);
+    cmark_node *root = cmark.parser_finish(parser);
+    cmark.parser_free(parser);
     return root;
 }
 
@@ -397,6 +387,13 @@ enum reader_status reader_document_add(struct reader_document *d, const char *ut
 {
     struct reader_mask mask = {0};
     struct walk w = {.b.status = READER_OK, .notes_before = d->notes_count};
+    const char *why;
+    if (!cmark_load(&why))
+        return reader_fail(
+            READER_NO_LIBRARY,
+            "Markdown is read by cmark-gfm, which cannot be loaded (%s): install "
+            "libcmark-gfm and libcmark-gfm-extensions",
+            why);
     if (bytes > READER_BYTES_MAX)
         return reader_fail(READER_TOO_LARGE, "a document has up to %d MB (this one has %zu)",
                            READER_BYTES_MAX >> 20, bytes >> 20);
@@ -415,7 +412,7 @@ enum reader_status reader_document_add(struct reader_document *d, const char *ut
     if (w.b.status == READER_OK) {
         cmark_node *root = tree_make(mask.masked, bytes);
         tree_walk(&w, root);
-        cmark_node_free(root);
+        cmark.node_free(root);
         d->sources_count++;
     }
     reader_block_finish(&w.b.block);

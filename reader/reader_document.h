@@ -36,7 +36,7 @@ enum reader_status {
     READER_OK = 0,
     READER_BAD_ARGUMENT,
     READER_TOO_LARGE,
-    READER_NO_LIBRARY, /* built without cmark-gfm */
+    READER_NO_LIBRARY, /* there is no cmark-gfm */
     READER_FAILED,     /* pages: what fontpipe says */
     READER_NO_MEMORY
 };
