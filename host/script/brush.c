@@ -62,6 +62,7 @@ static int paper_brush(lua_State *L)
                    PAPER_BRUSHES_MAX);
     script_fields_read(L, 2, "brush", &paper_brush_members, &b);
     kind_set(L, &b, kind); /* once more: defaults depend on the width */
+    b.follows = b.flat && lua_getfield(L, 2, "angle") == LUA_TNIL;
     script_fields_read(L, 2, "brush", &paper_brush_members, &b);
     b.seed = (uint64_t)script_arg_integer(L, 2, "brush", "seed", b.number + 1, 0, 2147483647);
 

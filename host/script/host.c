@@ -44,6 +44,12 @@ void script_note_once(lua_State *L, enum script_once what, const char *text)
     script->notes_told |= 1u << what;
 }
 
+void script_wrote_tell(const struct script *script, const char *path)
+{
+    if (script->host->wrote)
+        script->host->wrote(script->host->context, path);
+}
+
 void script_progress_tell(const struct script *script, const struct script_progress *progress)
 {
     if (script->host->progress)

@@ -453,6 +453,31 @@ static int paper_air(lua_State *L)
     return 0;
 }
 
+/* An exact 0 where only rounding makes it another number: such a pull would cost steps. */
+static double pull(double part)
+{
+    return fabs(part) < 1e-12 ? 0 : part;
+}
+
+/* paper:tilt(degrees [, toward]): the board leans. toward: 0 to the right, 90 down. */
+static int paper_tilt(lua_State *L)
+{
+    struct script_paper *paper = script_paper_begin(L, 3);
+    const double degree = 3.14159265358979323846 / 180;
+    const double leans = script_arg_at(L, 2, "tilt's degrees", 0, 90) * degree;
+    const double toward = lua_isnil(L, 3)
+                              ? 90 * degree
+                              : script_arg_at(L, 3, "tilt's direction", -36000, 36000) * degree;
+    if (config_of(paper)->parts == 0)
+        luaL_error(L,
+                   "the thesis's paper lies flat; p:air{gravity = {1, 1.2}} pulls its water");
+    struct paper_air air = *paper_sheet_get_air(paper->sheet);
+    air.gravity[0] = pull(sin(leans) * cos(toward));
+    air.gravity[1] = pull(sin(leans) * sin(toward));
+    script_paper_check(L, paper_sheet_air(paper->sheet, &air));
+    return 0;
+}
+
 static int paper_step(lua_State *L)
 {
     struct script_paper *paper = script_paper_begin(L, 2);
@@ -515,10 +540,10 @@ static int paper_index(lua_State *L)
 }
 
 const luaL_Reg script_paper_methods[] = {
-    {"put", paper_put},           {"blot", paper_blot}, {"resist", paper_resist},
-    {"unresist", paper_unresist}, {"dry", paper_dry},   {"seal", paper_seal},
-    {"air", paper_air},           {"step", paper_step}, {"type", paper_put_type},
-    {"close", paper_close},       {NULL, NULL}};
+    {"put", paper_put},           {"blot", paper_blot},   {"resist", paper_resist},
+    {"unresist", paper_unresist}, {"dry", paper_dry},     {"seal", paper_seal},
+    {"air", paper_air},           {"tilt", paper_tilt},   {"step", paper_step},
+    {"type", paper_put_type},     {"close", paper_close}, {NULL, NULL}};
 
 const luaL_Reg script_papers_operators[] = {{"__call", make_paper}, {NULL, NULL}};
 

@@ -268,6 +268,7 @@ static int paper_frame(lua_State *L)
     script_paper_check(L, viewed);
     script_check(L);
     frame_write(L, path, width, height, bits, rgb, view.alpha);
+    script_wrote_tell(paper->script, path);
     return 0;
 }
 

@@ -166,6 +166,7 @@ static int paper_save(lua_State *L)
     const char *path = script_path_to_write(L, luaL_checkstring(L, 2), ".h5", "a saved paper");
     script_paper_check(L,
                        paper_state_save(path, &(struct paper_state_sheet){1, paper->sheet}, 1));
+    script_wrote_tell(paper->script, path);
     return 0;
 }
 

@@ -83,6 +83,8 @@ struct script_host {
      * stop; the host's text must stay valid until the next call. */
     const char *(*step)(void *context, int paper, struct paper_sheet *sheet);
     void (*film)(void *context, const struct script_camera *camera);
+    /* A file that the script named is there: a picture, a saved paper, a network. */
+    void (*wrote)(void *context, const char *path);
     /* Called when the script has ended with the status, while its papers are still open and
      * can be saved. Returns the run's status. */
     enum script_status (*finish)(void *context, const struct paper_state_sheet *papers,

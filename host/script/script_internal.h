@@ -142,6 +142,8 @@ void script_note_where(lua_State *L, const char *text);
  * meant. */
 enum script_once { SCRIPT_OFF_PAPER, SCRIPT_NOT_DIPPED, SCRIPT_DIPPED_IN_NOTHING };
 void script_note_once(lua_State *L, enum script_once what, const char *text);
+/* A file of that path has been written. */
+void script_wrote_tell(const struct script *script, const char *path);
 /* NULL: the work is over. */
 void script_progress_tell(const struct script *script, const struct script_progress *progress);
 

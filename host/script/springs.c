@@ -327,6 +327,7 @@ static int network_save(lua_State *L)
     const struct script_network *s = script_network_at(L, 1);
     const char *path = script_path_to_write(L, luaL_checkstring(L, 2), ".springs", "network");
     script_dyn_check(L, dyn_network_write(s->network, path));
+    script_wrote_tell(script_of(L), path);
     return 0;
 }
 

@@ -50,9 +50,8 @@ static const struct {
     {"mask", "__mul", "m", ""},
     {"mask", "__sub", "m", ""},
     {"papers", "__call", "O",
-     "width:i height:i torus:b model:S rule:S stock:S seed:i pigments:v color:v "
-     "color_variation:n absorbency:n capacity:n "
-     "roughness:n grain:n fibers:v history:b undo:n deckle:v"},
+     "width:i height:i torus:b model:S rule:S stock:S seed:i pigments:v color:v deckle:v "
+     "color_variation:n absorbency:n capacity:n roughness:n grain:n fibers:v history:b undo:n"},
     {"papers", "load", "hi", ""},
     {"paper", "put", "mA", ""},
     {"paper", "blot", "mnn", ""},
@@ -60,6 +59,7 @@ static const struct {
     {"paper", "unresist", "m", ""},
     {"paper", "dry", "", ""},
     {"paper", "seal", "", ""},
+    {"paper", "tilt", "nn", ""},
     {"paper", "air", "O",
      "gravity:v seep:v spread:n relief:n film:n pinning:n absorption:n "
      "carry:n humidity:n edge:n edge_width:n settling:n"},
