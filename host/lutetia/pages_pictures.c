@@ -346,8 +346,9 @@ const struct page pages_of_pictures[] = {
          "A --sweep is KEY=a,b,c, or 1..5 for whole numbers, or 0..1/5 for five numbers from 0 "
          "to 1; several of them, separated by semicolons, give all combinations. Each run "
          "writes into a folder of its own, KEY-value.\n"
-         "Ctrl-C stops a run; with --save the papers are saved then, too, and --resume "
-         "continues them.",
+         "Ctrl-C stops a run. Its papers are saved then, too: with --save to that file, without "
+         "it to SCRIPT-interrupted.h5 in --out, which a line names; a run of a sweep keeps "
+         "nothing. --resume continues them.",
      .examples = {{"lutetia run rain.lua word=Paris -o pictures", "a script with a parameter"},
                   {"lutetia run rain.lua --sweep \"word=Wet,Dry\" -j 2 -o both",
                    "two runs at a time"},

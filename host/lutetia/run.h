@@ -7,11 +7,22 @@
 
 #include <script.h>
 
+/* The files of a run: the first ones' and the last one's paths, without those that were written
+ * again. */
+enum { WRITTEN_NAMED = 3 };
+struct written {
+    char first[WRITTEN_NAMED][PATH_MAX], last[PATH_MAX];
+    int named; /* of `first` */
+    bool more; /* than those, and the last one is `last` */
+};
+
 struct run {
     struct script_config config;
     const char *words[SCRIPT_WORDS_MAX]; /* the config's */
     bool quiet;
     const char *save; /* --save; NULL: none */
+    bool alone; /* it is no run of a sweep: after Ctrl-C without --save its papers are kept
+                       * beside its pictures, and its end says which files there are */
     struct film film;
     /* Receives the steps of a run that is one of several, and has no progress line of its
      * own; NULL: none. */
@@ -20,6 +31,7 @@ struct run {
     /* its own */
     struct progress line;
     bool line_begun, line_again;
+    struct written written;
 };
 
 /* One run of the script: EXIT_SUCCESS, EXIT_FAILED or EXIT_INTERRUPTED. */

@@ -97,6 +97,28 @@ static void camera(void *context, const struct script_camera *camera)
     film->camera[3] = camera->height;
 }
 
+static void wrote(void *context, const char *path)
+{
+    struct written *w = &((struct run *)context)->written;
+    for (int i = 0; i < w->named; i++)
+        if (strcmp(w->first[i], path) == 0)
+            return;
+    w->more = w->named == WRITTEN_NAMED;
+    char *to = w->more ? w->last : w->first[w->named++];
+    snprintf(to, PATH_MAX, "%s", path);
+}
+
+/* On a terminal, which files there are now. */
+static void written_tell(const struct run *run)
+{
+    const struct written *w = &run->written;
+    if (!run->alone || run->quiet || w->named == 0 || !isatty(STDERR_FILENO))
+        return;
+    tell("run", "wrote %s%s%s%s%s%s%s", w->first[0], w->named > 1 ? ", " : "", w->first[1],
+         w->named > 2 ? ", " : "", w->first[2], w->more ? " and others, the last one " : "",
+         w->last);
+}
+
 static void divergence_report(const struct run *run, const struct paper_state_sheet *papers,
                               int count)
 {
@@ -130,6 +152,57 @@ static enum script_status save(struct run *run, const struct paper_state_sheet *
     return status;
 }
 
+/* The file for the papers of a run that nobody asked to save: beside its pictures, named after
+ * the script. */
+static void kept_name(const struct run *run, char path[PATH_MAX])
+{
+    const char *slash = strrchr(run->config.path, '/'),
+               *name = slash ? slash + 1 : run->config.path;
+    name += strspn(name, ".-"); /* it is neither hidden nor like an option */
+    const char *ending = strrchr(name, '.');
+    const int length = (int)(ending ? (size_t)(ending - name) : strlen(name));
+    snprintf(path, PATH_MAX, "%s/%.*s-interrupted.h5", run->config.out_folder,
+             length > 0 ? length : 6, length > 0 ? name : "script");
+}
+
+#define LONG_BYTES 3e8 /* of papers: it takes seconds */
+
+/* After Ctrl-C without --save: keeps the papers to which something was done. A run that was
+ * resumed and has not come to all of its papers again keeps the state that it was resumed
+ * from. */
+static void keep(const struct run *run, const struct paper_state_sheet *papers, int count)
+{
+    struct paper_state_sheet kept[PAPER_STATE_SHEETS_MAX];
+    char path[PATH_MAX];
+    int kept_count = 0, left_out = 0;
+    double bytes = 0;
+    for (int i = 0; i < count; i++) {
+        if (!paper_history_has(papers[i].sheet) || paper_history_done(papers[i].sheet) == 0)
+            continue;
+        const struct paper_sheet_config *config = paper_sheet_get_config(papers[i].sheet);
+        bytes += paper_sheet_bytes(config->width, config->height, config->pigments_count);
+        if (kept_count < PAPER_STATE_SHEETS_MAX)
+            kept[kept_count++] = papers[i];
+        else
+            left_out++;
+    }
+    if (kept_count == 0 ||
+        (run->config.resumed && paper_state_count(run->config.resumed) > kept_count))
+        return;
+    kept_name(run, path);
+    if (bytes > LONG_BYTES)
+        tell("run", "keeping what there was; Ctrl-C again ends at once");
+    if (paper_state_save(path, kept, kept_count) != PAPER_OK) {
+        fail("run", "what there was is not kept: %s", paper_error());
+        return;
+    }
+    if (left_out > 0)
+        tell("run", "a state has up to %d papers; the last %d are not kept",
+             PAPER_STATE_SHEETS_MAX, left_out);
+    tell("run", "what there was is kept in %s; the same command with --resume %s goes on", path,
+         path);
+}
+
 static enum script_status finish(void *context, const struct paper_state_sheet *papers,
                                  int count, enum script_status status)
 {
@@ -140,7 +213,11 @@ static enum script_status finish(void *context, const struct paper_state_sheet *
         status = SCRIPT_FAILED;
     }
     divergence_report(run, papers, count);
-    return run->save ? save(run, papers, count, status) : status;
+    if (run->save)
+        status = save(run, papers, count, status);
+    else if (status == SCRIPT_INTERRUPTED && run->alone)
+        keep(run, papers, count);
+    return status;
 }
 
 static void overdue(void *context)
@@ -181,6 +258,7 @@ int run_script(struct run *run)
                                      .progress = progress,
                                      .step = step,
                                      .film = camera,
+                                     .wrote = wrote,
                                      .finish = finish,
                                      .overdue = overdue,
                                      .overfull = overfull};
@@ -188,6 +266,7 @@ int run_script(struct run *run)
     run->config.patient = run->save || run->film.video || run->film.folder;
     resident_limit((double)run->config.memory_bytes + SYSTEM_MORE_BYTES);
     enum script_status status = script_run(&run->config, &host);
+    written_tell(run);
     return status == SCRIPT_OK       ? EXIT_SUCCESS
            : status == SCRIPT_FAILED ? EXIT_FAILED
                                      : EXIT_INTERRUPTED;

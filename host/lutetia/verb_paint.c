@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static const char *const fonts[] = {"EBGaramond12-Regular", "DejaVuSerif", NULL};
 
@@ -294,5 +295,9 @@ int verb_paint(int argc, char **argv)
     if (status == EXIT_SUCCESS)
         status = strcmp(paint.model, "full") == 0 ? paint_sheet(&paint) : paint_thesis(&paint);
     paper_screen_destroy(&paint.screen);
+    if (status == EXIT_SUCCESS && isatty(STDERR_FILENO))
+        tell("paint", "wrote %s%s%s", paint.out_path,
+             paint.frames_dir ? ", and pictures in " : "",
+             paint.frames_dir ? paint.frames_dir : "");
     return interrupt_report("paint", status, "the picture is");
 }

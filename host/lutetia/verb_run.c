@@ -91,6 +91,7 @@ int verb_run(int argc, char **argv)
         .config = script_config_default(words.words[0]),
         .quiet = o.quiet,
         .save = o.save,
+        .alone = !o.sweep,
         .film = {
             .video = o.video, .folder = o.frames, .fps = o.fps, .every = o.every, .paper = 1}};
     struct script_config *config = &run.config;
