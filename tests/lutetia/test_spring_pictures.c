@@ -17,6 +17,7 @@
 #include "../display/scratch.h"
 #include "../stage/likeness.h"
 #include "child.h"
+#include "documented.h"
 
 static const char *lutetia, *source;
 
@@ -33,63 +34,6 @@ static const struct {
     {"docs/stage.md", "network.png", "springs-network.png"},
 };
 
-static char *text_read(const char *name)
-{
-    char path[4096];
-    static char text[1 << 17];
-    snprintf(path, sizeof path, "%s/%s", source, name);
-    FILE *file = fopen(path, "r");
-    if (!file)
-        fail_msg("%s", path);
-    size_t count = fread(text, 1, sizeof text - 1, file);
-    fclose(file);
-    text[count] = '\0';
-    return text;
-}
-
-/* The last `lutetia spring` command before "--still NAME" in the document, to the end of its
- * line. Joins lines at backslashes. */
-static char *command_find(const char *document, const char *still)
-{
-    char wanted[100], *text = text_read(document), *begin = NULL;
-    snprintf(wanted, sizeof wanted, "--still %s", still);
-    char *at = strstr(text, wanted);
-    if (!at)
-        fail_msg("%s has no %s", document, wanted);
-    for (char *next = text; (next = strstr(next, "lutetia spring ")) && next < at; next++)
-        begin = next;
-    assert_non_null(begin);
-    char *end = begin;
-    while (*end && (*end != '\n' || end[-1] == '\\'))
-        end++;
-    *end = '\0';
-    for (char *c = begin; *c; c++)
-        if (*c == '\n' || *c == '\\')
-            *c = ' ';
-    return begin;
-}
-
-/* Splits a command into words at blanks, outside double quotes. */
-static int words_split(char *text, const char **words, int most)
-{
-    int count = 0;
-    for (char *c = text; *c;) {
-        while (*c == ' ')
-            *c++ = '\0';
-        char stop = *c == '"' ? '"' : ' ';
-        c += stop == '"';
-        if (!*c)
-            break;
-        assert_true(count < most);
-        words[count++] = c;
-        while (*c && *c != stop)
-            c++;
-        if (*c)
-            *c++ = '\0';
-    }
-    return count;
-}
-
 static struct display_image picture(const char *path)
 {
     struct display_image image;
@@ -105,8 +49,11 @@ static void pictures_are_as_documented(void **state)
         static struct child child;
         static char paths[CHILD_ARGUMENTS_MAX][4096];
         const char *words[40], *still = scratch_path("again.png");
-        int count =
-            words_split(command_find(pictures[i].document, pictures[i].still), words, 40);
+        char wanted[100];
+        snprintf(wanted, sizeof wanted, "--still %s", pictures[i].still);
+        int count = documented_words(
+            documented_command(source, pictures[i].document, "lutetia spring ", wanted), words,
+            40);
         child = (struct child){.variables = {"DISPLAY=", "WAYLAND_DISPLAY="}};
         assert_true(count < CHILD_ARGUMENTS_MAX);
         for (int k = 0; k < count; k++) {
