@@ -1,12 +1,12 @@
 -- deckle.lua - a sea in the evening, painted over the edges of a sheet of handmade paper.
 local scale, steps = param("scale", 1), param("steps", 900)
 local function px(n) return math.floor(n * scale) end
-local blue, rose, orange, green = "french ultramarine", "quinacridone rose", "brilliant orange", "phthalo green"
+local blue, rose, orange, green = "french ultramarine", "quinacridone rose", "indian yellow", "phthalo green"
 
 local p = paper{width = px(560), height = px(400), stock = "cold press", pigments = {blue, rose, orange, green},
   deckle = {margin = 24 * scale, waves = 2.5 * scale, thin = 14 * scale, fringe = 5 * scale}}
 p:wash{water = 0.15}
-p:wash({water = 0.5, [blue] = 0.35, [rose] = 0.06}, {from = {0, px(30)}, to = {0, px(215)}, into = {water = 0.5, [orange] = 0.16, [rose] = 0.14},
+p:wash({water = 0.5, [blue] = 0.35, [rose] = 0.06}, {from = {0, px(30)}, to = {0, px(215)}, into = {water = 0.5, [orange] = 0.3, [rose] = 0.06},
   mask = rect(0, 0, px(560), px(224))})
 p:step(steps // 9)
 p:blot(ellipse(px(372), px(172), px(20)):soften(px(4)), 0.95, 0.9)
