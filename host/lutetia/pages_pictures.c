@@ -346,7 +346,8 @@ const struct page pages_of_pictures[] = {
          "A --sweep is KEY=a,b,c, or 1..5 for whole numbers, or 0..1/5 for five numbers from 0 "
          "to 1; several of them, separated by semicolons, give all combinations. Each run "
          "writes into a folder of its own, KEY-value.\n"
-         "Ctrl-C stops a run. Its papers are saved then, too: with --save to that file, without "
+         "Ctrl-C stops a run. Its papers are saved then, too: to the file of --save, or "
+         "without "
          "it to SCRIPT-interrupted.h5 in --out, which a line names; a run of a sweep keeps "
          "nothing. --resume continues them.",
      .examples = {{"lutetia run rain.lua word=Paris -o pictures", "a script with a parameter"},

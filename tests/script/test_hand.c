@@ -1,5 +1,5 @@
-/* test_hand.c - what a painter's hand expects of scripts: brushes that turn, a board that leans;
- * and files, of which the host is told. */
+/* test_hand.c - what a painter's hand expects of scripts: brushes that turn, a board that
+ * leans; and files, of which the host is told. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
