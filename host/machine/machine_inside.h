@@ -27,8 +27,8 @@ struct machine_waiting machine_waiting(const struct machine *m);
  * in the field. */
 struct machine_type machine_field_stored(struct machine *m, uint32_t field, uint32_t bits);
 
-/* With LUTETIA_BLOCKS: plans run in blocks; arrays put into blocks, and together again; arrays
- * whose ghosts were fetched. */
+/* With LUTETIA_BLOCKS: plans, and whole instructions, run in blocks; arrays put into blocks,
+ * and together again; arrays whose ghosts were fetched. */
 struct machine_blocks {
     uint64_t run, divided, gathered, fetched;
 };

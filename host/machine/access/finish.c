@@ -7,7 +7,7 @@
 
 enum machine_status machine_settle(struct machine *m, struct machine_value **values, int count)
 {
-    return evaluate_values(m, values, count, false);
+    return evaluate_in_blocks(m, values, count, false);
 }
 
 enum machine_status machine_flush(struct machine *m)

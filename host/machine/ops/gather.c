@@ -8,19 +8,6 @@
 #include "run/materialise.h"
 #include "values/graph.h"
 
-int gather_places(const struct vpset *s, uint64_t index, size_t places[3])
-{
-    size_t at = geometry_place(s, index), column = index % (uint64_t)s->width,
-           width = (size_t)s->width;
-    int count = 0;
-    places[count++] = at;
-    if (column < (size_t)s->halo)
-        places[count++] = at + width;
-    if (column >= width - (size_t)s->halo)
-        places[count++] = at - width;
-    return count;
-}
-
 static bool held_once(const struct machine *m, const struct machine_value *v)
 {
     return v->refs <= graph_borrowed(m, v) + 1;
@@ -85,7 +72,7 @@ bool gather_write(struct machine *m, struct field *f, uint32_t offset, struct ma
     if (!all || device_settle(m))
         return false;
     size_t places[3], element = type_bytes(v->type);
-    int count = gather_places(&m->values->sets[f->vpset], index, places);
+    int count = geometry_places(&m->values->sets[f->vpset], index, places);
     for (int i = 0; i < count; i++) {
         *((unsigned char *)all->in[0]->buffer->host + places[i]) = 1;
         materialise_put((unsigned char *)all->in[1]->buffer->host + places[i] * element,

@@ -12,9 +12,6 @@
 bool gather_write(struct machine *m, struct field *f, uint32_t offset, struct machine_value *v,
                   uint64_t index, struct machine_scalar number, enum machine_status *status);
 
-/* Where an element of that processor is, and where the row's halo repeats it; returns how many
- * places. */
-int gather_places(const struct vpset *s, uint64_t index, size_t places[3]);
 /* Whether v is in memory of the front end's, and nobody but that field from there on looks at
  * it: its array may be written over. */
 bool gather_is_own(const struct machine *m, const struct field *f, uint32_t offset,

@@ -14,7 +14,8 @@ static bool is_worth_keeping(const struct machine *m, const struct machine_value
                              int set)
 {
     const struct vpset *from = &m->values->sets[set];
-    return address->buffer && address->buffer->host && m->run->mode == RUN_FREE &&
+    const struct device_buffer *b = address->buffer;
+    return b && (b->host || (b->blocks && m->device->is_pocl)) && m->run->mode == RUN_FREE &&
            !(index_is_address(from) && from->rows == 1);
 }
 

@@ -53,13 +53,6 @@ static bool in_memory(const struct vpset *s, const struct machine_value *v, uint
     return true;
 }
 
-static uint64_t coordinate(const struct vpset *s, int axis, uint64_t index)
-{
-    for (int i = s->rank - 1; i > axis; i--)
-        index /= (uint64_t)s->dimensions[i];
-    return index % (uint64_t)s->dimensions[axis];
-}
-
 /* Whether an operation only says which bits of its operands the result has. */
 static bool moves_bits(int op)
 {
@@ -89,7 +82,8 @@ static bool moved(const struct vpset *s, const struct machine_value *v, uint64_t
         return true;
     }
     if (v->op == NODE_INDEX || v->op == NODE_COORDINATE) {
-        *out = cut(v->op == NODE_INDEX ? index : coordinate(s, v->axis, index), v->type.width);
+        *out = cut(v->op == NODE_INDEX ? index : geometry_coordinate(s, v->axis, index),
+                   v->type.width);
         return true;
     }
     if (!depth || !moves_bits(v->op) || !moved(s, v->in[0], index, depth - 1, &a))

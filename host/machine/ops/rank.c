@@ -24,6 +24,7 @@ enum { WORD, PAIR, GATHER }; /* as in kernels/sort.cl */
 
 struct words {
     struct machine_value *values[WORDS_MAX];
+    struct device_buffer *arrays[WORDS_MAX]; /* theirs, or what a block has of them */
     int bits[WORDS_MAX];
     int count;
 };
@@ -176,7 +177,7 @@ static enum machine_status sort_words(struct machine *m, const struct sort *t,
         for (int k = 0; k < passes; k++) {
             int begin = w->bits[i] * k / passes, end = w->bits[i] * (k + 1) / passes;
             bool last = i == w->count - 1 && k == passes - 1;
-            enum machine_status status = sort_pass(m, t, w->values[i]->buffer,
+            enum machine_status status = sort_pass(m, t, w->arrays[i],
                                                    k   ? PAIR
                                                    : i ? GATHER
                                                        : WORD,
@@ -223,7 +224,7 @@ static bool ranks_near(struct machine *m, const struct vpset *s, const struct li
     bool shared = parts > 1 &&
                   l->length > (m->settings.near < 2 ? d->shape.rank_alone_most : NEAR_SHARED);
     for (int i = 0; i < w->count; i++)
-        words[i] = (struct near_word){.word = w->values[i]->buffer->host, .bits = w->bits[i]};
+        words[i] = (struct near_word){.word = w->arrays[i]->host, .bits = w->bits[i]};
     if (!near_begin(m, ranks, &start))
         return false;
     struct device_buffer *pairs = shared ? device_buffer_get(m, 16 * (size_t)l->length) : NULL;
@@ -248,6 +249,21 @@ static struct device_buffer *ranks_of(struct machine *m, const struct vpset *s, 
     return m->status ? NULL : ranks_far(m, s, axis, w);
 }
 
+struct rank_work {
+    int axis;
+    const struct words *words;
+};
+
+static struct device_buffer *rank_work(struct machine *m, const struct vpset *s,
+                                       struct device_buffer *const *in, const void *of)
+{
+    const struct rank_work *r = of;
+    struct words w = *r->words;
+    for (int i = 0; i < w.count; i++)
+        w.arrays[i] = in[i];
+    return ranks_of(m, s, r->axis, &w);
+}
+
 struct machine_value *machine_rank(struct machine *m, int axis, bool downward, bool is_signed,
                                    enum machine_segments segments, struct machine_value *bits,
                                    struct machine_value *value)
@@ -259,9 +275,10 @@ struct machine_value *machine_rank(struct machine *m, int axis, bool downward, b
     if (!value || !s || (segmented && !bits) ||
         !scan_arguments_good(m, s, axis, value, segmented ? bits : NULL) ||
         !words_of(m, &how, key_of(m, value, downward, is_signed), &w) ||
-        !materialise_all(m, m->values->set_current, w.values, w.count))
+        !materialise_all_in_blocks(m, m->values->set_current, w.values, w.count))
         return NULL;
-    s = &m->values->sets[m->values->set_current];
-    struct device_buffer *ranks = ranks_of(m, s, axis, &w);
+    const struct rank_work work = {axis, &w};
+    struct device_buffer *ranks =
+        lines_worked(m, MACHINE_UINT(32), w.values, w.count, axis == 0, rank_work, &work);
     return ranks ? graph_buffer_node(m, MACHINE_UINT(32), m->values->set_current, ranks) : NULL;
 }

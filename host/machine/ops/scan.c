@@ -4,250 +4,22 @@
  * maximum of any type become a minimum of unsigned integers in another order; "and" becomes
  * "or" of complements; elements have 32, 64 or 128 bits. Integers of more than 16 bits are used
  * as they are in memory. Other conversions are ordinary values, which are fused with the
- * operations around them. Long lines are divided into runs: see kernels/scan.cl. For floats
- * machine_scan() specifies the length of a run; else the device does.
- */
+ * operations around them.
+ *
+ * Lines along an axis that is not cut into blocks (sequencers/) lie in one block each: every
+ * block's arrays are scanned by themselves, ghosts too. Along the one that is cut, columns of
+ * all blocks are brought together, scanned, and put back; where there is one axis, what comes
+ * before each block is found first (lines_chain()). */
 #include "ops/scan.h"
-
-#include <math.h>
-#include <stdio.h>
 
 #include "base/errors.h"
 #include "base/scalar.h"
 #include "base/types.h"
-#include "kernels.h"
 #include "memory/memory.h"
-#include "ops/near.h"
-#include "ops/near_lines.h"
-#include "ops/near_loops.h"
 #include "ops/spreads.h"
 #include "run/materialise.h"
+#include "sequencers/sequencers.h"
 #include "values/graph.h"
-
-enum { RUN_FLOATS = 512, LANES = 16 };
-enum { JOINS, FINISHES, FILLS };
-enum { UINT32, UINT64, UINT128, FLOAT32, FLOAT64 };
-
-static const struct element elements[] = {
-    [UINT32] = {"uint", "int", 0, 4},      [UINT64] = {"ulong", "long", 0, 8},
-    [UINT128] = {"ulong2", "long", 2, 16}, [FLOAT32] = {"float", "int", 1, 4},
-    [FLOAT64] = {"double", "long", 1, 8},
-};
-
-/* ---- lines and launches ---- */
-
-static struct device_buffer *buffer_for(struct machine *m, const struct element *e)
-{
-    const struct vpset *s = &m->values->sets[m->values->set_current];
-    return device_rows_get(m, geometry_rows(s, MACHINE_UINT(8 * (int)e->bytes)));
-}
-
-struct lines lines_of(const struct vpset *s, int axis, bool downward)
-{
-    struct lines l = {.base = (cl_ulong)s->halo,
-                      .inner_stride = s->pitch,
-                      .inner = (size_t)s->rows,
-                      .outer = 1,
-                      .length = s->dimensions[axis],
-                      .columns = 1,
-                      .width = s->width,
-                      .halo = s->halo,
-                      .along = axis == s->rank - 1};
-    size_t step = 1;
-    if (!l.along) {
-        l.columns = s->width;
-        l.inner = 1;
-        for (int a = axis + 1; a < s->rank - 1; a++)
-            l.inner *= (size_t)s->dimensions[a];
-        l.outer = s->rows / l.inner / (size_t)l.length;
-        step = l.inner * s->pitch;
-        l.outer_stride = step * (size_t)l.length;
-    }
-    l.step = (cl_long)step;
-    if (downward) {
-        l.base += step * (size_t)(l.length - 1);
-        l.step = -l.step;
-    }
-    return l;
-}
-
-static struct kernel_call part(struct machine *m, int number, const struct element *e,
-                               int lanes)
-{
-    char options[96];
-    snprintf(options, sizeof options, "-DPART=%d -DTYPE=%s -DMASK=%s -DKIND=%d -DLANES=%d",
-             number, e->name, e->mask, e->kind, lanes);
-    return call_begin(m, kernel_scan_cl, options, "scan");
-}
-
-/* How many neighbouring lines a work-item handles. */
-static int lanes_of(const struct lines *l, const struct element *e)
-{
-    return !l->along && l->columns >= LANES && e->kind != 2 ? LANES : 1;
-}
-
-static size_t rows_of(const struct lines *l, int lanes)
-{
-    return l->inner * (((size_t)l->columns + (size_t)lanes - 1) / (size_t)lanes);
-}
-
-static int run_of(const struct machine *m, const struct lines *l, const struct element *e)
-{
-    if (e->kind == 1)
-        return RUN_FLOATS;
-    if (m->device->shape.scan_run)
-        return m->device->shape.scan_run;
-    int runs = 4 * m->device->units, run = (l->length - 1) / runs + 1,
-        least = m->device->shape.scan_run_least;
-    return run < least ? least : run;
-}
-
-static enum machine_status scan_runs(struct machine *m, const struct lines *l,
-                                     const struct line_scan *j, int run, int runs,
-                                     struct device_buffer *totals, struct device_buffer *firsts)
-{
-    const struct element *e = j->element;
-    int lanes = lanes_of(l, e);
-    struct kernel_call c = part(m, 0, e, lanes);
-    call_lines(&c, l, run);
-    call_lines_rows(&c, l);
-    const int numbers[] = {(int)j->op, j->exclusive, j->context != NULL, j->bits != NULL,
-                           j->starts,  j->backward,  totals != NULL};
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
-        call_int(&c, numbers[i]);
-    call_argument(&c, e->bytes, &j->identity);
-    call_argument(&c, e->bytes, &j->flip);
-    call_argument(&c, e->bytes, &j->cut);
-    call_buffer(&c, j->in);
-    call_buffer(&c, j->context ? j->context : j->in);
-    call_buffer(&c, j->bits ? j->bits : j->in);
-    call_buffer(&c, j->out);
-    call_buffer(&c, totals ? totals : j->out);
-    call_buffer(&c, totals ? firsts : j->out);
-    return call_start_3d(&c, m, (size_t)runs, rows_of(l, lanes), l->outer, "scanning");
-}
-
-/* Runs a stage: JOINS, FINISHES or FILLS. The last takes what is in sums. */
-static enum machine_status scan_stage(struct machine *m, const struct lines *l,
-                                      const struct line_scan *j, int stage, int run, int runs,
-                                      struct origin from, struct device_buffer *totals,
-                                      struct device_buffer *firsts)
-{
-    const struct element *e = j->element;
-    int lanes = stage == FILLS && e->kind == 0 ? lanes_of(l, e) : 1;
-    struct kernel_call c = part(m, 1, e, 1);
-    call_lines(&c, l, run);
-    call_lines_rows(&c, l);
-    const int numbers[] = {lanes, stage, runs, (int)j->op, j->sums != NULL};
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
-        call_int(&c, numbers[i]);
-    call_argument(&c, e->bytes, &j->identity);
-    call_argument(&c, e->bytes, &j->flip);
-    call_argument(&c, e->bytes, &j->cut);
-    call_ulong(&c, from.base);
-    call_ulong(&c, from.inner);
-    call_ulong(&c, from.outer);
-    call_buffer(&c, j->out);
-    call_buffer(&c, totals ? totals : j->out);
-    call_buffer(&c, firsts ? firsts : j->out);
-    call_buffer(&c, j->sums ? j->sums : j->out);
-    if (stage == JOINS)
-        return call_start_3d(&c, m, (size_t)l->columns, l->inner * l->outer, 1, "scanning");
-    return call_start_3d(&c, m, (size_t)runs, rows_of(l, lanes), l->outer, "scanning");
-}
-
-static double elements_of(const struct lines *l)
-{
-    return (double)lines_count(l) * (double)l->length;
-}
-
-/* How many parts to make of lines. Those that are fewer than the threads are cut, and then read
- * twice (near_lines.c): that pays where the threads are at work anyway, and have parts of the
- * line in their caches; else in long loops, or for more threads than two. */
-static int parts_of(const struct machine *m, const struct lines *l, const struct line_scan *j)
-{
-    const struct device_shape *shape = &m->device->shape;
-    const size_t threads = (size_t)crew_size(m->device->crew);
-    const bool vectors = near_loops_by_vectors(j, (ptrdiff_t)l->step);
-    const double ns = vectors ? shape->scan_vector_ns : shape->scan_ns;
-    struct crew_costs costs = shape->share;
-    if (lines_count(l) < threads)
-        costs.asleep = vectors && threads < 3 ? INFINITY : shape->scan_cut_ns;
-    return device_parts_at(m, 1e-9 * ns * elements_of(l), &costs);
-}
-
-static enum machine_status scan_lines(struct machine *m, const struct lines *l,
-                                      const struct line_scan *j)
-{
-    const struct element *e = j->element;
-    int run = run_of(m, l, e), runs = (l->length - 1) / run + 1;
-    double start;
-    if (near_begin(m, j->out, &start)) {
-        near_lines_scan(m->device->crew, parts_of(m, l, j), l, j, run);
-        near_end(m, "scanning", start);
-        return MACHINE_OK;
-    }
-    bool joins = runs > 1 || j->sums;
-    size_t count = (size_t)runs * lines_count(l);
-    const struct origin none = {0, 0, 0};
-    struct device_buffer *totals = joins ? device_buffer_get(m, count * e->bytes) : NULL;
-    struct device_buffer *firsts =
-        totals ? device_buffer_get(m, count * sizeof(cl_uint)) : NULL;
-    enum machine_status status = joins && !firsts ? m->status : MACHINE_OK;
-    if (!status)
-        status = scan_runs(m, l, j, run, runs, totals, firsts);
-    if (!status && joins)
-        status = scan_stage(m, l, j, JOINS, run, runs, none, totals, firsts);
-    if (!status && runs > 1 && !j->sums)
-        status = scan_stage(m, l, j, FINISHES, run, runs, none, totals, firsts);
-    if (totals)
-        device_buffer_unref(m, totals);
-    if (firsts)
-        device_buffer_unref(m, firsts);
-    device_flush(m);
-    return status;
-}
-
-enum machine_status lines_sum_up(struct machine *m, struct device_buffer *b, size_t lines,
-                                 size_t length)
-{
-    struct lines l = {.step = 1,
-                      .inner_stride = length,
-                      .inner = lines,
-                      .outer = 1,
-                      .length = (cl_int)length,
-                      .columns = 1,
-                      .width = (cl_int)length,
-                      .along = 1};
-    struct line_scan j = {.element = &elements[UINT32],
-                          .op = LINES_ADD,
-                          .exclusive = true,
-                          .cut = {UINT32_MAX, 0},
-                          .in = b,
-                          .out = b};
-    return scan_lines(m, &l, &j);
-}
-
-/* Fills each line with one of its elements, given by `from`. */
-static enum machine_status fill_lines(struct machine *m, const struct lines *l,
-                                      const struct element *e, struct device_buffer *from,
-                                      struct origin origin, struct device_buffer *out)
-{
-    /* floats are copied as integers */
-    const struct element *same = &elements[e->bytes == 4   ? UINT32
-                                           : e->bytes == 8 ? UINT64
-                                                           : UINT128];
-    double start;
-    if (near_begin(m, out, &start)) {
-        int parts = device_parts(m, 1e-9 * m->device->shape.fill_ns * elements_of(l));
-        near_lines_fill(m->device->crew, parts, l, e->bytes, from, origin, out);
-        near_end(m, "scanning", start);
-        return MACHINE_OK;
-    }
-    struct line_scan j = {.element = same, .out = out, .sums = from};
-    int run = m->device->shape.fill_run, runs = (l->length - 1) / run + 1;
-    return scan_stage(m, l, &j, FILLS, run, runs, origin, NULL, NULL);
-}
 
 /* ---- what is combined, and how it is shown ---- */
 
@@ -262,7 +34,9 @@ struct form {
 
 static const struct element *bits_element(int width)
 {
-    return &elements[width <= 32 ? UINT32 : width <= 64 ? UINT64 : UINT128];
+    return &lines_elements[width <= 32   ? LINES_UINT32
+                           : width <= 64 ? LINES_UINT64
+                                         : LINES_UINT128];
 }
 
 static struct machine_value *flipped(struct machine *m, struct machine_value *v,
@@ -316,7 +90,7 @@ static struct machine_value *formed(struct machine *m, enum machine_scan_op c,
         return NULL;
     if (c == MACHINE_SCAN_FADD || c == MACHINE_SCAN_FMUL) {
         bool single = f->width == 32;
-        f->element = &elements[single ? FLOAT32 : FLOAT64];
+        f->element = &lines_elements[single ? LINES_FLOAT32 : LINES_FLOAT64];
         f->op = c == MACHINE_SCAN_FADD ? LINES_ADD : LINES_MULTIPLY;
         if (f->op == LINES_MULTIPLY)
             f->identity.lo = single ? 0x3f800000u : 0x3ff0000000000000u;
@@ -415,7 +189,44 @@ static bool is_constant(const struct machine_value *v, uint64_t bits)
     return v->op == NODE_CONSTANT && !v->buffer && v->imm.lo == bits && !v->imm.hi;
 }
 
+/* ---- work on one array, or on each block's ---- */
+
+static struct machine_type type_of(const struct element *e)
+{
+    return MACHINE_UINT(8 * (int)e->bytes);
+}
+
+static struct device_buffer *array_for(struct machine *m, const struct vpset *s,
+                                       const struct element *e)
+{
+    return device_rows_get(m, geometry_rows(s, type_of(e)));
+}
+
 /* ---- scans ---- */
+
+struct scan_work {
+    struct line_scan scan; /* without arrays */
+    int axis;
+    bool downward;
+};
+
+/* Of elements, the context, and bits. */
+static struct device_buffer *scan_work(struct machine *m, const struct vpset *s,
+                                       struct device_buffer *const *in, const void *of)
+{
+    const struct scan_work *w = of;
+    const struct lines l = lines_of(s, w->axis, w->downward);
+    struct line_scan j = w->scan;
+    j.in = in[0];
+    j.context = in[1];
+    j.bits = in[2];
+    j.out = array_for(m, s, j.element);
+    if (j.out && lines_scan(m, &l, &j)) {
+        device_buffer_unref(m, j.out);
+        return NULL;
+    }
+    return j.out;
+}
 
 struct machine_value *scan_boundaries(struct machine *m, const struct machine_scan *how)
 {
@@ -450,32 +261,30 @@ struct machine_value *scan_where(struct machine *m, const struct machine_scan *h
         values[masked = count++] = context;
     if (segmented && !is_constant(how->bits, 0))
         values[bits = count++] = how->bits;
-    if (!values[0] || !materialise_all(m, m->values->set_current, values, count))
+    if (!values[0] || !materialise_all_in_blocks(m, m->values->set_current, values, count))
         return NULL;
     s = &m->values->sets[m->values->set_current];
-    struct device_buffer *out = buffer_for(m, f.element);
+    const struct scan_work w = {
+        .scan = {.element = f.element,
+                 .op = f.op,
+                 .exclusive = how->exclusive,
+                 .streams = shape_streams_lanes(
+                     &m->device->shape, 2 * (double)s->count * (double)f.element->bytes),
+                 .starts = how->segments == MACHINE_START_BIT,
+                 .backward = bits && how->segments == MACHINE_SEGMENT_BIT && how->downward,
+                 .identity = f.identity,
+                 .flip = f.flip,
+                 .cut = f.cut},
+        .axis = how->axis,
+        .downward = how->downward};
+    struct machine_value *const in[3] = {values[0], masked ? values[masked] : NULL,
+                                         bits ? values[bits] : NULL};
+    struct device_buffer *out =
+        sequencers_have(m, in, 3) && lines_can_chain(m, &w.scan, how->downward)
+            ? lines_chain(m, type_of(f.element), &w.scan, how->downward, in)
+            : lines_worked(m, type_of(f.element), in, 3, how->axis == 0, scan_work, &w);
     if (!out)
         return NULL;
-    struct lines l = lines_of(s, how->axis, how->downward);
-    struct line_scan j = {
-        .element = f.element,
-        .op = f.op,
-        .exclusive = how->exclusive,
-        .streams = shape_streams_lanes(&m->device->shape,
-                                       2 * (double)s->count * (double)f.element->bytes),
-        .starts = how->segments == MACHINE_START_BIT,
-        .backward = bits && how->segments == MACHINE_SEGMENT_BIT && how->downward,
-        .identity = f.identity,
-        .flip = f.flip,
-        .cut = f.cut,
-        .in = values[0]->buffer,
-        .context = masked ? values[masked]->buffer : NULL,
-        .bits = bits ? values[bits]->buffer : NULL,
-        .out = out};
-    if (scan_lines(m, &l, &j)) {
-        device_buffer_unref(m, out);
-        return NULL;
-    }
     struct machine_value *v = shown(m, &f, m->values->set_current, out);
     if (v && ranks && s->rank == 1 && masked && values[masked]->buffer)
         known_ranks_note(m, v, values[masked]);
@@ -492,6 +301,69 @@ struct machine_value *machine_scan(struct machine *m, const struct machine_scan 
 
 /* ---- spreads ---- */
 
+struct spread_work {
+    struct line_scan scan; /* without arrays */
+    uint32_t axes;
+};
+
+/* Along one axis. NULL: error set. */
+static struct device_buffer *spread_along(struct machine *m, const struct vpset *s, int axis,
+                                          struct line_scan j)
+{
+    const struct lines l = lines_of(s, axis, false);
+    const struct origin from = {0, (cl_ulong)l.columns, l.inner * (cl_ulong)l.columns};
+    j.sums = device_buffer_get(m, lines_count(&l) * j.element->bytes);
+    j.out = j.sums ? array_for(m, s, j.element) : NULL;
+    const bool good =
+        j.out && !lines_scan(m, &l, &j) && !lines_fill(m, &l, j.element, j.sums, from, j.out);
+    if (j.sums)
+        device_buffer_unref(m, j.sums);
+    if (j.out && !good)
+        device_buffer_unref(m, j.out);
+    return good ? j.out : NULL;
+}
+
+/* Of elements, and the context. */
+static struct device_buffer *spread_work(struct machine *m, const struct vpset *s,
+                                         struct device_buffer *const *in, const void *of)
+{
+    const struct spread_work *w = of;
+    struct line_scan j = w->scan;
+    struct device_buffer *out = in[0];
+    device_buffer_ref(out);
+    j.context = in[1];
+    for (int axis = s->rank - 1; axis >= 0 && out; axis--) {
+        if (!(w->axes >> axis & 1))
+            continue;
+        struct device_buffer *before = out;
+        j.in = before;
+        out = spread_along(m, s, axis, j);
+        j.context = NULL; /* all processors have an element now */
+        device_buffer_unref(m, before);
+    }
+    return out;
+}
+
+/* Along the axis that is cut apart from the others. NULL: error set. */
+static struct device_buffer *spread_all(struct machine *m, struct spread_work *w,
+                                        struct machine_value *value,
+                                        struct machine_value *context)
+{
+    const struct element *e = w->scan.element;
+    struct machine_value *in[2] = {value, context};
+    const uint32_t axes = w->axes;
+    if (axes == 1 || !(axes & 1) || !sequencers_have(m, in, 2))
+        return lines_worked(m, type_of(e), in, 2, axes & 1, spread_work, w);
+    w->axes = axes & ~UINT32_C(1);
+    struct device_buffer *out = lines_worked(m, type_of(e), in, 2, false, spread_work, w);
+    if (!out)
+        return NULL;
+    w->axes = 1;
+    in[0] = graph_buffer_node(m, type_of(e), m->values->set_current, out);
+    in[1] = NULL;
+    return lines_worked(m, type_of(e), in, 2, true, spread_work, w);
+}
+
 struct machine_value *machine_spread(struct machine *m, enum machine_scan_op op, uint32_t axes,
                                      struct machine_value *value)
 {
@@ -507,62 +379,79 @@ struct machine_value *machine_spread(struct machine *m, enum machine_scan_op op,
     struct form f;
     struct machine_value *context = flag_held(m, m->values->set_current, MACHINE_CONTEXT);
     struct machine_value *values[2] = {formed(m, op, value, &f), context};
-    bool masked = !is_constant(context, 1);
-    if (!values[0] || !materialise_all(m, m->values->set_current, values, 1 + masked))
+    const bool masked = !is_constant(context, 1);
+    if (!values[0] || !materialise_all_in_blocks(m, m->values->set_current, values, 1 + masked))
         return NULL;
-    s = &m->values->sets[m->values->set_current];
-    struct device_buffer *out = values[0]->buffer;
-    device_buffer_ref(out);
-    for (int axis = s->rank - 1; axis >= 0; axis--) {
-        if (!(axes >> axis & 1))
-            continue;
-        struct lines l = lines_of(s, axis, false);
-        struct device_buffer *in = out;
-        struct device_buffer *sums = device_buffer_get(m, lines_count(&l) * f.element->bytes);
-        out = sums ? buffer_for(m, f.element) : NULL;
-        struct line_scan j = {.element = f.element,
-                              .op = f.op,
-                              .identity = f.identity,
-                              .flip = f.flip,
-                              .cut = f.cut,
-                              .in = in,
-                              .context = masked ? values[1]->buffer : NULL,
-                              .out = out,
-                              .sums = sums};
-        struct origin from = {0, (cl_ulong)l.columns, l.inner * (cl_ulong)l.columns};
-        bool good =
-            out && !scan_lines(m, &l, &j) && !fill_lines(m, &l, f.element, sums, from, out);
-        masked = false; /* all processors have an element now */
-        device_buffer_unref(m, in);
-        if (sums)
-            device_buffer_unref(m, sums);
-        if (!good) {
-            if (out)
-                device_buffer_unref(m, out);
-            return NULL;
-        }
-    }
+    struct spread_work w = {.scan = {.element = f.element,
+                                     .op = f.op,
+                                     .identity = f.identity,
+                                     .flip = f.flip,
+                                     .cut = f.cut},
+                            .axes = axes};
+    struct device_buffer *out = spread_all(m, &w, values[0], masked ? values[1] : NULL);
+    if (!out)
+        return NULL;
     device_flush(m);
     return shown(m, &f, m->values->set_current, out);
 }
 
-/* Fills the lines with elements of the value itself. */
-static struct machine_value *spread_copy(struct machine *m, const struct lines *l,
-                                         struct origin from, struct machine_value *value)
+/* Lines that are filled with one element each. */
+struct fill_work {
+    const struct element *element;
+    int axis;
+    size_t coordinate;          /* along the axis, of the elements */
+    bool one;                   /* one for all lines: */
+    size_t place;               /* in the array */
+    struct device_buffer *from; /* the array; NULL: the one at hand */
+};
+
+static struct device_buffer *fill_work(struct machine *m, const struct vpset *s,
+                                       struct device_buffer *const *in, const void *of)
 {
-    struct form f;
-    struct machine_value *v = formed(m, MACHINE_SCAN_COPY, value, &f);
-    if (!v || !materialise_all(m, m->values->set_current, &v, 1))
-        return NULL;
-    struct device_buffer *out = buffer_for(m, f.element);
-    if (!out)
-        return NULL;
-    if (fill_lines(m, l, f.element, v->buffer, from, out)) {
+    const struct fill_work *w = of;
+    const struct lines l = lines_of(s, w->axis, false);
+    const struct origin every = {l.base + w->coordinate * (cl_ulong)l.step, l.inner_stride,
+                                 l.outer_stride},
+                        one = {w->place, 0, 0};
+    struct device_buffer *out = array_for(m, s, w->element);
+    if (out &&
+        lines_fill(m, &l, w->element, w->from ? w->from : in[0], w->one ? one : every, out)) {
         device_buffer_unref(m, out);
         return NULL;
     }
+    return out;
+}
+
+/* With elements of the value itself: of that processor (`one`), or of those at its place on
+ * the axis. */
+static struct machine_value *spread_copy(struct machine *m, int axis, bool one, uint64_t index,
+                                         struct machine_value *value)
+{
+    const int set = m->values->set_current;
+    struct form f;
+    struct machine_value *v = formed(m, MACHINE_SCAN_COPY, value, &f), *in[3] = {NULL};
+    if (!v || !materialise_all_in_blocks(m, set, &v, 1))
+        return NULL;
+    const struct vpset *s = &m->values->sets[set];
+    struct fill_work w = {.element = f.element, .axis = axis, .one = one};
+    in[0] = v;
+    if (sequencers_have(m, &v, 1) && (one || axis == 0)) {
+        const struct owned owned = sequencers_owner(m, v->buffer, index);
+        w.from = owned.b;
+        w.coordinate = owned.plane;
+        w.place = owned.place;
+        in[0] = NULL; /* no block's own array */
+    } else {
+        w.coordinate = geometry_coordinate(s, axis, index);
+        w.place = geometry_place(s, index);
+    }
+    struct device_buffer *out =
+        w.from ? sequencers_each(m, set, type_of(f.element), in, 1, fill_work, &w)
+               : lines_worked(m, type_of(f.element), &v, 1, false, fill_work, &w);
+    if (!out)
+        return NULL;
     device_flush(m);
-    return shown(m, &f, m->values->set_current, out);
+    return shown(m, &f, set, out);
 }
 
 struct machine_value *machine_spread_coordinate(struct machine *m, int axis, int coordinate,
@@ -576,10 +465,10 @@ struct machine_value *machine_spread_coordinate(struct machine *m, int axis, int
     struct machine_value *spread = spreads_axis(m, axis, coordinate, value);
     if (spread || m->status)
         return spread;
-    struct lines l = lines_of(s, axis, false);
-    struct origin from = {l.base + (cl_ulong)coordinate * (cl_ulong)l.step, l.inner_stride,
-                          l.outer_stride};
-    return spread_copy(m, &l, from, value);
+    uint64_t index = (uint64_t)coordinate;
+    for (int a = axis + 1; a < s->rank; a++)
+        index *= (uint64_t)s->dimensions[a];
+    return spread_copy(m, axis, false, index, value);
 }
 
 struct machine_value *machine_spread_index(struct machine *m, uint64_t index,
@@ -593,8 +482,5 @@ struct machine_value *machine_spread_index(struct machine *m, uint64_t index,
     struct machine_value *spread = spreads_index(m, index, value);
     if (spread || m->status)
         return spread;
-    uint64_t width = (uint64_t)s->width;
-    struct lines l = lines_of(s, s->rank - 1, false);
-    struct origin from = {index / width * s->pitch + l.base + index % width, 0, 0};
-    return spread_copy(m, &l, from, value);
+    return spread_copy(m, s->rank - 1, true, index, value);
 }

@@ -3,6 +3,7 @@
 #define LUTETIA_MACHINE_SCAN_H
 
 #include "device/call.h"
+#include "sequencers/sequencers.h"
 #include "values/graph.h"
 
 /* Lines of elements in a buffer: see kernels/scan.cl. */
@@ -23,6 +24,10 @@ struct element {
     int kind;
     size_t bytes;
 };
+
+/* Which of the elements below. */
+enum { LINES_UINT32, LINES_UINT64, LINES_UINT128, LINES_FLOAT32, LINES_FLOAT64 };
+extern const struct element lines_elements[];
 
 struct line_scan {
     const struct element *element;
@@ -48,6 +53,24 @@ static inline size_t lines_count(const struct lines *l)
     return l->outer * l->inner * (size_t)l->columns;
 }
 
+/* Scans lines of an array, and fills each line with an element of `from`. */
+enum machine_status lines_scan(struct machine *m, const struct lines *l,
+                               const struct line_scan *j);
+enum machine_status lines_fill(struct machine *m, const struct lines *l,
+                               const struct element *e, struct device_buffer *from,
+                               struct origin origin, struct device_buffer *out);
+/* Work on arrays in one piece, or in blocks, where some of the values' arrays are; `across`: it
+ * looks along the first axis of the current set. NULL: error set. */
+struct device_buffer *lines_worked(struct machine *m, struct machine_type type,
+                                   struct machine_value *const *values, int count, bool across,
+                                   sequencers_work *work, const void *of);
+/* A scan of the only line of the current set, in blocks: of elements, the context and bits,
+ * some of whose arrays are in blocks. lines_can_chain(): whether it can be done so. NULL: error
+ * set. */
+bool lines_can_chain(struct machine *m, const struct line_scan *j, bool downward);
+struct device_buffer *lines_chain(struct machine *m, struct machine_type type,
+                                  const struct line_scan *j, bool downward,
+                                  struct machine_value *const in[3]);
 /* Replaces each 32-bit number of dense lines by the sum of those before it. */
 enum machine_status lines_sum_up(struct machine *m, struct device_buffer *b, size_t lines,
                                  size_t length);

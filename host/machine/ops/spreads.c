@@ -11,13 +11,15 @@
  *                       spread of a spread is a get, too
  *     spread (array)    get (place)
  *
- * Everything else is put into memory first. */
+ * Everything else is put into memory first. A set that is cut into blocks (sequencers/) has no
+ * such gets of its own arrays: scan.c fills each block's. */
 #include "ops/spreads.h"
 
 #include "ops/gets.h"
 #include "ops/index.h"
 #include "ops/scan.h"
 #include "run/materialise.h"
+#include "sequencers/sequencers.h"
 #include "values/graph.h"
 #include "values/make.h"
 
@@ -34,6 +36,7 @@ enum { SPREAD_NODES = 32, SPREAD_COST = 12, SPREAD_COST_ROW = 200 };
 
 struct pushing {
     const struct spread_from *from;
+    bool is_cut; /* the set is, so arrays are not got from */
     int nodes, cost;
 };
 
@@ -119,8 +122,9 @@ static struct machine_value *pushed(struct machine *m, struct pushing *p,
     if (--p->nodes < 0)
         return NULL;
     if (v->buffer && !node_is_cheap(v))
-        return v->set == p->from->set && gets_can(m, v, v->set) ? of_array(m, p->from, v)
-                                                                : NULL;
+        return !p->is_cut && v->set == p->from->set && gets_can(m, v, v->set)
+                   ? of_array(m, p->from, v)
+                   : NULL;
     if (v->op == NODE_COORDINATE && is_along(p->from, v->axis))
         return machine_constant(m, v->type,
                                 (struct machine_scalar){(uint64_t)p->from->at[v->axis], 0});
@@ -150,10 +154,11 @@ static struct machine_value *spread_value(struct machine *m, const struct spread
     if (!gets_can(m, v, from->set) || at_once || from->set != m->values->set_current)
         return NULL;
     struct pushing p = {.from = from,
+                        .is_cut = m->sequencers && sequencers_cut(m, from->set),
                         .nodes = SPREAD_NODES,
                         .cost = is_along(from, s->rank - 1) ? SPREAD_COST_ROW : SPREAD_COST};
     struct machine_value *spread = pushed(m, &p, v);
-    if (spread || m->status)
+    if (spread || m->status || p.is_cut)
         return spread;
     const struct machine_type type = v->type;
     v = materialise(m, from->set, in_memory(m, v));

@@ -54,11 +54,23 @@ bool materialise_has_strange_nan(struct machine_type type, const void *in, uint6
     return false;
 }
 
+static struct machine_value *upload_in_blocks(struct machine *m, int set,
+                                              struct machine_type type, const void *in)
+{
+    struct device_buffer *b = sequencers_upload(m, set, type, in);
+    struct machine_value *v = b ? graph_buffer_node(m, type, set, b) : NULL;
+    if (v)
+        v->strange_nan = materialise_has_strange_nan(type, in, m->values->sets[set].count);
+    return v;
+}
+
 struct machine_value *materialise_upload(struct machine *m, int set, struct machine_type type,
                                          const void *in)
 {
     const struct vpset *s = &m->values->sets[set];
     size_t element = type_bytes(type), bytes = geometry_bytes(s, type);
+    if (m->sequencers && sequencers_cut(m, set))
+        return upload_in_blocks(m, set, type, in);
     struct device_buffer *b = device_rows_get(m, geometry_rows(s, type));
     bool near = b && b->host && m->settings.near;
     if (near && m->watch)
@@ -102,25 +114,31 @@ void materialise_put(unsigned char *to, struct machine_scalar x, size_t element)
         memcpy(to + 8, &x.hi, 8);
 }
 
+/* The same number everywhere. */
+static struct machine_value *number_filled(struct machine *m, int set,
+                                           const struct machine_value *v, bool in_blocks)
+{
+    unsigned char pattern[16];
+    materialise_put(pattern, v->imm, type_bytes(v->type));
+    struct device_buffer *b =
+        in_blocks ? sequencers_fill(m, set, v->type, pattern)
+                  : device_rows_get(m, geometry_rows(&m->values->sets[set], v->type));
+    if (!b)
+        return NULL;
+    if (!in_blocks && device_fill(m, b, pattern, type_bytes(v->type), "filling a field")) {
+        device_buffer_unref(m, b);
+        return NULL;
+    }
+    struct machine_value *number = graph_buffer_node(m, v->type, set, b);
+    number->strange_nan = v->strange_nan;
+    return number;
+}
+
 struct machine_value *materialise(struct machine *m, int set, struct machine_value *v)
 {
     graph_borrow(m, v);
-    if (v->op == NODE_CONSTANT && !v->buffer) {
-        size_t element = type_bytes(v->type);
-        unsigned char pattern[16];
-        struct device_buffer *b =
-            device_rows_get(m, geometry_rows(&m->values->sets[set], v->type));
-        if (!b)
-            return NULL;
-        materialise_put(pattern, v->imm, element);
-        if (device_fill(m, b, pattern, element, "filling a field")) {
-            device_buffer_unref(m, b);
-            return NULL;
-        }
-        struct machine_value *number = graph_buffer_node(m, v->type, set, b);
-        number->strange_nan = v->strange_nan;
-        return number;
-    }
+    if (v->op == NODE_CONSTANT && !v->buffer)
+        return number_filled(m, set, v, false);
     if (!v->buffer ? evaluate_values(m, &v, 1, false)
                    : m->sequencers && sequencers_whole(m, v->buffer))
         return NULL;
@@ -138,6 +156,31 @@ bool materialise_all(struct machine *m, int set, struct machine_value **values, 
     for (int i = 0; m->sequencers && i < count; i++)
         if (sequencers_whole(m, values[i]->buffer))
             return false;
+    return true;
+}
+
+struct machine_value *materialise_in_blocks(struct machine *m, int set, struct machine_value *v)
+{
+    if (!m->sequencers || !sequencers_cut(m, set))
+        return materialise(m, set, v);
+    graph_borrow(m, v);
+    if (v->op == NODE_CONSTANT && !v->buffer)
+        return number_filled(m, set, v, true);
+    return v->buffer || !evaluate_in_blocks(m, &v, 1, false) ? v : NULL;
+}
+
+bool materialise_all_in_blocks(struct machine *m, int set, struct machine_value **values,
+                               int count)
+{
+    if (!m->sequencers || !sequencers_cut(m, set))
+        return materialise_all(m, set, values, count);
+    for (int i = 0; i < count; i++)
+        if (values[i]->op == NODE_CONSTANT &&
+            !(values[i] = materialise_in_blocks(m, set, values[i])))
+            return false;
+    for (int i = 0; i < count; i++)
+        if (!values[i]->buffer)
+            return evaluate_in_blocks(m, values, count, false) == MACHINE_OK;
     return true;
 }
 

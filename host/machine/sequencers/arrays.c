@@ -111,16 +111,6 @@ static struct side block_of(struct machine *m, const struct array_blocks *a, int
 
 /* ---- ghosts ---- */
 
-/* The block that has that plane, and where. */
-static int owner_of(const struct cut *c, int count, uint64_t plane, uint64_t *at)
-{
-    int i = 0;
-    while (i < count - 1 && plane >= c->first[i + 1])
-        i++;
-    *at = plane - c->first[i] + (uint64_t)c->ghosts;
-    return i;
-}
-
 /* Planes of a block's array, from that one on, which are other blocks' (or its own, once more
  * round the torus). */
 static enum machine_status ghosts_fetch(struct machine *m, const struct array_blocks *a,
@@ -130,7 +120,7 @@ static enum machine_status ghosts_fetch(struct machine *m, const struct array_bl
     enum machine_status status = MACHINE_OK;
     while (count && !status) {
         uint64_t plane = (cut_first(c, block) + from) % c->length, at;
-        const int owner = owner_of(c, a->count, plane, &at);
+        const int owner = cut_owner(c, a->count, plane, &at);
         uint64_t together = c->first[owner + 1] - plane;
         together = together < count ? together : count;
         status = planes_move(m, block_of(m, a, owner), at, block_of(m, a, block), from,

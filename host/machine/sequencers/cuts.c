@@ -22,6 +22,15 @@ uint64_t cut_first(const struct cut *c, int block)
     return (c->first[block] + c->length - back) % c->length;
 }
 
+int cut_owner(const struct cut *c, int count, uint64_t plane, uint64_t *at)
+{
+    int i = 0;
+    while (i < count - 1 && plane >= c->first[i + 1])
+        i++;
+    *at = plane - c->first[i] + (uint64_t)c->ghosts;
+    return i;
+}
+
 static int ghosts_of(const struct machine *m, const struct vpset *s)
 {
     if (m->settings.ghosts != SETTING_FREE)
@@ -53,6 +62,10 @@ static bool can_cut(const struct machine *m, const struct vpset *s, const struct
     const uint64_t least = forced ? m->settings.blocks_from : COUNT_LEAST,
                    plane = s->count / c->length;
     if (s->count < least || c->length < 2 || (c->height + c->length) * plane > INT32_MAX)
+        return false;
+    /* what is before a block's own planes is passed to kernels as columns: sequencers_band() */
+    if (s->rank > 1 &&
+        (uint64_t)c->ghosts * (s->rows / c->length) * s->pitch > INT32_MAX - LINE_BYTES)
         return false;
     return forced || c->length >= 2 * (uint64_t)m->sequencers->count * (uint64_t)c->ghosts;
 }

@@ -22,7 +22,7 @@
 
 #include "values/values.h"
 
-enum { BLOCKS_MOST = 64 };
+enum { BLOCKS_MOST = 64, SEQUENCERS_ARRAYS = 6 };
 
 /* How a VP set is cut. */
 struct cut {
@@ -42,8 +42,8 @@ struct sequencers {
     struct machine *machine;
     struct cut *cuts; /* by set */
     int cuts_count;
-    /* Plans run in blocks, each by all; arrays put into blocks, and together again; arrays
-     * whose ghosts were fetched. */
+    /* Plans, and whole instructions, run in blocks, each by all; arrays put into blocks, and
+     * together again; arrays whose ghosts were fetched. */
     uint64_t run, divided, gathered, exchanged;
 };
 
@@ -53,6 +53,8 @@ struct sequencers {
 const struct cut *sequencers_cut(struct machine *m, int set);
 /* The plane of the whole set that is the first of a block's array: a ghost. */
 uint64_t cut_first(const struct cut *c, int block);
+/* The block, of so many, that has that plane, and where in its arrays. */
+int cut_owner(const struct cut *c, int count, uint64_t plane, uint64_t *at);
 
 /* ---- arrays.c ---- */
 
@@ -66,5 +68,69 @@ enum machine_status sequencers_divide(struct machine *m, struct device_buffer *b
 /* Puts an array together again, if it is in blocks only: whoever looks at it without knowing
  * about blocks can. */
 enum machine_status sequencers_whole(struct machine *m, struct device_buffer *b);
+
+/* ---- bands.c: arrays in blocks, looked at and written without being put together ---- */
+
+/* A block's own part of the set: a set of its own planes, and where it is. */
+struct band {
+    struct vpset set;
+    size_t at;            /* of its first processor in the block's array, in elements */
+    uint64_t row, column; /* of its first processor in the whole set, */
+    uint64_t index;       /* and its index there */
+};
+struct band sequencers_band(struct machine *m, int set, int block);
+
+/* An array in blocks with all ghosts: of dense numbers in row-major order; the same number
+ * everywhere; a copy of an array in blocks only. refs 1; NULL: error set. */
+struct device_buffer *sequencers_upload(struct machine *m, int set, struct machine_type type,
+                                        const void *in);
+struct device_buffer *sequencers_fill(struct machine *m, int set, struct machine_type type,
+                                      const void *pattern);
+struct device_buffer *sequencers_copy(struct machine *m, const struct device_buffer *b);
+/* The same with any numbers. */
+struct device_buffer *sequencers_array_full(struct machine *m, int set,
+                                            struct machine_type type);
+/* Of an array in blocks only: whose block the processor is in, in which plane of it, and where,
+ * in elements. */
+struct owned {
+    struct device_buffer *b;
+    uint64_t plane;
+    size_t place;
+};
+struct owned sequencers_owner(struct machine *m, const struct device_buffer *b, uint64_t index);
+/* One processor's number, of an array in blocks only; written, it is that of ghosts, too. */
+enum machine_status sequencers_read(struct machine *m, const struct device_buffer *b,
+                                    uint64_t index, void *out);
+enum machine_status sequencers_write(struct machine *m, const struct device_buffer *b,
+                                     uint64_t index, const void *number);
+
+/* ---- each.c, across.c: the same work for each block; for some columns of all ---- */
+
+/* An array that follows from others of the same set, one of them for each value (NULL: that one
+ * is left out). NULL: error set. */
+typedef struct device_buffer *sequencers_work(struct machine *m, const struct vpset *s,
+                                              struct device_buffer *const *in, const void *of);
+/* Makes the values' arrays (NULL: there is none) ones in blocks, too. How many ghosts are valid
+ * of each; -1: error set. */
+int sequencers_divide_all(struct machine *m, int set, struct machine_value *const *values,
+                          int count);
+/* Whether some of the values' arrays are in blocks only: then all are asked for in blocks. */
+bool sequencers_have_some(struct machine_value *const *values, int count);
+static inline bool sequencers_have(const struct machine *m, struct machine_value *const *values,
+                                   int count)
+{
+    return m->sequencers && sequencers_have_some(values, count);
+}
+/* Makes an array of that type in blocks, each by `work` of the block's arrays. The work looks
+ * at no other plane. NULL: error set. */
+struct device_buffer *sequencers_each(struct machine *m, int set, struct machine_type type,
+                                      struct machine_value *const *values, int count,
+                                      sequencers_work *work, const void *of);
+/* The same of work that looks along the first axis, and at no other column: columns of all
+ * blocks together are its set. Only where sequencers_can_across(). */
+bool sequencers_can_across(const struct machine *m, int set);
+struct device_buffer *sequencers_across(struct machine *m, int set, struct machine_type type,
+                                        struct machine_value *const *values, int count,
+                                        sequencers_work *work, const void *of);
 
 #endif

@@ -65,6 +65,26 @@ size_t geometry_place(const struct vpset *s, uint64_t index)
     return index / (uint64_t)s->width * s->pitch + (size_t)s->halo + index % (uint64_t)s->width;
 }
 
+uint64_t geometry_coordinate(const struct vpset *s, int axis, uint64_t index)
+{
+    for (int i = s->rank - 1; i > axis; i--)
+        index /= (uint64_t)s->dimensions[i];
+    return index % (uint64_t)s->dimensions[axis];
+}
+
+int geometry_places(const struct vpset *s, uint64_t index, size_t places[3])
+{
+    size_t at = geometry_place(s, index), column = index % (uint64_t)s->width,
+           width = (size_t)s->width;
+    int count = 0;
+    places[count++] = at;
+    if (column < (size_t)s->halo)
+        places[count++] = at + width;
+    if (column >= width - (size_t)s->halo)
+        places[count++] = at - width;
+    return count;
+}
+
 int machine_vpset_current(const struct machine *m)
 {
     return m->values->set_current;

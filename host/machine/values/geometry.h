@@ -26,6 +26,9 @@ void geometry_layout(const struct machine *m, struct machine_layout *l, const in
                      int rank, enum machine_order order);
 /* The position of a processor in a buffer, in elements. */
 size_t geometry_place(const struct vpset *s, uint64_t index);
+/* The same, and where the row's halo repeats it; returns how many places. */
+int geometry_places(const struct vpset *s, uint64_t index, size_t places[3]);
+uint64_t geometry_coordinate(const struct vpset *s, int axis, uint64_t index);
 /* Of a buffer for one value of that type: its rows, and 16 elements more where they have a
  * halo. */
 size_t geometry_bytes(const struct vpset *s, struct machine_type type);
