@@ -20,7 +20,7 @@ local function stalk(x, lean, width, ink, joints, top)
   local y = h + 10 * scale
   for joint = 1, joints do
     local length = (joint == joints and 0.8 or 1) * (h + 10 * scale - top * scale) / joints
-    b:dip{water = 1, ink = ink * 0.25}
+    b:dip{water = 1, ink = ink * 0.12}
     b:dip({water = 0.8, ink = ink}, {side = {-1, -0.35}})
     b:dip({water = 0.9, ink = ink * 0.6, ["burnt umber"] = ink * 0.1}, {side = {0.75, 1}})
     local x1, x2 = x + lean * (h - y) / h, x + lean * (h - y + length) / h
@@ -29,8 +29,8 @@ local function stalk(x, lean, width, ink, joints, top)
     y = y - length
   end
 end
-stalk(w * 0.47, 40 * scale, 24, 0.9, 5, 20)
-stalk(w * 0.35, -30 * scale, 15, 0.45, 6, 110)
+stalk(w * 0.47, 40 * scale, 24, 0.45, 5, 20)
+stalk(w * 0.35, -30 * scale, 15, 0.2, 6, 110)
 
 -- twigs and leaves
 local lines = svg("bamboo.svg")
@@ -52,7 +52,7 @@ p:dry()
 -- the seal
 p:seal()
 local seal = rect(w * 0.80, h * 0.86, 44 * scale, 44 * scale) - text("L", {size = 46 * scale, x = w * 0.80 + 22 * scale, y = h * 0.86 + 38 * scale, align = "center"})
-p:put(seal, {water = 0.1, ["cadmium red"] = 1.4})
+p:put(seal, {water = 0.1, ["cadmium red"] = 2.5, ["burnt umber"] = 0.35})
 p:step(12)
 p:dry()
 p:frame("bamboo.png")

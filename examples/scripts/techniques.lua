@@ -25,8 +25,8 @@ end
 p:resist(polygon(star))
 local x, y = cell(1)
 p:wash({water = 0.6, [blue] = 0.9}, {from = {x, y}, to = {x, y + side}, into = {water = 0.6, [rose] = 0.35}, mask = square(1)})
-for _, i in ipairs{3, 4, 6} do p:put(square(i), {water = 0.6, [blue] = 0.7, [green] = 0.25}) end
-p:put(square(5), {water = 0.6, [green] = 0.8})
+for _, i in ipairs{3, 4, 6} do p:put(square(i), {water = 0.6, [blue] = 0.35, [green] = 0.6}) end
+p:put(square(5), {water = 0.6, [blue] = 0.5})
 p:put(square(8), {water = 0.6, [blue] = 0.5, [rose] = 0.5})
 mx, my = middle(2)
 p:splatter({x = mx, y = my, radius = 46 * scale, drops = 90, size = {math.max(0.1, 0.6 * scale), math.max(1, 9 * scale)}, seed = 4}, {water = 0.7, [rose] = 0.9})

@@ -68,14 +68,14 @@ p:step(steps // 5)
 local b = p:brush{kind = "bristle", width = 9 * scale, depth = math.max(1, 4 * scale), reach = 700 * scale, load = 0.8, follows = true}
 local stem = p:brush{kind = "rigger", width = math.max(1, 4 * scale), reach = 900 * scale}
 local function fir(x, foot, height)
-  stem:dip{water = 1, ["burnt umber"] = 1.2, ["french ultramarine"] = 0.9}
+  stem:dip{water = 1, ["burnt umber"] = 1.8, ["french ultramarine"] = 1.4}
   p:stroke{brush = stem, points = {{x, foot}, {x + scale, foot - height * 0.5}, {x, foot - height}}, pressure = {0.9, 0.4, 0.1}, pace = 0, speed = 600 * scale}
   local tiers = math.floor(height / (7 * scale))
   for tier = 0, tiers do
     local part = tier / tiers
     local y, reach = foot - height * (0.94 - 0.84 * part), height * (0.04 + 0.21 * part) * (0.8 + 0.4 * math.random())
     if tier % 3 == 0 then
-      b:dip({water = 0.9, ["phthalo green"] = 0.8, ["french ultramarine"] = 0.8, ["burnt umber"] = 0.7}, {part = 0.8})
+      b:dip({water = 0.9, ["phthalo green"] = 1.6, ["french ultramarine"] = 1.4, ["burnt umber"] = 1.6}, {part = 0.8})
     end
     for side = -1, 1, 2 do
       p:stroke{brush = b, points = {{x, y - 3 * scale}, {x + side * reach * 0.6, y + reach * 0.16}, {x + side * reach, y + reach * 0.45}},
