@@ -52,8 +52,9 @@ static void overfull_check(lua_State *L, int level)
         return;
     luaL_where(L, level);
     char text[128];
-    snprintf(text, sizeof text, "not enough memory: %.0f MB more than --memory allows (%.0f)",
-             more * 1e-6, (double)script->config->memory_bytes * 1e-6);
+    snprintf(text, sizeof text, "not enough memory: %.0f MB more than %s allows (%.0f)",
+             more * 1e-6, script_memory_limit(script),
+             (double)script->config->memory_bytes * 1e-6);
     lua_pushstring(L, text);
     lua_concat(L, 2);
     lua_error(L);
@@ -113,6 +114,11 @@ int script_fail(lua_State *L, const char *text)
 
 /* ---- memory ---- */
 
+const char *script_memory_limit(const struct script *script)
+{
+    return script->answers ? "its limit" : "--memory";
+}
+
 /* What a process takes tells nothing of a map, which is a small part of it; nor under a
  * sanitizer, which keeps what is freed. Where nobody watches (a test's own state), it may be
  * anything. */
@@ -122,7 +128,7 @@ static bool process_tells(const struct script *script)
     (void)script;
     return false;
 #else
-    return !script->answers && script->host->overdue;
+    return !script->guest && script->host->overdue;
 #endif
 }
 
@@ -165,8 +171,9 @@ void script_memory_take(lua_State *L, double bytes, const char *what)
                      script->papers_made ? "the process, with the papers' machine,"
                                          : "the process",
                      resident_bytes() * 1e-6);
-        snprintf(text, sizeof text, "%.0f MB for %s, %sand --memory allows %.0f in all",
-                 bytes * 1e-6, what, taken, (double)script->config->memory_bytes * 1e-6);
+        snprintf(text, sizeof text, "%.0f MB for %s, %sand %s allows %.0f in all", bytes * 1e-6,
+                 what, taken, script_memory_limit(script),
+                 (double)script->config->memory_bytes * 1e-6);
         luaL_error(L, "not enough memory: %s", text);
     }
     script->memory_bytes += (size_t)bytes;
@@ -179,8 +186,8 @@ void script_memory_machine(lua_State *L)
         luaL_error(L,
                    "not enough memory: papers need a machine, whose driver takes %d MB as it "
                    "begins, and "
-                   "--memory allows %d in all",
-                   (int)(SCRIPT_MACHINE_BYTES * 1e-6),
+                   "%s allows %d in all",
+                   (int)(SCRIPT_MACHINE_BYTES * 1e-6), script_memory_limit(script),
                    (int)((double)script->config->memory_bytes * 1e-6));
 }
 

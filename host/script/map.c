@@ -294,7 +294,8 @@ static void map_configure(struct script_map *map, const struct script_map_def *d
                                   .host = &map->host,
                                   .began_s = script_clock_s(),
                                   .clock = CLOCK_MONOTONIC,
-                                  .answers = true};
+                                  .answers = true,
+                                  .guest = true};
 }
 
 enum script_status script_map_open(const struct script_map_def *def, struct script_map **out)

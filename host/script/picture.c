@@ -44,6 +44,16 @@ static void picture_allocate(lua_State *L, struct script_picture *picture)
         luaL_error(L, "no memory for a picture of %dx%d", picture->width, picture->height);
 }
 
+const uint8_t *script_picture_pixels(lua_State *L, int index, int *width, int *height)
+{
+    const struct script_picture *picture = luaL_testudata(L, index, script_picture_type);
+    if (!picture)
+        return NULL;
+    *width = picture->width;
+    *height = picture->height;
+    return picture->rgb;
+}
+
 static uint8_t byte_of(double value)
 {
     return (uint8_t)lround(255 * (value > 0 ? value < 1 ? value : 1 : 0));

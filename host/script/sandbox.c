@@ -21,6 +21,8 @@ const char *script_path(lua_State *L, const char *folder, const char *name, cons
     for (const char *c = name; *c; c++)
         if ((unsigned char)*c < ' ' || *c == 127)
             luaL_error(L, "%s's name has a control character in it", what);
+    if (!folder)
+        luaL_error(L, "%s '%s': this script has no files", what, name);
     if (script_of(L)->config->trusted && name[0] == '/')
         return lua_pushstring(L, name);
     const char *path = lua_pushfstring(L, "%s/%s", folder, name);
@@ -55,7 +57,8 @@ const char *script_path(lua_State *L, const char *folder, const char *name, cons
 static bool edits_are_here(const struct script_config *config, const char *name)
 {
     char path[PATH_MAX];
-    int n = snprintf(path, sizeof path, "%s/%s", config->in_folder, name);
+    int n =
+        config->in_folder ? snprintf(path, sizeof path, "%s/%s", config->in_folder, name) : 0;
     return n > 0 && n < (int)sizeof path && name[0] != '/' && font_edits_is(path);
 }
 

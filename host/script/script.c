@@ -105,8 +105,9 @@ void script_failure_tell(lua_State *L, int status)
     char line[1200];
     if (status == LUA_ERRMEM ||
         (script->memory_short && text && strcmp(text, "not enough memory") == 0))
-        snprintf(line, sizeof line, "%s: not enough memory; --memory allows %.0f MB",
-                 script->config->path, (double)script->config->memory_bytes * 1e-6);
+        snprintf(line, sizeof line, "%s: not enough memory; %s allows %.0f MB",
+                 script->config->path, script_memory_limit(script),
+                 (double)script->config->memory_bytes * 1e-6);
     else
         snprintf(line, sizeof line, "%s", text ? text : "error");
     one_line(line);

@@ -33,8 +33,8 @@ enum { SCRIPT_WORDS_MAX = 64 };
 /* The script, and its limits. */
 struct script_config {
     const char *path;       /* the script's file */
-    const char *in_folder;  /* for pictures, drawings and papers that it reads */
-    const char *out_folder; /* for files that it writes */
+    const char *in_folder;  /* for pictures, drawings and papers that it reads; NULL: none */
+    const char *out_folder; /* for files that it writes; NULL: none */
     bool trusted;           /* no sandbox: Lua's whole library, and any file names */
     double timeout_s;       /* 0: any */
     bool patient;   /* what papers at work are doing is worth waiting for: it will be saved */

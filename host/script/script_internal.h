@@ -48,8 +48,10 @@ struct script {
     size_t memory_bytes;    /* taken */
     bool memory_short;      /* an allocation of Lua's was refused */
     struct patience before; /* of the thread, before the script (limits.c) */
-    /* it is asked again and again, and each answer has its own time (script_map.h) */
+    /* it is asked again and again, and each answer has its own time (script_map.h,
+     * script_live.h) */
     bool answers;
+    bool guest;              /* a small part of its process, whose memory tells nothing of it */
     const char *stack_begin; /* where the C stack was when the script began; NULL: not known */
     lua_Integer objects_numbered;
     bool over; /* only finalizers run, which can no longer call the library */
@@ -99,6 +101,8 @@ void script_memory_machine(lua_State *L);
 void script_memory_hold(lua_State *L, double bytes, const char *what);
 void script_memory_release(lua_State *L, int index);
 void script_limits_open(lua_State *L);
+/* What says how much memory it may take, in messages. */
+const char *script_memory_limit(const struct script *script);
 /* The memory that may still be allocated. */
 double script_memory_left(const struct script *script);
 
@@ -235,6 +239,12 @@ int script_mask_text_push(lua_State *L, int index);
 void script_mask_text_fit(lua_State *L, int index, int width, int height, double margin);
 /* Pushes a mask with a copy of the gray values. */
 void script_mask_push(lua_State *L, const uint8_t *gray, int width, int height, int x, int y);
+
+/* ---- pictures ---- */
+
+/* The pixels of the picture at an index, red, green, blue, rows without gaps; NULL: it is no
+ * picture. Owns: the state. */
+const uint8_t *script_picture_pixels(lua_State *L, int index, int *width, int *height);
 
 /* ---- calls ---- */
 

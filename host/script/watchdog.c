@@ -45,6 +45,10 @@ static void *watch(void *context)
     pthread_mutex_lock(&w->lock);
     while (!w->over) {
         struct timespec until;
+        if (w->paused) {
+            pthread_cond_wait(&w->changed, &w->lock);
+            continue;
+        }
         clock_gettime(CLOCK_MONOTONIC, &until);
         until.tv_nsec += (long)(LOOK_S * 1e9);
         until.tv_sec += until.tv_nsec / 1000000000;
@@ -105,6 +109,7 @@ void script_watchdog_pause(struct script *script, bool paused)
         return;
     pthread_mutex_lock(&w->lock);
     w->paused = paused;
+    pthread_cond_signal(&w->changed);
     w->grace_from_s = script_clock_s();
     pthread_mutex_unlock(&w->lock);
 }
