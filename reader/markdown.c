@@ -62,18 +62,51 @@ static void last_line_end_drop(struct reader_block *block)
     block->spans[block->spans_count - 1].end = block->bytes;
 }
 
+/* Whether one of the words behind an info string's first is this one. */
+static bool info_says(const char *info, const char *word)
+{
+    const size_t bytes = strlen(word);
+    for (const char *at = info + strcspn(info, " \t"); *at; at += strcspn(at, " \t")) {
+        at += strspn(at, " \t");
+        if (strcspn(at, " \t") == bytes && strncmp(at, word, bytes) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* The stage that a fence's script has: the first word WIDTHxHEIGHT, within bounds, or as
+ * usual. */
+static void stage_read(const char *info, struct reader_block *block)
+{
+    block->stage_width = READER_STAGE_WIDTH;
+    block->stage_height = READER_STAGE_HEIGHT;
+    for (const char *at = info + strcspn(info, " \t"); *at; at += strcspn(at, " \t")) {
+        int width = 0, height = 0, read = 0;
+        at += strspn(at, " \t");
+        const size_t bytes = strcspn(at, " \t");
+        if (sscanf(at, "%5dx%5d%n", &width, &height, &read) != 2 || (size_t)read != bytes)
+            continue;
+        if (width >= READER_STAGE_LEAST && width <= READER_STAGE_MOST &&
+            height >= READER_STAGE_LEAST && height <= READER_STAGE_MOST) {
+            block->stage_width = width;
+            block->stage_height = height;
+        }
+        return;
+    }
+}
+
 static void code_read(struct walk *w, cmark_node *node)
 {
     const char *info = cmark.node_get_fence_info(node);
     size_t first = strcspn(info ? info : "", " \t");
-    bool live =
-        info &&
-        ((strncmp(info, "lua", first) == 0 && first == 3 && strstr(info + first, "live")) ||
-         (first == 1 && *info == 'c' && strstr(info + first, "paris")));
+    bool lua = info && first == 3 && strncmp(info, "lua", 3) == 0 && info_says(info, "live");
+    bool live = lua || (info && first == 1 && *info == 'c' && info_says(info, "paris"));
     bool math = info && first == 4 && strncmp(info, "math", 4) == 0 &&
                 strlen(cmark.node_get_literal(node)) <= READER_FORMULA_BYTES;
     open_block(w, math ? READER_MATH : live ? READER_LIVE : READER_CODE_BLOCK, node);
     w->b.block.info = copy_of(w, info);
+    if (lua)
+        stage_read(info, &w->b.block);
     reader_code_add(&w->b, cmark.node_get_literal(node), math ? READER_FORMULA : READER_CODE);
     if (w->b.status == READER_OK)
         last_line_end_drop(&w->b.block);

@@ -188,6 +188,19 @@ static enum reader_status code_add(struct reader_pages *p, const struct reader_b
     return status;
 }
 
+/* Its picture's room, where somebody will draw it, and its text. */
+static enum reader_status live_add(struct reader_pages *p, const struct reader_block *block)
+{
+    struct page_manner manner = pages_manner(p, CONTEXT_TABLE);
+    if (p->setup.stage_strip_px <= 0 || !block->stage_width)
+        return code_add(p, block);
+    manner_nest(p, block, &manner);
+    manner.before_px = 0.6 * p->setup.size_px;
+    manner.keep_with_next = true;
+    enum reader_status status = pages_stage_add(p, block, &manner);
+    return status == READER_OK ? code_add(p, block) : status;
+}
+
 static enum reader_status math_add(struct reader_pages *p, const struct reader_block *block)
 {
     struct paragraph_text t = {0};
@@ -266,9 +279,10 @@ static enum reader_status block_add(struct reader_pages *p, const struct reader_
     case READER_HEADING:
         return heading_add(p, block);
     case READER_CODE_BLOCK:
-    case READER_LIVE:
     case READER_HTML:
         return code_add(p, block);
+    case READER_LIVE:
+        return live_add(p, block);
     case READER_MATH:
         return math_add(p, block);
     case READER_RULE:

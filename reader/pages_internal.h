@@ -132,6 +132,10 @@ enum reader_status pages_passage_add(struct reader_pages *p, int first, int coun
 enum reader_status pages_picture_add(struct reader_pages *p, const struct reader_block *block,
                                      const struct page_manner *manner, bool *done);
 
+/* pages_stage.c: room for the picture of a script that lives, and for the strip under it. */
+enum reader_status pages_stage_add(struct reader_pages *p, const struct reader_block *block,
+                                   const struct page_manner *manner);
+
 /* pages_table.c: the rows of one table, blocks[0..count). */
 enum reader_status pages_table_add(struct reader_pages *p, const struct reader_block *blocks,
                                    int count);

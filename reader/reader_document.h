@@ -13,7 +13,8 @@
  *     $x^2$, $$x^2$$, ```math     formulas in TeX's notation: within a line, on lines of their
  *                                 own
  *     [^name], [^margin:name]     notes; what stands before a colon is the note's class
- *     ```lua live, ```c paris     fences that will live: for now they are shown
+ *     ```lua live, ```c paris     fences that live: a script on a stage, and a program, which
+ *                                 for now is shown
  * A dollar begins a formula where no blank follows, and no letter, digit or backslash stands
  * before it; it ends one where no blank stands before it and no letter or digit follows, within
  * the same paragraph. In code there are none.
@@ -53,7 +54,12 @@ enum {
     READER_NOTE_BYTES = 128 << 10,
     READER_FORMULA_BYTES = 8192,  /* what is longer is no formula: it stands as it is written */
     READER_PASSAGE_BYTES = 32768, /* a longer paragraph is several, which go on */
-    READER_DEPTH_MAX = 12         /* deeper items and quotes are shown as deep as this */
+    READER_DEPTH_MAX = 12,        /* deeper items and quotes are shown as deep as this */
+    /* a stage's sides in pixels: usual ones, and the bounds of those that are said */
+    READER_STAGE_WIDTH = 600,
+    READER_STAGE_HEIGHT = 240,
+    READER_STAGE_LEAST = 16,
+    READER_STAGE_MOST = 1600
 };
 
 /* How letters look; bits. */
@@ -98,11 +104,12 @@ struct reader_block {
     int bytes;
     struct reader_span *spans;
     int spans_count;
-    int source;                /* of the document's, from 0 */
-    int first_line, last_line; /* of that, from 1 */
-    char *info, *target;       /* NULL: none */
-    int table;                 /* of a row: which table, from 0 */
-    bool head;                 /* of a row: the table's first */
+    int source;                    /* of the document's, from 0 */
+    int first_line, last_line;     /* of that, from 1 */
+    char *info, *target;           /* NULL: none */
+    int stage_width, stage_height; /* of a script that lives, its picture's; else 0 */
+    int table;                     /* of a row: which table, from 0 */
+    bool head;                     /* of a row: the table's first */
     int columns;
     char aligns[READER_COLUMNS_MAX]; /* of a row: l, c, r */
     size_t at; /* of its text in the document's plain text, once that has been made */

@@ -13,7 +13,8 @@
  * smaller. A table whose columns have no room beside each other is set row by row, each cell
  * behind its column's name. Pictures that are found are shown no wider than the column, and
  * their captions under them; others, and all where the font of code has no full block (U+2588),
- * are told by their captions and files. Code that lives is shown.
+ * are told by their captions and files. A script that lives is set as its code, and over it is
+ * room for its picture where somebody will draw it (stage_strip_px).
  *
  * Errors: functions that can fail return a status and leave one line in reader_error().
  *
@@ -48,6 +49,9 @@ struct reader_pages_setup {
     int columns;
     enum font_align align;
     bool hyphenate;
+    /* more than 0: over scripts that live there is room for their pictures, and so much under
+     * each of them */
+    double stage_strip_px;
     bool running; /* page numbers, and the chapter over each page */
     double ink_link[3],
         ink_struck[3]; /* sRGB, 0..1: of links and notes' signs, and of what is struck out */

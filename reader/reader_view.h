@@ -92,6 +92,15 @@ struct reader_box {
 int reader_view_boxes(struct reader_view *view, size_t begin, size_t end,
                       struct reader_box *boxes, int most);
 
+/* A script that lives: which of the document's blocks it is, and where its picture is. */
+struct reader_stage {
+    int block;
+    double x, y, width, height;
+};
+/* That of a passage that is seen; false: it has none, or the setup has no room for them. */
+bool reader_view_stage(struct reader_view *view, const struct reader_shown *shown,
+                       struct reader_stage *out);
+
 /* Opens a note where the byte calls it, or closes it. Errors: BAD_ARGUMENT (no such note),
  * NO_MEMORY. */
 enum reader_status reader_view_note(struct reader_view *view, int note, size_t byte);

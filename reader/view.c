@@ -273,7 +273,7 @@ static bool same_column(const struct reader_pages_setup *a, const struct reader_
 {
     return a->width_px == b->width_px && a->margin_px == b->margin_px &&
            a->notes_px == b->notes_px && a->gap_px == b->gap_px && a->align == b->align &&
-           a->hyphenate == b->hyphenate;
+           a->hyphenate == b->hyphenate && a->stage_strip_px == b->stage_strip_px;
 }
 
 /* The same fonts in another column: what was set goes. */

@@ -191,6 +191,31 @@ bool reader_view_hit(struct reader_view *view, double x, double y, size_t *byte,
     return true;
 }
 
+/* ---- stages ---- */
+
+bool reader_view_stage(struct reader_view *view, const struct reader_shown *shown,
+                       struct reader_stage *out)
+{
+    const struct view_passage *p = &view->passages[shown->passage];
+    const struct reader_block *block = &view->document->blocks[p->first];
+    struct page_box box;
+    int count;
+    if (block->kind != READER_LIVE || !block->stage_width || view->setup.stage_strip_px <= 0 ||
+        shown->passage < view->begin || shown->passage >= view->end)
+        return false;
+    const int id = view->loaded[shown->passage - view->begin].paragraphs[0].id;
+    if (page_select(view->pages->text, (struct page_place){id, 0}, (struct page_place){id, 1},
+                    shown->passage - view->begin, &box, 1, &count) != FONT_OK ||
+        count < 1)
+        return false;
+    *out = (struct reader_stage){.block = p->first,
+                                 .x = round(box.x),
+                                 .y = round(box.y + shown->y_px + shown->text_px),
+                                 .width = round(box.width)};
+    out->height = round(block->stage_height * out->width / block->stage_width);
+    return true;
+}
+
 /* ---- boxes ---- */
 
 /* Those of one span's letters from..to, of the paragraph's bytes. */

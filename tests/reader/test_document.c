@@ -102,6 +102,40 @@ static void blocks_are(const char *markdown, const char *expected)
 
 /* ---- tests ---- */
 
+/* A script that lives has a stage: as large as its fence says, where that can be. */
+static void live_scripts_have_stages(void **state)
+{
+    static const struct {
+        const char *info;
+        int width, height;
+    } fences[] = {{"lua live", 600, 240},
+                  {"lua live 320x200", 320, 200},
+                  {"lua 320x200 live", 320, 200},
+                  {"lua\tlive  16x1600 7x7", 16, 1600},
+                  {"lua live 15x200", 600, 240},
+                  {"lua live 320x1601", 600, 240},
+                  {"lua live 320x200px", 600, 240},
+                  {"lua live -320x200", 600, 240},
+                  {"lua live 99999999999x200", 600, 240},
+                  {"lua alive", 0, 0},
+                  {"lua", 0, 0},
+                  {"lualive live", 0, 0},
+                  {"c paris 320x200", 0, 0},
+                  {"", 0, 0}};
+    (void)state;
+    for (size_t i = 0; i < sizeof fences / sizeof *fences; i++) {
+        char text[100];
+        snprintf(text, sizeof text, "```%s\nx = 1\n```\n", fences[i].info);
+        struct reader_document *d = read_all(text, strlen(text));
+        assert_int_equal(d->blocks_count, 1);
+        assert_int_equal(d->blocks[0].stage_width, fences[i].width);
+        assert_int_equal(d->blocks[0].stage_height, fences[i].height);
+        if (fences[i].width)
+            assert_int_equal(d->blocks[0].kind, READER_LIVE);
+        reader_document_destroy(d);
+    }
+}
+
 static void blocks_are_those_of_markdown(void **state)
 {
     (void)state;
@@ -336,6 +370,7 @@ static void what_is_too_large_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(live_scripts_have_stages),
         cmocka_unit_test(blocks_are_those_of_markdown),
         cmocka_unit_test(notes_have_numbers_names_and_classes),
         cmocka_unit_test(formulas_are_kept_from_markdown),

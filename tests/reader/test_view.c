@@ -383,6 +383,57 @@ static void hard_documents(void **state)
     }
 }
 
+/* Where scripts live there is room for their pictures over their text: as wide as their fences
+ * say or as the column is, at every width; without a strip there is none. */
+static void stages_have_room(void **state)
+{
+    (void)state;
+    static const char text[] = "One.\n\n```lua live 400x100\nfirst line\nsecond\n```\n\n"
+                               "> ```lua live\n> quoted\n> ```\n\n```lua\ndead\n```\n\nLast.\n";
+    struct reader_document *d = read_text(text);
+    struct reader_pages_setup setup = usual_setup();
+    for (int width = 120; width <= 1200; width += 60) {
+        setup.width_px = width;
+        setup.height_px = 3000;
+        setup.margin_px = 20;
+        setup.stage_strip_px = 30;
+        struct reader_view *view = view_of(d, &setup);
+        int count, stages = 0;
+        const struct reader_shown *shown = look(view, &count);
+        assert_int_equal(count, 5);
+        for (int i = 0; i < count; i++) {
+            struct reader_stage stage;
+            struct reader_box code = {0};
+            if (!reader_view_stage(view, &shown[i], &stage))
+                continue;
+            stages++;
+            const struct reader_block *block = &d->blocks[stage.block];
+            assert_true(block->kind == READER_LIVE && stage.block == i);
+            const double column = width - 40, in = block->quotes ? 1.5 * setup.size_px : 0,
+                         room = column - fmin(column / 2, in) - fmin(column / 4, in);
+            assert_true(fabs(stage.width - fmin(block->stage_width, floor(room))) <= 1);
+            assert_true(fabs(stage.height / stage.width -
+                             (double)block->stage_height / block->stage_width) < 0.02);
+            assert_true(stage.x >= 20 - 0.5 && stage.x + stage.width <= width - 20 + 0.5);
+            assert_true(stage.y >= shown[i].y_px - 0.5);
+            /* the strip is between the picture and the text */
+            assert_true(reader_view_boxes(view, block->at, block->at + 1, &code, 1) >= 1);
+            assert_true(code.y >= stage.y + stage.height + 30 - 1);
+            assert_true(code.y <= stage.y + stage.height + 30 + 2 * setup.size_px);
+        }
+        assert_int_equal(stages, 2);
+        setup.stage_strip_px = 0;
+        assert_int_equal(reader_view_set(view, &setup), READER_OK);
+        shown = look(view, &count);
+        for (int i = 0; i < count; i++) {
+            struct reader_stage stage;
+            assert_false(reader_view_stage(view, &shown[i], &stage));
+        }
+        reader_view_destroy(view);
+    }
+    reader_document_destroy(d);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -390,7 +441,7 @@ int main(void)
         cmocka_unit_test(begins_anywhere),     cmocka_unit_test(line_stays),
         cmocka_unit_test(notes_open_in_place), cmocka_unit_test(notes_open_in_margin),
         cmocka_unit_test(letters_are_hit),     cmocka_unit_test(search_folds),
-        cmocka_unit_test(hard_documents),
+        cmocka_unit_test(hard_documents),      cmocka_unit_test(stages_have_room),
     };
     if (without_library())
         return 77;
