@@ -31,4 +31,5 @@ void read_page_changed(struct read_desk *d)
         d->barring = g_idle_add_full(G_PRIORITY_DEFAULT, scrollbar_set, d, NULL);
     gtk_widget_queue_draw(d->page);
     read_heard_changed(d);
+    read_stages_changed(d);
 }

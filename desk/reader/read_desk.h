@@ -15,6 +15,7 @@
  *     read_page.c      the page: a widget that shows a reader_view
  *     read_changed.c   what follows when the page is other
  *     read_heard.c     the page's text for screen readers
+ *     read_stages.c    demonstrations in it
  *     read_tiles.c     its pictures, painted by fontpipe and kept
  *     read_look.c      sizes, colours, how wide the text is
  *     read_play.c      recorded input: events from a file
@@ -63,6 +64,7 @@ struct read_place {
 enum read_tool { READ_TOOL_READ, READ_TOOL_PEN, READ_TOOL_ERASER, READ_TOOL_MOVE };
 
 struct read_tiles;
+struct read_stages;
 struct read_play;
 
 struct read_desk {
@@ -80,6 +82,7 @@ struct read_desk {
     double size_px, column_em; /* column_em: the widest column of text */
     /* the page */
     struct read_tiles *tiles;
+    struct read_stages *stages;
     GArray *hits; /* struct read_range */
     int hit;      /* the current one; -1: none */
     struct read_range selected;
@@ -149,6 +152,26 @@ void read_tiles_draw(struct read_desk *d, GtkSnapshot *snapshot,
 /* How many tiles were ever painted. */
 long read_tiles_painted(const struct read_tiles *tiles);
 void read_tiles_forget(struct read_tiles *tiles); /* colours have changed */
+
+/* read_stages.c */
+struct read_stages *read_stages_create(struct read_desk *d);
+void read_stages_forget(struct read_desk *d); /* the document is another one */
+void read_stages_finish(struct read_desk *d); /* with the page: all end */
+void read_stages_destroy(struct read_stages *stages);
+void read_stages_changed(struct read_desk *d); /* others may be seen, or elsewhere */
+void read_stages_place(struct read_desk *d);   /* where their strips are */
+void read_stages_draw(struct read_desk *d, GtkSnapshot *snapshot);
+/* False: it is none of theirs. */
+bool read_stages_press(struct read_desk *d, double x, double y);
+bool read_stages_move(struct read_desk *d, double x, double y);
+bool read_stages_release(struct read_desk *d, double x, double y);
+bool read_stages_holds(const struct read_desk *d); /* what is dragged is its */
+bool read_stages_key(struct read_desk *d, guint key);
+/* For recorded input: the button of the one that is seen as that number, from 1; whether it
+ * runs, and so many pictures have not come yet; what there is, as lines that g_free() frees. */
+bool read_stages_button(struct read_desk *d, int number);
+bool read_stages_waits(struct read_desk *d, int number, long pictures);
+char *read_stages_told(struct read_desk *d);
 
 /* read_changed.c */
 void read_page_changed(struct read_desk *d); /* to be drawn anew */

@@ -86,6 +86,7 @@ static bool document_take(struct read_desk *d, struct reader_document *document)
         reader_document_destroy(document);
         return false;
     }
+    read_stages_forget(d);
     reader_view_destroy(d->view);
     reader_document_destroy(before);
     d->view = view;

@@ -107,7 +107,10 @@ static void drag_update(GtkGestureDrag *gesture, double x, double y, struct read
         d->speed_px_s = 0.4 * d->speed_px_s + 0.6 * moved / (now - d->drag_s);
     d->drag_y = y;
     d->drag_s = now;
-    read_hand_scroll(d, moved);
+    if (read_stages_holds(d)) /* a finger drags what is in it, and not the page */
+        d->speed_px_s = 0;
+    else
+        read_hand_scroll(d, moved);
 }
 
 static void drag_end(GtkGestureDrag *gesture, double x, double y, struct read_desk *d)
@@ -139,6 +142,8 @@ void read_hand_press(struct read_desk *d, double x, double y, int times)
     d->glide_px = d->speed_px_s = 0;
     d->dragging = false;
     gtk_widget_grab_focus(d->page);
+    if (read_stages_press(d, x, y))
+        return;
     if (!d->view || !reader_view_hit(d->view, x, y, &byte, &inside))
         return;
     d->select_from = byte;
@@ -159,6 +164,10 @@ void read_hand_move(struct read_desk *d, double x, double y)
     size_t byte;
     d->pointer_x = x;
     d->pointer_y = y;
+    if (!d->dragging && read_stages_move(d, x, y)) {
+        gtk_widget_set_cursor_from_name(d->page, "default");
+        return;
+    }
     if (!d->view || !reader_view_hit(d->view, x, y, &byte, &inside))
         return;
     if (d->dragging) {
@@ -179,6 +188,8 @@ void read_hand_release(struct read_desk *d, double x, double y)
 {
     bool inside;
     size_t byte;
+    if (read_stages_release(d, x, y))
+        return;
     const bool clicked = d->dragging && d->selected.begin == d->selected.end;
     d->dragging = false;
     if (clicked && d->view && reader_view_hit(d->view, x, y, &byte, &inside) && inside &&

@@ -125,6 +125,8 @@ bool read_keys_key(struct read_desk *d, guint key, GdkModifierType state)
     const bool shift = state & GDK_SHIFT_MASK;
     if (!d->view || (state & (GDK_CONTROL_MASK | GDK_ALT_MASK | GDK_SUPER_MASK)))
         return false;
+    if (read_stages_key(d, key))
+        return true;
     if (key == GDK_KEY_Tab || key == GDK_KEY_ISO_Left_Tab)
         return focus_step(d, key == GDK_KEY_Tab && !shift);
     if ((key == GDK_KEY_Return || key == GDK_KEY_KP_Enter) && d->focused != G_MAXSIZE)

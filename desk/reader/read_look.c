@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+enum { STAGE_STRIP_PX = 46 }; /* a button, and what is blank around it */
+
 enum { SIZE_LEAST = 8, SIZE_MOST = 72, COLUMN_LEAST = 12, COLUMN_MOST = 80 };
 
 static const struct read_colours themes[] = {{.paper = {254 / 255.0, 252 / 255.0, 248 / 255.0},
@@ -47,6 +49,7 @@ void read_look_set(struct read_desk *d)
     d->setup.language = d->options.language;
     d->setup.align = d->options.ragged ? FONT_ALIGN_START : FONT_ALIGN_JUSTIFY;
     d->setup.size_px = d->size_px;
+    d->setup.stage_strip_px = STAGE_STRIP_PX;
     for (int i = 0; i < 3; i++) {
         d->setup.ink_link[i] = d->colours->link[i];
         d->setup.ink_struck[i] = d->colours->struck[i];

@@ -66,6 +66,7 @@ static void desk_begin(struct read_desk *d)
     d->hit = -1;
     d->focused = G_MAXSIZE;
     d->tiles = read_tiles_create();
+    d->stages = read_stages_create(d);
 }
 
 static void desk_finish(struct read_desk *d)
@@ -78,6 +79,8 @@ static void desk_finish(struct read_desk *d)
     desk_pen_destroy(d->pen);
     g_array_free(d->stroke, TRUE);
     g_ptr_array_unref(d->watches);
+    read_stages_finish(d);
+    read_stages_destroy(d->stages);
     read_tiles_destroy(d->tiles);
     g_array_free(d->hits, TRUE);
     g_ptr_array_unref(d->heard);

@@ -1,5 +1,6 @@
 /* read_page.c - the page: a widget that shows a reader_view and what is marked in it. Its
- * children are labels that are not drawn, for screen readers (read_heard.c). */
+ * children are labels that are not drawn, for screen readers (read_heard.c), and what belongs
+ * to demonstrations (read_stages.c). */
 #include "read_desk.h"
 
 #include <math.h>
@@ -94,6 +95,7 @@ static void page_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
     gtk_snapshot_push_clip(snapshot, &GRAPHENE_RECT_INIT(0, 0, width, height));
     read_tiles_draw(d, snapshot, shown, count, (const struct read_mark *)(void *)marks->data,
                     (int)marks->len, gtk_widget_get_scale_factor(widget));
+    read_stages_draw(d, snapshot);
     read_ink_draw(d, snapshot);
     focus_draw(d, snapshot);
     gtk_snapshot_pop(snapshot);
@@ -116,6 +118,7 @@ static void page_allocate(GtkWidget *widget, int width, int height, int baseline
     (void)baseline;
     d->resized(d, width, height);
     read_heard_place(d);
+    read_stages_place(d);
 }
 
 static void page_dispose(GObject *object)

@@ -187,21 +187,35 @@ static void tell(struct read_desk *d, const struct input *i)
         }
     }
     char *line = g_strndup(d->document->plain + top, 40),
-         *selected = read_text_of(d, d->selected);
+         *selected = read_text_of(d, d->selected), *stages = read_stages_told(d);
     char *told = g_strdup_printf(
         "top %zu\nline %s\nshown %d\nabove %.0f\nall %.0f\nset %ld\npainted %ld\nhits %u\nhit "
         "%d\n"
         "open %d\nselected %s\nway %u of %u\nfile %s\nheard %u\nremarks %d\norphans %d\nink "
-        "%.1f %.1f\n",
+        "%.1f %.1f\n%s",
         top, g_strdelimit(line, "\n", ' '), count, above, all, reader_view_set_count(d->view),
         read_tiles_painted(d->tiles), d->hits->len, d->hit, opened, selected, d->way_at,
         d->way->len, (const char *)g_ptr_array_index(d->options.paths, 0), d->heard->len,
-        remarks, orphans, ink_x, ink_y);
+        remarks, orphans, ink_x, ink_y, stages);
     if (!g_file_set_contents(i->text, told, -1, NULL))
         d->say(d, i->text);
     g_free(told);
+    g_free(stages);
     g_free(selected);
     g_free(line);
+}
+
+static void stage(struct read_desk *d, const struct input *i)
+{
+    if (!read_stages_button(d, (int)i->value[0]))
+        d->say(d, "there is no such stage");
+}
+
+/* It was waited for: see play_on(). */
+static void await(struct read_desk *d, const struct input *i)
+{
+    (void)d;
+    (void)i;
 }
 
 static void end(struct read_desk *d, const struct input *i)
@@ -218,7 +232,7 @@ static const struct word words[] = {
     {"go", -1, go},        {"action", -1, action}, {"picture", -1, picture},
     {"tell", -1, tell},    {"press", 3, press},    {"drag", 3, drag},
     {"lift", 2, lift},     {"note", -1, note},     {"select", -1, choose},
-    {"close", 0, end}};
+    {"stage", 1, stage},   {"await", 2, await},    {"close", 0, end}};
 
 /* ---- reading ---- */
 
@@ -320,7 +334,9 @@ static gboolean play_on(GtkWidget *widget, GdkFrameClock *clock, gpointer data)
     if (!d->page || !d->view || play->next == play->inputs->len)
         return G_SOURCE_REMOVE;
     const struct input *input = &g_array_index(play->inputs, struct input, play->next);
-    if (input->time_s <= play->time_s) {
+    const bool waits = input->word->does == await &&
+                       read_stages_waits(d, (int)input->value[0], (long)input->value[1]);
+    if (input->time_s <= play->time_s && !waits) {
         play->next++;
         input->word->does(d, input);
     }

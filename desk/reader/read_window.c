@@ -212,6 +212,7 @@ static gboolean close_asked(GtkWindow *window, struct read_desk *d)
 {
     (void)window;
     read_heard_finish(d);
+    read_stages_finish(d);
     read_watch_end(d);
     read_remarks_close(d);
     d->notice = NULL;

@@ -210,6 +210,91 @@ static void picture_is_seen(void **state)
     display_image_destroy(&dark);
 }
 
+/* ---- demonstrations ---- */
+
+static void demonstrations_write(void)
+{
+    file_write("live.md",
+               "# Live\n\n```lua live 200x60\n"
+               "local n, x0 = 0, 0\n"
+               "function step() n = n + 1 end\n"
+               "function draw() print('at', x0) return {n > 0 and 1 or 0, 0, 1} end\n"
+               "function pointer(what, x, y) if what == 'down' then x0 = x end end\n"
+               "function key(name) x0 = name end\n"
+               "```\n\n"
+               "```lua live 200x60\nfunction draw() while true do end end\n```\n\n"
+               "```lua live 200x60\nthis is no Lua\n```\n\nThe end.\n");
+}
+
+/* Of a stage that was told: whether it runs, its pictures, its place. */
+struct stage_told {
+    char seen[10], runs[10];
+    int pictures, x, y, width, height;
+};
+
+static struct stage_told stage_told(const char *name, const char *stage)
+{
+    struct stage_told t;
+    const char *line = told(name, stage);
+    if (sscanf(line, "%9s %9s %d %d %d %d %d", t.seen, t.runs, &t.pictures, &t.x, &t.y,
+               &t.width, &t.height) != 7)
+        fail_msg("%s %s", stage, line);
+    return t;
+}
+
+/* Nothing runs before its button is pressed; then it is seen, hears, rests again, and says so
+ * where it never ends or fails. (security.md 36) */
+static void demonstrations_run(void **state)
+{
+    char lines[2000];
+    (void)state;
+    demonstrations_write();
+    snprintf(lines, sizeof lines,
+             "0.4 tell %s\n0.5 stage 1\n0.5 await 1 5\n0.5 picture %s\n0.6 tell %s\n"
+             "0.6 stage 2\n0.6 stage 3\n0.6 await 2 1\n0.6 await 3 1\n0.7 tell %s\n0.7 stage "
+             "1\n0.8 tell %s\n",
+             in_folder("before"), in_folder("live.png"), in_folder("runs"), in_folder("wrong"),
+             in_folder("after"));
+    reader_run(lines, in_folder("live.md"));
+    runs_well();
+    struct stage_told t = stage_told("before", "stage1");
+    assert_string_equal(t.seen, "seen");
+    assert_string_equal(t.runs, "rests");
+    assert_string_equal(stage_told("before", "stage3").runs, "rests");
+    t = stage_told("runs", "stage1");
+    assert_string_equal(t.runs, "runs");
+    assert_true(t.pictures >= 5 && t.width == 200 && t.height == 60);
+    assert_string_equal(told("runs", "line1"), "at 0");
+    assert_string_equal(stage_told("runs", "stage2").runs, "rests");
+    struct display_image image; /* magenta, somewhere: all of the picture's pixels */
+    assert_int_equal(display_png_read_rgb(in_folder("live.png"), &image), DISPLAY_OK);
+    int pixels = 0;
+    for (int i = 0; i < image.width_px * image.height_px; i++) {
+        const uint8_t *p = image.pixels + 3 * i;
+        pixels += p[0] > 250 && p[1] < 5 && p[2] > 250;
+    }
+    display_image_destroy(&image);
+    assert_true(pixels >= 198 * 58 && pixels <= 200 * 60);
+    assert_non_null(strstr(told("wrong", "line2"), "stopped after 5 seconds"));
+    assert_non_null(strstr(told("wrong", "line3"), "live:1:"));
+    assert_string_equal(stage_told("wrong", "stage2").runs, "rests");
+    assert_string_equal(stage_told("wrong", "stage1").runs, "runs");
+    assert_string_equal(stage_told("after", "stage1").runs, "rests");
+    assert_string_equal(told("after", "line1"), "Stopped.");
+    /* a hand in it: its place was told above */
+    snprintf(lines, sizeof lines,
+             "0.4 stage 1\n0.4 await 1 1\n0.5 down %d %d 1\n0.5 up %d %d\n0.5 await 1 6\n"
+             "0.6 tell %s\n0.6 key Left\n0.6 await 1 12\n0.7 tell %s\n0.7 key Escape\n0.7 key "
+             "End\n0.7 await 1 18\n0.8 tell %s\n",
+             t.x + 50, t.y + 20, t.x + 50, t.y + 20, in_folder("down"), in_folder("key"),
+             in_folder("end"));
+    reader_run(lines, in_folder("live.md"));
+    runs_well();
+    assert_string_equal(told("down", "line1"), "at 50.0");
+    assert_string_equal(told("key", "line1"), "at Left");
+    assert_string_equal(told("end", "line1"), "at Left");
+}
+
 /* ---- notes ---- */
 
 static void notes_remove(void)
@@ -374,7 +459,7 @@ int main(void)
         cmocka_unit_test(finds_and_selects),      cmocka_unit_test(only_new_lines_are_painted),
         cmocka_unit_test(notes_are_kept),         cmocka_unit_test(changed_elsewhere),
         cmocka_unit_test(foreign_notes_are_said), cmocka_unit_test(picture_is_seen),
-        cmocka_unit_test(wrong_is_one_line),
+        cmocka_unit_test(demonstrations_run),     cmocka_unit_test(wrong_is_one_line),
     };
     if (!screen_start("1280x900x24"))
         return 77;
