@@ -77,10 +77,10 @@ static struct machine_value *block_find(struct machine *m, uint32_t field,
     return is_within(m, b) ? v : NULL;
 }
 
-static bool is_near(const struct machine *m, struct machine_value *v)
+static bool is_near(const struct machine *m, const struct machine_value *v)
 {
     return m->settings.near && v->buffer &&
-           (sequencers_have(m, &v, 1) ? m->device->is_pocl : v->buffer->host != NULL);
+           (sequencers_has(m, v) ? m->device->is_pocl : v->buffer->host != NULL);
 }
 
 /* A part of the block, in one array: whole rows of it, or (of a set with one axis) columns. */
@@ -156,7 +156,7 @@ enum machine_status machine_block_download(struct machine *m, uint32_t field,
         watch_bytes(m, of->rows * bytes);
     if (device_settle_for(m, "reading a field"))
         return m->status;
-    if (sequencers_have(m, &v, 1)) {
+    if (sequencers_has(m, v)) {
         parts_out(m, &b, v->buffer->blocks, out, pitch);
         return MACHINE_OK;
     }
@@ -253,7 +253,7 @@ enum machine_status machine_block_upload(struct machine *m, uint32_t field,
     if (device_settle_for(m, "writing a field"))
         return m->status;
     v->strange_nan = strange;
-    if (sequencers_have(m, &v, 1))
+    if (sequencers_has(m, v))
         parts_in(m, &b, v->buffer->blocks, in, pitch, type);
     else
         rows_write(&b, v->buffer->host, in, pitch, type);

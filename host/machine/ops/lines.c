@@ -233,8 +233,8 @@ struct device_buffer *lines_worked(struct machine *m, struct machine_type type,
                                    sequencers_work *work, const void *of)
 {
     const int set = m->values->set_current;
-    const bool in_blocks = sequencers_have(m, values, count);
     struct device_buffer *arrays[SEQUENCERS_ARRAYS];
+    const bool in_blocks = sequencers_have(m, values, count);
     if (in_blocks && !across)
         return sequencers_each(m, set, type, values, count, work, of);
     if (in_blocks && sequencers_can_across(m, set))

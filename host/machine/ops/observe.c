@@ -108,7 +108,7 @@ enum machine_status observe_out(struct machine *m, int set, struct machine_value
     v = materialise_in_blocks(m, set, graph_same_bits(m, v));
     if (!v)
         return m->status;
-    const bool in_blocks = sequencers_have(m, &v, 1);
+    const bool in_blocks = sequencers_has(m, v);
     if (m->settings.near && (in_blocks ? m->device->is_pocl : v->buffer->host != NULL)) {
         if (m->watch)
             watch_bytes(m, s->count * element);
@@ -196,7 +196,7 @@ enum machine_status machine_field_read(struct machine *m, uint32_t field,
     size_t element = type_bytes(type);
     unsigned char raw[16] = {0};
     enum machine_status status =
-        sequencers_have(m, &v, 1)
+        sequencers_has(m, v)
             ? sequencers_read(m, v->buffer, index, raw)
             : device_read(m, v->buffer,
                           geometry_place(&m->values->sets[f->vpset], index) * element, raw,
@@ -210,7 +210,7 @@ enum machine_status machine_field_read(struct machine *m, uint32_t field,
 static struct machine_value *own_copy(struct machine *m, int set, struct machine_value *v)
 {
     struct rows rows = geometry_rows(&m->values->sets[set], v->type);
-    const bool in_blocks = sequencers_have(m, &v, 1);
+    const bool in_blocks = sequencers_has(m, v);
     struct device_buffer *b =
         in_blocks ? sequencers_copy(m, v->buffer) : device_rows_get(m, rows);
     if (!b)
@@ -270,13 +270,15 @@ enum machine_status machine_field_write(struct machine *m, uint32_t field,
     size_t element = type_bytes(type), places[3];
     unsigned char raw[16];
     materialise_put(raw, scalar_cut(value, type.width), element);
-    const bool in_blocks = sequencers_have(m, &v, 1);
-    int count = in_blocks ? 0 : geometry_places(s, index, places);
+    if (sequencers_has(m, v)) {
+        if (sequencers_write(m, v->buffer, index, raw))
+            return m->status;
+        return machine_field_store(m, field, v, MACHINE_EVERYWHERE);
+    }
+    int count = geometry_places(s, index, places);
     for (int i = 0; i < count; i++)
         if (device_write(m, v->buffer, places[i] * element, raw, element,
                          "writing a processor"))
             return m->status;
-    if (in_blocks && sequencers_write(m, v->buffer, index, raw))
-        return m->status;
     return machine_field_store(m, field, v, MACHINE_EVERYWHERE);
 }

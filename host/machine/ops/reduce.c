@@ -222,13 +222,13 @@ static bool reduce_near(struct machine *m, int set, struct machine_value *v,
                                                  : (struct machine_scalar){0, 0},
                          .identity = identity};
     struct machine_value *in = made_longer(v);
-    bool all = is_everywhere(context), in_blocks;
+    bool all = is_everywhere(context), in_blocks = false;
     if (!m->settings.near)
         return false;
     w.extends = in != v && v->op == NODE_SIGN_EXTEND;
     if (!in->buffer || (in->type.kind == MACHINE_FLOAT) != w.is_float ||
         (!all && !context->buffer) ||
-        !arrays_ready(m, set, in, all ? NULL : context, &in_blocks))
+        (m->sequencers && !arrays_ready(m, set, in, all ? NULL : context, &in_blocks)))
         return false;
     w.plain = in == v || (info->op == REDUCE_ADD && !w.extends);
     w.width = in->type.width;

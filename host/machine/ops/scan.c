@@ -435,7 +435,7 @@ static struct machine_value *spread_copy(struct machine *m, int axis, bool one, 
     const struct vpset *s = &m->values->sets[set];
     struct fill_work w = {.element = f.element, .axis = axis, .one = one};
     in[0] = v;
-    if (sequencers_have(m, &v, 1) && (one || axis == 0)) {
+    if (sequencers_has(m, v) && (one || axis == 0)) {
         const struct owned owned = sequencers_owner(m, v->buffer, index);
         w.from = owned.b;
         w.coordinate = owned.plane;

@@ -159,9 +159,9 @@ bool materialise_all(struct machine *m, int set, struct machine_value **values, 
     return true;
 }
 
-struct machine_value *materialise_in_blocks(struct machine *m, int set, struct machine_value *v)
+struct machine_value *materialise_blocks(struct machine *m, int set, struct machine_value *v)
 {
-    if (!m->sequencers || !sequencers_cut(m, set))
+    if (!sequencers_cut(m, set))
         return materialise(m, set, v);
     graph_borrow(m, v);
     if (v->op == NODE_CONSTANT && !v->buffer)
@@ -169,10 +169,10 @@ struct machine_value *materialise_in_blocks(struct machine *m, int set, struct m
     return v->buffer || !evaluate_in_blocks(m, &v, 1, false) ? v : NULL;
 }
 
-bool materialise_all_in_blocks(struct machine *m, int set, struct machine_value **values,
-                               int count)
+bool materialise_all_blocks(struct machine *m, int set, struct machine_value **values,
+                            int count)
 {
-    if (!m->sequencers || !sequencers_cut(m, set))
+    if (!sequencers_cut(m, set))
         return materialise_all(m, set, values, count);
     for (int i = 0; i < count; i++)
         if (values[i]->op == NODE_CONSTANT &&

@@ -10,10 +10,20 @@ struct machine_value *materialise(struct machine *m, int set, struct machine_val
 /* Puts the values into buffers of the VP set, by one evaluation. False: error set. */
 bool materialise_all(struct machine *m, int set, struct machine_value **values, int count);
 /* The same, but the arrays may be in blocks only, where the set is cut: see sequencers/. */
-struct machine_value *materialise_in_blocks(struct machine *m, int set,
-                                            struct machine_value *v);
-bool materialise_all_in_blocks(struct machine *m, int set, struct machine_value **values,
-                               int count);
+struct machine_value *materialise_blocks(struct machine *m, int set, struct machine_value *v);
+bool materialise_all_blocks(struct machine *m, int set, struct machine_value **values,
+                            int count);
+static inline struct machine_value *materialise_in_blocks(struct machine *m, int set,
+                                                          struct machine_value *v)
+{
+    return m->sequencers ? materialise_blocks(m, set, v) : materialise(m, set, v);
+}
+static inline bool materialise_all_in_blocks(struct machine *m, int set,
+                                             struct machine_value **values, int count)
+{
+    return m->sequencers ? materialise_all_blocks(m, set, values, count)
+                         : materialise_all(m, set, values, count);
+}
 bool materialise_has_strange_nan(struct machine_type type, const void *in, uint64_t count);
 struct machine_value *materialise_upload(struct machine *m, int set, struct machine_type type,
                                          const void *in);

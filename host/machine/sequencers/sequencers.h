@@ -121,6 +121,10 @@ static inline bool sequencers_have(const struct machine *m, struct machine_value
 {
     return m->sequencers && sequencers_have_some(values, count);
 }
+static inline bool sequencers_has(const struct machine *m, const struct machine_value *v)
+{
+    return m->sequencers && !v->buffer->memory;
+}
 /* Makes an array of that type in blocks, each by `work` of the block's arrays. The work looks
  * at no other plane. NULL: error set. */
 struct device_buffer *sequencers_each(struct machine *m, int set, struct machine_type type,
