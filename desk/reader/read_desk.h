@@ -167,6 +167,9 @@ bool read_stages_move(struct read_desk *d, double x, double y);
 bool read_stages_release(struct read_desk *d, double x, double y);
 bool read_stages_holds(const struct read_desk *d); /* what is dragged is its */
 bool read_stages_key(struct read_desk *d, guint key);
+bool read_stages_is(const struct reader_block *block); /* one of them */
+/* As its button does, where Tab has come to one, and keys are its own. */
+bool read_stages_follow(struct read_desk *d, size_t byte);
 /* For recorded input: the button of the one that is seen as that number, from 1; whether it
  * runs, and so many pictures have not come yet; what there is, as lines that g_free() frees. */
 bool read_stages_button(struct read_desk *d, int number);

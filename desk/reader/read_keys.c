@@ -3,7 +3,15 @@
 
 #include <math.h>
 
-/* A span that one can follow, before or behind a byte. */
+/* The nearer one of two places before or behind a byte. */
+static size_t nearer(size_t best, size_t at, size_t from, bool forward)
+{
+    if (forward ? at <= from : at >= from)
+        return best;
+    return best == G_MAXSIZE || (forward ? at < best : at > best) ? at : best;
+}
+
+/* A span that one can follow, or a demonstration, before or behind a byte. */
 static size_t leading_next(const struct read_desk *d, size_t from, bool forward)
 {
     const struct reader_document *doc = d->document;
@@ -11,15 +19,11 @@ static size_t leading_next(const struct read_desk *d, size_t from, bool forward)
     for (int i = 0; i < doc->blocks_count + doc->note_blocks_count; i++) {
         const struct reader_block *b =
             i < doc->blocks_count ? &doc->blocks[i] : &doc->note_blocks[i - doc->blocks_count];
-        for (int k = 0; k < b->spans_count; k++) {
-            const size_t at = b->at + (size_t)b->spans[k].begin;
-            if (!(b->spans[k].look & (READER_LINK | READER_NOTE)))
-                continue;
-            if (forward && at > from && (best == G_MAXSIZE || at < best))
-                best = at;
-            if (!forward && at < from && (best == G_MAXSIZE || at > best))
-                best = at;
-        }
+        if (i < doc->blocks_count && read_stages_is(b))
+            best = nearer(best, b->at, from, forward);
+        for (int k = 0; k < b->spans_count; k++)
+            if (b->spans[k].look & (READER_LINK | READER_NOTE))
+                best = nearer(best, b->at + (size_t)b->spans[k].begin, from, forward);
     }
     return best;
 }
@@ -28,7 +32,15 @@ static size_t leading_next(const struct read_desk *d, size_t from, bool forward)
 static void seen_make(struct read_desk *d, size_t byte)
 {
     struct reader_box box;
+    const struct reader_block *block = reader_document_block(d->document, byte);
     const double line = d->size_px * d->setup.leading;
+    if (read_stages_is(block) &&
+        block->at == byte) { /* its text, so that its picture is, too */
+        reader_view_go(d->view, byte,
+                       fmin(d->setup.height_px - line,
+                            block->stage_height + d->setup.stage_strip_px + 2 * line));
+        return;
+    }
     const int count = reader_view_boxes(d->view, byte, byte + 1, &box, 1);
     if (count < 1 || box.y < 0 || box.y + box.height > d->setup.height_px)
         reader_view_go(d->view, byte, floor(fmax(line, d->setup.height_px / 3)));
@@ -130,7 +142,7 @@ bool read_keys_key(struct read_desk *d, guint key, GdkModifierType state)
     if (key == GDK_KEY_Tab || key == GDK_KEY_ISO_Left_Tab)
         return focus_step(d, key == GDK_KEY_Tab && !shift);
     if ((key == GDK_KEY_Return || key == GDK_KEY_KP_Enter) && d->focused != G_MAXSIZE)
-        return read_document_follow(d, d->focused);
+        return read_stages_follow(d, d->focused) || read_document_follow(d, d->focused);
     if (key == GDK_KEY_slash) {
         read_search_open(d, true);
         return true;

@@ -57,7 +57,7 @@ static void focus_draw(struct read_desk *d, GtkSnapshot *snapshot)
     const struct reader_block *block =
         span ? reader_document_block(d->document, d->focused) : NULL;
     struct reader_box boxes[16];
-    if (!span || !gtk_widget_has_focus(d->page))
+    if (!span || read_stages_is(block) || !gtk_widget_has_focus(d->page))
         return;
     const int count = reader_view_boxes(d->view, block->at + (size_t)span->begin,
                                         block->at + (size_t)span->end, boxes, 16);

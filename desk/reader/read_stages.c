@@ -289,6 +289,12 @@ static void frame_draw(const struct read_desk *d, GtkSnapshot *snapshot,
                                (const GdkRGBA[]){rgba, rgba, rgba, rgba});
 }
 
+/* Tab has come to it. */
+static bool is_focused(const struct read_desk *d, const struct stage *s)
+{
+    return gtk_widget_has_focus(d->page) && d->focused == d->document->blocks[s->block].at;
+}
+
 void read_stages_draw(struct read_desk *d, GtkSnapshot *snapshot)
 {
     for (guint i = 0; i < d->stages->all->len; i++) {
@@ -300,7 +306,7 @@ void read_stages_draw(struct read_desk *d, GtkSnapshot *snapshot)
             continue;
         if (s->texture)
             gtk_snapshot_append_texture(snapshot, s->texture, &box);
-        frame_draw(d, snapshot, &box, d->stages->keyed == s);
+        frame_draw(d, snapshot, &box, d->stages->keyed == s || is_focused(d, s));
         gtk_widget_snapshot_child(d->page, s->strip, snapshot);
     }
 }
@@ -419,6 +425,28 @@ bool read_stages_key(struct read_desk *d, guint key)
     } else {
         demonstration_key(s->run, name);
     }
+    return true;
+}
+
+/* ---- by keys ---- */
+
+bool read_stages_is(const struct reader_block *block)
+{
+    return block->kind == READER_LIVE && block->stage_width > 0;
+}
+
+bool read_stages_follow(struct read_desk *d, size_t byte)
+{
+    const struct reader_block *block = reader_document_block(d->document, byte);
+    const bool flows = block && block < d->document->blocks + d->document->blocks_count &&
+                       block >= d->document->blocks; /* and is no note's */
+    struct stage *s = flows && block->at == byte
+                          ? stage_of(d->stages, (int)(block - d->document->blocks))
+                          : NULL;
+    if (!s)
+        return false;
+    button_clicked(GTK_BUTTON(s->button), s);
+    d->stages->keyed = s->run ? s : NULL; /* so that keys are its own at once */
     return true;
 }
 

@@ -63,7 +63,7 @@ struct demonstration_def demonstration_def_default(const char *text, size_t byte
                                       .height_px = height_px,
                                       .memory_mb = 512,
                                       .answer_s = 5,
-                                      .patience_s = 60};
+                                      .patience_s = 120};
 }
 
 static double now_s(void)

@@ -34,7 +34,7 @@ struct demonstration_def {
     double answer_s;   /* that a call of the script may compute */
     double patience_s; /* without an answer the process is ended */
 };
-/* 512 MB; 5 s of computing, 60 s of waiting. */
+/* 512 MB; 5 s of computing, 120 s of waiting. */
 struct demonstration_def demonstration_def_default(const char *text, size_t bytes, int width_px,
                                                    int height_px);
 
