@@ -264,6 +264,7 @@ int run_script(struct run *run)
                                      .overfull = overfull};
     run->config.words = run->words;
     run->config.patient = run->save || run->film.video || run->film.folder;
+    run->config.keeps = run->alone;
     resident_limit((double)run->config.memory_bytes + SYSTEM_MORE_BYTES);
     enum script_status status = script_run(&run->config, &host);
     written_tell(run);

@@ -38,6 +38,7 @@ struct script_config {
     bool trusted;           /* no sandbox: Lua's whole library, and any file names */
     double timeout_s;       /* 0: any */
     bool patient;   /* what papers at work are doing is worth waiting for: it will be saved */
+    bool keeps;     /* the same once the host says stop, but not at the end of the time */
     double grace_s; /* seconds between the time at which the script should have stopped and
                   * overdue(); 30 times that while papers are at work and it is patient */
     int papers_max; /* the most papers open at a time; 0: any number */

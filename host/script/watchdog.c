@@ -32,8 +32,9 @@ static bool overdue(struct script *script, double *since_s)
         *since_s = now;
     if (*since_s < w->grace_from_s)
         *since_s = w->grace_from_s;
-    double grace_s = script->config->grace_s *
-                     (atomic_load(&w->at_work) && script->config->patient ? PATIENCE : 1);
+    const struct script_config *config = script->config;
+    const bool saved = config->patient || (config->keeps && script_interrupted(script));
+    const double grace_s = config->grace_s * (atomic_load(&w->at_work) && saved ? PATIENCE : 1);
     return now - *since_s > grace_s;
 }
 

@@ -38,9 +38,9 @@ def run(*words):
     return subprocess.run([lutetia, *words], cwd=folder, capture_output=True, text=True, timeout=200)
 
 
-def stopped(*words, send=signal.SIGINT):
+def stopped(*words, send=signal.SIGINT, env=None):
     """Runs it, sends the signal once it says that it is ready, and gives its lines."""
-    with subprocess.Popen([lutetia, *words], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as child:
+    with subprocess.Popen([lutetia, *words], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=env) as child:
         must(child.stdout.readline() == "ready\n", f"{words}: not ready")
         child.send_signal(send)
         lines = child.communicate(timeout=200)[1].splitlines()
@@ -72,6 +72,16 @@ def kept():
         must(run("run", "kept.lua", "-q", "-o", "whole").returncode == 0, "the whole run")
         must(same(f"{name}/end.png", "whole/end.png"), "another picture than that of a run that was not stopped")
     must(os.listdir(os.path.join(folder, "whole")) == ["end.png"], "a run that comes to its end keeps nothing")
+
+
+def kept_at_work():
+    """Stopped while a step's kernels are compiled, it waits for them."""
+    script("cold.lua", "local p = paper{width = 64, height = 48, pigments = {'ultramarine'}}\np:put(ellipse(30, 20, 9), {water = 1, ultramarine = 1})\n"
+           "print('ready')\np:step(100000)\n")
+    env = dict(os.environ, XDG_CACHE_HOME=os.path.join(folder, "caches"))
+    env.pop("POCL_CACHE_DIR", None)
+    lines = stopped("run", "cold.lua", "-q", "-o", "cold", env=env)
+    must(len(lines) == 2 and "kept in cold/cold-interrupted.h5" in lines[1], lines)
 
 
 def kept_again():
@@ -136,6 +146,7 @@ def told():
 
 
 kept()
+kept_at_work()
 kept_again()
 not_kept()
 told()
