@@ -235,7 +235,9 @@ void read_stages_changed(struct read_desk *d)
         gtk_widget_queue_allocate(d->page);
 }
 
-static void strip_place(const struct stage *s)
+/* Under its picture, as far as the column goes: what it says may be longer than that is
+ * wide. */
+static void strip_place(const struct read_desk *d, const struct stage *s)
 {
     enum { GAP = 4 };
     int least = 0, natural = 0, wide = 0;
@@ -243,7 +245,9 @@ static void strip_place(const struct stage *s)
     if (!s->seen)
         return;
     gtk_widget_measure(s->strip, GTK_ORIENTATION_HORIZONTAL, -1, &wide, &natural, NULL, NULL);
-    wide = MAX(wide, (int)s->place.width);
+    const double column =
+        d->setup.width_px - d->setup.margin_px - d->setup.notes_px - s->place.x;
+    wide = MAX(wide, (int)MAX(s->place.width, column));
     gtk_widget_measure(s->strip, GTK_ORIENTATION_VERTICAL, wide, &least, &natural, NULL, NULL);
     const GtkAllocation box = {(int)s->place.x, (int)(s->place.y + s->place.height) + GAP, wide,
                                least};
@@ -271,7 +275,7 @@ void read_stages_place(struct read_desk *d)
         s->seen_us = g_get_monotonic_time();
     }
     for (guint i = 0; i < d->stages->all->len; i++)
-        strip_place(g_ptr_array_index(d->stages->all, i));
+        strip_place(d, g_ptr_array_index(d->stages->all, i));
     tick_ensure(d->stages);
 }
 
