@@ -341,7 +341,7 @@ static void three_run_and_rest_unseen(void **state)
     reader_run(lines, in_folder("five.md"));
     runs_well();
     for (int i = 1; i <= 3; i++) {
-        char name[10];
+        char name[20];
         snprintf(name, sizeof name, "stage%d", i);
         assert_string_equal(stage_told("three", name).runs, "runs");
         assert_string_equal(stage_told("far", name).seen, "unseen");
