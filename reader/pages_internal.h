@@ -110,6 +110,10 @@ enum reader_status pages_paragraph_put(struct reader_pages *p, const char *text,
  * the spans. */
 enum reader_status pages_made_keep(struct reader_pages *p, int id, int note,
                                    struct paragraph_text *t);
+/* A paragraph of its own for what is shown in place of the text's letters: a picture, a stage.
+ * plain: the paragraph's style; style: what is shown, by page_inset_add(). */
+enum reader_status pages_inset_put(struct reader_pages *p, const char *text, int plain,
+                                   int style, const struct page_manner *manner);
 /* A paragraph of the text, and its notes. Takes the spans where passages are made. */
 enum reader_status pages_paragraph_add(struct reader_pages *p, struct paragraph_text *t,
                                        enum context context, const struct page_manner *manner,

@@ -135,10 +135,9 @@ enum reader_status pages_picture_add(struct reader_pages *p, const struct reader
 {
     struct reader_picture picture = {0};
     const char *target = block->target ? block->target : "";
-    int width, height, style, plain, id;
+    int width, height, style, plain;
     uint8_t *kept;
     struct block full;
-    struct paragraph_text none = {0};
     *done = false;
     if (!block_find(p->faces[READER_CODE], &full) || !p->setup.picture || !*target ||
         !p->setup.picture(p->setup.picture_user, block->source, target, &picture))
@@ -152,13 +151,7 @@ enum reader_status pages_picture_add(struct reader_pages *p, const struct reader
     if (status == READER_OK)
         status = pages_style(p, CONTEXT_TABLE, 0, &plain);
     if (status == READER_OK)
-        status = pages_paragraph_put(p, target, strlen(target), plain, manner, &id);
-    if (status == READER_OK &&
-        page_paragraph_style(p->text, id, 0, (int)strlen(target), style) != FONT_OK)
-        status = pages_failed();
-    if (status == READER_OK)
-        status = pages_made_keep(p, id, -1, &none);
-    p->insets++;
+        status = pages_inset_put(p, target, plain, style, manner);
     *done = status == READER_OK;
     return status;
 }

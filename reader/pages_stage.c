@@ -3,12 +3,10 @@
 #include "pages_internal.h"
 
 #include <math.h>
-#include <string.h>
 
 enum reader_status pages_stage_add(struct reader_pages *p, const struct reader_block *block,
                                    const struct page_manner *manner)
 {
-    static const char letter[] = "-"; /* not seen */
     const double most = fmax(1, pages_column(p) - manner->left_px - manner->right_px),
                  width = fmin(block->stage_width, floor(most)),
                  height = round(block->stage_height * width / block->stage_width);
@@ -16,20 +14,13 @@ enum reader_status pages_stage_add(struct reader_pages *p, const struct reader_b
                                       .width_px = width,
                                       .ascent_px = height + p->setup.stage_strip_px};
     struct page_style look = page_style_default();
-    struct paragraph_text none = {0};
-    int style, plain, id;
+    int style, plain;
     look.font = p->fonts[0];
     look.size_px = pages_size(p, CONTEXT_TABLE);
     enum reader_status status = pages_style(p, CONTEXT_TABLE, 0, &plain);
     if (status == READER_OK && page_inset_add(p->text, &look, &shown, &style) != FONT_OK)
         status = pages_failed();
     if (status == READER_OK)
-        status = pages_paragraph_put(p, letter, strlen(letter), plain, manner, &id);
-    if (status == READER_OK &&
-        page_paragraph_style(p->text, id, 0, (int)strlen(letter), style) != FONT_OK)
-        status = pages_failed();
-    if (status == READER_OK)
-        status = pages_made_keep(p, id, -1, &none);
-    p->insets++;
+        status = pages_inset_put(p, "-", plain, style, manner); /* the letter is not seen */
     return status;
 }

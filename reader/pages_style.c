@@ -477,6 +477,22 @@ enum reader_status pages_paragraph_put(struct reader_pages *p, const char *text,
     return READER_OK;
 }
 
+enum reader_status pages_inset_put(struct reader_pages *p, const char *text, int plain,
+                                   int style, const struct page_manner *manner)
+{
+    struct paragraph_text none = {0};
+    const size_t bytes = strlen(text);
+    int id;
+    enum reader_status status = pages_paragraph_put(p, text, bytes, plain, manner, &id);
+    if (status == READER_OK &&
+        page_paragraph_style(p->text, id, 0, (int)bytes, style) != FONT_OK)
+        status = pages_failed();
+    if (status == READER_OK)
+        status = pages_made_keep(p, id, -1, &none);
+    p->insets++;
+    return status;
+}
+
 enum reader_status pages_paragraph_add(struct reader_pages *p, struct paragraph_text *t,
                                        enum context context, const struct page_manner *manner,
                                        bool display)

@@ -7,7 +7,6 @@
 
 #include <picture.h>
 
-#include <assert.h>
 #include <ink.h>
 #include <math.h>
 #include <stdlib.h>
@@ -30,28 +29,15 @@ struct script_live {
 
 /* ---- calls ---- */
 
-/* A call of the script's, with the time that it has; what is on the stack is popped. */
+/* A call of the script's, with the time that it has. */
 static bool call(struct script_live *live, lua_CFunction function, void *argument,
                  double seconds)
 {
-    lua_State *L = live->L;
     live->config.timeout_s = seconds;
-    script_deadline_set(&live->script, seconds);
-    live->script.memory_short = false;
-    live->script.stack_begin = __builtin_frame_address(0);
-    script_hook_set(L);
     script_patience_begin(&live->script);
-    script_watchdog_pause(&live->script, false);
-    lua_pushcfunction(L, script_message);
-    lua_pushcfunction(L, function);
-    lua_pushlightuserdata(L, argument);
-    const int status = lua_pcall(L, 1, 0, 1);
-    script_watchdog_pause(&live->script, true);
+    const bool good = script_answers_call(live->L, function, argument, seconds);
     script_patience_end(&live->script);
-    if (status != LUA_OK)
-        script_failure_tell(L, status);
-    lua_settop(L, 0);
-    return status == LUA_OK;
+    return good;
 }
 
 /* Pushes the script's function of that name. False: it has none. */
@@ -350,15 +336,12 @@ enum script_status script_live_open(const struct script_live_def *def, struct sc
         return SCRIPT_FAILED;
     }
     live_configure(live, def);
-    struct script *self = &live->script;
-    live->L = lua_newstate(script_allocate, self);
-    bool good = live->L && script_watchdog_start(self);
-    if (good) {
-        memcpy(lua_getextraspace(live->L), &self, sizeof self);
+    live->L = script_answers_open(&live->script);
+    bool good = false;
+    if (live->L)
         good = call(live, open_protected, live, def->open_s);
-    } else {
+    else
         def->error(def->context, "no memory for a live script");
-    }
     live->def.text = NULL;
     if (!good) {
         script_live_close(live);
@@ -372,10 +355,6 @@ void script_live_close(struct script_live *live)
 {
     if (!live)
         return;
-    live->script.over = true;
-    if (live->L)
-        lua_close(live->L);
-    script_watchdog_end(&live->script);
-    assert(live->script.memory_bytes == 0); /* all that was counted has been freed */
+    script_answers_close(&live->script, live->L);
     free(live);
 }

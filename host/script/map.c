@@ -3,7 +3,6 @@
 
 #include "script_internal.h"
 
-#include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -156,23 +155,9 @@ static void host_overdue(void *context)
 /* Calls with an answer's time; what is on the stack is popped. */
 static bool answer(struct script_map *map, lua_CFunction function, void *argument)
 {
-    lua_State *L = map->L;
     if (pthread_getcpuclockid(pthread_self(), &map->script.clock) != 0)
         map->script.clock = CLOCK_MONOTONIC;
-    script_deadline_set(&map->script, answer_s);
-    map->script.memory_short = false;
-    map->script.stack_begin = __builtin_frame_address(0);
-    script_hook_set(L);
-    script_watchdog_pause(&map->script, false);
-    lua_pushcfunction(L, script_message);
-    lua_pushcfunction(L, function);
-    lua_pushlightuserdata(L, argument);
-    const int status = lua_pcall(L, 1, 0, 1);
-    script_watchdog_pause(&map->script, true);
-    if (status != LUA_OK)
-        script_failure_tell(L, status);
-    lua_settop(L, 0);
-    return status == LUA_OK;
+    return script_answers_call(map->L, function, argument, answer_s);
 }
 
 static int open_protected(lua_State *L)
@@ -308,15 +293,12 @@ enum script_status script_map_open(const struct script_map_def *def, struct scri
         return SCRIPT_FAILED;
     }
     map_configure(map, def);
-    struct script *self = &map->script;
-    map->L = lua_newstate(script_allocate, self);
-    bool good = map->L && script_watchdog_start(self);
-    if (good) {
-        memcpy(lua_getextraspace(map->L), &self, sizeof self);
+    map->L = script_answers_open(&map->script);
+    bool good = false;
+    if (map->L)
         good = answer(map, open_protected, map) && words_end(map) == SCRIPT_OK;
-    } else {
+    else
         def->tell(def->context, "no memory for a map");
-    }
     if (!good) {
         script_map_close(map);
         return SCRIPT_FAILED;
@@ -329,10 +311,6 @@ void script_map_close(struct script_map *map)
 {
     if (!map)
         return;
-    map->script.over = true;
-    if (map->L)
-        lua_close(map->L);
-    script_watchdog_end(&map->script);
-    assert(map->script.memory_bytes == 0);
+    script_answers_close(&map->script, map->L);
     free(map);
 }

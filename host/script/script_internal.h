@@ -135,6 +135,15 @@ void script_failure_tell(lua_State *L, int status);
 /* Looks at the clock every thousand instructions from here on. */
 void script_hook_set(lua_State *L);
 
+/* answers.c: a state of Lua's for a script that answers, and its watchdog, which is paused but
+ * in calls. NULL: there is no memory for it, or no thread. Owns: script_answers_close(). */
+lua_State *script_answers_open(struct script *script);
+/* Calls the function with the argument as its light userdata; it has so many seconds of the
+ * script's clock. What is on the stack is popped. False: it has failed, and the host was
+ * told. */
+bool script_answers_call(lua_State *L, lua_CFunction function, void *argument, double seconds);
+void script_answers_close(struct script *script, lua_State *L); /* NULL: nothing */
+
 /* ---- what the host is told ---- */
 
 bool script_interrupted(const struct script *script);
