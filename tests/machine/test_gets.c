@@ -135,6 +135,12 @@ static void gets_open(struct gets *g, uint64_t chance)
     }
 }
 
+/* In blocks gets are messages, which need no places. */
+static bool has_blocks(const struct gets *g)
+{
+    return g->m->sequencers != NULL;
+}
+
 /* How many places are kept. */
 static int kept(const struct gets *g)
 {
@@ -150,7 +156,7 @@ static void places_are_kept_while_the_addresses_are_the_same(void **state)
     (void)state;
     gets_open(&g, 1);
     for (int n = 0; n < 2 * KNOWN_PLACES_FROM; n++) {
-        assert_int_equal(kept(&g), n < KNOWN_PLACES_FROM ? 0 : 2);
+        assert_int_equal(kept(&g), n < KNOWN_PLACES_FROM || has_blocks(&g) ? 0 : 2);
         get(&g, 0);
         get(&g, 2);
         look(&g);
@@ -173,6 +179,7 @@ static void random_programs_come_to_the_same(void **state)
 {
     static struct gets g;
     int most = 0;
+    bool in_blocks = false;
     (void)state;
     for (int seed = 0; seed < programs; seed++) {
         gets_open(&g, (uint64_t)seed);
@@ -191,9 +198,10 @@ static void random_programs_come_to_the_same(void **state)
             most = kept(&g) > most ? kept(&g) : most;
         }
         look(&g);
+        in_blocks = has_blocks(&g);
         machine_destroy(g.m);
     }
-    assert_true(most > 1);
+    assert_true(in_blocks ? most == 0 : most > 1);
 }
 
 int main(int argc, char **argv)

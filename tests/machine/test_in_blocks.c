@@ -1,16 +1,17 @@
 /* test_in_blocks.c - whole instructions on VP sets in blocks (LUTETIA_BLOCKS): reading and
- * writing, reductions, scans, spreads and ranks have the bits of one piece, and put no array
- * together.
+ * writing, reductions, scans, spreads, ranks, sends and gets have the bits of one piece, and
+ * put no array together.
  *
  * Programs are random. A program's numbers follow from its seed alone, so all machines run the
  * same one, and each step leaves a sum of what it found. The twin is the machine with one
  * block. */
 #include "machine_inside.h"
+#include "machine_told.h"
 #include "support.h"
 
 static uint64_t samples = 6; /* programs for each form: the argument */
 
-enum { STEPS = 70, TYPES = 9, FIELDS = 2, MOST = 4096 };
+enum { FOUND = 4, STEPS = 90, TYPES = 9, FIELDS = 2, MOST = 4096, OTHERS = 2 };
 
 static const struct form {
     int rank, lengths[3];
@@ -23,12 +24,23 @@ static const struct form {
 };
 enum { FORMS = sizeof forms / sizeof *forms };
 
+/* That messages go to, and come from: one in blocks, and one that is never cut. */
+static const struct form other_forms[OTHERS] = {{2, {23, 31}, NULL}, {2, {1, 40}, NULL}};
+
+/* A VP set, and its fields of each type. */
+struct other {
+    int set;
+    uint64_t count;
+    uint32_t fields[TYPES];
+};
+
 struct trial {
     struct machine *m;
     const struct form *form;
     uint64_t random, count;
     int set;
-    uint32_t fields[TYPES][FIELDS];
+    uint32_t fields[TYPES][FIELDS], addresses;
+    struct other others[OTHERS];
     uint64_t found[STEPS + 1];
     const char *what[STEPS + 1];
     struct machine_blocks blocks;
@@ -261,6 +273,80 @@ static uint64_t enumerate(struct trial *p, int t)
     return 0;
 }
 
+/* ---- messages ---- */
+
+/* A field of some set, and whose it is: its own set's, or another's. */
+static struct other partner(struct trial *p, int t)
+{
+    const uint64_t k = draw(p, OTHERS + 2);
+    struct other own = {p->set, p->count, {0}};
+    own.fields[t] = p->fields[t][draw(p, FIELDS)];
+    return k < OTHERS ? p->others[k] : own;
+}
+
+/* Of processors of that set, many of them of few; some of none. */
+static struct machine_value *addresses_of(struct trial *p, const struct other *o)
+{
+    const uint64_t few = 1 + draw(p, o->count), beyond = draw(p, 2) ? draw(p, 5) : 0,
+                   turn = draw(p, 2);
+    for (uint64_t n = 0; n < p->count; n++) {
+        const bool nowhere = draw(p, 50) < beyond;
+        support_element_set(p->in, MACHINE_UINT(32), n,
+                            nowhere ? UINT32_MAX - draw(p, 9)
+                                    : machine_send_address(p->m, o->set, draw(p, few)) ^ turn);
+    }
+    assert_ok(machine_field_upload(p->m, p->addresses, MACHINE_UINT(32), p->in), p->m);
+    struct machine_value *address = support_value(p->m, p->addresses, MACHINE_UINT(32)),
+                         *one = machine_constant(p->m, MACHINE_UINT(32),
+                                                 (struct machine_scalar){1, 0});
+    return turn ? machine_binary(p->m, MACHINE_XOR, address, one) : address;
+}
+
+static uint64_t found_there(struct trial *p, const struct other *o, int t)
+{
+    assert_ok(machine_field_download(p->m, o->fields[t], type_of(t), p->out), p->m);
+    return sum_of(p->out, o->count * machine_element_bytes(type_of(t)));
+}
+
+static enum machine_combiner combiner_of(struct trial *p, int t)
+{
+    if (!draw(p, 3))
+        return MACHINE_COMBINE_OVERWRITE;
+    return (enum machine_combiner)(
+        type_of(t).kind == MACHINE_FLOAT
+            ? MACHINE_COMBINE_FADD + (int)draw(p, 3)
+            : MACHINE_COMBINE_AND + (int)draw(p, MACHINE_COMBINE_FADD - MACHINE_COMBINE_AND));
+}
+
+static uint64_t send(struct trial *p, int t)
+{
+    const struct other to = partner(p, t);
+    const enum machine_combiner combiner = combiner_of(p, t);
+    struct machine_value *address = addresses_of(p, &to), *source = of_field(p, t);
+    const uint32_t bits = to.set == p->set ? p->fields[0][0] : to.fields[0],
+                   notify = draw(p, 2) && t ? bits : MACHINE_NO_FIELD;
+    if (!draw(p, 4))
+        source =
+            machine_constant(p->m, type_of(t), support_scalar(support_word(type_of(t), 3, 3)));
+    assert_ok(machine_send(p->m, to.fields[t], address, source, combiner, notify), p->m);
+    return found_there(p, &to, t) + machine_sent_beyond(p->m);
+}
+
+static uint64_t get(struct trial *p, int t)
+{
+    const struct other from = partner(p, t);
+    store(p, t, machine_get(p->m, addresses_of(p, &from), from.fields[t], type_of(t)));
+    return 0;
+}
+
+static uint64_t check(struct trial *p, int t)
+{
+    const struct other to = partner(p, t);
+    uint64_t wrong;
+    assert_ok(machine_addresses_check(p->m, addresses_of(p, &to), to.set, &wrong), p->m);
+    return wrong;
+}
+
 static const struct step {
     const char *name;
     uint64_t (*take)(struct trial *p, int t);
@@ -284,6 +370,11 @@ static const struct step {
     {"spread of a processor", spread_index},
     {"rank", rank},
     {"enumeration", enumerate},
+    {"send", send},
+    {"send", send},
+    {"get", get},
+    {"get", get},
+    {"check of addresses", check},
 };
 enum { KINDS = sizeof steps / sizeof *steps };
 
@@ -312,6 +403,16 @@ static void begin(struct trial *p)
     for (int t = 0; t < TYPES; t++)
         for (int k = 0; k < FIELDS; k++)
             p->fields[t][k] = support_field(p->m, type_of(t), (uint64_t)(10 * t + k));
+    p->addresses = machine_field_allocate(p->m, p->set, 32, MACHINE_HEAP);
+    for (int k = 0; k < OTHERS; k++) {
+        struct other *o = &p->others[k];
+        o->set = machine_vpset_create(p->m, other_forms[k].lengths, other_forms[k].rank);
+        o->count = machine_vpset_count(p->m, o->set);
+        assert_ok(machine_vpset_select(p->m, o->set), p->m);
+        for (int t = 0; t < TYPES; t++)
+            o->fields[t] = support_field(p->m, type_of(t), (uint64_t)(10 * t + 7));
+    }
+    assert_ok(machine_vpset_select(p->m, p->set), p->m);
 }
 
 /* All steps, and at the end all fields. */
@@ -333,6 +434,9 @@ static void program_run(struct trial *p, const char *blocks, const struct form *
     for (int t = 0; t < TYPES; t++)
         for (uint64_t k = 0; k < FIELDS; k++)
             p->found[STEPS] = p->found[STEPS] * 31 + found_in(p, t, k);
+    for (int t = 0; t < TYPES; t++)
+        for (int k = 0; k < OTHERS; k++)
+            p->found[STEPS] = p->found[STEPS] * 31 + found_there(p, &p->others[k], t);
     p->blocks = machine_blocks(p->m);
     machine_destroy(p->m);
 }
@@ -377,7 +481,19 @@ static void whole_instructions_have_the_bits_of_one_piece(void **state)
     free(p);
 }
 
-/* ---- long runs of floats ---- */
+/* ---- long rows ---- */
+
+static const char *const long_counts[] = {"1", "2", "3", "7"};
+
+static void floats_upload(struct machine *m, uint32_t field, size_t count)
+{
+    float *x = malloc(count * sizeof *x);
+    assert_non_null(x);
+    for (size_t i = 0; i < count; i++)
+        x[i] = (float)(i % 1013) * 0.3f + 1e5f / (float)(i + 1);
+    assert_ok(machine_field_upload(m, field, MACHINE_F32, x), m);
+    free(x);
+}
 
 /* Rows, and a single row, longer than a run of a reduction (4,096) and of a scan (512). */
 static void long_runs_of_floats_are_added_in_one_order(void **state)
@@ -385,11 +501,10 @@ static void long_runs_of_floats_are_added_in_one_order(void **state)
     (void)state;
     static const struct form longs[] = {
         {2, {1100, 9}, "4"}, {2, {11, 9000}, "2"}, {1, {65536}, "16"}};
-    static const char *const counts[] = {"1", "2", "3", "7"};
     for (int form = 0; form < 3; form++) {
         uint64_t found[4][3];
         for (int k = 0; k < 4; k++) {
-            struct machine *m = machine_of(counts[k], longs[form].ghosts);
+            struct machine *m = machine_of(long_counts[k], longs[form].ghosts);
             const int set = machine_vpset_create(m, longs[form].lengths, longs[form].rank);
             struct machine_scalar sum, below;
             const struct machine_scan how = {.op = MACHINE_SCAN_FADD, .downward = form == 2};
@@ -399,9 +514,7 @@ static void long_runs_of_floats_are_added_in_one_order(void **state)
             const size_t count = machine_vpset_count(m, set);
             float *out = malloc(count * sizeof *out);
             assert_non_null(out);
-            for (size_t i = 0; i < count; i++)
-                out[i] = (float)(i % 1013) * 0.3f + 1e5f / (float)(i + 1);
-            assert_ok(machine_field_upload(m, a, MACHINE_F32, out), m);
+            floats_upload(m, a, count);
             machine_begin(m);
             assert_ok(
                 machine_reduce(m, MACHINE_REDUCE_FADD, support_value(m, a, MACHINE_F32), &sum),
@@ -426,6 +539,54 @@ static void long_runs_of_floats_are_added_in_one_order(void **state)
     }
 }
 
+/* Rows of several of the router's blocks; hundreds of floats to one processor. */
+static void many_messages_have_one_order(void **state)
+{
+    (void)state;
+    static const struct form longs[] = {{2, {11, 9000}, "2"}, {1, {65536}, "16"}};
+    for (int form = 0; form < 2; form++) {
+        uint64_t found[4][FOUND];
+        for (int k = 0; k < 4; k++) {
+            struct machine *m = machine_of(long_counts[k], longs[form].ghosts);
+            const int set = machine_vpset_create(m, longs[form].lengths, longs[form].rank);
+            assert_ok(machine_vpset_select(m, set), m);
+            const uint32_t source = support_field(m, MACHINE_F32, 3),
+                           to[FOUND - 1] = {support_field(m, MACHINE_F32, 4),
+                                            support_field(m, MACHINE_F32, 5),
+                                            support_field(m, MACHINE_F32, 6)},
+                           at = machine_field_allocate(m, set, 32, MACHINE_HEAP);
+            const uint64_t count = machine_vpset_count(m, set);
+            uint32_t *out = malloc(count * sizeof *out);
+            assert_non_null(out);
+            floats_upload(m, source, count);
+            for (uint64_t n = 0; n < count; n++)
+                out[n] = (uint32_t)machine_send_address(
+                    m, set, n * UINT64_C(2654435761) % 100003 * 977 % (count / 300) * 299);
+            assert_ok(machine_field_upload(m, at, MACHINE_UINT(32), out), m);
+            for (int i = 0; i < FOUND - 1; i++) {
+                machine_begin(m);
+                struct machine_value *a = support_value(m, at, MACHINE_UINT(32));
+                assert_ok(
+                    i == 2
+                        ? machine_field_store(m, to[2], machine_get(m, a, to[0], MACHINE_F32),
+                                              MACHINE_EVERYWHERE)
+                        : machine_send(m, to[i], a, support_value(m, source, MACHINE_F32),
+                                       i ? MACHINE_COMBINE_OVERWRITE : MACHINE_COMBINE_FADD,
+                                       MACHINE_NO_FIELD),
+                    m);
+                assert_ok(machine_field_download(m, to[i], MACHINE_F32, out), m);
+                found[k][i] = sum_of(out, count * sizeof *out);
+            }
+            found[k][FOUND - 1] =
+                machine_sent_beyond(m) + machine_blocks(m).gathered * !is_far();
+            assert_true((machine_blocks(m).run > 0) == (k > 0) || is_far());
+            free(out);
+            machine_destroy(m);
+            assert_memory_equal(found[k], found[0], sizeof found[0]);
+        }
+    }
+}
+
 int main(int argc, char **argv)
 {
     if (argc > 1)
@@ -433,6 +594,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(whole_instructions_have_the_bits_of_one_piece),
         cmocka_unit_test(long_runs_of_floats_are_added_in_one_order),
+        cmocka_unit_test(many_messages_have_one_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

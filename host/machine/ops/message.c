@@ -69,21 +69,22 @@ bool message_make(struct machine *m, struct message *g, struct machine_value *ad
     for (int i = 0; i < 4; i++)
         if (all[i] && !node_is_leaf(all[i]))
             wanted[count++] = all[i];
-    if (count && evaluate_values(m, wanted, count, false))
+    if (count && evaluate_in_blocks(m, wanted, count, false))
         return false;
     g->all = !g->context || value_is_one_bit(g->context);
-    g->address = materialise(m, g->from_set, address);
+    g->address = materialise_in_blocks(m, g->from_set, address);
     if (g->address && source) /* a number that is sent may do as it is */
-        g->source =
-            other && source->op == NODE_CONSTANT ? source : materialise(m, source_set, source);
+        g->source = other && source->op == NODE_CONSTANT
+                        ? source
+                        : materialise_in_blocks(m, source_set, source);
     if (g->address && other)
-        g->old = g->fills ? other : materialise(m, to_set, other);
+        g->old = g->fills ? other : materialise_in_blocks(m, to_set, other);
     if (!g->address || (source && !g->source) || (other && !g->old))
         return false;
     if (g->all)
         g->context = g->address; /* a dummy for the unused argument */
     else
-        g->context = materialise(m, g->from_set, g->context);
+        g->context = materialise_in_blocks(m, g->from_set, g->context);
     g->from = &m->values->sets[g->from_set];
     g->to = &m->values->sets[to_set];
     g->flat = g->from->rows == 1 && g->to->rows == 1;

@@ -19,8 +19,9 @@ struct message {
     struct known_addresses *known; /* of the addresses; NULL: nothing is */
 };
 
-/* Puts everything that a router operation reads into memory, by one evaluation. source and
- * other may be NULL, the context need not be wanted. */
+/* Puts everything that a router operation reads into memory, by one evaluation; arrays may be
+ * in blocks only: see all_to_all_arrange(). source and other may be NULL, the context need not
+ * be wanted. */
 bool message_make(struct machine *m, struct message *g, struct machine_value *address,
                   struct machine_value *source, int source_set, struct machine_value *other,
                   int to_set, bool under_context, bool combines);

@@ -88,8 +88,7 @@ static struct range blocks_of_part(const struct near_route *r, int part)
     return (struct range){count * (uint64_t)part / parts, count * (uint64_t)(part + 1) / parts};
 }
 
-/* The other end of each row, on both sides. */
-static void rows_repeat(const struct vpset *s, size_t bytes, struct device_buffer *b)
+void near_rows_repeat(const struct vpset *s, size_t bytes, struct device_buffer *b)
 {
     size_t width = (size_t)s->width * bytes, halo = (size_t)s->halo * bytes;
     for (uint64_t row = 0; row < s->rows && halo; row++) {
@@ -358,9 +357,9 @@ void near_send(const struct near_route *r, enum machine_combiner combiner,
     const bool whole = combiner != MACHINE_COMBINE_OVERWRITE && type.kind != MACHINE_FLOAT;
     if (arrived || !whole || !near_send_few(r, combiner, type, g.source, same, g.out))
         crew_run(r->crew, r->parts, part_send, &g);
-    rows_repeat(r->to, g.bytes, out);
+    near_rows_repeat(r->to, g.bytes, out);
     if (arrived)
-        rows_repeat(r->to, 1, arrived);
+        near_rows_repeat(r->to, 1, arrived);
 }
 
 /* ---- gets ---- */
@@ -414,7 +413,7 @@ void near_get(const struct near_route *r, size_t bytes, const struct device_buff
 {
     struct routing g = {.r = r, .bytes = bytes, .source = source->host, .out = out->host};
     crew_run(r->crew, r->parts, part_get, &g);
-    rows_repeat(r->from, bytes, out);
+    near_rows_repeat(r->from, bytes, out);
 }
 
 static void part_count(void *of, int part, int worker)

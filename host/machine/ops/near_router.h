@@ -13,6 +13,8 @@ void near_send(const struct near_route *r, enum machine_combiner combiner,
 /* Of elements of so many bytes; 0 from a processor that does not exist. */
 void near_get(const struct near_route *r, size_t bytes, const struct device_buffer *source,
               struct device_buffer *out);
+/* The other end of each row, on both sides: what sends and gets do at last. */
+void near_rows_repeat(const struct vpset *s, size_t bytes, struct device_buffer *b);
 /* Whether each address is of a processor, also where nobody sends; and whether then no two are
  * of the same. */
 bool near_all_there(const struct near_route *r);

@@ -20,12 +20,14 @@
 #include "machine_told.h"
 #include "memory/call_set.h"
 #include "memory/memory.h"
+#include "ops/all_to_all.h"
 #include "ops/gets.h"
 #include "ops/index.h"
 #include "ops/message.h"
 #include "ops/near.h"
 #include "run/evaluate.h"
 #include "run/materialise.h"
+#include "sequencers/sequencers.h"
 #include "values/graph.h"
 #include "values/make.h"
 
@@ -296,6 +298,22 @@ static enum machine_status beyond_look(struct machine *m, const struct message *
     return status;
 }
 
+/* From block to block. */
+static struct machine_value *transmit_in_blocks(struct machine *m, const struct message *g,
+                                                enum machine_combiner combiner,
+                                                struct machine_value **notification)
+{
+    struct device_buffer *arrived = NULL,
+                         *out = all_to_all_send(m, g, combiner, notification ? &arrived : NULL);
+    if (!out)
+        return NULL;
+    if (notification)
+        *notification = graph_buffer_node(m, MACHINE_BIT, g->to_set, arrived);
+    struct machine_value *v = graph_buffer_node(m, g->source->type, g->to_set, out);
+    v->strange_nan = g->source->strange_nan || g->old->strange_nan;
+    return v;
+}
+
 /* notification NULL: nobody wants it. */
 static struct machine_value *transmit(struct machine *m, struct message *g,
                                       enum machine_combiner combiner,
@@ -305,6 +323,11 @@ static struct machine_value *transmit(struct machine *m, struct message *g,
     struct rows rows = geometry_rows(g->to, type);
     size_t bytes = rows.bytes;
     double start;
+    bool in_blocks;
+    if (all_to_all_arrange(m, g, false, &in_blocks))
+        return NULL;
+    if (in_blocks)
+        return transmit_in_blocks(m, g, combiner, notification);
     struct device_buffer *out = g->over ? g->old->buffer : device_rows_get(m, rows);
     if (g->over)
         device_buffer_ref(out);
@@ -411,6 +434,7 @@ enum machine_status machine_send(struct machine *m, uint32_t dest,
         old = none;
     }
     if (combiner == MACHINE_COMBINE_OVERWRITE && !notify &&
+        !(m->sequencers && sequencers_cut(m, to.vpset)) &&
         known_ranks_are(m, send_address, to.vpset))
         out = message_pack(m, source, old);
     if (!out && m->status)
@@ -444,10 +468,14 @@ static struct machine_value *fetch(struct machine *m, const struct message *g)
 {
     char options[128];
     struct machine_type type = g->source->type;
-    struct device_buffer *out = message_array(m, g->from, type);
     double start;
-    if (!out)
+    bool in_blocks;
+    if (all_to_all_arrange(m, g, true, &in_blocks))
         return NULL;
+    struct device_buffer *out =
+        in_blocks ? all_to_all_get(m, g) : message_array(m, g->from, type);
+    if (!out || in_blocks)
+        return out ? fetched(m, g, out) : NULL;
     if (message_near(m, g->to, out, &start)) {
         const struct near_route r = message_route(m, g, false);
         near_get(&r, type_bytes(type), g->source->buffer, out);
@@ -471,6 +499,15 @@ static struct machine_value *fetch(struct machine *m, const struct message *g)
     return fetched(m, g, out);
 }
 
+/* Whether a get is messages from block to block: the kernels of a block look into no other. */
+static bool gets_from_blocks(struct machine *m, struct machine_value *address, int set)
+{
+    uint32_t bits;
+    return m->sequencers && m->settings.near && m->device->is_pocl &&
+           (sequencers_cut(m, set) || sequencers_cut(m, m->values->set_current)) &&
+           !gets_turned(m, address, set, &bits);
+}
+
 struct machine_value *machine_get(struct machine *m, struct machine_value *send_address,
                                   uint32_t source, struct machine_type type)
 {
@@ -484,7 +521,7 @@ struct machine_value *machine_get(struct machine *m, struct machine_value *send_
     struct machine_value *v = machine_field_value(m, source, type, MACHINE_EVERYWHERE);
     if (!v)
         return NULL;
-    if (gets_can(m, v, from.vpset)) {
+    if (gets_can(m, v, from.vpset) && !gets_from_blocks(m, send_address, from.vpset)) {
         v = graph_same_bits(m, v); /* they are what is in memory */
         v = gets_made(m, send_address, v, from.vpset);
         return machine_reinterpret(m, v, type);
@@ -505,12 +542,17 @@ enum machine_status machine_addresses_check(struct machine *m,
         return m->status;
     struct message g = {0};
     double begin;
+    bool in_blocks;
     if (known_ranks_are(m, send_address, vpset))
         return MACHINE_OK;
     if (!message_make(m, &g, send_address, NULL, 0, NULL, vpset, true, false))
         return m->status;
     if (g.known && g.known->there)
         return MACHINE_OK;
+    if (all_to_all_arrange(m, &g, false, &in_blocks))
+        return m->status;
+    if (in_blocks)
+        return all_to_all_wrong(m, &g, wrong);
     if (message_near(m, g.to, g.address->buffer, &begin)) {
         const struct near_route r = message_route(m, &g, false);
         *wrong = near_wrong(&r);
