@@ -104,7 +104,7 @@ static int set_make(struct paper_sheet *p, int bristles)
     CM_set_context();
     b->address = CM_allocate_heap_field(32);
     b->count = CM_allocate_heap_field(32);
-    CM_field_id_t *const floats[] = {&b->contact, &b->force,  &b->sharers,
+    CM_field_id_t *const floats[] = {&b->contact, &b->reach,  &b->sharers,
                                      &b->places,  &b->gotten, &b->sent};
     for (size_t i = 0; i < sizeof floats / sizeof *floats; i++)
         *floats[i] = CM_allocate_heap_field(KIT_FLOAT_BITS);

@@ -6,7 +6,7 @@
  * is the same in all rows of its column.
  *
  *              bristle 0   1   2   3  ...
- *     place 0        .     .   .   .        address of the fiber; contact; force; how many
+ *     place 0        .     .   .   .        address of the fiber; contact; reach; how many
  *                    touch that fiber;
  *     place 1        .     .   .   .        in how many places the bristle touches
  *      ...
@@ -37,7 +37,7 @@ struct sheet_bristle {
 struct sheet_contacts {
     uint32_t address[BRUSH_PLACES];
     float contact[BRUSH_PLACES]; /* part of the way to equal levels, 0..1; 0: no touch */
-    float force[BRUSH_PLACES];   /* 0..1 */
+    float reach[BRUSH_PLACES];   /* how far a dry bristle there reaches below the fiber */
     float sharers[BRUSH_PLACES]; /* places on the same fiber, 1.. */
     float places[BRUSH_PLACES];  /* of the same bristle, 1.. */
     float takes[BRUSH_PLACES];   /* factor on what the bristle would leave there, about 1 */
@@ -59,7 +59,7 @@ struct bristle_set {
     int bristles;
     CM_geometry_id_t geometry;
     CM_vp_set_id_t vp_set; /* 0: not made */
-    CM_field_id_t address, contact, force, sharers, places, gotten, sent, count;
+    CM_field_id_t address, contact, reach, sharers, places, gotten, sent, count;
     CM_field_id_t t[BRUSH_TEMPORARIES];
     CM_field_id_t give[1 + PAPER_PIGMENTS_MAX]; /* what each place gives, less what it takes */
 };
@@ -85,15 +85,22 @@ int sheet_fiber_at(double at, int length, bool torus);
 struct sheet_place {
     int fiber[4], part[4];
     int force; /* 0: it touches nothing */
+    int held;  /* the same, less where the hair is lifted; may be below 0 */
 };
 
 /* force: 0..1. False: it is beyond the sheet. */
 bool sheet_place_make(const struct paper_sheet *p, double x, double y, double force,
-                      struct sheet_place *place);
-/* fibers[i] = the fiber that place i talks to, by row-major number, -1: none; touch[i] = how
- * many places of full force lie over that fiber. Writes b->contacts.sharers. */
+                      double lifted, struct sheet_place *place);
+/* What fiber each place talks to (by row-major number, -1: none), how many places of full force
+ * lie over that fiber, and with what force, less where hairs are lifted: the mean of them
+ * weighed by their force, up to 1. */
+struct sheet_dealt {
+    int fibers[BRUSH_PLACES];
+    double touch[BRUSH_PLACES], force[BRUSH_PLACES];
+};
+/* Writes b->contacts.sharers besides. */
 void sheet_places_deal(struct sheet_brushes *b, const struct sheet_place *places,
-                       int fibers[BRUSH_PLACES], double touch[BRUSH_PLACES]);
+                       struct sheet_dealt *dealt);
 /* ---- a stroke on its way over the sheet (stroke.c): as many intervals as it takes steps
  * ---- */
 
@@ -102,8 +109,10 @@ struct sheet_going {
     struct sheet_brush *own;
     const struct paper_stroke *stroke; /* who adds samples may move them */
     int cursor;
-    int interval;    /* the next */
-    uint64_t moment; /* places along the way so far */
+    int interval;       /* the next */
+    uint64_t moment;    /* places along the way so far */
+    double way, stride; /* of the tuft's middle so far, and from a place to the next: fibers */
+    uint64_t seed;      /* for how its hairs part and lift */
 };
 
 void sheet_going_begin(struct sheet_going *g, struct paper_sheet *p,
@@ -120,6 +129,15 @@ double sheet_stroke_around(const struct paper_sheet *p, const struct paper_brush
 
 /* Where the bristles are, and what they are like, from the brush's description. */
 void sheet_brush_bristles_make(struct sheet_brush *brush);
+/* How far a hair is aside of its place across the tuft, fibers; and how much of its force it is
+ * lifted by, 0.. */
+struct sheet_hair {
+    double aside, lifted;
+};
+/* After so many fibers of a stroke's way, on a sheet that is so many times finer than its
+ * stock. */
+struct sheet_hair sheet_hair_at(const struct sheet_brush *brush, int number, uint64_t seed,
+                                double way, double finer);
 
 /* Numbers by chance, 0..1, from whatever distinguishes them. */
 static inline double sheet_chance(uint64_t seed, uint64_t a, uint64_t b)

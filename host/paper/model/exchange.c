@@ -1,13 +1,13 @@
 /* exchange.c - what passes between bristles and fibers, as a program on the bristles' own
  * processors.
  *
- * A place is a bristle on a fiber. It looks at the fiber's height, whether it is barred, water
- * s and pigments by CM_get, and at its own water w. With
+ * A place is a bristle on a fiber. It looks at whether the fiber is barred, its water s and
+ * pigments by CM_get, and at its own water w. With
  *
  *     level   = load * gives * takes * f (2 - f), f = w / full what the bristle would leave on
  *             a fiber
- *     touch   = 1 where height >= 1 - reach; reach grows with force and f: a dry brush skips
- *             the hollows
+ *     touch   = steeply from 0 to 1 where reach + WET_REACH f is above 0: reach comes from the
+ *             fiber's tooth and the force (stroke.c), and a dry brush skips the hollows
  *     part    = contact * touch / sharers
  *     given   = part * (max (level - s, 0) + mixing * min (level, s))
  *     taken   = part * (max (s - level, 0) + mixing * min (level, s))
@@ -21,10 +21,7 @@
 enum { D_S = 52, D_E = 11, D_BITS = 64, GRAINS_BITS = 31, BRUSH_ROWS_LOG2 = 5 };
 #define D D_S, D_E
 
-/* on the scale of heights: at full force a dry bristle touches the fibers above 1 - DRY_REACH,
- * a full one all fibers */
-#define DRY_REACH 0.55
-#define WET_REACH 1.5
+#define WET_REACH 1.5 /* on the scale of heights: a full bristle touches all fibers */
 #define TOUCH_STEEPNESS 4.0
 /* A fiber gets up to this of water and of each pigment from a brush. */
 #define GIVE_MOST 4.0
@@ -48,7 +45,7 @@ static void contacts_write(const struct bristle_set *b, const struct sheet_conta
         CM_field_id_t field;
         const float *values;
     } rows[] = {{b->contact, contacts->contact},
-                {b->force, contacts->force},
+                {b->reach, contacts->reach},
                 {b->sharers, contacts->sharers},
                 {b->places, contacts->places}};
     int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {0, 1};
@@ -79,13 +76,9 @@ static void level_make(const struct paper_sheet *p, const struct bristle_set *b,
 static void part_make(struct paper_sheet *p, const struct bristle_set *b, CM_field_id_t part,
                       CM_field_id_t fullness, CM_field_id_t other)
 {
-    get(b, part, p->height);
-    CM_f_multiply_constant_3_1L(other, fullness, WET_REACH, D);
+    CM_f_multiply_constant_3_1L(part, fullness, WET_REACH, D);
+    CM_f_move_2L(other, b->reach, D, KIT_F);
     CM_f_add_2_1L(part, other, D);
-    CM_f_move_2L(other, b->force, D, KIT_F);
-    CM_f_multiply_constant_2_1L(other, DRY_REACH, D);
-    CM_f_add_2_1L(part, other, D);
-    CM_f_add_constant_2_1L(part, -1.0, D);
     CM_f_multiply_constant_2_1L(part, TOUCH_STEEPNESS, D);
     CM_f_max_constant_2_1L(part, 0.0, D);
     CM_f_min_constant_2_1L(part, 1.0, D);

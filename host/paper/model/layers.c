@@ -136,7 +136,8 @@ enum paper_status sheet_layer(struct paper_sheet *p, const void *arguments)
     kit_grid_f_write(&p->page.grid, field, cut);
     if (p->config.deckled && layers[layer].amount)
         sheet_paper_heed(p, field);
-    p->relief_made = p->relief_made && layer != PAPER_LAYER_HEIGHT;
+    if (layer == PAPER_LAYER_HEIGHT)
+        sheet_heights_changed(p);
     p->varnished = p->varnished || layer == PAPER_LAYER_VARNISH;
     p->salted = p->salted || layer == PAPER_LAYER_SALT || layer == PAPER_LAYER_BRINE;
     if (layer == PAPER_LAYER_ABSORBENCY || layer == PAPER_LAYER_RESIST ||

@@ -52,16 +52,6 @@ struct heights {
     float *shade;
 };
 
-/* The place `by` from i of `count`: beyond the edges that of the last fiber, or on a torus of
- * the other side. */
-static int place_beside(int i, int by, int count, bool torus)
-{
-    const int at = i + by;
-    if (torus)
-        return (at % count + count) % count;
-    return at < 0 ? 0 : at < count ? at : count - 1;
-}
-
 /* to = means of three of `from` along x that are `distance` apart, the middle one counted
  * twice. */
 static void means_along_x(const struct heights *of, const float *from, float *to, int distance)
@@ -77,9 +67,9 @@ static void means_along_x(const struct heights *of, const float *from, float *to
         for (int x = 0; x < width; x++) {
             if (x == distance && whole > 0)
                 x += whole;
-            means[x] =
-                0.5f * row[x] + 0.25f * (row[place_beside(x, -distance, width, of->torus)] +
-                                         row[place_beside(x, distance, width, of->torus)]);
+            means[x] = 0.5f * row[x] +
+                       0.25f * (row[sheet_place_beside(x, -distance, width, of->torus)] +
+                                row[sheet_place_beside(x, distance, width, of->torus)]);
         }
     }
 }
@@ -90,10 +80,12 @@ static void means_along_y(const struct heights *of, const float *from, float *to
     const size_t width = (size_t)of->width;
     for (int y = 0; y < of->height; y++) {
         const float *row = from + (size_t)y * width,
-                    *above = from +
-                             (size_t)place_beside(y, -distance, of->height, of->torus) * width,
+                    *above =
+                        from +
+                        (size_t)sheet_place_beside(y, -distance, of->height, of->torus) * width,
                     *below =
-                        from + (size_t)place_beside(y, distance, of->height, of->torus) * width;
+                        from +
+                        (size_t)sheet_place_beside(y, distance, of->height, of->torus) * width;
         float *means = to + (size_t)y * width;
         for (size_t x = 0; x < width; x++)
             means[x] = 0.5f * row[x] + 0.25f * (above[x] + below[x]);
@@ -107,14 +99,16 @@ static void lights_shade(const struct heights *of, int distance)
     const float along_x = (float)(KEY + SECOND), along_y = (float)(KEY - SECOND);
     for (int y = 0; y < of->height; y++) {
         const float *row = of->level + (size_t)y * width,
-                    *above = of->level +
-                             (size_t)place_beside(y, -distance, of->height, of->torus) * width,
-                    *below = of->level +
-                             (size_t)place_beside(y, distance, of->height, of->torus) * width;
+                    *above =
+                        of->level +
+                        (size_t)sheet_place_beside(y, -distance, of->height, of->torus) * width,
+                    *below =
+                        of->level +
+                        (size_t)sheet_place_beside(y, distance, of->height, of->torus) * width;
         float *shade = of->shade + (size_t)y * width;
         for (int x = 0; x < of->width; x++)
-            shade[x] = along_x * (row[place_beside(x, distance, of->width, of->torus)] -
-                                  row[place_beside(x, -distance, of->width, of->torus)]) +
+            shade[x] = along_x * (row[sheet_place_beside(x, distance, of->width, of->torus)] -
+                                  row[sheet_place_beside(x, -distance, of->width, of->torus)]) +
                        along_y * (below[x] - above[x]);
     }
 }

@@ -74,6 +74,7 @@ struct paper_sheet {
     CM_field_id_t stained;
     CM_field_id_t relief; /* what light of strength 1 makes of the relief, about 0 (light.c) */
     bool relief_made;     /* of the heights as they are */
+    int16_t *tooth;       /* tooth.c; NULL: not made of the heights as they are */
     CM_field_id_t varnish, salt, brine;
     bool varnished, salted; /* there may be some */
     double salt_reach, salt_strength;
@@ -193,6 +194,18 @@ enum paper_status sheet_stock_make(struct paper_sheet *p);
 /* Faces from absorbency, resist, thickness and the edges; call it when these change. */
 void sheet_faces_make(struct paper_sheet *p);
 
+/* Light and brushes see the heights anew (tooth.c). */
+void sheet_heights_changed(struct paper_sheet *p);
+/* The place `by` from i of `count`: beyond the edges that of the last fiber, or on a torus of
+ * the other side. */
+static inline int sheet_place_beside(int i, int by, int count, bool torus)
+{
+    const int at = i + by;
+    if (torus)
+        return (at % count + count) % count;
+    return at < 0 ? 0 : at < count ? at : count - 1;
+}
+
 /* ---- amounts (put_and_take.c) ---- */
 
 /* Errors: BAD_ARGUMENT (a screen of nothing). */
@@ -289,7 +302,14 @@ void sheet_flow_take(struct paper_sheet *p, CM_field_id_t q, CM_field_id_t flow,
 /* Salt dissolves and pushes: a part of a step. Uses t[0..15]. */
 void sheet_salt_step(struct paper_sheet *p);
 
-/* ---- brushes (brush.c) ---- */
+/* ---- brushes (brush.c, tooth.c) ---- */
+
+/* What a brush feels of the heights, if they have changed since it was made. Between
+ * paper_enter() and paper_leave(). Errors: NO_MEMORY. */
+enum paper_status sheet_tooth_make(struct paper_sheet *p);
+/* How far a fiber, by row-major number, stands above the paper around it: -1..1, on the scale
+ * of heights. */
+double sheet_tooth_at(const struct paper_sheet *p, int fiber);
 
 void sheet_brushes_destroy(struct paper_sheet *p);
 /* NULL: there is none. */

@@ -163,5 +163,5 @@ void sheet_planes_written(struct paper_sheet *p)
 {
     CM_set_context();
     sheet_faces_make(p);
-    p->relief_made = false;
+    sheet_heights_changed(p);
 }

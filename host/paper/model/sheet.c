@@ -148,6 +148,7 @@ void sheet_destroy(struct paper_sheet *p)
     sheet_brushes_destroy(p);
     kit_grid_free(&p->page.grid);
     free(p->covers);
+    free(p->tooth);
     free(p);
 }
 

@@ -278,6 +278,6 @@ enum paper_status sheet_stock_make(struct paper_sheet *p)
     }
     color_make(p, shade);
     sheet_faces_make(p);
-    p->relief_made = false;
+    sheet_heights_changed(p);
     return PAPER_OK;
 }

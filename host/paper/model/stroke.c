@@ -13,6 +13,7 @@
  * pass; contact = 1 - exp (-flow * that). Places lie evenly in a line as wide as the bristle is
  * thick, which follows from the bristle and the number of the place alone. */
 #include "model/brush_internal.h"
+#include "model/clouds.h"
 
 #include <math.h>
 #include <string.h>
@@ -21,8 +22,14 @@
 #define FORCE_FULL 0.3
 /* How wide a line is at least, of a bristle's share of the tuft's width. */
 #define LINES_OVERLAP 5.0
+#define HAIRS_STEPS 4.0   /* of a fiber: where strokes begin, for their hairs */
 #define WAITING_PACE 60.0 /* pieces of a second where the paper waits */
 #define TOUCH_SHARE 0.15  /* of a bristle's contact: fibers are touched by several */
+/* On the scale of heights: at full force a dry bristle touches the fibers whose tooth is above
+ * 1/2 - DRY_REACH. A tuft feels the tooth so many times: it has less of the heights' deviation
+ * than the heights. */
+#define DRY_REACH 0.55
+#define TOOTH_FELT 1.4
 #define CONTACT_STEPS                                                                          \
     65536.0 /* a contact is a whole number of these: the last bits of exp() vary */
 
@@ -69,27 +76,28 @@ static double spacing_of(const struct paper_sheet *p)
 
 /* Places that lie evenly on a line as wide as the bristle, however many of them there are:
  * multiples of the golden section, counted from a place of the bristle's own. */
-static void place_beside(const struct paper_sheet *p, const struct sheet_brush *own, int number,
-                         uint64_t moment, double spacing, double *side, double *ahead)
+static void place_beside(const struct sheet_going *g, int number, double *side, double *ahead)
 {
-    double from = sheet_chance(own->brush.seed + 7, (uint64_t)number, 0),
-           along = sheet_chance(own->brush.seed + 7, (uint64_t)number, 1);
-    double place = from + 0.6180339887498949 * (double)moment,
-           forward = along + 0.7548776662466927 * (double)moment;
+    const struct paper_brush *brush = &g->own->brush;
+    double from = sheet_chance(brush->seed + 7, (uint64_t)number, 0),
+           along = sheet_chance(brush->seed + 7, (uint64_t)number, 1);
+    double place = from + 0.6180339887498949 * (double)g->moment,
+           forward = along + 0.7548776662466927 * (double)g->moment;
     place -= floor(place);
     forward -= floor(forward);
     const double width =
-        fmin(own->brush.thickness,
-             fmax(p->finer, LINES_OVERLAP * own->brush.width / own->brush.bristles));
-    *side = width * (place - 0.5) * (own->brush.mirrored ? -1 : 1);
-    *ahead = spacing * (forward - 0.5);
+        fmin(brush->thickness,
+             fmax(g->sheet->finer, LINES_OVERLAP * brush->width / brush->bristles));
+    *side = width * (place - 0.5) * (brush->mirrored ? -1 : 1);
+    *ahead = spacing_of(g->sheet) * (forward - 0.5);
 }
 
-/* The middle of one place of bristle `number`; false: it does not touch. */
-static bool place_make(struct paper_sheet *p, const struct sheet_brush *own,
-                       const struct tuft *tuft, int number, uint64_t moment, double place[2],
-                       double *force)
+/* One place of bristle `number`; false: it does not touch. */
+static bool place_make(const struct sheet_going *g, const struct tuft *tuft, int number,
+                       const struct sheet_hair *hair, struct sheet_place *place, double *force)
 {
+    const struct paper_sheet *p = g->sheet;
+    const struct sheet_brush *own = g->own;
     const struct sheet_bristle *bristle = &own->bristles[number];
     double across = bristle->across * (own->brush.mirrored ? -1 : 1), along = bristle->along;
     double pressed = tuft->pressure * (1 + tuft->lean[0] * across + tuft->lean[1] * along) -
@@ -97,13 +105,14 @@ static bool place_make(struct paper_sheet *p, const struct sheet_brush *own,
     if (!(pressed > 0))
         return false;
     *force = fmin(1, pressed / FORCE_FULL);
-    double side, ahead;
-    place_beside(p, own, number, moment, spacing_of(p), &side, &ahead);
+    double side, ahead, at[2];
+    place_beside(g, number, &side, &ahead);
+    side += hair->aside * (own->brush.mirrored ? -1 : 1);
     for (int i = 0; i < 2; i++)
-        place[i] = (i == 0 ? tuft->x : tuft->y) +
-                   tuft->across[i] * (across + side / tuft->half[0]) +
-                   tuft->along[i] * (along + ahead / tuft->half[1]);
-    return true;
+        at[i] = (i == 0 ? tuft->x : tuft->y) +
+                tuft->across[i] * (across + side / tuft->half[0]) +
+                tuft->along[i] * (along + ahead / tuft->half[1]);
+    return sheet_place_make(p, at[0], at[1], *force, hair->lifted, place);
 }
 
 static float whole_contact(double contact)
@@ -177,42 +186,72 @@ static void places_count(struct sheet_contacts *c, int rows, int bristles)
     }
 }
 
+/* How far below a fiber a dry bristle reaches, pressed with that force. */
+static float reach_of(const struct paper_sheet *p, int fiber, double force)
+{
+    return (float)(TOOTH_FELT * sheet_tooth_at(p, fiber) - 0.5) +
+           (float)DRY_REACH * whole_contact(force);
+}
+
+/* Each bristle's hair now, and after so many places. */
+static void hairs_make(const struct sheet_going *g, int rows,
+                       struct sheet_hair hairs[2][PAPER_BRISTLES_MAX])
+{
+    const double finer = g->sheet->finer;
+    for (int end = 0; end < 2; end++)
+        for (int i = 0; i < g->own->brush.bristles; i++)
+            hairs[end][i] =
+                sheet_hair_at(g->own, i, g->seed, g->way + end * rows * g->stride, finer);
+}
+
+static struct sheet_hair hair_between(const struct sheet_hair *from,
+                                      const struct sheet_hair *to, double part)
+{
+    return (struct sheet_hair){from->aside + part * (to->aside - from->aside),
+                               from->lifted + part * (to->lifted - from->lifted)};
+}
+
 /* Fills p->brushes->contacts for the times from..from + rows * length; false: nothing touches.
  * *exchanging: the sheet, or a box of it, that the addresses are of. */
 static bool contacts_make(struct sheet_going *g, double from, double length, int rows,
                           double dwell, struct paper_sheet **exchanging)
 {
     static struct sheet_place places[BRUSH_PLACES];
-    static int fibers[BRUSH_PLACES]; /* of the places that touch, else -1 */
-    static double touch[BRUSH_PLACES];
+    static struct sheet_dealt dealt;
+    static struct sheet_hair hairs[2][PAPER_BRISTLES_MAX];
     struct paper_sheet *p = g->sheet;
     struct sheet_contacts *c = &p->brushes->contacts;
     int bristles = g->own->brush.bristles, touching = 0;
     double part = 1 - exp(-g->own->brush.flow * dwell);
     memset(c, 0, sizeof *c);
     memset(places, 0, sizeof places);
-    for (int i = 0; i < BRUSH_PLACES; i++)
-        fibers[i] = -1;
-    for (int row = 0; row < rows; row++, g->moment++) {
+    hairs_make(g, rows, hairs);
+    for (int row = 0; row < rows; row++, g->moment++, g->way += g->stride) {
         struct tuft tuft = tuft_at(g, from + (row + 0.5) * length, length);
         for (int i = 0; i < bristles; i++) {
             const int number = row * PAPER_BRISTLES_MAX + i;
-            double at[2], force;
-            if (!place_make(p, g->own, &tuft, i, g->moment, at, &force))
+            const struct sheet_hair hair =
+                hair_between(&hairs[0][i], &hairs[1][i], (row + 0.5) / rows);
+            double force;
+            if (!place_make(g, &tuft, i, &hair, &places[number], &force))
                 continue;
-            float contact = whole_contact(part * force);
-            if (!(contact > 0) || !sheet_place_make(p, at[0], at[1], force, &places[number]))
-                continue;
+            const float contact = whole_contact(part * force);
+            if (!(contact > 0))
+                places[number].force = 0;
             c->contact[number] = contact;
-            c->force[number] = whole_contact(force);
-            touching++;
+            touching += contact > 0;
         }
     }
     places_count(c, rows, bristles);
-    sheet_places_deal(p->brushes, places, fibers, touch);
-    for (int i = 0; i < BRUSH_PLACES; i++)
-        c->contact[i] = fibers[i] >= 0 ? whole_contact(contact_of(g->own, dwell, touch[i])) : 0;
-    *exchanging = touching > 0 ? addresses_make(p, fibers, c->address) : p;
+    sheet_places_deal(p->brushes, places, &dealt);
+    for (int i = 0; i < BRUSH_PLACES; i++) {
+        c->contact[i] = 0;
+        if (dealt.fibers[i] < 0)
+            continue;
+        c->contact[i] = whole_contact(contact_of(g->own, dwell, dealt.touch[i]));
+        c->reach[i] = reach_of(p, dealt.fibers[i], dealt.force[i]);
+    }
+    *exchanging = touching > 0 ? addresses_make(p, dealt.fibers, c->address) : p;
     return touching > 0;
 }
 
@@ -238,6 +277,7 @@ static void brush_go(struct sheet_going *g, double from, double to)
     int places = (int)fmin(100000, fmax(1, ceil(length / spacing_of(g->sheet))));
     double thick = fmax(spacing_of(g->sheet), g->own->brush.thickness);
     double dwell = length > thick ? seconds * thick / length : seconds;
+    g->stride = length / places;
     for (int done = 0; done < places;) {
         if (g->sheet->due && g->sheet->due(g->sheet->due_context))
             return;
@@ -306,6 +346,19 @@ static enum paper_status stroke_expect(struct paper_sheet *p, const struct paper
     return sheet_boxes_expect(p, (int)low[0], (int)low[1], (int)high[0], (int)high[1]);
 }
 
+/* Strokes that begin at different places part their hairs otherwise. Where a stroke begins is
+ * counted from the sheet's middle, in the stock's fibers: the same in a mirror and in a
+ * render. */
+static uint64_t hairs_seed(const struct sheet_going *g)
+{
+    const struct paper_sheet *p = g->sheet;
+    const struct paper_stroke_sample *first = g->stroke->samples;
+    const double x = fabs(first->x - p->page.grid.width / 2.0) / p->finer,
+                 y = fabs(first->y - p->page.grid.height / 2.0) / p->finer;
+    return clouds_word(clouds_word(g->own->brush.seed, (uint64_t)(HAIRS_STEPS * fmin(x, y))),
+                       (uint64_t)(HAIRS_STEPS * fmax(x, y)));
+}
+
 void sheet_going_begin(struct sheet_going *g, struct paper_sheet *p,
                        const struct paper_stroke *stroke)
 {
@@ -337,6 +390,8 @@ enum paper_status sheet_going_on(struct sheet_going *g, int until)
     struct paper_sheet *p = g->sheet;
     const double start = stroke_start(g->stroke), pace = stroke_pace(g->stroke);
     enum paper_status status = PAPER_OK;
+    if (g->interval == 0 && until > 0)
+        g->seed = hairs_seed(g);
     for (; g->interval < until && status == PAPER_OK; g->interval++) {
         if (p->due && p->due(p->due_context)) {
             /* half a stroke is no operation: it is as if it had not been begun */
@@ -348,6 +403,11 @@ enum paper_status sheet_going_on(struct sheet_going *g, int until)
                      to = fmin(end, start + (g->interval + 1) / pace);
         const bool last = g->interval == sheet_going_intervals(g->stroke) - 1;
         paper_enter(&p->page);
+        status = sheet_tooth_make(p);
+        if (status != PAPER_OK) {
+            paper_leave(&p->page);
+            break;
+        }
         brush_go(g, from, last && to <= from ? from + 1 / pace : fmax(to, from));
         status = paper_leave(&p->page);
         if (g->stroke->pace > 0 && status == PAPER_OK) {

@@ -28,7 +28,7 @@ enum { CORNERS = 4, PART_ONE = 1 << 12, FORCE_ONE = 1 << 16, FORCE_STEP = 1 << 8
 struct touched {
     int fiber;
     int64_t sum, left;
-    int64_t pressed; /* by force squared */
+    int64_t pressed; /* by force times what is held of it */
 };
 
 static struct touched found[CORNERS * BRUSH_PLACES];
@@ -63,12 +63,13 @@ static bool corners_make(const struct paper_sheet *p, double x, double y,
 }
 
 bool sheet_place_make(const struct paper_sheet *p, double x, double y, double force,
-                      struct sheet_place *place)
+                      double lifted, struct sheet_place *place)
 {
     const double most = 1e6; /* far beyond any sheet */
     if (!(fabs(x) < most && fabs(y) < most) || !corners_make(p, x, y, place))
         return false;
     place->force = (int)rint(force * FORCE_ONE);
+    place->held = (int)rint((force - lifted) * FORCE_ONE);
     return true;
 }
 
@@ -99,8 +100,9 @@ static int64_t step_times(int64_t pressed, int64_t sum)
 }
 
 void sheet_places_deal(struct sheet_brushes *b, const struct sheet_place *places,
-                       int fibers[BRUSH_PLACES], double touch[BRUSH_PLACES])
+                       struct sheet_dealt *dealt)
 {
+    int *const fibers = dealt->fibers;
     static uint16_t takers[CORNERS * BRUSH_PLACES], taken[BRUSH_PLACES];
     uint16_t *number = b->touched; /* 1 + where the fiber is in found[] */
     int count = 0;
@@ -118,7 +120,7 @@ void sheet_places_deal(struct sheet_brushes *b, const struct sheet_place *places
             t->sum += (int64_t)places[i].part[k] * places[i].force;
             t->left = t->sum;
             t->pressed +=
-                (int64_t)places[i].part[k] * places[i].force * (places[i].force / FORCE_STEP);
+                (int64_t)places[i].part[k] * places[i].force * (places[i].held / FORCE_STEP);
         }
     for (int i = 0; i < BRUSH_PLACES; i++) {
         fibers[i] = -1;
@@ -142,11 +144,11 @@ void sheet_places_deal(struct sheet_brushes *b, const struct sheet_place *places
         fibers[i] = fiber;
     }
     for (int i = 0; i < BRUSH_PLACES; i++) {
-        touch[i] = fibers[i] >= 0 ? (double)found[taken[i]].sum / PLACE_ONE : 0;
+        const struct touched *t = &found[fibers[i] >= 0 ? taken[i] : 0];
         b->contacts.sharers[i] = fibers[i] >= 0 ? (float)takers[taken[i]] : 1;
-        if (fibers[i] >= 0)
-            b->contacts.force[i] =
-                (float)step_times(found[taken[i]].pressed, found[taken[i]].sum) / FORCE_ONE;
+        dealt->touch[i] = fibers[i] >= 0 ? (double)t->sum / PLACE_ONE : 0;
+        dealt->force[i] =
+            fibers[i] >= 0 ? (double)step_times(t->pressed, t->sum) / FORCE_ONE : 0;
     }
     for (int i = 0; i < count; i++)
         number[found[i].fiber] = 0;
