@@ -17,7 +17,7 @@
 enum { CLAIMS_THREADS = 16, CLAIMS_MOST = 64, CLAIMS_APART = 16, CLAIMS_OF = 80 };
 
 /* Another number for each thread; where none is known, one for all. */
-inline int thread_is(void)
+static inline int thread_is(void)
 {
 #if defined(__x86_64__)
     ulong at; /* the thread's own block of the C library */
@@ -28,7 +28,7 @@ inline int thread_is(void)
 #endif
 }
 
-inline int claims_lot(volatile __global int *threads, int lots)
+static inline int claims_lot(volatile __global int *threads, int lots)
 {
     const int me = thread_is();
     for (int own = 0; own < lots; own++) {
@@ -41,7 +41,7 @@ inline int claims_lot(volatile __global int *threads, int lots)
     return 0;
 }
 
-inline int claim_place(volatile __global int *claims, int claim, int places)
+static inline int claim_place(volatile __global int *claims, int claim, int places)
 {
     const int lots = claims[0], length = claim >> 1,
               set = CLAIMS_OF + (claim & 1) * CLAIMS_MOST * CLAIMS_APART,

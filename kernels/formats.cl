@@ -8,7 +8,7 @@
 
 /* x rounded to nearest even: by adding and subtracting a number so large that the sum's last
  * place is that of the result. */
-inline VD short_fit(VD x, int s, int e)
+static inline VD short_fit(VD x, int s, int e)
 {
     const int most = (1 << (e - 1)) - 1, least = 1 - most;
     VL bits = AS_L(x), limit = (VL)(SHORT_POWER(most + 1));
@@ -21,7 +21,7 @@ inline VD short_fit(VD x, int s, int e)
 
 /* s + e + 1 bits of any double. Of a NaN the upper bits of its fraction; where these are 0, the
  * quiet one. */
-inline VL short_pack(VD x, int s, int e)
+static inline VL short_pack(VD x, int s, int e)
 {
     const int most = (1 << (e - 1)) - 1, least = 1 - most;
     const ulong ones = (((ulong)1 << e) - 1) << s, unit = SHORT_POWER(least - s + 52);
@@ -36,7 +36,7 @@ inline VL short_pack(VD x, int s, int e)
     return SEL_L(CMP_L(x == x), r, nan | ones | (given & SHORT_SIGN) >> (ulong)(63 - s - e));
 }
 
-inline VD short_unpack(VL bits, int s, int e)
+static inline VD short_unpack(VL bits, int s, int e)
 {
     const int most = (1 << (e - 1)) - 1, least = 1 - most;
     const ulong ones = (((ulong)1 << e) - 1) << s, unit = SHORT_POWER(least - s + 52);

@@ -61,19 +61,19 @@ HEAVY VL square_root_L(VL a)
 
 /* X, vector, signed vector, suffix of numbers, bits; conversions to these from VU */
 #define INTEGERS(X, V, S, ONE, BITS, CMP, SEL, AS_V, AS_S_, FROM_U)                            \
-    inline V ones_##X(int w)                                                                   \
+    static inline V ones_##X(int w)                                                            \
     {                                                                                          \
         return (V)(~(ONE - ONE) >> (BITS - w));                                                \
     }                                                                                          \
-    inline VI sign_##X(V a, int w)                                                             \
+    static inline VI sign_##X(V a, int w)                                                      \
     {                                                                                          \
         return CMP(((a >> (ONE * (w - 1))) & (V)(ONE)) != (V)(0));                             \
     }                                                                                          \
-    inline V negated_##X(V a, int w)                                                           \
+    static inline V negated_##X(V a, int w)                                                    \
     {                                                                                          \
         return ((V)(0) - a) & ones_##X(w);                                                     \
     }                                                                                          \
-    inline V magnitude_##X(V a, int w)                                                         \
+    static inline V magnitude_##X(V a, int w)                                                  \
     {                                                                                          \
         return SEL(sign_##X(a, w), negated_##X(a, w), a);                                      \
     }                                                                                          \
@@ -127,7 +127,7 @@ HEAVY VL square_root_L(VL a)
         }                                                                                      \
         return r;                                                                              \
     }                                                                                          \
-    inline VI product_beyond_##X(V a, V b, int w)                                              \
+    static inline VI product_beyond_##X(V a, V b, int w)                                       \
     {                                                                                          \
         return CMP(mul_hi(a, b) != (V)(0)) | CMP((a * b & ~ones_##X(w)) != (V)(0));            \
     }                                                                                          \
@@ -153,14 +153,14 @@ HEAVY VL square_root_L(VL a)
         VI fits = CMP(p < limit) | (negative & CMP(p == limit));                               \
         return ~fits | u_power_beyond_##X(m, b, w);                                            \
     }                                                                                          \
-    inline V u_shifted_##X(V a, VU count)                                                      \
+    static inline V u_shifted_##X(V a, VU count)                                               \
     {                                                                                          \
         VI n = AS_S(count), left = CMP_U(n >= (VI)(0)), by = SEL_U(left, n, -n);               \
         V s = FROM_U(AS_U(by & (VI)(BITS - 1)));                                               \
         V r = SEL(left, a << s, a >> s);                                                       \
         return SEL(CMP_U(by >= (VI)(BITS)), (V)(0), r);                                        \
     }                                                                                          \
-    inline V s_shifted_##X(V a, VU count, int w)                                               \
+    static inline V s_shifted_##X(V a, VU count, int w)                                        \
     {                                                                                          \
         VI n = AS_S(count), left = CMP_U(n >= (VI)(0)), by = SEL_U(left, n, -n);               \
         V l = FROM_U(AS_U(by & (VI)(BITS - 1))), r = FROM_U(AS_U(min(by, (VI)(BITS - 1))));    \
@@ -168,16 +168,16 @@ HEAVY VL square_root_L(VL a)
         V moved = SEL(left, a << l, AS_V(x >> AS_S_(r)));                                      \
         return SEL(left & CMP_U(by >= (VI)(BITS)), (V)(0), moved);                             \
     }                                                                                          \
-    inline V rotated_##X(V a, VU count, int w)                                                 \
+    static inline V rotated_##X(V a, VU count, int w)                                          \
     {                                                                                          \
         V n = FROM_U(count);                                                                   \
         return (a << n) | (a >> (((V)(ONE * w) - n) & (V)(BITS - 1)));                         \
     }                                                                                          \
-    inline V bits_length_##X(V a)                                                              \
+    static inline V bits_length_##X(V a)                                                       \
     {                                                                                          \
         return (V)(BITS)-clz(a);                                                               \
     }                                                                                          \
-    inline V from_gray_##X(V a)                                                                \
+    static inline V from_gray_##X(V a)                                                         \
     {                                                                                          \
         for (int i = 1; i < BITS; i *= 2)                                                      \
             a ^= a >> (V)(ONE * i);                                                            \
@@ -213,12 +213,12 @@ HEAVY VL reversed_L(VL a, int w)
 /* ---- 65..128 bits: one lane, see rows.c ---- */
 
 #if defined(LOAD_u128) && VECTOR == 1
-inline VQ q_small(ulong a)
+static inline VQ q_small(ulong a)
 {
     return q_of(a, 0);
 }
 
-inline int q_bits_length(VQ a)
+static inline int q_bits_length(VQ a)
 {
     return a.hi ? 128 - (int)clz(a.hi) : 64 - (int)clz(a.lo);
 }
@@ -259,7 +259,7 @@ HEAVY VQ q_rounded(VQ a, VQ b, VI negative, int how)
     return up ? q_add(q, q_small(1)) : q;
 }
 
-inline VQ q_signed_as(VQ magnitude, VI negative, int w)
+static inline VQ q_signed_as(VQ magnitude, VI negative, int w)
 {
     return q_cut(negative ? q_neg(magnitude) : magnitude, w);
 }
@@ -356,12 +356,12 @@ HEAVY VQ rotated_Q(VQ a, VU count, int w)
     return n ? q_or(q_shl(a, n), q_shr(a, w - n)) : a;
 }
 
-inline VQ bits_length_Q(VQ a)
+static inline VQ bits_length_Q(VQ a)
 {
     return q_small((ulong)q_bits_length(a));
 }
 
-inline VQ population_Q(VQ a)
+static inline VQ population_Q(VQ a)
 {
     return q_small(popcount(a.lo) + popcount(a.hi));
 }

@@ -147,7 +147,7 @@ ANYWHERE(double, 8);
 
 /* ---- columns and rows ---- */
 
-inline int wrap(int c, int length)
+static inline int wrap(int c, int length)
 {
     c = c < 0 ? c + length : c >= length ? c - length : c;
     if (c < 0 || c >= length) {
@@ -164,7 +164,7 @@ inline int wrap(int c, int length)
 #endif
 
 #if LANE == 32
-inline VU column(int x, int W)
+static inline VU column(int x, int W)
 {
 #if VECTOR == 1
     return (VU)wrap(x, W);
@@ -333,7 +333,7 @@ inline VU column(int x, int W)
 #else
 #define FIRST(i) (i).s0
 #define IN_A_ROW(i, n) in_a_row(i, (n).s0)
-inline int in_a_row(VU i, uint n)
+static inline int in_a_row(VU i, uint n)
 {
     VU off = (i - (VU)(i.s0)) ^ AS_U(IOTA);
 #if VECTOR == 16
@@ -364,14 +364,14 @@ inline int in_a_row(VU i, uint n)
 
 /* Rounds toward zero, to width bits; out of range the nearest end of the range, NaN 0. limit
  * is 2^width, or 2^(width - 1) */
-inline VU f_to_u_small(VF v, float limit, uint top)
+static inline VU f_to_u_small(VF v, float limit, uint top)
 {
     VI inside = CMP_U(v > 0.0f) & CMP_U(v < limit);
     VU r = AS_U(CONVERT(int, SEL_F(inside, v, (VF)(0.0f))));
     return SEL_U(CMP_U(v >= limit), (VU)(top), r);
 }
 
-inline VU f_to_s_small(VF v, float limit, int top)
+static inline VU f_to_s_small(VF v, float limit, int top)
 {
     VI inside = CMP_U(v > -limit) & CMP_U(v < limit);
     VI r = CONVERT(int, SEL_F(inside, v, (VF)(0.0f)));
@@ -380,14 +380,14 @@ inline VU f_to_s_small(VF v, float limit, int top)
     return AS_U(r);
 }
 
-inline VL d_to_u(VD v, double limit, ulong top)
+static inline VL d_to_u(VD v, double limit, ulong top)
 {
     VI inside = CMP_L(v > 0.0) & CMP_L(v < limit);
     VL r = CONVERT(ulong, SEL_D(inside, v, (VD)(0.0)));
     return SEL_L(CMP_L(v >= limit), (VL)(top), r);
 }
 
-inline VL d_to_s(VD v, double limit, long top)
+static inline VL d_to_s(VD v, double limit, long top)
 {
     VI inside = CMP_L(v > -limit) & CMP_L(v < limit);
     VM r = CONVERT(long, SEL_D(inside, v, (VD)(0.0)));
@@ -398,14 +398,14 @@ inline VL d_to_s(VD v, double limit, long top)
 
 /* ---- random numbers: see machine_random() ---- */
 
-inline VL mix(VL z)
+static inline VL mix(VL z)
 {
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9UL;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebUL;
     return z ^ (z >> 31);
 }
 
-inline VL random_bits(VU index, ulong key)
+static inline VL random_bits(VU index, ulong key)
 {
     return mix(CONVERT(ulong, index) * 0x9e3779b97f4a7c15UL + key);
 }
@@ -419,7 +419,7 @@ inline VL random_bits(VU index, ulong key)
 
 /* ---- overflow of a product of two numbers of width bits (2..32), all of it known ---- */
 
-inline VI s_product_overflows(VM product, int width)
+static inline VI s_product_overflows(VM product, int width)
 {
     VM top = (VM)(((long)1 << (width - 1)) - 1);
     return CMP_L(product > top) | CMP_L(product < -top - 1L);

@@ -29,12 +29,12 @@
 
 typedef JOIN(ACC, 16) ACC16;
 
-inline ACC combine(ACC a, ACC v)
+static inline ACC combine(ACC a, ACC v)
 {
     return COMBINED(a, v);
 }
 
-inline ACC16 combine16(ACC16 a, ACC16 v)
+static inline ACC16 combine16(ACC16 a, ACC16 v)
 {
     return COMBINED(a, v);
 }

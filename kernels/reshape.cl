@@ -22,7 +22,7 @@
 
 #define SUBGRIDS 2
 
-inline uint linear(uint x, const uint *bits)
+static inline uint linear(uint x, const uint *bits)
 {
     uint sum = 0;
     for (; x; x >>= 1, bits++)
@@ -32,8 +32,8 @@ inline uint linear(uint x, const uint *bits)
 
 /* The row-major index; UINT_MAX if there is no such processor. base: of (p, 0), for
  * subgrids. */
-inline uint index_at(uint p, uint r, uint base, uint count, uint ratio, uint plog2, uint layout,
-                     const uint *bits)
+static inline uint index_at(uint p, uint r, uint base, uint count, uint ratio, uint plog2,
+                            uint layout, const uint *bits)
 {
     const ulong n = layout == SUBGRIDS ? base ^ linear(r, bits)
                     : layout           ? (ulong)p * ratio + r
@@ -51,7 +51,7 @@ inline uint index_at(uint p, uint r, uint base, uint count, uint ratio, uint plo
 #define INDEX(s, p, r)                                                                         \
     index_at(p, r, s##_base, s##_count, s##_ratio, s##_plog2, s##_layout, s##_bits)
 
-inline size_t place(uint n, uint width, uint pitch, uint halo)
+static inline size_t place(uint n, uint width, uint pitch, uint halo)
 {
     return n < width ? n + halo : (size_t)(n / width) * pitch + halo + n % width;
 }
@@ -123,7 +123,7 @@ __kernel void slices(SET(f), SET(c), uint run, uint k, uint first, uint n, uint 
 #define JOINED(low, high) ((ELEMENT)(low))
 #endif
 
-inline ulong image_read(const __global uint *image, uint at, uint width)
+static inline ulong image_read(const __global uint *image, uint at, uint width)
 {
     ulong v = 0;
     for (uint done = 0; done < width;) {
@@ -134,7 +134,7 @@ inline ulong image_read(const __global uint *image, uint at, uint width)
     return v;
 }
 
-inline void image_write(__global uint *image, uint at, uint width, ulong v)
+static inline void image_write(__global uint *image, uint at, uint width, ulong v)
 {
     for (uint done = 0; done < width;) {
         const uint bit = (at + done) % 32, n = min(32 - bit, width - done);
@@ -186,7 +186,7 @@ __kernel void get(SET(c), uint run, uint words, uint start, uint parts, uint out
 #ifdef PAIR
 #define PART(v, t) (v)
 #elif defined(WIDE)
-inline ulong bits_from(ulong2 v, uint at)
+static inline ulong bits_from(ulong2 v, uint at)
 {
     return at == 0 ? v.x : at < 64 ? v.x >> at | v.y << (64 - at) : v.y >> (at - 64);
 }

@@ -31,18 +31,18 @@ struct divisor {
     ulong factor;
     uint shift, by;
 };
-inline struct divisor divisor_of(uint by)
+static inline struct divisor divisor_of(uint by)
 {
     const uint shift = 31 + (by > 1 ? 32 - clz(by - 1) : 0);
     const struct divisor d = {(1UL << shift) / by + 1, shift, by};
     return d;
 }
-inline uint over(uint n, struct divisor d)
+static inline uint over(uint n, struct divisor d)
 {
     return (uint)(n * d.factor >> d.shift);
 }
 
-inline size_t place(uint n, struct divisor width, uint pitch, uint halo)
+static inline size_t place(uint n, struct divisor width, uint pitch, uint halo)
 {
 #if FLAT
     return (size_t)n + halo;
@@ -174,7 +174,7 @@ __kernel void deliver(LAYOUT(d), uint run, LAYOUT(s), const __global uint *owner
 /* op: AND, OR, XOR, ADD, UMIN, UMAX, SMIN, SMAX, FADD, FMIN, FMAX are 1 .. 11. sign: the
  * highest bit, mask: all bits, of the width. */
 #if KIND == 0
-inline ELEMENT join(uint op, ELEMENT a, ELEMENT b, ulong2 sign, ulong2 mask)
+static inline ELEMENT join(uint op, ELEMENT a, ELEMENT b, ulong2 sign, ulong2 mask)
 {
     switch (op) {
     case 1:
@@ -197,19 +197,19 @@ inline ELEMENT join(uint op, ELEMENT a, ELEMENT b, ulong2 sign, ulong2 mask)
     return 0;
 }
 #elif KIND == 1
-inline ELEMENT join(uint op, ELEMENT a, ELEMENT b, ulong2 sign, ulong2 mask)
+static inline ELEMENT join(uint op, ELEMENT a, ELEMENT b, ulong2 sign, ulong2 mask)
 {
     const ELEMENT c = op == 9 ? a + b : op == 10 ? (a < b ? a : b) : (a > b ? a : b);
     return c == c ? c : CANONICAL;
 }
 #else
-inline int less(ulong2 a, ulong2 b, ulong2 sign)
+static inline int less(ulong2 a, ulong2 b, ulong2 sign)
 {
     a ^= sign;
     b ^= sign;
     return a.y < b.y || (a.y == b.y && a.x < b.x);
 }
-inline ulong2 join(uint op, ulong2 a, ulong2 b, ulong2 sign, ulong2 mask)
+static inline ulong2 join(uint op, ulong2 a, ulong2 b, ulong2 sign, ulong2 mask)
 {
     const ulong low = a.x + b.x;
     switch (op) {

@@ -50,12 +50,12 @@ typedef JOIN(MASK, LANES) M;
 #define SEL(m, a, b) ((m) ? (a) : (b))
 
 #if KIND == 2
-inline TYPE sum2(TYPE a, TYPE v)
+static inline TYPE sum2(TYPE a, TYPE v)
 {
     ulong lo = a.x + v.x;
     return (TYPE)(lo, a.y + v.y + (lo < a.x));
 }
-inline TYPE least2(TYPE a, TYPE v)
+static inline TYPE least2(TYPE a, TYPE v)
 {
     return v.y < a.y || (v.y == a.y && v.x < a.x) ? v : a;
 }
@@ -103,7 +103,7 @@ inline TYPE least2(TYPE a, TYPE v)
 #endif
 
 /* Copies columns [from, to) beyond the ends of the row, into the halos. */
-inline void repeat(__global TYPE *row, int from, int to, int width, int halo)
+static inline void repeat(__global TYPE *row, int from, int to, int width, int halo)
 {
     for (int c = from; c < min(to, halo); c++)
         row[c + width] = row[c];
@@ -267,9 +267,9 @@ typedef JOIN(TYPE, 16) V16;
     }
 
 /* JOINS: one line's runs, one after the other. */
-inline void join_runs(int columns, int runs, int op, int keep, TYPE identity, TYPE flip,
-                      TYPE cut, __global TYPE *totals, __global uint *firsts,
-                      __global TYPE *sums)
+static inline void join_runs(int columns, int runs, int op, int keep, TYPE identity, TYPE flip,
+                             TYPE cut, __global TYPE *totals, __global uint *firsts,
+                             __global TYPE *sums)
 {
     const size_t column = get_global_id(0), line = get_global_id(1);
     TYPE carry = identity;

@@ -13,7 +13,7 @@
 #define SOFT_CLZ(x) ((int)clz(x))
 #define SOFT_HIGH(x, y) mul_hi(x, y)
 #define SOFT_FUNCTION __attribute__((noinline)) static
-#define SOFT_INLINE inline
+#define SOFT_INLINE static inline
 #else
 #include <stdint.h>
 typedef uint64_t ulong;

@@ -95,7 +95,7 @@ struct row_ahead {
             row_ahead++;                                                                       \
         }                                                                                      \
     }
-inline int pieces_each(const struct row_ahead *ahead, int turns)
+static inline int pieces_each(const struct row_ahead *ahead, int turns)
 {
     int pieces = 0;
     for (; ahead->bytes; ahead++)
@@ -110,13 +110,14 @@ inline int pieces_each(const struct row_ahead *ahead, int turns)
 #ifdef ABOVE
 /* Rows around strips, which are written in place: see borders.cl. */
 #define BORDERS (get_global_size(1) * (ABOVE + BELOW))
-inline size_t border_row(int y, int top, int bottom, int down) /* down: the strip's number */
+static inline size_t border_row(int y, int top, int bottom,
+                                int down) /* down: the strip's number */
 {
     return (size_t)down * (ABOVE + BELOW) + (size_t)((y < top ? y - top : y - bottom) + ABOVE);
 }
 #endif
 
-inline int ring(int y, int rows)
+static inline int ring(int y, int rows)
 {
     y %= rows;
     return y < 0 ? y + rows : y;

@@ -310,6 +310,7 @@ class House:
             self.check_lengths(file)
             self.check_opens(file)
             self.check_says(file)
+            self.check_inline(file)
         self.check_circles()
         self.check_namesakes()
         if self.tour is not None:
@@ -440,6 +441,13 @@ class House:
         if match and self.table.reached[self.row_of[file.path]] is not None and not file.path.endswith(".cl"):
             self.offend(("says", file.path), file, file.code.count("\n", 0, match.start()) + 1,
                         "prints on the standard error itself: visible_say() does, without escapes")
+
+    def check_inline(self, file):
+        """In C's sense an inline function that is not static is defined elsewhere, too: drivers that do not inline it miss it."""
+        match = file.path.endswith(".cl") and re.search(r"(?<!static )\binline\b", file.code)
+        if match:
+            self.offend(("inline", file.path), file, file.code.count("\n", 0, match.start()) + 1,
+                        "an inline function that is not static: not all drivers would find it")
 
     def check_circles(self):
         """Each file in a circle of uses is an offence: finds strongly connected components of several files by Tarjan's algorithm."""

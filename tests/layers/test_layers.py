@@ -195,6 +195,11 @@ class Layers(unittest.TestCase):
         self.wrong({"low/l.c": "int a;\n/* a\n * %s */\n" % words}, ROWS, "low/l.c:3: a comment wider than 96 columns")
         self.wrong({"low/l.c": "int a; // %s\n" % words}, ROWS, "low/l.c:1: a comment wider than 96 columns")
 
+    def test_inline_functions_of_kernels_are_static(self):
+        self.clean({"low/k.cl": "/* inline */\nstatic inline int one(void)\n{\n    return 1;\n}\n", "low/l.c": function("l")})
+        self.wrong({"low/k.cl": "#define V float\ninline int one(void)\n{\n    return 1;\n}\n"}, ROWS,
+                   "low/k.cl:2: an inline function that is not static")
+
     def test_functions_of_old_are_measured(self):
         old = "static int\nold (a, b)\n    int a;\n    char *b;\n{\n" + "    ;\n" * 80 + "}\n"
         self.wrong({"low/l.c": old}, ROWS, "low/l.c:1: old() has 86 lines")

@@ -20,7 +20,6 @@ static int min(int a, int b)
 }
 
 #define __global
-#define inline static inline
 #include "../../kernels/claims.cl"
 #undef inline
 
