@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "copy.h"
 #include "harness.h"
 #include "listing.h"
 #include "of_machine.h"
@@ -51,7 +52,7 @@ static const char FIBER_STEP[] = "ns/fiber-step";
 struct sheet {
     struct diffusion_scene scene;
     struct listing listing;
-    struct diffusion_hand *hand;
+    struct diffusion_hand *hand; /* NULL, as rolling: not for this device */
     struct diffusion_openmp *openmp;
     struct diffusion_openmp_rolling *openmp_rolling;
     struct diffusion_rolling *rolling[4];             /* by kind */
@@ -194,12 +195,16 @@ static bool sheet_start(struct sheet *s, int width, int height, bool thorough)
 {
     const bool all =
         (double)width * height <= (thorough ? FIBERS_PEERS_THOROUGH : FIBERS_PEERS);
+    bool by_hand;
     if (!diffusion_scene_init(&s->scene, width, height) ||
         !(s->openmp = diffusion_openmp_create(&s->scene)) ||
         !(s->openmp_rolling = diffusion_openmp_rolling_create(&s->scene, NULL)) ||
-        !(s->hand = diffusion_hand_create(&s->scene, NULL, DIFFUSION_SHAPE_BEST)))
+        !bench_opencl_is_cpu(NULL, &by_hand) ||
+        (by_hand && !(s->hand = diffusion_hand_create(&s->scene, NULL, DIFFUSION_SHAPE_BEST))))
         return false;
-    for (int kind = 0; kind < 4; kind++) {
+    if (!by_hand)
+        visible_say("diffusion: the hand-written kernels are for CPUs' vectors, no such rows");
+    for (int kind = 0; by_hand && kind < 4; kind++) {
         const bool relaxed =
             kind == DIFFUSION_SINGLE_PASS_RELAXED || kind == DIFFUSION_TIME_TILED_RELAXED;
         if (relaxed && !all)
@@ -241,7 +246,8 @@ static int runners_list(struct sheet *s, struct runner *list)
     const bool small = (double)s->scene.width * s->scene.height < FIBERS_SMALL;
     const int few = small ? 16 : 3;
     int openmp_tiled = diffusion_openmp_rolling_tiling(s->openmp_rolling)->steps_count;
-    int tiled = diffusion_rolling_tiling(s->rolling[DIFFUSION_TIME_TILED])->steps_count;
+    int tiled =
+        s->hand ? diffusion_rolling_tiling(s->rolling[DIFFUSION_TIME_TILED])->steps_count : 0;
     const struct runner all[] = {
         {"listing", listing_steps, listing_read, 1, few, false, s},
         {"listing observed every 16", listing_steps, listing_read, 16, 16, false, s},
@@ -263,6 +269,7 @@ static int runners_list(struct sheet *s, struct runner *list)
     int count = 0;
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if ((all[i].steps != peer_steps || peer_of(s, all[i].which)) &&
+            (all[i].steps != hand_steps || s->hand) &&
             (all[i].steps != rolling_steps || s->rolling[all[i].which]))
             list[count++] = all[i];
     return count;
@@ -452,24 +459,27 @@ static bool small_measure(struct bench_report *r, int repeat_count)
     struct sheet s = {0};
     struct runner runners[] = {
         {"small sheet", listing_steps, listing_read, SMALL_STEPS, SMALL_STEPS, false, &s},
+        {"small sheet, openmp", openmp_steps, openmp_read, 1, SMALL_STEPS, false, &s},
         {"small sheet, hand", rolling_steps, rolling_field, DIFFUSION_TIME_TILED, SMALL_STEPS,
          false, &s},
-        {"small sheet, openmp", openmp_steps, openmp_read, 1, SMALL_STEPS, false, &s},
     };
     struct bench_contender contenders[3];
-    bool ok = diffusion_scene_init(&s.scene, SMALL_SIDE, SMALL_SIDE) &&
+    bool by_hand = false;
+    bool ok = bench_opencl_is_cpu(NULL, &by_hand) &&
+              diffusion_scene_init(&s.scene, SMALL_SIDE, SMALL_SIDE) &&
               (s.openmp = diffusion_openmp_create(&s.scene)) != NULL &&
               (s.openmp_rolling = diffusion_openmp_rolling_create(&s.scene, NULL)) != NULL &&
-              (s.rolling[DIFFUSION_TIME_TILED] = diffusion_rolling_create(
-                   &s.scene, NULL, DIFFUSION_TIME_TILED, NULL)) != NULL &&
-              listing_start(&s, false) && all_agree(&s, runners, 3, 0, SMALL_STEPS);
+              (!by_hand || (s.rolling[DIFFUSION_TIME_TILED] = diffusion_rolling_create(
+                                &s.scene, NULL, DIFFUSION_TIME_TILED, NULL)) != NULL) &&
+              listing_start(&s, false) && all_agree(&s, runners, 2 + by_hand, 0, SMALL_STEPS);
+    const int count = 2 + by_hand;
     for (int i = 0; ok && i < SMALL_LOOKS_SETTLED; i++)
         ok = listing_steps(&s, SMALL_STEPS, SMALL_STEPS);
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < count; i++)
         contenders[i] = (struct bench_contender){
             .ready = runner_work, .work = runner_work, .context = &runners[i]};
-    ok = ok && bench_measure_in_turns(contenders, 3, SMALL_REPEATS * repeat_count);
-    for (int i = 0; ok && i < 3; i++)
+    ok = ok && bench_measure_in_turns(contenders, count, SMALL_REPEATS * repeat_count);
+    for (int i = 0; ok && i < count; i++)
         bench_report_add(r, runners[i].what, "128x128",
                          (struct bench_sample){SMALL_STEPS / contenders[i].seconds.median,
                                                SMALL_STEPS / contenders[i].seconds.min},
@@ -591,7 +601,10 @@ int bench_diffusion_main(int argc, char **argv)
     for (int i = 0; ok && i < options.sizes_count; i++)
         ok = size_measure(&report, &options, options.sizes[i][0], options.sizes[i][1]);
     ok = ok && small_measure(&report, options.repeat_count) && front_end_measure(&report);
-    status = bench_options_finish(&options, &report, "hand single pass", ok);
+    bool by_hand = true;
+    ok = ok && bench_opencl_is_cpu(NULL, &by_hand);
+    status =
+        bench_options_finish(&options, &report, by_hand ? "hand single pass" : "openmp", ok);
     if (ok)
         printf("all but the relaxed ones agree in every bit after %d steps, and after %d more "
                "unobserved\n",

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "copy.h"
 #include "harness.h"
 #include "of_machine.h"
 #include "paris_internal.h"

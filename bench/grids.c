@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "bench.h"
+#include "copy.h"
 #include "of_machine.h"
 #include "paris_internal.h"
 

@@ -76,16 +76,6 @@ void bench_report_print(const struct bench_report *r, const char *yardstick, FIL
 /* One JSON object; the file appears under its name only when it is complete. Errors: false. */
 bool bench_report_write(const struct bench_report *r, const char *path);
 
-/* Copy bandwidth of this machine, as one of the contenders: a run copies bytes, with stores
- * that bypass the caches if the compiler supports them. Its rate counts bytes read and
- * written. */
-struct bench_copy;
-struct bench_copy *bench_copy_create(size_t bytes); /* Errors: NULL */
-void bench_copy_destroy(struct bench_copy *c);      /* takes NULL */
-bench_work bench_copy_work;
-/* GB/s, from the seconds of its runs; min is the best. */
-struct bench_sample bench_copy_rate(const struct bench_copy *c, struct bench_sample seconds);
-
 /* Set by `lutetia bench --quick`, before anything runs: what would be measured is only tried,
  * and the numbers mean nothing. */
 extern bool bench_quick;

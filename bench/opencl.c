@@ -31,6 +31,17 @@ static bool device_choose(struct bench_opencl *cl, const char *wanted)
            bench_fail("hand-written kernels: no OpenCL device \"%s\"", wanted ? wanted : "");
 }
 
+bool bench_opencl_is_cpu(const char *wanted, bool *is_cpu)
+{
+    struct bench_opencl cl = {0};
+    cl_device_type type = 0;
+    if (!device_choose(&cl, wanted))
+        return false;
+    cl_int error = clGetDeviceInfo(cl.device, CL_DEVICE_TYPE, sizeof type, &type, NULL);
+    *is_cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
+    return !error || bench_opencl_fail("clGetDeviceInfo", error);
+}
+
 bool bench_opencl_open(struct bench_opencl *cl, const char *wanted)
 {
     cl_int error;

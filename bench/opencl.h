@@ -24,6 +24,8 @@ struct bench_opencl {
  * else the first. On failure close it, too. */
 bool bench_opencl_open(struct bench_opencl *cl, const char *wanted);
 void bench_opencl_close(struct bench_opencl *cl);
+/* *is_cpu: whether that device is a CPU. */
+bool bench_opencl_is_cpu(const char *wanted, bool *is_cpu);
 /* The build log goes to stderr if it fails. Owns: the caller. */
 cl_program bench_opencl_build(const struct bench_opencl *cl, const char *const *sources,
                               int sources_count, const char *options);

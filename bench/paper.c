@@ -6,6 +6,7 @@
 #include <visible_text.h>
 
 #include "bench.h"
+#include "copy.h"
 #include "of_machine.h"
 #include "paper_scene.h"
 #include "paper_wet.h"
