@@ -113,12 +113,42 @@ static void sequencers_destroy(struct machine *m)
     if (!q)
         return;
     m->sequencers = NULL;
-    background_finish(q->machine);
-    plans_finish(q->machine);
-    free(q->machine->values->sets);
-    free(q->machine);
+    for (int i = 0; i < q->machines_count; i++) {
+        struct machine *s = q->machines[i];
+        background_finish(s);
+        plans_finish(s);
+        if (s->device != m->device)
+            device_sub_close(s, m, i);
+        free(s->values->sets);
+        free(s);
+    }
     free(q->cuts);
     free(q);
+}
+
+/* One sequencer's machine: all share the front end's device, or each has its own. NULL: error
+ * set. */
+static struct machine *sequencer_create(struct machine *m, int which, bool apart)
+{
+    struct machine_layers *layers = layers_allocate();
+    if (!layers) {
+        machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for blocks");
+        return NULL;
+    }
+    struct machine *s = &layers->machine;
+    s->device = apart ? &layers->device : m->device;
+    s->settings = m->settings;
+    s->owner = m->owner;
+    s->watch = m->watch;
+    s->front = m;
+    layers_join(layers);
+    content_begin(s, m->values->processors_count);
+    if (apart && device_sub_open(s, m, which)) {
+        device_sub_close(s, m, which);
+        free(layers);
+        return NULL;
+    }
+    return s;
 }
 
 /* One block for all: nobody, and functions are called directly. */
@@ -126,24 +156,17 @@ static enum machine_status sequencers_create(struct machine *m)
 {
     if (m->settings.blocks < 2)
         return MACHINE_OK;
-    struct machine_layers *layers = layers_allocate();
     struct sequencers *q = calloc(1, sizeof *q);
-    if (!layers || !q) {
-        free(layers);
-        free(q);
+    if (!q)
         return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for blocks");
-    }
-    q->count = (int)m->settings.blocks;
-    q->machine = &layers->machine;
-    q->machine->device = m->device;
-    q->machine->settings = m->settings;
-    q->machine->owner = m->owner;
-    q->machine->watch = m->watch;
-    q->machine->front = m;
-    layers_join(layers);
-    content_begin(q->machine, m->values->processors_count);
     m->sequencers = q;
-    return MACHINE_OK;
+    q->count = (int)m->settings.blocks;
+    const bool apart = device_subs_count(m->device) == q->count;
+    const int wanted = apart ? q->count : 1;
+    while (q->machines_count < wanted &&
+           (q->machines[q->machines_count] = sequencer_create(m, q->machines_count, apart)))
+        q->machines_count++;
+    return q->machines_count == wanted ? MACHINE_OK : m->status;
 }
 
 static void content_finish(struct machine *m)
@@ -234,15 +257,16 @@ void machine_leave(struct machine *m)
     if (m && pthread_equal(m->owner, pthread_self())) {
         choosing_stop(m);
         background_leave(m);
-        if (m->sequencers) {
-            choosing_stop(m->sequencers->machine);
-            background_leave(m->sequencers->machine);
+        for (int i = 0; m->sequencers && i < m->sequencers->machines_count; i++) {
+            choosing_stop(m->sequencers->machines[i]);
+            background_leave(m->sequencers->machines[i]);
         }
         aside_end(&m->device->code);
     }
     if (m && m->device->queue && device_is_ours(m->device) && m->inside == 0 &&
         pthread_equal(m->owner, pthread_self())) {
         clFinish(m->device->queue);
+        device_subs_wait(m->device);
         watch_leave(m);
     }
 }
@@ -250,6 +274,27 @@ void machine_leave(struct machine *m)
 void machine_work_time(struct machine *m, bool timed)
 {
     m->device->work_timed = timed;
+}
+
+/* What a sequencer has done, and its device, if that is not the front end's. */
+static void stats_add(const struct machine *m, const struct machine *sequencer,
+                      struct machine_stats *out)
+{
+    const struct plans *in_blocks = sequencer->plans;
+    const struct device *d = sequencer->device;
+    out->interpreted += in_blocks->interpreted;
+    out->kernels_in_place += in_blocks->kernels_in_place;
+    out->kernels_in_strips += in_blocks->kernels_in_strips;
+    out->kernels_in_tiles += in_blocks->kernels_in_tiles;
+    out->predicted_s += in_blocks->predicted_s;
+    if (d == m->device)
+        return;
+    out->kernels_built += d->kernels_built;
+    out->kernels_built_background += d->kernels_built_background;
+    out->kernels_run += d->kernels_run;
+    out->bytes_held += d->held_bytes;
+    out->bytes_peak += d->peak_bytes;
+    out->busy_s += d->busy_s;
 }
 
 void machine_stats_get(const struct machine *m, struct machine_stats *out)
@@ -271,12 +316,6 @@ void machine_stats_get(const struct machine *m, struct machine_stats *out)
                                .bytes_held = m->device->held_bytes,
                                .bytes_peak = m->device->peak_bytes,
                                .busy_s = m->device->busy_s};
-    if (!m->sequencers)
-        return;
-    const struct plans *in_blocks = m->sequencers->machine->plans;
-    out->interpreted += in_blocks->interpreted;
-    out->kernels_in_place += in_blocks->kernels_in_place;
-    out->kernels_in_strips += in_blocks->kernels_in_strips;
-    out->kernels_in_tiles += in_blocks->kernels_in_tiles;
-    out->predicted_s += in_blocks->predicted_s;
+    for (int i = 0; m->sequencers && i < m->sequencers->machines_count; i++)
+        stats_add(m, m->sequencers->machines[i], out);
 }

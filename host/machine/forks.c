@@ -31,8 +31,8 @@ static void before_fork(void)
         if (device_is_ours(m->device)) {
             device_settle(m);
             background_rest(m);
-            if (m->sequencers)
-                background_rest(m->sequencers->machine);
+            for (int i = 0; m->sequencers && i < m->sequencers->machines_count; i++)
+                background_rest(m->sequencers->machines[i]);
         }
 }
 
@@ -49,8 +49,8 @@ static void in_child(void)
     pthread_mutex_init(&lock, NULL);
     for (struct machine *m = machines; m; m = m->made_before) {
         in_child_of(m);
-        if (m->sequencers)
-            in_child_of(m->sequencers->machine);
+        for (int i = 0; m->sequencers && i < m->sequencers->machines_count; i++)
+            in_child_of(m->sequencers->machines[i]);
     }
 }
 

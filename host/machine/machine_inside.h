@@ -31,6 +31,7 @@ struct machine_type machine_field_stored(struct machine *m, uint32_t field, uint
  * and together again; arrays whose ghosts were fetched. */
 struct machine_blocks {
     uint64_t run, divided, gathered, fetched;
+    int sequencers; /* machines that they have: one for each, or one for all */
 };
 struct machine_blocks machine_blocks(const struct machine *m);
 

@@ -1,5 +1,6 @@
 /* test_blocks.c - large VP sets in blocks (LUTETIA_BLOCKS): the same bits as in one piece, and
  * really in blocks. */
+#include "device/device.h"
 #include "machine_explained.h"
 #include "machine_inside.h"
 #include "support.h"
@@ -162,6 +163,29 @@ static void blocks_give_the_bits_of_one_piece(void **state)
     }
 }
 
+/* Whether each block has a sequencer of its own or not. */
+static void sequencers_have_shares_of_the_device(void **state)
+{
+    (void)state;
+    const struct form *s = &forms[1];
+    struct machine *m = machine_of("2", s);
+    const bool divides = m->device->is_pocl && m->device->units > 1 && m->settings.near;
+    machine_destroy(m);
+    struct found apart = run("2", s);
+    setenv("LUTETIA_BLOCKS_APART", "0", 1);
+    struct found together = run("2", s);
+    unsetenv("LUTETIA_BLOCKS_APART");
+    assert_int_equal(apart.blocks.sequencers, divides ? 2 : 1);
+    assert_int_equal(together.blocks.sequencers, 1);
+    assert_memory_equal(apart.water, together.water, apart.count * sizeof *apart.water);
+    assert_memory_equal(apart.life, together.life, apart.count * sizeof *apart.life);
+    assert_int_equal(apart.blocks.fetched, together.blocks.fetched);
+    free(apart.water);
+    free(apart.life);
+    free(together.water);
+    free(together.life);
+}
+
 /* A store into one processor, and a whole field written, between turns in blocks. */
 static void writes_between_turns_are_seen_by_all_blocks(void **state)
 {
@@ -275,6 +299,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(blocks_give_the_bits_of_one_piece),
+        cmocka_unit_test(sequencers_have_shares_of_the_device),
         cmocka_unit_test(writes_between_turns_are_seen_by_all_blocks),
         cmocka_unit_test(small_sets_and_low_ones_are_whole),
         cmocka_unit_test(blocks_are_explained),

@@ -36,7 +36,7 @@ struct settings {
     uint64_t tile;    /* width << 16 | height */
     uint64_t processors;
     uint64_t memory; /* bytes that arrays may take together; free: what the device has */
-    uint64_t blocks, blocks_from,
+    uint64_t blocks, blocks_apart, blocks_from,
         /* of large VP sets; those of so many processors are cut; what blocks repeat:
          * sequencers/ */
         ghosts;

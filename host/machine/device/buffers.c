@@ -101,6 +101,7 @@ static struct device_buffer *buffer_begin(struct device *d, struct device_buffer
     b->bytes = rows.bytes;
     b->first = rows.first;
     b->refs = 1;
+    b->home = d;
     b->follows = false;
     d->held_bytes += rows.bytes;
     if (d->held_bytes > d->peak_bytes)
@@ -256,9 +257,9 @@ static bool ends_with_blocks(struct machine *m, struct device_buffer *b)
 
 void device_buffer_end(struct machine *m, struct device_buffer *b)
 {
-    struct device *d = m->device;
     if (b->blocks && ends_with_blocks(m, b))
         return;
+    struct device *d = b->home;
     d->held_bytes -= b->bytes;
     if (d->pool_count == d->pool_capacity) {
         int capacity = d->pool_capacity ? 2 * d->pool_capacity : 64;

@@ -38,7 +38,8 @@ struct array_blocks;
 struct device_buffer {
     struct device_memory *memory; /* NULL: it is in blocks only */
     size_t bytes, first;          /* see struct rows */
-    void *host;    /* where it is for the front end; NULL: the device has memory of its own */
+    void *host; /* where it is for the front end; NULL: the device has memory of its own */
+    struct device *home; /* whose pool it goes back to; NULL: it is in blocks only */
     uint32_t refs; /* a buffer goes back to the pool at 0; the queue is in order, so at once */
     bool fresh;    /* no byte code has written it yet, so its memory may be in no cache */
     /* from what another array holds: a state cannot take another one for it
@@ -72,6 +73,9 @@ struct device_kernel {
     cl_program program;
     struct device_kernel *next;
 };
+
+/* Equal shares of a device's compute units, in its context: sub_devices.c. */
+struct sub_devices;
 
 struct device {
     pid_t process; /* that first opened a device, so the driver's threads are there */
@@ -113,9 +117,10 @@ struct device {
     struct awake *awake; /* NULL: processors may halt between kernels */
     struct crew
         *crew; /* as many threads as units, for what the front end does; NULL: it is alone */
-    struct aside code;   /* fetches the machine's own code */
-    bool queued;         /* commands that nobody has waited for may be in the queue */
-    bool keeps_programs; /* on disk */
+    struct aside code; /* fetches the machine's own code */
+    bool queued; /* commands that nobody has waited for may be in the queue, or in theirs: */
+    struct sub_devices *subs; /* NULL: it is not divided */
+    bool keeps_programs;      /* on disk */
     struct fence {
         cl_event reached;
         uint64_t kernels; /* run before it */
@@ -134,6 +139,28 @@ static inline bool device_is_ours(const struct device *d)
 {
     return d->process == process_now();
 }
+
+/* ---- sub_devices.c, sub_open.c: a device that is divided among several machines ----
+ *
+ * Their queues know nothing of each other. So before the device's own commands its sub-devices'
+ * are waited for, and before theirs its own; and each array goes back to the pool of the one
+ * that got its memory. */
+
+enum { SUB_DEVICES_MOST = 64 };
+/* Before the context is made: divides the device, if it can be. */
+void device_divide(struct machine *m, int count);
+int device_subs_count(const struct device *d);
+/* The ids of the device and all sub-devices; returns how many. */
+cl_uint device_ids(const struct device *d, cl_device_id *ids);
+/* Opens a machine's device, which is one of another machine's sub-devices. */
+enum machine_status device_sub_open(struct machine *m, struct machine *of, int which);
+void device_sub_close(struct machine *m, struct machine *of, int which);
+/* Sub-devices are about to be given commands, or have been. */
+enum machine_status device_subs_begin(struct machine *m);
+void device_subs_queued(struct machine *m);
+/* Waits for all that is in their queues. */
+cl_int device_subs_wait(struct device *d);
+void device_subs_finish(struct device *d);
 
 /* ---- claims.c ---- */
 

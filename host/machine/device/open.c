@@ -160,7 +160,10 @@ static enum machine_status choose_and_open(struct machine *m,
     tuning_apply(m, config);
     d->shape = shape_of(d, &m->settings);
     cl_int error;
-    d->context = clCreateContext(NULL, 1, &d->id, NULL, NULL, &error);
+    cl_device_id ids[1 + SUB_DEVICES_MOST];
+    device_divide(m, (int)m->settings.blocks);
+    const cl_uint ids_count = device_ids(d, ids);
+    d->context = clCreateContext(NULL, ids_count, ids, NULL, NULL, &error);
     if (error)
         return device_check(m, error, "a context cannot be made");
     const cl_queue_properties profiling[] = {CL_QUEUE_PROPERTIES, CL_QUEUE_PROFILING_ENABLE, 0};
@@ -219,6 +222,7 @@ void device_close(struct machine *m)
         clReleaseCommandQueue(d->queue);
     if (d->context && ours)
         clReleaseContext(d->context);
+    device_subs_finish(d);
     chunks_finish(d);
 }
 

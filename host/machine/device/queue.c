@@ -101,6 +101,14 @@ bool device_is_near(struct machine *m, const struct device_buffer *b)
     return m->settings.near && m->device->is_pocl && b && b->host && !device_settle(m);
 }
 
+/* A command of the device's own follows. */
+static cl_int own_begin(struct device *d)
+{
+    const cl_int error = d->subs ? device_subs_wait(d) : CL_SUCCESS;
+    d->queued = true;
+    return error;
+}
+
 /* Where no command is on its way. */
 static bool at_once(const struct machine *m, const struct device_buffer *b)
 {
@@ -118,9 +126,10 @@ enum machine_status device_fill(struct machine *m, const struct device_buffer *b
         return device_is_not_ours(m);
     m->inside++;
     cl_event *done = m->watch ? watch_command(m, 0) : NULL;
-    m->device->queued = true;
-    cl_int error = clEnqueueFillBuffer(m->device->queue, device_mem(b), pattern, pattern_bytes,
-                                       0, b->bytes, 0, NULL, done);
+    cl_int error = own_begin(m->device);
+    error = error ? error
+                  : clEnqueueFillBuffer(m->device->queue, device_mem(b), pattern, pattern_bytes,
+                                        0, b->bytes, 0, NULL, done);
     m->inside--;
     if (done)
         watch_moves(m, error, "fill", b->bytes);
@@ -138,9 +147,10 @@ enum machine_status device_copy(struct machine *m, const struct device_buffer *f
         return device_is_not_ours(m);
     m->inside++;
     cl_event *done = m->watch ? watch_command(m, 0) : NULL;
-    m->device->queued = true;
-    cl_int error = clEnqueueCopyBuffer(m->device->queue, device_mem(from), device_mem(to), 0, 0,
-                                       bytes, 0, NULL, done);
+    cl_int error = own_begin(m->device);
+    error = error ? error
+                  : clEnqueueCopyBuffer(m->device->queue, device_mem(from), device_mem(to), 0,
+                                        0, bytes, 0, NULL, done);
     m->inside--;
     if (done)
         watch_moves(m, error, "copy", 2 * bytes);
@@ -206,7 +216,8 @@ enum machine_status device_settle_for(struct machine *m, const char *what)
     if (!device_is_ours(d))
         return device_is_not_ours(m);
     double start = device_wait_begin(m);
-    cl_int error = d->queued ? clFinish(d->queue) : CL_SUCCESS;
+    cl_int error = d->subs ? device_subs_wait(d) : CL_SUCCESS;
+    error = error || !d->queued ? error : clFinish(d->queue);
     d->queued = false;
     return device_wait_end(m, error, start, what);
 }
@@ -269,7 +280,7 @@ enum machine_status device_launch(struct machine *m, struct device_kernel *kerne
     m->inside++;
     double start = watch_clock(m);
     cl_event *done = m->watch ? watch_command(m, start) : NULL;
-    d->queued = true;
+    error = error ? error : own_begin(d);
     awake_for(d->awake, AWAKE_S);
     if (!error)
         error = clEnqueueNDRangeKernel(d->queue, kernel->cl, dimensions, NULL, global,

@@ -72,6 +72,7 @@ enum machine_status machine_flag_download(struct machine *m, int vpset, enum mac
 struct machine_blocks machine_blocks(const struct machine *m)
 {
     const struct sequencers *q = m->sequencers;
-    return q ? (struct machine_blocks){q->run, q->divided, q->gathered, q->exchanged}
+    return q ? (struct machine_blocks){q->run, q->divided, q->gathered, q->exchanged,
+                                       q->machines_count}
              : (struct machine_blocks){0};
 }

@@ -260,8 +260,10 @@ bool background_on(struct machine *m)
 
 bool background_busy(const struct machine *m)
 {
-    return (m->plans->background && m->plans->background->begun) ||
-           (m->sequencers && background_busy(m->sequencers->machine));
+    bool busy = m->plans->background && m->plans->background->begun;
+    for (int i = 0; m->sequencers && i < m->sequencers->machines_count && !busy; i++)
+        busy = background_busy(m->sequencers->machines[i]);
+    return busy;
 }
 
 /* ---- batches ---- */
@@ -378,7 +380,7 @@ static bool requests_add(struct background *b, const struct device *d, const str
 void background_foresee(struct machine *m, const struct background_wish *wish)
 {
     if (!background_on(m) || !m->settings.keep ||
-        m->device->units < 2) /* there is no processor to spare */
+        (m->front ? m->front : m)->device->units < 2) /* there is no processor to spare */
         return;
     struct background *b = m->plans->background;
     child_reap(b, false);

@@ -36,13 +36,15 @@ static bool portions_plan(struct machine *m, struct plan *p, enum plan_use use)
     p->hopeless = use == PLAN_TO_REHEARSE_TURNS && mixed;
     if (p->hopeless)
         return true;
-    const struct plan *in_blocks = portion_plan(&d->blocks, use);
-    if (!in_blocks) {
-        failed_there(m, d->blocks.machine);
-        return false;
+    for (int i = 0; i < d->blocks_count; i++) {
+        const struct plan *in_blocks = portion_plan(&d->blocks[i], use);
+        if (!in_blocks) {
+            failed_there(m, d->blocks[i].machine);
+            return false;
+        }
+        p->hopeless |= in_blocks->hopeless;
+        p->quality = in_blocks->quality;
     }
-    p->hopeless = in_blocks->hopeless;
-    p->quality = in_blocks->quality;
     return !mixed || portion_plan(&d->whole, use);
 }
 
@@ -72,7 +74,7 @@ static void stores_sort(struct plan *p)
 
 static struct plan *plan_of(const struct machine *m, struct division *d)
 {
-    const size_t count = (size_t)(d->blocks.targets.count + d->whole.targets.count);
+    const size_t count = (size_t)(d->blocks[0].targets.count + d->whole.targets.count);
     struct plan *p = calloc(1, sizeof *p);
     NEEDS_MEMORY(p);
     p->division = d;
@@ -80,7 +82,7 @@ static struct plan *plan_of(const struct machine *m, struct division *d)
     p->stored = calloc(count, sizeof *p->stored);
     p->arrays = calloc(count, sizeof *p->arrays);
     NEEDS_MEMORY(p->stored && p->arrays);
-    stores_add(m, p, &d->blocks);
+    stores_add(m, p, &d->blocks[0]);
     stores_add(m, p, &d->whole);
     stores_sort(p);
     return p;
@@ -111,22 +113,32 @@ struct plan *division_get(struct machine *m, const struct plan_request *q)
 struct division_run {
     struct machine *m;
     struct division *d;
-    struct device_buffer **buffers;      /* by node of the request */
-    struct machine_value *const *nodes;  /* its constants */
-    struct device_buffer **local, **out; /* by draft; by target */
-    bool *kept;                          /* by draft */
+    struct device_buffer **buffers;     /* by node of the request */
+    struct machine_value *const *nodes; /* its constants */
+    int drafts;                         /* of a portion, at most */
+    struct device_buffer **out;         /* by target */
+    struct device_buffer **local; /* by draft, of each portion; the whole one's is the first */
+    bool *kept;                   /* by draft */
+    bool failed[BLOCKS_MOST];     /* by block */
 };
+
+static struct device_buffer **local_of(const struct division_run *r, const struct portion *g)
+{
+    const ptrdiff_t which = g == &r->d->whole ? 0 : g - r->d->blocks;
+    return r->local + which * r->drafts;
+}
 
 /* What that block's drafts are: arrays of one in pieces, and numbers. */
 static void drafts_set(const struct division_run *r, const struct portion *g, int block)
 {
+    struct device_buffer **local = local_of(r, g);
     for (int i = 0; i < g->reach.count; i++) {
         const struct draft_from *f = &g->from[i];
         struct machine_value *v = g->reach.nodes[i];
-        r->local[i] = NULL;
+        local[i] = NULL;
         if (f->is == DRAFT_LEAF) {
             struct device_buffer *b = r->buffers[f->node];
-            v->buffer = r->local[i] = block < 0 ? b : b->blocks->of[block];
+            v->buffer = local[i] = block < 0 ? b : b->blocks->of[block];
         } else if (f->is == DRAFT_NUMBER) {
             v->imm = r->nodes[f->node]->imm;
         } else if (f->is == DRAFT_LOW) {
@@ -159,15 +171,13 @@ static void kept_find(const struct division_run *r, const struct portion *g)
 static enum machine_status portion_run(const struct division_run *r, struct portion *g)
 {
     const struct fates fates = {.kept = r->kept};
-    enum machine_status status =
-        plan_run(g->machine, g->plan, r->local, g->reach.nodes, &fates);
-    return status ? failed_there(r->m, g->machine) : MACHINE_OK;
+    return plan_run(g->machine, g->plan, local_of(r, g), g->reach.nodes, &fates);
 }
 
 /* Arrays that the sequencers look at are in blocks, with ghosts enough. */
 static enum machine_status leaves_divide(const struct division_run *r)
 {
-    const struct portion *g = &r->d->blocks;
+    const struct portion *g = &r->d->blocks[0];
     enum machine_status status = MACHINE_OK;
     for (int i = 0; i < g->reach.count && !status; i++) {
         const struct machine_value *v = g->reach.nodes[i];
@@ -181,7 +191,7 @@ static enum machine_status leaves_divide(const struct division_run *r)
 /* Ghosts of what is computed from arrays of that set. */
 static int ghosts_of(const struct division_run *r, int set)
 {
-    const struct portion *g = &r->d->blocks;
+    const struct portion *g = &r->d->blocks[0];
     int least = sequencers_cut(r->m, set)->ghosts;
     for (int i = 0; i < g->reach.count; i++)
         if (g->from[i].is == DRAFT_LEAF && g->reach.nodes[i]->set == set) {
@@ -191,9 +201,68 @@ static int ghosts_of(const struct division_run *r, int set)
     return least;
 }
 
+/* A block's results, by its sequencer. */
+static bool block_compute(const struct division_run *r, struct portion *g, int block)
+{
+    drafts_set(r, g, block);
+    if ((block == 0 || r->d->blocks_count > 1) && !portion_plan(g, PLAN_TO_RUN))
+        return false;
+    if (portion_run(r, g))
+        return false;
+    for (int i = 0; i < g->targets.count; i++)
+        sequencers_array_gets(r->out[i], block, local_of(r, g)[g->targets.values[i]->local]);
+    return true;
+}
+
+static void part_compute(void *of, int block, int worker)
+{
+    struct division_run *r = of;
+    (void)worker;
+    r->failed[block] = !block_compute(r, &r->d->blocks[block], block);
+}
+
+/* Kernels are only started, and run side by side whoever starts them; byte code, and what makes
+ * plans, run where they are called. */
+static bool threads_wanted(const struct division *d)
+{
+    bool wanted = false;
+    for (int i = 0; i < d->blocks_count && !wanted; i++) {
+        const struct plan *p = d->blocks[i].plan;
+        wanted = !p;
+        for (int k = 0; p && k < p->launches_count && !wanted; k++)
+            wanted = p->launches[k].program != NULL;
+    }
+    return wanted;
+}
+
+/* Each sequencer's work on a thread of its own. */
+static enum machine_status blocks_compute_apart(struct division_run *r)
+{
+    struct machine *m = r->m;
+    if (device_subs_begin(m))
+        return m->status;
+    crew_run(threads_wanted(r->d) ? m->device->crew : NULL, r->d->blocks_count, part_compute,
+             r);
+    device_subs_queued(m);
+    enum machine_status status = MACHINE_OK;
+    for (int i = 0; i < r->d->blocks_count; i++)
+        if (r->failed[i])
+            status = failed_there(m, r->d->blocks[i].machine);
+    return status;
+}
+
+static enum machine_status blocks_compute_in_turn(struct division_run *r)
+{
+    struct portion *g = &r->d->blocks[0];
+    for (int block = 0; block < r->m->sequencers->count; block++)
+        if (!block_compute(r, g, block))
+            return failed_there(r->m, g->machine);
+    return MACHINE_OK;
+}
+
 static enum machine_status blocks_compute(struct division_run *r)
 {
-    struct portion *g = &r->d->blocks;
+    struct portion *g = &r->d->blocks[0];
     enum machine_status status = leaves_divide(r);
     kept_find(r, g);
     for (int i = 0; i < g->targets.count && !status; i++) {
@@ -203,15 +272,10 @@ static enum machine_status blocks_compute(struct division_run *r)
             return r->m->status;
         r->out[i]->blocks->valid = ghosts_of(r, v->set) - r->d->reaches[i];
     }
-    for (int block = 0; block < r->m->sequencers->count && !status; block++) {
-        drafts_set(r, g, block);
-        if (block == 0 && !portion_plan(g, PLAN_TO_RUN))
-            return failed_there(r->m, g->machine);
-        status = portion_run(r, g);
-        for (int i = 0; i < g->targets.count && !status; i++)
-            sequencers_array_gets(r->out[i], block, r->local[g->targets.values[i]->local]);
-    }
-    drafts_reset(r->d, g);
+    if (!status)
+        status = r->d->blocks_count > 1 ? blocks_compute_apart(r) : blocks_compute_in_turn(r);
+    for (int i = 0; i < r->d->blocks_count; i++)
+        drafts_reset(r->d, &r->d->blocks[i]);
     r->m->sequencers->run++;
     return status;
 }
@@ -229,7 +293,7 @@ static enum machine_status whole_compute(struct division_run *r)
     drafts_set(r, g, -1);
     status = portion_plan(g, PLAN_TO_RUN) ? portion_run(r, g) : r->m->status;
     for (int i = 0; i < g->targets.count && !status; i++)
-        r->out[r->d->blocks.targets.count + i] = r->local[g->targets.values[i]->local];
+        r->out[r->d->blocks[0].targets.count + i] = local_of(r, g)[g->targets.values[i]->local];
     drafts_reset(r->d, g);
     return status;
 }
@@ -239,7 +303,7 @@ static enum machine_status whole_compute(struct division_run *r)
 static void results_give(const struct division_run *r, const struct fates *fates,
                          enum machine_status status)
 {
-    const struct portion *const g[2] = {&r->d->blocks, &r->d->whole};
+    const struct portion *const g[2] = {&r->d->blocks[0], &r->d->whole};
     struct device_buffer **out = r->out;
     for (int k = 0; k < 2; k++)
         for (int i = 0; i < g[k]->targets.count; i++, out++) {
@@ -272,10 +336,11 @@ enum machine_status division_run(struct machine *m, struct plan *p,
     if (!p->division)
         return arrays_gather(m, p, buffers) ? m->status : plan_run(m, p, buffers, nodes, fates);
     struct division *d = p->division;
-    const int most = d->blocks.reach.count > d->whole.reach.count ? d->blocks.reach.count
-                                                                  : d->whole.reach.count;
-    struct division_run r = {.m = m, .d = d, .buffers = buffers, .nodes = nodes};
-    r.local = calloc((size_t)most, sizeof(struct device_buffer *));
+    const int in_blocks = d->blocks[0].reach.count, in_whole = d->whole.reach.count,
+              most = in_blocks > in_whole ? in_blocks : in_whole;
+    struct division_run r = {
+        .m = m, .d = d, .buffers = buffers, .nodes = nodes, .drafts = most};
+    r.local = calloc((size_t)(most * d->blocks_count), sizeof(struct device_buffer *));
     r.out = calloc((size_t)p->stored_count, sizeof(struct device_buffer *));
     r.kept = calloc((size_t)most, sizeof *r.kept);
     enum machine_status status =

@@ -50,9 +50,12 @@ struct portion {
 };
 
 struct division {
-    struct portion blocks, whole; /* without targets: there is nothing of that kind */
-    int *reaches;                 /* of a target in blocks: how many planes far it looks */
-    int *needs;                   /* of a VP set: ghosts that arrays must have */
+    /* without targets: there is nothing of that kind. Of blocks there is one for each
+     * sequencer's machine. */
+    struct portion *blocks, whole;
+    int blocks_count;
+    int *reaches; /* of a target in blocks: how many planes far it looks */
+    int *needs;   /* of a VP set: ghosts that arrays must have */
     int needs_count;
     /* of the same, one after the other, which look no further than there are ghosts */
     int turns_most;
@@ -65,6 +68,8 @@ struct division {
  * memory (and an error). */
 struct division *division_make(struct machine *m, const struct plan_request *q);
 void division_free(struct division *d);
+/* The portions' plans are gone, perhaps. */
+void division_forget_plans(struct division *d);
 /* What sequencers run. NULL: nothing, or it is not known; or something is computed in one
  * piece, too. */
 const struct plan *division_in_blocks(const struct plan *p);

@@ -188,7 +188,7 @@ static struct machine_value *draft_of(struct machine *m, struct division *d, str
                                       struct machine_value *const *drafts)
 {
     struct machine_value key = *v;
-    if (g == &d->blocks && !v->buffer && is_place(v->op)) {
+    if (g != &d->whole && !v->buffer && is_place(v->op)) {
         struct machine_value *made = place_draft(m, g, v, node);
         if (made)
             return made;
@@ -249,16 +249,25 @@ void division_free(struct division *d)
 {
     if (!d)
         return;
-    portion_free(&d->blocks);
+    for (int i = 0; i < d->blocks_count; i++)
+        portion_free(&d->blocks[i]);
+    free(d->blocks);
     portion_free(&d->whole);
     free(d->reaches);
     free(d->needs);
     free(d);
 }
 
+void division_forget_plans(struct division *d)
+{
+    for (int i = 0; i < d->blocks_count; i++)
+        d->blocks[i].plan = NULL;
+    d->whole.plan = NULL;
+}
+
 const struct plan *division_in_blocks(const struct plan *p)
 {
-    return p->division->whole.targets.count ? NULL : p->division->blocks.plan;
+    return p->division->whole.targets.count ? NULL : p->division->blocks[0].plan;
 }
 
 /* How far each target in blocks looks, and what each set's arrays need for that. */
@@ -267,11 +276,12 @@ static void reaches_note(struct machine *m, struct division *d, const struct pla
 {
     d->turns_most = INT_MAX;
     d->needs_count = m->values->sets_count;
-    d->reaches = malloc((size_t)d->blocks.targets.count * sizeof *d->reaches);
+    const struct portion *g = &d->blocks[0];
+    d->reaches = malloc((size_t)g->targets.count * sizeof *d->reaches);
     d->needs = calloc((size_t)d->needs_count, sizeof *d->needs);
     NEEDS_MEMORY(d->reaches && d->needs);
-    for (int i = 0; i < d->blocks.targets.count; i++) {
-        const int node = d->blocks.target_nodes[i], set = q->reach->nodes[node]->set;
+    for (int i = 0; i < g->targets.count; i++) {
+        const int node = g->target_nodes[i], set = q->reach->nodes[node]->set;
         d->reaches[i] = of[node];
         d->needs[set] = of[node] > d->needs[set] ? of[node] : d->needs[set];
         const int turns = of[node] ? sequencers_cut(m, set)->ghosts / of[node] : INT_MAX;
@@ -296,10 +306,15 @@ struct division *division_make(struct machine *m, const struct plan_request *q)
         in_blocks += is;
     }
     d->stand_in.host = m->device->is_pocl ? &d->stand_in : NULL;
-    d->blocks.machine = m->sequencers->machine;
+    d->blocks_count = m->sequencers->machines_count;
+    d->blocks = calloc((size_t)d->blocks_count, sizeof *d->blocks);
+    NEEDS_MEMORY(d->blocks);
     d->whole.machine = m;
+    for (int i = 0; i < d->blocks_count && in_blocks; i++) {
+        d->blocks[i].machine = m->sequencers->machines[i];
+        portion_make(m, d, &d->blocks[i], q, blocks);
+    }
     if (in_blocks) {
-        portion_make(m, d, &d->blocks, q, blocks);
         portion_make(m, d, &d->whole, q, whole);
         reaches_note(m, d, q, of);
     }

@@ -91,8 +91,8 @@ void improve_give_up(struct machine *m)
 
 void plans_see_to(struct machine *m)
 {
-    if (m->sequencers)
-        plans_see_to(m->sequencers->machine);
+    for (int i = 0; m->sequencers && i < m->sequencers->machines_count; i++)
+        plans_see_to(m->sequencers->machines[i]);
     struct plan *p = m->plans->improving;
     enum background_state state = p ? background_take(m) : BACKGROUND_WAITS;
     if (state == BACKGROUND_WAITS)
@@ -163,7 +163,7 @@ bool plan_waits(const struct machine *m, const struct plan *p)
 {
     if (p->division) {
         const struct plan *in_blocks = division_in_blocks(p);
-        return in_blocks && plan_waits(m->sequencers->machine, in_blocks);
+        return in_blocks && plan_waits(m->sequencers->machines[0], in_blocks);
     }
     return p == m->plans->improving || p->undecided;
 }
@@ -172,7 +172,7 @@ bool plan_wants_rehearsal(struct machine *m, const struct plan *p)
 {
     if (p->division) {
         const struct plan *in_blocks = division_in_blocks(p);
-        return in_blocks && plan_wants_rehearsal(m->sequencers->machine, in_blocks);
+        return in_blocks && plan_wants_rehearsal(m->sequencers->machines[0], in_blocks);
     }
     return p->undecided && !choice_is_awaited(m);
 }

@@ -29,8 +29,10 @@ static bool too_many(const struct plans *p)
 
 bool plans_are_many(const struct machine *m)
 {
-    return too_many(m->plans) || device_kernels_are_many(m) ||
-           (m->sequencers && plans_are_many(m->sequencers->machine));
+    bool many = too_many(m->plans) || device_kernels_are_many(m);
+    for (int i = 0; m->sequencers && i < m->sequencers->machines_count && !many; i++)
+        many = plans_are_many(m->sequencers->machines[i]);
+    return many;
 }
 
 /* All that were used last before that. */
@@ -77,14 +79,15 @@ static void forget_in_blocks(struct machine *m)
     for (int i = 0; i < m->plans->table_size; i++)
         for (struct plan *p = m->plans->table[i]; p; p = p->next)
             if (p->division)
-                p->division->blocks.plan = p->division->whole.plan = NULL;
+                division_forget_plans(p->division);
 }
 
 void plans_forget_oldest(struct machine *m)
 {
     if (m->sequencers) {
         forget_in_blocks(m);
-        plans_forget_oldest(m->sequencers->machine);
+        for (int i = 0; i < m->sequencers->machines_count; i++)
+            plans_forget_oldest(m->sequencers->machines[i]);
     }
     if (too_many(m->plans))
         forget_plans(m);
@@ -111,7 +114,7 @@ int plan_turns(const struct machine *m, const struct plan *p)
 {
     if (p->division) {
         const struct plan *in_blocks = division_in_blocks(p);
-        const int most = in_blocks ? plan_turns(p->division->blocks.machine, in_blocks) : 1;
+        const int most = in_blocks ? plan_turns(p->division->blocks[0].machine, in_blocks) : 1;
         return most < p->division->turns_most ? most : p->division->turns_most;
     }
     return p->quality == BOXED && p->stored_count <= m->device->shape.arrays_foreseen

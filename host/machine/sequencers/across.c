@@ -67,7 +67,7 @@ static void strip_put(struct machine *m, const struct strip *strip,
                       const struct device_buffer *b, const struct array_blocks *a)
 {
     const struct cut *c = sequencers_cut(m, a->set);
-    const struct vpset *local = &m->sequencers->machine->values->sets[a->set];
+    const struct vpset *local = sequencers_set(m, a->set);
     const uint64_t rows = local->rows / c->height;
     for (int i = 0; i < a->count; i++)
         for (uint64_t row = 0; row < local->rows; row++) {
@@ -82,7 +82,7 @@ static void strip_put(struct machine *m, const struct strip *strip,
 /* The other end of each row, into its halos. */
 static void halos_make(struct machine *m, const struct array_blocks *a)
 {
-    const struct vpset *local = &m->sequencers->machine->values->sets[a->set];
+    const struct vpset *local = sequencers_set(m, a->set);
     const size_t halo = (size_t)local->halo * a->element,
                  width = (size_t)local->width * a->element;
     for (int i = 0; i < a->count; i++)

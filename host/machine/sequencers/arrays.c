@@ -106,7 +106,7 @@ static enum machine_status halos_make(struct machine *m, struct side whole, size
 
 static struct side block_of(struct machine *m, const struct array_blocks *a, int block)
 {
-    return (struct side){a->of[block], &m->sequencers->machine->values->sets[a->set]};
+    return (struct side){a->of[block], sequencers_set(m, a->set)};
 }
 
 /* ---- ghosts ---- */
@@ -184,7 +184,7 @@ enum machine_status sequencers_divide(struct machine *m, struct device_buffer *b
     struct array_blocks *a = blocks_new(m, set, type);
     if (!a)
         return m->status;
-    const struct vpset *local = &m->sequencers->machine->values->sets[set];
+    const struct vpset *local = sequencers_set(m, set);
     const struct side whole = {b, &m->values->sets[set]};
     enum machine_status status = MACHINE_OK;
     for (int i = 0; i < a->count && !status; i++) {

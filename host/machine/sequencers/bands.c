@@ -12,16 +12,11 @@
 #include "sequencers/sequencers.h"
 #include "watch/watch.h"
 
-static const struct vpset *local_set(const struct machine *m, int set)
-{
-    return &m->sequencers->machine->values->sets[set];
-}
-
 struct band sequencers_band(struct machine *m, int set, int block)
 {
     const struct cut *c = sequencers_cut(m, set);
     const uint64_t own = c->first[block + 1] - c->first[block];
-    struct band b = {.set = *local_set(m, set)};
+    struct band b = {.set = *sequencers_set(m, set)};
     const uint64_t plane = b.set.count / c->height, rows = b.set.rows / c->height;
     b.index = c->first[block] * plane;
     b.set.dimensions[0] = (int)own;
@@ -99,7 +94,7 @@ struct device_buffer *sequencers_array_full(struct machine *m, int set,
     b->blocks->valid = c->ghosts;
     for (int i = 0; i < m->sequencers->count; i++) {
         struct device_buffer *memory =
-            device_rows_get(m, geometry_rows(local_set(m, set), type));
+            device_rows_get(m, geometry_rows(sequencers_set(m, set), type));
         if (!memory) {
             device_buffer_unref(m, b);
             return NULL;
@@ -129,8 +124,8 @@ struct device_buffer *sequencers_upload(struct machine *m, int set, struct machi
         watch_bytes(m, m->values->sets[set].count * type_bytes(type));
     enum machine_status status = device_settle_for(m, "writing a field");
     for (int i = 0; i < b->blocks->count && !status; i++)
-        status = block_upload(m, sequencers_cut(m, set), local_set(m, set), i, b->blocks->of[i],
-                              in, type_bytes(type));
+        status = block_upload(m, sequencers_cut(m, set), sequencers_set(m, set), i,
+                              b->blocks->of[i], in, type_bytes(type));
     return good(m, b, status);
 }
 
@@ -163,7 +158,7 @@ struct device_buffer *sequencers_copy(struct machine *m, const struct device_buf
 struct owned sequencers_owner(struct machine *m, const struct device_buffer *b, uint64_t index)
 {
     const struct array_blocks *a = b->blocks;
-    const struct vpset *local = local_set(m, a->set);
+    const struct vpset *local = sequencers_set(m, a->set);
     const struct cut *c = sequencers_cut(m, a->set);
     const uint64_t plane = local->count / c->height;
     uint64_t at;
@@ -183,7 +178,7 @@ enum machine_status sequencers_write(struct machine *m, const struct device_buff
                                      uint64_t index, const void *number)
 {
     const struct array_blocks *a = b->blocks;
-    const struct vpset *local = local_set(m, a->set);
+    const struct vpset *local = sequencers_set(m, a->set);
     const struct cut *c = sequencers_cut(m, a->set);
     const uint64_t plane = local->count / c->height;
     enum machine_status status = MACHINE_OK;

@@ -70,9 +70,16 @@ static bool can_cut(const struct machine *m, const struct vpset *s, const struct
     return forced || c->length >= 2 * (uint64_t)m->sequencers->count * (uint64_t)c->ghosts;
 }
 
+/* What the first sequencer's set is, the others' are. */
+static void set_share(const struct sequencers *q, int set)
+{
+    for (int i = 1; i < q->machines_count; i++)
+        q->machines[i]->values->sets[set] = q->machines[0]->values->sets[set];
+}
+
 static void cut_make(struct machine *m, int set, struct cut *c)
 {
-    struct machine *local = m->sequencers->machine;
+    struct machine *local = m->sequencers->machines[0];
     const struct vpset *s = &m->values->sets[set];
     int dimensions[MACHINE_AXES_MAX];
     *c = (struct cut){.generation = s->generation};
@@ -81,27 +88,33 @@ static void cut_make(struct machine *m, int set, struct cut *c)
     c->ghosts = ghosts_of(m, s);
     blocks_place(c, m->sequencers->count, s->rank == 1);
     c->is = can_cut(m, s, c);
-    if (!c->is)
-        return;
-    memcpy(dimensions, s->dimensions, sizeof dimensions);
-    dimensions[0] = (int)c->height;
-    geometry_make(local, &local->values->sets[set], dimensions, s->rank, &s->layout);
+    if (c->is) {
+        memcpy(dimensions, s->dimensions, sizeof dimensions);
+        dimensions[0] = (int)c->height;
+        geometry_make(local, &local->values->sets[set], dimensions, s->rank, &s->layout);
+    }
+    set_share(m->sequencers, set);
 }
 
 /* As many sets as the front end has. */
 static void sets_grow(struct machine *m)
 {
     struct sequencers *q = m->sequencers;
-    struct values *v = q->machine->values;
     const int count = m->values->sets_count;
-    if (count <= q->cuts_count)
+    const size_t more = (size_t)(count > q->cuts_count ? count - q->cuts_count : 0);
+    if (!more)
         return;
     q->cuts = realloc(q->cuts, (size_t)count * sizeof *q->cuts);
-    v->sets = realloc(v->sets, (size_t)count * sizeof *v->sets);
-    NEEDS_MEMORY(q->cuts && v->sets);
-    memset(&q->cuts[q->cuts_count], 0, (size_t)(count - q->cuts_count) * sizeof *q->cuts);
-    memset(&v->sets[q->cuts_count], 0, (size_t)(count - q->cuts_count) * sizeof *v->sets);
-    q->cuts_count = v->sets_count = count;
+    NEEDS_MEMORY(q->cuts);
+    memset(&q->cuts[q->cuts_count], 0, more * sizeof *q->cuts);
+    for (int i = 0; i < q->machines_count; i++) {
+        struct values *v = q->machines[i]->values;
+        v->sets = realloc(v->sets, (size_t)count * sizeof *v->sets);
+        NEEDS_MEMORY(v->sets);
+        memset(&v->sets[q->cuts_count], 0, more * sizeof *v->sets);
+        v->sets_count = count;
+    }
+    q->cuts_count = count;
 }
 
 const struct cut *sequencers_cut(struct machine *m, int set)

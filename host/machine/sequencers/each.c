@@ -39,7 +39,7 @@ struct device_buffer *sequencers_each(struct machine *m, int set, struct machine
     for (int block = 0; block < m->sequencers->count; block++) {
         for (int i = 0; i < count; i++)
             in[i] = values[i] ? values[i]->buffer->blocks->of[block] : NULL;
-        got = work(m, &m->sequencers->machine->values->sets[set], in, of);
+        got = work(m, sequencers_set(m, set), in, of);
         if (!got) {
             device_buffer_unref(m, out);
             return NULL;

@@ -37,15 +37,23 @@ struct cut {
 
 struct sequencers {
     int count;
-    /* Its VP sets are blocks, with the ids of the front end's. It has plans, and neither fields
-     * nor a graph. */
-    struct machine *machine;
+    /* Their VP sets are blocks, with the ids of the front end's. They have plans, and neither
+     * fields nor a graph. One for each block, with a share of the device's compute units, where
+     * these are enough; else one for all, with the front end's device. */
+    struct machine *machines[BLOCKS_MOST];
+    int machines_count;
     struct cut *cuts; /* by set */
     int cuts_count;
     /* Plans, and whole instructions, run in blocks, each by all; arrays put into blocks, and
      * together again; arrays whose ghosts were fetched. */
     uint64_t run, divided, gathered, exchanged;
 };
+
+/* The sets are the same in all. */
+static inline const struct vpset *sequencers_set(const struct machine *m, int set)
+{
+    return &m->sequencers->machines[0]->values->sets[set];
+}
 
 /* ---- cuts.c ---- */
 
