@@ -176,11 +176,13 @@ static void no_room(struct machine *m, size_t bytes)
     device_pool_empty(d);
     if (d->name_holders)
         d->name_holders(m->front ? m->front : m, holders, sizeof holders);
-    machine_fail(m, MACHINE_NO_MEMORY,
-                 "%.1f MB more for one field do not fit in the memory of %s (%.1f MB, %.1f in "
-                 "use%s%s): deallocate fields, or take smaller VP sets or shorter fields",
-                 1e-6 * (double)bytes, d->name, 1e-6 * (double)d->memory_bytes,
-                 1e-6 * (double)d->held_bytes, *holders ? ", by " : "", holders);
+    machine_fail(
+        m, MACHINE_NO_MEMORY,
+        "%.1f MB more for one field do not fit in the memory of %s%s (%.1f MB, %.1f in "
+        "use%s%s): deallocate fields, or take smaller VP sets or shorter fields",
+        1e-6 * (double)bytes, m->front && m->front->device != d ? "a block's share of " : "",
+        d->name, 1e-6 * (double)d->memory_bytes, 1e-6 * (double)d->held_bytes,
+        *holders ? ", by " : "", holders);
 }
 
 struct device_buffer *device_rows_get(struct machine *m, struct rows rows)
