@@ -27,6 +27,7 @@
 #include "desk_frame.h"
 #include "desk_shared.h"
 #include "studio_paper.h"
+#include "studio_selection.h"
 #include "studio_view.h"
 
 #include <gtk/gtk.h>
@@ -94,7 +95,7 @@ struct desk {
     bool typing;
     double type_x, type_y;
     char *font, *features;
-    struct studio_shown shown;
+    struct studio_outlined outline; /* of what is selected */
     /* the past */
     GtkWidget *past_box, *past_strip, *past_scale, *flow, *flow_bar;
     struct studio_past past;

@@ -39,6 +39,7 @@ static void undo(GSimpleAction *action, GVariant *parameter, gpointer data)
 SENDS(redo, STUDIO_MESSAGE_REDO)
 SENDS(dry, STUDIO_MESSAGE_DRY)
 SENDS(seal, STUDIO_MESSAGE_SEAL)
+SENDS(select_none, STUDIO_MESSAGE_SELECT_NONE)
 SENDS(present, STUDIO_MESSAGE_PRESENT)
 SENDS(from_here, STUDIO_MESSAGE_FROM_HERE)
 SENDS(take_out, STUDIO_MESSAGE_REMOVE)
@@ -121,6 +122,7 @@ static const struct {
     {"Ctrl+Z, Ctrl+Shift+Z", "undo, redo"},
     {"Ctrl+Enter", "let the type into the paper"},
     {"Ctrl+D, Ctrl+L", "dry the sheet, seal it under a glaze"},
+    {"Ctrl+Shift+A", "select nothing: the whole sheet takes paint again"},
     {"Ctrl+T; Alt+Left, Alt+Right, Alt+Home",
      "the past; an earlier or later moment, the present"},
     {"Ctrl+Delete, Ctrl+R, Ctrl+J",
@@ -280,6 +282,7 @@ static const GActionEntry entries[] = {
     {.name = "redo", .activate = redo},
     {.name = "dry", .activate = dry},
     {.name = "seal", .activate = seal},
+    {.name = "select-none", .activate = select_none},
     {.name = "go-on", .activate = go_on},
     {.name = "past", .activate = past},
     {.name = "earlier", .activate = earlier},
@@ -316,6 +319,7 @@ static const struct desk_row menu_rows[] = {
     {"win.go-on", "Let time go on after an undo", "<Control>g"},
     {"win.dry", "Dry the sheet", "<Control>d"},
     {"win.seal", "Seal under a glaze", "<Control>l"},
+    {"win.select-none", "Select nothing", "<Control><Shift>a"},
     {NULL, NULL, NULL},
     {"win.past", "The past", "<Control>t"},
     {"win.earlier", "An earlier moment", "<Alt>Left"},
@@ -380,6 +384,7 @@ void desk_actions_enable(struct desk *d)
         {"picture", d->report.ready},
         {"script", d->report.ready},
         {"dry", d->report.ready},
-        {"seal", d->report.ready}};
+        {"seal", d->report.ready},
+        {"select-none", d->report.selected}};
     desk_frame_enable(d->window, states, G_N_ELEMENTS(states));
 }

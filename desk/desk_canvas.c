@@ -5,6 +5,8 @@
 #include <math.h>
 #include <visible_text.h>
 
+#define LASSO_PX 0.8 /* half the width of its line */
+
 void desk_canvas_show(struct desk *d)
 {
     if (d->window)
@@ -29,9 +31,13 @@ void desk_ghost_add(struct desk *d, unsigned long number, double x, double y, bo
 {
     struct desk_ghost ghost = {
         .number = number, .x = x, .y = y, .radius = desk_cursor_radius(d), .begins = begins};
+    const int tool = (int)d->settings.value[STUDIO_TOOL];
+    const bool lasso = tool == STUDIO_TOOL_SELECT &&
+                       (int)d->settings.value[STUDIO_OUTLINE] == STUDIO_OUTLINE_LASSO;
     desk_tool_color(d, ghost.rgb);
-    if (studio_tool_of(&d->settings)->swept ||
-        (int)d->settings.value[STUDIO_TOOL] == STUDIO_TOOL_DROP)
+    if (lasso)
+        ghost.radius = LASSO_PX / d->view.zoom;
+    if (studio_tool_of(&d->settings)->swept || tool == STUDIO_TOOL_DROP || lasso)
         g_array_append_val(d->ghost, ghost);
 }
 

@@ -59,6 +59,7 @@ double desk_cursor_radius(const struct desk *d)
         return value[STUDIO_SCATTER];
     case STUDIO_TOOL_WASH:
     case STUDIO_TOOL_TYPE:
+    case STUDIO_TOOL_SELECT:
     case STUDIO_TOOLS:
         break;
     }

@@ -10,6 +10,9 @@
 #include <epoxy/gl.h>
 #include <math.h>
 
+#define DASH_PX 6.0
+#define SEEN_MOST 2e6 /* pixels of a line: longer than any on a sheet at the largest zoom */
+
 struct corner {
     float x, y, a_x, a_y, b_x, b_y, radius, hollow, color[4];
 };
@@ -315,6 +318,8 @@ static void drag_draw(struct desk_gl *gl, const struct desk *d, int scale,
     const struct studio_place to = studio_view_to_sheet(&d->view, d->pointer_x, d->pointer_y);
     const double x[] = {d->down_x, to.x, to.x, d->down_x, d->down_x},
                  y[] = {d->down_y, d->down_y, to.y, to.y, d->down_y};
+    const enum studio_outline outline = (enum studio_outline)d->settings.value[STUDIO_OUTLINE];
+    double points[2 * STUDIO_OUTLINE_CORNERS];
     if (!d->down)
         return;
     for (int i = 0; i < 48 && d->shaping; i++) {
@@ -328,6 +333,43 @@ static void drag_draw(struct desk_gl *gl, const struct desk *d, int scale,
     for (int i = 0; i < 4 && tool == STUDIO_TOOL_WASH; i++)
         piece_add(gl, pixel_of(d, scale, x[i], y[i]), pixel_of(d, scale, x[i + 1], y[i + 1]), 0,
                   look);
+    if (tool != STUDIO_TOOL_SELECT || outline == STUDIO_OUTLINE_LASSO)
+        return;
+    const int count = studio_outline_points(outline, x[0], y[0], to.x, to.y, points);
+    for (int i = 0; i < count; i++) {
+        const double *a = points + 2 * i, *b = points + 2 * ((i + 1) % count);
+        piece_add(gl, pixel_of(d, scale, a[0], a[1]), pixel_of(d, scale, b[0], b[1]), 0, look);
+    }
+}
+
+/* What is selected has a line around it, of dark and light dashes. A dash that begins on one
+ * side ends on the next. */
+static void outline_draw(struct desk_gl *gl, const struct desk *d, int scale)
+{
+    static const struct look looks[2] = {{{0, 0, 0, 0.9f}, 0}, {{1, 1, 1, 0.9f}, 0}};
+    const double dash = DASH_PX * scale, width = scale * d->view.width,
+                 height = scale * d->view.height;
+    double gone = 0; /* pixels along the outline */
+    for (int i = 0; i < d->outline.count; i++) {
+        const double *p = d->outline.points + 2 * i,
+                     *q = d->outline.points + 2 * ((i + 1) % d->outline.count);
+        const struct studio_place a = pixel_of(d, scale, p[0], p[1]),
+                                  b = pixel_of(d, scale, q[0], q[1]);
+        const double length = hypot(b.x - a.x, b.y - a.y);
+        for (double at = 0; at < length && length < SEEN_MOST;) {
+            const double end = fmin(length, at + dash - fmod(gone + at, dash)),
+                         from = at / length, to = end / length;
+            const struct studio_place first = {a.x + from * (b.x - a.x),
+                                               a.y + from * (b.y - a.y)},
+                                      last = {a.x + to * (b.x - a.x), a.y + to * (b.y - a.y)};
+            const int light = (int)fmod((gone + at + 0.01) / dash, 2);
+            if (first.x > -dash && first.y > -dash && first.x < width + dash &&
+                first.y < height + dash)
+                piece_add(gl, first, last, 0.6 * scale, &looks[light]);
+            at = fmax(end, at + 0.01);
+        }
+        gone = fmod(gone + length, 2 * dash);
+    }
 }
 
 static void cursor_draw(struct desk_gl *gl, const struct desk *d, int scale)
@@ -400,6 +442,7 @@ void desk_gl_draw(struct desk_gl *gl, const struct desk *d, int scale)
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE);
     ghost_draw(gl, d, scale, width, height);
+    outline_draw(gl, d, scale);
     cursor_draw(gl, d, scale);
     pieces_draw(gl, width, height);
     glDisable(GL_BLEND);

@@ -60,6 +60,7 @@ static void desk_finish(struct desk *d)
     if (d->typed)
         g_string_free(d->typed, TRUE);
     free(d->past.deeds);
+    free(d->outline.points);
     g_free(d->preedit);
     g_free(d->font);
     g_free(d->features);

@@ -156,6 +156,8 @@ static gboolean report_take(gpointer data)
             return G_SOURCE_REMOVE; /* there may be no window any more */
         }
     }
+    if (d->report.outlines != before.outlines)
+        studio_paper_outline(d->paper, &d->outline);
     desk_canvas_look(d);
     desk_past_look(d);
     title_show(d);

@@ -133,10 +133,18 @@ static enum paper_status swept_apply(struct studio_session *s,
     case STUDIO_TOOL_SPLATTER:
     case STUDIO_TOOL_SALT:
     case STUDIO_TOOL_TYPE:
+    case STUDIO_TOOL_SELECT:
     case STUDIO_TOOLS:
         break;
     }
     return PAPER_OK;
+}
+
+/* Whether a selection holds it by itself: all that is put heeds the fluid around. */
+static bool heeds_fluid(int tool)
+{
+    return tool != STUDIO_TOOL_MASK && tool != STUDIO_TOOL_UNMASK &&
+           tool != STUDIO_TOOL_VARNISH;
 }
 
 /* The way as wide as the brush under the hand's pressure; a drop falls where the hand came
@@ -159,6 +167,8 @@ static enum paper_status swept_do(struct studio_session *s)
         studio_mask_sweep(discs, count, config->width, config->height, &screen, &x, &y);
     if (status == PAPER_NO_MEMORY)
         studio_session_failed(status, "no memory for the way of the hand");
+    if (status == PAPER_OK && screen.gray && !heeds_fluid((int)s->at.value[STUDIO_TOOL]))
+        status = studio_session_selection_clip(s, &screen, x, y);
     if (status == PAPER_OK && screen.gray)
         status = swept_apply(s, &screen, x, y);
     paper_screen_destroy(&screen);
@@ -215,14 +225,20 @@ static enum paper_status splatter_do(struct studio_session *s)
 static enum paper_status salt_do(struct studio_session *s)
 {
     const double *value = s->at.value;
-    return paper_sheet_salt(s->sheet, &(struct paper_salt){.x = first_of(s)->x,
-                                                           .y = first_of(s)->y,
-                                                           .radius = value[STUDIO_SCATTER],
-                                                           .grains = (int)value[STUDIO_GRAINS],
-                                                           .size = {0.7, 1.6},
-                                                           .strength = value[STUDIO_SALT],
-                                                           .reach = SALT_REACH,
-                                                           .seed = seed_of(s)});
+    struct paper_screen screen;
+    struct paper_salt salt = {.x = first_of(s)->x,
+                              .y = first_of(s)->y,
+                              .radius = value[STUDIO_SCATTER],
+                              .grains = (int)value[STUDIO_GRAINS],
+                              .size = {0.7, 1.6},
+                              .strength = value[STUDIO_SALT],
+                              .reach = SALT_REACH,
+                              .seed = seed_of(s)};
+    enum paper_status status = studio_session_selection_place(s, &screen, &salt.place);
+    if (status == PAPER_OK)
+        status = paper_sheet_salt(s->sheet, &salt);
+    paper_screen_destroy(&screen);
+    return status;
 }
 
 /* ---- the hand ---- */
@@ -239,6 +255,8 @@ static enum paper_status deed_do(struct studio_session *s)
         return splatter_do(s);
     case STUDIO_TOOL_SALT:
         return salt_do(s);
+    case STUDIO_TOOL_SELECT:
+        return studio_session_select(s);
     case STUDIO_TOOL_DROP:
     case STUDIO_TOOL_BLOT:
     case STUDIO_TOOL_LIFT:
@@ -365,7 +383,7 @@ void studio_session_pace_most(struct studio_session *s, double pace)
 
 /* ---- deeds without a hand ---- */
 
-static enum paper_status deed_done(struct studio_session *s, enum paper_status status)
+enum paper_status studio_session_deed_done(struct studio_session *s, enum paper_status status)
 {
     s->held = false;
     s->wet = true;
@@ -381,13 +399,14 @@ static enum paper_status deed_ready(struct studio_session *s)
 enum paper_status studio_session_dry(struct studio_session *s)
 {
     const enum paper_status status = deed_ready(s);
-    return status == PAPER_OK ? deed_done(s, paper_sheet_dry(s->sheet)) : status;
+    return status == PAPER_OK ? studio_session_deed_done(s, paper_sheet_dry(s->sheet)) : status;
 }
 
 enum paper_status studio_session_seal(struct studio_session *s)
 {
     const enum paper_status status = deed_ready(s);
-    return status == PAPER_OK ? deed_done(s, paper_sheet_seal(s->sheet)) : status;
+    return status == PAPER_OK ? studio_session_deed_done(s, paper_sheet_seal(s->sheet))
+                              : status;
 }
 
 /* ---- type ---- */
@@ -434,5 +453,5 @@ enum paper_status studio_session_type(struct studio_session *s, const struct stu
     if (status == PAPER_OK)
         status = paper_sheet_put(s->sheet, &screen, x, y, amount);
     paper_screen_destroy(&screen);
-    return deed_done(s, status);
+    return studio_session_deed_done(s, status);
 }

@@ -35,6 +35,7 @@ enum studio_message_kind {
     STUDIO_MESSAGE_FLOW, /* what was stopped goes on */
     STUDIO_MESSAGE_DRY,
     STUDIO_MESSAGE_SEAL,
+    STUDIO_MESSAGE_SELECT_NONE,
     STUDIO_MESSAGE_TYPE,      /* type: is let into the paper */
     STUDIO_MESSAGE_TYPE_SHOW, /* type: is shown as it would be; an empty text: nothing is */
     STUDIO_MESSAGE_NEW,       /* config */

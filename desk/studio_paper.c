@@ -29,6 +29,26 @@ enum { STEPS_AT_ONCE = 2 };
 
 /* ---- telling ---- */
 
+/* The window gets the selection's outline where it is another one. */
+static void outline_look(struct studio_paper *p)
+{
+    int count;
+    const double *points = studio_session_selected(p->session, &count);
+    const size_t bytes = 2 * (size_t)count * sizeof *points;
+    if (count == p->outline.count &&
+        (count == 0 || memcmp(points, p->outline.points, bytes) == 0))
+        return;
+    double *made = count > 0 ? malloc(bytes) : NULL;
+    if (made)
+        memcpy(made, points, bytes);
+    pthread_mutex_lock(&p->lock);
+    free(p->outline.points);
+    p->outline = (struct studio_outlined){made ? count : 0, made};
+    pthread_mutex_unlock(&p->lock);
+    p->now.selected = made != NULL;
+    p->now.outlines++;
+}
+
 static void report_make(struct studio_paper *p)
 {
     struct studio_report *r = &p->now;
@@ -45,6 +65,7 @@ static void report_make(struct studio_paper *p)
         r->operations = paper_history_done(sheet);
         r->history_bytes = paper_history_bytes(sheet);
         studio_paper_past_look(p);
+        outline_look(p);
     }
     r->budget_bytes = p->def.budget_bytes;
     pthread_mutex_lock(&p->lock);
@@ -62,10 +83,10 @@ static void report_make(struct studio_paper *p)
 static bool needs_rest(enum studio_message_kind kind)
 {
     return kind == STUDIO_MESSAGE_CARE || kind == STUDIO_MESSAGE_DRY ||
-           kind == STUDIO_MESSAGE_SEAL || kind == STUDIO_MESSAGE_TYPE ||
-           kind == STUDIO_MESSAGE_NEW || kind == STUDIO_MESSAGE_OPEN ||
-           kind == STUDIO_MESSAGE_SAVE || kind == STUDIO_MESSAGE_PICTURE ||
-           kind == STUDIO_MESSAGE_SCRIPT ||
+           kind == STUDIO_MESSAGE_SEAL || kind == STUDIO_MESSAGE_SELECT_NONE ||
+           kind == STUDIO_MESSAGE_TYPE || kind == STUDIO_MESSAGE_NEW ||
+           kind == STUDIO_MESSAGE_OPEN || kind == STUDIO_MESSAGE_SAVE ||
+           kind == STUDIO_MESSAGE_PICTURE || kind == STUDIO_MESSAGE_SCRIPT ||
            (kind >= STUDIO_MESSAGE_VISIT && kind <= STUDIO_MESSAGE_WAY);
 }
 
@@ -235,6 +256,8 @@ static enum paper_status message_do(struct studio_paper *p, const struct studio_
         return studio_session_dry(s);
     case STUDIO_MESSAGE_SEAL:
         return studio_session_seal(s);
+    case STUDIO_MESSAGE_SELECT_NONE:
+        return studio_session_select_none(s);
     case STUDIO_MESSAGE_TYPE:
         return studio_session_type(s, &type);
     case STUDIO_MESSAGE_TYPE_SHOW:
@@ -267,7 +290,8 @@ static bool changes(const struct studio_message *m)
 {
     return of_past(m->kind) || m->kind == STUDIO_MESSAGE_DRY ||
            m->kind == STUDIO_MESSAGE_SEAL || m->kind == STUDIO_MESSAGE_TYPE ||
-           m->kind == STUDIO_MESSAGE_STEP || m->kind == STUDIO_MESSAGE_POINT;
+           m->kind == STUDIO_MESSAGE_SELECT_NONE || m->kind == STUDIO_MESSAGE_STEP ||
+           m->kind == STUDIO_MESSAGE_POINT;
 }
 
 static void message_hear(struct studio_paper *p, struct studio_message *m)
@@ -454,6 +478,7 @@ void studio_paper_end(struct studio_paper *p, bool forget, struct studio_report 
     free(p->shown_gray);
     free(p->view);
     free(p->past.deeds);
+    free(p->outline.points);
     free((char *)(uintptr_t)p->def.path);
     free((char *)(uintptr_t)p->def.found);
     free((char *)(uintptr_t)p->def.folder);
@@ -503,4 +528,19 @@ bool studio_paper_shown(struct studio_paper *p, struct studio_shown *out)
     }
     pthread_mutex_unlock(&p->lock);
     return other;
+}
+
+bool studio_paper_outline(struct studio_paper *p, struct studio_outlined *outline)
+{
+    pthread_mutex_lock(&p->lock);
+    const size_t bytes = 2 * (size_t)p->outline.count * sizeof *outline->points;
+    double *points = malloc(bytes + 1);
+    if (points) {
+        if (bytes > 0)
+            memcpy(points, p->outline.points, bytes);
+        free(outline->points);
+        *outline = (struct studio_outlined){p->outline.count, points};
+    }
+    pthread_mutex_unlock(&p->lock);
+    return points != NULL;
 }

@@ -51,6 +51,8 @@ struct studio_report {
     int deeds, deeds_done;      /* of the past, with those that are undone */
     unsigned long past;         /* another number: studio_paper_past() is another */
     bool visits, inserts;       /* studio_session_visits() */
+    bool selected;              /* something is */
+    unsigned long outlines;     /* another number: studio_paper_outline() is another */
     bool way;                   /* the hand's next stroke is another one's way */
     long flow_done, flow_total; /* steps, while the past flows anew; total 0: it does not */
     bool stopped;               /* it was stopped; the picture is of before */
@@ -91,6 +93,14 @@ struct studio_past {
 /* Fills *past, which began as zeros. False: no memory; it is as it was. Owns: the caller frees
  * past->deeds. */
 bool studio_paper_past(struct studio_paper *paper, struct studio_past *past);
+
+/* The outline of what is selected, in fibers; count 0: nothing is. Fills *outline, which began
+ * as zeros. False: no memory; it is as it was. Owns: the caller frees outline->points. */
+struct studio_outlined {
+    int count;
+    double *points; /* pairs of x, y */
+};
+bool studio_paper_outline(struct studio_paper *paper, struct studio_outlined *outline);
 
 /* The type that is shown, as a screen with its place. False: none, or the same as at the last
  * call (*same). gray belongs to the paper until the next call. */

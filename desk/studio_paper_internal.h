@@ -39,6 +39,7 @@ struct studio_paper {
     struct studio_shown shown;
     bool shown_new;
     struct studio_past past;
+    struct studio_outlined outline;
     atomic_bool stop;
     /* the window's own */
     struct studio_pictures *looked; /* those that it looks at */

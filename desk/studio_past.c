@@ -141,6 +141,7 @@ bool studio_session_inserts(const struct studio_session *s)
 
 static void moved(struct studio_session *s)
 {
+    studio_session_selection_forget(s);
     s->has_brush = false;
     s->wet = true;
 }
@@ -222,6 +223,7 @@ enum paper_status studio_session_insert(struct studio_session *s)
         return PAPER_OK;
     go_to(s, s->present);
     const enum paper_status status = paper_history_insert_before(s->sheet, at);
+    studio_session_selection_forget(s);
     if (status == PAPER_OK)
         s->inserting = at;
     else
@@ -249,7 +251,10 @@ enum paper_status studio_session_remove(struct studio_session *s)
     enum paper_status status = deed_choose(s, &span);
     if (status == PAPER_OK)
         status = studio_session_present(s);
-    return status == PAPER_OK ? paper_history_remove(s->sheet, span.itself, true) : status;
+    if (status == PAPER_OK)
+        status = paper_history_remove(s->sheet, span.itself, true);
+    studio_session_selection_forget(s);
+    return status;
 }
 
 /* The operation that has the deed's amounts; -1: none. */

@@ -92,6 +92,7 @@ void studio_session_destroy(struct studio_session *s)
     if (!s)
         return;
     paper_sheet_destroy(s->sheet);
+    studio_selection_free(&s->selection);
     free(s->samples);
     free(s);
 }
@@ -208,6 +209,7 @@ bool studio_session_undo(struct studio_session *s)
     paper_history_undo(s->sheet, studio_session_inserted(s) ? 1 : count);
     s->inserted = -1;
     s->held = true;
+    studio_session_selection_forget(s);
     s->has_brush = false;
     s->wet = true;
     return true;
@@ -221,6 +223,7 @@ bool studio_session_redo(struct studio_session *s)
     paper_history_redo(s->sheet, done - paper_history_done(s->sheet));
     if (done >= s->present)
         s->present = -1;
+    studio_session_selection_forget(s);
     s->has_brush = false;
     s->wet = true;
     return true;

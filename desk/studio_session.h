@@ -102,6 +102,16 @@ enum paper_status studio_session_type_screen(const struct studio_settings *setti
 enum paper_status studio_session_type(struct studio_session *session,
                                       const struct studio_type *type);
 
+/* ---- the selection (studio_selection.h) ---- */
+
+/* The tool STUDIO_TOOL_SELECT selects: masking fluid lies around, until nothing is selected any
+ * more. That is a deed, too; where nothing was selected it is none. Errors: BAD_ARGUMENT (a
+ * hand is down), NO_MEMORY, MACHINE_FAILED. */
+enum paper_status studio_session_select_none(struct studio_session *session);
+/* The outline of what is selected, pairs of x, y; NULL: nothing is. Owns: the session; valid
+ * until it is changed. */
+const double *studio_session_selected(struct studio_session *session, int *count);
+
 /* ---- time ---- */
 
 /* So many steps, fewer if time stands still. *done (may be NULL) gets how many. */

@@ -40,6 +40,7 @@ void studio_session_drop(struct studio_session *s)
     if (s->down && paper_history_done(s->sheet) > s->operations) { /* its brush, its dip */
         paper_history_undo(s->sheet, paper_history_done(s->sheet) - s->operations);
         s->has_brush = false;
+        studio_session_selection_forget(s);
     }
     s->down = false;
     s->way = -1;

@@ -2,7 +2,10 @@
 #ifndef LUTETIA_STUDIO_SESSION_INTERNAL_H
 #define LUTETIA_STUDIO_SESSION_INTERNAL_H
 
+#include "studio_selection.h"
 #include "studio_session.h"
+
+#include <techniques.h>
 
 struct studio_session {
     struct paper_sheet *sheet;
@@ -27,6 +30,7 @@ struct studio_session {
     int inserted;        /* that were done when an insertion had ended, */
     long inserted_steps; /* and how many steps had gone by */
     bool wet;
+    struct studio_selection selection;
 };
 
 /* Keeps the text where studio_session_error() finds it. */
@@ -39,6 +43,18 @@ void studio_session_drop(struct studio_session *s);
 enum paper_status studio_session_air(struct studio_session *s);
 struct paper_sheet_view studio_session_view(const struct studio_session *s);
 
+/* The selection (studio_session_selection.c): history was gone back or changed in; what the
+ * hand has drawn is selected, a click selects nothing; what a screen covers of the rest is
+ * left out of it; a place for what has no screen of its own, *screen being free()d by its
+ * gray. */
+void studio_session_selection_forget(struct studio_session *s);
+enum paper_status studio_session_select(struct studio_session *s);
+enum paper_status studio_session_selection_clip(struct studio_session *s,
+                                                struct paper_screen *screen, int x, int y);
+enum paper_status studio_session_selection_place(struct studio_session *s,
+                                                 struct paper_screen *screen,
+                                                 struct paper_place *place);
+
 /* What an operation is to a deed: brushes and dips belong to the deed that follows, time and
  * air to the one before. */
 enum studio_part { STUDIO_PART_BEFORE, STUDIO_PART_DEED, STUDIO_PART_AFTER };
@@ -47,6 +63,8 @@ enum studio_part studio_session_part(const struct studio_session *s, int number)
 /* Nothing has been done since an insertion ended: one undo takes all of it out. */
 bool studio_session_inserted(const struct studio_session *s);
 
+/* After a deed that a hand has done. */
+enum paper_status studio_session_deed_done(struct studio_session *s, enum paper_status status);
 /* Before a deed: where an earlier moment is visited, what is done from now on is inserted
  * there. */
 enum paper_status studio_session_insert(struct studio_session *s);

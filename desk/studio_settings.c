@@ -34,7 +34,7 @@ static enum stage_status value_write(void *settings, int index, double value)
 
 const struct stage_control studio_controls[STUDIO_SETTINGS] = {
     ROW(STUDIO_TOOL, "tool", "", 0, STUDIO_TOOLS - 1, STUDIO_TOOL_BRUSH, CHOICE,
-        "brush water wash drop splatter salt blot lift mask unmask varnish type",
+        "brush water wash drop splatter salt blot lift mask unmask varnish type select",
         "what the pointer does"),
     ROW(STUDIO_BRUSH, "brush", "", 0, 5, 0, CHOICE, "round flat mop rigger fan bristle",
         "the kind of brush; it sets the bristles below"),
@@ -82,6 +82,8 @@ const struct stage_control studio_controls[STUDIO_SETTINGS] = {
     ROW(STUDIO_RUB, "rub", "", 0, 1, 0.6, LINEAR, NULL,
         "part of the loose pigment that the sponge takes"),
     ROW(STUDIO_GLOSS, "gloss", "", 0, 1, 0.8, LINEAR, NULL, "how thick the varnish is"),
+    ROW(STUDIO_OUTLINE, "outline", "", 0, 2, 0, CHOICE, "rectangle ellipse lasso",
+        "from corner to corner as a rectangle or an ellipse, or the way that the hand goes"),
     ROW(STUDIO_TYPE_SIZE, "type_size", "fibers", 4, 2000, 120, LOGARITHMIC, NULL,
         "size of the type: its em"),
     ROW(STUDIO_TYPE_ANGLE, "type_angle", "degrees", -180, 180, 0, LINEAR, NULL,
@@ -211,6 +213,11 @@ const struct studio_tool studio_tools[STUDIO_TOOLS] = {
                           "Click where the type begins, and type. Control and Enter lets it "
                           "into the paper, Escape takes it away.",
                           STUDIO_TYPE_SIZE, STUDIO_TYPE_ALIGN, true, false},
+    [STUDIO_TOOL_SELECT] =
+        {"Selection", "r",
+         "Drag around a part of the sheet: what you do next stays inside, and "
+         "no water flows across. A click selects nothing.",
+         STUDIO_OUTLINE, STUDIO_OUTLINE, false, false},
 };
 
 const struct studio_tool *studio_tool_of(const struct studio_settings *settings)

@@ -50,6 +50,7 @@ enum studio_setting {
     STUDIO_SOAK,
     STUDIO_RUB,
     STUDIO_GLOSS,
+    STUDIO_OUTLINE,
     /* type */
     STUDIO_TYPE_SIZE,
     STUDIO_TYPE_ANGLE,
@@ -112,6 +113,7 @@ enum studio_tool_number {
     STUDIO_TOOL_UNMASK,
     STUDIO_TOOL_VARNISH,
     STUDIO_TOOL_TYPE,
+    STUDIO_TOOL_SELECT,
     STUDIO_TOOLS
 };
 

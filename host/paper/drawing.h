@@ -50,6 +50,11 @@ void paper_drawing_number(struct event_bytes *b, char operation, double number, 
 enum paper_status paper_drawing_screen(const struct paper_drawing *d, double scale, int width,
                                        int height, struct paper_screen *screen, int *x, int *y);
 
+/* The corners of a polygon, if the drawing is all that lies around it: 1 less the polygon.
+ * Shape: pairs of x, y, in pixels of the screen. False: it is another drawing, or there is no
+ * memory. Owns: the caller frees *points. */
+bool paper_drawing_around(const struct paper_drawing *d, double **points, int *points_count);
+
 /* Two grays: '+' the greater, '*' the product, '-' the first without the second. */
 static inline int paper_gray_join(char operation, int p, int q)
 {

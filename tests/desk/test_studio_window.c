@@ -72,6 +72,25 @@ static void script_makes_the_same(void **state)
     played_script_is("bare.lua", "made/bare.png", "colour.png");
 }
 
+/* A selection by the window's tool, what is painted across it, and nothing selected any more:
+ * its script makes the same. */
+static void selection_is_in_the_script(void **state)
+{
+    (void)state;
+    FILE *events = played_begin();
+    fprintf(events, "0 set paused on\n0 view 4 48 36 0 0\n0 set tool select\n"
+                    "0 set outline ellipse\n0.1 down -80 -60 0.5\n0.2 up 80 60 0.5\n"
+                    "0.3 set tool brush\n0.3 down -170 0 0.5\n0.35 move 0 20 0.8\n"
+                    "0.4 up 170 0 0.5\n0.5 step 12\n0.6 action select-none\n"
+                    "0.7 down -170 100 0.5\n0.8 up 170 100 0.5\n0.9 step 3\n");
+    fprintf(events, "1 picture %s\n1 script %s\n1.1 close\n", played_path("part.png"),
+            played_path("part.lua"));
+    fclose(events);
+    played_run(NULL);
+    assert_int_equal(played.status, 0);
+    played_script_is("part.lua", "made/part.png", "part.png");
+}
+
 /* How many operations of that name the saved sheet has. */
 static int saved_count(const char *name, const char *what)
 {
@@ -212,6 +231,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(window_paints_what_calls_paint),
         cmocka_unit_test(script_makes_the_same),
+        cmocka_unit_test(selection_is_in_the_script),
         cmocka_unit_test(closed_in_mid_stroke),
         cmocka_unit_test(killed_and_found_again),
         cmocka_unit_test(wrong_is_one_line),

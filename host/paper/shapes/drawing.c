@@ -333,3 +333,30 @@ enum paper_status paper_drawing_screen(const struct paper_drawing *d, double sca
         free(c.stack[--c.depth].at);
     return status;
 }
+
+bool paper_drawing_around(const struct paper_drawing *d, double **points, int *points_count)
+{
+    struct event_reader r = {d->bytes, d->bytes + d->count, false};
+    const bool polygon = event_get_number(&r, 1) == 'P';
+    const size_t count = (size_t)event_get_number(&r, 4);
+    *points = NULL;
+    *points_count = 0;
+    if (!polygon || r.bad || count < 3 || count > (size_t)(r.end - r.at) / 16)
+        return false;
+    double *made = malloc(2 * count * sizeof *made);
+    bool finite = made != NULL;
+    for (size_t i = 0; made && i < 2 * count; i++) {
+        made[i] = event_get_double(&r) * d->scale;
+        finite = finite && isfinite(made[i]);
+    }
+    const bool around = finite && event_get_number(&r, 1) == 'N' &&
+                        event_get_number(&r, 1) == '-' && event_get_number(&r, 1) == 1 &&
+                        event_get_double(&r) == 1 && !r.bad && r.at == r.end;
+    if (!around) {
+        free(made);
+        return false;
+    }
+    *points = made;
+    *points_count = (int)count;
+    return true;
+}

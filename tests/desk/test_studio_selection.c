@@ -1,0 +1,312 @@
+/* test_studio_selection.c - what is selected, and what stays inside: paint, water, fluid, salt
+ * and varnish; that fluid which a hand has painted is what it was when nothing is selected any
+ * more; that a selection is undone, saved and found again. The oracle of a selection is
+ * masking fluid that this test puts around it by its own numbers. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "studio_scene.h"
+#include "studio_selection.h"
+
+enum { FIBERS = SCENE_WIDTH * SCENE_HEIGHT, NUMBERS = 3 * FIBERS };
+enum { LEFT = 20, TOP = 12, RIGHT = 70, BOTTOM = 52 };
+static uint16_t seen[NUMBERS], expected[NUMBERS];
+
+#define good(call) assert_int_equal(call, PAPER_OK)
+
+static struct studio_session *begin(void)
+{
+    const struct paper_sheet_config config = scene_config();
+    struct studio_session *s;
+    good(studio_session_create(&config, 64e6, &s));
+    good(studio_session_set(s, STUDIO_PAUSED, 1));
+    return s;
+}
+
+static void look(struct studio_session *s, uint16_t *rgb)
+{
+    const struct paper_sheet_config config = scene_config();
+    const struct paper_sheet_view view = paper_sheet_view_default(&config);
+    good(paper_sheet_view(studio_session_sheet(s), &view, rgb));
+}
+
+static void point(struct studio_session *s, enum studio_point_kind kind, double time_s,
+                  double x, double y)
+{
+    good(studio_session_point(
+        s, &(struct studio_point){
+               .kind = kind, .time_s = time_s, .x = x, .y = y, .pressure = 0.6}));
+}
+
+static void drag(struct studio_session *s, enum studio_tool_number tool, double x1, double y1,
+                 double x2, double y2)
+{
+    good(studio_session_set(s, STUDIO_TOOL, tool));
+    point(s, STUDIO_POINT_DOWN, 1, x1, y1);
+    point(s, STUDIO_POINT_UP, 2, x2, y2);
+}
+
+static void select_rectangle(struct studio_session *s)
+{
+    good(studio_session_set(s, STUDIO_OUTLINE, STUDIO_OUTLINE_RECTANGLE));
+    drag(s, STUDIO_TOOL_SELECT, LEFT, TOP, RIGHT, BOTTOM);
+}
+
+static bool selected(struct studio_session *s)
+{
+    int count;
+    return studio_session_selected(s, &count) != NULL;
+}
+
+static bool inside(int i)
+{
+    const int x = i % SCENE_WIDTH, y = i / SCENE_WIDTH;
+    return x >= LEFT && x < RIGHT && y >= TOP && y < BOTTOM;
+}
+
+static float *layer_of(struct studio_session *s, enum paper_layer layer, int pigment)
+{
+    float *values = malloc(FIBERS * sizeof *values);
+    assert_non_null(values);
+    good(paper_sheet_layer_read(studio_session_sheet(s), layer, pigment, values));
+    return values;
+}
+
+/* Something of it is inside, and nothing outside. */
+static void is_inside(struct studio_session *s, enum paper_layer layer, int pigment)
+{
+    float *values = layer_of(s, layer, pigment);
+    double sum = 0;
+    for (int i = 0; i < FIBERS; i++) {
+        if (!inside(i) && values[i] != 0)
+            fail_msg("layer %d: %g at %d, %d", (int)layer, (double)values[i], i % SCENE_WIDTH,
+                     i / SCENE_WIDTH);
+        sum += (double)values[i];
+    }
+    assert_true(sum > 0);
+    free(values);
+}
+
+/* ---- what stays inside ---- */
+
+static void fluid_around(struct studio_session *s)
+{
+    static uint8_t gray[FIBERS];
+    const struct paper_screen around = {
+        .width_px = SCENE_WIDTH, .height_px = SCENE_HEIGHT, .gray = gray};
+    for (int i = 0; i < FIBERS; i++)
+        gray[i] = inside(i) ? 0 : 255;
+    good(paper_sheet_resist(studio_session_sheet(s), &around, 0, 0, true));
+}
+
+/* All that puts paint, across the edge and with more water than the fibers hold. */
+static void paint(struct studio_session *s)
+{
+    good(studio_session_set(s, STUDIO_WATER, 1.5));
+    good(studio_session_set(s, STUDIO_TOOL, STUDIO_TOOL_BRUSH));
+    good(scene_sweep(s, 30, 4, true));
+    drag(s, STUDIO_TOOL_WASH, 4, 4, 60, 40);
+    drag(s, STUDIO_TOOL_DROP, RIGHT - 1, 40, RIGHT - 1, 40);
+    drag(s, STUDIO_TOOL_SPLATTER, 30, 30, 60, 40);
+    good(studio_session_set(s, STUDIO_TYPE_SIZE, 30));
+    good(studio_session_type(s, &(struct studio_type){"Ag", "DejaVuSans", "", 8.5, 56}));
+    good(studio_session_steps(s, 25, NULL));
+}
+
+static void paint_stays_inside(void **state)
+{
+    (void)state;
+    struct studio_session *s = begin(), *other = begin();
+    assert_false(selected(s));
+    select_rectangle(s);
+    assert_true(selected(s));
+    paint(s);
+    is_inside(s, PAPER_LAYER_SURFACE_PIGMENT, 0);
+    is_inside(s, PAPER_LAYER_INFUSED_PIGMENT, 0);
+    is_inside(s, PAPER_LAYER_FIXED_PIGMENT, 0);
+    is_inside(s, PAPER_LAYER_SURFACE_WATER, 0);
+    is_inside(s, PAPER_LAYER_INFUSED_WATER, 0);
+    fluid_around(other);
+    paint(other);
+    look(s, seen);
+    look(other, expected);
+    assert_memory_equal(seen, expected, sizeof seen);
+    studio_session_destroy(other);
+    /* and when nothing is selected, the rest takes paint again */
+    good(studio_session_select_none(s));
+    assert_false(selected(s));
+    drag(s, STUDIO_TOOL_DROP, 85, 60, 85, 60);
+    float *values = layer_of(s, PAPER_LAYER_SURFACE_PIGMENT, 0);
+    double out = 0;
+    for (int i = 0; i < FIBERS; i++)
+        out += inside(i) ? 0 : (double)values[i];
+    assert_true(out > 0);
+    free(values);
+    studio_session_destroy(s);
+}
+
+static void salt_and_varnish_stay_inside(void **state)
+{
+    (void)state;
+    struct studio_session *s = begin();
+    select_rectangle(s);
+    good(studio_session_set(s, STUDIO_WIDTH, 14));
+    drag(s, STUDIO_TOOL_VARNISH, 2, 2, 94, 70);
+    drag(s, STUDIO_TOOL_VARNISH, 2, TOP, 94, TOP);
+    is_inside(s, PAPER_LAYER_VARNISH, 0);
+    drag(s, STUDIO_TOOL_SALT, 40, 30, 40, 30);
+    float *salt = layer_of(s, PAPER_LAYER_SALT, 0);
+    double most = 0;
+    for (int i = 0; i < FIBERS; i++) { /* a grain reaches less than 3 fibers from its middle */
+        const int x = i % SCENE_WIDTH, y = i / SCENE_WIDTH;
+        if (x < LEFT - 3 || x >= RIGHT + 3 || y < TOP - 3 || y >= BOTTOM + 3)
+            assert_true(salt[i] == 0);
+        most = fmax(most, (double)salt[i]);
+    }
+    assert_true(most > 0);
+    free(salt);
+    studio_session_destroy(s);
+}
+
+/* ---- fluid of the hand ---- */
+
+static void fluid_sweep(struct studio_session *s, enum studio_tool_number tool, double y)
+{
+    good(studio_session_set(s, STUDIO_TOOL, tool));
+    /* what is rubbed off is wider: no soft edge is left */
+    good(studio_session_set(s, STUDIO_WIDTH, tool == STUDIO_TOOL_MASK ? 9 : 13));
+    good(scene_sweep(s, y, 1, true));
+}
+
+/* How far inside of the ellipse a fiber is, as a part of its way from the middle: below 1. */
+static double ellipse_part(int i)
+{
+    return hypot((i % SCENE_WIDTH + 0.5 - 46) / 24, (i / SCENE_WIDTH + 0.5 - 34) / 22);
+}
+
+/* Painted on before; inside of the selection one is rubbed off and another one painted on. When
+ * nothing is selected, that is all that has changed. */
+static void fluid_of_the_hand_stays(void **state)
+{
+    (void)state;
+    struct studio_session *s = begin(), *first = begin(), *second = begin();
+    fluid_sweep(s, STUDIO_TOOL_MASK, 26);
+    good(studio_session_set(s, STUDIO_OUTLINE, STUDIO_OUTLINE_ELLIPSE));
+    drag(s, STUDIO_TOOL_SELECT, 46 - 24, 34 - 22, 46 + 24, 34 + 22);
+    fluid_sweep(s, STUDIO_TOOL_UNMASK, 26);
+    fluid_sweep(s, STUDIO_TOOL_MASK, 42);
+    assert_true(selected(s));
+    good(studio_session_select_none(s));
+    assert_false(selected(s));
+    fluid_sweep(first, STUDIO_TOOL_MASK, 26);
+    fluid_sweep(second, STUDIO_TOOL_MASK, 42);
+    float *fluid = layer_of(s, PAPER_LAYER_RESIST, 0),
+          *before = layer_of(first, PAPER_LAYER_RESIST, 0),
+          *within = layer_of(second, PAPER_LAYER_RESIST, 0);
+    int kept = 0, rubbed = 0, painted = 0, left = 0;
+    for (int i = 0; i < FIBERS; i++) {
+        const double part = ellipse_part(i);
+        const float wanted = part > 1.1 ? before[i] : within[i];
+        if (part > 0.9 && part < 1.1) /* its soft edge */
+            continue;
+        assert_true(fabs((double)(fluid[i] - wanted)) < 1e-6);
+        kept += part > 1 && before[i] > 0;
+        left += part > 1 && within[i] > 0;
+        rubbed += part < 1 && before[i] > 0;
+        painted += part < 1 && within[i] > 0;
+    }
+    assert_true(kept > 20 && rubbed > 20 && painted > 20 && left > 20);
+    free(fluid);
+    free(before);
+    free(within);
+    studio_session_destroy(first);
+    studio_session_destroy(second);
+    studio_session_destroy(s);
+}
+
+/* ---- back and forth, files ---- */
+
+static void selections_are_deeds(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/lutetia-selection-XXXXXX.h5";
+    struct studio_session *s = begin();
+    int count, file = mkstemps(path, 3);
+    assert_true(file >= 0);
+    close(file);
+    good(studio_session_select_none(s)); /* nothing was selected: no deed */
+    assert_false(studio_session_can_undo(s));
+    select_rectangle(s);
+    good(studio_session_set(s, STUDIO_TOOL, STUDIO_TOOL_BRUSH));
+    good(scene_sweep(s, 30, 1, true));
+    drag(s, STUDIO_TOOL_SELECT, 30, 30, 30, 30); /* a click */
+    assert_false(selected(s));
+    assert_true(studio_session_undo(s));
+    assert_true(selected(s));
+    good(studio_session_save(s, path));
+    studio_session_destroy(s);
+    good(studio_session_open(path, 64e6, &s));
+    unlink(path);
+    const double *points = studio_session_selected(s, &count);
+    assert_int_equal(count, 4);
+    assert_true(points[0] == LEFT && points[1] == TOP && points[4] == RIGHT &&
+                points[5] == BOTTOM);
+    assert_true(studio_session_undo(s) && studio_session_undo(s));
+    assert_false(selected(s));
+    assert_true(studio_session_redo(s));
+    assert_true(selected(s));
+    good(studio_session_visit(s, 0));
+    assert_false(selected(s));
+    good(studio_session_present(s));
+    assert_true(selected(s));
+    drag(s, STUDIO_TOOL_SELECT, -50, -50, -10, -10); /* off the sheet: nothing is */
+    assert_false(selected(s));
+    studio_session_destroy(s);
+}
+
+/* A way around, drawn by hand; and at twice the resolution its edges are as sharp. */
+static void lassos_are_drawn_anew(void **state)
+{
+    (void)state;
+    struct studio_session *s = begin();
+    struct paper_sheet *twice;
+    static float fluid[4 * FIBERS];
+    good(studio_session_set(s, STUDIO_TOOL, STUDIO_TOOL_SELECT));
+    good(studio_session_set(s, STUDIO_OUTLINE, STUDIO_OUTLINE_LASSO));
+    point(s, STUDIO_POINT_DOWN, 1, 20, 12);
+    point(s, STUDIO_POINT_MOVE, 1.1, 70, 12);
+    point(s, STUDIO_POINT_MOVE, 1.2, 70, 12.1); /* too near to be a corner */
+    point(s, STUDIO_POINT_MOVE, 1.3, 70, 52);
+    point(s, STUDIO_POINT_UP, 1.4, 20, 52);
+    int count;
+    assert_non_null(studio_session_selected(s, &count));
+    assert_int_equal(count, 4);
+    good(paper_history_render(studio_session_sheet(s), 2, 4, -1, &twice));
+    good(paper_sheet_layer_read(twice, PAPER_LAYER_RESIST, 0, fluid));
+    for (int i = 0; i < 4 * FIBERS; i++) {
+        const int x = i % (2 * SCENE_WIDTH) / 2, y = i / (2 * SCENE_WIDTH) / 2;
+        assert_true(fluid[i] == (inside(y * SCENE_WIDTH + x) ? 0 : 1));
+    }
+    paper_sheet_destroy(twice);
+    studio_session_destroy(s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(paint_stays_inside),
+        cmocka_unit_test(salt_and_varnish_stay_inside),
+        cmocka_unit_test(fluid_of_the_hand_stays),
+        cmocka_unit_test(selections_are_deeds),
+        cmocka_unit_test(lassos_are_drawn_anew),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
