@@ -26,6 +26,7 @@
 
 #include "desk_frame.h"
 #include "desk_shared.h"
+#include "studio_palette.h"
 #include "studio_paper.h"
 #include "studio_selection.h"
 #include "studio_view.h"
@@ -35,8 +36,6 @@
 #include <libintl.h>
 
 #define _(text) gettext(text)
-
-enum { DESK_WELLS = 8 };
 
 /* What the hand has done and the paper has not shown yet. */
 struct desk_ghost {
@@ -64,12 +63,12 @@ struct desk {
     GtkWidget *window, *canvas, *notice, *notice_text, *state, *memory, *place;
     GtkWidget *tools[STUDIO_TOOLS], *rows[STUDIO_SETTINGS], *tool_box, *dish_box, *tool_title,
         *tool_hint;
-    GtkWidget *title, *pause, *wells[DESK_WELLS], *swatch, *board;
+    GtkWidget *title, *pause, *wells[STUDIO_WELLS], *swatch, *board;
     struct studio_paper *paper;
     struct studio_report report;
     struct studio_settings settings;
     bool filling; /* widgets are being set from the settings, and not by a hand */
-    double well_amount[DESK_WELLS][1 + PAPER_PIGMENTS_MAX];
+    double well_amount[STUDIO_WELLS][1 + PAPER_PIGMENTS_MAX];
     int well;
     /* the canvas */
     struct desk_gl *gl;
@@ -174,6 +173,8 @@ GtkWidget *desk_dish_new(struct desk *d);
 GtkWidget *desk_board_new(struct desk *d);
 void desk_dish_changed(struct desk *d);
 void desk_dish_well(struct desk *d, int well);
+void desk_palette_open(struct desk *d, const char *path);
+void desk_palette_save(struct desk *d, const char *path);
 
 /* desk_actions.c */
 void desk_actions_add(struct desk *d);
@@ -187,6 +188,7 @@ void desk_file_open(struct desk *d);
 void desk_file_save(struct desk *d, bool as);
 void desk_file_picture(struct desk *d);
 void desk_file_script(struct desk *d);
+void desk_file_palette(struct desk *d, bool opens);
 /* Asks whether what is not saved may go; then `done`. */
 void desk_file_leave(struct desk *d, void (*done)(struct desk *d));
 

@@ -56,6 +56,8 @@ CALLS(save, desk_file_save(d, false))
 CALLS(save_as, desk_file_save(d, true))
 CALLS(picture, desk_file_picture(d))
 CALLS(script, desk_file_script(d))
+CALLS(palette_open, desk_file_palette(d, true))
+CALLS(palette_save, desk_file_palette(d, false))
 CALLS(close_window, gtk_window_close(GTK_WINDOW(d->window)))
 
 /* ---- the view ---- */
@@ -128,6 +130,7 @@ static const struct {
     {"Ctrl+Delete, Ctrl+R, Ctrl+J",
      "there: take the deed out, do it with the dish, another way"},
     {"Ctrl+E, Ctrl+Shift+E", "write a picture, a script that makes the same sheet"},
+    {"Ctrl+Shift+O, Ctrl+Shift+P", "open a palette, save the palette"},
 };
 
 static void help_row(GtkWidget *grid, int row, const char *keys, const char *does)
@@ -262,7 +265,7 @@ bool desk_key(struct desk *d, guint key, GdkModifierType state)
             desk_set(d, STUDIO_TOOL, i);
             return true;
         }
-    if (key >= GDK_KEY_1 && key < GDK_KEY_1 + DESK_WELLS) {
+    if (key >= GDK_KEY_1 && key < GDK_KEY_1 + STUDIO_WELLS) {
         desk_dish_well(d, (int)(key - GDK_KEY_1));
         return true;
     }
@@ -278,6 +281,8 @@ static const GActionEntry entries[] = {
     {.name = "save-as", .activate = save_as},
     {.name = "picture", .activate = picture},
     {.name = "script", .activate = script},
+    {.name = "palette-open", .activate = palette_open},
+    {.name = "palette-save", .activate = palette_save},
     {.name = "undo", .activate = undo},
     {.name = "redo", .activate = redo},
     {.name = "dry", .activate = dry},
@@ -313,6 +318,8 @@ static const struct desk_row menu_rows[] = {
     {"win.save-as", "Save as…", "<Control><Shift>s"},
     {"win.picture", "Write a picture…", "<Control>e"},
     {"win.script", "Write a script…", "<Control><Shift>e"},
+    {"win.palette-open", "Open a palette…", "<Control><Shift>o"},
+    {"win.palette-save", "Save the palette…", "<Control><Shift>p"},
     {NULL, "Tools", NULL},
     {"win.undo", "Undo", "<Control>z"},
     {"win.redo", "Redo", "<Control><Shift>z"},
@@ -383,6 +390,8 @@ void desk_actions_enable(struct desk *d)
         {"save-as", d->report.ready},
         {"picture", d->report.ready},
         {"script", d->report.ready},
+        {"palette-open", d->report.ready},
+        {"palette-save", d->report.ready},
         {"dry", d->report.ready},
         {"seal", d->report.ready},
         {"select-none", d->report.selected}};

@@ -6,6 +6,7 @@
 #include "studio_swatch.h"
 
 #include <math.h>
+#include <visible_text.h>
 
 /* ---- swatches ---- */
 
@@ -55,6 +56,26 @@ static GtkWidget *well_new(struct desk *d, int well)
     return button;
 }
 
+static GtkWidget *palettes_new(void)
+{
+    static const struct {
+        const char *label, *action, *tip;
+    } buttons[] = {
+        {"Open a palette…", "win.palette-open", "Fill the wells from a file (Ctrl+Shift+O)"},
+        {"Save the palette…", "win.palette-save",
+         "Write what is in the wells to a file (Ctrl+Shift+P)"},
+    };
+    GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 4);
+    for (size_t i = 0; i < G_N_ELEMENTS(buttons); i++) {
+        GtkWidget *button = gtk_button_new_with_label(_(buttons[i].label));
+        gtk_actionable_set_action_name(GTK_ACTIONABLE(button), buttons[i].action);
+        gtk_widget_set_hexpand(button, TRUE);
+        desk_name(button, _(buttons[i].label), _(buttons[i].tip));
+        gtk_box_append(GTK_BOX(box), button);
+    }
+    return box;
+}
+
 GtkWidget *desk_dish_new(struct desk *d)
 {
     GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 2),
@@ -65,11 +86,12 @@ GtkWidget *desk_dish_new(struct desk *d)
     desk_name(d->swatch, _("What is in the dish, on this paper"),
               _("What is in the dish, on this paper when it is "
                 "dry: as it is, and ever thinner"));
-    for (int i = 0; i < DESK_WELLS; i++) {
+    for (int i = 0; i < STUDIO_WELLS; i++) {
         d->wells[i] = well_new(d, i);
         gtk_box_append(GTK_BOX(wells), d->wells[i]);
     }
     gtk_box_append(GTK_BOX(box), wells);
+    gtk_box_append(GTK_BOX(box), palettes_new());
     gtk_box_append(GTK_BOX(box), d->swatch);
     gtk_box_append(GTK_BOX(box), desk_row_new(d, STUDIO_WATER, NULL));
     d->dish_box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 2);
@@ -92,7 +114,7 @@ void desk_panel_sheet(struct desk *d)
         gtk_box_append(GTK_BOX(d->dish_box),
                        desk_row_new(d, STUDIO_PIGMENT + i, config->pigments[i].name));
     memset(d->well_amount, 0, sizeof d->well_amount);
-    for (int well = 0; well < DESK_WELLS && count > 0; well++) {
+    for (int well = 0; well < STUDIO_WELLS && count > 0; well++) {
         d->well_amount[well][0] = studio_controls[STUDIO_WATER].usual;
         d->well_amount[well][1 + well % count] = well < count ? 0.6 : 0.4;
         if (well >= count && count > 1)
@@ -116,8 +138,45 @@ void desk_dish_well(struct desk *d, int well)
     for (int i = 0; i <= d->report.config.pigments_count; i++)
         desk_set(d, STUDIO_WATER + i, amount[i]);
     gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(d->wells[well]), TRUE);
-    for (int i = 0; i < DESK_WELLS; i++)
+    for (int i = 0; i < STUDIO_WELLS; i++)
         gtk_widget_queue_draw(gtk_button_get_child(GTK_BUTTON(d->wells[i])));
+}
+
+/* ---- palettes ---- */
+
+void desk_palette_open(struct desk *d, const char *path)
+{
+    struct studio_palette palette;
+    char why[STUDIO_TEXT_MAX + 500];
+    if (!studio_palette_read(path, &d->report.config, &palette, why, sizeof why)) {
+        desk_say(d, why);
+        visible_say("lutetia studio: %s", why);
+        return;
+    }
+    for (int well = 0; well < STUDIO_WELLS; well++)
+        if (palette.filled[well])
+            memcpy(d->well_amount[well], palette.amount[well], sizeof palette.amount[well]);
+    desk_dish_well(d, d->well);
+    char *text = palette.missing[0]
+                     ? g_strdup_printf(_("This sheet does not have: %s. They are left out."),
+                                       palette.missing)
+                     : g_strdup_printf(_("In the dish: %s."), path);
+    desk_say(d, text);
+    g_free(text);
+}
+
+void desk_palette_save(struct desk *d, const char *path)
+{
+    struct studio_palette palette = {0};
+    char why[STUDIO_TEXT_MAX + 500];
+    memcpy(palette.amount, d->well_amount, sizeof palette.amount);
+    const bool written =
+        studio_palette_write(path, &d->report.config, &palette, why, sizeof why);
+    char *text = written ? g_strdup_printf(_("Written: %s."), path) : g_strdup(why);
+    desk_say(d, text);
+    if (!written)
+        visible_say("lutetia studio: %s", why);
+    g_free(text);
 }
 
 /* ---- the board ---- */

@@ -231,10 +231,16 @@ void desk_file_new(struct desk *d)
 
 /* ---- files ---- */
 
+/* What is asked for: a file to be opened or written, and who gets its name. */
+struct asked {
+    bool opens;
+    const char *title, *ending, *name;
+    void (*take)(struct desk *d, const char *path);
+};
+
 struct chooser {
     struct desk *desk;
-    enum studio_message_kind kind;
-    const char *ending;
+    const struct asked *asked;
 };
 
 /* The name gets its ending where it has none. */
@@ -249,10 +255,10 @@ static void chosen(GtkNativeDialog *dialog, int response, struct chooser *c)
     if (!path)
         c->desk->leaving = NULL;
     if (path) {
-        char *whole = c->kind == STUDIO_MESSAGE_OPEN || g_str_has_suffix(path, c->ending)
+        char *whole = c->asked->opens || g_str_has_suffix(path, c->asked->ending)
                           ? g_strdup(path)
-                          : g_strconcat(path, c->ending, NULL);
-        send_path(c->desk, c->kind, whole, 1);
+                          : g_strconcat(path, c->asked->ending, NULL);
+        c->asked->take(c->desk, whole);
         g_free(whole);
     }
     g_free(path);
@@ -261,32 +267,51 @@ static void chosen(GtkNativeDialog *dialog, int response, struct chooser *c)
     g_free(c);
 }
 
-static void choose(struct desk *d, enum studio_message_kind kind, const char *title,
-                   const char *ending, const char *name)
+static void choose(struct desk *d, const struct asked *asked)
 {
-    const bool opens = kind == STUDIO_MESSAGE_OPEN;
     struct chooser *c = g_new0(struct chooser, 1);
     GtkFileChooserNative *dialog = gtk_file_chooser_native_new(
-        title, GTK_WINDOW(d->window),
-        opens ? GTK_FILE_CHOOSER_ACTION_OPEN : GTK_FILE_CHOOSER_ACTION_SAVE, NULL, NULL);
+        _(asked->title), GTK_WINDOW(d->window),
+        asked->opens ? GTK_FILE_CHOOSER_ACTION_OPEN : GTK_FILE_CHOOSER_ACTION_SAVE, NULL, NULL);
     GtkFileFilter *filter = gtk_file_filter_new();
-    char *pattern = g_strconcat("*", ending, NULL);
-    *c = (struct chooser){d, kind, ending};
+    char *pattern = g_strconcat("*", asked->ending, NULL);
+    *c = (struct chooser){d, asked};
     gtk_file_filter_add_pattern(filter, pattern);
     gtk_file_filter_set_name(filter, pattern);
     gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(dialog), filter);
     g_object_unref(filter);
     g_free(pattern);
     gtk_native_dialog_set_modal(GTK_NATIVE_DIALOG(dialog), TRUE);
-    if (!opens)
-        gtk_file_chooser_set_current_name(GTK_FILE_CHOOSER(dialog), name);
+    if (!asked->opens)
+        gtk_file_chooser_set_current_name(GTK_FILE_CHOOSER(dialog), asked->name);
     g_signal_connect(dialog, "response", G_CALLBACK(chosen), c);
     gtk_native_dialog_show(GTK_NATIVE_DIALOG(dialog));
 }
 
+static void sheet_open(struct desk *d, const char *path)
+{
+    send_path(d, STUDIO_MESSAGE_OPEN, path, 0);
+}
+
+static void sheet_save(struct desk *d, const char *path)
+{
+    send_path(d, STUDIO_MESSAGE_SAVE, path, 0);
+}
+
+static void picture_write(struct desk *d, const char *path)
+{
+    send_path(d, STUDIO_MESSAGE_PICTURE, path, 1);
+}
+
+static void script_write(struct desk *d, const char *path)
+{
+    send_path(d, STUDIO_MESSAGE_SCRIPT, path, 0);
+}
+
 static void open_choose(struct desk *d)
 {
-    choose(d, STUDIO_MESSAGE_OPEN, _("Open a sheet"), ".h5", NULL);
+    static const struct asked asked = {true, "Open a sheet", ".h5", NULL, sheet_open};
+    choose(d, &asked);
 }
 
 void desk_file_open(struct desk *d)
@@ -296,19 +321,33 @@ void desk_file_open(struct desk *d)
 
 void desk_file_save(struct desk *d, bool as)
 {
+    static const struct asked asked = {false, "Save the sheet with its past", ".h5", "sheet.h5",
+                                       sheet_save};
     if (!as && d->report.path[0])
-        send_path(d, STUDIO_MESSAGE_SAVE, d->report.path, 0);
+        sheet_save(d, d->report.path);
     else
-        choose(d, STUDIO_MESSAGE_SAVE, _("Save the sheet with its past"), ".h5", "sheet.h5");
+        choose(d, &asked);
 }
 
 void desk_file_script(struct desk *d)
 {
-    choose(d, STUDIO_MESSAGE_SCRIPT, _("Write a script that makes the same sheet"), ".lua",
-           "sheet.lua");
+    static const struct asked asked = {false, "Write a script that makes the same sheet",
+                                       ".lua", "sheet.lua", script_write};
+    choose(d, &asked);
 }
 
 void desk_file_picture(struct desk *d)
 {
-    choose(d, STUDIO_MESSAGE_PICTURE, _("Write a picture"), ".png", "sheet.png");
+    static const struct asked asked = {false, "Write a picture", ".png", "sheet.png",
+                                       picture_write};
+    choose(d, &asked);
+}
+
+void desk_file_palette(struct desk *d, bool opens)
+{
+    static const struct asked opened = {true, "Open a palette", ".palette", NULL,
+                                      desk_palette_open},
+                              saved = {false, "Save the palette", ".palette", "dish.palette",
+                                      desk_palette_save};
+    choose(d, opens ? &opened : &saved);
 }

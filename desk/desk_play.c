@@ -133,6 +133,12 @@ static void input_do(struct desk *d, const struct studio_input *input)
     case STUDIO_INPUT_MEASURE:
         desk_measure_begin(d, input->name);
         break;
+    case STUDIO_INPUT_PALETTE:
+        desk_palette_open(d, input->text);
+        break;
+    case STUDIO_INPUT_PALETTE_SAVE:
+        desk_palette_save(d, input->text);
+        break;
     case STUDIO_INPUT_SCRIPT:
         path_send(d, STUDIO_MESSAGE_SCRIPT, input->text);
         break;

@@ -36,6 +36,8 @@ static const struct word {
     {"save", STUDIO_INPUT_SAVE, INPUT_NONE, 0, 0, 0, true},
     {"picture", STUDIO_INPUT_PICTURE, INPUT_NONE, 0, 0, 0, true},
     {"script", STUDIO_INPUT_SCRIPT, INPUT_NONE, 0, 0, 0, true},
+    {"palette", STUDIO_INPUT_PALETTE, INPUT_NONE, 0, 0, 0, true},
+    {"save-palette", STUDIO_INPUT_PALETTE_SAVE, INPUT_NONE, 0, 0, 0, true},
     {"measure", STUDIO_INPUT_MEASURE, INPUT_NONE, 0, 0, 0, true},
 };
 /* What is an action of the window by its own name. */

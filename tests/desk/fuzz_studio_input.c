@@ -52,6 +52,7 @@ static void lines(void **state)
                                         "2.5 action tool salt",
                                         "3 step 60",
                                         "4 save a.h5",
+                                        "4 palette a.palette",
                                         "5 undo",
                                         "6 set width 30"};
     uint64_t seed = 1;

@@ -10,10 +10,12 @@
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <studio_input.h>
 #include <studio_mask.h>
 #include <studio_messages.h>
+#include <studio_palette.h>
 #include <studio_pictures.h>
 #include <studio_settings.h>
 #include <studio_swatch.h>
@@ -326,6 +328,71 @@ static void swatches_are_colours(void **state)
         assert_true(darker[i] < rgb[i] && darker[i] > 0);
 }
 
+/* ---- palettes ---- */
+
+static const char *palette_text(const char *text, struct studio_palette *out, bool good)
+{
+    static char why[300];
+    struct paper_sheet_config config = paper_sheet_config_default();
+    config.pigments[config.pigments_count++] = *paper_pigment_find("french ultramarine");
+    config.pigments[config.pigments_count++] = *paper_pigment_find("quinacridone rose");
+    why[0] = '\0';
+    assert_int_equal(studio_palette_parse(text, &config, out, why, sizeof why), good);
+    return why;
+}
+
+static void palettes_are_read(void **state)
+{
+    (void)state;
+    struct studio_palette p;
+    palette_text("# mine\n\n2: water 0.75, quinacridone rose 0.5\r\n 8 : \n", &p, false);
+    palette_text("2: water 0.75, quinacridone rose 0.5,  french ultramarine 2\r\n8:", &p, true);
+    assert_true(p.filled[1] && p.filled[7] && !p.filled[0]);
+    assert_true(p.amount[1][0] == 0.75 && p.amount[1][1] == 2 && p.amount[1][2] == 0.5);
+    assert_true(p.amount[7][0] == 0 && !p.missing[0]);
+    palette_text("1: indian red 1, burnt umber 0.5\n2: indian red 0.5, water 1", &p, true);
+    assert_string_equal(p.missing, "indian red, burnt umber");
+    static const struct {
+        const char *text, *says;
+    } wrong[] = {{"", "no well"},
+                 {"1: water 1\n9: water 1", "line 2: a well is 1..8"},
+                 {"1: water 1\n\n1: water 1", "line 3: well 1 is there twice"},
+                 {"1: water", "line 1: a name and an amount, not 'water'"},
+                 {"1: water 2.5", "line 1: an amount is 0..2, not '2.5'"},
+                 {"1: water nan", "0..2, not 'nan'"},
+                 {"1:  0.5", "a name and an amount"},
+                 {"1: water 1 x", "0..2, not 'x'"},
+                 {"water 1", "line 1: a well is"}};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
+        assert_non_null(strstr(palette_text(wrong[i].text, &p, false), wrong[i].says));
+}
+
+static void palettes_are_written(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/lutetia-palette-XXXXXX", why[300] = "";
+    struct paper_sheet_config config = paper_sheet_config_default();
+    struct studio_palette p = {0}, again;
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    close(file);
+    config.pigments[config.pigments_count++] = *paper_pigment_find("french ultramarine");
+    for (int i = 0; i < STUDIO_WELLS; i++) {
+        p.amount[i][0] = i / 3.0 / 2;
+        p.amount[i][1] = i % 2 ? 0 : nextafter(0.1 * i, 2);
+    }
+    assert_true(studio_palette_write(path, &config, &p, why, sizeof why));
+    assert_true(studio_palette_read(path, &config, &again, why, sizeof why));
+    assert_memory_equal(again.amount, p.amount, sizeof p.amount);
+    unlink(path);
+    assert_false(studio_palette_read(path, &config, &again, why, sizeof why));
+    assert_non_null(strstr(why, path));
+    assert_false(studio_palette_write("/proc/none/a", &config, &p, why, sizeof why));
+    assert_non_null(strstr(why, "/proc/none/a: cannot write"));
+    assert_false(studio_palette_read("/bin/sh", &config, &again, why, sizeof why));
+    assert_non_null(strstr(why, "/bin/sh: it is no palette"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -337,6 +404,8 @@ int main(void)
         cmocka_unit_test(pictures_are_whole),
         cmocka_unit_test(mask_is_where_the_hand_went),
         cmocka_unit_test(swatches_are_colours),
+        cmocka_unit_test(palettes_are_read),
+        cmocka_unit_test(palettes_are_written),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
