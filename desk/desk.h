@@ -15,6 +15,7 @@
  *     desk_files.c     new, open, save, pictures
  *     desk_unsaved.c   sheets that were never saved
  *     desk_type.c      type on the sheet
+ *     desk_stamp.c     pictures that are put on the sheet
  *     desk_past.c      time under the hand
  *     desk_play.c      recorded input: events and actions from a file
  *     desk_measure.c   how long the window takes
@@ -95,6 +96,12 @@ struct desk {
     double type_x, type_y;
     char *font, *features;
     struct studio_outlined outline; /* of what is selected */
+    /* stamps */
+    GtkWidget *stamp_box, *stamp_name;
+    char *stamp;     /* the picture's file; NULL: none yet */
+    bool stamp_seen; /* its stencil is under the pointer */
+    bool stamp_due;  /* another one will be, when the last one has been made */
+    unsigned long stamp_sent;
     /* the past */
     GtkWidget *past_box, *past_strip, *past_scale, *flow, *flow_bar;
     struct studio_past past;
@@ -189,6 +196,7 @@ void desk_file_save(struct desk *d, bool as);
 void desk_file_picture(struct desk *d);
 void desk_file_script(struct desk *d);
 void desk_file_palette(struct desk *d, bool opens);
+void desk_file_stamp(struct desk *d);
 /* Asks whether what is not saved may go; then `done`. */
 void desk_file_leave(struct desk *d, void (*done)(struct desk *d));
 
@@ -201,6 +209,15 @@ void desk_type_drop(struct desk *d);
 void desk_type_changed(struct desk *d);
 bool desk_type_key(struct desk *d, guint key, GdkModifierType state);
 void desk_type_text(struct desk *d, const char *text);
+
+/* desk_stamp.c */
+void desk_stamp_attach(struct desk *d);
+GtkWidget *desk_stamp_new(struct desk *d); /* what is chosen */
+bool desk_stamps(const struct desk *d);    /* the next click puts a picture */
+void desk_stamp_choose(struct desk *d, const char *path);
+void desk_stamp_put(struct desk *d, double x, double y); /* its middle, fibers */
+void desk_stamp_changed(struct desk *d);                 /* tool or settings */
+void desk_stamp_look(struct desk *d);                    /* after a report */
 
 /* desk_past.c */
 GtkWidget *desk_past_new(struct desk *d); /* hidden */

@@ -56,6 +56,7 @@ CALLS(save, desk_file_save(d, false))
 CALLS(save_as, desk_file_save(d, true))
 CALLS(picture, desk_file_picture(d))
 CALLS(script, desk_file_script(d))
+CALLS(stamp, desk_file_stamp(d))
 CALLS(palette_open, desk_file_palette(d, true))
 CALLS(palette_save, desk_file_palette(d, false))
 CALLS(close_window, gtk_window_close(GTK_WINDOW(d->window)))
@@ -130,6 +131,7 @@ static const struct {
     {"Ctrl+Delete, Ctrl+R, Ctrl+J",
      "there: take the deed out, do it with the dish, another way"},
     {"Ctrl+E, Ctrl+Shift+E", "write a picture, a script that makes the same sheet"},
+    {"Ctrl+I", "choose the picture of the stamp"},
     {"Ctrl+Shift+O, Ctrl+Shift+P", "open a palette, save the palette"},
 };
 
@@ -281,6 +283,7 @@ static const GActionEntry entries[] = {
     {.name = "save-as", .activate = save_as},
     {.name = "picture", .activate = picture},
     {.name = "script", .activate = script},
+    {.name = "stamp", .activate = stamp},
     {.name = "palette-open", .activate = palette_open},
     {.name = "palette-save", .activate = palette_save},
     {.name = "undo", .activate = undo},
@@ -318,6 +321,7 @@ static const struct desk_row menu_rows[] = {
     {"win.save-as", "Save as…", "<Control><Shift>s"},
     {"win.picture", "Write a picture…", "<Control>e"},
     {"win.script", "Write a script…", "<Control><Shift>e"},
+    {"win.stamp", "Choose a picture…", "<Control>i"},
     {"win.palette-open", "Open a palette…", "<Control><Shift>o"},
     {"win.palette-save", "Save the palette…", "<Control><Shift>p"},
     {NULL, "Tools", NULL},
@@ -390,6 +394,7 @@ void desk_actions_enable(struct desk *d)
         {"save-as", d->report.ready},
         {"picture", d->report.ready},
         {"script", d->report.ready},
+        {"stamp", d->report.ready},
         {"palette-open", d->report.ready},
         {"palette-save", d->report.ready},
         {"dry", d->report.ready},

@@ -60,6 +60,7 @@ double desk_cursor_radius(const struct desk *d)
     case STUDIO_TOOL_WASH:
     case STUDIO_TOOL_TYPE:
     case STUDIO_TOOL_SELECT:
+    case STUDIO_TOOL_STAMP:
     case STUDIO_TOOLS:
         break;
     }

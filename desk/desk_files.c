@@ -346,8 +346,15 @@ void desk_file_picture(struct desk *d)
 void desk_file_palette(struct desk *d, bool opens)
 {
     static const struct asked opened = {true, "Open a palette", ".palette", NULL,
-                                      desk_palette_open},
+                                        desk_palette_open},
                               saved = {false, "Save the palette", ".palette", "dish.palette",
-                                      desk_palette_save};
+                                       desk_palette_save};
     choose(d, opens ? &opened : &saved);
+}
+
+void desk_file_stamp(struct desk *d)
+{
+    static const struct asked asked = {true, "Choose a picture", ".png", NULL,
+                                       desk_stamp_choose};
+    choose(d, &asked);
 }

@@ -402,7 +402,12 @@ static void sheet_draw(const struct desk_gl *gl, const struct desk *d, int scale
     const double pixel = 1 / (v->zoom * scale), c = pixel * cos(v->turn),
                  s = pixel * sin(v->turn), side = v->mirrored ? -1 : 1;
     const GLfloat turned[] = {(float)(side * c), (float)-s, (float)(side * s), (float)c};
-    const bool mask = gl->shown.gray != NULL;
+    const bool stamps = desk_stamps(d),
+               mask = gl->shown.gray != NULL && (!stamps || d->pointer_inside);
+    const struct studio_place at = studio_view_to_sheet(v, d->pointer_x, d->pointer_y);
+    const double on_x =
+                     gl->shown.x + (stamps ? floor(at.x) : 0), /* a stamp is at the pointer */
+        on_y = gl->shown.y + (stamps ? floor(at.y) : 0);
     const GLuint p =
         mask ? gl->masked : gl->sheet; /* two look-ups a place cost twice as much */
     glUseProgram(p);
@@ -413,7 +418,7 @@ static void sheet_draw(const struct desk_gl *gl, const struct desk *d, int scale
                 (float)(scale * v->height / 2));
     glUniform2f(glGetUniformLocation(p, "origin"), (float)v->x0, (float)v->y0);
     glUniform2f(glGetUniformLocation(p, "size"), (float)gl->width, (float)gl->height);
-    glUniform4f(glGetUniformLocation(p, "masked"), (float)gl->shown.x, (float)gl->shown.y,
+    glUniform4f(glGetUniformLocation(p, "masked"), (float)on_x, (float)on_y,
                 (float)gl->shown.width, (float)gl->shown.height);
     glUniform3f(glGetUniformLocation(p, "desk"), 0.30f, 0.29f, 0.28f);
     glUniform3f(glGetUniformLocation(p, "ink"), (float)ink[0], (float)ink[1], (float)ink[2]);

@@ -71,6 +71,10 @@ static void down(struct desk *d, const struct input_event *e)
         desk_type_begin(d, at.x, at.y);
         return;
     }
+    if ((int)d->settings.value[STUDIO_TOOL] == STUDIO_TOOL_STAMP) {
+        desk_stamp_put(d, at.x, at.y);
+        return;
+    }
     d->down = true;
     d->down_x = at.x;
     d->down_y = at.y;

@@ -63,6 +63,7 @@ static void desk_finish(struct desk *d)
     free(d->outline.points);
     g_free(d->preedit);
     g_free(d->font);
+    g_free(d->stamp);
     g_free(d->features);
 }
 

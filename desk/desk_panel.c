@@ -19,6 +19,7 @@ void desk_panel_fill(struct desk *d)
     gtk_label_set_text(GTK_LABEL(d->tool_title), _(studio_tools[tool].name));
     gtk_label_set_text(GTK_LABEL(d->tool_hint), _(studio_tools[tool].does));
     gtk_widget_set_visible(d->tool_box, tool == STUDIO_TOOL_TYPE);
+    gtk_widget_set_visible(d->stamp_box, tool == STUDIO_TOOL_STAMP);
     desk_dish_changed(d);
     d->filling = false;
 }
@@ -127,6 +128,8 @@ GtkWidget *desk_panel_new(struct desk *d)
         gtk_box_append(GTK_BOX(box), desk_row_new(d, i, NULL));
     d->tool_box = desk_type_new(d);
     gtk_box_append(GTK_BOX(box), d->tool_box);
+    d->stamp_box = desk_stamp_new(d);
+    gtk_box_append(GTK_BOX(box), d->stamp_box);
     gtk_box_append(GTK_BOX(box), care_new(d));
     heading(box, _("Time and air"));
     gtk_box_append(GTK_BOX(box), desk_board_new(d));

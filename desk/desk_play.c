@@ -139,6 +139,9 @@ static void input_do(struct desk *d, const struct studio_input *input)
     case STUDIO_INPUT_PALETTE_SAVE:
         desk_palette_save(d, input->text);
         break;
+    case STUDIO_INPUT_STAMP:
+        desk_stamp_choose(d, input->text);
+        break;
     case STUDIO_INPUT_SCRIPT:
         path_send(d, STUDIO_MESSAGE_SCRIPT, input->text);
         break;

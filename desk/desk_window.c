@@ -44,6 +44,9 @@ static void setting_changed(struct desk *d, int setting)
         desk_type_drop(d);
     if (setting >= STUDIO_TYPE_SIZE && setting <= STUDIO_TYPE_ALIGN)
         desk_type_changed(d);
+    if (setting == STUDIO_TOOL ||
+        (setting >= STUDIO_STAMP_AS && setting <= STUDIO_STAMP_NEGATIVE))
+        desk_stamp_changed(d);
     desk_panel_fill(d);
     if (setting == STUDIO_TILT_X || setting == STUDIO_TILT_Y)
         gtk_widget_queue_draw(d->board);
@@ -158,6 +161,7 @@ static gboolean report_take(gpointer data)
     }
     if (d->report.outlines != before.outlines)
         studio_paper_outline(d->paper, &d->outline);
+    desk_stamp_look(d);
     desk_canvas_look(d);
     desk_past_look(d);
     title_show(d);
@@ -327,6 +331,7 @@ void desk_window_open(struct desk *d)
     d->pen = desk_pen_create(d->canvas);
     desk_hand_attach(d);
     desk_type_attach(d);
+    desk_stamp_attach(d);
     GtkEventController *keys = gtk_event_controller_key_new();
     g_signal_connect(keys, "key-pressed", G_CALLBACK(key_pressed), d);
     g_signal_connect(keys, "key-released", G_CALLBACK(key_released), d);

@@ -1,6 +1,7 @@
 /* studio_deeds.c - what each tool does with the way of a hand. */
 #include "studio_mask.h"
 #include "studio_session_internal.h"
+#include "studio_stamp.h"
 
 #include <array.h>
 #include <techniques.h>
@@ -134,6 +135,7 @@ static enum paper_status swept_apply(struct studio_session *s,
     case STUDIO_TOOL_SALT:
     case STUDIO_TOOL_TYPE:
     case STUDIO_TOOL_SELECT:
+    case STUDIO_TOOL_STAMP:
     case STUDIO_TOOLS:
         break;
     }
@@ -267,6 +269,7 @@ static enum paper_status deed_do(struct studio_session *s)
     case STUDIO_TOOL_BRUSH: /* grows while the hand moves */
     case STUDIO_TOOL_WATER:
     case STUDIO_TOOL_TYPE: /* studio_session_type() */
+    case STUDIO_TOOL_STAMP:
     case STUDIO_TOOLS:
         break;
     }
@@ -383,13 +386,6 @@ void studio_session_pace_most(struct studio_session *s, double pace)
 
 /* ---- deeds without a hand ---- */
 
-enum paper_status studio_session_deed_done(struct studio_session *s, enum paper_status status)
-{
-    s->held = false;
-    s->wet = true;
-    return status;
-}
-
 static enum paper_status deed_ready(struct studio_session *s)
 {
     return s->down ? studio_session_failed(PAPER_BAD_ARGUMENT, "the brush is on the paper")
@@ -453,5 +449,58 @@ enum paper_status studio_session_type(struct studio_session *s, const struct stu
     if (status == PAPER_OK)
         status = paper_sheet_put(s->sheet, &screen, x, y, amount);
     paper_screen_destroy(&screen);
+    return studio_session_deed_done(s, status);
+}
+
+/* ---- stamps ---- */
+
+static enum paper_status stamp_put(struct studio_session *s, struct studio_printed *printed)
+{
+    const struct paper_sheet_config *config = paper_sheet_get_config(s->sheet);
+    struct paper_screen *screen = &printed->screen;
+    const enum studio_stamp_as as = (enum studio_stamp_as)s->settings.value[STUDIO_STAMP_AS];
+    double amount[1 + PAPER_PIGMENTS_MAX];
+    struct paper_print print;
+    float *planes;
+    enum paper_status status;
+    studio_settings_amounts(&s->settings, amount);
+    switch (as) {
+    case STUDIO_STAMP_FLUID:
+        status = studio_session_selection_clip(s, screen, printed->x, printed->y);
+        return status == PAPER_OK
+                   ? paper_sheet_resist(s->sheet, screen, printed->x, printed->y, true)
+                   : status;
+    case STUDIO_STAMP_COLOURS:
+        status = studio_printed_separate(printed, config, amount[0], &print, &planes);
+        if (status == PAPER_OK)
+            status = paper_sheet_print(s->sheet, &print);
+        free(planes);
+        return status;
+    case STUDIO_STAMP_WATER:
+        memset(amount + 1, 0, sizeof amount - sizeof *amount);
+        break;
+    case STUDIO_STAMP_PAINT:
+        break;
+    }
+    return paper_sheet_put(s->sheet, screen, printed->x, printed->y, amount);
+}
+
+enum paper_status studio_session_stamp(struct studio_session *s,
+                                       const struct studio_stamp *stamp, double x, double y)
+{
+    struct studio_printed printed = {0};
+    enum paper_status status = PAPER_OK;
+    if (s->down)
+        return studio_session_failed(PAPER_BAD_ARGUMENT, "the brush is on the paper");
+    status = studio_stamp_place(stamp, &s->settings, x, y, paper_sheet_get_config(s->sheet),
+                                &printed);
+    if (status != PAPER_OK || !printed.screen.gray)
+        return status;
+    status = studio_session_insert(s);
+    if (status == PAPER_OK)
+        status = studio_session_air(s);
+    if (status == PAPER_OK)
+        status = stamp_put(s, &printed);
+    studio_printed_free(&printed);
     return studio_session_deed_done(s, status);
 }

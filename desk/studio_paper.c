@@ -43,6 +43,7 @@ static void outline_look(struct studio_paper *p)
         memcpy(made, points, bytes);
     pthread_mutex_lock(&p->lock);
     free(p->outline.points);
+    studio_stamp_free(&p->stamp);
     p->outline = (struct studio_outlined){made ? count : 0, made};
     pthread_mutex_unlock(&p->lock);
     p->now.selected = made != NULL;
@@ -84,9 +85,10 @@ static bool needs_rest(enum studio_message_kind kind)
 {
     return kind == STUDIO_MESSAGE_CARE || kind == STUDIO_MESSAGE_DRY ||
            kind == STUDIO_MESSAGE_SEAL || kind == STUDIO_MESSAGE_SELECT_NONE ||
-           kind == STUDIO_MESSAGE_TYPE || kind == STUDIO_MESSAGE_NEW ||
-           kind == STUDIO_MESSAGE_OPEN || kind == STUDIO_MESSAGE_SAVE ||
-           kind == STUDIO_MESSAGE_PICTURE || kind == STUDIO_MESSAGE_SCRIPT ||
+           kind == STUDIO_MESSAGE_TYPE || kind == STUDIO_MESSAGE_STAMP ||
+           kind == STUDIO_MESSAGE_NEW || kind == STUDIO_MESSAGE_OPEN ||
+           kind == STUDIO_MESSAGE_SAVE || kind == STUDIO_MESSAGE_PICTURE ||
+           kind == STUDIO_MESSAGE_SCRIPT ||
            (kind >= STUDIO_MESSAGE_VISIT && kind <= STUDIO_MESSAGE_WAY);
 }
 
@@ -126,17 +128,6 @@ static enum paper_status save(struct studio_paper *p, const struct studio_messag
     return status;
 }
 
-static void shown_set(struct studio_paper *p, const struct studio_shown *shown)
-{
-    pthread_mutex_lock(&p->lock);
-    uint8_t *before = (uint8_t *)(uintptr_t)p->shown.gray;
-    p->shown = *shown;
-    p->shown_new = true;
-    pthread_mutex_unlock(&p->lock);
-    free(before);
-    p->def.wake(p->def.context);
-}
-
 static struct studio_type type_of(const struct studio_message *m)
 {
     return (struct studio_type){m->text, m->font, m->features, m->type_x, m->type_y};
@@ -157,7 +148,7 @@ static enum paper_status type_show(struct studio_paper *p, const struct studio_m
     shown.width = screen.width_px;
     shown.height = screen.height_px;
     shown.gray = screen.gray; /* which is the window's now */
-    shown_set(p, &shown);
+    studio_paper_show(p, &shown);
     return status;
 }
 
@@ -262,6 +253,9 @@ static enum paper_status message_do(struct studio_paper *p, const struct studio_
         return studio_session_type(s, &type);
     case STUDIO_MESSAGE_TYPE_SHOW:
         return type_show(p, m);
+    case STUDIO_MESSAGE_STAMP:
+    case STUDIO_MESSAGE_STAMP_SHOW:
+        return studio_paper_stamp(p, m);
     case STUDIO_MESSAGE_NEW:
         studio_paper_sheet_make(p, m->config);
         return PAPER_OK;
@@ -290,8 +284,8 @@ static bool changes(const struct studio_message *m)
 {
     return of_past(m->kind) || m->kind == STUDIO_MESSAGE_DRY ||
            m->kind == STUDIO_MESSAGE_SEAL || m->kind == STUDIO_MESSAGE_TYPE ||
-           m->kind == STUDIO_MESSAGE_SELECT_NONE || m->kind == STUDIO_MESSAGE_STEP ||
-           m->kind == STUDIO_MESSAGE_POINT;
+           m->kind == STUDIO_MESSAGE_SELECT_NONE || m->kind == STUDIO_MESSAGE_STAMP ||
+           m->kind == STUDIO_MESSAGE_STEP || m->kind == STUDIO_MESSAGE_POINT;
 }
 
 static void message_hear(struct studio_paper *p, struct studio_message *m)

@@ -4,6 +4,7 @@
 
 #include "studio_keeper.h"
 #include "studio_paper.h"
+#include "studio_stamp.h"
 
 enum { POINTS_UNSEEN = 3 }; /* samples at a stroke's end that its way is not settled for */
 
@@ -25,6 +26,7 @@ struct studio_paper {
     uint8_t *view;                                    /* the picture, 3 bytes a fiber */
     bool view_other;                                  /* the whole sheet is to be looked at */
     unsigned long points[POINTS_UNSEEN], before_hand; /* numbers of messages */
+    struct studio_stamp stamp; /* the picture that was put or shown last */
     double rested_s, worked_s; /* when the hand was heard last; what its stroke has taken */
     bool flows;                /* the past has to flow anew before time goes on */
     bool looking, interrupted; /* a look is under way; the watch has ended it */
@@ -67,6 +69,10 @@ void studio_paper_flowed(struct studio_paper *p, bool good);
 void studio_paper_pictured(struct studio_paper *p);
 void studio_paper_past_forget(struct studio_paper *p, int from);
 void studio_paper_past_look(struct studio_paper *p);
+/* What is shown on the sheet as it would be, whose gray is the window's now; type or a stamp. */
+void studio_paper_show(struct studio_paper *p, const struct studio_shown *shown);
+/* Puts a stamp, or shows one. */
+enum paper_status studio_paper_stamp(struct studio_paper *p, const struct studio_message *m);
 /* Makes a picture of what has changed, and gives it to the window. */
 void studio_paper_look(struct studio_paper *p);
 

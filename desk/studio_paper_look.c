@@ -5,6 +5,7 @@
 #include <picture.h>
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 void studio_paper_complain(struct studio_paper *p)
@@ -81,4 +82,50 @@ void studio_paper_look(struct studio_paper *p)
     studio_pictures_publish(p->pictures, &changed, seen_of(p));
     studio_paper_pictured(p);
     p->def.wake(p->def.context);
+}
+
+/* ---- what is shown as it would be ---- */
+
+void studio_paper_show(struct studio_paper *p, const struct studio_shown *shown)
+{
+    pthread_mutex_lock(&p->lock);
+    uint8_t *before = (uint8_t *)(uintptr_t)p->shown.gray;
+    p->shown = *shown;
+    p->shown_new = true;
+    pthread_mutex_unlock(&p->lock);
+    free(before);
+    p->def.wake(p->def.context);
+}
+
+/* A picture that is wanted again stays as it was read. */
+static enum paper_status stamp_have(struct studio_paper *p, const char *path, bool anew)
+{
+    struct studio_stamp read;
+    if (!anew && p->stamp.path && strcmp(p->stamp.path, path) == 0)
+        return PAPER_OK;
+    const enum paper_status status = studio_stamp_read(path, &read);
+    if (status != PAPER_OK)
+        return status;
+    studio_stamp_free(&p->stamp);
+    p->stamp = read;
+    return PAPER_OK;
+}
+
+enum paper_status studio_paper_stamp(struct studio_paper *p, const struct studio_message *m)
+{
+    struct studio_printed printed = {0};
+    enum paper_status status = m->text[0] ? stamp_have(p, m->text, m->value != 0) : PAPER_OK;
+    if (m->kind == STUDIO_MESSAGE_STAMP)
+        return status == PAPER_OK
+                   ? studio_session_stamp(p->session, &p->stamp, m->type_x, m->type_y)
+                   : status;
+    if (status == PAPER_OK && m->text[0])
+        status = studio_stamp_place(&p->stamp, studio_session_settings(p->session), 0, 0, NULL,
+                                    &printed);
+    const struct studio_shown shown = {printed.x, printed.y, printed.screen.width_px,
+                                       printed.screen.height_px, printed.screen.gray};
+    printed.screen.gray = NULL; /* which is the window's now */
+    studio_printed_free(&printed);
+    studio_paper_show(p, &shown);
+    return status;
 }

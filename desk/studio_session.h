@@ -102,6 +102,12 @@ enum paper_status studio_session_type_screen(const struct studio_settings *setti
 enum paper_status studio_session_type(struct studio_session *session,
                                       const struct studio_type *type);
 
+/* A picture with its middle at a place, as the settings say. Errors: as
+ * studio_stamp_place(), paper_sheet_put(), paper_sheet_print(). */
+struct studio_stamp;
+enum paper_status studio_session_stamp(struct studio_session *session,
+                                       const struct studio_stamp *stamp, double x, double y);
+
 /* ---- the selection (studio_selection.h) ---- */
 
 /* The tool STUDIO_TOOL_SELECT selects: masking fluid lies around, until nothing is selected any

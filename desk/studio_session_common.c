@@ -49,6 +49,13 @@ void studio_session_drop(struct studio_session *s)
 
 /* ---- deeds among the operations ---- */
 
+enum paper_status studio_session_deed_done(struct studio_session *s, enum paper_status status)
+{
+    s->held = false;
+    s->wet = true;
+    return status;
+}
+
 enum studio_part studio_session_part(const struct studio_session *s, int number)
 {
     struct paper_moment moment;

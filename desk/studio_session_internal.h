@@ -43,11 +43,15 @@ void studio_session_drop(struct studio_session *s);
 enum paper_status studio_session_air(struct studio_session *s);
 struct paper_sheet_view studio_session_view(const struct studio_session *s);
 
-/* The selection (studio_session_selection.c): history was gone back or changed in; what the
- * hand has drawn is selected, a click selects nothing; what a screen covers of the rest is
- * left out of it; a place for what has no screen of its own, *screen being free()d by its
- * gray. */
-void studio_session_selection_forget(struct studio_session *s);
+/* History was gone back or changed in: the selection is looked for anew. */
+static inline void studio_session_selection_forget(struct studio_session *s)
+{
+    s->selection.operations = 0;
+}
+
+/* The selection (studio_session_selection.c): what the hand has drawn is selected, a click
+ * selects nothing; what a screen covers of the rest is left out of it; a place for what has no
+ * screen of its own, whose gray the caller frees. */
 enum paper_status studio_session_select(struct studio_session *s);
 enum paper_status studio_session_selection_clip(struct studio_session *s,
                                                 struct paper_screen *screen, int x, int y);

@@ -6,11 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void studio_session_selection_forget(struct studio_session *s)
-{
-    s->selection.operations = 0;
-}
-
 static enum paper_status selection_look(struct studio_session *s)
 {
     const enum paper_status status = studio_selection_look(&s->selection, s->sheet);

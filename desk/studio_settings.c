@@ -34,7 +34,7 @@ static enum stage_status value_write(void *settings, int index, double value)
 
 const struct stage_control studio_controls[STUDIO_SETTINGS] = {
     ROW(STUDIO_TOOL, "tool", "", 0, STUDIO_TOOLS - 1, STUDIO_TOOL_BRUSH, CHOICE,
-        "brush water wash drop splatter salt blot lift mask unmask varnish type select",
+        "brush water wash drop splatter salt blot lift mask unmask varnish type select stamp",
         "what the pointer does"),
     ROW(STUDIO_BRUSH, "brush", "", 0, 5, 0, CHOICE, "round flat mop rigger fan bristle",
         "the kind of brush; it sets the bristles below"),
@@ -84,6 +84,16 @@ const struct stage_control studio_controls[STUDIO_SETTINGS] = {
     ROW(STUDIO_GLOSS, "gloss", "", 0, 1, 0.8, LINEAR, NULL, "how thick the varnish is"),
     ROW(STUDIO_OUTLINE, "outline", "", 0, 2, 0, CHOICE, "rectangle ellipse lasso",
         "from corner to corner as a rectangle or an ellipse, or the way that the hand goes"),
+    ROW(STUDIO_STAMP_AS, "stamp_as", "", 0, 3, 0, CHOICE, "paint water fluid colours",
+        "dark places take what is in the dish, its water alone, or masking fluid; or the "
+        "picture "
+        "is printed in its own colours by the sheet's pigments"),
+    ROW(STUDIO_STAMP_SIZE, "stamp_size", "fibers", 4, 4000, 200, LOGARITHMIC, NULL,
+        "length of the picture's longer side"),
+    ROW(STUDIO_STAMP_ANGLE, "stamp_angle", "degrees", -180, 180, 0, LINEAR, NULL,
+        "how far the picture is turned, counterclockwise"),
+    ROW(STUDIO_STAMP_NEGATIVE, "negative", "", 0, 1, 0, SWITCH, NULL,
+        "light places take it, and dark ones do not"),
     ROW(STUDIO_TYPE_SIZE, "type_size", "fibers", 4, 2000, 120, LOGARITHMIC, NULL,
         "size of the type: its em"),
     ROW(STUDIO_TYPE_ANGLE, "type_angle", "degrees", -180, 180, 0, LINEAR, NULL,
@@ -218,6 +228,10 @@ const struct studio_tool studio_tools[STUDIO_TOOLS] = {
          "Drag around a part of the sheet: what you do next stays inside, and "
          "no water flows across. A click selects nothing.",
          STUDIO_OUTLINE, STUDIO_OUTLINE, false, false},
+    [STUDIO_TOOL_STAMP] = {"Stamp", "i",
+                           "A picture as paint, as water, as masking fluid or in its own "
+                           "colours: choose one, or drop its file on the sheet, and click.",
+                           STUDIO_STAMP_AS, STUDIO_STAMP_NEGATIVE, true, false},
 };
 
 const struct studio_tool *studio_tool_of(const struct studio_settings *settings)

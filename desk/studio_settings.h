@@ -51,6 +51,10 @@ enum studio_setting {
     STUDIO_RUB,
     STUDIO_GLOSS,
     STUDIO_OUTLINE,
+    STUDIO_STAMP_AS,
+    STUDIO_STAMP_SIZE,
+    STUDIO_STAMP_ANGLE,
+    STUDIO_STAMP_NEGATIVE,
     /* type */
     STUDIO_TYPE_SIZE,
     STUDIO_TYPE_ANGLE,
@@ -72,7 +76,13 @@ enum studio_setting {
     STUDIO_SETTINGS = STUDIO_PIGMENT + PAPER_PIGMENTS_MAX
 };
 
-/* Choices of STUDIO_SHAPE and STUDIO_SHOW. */
+/* Choices of STUDIO_STAMP_AS, STUDIO_SHAPE and STUDIO_SHOW. */
+enum studio_stamp_as {
+    STUDIO_STAMP_PAINT, /* what is in the dish */
+    STUDIO_STAMP_WATER, /* its water alone */
+    STUDIO_STAMP_FLUID,
+    STUDIO_STAMP_COLOURS /* its own, of the sheet's pigments */
+};
 enum studio_shape { STUDIO_SHAPE_FREE, STUDIO_SHAPE_LINE, STUDIO_SHAPE_ELLIPSE };
 enum studio_show {
     STUDIO_SHOW_COLOR,
@@ -114,6 +124,7 @@ enum studio_tool_number {
     STUDIO_TOOL_VARNISH,
     STUDIO_TOOL_TYPE,
     STUDIO_TOOL_SELECT,
+    STUDIO_TOOL_STAMP,
     STUDIO_TOOLS
 };
 

@@ -53,6 +53,7 @@ static void lines(void **state)
                                         "3 step 60",
                                         "4 save a.h5",
                                         "4 palette a.palette",
+                                        "4 stamp a.png",
                                         "5 undo",
                                         "6 set width 30"};
     uint64_t seed = 1;

@@ -72,6 +72,22 @@ static void script_makes_the_same(void **state)
     played_script_is("bare.lua", "made/bare.png", "colour.png");
 }
 
+/* How many operations of that name the saved sheet has. */
+static int saved_count(const char *name, const char *what)
+{
+    struct paper_state *file;
+    struct paper_sheet *sheet;
+    struct paper_moment moment;
+    int count = 0;
+    assert_int_equal(paper_state_open(played_path(name), &file), PAPER_OK);
+    assert_int_equal(paper_state_load(file, 0, false, 0, &sheet), PAPER_OK);
+    for (int i = 0; paper_history_moment(sheet, i, &moment); i++)
+        count += strcmp(moment.what, what) == 0;
+    paper_sheet_destroy(sheet);
+    paper_state_close(file);
+    return count;
+}
+
 /* A selection by the window's tool, what is painted across it, and nothing selected any more:
  * its script makes the same. */
 static void selection_is_in_the_script(void **state)
@@ -91,20 +107,34 @@ static void selection_is_in_the_script(void **state)
     played_script_is("part.lua", "made/part.png", "part.png");
 }
 
-/* How many operations of that name the saved sheet has. */
-static int saved_count(const char *name, const char *what)
+/* Pictures of all four kinds, put by clicks: the script makes the same. */
+static void stamps_are_in_the_script(void **state)
 {
-    struct paper_state *file;
-    struct paper_sheet *sheet;
-    struct paper_moment moment;
-    int count = 0;
-    assert_int_equal(paper_state_open(played_path(name), &file), PAPER_OK);
-    assert_int_equal(paper_state_load(file, 0, false, 0, &sheet), PAPER_OK);
-    for (int i = 0; paper_history_moment(sheet, i, &moment); i++)
-        count += strcmp(moment.what, what) == 0;
-    paper_sheet_destroy(sheet);
-    paper_state_close(file);
-    return count;
+    (void)state;
+    static const char *const kinds[] = {"fluid", "water", "paint", "colours"};
+    struct display_image image = {.width_px = 20, .height_px = 12, .channels = 3};
+    assert_int_equal(display_image_create(&image), DISPLAY_OK);
+    for (int i = 0; i < 3 * 20 * 12; i++)
+        image.pixels[i] = (uint8_t)(i * 37 % 256);
+    assert_int_equal(display_png_write(played_path("leaf.png"), &image), DISPLAY_OK);
+    display_image_destroy(&image);
+    FILE *events = played_begin();
+    fprintf(events,
+            "0 set paused on\n0 view 4 48 36 0 0\n0 stamp %s\n0 set stamp_size 30\n"
+            "0 set stamp_angle 25\n",
+            played_path("leaf.png"));
+    for (int i = 0; i < 4; i++)
+        fprintf(events, "0.%d set stamp_as %s\n0.%d down %d %d\n0.%d up 0 0\n0.%d step 3\n",
+                1 + i, kinds[i], 1 + i, -80 + 50 * i, 20 * i - 30, 1 + i, 1 + i);
+    fprintf(events, "1 picture %s\n1 script %s\n1.1 save %s\n1.2 close\n",
+            played_path("stamped.png"), played_path("stamped.lua"), played_path("stamped.h5"));
+    fclose(events);
+    played_run(NULL);
+    assert_int_equal(played.status, 0);
+    assert_int_equal(saved_count("stamped.h5", "put"), 2);
+    assert_int_equal(saved_count("stamped.h5", "print"), 1);
+    assert_int_equal(saved_count("stamped.h5", "resist"), 1);
+    played_script_is("stamped.lua", "made/stamped.png", "stamped.png");
 }
 
 /* Saved, and closed, in mid-stroke; the focus lost in another one: each is one stroke, and none
@@ -232,6 +262,7 @@ int main(void)
         cmocka_unit_test(window_paints_what_calls_paint),
         cmocka_unit_test(script_makes_the_same),
         cmocka_unit_test(selection_is_in_the_script),
+        cmocka_unit_test(stamps_are_in_the_script),
         cmocka_unit_test(closed_in_mid_stroke),
         cmocka_unit_test(killed_and_found_again),
         cmocka_unit_test(wrong_is_one_line),
