@@ -229,6 +229,8 @@ static enum paper_status message_do(struct studio_paper *p, const struct studio_
         studio_session_go_on(s);
         return PAPER_OK;
     case STUDIO_MESSAGE_UNDO:
+        if (studio_session_change_waits(s) && !studio_session_busy(s))
+            studio_paper_past_forget(p, studio_session_change_deed(s));
         studio_session_undo(s);
         return PAPER_OK;
     case STUDIO_MESSAGE_REDO:

@@ -210,8 +210,72 @@ enum paper_status studio_session_visit(struct studio_session *s, int deeds)
 
 void studio_session_from_here(struct studio_session *s)
 {
+    studio_session_change_forget(s);
     if (s->inserting < 0)
         s->present = -1;
+}
+
+/* ---- what was changed, as it was ---- */
+
+void studio_session_change_forget(struct studio_session *s)
+{
+    free(s->changed.bytes);
+    s->changed.bytes = NULL;
+}
+
+/* Keeps operation `number`, before it is changed. */
+static enum paper_status change_keep(struct studio_session *s, int number, bool replaced)
+{
+    studio_session_change_forget(s);
+    s->changed.number = number;
+    s->changed.replaced = replaced;
+    return paper_history_operation(s->sheet, number, &s->changed.bytes, &s->changed.count);
+}
+
+/* After it: what goes on from here is no part of what is in its place. */
+static enum paper_status change_made(struct studio_session *s, enum paper_status status)
+{
+    if (status != PAPER_OK)
+        studio_session_change_forget(s);
+    paper_history_mark(s->sheet);
+    studio_session_selection_forget(s);
+    return status;
+}
+
+bool studio_session_change_waits(const struct studio_session *s)
+{
+    return s->changed.bytes && !studio_session_visits(s);
+}
+
+int studio_session_change_deed(const struct studio_session *s)
+{
+    struct counting c = {s->changed.number, 0};
+    deeds_walk(s, deed_count, &c);
+    return c.count;
+}
+
+bool studio_session_change_undo(struct studio_session *s)
+{
+    const int number = s->changed.number;
+    if (!studio_session_change_waits(s))
+        return false;
+    const bool last = number >= paper_history_done(s->sheet);
+    enum paper_status status = last ? PAPER_OK
+                               : s->changed.replaced
+                                   ? paper_history_change_begin(s->sheet, number)
+                                   : paper_history_insert_before(s->sheet, number);
+    if (status == PAPER_OK) {
+        status = paper_sheet_again(s->sheet, s->changed.bytes, s->changed.count);
+        const enum paper_status end =
+            last ? PAPER_OK : paper_history_insert_end(s->sheet, status == PAPER_OK);
+        status = status == PAPER_OK ? end : status;
+    }
+    if (status == PAPER_OK) /* it is as if it had always been there */
+        paper_history_seek(s->sheet, paper_sheet_steps(s->sheet));
+    studio_session_change_forget(s);
+    s->inserted = -1;
+    moved(s);
+    return status == PAPER_OK;
 }
 
 /* ---- doing something there ---- */
@@ -219,6 +283,7 @@ void studio_session_from_here(struct studio_session *s)
 enum paper_status studio_session_insert(struct studio_session *s)
 {
     const int at = paper_history_done(s->sheet);
+    studio_session_change_forget(s);
     if (s->present < 0 || s->inserting >= 0)
         return PAPER_OK;
     go_to(s, s->present);
@@ -251,10 +316,13 @@ enum paper_status studio_session_remove(struct studio_session *s)
     enum paper_status status = deed_choose(s, &span);
     if (status == PAPER_OK)
         status = studio_session_present(s);
+    struct paper_moment moment;
+    paper_history_moment(s->sheet, span.itself, &moment);
+    if (status == PAPER_OK)
+        status = change_keep(s, span.itself, moment.steps > 0);
     if (status == PAPER_OK)
         status = paper_history_remove(s->sheet, span.itself, true);
-    studio_session_selection_forget(s);
-    return status;
+    return change_made(s, status);
 }
 
 /* The operation that has the deed's amounts; -1: none. */
@@ -317,6 +385,8 @@ enum paper_status studio_session_dish(struct studio_session *s)
     if (status == PAPER_OK)
         status = studio_session_present(s);
     if (status == PAPER_OK)
+        status = change_keep(s, number, true);
+    if (status == PAPER_OK)
         status = paper_history_change_begin(s->sheet, number);
     if (status == PAPER_OK) {
         status = amounts_again(s, moment.what, arguments, amount);
@@ -324,7 +394,7 @@ enum paper_status studio_session_dish(struct studio_session *s)
         status = status == PAPER_OK ? end : status;
     }
     paper_history_arguments_free(moment.what, arguments);
-    return status;
+    return change_made(s, status);
 }
 
 enum paper_status studio_session_way(struct studio_session *s)
@@ -358,6 +428,8 @@ enum paper_status studio_session_way_end(struct studio_session *s)
     if (status == PAPER_OK)
         status = studio_session_present(s);
     if (status == PAPER_OK)
+        status = change_keep(s, number, true);
+    if (status == PAPER_OK)
         status = paper_history_change_begin(s->sheet, number);
     if (status == PAPER_OK) {
         struct paper_stroke stroke = *(const struct paper_stroke *)arguments;
@@ -368,5 +440,5 @@ enum paper_status studio_session_way_end(struct studio_session *s)
         status = status == PAPER_OK ? end : status;
     }
     paper_history_arguments_free("stroke", arguments);
-    return status;
+    return change_made(s, status);
 }

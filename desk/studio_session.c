@@ -93,6 +93,7 @@ void studio_session_destroy(struct studio_session *s)
         return;
     paper_sheet_destroy(s->sheet);
     studio_selection_free(&s->selection);
+    studio_session_change_forget(s);
     free(s->samples);
     free(s);
 }
@@ -188,7 +189,7 @@ static int redone_to(const struct studio_session *s)
 
 bool studio_session_can_undo(const struct studio_session *s)
 {
-    return s->down || undone_to(s) >= 0;
+    return s->down || studio_session_change_waits(s) || undone_to(s) >= 0;
 }
 
 bool studio_session_can_redo(const struct studio_session *s)
@@ -202,6 +203,8 @@ bool studio_session_undo(struct studio_session *s)
         studio_session_drop(s);
         return true;
     }
+    if (studio_session_change_undo(s))
+        return true;
     const int left = undone_to(s);
     if (left < 0)
         return false;
@@ -220,6 +223,7 @@ bool studio_session_redo(struct studio_session *s)
     const int done = s->down ? -1 : redone_to(s);
     if (done < 0)
         return false;
+    studio_session_change_forget(s);
     paper_history_redo(s->sheet, done - paper_history_done(s->sheet));
     if (done >= s->present)
         s->present = -1;

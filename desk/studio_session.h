@@ -161,6 +161,10 @@ bool studio_session_inserts(const struct studio_session *session);
 enum paper_status studio_session_present(struct studio_session *session);
 /* The visited moment is the present: what followed is as if it had been undone. */
 void studio_session_from_here(struct studio_session *session);
+/* Whether an undo gives back what was last taken out or changed as the next three do; the first
+ * deed that is then another one. */
+bool studio_session_change_waits(const struct studio_session *session);
+int studio_session_change_deed(const struct studio_session *session);
 /* Of the last deed before the visited moment: takes it out, and its time stays; paints it with
  * what is in the dish now; gives a stroke the way of the hand's next one. The present is gone
  * to. Errors: BAD_ARGUMENT (no such deed; nothing of the dish was in it; no stroke; a hand is

@@ -29,6 +29,14 @@ struct studio_session {
     int way;             /* the stroke whose way the hand draws anew */
     int inserted;        /* that were done when an insertion had ended, */
     long inserted_steps; /* and how many steps had gone by */
+    /* The operation of the past that was taken out or changed last, if no deed has been begun
+     * since; bytes NULL: none. */
+    struct {
+        int number;
+        bool replaced; /* another one is in its place */
+        uint8_t *bytes;
+        size_t count;
+    } changed;
     bool wet;
     struct studio_selection selection;
 };
@@ -69,6 +77,11 @@ bool studio_session_inserted(const struct studio_session *s);
 
 /* After a deed that a hand has done. */
 enum paper_status studio_session_deed_done(struct studio_session *s, enum paper_status status);
+/* What was taken out of the past, or changed there, is as it was before. False: nothing was, or
+ * it cannot be. */
+bool studio_session_change_undo(struct studio_session *s);
+/* From here on an undo takes back something else. */
+void studio_session_change_forget(struct studio_session *s);
 /* Before a deed: where an earlier moment is visited, what is done from now on is inserted
  * there. */
 enum paper_status studio_session_insert(struct studio_session *s);

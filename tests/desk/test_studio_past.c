@@ -217,6 +217,51 @@ static void deeds_are_changed(void **state)
     studio_session_destroy(s);
 }
 
+/* Right after it, and after time has gone on: the undo of a removal, of another dish and of
+ * another way is the sheet of before; the next undo takes the last deed. */
+static void changes_are_undone(void **state)
+{
+    (void)state;
+    static const struct hand *const three[] = {&wash, &blue, &wide, NULL};
+    static const int later_steps[] = {5, 4, 6, 8};
+    struct studio_session *s = painted(four, four_steps);
+    for (int deed = 1; deed <= 4; deed++) { /* with time, without, the first, the last */
+        good(studio_session_visit(s, deed));
+        good(studio_session_remove(s));
+        assert_true(studio_session_change_waits(s));
+        assert_int_equal(studio_session_deeds_done(s), 3);
+        assert_int_equal(studio_session_change_deed(s), deed - 1);
+        assert_true(studio_session_undo(s));
+        assert_false(studio_session_change_waits(s));
+        is_sheet_of(s, four, four_steps);
+    }
+    good(studio_session_visit(s, 4));
+    good(studio_session_remove(s));
+    good(studio_session_steps(s, 5, NULL));
+    assert_true(studio_session_undo(s));
+    is_sheet_of(s, four, later_steps);
+    good(studio_session_visit(s, 2));
+    good(studio_session_set(s, STUDIO_PIGMENT, 0.2));
+    good(studio_session_dish(s));
+    assert_true(studio_session_undo(s));
+    is_sheet_of(s, four, later_steps);
+    good(studio_session_visit(s, 3));
+    good(studio_session_way(s));
+    good(scene_sweep(s, 12, 5, true));
+    assert_true(studio_session_undo(s));
+    is_sheet_of(s, four, later_steps);
+    assert_true(studio_session_undo(s)); /* and then the last deed, as ever */
+    is_sheet_of(s, three, later_steps);
+    studio_session_go_on(s);
+    good(studio_session_visit(s, 1));
+    good(studio_session_remove(s));
+    paint(s, &drop); /* from here on an undo is this deed's */
+    assert_false(studio_session_change_waits(s));
+    assert_true(studio_session_undo(s));
+    assert_int_equal(studio_session_deeds_done(s), 2);
+    studio_session_destroy(s);
+}
+
 static void another_present_begins(void **state)
 {
     (void)state;
@@ -236,9 +281,9 @@ static void another_present_begins(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(moments_are_visited),    cmocka_unit_test(deeds_are_inserted),
-        cmocka_unit_test(deeds_are_taken_out),    cmocka_unit_test(deeds_are_changed),
-        cmocka_unit_test(another_present_begins),
+        cmocka_unit_test(moments_are_visited), cmocka_unit_test(deeds_are_inserted),
+        cmocka_unit_test(deeds_are_taken_out), cmocka_unit_test(deeds_are_changed),
+        cmocka_unit_test(changes_are_undone),  cmocka_unit_test(another_present_begins),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
