@@ -38,6 +38,8 @@
 
 #define _(text) gettext(text)
 
+#define DESK_FILM_S 60.0 /* how long a film is at the most */
+
 /* What the hand has done and the paper has not shown yet. */
 struct desk_ghost {
     unsigned long number; /* of its message */
@@ -197,6 +199,7 @@ void desk_file_picture(struct desk *d);
 void desk_file_script(struct desk *d);
 void desk_file_palette(struct desk *d, bool opens);
 void desk_file_stamp(struct desk *d);
+void desk_file_film(struct desk *d);
 /* Asks whether what is not saved may go; then `done`. */
 void desk_file_leave(struct desk *d, void (*done)(struct desk *d));
 

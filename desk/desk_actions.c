@@ -56,6 +56,7 @@ CALLS(save, desk_file_save(d, false))
 CALLS(save_as, desk_file_save(d, true))
 CALLS(picture, desk_file_picture(d))
 CALLS(script, desk_file_script(d))
+CALLS(film, desk_file_film(d))
 CALLS(stamp, desk_file_stamp(d))
 CALLS(palette_open, desk_file_palette(d, true))
 CALLS(palette_save, desk_file_palette(d, false))
@@ -131,6 +132,7 @@ static const struct {
     {"Ctrl+Delete, Ctrl+R, Ctrl+J",
      "there: take the deed out, do it with the dish, another way"},
     {"Ctrl+E, Ctrl+Shift+E", "write a picture, a script that makes the same sheet"},
+    {"Ctrl+Shift+M", "write a film of the making"},
     {"Ctrl+I", "choose the picture of the stamp"},
     {"Ctrl+Shift+O, Ctrl+Shift+P", "open a palette, save the palette"},
 };
@@ -283,6 +285,7 @@ static const GActionEntry entries[] = {
     {.name = "save-as", .activate = save_as},
     {.name = "picture", .activate = picture},
     {.name = "script", .activate = script},
+    {.name = "film", .activate = film},
     {.name = "stamp", .activate = stamp},
     {.name = "palette-open", .activate = palette_open},
     {.name = "palette-save", .activate = palette_save},
@@ -321,6 +324,7 @@ static const struct desk_row menu_rows[] = {
     {"win.save-as", "Save as…", "<Control><Shift>s"},
     {"win.picture", "Write a picture…", "<Control>e"},
     {"win.script", "Write a script…", "<Control><Shift>e"},
+    {"win.film", "Write a film of the making…", "<Control><Shift>m"},
     {"win.stamp", "Choose a picture…", "<Control>i"},
     {"win.palette-open", "Open a palette…", "<Control><Shift>o"},
     {"win.palette-save", "Save the palette…", "<Control><Shift>p"},
@@ -394,6 +398,7 @@ void desk_actions_enable(struct desk *d)
         {"save-as", d->report.ready},
         {"picture", d->report.ready},
         {"script", d->report.ready},
+        {"film", d->report.ready && d->report.operations > 0},
         {"stamp", d->report.ready},
         {"palette-open", d->report.ready},
         {"palette-save", d->report.ready},

@@ -41,11 +41,9 @@ double desk_cursor_radius(const struct desk *d)
     const double *value = d->settings.value;
     switch ((enum studio_tool_number)value[STUDIO_TOOL]) {
     case STUDIO_TOOL_BRUSH:
-    case STUDIO_TOOL_WATER: {
-        /* the tuft under this pressure: outer bristles touch last, pressure spreads them */
-        const double touching = 1 - value[STUDIO_POINT] * (1 - d->pressure);
-        return value[STUDIO_WIDTH] / 2 * touching * (1 + value[STUDIO_SPLAY] * d->pressure);
-    }
+    case STUDIO_TOOL_WATER:
+        return studio_tuft_radius(value[STUDIO_WIDTH], value[STUDIO_POINT], value[STUDIO_SPLAY],
+                                  d->pressure);
     case STUDIO_TOOL_BLOT:
     case STUDIO_TOOL_LIFT:
     case STUDIO_TOOL_MASK:

@@ -236,6 +236,7 @@ struct asked {
     bool opens;
     const char *title, *ending, *name;
     void (*take)(struct desk *d, const char *path);
+    bool endings; /* another ending is another format, and stays */
 };
 
 struct chooser {
@@ -250,18 +251,21 @@ static void chosen(GtkNativeDialog *dialog, int response, struct chooser *c)
                       ? gtk_file_chooser_get_file(GTK_FILE_CHOOSER(dialog))
                       : NULL;
     char *path = file ? g_file_get_path(file) : NULL;
+    char *name = path ? g_path_get_basename(path) : NULL;
     if (file && !path)
         desk_say(c->desk, _("This is no file of this computer; take another place."));
     if (!path)
         c->desk->leaving = NULL;
     if (path) {
-        char *whole = c->asked->opens || g_str_has_suffix(path, c->asked->ending)
+        char *whole = c->asked->opens || g_str_has_suffix(path, c->asked->ending) ||
+                              (c->asked->endings && strchr(name, '.'))
                           ? g_strdup(path)
                           : g_strconcat(path, c->asked->ending, NULL);
         c->asked->take(c->desk, whole);
         g_free(whole);
     }
     g_free(path);
+    g_free(name);
     g_clear_object(&file);
     g_object_unref(dialog);
     g_free(c);
@@ -308,9 +312,14 @@ static void script_write(struct desk *d, const char *path)
     send_path(d, STUDIO_MESSAGE_SCRIPT, path, 0);
 }
 
+static void film_write(struct desk *d, const char *path)
+{
+    send_path(d, STUDIO_MESSAGE_FILM, path, DESK_FILM_S);
+}
+
 static void open_choose(struct desk *d)
 {
-    static const struct asked asked = {true, "Open a sheet", ".h5", NULL, sheet_open};
+    static const struct asked asked = {true, "Open a sheet", ".h5", NULL, sheet_open, false};
     choose(d, &asked);
 }
 
@@ -321,8 +330,8 @@ void desk_file_open(struct desk *d)
 
 void desk_file_save(struct desk *d, bool as)
 {
-    static const struct asked asked = {false, "Save the sheet with its past", ".h5", "sheet.h5",
-                                       sheet_save};
+    static const struct asked asked = {
+        false, "Save the sheet with its past", ".h5", "sheet.h5", sheet_save, false};
     if (!as && d->report.path[0])
         sheet_save(d, d->report.path);
     else
@@ -331,30 +340,38 @@ void desk_file_save(struct desk *d, bool as)
 
 void desk_file_script(struct desk *d)
 {
-    static const struct asked asked = {false, "Write a script that makes the same sheet",
-                                       ".lua", "sheet.lua", script_write};
+    static const struct asked asked = {false,        "Write a script that makes the same sheet",
+                                       ".lua",       "sheet.lua",
+                                       script_write, false};
     choose(d, &asked);
 }
 
 void desk_file_picture(struct desk *d)
 {
-    static const struct asked asked = {false, "Write a picture", ".png", "sheet.png",
-                                       picture_write};
+    static const struct asked asked = {false,       "Write a picture", ".png",
+                                       "sheet.png", picture_write,     false};
     choose(d, &asked);
 }
 
 void desk_file_palette(struct desk *d, bool opens)
 {
-    static const struct asked opened = {true, "Open a palette", ".palette", NULL,
-                                        desk_palette_open},
-                              saved = {false, "Save the palette", ".palette", "dish.palette",
-                                       desk_palette_save};
+    static const struct asked opened = {true, "Open a palette",  ".palette",
+                                        NULL, desk_palette_open, false},
+                              saved = {false,          "Save the palette", ".palette",
+                                       "dish.palette", desk_palette_save,  false};
     choose(d, opens ? &opened : &saved);
 }
 
 void desk_file_stamp(struct desk *d)
 {
-    static const struct asked asked = {true, "Choose a picture", ".png", NULL,
-                                       desk_stamp_choose};
+    static const struct asked asked = {true, "Choose a picture", ".png",
+                                       NULL, desk_stamp_choose,  false};
+    choose(d, &asked);
+}
+
+void desk_file_film(struct desk *d)
+{
+    static const struct asked asked = {
+        false, "Write a film of the making", ".mp4", "sheet.mp4", film_write, true};
     choose(d, &asked);
 }

@@ -139,6 +139,11 @@ static void input_do(struct desk *d, const struct studio_input *input)
     case STUDIO_INPUT_PALETTE_SAVE:
         desk_palette_save(d, input->text);
         break;
+    case STUDIO_INPUT_FILM:
+        studio_paper_send(d->paper, (struct studio_message){.kind = STUDIO_MESSAGE_FILM,
+                                                            .text = g_strdup(input->text),
+                                                            .value = DESK_FILM_S});
+        break;
     case STUDIO_INPUT_STAMP:
         desk_stamp_choose(d, input->text);
         break;

@@ -4,6 +4,7 @@
 
 #include <visible_text.h>
 
+#include <math.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -72,6 +73,9 @@ static void state_show(struct desk *d)
     char *text;
     if (!r->ready)
         text = g_strdup(r->failed ? _("There is no sheet.") : _("The paper is being made …"));
+    else if (r->films)
+        text = g_strdup_printf(_("The film is being made: %.0f %%; the hand waits"),
+                               100.0 * (double)r->flow_done / fmax(1, (double)r->flow_total));
     else if (r->flow_total > 0)
         text = g_strdup_printf(_("The past flows anew: %.0f %%; what you see is of before"),
                                100.0 * (double)r->flow_done / (double)r->flow_total);

@@ -38,6 +38,7 @@ static const struct word {
     {"script", STUDIO_INPUT_SCRIPT, INPUT_NONE, 0, 0, 0, true},
     {"palette", STUDIO_INPUT_PALETTE, INPUT_NONE, 0, 0, 0, true},
     {"save-palette", STUDIO_INPUT_PALETTE_SAVE, INPUT_NONE, 0, 0, 0, true},
+    {"film", STUDIO_INPUT_FILM, INPUT_NONE, 0, 0, 0, true},
     {"stamp", STUDIO_INPUT_STAMP, INPUT_NONE, 0, 0, 0, true},
     {"measure", STUDIO_INPUT_MEASURE, INPUT_NONE, 0, 0, 0, true},
 };

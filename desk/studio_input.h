@@ -11,7 +11,8 @@
  * the units of input.h, no pressure being a mouse; middle-down, middle-up; leave; focus-lost;
  * action NAME [WORD]; step N; view ZOOM X Y DEGREES MIRRORED; moment N (after so many deeds);
  * type X Y TEXT (in fibers; \n is a new line); undo, redo, dry, seal, save FILE, picture FILE,
- * script FILE, palette FILE, save-palette FILE, stamp FILE, measure NAME (desk_measure.c), close. Times do not go back. */
+ * script FILE, palette FILE, save-palette FILE, stamp FILE, film FILE, measure NAME
+ * (desk_measure.c), close. Times do not go back. */
 #ifndef LUTETIA_STUDIO_INPUT_H
 #define LUTETIA_STUDIO_INPUT_H
 
@@ -31,6 +32,7 @@ enum studio_input_kind {
     STUDIO_INPUT_SCRIPT,
     STUDIO_INPUT_PALETTE, /* opened */
     STUDIO_INPUT_PALETTE_SAVE,
+    STUDIO_INPUT_FILM,
     STUDIO_INPUT_STAMP, /* the picture is chosen */
     STUDIO_INPUT_MEASURE,
     STUDIO_INPUT_MOMENT

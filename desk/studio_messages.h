@@ -39,12 +39,14 @@ enum studio_message_kind {
     STUDIO_MESSAGE_TYPE,      /* type: is let into the paper */
     STUDIO_MESSAGE_TYPE_SHOW, /* type: is shown as it would be; an empty text: nothing is */
     STUDIO_MESSAGE_STAMP, /* text: the picture's file; type_x, type_y: where its middle is */
-    STUDIO_MESSAGE_STAMP_SHOW, /* text: the file; is shown as it would be at 0, 0; "": none is; value: it is read anew */
+    /* text: the file; is shown as it would be at 0, 0; "": none is; value: it is read anew */
+    STUDIO_MESSAGE_STAMP_SHOW,
     STUDIO_MESSAGE_NEW,     /* config */
     STUDIO_MESSAGE_OPEN,    /* text: the file */
     STUDIO_MESSAGE_SAVE,    /* text: the file */
     STUDIO_MESSAGE_PICTURE, /* text: the file; value: pixels a fiber */
     STUDIO_MESSAGE_SCRIPT,  /* text: the file */
+    STUDIO_MESSAGE_FILM,    /* text: the file; value: its seconds, at the most */
     STUDIO_MESSAGE_END
 };
 

@@ -88,7 +88,7 @@ static bool needs_rest(enum studio_message_kind kind)
            kind == STUDIO_MESSAGE_TYPE || kind == STUDIO_MESSAGE_STAMP ||
            kind == STUDIO_MESSAGE_NEW || kind == STUDIO_MESSAGE_OPEN ||
            kind == STUDIO_MESSAGE_SAVE || kind == STUDIO_MESSAGE_PICTURE ||
-           kind == STUDIO_MESSAGE_SCRIPT ||
+           kind == STUDIO_MESSAGE_SCRIPT || kind == STUDIO_MESSAGE_FILM ||
            (kind >= STUDIO_MESSAGE_VISIT && kind <= STUDIO_MESSAGE_WAY);
 }
 
@@ -108,6 +108,13 @@ static enum paper_status save(struct studio_paper *p, const struct studio_messag
     }
     if (status != PAPER_OK)
         return status;
+    if (m->kind == STUDIO_MESSAGE_FILM) {
+        char written[STUDIO_TEXT_MAX];
+        status = studio_paper_film(p, m->text, m->value, written, sizeof written);
+        if (status == PAPER_OK)
+            note(p, true, written);
+        return status;
+    }
     if (m->kind == STUDIO_MESSAGE_PICTURE || m->kind == STUDIO_MESSAGE_SCRIPT) {
         status = m->kind == STUDIO_MESSAGE_SCRIPT
                      ? studio_session_script(p->session, m->text)
@@ -267,6 +274,7 @@ static enum paper_status message_do(struct studio_paper *p, const struct studio_
     case STUDIO_MESSAGE_SAVE:
     case STUDIO_MESSAGE_PICTURE:
     case STUDIO_MESSAGE_SCRIPT:
+    case STUDIO_MESSAGE_FILM:
         return save(p, m);
     case STUDIO_MESSAGE_END:
         p->end = true;

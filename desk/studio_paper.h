@@ -55,6 +55,7 @@ struct studio_report {
     unsigned long outlines;     /* another number: studio_paper_outline() is another */
     bool way;                   /* the hand's next stroke is another one's way */
     long flow_done, flow_total; /* steps, while the past flows anew; total 0: it does not */
+    bool films;                 /* that is no past, but a film that is being made */
     bool stopped;               /* it was stopped; the picture is of before */
     char path[STUDIO_TEXT_MAX]; /* of the file; "": none yet */
 };

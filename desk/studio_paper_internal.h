@@ -69,7 +69,10 @@ void studio_paper_flowed(struct studio_paper *p, bool good);
 void studio_paper_pictured(struct studio_paper *p);
 void studio_paper_past_forget(struct studio_paper *p, int from);
 void studio_paper_past_look(struct studio_paper *p);
-/* What is shown on the sheet as it would be, whose gray is the window's now; type or a stamp. */
+/* A film of all that was done; the hand waits meanwhile. */
+enum paper_status studio_paper_film(struct studio_paper *p, const char *path, double seconds,
+                                    char *written, size_t room);
+/* What is shown on the sheet as it would be, type or a stamp; its gray is the window's now. */
 void studio_paper_show(struct studio_paper *p, const struct studio_shown *shown);
 /* Puts a stamp, or shows one. */
 enum paper_status studio_paper_stamp(struct studio_paper *p, const struct studio_message *m);

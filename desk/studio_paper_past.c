@@ -1,6 +1,8 @@
 /* studio_paper_past.c - the past as the window shows it: deeds with small pictures; and how far
  * the past has flowed anew. */
+#include "studio_film.h"
 #include "studio_paper_internal.h"
+#include "studio_session_internal.h"
 
 #include <array.h>
 #include <input.h>
@@ -57,6 +59,28 @@ void studio_paper_flowed(struct studio_paper *p, bool good)
         p->now.stopped = true;
     else
         p->dirty = true; /* first the message that came */
+}
+
+enum paper_status studio_paper_film(struct studio_paper *p, const char *path, double seconds,
+                                    char *written, size_t room)
+{
+    const struct paper_sheet_view view = studio_session_view(p->session);
+    const struct studio_film_def def = {.path = path,
+                                        .view = &view,
+                                        .seconds_most = seconds,
+                                        .watch = flow_watch,
+                                        .context = p};
+    p->looking = p->interrupted = false;
+    atomic_store(&p->stop, false);
+    pthread_mutex_lock(&p->lock);
+    p->report.films = p->now.films = true;
+    pthread_mutex_unlock(&p->lock);
+    const enum paper_status status =
+        studio_film_write(studio_session_sheet(p->session), &def, written, room);
+    atomic_store(&p->stop, false);
+    p->now.films = p->interrupted = false;
+    p->now.flow_done = p->now.flow_total = 0;
+    return status;
 }
 
 /* ---- the list ---- */

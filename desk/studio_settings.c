@@ -182,6 +182,11 @@ struct paper_brush studio_settings_brush(const struct studio_settings *settings)
     return b;
 }
 
+double studio_tuft_radius(double width, double point, double splay, double pressure)
+{
+    return width / 2 * (1 - point * (1 - pressure)) * (1 + splay * pressure);
+}
+
 void studio_settings_amounts(const struct studio_settings *settings,
                              double amount[1 + PAPER_PIGMENTS_MAX])
 {

@@ -106,6 +106,9 @@ void studio_settings_usual(struct studio_settings *settings);
 void studio_settings_kind(struct studio_settings *settings, int kind);
 /* The brush that the settings describe. */
 struct paper_brush studio_settings_brush(const struct studio_settings *settings);
+/* Half the width of a tuft under a pressure: outer bristles touch last, pressure spreads
+ * them. */
+double studio_tuft_radius(double width, double point, double splay, double pressure);
 /* Water and pigments as they are put: the dish. */
 void studio_settings_amounts(const struct studio_settings *settings,
                              double amount[1 + PAPER_PIGMENTS_MAX]);
