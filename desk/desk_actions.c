@@ -45,7 +45,12 @@ SENDS(from_here, STUDIO_MESSAGE_FROM_HERE)
 SENDS(take_out, STUDIO_MESSAGE_REMOVE)
 SENDS(dish, STUDIO_MESSAGE_DISH)
 SENDS(way, STUDIO_MESSAGE_WAY)
+SENDS(bookmark, STUDIO_MESSAGE_BOOKMARK)
+SENDS(bookmark_earlier, STUDIO_MESSAGE_BOOKMARK_VISIT)
 CALLS(go_on, desk_send(d, d->report.stopped ? STUDIO_MESSAGE_FLOW : STUDIO_MESSAGE_GO_ON))
+CALLS(bookmark_later,
+      studio_paper_send(d->paper, (struct studio_message){.kind = STUDIO_MESSAGE_BOOKMARK_VISIT,
+                                                          .value = 1}))
 CALLS(stop, studio_paper_stop(d->paper))
 CALLS(earlier, desk_past_move(d, -1))
 CALLS(later, desk_past_move(d, 1))
@@ -129,6 +134,7 @@ static const struct {
     {"Ctrl+Shift+A", "select nothing: the whole sheet takes paint again"},
     {"Ctrl+T; Alt+Left, Alt+Right, Alt+Home",
      "the past; an earlier or later moment, the present"},
+    {"Ctrl+B; Alt+Up, Alt+Down", "a bookmark at this moment; from one to the next"},
     {"Ctrl+Delete, Ctrl+R, Ctrl+J",
      "there: take the deed out, do it with the dish, another way"},
     {"Ctrl+E, Ctrl+Shift+E", "write a picture, a script that makes the same sheet"},
@@ -302,6 +308,9 @@ static const GActionEntry entries[] = {
     {.name = "remove", .activate = take_out},
     {.name = "dish", .activate = dish},
     {.name = "way", .activate = way},
+    {.name = "bookmark", .activate = bookmark},
+    {.name = "bookmark-earlier", .activate = bookmark_earlier},
+    {.name = "bookmark-later", .activate = bookmark_later},
     {.name = "from-here", .activate = from_here},
     {.name = "stop", .activate = stop},
     {.name = "zoom-in", .activate = zoom_in},
@@ -340,6 +349,9 @@ static const struct desk_row menu_rows[] = {
     {"win.earlier", "An earlier moment", "<Alt>Left"},
     {"win.later", "A later moment", "<Alt>Right"},
     {"win.present", "To the present", "<Alt>Home"},
+    {"win.bookmark", "Bookmark this moment", "<Control>b"},
+    {"win.bookmark-earlier", "To the bookmark before", "<Alt>Up"},
+    {"win.bookmark-later", "To the bookmark after", "<Alt>Down"},
     {"win.remove", "Take this deed out", "<Control>Delete"},
     {"win.dish", "Do this deed with the dish", "<Control>r"},
     {"win.way", "Give this stroke another way", "<Control>j"},
@@ -392,6 +404,9 @@ void desk_actions_enable(struct desk *d)
         {"from-here", d->report.visits && !d->report.inserts},
         {"remove", d->report.deeds_done > 0 && !d->report.inserts},
         {"dish", d->report.deeds_done > 0 && !d->report.inserts},
+        {"bookmark", d->report.deeds_done > 0 && !d->report.inserts},
+        {"bookmark-earlier", d->report.deeds_done > 0 && !d->report.inserts},
+        {"bookmark-later", d->report.visits && !d->report.inserts},
         {"way", d->report.deeds_done > 0 && !d->report.inserts},
         {"stop", d->report.flow_total > 0},
         {"save", d->report.ready},

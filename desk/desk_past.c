@@ -82,6 +82,17 @@ static void card_draw(struct desk *d, cairo_t *cr, const GdkRGBA *text, int numb
     cairo_set_source_rgba(cr, (double)text->red, (double)text->green, (double)text->blue,
                           alpha);
     label_draw(d, cr, deed ? deed_name(deed->what) : _("empty"), x);
+    if (deed && deed->marked) { /* a ribbon at the corner */
+        const double right = x + STUDIO_SMALL_WIDTH - 6;
+        cairo_set_source_rgba(cr, 0.88, 0.2, 0.15, alpha);
+        cairo_move_to(cr, right - 9, GAP - 3);
+        cairo_line_to(cr, right, GAP - 3);
+        cairo_line_to(cr, right, GAP + 14);
+        cairo_line_to(cr, right - 4.5, GAP + 9);
+        cairo_line_to(cr, right - 9, GAP + 14);
+        cairo_close_path(cr);
+        cairo_fill(cr);
+    }
     if (number != d->report.deeds_done)
         return;
     cairo_set_source_rgb(cr, 0.21, 0.52, 0.89);
@@ -167,6 +178,9 @@ GtkWidget *desk_past_new(struct desk *d)
     const struct {
         const char *label, *action, *tip;
     } buttons[] = {
+        {_("Bookmark"), "win.bookmark",
+         _("This moment is marked, or is no more (Ctrl+B); Alt+Up and Alt+Down go from one to "
+           "the next")},
         {_("To the present"), "win.present",
          _("What was inserted is kept; what followed it flows anew")},
         {_("Take it out"), "win.remove",

@@ -31,6 +31,8 @@ enum studio_message_kind {
     STUDIO_MESSAGE_FROM_HERE,
     STUDIO_MESSAGE_REMOVE,
     STUDIO_MESSAGE_DISH,
+    STUDIO_MESSAGE_BOOKMARK,
+    STUDIO_MESSAGE_BOOKMARK_VISIT, /* value: not 0: a later one */
     STUDIO_MESSAGE_WAY,
     STUDIO_MESSAGE_FLOW, /* what was stopped goes on */
     STUDIO_MESSAGE_DRY,

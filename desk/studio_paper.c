@@ -209,6 +209,10 @@ static enum paper_status past_do(struct studio_paper *p, const struct studio_mes
         return PAPER_OK;
     case STUDIO_MESSAGE_WAY:
         return studio_session_way(s);
+    case STUDIO_MESSAGE_BOOKMARK:
+        return studio_session_bookmark(s);
+    case STUDIO_MESSAGE_BOOKMARK_VISIT:
+        return studio_session_bookmark_visit(s, m->value != 0);
     default:
         studio_paper_past_forget(p, deed);
         return m->kind == STUDIO_MESSAGE_DISH ? studio_session_dish(s)
@@ -248,6 +252,8 @@ static enum paper_status message_do(struct studio_paper *p, const struct studio_
     case STUDIO_MESSAGE_FROM_HERE:
     case STUDIO_MESSAGE_REMOVE:
     case STUDIO_MESSAGE_DISH:
+    case STUDIO_MESSAGE_BOOKMARK:
+    case STUDIO_MESSAGE_BOOKMARK_VISIT:
     case STUDIO_MESSAGE_WAY:
         return past_do(p, m);
     case STUDIO_MESSAGE_FLOW:

@@ -87,6 +87,7 @@ struct studio_past {
     struct studio_past_deed {
         char what[16];
         long time, steps; /* studio_session.h */
+        bool marked;      /* with a bookmark */
         bool pictured;
         uint8_t rgb[3 * STUDIO_SMALL_WIDTH * STUDIO_SMALL_HEIGHT];
     } * deeds;

@@ -97,6 +97,7 @@ static bool deeds_take(struct studio_paper *p, const struct studio_deed *deeds, 
         snprintf(to->what, sizeof to->what, "%s", deeds[i].what);
         to->time = deeds[i].time;
         to->steps = deeds[i].steps;
+        to->marked = deeds[i].marked;
     }
     p->past.count = count;
     return true;

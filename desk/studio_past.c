@@ -51,6 +51,7 @@ static void deeds_walk(const struct studio_session *s,
 
 struct listing {
     const struct studio_session *session;
+    int *bookmarks, bookmarks_count;
     struct studio_deed *deeds;
     int count, capacity;
     bool short_of_memory;
@@ -64,13 +65,17 @@ static bool deed_list(void *context, const struct span *span)
         l->short_of_memory = true;
         return false;
     }
+    bool marked = false;
+    for (int i = 0; i < l->bookmarks_count; i++)
+        marked = marked || (l->bookmarks[i] > span->itself && l->bookmarks[i] < span->end);
     paper_history_moment(l->session->sheet, span->itself, &begins);
     paper_history_moment(l->session->sheet, span->end - 1, &last);
     l->deeds[l->count++] =
         (struct studio_deed){.what = begins.what,
                              .time = begins.time,
                              .steps = last.time + last.steps - begins.time,
-                             .done = paper_history_done(l->session->sheet) > span->itself};
+                             .done = paper_history_done(l->session->sheet) > span->itself,
+                             .marked = marked};
     return true;
 }
 
@@ -78,12 +83,15 @@ enum paper_status studio_session_deeds(const struct studio_session *s,
                                        struct studio_deed **deeds, int *count)
 {
     struct listing l = {.session = s};
+    const enum paper_status status =
+        studio_session_bookmarks(s, &l.bookmarks, &l.bookmarks_count);
     deeds_walk(s, deed_list, &l);
+    free(l.bookmarks);
     *deeds = l.deeds;
     *count = l.count;
     return l.short_of_memory
                ? studio_session_failed(PAPER_NO_MEMORY, "no memory for the list of deeds")
-               : PAPER_OK;
+               : status;
 }
 
 /* The deed of that number; *end: the operations before it. */
@@ -186,6 +194,17 @@ enum paper_status studio_session_present(struct studio_session *s)
     return status;
 }
 
+void studio_session_visit_to(struct studio_session *s, int operations)
+{
+    if (s->present < 0)
+        s->present = paper_history_done(s->sheet);
+    go_to(s, operations);
+    if (operations >= s->present)
+        s->present = -1;
+    s->way = -1;
+    s->held = true;
+}
+
 enum paper_status studio_session_visit(struct studio_session *s, int deeds)
 {
     struct span span = {0, 0, 0};
@@ -197,14 +216,7 @@ enum paper_status studio_session_visit(struct studio_session *s, int deeds)
     if (deeds < 0 || !deed_find(s, deeds > 0 ? deeds - 1 : 0, &span))
         return studio_session_failed(PAPER_BAD_ARGUMENT, "so many deeds are not there: %d",
                                      deeds);
-    const int to = deeds > 0 ? span.end : span.first;
-    if (s->present < 0)
-        s->present = paper_history_done(s->sheet);
-    go_to(s, to);
-    if (to >= s->present)
-        s->present = -1;
-    s->way = -1;
-    s->held = true;
+    studio_session_visit_to(s, deeds > 0 ? span.end : span.first);
     return PAPER_OK;
 }
 

@@ -144,6 +144,7 @@ struct studio_deed {
     const char *what; /* the operation: "stroke", "wash", "put", ... */
     long time, steps; /* gone by before it; that it took, with the time after it */
     bool done;
+    bool marked; /* a bookmark is in it */
 };
 /* Owns: the caller frees *deeds. Errors: NO_MEMORY. */
 enum paper_status studio_session_deeds(const struct studio_session *session,
@@ -165,6 +166,12 @@ void studio_session_from_here(struct studio_session *session);
  * deed that is then another one. */
 bool studio_session_change_waits(const struct studio_session *session);
 int studio_session_change_deed(const struct studio_session *session);
+/* A bookmark at this moment (studio_bookmarks.c), or none any more where one is; going to the
+ * one before or after it, or to the present where there is no later one. Errors: BAD_ARGUMENT
+ * (nothing has been painted; something is inserted; a hand is down; what was undone would be
+ * lost; there is no earlier one), NO_MEMORY. */
+enum paper_status studio_session_bookmark(struct studio_session *session);
+enum paper_status studio_session_bookmark_visit(struct studio_session *session, bool later);
 /* Of the last deed before the visited moment: takes it out, and its time stays; paints it with
  * what is in the dish now; gives a stroke the way of the hand's next one. The present is gone
  * to. Errors: BAD_ARGUMENT (no such deed; nothing of the dish was in it; no stroke; a hand is

@@ -2,10 +2,12 @@
  * the air. */
 #include "studio_session_internal.h"
 
+#include <array.h>
 #include <error_text.h>
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* ---- failures ---- */
@@ -74,6 +76,42 @@ bool studio_session_inserted(const struct studio_session *s)
 }
 
 /* ---- air ---- */
+
+/* Those airs that are the air of before (studio_bookmarks.c). */
+enum paper_status studio_session_bookmarks(const struct studio_session *s, int **operations,
+                                           int *count)
+{
+    const int all = paper_history_done(s->sheet) + paper_history_undone(s->sheet);
+    struct paper_air air = paper_air_default();
+    enum paper_status status = PAPER_OK;
+    int capacity = 0;
+    *operations = NULL;
+    *count = 0;
+    for (int i = 0; i < all && status == PAPER_OK; i++) {
+        struct paper_moment moment;
+        void *arguments;
+        if (!paper_history_moment(s->sheet, i, &moment) || strcmp(moment.what, "air") != 0)
+            continue;
+        status = paper_history_arguments(s->sheet, i, &arguments);
+        if (status != PAPER_OK)
+            break;
+        const bool same = memcmp(arguments, &air, sizeof air) == 0;
+        memcpy(&air, arguments, sizeof air);
+        paper_history_arguments_free(moment.what, arguments);
+        if (!same)
+            continue;
+        if (!array_reserve(operations, &capacity, *count + 1, sizeof **operations))
+            status = studio_session_failed(PAPER_NO_MEMORY, "no memory for bookmarks");
+        else
+            (*operations)[(*count)++] = i;
+    }
+    if (status != PAPER_OK) {
+        free(*operations);
+        *operations = NULL;
+        *count = 0;
+    }
+    return status;
+}
 
 enum paper_status studio_session_air(struct studio_session *s)
 {

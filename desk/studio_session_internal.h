@@ -77,6 +77,12 @@ bool studio_session_inserted(const struct studio_session *s);
 
 /* After a deed that a hand has done. */
 enum paper_status studio_session_deed_done(struct studio_session *s, enum paper_status status);
+/* Goes to the moment after so many operations. */
+void studio_session_visit_to(struct studio_session *s, int operations);
+/* The bookmarks' operations, in their order, with those that are undone. Owns: the caller frees
+ * *operations. Errors: NO_MEMORY, BAD_FILE. */
+enum paper_status studio_session_bookmarks(const struct studio_session *s, int **operations,
+                                           int *count);
 /* What was taken out of the past, or changed there, is as it was before. False: nothing was, or
  * it cannot be. */
 bool studio_session_change_undo(struct studio_session *s);

@@ -262,6 +262,65 @@ static void changes_are_undone(void **state)
     studio_session_destroy(s);
 }
 
+/* A wet moment in the midst of a deed's time is found again, after what was inserted earlier,
+ * and in the saved sheet; the sheet is what it was without bookmarks. */
+static void wet_moments_are_marked(void **state)
+{
+    (void)state;
+    static const struct hand *const two[] = {&wash, &blue, NULL}, *const more[] = {&cloth,
+                                                                                   &wash, &blue,
+                                                                                   NULL};
+    static const int wet_steps[] = {5, 4}, two_steps[] = {5, 13}, more_steps[] = {0, 5, 4};
+    char path[] = "/tmp/lutetia-bookmark-XXXXXX.h5";
+    struct studio_session *s = begin();
+    struct studio_deed *deeds;
+    int count, file = mkstemps(path, 3);
+    assert_true(file >= 0);
+    close(file);
+    assert_int_equal(studio_session_bookmark(s), PAPER_BAD_ARGUMENT); /* no deed yet */
+    studio_session_destroy(s);
+    s = painted(two, wet_steps);
+    good(studio_session_bookmark(s));
+    good(studio_session_steps(s, 9, NULL));
+    is_sheet_of(s, two, two_steps);
+    good(studio_session_deeds(s, &deeds, &count));
+    assert_true(count == 2 && !deeds[0].marked && deeds[1].marked && deeds[1].steps == 13);
+    free(deeds);
+    good(studio_session_bookmark_visit(s, false));
+    assert_true(studio_session_visits(s));
+    is_sheet_of(s, two, wet_steps);
+    assert_int_equal(studio_session_bookmark_visit(s, false), PAPER_BAD_ARGUMENT);
+    good(studio_session_bookmark_visit(s, true)); /* there is no later one: the present */
+    assert_false(studio_session_visits(s));
+    good(studio_session_visit(s, 0));
+    paint(s, &cloth);
+    good(studio_session_present(s));
+    good(studio_session_save(s, path));
+    studio_session_destroy(s);
+    good(studio_session_open(path, 64e6, &s));
+    unlink(path);
+    good(studio_session_bookmark_visit(s, false));
+    is_sheet_of(s, more, more_steps);
+    /* one at a visited moment, which stays visited; and none there any more */
+    good(studio_session_visit(s, 2));
+    good(studio_session_bookmark(s));
+    assert_true(studio_session_visits(s));
+    good(studio_session_bookmark_visit(s, true));
+    is_sheet_of(s, more, more_steps);
+    good(studio_session_bookmark_visit(s, false));
+    good(studio_session_bookmark(s));
+    assert_true(studio_session_visits(s));
+    assert_int_equal(studio_session_bookmark_visit(s, false), PAPER_BAD_ARGUMENT);
+    good(studio_session_present(s));
+    assert_true(studio_session_undo(s)); /* with its deed the bookmark goes */
+    assert_int_equal(studio_session_bookmark(s),
+                     PAPER_BAD_ARGUMENT); /* what was undone stays */
+    assert_true(studio_session_redo(s));
+    good(studio_session_bookmark_visit(s, false));
+    is_sheet_of(s, more, more_steps);
+    studio_session_destroy(s);
+}
+
 static void another_present_begins(void **state)
 {
     (void)state;
@@ -281,9 +340,10 @@ static void another_present_begins(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(moments_are_visited), cmocka_unit_test(deeds_are_inserted),
-        cmocka_unit_test(deeds_are_taken_out), cmocka_unit_test(deeds_are_changed),
-        cmocka_unit_test(changes_are_undone),  cmocka_unit_test(another_present_begins),
+        cmocka_unit_test(moments_are_visited),    cmocka_unit_test(deeds_are_inserted),
+        cmocka_unit_test(deeds_are_taken_out),    cmocka_unit_test(deeds_are_changed),
+        cmocka_unit_test(wet_moments_are_marked), cmocka_unit_test(changes_are_undone),
+        cmocka_unit_test(another_present_begins),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
