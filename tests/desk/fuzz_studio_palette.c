@@ -22,6 +22,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     text[size] = '\0';
     config.pigments[config.pigments_count++] = *paper_pigment_find("french ultramarine");
     config.pigments[config.pigments_count++] = *paper_pigment_find("quinacridone rose");
+    /* the first byte only counts (fuzz_pieces.h) */
     const bool good =
         studio_palette_parse(size > 0 ? text + 1 : text, &config, &palette, why, sizeof why);
     free(text);

@@ -10,8 +10,10 @@
 
 #include <brush.h>
 #include <display.h>
+#include <history.h>
 #include <state.h>
 
+#include <math.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -135,6 +137,133 @@ static void stamps_are_in_the_script(void **state)
     assert_int_equal(saved_count("stamped.h5", "print"), 1);
     assert_int_equal(saved_count("stamped.h5", "resist"), 1);
     played_script_is("stamped.lua", "made/stamped.png", "stamped.png");
+}
+
+/* ---- shapes and steadying ---- */
+
+/* The strokes of a saved sheet, in their order; the caller frees each with its moment's
+ * name. */
+static int strokes_read(const char *name, struct paper_stroke *strokes[], int most)
+{
+    struct paper_state *file;
+    struct paper_sheet *sheet;
+    struct paper_moment moment;
+    int count = 0;
+    assert_int_equal(paper_state_open(played_path(name), &file), PAPER_OK);
+    assert_int_equal(paper_state_load(file, 0, false, 0, &sheet), PAPER_OK);
+    for (int i = 0; paper_history_moment(sheet, i, &moment); i++) {
+        void *arguments;
+        if (strcmp(moment.what, "stroke") != 0)
+            continue;
+        assert_true(count < most);
+        assert_int_equal(paper_history_arguments(sheet, i, &arguments), PAPER_OK);
+        strokes[count++] = arguments;
+    }
+    paper_sheet_destroy(sheet);
+    paper_state_close(file);
+    return count;
+}
+
+#define VIEW_ZOOM 2.5
+#define VIEW_DEGREES 30.0
+
+/* The sheet's place under a place of the canvas, from its middle: turned, mirrored. */
+static void place_of(double u, double v, double place[2])
+{
+    const double turn = VIEW_DEGREES * 3.14159265358979 / 180;
+    place[0] = SCENE_WIDTH / 2.0 - (cos(turn) * u + sin(turn) * v) / VIEW_ZOOM;
+    place[1] = SCENE_HEIGHT / 2.0 + (cos(turn) * v - sin(turn) * u) / VIEW_ZOOM;
+}
+
+static bool at_place(const struct paper_stroke_sample *sample, const double place[2])
+{
+    return fabs(sample->x - place[0]) < 1e-6 && fabs(sample->y - place[1]) < 1e-6;
+}
+
+static void line_is_straight(const struct paper_stroke *line)
+{
+    const struct paper_stroke_sample *first = line->samples,
+                                     *last = first + line->samples_count - 1;
+    const double along[2] = {last->x - first->x, last->y - first->y};
+    double ends[2][2], before = -1;
+    place_of(-70, -20, ends[0]);
+    place_of(60, 45, ends[1]);
+    assert_true(line->samples_count > 8 && at_place(first, ends[0]) && at_place(last, ends[1]));
+    for (int i = 0; i < line->samples_count; i++) {
+        const double x = first[i].x - first->x, y = first[i].y - first->y,
+                     at = x * along[0] + y * along[1];
+        assert_true(fabs(x * along[1] - y * along[0]) < 1e-6 && at > before);
+        before = at;
+    }
+}
+
+/* Between the places where the hand came down and was lifted, upright on the sheet, closed. */
+static void ellipse_is_one(const struct paper_stroke *ellipse)
+{
+    double a[2], b[2], left = 1e9, right = -1e9;
+    place_of(-40, -40, a);
+    place_of(50, 30, b);
+    for (int i = 0; i < ellipse->samples_count; i++) {
+        const struct paper_stroke_sample *at = &ellipse->samples[i];
+        const double x = (2 * at->x - a[0] - b[0]) / (b[0] - a[0]),
+                     y = (2 * at->y - a[1] - b[1]) / (b[1] - a[1]);
+        assert_true(fabs(x * x + y * y - 1) < 1e-6);
+        left = fmin(left, x);
+        right = fmax(right, x);
+    }
+    const double ends[2] = {ellipse->samples[0].x, ellipse->samples[0].y};
+    assert_true(at_place(&ellipse->samples[ellipse->samples_count - 1], ends));
+    assert_true(left < -0.98 && right > 0.98);
+}
+
+/* How far a way goes to both sides of the canvas's middle line, in its units. */
+static double reach_of(const struct paper_stroke *stroke)
+{
+    const double turn = VIEW_DEGREES * 3.14159265358979 / 180;
+    double most = 0;
+    for (int i = 1; i + 1 < stroke->samples_count; i++) {
+        const double x = SCENE_WIDTH / 2.0 - stroke->samples[i].x,
+                     y = stroke->samples[i].y - SCENE_HEIGHT / 2.0;
+        most = fmax(most, fabs(VIEW_ZOOM * (sin(turn) * x + cos(turn) * y)));
+    }
+    return most;
+}
+
+/* A line, an ellipse, a hand that trembles, and the same one steadied, seen turned and
+ * mirrored. */
+static void hand_is_helped(void **state)
+{
+    (void)state;
+    struct paper_stroke *strokes[5];
+    double end[2];
+    FILE *events = played_begin();
+    fprintf(events, "0 set paused on\n0 view %g %g %g %g 1\n", VIEW_ZOOM, SCENE_WIDTH / 2.0,
+            SCENE_HEIGHT / 2.0, VIEW_DEGREES);
+    fprintf(events, "0.1 set shape line\n0.1 down -70 -20 0.5\n0.15 move 10 -60 0.5\n"
+                    "0.2 up 60 45 0.5\n0.3 set shape ellipse\n0.3 down -40 -40 0.5\n"
+                    "0.4 up 50 30 0.5\n0.5 set shape free\n");
+    for (int steady = 0; steady < 2; steady++) {
+        fprintf(events, "%d set steady %d\n%d.0 down -60 0 0.5\n", 1 + steady, steady,
+                1 + steady);
+        for (int i = 1; i < 40; i++)
+            fprintf(events, "%d.%03d move %d %d 0.5\n", 1 + steady, 10 * i, -60 + 3 * i,
+                    i % 2 ? 12 : -12);
+        fprintf(events, "%d.4 up 60 0 0.5\n", 1 + steady);
+    }
+    fprintf(events, "3 save %s\n3.1 close\n", played_path("helped.h5"));
+    fclose(events);
+    played_run(NULL);
+    assert_int_equal(played.status, 0);
+    assert_int_equal(strokes_read("helped.h5", strokes, 5), 4);
+    line_is_straight(strokes[0]);
+    ellipse_is_one(strokes[1]);
+    place_of(60, 0, end);
+    for (int i = 2; i < 4; i++)
+        assert_true(at_place(&strokes[i]->samples[strokes[i]->samples_count - 1], end));
+    assert_int_equal(strokes[2]->samples_count, 41);
+    assert_true(fabs(reach_of(strokes[2]) - 12) < 1e-6 && reach_of(strokes[3]) < 3);
+    for (int i = 0; i < 4; i++)
+        paper_history_arguments_free("stroke", strokes[i]);
 }
 
 /* Saved, and closed, in mid-stroke; the focus lost in another one: each is one stroke, and none
@@ -263,6 +392,7 @@ int main(void)
         cmocka_unit_test(script_makes_the_same),
         cmocka_unit_test(selection_is_in_the_script),
         cmocka_unit_test(stamps_are_in_the_script),
+        cmocka_unit_test(hand_is_helped),
         cmocka_unit_test(closed_in_mid_stroke),
         cmocka_unit_test(killed_and_found_again),
         cmocka_unit_test(wrong_is_one_line),
