@@ -66,6 +66,8 @@ static const char *deed_name(const char *what)
 {
     if (strcmp(what, "put") == 0)
         return _("ink"); /* a drop, or type */
+    if (strcmp(what, "print") == 0)
+        return _("picture"); /* a stamp in its own colours */
     return strcmp(what, "resist") == 0 ? _("mask") : _(what);
 }
 

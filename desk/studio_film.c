@@ -190,6 +190,8 @@ static void operation_say(struct film *f, const char *what, const void *argument
         amounts_say(f, wash->amount, text, sizeof text);
     else if (strcmp(what, "resist") == 0)
         snprintf(text, sizeof text, "masking fluid");
+    else if (strcmp(what, "print") == 0)
+        snprintf(text, sizeof text, "picture");
     say(f, text);
 }
 

@@ -121,12 +121,14 @@ double display_png_bytes(const char *path, int channels)
     /* signature, then IHDR: length, kind, width, height, depth, colour, compression, filter,
      * interlacing */
     enum { WIDTH = 16, HEIGHT = 20, DEPTH = 24, INTERLACED = 28, HEADER = 29, PLANES = 4 };
+    static const uint8_t begins[WIDTH] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n',
+                                          0,    0,   0,   13,  'I',  'H',  'D',  'R'};
     uint8_t header[HEADER];
     FILE *file = input_file_open(path, NULL);
     const bool read = file && fread(header, 1, sizeof header, file) == sizeof header;
     if (file)
         fclose(file);
-    if (!read)
+    if (!read || memcmp(header, begins, sizeof begins) != 0)
         return 0;
     double side[2] = {0, 0};
     for (int i = 0; i < 4; i++) {

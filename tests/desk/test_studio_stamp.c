@@ -220,8 +220,13 @@ static void wrong_pictures_are_told(void **state)
     assert_int_equal(studio_stamp_read("/no/such.png", &stamp), PAPER_BAD_FILE);
     assert_null(stamp.rgb);
     assert_non_null(strstr(studio_session_error(), "/no/such.png"));
-    assert_int_equal(studio_stamp_read("/bin/sh", &stamp), PAPER_BAD_FILE);
-    assert_non_null(strstr(studio_session_error(), "/bin/sh"));
+    FILE *file = fopen(picture, "w"); /* a text: its bytes are no size of a picture */
+    assert_non_null(file);
+    fputs("this is no picture, though it has the name of one", file);
+    fclose(file);
+    assert_int_equal(studio_stamp_read(picture, &stamp), PAPER_BAD_FILE);
+    assert_non_null(strstr(studio_session_error(), picture));
+    assert_non_null(strstr(studio_session_error(), "PNG"));
 }
 
 static int begin(void **state)

@@ -7,6 +7,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 
@@ -71,6 +72,24 @@ static void color_reads_as_luminance(void **state)
         assert_int_equal(in.pixels[i], 80 * (i / 3));
     display_image_destroy(&out);
     display_image_destroy(&in);
+}
+
+/* The memory that a picture takes is known by its header; a text has none, whatever its bytes
+ * would say. */
+static void memory_is_told_of_pictures_alone(void **state)
+{
+    (void)state;
+    const char *path = scratch_path("memory.png");
+    struct display_image out = image_make(64, 10, 1);
+    assert_int_equal(display_png_write(path, &out), DISPLAY_OK);
+    display_image_destroy(&out);
+    assert_true(display_png_bytes(path, 3) >= 64 * 10 * 3 &&
+                display_png_bytes(path, 3) < 64 * 100 * 3);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs("this is no picture, though it has the name of one", file);
+    fclose(file);
+    assert_true(display_png_bytes(path, 3) == 0);
 }
 
 static void write_leaves_nothing_beside(void **state)
@@ -166,6 +185,7 @@ int main(void)
         cmocka_unit_test(sixteen_bits_are_written_in_png_order),
         cmocka_unit_test(gray_comes_back),
         cmocka_unit_test(color_reads_as_luminance),
+        cmocka_unit_test(memory_is_told_of_pictures_alone),
         cmocka_unit_test(write_leaves_nothing_beside),
         cmocka_unit_test(devices_are_refused),
         cmocka_unit_test(full_disk_keeps_the_old_file),
