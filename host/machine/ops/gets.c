@@ -168,7 +168,7 @@ struct machine_value *gets_made(struct machine *m, struct machine_value *address
         return source;
     if (!cross ||
         (source->op != NODE_CONSTANT && (bits >= CROSS_NEAR || node_is_cheap(source))))
-        source = materialise(m, set, source);
+        source = materialise_in_blocks(m, set, source);
     if (!source)
         return NULL;
     if (cross)
