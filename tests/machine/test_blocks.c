@@ -171,9 +171,9 @@ static void sequencers_have_shares_of_the_device(void **state)
     struct machine *m = machine_of("2", s);
     const bool divides = m->device->is_pocl && m->device->units > 1 && m->settings.near;
     machine_destroy(m);
-    struct found apart = run("2", s);
-    setenv("LUTETIA_BLOCKS_APART", "0", 1);
     struct found together = run("2", s);
+    setenv("LUTETIA_BLOCKS_APART", "1", 1);
+    struct found apart = run("2", s);
     unsetenv("LUTETIA_BLOCKS_APART");
     assert_int_equal(apart.blocks.sequencers, divides ? 2 : 1);
     assert_int_equal(together.blocks.sequencers, 1);
