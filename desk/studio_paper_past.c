@@ -190,7 +190,8 @@ bool studio_paper_past(struct studio_paper *p, struct studio_past *past)
     struct studio_past_deed *deeds =
         realloc(past->deeds, ((size_t)p->past.count + 1) * sizeof *deeds);
     if (deeds) {
-        memcpy(deeds, p->past.deeds, (size_t)p->past.count * sizeof *deeds);
+        if (p->past.count) /* else there may be no deeds to copy from */
+            memcpy(deeds, p->past.deeds, (size_t)p->past.count * sizeof *deeds);
         *past = (struct studio_past){p->past.count, deeds};
     }
     pthread_mutex_unlock(&p->lock);
