@@ -147,13 +147,35 @@ static double share_heard(struct microphone *m)
     return count > 20 ? (double)right / (count - 20) : 0;
 }
 
+static void server_end(pid_t pulseaudio)
+{
+    kill(pulseaudio, SIGKILL);
+    waitpid(pulseaudio, NULL, 0);
+}
+
+static void children_reap(void)
+{
+    while (waitpid(-1, NULL, WNOHANG) > 0)
+        continue;
+}
+
+static bool gone_at_last(struct microphone *m)
+{
+    float rest[480];
+    const double until_s = clock_now_s() + 30;
+    while (!microphone_gone(m) && clock_now_s() < until_s) {
+        (void)microphone_take(m, rest, 480);
+        poll(NULL, 0, 1);
+    }
+    return microphone_gone(m);
+}
+
 /* A busy machine may leave some out: then it is played again. */
 static void what_is_played_is_heard(void **unused)
 {
     (void)unused;
     const pid_t pulseaudio = pulseaudio_begin();
     struct microphone *m = microphone_wait(pulseaudio);
-    float rest[480];
     if (!m) {
         skip_because("no PulseAudio server can be started here");
     }
@@ -165,19 +187,50 @@ static void what_is_played_is_heard(void **unused)
         share = heard > share ? heard : share;
     }
     assert_true(share > 0.8);
-    kill(pulseaudio, SIGKILL);
-    waitpid(pulseaudio, NULL, 0);
-    const double until_s = clock_now_s() + 30;
-    while (!microphone_gone(m) && clock_now_s() < until_s)
-        (void)microphone_take(m, rest, 480);
-    assert_true(microphone_gone(m));
+    server_end(pulseaudio);
+    assert_true(gone_at_last(m));
     microphone_close(m);
-    while (waitpid(-1, NULL, WNOHANG) > 0)
-        continue;
+    children_reap();
+}
+
+/* A server ends when it has just sent much at once, which the microphones still read: all
+ * notice, and can be closed. */
+static void a_server_that_ends_is_noticed(void **unused)
+{
+    enum { MICROPHONES = 12, SERVERS = 4 };
+    struct microphone *m[MICROPHONES];
+    char why[300];
+    (void)unused;
+    for (int server = 0; server < SERVERS; server++) {
+        const pid_t pulseaudio = pulseaudio_begin();
+        m[0] = microphone_wait(pulseaudio);
+        if (!m[0]) {
+            skip_because("no PulseAudio server can be started here");
+        }
+        for (int i = 1; i < MICROPHONES; i++)
+            assert_true(microphone_open("pulse", &m[i], why, sizeof why));
+        const pid_t player = player_begin();
+        float samples[RATE_HZ / 4];
+        for (int i = 0; i < MICROPHONES; i++)
+            hear(m[i], samples, 480);
+        kill(pulseaudio, SIGSTOP);
+        poll(NULL, 0, 200);
+        kill(pulseaudio, SIGCONT);
+        poll(NULL, 0, 3 + 2 * server);
+        server_end(pulseaudio);
+        for (int i = 0; i < MICROPHONES; i++)
+            assert_true(gone_at_last(m[i]));
+        for (int i = 0; i < MICROPHONES; i++)
+            microphone_close(m[i]);
+        kill(player, SIGKILL);
+        waitpid(player, NULL, 0);
+        children_reap();
+    }
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_played_is_heard)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_played_is_heard),
+                                       cmocka_unit_test(a_server_that_ends_is_noticed)};
     return cmocka_run_group_tests_name("pulse", tests, NULL, NULL);
 }
