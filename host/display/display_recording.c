@@ -289,6 +289,41 @@ static void pixel_draw(const struct display_screen *s, const uint8_t *from, int6
     }
 }
 
+/* The colour map as it is used for rows that are neither zoomed nor panned. */
+struct plain_map {
+    uint8_t of[256][4];
+    bool same; /* each channel's number stays as it is */
+};
+
+static void plain_map_make(struct plain_map *m, const struct display_screen *s)
+{
+    m->same = true;
+    for (int i = 0; i < 256; i++)
+        for (int c = 0; c < 3; c++) {
+            m->of[i][c] = s->map[i][c];
+            m->same = m->same && s->map[i][c] == i;
+        }
+}
+
+/* Four bytes are written for a pixel of three, which is faster; the next pixel is written over
+ * the fourth. After the last one there may be no room for it. */
+static void row_draw_plain(const struct display_screen *s, const struct plain_map *m,
+                           const uint8_t *from, uint8_t *to)
+{
+    const int64_t last = s->width_px - 1;
+    uint8_t pixel[4] = {0};
+    for (int64_t x = 0; x <= last; x++) {
+        if (s->pixel_bytes == 1)
+            memcpy(pixel, m->of[from[x]], 4);
+        else if (m->same)
+            memcpy(pixel, from + 4 * x, 4);
+        else
+            for (int c = 0; c < 3; c++)
+                pixel[c] = m->of[from[4 * x + c]][c];
+        memcpy(to + 3 * x, pixel, x < last ? 4 : 3);
+    }
+}
+
 static void row_draw(const struct display_screen *s, const uint8_t *from, uint8_t *to)
 {
     const uint8_t *end = to + 3 * (size_t)s->width_px;
@@ -313,11 +348,17 @@ enum display_status display_screen_picture(const struct display_screen *s,
     const uint8_t *pixels = s->pixels[s->seen];
     const size_t row_bytes = (size_t)s->width_px * (size_t)s->pixel_bytes;
     const size_t to_bytes = 3 * (size_t)s->width_px;
+    const bool plain = pixels && s->zoom[0] == 1 && s->pan[0] == 0;
+    struct plain_map map = {0};
+    if (plain)
+        plain_map_make(&map, s);
     for (int row = 0; row < s->height_px; row++) {
         const int64_t y = s->pan[1] + (int64_t)row / s->zoom[1];
         uint8_t *to = image->pixels + (size_t)row * to_bytes;
         if (y < 0 || y >= s->height_px)
             memset(to, 0, to_bytes);
+        else if (plain)
+            row_draw_plain(s, &map, pixels + (size_t)y * row_bytes, to);
         else
             row_draw(s, pixels ? pixels + (size_t)y * row_bytes : NULL, to);
     }

@@ -59,6 +59,36 @@ static void filter_choose(struct window *window, double scale)
                       scale == 1 ? GL_NEAREST : GL_LINEAR);
 }
 
+/* The window has got another size than its picture, which is scaled from now on. */
+static void texture_from_direct(struct window *window)
+{
+    const struct gl *gl = &window->gl;
+    int width, height;
+    const uint8_t *pixels = window_x11_pixels(window->x11, &width, &height);
+    gl->BindTexture(GL_TEXTURE_2D, window->texture);
+    gl->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, width, height, 0, GL_BGRA, GL_UNSIGNED_BYTE,
+                   pixels);
+    window->direct = window->mipmaps = false;
+    window->channels = gl->GetError() == GL_NO_ERROR ? 3 : 0;
+}
+
+/* True: the server shows it as it is. */
+static bool directly_shown(struct window *window, const struct display_image *image)
+{
+    int width, height;
+    glfw3.GetFramebufferSize(window->glfw, &width, &height);
+    if (!window->x11 || image->channels != 3 || image->width_px != width ||
+        image->height_px != height || !window_x11_keep(window->x11, image))
+        return false;
+    window->direct = true;
+    window->channels = 0; /* there is no texture of this size */
+    window->image_width_px = width;
+    window->image_height_px = height;
+    window_x11_put(window->x11);
+    return true;
+}
+
 void window_draw(struct window *window)
 {
     const struct gl *gl = &window->gl;
@@ -66,10 +96,17 @@ void window_draw(struct window *window)
     window->stale = false;
     if (window->drawn_by_caller)
         return;
-    glfw3.MakeContextCurrent(window->glfw);
     glfw3.GetFramebufferSize(window->glfw, &width, &height);
     if (width < 1 || height < 1)
         return; /* an icon now */
+    if (window->direct && width == window->image_width_px &&
+        height == window->image_height_px) {
+        window_x11_put(window->x11);
+        return;
+    }
+    glfw3.MakeContextCurrent(window->glfw);
+    if (window->direct)
+        texture_from_direct(window);
     gl->Viewport(0, 0, width, height);
     gl->ClearColor(0, 0, 0, 1);
     gl->Clear(GL_COLOR_BUFFER_BIT);
@@ -111,7 +148,10 @@ enum display_status window_show(struct window *window, const struct display_imag
                             "4 channels (got %dx%d with %d%s)",
                             window->side_max_px, image->width_px, image->height_px,
                             image->channels, image->pixels ? "" : ", and no pixels");
+    if (directly_shown(window, image))
+        return DISPLAY_OK;
     glfw3.MakeContextCurrent(window->glfw);
+    window->direct = false;
     gl->BindTexture(GL_TEXTURE_2D, window->texture);
     gl->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
     if (image->width_px == window->image_width_px &&

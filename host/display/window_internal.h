@@ -6,6 +6,7 @@
 #include "glfw_library.h"
 #include "pen.h"
 #include "window.h"
+#include "window_x11.h"
 
 #ifndef GL_CLAMP_TO_EDGE /* OpenGL 1.2 */
 #define GL_CLAMP_TO_EDGE 0x812F
@@ -41,6 +42,7 @@ struct gl {
 #define GL_MEMBER(name, parameters) void(*name) parameters;
     GL_FUNCTIONS(GL_MEMBER)
     GLenum (*GetError)(void);
+    const GLubyte *(*GetString)(GLenum);
     void (*GenerateMipmap)(
         GLenum); /* NULL before OpenGL 3: shrunk images are then less smooth */
 };
@@ -55,6 +57,8 @@ struct window {
     bool mipmaps;                                  /* mipmaps of the present image have been
                                                     * made */
     bool stale;                                    /* the window must be redrawn */
+    struct window_x11 *x11;                        /* NULL: pictures go through OpenGL */
+    bool direct; /* the picture that is seen is x11's; the texture is not */
     /* Events. */
     struct input_queue queue;
     struct input_event pointer; /* the pointer and the modifiers as they are now */

@@ -2,8 +2,10 @@
 #include "display_internal.h"
 #include "window_internal.h"
 
+#include <library.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static enum display_status fail_glfw(const char *what)
 {
@@ -20,6 +22,7 @@ static bool functions_find(struct gl *gl)
     all = all && gl->name;
     GL_FUNCTIONS(GL_FIND)
     gl->GetError = (GLenum(*)(void))glfw3.GetProcAddress("glGetError");
+    gl->GetString = (const GLubyte *(*)(GLenum))glfw3.GetProcAddress("glGetString");
     gl->GenerateMipmap = (void (*)(GLenum))glfw3.GetProcAddress("glGenerateMipmap");
     GLint major = 0;
     if (all && gl->GetError) /* a driver may return functions that it does not implement */
@@ -28,7 +31,35 @@ static bool functions_find(struct gl *gl)
         major = 0;
     if (major < 3)
         gl->GenerateMipmap = NULL;
-    return all && gl->GetError;
+    return all && gl->GetError && gl->GetString;
+}
+
+/* Whether the processors compute what OpenGL draws. Mesa's drivers of that kind are these. */
+static bool gl_is_software(const struct gl *gl)
+{
+    static const char *const drivers[] = {"llvmpipe", "softpipe", "swrast",
+                                          "Software Rasterizer"};
+    const GLubyte *name = gl->GetString(GL_RENDERER);
+    for (size_t i = 0; name && i < sizeof drivers / sizeof *drivers; i++)
+        if (strstr((const char *)name, drivers[i]))
+            return true;
+    return false;
+}
+
+/* NULL: none, or GLFW draws on something else than X11. */
+static struct window_x11 *x11_begin(GLFWwindow *glfw)
+{
+    static struct {
+        unsigned long (*glfwGetX11Window)(GLFWwindow *);
+    } native;
+    static const struct library_function functions[] = {
+        LIBRARY_FUNCTION(native, glfwGetX11Window)};
+    const char *missing;
+    const unsigned long window =
+        native.glfwGetX11Window || library_load(GLFW_FILE, functions, 1, &native, &missing)
+            ? native.glfwGetX11Window(glfw)
+            : 0;
+    return window ? window_x11_begin(window) : NULL;
 }
 
 static GLFWwindow *glfw_window_make(const struct window_config *config)
@@ -113,6 +144,8 @@ enum display_status window_create(const struct window_config *config, struct win
     window->gl.TexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
     window->gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     window->drawn_by_caller = config->drawn_by_caller;
+    if (!window->drawn_by_caller && gl_is_software(&window->gl))
+        window->x11 = x11_begin(window->glfw);
     window_input_begin(window);
     glfw3.ShowWindow(window->glfw);
     window_draw(window);
@@ -128,6 +161,7 @@ void window_destroy(struct window *window)
 {
     if (!window)
         return;
+    window_x11_end(window->x11);
     if (window->glfw) {
         glfw3.MakeContextCurrent(window->glfw);
         if (window->texture)

@@ -1,0 +1,178 @@
+/* window_x11.c - see window_x11.h. The X libraries are loaded where they are needed. */
+#include "window_x11.h"
+
+#include <X11/Xlib.h>
+#include <X11/Xutil.h>
+#include <X11/extensions/XShm.h>
+#include <endian.h>
+#include <library.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ipc.h>
+#include <sys/shm.h>
+
+/* clang-format off */
+#define X_NAMES(X)                                                                             \
+    X(OpenDisplay) X(CloseDisplay) X(GetWindowAttributes) X(CreateGC) X(FreeGC) X(Sync)        \
+    X(SetErrorHandler) X(ShmQueryExtension) X(ShmCreateImage) X(ShmAttach) X(ShmDetach)        \
+    X(ShmPutImage)
+/* clang-format on */
+
+#define X_MEMBER(name) __typeof__(X##name) *name;
+static struct x {
+    X_NAMES(X_MEMBER)
+} x;
+
+/* libXext comes with libX11, whose functions are found through it. */
+static bool library_loaded(void)
+{
+#define X_ROW(name) {"X" #name, offsetof(struct x, name)},
+    static const struct library_function functions[] = {X_NAMES(X_ROW)};
+    const char *missing;
+    return x.OpenDisplay || library_load("libXext.so.6", functions,
+                                         sizeof functions / sizeof *functions, &x, &missing);
+}
+
+struct window_x11 {
+    Display *display;
+    Window window;
+    XWindowAttributes attributes;
+    GC context;
+    XImage *image; /* NULL: there is none yet */
+    XShmSegmentInfo segment;
+};
+
+static bool refused;
+
+static int error_note(Display *display, XErrorEvent *event)
+{
+    (void)display, (void)event;
+    refused = true;
+    return 0;
+}
+
+static bool pixels_are_known(const XWindowAttributes *a)
+{
+    const Visual *v = a->visual;
+    return v && (a->depth == 24 || a->depth == 32) && v->red_mask == 0xff0000 &&
+           v->green_mask == 0xff00 && v->blue_mask == 0xff;
+}
+
+static void image_end(struct window_x11 *x11)
+{
+    if (!x11->image)
+        return;
+    x.ShmDetach(x11->display, &x11->segment);
+    x.Sync(x11->display, False);
+    XDestroyImage(x11->image);
+    shmdt(x11->segment.shmaddr);
+    x11->image = NULL;
+}
+
+/* A server on another computer, or in another container, has the extension and refuses here. */
+static bool image_begin(struct window_x11 *x11, int width_px, int height_px)
+{
+    XImage *image = x.ShmCreateImage(
+        x11->display, x11->attributes.visual, (unsigned int)x11->attributes.depth, ZPixmap,
+        NULL, &x11->segment, (unsigned int)width_px, (unsigned int)height_px);
+    if (!image)
+        return false;
+    const size_t bytes = (size_t)image->bytes_per_line * (size_t)height_px;
+    x11->segment.shmid = image->bits_per_pixel == 32 && image->byte_order == LSBFirst
+                             ? shmget(IPC_PRIVATE, bytes, IPC_CREAT | 0600)
+                             : -1;
+    void *at = x11->segment.shmid >= 0 ? shmat(x11->segment.shmid, NULL, 0) : (void *)-1;
+    refused = at == (void *)-1;
+    if (!refused) {
+        x11->segment.shmaddr = image->data = at;
+        x11->segment.readOnly = True;
+        int (*before)(Display *, XErrorEvent *) = x.SetErrorHandler(error_note);
+        x.ShmAttach(x11->display, &x11->segment);
+        x.Sync(x11->display, False);
+        x.SetErrorHandler(before);
+    }
+    if (x11->segment.shmid >= 0)
+        shmctl(x11->segment.shmid, IPC_RMID, NULL); /* it goes with the last who has it */
+    if (!refused) {
+        x11->image = image;
+        return true;
+    }
+    if (at != (void *)-1)
+        shmdt(at);
+    image->data = NULL;
+    XDestroyImage(image);
+    return false;
+}
+
+struct window_x11 *window_x11_begin(unsigned long window)
+{
+    struct window_x11 *x11 = library_loaded() ? calloc(1, sizeof *x11) : NULL;
+    if (!x11)
+        return NULL;
+    x11->window = window;
+    x11->display = x.OpenDisplay(NULL);
+    if (x11->display && x.ShmQueryExtension(x11->display) &&
+        x.GetWindowAttributes(x11->display, window, &x11->attributes) &&
+        pixels_are_known(&x11->attributes) &&
+        (x11->context = x.CreateGC(x11->display, window, 0, NULL)) && image_begin(x11, 1, 1))
+        return x11;
+    window_x11_end(x11);
+    return NULL;
+}
+
+void window_x11_end(struct window_x11 *x11)
+{
+    if (!x11)
+        return;
+    image_end(x11);
+    if (x11->context)
+        x.FreeGC(x11->display, x11->context);
+    if (x11->display)
+        x.CloseDisplay(x11->display);
+    free(x11);
+}
+
+/* Four bytes are read for a pixel of three, which is faster; but not of the last one. */
+static void row_keep(const uint8_t *from, uint32_t *to, int count)
+{
+    uint32_t four;
+    for (int i = 0; i < count - 1; i++, from += 3) {
+        memcpy(&four, from, sizeof four);
+        to[i] = UINT32_C(0xff000000) | be32toh(four) >> 8;
+    }
+    to[count - 1] =
+        UINT32_C(0xff000000) | (uint32_t)from[0] << 16 | (uint32_t)from[1] << 8 | from[2];
+}
+
+bool window_x11_keep(struct window_x11 *x11, const struct display_image *image)
+{
+    const XImage *kept = x11->image;
+    if (!kept || kept->width != image->width_px || kept->height != image->height_px) {
+        image_end(x11);
+        if (!image_begin(x11, image->width_px, image->height_px))
+            return false;
+    }
+    for (int row = 0; row < image->height_px; row++) {
+        const uint8_t *from = image->pixels + 3 * (size_t)image->width_px * (size_t)row;
+        uint32_t *to =
+            (void *)(x11->image->data + (size_t)x11->image->bytes_per_line * (size_t)row);
+        row_keep(from, to, image->width_px);
+    }
+    return true;
+}
+
+/* The server has read the picture when this returns, so the next one may be kept. */
+void window_x11_put(struct window_x11 *x11)
+{
+    const XImage *i = x11->image;
+    x.ShmPutImage(x11->display, x11->window, x11->context, x11->image, 0, 0, 0, 0,
+                  (unsigned int)i->width, (unsigned int)i->height, False);
+    x.Sync(x11->display, False);
+}
+
+const uint8_t *window_x11_pixels(const struct window_x11 *x11, int *width_px, int *height_px)
+{
+    *width_px = x11->image->width;
+    *height_px = x11->image->height;
+    return (const uint8_t *)x11->image->data;
+}

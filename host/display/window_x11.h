@@ -1,0 +1,31 @@
+/* window_x11.h - a window's picture put by the X server, from memory that both share.
+ *
+ * Where OpenGL is computed by the processors (llvmpipe), a picture of 1024x512 takes 7 ms of
+ * them: it becomes a texture, which a rectangle samples, and is then handed to the server. Put
+ * as it is, it costs a copy. */
+#ifndef LUTETIA_WINDOW_X11_H
+#define LUTETIA_WINDOW_X11_H
+
+#include "display.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+struct window_x11;
+
+/* NULL: not an X11 window, or a server that is elsewhere, or one with other pixels than 8 bits
+ * of red, green and blue in 32. The window must outlive what is returned. Owns: the caller ends
+ * it. */
+struct window_x11 *window_x11_begin(unsigned long window);
+void window_x11_end(struct window_x11 *x11); /* NULL is fine */
+
+/* Keeps a picture with three channels. False: there is no memory for it. */
+bool window_x11_keep(struct window_x11 *x11, const struct display_image *image);
+
+/* Puts the picture that is kept at the window's upper left corner. */
+void window_x11_put(struct window_x11 *x11);
+
+/* Its pixels, row by row, each blue, green, red and a byte without meaning. */
+const uint8_t *window_x11_pixels(const struct window_x11 *x11, int *width_px, int *height_px);
+
+#endif

@@ -1,0 +1,31 @@
+/* window_x11_none.c - a build without X11's headers: pictures go through OpenGL. */
+#include "window_x11.h"
+
+struct window_x11 *window_x11_begin(unsigned long window)
+{
+    (void)window;
+    return NULL;
+}
+
+void window_x11_end(struct window_x11 *x11)
+{
+    (void)x11;
+}
+
+bool window_x11_keep(struct window_x11 *x11, const struct display_image *image)
+{
+    (void)x11, (void)image;
+    return false;
+}
+
+void window_x11_put(struct window_x11 *x11)
+{
+    (void)x11;
+}
+
+const uint8_t *window_x11_pixels(const struct window_x11 *x11, int *width_px, int *height_px)
+{
+    (void)x11;
+    *width_px = *height_px = 0;
+    return NULL;
+}
