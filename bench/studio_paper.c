@@ -9,7 +9,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SIDE = 1024, WET = 300, PIGMENTS = 3, STROKE_PIECES = 100, REPORTS = 4, UNDOS = 9 };
+enum {
+    SIDE = 1024,
+    WET = 300,
+    PIGMENTS = 3,
+    STROKE_PIECES = 100,
+    REPORTS = 4,
+    UNDOS = 9,
+    PICTURES = 60
+};
 enum { SIDE_QUICK = 64, WET_QUICK = 48, PIECES_QUICK = 4 };
 #define PIECE_S (1.0 / 60)
 #define PACE 60.0
@@ -98,20 +106,30 @@ struct hand {
     int pieces;
 };
 
-/* What has changed, as the studio's thread looks. */
-static bool look(const struct hand *h)
+/* What has changed, as the studio's thread looks; how many pixels that are. */
+static bool look_areas(const struct hand *h, struct paper_area areas[PAPER_AREAS_MAX],
+                       double *pixels)
 {
     const struct paper_sheet_config *config = paper_sheet_get_config(h->sheet);
     const struct paper_sheet_view view = {.show = PAPER_SHOW_WET};
-    struct paper_area areas[PAPER_AREAS_MAX];
     const size_t width = (size_t)config->width;
     const int count = paper_sheet_changed(h->sheet, areas);
     bool ok = true;
-    for (int i = 0; i < count && ok; i++)
+    *pixels = 0;
+    for (int i = 0; i < count && ok; i++) {
+        *pixels += (double)areas[i].width * areas[i].height;
         ok = said(paper_sheet_view_area(
             h->sheet, &view, &areas[i],
             h->rgb + 3 * ((size_t)areas[i].y * width + (size_t)areas[i].x), 3 * width));
+    }
     return ok;
+}
+
+static bool look(const struct hand *h)
+{
+    struct paper_area areas[PAPER_AREAS_MAX];
+    double pixels;
+    return look_areas(h, areas, &pixels);
 }
 
 static bool dipped(struct paper_sheet *sheet)
@@ -210,6 +228,29 @@ static bool undo_measure(struct bench_report *r, struct hand *h)
     return ok;
 }
 
+/* The picture of what a step has changed, when the step itself has been computed. */
+static bool picture_measure(struct bench_report *r, struct hand *h)
+{
+    double took_ms[PICTURES], pixels = 0;
+    char of_case[64];
+    const int count = bench_many(PICTURES, 2), warm = bench_many(40, 1);
+    const int side = bench_many(SIDE, SIDE_QUICK);
+    bool ok = true;
+    for (int i = -warm; ok && i < count; i++) {
+        struct paper_area areas[PAPER_AREAS_MAX];
+        ok = look(h) && steps_go(h->sheet, 1);
+        const double began_s = bench_now_s();
+        ok = ok && look_areas(h, areas, &pixels);
+        if (i >= 0)
+            took_ms[i] = 1e3 * (bench_now_s() - began_s);
+    }
+    snprintf(of_case, sizeof of_case, "%.0f pixels of %dx%d", pixels, side, side);
+    if (ok)
+        bench_report_add(r, "picture of a part", of_case, bench_sample_of(took_ms, count), 1,
+                         "ms");
+    return ok;
+}
+
 static bool hand_measure(struct bench_report *r)
 {
     const int strokes = bench_many(100, 1), warm = bench_many(5, 0);
@@ -222,7 +263,7 @@ static bool hand_measure(struct bench_report *r)
     ok = ok && sheet_make(bench_many(SIDE, SIDE_QUICK), bench_many(WET, WET_QUICK), &h.sheet) &&
          said(paper_sheet_brush(h.sheet, &brush)) &&
          strokes_measure(r, &h, 600, strokes, warm) && undo_measure(r, &h) &&
-         strokes_measure(r, &h, 3000, bench_many(10, 1), warm);
+         picture_measure(r, &h) && strokes_measure(r, &h, 3000, bench_many(10, 1), warm);
     paper_sheet_destroy(h.sheet);
     free(h.rgb);
     free(h.took_ms);

@@ -17,6 +17,7 @@
  *     desk_type.c      type on the sheet
  *     desk_stamp.c     pictures that are put on the sheet
  *     desk_past.c      time under the hand
+ *     desk_beside.c    a moment beside the sheet
  *     desk_play.c      recorded input: events and actions from a file
  *     desk_measure.c   how long the window takes
  *
@@ -58,6 +59,7 @@ struct desk_options {
 struct desk_gl;
 struct desk_play;
 struct desk_measure;
+struct desk_beside;
 
 struct desk {
     struct desk_options options;
@@ -85,7 +87,9 @@ struct desk {
     /* the hand */
     struct desk_pen *pen;
     bool down, panning, space;
-    bool shaping; /* a line or an ellipse, which is sent when it ends */
+    bool eraser;        /* the pen is held the other way round */
+    unsigned modifiers; /* of input.h, when the hand came down */
+    bool shaping;       /* a line or an ellipse, which is sent when it ends */
     double steady_x, steady_y, steady_s;
     bool pen_presses; /* a pen has told a pressure; one that never does presses as a mouse */
     double last_x, last_y, last_s, speed;
@@ -109,6 +113,7 @@ struct desk {
     struct studio_past past;
     unsigned long past_seen;
     int past_sent, past_shown, past_shown_of; /* moments that were sent; that are shown */
+    struct desk_beside *beside;
     struct desk_play *play;
     struct desk_measure *measure;    /* NULL: nothing is measured */
     bool closed;                     /* the window was, by its person */
@@ -127,7 +132,9 @@ void desk_window_open(struct desk *d);
 void desk_say(struct desk *d, const char *text); /* in the window, until it is put away */
 void desk_send(struct desk *d, enum studio_message_kind kind);
 void desk_set(struct desk *d, int setting,
-              double value);                     /* here, on the paper and in the panel */
+              double value); /* here, on the paper and in the panel */
+/* The tool of the pointer: the one that is set, or that of a pen's other end. */
+enum studio_tool_number desk_tool(const struct desk *d);
 double desk_cursor_radius(const struct desk *d); /* fibers */
 /* What the tool leaves, as a colour: that of the dish, or gray. */
 void desk_tool_color(const struct desk *d, double rgb[3]);
@@ -148,6 +155,8 @@ void desk_gl_destroy(struct desk_gl *gl);
 bool desk_gl_picture(struct desk_gl *gl, const struct studio_picture *picture);
 void desk_gl_shown(struct desk_gl *gl, const struct studio_shown *shown);
 void desk_gl_draw(struct desk_gl *gl, const struct desk *d, int scale);
+/* The picture alone, as the view has it. */
+void desk_gl_sheet(struct desk_gl *gl, const struct studio_view *view, int scale);
 
 /* desk_shape.c */
 /* A place of the canvas as the steadied way has it; from where it begins. */
@@ -227,6 +236,15 @@ GtkWidget *desk_past_new(struct desk *d); /* hidden */
 GtkWidget *desk_flow_new(struct desk *d); /* seen while the past flows anew */
 void desk_past_look(struct desk *d);      /* after a report */
 void desk_past_move(struct desk *d, int by);
+
+/* desk_beside.c */
+GtkWidget *desk_beside_new(struct desk *d); /* hidden */
+void desk_beside_keep(struct desk *d);      /* what is seen is; or nothing any more */
+bool desk_beside_due(const struct desk *d); /* it will be, when it is seen */
+void desk_beside_look(struct desk *d);      /* after a report */
+void desk_beside_drop(struct desk *d);      /* nothing is beside any more */
+void desk_beside_show(struct desk *d);      /* draw it again */
+void desk_beside_free(struct desk *d);
 
 /* desk_unsaved.c */
 /* The folder of journals of sheets that were never saved; NULL: it cannot be made. Free it by

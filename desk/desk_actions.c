@@ -40,6 +40,7 @@ SENDS(redo, STUDIO_MESSAGE_REDO)
 SENDS(dry, STUDIO_MESSAGE_DRY)
 SENDS(seal, STUDIO_MESSAGE_SEAL)
 SENDS(select_none, STUDIO_MESSAGE_SELECT_NONE)
+SENDS(select_invert, STUDIO_MESSAGE_SELECT_INVERT)
 SENDS(present, STUDIO_MESSAGE_PRESENT)
 SENDS(from_here, STUDIO_MESSAGE_FROM_HERE)
 SENDS(take_out, STUDIO_MESSAGE_REMOVE)
@@ -55,6 +56,7 @@ CALLS(stop, studio_paper_stop(d->paper))
 CALLS(earlier, desk_past_move(d, -1))
 CALLS(later, desk_past_move(d, 1))
 CALLS(past, gtk_widget_set_visible(d->past_box, !gtk_widget_get_visible(d->past_box)))
+CALLS(beside, desk_beside_keep(d))
 CALLS(new_sheet, desk_file_new(d))
 CALLS(open_sheet, desk_file_open(d))
 CALLS(save, desk_file_save(d, false))
@@ -132,9 +134,13 @@ static const struct {
     {"Ctrl+Enter", "let the type into the paper"},
     {"Ctrl+D, Ctrl+L", "dry the sheet, seal it under a glaze"},
     {"Ctrl+Shift+A", "select nothing: the whole sheet takes paint again"},
+    {"Ctrl+Shift+V", "invert the selection"},
+    {"Shift or Alt and drag, with the selection",
+     "join it to what is selected, or take it out"},
     {"Ctrl+T; Alt+Left, Alt+Right, Alt+Home",
      "the past; an earlier or later moment, the present"},
     {"Ctrl+B; Alt+Up, Alt+Down", "a bookmark at this moment; from one to the next"},
+    {"Ctrl+K", "keep this moment beside the sheet, or none any more"},
     {"Ctrl+Delete, Ctrl+R, Ctrl+J",
      "there: take the deed out, do it with the dish, another way"},
     {"Ctrl+E, Ctrl+Shift+E", "write a picture, a script that makes the same sheet"},
@@ -300,6 +306,7 @@ static const GActionEntry entries[] = {
     {.name = "dry", .activate = dry},
     {.name = "seal", .activate = seal},
     {.name = "select-none", .activate = select_none},
+    {.name = "select-invert", .activate = select_invert},
     {.name = "go-on", .activate = go_on},
     {.name = "past", .activate = past},
     {.name = "earlier", .activate = earlier},
@@ -312,6 +319,7 @@ static const GActionEntry entries[] = {
     {.name = "bookmark-earlier", .activate = bookmark_earlier},
     {.name = "bookmark-later", .activate = bookmark_later},
     {.name = "from-here", .activate = from_here},
+    {.name = "beside", .activate = beside},
     {.name = "stop", .activate = stop},
     {.name = "zoom-in", .activate = zoom_in},
     {.name = "zoom-out", .activate = zoom_out},
@@ -344,6 +352,7 @@ static const struct desk_row menu_rows[] = {
     {"win.dry", "Dry the sheet", "<Control>d"},
     {"win.seal", "Seal under a glaze", "<Control>l"},
     {"win.select-none", "Select nothing", "<Control><Shift>a"},
+    {"win.select-invert", "Invert the selection", "<Control><Shift>v"},
     {NULL, NULL, NULL},
     {"win.past", "The past", "<Control>t"},
     {"win.earlier", "An earlier moment", "<Alt>Left"},
@@ -356,6 +365,7 @@ static const struct desk_row menu_rows[] = {
     {"win.dish", "Do this deed with the dish", "<Control>r"},
     {"win.way", "Give this stroke another way", "<Control>j"},
     {"win.from-here", "Begin anew here", "<Control><Alt>Home"},
+    {"win.beside", "Keep this moment beside, or none", "<Control>k"},
     {"win.stop", "Stop what flows anew", "<Control>Escape"},
     {NULL, NULL, NULL},
     {"win.zoom-in", "Larger", "<Control>plus"},
@@ -408,6 +418,7 @@ void desk_actions_enable(struct desk *d)
         {"bookmark-earlier", d->report.deeds_done > 0 && !d->report.inserts},
         {"bookmark-later", d->report.visits && !d->report.inserts},
         {"way", d->report.deeds_done > 0 && !d->report.inserts},
+        {"beside", d->report.ready},
         {"stop", d->report.flow_total > 0},
         {"save", d->report.ready},
         {"save-as", d->report.ready},
@@ -419,6 +430,7 @@ void desk_actions_enable(struct desk *d)
         {"palette-save", d->report.ready},
         {"dry", d->report.ready},
         {"seal", d->report.ready},
-        {"select-none", d->report.selected}};
+        {"select-none", d->report.selected},
+        {"select-invert", d->report.selected}};
     desk_frame_enable(d->window, states, G_N_ELEMENTS(states));
 }

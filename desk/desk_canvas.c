@@ -22,6 +22,7 @@ void desk_canvas_changed(struct desk *d)
         snprintf(text, sizeof text, "%.0f %% · %.0f°%s", 100 * d->view.zoom, degrees,
                  d->view.mirrored ? _(" mirrored") : "");
     gtk_label_set_text(GTK_LABEL(d->place), text);
+    desk_beside_show(d);
     desk_canvas_show(d);
 }
 
@@ -31,13 +32,13 @@ void desk_ghost_add(struct desk *d, unsigned long number, double x, double y, bo
 {
     struct desk_ghost ghost = {
         .number = number, .x = x, .y = y, .radius = desk_cursor_radius(d), .begins = begins};
-    const int tool = (int)d->settings.value[STUDIO_TOOL];
+    const enum studio_tool_number tool = desk_tool(d);
     const bool lasso = tool == STUDIO_TOOL_SELECT &&
                        (int)d->settings.value[STUDIO_OUTLINE] == STUDIO_OUTLINE_LASSO;
     desk_tool_color(d, ghost.rgb);
     if (lasso)
         ghost.radius = LASSO_PX / d->view.zoom;
-    if (studio_tool_of(&d->settings)->swept || tool == STUDIO_TOOL_DROP || lasso)
+    if (studio_tools[tool].swept || tool == STUDIO_TOOL_DROP || lasso)
         g_array_append_val(d->ghost, ghost);
 }
 
@@ -127,6 +128,7 @@ static void canvas_resize(GtkGLArea *area, int width, int height, struct desk *d
     if (d->viewed && d->seen.width && d->view.turn == 0 && !d->view.mirrored &&
         d->view.zoom < 1)
         studio_view_fit(&d->view, d->seen.width, d->seen.height);
+    desk_beside_show(d);
 }
 
 /* ---- zoom ---- */

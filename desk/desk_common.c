@@ -36,10 +36,16 @@ void desk_set(struct desk *d, int setting, double value)
 
 /* ---- the tool ---- */
 
+enum studio_tool_number desk_tool(const struct desk *d)
+{
+    return d->eraser ? studio_settings_eraser(&d->settings)
+                     : (enum studio_tool_number)d->settings.value[STUDIO_TOOL];
+}
+
 double desk_cursor_radius(const struct desk *d)
 {
     const double *value = d->settings.value;
-    switch ((enum studio_tool_number)value[STUDIO_TOOL]) {
+    switch (desk_tool(d)) {
     case STUDIO_TOOL_BRUSH:
     case STUDIO_TOOL_WATER:
         return studio_tuft_radius(value[STUDIO_WIDTH], value[STUDIO_POINT], value[STUDIO_SPLAY],
@@ -70,6 +76,6 @@ void desk_tool_color(const struct desk *d, double rgb[3])
     double amount[1 + PAPER_PIGMENTS_MAX];
     studio_settings_amounts(&d->settings, amount);
     studio_swatch(&d->report.config, amount, rgb);
-    if (!studio_tool_of(&d->settings)->inked)
+    if (!studio_tools[desk_tool(d)].inked)
         rgb[0] = rgb[1] = rgb[2] = 0.7;
 }

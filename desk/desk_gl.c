@@ -314,7 +314,7 @@ static void ghost_draw(struct desk_gl *gl, const struct desk *d, int scale, int 
 static void drag_draw(struct desk_gl *gl, const struct desk *d, int scale,
                       const struct look *look)
 {
-    const int tool = (int)d->settings.value[STUDIO_TOOL];
+    const enum studio_tool_number tool = desk_tool(d);
     const struct studio_place to = studio_view_to_sheet(&d->view, d->pointer_x, d->pointer_y);
     const double x[] = {d->down_x, to.x, to.x, d->down_x, d->down_x},
                  y[] = {d->down_y, d->down_y, to.y, to.y, d->down_y};
@@ -350,9 +350,11 @@ static void outline_draw(struct desk_gl *gl, const struct desk *d, int scale)
     const double dash = DASH_PX * scale, width = scale * d->view.width,
                  height = scale * d->view.height;
     double gone = 0; /* pixels along the outline */
-    for (int i = 0; i < d->outline.count; i++) {
-        const double *p = d->outline.points + 2 * i,
-                     *q = d->outline.points + 2 * ((i + 1) % d->outline.count);
+    for (int i = 0, loop = 0, begin = 0; i < d->outline.count; i++) {
+        while (loop + 1 < d->outline.loops && i >= d->outline.ends[loop])
+            begin = d->outline.ends[loop++];
+        const int next = i + 1 < d->outline.ends[loop] ? i + 1 : begin;
+        const double *p = d->outline.points + 2 * i, *q = d->outline.points + 2 * next;
         const struct studio_place a = pixel_of(d, scale, p[0], p[1]),
                                   b = pixel_of(d, scale, q[0], q[1]);
         const double length = hypot(b.x - a.x, b.y - a.y);
@@ -395,19 +397,12 @@ static void cursor_draw(struct desk_gl *gl, const struct desk *d, int scale)
 
 /* ---- all of it ---- */
 
-static void sheet_draw(const struct desk_gl *gl, const struct desk *d, int scale,
-                       const double ink[3], int height)
+static GLuint sheet_program(const struct desk_gl *gl, const struct studio_view *v, int scale,
+                            bool mask)
 {
-    const struct studio_view *v = &d->view;
     const double pixel = 1 / (v->zoom * scale), c = pixel * cos(v->turn),
                  s = pixel * sin(v->turn), side = v->mirrored ? -1 : 1;
     const GLfloat turned[] = {(float)(side * c), (float)-s, (float)(side * s), (float)c};
-    const bool stamps = desk_stamps(d),
-               mask = gl->shown.gray != NULL && (!stamps || d->pointer_inside);
-    const struct studio_place at = studio_view_to_sheet(v, d->pointer_x, d->pointer_y);
-    const double on_x =
-                     gl->shown.x + (stamps ? floor(at.x) : 0), /* a stamp is at the pointer */
-        on_y = gl->shown.y + (stamps ? floor(at.y) : 0);
     const GLuint p =
         mask ? gl->masked : gl->sheet; /* two look-ups a place cost twice as much */
     glUseProgram(p);
@@ -418,12 +413,14 @@ static void sheet_draw(const struct desk_gl *gl, const struct desk *d, int scale
                 (float)(scale * v->height / 2));
     glUniform2f(glGetUniformLocation(p, "origin"), (float)v->x0, (float)v->y0);
     glUniform2f(glGetUniformLocation(p, "size"), (float)gl->width, (float)gl->height);
-    glUniform4f(glGetUniformLocation(p, "masked"), (float)on_x, (float)on_y,
-                (float)gl->shown.width, (float)gl->shown.height);
     glUniform3f(glGetUniformLocation(p, "desk"), 0.30f, 0.29f, 0.28f);
-    glUniform3f(glGetUniformLocation(p, "ink"), (float)ink[0], (float)ink[1], (float)ink[2]);
     glUniform1f(glGetUniformLocation(p, "fibers"), (float)pixel);
-    glUniform1f(glGetUniformLocation(p, "height"), (float)height);
+    glUniform1f(glGetUniformLocation(p, "height"), (float)lrint(scale * v->height));
+    return p;
+}
+
+static void sheet_triangle(const struct desk_gl *gl)
+{
     glActiveTexture(GL_TEXTURE1);
     glBindTexture(GL_TEXTURE_2D, gl->mask);
     glActiveTexture(GL_TEXTURE0);
@@ -431,6 +428,32 @@ static void sheet_draw(const struct desk_gl *gl, const struct desk *d, int scale
     glBindVertexArray(gl->array);
     glDisable(GL_BLEND);
     glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+static void sheet_draw(const struct desk_gl *gl, const struct desk *d, int scale,
+                       const double ink[3])
+{
+    const bool stamps = desk_stamps(d),
+               mask = gl->shown.gray != NULL && (!stamps || d->pointer_inside);
+    const struct studio_place at = studio_view_to_sheet(&d->view, d->pointer_x, d->pointer_y);
+    const double on_x =
+                     gl->shown.x + (stamps ? floor(at.x) : 0), /* a stamp is at the pointer */
+        on_y = gl->shown.y + (stamps ? floor(at.y) : 0);
+    const GLuint p = sheet_program(gl, &d->view, scale, mask);
+    glUniform4f(glGetUniformLocation(p, "masked"), (float)on_x, (float)on_y,
+                (float)gl->shown.width, (float)gl->shown.height);
+    glUniform3f(glGetUniformLocation(p, "ink"), (float)ink[0], (float)ink[1], (float)ink[2]);
+    sheet_triangle(gl);
+}
+
+void desk_gl_sheet(struct desk_gl *gl, const struct studio_view *view, int scale)
+{
+    glClearColor(0.30f, 0.29f, 0.28f, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    if (!gl->width)
+        return;
+    sheet_program(gl, view, scale, false);
+    sheet_triangle(gl);
 }
 
 void desk_gl_draw(struct desk_gl *gl, const struct desk *d, int scale)
@@ -443,7 +466,7 @@ void desk_gl_draw(struct desk_gl *gl, const struct desk *d, int scale)
     if (!gl->width)
         return;
     desk_tool_color(d, ink);
-    sheet_draw(gl, d, scale, ink, height);
+    sheet_draw(gl, d, scale, ink);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE);
     ghost_draw(gl, d, scale, width, height);

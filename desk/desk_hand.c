@@ -58,6 +58,27 @@ static void point_send(struct desk *d, enum studio_point_kind kind, const struct
         desk_ghost_add(d, number, at.x, at.y, kind == STUDIO_POINT_DOWN);
 }
 
+static void set_send(struct desk *d, int setting, double value)
+{
+    studio_paper_send(d->paper, (struct studio_message){.kind = STUDIO_MESSAGE_SET,
+                                                        .setting = setting,
+                                                        .value = value});
+}
+
+/* What holds for this deed alone: a deed has the settings of when it began. The pen's other end
+ * is another tool, and Shift and Alt join what is selected, or take it out. */
+static void for_now(struct desk *d, bool begins)
+{
+    const double *value = d->settings.value;
+    if (d->eraser)
+        set_send(d, STUDIO_TOOL, begins ? desk_tool(d) : value[STUDIO_TOOL]);
+    if (desk_tool(d) == STUDIO_TOOL_SELECT && (d->modifiers & (INPUT_SHIFT | INPUT_ALT)))
+        set_send(d, STUDIO_JOIN,
+                 !begins                      ? value[STUDIO_JOIN]
+                 : (d->modifiers & INPUT_ALT) ? STUDIO_JOIN_SUBTRACT
+                                              : STUDIO_JOIN_ADD);
+}
+
 static void down(struct desk *d, const struct input_event *e)
 {
     const struct studio_place at = studio_view_to_sheet(&d->view, e->x_px, e->y_px);
@@ -67,20 +88,25 @@ static void down(struct desk *d, const struct input_event *e)
     }
     if (e->button != INPUT_BUTTON_LEFT || d->down || !d->report.ready)
         return;
-    if ((int)d->settings.value[STUDIO_TOOL] == STUDIO_TOOL_TYPE) {
+    d->eraser = e->eraser;
+    if (desk_tool(d) == STUDIO_TOOL_TYPE) {
         desk_type_begin(d, at.x, at.y);
         return;
     }
-    if ((int)d->settings.value[STUDIO_TOOL] == STUDIO_TOOL_STAMP) {
+    if (desk_tool(d) == STUDIO_TOOL_STAMP) {
         desk_stamp_put(d, at.x, at.y);
         return;
     }
     d->down = true;
     d->down_x = at.x;
     d->down_y = at.y;
+    d->modifiers = e->modifiers;
     d->shaping = desk_shapes(d);
-    if (!d->shaping)
-        point_send(d, STUDIO_POINT_DOWN, e);
+    if (d->shaping)
+        return;
+    for_now(d, true);
+    point_send(d, STUDIO_POINT_DOWN, e);
+    for_now(d, false);
 }
 
 /* A line or an ellipse, as a stroke. */
@@ -89,6 +115,7 @@ static void shape_send(struct desk *d, const struct input_event *e)
     const struct studio_place to = studio_view_to_sheet(&d->view, e->x_px, e->y_px);
     const double length = desk_shape_length(d, to);
     const int count = (int)CLAMP(length / LINE_APART, 8, LINE_POINTS_MOST);
+    for_now(d, true);
     for (int i = 0; i <= count; i++) {
         const struct studio_place at = desk_shape_at(d, to, (double)i / count);
         const struct studio_point point = {.kind = i == 0       ? STUDIO_POINT_DOWN
@@ -104,6 +131,7 @@ static void shape_send(struct desk *d, const struct input_event *e)
         desk_measure_sent(d, number);
         desk_ghost_add(d, number, at.x, at.y, i == 0);
     }
+    for_now(d, false);
 }
 
 static void lift(struct desk *d, const struct input_event *e)
@@ -132,6 +160,8 @@ void desk_hand_event(struct desk *d, const struct input_event *e)
                        e->kind == INPUT_POINTER_UP;
     if (moved)
         d->pressure = pressure_of(d, e);
+    if (moved && !d->down) /* in mid-stroke it stays what it was */
+        d->eraser = e->eraser;
     if (e->kind == INPUT_POINTER_MOVE && d->panning) {
         studio_view_pan(&d->view, e->x_px - d->last_x, e->y_px - d->last_y);
         desk_canvas_changed(d);
@@ -203,6 +233,7 @@ static void pressure_take(struct desk *d, GdkEvent *event, const double *axes, g
     GdkDeviceTool *tool = gdk_event_get_device_tool(event);
     if (tool && (gdk_device_tool_get_axes(tool) & GDK_AXIS_FLAG_PRESSURE)) {
         e->pen = true;
+        e->eraser = gdk_device_tool_get_tool_type(tool) == GDK_DEVICE_TOOL_TYPE_ERASER;
         if (axes) {
             e->pressure = axes[GDK_AXIS_PRESSURE];
             tilt[0] = axes[GDK_AXIS_XTILT];
@@ -213,7 +244,7 @@ static void pressure_take(struct desk *d, GdkEvent *event, const double *axes, g
             gdk_event_get_axis(event, GDK_AXIS_YTILT, &tilt[1]);
         }
     } else
-        e->pen = desk_pen_at(d->pen, time_ms, &e->pressure, tilt);
+        e->pen = desk_pen_at(d->pen, time_ms, &e->pressure, tilt, &e->eraser);
     e->tilt_x = tilt[0];
     e->tilt_y = tilt[1];
 }
@@ -249,6 +280,10 @@ static void button_take(struct desk *d, GdkEvent *event, enum input_kind kind)
                             .button = button == GDK_BUTTON_PRIMARY  ? INPUT_BUTTON_LEFT
                                       : button == GDK_BUTTON_MIDDLE ? INPUT_BUTTON_MIDDLE
                                                                     : INPUT_BUTTON_RIGHT};
+    const GdkModifierType state = gdk_event_get_modifier_state(event);
+    e.modifiers = (state & GDK_SHIFT_MASK ? INPUT_SHIFT : 0u) |
+                  (state & GDK_CONTROL_MASK ? INPUT_CONTROL : 0u) |
+                  (state & GDK_ALT_MASK ? INPUT_ALT : 0u);
     gdk_event_get_position(event, &x, &y);
     if (!place_of(d, x, y, &e))
         return;

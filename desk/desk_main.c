@@ -60,7 +60,8 @@ static void desk_finish(struct desk *d)
     if (d->typed)
         g_string_free(d->typed, TRUE);
     free(d->past.deeds);
-    free(d->outline.points);
+    desk_beside_free(d);
+    studio_outlined_free(&d->outline);
     g_free(d->preedit);
     g_free(d->font);
     g_free(d->stamp);

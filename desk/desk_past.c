@@ -83,7 +83,11 @@ static void card_draw(struct desk *d, cairo_t *cr, const GdkRGBA *text, int numb
         small_draw(cr, deed, x, alpha);
     cairo_set_source_rgba(cr, (double)text->red, (double)text->green, (double)text->blue,
                           alpha);
-    label_draw(d, cr, deed ? deed_name(deed->what) : _("empty"), x);
+    label_draw(d, cr,
+               !deed           ? _("empty")
+               : deed->name[0] ? deed->name
+                               : deed_name(deed->what),
+               x);
     if (deed && deed->marked) { /* a ribbon at the corner */
         const double right = x + STUDIO_SMALL_WIDTH - 6;
         cairo_set_source_rgba(cr, 0.88, 0.2, 0.15, alpha);
@@ -173,6 +177,27 @@ static GtkWidget *button_new(const char *label, const char *action, const char *
     return button;
 }
 
+static void name_entered(GtkEntry *entry, struct desk *d)
+{
+    const char *name = gtk_editable_get_text(GTK_EDITABLE(entry));
+    studio_paper_send(d->paper, (struct studio_message){.kind = STUDIO_MESSAGE_BOOKMARK,
+                                                        .text = g_strdup(name)});
+    gtk_editable_set_text(GTK_EDITABLE(entry), "");
+    gtk_widget_grab_focus(d->canvas);
+}
+
+/* What is typed here is the name of the bookmark at this moment. */
+static GtkWidget *name_new(struct desk *d)
+{
+    GtkWidget *entry = gtk_entry_new();
+    gtk_entry_set_placeholder_text(GTK_ENTRY(entry), _("Name"));
+    gtk_editable_set_width_chars(GTK_EDITABLE(entry), 8);
+    desk_name(entry, _("Bookmark's name"),
+              _("Type a name and press Enter: this moment's bookmark is called so"));
+    g_signal_connect(entry, "activate", G_CALLBACK(name_entered), d);
+    return entry;
+}
+
 GtkWidget *desk_past_new(struct desk *d)
 {
     GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0),
@@ -190,6 +215,8 @@ GtkWidget *desk_past_new(struct desk *d)
         {_("With this dish"), "win.dish", _("This deed is done with what is in the dish now")},
         {_("Another way"), "win.way",
          _("The next stroke that you draw is the way of this one")},
+        {_("Beside"), "win.beside",
+         _("The sheet as it is seen now stays beside it, for comparison (Ctrl+K)")},
         {_("Begin anew here"), "win.from-here",
          _("What you do next takes the place of all that followed")},
     };
@@ -203,6 +230,7 @@ GtkWidget *desk_past_new(struct desk *d)
     gtk_widget_set_margin_start(row, 8);
     gtk_widget_set_margin_end(row, 8);
     gtk_box_append(GTK_BOX(row), d->past_scale);
+    gtk_box_append(GTK_BOX(row), name_new(d));
     for (size_t i = 0; i < G_N_ELEMENTS(buttons); i++)
         gtk_box_append(GTK_BOX(row),
                        button_new(buttons[i].label, buttons[i].action, buttons[i].tip));

@@ -21,11 +21,12 @@ enum { REPORTS = 1024, DEVICES = 64, AXES = 3 };
 struct report {
     guint32 time_ms;
     double axis[AXES]; /* pressure 0..1, tilts -1..1 */
+    bool eraser;
 };
 
 struct device {
     int id;
-    bool pen;
+    bool pen, eraser;
     int number[AXES]; /* of the valuator; -1: it has none */
     double least[AXES], most[AXES], last[AXES];
 };
@@ -53,6 +54,14 @@ static void axis_look(Display *x, struct device *device, const XIValuatorClassIn
         XFree(label);
 }
 
+static bool device_is_eraser(const char *name)
+{
+    char *lower = g_ascii_strdown(name ? name : "", -1);
+    const bool is = strstr(lower, "eraser") != NULL;
+    g_free(lower);
+    return is;
+}
+
 static struct device *device_of(struct desk_pen *pen, Display *x, int id)
 {
     for (int i = 0; i < pen->devices_count; i++)
@@ -67,6 +76,8 @@ static struct device *device_of(struct desk_pen *pen, Display *x, int id)
     for (int i = 0; info && count > 0 && i < info->num_classes; i++)
         if (info->classes[i]->type == XIValuatorClass)
             axis_look(x, device, (const XIValuatorClassInfo *)(const void *)info->classes[i]);
+    if (info && count > 0) /* drivers make the other end a device of that name */
+        device->eraser = device_is_eraser(info->name);
     if (info)
         XIFreeDeviceInfo(info);
     device->pen = device->number[0] >= 0;
@@ -89,6 +100,7 @@ static void report_keep(struct desk_pen *pen, struct device *device, const XIDev
     }
     struct report *report = &pen->reports[pen->reports_count++ % REPORTS];
     report->time_ms = (guint32)e->time;
+    report->eraser = device->eraser;
     memcpy(report->axis, device->last, sizeof report->axis);
 }
 
@@ -123,7 +135,8 @@ void desk_pen_destroy(struct desk_pen *pen)
     g_free(pen);
 }
 
-bool desk_pen_at(struct desk_pen *pen, guint32 time_ms, double *pressure, double tilt[2])
+bool desk_pen_at(struct desk_pen *pen, guint32 time_ms, double *pressure, double tilt[2],
+                 bool *eraser)
 {
     const guint kept = MIN(pen->reports_count, REPORTS);
     const struct report *nearest = NULL;
@@ -139,6 +152,7 @@ bool desk_pen_at(struct desk_pen *pen, guint32 time_ms, double *pressure, double
     *pressure = nearest->axis[0];
     tilt[0] = nearest->axis[1];
     tilt[1] = nearest->axis[2];
+    *eraser = nearest->eraser;
     return true;
 }
 
@@ -157,9 +171,11 @@ void desk_pen_destroy(struct desk_pen *pen)
     (void)pen;
 }
 
-bool desk_pen_at(struct desk_pen *pen, guint32 time_ms, double *pressure, double tilt[2])
+bool desk_pen_at(struct desk_pen *pen, guint32 time_ms, double *pressure, double tilt[2],
+                 bool *eraser)
 {
     (void)pen;
+    (void)eraser;
     (void)time_ms;
     (void)pressure;
     (void)tilt;

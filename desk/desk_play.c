@@ -147,6 +147,9 @@ static void input_do(struct desk *d, const struct studio_input *input)
     case STUDIO_INPUT_STAMP:
         desk_stamp_choose(d, input->text);
         break;
+    case STUDIO_INPUT_BOOKMARK:
+        path_send(d, STUDIO_MESSAGE_BOOKMARK, input->text);
+        break;
     case STUDIO_INPUT_SCRIPT:
         path_send(d, STUDIO_MESSAGE_SCRIPT, input->text);
         break;
@@ -156,8 +159,9 @@ static void input_do(struct desk *d, const struct studio_input *input)
 /* What waits until the paper has done all that it was told. */
 static bool must_wait(const struct desk *d, const struct studio_input *input)
 {
-    return input->kind == STUDIO_INPUT_ACTION && strcmp(input->name, "close") == 0 &&
-           (!d->report.ready || d->view.width <= 0);
+    return desk_beside_due(d) ||
+           (input->kind == STUDIO_INPUT_ACTION && strcmp(input->name, "close") == 0 &&
+            (!d->report.ready || d->view.width <= 0));
 }
 
 static gboolean play_on(gpointer data)

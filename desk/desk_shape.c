@@ -30,7 +30,7 @@ void desk_steady_begin(struct desk *d, double time_s, double x, double y)
 bool desk_shapes(const struct desk *d)
 {
     return (int)d->settings.value[STUDIO_SHAPE] != STUDIO_SHAPE_FREE &&
-           studio_tool_of(&d->settings)->swept;
+           studio_tools[desk_tool(d)].swept;
 }
 
 /* The shape's place at a part 0..1 of its way. */

@@ -16,8 +16,9 @@ struct desk_pen;
 /* desk_pen.c */
 struct desk_pen *desk_pen_create(GtkWidget *canvas);
 void desk_pen_destroy(struct desk_pen *pen);
-/* A pen's report at that time in milliseconds, as near as there is one. False: no pen has
- * spoken. */
-bool desk_pen_at(struct desk_pen *pen, guint32 time_ms, double *pressure, double tilt[2]);
+/* A pen's report at that time in milliseconds, as near as there is one; whether it was its
+ * other end. False: no pen has spoken. */
+bool desk_pen_at(struct desk_pen *pen, guint32 time_ms, double *pressure, double tilt[2],
+                 bool *eraser);
 
 #endif

@@ -111,6 +111,7 @@ static void sheet_take(struct desk *d)
         d->settings.value[i] = d->report.settings.value[i];
     d->settings.value[STUDIO_PAUSED] = d->report.settings.value[STUDIO_PAUSED];
     d->viewed = false;
+    desk_beside_drop(d);
     desk_type_drop(d);
     desk_panel_sheet(d);
     for (int i = 0; i < STUDIO_SETTINGS; i++)
@@ -168,6 +169,7 @@ static gboolean report_take(gpointer data)
     desk_stamp_look(d);
     desk_canvas_look(d);
     desk_past_look(d);
+    desk_beside_look(d);
     title_show(d);
     state_show(d);
     desk_actions_enable(d);
@@ -322,6 +324,7 @@ void desk_window_open(struct desk *d)
     GtkWidget *tools = desk_tools_new(d), *state = state_new(d);
     gtk_widget_set_hexpand(tools, FALSE); /* the sheet has what is left */
     gtk_box_append(GTK_BOX(middle), tools);
+    gtk_box_append(GTK_BOX(middle), desk_beside_new(d));
     gtk_box_append(GTK_BOX(middle), desk_canvas_new(d));
     GtkWidget *panel = desk_panel_new(d);
     gtk_widget_set_hexpand(panel, FALSE);

@@ -50,8 +50,10 @@ static double operation_seconds(const struct paper_sheet *sheet, int number, lon
     if (strcmp(moment.what, "step") == 0)
         return (double)steps / STEPS_A_SECOND;
     if (strcmp(moment.what, "brush") == 0 || strcmp(moment.what, "dip") == 0 ||
-        strcmp(moment.what, "air") == 0)
+        strcmp(moment.what, "air") == 0 || strcmp(moment.what, "bookmark") == 0)
         return 0;
+    if (strcmp(moment.what, "resist") == 0 && studio_selection_ends(sheet, number))
+        return 0; /* it was told with the one before */
     if (strcmp(moment.what, "stroke") != 0)
         return HELD_S;
     if (paper_history_arguments(sheet, number, &arguments) == PAPER_OK) {

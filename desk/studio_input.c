@@ -18,29 +18,43 @@ static const struct word {
     enum input_kind event;
     int button;
     int numbers_least, numbers_most;
-    bool texts; /* a text follows the numbers */
+    bool texts;  /* a text follows the numbers */
+    bool eraser; /* a pen's other end */
+    unsigned modifiers;
 } words[] = {
-    {"down", STUDIO_INPUT_EVENT, INPUT_POINTER_DOWN, INPUT_BUTTON_LEFT, 2, 5, false},
-    {"move", STUDIO_INPUT_EVENT, INPUT_POINTER_MOVE, 0, 2, 5, false},
-    {"up", STUDIO_INPUT_EVENT, INPUT_POINTER_UP, INPUT_BUTTON_LEFT, 2, 5, false},
-    {"middle-down", STUDIO_INPUT_EVENT, INPUT_POINTER_DOWN, INPUT_BUTTON_MIDDLE, 2, 2, false},
-    {"middle-up", STUDIO_INPUT_EVENT, INPUT_POINTER_UP, INPUT_BUTTON_MIDDLE, 2, 2, false},
-    {"leave", STUDIO_INPUT_EVENT, INPUT_POINTER_LEAVE, 0, 0, 0, false},
-    {"focus-lost", STUDIO_INPUT_EVENT, INPUT_FOCUS_LOST, 0, 0, 0, false},
-    {"set", STUDIO_INPUT_SET, INPUT_NONE, 0, 0, 0, true},
-    {"action", STUDIO_INPUT_ACTION, INPUT_NONE, 0, 0, 0, true},
-    {"step", STUDIO_INPUT_STEP, INPUT_NONE, 0, 1, 1, false},
-    {"moment", STUDIO_INPUT_MOMENT, INPUT_NONE, 0, 1, 1, false},
-    {"view", STUDIO_INPUT_VIEW, INPUT_NONE, 0, 5, 5, false},
-    {"type", STUDIO_INPUT_TYPE, INPUT_NONE, 0, 2, 2, true},
-    {"save", STUDIO_INPUT_SAVE, INPUT_NONE, 0, 0, 0, true},
-    {"picture", STUDIO_INPUT_PICTURE, INPUT_NONE, 0, 0, 0, true},
-    {"script", STUDIO_INPUT_SCRIPT, INPUT_NONE, 0, 0, 0, true},
-    {"palette", STUDIO_INPUT_PALETTE, INPUT_NONE, 0, 0, 0, true},
-    {"save-palette", STUDIO_INPUT_PALETTE_SAVE, INPUT_NONE, 0, 0, 0, true},
-    {"film", STUDIO_INPUT_FILM, INPUT_NONE, 0, 0, 0, true},
-    {"stamp", STUDIO_INPUT_STAMP, INPUT_NONE, 0, 0, 0, true},
-    {"measure", STUDIO_INPUT_MEASURE, INPUT_NONE, 0, 0, 0, true},
+    {"down", STUDIO_INPUT_EVENT, INPUT_POINTER_DOWN, INPUT_BUTTON_LEFT, 2, 5, false, false, 0},
+    {"move", STUDIO_INPUT_EVENT, INPUT_POINTER_MOVE, 0, 2, 5, false, false, 0},
+    {"up", STUDIO_INPUT_EVENT, INPUT_POINTER_UP, INPUT_BUTTON_LEFT, 2, 5, false, false, 0},
+    {"shift-down", STUDIO_INPUT_EVENT, INPUT_POINTER_DOWN, INPUT_BUTTON_LEFT, 2, 5, false,
+     false, INPUT_SHIFT},
+    {"alt-down", STUDIO_INPUT_EVENT, INPUT_POINTER_DOWN, INPUT_BUTTON_LEFT, 2, 5, false, false,
+     INPUT_ALT},
+    {"middle-down", STUDIO_INPUT_EVENT, INPUT_POINTER_DOWN, INPUT_BUTTON_MIDDLE, 2, 2, false,
+     false, 0},
+    {"middle-up", STUDIO_INPUT_EVENT, INPUT_POINTER_UP, INPUT_BUTTON_MIDDLE, 2, 2, false, false,
+     0},
+    {"eraser-down", STUDIO_INPUT_EVENT, INPUT_POINTER_DOWN, INPUT_BUTTON_LEFT, 2, 5, false,
+     true, 0},
+    {"eraser-move", STUDIO_INPUT_EVENT, INPUT_POINTER_MOVE, 0, 2, 5, false, true, 0},
+    {"eraser-up", STUDIO_INPUT_EVENT, INPUT_POINTER_UP, INPUT_BUTTON_LEFT, 2, 5, false, true,
+     0},
+    {"leave", STUDIO_INPUT_EVENT, INPUT_POINTER_LEAVE, 0, 0, 0, false, false, 0},
+    {"focus-lost", STUDIO_INPUT_EVENT, INPUT_FOCUS_LOST, 0, 0, 0, false, false, 0},
+    {"set", STUDIO_INPUT_SET, INPUT_NONE, 0, 0, 0, true, false, 0},
+    {"action", STUDIO_INPUT_ACTION, INPUT_NONE, 0, 0, 0, true, false, 0},
+    {"step", STUDIO_INPUT_STEP, INPUT_NONE, 0, 1, 1, false, false, 0},
+    {"moment", STUDIO_INPUT_MOMENT, INPUT_NONE, 0, 1, 1, false, false, 0},
+    {"view", STUDIO_INPUT_VIEW, INPUT_NONE, 0, 5, 5, false, false, 0},
+    {"type", STUDIO_INPUT_TYPE, INPUT_NONE, 0, 2, 2, true, false, 0},
+    {"save", STUDIO_INPUT_SAVE, INPUT_NONE, 0, 0, 0, true, false, 0},
+    {"picture", STUDIO_INPUT_PICTURE, INPUT_NONE, 0, 0, 0, true, false, 0},
+    {"script", STUDIO_INPUT_SCRIPT, INPUT_NONE, 0, 0, 0, true, false, 0},
+    {"palette", STUDIO_INPUT_PALETTE, INPUT_NONE, 0, 0, 0, true, false, 0},
+    {"save-palette", STUDIO_INPUT_PALETTE_SAVE, INPUT_NONE, 0, 0, 0, true, false, 0},
+    {"film", STUDIO_INPUT_FILM, INPUT_NONE, 0, 0, 0, true, false, 0},
+    {"bookmark", STUDIO_INPUT_BOOKMARK, INPUT_NONE, 0, 0, 0, true, false, 0},
+    {"stamp", STUDIO_INPUT_STAMP, INPUT_NONE, 0, 0, 0, true, false, 0},
+    {"measure", STUDIO_INPUT_MEASURE, INPUT_NONE, 0, 0, 0, true, false, 0},
 };
 /* What is an action of the window by its own name. */
 static const char *const actions[] = {"undo", "redo", "dry", "seal", "close"};
@@ -143,6 +157,8 @@ static int word_read(const struct word *word, const char *rest, struct studio_in
     out->event = (struct input_event){
         .kind = word->event, .time_s = out->time_s, .button = word->button};
     event_fill(&out->event, number, count);
+    out->event.eraser = word->eraser;
+    out->event.modifiers = word->modifiers;
     text_read(rest, out->text, sizeof out->text);
     const size_t length = strcspn(out->text, " \t");
     snprintf(out->name, sizeof out->name, "%.*s", (int)(length < 63 ? length : 63), out->text);

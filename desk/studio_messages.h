@@ -31,13 +31,14 @@ enum studio_message_kind {
     STUDIO_MESSAGE_FROM_HERE,
     STUDIO_MESSAGE_REMOVE,
     STUDIO_MESSAGE_DISH,
-    STUDIO_MESSAGE_BOOKMARK,
+    STUDIO_MESSAGE_BOOKMARK,       /* text: its name; NULL: one, or none any more */
     STUDIO_MESSAGE_BOOKMARK_VISIT, /* value: not 0: a later one */
     STUDIO_MESSAGE_WAY,
     STUDIO_MESSAGE_FLOW, /* what was stopped goes on */
     STUDIO_MESSAGE_DRY,
     STUDIO_MESSAGE_SEAL,
     STUDIO_MESSAGE_SELECT_NONE,
+    STUDIO_MESSAGE_SELECT_INVERT,
     STUDIO_MESSAGE_TYPE,      /* type: is let into the paper */
     STUDIO_MESSAGE_TYPE_SHOW, /* type: is shown as it would be; an empty text: nothing is */
     STUDIO_MESSAGE_STAMP, /* text: the picture's file; type_x, type_y: where its middle is */

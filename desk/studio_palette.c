@@ -54,6 +54,20 @@ static char *trimmed(char *text)
     return text;
 }
 
+/* Whether the name is one of those in a list with ", " between. */
+static bool list_has(const char *list, const char *name)
+{
+    const size_t length = strlen(name);
+    for (const char *at = list; *at;) {
+        const size_t here = strcspn(at, ",");
+        if (here == length && memcmp(at, name, length) == 0)
+            return true;
+        at += here;
+        at += strspn(at, ", ");
+    }
+    return false;
+}
+
 /* "french ultramarine 0.6" */
 static bool amount_read(struct reading *r, int well, char *text)
 {
@@ -70,7 +84,7 @@ static bool amount_read(struct reading *r, int well, char *text)
     const int substance = substance_find(r->config, name);
     if (substance >= 0)
         r->out->amount[well][substance] = amount;
-    else if (!strstr(r->out->missing, name))
+    else if (!list_has(r->out->missing, name))
         error_text_list(r->out->missing, sizeof r->out->missing, ", ", name);
     return true;
 }

@@ -29,33 +29,13 @@ enum { STEPS_AT_ONCE = 2 };
 
 /* ---- telling ---- */
 
-/* The window gets the selection's outline where it is another one. */
-static void outline_look(struct studio_paper *p)
-{
-    int count;
-    const double *points = studio_session_selected(p->session, &count);
-    const size_t bytes = 2 * (size_t)count * sizeof *points;
-    if (count == p->outline.count &&
-        (count == 0 || memcmp(points, p->outline.points, bytes) == 0))
-        return;
-    double *made = count > 0 ? malloc(bytes) : NULL;
-    if (made)
-        memcpy(made, points, bytes);
-    pthread_mutex_lock(&p->lock);
-    free(p->outline.points);
-    studio_stamp_free(&p->stamp);
-    p->outline = (struct studio_outlined){made ? count : 0, made};
-    pthread_mutex_unlock(&p->lock);
-    p->now.selected = made != NULL;
-    p->now.outlines++;
-}
-
 static void report_make(struct studio_paper *p)
 {
     struct studio_report *r = &p->now;
     if (p->kept && studio_keeper_failed(&p->keeper, r->error, sizeof r->error))
         r->errors++;
     r->ready = p->session != NULL;
+    r->looked = !p->dirty && !p->flows;
     if (p->session) {
         struct paper_sheet *sheet = studio_session_sheet(p->session);
         r->can_undo = studio_session_can_undo(p->session);
@@ -66,7 +46,7 @@ static void report_make(struct studio_paper *p)
         r->operations = paper_history_done(sheet);
         r->history_bytes = paper_history_bytes(sheet);
         studio_paper_past_look(p);
-        outline_look(p);
+        studio_paper_outline_look(p);
     }
     r->budget_bytes = p->def.budget_bytes;
     pthread_mutex_lock(&p->lock);
@@ -85,10 +65,11 @@ static bool needs_rest(enum studio_message_kind kind)
 {
     return kind == STUDIO_MESSAGE_CARE || kind == STUDIO_MESSAGE_DRY ||
            kind == STUDIO_MESSAGE_SEAL || kind == STUDIO_MESSAGE_SELECT_NONE ||
-           kind == STUDIO_MESSAGE_TYPE || kind == STUDIO_MESSAGE_STAMP ||
-           kind == STUDIO_MESSAGE_NEW || kind == STUDIO_MESSAGE_OPEN ||
-           kind == STUDIO_MESSAGE_SAVE || kind == STUDIO_MESSAGE_PICTURE ||
-           kind == STUDIO_MESSAGE_SCRIPT || kind == STUDIO_MESSAGE_FILM ||
+           kind == STUDIO_MESSAGE_SELECT_INVERT || kind == STUDIO_MESSAGE_TYPE ||
+           kind == STUDIO_MESSAGE_STAMP || kind == STUDIO_MESSAGE_NEW ||
+           kind == STUDIO_MESSAGE_OPEN || kind == STUDIO_MESSAGE_SAVE ||
+           kind == STUDIO_MESSAGE_PICTURE || kind == STUDIO_MESSAGE_SCRIPT ||
+           kind == STUDIO_MESSAGE_FILM ||
            (kind >= STUDIO_MESSAGE_VISIT && kind <= STUDIO_MESSAGE_WAY);
 }
 
@@ -210,7 +191,7 @@ static enum paper_status past_do(struct studio_paper *p, const struct studio_mes
     case STUDIO_MESSAGE_WAY:
         return studio_session_way(s);
     case STUDIO_MESSAGE_BOOKMARK:
-        return studio_session_bookmark(s);
+        return m->text ? studio_session_bookmark_name(s, m->text) : studio_session_bookmark(s);
     case STUDIO_MESSAGE_BOOKMARK_VISIT:
         return studio_session_bookmark_visit(s, m->value != 0);
     default:
@@ -218,6 +199,20 @@ static enum paper_status past_do(struct studio_paper *p, const struct studio_mes
         return m->kind == STUDIO_MESSAGE_DISH ? studio_session_dish(s)
                                               : studio_session_remove(s);
     }
+}
+
+/* Small pictures from a deed on that is changed back, or again, are of before. */
+static void undo_do(struct studio_paper *p, bool undo)
+{
+    struct studio_session *s = p->session;
+    const bool changes =
+        undo ? studio_session_change_waits(s) : studio_session_change_returns(s);
+    if (changes && !studio_session_busy(s))
+        studio_paper_past_forget(p, studio_session_change_deed(s));
+    if (undo)
+        studio_session_undo(s);
+    else
+        studio_session_redo(s);
 }
 
 static enum paper_status message_do(struct studio_paper *p, const struct studio_message *m)
@@ -240,12 +235,8 @@ static enum paper_status message_do(struct studio_paper *p, const struct studio_
         studio_session_go_on(s);
         return PAPER_OK;
     case STUDIO_MESSAGE_UNDO:
-        if (studio_session_change_waits(s) && !studio_session_busy(s))
-            studio_paper_past_forget(p, studio_session_change_deed(s));
-        studio_session_undo(s);
-        return PAPER_OK;
     case STUDIO_MESSAGE_REDO:
-        studio_session_redo(s);
+        undo_do(p, m->kind == STUDIO_MESSAGE_UNDO);
         return PAPER_OK;
     case STUDIO_MESSAGE_VISIT:
     case STUDIO_MESSAGE_PRESENT:
@@ -264,6 +255,8 @@ static enum paper_status message_do(struct studio_paper *p, const struct studio_
         return studio_session_seal(s);
     case STUDIO_MESSAGE_SELECT_NONE:
         return studio_session_select_none(s);
+    case STUDIO_MESSAGE_SELECT_INVERT:
+        return studio_session_select_invert(s);
     case STUDIO_MESSAGE_TYPE:
         return studio_session_type(s, &type);
     case STUDIO_MESSAGE_TYPE_SHOW:
@@ -300,8 +293,9 @@ static bool changes(const struct studio_message *m)
 {
     return of_past(m->kind) || m->kind == STUDIO_MESSAGE_DRY ||
            m->kind == STUDIO_MESSAGE_SEAL || m->kind == STUDIO_MESSAGE_TYPE ||
-           m->kind == STUDIO_MESSAGE_SELECT_NONE || m->kind == STUDIO_MESSAGE_STAMP ||
-           m->kind == STUDIO_MESSAGE_STEP || m->kind == STUDIO_MESSAGE_POINT;
+           m->kind == STUDIO_MESSAGE_SELECT_NONE || m->kind == STUDIO_MESSAGE_SELECT_INVERT ||
+           m->kind == STUDIO_MESSAGE_STAMP || m->kind == STUDIO_MESSAGE_STEP ||
+           m->kind == STUDIO_MESSAGE_POINT;
 }
 
 static void message_hear(struct studio_paper *p, struct studio_message *m)
@@ -488,7 +482,8 @@ void studio_paper_end(struct studio_paper *p, bool forget, struct studio_report 
     free(p->shown_gray);
     free(p->view);
     free(p->past.deeds);
-    free(p->outline.points);
+    studio_outlined_free(&p->outline);
+    studio_stamp_free(&p->stamp);
     free((char *)(uintptr_t)p->def.path);
     free((char *)(uintptr_t)p->def.found);
     free((char *)(uintptr_t)p->def.folder);
@@ -498,6 +493,11 @@ void studio_paper_end(struct studio_paper *p, bool forget, struct studio_report 
 unsigned long studio_paper_send(struct studio_paper *p, struct studio_message message)
 {
     return studio_messages_put(&p->messages, message);
+}
+
+unsigned long studio_paper_sent(const struct studio_paper *p)
+{
+    return p->messages.numbered;
 }
 
 void studio_paper_flush(struct studio_paper *p)
@@ -538,19 +538,4 @@ bool studio_paper_shown(struct studio_paper *p, struct studio_shown *out)
     }
     pthread_mutex_unlock(&p->lock);
     return other;
-}
-
-bool studio_paper_outline(struct studio_paper *p, struct studio_outlined *outline)
-{
-    pthread_mutex_lock(&p->lock);
-    const size_t bytes = 2 * (size_t)p->outline.count * sizeof *outline->points;
-    double *points = malloc(bytes + 1);
-    if (points) {
-        if (bytes > 0)
-            memcpy(points, p->outline.points, bytes);
-        free(outline->points);
-        *outline = (struct studio_outlined){p->outline.count, points};
-    }
-    pthread_mutex_unlock(&p->lock);
-    return points != NULL;
 }

@@ -43,6 +43,7 @@ struct studio_report {
     double history_bytes; /* of the past */
     double budget_bytes;
     unsigned long answered;      /* the number of the last message that was done */
+    bool looked;                 /* and the newest picture is of after it */
     bool found_again;            /* the sheet is as a journal told, not as it was saved */
     unsigned long errors, notes; /* another number: another text */
     char error[STUDIO_TEXT_MAX];
@@ -70,6 +71,8 @@ struct studio_paper *studio_paper_start(const struct studio_paper_def *def);
 void studio_paper_end(struct studio_paper *paper, bool forget, struct studio_report *last);
 
 unsigned long studio_paper_send(struct studio_paper *paper, struct studio_message message);
+/* The number of the last message that was sent. */
+unsigned long studio_paper_sent(const struct studio_paper *paper);
 /* Once a picture of the window's: what found no room goes on. */
 void studio_paper_flush(struct studio_paper *paper);
 void studio_paper_report(struct studio_paper *paper, struct studio_report *out);
@@ -86,8 +89,9 @@ struct studio_past {
     int count;
     struct studio_past_deed {
         char what[16];
-        long time, steps; /* studio_session.h */
-        bool marked;      /* with a bookmark */
+        long time, steps;          /* studio_session.h */
+        bool marked;               /* with a bookmark, */
+        char name[PAPER_NAME_MAX]; /* whose name is this; "": none */
         bool pictured;
         uint8_t rgb[3 * STUDIO_SMALL_WIDTH * STUDIO_SMALL_HEIGHT];
     } * deeds;
@@ -97,11 +101,14 @@ struct studio_past {
 bool studio_paper_past(struct studio_paper *paper, struct studio_past *past);
 
 /* The outline of what is selected, in fibers; count 0: nothing is. Fills *outline, which began
- * as zeros. False: no memory; it is as it was. Owns: the caller frees outline->points. */
+ * as zeros. False: no memory; it is as it was. Owns: studio_outlined_free(). */
 struct studio_outlined {
     int count;
     double *points; /* pairs of x, y */
+    int loops;
+    int *ends; /* of each loop: how many points there are up to its end */
 };
+void studio_outlined_free(struct studio_outlined *outline);
 bool studio_paper_outline(struct studio_paper *paper, struct studio_outlined *outline);
 
 /* The type that is shown, as a screen with its place. False: none, or the same as at the last

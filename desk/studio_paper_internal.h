@@ -76,6 +76,8 @@ enum paper_status studio_paper_film(struct studio_paper *p, const char *path, do
 void studio_paper_show(struct studio_paper *p, const struct studio_shown *shown);
 /* Puts a stamp, or shows one. */
 enum paper_status studio_paper_stamp(struct studio_paper *p, const struct studio_message *m);
+/* The window gets the selection's outline where it is another one. */
+void studio_paper_outline_look(struct studio_paper *p);
 /* Makes a picture of what has changed, and gives it to the window. */
 void studio_paper_look(struct studio_paper *p);
 

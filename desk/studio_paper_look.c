@@ -1,4 +1,4 @@
-/* studio_paper_look.c - pictures of what has changed; failures. */
+/* studio_paper_look.c - pictures of what has changed, and what is shown over them; failures. */
 #include "studio_paper_internal.h"
 #include "studio_session_internal.h"
 
@@ -82,6 +82,72 @@ void studio_paper_look(struct studio_paper *p)
     studio_pictures_publish(p->pictures, &changed, seen_of(p));
     studio_paper_pictured(p);
     p->def.wake(p->def.context);
+}
+
+/* ---- the outline of what is selected ---- */
+
+static bool outline_same(const struct studio_outlined *a, const struct studio_outlined *b)
+{
+    return a->count == b->count && a->loops == b->loops &&
+           (a->count == 0 ||
+            memcmp(a->points, b->points, 2 * (size_t)a->count * sizeof *a->points) == 0) &&
+           (a->loops == 0 || memcmp(a->ends, b->ends, (size_t)a->loops * sizeof *a->ends) == 0);
+}
+
+/* False: no memory. */
+static bool outline_copy(const struct studio_outlined *from, struct studio_outlined *to)
+{
+    const size_t points = 2 * (size_t)from->count * sizeof *from->points,
+                 ends = (size_t)from->loops * sizeof *from->ends;
+    *to = (struct studio_outlined){from->count, malloc(points + 1), from->loops,
+                                   malloc(ends + 1)};
+    if (!to->points || !to->ends) {
+        studio_outlined_free(to);
+        return false;
+    }
+    if (points > 0)
+        memcpy(to->points, from->points, points);
+    if (ends > 0)
+        memcpy(to->ends, from->ends, ends);
+    return true;
+}
+
+void studio_outlined_free(struct studio_outlined *outline)
+{
+    free(outline->points);
+    free(outline->ends);
+    *outline = (struct studio_outlined){0};
+}
+
+void studio_paper_outline_look(struct studio_paper *p)
+{
+    int count, loops;
+    const double *points = studio_session_selected(p->session, &count);
+    const int *ends = studio_session_selected_loops(p->session, &loops);
+    const struct studio_outlined now = {points ? count : 0, (double *)(uintptr_t)points,
+                                        points ? loops : 0, (int *)(uintptr_t)ends};
+    struct studio_outlined made = {0};
+    p->now.selected = points != NULL;
+    if (outline_same(&now, &p->outline) || !outline_copy(&now, &made))
+        return;
+    pthread_mutex_lock(&p->lock);
+    studio_outlined_free(&p->outline);
+    p->outline = made;
+    pthread_mutex_unlock(&p->lock);
+    p->now.outlines++;
+}
+
+bool studio_paper_outline(struct studio_paper *p, struct studio_outlined *outline)
+{
+    pthread_mutex_lock(&p->lock);
+    struct studio_outlined made;
+    const bool good = outline_copy(&p->outline, &made);
+    pthread_mutex_unlock(&p->lock);
+    if (good) {
+        studio_outlined_free(outline);
+        *outline = made;
+    }
+    return good;
 }
 
 /* ---- what is shown as it would be ---- */

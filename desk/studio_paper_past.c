@@ -98,6 +98,7 @@ static bool deeds_take(struct studio_paper *p, const struct studio_deed *deeds, 
         to->time = deeds[i].time;
         to->steps = deeds[i].steps;
         to->marked = deeds[i].marked;
+        memcpy(to->name, deeds[i].name, sizeof to->name);
     }
     p->past.count = count;
     return true;

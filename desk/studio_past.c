@@ -51,7 +51,8 @@ static void deeds_walk(const struct studio_session *s,
 
 struct listing {
     const struct studio_session *session;
-    int *bookmarks, bookmarks_count;
+    struct studio_bookmark *bookmarks;
+    int bookmarks_count;
     struct studio_deed *deeds;
     int count, capacity;
     bool short_of_memory;
@@ -65,9 +66,10 @@ static bool deed_list(void *context, const struct span *span)
         l->short_of_memory = true;
         return false;
     }
-    bool marked = false;
+    const struct studio_bookmark *marked = NULL; /* the last one */
     for (int i = 0; i < l->bookmarks_count; i++)
-        marked = marked || (l->bookmarks[i] > span->itself && l->bookmarks[i] < span->end);
+        if (l->bookmarks[i].operation > span->itself && l->bookmarks[i].operation < span->end)
+            marked = &l->bookmarks[i];
     paper_history_moment(l->session->sheet, span->itself, &begins);
     paper_history_moment(l->session->sheet, span->end - 1, &last);
     l->deeds[l->count++] =
@@ -75,7 +77,9 @@ static bool deed_list(void *context, const struct span *span)
                              .time = begins.time,
                              .steps = last.time + last.steps - begins.time,
                              .done = paper_history_done(l->session->sheet) > span->itself,
-                             .marked = marked};
+                             .marked = marked != NULL};
+    if (marked)
+        memcpy(l->deeds[l->count - 1].name, marked->name, sizeof marked->name);
     return true;
 }
 
@@ -229,10 +233,17 @@ void studio_session_from_here(struct studio_session *s)
 
 /* ---- what was changed, as it was ---- */
 
+static void operation_forget(struct studio_operation *o)
+{
+    free(o->bytes);
+    *o = (struct studio_operation){0};
+}
+
 void studio_session_change_forget(struct studio_session *s)
 {
-    free(s->changed.bytes);
-    s->changed.bytes = NULL;
+    operation_forget(&s->changed.operation);
+    operation_forget(&s->changed.second);
+    s->changed.state = CHANGE_NONE;
 }
 
 /* Keeps operation `number`, before it is changed. */
@@ -241,7 +252,9 @@ static enum paper_status change_keep(struct studio_session *s, int number, bool 
     studio_session_change_forget(s);
     s->changed.number = number;
     s->changed.replaced = replaced;
-    return paper_history_operation(s->sheet, number, &s->changed.bytes, &s->changed.count);
+    s->changed.removed = false;
+    return paper_history_operation(s->sheet, number, &s->changed.operation.bytes,
+                                   &s->changed.operation.count);
 }
 
 /* After it: what goes on from here is no part of what is in its place. */
@@ -249,6 +262,8 @@ static enum paper_status change_made(struct studio_session *s, enum paper_status
 {
     if (status != PAPER_OK)
         studio_session_change_forget(s);
+    else
+        s->changed.state = CHANGE_DONE;
     paper_history_mark(s->sheet);
     studio_session_selection_forget(s);
     return status;
@@ -256,7 +271,14 @@ static enum paper_status change_made(struct studio_session *s, enum paper_status
 
 bool studio_session_change_waits(const struct studio_session *s)
 {
-    return s->changed.bytes && !studio_session_visits(s);
+    return s->changed.state == CHANGE_DONE && !studio_session_visits(s);
+}
+
+bool studio_session_change_returns(const struct studio_session *s)
+{
+    return s->changed.state == CHANGE_UNDONE && !studio_session_visits(s) &&
+           paper_history_undone(s->sheet) == 0 &&
+           s->changed.number + (s->changed.second.bytes != NULL) < paper_history_done(s->sheet);
 }
 
 int studio_session_change_deed(const struct studio_session *s)
@@ -266,28 +288,90 @@ int studio_session_change_deed(const struct studio_session *s)
     return c.count;
 }
 
-bool studio_session_change_undo(struct studio_session *s)
+static enum paper_status operation_again(struct studio_session *s,
+                                         const struct studio_operation *o)
+{
+    return o->bytes ? paper_sheet_again(s->sheet, o->bytes, o->count) : PAPER_OK;
+}
+
+/* The operation that was kept takes the place of the one that is there, which is kept
+ * instead. */
+static enum paper_status change_swap(struct studio_session *s)
 {
     const int number = s->changed.number;
-    if (!studio_session_change_waits(s))
-        return false;
+    struct studio_operation there = {0};
+    enum paper_status status =
+        paper_history_operation(s->sheet, number, &there.bytes, &there.count);
+    if (status == PAPER_OK)
+        status = paper_history_change_begin(s->sheet, number);
+    if (status == PAPER_OK) {
+        status = operation_again(s, &s->changed.operation);
+        const enum paper_status end = paper_history_change_end(s->sheet, status == PAPER_OK);
+        status = status == PAPER_OK ? end : status;
+    }
+    if (status == PAPER_OK) {
+        operation_forget(&s->changed.operation);
+        s->changed.operation = there;
+    } else
+        operation_forget(&there);
+    return status;
+}
+
+/* What was taken out is where it was. */
+static enum paper_status change_return(struct studio_session *s)
+{
+    const int number = s->changed.number;
     const bool last = number >= paper_history_done(s->sheet);
     enum paper_status status = last ? PAPER_OK
                                : s->changed.replaced
                                    ? paper_history_change_begin(s->sheet, number)
                                    : paper_history_insert_before(s->sheet, number);
+    if (status != PAPER_OK)
+        return status;
+    status = operation_again(s, &s->changed.operation);
+    if (status == PAPER_OK)
+        status = operation_again(s, &s->changed.second);
+    const enum paper_status end =
+        last ? PAPER_OK : paper_history_insert_end(s->sheet, status == PAPER_OK);
+    return status == PAPER_OK ? end : status;
+}
+
+/* Takes out the operation, and the second one of a pair. */
+static enum paper_status change_remove(struct studio_session *s)
+{
+    enum paper_status status = PAPER_OK;
+    if (s->changed.second.bytes)
+        status = paper_history_remove(s->sheet, s->changed.number + 1, false);
+    return status == PAPER_OK ? paper_history_remove(s->sheet, s->changed.number, true)
+                              : status;
+}
+
+/* It is as if it had always been there. */
+static bool change_ended(struct studio_session *s, enum paper_status status,
+                         enum studio_change state)
+{
     if (status == PAPER_OK) {
-        status = paper_sheet_again(s->sheet, s->changed.bytes, s->changed.count);
-        const enum paper_status end =
-            last ? PAPER_OK : paper_history_insert_end(s->sheet, status == PAPER_OK);
-        status = status == PAPER_OK ? end : status;
-    }
-    if (status == PAPER_OK) /* it is as if it had always been there */
+        s->changed.state = state;
         paper_history_seek(s->sheet, paper_sheet_steps(s->sheet));
-    studio_session_change_forget(s);
+    } else
+        studio_session_change_forget(s);
+    paper_history_mark(s->sheet);
     s->inserted = -1;
     moved(s);
     return status == PAPER_OK;
+}
+
+bool studio_session_change_undo(struct studio_session *s)
+{
+    return studio_session_change_waits(s) &&
+           change_ended(s, s->changed.removed ? change_return(s) : change_swap(s),
+                        CHANGE_UNDONE);
+}
+
+bool studio_session_change_redo(struct studio_session *s)
+{
+    return studio_session_change_returns(s) &&
+           change_ended(s, s->changed.removed ? change_remove(s) : change_swap(s), CHANGE_DONE);
 }
 
 /* ---- doing something there ---- */
@@ -332,8 +416,13 @@ enum paper_status studio_session_remove(struct studio_session *s)
     paper_history_moment(s->sheet, span.itself, &moment);
     if (status == PAPER_OK)
         status = change_keep(s, span.itself, moment.steps > 0);
+    if (status == PAPER_OK && span.itself + 1 < span.end &&
+        studio_session_pair(s, span.itself + 1))
+        status = paper_history_operation(s->sheet, span.itself + 1, &s->changed.second.bytes,
+                                         &s->changed.second.count);
+    s->changed.removed = true;
     if (status == PAPER_OK)
-        status = paper_history_remove(s->sheet, span.itself, true);
+        status = change_remove(s);
     return change_made(s, status);
 }
 

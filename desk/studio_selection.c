@@ -2,6 +2,7 @@
 #include "studio_selection.h"
 
 #include <arguments.h>
+#include <array.h>
 
 #include <math.h>
 #include <stdlib.h>
@@ -51,33 +52,89 @@ int studio_lasso_points(const double *samples, int count, double *points)
     return left;
 }
 
-/* ---- around an outline ---- */
+/* ---- around a selection ---- */
 
-enum paper_status studio_around_make(const double *points, int count,
-                                     const struct paper_sheet_config *config,
-                                     struct studio_around *out)
+static bool polygon_has_area(const double *points, int count)
 {
-    struct event_bytes bytes = {0};
     double area = 0;
-    *out = (struct studio_around){0};
     for (int i = 0; i < count; i++) {
         const double *a = points + 2 * i, *b = points + 2 * ((i + 1) % count);
         area += a[0] * b[1] - b[0] * a[1];
     }
-    if (count < 3 || fabs(area) < 2)
+    return count >= 3 && fabs(area) >= 2;
+}
+
+/* The polygon, in the numbers of the drawing that it is added to. */
+static void polygon_put(struct event_bytes *b, const double *points, int count, double scale)
+{
+    double *scaled = malloc(2 * (size_t)count * sizeof *scaled);
+    for (int i = 0; scaled && i < 2 * count; i++)
+        scaled[i] = points[i] / scale;
+    if (scaled)
+        paper_drawing_polygon(b, scaled, count);
+    b->short_of_memory = b->short_of_memory || !scaled;
+    free(scaled);
+}
+
+/* What is selected then. */
+static void joined_put(struct event_bytes *b, const struct paper_drawing *before,
+                       enum studio_join join, const double *points, int count, double scale)
+{
+    const size_t within =
+        join == STUDIO_JOIN_INVERT && before->count ? paper_drawing_within(before) : 0;
+    if (within > 0) { /* turned back, and not twice around */
+        paper_drawing_again(b, &(struct paper_drawing){before->bytes, within, scale});
+        return;
+    }
+    if (join != STUDIO_JOIN_NEW)
+        paper_drawing_again(b, before);
+    if (join != STUDIO_JOIN_INVERT)
+        polygon_put(b, points, count, scale);
+    if (before->count && join == STUDIO_JOIN_ADD)
+        paper_drawing_join(b, '+');
+    if (before->count && join == STUDIO_JOIN_SUBTRACT)
+        paper_drawing_join(b, '-');
+    if (join == STUDIO_JOIN_INVERT || (!before->count && join == STUDIO_JOIN_SUBTRACT))
+        paper_drawing_number(b, '-', 1, true);
+}
+
+/* Whether all fibers of the sheet have that gray. */
+static bool all_are(const struct paper_screen *screen, const struct paper_sheet_config *config,
+                    uint8_t gray)
+{
+    const size_t fibers = (size_t)screen->width_px * (size_t)screen->height_px;
+    size_t i = 0;
+    while (i < fibers && screen->gray[i] == gray)
+        i++;
+    return i == fibers &&
+           (gray == 0 || fibers == (size_t)config->width * (size_t)config->height);
+}
+
+enum paper_status studio_around_make(const struct studio_selection *selection,
+                                     enum studio_join join, const double *points, int count,
+                                     const struct paper_sheet_config *config,
+                                     struct studio_around *out)
+{
+    const struct paper_drawing none = {NULL, 0, 1}, *before = selection && selection->points &&
+                                                                      join != STUDIO_JOIN_NEW
+                                                                  ? &selection->drawing
+                                                                  : &none;
+    struct event_bytes bytes = {0};
+    *out = (struct studio_around){0};
+    if (join == STUDIO_JOIN_INVERT ? !before->count : !polygon_has_area(points, count))
         return PAPER_OK;
-    paper_drawing_polygon(&bytes, points, count);
+    joined_put(&bytes, before, join, points, count, before->scale);
     paper_drawing_number(&bytes, '-', 1, true);
-    out->drawing = (struct paper_drawing){bytes.at, bytes.count, 1};
+    out->drawing = (struct paper_drawing){bytes.at, bytes.count, before->scale};
     if (bytes.short_of_memory)
         return PAPER_NO_MEMORY;
-    const enum paper_status status = paper_drawing_screen(
-        &out->drawing, 1, config->width, config->height, &out->screen, &out->x, &out->y);
-    const size_t fibers = (size_t)out->screen.width_px * (size_t)out->screen.height_px;
-    size_t covered = 0;
-    while (covered < fibers && out->screen.gray[covered] == 255)
-        covered++;
-    if (covered == fibers) /* nothing of the outline is on the sheet */
+    if (bytes.count > PAPER_DRAWING_MOST)
+        return PAPER_BAD_ARGUMENT;
+    const enum paper_status status =
+        paper_drawing_screen(&out->drawing, before->scale, config->width, config->height,
+                             &out->screen, &out->x, &out->y);
+    if (out->screen.gray &&
+        (all_are(&out->screen, config, 255) || all_are(&out->screen, config, 0)))
         paper_screen_destroy(&out->screen);
     out->screen.drawing = &out->drawing;
     return status;
@@ -88,6 +145,71 @@ void studio_around_free(struct studio_around *around)
     paper_screen_destroy(&around->screen);
     free(around->drawing.bytes);
     *around = (struct studio_around){0};
+}
+
+/* ---- outlines of what is selected ---- */
+
+/* A walk along fibers' edges with what is selected at its right hand. */
+struct walk {
+    const uint8_t *frisket;
+    int width, height;
+    uint8_t *walked; /* upper edges of fibers */
+    double *points;
+    int count, capacity;
+    int *ends;
+    int loops, loops_capacity;
+};
+
+enum { HALF = 128 };
+
+static bool walk_inside(const struct walk *w, int x, int y)
+{
+    return x >= 0 && y >= 0 && x < w->width && y < w->height &&
+           w->frisket[(size_t)y * (size_t)w->width + (size_t)x] < HALF;
+}
+
+/* Around one part, from the upper left corner of fiber x, y. False: no memory. */
+static bool walk_loop(struct walk *w, int x, int y)
+{
+    static const int dx[4] = {1, 0, -1, 0}, dy[4] = {0, 1, 0, -1}; /* right, down, left, up */
+    /* the fibers ahead, at the right and at the left hand */
+    static const int rx[4] = {0, -1, -1, 0}, ry[4] = {0, 0, -1, -1}, lx[4] = {0, 0, -1, -1},
+                     ly[4] = {-1, 0, 0, -1};
+    const int first_x = x, first_y = y;
+    int way = 0, before = 3;
+    do {
+        if (way != before) {
+            if (!array_reserve(&w->points, &w->capacity, 2 * (w->count + 1), sizeof(double)))
+                return false;
+            w->points[2 * w->count] = x;
+            w->points[2 * w->count + 1] = y;
+            w->count++;
+        }
+        before = way;
+        if (way == 0)
+            w->walked[(size_t)y * (size_t)w->width + (size_t)x] = 1;
+        x += dx[way];
+        y += dy[way];
+        if (!walk_inside(w, x + rx[way], y + ry[way]))
+            way = (way + 1) % 4;
+        else if (walk_inside(w, x + lx[way], y + ly[way]))
+            way = (way + 3) % 4;
+    } while (x != first_x || y != first_y || way != 0);
+    if (!array_reserve(&w->ends, &w->loops_capacity, w->loops + 1, sizeof(int)))
+        return false;
+    w->ends[w->loops++] = w->count;
+    return true;
+}
+
+/* False: no memory. */
+static bool walk_all(struct walk *w)
+{
+    for (int y = 0; y < w->height; y++)
+        for (int x = 0; x < w->width; x++)
+            if (walk_inside(w, x, y) && !walk_inside(w, x, y - 1) &&
+                !w->walked[(size_t)y * (size_t)w->width + (size_t)x] && !walk_loop(w, x, y))
+                return false;
+    return true;
 }
 
 /* ---- what the history says ---- */
@@ -102,8 +224,45 @@ static bool planes_there(struct studio_selection *s, size_t fibers)
 static void nothing_selected(struct studio_selection *s)
 {
     free(s->points);
+    free(s->ends);
+    free(s->drawing.bytes);
     s->points = NULL;
-    s->points_count = 0;
+    s->ends = NULL;
+    s->drawing = (struct paper_drawing){0};
+    s->points_count = s->loops = 0;
+}
+
+/* What lies within a drawing that is all around it is selected. A polygon is its own outline;
+ * else the outline is along the fibers' edges. False: no memory. */
+static bool drawing_select(struct studio_selection *s, const struct paper_drawing *around,
+                           size_t within, const struct paper_sheet_config *config,
+                           const uint8_t *frisket)
+{
+    struct walk w = {.frisket = frisket, .width = config->width, .height = config->height};
+    nothing_selected(s);
+    s->drawing = (struct paper_drawing){malloc(within), within, around->scale};
+    bool good = s->drawing.bytes != NULL;
+    if (good)
+        memcpy(s->drawing.bytes, around->bytes, within);
+    if (good && paper_drawing_around(around, &w.points, &w.count)) {
+        w.ends = malloc(sizeof *w.ends);
+        good = w.ends != NULL;
+        if (good)
+            w.ends[w.loops++] = w.count;
+    } else if (good) {
+        w.walked = calloc((size_t)w.width, (size_t)w.height);
+        good = w.walked && walk_all(&w);
+    }
+    free(w.walked);
+    if (good && !w.points) /* nowhere is a half of a fiber selected: no line, but it is */
+        w.points = calloc(2, sizeof *w.points);
+    s->points = w.points;
+    s->points_count = w.count;
+    s->ends = w.ends;
+    s->loops = w.loops;
+    if (!good)
+        nothing_selected(s);
+    return good;
 }
 
 /* Fluid is painted on through a gray, or rubbed off. */
@@ -115,34 +274,94 @@ static void gray_take(uint8_t *plane, int gray, bool on)
         *plane = 255 - gray < *plane ? (uint8_t)(255 - gray) : *plane;
 }
 
-static void resist_take(struct studio_selection *s, const struct event_resist *resist,
+/* The gray that a place has at a fiber; 255 where there is no screen. */
+static int place_gray(const struct paper_place *place, int x, int y)
+{
+    const struct paper_screen *screen = place->screen;
+    if (!screen)
+        return 255;
+    x -= place->x;
+    y -= place->y;
+    return x >= 0 && y >= 0 && x < screen->width_px && y < screen->height_px
+               ? screen->gray[(size_t)y * (size_t)screen->width_px + (size_t)x]
+               : 0;
+}
+
+/* How many bytes of its drawing are of what it selects; 0: it selects nothing. */
+static size_t resist_selects(const struct event_resist *resist)
+{
+    const struct paper_screen *screen = resist->place.screen;
+    return resist->on && screen && screen->drawing ? paper_drawing_within(screen->drawing) : 0;
+}
+
+/* False: no memory. */
+static bool resist_take(struct studio_selection *s, const struct event_resist *resist,
                         const struct paper_sheet_config *config)
 {
     const struct paper_screen *screen = resist->place.screen;
     const int left = screen ? resist->place.x : 0, top = screen ? resist->place.y : 0,
               right = screen ? left + screen->width_px : config->width,
               bottom = screen ? top + screen->height_px : config->height;
-    double *points = NULL;
-    int count = 0;
-    const bool around = resist->on && screen && screen->drawing &&
-                        paper_drawing_around(screen->drawing, &points, &count);
-    if (around) {
-        nothing_selected(s);
-        s->points = points;
-        s->points_count = count;
-    }
+    const size_t within = resist_selects(resist);
     for (int y = top > 0 ? top : 0; y < bottom && y < config->height; y++)
         for (int x = left > 0 ? left : 0; x < right && x < config->width; x++) {
             const size_t at = (size_t)y * (size_t)config->width + (size_t)x;
-            const int gray = screen
-                                 ? screen->gray[(size_t)(y - top) * (size_t)screen->width_px +
-                                                (size_t)(x - left)]
-                                 : 255;
-            if (!around)
+            const int gray = place_gray(&resist->place, x, y);
+            if (!within)
                 gray_take(&s->fluid[at], gray, resist->on);
-            if (around || !resist->on)
+            if (within || !resist->on)
                 gray_take(&s->frisket[at], gray, resist->on);
         }
+    return !within || drawing_select(s, screen->drawing, within, config, s->frisket);
+}
+
+/* Of a pair of operations that select something else: what the first one has put on is all
+ * that there is now. False: no memory. */
+static bool pair_take(struct studio_selection *s, const struct event_resist *first,
+                      const struct paper_sheet_config *config)
+{
+    const struct paper_drawing *around = first->place.screen->drawing;
+    for (int y = 0; y < config->height; y++)
+        for (int x = 0; x < config->width; x++)
+            s->frisket[(size_t)y * (size_t)config->width + (size_t)x] =
+                (uint8_t)place_gray(&first->place, x, y);
+    return drawing_select(s, around, paper_drawing_within(around), config, s->frisket);
+}
+
+/* Whether the second one leaves all that the first one has put on. */
+static bool pair_is(const struct event_resist *first, const struct event_resist *second,
+                    const struct paper_sheet_config *config)
+{
+    const struct paper_place *off = &second->place;
+    if (!resist_selects(first) || second->on || !off->screen || off->x != 0 || off->y != 0 ||
+        off->screen->width_px != config->width || off->screen->height_px != config->height)
+        return false;
+    for (int y = 0; y < config->height; y++)
+        for (int x = 0; x < config->width; x++)
+            if (place_gray(off, x, y) + place_gray(&first->place, x, y) > 255)
+                return false;
+    return true;
+}
+
+static struct event_resist *resist_of(const struct paper_sheet *sheet, int number)
+{
+    struct paper_moment moment;
+    void *arguments = NULL;
+    if (number >= 0 && paper_history_moment(sheet, number, &moment) &&
+        strcmp(moment.what, "resist") == 0 &&
+        paper_history_arguments(sheet, number, &arguments) == PAPER_OK)
+        return arguments;
+    return NULL;
+}
+
+bool studio_selection_ends(const struct paper_sheet *sheet, int number)
+{
+    struct event_resist *second = resist_of(sheet, number),
+                        *first = second && !second->on ? resist_of(sheet, number - 1) : NULL;
+    const bool ends = first && pair_is(first, second, paper_sheet_get_config(sheet));
+    paper_history_arguments_free("resist", first);
+    paper_history_arguments_free("resist", second);
+    return ends;
 }
 
 /* A script may have written the whole layer. */
@@ -171,19 +390,27 @@ static enum paper_status operation_take(struct studio_selection *s,
     const size_t fibers = (size_t)config->width * (size_t)config->height;
     void *arguments;
     enum paper_status status = paper_history_arguments(sheet, number, &arguments);
-    if (status == PAPER_OK && !planes_there(s, fibers))
-        status = PAPER_NO_MEMORY;
-    if (status == PAPER_OK) {
+    if (status != PAPER_OK)
+        return status;
+    bool good = planes_there(s, fibers);
+    if (good) {
         const struct event_layer *layer = arguments;
-        if (strcmp(what, "resist") == 0)
-            resist_take(s, arguments, config);
+        const bool resist = strcmp(what, "resist") == 0;
+        struct event_resist *first = resist && s->points ? resist_of(sheet, number - 1) : NULL;
+        if (resist)
+            good = resist_take(s, arguments, config);
         else if (layer->layer == PAPER_LAYER_RESIST)
             layer_take(s, layer, fibers);
-        if (!frisket_left(s, fibers))
+        if (good && first && pair_is(first, arguments, config))
+            good = pair_take(s, first, config);
+        if (good && !frisket_left(s, fibers)) {
             nothing_selected(s);
+            memset(s->frisket, 0, fibers);
+        }
+        paper_history_arguments_free("resist", first);
     }
     paper_history_arguments_free(what, arguments);
-    return status;
+    return good ? PAPER_OK : PAPER_NO_MEMORY;
 }
 
 enum paper_status studio_selection_look(struct studio_selection *s,
@@ -205,7 +432,7 @@ enum paper_status studio_selection_look(struct studio_selection *s,
 
 void studio_selection_free(struct studio_selection *s)
 {
-    free(s->points);
+    nothing_selected(s);
     free(s->fluid);
     free(s->frisket);
     *s = (struct studio_selection){0};

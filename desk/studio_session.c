@@ -21,6 +21,12 @@ static enum paper_status session_make(struct paper_sheet *sheet, struct studio_s
         return studio_session_failed(PAPER_NO_MEMORY, "no memory for a studio");
     }
     s->sheet = sheet;
+    s->pairs = calloc(1, sizeof *s->pairs);
+    if (!s->pairs) {
+        studio_session_destroy(s);
+        *out = NULL;
+        return studio_session_failed(PAPER_NO_MEMORY, "no memory for a studio");
+    }
     s->present = s->inserting = s->way = s->inserted = -1;
     studio_settings_usual(&s->settings);
     const struct paper_air *air = paper_sheet_get_air(sheet);
@@ -94,6 +100,9 @@ void studio_session_destroy(struct studio_session *s)
     paper_sheet_destroy(s->sheet);
     studio_selection_free(&s->selection);
     studio_session_change_forget(s);
+    if (s->pairs)
+        free(s->pairs->at);
+    free(s->pairs);
     free(s->samples);
     free(s);
 }
@@ -194,7 +203,7 @@ bool studio_session_can_undo(const struct studio_session *s)
 
 bool studio_session_can_redo(const struct studio_session *s)
 {
-    return !s->down && redone_to(s) >= 0;
+    return !s->down && (redone_to(s) >= 0 || studio_session_change_returns(s));
 }
 
 bool studio_session_undo(struct studio_session *s)
@@ -222,8 +231,9 @@ bool studio_session_redo(struct studio_session *s)
 {
     const int done = s->down ? -1 : redone_to(s);
     if (done < 0)
-        return false;
-    studio_session_change_forget(s);
+        return studio_session_change_redo(s);
+    if (s->changed.state == CHANGE_DONE)
+        studio_session_change_forget(s);
     paper_history_redo(s->sheet, done - paper_history_done(s->sheet));
     if (done >= s->present)
         s->present = -1;

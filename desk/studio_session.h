@@ -84,6 +84,8 @@ bool studio_session_grows(const struct studio_session *session);
 /* The hand has rested so long: the paper goes on under it. Nothing where time stands still, or
  * no stroke is painted. */
 enum paper_status studio_session_rest(struct studio_session *session, double seconds);
+/* The sheet as it is looked at, by the settings. */
+struct paper_sheet_view studio_session_view(const struct studio_session *session);
 /* The steps that the paper has made under the stroke, or the last one; how many a second
  * strokes may ask for at the most (0: any). */
 int studio_session_stroke_steps(const struct studio_session *session);
@@ -114,9 +116,12 @@ enum paper_status studio_session_stamp(struct studio_session *session,
  * more. That is a deed, too; where nothing was selected it is none. Errors: BAD_ARGUMENT (a
  * hand is down), NO_MEMORY, MACHINE_FAILED. */
 enum paper_status studio_session_select_none(struct studio_session *session);
-/* The outline of what is selected, pairs of x, y; NULL: nothing is. Owns: the session; valid
- * until it is changed. */
+/* What was not selected is, and the other way round; the same errors. */
+enum paper_status studio_session_select_invert(struct studio_session *session);
+/* The outline of what is selected, pairs of x, y; NULL: nothing is. Then, of each of its loops,
+ * how many points there are up to its end. Owns: the session; valid until it is changed. */
 const double *studio_session_selected(struct studio_session *session, int *count);
+const int *studio_session_selected_loops(const struct studio_session *session, int *count);
 
 /* ---- time ---- */
 
@@ -144,7 +149,8 @@ struct studio_deed {
     const char *what; /* the operation: "stroke", "wash", "put", ... */
     long time, steps; /* gone by before it; that it took, with the time after it */
     bool done;
-    bool marked; /* a bookmark is in it */
+    bool marked;               /* a bookmark is in it, */
+    char name[PAPER_NAME_MAX]; /* whose name is this */
 };
 /* Owns: the caller frees *deeds. Errors: NO_MEMORY. */
 enum paper_status studio_session_deeds(const struct studio_session *session,
@@ -165,12 +171,18 @@ void studio_session_from_here(struct studio_session *session);
 /* Whether an undo gives back what was last taken out or changed as the next three do; the first
  * deed that is then another one. */
 bool studio_session_change_waits(const struct studio_session *session);
+/* Whether a redo takes it out, or changes it, again. */
+bool studio_session_change_returns(const struct studio_session *session);
 int studio_session_change_deed(const struct studio_session *session);
 /* A bookmark at this moment (studio_bookmarks.c), or none any more where one is; going to the
  * one before or after it, or to the present where there is no later one. Errors: BAD_ARGUMENT
  * (nothing has been painted; something is inserted; a hand is down; what was undone would be
  * lost; there is no earlier one), NO_MEMORY. */
 enum paper_status studio_session_bookmark(struct studio_session *session);
+/* The bookmark at this moment gets a name; where none is there will be one. The same errors,
+ * and BAD_ARGUMENT (a name of more than PAPER_NAME_MAX - 1 bytes). */
+enum paper_status studio_session_bookmark_name(struct studio_session *session,
+                                               const char *name);
 enum paper_status studio_session_bookmark_visit(struct studio_session *session, bool later);
 /* Of the last deed before the visited moment: takes it out, and its time stays; paints it with
  * what is in the dish now; gives a stroke the way of the hand's next one. The present is gone

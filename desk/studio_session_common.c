@@ -65,8 +65,23 @@ enum studio_part studio_session_part(const struct studio_session *s, int number)
         return STUDIO_PART_AFTER;
     if (!strcmp(moment.what, "brush") || !strcmp(moment.what, "dip"))
         return STUDIO_PART_BEFORE;
-    return !strcmp(moment.what, "step") || !strcmp(moment.what, "air") ? STUDIO_PART_AFTER
-                                                                       : STUDIO_PART_DEED;
+    return !strcmp(moment.what, "step") || !strcmp(moment.what, "air") ||
+                   !strcmp(moment.what, "bookmark") ||
+                   (!strcmp(moment.what, "resist") && studio_session_pair(s, number))
+               ? STUDIO_PART_AFTER
+               : STUDIO_PART_DEED;
+}
+
+bool studio_session_pair(const struct studio_session *s, int number)
+{
+    struct studio_pairs *pairs = s->pairs;
+    if (!array_reserve(&pairs->at, &pairs->capacity, number + 1, sizeof *pairs->at))
+        return studio_selection_ends(s->sheet, number);
+    for (; pairs->count <= number; pairs->count++)
+        pairs->at[pairs->count] = 0;
+    if (pairs->at[number] == 0)
+        pairs->at[number] = studio_selection_ends(s->sheet, number) ? 2 : 1;
+    return pairs->at[number] == 2;
 }
 
 bool studio_session_inserted(const struct studio_session *s)
@@ -75,43 +90,64 @@ bool studio_session_inserted(const struct studio_session *s)
            paper_sheet_steps(s->sheet) == s->inserted_steps;
 }
 
-/* ---- air ---- */
+/* ---- bookmarks ---- */
 
-/* Those airs that are the air of before (studio_bookmarks.c). */
-enum paper_status studio_session_bookmarks(const struct studio_session *s, int **operations,
-                                           int *count)
+/* Airs that are the air of before are bookmarks, too: older studios made them so. */
+static enum paper_status bookmark_read(const struct studio_session *s, int number,
+                                       struct paper_air *air, struct studio_bookmark *bookmark,
+                                       bool *is)
+{
+    struct paper_moment moment;
+    void *arguments;
+    *is = false;
+    if (!paper_history_moment(s->sheet, number, &moment) ||
+        (strcmp(moment.what, "air") != 0 && strcmp(moment.what, "bookmark") != 0))
+        return PAPER_OK;
+    const enum paper_status status = paper_history_arguments(s->sheet, number, &arguments);
+    if (status != PAPER_OK)
+        return status;
+    *bookmark = (struct studio_bookmark){.operation = number};
+    if (strcmp(moment.what, "air") == 0) {
+        *is = memcmp(arguments, air, sizeof *air) == 0;
+        memcpy(air, arguments, sizeof *air);
+    } else {
+        *is = true;
+        snprintf(bookmark->name, sizeof bookmark->name, "%s",
+                 ((const struct paper_bookmark *)arguments)->name);
+    }
+    paper_history_arguments_free(moment.what, arguments);
+    return PAPER_OK;
+}
+
+enum paper_status studio_session_bookmarks(const struct studio_session *s,
+                                           struct studio_bookmark **bookmarks, int *count)
 {
     const int all = paper_history_done(s->sheet) + paper_history_undone(s->sheet);
     struct paper_air air = paper_air_default();
     enum paper_status status = PAPER_OK;
     int capacity = 0;
-    *operations = NULL;
+    *bookmarks = NULL;
     *count = 0;
     for (int i = 0; i < all && status == PAPER_OK; i++) {
-        struct paper_moment moment;
-        void *arguments;
-        if (!paper_history_moment(s->sheet, i, &moment) || strcmp(moment.what, "air") != 0)
+        struct studio_bookmark bookmark;
+        bool is;
+        status = bookmark_read(s, i, &air, &bookmark, &is);
+        if (status != PAPER_OK || !is)
             continue;
-        status = paper_history_arguments(s->sheet, i, &arguments);
-        if (status != PAPER_OK)
-            break;
-        const bool same = memcmp(arguments, &air, sizeof air) == 0;
-        memcpy(&air, arguments, sizeof air);
-        paper_history_arguments_free(moment.what, arguments);
-        if (!same)
-            continue;
-        if (!array_reserve(operations, &capacity, *count + 1, sizeof **operations))
+        if (!array_reserve(bookmarks, &capacity, *count + 1, sizeof **bookmarks))
             status = studio_session_failed(PAPER_NO_MEMORY, "no memory for bookmarks");
         else
-            (*operations)[(*count)++] = i;
+            (*bookmarks)[(*count)++] = bookmark;
     }
     if (status != PAPER_OK) {
-        free(*operations);
-        *operations = NULL;
+        free(*bookmarks);
+        *bookmarks = NULL;
         *count = 0;
     }
     return status;
 }
+
+/* ---- air ---- */
 
 enum paper_status studio_session_air(struct studio_session *s)
 {

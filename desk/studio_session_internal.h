@@ -30,13 +30,24 @@ struct studio_session {
     int inserted;        /* that were done when an insertion had ended, */
     long inserted_steps; /* and how many steps had gone by */
     /* The operation of the past that was taken out or changed last, if no deed has been begun
-     * since; bytes NULL: none. */
+     * since. */
     struct {
+        enum studio_change { CHANGE_NONE, CHANGE_DONE, CHANGE_UNDONE } state;
         int number;
         bool replaced; /* another one is in its place */
-        uint8_t *bytes;
-        size_t count;
+        bool removed;
+        /* What comes back by undo; of what is changed, by redo after it. */
+        struct studio_operation {
+            uint8_t *bytes;
+            size_t count;
+        } operation, second; /* the second one of a pair that was taken out; NULL: none */
     } changed;
+    /* Of each operation whether it is the second one of a pair: 1: it is not, 2: it is; 0: not
+     * known yet. */
+    struct studio_pairs {
+        signed char *at;
+        int count, capacity;
+    } * pairs;
     bool wet;
     struct studio_selection selection;
 };
@@ -49,12 +60,12 @@ enum paper_status studio_session_failed(enum paper_status status, const char *fo
 void studio_session_drop(struct studio_session *s);
 /* The sheet gets the air that is set. */
 enum paper_status studio_session_air(struct studio_session *s);
-struct paper_sheet_view studio_session_view(const struct studio_session *s);
 
 /* History was gone back or changed in: the selection is looked for anew. */
 static inline void studio_session_selection_forget(struct studio_session *s)
 {
     s->selection.operations = 0;
+    s->pairs->count = 0;
 }
 
 /* The selection (studio_session_selection.c): what the hand has drawn is selected, a click
@@ -79,13 +90,18 @@ bool studio_session_inserted(const struct studio_session *s);
 enum paper_status studio_session_deed_done(struct studio_session *s, enum paper_status status);
 /* Goes to the moment after so many operations. */
 void studio_session_visit_to(struct studio_session *s, int operations);
-/* The bookmarks' operations, in their order, with those that are undone. Owns: the caller frees
- * *operations. Errors: NO_MEMORY, BAD_FILE. */
-enum paper_status studio_session_bookmarks(const struct studio_session *s, int **operations,
-                                           int *count);
-/* What was taken out of the past, or changed there, is as it was before. False: nothing was, or
- * it cannot be. */
+/* The bookmarks, in their order, with those that are undone. Owns: the caller frees *bookmarks.
+ * Errors: NO_MEMORY, BAD_FILE. */
+struct studio_bookmark {
+    int operation;
+    char name[PAPER_NAME_MAX]; /* "": none */
+};
+enum paper_status studio_session_bookmarks(const struct studio_session *s,
+                                           struct studio_bookmark **bookmarks, int *count);
+/* What was taken out of the past, or changed there, is as it was before; and is taken out or
+ * changed again. False: nothing was, or it cannot be. */
 bool studio_session_change_undo(struct studio_session *s);
+bool studio_session_change_redo(struct studio_session *s);
 /* From here on an undo takes back something else. */
 void studio_session_change_forget(struct studio_session *s);
 /* Before a deed: where an earlier moment is visited, what is done from now on is inserted
@@ -93,5 +109,8 @@ void studio_session_change_forget(struct studio_session *s);
 enum paper_status studio_session_insert(struct studio_session *s);
 /* The stroke gets the way that the hand has drawn. */
 enum paper_status studio_session_way_end(struct studio_session *s);
+/* Whether operation `number` belongs to the one before it, as the second one of a pair
+ * (studio_selection.h). */
+bool studio_session_pair(const struct studio_session *s, int number);
 
 #endif

@@ -63,6 +63,8 @@ const struct stage_control studio_controls[STUDIO_SETTINGS] = {
         "how much a quick mouse presses less"),
     ROW(STUDIO_CURVE, "curve", "", 0.2, 5, 1, LOGARITHMIC, NULL,
         "a pen's pressure: below 1 a light hand presses more, above 1 less"),
+    ROW(STUDIO_ERASER, "eraser", "", 0, 3, 0, CHOICE, "lift blot water unmask",
+        "what a pen does that is held the other way round"),
     ROW(STUDIO_STEADY, "steady", "", 0, 1, 0, LINEAR, NULL,
         "the way follows the hand, smoother and later"),
     ROW(STUDIO_SHAPE, "shape", "", 0, 2, 0, CHOICE, "free line ellipse",
@@ -84,6 +86,8 @@ const struct stage_control studio_controls[STUDIO_SETTINGS] = {
     ROW(STUDIO_GLOSS, "gloss", "", 0, 1, 0.8, LINEAR, NULL, "how thick the varnish is"),
     ROW(STUDIO_OUTLINE, "outline", "", 0, 2, 0, CHOICE, "rectangle ellipse lasso",
         "from corner to corner as a rectangle or an ellipse, or the way that the hand goes"),
+    ROW(STUDIO_JOIN, "join", "", 0, 2, 0, CHOICE, "new add subtract",
+        "it takes the place of what is selected (Shift: joins it, Alt: is taken out of it)"),
     ROW(STUDIO_STAMP_AS, "stamp_as", "", 0, 3, 0, CHOICE, "paint water fluid colours",
         "dark places take what is in the dish, its water alone, or masking fluid; or the "
         "picture "
@@ -232,7 +236,7 @@ const struct studio_tool studio_tools[STUDIO_TOOLS] = {
         {"Selection", "r",
          "Drag around a part of the sheet: what you do next stays inside, and "
          "no water flows across. A click selects nothing.",
-         STUDIO_OUTLINE, STUDIO_OUTLINE, false, false},
+         STUDIO_OUTLINE, STUDIO_JOIN, false, false},
     [STUDIO_TOOL_STAMP] = {"Stamp", "i",
                            "A picture as paint, as water, as masking fluid or in its own "
                            "colours: choose one, or drop its file on the sheet, and click.",
@@ -242,6 +246,13 @@ const struct studio_tool studio_tools[STUDIO_TOOLS] = {
 const struct studio_tool *studio_tool_of(const struct studio_settings *settings)
 {
     return &studio_tools[(int)settings->value[STUDIO_TOOL]];
+}
+
+enum studio_tool_number studio_settings_eraser(const struct studio_settings *settings)
+{
+    static const enum studio_tool_number tools[] = {STUDIO_TOOL_LIFT, STUDIO_TOOL_BLOT,
+                                                    STUDIO_TOOL_WATER, STUDIO_TOOL_UNMASK};
+    return tools[(int)settings->value[STUDIO_ERASER]];
 }
 
 bool studio_tool_has(enum studio_tool_number tool, int setting)

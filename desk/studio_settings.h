@@ -38,6 +38,7 @@ enum studio_setting {
     STUDIO_PRESSURE,
     STUDIO_SPEED,
     STUDIO_CURVE,
+    STUDIO_ERASER,
     STUDIO_STEADY,
     STUDIO_SHAPE,
     /* other tools */
@@ -51,6 +52,7 @@ enum studio_setting {
     STUDIO_RUB,
     STUDIO_GLOSS,
     STUDIO_OUTLINE,
+    STUDIO_JOIN,
     STUDIO_STAMP_AS,
     STUDIO_STAMP_SIZE,
     STUDIO_STAMP_ANGLE,
@@ -141,6 +143,8 @@ struct studio_tool {
 };
 extern const struct studio_tool studio_tools[STUDIO_TOOLS];
 const struct studio_tool *studio_tool_of(const struct studio_settings *settings);
+/* The tool of a pen's other end. */
+enum studio_tool_number studio_settings_eraser(const struct studio_settings *settings);
 /* Whether the tool has this setting. */
 bool studio_tool_has(enum studio_tool_number tool, int setting);
 

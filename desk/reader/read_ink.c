@@ -220,7 +220,8 @@ void read_ink_release(struct read_desk *d, double x, double y)
 double read_ink_pressure(struct read_desk *d, guint32 time_ms, GdkEvent *event)
 {
     double pressure = (double)MOUSE_PRESSURE, tilt[2];
-    if (!desk_pen_at(d->pen, time_ms, &pressure, tilt) && event &&
+    bool eraser;
+    if (!desk_pen_at(d->pen, time_ms, &pressure, tilt, &eraser) && event &&
         gdk_event_get_device_tool(event))
         gdk_event_get_axis(event, GDK_AXIS_PRESSURE, &pressure);
     return pressure;

@@ -77,6 +77,7 @@ struct input_event {
     double x_px, y_px;
     double pressure, tilt_x, tilt_y; /* of a pen; 0 if the pointer is no pen */
     bool pen;                        /* the pointer is a pen that reports its pressure */
+    bool eraser;                     /* the pen is held the other way round */
     unsigned buttons;                /* buttons that are held after the event */
     unsigned modifiers;              /* modifiers (INPUT_SHIFT, ...) that are held */
     /* Of some kinds. */

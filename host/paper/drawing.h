@@ -41,6 +41,8 @@ bool paper_drawing_line(struct event_bytes *b, const struct paper_line *line, do
                         double y);
 /* Of the last two: '+', '*' or '-'. */
 void paper_drawing_join(struct event_bytes *b, char operation);
+/* All of another one, in the same numbers. */
+void paper_drawing_again(struct event_bytes *b, const struct paper_drawing *d);
 /* The last one and a number; first: number - shape. */
 void paper_drawing_number(struct event_bytes *b, char operation, double number, bool first);
 
@@ -49,6 +51,10 @@ void paper_drawing_number(struct event_bytes *b, char operation, double number, 
  * then zeros. Owns: the caller destroys *screen. */
 enum paper_status paper_drawing_screen(const struct paper_drawing *d, double scale, int width,
                                        int height, struct paper_screen *screen, int *x, int *y);
+
+/* Of a drawing that is all that lies around another one, of polygons: 1 less that. How many of
+ * its first bytes are the other one's; 0: it is no such drawing. */
+size_t paper_drawing_within(const struct paper_drawing *d);
 
 /* The corners of a polygon, if the drawing is all that lies around it: 1 less the polygon.
  * Shape: pairs of x, y, in pixels of the screen. False: it is another drawing, or there is no

@@ -273,6 +273,13 @@ enum paper_status paper_sheet_seal(struct paper_sheet *sheet);
 
 /* Sets the air. Errors: BAD_ARGUMENT, NO_MEMORY, MACHINE_FAILED. */
 enum paper_status paper_sheet_air(struct paper_sheet *sheet, const struct paper_air *air);
+/* A name for this moment of the history, which changes nothing of the sheet. Errors:
+ * NO_MEMORY. */
+struct paper_bookmark {
+    char name[PAPER_NAME_MAX]; /* UTF-8; "": none */
+};
+enum paper_status paper_sheet_bookmark(struct paper_sheet *sheet,
+                                       const struct paper_bookmark *bookmark);
 /* The air that the sheet has now, never NULL; valid until the sheet's air changes, or the sheet
  * is destroyed. */
 const struct paper_air *paper_sheet_get_air(const struct paper_sheet *sheet);

@@ -143,6 +143,12 @@ static void input_lines(void **state)
     assert_int_equal(in.event.kind, INPUT_POINTER_DOWN);
     assert_true(in.event.time_s == 0.25 && in.event.x_px == -12.5 && in.event.y_px == 40);
     assert_true(in.event.pen && in.event.pressure == 0.5 && in.event.tilt_y == -0.2);
+    assert_false(in.event.eraser);
+    assert_int_equal(studio_input_parse("1 eraser-down 1 2 0.5", &in, why, sizeof why), 1);
+    assert_true(in.event.eraser && in.event.pen && in.event.kind == INPUT_POINTER_DOWN);
+    assert_int_equal(studio_input_parse("1 bookmark wet sky", &in, why, sizeof why), 1);
+    assert_string_equal(in.text, "wet sky");
+    assert_int_equal(studio_input_parse("1 bookmark", &in, why, sizeof why), -1);
     assert_int_equal(studio_input_parse("1 move 1 2", &in, why, sizeof why), 1);
     assert_false(in.event.pen);
     assert_int_equal(studio_input_parse("1 set tool wash", &in, why, sizeof why), 1);
@@ -352,6 +358,8 @@ static void palettes_are_read(void **state)
     assert_true(p.amount[7][0] == 0 && !p.missing[0]);
     palette_text("1: indian red 1, burnt umber 0.5\n2: indian red 0.5, water 1", &p, true);
     assert_string_equal(p.missing, "indian red, burnt umber");
+    palette_text("1: indian red 1, red 0.5\n2: dian 1, red 0.5, indian red 1", &p, true);
+    assert_string_equal(p.missing, "indian red, red, dian"); /* none is in another's name */
     static const struct {
         const char *text, *says;
     } wrong[] = {{"", "no well"},

@@ -313,6 +313,50 @@ static void paint_is_under_the_pointer(void **state)
     }
 }
 
+/* ---- two moments ---- */
+
+/* Pixels of paint and of bare paper in the left and the right half of the canvas. */
+static bool halves_look(int paint_px[2], int bare_px[2])
+{
+    struct display_image image = {0};
+    double sheet_px;
+    int box[4];
+    paint_px[0] = paint_px[1] = bare_px[0] = bare_px[1] = 0;
+    if (!canvas_look(box, &sheet_px))
+        return false;
+    screen_read(window, &image);
+    for (int y = box[1]; y < box[3]; y++)
+        for (int x = box[0]; x < box[2]; x++) {
+            const uint8_t *p = image.pixels + 3 * (y * image.width_px + x);
+            const int half = x >= (box[0] + box[2]) / 2;
+            paint_px[half] += p[2] - p[0] > 30;
+            bare_px[half] += p[0] > 200 && p[1] > 200 && p[2] > 190;
+        }
+    display_image_destroy(&image);
+    return true;
+}
+
+/* The empty sheet is kept beside; at its right is the wash, at the same zoom. */
+static void moments_are_side_by_side(void **state)
+{
+    (void)state;
+    const double until_s = clock_now_s() + WAIT_S;
+    int paint_px[2] = {0, 0}, bare_px[2] = {0, 0};
+    bool good = false;
+    studio_start("0 set tool wash\n0 set fade 1\n0 set pigment_1 1.5\n0 view 2 64 48 0 0\n"
+                 "0.1 down -100 -80 0.5\n0.2 up 100 80 0.5\n0.3 moment 0\n"
+                 "0.4 action beside\n0.5 moment 1\n");
+    while (!good && clock_now_s() < until_s) {
+        usleep(50000);
+        good = halves_look(paint_px, bare_px) && paint_px[0] == 0 && bare_px[0] > 40000 &&
+               paint_px[1] > 28000 && bare_px[1] < 20000;
+    }
+    if (!good)
+        fail_msg("paint: %d and %d pixels, bare paper: %d and %d", paint_px[0], paint_px[1],
+                 bare_px[0], bare_px[1]);
+    studio_end();
+}
+
 static int start(void **state)
 {
     (void)state;
@@ -338,7 +382,8 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest one[] = {cmocka_unit_test(controls_have_names),
                                      cmocka_unit_test(tools_have_keys)};
-    const struct CMUnitTest others[] = {cmocka_unit_test(paint_is_under_the_pointer)};
+    const struct CMUnitTest others[] = {cmocka_unit_test(paint_is_under_the_pointer),
+                                        cmocka_unit_test(moments_are_side_by_side)};
     if (argc == 1) { /* with a bus of its own */
         execlp("dbus-run-session", "dbus-run-session", "--", argv[0], "with-bus", NULL);
         puts("[  SKIPPED ] dbus-run-session is not installed");

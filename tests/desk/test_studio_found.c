@@ -7,17 +7,20 @@
 #include <stdint.h>
 
 #include <cmocka.h>
+#include <linux/capability.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include "../clock.h"
 #include "studio_paper.h"
 #include "studio_scene.h"
 
-enum { WAIT_S = 100, BYTES_MOST = 1 << 16 };
+enum { WAIT_S = 100, BYTES_MOST = 1 << 22 };
 static char folder[] = "/tmp/lutetia-found-XXXXXX";
 
 static void wake(void *context)
@@ -182,6 +185,79 @@ static void damaged_journals_are_kept(void **state)
             sizeof damaged);
 }
 
+/* ---- a folder in which nobody may write ---- */
+
+/* Who may write everywhere does not for as long as it is closed; threads that are begun then
+ * neither. */
+static void folder_close(bool closed)
+{
+    struct __user_cap_header_struct header = {_LINUX_CAPABILITY_VERSION_3, 0};
+    struct __user_cap_data_struct data[_LINUX_CAPABILITY_U32S_3];
+    assert_int_equal(syscall(SYS_capget, &header, data), 0);
+    if (closed)
+        data[0].effective &= ~(1u << CAP_DAC_OVERRIDE);
+    else
+        data[0].effective |= data[0].permitted & (1u << CAP_DAC_OVERRIDE);
+    assert_int_equal(syscall(SYS_capset, &header, data), 0);
+    assert_int_equal(chmod(named("closed"), closed ? 0555 : 0755), 0);
+    assert_int_equal(chmod(named("closed/one.h5.journal"), closed ? 0444 : 0644), 0);
+}
+
+static struct studio_report answered(struct studio_paper *paper, unsigned long number)
+{
+    struct studio_report report = {0};
+    const double until_s = clock_now_s() + WAIT_S;
+    while (report.answered < number && clock_now_s() < until_s) {
+        usleep(2000);
+        studio_paper_report(paper, &report);
+    }
+    assert_true(report.answered >= number);
+    return report;
+}
+
+/* A sheet there opens, with what its journal tells; that nothing can be kept is said; what
+ * is saved there is refused, the file and the journal stay, and elsewhere it is saved. */
+static void closed_folder_loses_nothing(void **state)
+{
+    (void)state;
+    static char sheet[BYTES_MOST], journal[BYTES_MOST], now[BYTES_MOST];
+    assert_int_equal(mkdir(named("closed"), 0755), 0);
+    sheet_leave(named("closed/one.h5"), false);
+    const size_t count = file_get(named("closed/one.h5"), sheet),
+                 told = file_get(named("closed/one.h5.journal"), journal);
+    folder_close(true);
+    struct studio_paper *paper = begin(named("closed/one.h5"), NULL);
+    struct studio_report report = opened(paper);
+    assert_true(report.ready && report.found_again);
+    assert_int_equal(report.operations, 1);
+    assert_non_null(strstr(report.error, "closed/one.h5.journal"));
+    assert_non_null(strstr(report.error, "Permission denied"));
+    studio_paper_send(paper, (struct studio_message){.kind = STUDIO_MESSAGE_DRY});
+    report =
+        answered(paper, studio_paper_send(paper, (struct studio_message){
+                                                     .kind = STUDIO_MESSAGE_SAVE,
+                                                     .text = strdup(named("closed/one.h5"))}));
+    assert_non_null(strstr(report.error, "closed/one.h5: "));
+    assert_true(report.changed && report.notes == 0);
+    report = answered(paper, studio_paper_send(paper, (struct studio_message){
+                                                          .kind = STUDIO_MESSAGE_SAVE,
+                                                          .text = strdup(named("open.h5"))}));
+    if (report.changed || report.notes != 1)
+        fail_msg("%s", report.error);
+    assert_string_equal(report.path, named("open.h5"));
+    studio_paper_end(paper, true, NULL);
+    folder_close(false);
+    assert_int_equal(file_get(named("closed/one.h5"), now), count);
+    assert_memory_equal(now, sheet, count);
+    assert_int_equal(file_get(named("closed/one.h5.journal"), now), told);
+    assert_memory_equal(now, journal, told);
+    paper = begin(named("open.h5"), NULL);
+    report = opened(paper);
+    assert_true(report.ready);
+    assert_int_equal(report.operations, 2);
+    studio_paper_end(paper, true, NULL);
+}
+
 static int folder_make(void **state)
 {
     (void)state;
@@ -191,7 +267,11 @@ static int folder_make(void **state)
 static int folder_remove(void **state)
 {
     (void)state;
-    static const char *const files[] = {"one.h5",
+    static const char *const files[] = {"closed/one.h5",
+                                        "closed/one.h5.journal",
+                                        "open.h5",
+                                        "open.h5.journal",
+                                        "one.h5",
                                         "other.h5",
                                         "held.h5",
                                         "one.h5.journal.kept",
@@ -200,6 +280,7 @@ static int folder_remove(void **state)
                                         "sheet-1-1.journal.kept"};
     for (size_t i = 0; i < sizeof files / sizeof *files; i++)
         unlink(named(files[i]));
+    rmdir(named("closed"));
     return rmdir(folder);
 }
 
@@ -209,6 +290,7 @@ int main(void)
         cmocka_unit_test(journals_of_others_are_kept),
         cmocka_unit_test(one_studio_a_file),
         cmocka_unit_test(damaged_journals_are_kept),
+        cmocka_unit_test(closed_folder_loses_nothing),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

@@ -262,6 +262,103 @@ static void changes_are_undone(void **state)
     studio_session_destroy(s);
 }
 
+/* What an undo has given back is taken out, or changed, again by a redo, as often as one likes,
+ * until another deed. */
+static void changes_are_redone(void **state)
+{
+    (void)state;
+    static const struct hand pale = {STUDIO_TOOL_BRUSH, 14, 20, 3, 0.2},
+                             led = {STUDIO_TOOL_BRUSH, 22, 12, 5, 0.5};
+    static const struct hand *const without[] = {&wash, &wide, &thin, NULL},
+                                    *const dished[] = {&wash, &pale, &wide, &thin, NULL},
+                                    *const another[] = {&wash, &blue, &led, &thin, NULL},
+                                    *const three[] = {&wash, &blue, &wide, NULL};
+    static const int without_steps[] = {9, 6, 3};
+    struct studio_session *s = painted(four, four_steps);
+    for (int i = 0; i < 3; i++) {
+        good(studio_session_visit(s, i == 2 ? 3 : 2));
+        if (i == 0)
+            good(studio_session_remove(s));
+        good(studio_session_set(s, STUDIO_PIGMENT, 0.2));
+        if (i == 1)
+            good(studio_session_dish(s));
+        if (i == 2) {
+            good(studio_session_way(s));
+            good(scene_sweep(s, 12, 5, true));
+        }
+        for (int again = 0; again < 2; again++) {
+            assert_false(studio_session_can_redo(s));
+            assert_true(studio_session_undo(s));
+            is_sheet_of(s, four, four_steps);
+            assert_true(studio_session_can_redo(s));
+            assert_true(studio_session_redo(s));
+            is_sheet_of(s,
+                        i == 0   ? without
+                        : i == 1 ? dished
+                                 : another,
+                        i == 0 ? without_steps : four_steps);
+        }
+        assert_true(studio_session_undo(s));
+    }
+    assert_true(studio_session_undo(s)); /* the last deed, and redo gives that back first */
+    is_sheet_of(s, three, four_steps);
+    assert_true(studio_session_redo(s));
+    is_sheet_of(s, four, four_steps);
+    assert_true(studio_session_redo(s));
+    is_sheet_of(s, another, four_steps);
+    assert_true(studio_session_undo(s));
+    paint(s, &drop); /* another deed: nothing is redone any more */
+    assert_false(studio_session_can_redo(s));
+    assert_false(studio_session_redo(s));
+    studio_session_destroy(s);
+}
+
+/* A bookmark has a name, gets another one, and keeps it through insertions, undo and files. */
+static void bookmarks_have_names(void **state)
+{
+    (void)state;
+    static const struct hand *const two[] = {&wash, &blue, NULL};
+    static const int steps[] = {5, 4};
+    char path[] = "/tmp/lutetia-bookmark-XXXXXX.h5", longest[PAPER_NAME_MAX + 1];
+    struct studio_session *s = painted(two, steps);
+    struct studio_deed *deeds;
+    int count, file = mkstemps(path, 3);
+    assert_true(file >= 0);
+    close(file);
+    memset(longest, 'x', sizeof longest);
+    longest[PAPER_NAME_MAX] = '\0';
+    assert_int_equal(studio_session_bookmark_name(s, longest), PAPER_BAD_ARGUMENT);
+    longest[PAPER_NAME_MAX - 1] = '\0';
+    good(studio_session_bookmark_name(s, longest));
+    good(studio_session_bookmark_name(s, "wet sky")); /* the same one */
+    good(studio_session_visit(s, 1));
+    good(studio_session_bookmark(s)); /* which has none yet */
+    good(studio_session_bookmark_name(s, "wash"));
+    assert_true(studio_session_visits(s));
+    good(studio_session_visit(s, 0));
+    paint(s, &cloth);
+    good(studio_session_present(s));
+    good(studio_session_save(s, path));
+    studio_session_destroy(s);
+    good(studio_session_open(path, 64e6, &s));
+    unlink(path);
+    for (int again = 0; again < 2; again++) {
+        good(studio_session_deeds(s, &deeds, &count));
+        assert_int_equal(count, 3);
+        assert_true(!deeds[0].marked && deeds[1].marked && deeds[2].marked);
+        assert_string_equal(deeds[0].name, "");
+        assert_string_equal(deeds[1].name, "wash");
+        assert_string_equal(deeds[2].name, "wet sky");
+        free(deeds);
+        assert_true(studio_session_undo(s) && studio_session_redo(s));
+    }
+    good(studio_session_bookmark(s)); /* none there any more, and its name is gone */
+    good(studio_session_deeds(s, &deeds, &count));
+    assert_true(!deeds[2].marked && deeds[2].name[0] == '\0');
+    free(deeds);
+    studio_session_destroy(s);
+}
+
 /* A wet moment in the midst of a deed's time is found again, after what was inserted earlier,
  * and in the saved sheet; the sheet is what it was without bookmarks. */
 static void wet_moments_are_marked(void **state)
@@ -343,7 +440,8 @@ int main(void)
         cmocka_unit_test(moments_are_visited),    cmocka_unit_test(deeds_are_inserted),
         cmocka_unit_test(deeds_are_taken_out),    cmocka_unit_test(deeds_are_changed),
         cmocka_unit_test(wet_moments_are_marked), cmocka_unit_test(changes_are_undone),
-        cmocka_unit_test(another_present_begins),
+        cmocka_unit_test(another_present_begins), cmocka_unit_test(changes_are_redone),
+        cmocka_unit_test(bookmarks_have_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

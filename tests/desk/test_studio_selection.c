@@ -299,6 +299,175 @@ static void lassos_are_drawn_anew(void **state)
     studio_session_destroy(s);
 }
 
+/* ---- more and less of the sheet ---- */
+
+enum { FROM = 40, TO = 84, UPPER = 30, LOWER = 66 }; /* another rectangle, across the first */
+
+static bool other(int i)
+{
+    const int x = i % SCENE_WIDTH, y = i / SCENE_WIDTH;
+    return x >= FROM && x < TO && y >= UPPER && y < LOWER;
+}
+
+static void select_other(struct studio_session *s, enum studio_join join)
+{
+    good(studio_session_set(s, STUDIO_JOIN, join));
+    drag(s, STUDIO_TOOL_SELECT, FROM, UPPER, TO, LOWER);
+    good(studio_session_set(s, STUDIO_JOIN, STUDIO_JOIN_NEW));
+}
+
+enum { OF_FIRST = 1, OF_BOTH, OF_FIRST_ALONE, OF_OTHER, OF_NEITHER, OF_ALL };
+
+static bool is_of(int i, int which)
+{
+    switch (which) {
+    case OF_FIRST:
+        return inside(i);
+    case OF_BOTH:
+        return inside(i) || other(i);
+    case OF_FIRST_ALONE:
+        return inside(i) && !other(i);
+    case OF_OTHER:
+        return other(i);
+    case OF_NEITHER:
+        return !inside(i) && !other(i);
+    default:
+        return true;
+    }
+}
+
+/* Fluid lies on all that is not selected, and nowhere else; the outline's loops. */
+static void is_selected(struct studio_session *s, int which, int loops, int line)
+{
+    float *fluid = layer_of(s, PAPER_LAYER_RESIST, 0);
+    int count, now;
+    const double *points = studio_session_selected(s, &count);
+    studio_session_selected_loops(s, &now);
+    if ((points != NULL) != (which != OF_ALL) || now != loops)
+        fail_msg("line %d: %d loops, %s", line, now, points ? "selected" : "nothing");
+    for (int i = 0; i < FIBERS; i++)
+        if (fabs((double)fluid[i] - !is_of(i, which)) > 1e-6)
+            fail_msg("line %d: fluid %g at %d, %d", line, (double)fluid[i], i % SCENE_WIDTH,
+                     i / SCENE_WIDTH);
+    free(fluid);
+}
+#define is_now(which, loops) is_selected(s, which, loops, __LINE__)
+
+/* Each change is one deed: one undo, one redo, and taken out of the past as one. */
+static void selections_are_changed(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/lutetia-selection-XXXXXX.h5";
+    struct studio_session *s = begin();
+    int deeds, file = mkstemps(path, 3);
+    assert_true(file >= 0);
+    close(file);
+    good(studio_session_select_invert(s)); /* nothing was selected: no deed */
+    assert_false(studio_session_can_undo(s));
+    select_rectangle(s);
+    is_now(OF_FIRST, 1);
+    select_other(s, STUDIO_JOIN_NEW);
+    is_now(OF_OTHER, 1);
+    assert_int_equal(studio_session_deeds_done(s), 2);
+    assert_true(studio_session_undo(s));
+    is_now(OF_FIRST, 1);
+    assert_true(studio_session_redo(s));
+    is_now(OF_OTHER, 1);
+    assert_true(studio_session_undo(s));
+    select_other(s, STUDIO_JOIN_ADD);
+    is_now(OF_BOTH, 1);
+    good(studio_session_select_invert(s));
+    is_now(OF_NEITHER, 2);
+    good(studio_session_save(s, path));
+    studio_session_destroy(s);
+    good(studio_session_open(path, 64e6, &s));
+    unlink(path);
+    is_now(OF_NEITHER, 2);
+    good(studio_session_select_invert(s));
+    is_now(OF_BOTH, 1);
+    assert_true(studio_session_undo(s) && studio_session_undo(s) && studio_session_undo(s));
+    is_now(OF_FIRST, 1);
+    select_other(s, STUDIO_JOIN_SUBTRACT);
+    is_now(OF_FIRST_ALONE, 1);
+    deeds = studio_session_deeds_done(s);
+    select_other(s, STUDIO_JOIN_NEW);
+    good(studio_session_remove(s)); /* both operations of it */
+    is_now(OF_FIRST_ALONE, 1);
+    assert_int_equal(studio_session_deeds_done(s), deeds);
+    assert_true(studio_session_undo(s));
+    is_now(OF_OTHER, 1);
+    assert_true(studio_session_redo(s));
+    is_now(OF_FIRST_ALONE, 1);
+    drag(s, STUDIO_TOOL_SELECT, 30, 30, 30, 30); /* a click selects nothing, */
+    is_now(OF_ALL, 0);
+    select_other(s, STUDIO_JOIN_ADD); /* and then something is, as two deeds */
+    is_now(OF_OTHER, 1);
+    assert_int_equal(studio_session_deeds_done(s), deeds + 2);
+    studio_session_destroy(s);
+}
+
+/* Of nothing is taken out what is drawn; what adds up to the sheet is no selection. */
+static void selections_end(void **state)
+{
+    (void)state;
+    struct studio_session *s = begin();
+    int count, loops;
+    select_other(s, STUDIO_JOIN_SUBTRACT);
+    assert_non_null(studio_session_selected(s, &count));
+    studio_session_selected_loops(s, &loops);
+    assert_int_equal(loops, 2); /* along the sheet, and around the hole */
+    float *fluid = layer_of(s, PAPER_LAYER_RESIST, 0);
+    for (int i = 0; i < FIBERS; i++)
+        assert_true(fluid[i] == other(i));
+    free(fluid);
+    select_other(s, STUDIO_JOIN_ADD);
+    is_now(OF_ALL, 0);
+    select_rectangle(s);
+    good(studio_session_set(s, STUDIO_JOIN, STUDIO_JOIN_ADD));
+    const int deeds = studio_session_deeds_done(s);
+    drag(s, STUDIO_TOOL_SELECT, 30, 30, 30, 30); /* a click adds nothing, and is no deed */
+    is_now(OF_FIRST, 1);
+    assert_int_equal(studio_session_deeds_done(s), deeds);
+    good(studio_session_set(s, STUDIO_JOIN, STUDIO_JOIN_SUBTRACT));
+    drag(s, STUDIO_TOOL_SELECT, -5, -5, SCENE_WIDTH + 5, SCENE_HEIGHT + 5);
+    is_now(OF_ALL, 0);
+    studio_session_destroy(s);
+}
+
+/* Fluid that a hand has painted stays through other selections, and where it is selected then,
+ * it is rubbed off. */
+static void fluid_stays_through_others(void **state)
+{
+    (void)state;
+    struct studio_session *s = begin(), *alone = begin();
+    fluid_sweep(alone, STUDIO_TOOL_MASK, 44);
+    fluid_sweep(s, STUDIO_TOOL_MASK, 44);
+    select_rectangle(s);
+    select_other(s, STUDIO_JOIN_NEW);
+    float *now = layer_of(s, PAPER_LAYER_RESIST, 0),
+          *hand = layer_of(alone, PAPER_LAYER_RESIST, 0);
+    int both = 0;
+    for (int i = 0; i < FIBERS; i++) {
+        assert_true(fabs((double)now[i] - (other(i) ? (double)hand[i] : 1)) < 1e-6);
+        both += other(i) && hand[i] > 0 && inside(i);
+    }
+    assert_true(both > 20);
+    free(now);
+    fluid_sweep(s, STUDIO_TOOL_UNMASK, 44); /* within what is selected */
+    good(studio_session_select_none(s));
+    now = layer_of(s, PAPER_LAYER_RESIST, 0);
+    int kept = 0;
+    for (int i = 0; i < FIBERS; i++) {
+        assert_true(fabs((double)now[i] - (other(i) ? 0 : (double)hand[i])) < 1e-6);
+        kept += now[i] > 0;
+    }
+    assert_true(kept > 20);
+    free(now);
+    free(hand);
+    studio_session_destroy(alone);
+    studio_session_destroy(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -307,6 +476,9 @@ int main(void)
         cmocka_unit_test(fluid_of_the_hand_stays),
         cmocka_unit_test(selections_are_deeds),
         cmocka_unit_test(lassos_are_drawn_anew),
+        cmocka_unit_test(selections_are_changed),
+        cmocka_unit_test(selections_end),
+        cmocka_unit_test(fluid_stays_through_others),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

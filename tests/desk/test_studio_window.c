@@ -90,6 +90,29 @@ static int saved_count(const char *name, const char *what)
     return count;
 }
 
+/* A pen that is held the other way round is another tool, for as long as it is. */
+static void eraser_is_another_tool(void **state)
+{
+    (void)state;
+    FILE *events = played_begin();
+    fprintf(events, "0 set paused on\n0 set tool brush\n0.1 down -20 0 0.5\n0.15 up 20 0 0.5\n"
+                    "0.2 eraser-move -20 9 0\n0.25 eraser-down -20 10 0.5\n"
+                    "0.3 eraser-move 0 10 0.5\n0.35 eraser-up 20 10 0.5\n"
+                    "0.4 down -20 20 0.5\n0.45 up 20 20 0.5\n0.5 set eraser water\n"
+                    "0.5 set shape line\n0.55 eraser-down -20 30 0.5\n"
+                    "0.6 eraser-up 20 30 0.5\n0.65 set tool wash\n0.65 set eraser unmask\n"
+                    "0.7 eraser-down -20 30 0.5\n0.75 eraser-up 20 30 0.5\n"
+                    "0.8 down -20 -20 0.5\n0.85 up 20 20 0.5\n");
+    fprintf(events, "0.9 save %s\n1 close\n", played_path("erased.h5"));
+    fclose(events);
+    played_run(NULL);
+    assert_int_equal(played.status, 0);
+    assert_int_equal(saved_count("erased.h5", "stroke"), 3);
+    assert_int_equal(saved_count("erased.h5", "lift"), 1);
+    assert_int_equal(saved_count("erased.h5", "resist"), 1);
+    assert_int_equal(saved_count("erased.h5", "wash"), 1);
+}
+
 /* A selection by the window's tool, what is painted across it, and nothing selected any more:
  * its script makes the same. */
 static void selection_is_in_the_script(void **state)
@@ -98,14 +121,19 @@ static void selection_is_in_the_script(void **state)
     FILE *events = played_begin();
     fprintf(events, "0 set paused on\n0 view 4 48 36 0 0\n0 set tool select\n"
                     "0 set outline ellipse\n0.1 down -80 -60 0.5\n0.2 up 80 60 0.5\n"
+                    "0.21 shift-down 60 40 0.5\n0.22 up 150 120 0.5\n"
+                    "0.23 set outline rectangle\n0.23 alt-down -40 -40 0.5\n"
+                    "0.24 up 10 60 0.5\n0.25 action select-invert\n"
+                    "0.26 action select-invert\n"
                     "0.3 set tool brush\n0.3 down -170 0 0.5\n0.35 move 0 20 0.8\n"
                     "0.4 up 170 0 0.5\n0.5 step 12\n0.6 action select-none\n"
                     "0.7 down -170 100 0.5\n0.8 up 170 100 0.5\n0.9 step 3\n");
-    fprintf(events, "1 picture %s\n1 script %s\n1.1 close\n", played_path("part.png"),
-            played_path("part.lua"));
+    fprintf(events, "1 picture %s\n1 script %s\n1 save %s\n1.1 close\n",
+            played_path("part.png"), played_path("part.lua"), played_path("part.h5"));
     fclose(events);
     played_run(NULL);
     assert_int_equal(played.status, 0);
+    assert_int_equal(saved_count("part.h5", "resist"), 10); /* 1, four pairs, 1 */
     played_script_is("part.lua", "made/part.png", "part.png");
 }
 
@@ -391,6 +419,7 @@ int main(void)
         cmocka_unit_test(window_paints_what_calls_paint),
         cmocka_unit_test(script_makes_the_same),
         cmocka_unit_test(selection_is_in_the_script),
+        cmocka_unit_test(eraser_is_another_tool),
         cmocka_unit_test(stamps_are_in_the_script),
         cmocka_unit_test(hand_is_helped),
         cmocka_unit_test(closed_in_mid_stroke),

@@ -110,6 +110,7 @@ static void operate(struct paper_sheet *sheet, uint64_t number)
         check(paper_sheet_blot(sheet, &screen, below(30) - 3, below(25) - 3, 0.5, 0.25));
         break;
     case 5:
+        check(paper_sheet_bookmark(sheet, &(struct paper_bookmark){"wet"}));
         check(paper_sheet_resist(sheet, &screen, below(24), below(20), below(3) > 0));
         break;
     case 6:

@@ -166,12 +166,45 @@ static void renders_set_type_anew(void **state)
     free(b.at);
 }
 
+/* All that lies around polygons is known by what it lies around, and nothing else is. */
+static void what_lies_within(void **state)
+{
+    (void)state;
+    const double points[] = {4, 4, 40, 4, 40, 30, 4, 30}, others[] = {20, 10, 60, 10, 60, 50};
+    struct event_bytes b = {0};
+    paper_drawing_polygon(&b, points, 4);
+    assert_int_equal(paper_drawing_within(&(struct paper_drawing){b.at, b.count, 1}), 0);
+    paper_drawing_polygon(&b, others, 3);
+    assert_int_equal(paper_drawing_within(&(struct paper_drawing){b.at, b.count, 1}), 0);
+    paper_drawing_join(&b, '-');
+    const size_t within = b.count;
+    paper_drawing_number(&b, '-', 1, true);
+    const size_t around = b.count;
+    assert_int_equal(paper_drawing_within(&(struct paper_drawing){b.at, around, 1}), within);
+    for (size_t i = 0; i < around; i++) /* cut anywhere it is no drawing */
+        assert_int_equal(paper_drawing_within(&(struct paper_drawing){b.at, i, 1}), 0);
+    paper_drawing_number(&b, '-', 1, true); /* turned back: around that which is around */
+    assert_int_equal(paper_drawing_within(&(struct paper_drawing){b.at, b.count, 1}), around);
+    b.count = around;
+    paper_drawing_number(&b, '-', 0.5, true);
+    assert_int_equal(paper_drawing_within(&(struct paper_drawing){b.at, b.count, 1}), 0);
+    b.count = within;
+    paper_drawing_number(&b, '-', 1, false);
+    assert_int_equal(paper_drawing_within(&(struct paper_drawing){b.at, b.count, 1}), 0);
+    b.count = 0;
+    const struct paper_line line = line_of(30);
+    assert_true(paper_drawing_line(&b, &line, 45.25, 40.5));
+    paper_drawing_number(&b, '-', 1,
+                         true); /* type is no part of the sheet that is drawn around */
+    assert_int_equal(paper_drawing_within(&(struct paper_drawing){b.at, b.count, 1}), 0);
+    free(b.at);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(type_is_set_anew),
-        cmocka_unit_test(shapes_are_joined),
-        cmocka_unit_test(damaged_bytes_are_refused),
+        cmocka_unit_test(what_lies_within),      cmocka_unit_test(type_is_set_anew),
+        cmocka_unit_test(shapes_are_joined),     cmocka_unit_test(damaged_bytes_are_refused),
         cmocka_unit_test(renders_set_type_anew),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -177,6 +177,10 @@ static const struct member layer_rows[] = {
     FORM(event_layer, values, plane_form),
 };
 
+static const struct member bookmark_rows[] = {
+    KEPT(paper_bookmark, name, TEXT, PAPER_NAME_MAX),
+};
+
 static const struct member brush_rows[] = {
     MEMBER(paper_brush, number, INT, 1, NOT, "number", 0, PAPER_BRUSHES_MAX - 1),
     MEMBER(paper_brush, bristles, INT, 1, NOT, "bristles", 1, PAPER_BRISTLES_MAX,
@@ -293,6 +297,7 @@ const struct members paper_air_members = MEMBERS_OF(air_rows),
                      paper_put_members = MEMBERS_OF(put_rows),
                      paper_blot_members = MEMBERS_OF(blot_rows),
                      paper_resist_members = MEMBERS_OF(resist_rows),
+                     paper_bookmark_members = MEMBERS_OF(bookmark_rows),
                      paper_layer_members = MEMBERS_OF(layer_rows),
                      paper_brush_members = MEMBERS_OF(brush_rows),
                      paper_dip_members = MEMBERS_OF(dip_rows),

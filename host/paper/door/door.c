@@ -31,6 +31,12 @@ enum paper_status paper_sheet_air(struct paper_sheet *p, const struct paper_air 
     return sheet_event(p, SHEET_EVENT_AIR, air);
 }
 
+enum paper_status paper_sheet_bookmark(struct paper_sheet *p,
+                                       const struct paper_bookmark *bookmark)
+{
+    return sheet_event(p, SHEET_EVENT_BOOKMARK, bookmark);
+}
+
 const struct paper_air *paper_sheet_get_air(const struct paper_sheet *p)
 {
     return history_air(p);

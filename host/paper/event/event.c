@@ -21,6 +21,14 @@ static enum paper_status air_set(struct paper_sheet *p, const void *arguments)
     return PAPER_OK;
 }
 
+/* It is a name in the history, and nothing on the sheet. */
+static enum paper_status bookmark_set(struct paper_sheet *p, const void *arguments)
+{
+    (void)p;
+    (void)arguments;
+    return PAPER_OK;
+}
+
 static const struct members nothing = {NULL, 0};
 
 static const struct row {
@@ -66,6 +74,9 @@ static const struct row {
     [SHEET_EVENT_VARNISH] = {{"varnish", "varnish's ", WITH(paper_varnish, varnish)},
                              sheet_varnish_check,
                              sheet_varnish},
+    [SHEET_EVENT_BOOKMARK] = {{"bookmark", "", WITH(paper_bookmark, bookmark)},
+                              NULL,
+                              bookmark_set},
 #undef WITH
 };
 

@@ -41,6 +41,7 @@ enum sheet_event_kind {
     SHEET_EVENT_PRINT,
     SHEET_EVENT_LIFT,
     SHEET_EVENT_VARNISH,
+    SHEET_EVENT_BOOKMARK,
     SHEET_EVENT_KINDS
 };
 

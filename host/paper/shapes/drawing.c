@@ -27,6 +27,11 @@ void paper_drawing_polygon(struct event_bytes *b, const double *points, int poin
         event_put_double(b, points[i]);
 }
 
+void paper_drawing_again(struct event_bytes *b, const struct paper_drawing *d)
+{
+    event_put_bytes(b, d->bytes, d->count);
+}
+
 void paper_drawing_join(struct event_bytes *b, char operation)
 {
     event_put_number(b, (uint64_t)operation, 1);
@@ -332,6 +337,36 @@ enum paper_status paper_drawing_screen(const struct paper_drawing *d, double sca
     while (c.depth > 0)
         free(c.stack[--c.depth].at);
     return status;
+}
+
+size_t paper_drawing_within(const struct paper_drawing *d)
+{
+    struct event_reader r = {d->bytes, d->bytes + d->count, false};
+    size_t before = 0; /* the last thing that is done */
+    bool around = false;
+    int depth = 0;
+    while (r.at < r.end && !r.bad) {
+        before = (size_t)(r.at - d->bytes);
+        around = false;
+        const char kind = (char)event_get_number(&r, 1);
+        if (kind == 'P') {
+            const size_t count = (size_t)event_get_number(&r, 4);
+            if (count < 3 || r.bad || count > (size_t)(r.end - r.at) / 16)
+                return 0;
+            r.at += 16 * count;
+            depth++;
+        } else if (kind == 'N') {
+            const uint64_t operation = event_get_number(&r, 1), first = event_get_number(&r, 1);
+            around = event_get_double(&r) == 1 && operation == '-' && first == 1;
+        } else if (kind == '+' || kind == '*' || kind == '-') {
+            depth--;
+        } else {
+            return 0;
+        }
+        if (depth < 1 || depth > DEPTH_MOST)
+            return 0;
+    }
+    return around && depth == 1 && !r.bad ? before : 0;
 }
 
 bool paper_drawing_around(const struct paper_drawing *d, double **points, int *points_count)
