@@ -47,7 +47,7 @@ static void beside_unrealize(GtkGLArea *area, struct desk *d)
 GtkWidget *desk_beside_new(struct desk *d)
 {
     struct desk_beside *b = d->beside = g_new0(struct desk_beside, 1);
-    b->box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+    b->box = gtk_overlay_new(); /* its canvas is as high as the sheet's */
     b->area = gtk_gl_area_new();
     b->text = gtk_label_new("");
     gtk_gl_area_set_auto_render(GTK_GL_AREA(b->area), FALSE);
@@ -60,8 +60,11 @@ GtkWidget *desk_beside_new(struct desk *d)
     g_signal_connect(b->area, "realize", G_CALLBACK(beside_realize), d);
     g_signal_connect(b->area, "unrealize", G_CALLBACK(beside_unrealize), d);
     g_signal_connect(b->area, "render", G_CALLBACK(beside_render), d);
-    gtk_box_append(GTK_BOX(b->box), b->text);
-    gtk_box_append(GTK_BOX(b->box), b->area);
+    gtk_overlay_set_child(GTK_OVERLAY(b->box), b->area);
+    gtk_overlay_add_overlay(GTK_OVERLAY(b->box), b->text);
+    gtk_widget_add_css_class(b->text, "osd");
+    gtk_widget_set_halign(b->text, GTK_ALIGN_CENTER);
+    gtk_widget_set_valign(b->text, GTK_ALIGN_START);
     gtk_widget_set_visible(b->box, FALSE);
     return b->box;
 }
