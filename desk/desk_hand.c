@@ -71,7 +71,7 @@ static void for_now(struct desk *d, bool begins)
 {
     const double *value = d->settings.value;
     if (d->eraser)
-        set_send(d, STUDIO_TOOL, begins ? desk_tool(d) : value[STUDIO_TOOL]);
+        set_send(d, STUDIO_TOOL, begins ? (double)desk_tool(d) : value[STUDIO_TOOL]);
     if (desk_tool(d) == STUDIO_TOOL_SELECT && (d->modifiers & (INPUT_SHIFT | INPUT_ALT)))
         set_send(d, STUDIO_JOIN,
                  !begins                      ? value[STUDIO_JOIN]

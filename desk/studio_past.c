@@ -72,8 +72,10 @@ static bool deed_list(void *context, const struct span *span)
             marked = &l->bookmarks[i];
     paper_history_moment(l->session->sheet, span->itself, &begins);
     paper_history_moment(l->session->sheet, span->end - 1, &last);
+    const bool selects = strcmp(begins.what, "resist") == 0 &&
+                         studio_session_selects(l->session, span->itself) == STUDIO_SELECTS;
     l->deeds[l->count++] =
-        (struct studio_deed){.what = begins.what,
+        (struct studio_deed){.what = selects ? "selection" : begins.what,
                              .time = begins.time,
                              .steps = last.time + last.steps - begins.time,
                              .done = paper_history_done(l->session->sheet) > span->itself,
@@ -417,7 +419,7 @@ enum paper_status studio_session_remove(struct studio_session *s)
     if (status == PAPER_OK)
         status = change_keep(s, span.itself, moment.steps > 0);
     if (status == PAPER_OK && span.itself + 1 < span.end &&
-        studio_session_pair(s, span.itself + 1))
+        studio_session_selects(s, span.itself + 1) == STUDIO_SELECTS_SECOND)
         status = paper_history_operation(s->sheet, span.itself + 1, &s->changed.second.bytes,
                                          &s->changed.second.count);
     s->changed.removed = true;

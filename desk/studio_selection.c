@@ -354,6 +354,14 @@ static struct event_resist *resist_of(const struct paper_sheet *sheet, int numbe
     return NULL;
 }
 
+bool studio_selection_begins(const struct paper_sheet *sheet, int number)
+{
+    struct event_resist *resist = resist_of(sheet, number);
+    const bool begins = resist && resist_selects(resist) > 0;
+    paper_history_arguments_free("resist", resist);
+    return begins;
+}
+
 bool studio_selection_ends(const struct paper_sheet *sheet, int number)
 {
     struct event_resist *second = resist_of(sheet, number),

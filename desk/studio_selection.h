@@ -56,8 +56,9 @@ struct studio_selection {
 enum paper_status studio_selection_look(struct studio_selection *selection,
                                         const struct paper_sheet *sheet);
 void studio_selection_free(struct studio_selection *selection);
-/* Whether operation `number` takes off what was around the selection before, and so belongs to
- * the one before it. */
+/* Whether operation `number` selects something; whether it takes off what was around the
+ * selection before, and so belongs to the one before it. */
+bool studio_selection_begins(const struct paper_sheet *sheet, int number);
 bool studio_selection_ends(const struct paper_sheet *sheet, int number);
 /* What a screen covers of the selection is left of it. */
 void studio_selection_clip(const struct studio_selection *selection, int width, int height,

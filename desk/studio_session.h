@@ -146,7 +146,7 @@ bool studio_session_can_redo(const struct studio_session *session);
 /* Deeds in their order, with those that are undone. While something is inserted, what follows
  * it is not among them. */
 struct studio_deed {
-    const char *what; /* the operation: "stroke", "wash", "put", ... */
+    const char *what; /* the operation: "stroke", "wash", "put", ...; or "selection" */
     long time, steps; /* gone by before it; that it took, with the time after it */
     bool done;
     bool marked;               /* a bookmark is in it, */

@@ -67,21 +67,30 @@ enum studio_part studio_session_part(const struct studio_session *s, int number)
         return STUDIO_PART_BEFORE;
     return !strcmp(moment.what, "step") || !strcmp(moment.what, "air") ||
                    !strcmp(moment.what, "bookmark") ||
-                   (!strcmp(moment.what, "resist") && studio_session_pair(s, number))
+                   (!strcmp(moment.what, "resist") &&
+                    studio_session_selects(s, number) == STUDIO_SELECTS_SECOND)
                ? STUDIO_PART_AFTER
                : STUDIO_PART_DEED;
 }
 
-bool studio_session_pair(const struct studio_session *s, int number)
+static enum studio_selects selects_look(const struct studio_session *s, int number)
+{
+    if (studio_selection_begins(s->sheet, number))
+        return STUDIO_SELECTS;
+    return studio_selection_ends(s->sheet, number) ? STUDIO_SELECTS_SECOND
+                                                   : STUDIO_SELECTS_NOTHING;
+}
+
+enum studio_selects studio_session_selects(const struct studio_session *s, int number)
 {
     struct studio_pairs *pairs = s->pairs;
     if (!array_reserve(&pairs->at, &pairs->capacity, number + 1, sizeof *pairs->at))
-        return studio_selection_ends(s->sheet, number);
+        return selects_look(s, number);
     for (; pairs->count <= number; pairs->count++)
-        pairs->at[pairs->count] = 0;
-    if (pairs->at[number] == 0)
-        pairs->at[number] = studio_selection_ends(s->sheet, number) ? 2 : 1;
-    return pairs->at[number] == 2;
+        pairs->at[pairs->count] = STUDIO_SELECTS_UNKNOWN;
+    if (pairs->at[number] == STUDIO_SELECTS_UNKNOWN)
+        pairs->at[number] = (unsigned char)selects_look(s, number);
+    return (enum studio_selects)pairs->at[number];
 }
 
 bool studio_session_inserted(const struct studio_session *s)

@@ -42,10 +42,9 @@ struct studio_session {
             size_t count;
         } operation, second; /* the second one of a pair that was taken out; NULL: none */
     } changed;
-    /* Of each operation whether it is the second one of a pair: 1: it is not, 2: it is; 0: not
-     * known yet. */
+    /* What each operation is to a selection, as far as somebody has asked. */
     struct studio_pairs {
-        signed char *at;
+        unsigned char *at; /* an enum studio_selects */
         int count, capacity;
     } * pairs;
     bool wet;
@@ -109,8 +108,14 @@ void studio_session_change_forget(struct studio_session *s);
 enum paper_status studio_session_insert(struct studio_session *s);
 /* The stroke gets the way that the hand has drawn. */
 enum paper_status studio_session_way_end(struct studio_session *s);
-/* Whether operation `number` belongs to the one before it, as the second one of a pair
- * (studio_selection.h). */
-bool studio_session_pair(const struct studio_session *s, int number);
+/* What operation `number` is to a selection (studio_selection.h): the second one of a pair
+ * belongs to the one before it. */
+enum studio_selects {
+    STUDIO_SELECTS_UNKNOWN,
+    STUDIO_SELECTS_NOTHING,
+    STUDIO_SELECTS,
+    STUDIO_SELECTS_SECOND
+};
+enum studio_selects studio_session_selects(const struct studio_session *s, int number);
 
 #endif

@@ -389,7 +389,11 @@ static void selections_are_changed(void **state)
     is_now(OF_FIRST, 1);
     select_other(s, STUDIO_JOIN_SUBTRACT);
     is_now(OF_FIRST_ALONE, 1);
-    deeds = studio_session_deeds_done(s);
+    struct studio_deed *list;
+    good(studio_session_deeds(s, &list, &deeds));
+    assert_int_equal(deeds, studio_session_deeds_done(s));
+    assert_string_equal(list[deeds - 1].what, "selection");
+    free(list);
     select_other(s, STUDIO_JOIN_NEW);
     good(studio_session_remove(s)); /* both operations of it */
     is_now(OF_FIRST_ALONE, 1);
