@@ -13,6 +13,7 @@ struct font_verb {
     const char *proof, *display;     /* a word in all filters, for a display */
     const char *edits, *write;       /* a folder, and the level that is written there */
     double size_px, sizes[2];        /* sizes: of a filter that is written */
+    double typeface_px;              /* of all glyphs; 0: not asked for */
     int face, em_px, merge;
     bool show_filter;
 };
@@ -38,6 +39,8 @@ void font_list_print(struct font_face *face);
 int font_waterfall_show(const struct font_verb *v, struct font_face *face);
 /* font_against.c: the face and the one of v->against, and what is different. */
 int font_against_show(const struct font_verb *v, struct font_face *face);
+/* font_typeface.c: all glyphs of v->typeface_px, and a table of where each is. */
+int font_typeface_show(const struct font_verb *v, struct font_face *face);
 /* Writes the level v->write of a glyph, of a filter also of every one, to the folder v->edits,
  * and notes it there. */
 int font_level_write(const struct font_verb *v, struct font_face *face, uint32_t glyph,

@@ -170,7 +170,8 @@ const struct page pages_of_pictures[] = {
     {.verb = "font",
      .usages = "FILE [options]\nFILE --glyph G [options]\nFILE --edits DIR [--glyph G [--write "
                "LEVEL]] [options]\nFILE --proof WORD [options]\nFILE --waterfall AXIS "
-               "[options]\nFILE --against FILE [options]\n--show-filter [--filter F] [-o FILE]",
+               "[options]\nFILE --typeface PX [options]\nFILE --against FILE "
+               "[options]\n--show-filter [--filter F] [-o FILE]",
      .about =
          "Draws a specimen of a font; or one glyph at each level of the font pipeline: its "
          "outline, the master, the rectangles that it is summed from, and its gray; or a "

@@ -22,11 +22,11 @@ static int wishes_check(const struct font_verb *v)
     const bool filter = v->write && strcmp(v->write, "filter") == 0;
     int i = 0;
     if ((v->proof != NULL) + (v->waterfall != NULL) + (v->against != NULL) +
-            (v->glyph != NULL) + v->show_filter >
+            (v->glyph != NULL) + v->show_filter + (v->typeface_px > 0) >
         1)
         return fail_usage("font",
-                          "there is one of --proof, --waterfall, --against, --glyph and "
-                          "--show-filter at a time");
+                          "there is one of --proof, --waterfall, --against, --typeface, "
+                          "--glyph and --show-filter at a time");
     if (v->write && (!(v->glyph || filter) || !v->edits))
         return fail_usage("font", "--write wants a --glyph, and --edits to write to");
     while (v->write && levels[i] && strcmp(v->write, levels[i]) != 0)
@@ -84,6 +84,10 @@ static int font_options(struct font_verb *v, int argc, char **argv, bool *help)
         {"waterfall", 0, OPTION_TEXT, "AXIS",
          "a line of type at nine places along a variable font's axis: wght", &v->waterfall, 0,
          0, 0},
+        {"typeface", 0, OPTION_NUMBER, "PX",
+         "all glyphs at this size in one picture, drawn on the OpenCL device, and a table of "
+         "where each is: out.csv",
+         &v->typeface_px, 0.5, 400, 0},
         {"against", 0, OPTION_TEXT, "FILE",
          "compare with another version of the font: both, and what is different", &v->against,
          0, 0, 0},
@@ -366,10 +370,11 @@ static int picture_make(const struct font_verb *v, struct font_face *face)
     else if (status == EXIT_SUCCESS && edits && font_edits_apply(edits, face) != FONT_OK)
         status = fail_font("font");
     else if (status == EXIT_SUCCESS)
-        status = v->proof       ? font_proof_show(v, face)
-                 : v->waterfall ? font_waterfall_show(v, face)
-                 : v->against   ? font_against_show(v, face)
-                                : specimen_make(v, face);
+        status = v->proof             ? font_proof_show(v, face)
+                 : v->waterfall       ? font_waterfall_show(v, face)
+                 : v->against         ? font_against_show(v, face)
+                 : v->typeface_px > 0 ? font_typeface_show(v, face)
+                                      : specimen_make(v, face);
     font_edits_destroy(edits);
     return status;
 }

@@ -362,6 +362,64 @@ static void proofs_and_versions_are_shown(void **state)
     unlink(path);
 }
 
+/* The picture and its table, read by hand: the letter H is where the table says. */
+static void typeface_has_a_table(void **state)
+{
+    (void)state;
+    const char *path = scratch_path("face.png"), *table = scratch_path("face.csv");
+    struct child child = {
+        .arguments = {"", "font", "DejaVuSansMono", "--typeface", "24", "-o", path}};
+    char line[300];
+    int x = 0, y = 0, width = 0, height = 0, left, top, rows = 0, inked = 0;
+    double advance = 0;
+    run(&child, 0, "wrote ");
+    assert_non_null(strstr(child.output, " glyphs with ink at 24 pixels"));
+    FILE *file = fopen(table, "rb");
+    assert_non_null(file);
+    assert_non_null(fgets(line, sizeof line, file));
+    assert_string_equal(line, "glyph,name,character,x,y,width,height,left,top,advance\r\n");
+    while (fgets(line, sizeof line, file)) {
+        const char *at = strstr(line, ",\"H\",U+0048,");
+        rows++;
+        if (at)
+            assert_int_equal(sscanf(at + 12, "%d,%d,%d,%d,%d,%d,%lf", &x, &y, &width, &height,
+                                    &left, &top, &advance),
+                             7);
+    }
+    fclose(file);
+    assert_true(rows > 3000 && width > 8 && height > 15 && advance > 14 && advance < 15);
+    struct display_image image;
+    assert_int_equal(display_png_read_gray(path, &image), DISPLAY_OK);
+    for (int row = 0; row < height; row++)
+        inked += image.pixels[(y + row) * image.width_px + x + width / 2] > 127;
+    assert_true(inked >= 1 && inked <= 4); /* the bar of the H alone */
+    display_image_destroy(&image);
+    unlink(table);
+    unlink(path);
+}
+
+static void what_is_no_typeface_is_said(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *more[5];
+        int status;
+        const char *says;
+    } cases[] = {
+        {{"0"}, 2, "--typeface must be"},
+        {{"12", "--glyph", "a"}, 2, "one of --proof"},
+        {{"12", "-o", "/nowhere/a.png"}, 1, "/nowhere"},
+        {{"12", "--filter", "soft"}, 1, "there is no filter"},
+        {{"400"}, 1, "too much at this size"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct child child = {.arguments = {"", "font", "DejaVuSans", "--typeface"}};
+        for (int k = 0; cases[i].more[k]; k++)
+            child.arguments[4 + k] = cases[i].more[k];
+        run(&child, cases[i].status, cases[i].says);
+    }
+}
+
 static void wrong_lines_are_said(void **state)
 {
     (void)state;
@@ -462,6 +520,8 @@ int main(void)
         cmocka_unit_test(markdown_is_read),
         cmocka_unit_test(fonts_and_filters_are_shown),
         cmocka_unit_test(proofs_and_versions_are_shown),
+        cmocka_unit_test(typeface_has_a_table),
+        cmocka_unit_test(what_is_no_typeface_is_said),
         cmocka_unit_test(wrong_lines_are_said),
         cmocka_unit_test(what_is_missing_is_said),
     };
