@@ -178,7 +178,6 @@ void desk_hand_drop(struct desk *d); /* a stroke that was begun is given up */
 /* desk_rows.c */
 GtkWidget *desk_row_new(struct desk *d, int setting, const char *label);
 void desk_row_fill(struct desk *d, int setting);
-char *desk_label(const char *name); /* "tilt_x" as "Tilt x", translated; free it by g_free() */
 
 /* desk_panel.c */
 GtkWidget *desk_tools_new(struct desk *d);

@@ -1,167 +1,22 @@
-/* desk_rows.c - a control as a row: its name, a slider or a choice or a switch, its number, and
- * a button for what is usual. All of it is made of the control's row in the table. */
+/* desk_rows.c - the studio's settings as rows of widgets, made of the table of its controls. */
 #include "desk.h"
 
-#include <ctype.h>
+#include "desk_control.h"
 
-enum { WHOLE = 1000 }; /* positions of a slider */
-
-struct row {
-    struct desk *desk;
-    int setting;
-    GtkWidget *slider, *number, *choice, *toggle;
-};
-
-char *desk_label(const char *name)
+static void row_changed(void *user, int setting, double value)
 {
-    char *text = g_strdup(name);
-    for (char *c = text; *c; c++)
-        if (*c == '_')
-            *c = ' ';
-    text[0] = (char)toupper((unsigned char)text[0]);
-    char *label = g_strdup(_(text));
-    g_free(text);
-    return label;
-}
-
-/* ---- a row ---- */
-
-static void row_fill(struct row *row)
-{
-    const struct stage_control *control = &studio_controls[row->setting];
-    const double value = row->desk->settings.value[row->setting];
-    if (row->slider)
-        gtk_range_set_value(GTK_RANGE(row->slider),
-                            WHOLE * stage_control_along(control, value));
-    if (row->number)
-        gtk_spin_button_set_value(GTK_SPIN_BUTTON(row->number), value);
-    if (row->choice)
-        gtk_drop_down_set_selected(GTK_DROP_DOWN(row->choice), (guint)value);
-    if (row->toggle)
-        gtk_switch_set_active(GTK_SWITCH(row->toggle), value != 0);
-}
-
-static void slider_moved(GtkRange *range, struct row *row)
-{
-    if (!row->desk->filling)
-        desk_set(row->desk, row->setting,
-                 stage_control_at(&studio_controls[row->setting],
-                                  gtk_range_get_value(range) / WHOLE));
-}
-
-static void number_typed(GtkSpinButton *number, struct row *row)
-{
-    if (!row->desk->filling)
-        desk_set(row->desk, row->setting, gtk_spin_button_get_value(number));
-}
-
-static void choice_made(GtkDropDown *choice, GParamSpec *spec, struct row *row)
-{
-    (void)spec;
-    if (!row->desk->filling)
-        desk_set(row->desk, row->setting, gtk_drop_down_get_selected(choice));
-}
-
-static void toggled(GtkSwitch *toggle, GParamSpec *spec, struct row *row)
-{
-    (void)spec;
-    if (!row->desk->filling)
-        desk_set(row->desk, row->setting, gtk_switch_get_active(toggle));
-}
-
-static void reset(GtkButton *button, struct row *row)
-{
-    (void)button;
-    desk_set(row->desk, row->setting, studio_controls[row->setting].usual);
-}
-
-static GtkWidget *choice_new(const struct stage_control *control)
-{
-    char **words = g_strsplit(control->choices, " ", -1);
-    GtkStringList *names = gtk_string_list_new(NULL);
-    for (char **word = words; *word; word++) {
-        char *label = desk_label(*word);
-        gtk_string_list_append(names, label);
-        g_free(label);
-    }
-    g_strfreev(words);
-    return gtk_drop_down_new(G_LIST_MODEL(names), NULL);
-}
-
-static void slider_add(struct row *row, GtkWidget *box, const char *name, const char *tip)
-{
-    const struct stage_control *control = &studio_controls[row->setting];
-    const double span = control->most - control->least;
-    const bool whole = span > 400;
-    row->slider = gtk_scale_new_with_range(GTK_ORIENTATION_HORIZONTAL, 0, WHOLE, 1);
-    gtk_scale_set_draw_value(GTK_SCALE(row->slider), FALSE);
-    gtk_widget_set_hexpand(row->slider, TRUE);
-    gtk_widget_set_size_request(row->slider, 96, -1);
-    row->number = gtk_spin_button_new_with_range(control->least, control->most,
-                                                 whole       ? 1
-                                                 : span > 20 ? 0.5
-                                                             : 0.01);
-    gtk_spin_button_set_digits(GTK_SPIN_BUTTON(row->number), whole         ? 0
-                                                             : span > 20   ? 1
-                                                             : span > 0.06 ? 2
-                                                                           : 4);
-    gtk_editable_set_width_chars(GTK_EDITABLE(row->number), 5);
-    gtk_editable_set_max_width_chars(GTK_EDITABLE(row->number), 5);
-    GtkWidget *again = gtk_button_new_from_icon_name("edit-undo-symbolic");
-    gtk_button_set_has_frame(GTK_BUTTON(again), FALSE);
-    char *text = g_strdup_printf(_("Usual %s"), name);
-    desk_name(again, text, text);
-    g_free(text);
-    text = g_strdup_printf(_("%s, as a number"), name);
-    desk_name(row->slider, name, tip);
-    desk_name(row->number, text, tip);
-    g_free(text);
-    g_signal_connect(row->slider, "value-changed", G_CALLBACK(slider_moved), row);
-    g_signal_connect(row->number, "value-changed", G_CALLBACK(number_typed), row);
-    g_signal_connect(again, "clicked", G_CALLBACK(reset), row);
-    gtk_box_append(GTK_BOX(box), row->slider);
-    gtk_box_append(GTK_BOX(box), row->number);
-    gtk_box_append(GTK_BOX(box), again);
+    struct desk *d = user;
+    if (!d->filling)
+        desk_set(d, setting, value);
 }
 
 GtkWidget *desk_row_new(struct desk *d, int setting, const char *label)
 {
-    const struct stage_control *control = &studio_controls[setting];
-    struct row *row = g_new0(struct row, 1);
-    GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 4);
-    char *name = label ? g_strdup(_(label)) : desk_label(control->name);
-    char *tip = g_strdup_printf("%s%s%s%s", _(control->does), control->unit[0] ? " (" : "",
-                                control->unit, control->unit[0] ? ")" : "");
-    GtkWidget *text = gtk_label_new(name);
-    *row = (struct row){.desk = d, .setting = setting};
-    gtk_label_set_xalign(GTK_LABEL(text), 0);
-    gtk_label_set_width_chars(GTK_LABEL(text), label ? 17 : 10);
-    gtk_label_set_max_width_chars(GTK_LABEL(text), label ? 17 : 14);
-    gtk_label_set_ellipsize(GTK_LABEL(text), PANGO_ELLIPSIZE_END);
-    gtk_widget_set_tooltip_text(text, tip);
-    gtk_box_append(GTK_BOX(box), text);
-    if (control->curve == STAGE_CHOICE) {
-        row->choice = choice_new(control);
-        gtk_widget_set_hexpand(row->choice, TRUE);
-        desk_name(row->choice, name, tip);
-        g_signal_connect(row->choice, "notify::selected", G_CALLBACK(choice_made), row);
-        gtk_box_append(GTK_BOX(box), row->choice);
-    } else if (control->curve == STAGE_SWITCH) {
-        row->toggle = gtk_switch_new();
-        gtk_widget_set_valign(row->toggle, GTK_ALIGN_CENTER);
-        desk_name(row->toggle, name, tip);
-        g_signal_connect(row->toggle, "notify::active", G_CALLBACK(toggled), row);
-        gtk_box_append(GTK_BOX(box), row->toggle);
-    } else
-        slider_add(row, box, name, tip);
-    g_object_set_data_full(G_OBJECT(box), "row", row, g_free);
-    d->rows[setting] = box;
-    g_free(name);
-    g_free(tip);
-    return box;
+    return d->rows[setting] =
+               desk_control_new(&studio_controls[setting], label, row_changed, d, setting);
 }
 
 void desk_row_fill(struct desk *d, int setting)
 {
-    row_fill(g_object_get_data(G_OBJECT(d->rows[setting]), "row"));
+    desk_control_set(d->rows[setting], d->settings.value[setting]);
 }
