@@ -137,13 +137,14 @@ const struct page pages_of_pictures[] = {
      .files = "/usr/share/doc/lutetia/examples/pages: texts to begin with",
      .see = "lutetia-type(1), lutetia-font(1), fc-list(1)"},
     {.verb = "read",
-     .usages = "FILE.md... [options]",
+     .usages = "[FILE.md...] [options]",
      .about =
          "Opens Markdown in a window in which it is scrolled, searched and read at any width "
          "and size; with --out sets it as pages: CommonMark with GitHub's tables, tasks, "
          "struck words, links "
-         "and notes, and formulas in TeX's notation. Several files are one document. The "
-         "ending "
+         "and notes, and formulas in TeX's notation. Several files are one document; without "
+         "one "
+         "it is Lutetia's manual. The ending "
          "of --out says the kind of file: .png, .svg or .pdf; a PDF has all pages, its text "
          "tagged, its headings as outline. FILE may be - for what is piped in.",
      .notes =
@@ -160,12 +161,16 @@ const struct page pages_of_pictures[] = {
          "keys.\n" FONTS,
      .values = {{.option = "theme", .words = "light, dark"}},
      .examples =
-         {{"lutetia read notes.md", "a window"},
+         {{"lutetia read", "the manual, in a window"},
+          {"lutetia read notes.md", "a window"},
           {"lutetia read notes.md -o notes.pdf", "one PDF of all pages"},
           {"lutetia read one.md two.md --paper 595x842 --columns 2 --size 11 -o both.pdf",
            "two files as one document on A4"},
           {"echo 'The *water* is $x^2$ deep.' | lutetia read - --plain -o page.png",
            "what is piped in"}},
+     .files =
+         "/usr/share/lutetia/manual: the manual\n~/.local/share/lutetia/manual.notes: what "
+         "was left in it",
      .see = "lutetia-set(1), lutetia-type(1)"},
     {.verb = "font",
      .usages = "FILE [options]\nFILE --glyph G [options]\nFILE --edits DIR [--glyph G [--write "

@@ -3,6 +3,7 @@
 #include "help.h"
 #include "lutetia.h"
 #include "options.h"
+#include "read_manual.h"
 #include "type_common.h"
 #include "type_pages.h"
 
@@ -27,6 +28,7 @@ struct read {
     double size_px, leading, margin_px, gap_px, notes_px;
     int columns;
     bool ragged, plain;
+    bool manual; /* no file was named */
 };
 
 enum { WORDS_MAX = OPTION_WORDS_MAX + 16 }; /* of the window's program */
@@ -76,11 +78,11 @@ static int read_options(struct read *r, int argc, char **argv, struct option_wor
         return help_print("read", rows, NULL);
     if (!options_effects("read", rows, needs, words))
         return EXIT_USAGE;
-    if (words->count < 1)
-        return fail_usage("read", "give a Markdown file, or several, or -%s", "");
     if (r->theme && strcmp(r->theme, "light") != 0 && strcmp(r->theme, "dark") != 0)
         return fail_usage("read", "--theme must be light or dark (got '%.40s')", r->theme);
-    return r->pages.out_path ? type_pages_check(&r->pages) : EXIT_SUCCESS;
+    const int status = r->pages.out_path ? type_pages_check(&r->pages) : EXIT_SUCCESS;
+    r->manual = words->count == 0;
+    return status == EXIT_SUCCESS && r->manual ? read_manual_words(words) : status;
 }
 
 static int fail_reader(const char *path)
@@ -188,6 +190,8 @@ static void line_fill(struct line *line, const struct read *r, const struct opti
     word_add(line, "size=%g", r->size_px);
     if (r->ragged)
         word_add(line, "ragged=1");
+    if (r->manual)
+        word_add(line, "manual=1");
     for (int i = 0; i < words->count; i++)
         word_add(line, "file=%s", words->words[i]);
 }

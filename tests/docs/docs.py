@@ -6,6 +6,7 @@
 - Names in code spans (`like_this`): a function, a variable or a constant must be a word of the code.
 - Files and folders in code spans and in indented text: they must be there.
 - Options (`--like-this`): the code must know them.
+- The manual's chapters: all documents of docs/, each once.
 - Environment variables LUTETIA_...: the code must know those that a document names, and a document must name those that the
   code reads.
 
@@ -121,10 +122,23 @@ class House:
                 if not self.leads("README.md", found.group()) and not name.startswith("tests/"):
                     self.offences.append("%s:%d: there is no %s"
                                          % (name, text.count("\n", 0, found.start()) + 1, found.group()))
+        self.check_chapters()
         said = {variable for text in self.documents.values() for variable in VARIABLE.findall(text)}
         for variable in sorted(self.read - said):
             self.offences.append("no document names %s, which the code reads" % variable)
         return self.offences
+
+    def check_chapters(self):
+        """The manual has all documents of docs/, each once."""
+        listed = self.code.get("docs/manual/chapters.txt")
+        if listed is None:
+            return
+        chapters = listed.split()
+        for chapter in sorted({c for c in chapters if c not in self.documents or chapters.count(c) > 1}):
+            self.offences.append("docs/manual/chapters.txt: %s is %s" % (chapter, "there twice" if chapter in self.documents else "no document"))
+        for document in sorted(self.documents):
+            if re.fullmatch(r"docs/[^/]+", document) and document not in chapters:
+                self.offences.append("docs/manual/chapters.txt: the manual has no %s" % document)
 
     def leads(self, document, target):
         path, _, anchor = target.partition("#")

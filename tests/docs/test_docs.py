@@ -58,6 +58,14 @@ class Documents(unittest.TestCase):
         self.wrong("[a](#swords)", "#swords")
         self.wrong("", "host/c.c:1", "docs/hour.md", host__c="", **{"host/c.c": "/* docs/hour.md */\n"})
 
+    def test_chapters(self):
+        def chapters(text):
+            return {"docs/manual/chapters.txt": text}
+        self.clean("", **chapters("README.md\ndocs/tour.md\n"))
+        self.wrong("", "the manual has no docs/tour.md", **chapters("README.md\n"))
+        self.wrong("", "docs/tour.md is there twice", **chapters("docs/tour.md\ndocs/tour.md\n"))
+        self.wrong("", "hour.md is no document", **chapters("docs/tour.md\nhour.md\n"))
+
     def test_options(self):
         self.clean("`lutetia spring --still a.png --set x=1`")
         self.wrong("`lutetia spring --stil a.png`", "--stil")
