@@ -60,6 +60,7 @@ struct reader_pages {
     /* A column that is scrolled: passages are made one by one. */
     struct made_passage *made; /* NULL: pages */
     int at;                    /* of the flow's paragraphs, the next one */
+    const double *stage_more;  /* of each block: room under its picture; NULL: none */
     const int *opened; /* notes that are seen: those with the passage's number, from 1 */
     int passage;       /* that number */
 };

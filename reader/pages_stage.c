@@ -9,10 +9,11 @@ enum reader_status pages_stage_add(struct reader_pages *p, const struct reader_b
 {
     const double most = fmax(1, pages_column(p) - manner->left_px - manner->right_px),
                  width = fmin(block->stage_width, floor(most)),
-                 height = round(block->stage_height * width / block->stage_width);
+                 height = round(block->stage_height * width / block->stage_width),
+                 more = p->stage_more ? p->stage_more[block - p->document->blocks] : 0;
     const struct font_layout shown = {.size_px = p->setup.size_px,
                                       .width_px = width,
-                                      .ascent_px = height + p->setup.stage_strip_px};
+                                      .ascent_px = height + p->setup.stage_strip_px + more};
     struct page_style look = page_style_default();
     int style, plain;
     look.font = p->fonts[0];

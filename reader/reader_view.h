@@ -101,6 +101,10 @@ struct reader_stage {
 bool reader_view_stage(struct reader_view *view, const struct reader_shown *shown,
                        struct reader_stage *out);
 
+/* So much room more under the picture of a block's stage, for its controls: the line that is
+ * being read stays. Errors: BAD_ARGUMENT (no such block, less than nothing), NO_MEMORY. */
+enum reader_status reader_view_stage_room(struct reader_view *view, int block, double more_px);
+
 /* Opens a note where the byte calls it, or closes it. Errors: BAD_ARGUMENT (no such note),
  * NO_MEMORY. */
 enum reader_status reader_view_note(struct reader_view *view, int note, size_t byte);

@@ -34,7 +34,8 @@ static enum reader_status notes_begin(struct reader_view *view)
     const struct reader_document *d = view->document;
     view->opened = calloc((size_t)d->notes_count + 1, sizeof *view->opened);
     view->called = malloc(((size_t)d->notes_count + 1) * sizeof *view->called);
-    if (!view->opened || !view->called)
+    view->stage_more = calloc((size_t)d->blocks_count + 1, sizeof *view->stage_more);
+    if (!view->opened || !view->called || !view->stage_more)
         return pages_no_memory();
     for (int i = 0; i < d->notes_count; i++)
         view->called[i] = SIZE_MAX;
@@ -77,6 +78,7 @@ void reader_view_destroy(struct reader_view *view)
     free(view->loaded);
     free(view->opened);
     free(view->called);
+    free(view->stage_more);
     free(view->shown);
     free(view);
 }
@@ -319,6 +321,22 @@ enum reader_status reader_view_set(struct reader_view *view,
         status = top_restore(view);
     }
     return status;
+}
+
+/* ---- stages ---- */
+
+enum reader_status reader_view_stage_room(struct reader_view *view, int block, double more_px)
+{
+    if (block < 0 || block >= view->document->blocks_count || !(more_px >= 0))
+        return reader_fail(READER_BAD_ARGUMENT, "there is no stage %d", block);
+    if (view->stage_more[block] == more_px)
+        return READER_OK;
+    enum reader_status status = top_keep(view);
+    if (status != READER_OK)
+        return status;
+    view->stage_more[block] = more_px;
+    view_unload(view);
+    return top_restore(view);
 }
 
 /* ---- notes ---- */

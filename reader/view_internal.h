@@ -25,8 +25,9 @@ struct reader_view {
     int begin, end;             /* passages that are loaded */
     struct made_passage *loaded;
     int loaded_capacity, paragraphs; /* paragraphs: of the text's flow */
-    int *opened;    /* for each note: the passage in which it is open, from 1; 0: closed */
-    size_t *called; /* for each note: the byte that calls it first; SIZE_MAX: none */
+    int *opened;        /* for each note: the passage in which it is open, from 1; 0: closed */
+    double *stage_more; /* for each block: room under its stage's picture */
+    size_t *called;     /* for each note: the byte that calls it first; SIZE_MAX: none */
     /* The window's top. */
     int at;
     double at_px;

@@ -112,6 +112,7 @@ static enum reader_status passage_load(struct reader_view *view, int passage)
     memset(p->noted, 0, (size_t)view->document->notes_count * sizeof *p->noted);
     p->at = front ? 0 : view->paragraphs;
     p->opened = view->opened;
+    p->stage_more = view->stage_more;
     p->passage = passage + 1;
     p->behind_head =
         !to->first || view->document->blocks[to->first - 1].kind != READER_PARAGRAPH;

@@ -19,11 +19,6 @@ static void copy_selected(struct read_desk *d)
     g_free(text);
 }
 
-static void contents_toggle(struct read_desk *d)
-{
-    gtk_widget_set_visible(d->contents_side, !gtk_widget_get_visible(d->contents_side));
-}
-
 static void select_all(struct read_desk *d)
 {
     if (d->document)
@@ -57,7 +52,7 @@ enum { SIZE_STEP_PERCENT = 8, COLUMN_STEP = 3 };
 
 ACTION(back, read_document_back(d, false))
 ACTION(forward, read_document_back(d, true))
-ACTION(contents, contents_toggle(d))
+ACTION(contents, read_contents_toggle(d))
 ACTION(search, read_search_open(d, true))
 ACTION(search_next, read_search_step(d, true))
 ACTION(search_before, read_search_step(d, false))
@@ -75,6 +70,7 @@ ACTION(highlight, read_keys_key(d, GDK_KEY_h, 0))
 ACTION(note, read_keys_key(d, GDK_KEY_n, 0))
 ACTION(pen, read_keys_key(d, GDK_KEY_d, 0))
 ACTION(eraser, read_keys_key(d, GDK_KEY_e, 0))
+ACTION(spots, read_keys_key(d, GDK_KEY_E, 0))
 ACTION(move_ink, read_keys_key(d, GDK_KEY_m, 0))
 ACTION(play_back, read_keys_key(d, GDK_KEY_r, 0))
 ACTION(play_back_all, read_keys_key(d, GDK_KEY_R, 0))
@@ -102,6 +98,7 @@ static const GActionEntry entries[] = {
     {.name = "note", .activate = note},
     {.name = "pen", .activate = pen},
     {.name = "eraser", .activate = eraser},
+    {.name = "spots", .activate = spots},
     {.name = "move-ink", .activate = move_ink},
     {.name = "play-back", .activate = play_back},
     {.name = "play-back-all", .activate = play_back_all},
@@ -127,6 +124,7 @@ static const struct desk_row menu_rows[] = {
     {"win.note", "Note (N)", "<Control>n"},
     {"win.pen", "Draw (D)", "<Control><Shift>d"},
     {"win.eraser", "Erase ink (E)", "<Control>e"},
+    {"win.spots", "Erase spots of ink (Shift+E)", "<Control><Shift>e"},
     {"win.move-ink", "Move ink (M)", "<Control>m"},
     {"win.play-back", "Play ink back (R)", "<Control>r"},
     {"win.play-back-all", "Play back with what was erased", "<Control><Shift>r"},

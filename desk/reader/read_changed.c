@@ -20,6 +20,7 @@ static gboolean scrollbar_set(gpointer data)
                              0, fmax(all, d->setup.height_px), 40, d->setup.height_px * 0.9,
                              d->setup.height_px);
     d->moving = false;
+    d->placed(d);
     return G_SOURCE_REMOVE;
 }
 

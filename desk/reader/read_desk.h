@@ -1,7 +1,8 @@
 /* read_desk.h - the reader's window: what its files share.
  *
  *     read_main.c      the program: its words, the application
- *     read_window.c    the window: header, contents, search, what is told
+ *     read_window.c    the window: header, search, what is told
+ *     read_contents.c  the contents
  *     read_actions.c   actions, menu
  *     read_document.c  files, links, the way back
  *     read_search.c    what is found
@@ -10,12 +11,15 @@
  *     read_remarks.c   highlights, typed notes, undo
  *     read_list.c      their list
  *     read_ink.c       ink
+ *     read_spots.c     spots that are taken out of it
  *     read_watch.c     files that other programs change
  *     read_text.c      words
  *     read_page.c      the page: a widget that shows a reader_view
  *     read_changed.c   what follows when the page is other
  *     read_heard.c     the page's text for screen readers
  *     read_stages.c    demonstrations in it
+ *     read_stages_hand.c  pointer and keys for them
+ *     read_controls.c  their controls
  *     read_tiles.c     its pictures, painted by fontpipe and kept
  *     read_look.c      sizes, colours, how wide the text is
  *     read_play.c      recorded input: events from a file
@@ -35,7 +39,8 @@
 #define N_(text) (text) /* translated where it is shown */
 
 struct read_options {
-    GPtrArray *paths; /* of the document's files */
+    GPtrArray *paths;  /* of the document's files; not changed once it is open */
+    GPtrArray *manual; /* paths, where they are the manual's; else NULL */
     const char *font, *mono, *math, *language, *play;
     double size_px;
     int width, height;
@@ -56,12 +61,18 @@ struct read_colours {
 
 /* A place that one can go back to. */
 struct read_place {
-    char *path; /* NULL: in the document that is open */
+    GPtrArray *paths; /* of the document */
     size_t byte;
 };
 
 /* What the first button does. */
-enum read_tool { READ_TOOL_READ, READ_TOOL_PEN, READ_TOOL_ERASER, READ_TOOL_MOVE };
+enum read_tool {
+    READ_TOOL_READ,
+    READ_TOOL_PEN,
+    READ_TOOL_ERASER,
+    READ_TOOL_SPOTS,
+    READ_TOOL_MOVE
+};
 
 struct read_tiles;
 struct read_stages;
@@ -73,6 +84,7 @@ struct read_desk {
     GtkApplication *application;
     GtkWidget *window, *page, *scrollbar, *contents, *contents_side, *search_bar, *search_entry,
         *search_told, *notice, *notice_text, *told;
+    int contents_source; /* whose headings are all in the contents; -1: none */
     /* the document */
     struct reader_document *document;
     struct reader_view *view;
@@ -98,6 +110,7 @@ struct read_desk {
     bool dragging;
     double drag_y, drag_s;
     double pointer_x, pointer_y;
+    double pressure; /* of a pen over the page, 0..1; a mouse: 1 */
     /* the way back */
     GArray *way; /* struct read_place */
     guint way_at;
@@ -106,13 +119,16 @@ struct read_desk {
     GtkWidget *remarks_list, *typing; /* typing: the small window of a note */
     GArray *deeds;                    /* struct read_deed */
     guint deeds_done, syncing;
+    unsigned group; /* of deeds that are undone together; their number so far */
+    bool grouping;
     enum read_tool tool;
     struct desk_pen *pen;
     unsigned ink_rgba;
     double ink_width; /* ems */
     GArray *stroke;   /* struct reader_ink_point, in the window's pixels */
     double stroke_s;
-    bool drawn; /* the hand is down */
+    GArray *spots; /* where an eraser of spots has been, while the hand is down */
+    bool drawn;    /* the hand is down */
     int moving_stroke;
     double move_x, move_y;
     bool playing, playing_erased;
@@ -125,8 +141,11 @@ struct read_desk {
     struct read_play *play;
     /* what files below the window's call of it */
     void (*document_shown)(struct read_desk *d);
-    void (*acted)(struct read_desk *d);  /* other actions are possible */
-    void (*listed)(struct read_desk *d); /* what readers have left is other */
+    void (*acted)(struct read_desk *d);   /* other actions are possible */
+    void (*listed)(struct read_desk *d);  /* what readers have left is other */
+    void (*placed)(struct read_desk *d);  /* another place is read */
+    void (*changed)(struct read_desk *d); /* the page is other: read_page_changed() */
+    bool (*step)(struct read_desk *d, bool forward); /* read_keys_step() */
     void (*resized)(struct read_desk *d, int width, int height);
     void (*say)(struct read_desk *d, const char *text);
 };
@@ -167,6 +186,10 @@ bool read_stages_move(struct read_desk *d, double x, double y);
 bool read_stages_release(struct read_desk *d, double x, double y);
 bool read_stages_holds(const struct read_desk *d); /* what is dragged is its */
 bool read_stages_key(struct read_desk *d, guint key);
+/* The focus goes to the controls of the one that Tab has come to; false: there are none. */
+bool read_stages_enter(struct read_desk *d, size_t byte);
+void read_stages_key_up(struct read_desk *d, guint key);
+bool read_stages_types(const struct read_desk *d);     /* keys are a control's */
 bool read_stages_is(const struct reader_block *block); /* one of them */
 /* As its button does, where Tab has come to one, and keys are its own. */
 bool read_stages_follow(struct read_desk *d, size_t byte);
@@ -174,7 +197,25 @@ bool read_stages_follow(struct read_desk *d, size_t byte);
  * runs, and so many pictures have not come yet; what there is, as lines that g_free() frees. */
 bool read_stages_button(struct read_desk *d, int number);
 bool read_stages_waits(struct read_desk *d, int number, long pictures);
+/* Its control of that number, from 1, is given a value as if by a hand. */
+bool read_stages_set(struct read_desk *d, int number, int control, double value);
 char *read_stages_told(struct read_desk *d);
+
+/* read_controls.c */
+struct read_controls;
+struct demonstration;
+/* A box of them, which is below the strip as long as that is there. */
+struct read_controls *read_controls_create(GtkWidget *strip);
+void read_controls_destroy(struct read_controls *controls); /* the strip is gone */
+/* Those that a demonstration has declared, in place of the ones that there are. NULL: it has
+ * ended, and nothing can be set. */
+void read_controls_fill(struct read_controls *controls, struct demonstration *run);
+/* How high they are in a column of that width; 0: there are none. */
+int read_controls_height(struct read_controls *controls, int width);
+bool read_controls_enter(struct read_controls *controls); /* the first has the focus */
+bool read_controls_has(const struct read_controls *controls, const GtkWidget *focus);
+bool read_controls_type(struct read_controls *controls, int number, double value);
+void read_controls_tell(const struct read_controls *controls, GString *to);
 
 /* read_changed.c */
 void read_page_changed(struct read_desk *d); /* to be drawn anew */
@@ -197,6 +238,8 @@ void read_hand_release(struct read_desk *d, double x, double y);
 
 /* read_keys.c */
 bool read_keys_key(struct read_desk *d, guint key, GdkModifierType state);
+/* Tab, or with Shift, from the place that it has come to. */
+bool read_keys_step(struct read_desk *d, bool forward);
 
 /* read_search.c */
 void read_search_text(struct read_desk *d, const char *text);
@@ -210,6 +253,7 @@ bool read_document_open(struct read_desk *d);
 /* Follows the link, or opens the note, that a byte is of. False: there is neither. */
 bool read_document_follow(struct read_desk *d, size_t byte);
 void read_document_go(struct read_desk *d, size_t byte); /* kept on the way */
+bool read_document_is_manual(const struct read_desk *d);
 void read_document_back(struct read_desk *d, bool forward);
 bool read_document_can(const struct read_desk *d, bool forward);
 void read_document_finish(struct read_desk *d);
@@ -221,10 +265,12 @@ void read_document_reload(struct read_desk *d);
 /* The text of bytes; g_free() it. */
 char *read_text_of(const struct read_desk *d, struct read_range range);
 struct read_range read_text_word(const struct read_desk *d, size_t byte);
+/* From where a stroke's points are counted; false: it is not seen. */
+bool read_text_origin(struct read_desk *d, const struct reader_remark *r, double *x, double *y);
 
 /* read_remarks.c */
-void read_remarks_open(struct read_desk *d, const char *path); /* beside that file */
-void read_remarks_find(struct read_desk *d);                   /* in another text */
+void read_remarks_open(struct read_desk *d, const char *file);
+void read_remarks_find(struct read_desk *d); /* in another text */
 void read_remarks_close(struct read_desk *d);
 void read_remarks_finish(struct read_desk *d);
 /* Each is a deed that can be undone. The new one's number; -1: it was said why there is
@@ -233,6 +279,8 @@ int read_remarks_add(struct read_desk *d, const struct reader_remark *what, size
                      size_t end);
 void read_remarks_erase(struct read_desk *d, int index);
 void read_remarks_move(struct read_desk *d, int index, double x, double y);
+/* Deeds from one to the other are undone together. */
+void read_remarks_group(struct read_desk *d, bool begins);
 void read_remarks_undo(struct read_desk *d, bool redo);
 bool read_remarks_can(const struct read_desk *d, bool redo);
 int read_remarks_at(const struct read_desk *d, size_t byte);
@@ -241,6 +289,12 @@ void read_remarks_highlight(
 void read_remarks_type(struct read_desk *d);
 void read_remarks_typed(struct read_desk *d, const char *text); /* without its small window */
 void read_remarks_edit(struct read_desk *d, int index);
+
+/* read_contents.c */
+GtkWidget *read_contents_new(struct read_desk *d);
+void read_contents_fill(struct read_desk *d);   /* the document is another one */
+void read_contents_toggle(struct read_desk *d); /* they are seen, or not */
+void read_contents_follow(struct read_desk *d); /* the place that is read is chosen in them */
 
 /* read_list.c */
 GtkWidget *read_list_new(struct read_desk *d);
@@ -252,7 +306,14 @@ void read_ink_press(struct read_desk *d, double x, double y, double pressure, do
 void read_ink_move(struct read_desk *d, double x, double y, double pressure, double time_s);
 void read_ink_release(struct read_desk *d, double x, double y);
 double read_ink_pressure(struct read_desk *d, guint32 time_ms, GdkEvent *event);
+/* Of a pen; without one what a mouse has. */
+double read_ink_pen(struct read_desk *d, guint32 time_ms, GdkEvent *event, double mouse);
 void read_ink_play(struct read_desk *d, bool erased); /* or ends it */
+
+/* read_spots.c */
+void read_spots_add(struct read_desk *d, double x, double y);
+bool read_spots_at(const struct read_desk *d, double x, double y); /* what is there goes */
+void read_spots_end(struct read_desk *d);                          /* the hand is up */
 
 /* read_watch.c */
 void read_watch_begin(struct read_desk *d, void (*changed)(struct read_desk *d));

@@ -4,6 +4,7 @@
 #include <beside.h>
 #include <input_file.h>
 #include <string.h>
+#include <user_folder.h>
 
 /* ---- reading ---- */
 
@@ -98,12 +99,32 @@ static bool document_take(struct read_desk *d, struct reader_document *document)
     return true;
 }
 
+bool read_document_is_manual(const struct read_desk *d)
+{
+    return d->options.manual && d->options.paths == d->options.manual;
+}
+
+/* What readers leave is kept beside the document's first file. The manual belongs to all: its
+ * notes are kept among the reader's own data. Owns: the caller frees it. */
+static char *notes_file(const struct read_desk *d)
+{
+    if (!read_document_is_manual(d))
+        return g_strconcat(g_ptr_array_index(d->options.paths, 0), ".notes", NULL);
+    char *folder = g_build_filename(g_get_user_data_dir(), "lutetia", NULL);
+    char *file = g_build_filename(folder, "manual.notes", NULL);
+    user_folder_make(folder);
+    g_free(folder);
+    return file;
+}
+
 bool read_document_open(struct read_desk *d)
 {
     struct reader_document *document = files_read(d);
     if (!document || !document_take(d, document))
         return false;
-    read_remarks_open(d, g_ptr_array_index(d->options.paths, 0));
+    char *notes = notes_file(d);
+    read_remarks_open(d, notes);
+    g_free(notes);
     d->document_shown(d);
     read_page_changed(d);
     return true;
@@ -153,18 +174,13 @@ void read_document_finish(struct read_desk *d)
 
 static void place_clear(gpointer item)
 {
-    g_free(((struct read_place *)item)->path);
-}
-
-static const char *path_now(const struct read_desk *d)
-{
-    return g_ptr_array_index(d->options.paths, 0);
+    g_ptr_array_unref(((struct read_place *)item)->paths);
 }
 
 /* The place that is being read, at the way's present end. */
 static void place_keep(struct read_desk *d)
 {
-    struct read_place place = {.path = g_strdup(path_now(d))};
+    struct read_place place = {.paths = g_ptr_array_ref(d->options.paths)};
     reader_view_top(d->view, &place.byte);
     if (!d->way->len)
         g_array_set_clear_func(d->way, place_clear);
@@ -183,13 +199,12 @@ void read_document_go(struct read_desk *d, size_t byte)
 }
 
 /* Another document in place of this one; false: it cannot be opened, and this one stays. */
-static bool other_open(struct read_desk *d, const char *path)
+static bool other_open(struct read_desk *d, GPtrArray *paths)
 {
     GPtrArray *before = d->options.paths;
-    if (strcmp(path, path_now(d)) == 0)
+    if (paths == before)
         return true;
-    d->options.paths = g_ptr_array_new_with_free_func(g_free);
-    g_ptr_array_add(d->options.paths, g_strdup(path));
+    d->options.paths = g_ptr_array_ref(paths);
     const bool good = read_document_open(d);
     g_ptr_array_unref(good ? before : d->options.paths);
     if (!good)
@@ -212,7 +227,7 @@ void read_document_back(struct read_desk *d, bool forward)
     }
     d->way_at = forward ? d->way_at + 1 : d->way_at - 1;
     const struct read_place place = g_array_index(d->way, struct read_place, d->way_at);
-    if (other_open(d, place.path))
+    if (other_open(d, place.paths))
         reader_view_go(d->view, place.byte, 0);
     read_page_changed(d);
     d->acted(d);
@@ -235,12 +250,16 @@ static char *heading_name(const struct reader_block *block)
     return g_string_free(name, FALSE);
 }
 
-static bool heading_find(const struct read_desk *d, const char *wanted, size_t *byte)
+/* The first heading of that name, of one of the document's files (-1: of any). */
+static bool heading_find(const struct read_desk *d, const char *wanted, int source,
+                         size_t *byte)
 {
     for (int i = 0; i < d->document->blocks_count; i++) {
         const struct reader_block *block = &d->document->blocks[i];
-        char *name = block->kind == READER_HEADING ? heading_name(block) : NULL;
-        const bool found = name && strcmp(name, wanted) == 0;
+        if (block->kind != READER_HEADING || (source >= 0 && block->source != source))
+            continue;
+        char *name = heading_name(block);
+        const bool found = strcmp(name, wanted) == 0;
         g_free(name);
         if (found) {
             *byte = block->at;
@@ -256,41 +275,81 @@ static bool is_markdown(const char *path)
            g_str_has_suffix(path, ".txt");
 }
 
-/* A file beside this one, and a heading in it. */
-static bool file_link(struct read_desk *d, const char *target)
+/* Which of the document's files that is; -1: none. */
+static int source_of(const struct read_desk *d, const char *path)
+{
+    int source = -1;
+    char *whole = g_canonicalize_filename(path, NULL);
+    for (guint i = 0; i < d->options.paths->len && source < 0; i++) {
+        char *own = g_canonicalize_filename(g_ptr_array_index(d->options.paths, i), NULL);
+        source = strcmp(own, whole) == 0 ? (int)i : -1;
+        g_free(own);
+    }
+    g_free(whole);
+    return source;
+}
+
+/* Where a file of the document begins; false: there is nothing in it. */
+static bool source_begin(const struct read_desk *d, int source, size_t *byte)
+{
+    for (int i = 0; i < d->document->blocks_count; i++)
+        if (d->document->blocks[i].source == source) {
+            *byte = d->document->blocks[i].at;
+            return true;
+        }
+    return false;
+}
+
+/* To a file, in this document or in place of it, and a heading of that (NULL: its begin). */
+static void file_go(struct read_desk *d, const char *path, const char *heading)
+{
+    int source = source_of(d, path);
+    size_t byte = 0;
+    place_keep(d);
+    if (source < 0) {
+        GPtrArray *paths = g_ptr_array_new_with_free_func(g_free);
+        g_ptr_array_add(paths, g_strdup(path));
+        source = other_open(d, paths) ? 0 : -1;
+        g_ptr_array_unref(paths);
+    }
+    if (source >= 0 && ((heading && heading_find(d, heading, source, &byte)) ||
+                        source_begin(d, source, &byte)))
+        reader_view_go(d->view, byte, d->size_px);
+    read_page_changed(d);
+    d->acted(d);
+}
+
+/* A file beside that with the link, and a heading in it. */
+static bool file_link(struct read_desk *d, const char *target, int source)
 {
     char **parts = g_strsplit(target, "#", 2);
-    char *folder = g_path_get_dirname(path_now(d));
+    char *folder = g_path_get_dirname(g_ptr_array_index(d->options.paths, (guint)source));
     char *path = g_path_is_absolute(parts[0]) ? g_strdup(parts[0])
                                               : g_build_filename(folder, parts[0], NULL);
     const bool good = is_markdown(path);
-    size_t byte = 0;
-    if (good) {
-        place_keep(d);
-        if (other_open(d, path) && (!parts[1] || heading_find(d, parts[1], &byte)))
-            reader_view_go(d->view, byte, d->size_px);
-        read_page_changed(d);
-    }
+    if (good)
+        file_go(d, path, parts[1]);
     g_free(path);
     g_free(folder);
     g_strfreev(parts);
-    d->acted(d);
     return good;
 }
 
-static bool link_follow(struct read_desk *d, const char *target)
+/* source: which of the document's files has the link. */
+static bool link_follow(struct read_desk *d, const char *target, int source)
 {
     char *told = NULL;
     size_t byte;
     if (target[0] == '#') {
-        if (heading_find(d, target + 1, &byte))
+        if (heading_find(d, target + 1, source, &byte) ||
+            heading_find(d, target + 1, -1, &byte))
             read_document_go(d, byte);
         else
             told = g_strdup_printf(_("There is no heading %s in this document."), target);
     } else if (g_str_has_prefix(target, "https://") || g_str_has_prefix(target, "http://") ||
                g_str_has_prefix(target, "mailto:")) {
         gtk_show_uri(GTK_WINDOW(d->window), target, GDK_CURRENT_TIME);
-    } else if (strchr(target, ':') || !file_link(d, target)) {
+    } else if (strchr(target, ':') || !file_link(d, target, source)) {
         told = g_strdup_printf(
             _("%.200s is not followed: only Markdown, https: and mailto: are."), target);
     }
@@ -309,5 +368,6 @@ bool read_document_follow(struct read_desk *d, size_t byte)
         read_page_changed(d);
         return true;
     }
-    return span && (span->look & READER_LINK) && span->target && link_follow(d, span->target);
+    return span && (span->look & READER_LINK) && span->target &&
+           link_follow(d, span->target, reader_document_block(d->document, byte)->source);
 }

@@ -205,15 +205,14 @@ static void pressed(GtkGestureClick *click, int times, double x, double y, struc
 {
     GtkEventController *controller = GTK_EVENT_CONTROLLER(click);
     const guint32 now_ms = gtk_event_controller_get_current_event_time(controller);
+    GdkEvent *event = gtk_event_controller_get_current_event(controller);
     if (d->tool == READ_TOOL_READ) {
+        d->pressure = read_ink_pen(d, now_ms, event, 1);
         read_hand_press(d, x, y, times);
         return;
     }
     gtk_widget_grab_focus(d->page);
-    read_ink_press(
-        d, x, y,
-        read_ink_pressure(d, now_ms, gtk_event_controller_get_current_event(controller)),
-        now_ms * 1e-3);
+    read_ink_press(d, x, y, read_ink_pressure(d, now_ms, event), now_ms * 1e-3);
 }
 
 static void released(GtkGestureClick *click, int times, double x, double y, struct read_desk *d)
@@ -247,11 +246,14 @@ static void ink_moved(struct read_desk *d, GdkEvent *event, double x, double y)
 
 static void moved(GtkEventControllerMotion *motion, double x, double y, struct read_desk *d)
 {
-    if (d->tool == READ_TOOL_READ)
-        read_hand_move(d, x, y);
-    else
-        ink_moved(d, gtk_event_controller_get_current_event(GTK_EVENT_CONTROLLER(motion)), x,
-                  y);
+    GdkEvent *event = gtk_event_controller_get_current_event(GTK_EVENT_CONTROLLER(motion));
+    if (d->tool != READ_TOOL_READ) {
+        ink_moved(d, event, x, y);
+        return;
+    }
+    if (event && read_stages_holds(d))
+        d->pressure = read_ink_pen(d, gdk_event_get_time(event), event, 1);
+    read_hand_move(d, x, y);
 }
 
 void read_hand_attach(struct read_desk *d)

@@ -10,23 +10,12 @@
 
 enum { ERASER_PX = 10, GRAB_PX = 12 };
 
-/* ---- where ---- */
-
-/* Where a stroke's points are counted from; false: it is not seen. */
-static bool origin_of(struct read_desk *d, const struct reader_remark *r, double *x, double *y)
-{
-    struct reader_box box;
-    if (r->orphan || reader_view_boxes(d->view, r->begin, r->begin + 1, &box, 1) < 1)
-        return false;
-    *x = box.x + r->x * d->size_px;
-    *y = box.y + r->y * d->size_px;
-    return true;
-}
-
 /* ---- drawing ---- */
 
+/* spots: where none of it is drawn; NULL: all is. */
 static void stroke_draw(cairo_t *cairo, const struct reader_ink_point *points, int count,
-                        double x, double y, double em, double width, unsigned rgba)
+                        double x, double y, double em, double width, unsigned rgba,
+                        const struct read_desk *spots)
 {
     const double red = (rgba >> 24) / 255.0, green = (rgba >> 16 & 255) / 255.0,
                  blue = (rgba >> 8 & 255) / 255.0, alpha = (rgba & 255) / 255.0;
@@ -36,6 +25,9 @@ static void stroke_draw(cairo_t *cairo, const struct reader_ink_point *points, i
     for (int i = 0; i < count; i++) {
         const struct reader_ink_point *a = &points[i > 0 ? i - 1 : 0], *b = &points[i];
         const double pressure = ((double)a->pressure + (double)b->pressure) / 2;
+        if (spots && (read_spots_at(spots, x + em * (double)a->x, y + em * (double)a->y) ||
+                      read_spots_at(spots, x + em * (double)b->x, y + em * (double)b->y)))
+            continue;
         cairo_set_line_width(cairo, fmax(0.6, em * width * (0.25 + 0.75 * pressure)));
         cairo_move_to(cairo, x + em * (double)a->x, y + em * (double)a->y);
         cairo_line_to(cairo, x + em * (double)b->x, y + em * (double)b->y);
@@ -70,8 +62,9 @@ static void strokes_draw(struct read_desk *d, cairo_t *cairo)
         const int count = d->playing ? points_until(r, d->play_s - begins_s) : r->points_count;
         before_s = r->made_s;
         begins_s += lasts_s;
-        if (count && origin_of(d, r, &x, &y))
-            stroke_draw(cairo, r->points, count, x, y, d->size_px, r->width, r->rgba);
+        if (count && read_text_origin(d, r, &x, &y))
+            stroke_draw(cairo, r->points, count, x, y, d->size_px, r->width, r->rgba,
+                        d->spots->len ? d : NULL);
     }
     d->play_end_s = begins_s;
 }
@@ -90,7 +83,7 @@ void read_ink_draw(struct read_desk *d, GtkSnapshot *snapshot)
     strokes_draw(d, cairo);
     if (some)
         stroke_draw(cairo, (const struct reader_ink_point *)(void *)d->stroke->data,
-                    (int)d->stroke->len, 0, 0, 1, d->ink_width * d->size_px, d->ink_rgba);
+                    (int)d->stroke->len, 0, 0, 1, d->ink_width * d->size_px, d->ink_rgba, NULL);
     cairo_destroy(cairo);
 }
 
@@ -114,7 +107,7 @@ static int stroke_at(struct read_desk *d, double px, double py, double reach)
     for (int i = d->remarks ? reader_remarks_count(d->remarks) - 1 : -1; i >= 0; i--) {
         const struct reader_remark *r = reader_remarks_get(d->remarks, i);
         double x, y;
-        if (r->kind != READER_REMARK_INK || r->gone_s != 0 || !origin_of(d, r, &x, &y))
+        if (r->kind != READER_REMARK_INK || r->gone_s != 0 || !read_text_origin(d, r, &x, &y))
             continue;
         for (int k = 0; k < r->points_count; k++)
             if (hypot(x + d->size_px * (double)r->points[k].x - px,
@@ -138,6 +131,8 @@ void read_ink_press(struct read_desk *d, double x, double y, double pressure, do
     d->moving_stroke = -1;
     if (d->tool == READ_TOOL_ERASER)
         erase_at(d, x, y);
+    else if (d->tool == READ_TOOL_SPOTS)
+        read_spots_add(d, x, y);
     else if (d->tool == READ_TOOL_MOVE) {
         d->moving_stroke = stroke_at(d, x, y, GRAB_PX);
         d->move_x = x;
@@ -152,6 +147,8 @@ void read_ink_move(struct read_desk *d, double x, double y, double pressure, dou
         return;
     if (d->tool == READ_TOOL_ERASER)
         erase_at(d, x, y);
+    else if (d->tool == READ_TOOL_SPOTS)
+        read_spots_add(d, x, y);
     else if (d->tool == READ_TOOL_PEN)
         point_add(d, x, y, pressure, time_s);
 }
@@ -204,6 +201,8 @@ void read_ink_release(struct read_desk *d, double x, double y)
     if (!d->drawn)
         return;
     d->drawn = false;
+    if (d->spots->len)
+        read_spots_end(d);
     if (d->stroke->len)
         stroke_keep(d);
     g_array_set_size(d->stroke, 0);
@@ -217,14 +216,19 @@ void read_ink_release(struct read_desk *d, double x, double y)
 }
 
 /* A pen's pressure, from X11 or from GTK; a mouse has one in the middle. */
-double read_ink_pressure(struct read_desk *d, guint32 time_ms, GdkEvent *event)
+double read_ink_pen(struct read_desk *d, guint32 time_ms, GdkEvent *event, double mouse)
 {
-    double pressure = (double)MOUSE_PRESSURE, tilt[2];
+    double pressure = mouse, tilt[2];
     bool eraser;
     if (!desk_pen_at(d->pen, time_ms, &pressure, tilt, &eraser) && event &&
         gdk_event_get_device_tool(event))
         gdk_event_get_axis(event, GDK_AXIS_PRESSURE, &pressure);
     return pressure;
+}
+
+double read_ink_pressure(struct read_desk *d, guint32 time_ms, GdkEvent *event)
+{
+    return read_ink_pen(d, time_ms, event, (double)MOUSE_PRESSURE);
 }
 
 /* ---- playing back ---- */

@@ -46,7 +46,7 @@ static void seen_make(struct read_desk *d, size_t byte)
         reader_view_go(d->view, byte, floor(fmax(line, d->setup.height_px / 3)));
 }
 
-static bool focus_step(struct read_desk *d, bool forward)
+bool read_keys_step(struct read_desk *d, bool forward)
 {
     size_t from = d->focused;
     if (from == G_MAXSIZE && reader_view_top(d->view, &from) != READER_OK)
@@ -120,6 +120,9 @@ static bool tool_key(struct read_desk *d, guint key)
     case GDK_KEY_e:
         tool_set(d, READ_TOOL_ERASER);
         return true;
+    case GDK_KEY_E:
+        tool_set(d, READ_TOOL_SPOTS);
+        return true;
     case GDK_KEY_m:
         tool_set(d, READ_TOOL_MOVE);
         return true;
@@ -139,8 +142,10 @@ bool read_keys_key(struct read_desk *d, guint key, GdkModifierType state)
         return false;
     if (read_stages_key(d, key))
         return true;
+    if (key == GDK_KEY_Tab && !shift && read_stages_enter(d, d->focused))
+        return true;
     if (key == GDK_KEY_Tab || key == GDK_KEY_ISO_Left_Tab)
-        return focus_step(d, key == GDK_KEY_Tab && !shift);
+        return read_keys_step(d, key == GDK_KEY_Tab && !shift);
     if ((key == GDK_KEY_Return || key == GDK_KEY_KP_Enter) && d->focused != G_MAXSIZE)
         return read_stages_follow(d, d->focused) || read_document_follow(d, d->focused);
     if (key == GDK_KEY_slash) {

@@ -1,6 +1,7 @@
 /* read_main.c - the program lutetia-reader, which `lutetia read` runs. Its words are of that
  * verb's making, NAME=VALUE, and have been checked there: file (in their order), font, mono,
- * math, language, size, width, height, theme, ragged, play. */
+ * math, language, size, width, height, theme, ragged, play; manual: the files are the
+ * manual. */
 #include "read_desk.h"
 
 #include <stdlib.h>
@@ -30,6 +31,8 @@ static bool word_take(void *context, const char *name, const char *value)
         o->theme = strcmp(value, "dark") == 0;
     else if (strcmp(name, "ragged") == 0)
         o->ragged = true;
+    else if (strcmp(name, "manual") == 0)
+        o->manual = g_ptr_array_ref(o->paths);
     else if (strcmp(name, "play") == 0)
         o->play = value;
     else
@@ -59,10 +62,12 @@ static void desk_begin(struct read_desk *d)
     d->way = g_array_new(FALSE, FALSE, sizeof(struct read_place));
     d->heard = g_ptr_array_new();
     d->stroke = g_array_new(FALSE, FALSE, sizeof(struct reader_ink_point));
+    d->spots = g_array_new(FALSE, FALSE, 2 * sizeof(double));
     d->watches = g_ptr_array_new_with_free_func(g_object_unref);
     d->ink_rgba = 0x1f4fbfc8u; /* blue, translucent */
     d->ink_width = 0.16;
     d->moving_stroke = -1;
+    d->pressure = 1;
     d->hit = -1;
     d->focused = G_MAXSIZE;
     d->tiles = read_tiles_create();
@@ -78,6 +83,7 @@ static void desk_finish(struct read_desk *d)
     read_document_finish(d);
     desk_pen_destroy(d->pen);
     g_array_free(d->stroke, TRUE);
+    g_array_free(d->spots, TRUE);
     g_ptr_array_unref(d->watches);
     read_stages_finish(d);
     read_stages_destroy(d->stages);
@@ -85,6 +91,8 @@ static void desk_finish(struct read_desk *d)
     g_array_free(d->hits, TRUE);
     g_ptr_array_unref(d->heard);
     g_ptr_array_unref(d->options.paths);
+    if (d->options.manual)
+        g_ptr_array_unref(d->options.manual);
 }
 
 int main(int argc, char **argv)

@@ -173,6 +173,7 @@ static void tell(struct read_desk *d, const struct input *i)
     reader_view_look(d->view, &shown, &count);
     reader_view_top(d->view, &top);
     reader_view_extent(d->view, &above, &all);
+    const struct reader_block *block = reader_document_block(d->document, top);
     for (int k = 0; k < d->document->notes_count; k++)
         opened += reader_view_note_open(d->view, k);
     for (int k = 0; d->remarks && k < reader_remarks_count(d->remarks); k++) {
@@ -180,7 +181,7 @@ static void tell(struct read_desk *d, const struct input *i)
         struct reader_box box;
         remarks += r->gone_s == 0;
         orphans += r->gone_s == 0 && r->orphan;
-        if (r->kind == READER_REMARK_INK && !r->orphan &&
+        if (r->kind == READER_REMARK_INK && r->gone_s == 0 && !r->orphan &&
             reader_view_boxes(d->view, r->begin, r->begin + 1, &box, 1) > 0) {
             ink_x = box.x + d->size_px * (r->x + (double)r->points[0].x);
             ink_y = box.y + d->size_px * (r->y + (double)r->points[0].y);
@@ -195,8 +196,9 @@ static void tell(struct read_desk *d, const struct input *i)
         "%.1f %.1f\n%s",
         top, g_strdelimit(line, "\n", ' '), count, above, all, reader_view_set_count(d->view),
         read_tiles_painted(d->tiles), d->hits->len, d->hit, opened, selected, d->way_at,
-        d->way->len, (const char *)g_ptr_array_index(d->options.paths, 0), d->heard->len,
-        remarks, orphans, ink_x, ink_y, stages);
+        d->way->len,
+        (const char *)g_ptr_array_index(d->options.paths, block ? (guint)block->source : 0),
+        d->heard->len, remarks, orphans, ink_x, ink_y, stages);
     if (!g_file_set_contents(i->text, told, -1, NULL))
         d->say(d, i->text);
     g_free(told);
@@ -209,6 +211,12 @@ static void stage(struct read_desk *d, const struct input *i)
 {
     if (!read_stages_button(d, (int)i->value[0]))
         d->say(d, "there is no such stage");
+}
+
+static void set(struct read_desk *d, const struct input *i)
+{
+    if (!read_stages_set(d, (int)i->value[0], (int)i->value[1], i->value[2]))
+        d->say(d, "there is no such control");
 }
 
 /* It was waited for: see play_on(). */
@@ -232,7 +240,8 @@ static const struct word words[] = {
     {"go", -1, go},        {"action", -1, action}, {"picture", -1, picture},
     {"tell", -1, tell},    {"press", 3, press},    {"drag", 3, drag},
     {"lift", 2, lift},     {"note", -1, note},     {"select", -1, choose},
-    {"stage", 1, stage},   {"await", 2, await},    {"close", 0, end}};
+    {"stage", 1, stage},   {"await", 2, await},    {"set", 3, set},
+    {"close", 0, end}};
 
 /* ---- reading ---- */
 

@@ -13,6 +13,7 @@ struct read_deed {
     enum { DEED_MADE, DEED_ERASED, DEED_MOVED, DEED_WRITTEN } kind;
     double x[2], y[2];
     char *text[2];
+    unsigned group; /* those of one number are undone together; 0: alone */
 };
 
 static void deed_clear(gpointer item)
@@ -43,13 +44,11 @@ static void changed(struct read_desk *d)
     d->acted(d);
 }
 
-void read_remarks_open(struct read_desk *d, const char *path)
+void read_remarks_open(struct read_desk *d, const char *file)
 {
-    char *beside = g_strconcat(path, ".notes", NULL);
     read_remarks_close(d);
-    if (reader_remarks_open(beside, &d->remarks) != READER_OK)
+    if (reader_remarks_open(file, &d->remarks) != READER_OK)
         d->say(d, reader_error());
-    g_free(beside);
     read_remarks_find(d);
 }
 
@@ -86,6 +85,7 @@ static void deed_keep(struct read_desk *d, struct read_deed deed)
 {
     if (d->deeds_done < d->deeds->len)
         g_array_remove_range(d->deeds, d->deeds_done, d->deeds->len - d->deeds_done);
+    deed.group = d->grouping ? d->group : 0;
     g_array_append_val(d->deeds, deed);
     d->deeds_done = d->deeds->len;
 }
@@ -95,30 +95,49 @@ bool read_remarks_can(const struct read_desk *d, bool redo)
     return d->remarks && (redo ? d->deeds_done < d->deeds->len : d->deeds_done > 0);
 }
 
-void read_remarks_undo(struct read_desk *d, bool redo)
+void read_remarks_group(struct read_desk *d, bool begins)
 {
-    if (!read_remarks_can(d, redo))
-        return;
-    const struct read_deed *deed =
-        &g_array_index(d->deeds, struct read_deed, redo ? d->deeds_done : d->deeds_done - 1);
-    enum reader_status status = READER_OK;
+    d->group += begins;
+    d->grouping = begins;
+}
+
+static enum reader_status deed_do(struct read_desk *d, const struct read_deed *deed, bool redo)
+{
     switch (deed->kind) {
     case DEED_MADE:
-        status = reader_remarks_erase(d->remarks, deed->index, !redo);
-        break;
+        return reader_remarks_erase(d->remarks, deed->index, !redo);
     case DEED_ERASED:
-        status = reader_remarks_erase(d->remarks, deed->index, redo);
-        break;
+        return reader_remarks_erase(d->remarks, deed->index, redo);
     case DEED_MOVED:
-        status = reader_remarks_move(d->remarks, deed->index, deed->x[redo], deed->y[redo]);
-        break;
+        return reader_remarks_move(d->remarks, deed->index, deed->x[redo], deed->y[redo]);
     case DEED_WRITTEN:
-        status = reader_remarks_write(d->remarks, deed->index, deed->text[redo]);
-        break;
+        return reader_remarks_write(d->remarks, deed->index, deed->text[redo]);
     }
-    if (status == READER_OK)
-        d->deeds_done += redo ? 1 : -1u;
-    else
+    return READER_OK;
+}
+
+/* The one that would be undone, or done again, next. */
+static const struct read_deed *deed_next(const struct read_desk *d, bool redo)
+{
+    return read_remarks_can(d, redo)
+               ? &g_array_index(d->deeds, struct read_deed, d->deeds_done - (redo ? 0 : 1))
+               : NULL;
+}
+
+void read_remarks_undo(struct read_desk *d, bool redo)
+{
+    const struct read_deed *deed = deed_next(d, redo);
+    const unsigned group = deed ? deed->group : 0;
+    enum reader_status status = READER_OK;
+    if (!deed)
+        return;
+    do {
+        status = deed_do(d, deed, redo);
+        if (status == READER_OK)
+            d->deeds_done += redo ? 1 : -1u;
+        deed = deed_next(d, redo);
+    } while (status == READER_OK && group && deed && deed->group == group);
+    if (status != READER_OK)
         d->say(d, reader_error());
     changed(d);
 }

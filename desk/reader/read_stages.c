@@ -1,36 +1,18 @@
 /* read_stages.c - demonstrations in the page: scripts that live, each a process, its picture
- * over its text, and under it a button that starts and stops it and a line that it says.
+ * over its text, and under it a button that starts and stops it, a line that it says, and its
+ * controls.
  *
  * None runs before its button is pressed. It computes only while it is seen; three have
  * processes at a time: of more, the one that was not seen for longest is ended. One that fails,
  * hangs or dies says so in its line, and runs again when its button is pressed.
  *
  * The buttons are children of the page that are drawn, where read_heard.c's are not. */
-#include "read_desk.h"
+#include "read_stages.h"
 
-#include <demonstration.h>
+#include <math.h>
+#include <string.h>
 
 enum { STAGES_AT_ONCE = 3 };
-
-struct stage {
-    int block; /* of the document's */
-    int width, height;
-    GtkWidget *strip, *button, *line;
-    struct demonstration *run; /* NULL: it does not run */
-    GdkTexture *texture;       /* its last picture; NULL: none */
-    bool seen;
-    struct reader_stage place; /* in the window, while it is seen */
-    gint64 seen_us;
-};
-
-struct read_stages {
-    struct read_desk *desk;
-    GPtrArray *all;      /* struct stage */
-    struct stage *held;  /* the button that was pressed on it is still down */
-    struct stage *keyed; /* keys go to it */
-    guint filling, tick;
-    gint64 tick_us;
-};
 
 struct read_stages *read_stages_create(struct read_desk *d)
 {
@@ -40,7 +22,7 @@ struct read_stages *read_stages_create(struct read_desk *d)
     return stages;
 }
 
-static struct stage *stage_of(const struct read_stages *stages, int block)
+struct stage *read_stage_of(const struct read_stages *stages, int block)
 {
     for (guint i = 0; i < stages->all->len; i++) {
         struct stage *s = g_ptr_array_index(stages->all, i);
@@ -73,6 +55,7 @@ static void stage_stop(struct read_stages *stages, struct stage *s)
 {
     demonstration_stop(s->run);
     s->run = NULL;
+    read_controls_fill(s->controls, NULL);
     if (stages->held == s)
         stages->held = NULL;
     if (stages->keyed == s)
@@ -130,9 +113,9 @@ static void stage_start(struct read_stages *stages, struct stage *s)
     tick_ensure(stages);
 }
 
-static void button_clicked(GtkButton *button, struct stage *s)
+void read_stage_toggle(struct stage *s)
 {
-    struct read_stages *stages = g_object_get_data(G_OBJECT(button), "stages");
+    struct read_stages *stages = s->stages;
     if (s->run) {
         stage_stop(stages, s);
         line_set(s, _("Stopped."));
@@ -142,6 +125,58 @@ static void button_clicked(GtkButton *button, struct stage *s)
     gtk_widget_queue_draw(stages->desk->page);
 }
 
+static void button_clicked(GtkButton *button, struct stage *s)
+{
+    (void)button;
+    read_stage_toggle(s);
+}
+
+/* Tab goes through the strip, and from its ends back to the page, where it had come from. */
+static gboolean strip_key(GtkEventControllerKey *keys, guint key, guint code,
+                          GdkModifierType state, struct stage *s)
+{
+    struct read_desk *d = s->stages->desk;
+    const bool back = key == GDK_KEY_ISO_Left_Tab || (state & GDK_SHIFT_MASK);
+    (void)keys;
+    (void)code;
+    GtkWidget *focus = gtk_window_get_focus(GTK_WINDOW(d->window));
+    if ((key != GDK_KEY_Tab && key != GDK_KEY_ISO_Left_Tab && key != GDK_KEY_Escape) ||
+        (focus && gtk_widget_get_ancestor(focus, GTK_TYPE_POPOVER))) /* a choice's list */
+        return FALSE;
+    if (key != GDK_KEY_Escape &&
+        gtk_widget_child_focus(s->strip, back ? GTK_DIR_TAB_BACKWARD : GTK_DIR_TAB_FORWARD))
+        return TRUE;
+    d->focused = d->document->blocks[s->block].at;
+    gtk_widget_grab_focus(d->page);
+    if (key != GDK_KEY_Escape && !back)
+        d->step(d, true);
+    gtk_widget_queue_draw(d->page);
+    return TRUE;
+}
+
+/* The button and the line, and under them the controls. */
+static void strip_make(struct read_stages *stages, struct stage *s)
+{
+    GtkWidget *row = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
+    GtkEventController *keys = gtk_event_controller_key_new();
+    s->strip = gtk_box_new(GTK_ORIENTATION_VERTICAL, 4);
+    s->button = gtk_button_new();
+    s->line = gtk_label_new("");
+    gtk_label_set_ellipsize(GTK_LABEL(s->line), PANGO_ELLIPSIZE_END);
+    gtk_label_set_xalign(GTK_LABEL(s->line), 0);
+    gtk_widget_set_hexpand(s->line, TRUE);
+    gtk_widget_set_valign(s->button, GTK_ALIGN_START);
+    gtk_box_append(GTK_BOX(row), s->button);
+    gtk_box_append(GTK_BOX(row), s->line);
+    gtk_box_append(GTK_BOX(s->strip), row);
+    s->controls = read_controls_create(s->strip);
+    g_signal_connect(s->button, "clicked", G_CALLBACK(button_clicked), s);
+    gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
+    g_signal_connect(keys, "key-pressed", G_CALLBACK(strip_key), s);
+    gtk_widget_add_controller(s->strip, keys);
+    gtk_widget_set_parent(s->strip, stages->desk->page);
+}
+
 static struct stage *stage_new(struct read_stages *stages, int block)
 {
     const struct reader_block *from = &stages->desk->document->blocks[block];
@@ -149,18 +184,8 @@ static struct stage *stage_new(struct read_stages *stages, int block)
     s->block = block;
     s->width = from->stage_width;
     s->height = from->stage_height;
-    s->strip = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
-    s->button = gtk_button_new();
-    s->line = gtk_label_new("");
-    gtk_label_set_ellipsize(GTK_LABEL(s->line), PANGO_ELLIPSIZE_END);
-    gtk_label_set_xalign(GTK_LABEL(s->line), 0);
-    gtk_widget_set_hexpand(s->line, TRUE);
-    gtk_widget_set_valign(s->button, GTK_ALIGN_START);
-    gtk_box_append(GTK_BOX(s->strip), s->button);
-    gtk_box_append(GTK_BOX(s->strip), s->line);
-    g_object_set_data(G_OBJECT(s->button), "stages", stages);
-    g_signal_connect(s->button, "clicked", G_CALLBACK(button_clicked), s);
-    gtk_widget_set_parent(s->strip, stages->desk->page);
+    s->stages = stages;
+    strip_make(stages, s);
     button_set(s);
     g_ptr_array_add(stages->all, s);
     return s;
@@ -170,6 +195,8 @@ static void stage_free(struct stage *s)
 {
     demonstration_stop(s->run);
     g_clear_object(&s->texture);
+    g_clear_pointer(&s->pixels, g_bytes_unref);
+    read_controls_destroy(s->controls);
     g_free(s);
 }
 
@@ -209,6 +236,23 @@ void read_stages_destroy(struct read_stages *stages)
 
 /* ---- what is seen ---- */
 
+/* How wide its strip may be: as far as the column goes. */
+static double strip_px(const struct read_desk *d, const struct stage *s)
+{
+    return fmax(s->place.width,
+                d->setup.width_px - d->setup.margin_px - d->setup.notes_px - s->place.x);
+}
+
+/* There is room in the page for its controls, and no more. */
+static void room_ensure(struct read_desk *d, struct stage *s)
+{
+    if (reader_view_stage_room(d->view, s->block,
+                               read_controls_height(s->controls, (int)strip_px(d, s))) !=
+        READER_OK)
+        d->say(d, reader_error());
+    d->changed(d);
+}
+
 /* Strips for those that are seen now. */
 static gboolean fill(gpointer data)
 {
@@ -221,7 +265,8 @@ static gboolean fill(gpointer data)
     if (!d->page || !d->view || reader_view_look(d->view, &shown, &count) != READER_OK)
         return G_SOURCE_REMOVE;
     for (int i = 0; i < count; i++)
-        if (reader_view_stage(d->view, &shown[i], &place) && !stage_of(stages, place.block))
+        if (reader_view_stage(d->view, &shown[i], &place) &&
+            !read_stage_of(stages, place.block))
             stage_new(stages, place.block);
     gtk_widget_queue_allocate(d->page);
     return G_SOURCE_REMOVE;
@@ -235,8 +280,7 @@ void read_stages_changed(struct read_desk *d)
         gtk_widget_queue_allocate(d->page);
 }
 
-/* Under its picture, as far as the column goes: what it says may be longer than that is
- * wide. */
+/* Under its picture: what it says may be longer than that is wide. */
 static void strip_place(const struct read_desk *d, const struct stage *s)
 {
     enum { GAP = 4 };
@@ -244,10 +288,9 @@ static void strip_place(const struct read_desk *d, const struct stage *s)
     gtk_widget_set_child_visible(s->strip, s->seen);
     if (!s->seen)
         return;
+    read_controls_height(s->controls, (int)strip_px(d, s)); /* in this column */
     gtk_widget_measure(s->strip, GTK_ORIENTATION_HORIZONTAL, -1, &wide, &natural, NULL, NULL);
-    const double column =
-        d->setup.width_px - d->setup.margin_px - d->setup.notes_px - s->place.x;
-    wide = MAX(wide, (int)MAX(s->place.width, column));
+    wide = MAX(wide, (int)strip_px(d, s));
     gtk_widget_measure(s->strip, GTK_ORIENTATION_VERTICAL, wide, &least, &natural, NULL, NULL);
     const GtkAllocation box = {(int)s->place.x, (int)(s->place.y + s->place.height) + GAP, wide,
                                least};
@@ -265,13 +308,15 @@ void read_stages_place(struct read_desk *d)
         ((struct stage *)g_ptr_array_index(d->stages->all, i))->seen = false;
     for (int i = 0; i < count; i++) {
         struct stage *s = reader_view_stage(d->view, &shown[i], &place)
-                              ? stage_of(d->stages, place.block)
+                              ? read_stage_of(d->stages, place.block)
                               : NULL;
         if (!s)
             continue;
         s->place = place;
         s->seen = place.y < d->setup.height_px &&
-                  place.y + place.height + d->setup.stage_strip_px > 0;
+                  place.y + place.height + d->setup.stage_strip_px +
+                          read_controls_height(s->controls, (int)strip_px(d, s)) >
+                      0;
         s->seen_us = g_get_monotonic_time();
     }
     for (guint i = 0; i < d->stages->all->len; i++)
@@ -317,21 +362,32 @@ void read_stages_draw(struct read_desk *d, GtkSnapshot *snapshot)
 
 /* ---- running ---- */
 
-static void picture_take(struct stage *s)
+/* False: it is the same picture as before, and nothing is drawn for it. */
+static bool picture_take(struct stage *s)
 {
-    const gsize pitch = 3 * (gsize)s->width;
-    GBytes *bytes = g_bytes_new(demonstration_picture(s->run), pitch * (gsize)s->height);
+    const gsize pitch = 3 * (gsize)s->width, size = pitch * (gsize)s->height;
+    const uint8_t *picture = demonstration_picture(s->run);
+    if (s->pixels && memcmp(g_bytes_get_data(s->pixels, NULL), picture, size) == 0)
+        return false;
+    g_clear_pointer(&s->pixels, g_bytes_unref);
     g_clear_object(&s->texture);
-    s->texture = gdk_memory_texture_new(s->width, s->height, GDK_MEMORY_R8G8B8, bytes, pitch);
-    g_bytes_unref(bytes);
+    s->pixels = g_bytes_new(picture, size);
+    s->texture =
+        gdk_memory_texture_new(s->width, s->height, GDK_MEMORY_R8G8B8, s->pixels, pitch);
+    s->textures++;
+    return true;
 }
 
 static void stage_look(struct read_stages *stages, struct stage *s, double seconds)
 {
     demonstration_frame(s->run, seconds);
     if (demonstration_take(s->run)) {
-        picture_take(s);
-        gtk_widget_queue_draw(stages->desk->page);
+        if (demonstration_pictures(s->run) == 1) { /* all that it has declared is here */
+            read_controls_fill(s->controls, s->run);
+            room_ensure(stages->desk, s);
+        }
+        if (picture_take(s))
+            gtk_widget_queue_draw(stages->desk->page);
     }
     if (demonstration_ended(s->run)) {
         char *why = g_strdup_printf(_("It has ended: %s"), demonstration_ended(s->run));
@@ -361,135 +417,4 @@ static gboolean tick(GtkWidget *widget, GdkFrameClock *clock, gpointer data)
     if (!runs)
         stages->tick = 0;
     return runs ? G_SOURCE_CONTINUE : G_SOURCE_REMOVE;
-}
-
-/* ---- hand and keys ---- */
-
-static struct stage *stage_at(const struct read_stages *stages, double x, double y)
-{
-    for (guint i = 0; i < stages->all->len; i++) {
-        struct stage *s = g_ptr_array_index(stages->all, i);
-        if (s->seen && s->run && x >= s->place.x && x < s->place.x + s->place.width &&
-            y >= s->place.y && y < s->place.y + s->place.height)
-            return s;
-    }
-    return NULL;
-}
-
-static void point(const struct stage *s, enum demonstration_pointer what, double x, double y,
-                  double pressure)
-{
-    const double scale = s->width / s->place.width;
-    demonstration_pointer(s->run, what, (x - s->place.x) * scale, (y - s->place.y) * scale,
-                          pressure);
-}
-
-bool read_stages_press(struct read_desk *d, double x, double y)
-{
-    struct read_stages *stages = d->stages;
-    stages->held = stages->keyed = stage_at(stages, x, y);
-    if (!stages->held)
-        return false;
-    point(stages->held, DEMONSTRATION_DOWN, x, y, 1);
-    gtk_widget_queue_draw(d->page);
-    return true;
-}
-
-bool read_stages_move(struct read_desk *d, double x, double y)
-{
-    const struct stage *held = d->stages->held, *s = held ? held : stage_at(d->stages, x, y);
-    if (s)
-        point(s, DEMONSTRATION_MOVE, x, y, held ? 1 : 0);
-    return s != NULL;
-}
-
-bool read_stages_release(struct read_desk *d, double x, double y)
-{
-    const struct stage *held = d->stages->held;
-    d->stages->held = NULL;
-    if (held)
-        point(held, DEMONSTRATION_UP, x, y, 0);
-    return held != NULL;
-}
-
-bool read_stages_holds(const struct read_desk *d)
-{
-    return d->stages->held != NULL;
-}
-
-bool read_stages_key(struct read_desk *d, guint key)
-{
-    const struct stage *s = d->stages->keyed;
-    const char *name = gdk_keyval_name(key);
-    if (!s || !s->seen || !name || key == GDK_KEY_Tab || key == GDK_KEY_ISO_Left_Tab)
-        return false;
-    if (key == GDK_KEY_Escape) {
-        d->stages->keyed = NULL;
-        gtk_widget_queue_draw(d->page);
-    } else {
-        demonstration_key(s->run, name);
-    }
-    return true;
-}
-
-/* ---- by keys ---- */
-
-bool read_stages_is(const struct reader_block *block)
-{
-    return block->kind == READER_LIVE && block->stage_width > 0;
-}
-
-bool read_stages_follow(struct read_desk *d, size_t byte)
-{
-    const struct reader_block *block = reader_document_block(d->document, byte);
-    const bool flows = block && block < d->document->blocks + d->document->blocks_count &&
-                       block >= d->document->blocks; /* and is no note's */
-    struct stage *s = flows && block->at == byte
-                          ? stage_of(d->stages, (int)(block - d->document->blocks))
-                          : NULL;
-    if (!s)
-        return false;
-    button_clicked(GTK_BUTTON(s->button), s);
-    d->stages->keyed = s->run ? s : NULL; /* so that keys are its own at once */
-    return true;
-}
-
-/* ---- for recorded input ---- */
-
-static struct stage *stage_seen(const struct read_stages *stages, int number)
-{
-    for (guint i = 0; i < stages->all->len; i++) {
-        struct stage *s = g_ptr_array_index(stages->all, i);
-        if (s->seen && --number == 0)
-            return s;
-    }
-    return NULL;
-}
-
-bool read_stages_button(struct read_desk *d, int number)
-{
-    struct stage *s = stage_seen(d->stages, number);
-    if (s)
-        button_clicked(GTK_BUTTON(s->button), s);
-    return s != NULL;
-}
-
-bool read_stages_waits(struct read_desk *d, int number, long pictures)
-{
-    const struct stage *s = stage_seen(d->stages, number);
-    return s && s->run && demonstration_pictures(s->run) < pictures;
-}
-
-char *read_stages_told(struct read_desk *d)
-{
-    GString *all = g_string_new(NULL);
-    for (guint i = 0; i < d->stages->all->len; i++) {
-        const struct stage *s = g_ptr_array_index(d->stages->all, i);
-        g_string_append_printf(all, "stage%u %s %s %ld %.0f %.0f %.0f %.0f\nline%u %s\n", i + 1,
-                               s->seen ? "seen" : "unseen", s->run ? "runs" : "rests",
-                               s->run ? demonstration_pictures(s->run) : 0, s->place.x,
-                               s->place.y, s->place.width, s->place.height, i + 1,
-                               gtk_label_get_text(GTK_LABEL(s->line)));
-    }
-    return g_string_free(all, FALSE);
 }

@@ -34,3 +34,13 @@ struct read_range read_text_word(const struct read_desk *d, size_t byte)
     }
     return (struct read_range){(size_t)(begin - plain), (size_t)(end - plain)};
 }
+
+bool read_text_origin(struct read_desk *d, const struct reader_remark *r, double *x, double *y)
+{
+    struct reader_box box;
+    if (r->orphan || reader_view_boxes(d->view, r->begin, r->begin + 1, &box, 1) < 1)
+        return false;
+    *x = box.x + r->x * d->size_px;
+    *y = box.y + r->y * d->size_px;
+    return true;
+}

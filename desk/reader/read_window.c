@@ -1,5 +1,4 @@
-/* read_window.c - the window: header, contents, search, the page and its scrollbar, what is
- * told. */
+/* read_window.c - the window: header, search, the page and its scrollbar, what is told. */
 #include "read_desk.h"
 
 #include <string.h>
@@ -39,62 +38,6 @@ static GtkWidget *notice_new(struct read_desk *d)
     gtk_widget_set_valign(d->notice, GTK_ALIGN_START);
     gtk_revealer_set_child(GTK_REVEALER(d->notice), box);
     return d->notice;
-}
-
-/* ---- contents ---- */
-
-static void contents_chosen(GtkListBox *list, GtkListBoxRow *row, struct read_desk *d)
-{
-    (void)list;
-    read_document_go(d, (size_t)g_object_get_data(G_OBJECT(row), "byte"));
-    gtk_widget_grab_focus(d->page);
-}
-
-static void contents_fill(struct read_desk *d)
-{
-    GtkWidget *row;
-    while ((row = gtk_widget_get_first_child(d->contents)))
-        gtk_list_box_remove(GTK_LIST_BOX(d->contents), row);
-    for (int i = 0; i < d->document->blocks_count; i++) {
-        const struct reader_block *block = &d->document->blocks[i];
-        if (block->kind != READER_HEADING)
-            continue;
-        GtkWidget *label = gtk_label_new(block->text);
-        gtk_label_set_xalign(GTK_LABEL(label), 0);
-        gtk_label_set_ellipsize(GTK_LABEL(label), PANGO_ELLIPSIZE_END);
-        gtk_widget_set_tooltip_text(label, block->text);
-        gtk_widget_set_margin_start(label, 6 + 14 * (block->level - 1));
-        row = gtk_list_box_row_new();
-        gtk_list_box_row_set_child(GTK_LIST_BOX_ROW(row), label);
-        desk_name(row, block->text ? block->text : "", NULL);
-        g_object_set_data(G_OBJECT(row), "byte", (gpointer)block->at);
-        gtk_list_box_append(GTK_LIST_BOX(d->contents), row);
-    }
-}
-
-static GtkWidget *contents_new(struct read_desk *d)
-{
-    d->contents_side = gtk_scrolled_window_new();
-    d->contents = gtk_list_box_new();
-    gtk_widget_set_size_request(d->contents_side, 230, -1);
-    gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(d->contents_side), GTK_POLICY_NEVER,
-                                   GTK_POLICY_AUTOMATIC);
-    gtk_list_box_set_activate_on_single_click(GTK_LIST_BOX(d->contents), TRUE);
-    gtk_widget_add_css_class(d->contents, "navigation-sidebar");
-    desk_name(d->contents, _("Contents"), NULL);
-    g_signal_connect(d->contents, "row-activated", G_CALLBACK(contents_chosen), d);
-    GtkWidget *both = gtk_box_new(GTK_ORIENTATION_VERTICAL, 6),
-              *notes = gtk_label_new(_("Notes"));
-    gtk_widget_add_css_class(notes, "heading");
-    gtk_label_set_xalign(GTK_LABEL(notes), 0);
-    gtk_widget_set_margin_start(notes, 12);
-    gtk_box_append(GTK_BOX(both), d->contents);
-    gtk_box_append(GTK_BOX(both), notes);
-    gtk_box_append(GTK_BOX(both), read_list_new(d));
-    gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(d->contents_side), both);
-    desk_name_bars(d->contents_side, _("Scrolls the contents"));
-    gtk_widget_set_visible(d->contents_side, FALSE);
-    return d->contents_side;
 }
 
 /* ---- search ---- */
@@ -158,7 +101,16 @@ static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint 
 {
     (void)controller;
     (void)code;
-    return read_keys_key(d, key, state);
+    return !read_stages_types(d) && read_keys_key(d, key, state);
+}
+
+static void key_released(GtkEventControllerKey *controller, guint key, guint code,
+                         GdkModifierType state, struct read_desk *d)
+{
+    (void)controller;
+    (void)code;
+    (void)state;
+    read_stages_key_up(d, key);
 }
 
 static GtkWidget *page_new(struct read_desk *d)
@@ -173,6 +125,7 @@ static GtkWidget *page_new(struct read_desk *d)
                      G_CALLBACK(bar_moved), d);
     gtk_box_append(GTK_BOX(box), d->scrollbar);
     g_signal_connect(keys, "key-pressed", G_CALLBACK(key_pressed), d);
+    g_signal_connect(keys, "key-released", G_CALLBACK(key_released), d);
     gtk_widget_add_controller(d->page, keys);
     read_hand_attach(d);
     return box;
@@ -180,12 +133,14 @@ static GtkWidget *page_new(struct read_desk *d)
 
 static void document_shown(struct read_desk *d)
 {
-    char *name = g_path_get_basename(g_ptr_array_index(d->options.paths, 0));
+    char *name = read_document_is_manual(d)
+                     ? g_strdup(_("The manual"))
+                     : g_path_get_basename(g_ptr_array_index(d->options.paths, 0));
     char *title = g_strdup_printf("%s - %s", name, _("Reader"));
     gtk_window_set_title(GTK_WINDOW(d->window), title);
     g_free(title);
     g_free(name);
-    contents_fill(d);
+    read_contents_fill(d);
     read_watch_begin(d, read_document_reload);
     read_actions_enable(d);
 }
@@ -228,12 +183,15 @@ void read_window_open(struct read_desk *d)
     d->document_shown = document_shown;
     d->acted = read_actions_enable;
     d->listed = read_list_fill;
+    d->placed = read_contents_follow;
+    d->changed = read_page_changed;
+    d->step = read_keys_step;
     d->resized = read_look_resized;
     d->window = gtk_application_window_new(d->application);
     gtk_window_set_default_size(GTK_WINDOW(d->window), d->options.width, d->options.height);
     read_actions_add(d);
     gtk_window_set_titlebar(GTK_WINDOW(d->window), header_new());
-    gtk_box_append(GTK_BOX(middle), contents_new(d));
+    gtk_box_append(GTK_BOX(middle), read_contents_new(d));
     gtk_box_append(GTK_BOX(middle), page_new(d));
     gtk_overlay_set_child(GTK_OVERLAY(over), middle);
     gtk_overlay_add_overlay(GTK_OVERLAY(over), notice_new(d));

@@ -35,6 +35,8 @@ struct demonstration {
     double asked_s, later_s; /* later_s: what is to be added */
     struct demonstration_message heard[HEARD_MAX];
     int heard_count;
+    struct demonstration_control controls[DEMONSTRATION_CONTROLS_MAX];
+    int controls_count;
     char said[DEMONSTRATION_TEXT_MAX + 1], ended[DEMONSTRATION_TEXT_MAX + 100];
 };
 
@@ -327,7 +329,8 @@ void demonstration_frame(struct demonstration *d, double seconds)
 static void hear(struct demonstration *d, const struct demonstration_message *m)
 {
     struct demonstration_message *last = d->heard_count ? &d->heard[d->heard_count - 1] : NULL;
-    const bool move = m->kind == DEMONSTRATION_POINTER && m->which == DEMONSTRATION_MOVE;
+    const bool move = (m->kind == DEMONSTRATION_POINTER && m->which == DEMONSTRATION_MOVE) ||
+                      m->kind == DEMONSTRATION_SET;
     if (last && move && last->kind == m->kind && last->which == m->which && d->waits)
         *last = *m;
     else if (d->heard_count < HEARD_MAX)
@@ -352,11 +355,21 @@ void demonstration_pointer(struct demonstration *d, enum demonstration_pointer w
                                             .pressure = within(pressure, 0, 1)});
 }
 
-void demonstration_key(struct demonstration *d, const char *name)
+void demonstration_key(struct demonstration *d, bool down, const char *name)
 {
-    struct demonstration_message m = {.kind = DEMONSTRATION_KEY};
+    struct demonstration_message m = {.kind = down ? DEMONSTRATION_KEY : DEMONSTRATION_RELEASE};
     snprintf(m.text, DEMONSTRATION_KEY_MAX + 1, "%s", name);
     hear(d, &m);
+}
+
+void demonstration_set(struct demonstration *d, int control, double value)
+{
+    if (control < 0 || control >= d->controls_count)
+        return;
+    struct demonstration_control *c = &d->controls[control];
+    c->value = within(value, c->least, c->most);
+    hear(d, &(struct demonstration_message){
+                .kind = DEMONSTRATION_SET, .which = control, .value = c->value});
 }
 
 /* ---- taking ---- */
@@ -380,6 +393,8 @@ static bool message_take(struct demonstration *d, const struct demonstration_mes
         strcpy(d->said, m->text);
     } else if (m->kind == DEMONSTRATION_FAILED) {
         snprintf(d->ended, sizeof d->ended, "%s", m->text[0] ? m->text : "it failed");
+    } else if (m->kind == DEMONSTRATION_CONTROL) {
+        d->controls[d->controls_count++] = m->control;
     } else if (m->kind == DEMONSTRATION_SHOWN && d->waits && m->number == d->asked) {
         d->waits = false;
         if (picture_copy(d, m->which)) {
@@ -405,7 +420,8 @@ bool demonstration_take(struct demonstration *d)
             break;
         if (bytes <= 0)
             end(d, false, NULL);
-        else if (!demonstration_message_read(packet, (size_t)bytes, false, &m))
+        else if (!demonstration_message_read(packet, (size_t)bytes, false, &m) ||
+                 (m.kind == DEMONSTRATION_CONTROL && m.which != d->controls_count))
             end(d, true, "its process has said what is no message");
         else
             another = message_take(d, &m) || another;
@@ -431,4 +447,10 @@ long demonstration_pictures(const struct demonstration *d)
 const char *demonstration_said(const struct demonstration *d)
 {
     return d->said;
+}
+
+const struct demonstration_control *demonstration_control(const struct demonstration *d,
+                                                          int control)
+{
+    return control >= 0 && control < d->controls_count ? &d->controls[control] : NULL;
 }

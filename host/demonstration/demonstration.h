@@ -53,7 +53,9 @@ void demonstration_frame(struct demonstration *d, double seconds);
 /* Heard before the next picture. Of more than the process has time for the last moves count. */
 void demonstration_pointer(struct demonstration *d, enum demonstration_pointer what, double x,
                            double y, double pressure);
-void demonstration_key(struct demonstration *d, const char *name);
+void demonstration_key(struct demonstration *d, bool down, const char *name);
+/* Sets one of its controls, from 0. */
+void demonstration_set(struct demonstration *d, int control, double value);
 
 /* Takes what has come. True: there is another picture. */
 bool demonstration_take(struct demonstration *d);
@@ -64,6 +66,11 @@ bool demonstration_waits(const struct demonstration *d);
 const uint8_t *demonstration_picture(const struct demonstration *d);
 /* How many pictures have come. */
 long demonstration_pictures(const struct demonstration *d);
+/* A control that the script has declared, from 0, once that was taken: all of them have come
+ * before the first picture. What it is set to is in it, too. NULL: there is none. Owns: the
+ * demonstration. */
+const struct demonstration_control *demonstration_control(const struct demonstration *d,
+                                                          int control);
 /* The last line that the script has printed; "": none. */
 const char *demonstration_said(const struct demonstration *d);
 /* Why it has ended; NULL: it runs. */

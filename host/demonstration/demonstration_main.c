@@ -81,6 +81,32 @@ static void overfull(void *context)
     _exit(EXIT_FAILURE);
 }
 
+/* Those that the script has declared. */
+static void controls_tell(const struct process *p)
+{
+    const struct script_live_control *from;
+    for (int i = 0; (from = script_live_control(p->live, i)); i++) {
+        static const enum demonstration_curve curves[] = {[DYN_LINEAR] = DEMONSTRATION_LINEAR,
+                                                          [DYN_LOGARITHMIC] =
+                                                              DEMONSTRATION_LOGARITHMIC,
+                                                          [DYN_CENTRED] = DEMONSTRATION_CENTRED,
+                                                          [DYN_SWITCH] = DEMONSTRATION_SWITCH,
+                                                          [DYN_CHOICE] = DEMONSTRATION_CHOICE};
+        struct demonstration_message m = {.kind = DEMONSTRATION_CONTROL, .which = i};
+        struct demonstration_control *to = &m.control;
+        to->least = from->row.least;
+        to->most = from->row.most;
+        to->usual = from->row.usual;
+        to->value = from->value;
+        to->curve = curves[from->row.curve];
+        visible_text(to->name, sizeof to->name, from->row.name);
+        visible_text(to->unit, sizeof to->unit, from->row.unit);
+        visible_text(to->choices, sizeof to->choices, from->row.choices);
+        visible_text(to->does, sizeof to->does, from->row.does);
+        tell(&m);
+    }
+}
+
 /* ---- answering ---- */
 
 static bool frame(struct process *p, const struct demonstration_message *m)
@@ -111,8 +137,10 @@ static bool answer(struct process *p, const struct demonstration_message *m)
         return frame(p, m);
     case DEMONSTRATION_POINTER:
         return script_live_pointer(p->live, pointers[m->which], m->x, m->y, m->pressure);
+    case DEMONSTRATION_SET:
+        return script_live_set(p->live, m->which, m->value);
     default:
-        return script_live_key(p->live, m->text);
+        return script_live_key(p->live, m->kind == DEMONSTRATION_KEY, m->text);
     }
 }
 
@@ -204,6 +232,7 @@ int main(int argc, char **argv)
         return EXIT_FAILURE;
     if (script_begin(&process, memory_mb, strtod(argv[5], NULL)) != SCRIPT_OK)
         return EXIT_FAILURE;
+    controls_tell(&process);
     const bool good = answers(&process);
     _exit(good ? EXIT_SUCCESS : EXIT_FAILURE); /* at once, without the driver's handlers */
 }

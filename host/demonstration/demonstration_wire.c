@@ -10,7 +10,7 @@
 
 /* What a kind has, in this order. */
 struct fields {
-    bool to_process, number, which, seconds, place, text;
+    bool to_process, number, which, seconds, place, value, text, control;
     int which_most, text_max;
 };
 static const struct fields fields[DEMONSTRATION_KINDS] = {
@@ -20,9 +20,19 @@ static const struct fields fields[DEMONSTRATION_KINDS] = {
                                .which_most = DEMONSTRATION_POINTERS - 1,
                                .place = true},
     [DEMONSTRATION_KEY] = {.to_process = true, .text = true, .text_max = DEMONSTRATION_KEY_MAX},
+    [DEMONSTRATION_RELEASE] = {.to_process = true,
+                               .text = true,
+                               .text_max = DEMONSTRATION_KEY_MAX},
+    [DEMONSTRATION_SET] = {.to_process = true,
+                           .which = true,
+                           .which_most = DEMONSTRATION_CONTROLS_MAX - 1,
+                           .value = true},
     [DEMONSTRATION_SHOWN] = {.number = true, .which = true, .which_most = 1},
     [DEMONSTRATION_SAID] = {.text = true, .text_max = DEMONSTRATION_TEXT_MAX},
-    [DEMONSTRATION_FAILED] = {.text = true, .text_max = DEMONSTRATION_TEXT_MAX}};
+    [DEMONSTRATION_FAILED] = {.text = true, .text_max = DEMONSTRATION_TEXT_MAX},
+    [DEMONSTRATION_CONTROL] = {
+        .which = true, .which_most = DEMONSTRATION_CONTROLS_MAX - 1, .control = true}};
+static const double value_most = 1e9;
 
 size_t demonstration_picture_bytes(int width_px, int height_px)
 {
@@ -43,6 +53,20 @@ static uint8_t *put(uint8_t *at, const void *value, size_t bytes)
     return at + bytes;
 }
 
+/* Its curve, its numbers, its texts with a line end behind each. */
+static uint8_t *control_put(uint8_t *at, const struct demonstration_control *c)
+{
+    const double numbers[4] = {c->least, c->most, c->usual, c->value};
+    const char *const texts[4] = {c->name, c->unit, c->choices, c->does};
+    *at++ = (uint8_t)c->curve;
+    at = put(at, numbers, sizeof numbers);
+    for (int i = 0; i < 4; i++) {
+        at = put(at, texts[i], strlen(texts[i]));
+        *at++ = '\n';
+    }
+    return at;
+}
+
 size_t demonstration_message_write(const struct demonstration_message *m,
                                    uint8_t packet[DEMONSTRATION_PACKET_MAX])
 {
@@ -58,6 +82,10 @@ size_t demonstration_message_write(const struct demonstration_message *m,
         at = put(at, &m->seconds, sizeof m->seconds);
     if (f->place)
         at = put(at, place, sizeof place);
+    if (f->value)
+        at = put(at, &m->value, sizeof m->value);
+    if (f->control)
+        at = control_put(at, &m->control);
     if (f->text) {
         const size_t bytes = strlen(m->text), most = (size_t)f->text_max;
         at = put(at, m->text, bytes < most ? bytes : most);
@@ -104,6 +132,72 @@ static void text_take(struct reading *r, int most, char *text)
     visible_text(text, DEMONSTRATION_TEXT_MAX + 1, line);
 }
 
+/* Up to a line end: a text that can be shown as it is. */
+static void line_take(struct reading *r, int most, char *text)
+{
+    char line[DEMONSTRATION_NOTE_MAX + 1], shown[DEMONSTRATION_NOTE_MAX + 2];
+    const size_t left = (size_t)(r->end - r->at);
+    const uint8_t *end = r->good && left ? memchr(r->at, '\n', left) : NULL;
+    const size_t bytes = end ? (size_t)(end - r->at) : 0;
+    r->good = end && bytes <= (size_t)most;
+    if (!r->good)
+        return;
+    memcpy(line, r->at, bytes);
+    line[bytes] = '\0';
+    r->good = visible_text(shown, sizeof shown, line) == bytes && strcmp(shown, line) == 0;
+    memcpy(text, line, bytes + 1);
+    r->at = end + 1;
+}
+
+static int choices_count(const char *choices)
+{
+    int count = 0;
+    for (const char *at = choices; *at;) {
+        at += strspn(at, " ");
+        count += *at != '\0';
+        at += strcspn(at, " ");
+    }
+    return count;
+}
+
+/* Each kind of control has the numbers that it must have. */
+static bool control_good(const struct demonstration_control *c)
+{
+    const int choices = choices_count(c->choices);
+    if (!c->name[0] || !(c->least < c->most))
+        return false;
+    switch (c->curve) {
+    case DEMONSTRATION_CHOICE:
+        return choices > 1 && c->least == 0 && c->most == choices - 1;
+    case DEMONSTRATION_SWITCH:
+        return choices == 0 && c->least == 0 && c->most == 1;
+    case DEMONSTRATION_LINEAR:
+    case DEMONSTRATION_LOGARITHMIC:
+    case DEMONSTRATION_CENTRED:
+        return choices == 0;
+    case DEMONSTRATION_CURVES:
+        break;
+    }
+    return false;
+}
+
+static void control_take(struct reading *r, struct demonstration_control *c)
+{
+    uint8_t curve = 0;
+    take(r, &curve, 1);
+    r->good = r->good && curve < DEMONSTRATION_CURVES;
+    c->curve = r->good ? (enum demonstration_curve)curve : DEMONSTRATION_LINEAR;
+    c->least = number_take(r, -value_most, value_most);
+    c->most = number_take(r, -value_most, value_most);
+    c->usual = number_take(r, c->least, c->most);
+    c->value = number_take(r, c->least, c->most);
+    line_take(r, DEMONSTRATION_NAME_MAX, c->name);
+    line_take(r, DEMONSTRATION_UNIT_MAX, c->unit);
+    line_take(r, DEMONSTRATION_NOTE_MAX, c->choices);
+    line_take(r, DEMONSTRATION_NOTE_MAX, c->does);
+    r->good = r->good && control_good(c);
+}
+
 bool demonstration_message_read(const uint8_t *packet, size_t bytes, bool to_process,
                                 struct demonstration_message *m)
 {
@@ -131,6 +225,10 @@ bool demonstration_message_read(const uint8_t *packet, size_t bytes, bool to_pro
         m->y = number_take(&r, -far, far);
         m->pressure = number_take(&r, 0, 1);
     }
+    if (f->value)
+        m->value = number_take(&r, -value_most, value_most);
+    if (f->control)
+        control_take(&r, &m->control);
     if (f->text)
         text_take(&r, f->text_max, m->text);
     return r.good && r.at == r.end;

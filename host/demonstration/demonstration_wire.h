@@ -1,7 +1,8 @@
 /* demonstration_wire.h - what a demonstration's process and who looks at it say to each other.
  *
  *     looks                                        the process (demonstration_main.c)
- *       POINTER, KEY, ... , FRAME 7 (0.016 s)  ->  hears them, steps, draws
+ *                                          <- CONTROL 0 "speed" 0..4, ...   once, at first
+ *       POINTER, KEY, SET, ... , FRAME 7 (0.016 s)  ->  hears them, steps, draws
  *                                                  picture 7 -> one of two in shared memory
  *                              <- SAID "..."       what the script has printed, its last line
  *                              <- SHOWN 7, which of the two
@@ -22,9 +23,12 @@ enum demonstration_kind {
     DEMONSTRATION_FRAME = 1, /* number, seconds */
     DEMONSTRATION_POINTER,   /* which: what it did; x, y, pressure */
     DEMONSTRATION_KEY,       /* text: its name */
+    DEMONSTRATION_RELEASE,   /* text: the same key is up again */
+    DEMONSTRATION_SET,       /* which: of the controls; value */
     DEMONSTRATION_SHOWN,     /* number; which: of the two pictures */
     DEMONSTRATION_SAID,      /* text */
     DEMONSTRATION_FAILED,    /* text: why it has ended */
+    DEMONSTRATION_CONTROL,   /* which, from 0, in order; control */
     DEMONSTRATION_KINDS
 };
 
@@ -43,14 +47,39 @@ enum {
     DEMONSTRATION_KEY_MAX = 40,
     DEMONSTRATION_PACKET_MAX = DEMONSTRATION_TEXT_MAX + 1,
     DEMONSTRATION_SIDE_MIN = 16,
-    DEMONSTRATION_SIDE_MAX = 1600
+    DEMONSTRATION_SIDE_MAX = 1600,
+    DEMONSTRATION_CONTROLS_MAX = 12,
+    DEMONSTRATION_NAME_MAX = 40, /* of a control's name, of its unit, of its other texts */
+    DEMONSTRATION_UNIT_MAX = 20,
+    DEMONSTRATION_NOTE_MAX = 200
+};
+
+/* The curve of a slider; of a choice the value is the number of one of the choices. */
+enum demonstration_curve {
+    DEMONSTRATION_LINEAR,
+    DEMONSTRATION_LOGARITHMIC,
+    DEMONSTRATION_CENTRED,
+    DEMONSTRATION_SWITCH,
+    DEMONSTRATION_CHOICE,
+    DEMONSTRATION_CURVES
+};
+
+/* A number that a slider sets: least < most, and usual and value are between them. */
+struct demonstration_control {
+    char name[DEMONSTRATION_NAME_MAX + 1], unit[DEMONSTRATION_UNIT_MAX + 1],
+        choices[DEMONSTRATION_NOTE_MAX + 1] /* with blanks between them */,
+        does[DEMONSTRATION_NOTE_MAX + 1];
+    double least, most, usual, value;
+    enum demonstration_curve curve;
 };
 
 struct demonstration_message {
     enum demonstration_kind kind;
     uint32_t number; /* from 1 */
     int which;
-    double seconds, x, y, pressure;        /* 0..1 s; within a million; 0..1 */
+    double seconds, x, y, pressure; /* 0..1 s; within a million; 0..1 */
+    double value;                   /* within a milliard */
+    struct demonstration_control control;
     char text[DEMONSTRATION_TEXT_MAX + 1]; /* a line of UTF-8 */
 };
 

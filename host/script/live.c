@@ -1,7 +1,6 @@
 /* live.c - see script_live.h. */
-#include "script_live.h"
+#include "live_internal.h"
 
-#include "script_internal.h"
 #include "script_mask.h"
 #include "script_paper.h"
 
@@ -12,42 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What colours are mixed by: light that each display value is, and the nearest value of
- * light. */
-enum { LIGHT_STEPS = 4096 };
-
-struct script_live {
-    struct script script;
-    struct script_config config;
-    struct script_host host;
-    struct script_live_def def;
-    lua_State *L;
-    float light[256];
-    uint8_t value[LIGHT_STEPS + 1];
-    size_t collected_bytes; /* that were left when garbage was collected last */
-};
-
 /* ---- calls ---- */
-
-/* A call of the script's, with the time that it has. */
-static bool call(struct script_live *live, lua_CFunction function, void *argument,
-                 double seconds)
-{
-    live->config.timeout_s = seconds;
-    script_patience_begin(&live->script);
-    const bool good = script_answers_call(live->L, function, argument, seconds);
-    script_patience_end(&live->script);
-    return good;
-}
-
-/* Pushes the script's function of that name. False: it has none. */
-static bool function_push(lua_State *L, const char *name)
-{
-    if (lua_getglobal(L, name) == LUA_TFUNCTION)
-        return true;
-    lua_pop(L, 1);
-    return false;
-}
 
 struct step {
     double seconds;
@@ -56,7 +20,7 @@ struct step {
 static int step_protected(lua_State *L)
 {
     const struct step *step = lua_touserdata(L, 1);
-    if (function_push(L, "step")) {
+    if (live_function_push(L, "step")) {
         lua_pushnumber(L, step->seconds);
         lua_call(L, 1, 0);
     }
@@ -66,7 +30,7 @@ static int step_protected(lua_State *L)
 bool script_live_step(struct script_live *live, double seconds)
 {
     struct step step = {seconds};
-    return call(live, step_protected, &step, live->def.answer_s);
+    return live_call(live, step_protected, &step, live->def.answer_s);
 }
 
 struct pointed {
@@ -77,7 +41,7 @@ struct pointed {
 static int pointer_protected(lua_State *L)
 {
     const struct pointed *p = lua_touserdata(L, 1);
-    if (function_push(L, "pointer")) {
+    if (live_function_push(L, "pointer")) {
         lua_pushstring(L, p->what);
         lua_pushnumber(L, p->x);
         lua_pushnumber(L, p->y);
@@ -91,27 +55,27 @@ bool script_live_pointer(struct script_live *live, const char *what, double x, d
                          double pressure)
 {
     struct pointed pointed = {what, x, y, pressure};
-    return call(live, pointer_protected, &pointed, live->def.answer_s);
+    return live_call(live, pointer_protected, &pointed, live->def.answer_s);
 }
 
 struct typed {
-    const char *name;
+    const char *function, *name;
 };
 
 static int key_protected(lua_State *L)
 {
     const struct typed *typed = lua_touserdata(L, 1);
-    if (function_push(L, "key")) {
+    if (live_function_push(L, typed->function)) {
         lua_pushstring(L, typed->name);
         lua_call(L, 1, 0);
     }
     return 0;
 }
 
-bool script_live_key(struct script_live *live, const char *name)
+bool script_live_key(struct script_live *live, bool down, const char *name)
 {
-    struct typed typed = {name};
-    return call(live, key_protected, &typed, live->def.answer_s);
+    struct typed typed = {down ? "key" : "release", name};
+    return live_call(live, key_protected, &typed, live->def.answer_s);
 }
 
 /* ---- drawing ---- */
@@ -233,7 +197,7 @@ static int draw_protected(lua_State *L)
     const uint8_t blank[3] = {254, 252, 248};
     color_fill(d, blank);
     lua_settop(L, 1);
-    if (!function_push(L, "draw"))
+    if (!live_function_push(L, "draw"))
         luaL_error(L, "%s: its function draw() has gone", d->live->def.name);
     lua_call(L, 0, LUA_MULTRET);
     const int top = lua_gettop(L);
@@ -257,7 +221,7 @@ static void garbage_collect(struct script_live *live)
 bool script_live_draw(struct script_live *live, uint8_t *rgb)
 {
     struct drawing drawing = {live, rgb};
-    const bool good = call(live, draw_protected, &drawing, live->def.answer_s);
+    const bool good = live_call(live, draw_protected, &drawing, live->def.answer_s);
     garbage_collect(live);
     return good;
 }
@@ -290,7 +254,7 @@ static void host_overfull(void *context)
 
 static int open_protected(lua_State *L)
 {
-    const struct script_live *live = lua_touserdata(L, 1);
+    struct script_live *live = lua_touserdata(L, 1);
     const struct script_live_def *def = &live->def;
     script_open(L);
     lua_createtable(L, 0, 2);
@@ -299,11 +263,12 @@ static int open_protected(lua_State *L)
     lua_pushinteger(L, def->height_px);
     lua_setfield(L, -2, "height");
     lua_setglobal(L, "stage");
+    live_controls_open(L, live);
     lua_pushfstring(L, "=%s", def->name);
     if (luaL_loadbufferx(L, def->text, def->bytes, lua_tostring(L, -1), "t") != LUA_OK)
         lua_error(L);
     lua_call(L, 0, 0);
-    if (!function_push(L, "draw"))
+    if (!live_function_push(L, "draw"))
         luaL_error(L, "%s: a live script has a function draw()", def->name);
     return 0;
 }
@@ -339,10 +304,11 @@ enum script_status script_live_open(const struct script_live_def *def, struct sc
     live->L = script_answers_open(&live->script);
     bool good = false;
     if (live->L)
-        good = call(live, open_protected, live, def->open_s);
+        good = live_call(live, open_protected, live, def->open_s);
     else
         def->error(def->context, "no memory for a live script");
     live->def.text = NULL;
+    live->opened = true;
     if (!good) {
         script_live_close(live);
         return SCRIPT_FAILED;

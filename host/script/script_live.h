@@ -6,6 +6,14 @@
  *     function draw() return w:mask{scale = 90, x = 40, y = 180}, "#203060" end
  *     function pointer(what, x, y, pressure) ... end       -- "down", "move", "up"
  *     function key(name) ... end                           -- "a", "Left", "Return"
+ *     function release(name) ... end                       -- the same key is up again
+ *
+ * It declares controls while its text runs, which whoever shows it makes sliders of:
+ *
+ *     local speed = control{name = "speed", unit = "1/s", least = 0, most = 4, usual = 1}
+ *     control{name = "gravity", of = w}                    -- a row of the word's own table
+ *     function draw() ... speed() ... end                  -- what it is now
+ *     function changed(name, value) ... end                -- a slider was moved
  *
  * It has the whole library of scripts, and no folder: what would read or write a file is an
  * error. `stage.width` and `stage.height` are its picture's sides. Each call computes for a few
@@ -21,6 +29,15 @@
 #define LUTETIA_SCRIPT_LIVE_H
 
 #include "script.h"
+
+#include <spring_controls.h>
+
+enum {
+    SCRIPT_LIVE_CONTROLS_MAX = 12,
+    SCRIPT_LIVE_NAME_MAX = 40, /* bytes of a control's name, of its unit, of its other texts */
+    SCRIPT_LIVE_UNIT_MAX = 20,
+    SCRIPT_LIVE_TEXT_MAX = 200
+};
 
 struct script_live_def {
     const char *text; /* the script; borrowed while it is opened */
@@ -50,7 +67,17 @@ void script_live_close(struct script_live *live); /* NULL is fine */
 bool script_live_step(struct script_live *live, double seconds);
 bool script_live_pointer(struct script_live *live, const char *what, double x, double y,
                          double pressure);
-bool script_live_key(struct script_live *live, const char *name);
+bool script_live_key(struct script_live *live, bool down, const char *name);
+/* A control as the script has declared it, from 0; NULL: there is none. What is usual is what
+ * it was at first. Owns: the live script. */
+struct script_live_control {
+    struct dyn_control row; /* `at` has no meaning */
+    double value;
+};
+const struct script_live_control *script_live_control(const struct script_live *live,
+                                                      int control);
+/* A value that is not in its range changes nothing. */
+bool script_live_set(struct script_live *live, int control, double value);
 /* Shape: rgb holds height * width * 3 bytes, rows from the top. */
 bool script_live_draw(struct script_live *live, uint8_t *rgb);
 

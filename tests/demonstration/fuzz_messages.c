@@ -18,14 +18,32 @@ static bool is_line(const char *text)
     return true;
 }
 
+static void control_check(const struct demonstration_control *c)
+{
+    must(c->name[0] && strlen(c->name) <= DEMONSTRATION_NAME_MAX && is_line(c->name));
+    must(strlen(c->unit) <= DEMONSTRATION_UNIT_MAX && is_line(c->unit));
+    must(strlen(c->does) <= DEMONSTRATION_NOTE_MAX && is_line(c->does));
+    must(strlen(c->choices) <= DEMONSTRATION_NOTE_MAX && is_line(c->choices));
+    must(c->least < c->most && c->least >= -1e9 && c->most <= 1e9);
+    must(c->usual >= c->least && c->usual <= c->most);
+    must(c->value >= c->least && c->value <= c->most);
+    must(c->curve < DEMONSTRATION_CURVES);
+    must(c->curve != DEMONSTRATION_CHOICE || strchr(c->choices, ' '));
+}
+
 static void message_check(const struct demonstration_message *m, bool to_process)
 {
     must(m->kind >= DEMONSTRATION_FRAME && m->kind < DEMONSTRATION_KINDS);
-    must((m->kind <= DEMONSTRATION_KEY) == to_process);
+    must((m->kind <= DEMONSTRATION_SET) == to_process);
+    if (m->kind == DEMONSTRATION_CONTROL)
+        control_check(&m->control);
     must(m->seconds >= 0 && m->seconds <= 1);
     must(m->x >= -1e6 && m->x <= 1e6 && m->y >= -1e6 && m->y <= 1e6);
     must(m->pressure >= 0 && m->pressure <= 1);
-    must(m->which >= 0 && m->which < DEMONSTRATION_POINTERS);
+    const bool control = m->kind == DEMONSTRATION_SET || m->kind == DEMONSTRATION_CONTROL;
+    must(m->which >= 0 &&
+         m->which < (control ? DEMONSTRATION_CONTROLS_MAX : (int)DEMONSTRATION_POINTERS));
+    must(m->value >= -1e9 && m->value <= 1e9);
     must(m->kind != DEMONSTRATION_SHOWN || m->which < 2);
     must((m->kind != DEMONSTRATION_SHOWN && m->kind != DEMONSTRATION_FRAME) || m->number > 0);
     must(strlen(m->text) <= DEMONSTRATION_TEXT_MAX && is_line(m->text));
@@ -47,6 +65,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
         must(again.kind == m.kind && again.number == m.number && again.which == m.which);
         must(memcmp(&again.seconds, &m.seconds, sizeof m.seconds) == 0);
         must(memcmp(&again.x, &m.x, sizeof m.x) == 0);
+        must(memcmp(&again.value, &m.value, sizeof m.value) == 0);
+        must(strcmp(again.control.name, m.control.name) == 0 &&
+             strcmp(again.control.choices, m.control.choices) == 0 &&
+             again.control.curve == m.control.curve);
+        must(again.control.least == m.control.least && again.control.most == m.control.most &&
+             again.control.value == m.control.value);
     }
     return 0;
 }
@@ -78,13 +102,20 @@ int main(void)
         {.kind = DEMONSTRATION_KEY, .text = "Left"},
         {.kind = DEMONSTRATION_SHOWN, .number = 7, .which = 1},
         {.kind = DEMONSTRATION_SAID, .text = "3\t4 \xc3\xa9 \xe2\x82\xac"},
-        {.kind = DEMONSTRATION_FAILED, .text = "live:3: no"}};
+        {.kind = DEMONSTRATION_FAILED, .text = "live:3: no"},
+        {.kind = DEMONSTRATION_RELEASE, .text = "Left"},
+        {.kind = DEMONSTRATION_SET, .which = 11, .value = -2.5},
+        {.kind = DEMONSTRATION_CONTROL,
+         .which = 3,
+         .control = {"speed", "1/s", "", "how fast", 0, 4, 1, 2, DEMONSTRATION_CENTRED}},
+        {.kind = DEMONSTRATION_CONTROL,
+         .control = {"ink", "", "blue red", "", 0, 1, 1, 0, DEMONSTRATION_CHOICE}}};
     enum { TRIES = 200000, SEEDS = sizeof seeds / sizeof *seeds };
     uint8_t packet[DEMONSTRATION_PACKET_MAX + 20];
     for (int i = 0; i < SEEDS; i++) { /* each goes one way only */
         struct demonstration_message m;
         const size_t count = demonstration_message_write(&seeds[i], packet);
-        const bool to_process = seeds[i].kind <= DEMONSTRATION_KEY;
+        const bool to_process = seeds[i].kind <= DEMONSTRATION_SET;
         must(demonstration_message_read(packet, count, to_process, &m));
         must(!demonstration_message_read(packet, count, !to_process, &m));
         for (size_t cut = 0; cut < count && !seeds[i].text[0]; cut++)
@@ -98,7 +129,7 @@ int main(void)
         for (size_t k = random ? 1 : count; k < count; k++)
             packet[k] = (uint8_t)chance();
         if (random)
-            packet[0] = (uint8_t)(chance() % 9);
+            packet[0] = (uint8_t)(chance() % (DEMONSTRATION_KINDS + 2));
         for (uint32_t k = chance() % 4; k > 0 && count; k--)
             packet[chance() % count] = (uint8_t)chance();
         if (i % 11 == 0) {

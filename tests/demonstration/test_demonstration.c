@@ -88,17 +88,76 @@ static void steps_and_hears(void **state)
               "function pointer(what, x, y, pressure)\n"
               "  last = last .. what .. x .. ',' .. y .. ',' .. pressure .. ' ' end\n"
               "function key(name) last = last .. name .. ' ' end\n"
+              "function release(name) last = last .. name .. ' up ' end\n"
               "function draw() return '#ffffff' end\n");
     runs(d, 4);
     assert_string_equal(demonstration_said(d), "two 4 0.0625 ");
     demonstration_pointer(d, DEMONSTRATION_DOWN, 3, 4.5, 1);
     demonstration_pointer(d, DEMONSTRATION_MOVE, 5, 4.5, 0.5);
     demonstration_pointer(d, DEMONSTRATION_UP, 5, 1e300, 7);
-    demonstration_key(d, "Left");
+    demonstration_key(d, true, "Left");
+    demonstration_key(d, false, "Left");
     runs(d, 1);
     assert_string_equal(demonstration_said(d),
                         "two 5 0.078125 down3.0,4.5,1.0 move5.0,4.5,0.5 up5.0,100000.0,1.0 "
-                        "Left ");
+                        "Left Left up ");
+    demonstration_stop(d);
+}
+
+static void control_is(const struct demonstration *d, int number, const char *name,
+                       enum demonstration_curve curve, double least, double most, double usual)
+{
+    const struct demonstration_control *c = demonstration_control(d, number);
+    assert_non_null(c);
+    assert_string_equal(c->name, name);
+    assert_int_equal(c->curve, curve);
+    assert_true(c->least == least && c->most == most && c->usual == usual);
+    assert_true(c->value == usual);
+}
+
+/* What a script declares is known before its first picture; what is set is heard in its order,
+ * and within its range. A network's control is a row of the library's table. */
+static void controls_are_declared_and_set(void **state)
+{
+    (void)state;
+    struct demonstration *d = start(
+        "local a = control{name = 'speed', unit = '1/s', least = 0, most = 4, usual = 1.5,\n"
+        "                  curve = 'centred', does = 'how \\27 fast'}\n"
+        "local b = control{name = 'wet', curve = 'switch', usual = true}\n"
+        "local c = control{name = 'ink', choices = 'blue red green', usual = 'red'}\n"
+        "local w = spring.word{text = 'I', font = 'DejaVuSans', preset = 'stiff', gravity = "
+        "3}\n"
+        "local g, last = control{name = 'gravity', of = w}, ''\n"
+        "function changed(name, value) last = last .. name .. '=' .. tostring(value) .. ' ' "
+        "end\n"
+        "function draw() print(a(), b(), c(), g(), w:get('gravity'), last) return '#ffffff' "
+        "end");
+    runs(d, 1);
+    control_is(d, 0, "speed", DEMONSTRATION_CENTRED, 0, 4, 1.5);
+    assert_string_equal(demonstration_control(d, 0)->unit, "1/s");
+    assert_string_equal(demonstration_control(d, 0)->does, "how \\x1b fast");
+    control_is(d, 1, "wet", DEMONSTRATION_SWITCH, 0, 1, 1);
+    control_is(d, 2, "ink", DEMONSTRATION_CHOICE, 0, 2, 1);
+    assert_string_equal(demonstration_control(d, 2)->choices, "blue red green");
+    const struct demonstration_control *gravity = demonstration_control(d, 3);
+    assert_true(gravity && gravity->value == 3 && gravity->least < 0 && gravity->most > 9.81);
+    assert_string_equal(gravity->name, "gravity");
+    assert_true(gravity->does[0] && gravity->unit[0]);
+    assert_null(demonstration_control(d, 4));
+    assert_null(demonstration_control(d, -1));
+    assert_string_equal(demonstration_said(d), "1.5 true red 3.0 3.0 ");
+    demonstration_set(d, 0, 2.25);
+    demonstration_set(d, 1, 0);
+    demonstration_set(d, 2, 2);
+    demonstration_set(d, 3, 0.5);
+    demonstration_set(d, 0, 99);
+    demonstration_set(d, 4, 1);
+    demonstration_set(d, -1, 1);
+    assert_true(demonstration_control(d, 0)->value == 4);
+    runs(d, 1);
+    assert_string_equal(demonstration_said(d),
+                        "4.0 false green 0.5 0.5 speed=2.25 wet=false ink=green gravity=0.5 "
+                        "speed=4.0 ");
     demonstration_stop(d);
 }
 
@@ -169,6 +228,28 @@ static void mistakes_are_told(void **state)
               "Lua",
               "binary chunk"); /* no bytecode */
     ends_with("", "a live script has a function draw()");
+}
+
+static void controls_mistaken_are_told(void **state)
+{
+    (void)state;
+    ends_with("control{}", "control name must be a text");
+    ends_with("control{name = 7}", "must be a text");
+    ends_with("control{name = ('x'):rep(41)}", "up to 40 bytes");
+    ends_with("control{name = 'a', colour = 1}", "control has no");
+    ends_with("control{name = 'a', least = 2, most = 1}", "least is below most");
+    ends_with("control{name = 'a', least = 0/0}", "least");
+    ends_with("control{name = 'a', most = 4, usual = 5}", "a must be");
+    ends_with("control{name = 'a', curve = 'bent'}", "control curve");
+    ends_with("control{name = 'a', curve = 'choice'}", "choices");
+    ends_with("control{name = 'a', choices = 'one'}", "two or more");
+    ends_with("control{name = 'a', choices = 'one two', usual = 'three'}", "one two");
+    ends_with("control{name = 'a'} control{name = 'a'}", "already");
+    ends_with("for i = 1, 13 do control{name = 'a' .. i} end", "up to 12 controls");
+    ends_with("function draw() control{name = 'a'} end", "while the script begins");
+    ends_with("control{name = 'a', of = 7}", "network");
+    ends_with("control{name = 'weight', of = spring.network()}", "weight");
+    ends_with("control{name = 'gravity', least = 1, of = spring.network()}", "'least'");
 }
 
 static void wants_files(void **state)
@@ -378,6 +459,8 @@ int main(void)
         cmocka_unit_test(mixes_light),
         cmocka_unit_test(pictures_and_type),
         cmocka_unit_test(steps_and_hears),
+        cmocka_unit_test(controls_are_declared_and_set),
+        cmocka_unit_test(controls_mistaken_are_told),
         cmocka_unit_test(no_picture_is_torn),
         cmocka_unit_test(a_busy_one_hears_presses),
         cmocka_unit_test(mistakes_are_told),

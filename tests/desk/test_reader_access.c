@@ -158,6 +158,57 @@ static void keys_and_wheel_scroll(void **state)
     assert_true(heard("What the note says", true));
 }
 
+/* The number of the control of that name. */
+struct number {
+    const char *name;
+    double value;
+};
+
+static void number_find(AtspiAccessible *a, void *context)
+{
+    struct number *number = context;
+    char *name = atspi_accessible_get_name(a, NULL);
+    AtspiValue *value =
+        name && strcmp(name, number->name) == 0 ? atspi_accessible_get_value_iface(a) : NULL;
+    if (value)
+        number->value = atspi_value_get_current_value(value, NULL);
+    g_clear_object(&value);
+    g_free(name);
+}
+
+/* A demonstration is run by keys, and so are its controls, which have names and values; from
+ * the last of them Tab comes back to the page. */
+static void controls_are_reached(void **state)
+{
+    (void)state;
+    struct number speed = {"Speed, as a number", 0};
+    struct names names = {0};
+    xtest_type(XK_End);
+    xtest_type(XK_Tab);
+    assert_true(heard("Run the demonstration", true));
+    xtest_type(XK_Return);
+    assert_true(heard("speed <1.5>", true));
+    assert_true(heard("Speed, as a number", true));
+    accessible_walk(frame, number_find, &speed);
+    assert_true(speed.value == 1.5);
+    accessible_walk(frame, name_check, &names);
+    assert_int_equal(names.nameless, 0);
+    xtest_type(XK_Tab); /* to the slider */
+    xtest_type(XK_Home);
+    assert_true(heard("speed <0>", true));
+    xtest_type(XK_Tab); /* to the number */
+    control_type(XK_a);
+    xtest_type(XK_3);
+    xtest_type(XK_Return);
+    assert_true(heard("speed <3>", true));
+    xtest_type(XK_Tab); /* to what is usual */
+    xtest_type(XK_space);
+    assert_true(heard("speed <1.5>", true));
+    xtest_type(XK_Tab); /* to the page again */
+    xtest_type(XK_Home);
+    assert_true(heard("The reeds of paragraph 0", true));
+}
+
 /* A mouse draws, keys type into a note; both are in the list. */
 static void hand_leaves_notes(void **state)
 {
@@ -222,14 +273,19 @@ static bool document_write(void)
         fprintf(file,
                 "## Chapter %d\n\nThe reeds of paragraph %d stand in water that goes by.\n\n",
                 i, i);
+    fputs("```lua live 200x60\n"
+          "local a = control{name = 'speed', least = 0, most = 4, usual = 1.5}\n"
+          "function draw() print(string.format('speed <%g>', a())) return '#808080' end\n"
+          "```\n",
+          file);
     return fclose(file) == 0;
 }
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(text_is_heard),
-                                       cmocka_unit_test(keys_and_wheel_scroll),
-                                       cmocka_unit_test(hand_leaves_notes)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(text_is_heard), cmocka_unit_test(keys_and_wheel_scroll),
+        cmocka_unit_test(controls_are_reached), cmocka_unit_test(hand_leaves_notes)};
     const struct CMUnitTest again[] = {cmocka_unit_test(notes_are_kept)};
     char command[100];
     if (argc == 1) { /* with a bus of its own */

@@ -434,14 +434,57 @@ static void stages_have_room(void **state)
     reader_document_destroy(d);
 }
 
+/* Room for controls is made under one picture, and goes again; the line that is read stays. */
+static void stages_have_controls(void **state)
+{
+    (void)state;
+    static const char text[] = "One.\n\n```lua live 400x100\nfirst\n```\n\nTwo.\n\n"
+                               "```lua live 400x100\nsecond\n```\n\nLast.\n";
+    struct reader_document *d = read_text(text);
+    struct reader_pages_setup setup = usual_setup();
+    setup.width_px = 800;
+    setup.height_px = 3000;
+    setup.stage_strip_px = 30;
+    struct reader_view *view = view_of(d, &setup);
+    struct reader_stage before[2], after[2];
+    const double rooms[] = {0, 70, 120, 0};
+    for (int k = 0; k < 4; k++) {
+        int count, stages = 0;
+        assert_int_equal(reader_view_stage_room(view, 1, rooms[k]), READER_OK);
+        const struct reader_shown *shown = look(view, &count);
+        for (int i = 0; i < count; i++)
+            stages += reader_view_stage(view, &shown[i], &after[stages]);
+        assert_int_equal(stages, 2);
+        if (k == 0)
+            memcpy(before, after, sizeof before);
+        assert_true(after[0].y == before[0].y && after[0].height == before[0].height);
+        assert_true(fabs(after[1].y - before[1].y - rooms[k]) <= 1);
+    }
+    assert_int_equal(reader_view_stage_room(view, -1, 1), READER_BAD_ARGUMENT);
+    assert_int_equal(reader_view_stage_room(view, d->blocks_count, 1), READER_BAD_ARGUMENT);
+    assert_int_equal(reader_view_stage_room(view, 1, -1), READER_BAD_ARGUMENT);
+    /* the line that is read, behind the stage */
+    size_t top = 0, still = 0;
+    setup.height_px = 60;
+    assert_int_equal(reader_view_set(view, &setup), READER_OK);
+    assert_int_equal(reader_view_go(view, d->blocks[2].at, 10), READER_OK);
+    assert_int_equal(reader_view_top(view, &top), READER_OK);
+    assert_int_equal(reader_view_stage_room(view, 1, 500), READER_OK);
+    assert_int_equal(reader_view_top(view, &still), READER_OK);
+    assert_true(top == still && top == d->blocks[2].at);
+    reader_view_destroy(view);
+    reader_document_destroy(d);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(passages_follow),     cmocka_unit_test(ways_do_not_matter),
-        cmocka_unit_test(begins_anywhere),     cmocka_unit_test(line_stays),
-        cmocka_unit_test(notes_open_in_place), cmocka_unit_test(notes_open_in_margin),
-        cmocka_unit_test(letters_are_hit),     cmocka_unit_test(search_folds),
-        cmocka_unit_test(hard_documents),      cmocka_unit_test(stages_have_room),
+        cmocka_unit_test(passages_follow),      cmocka_unit_test(ways_do_not_matter),
+        cmocka_unit_test(begins_anywhere),      cmocka_unit_test(line_stays),
+        cmocka_unit_test(notes_open_in_place),  cmocka_unit_test(notes_open_in_margin),
+        cmocka_unit_test(letters_are_hit),      cmocka_unit_test(search_folds),
+        cmocka_unit_test(hard_documents),       cmocka_unit_test(stages_have_room),
+        cmocka_unit_test(stages_have_controls),
     };
     if (without_library())
         return 77;
