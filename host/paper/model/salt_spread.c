@@ -2,8 +2,9 @@
  *
  * A crystal keeps the water on it saturated, and loses what that takes: it dissolves from its
  * rim inwards, small ones and crumbs first. Brine spreads from fiber to fiber through what is
- * wet and fades, so that it reaches about `reach` fibers. It comes into a fiber only from a
- * level that the fiber asks for, by its sizing and how high it stands: its front is ragged.
+ * wet and fades, so that it reaches about `reach` fibers. It comes freely into a fiber only
+ * from a level that the fiber asks for, by its sizing and how high it stands, and creeps in
+ * below: its front is ragged, but is no cliff.
  * Along the slope of its square pigments are pushed outwards, and surface water is drawn
  * inwards half as fast:
  *
@@ -12,7 +13,10 @@
  *            |    > > >                            water: the other way, half of that
  *
  * The square, because a front of thin brine that stands for long would draw a dark ring around
- * itself.
+ * itself. Where brine ended from one fiber to the next all that it pushed stayed in the first
+ * fiber without any: a dark line as thin as a fiber around each spot, and dots inside. So brine
+ * creeps, and stirs: it mixes pigments between neighbours, so that what is pushed together lies
+ * in a soft band.
  *
  * Flows are whole grains of matter, computed once for each face, as in model/step.c: nothing is
  * lost, and mirrored sheets give mirrored bits. Brine is no matter of the sheet's; it is only
@@ -31,11 +35,15 @@
 /* The brine from which it comes into a fiber: of a usual one; what sizing, about 1, adds, and
  * height above 1/2, to the heights' deviation; at least; and how soon it comes freely. */
 #define ASKED 0.19
-#define ASKED_SIZING 0.6
-#define ASKED_HEIGHT 0.24
+#define ASKED_SIZING 1.3
+#define ASKED_HEIGHT 0.5
 #define ROUGH_LEAST 0.05
 #define ASKED_LEAST 0.03
 #define OPENING 6.0
+#define LEAK 0.2 /* of it comes in below that */
+/* Of pigments, across a face in brine that is thin; at most. */
+#define MIXING 0.5
+#define MIXING_MOST 0.05
 
 /* Crystals dissolve into brine. Uses t[5..6]. */
 static void crystals_dissolve(struct paper_sheet *p, CM_field_id_t wet)
@@ -98,7 +106,7 @@ static void brine_flow(struct paper_sheet *p, CM_field_id_t flow, CM_field_id_t 
     CM_field_id_t gate = p->t[7];
     kit_f_sub(gate, giver, asked);
     kit_f_times(gate, gate, OPENING);
-    kit_f_least(gate, gate, 0.0);
+    kit_f_least(gate, gate, LEAK);
     kit_f_most(gate, gate, 1.0);
     kit_f_sub(flow, giver, taker);
     kit_f_least(flow, flow, 0.0);
@@ -138,10 +146,27 @@ static void brine_spread(struct paper_sheet *p, CM_field_id_t wet)
     kit_f_least(p->brine, p->brine, 0.0);
 }
 
+/* d = the part of pigments that brine exchanges over the faces of the axis. Uses t[5]. */
+static void mixing_make(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t wet,
+                        unsigned axis)
+{
+    CM_field_id_t other = p->t[5];
+    kit_f_next(other, p->brine, axis);
+    kit_f_min(d, other, p->brine);
+    kit_f_times(d, d, MIXING);
+    kit_f_most(d, d, MIXING_MOST);
+    kit_f_mul(d, d, wet);
+    kit_f_next(other, wet, axis);
+    kit_f_mul(d, d, other);
+    kit_f_times(other, p->face[axis], 1e6); /* 0 where it is closed */
+    kit_f_most(other, other, 1.0);
+    kit_f_mul(d, d, other);
+}
+
 void sheet_salt_step(struct paper_sheet *p)
 {
     CM_field_id_t wet = p->t[0], room = p->t[6], other = p->t[5], flow[2] = {p->t[3], p->t[4]};
-    CM_field_id_t up[2] = {p->t[7], p->t[8]}, down[2] = {p->t[9], p->t[10]};
+    CM_field_id_t up[2] = {p->t[7], p->t[8]}, down[2] = {p->t[9], p->t[10]}, mixed = p->t[11];
     bool surface = sheet_has(p, PAPER_PART_SURFACE);
     if (surface)
         kit_f_add(wet, p->page.water, p->surface_water);
@@ -167,6 +192,9 @@ void sheet_salt_step(struct paper_sheet *p)
         kit_f_min(down[axis], down[axis], other);
         kit_f_least(up[axis], up[axis], 0.0);
         kit_f_least(down[axis], down[axis], 0.0);
+        mixing_make(p, mixed, wet, axis);
+        kit_f_add(up[axis], up[axis], mixed);
+        kit_f_add(down[axis], down[axis], mixed);
         kit_f_next(other, room, axis);
         kit_f_mul(up[axis], up[axis], other);
         kit_f_mul(down[axis], down[axis], room);
