@@ -75,6 +75,7 @@ struct paper_sheet {
     CM_field_id_t relief; /* what light of strength 1 makes of the relief, about 0 (light.c) */
     bool relief_made;     /* of the heights as they are */
     int16_t *tooth;       /* tooth.c; NULL: not made of the heights as they are */
+    double tooth_deviation; /* of it, on the scale of heights */
     CM_field_id_t varnish, salt, brine;
     bool varnished, salted; /* there may be some */
     double salt_reach, salt_strength;

@@ -29,7 +29,10 @@
  * 1/2 - DRY_REACH. A tuft feels the tooth so many times: it has less of the heights' deviation
  * than the heights. */
 #define DRY_REACH 0.55
-#define TOOTH_FELT 1.4
+#define TOOTH_FELT 1.8
+/* The tooth's deviation at which hairs lift in full. On smoother paper they lift less, in
+ * proportion: with the same lifting everywhere they left streaks there, and not the tooth. */
+#define LIFT_TOOTH 0.25
 #define CONTACT_STEPS                                                                          \
     65536.0 /* a contact is a whole number of these: the last bits of exp() vary */
 
@@ -226,12 +229,14 @@ static bool contacts_make(struct sheet_going *g, double from, double length, int
     memset(c, 0, sizeof *c);
     memset(places, 0, sizeof places);
     hairs_make(g, rows, hairs);
+    const double lift = fmin(1, p->tooth_deviation / LIFT_TOOTH);
     for (int row = 0; row < rows; row++, g->moment++, g->way += g->stride) {
         struct tuft tuft = tuft_at(g, from + (row + 0.5) * length, length);
         for (int i = 0; i < bristles; i++) {
             const int number = row * PAPER_BRISTLES_MAX + i;
-            const struct sheet_hair hair =
+            struct sheet_hair hair =
                 hair_between(&hairs[0][i], &hairs[1][i], (row + 0.5) / rows);
+            hair.lifted *= lift;
             double force;
             if (!place_make(g, &tuft, i, &hair, &places[number], &force))
                 continue;

@@ -69,8 +69,9 @@ static void means_along_y(const struct box_mean *of)
     }
 }
 
-/* tooth holds heights, and then what they are above their means. */
-static void means_take(struct box_mean *of, int16_t *tooth)
+/* tooth holds heights, and then what they are above their means. Returns their deviation, on
+ * the scale of heights; a sum of whole numbers is the same in any order. */
+static double means_take(struct box_mean *of, int16_t *tooth)
 {
     const size_t count = (size_t)of->width * (size_t)of->height;
     for (size_t i = 0; i < count; i++)
@@ -79,8 +80,12 @@ static void means_take(struct box_mean *of, int16_t *tooth)
         sums_along_x(of);
         means_along_y(of);
     }
-    for (size_t i = 0; i < count; i++)
+    int64_t squares = 0;
+    for (size_t i = 0; i < count; i++) {
         tooth[i] = (int16_t)(tooth[i] - of->values[i]);
+        squares += (int64_t)tooth[i] * tooth[i];
+    }
+    return sqrt((double)squares / (double)count) / HEIGHT_ONE;
 }
 
 enum paper_status sheet_tooth_make(struct paper_sheet *p)
@@ -101,7 +106,7 @@ enum paper_status sheet_tooth_make(struct paper_sheet *p)
         kit_grid_f_read(&p->page.grid, heights, p->height);
         for (size_t i = 0; i < count; i++)
             tooth[i] = (int16_t)lrintf(heights[i] * (float)HEIGHT_ONE);
-        means_take(&of, tooth);
+        p->tooth_deviation = means_take(&of, tooth);
         p->tooth = tooth;
         tooth = NULL;
     }
