@@ -231,6 +231,12 @@ static enum reader_status top_line(struct reader_view *view, size_t *byte, doubl
         *from_top_px = shown[i].y_px + line;
         return READER_OK;
     }
+    if (status == READER_OK && count > 0) { /* nothing but a part of one line or picture */
+        double y0 = 0, y1;
+        *byte = shown[0].begin;
+        status = view_line_of(view, shown[0].passage, *byte, &y0, &y1);
+        *from_top_px = shown[0].y_px + y0;
+    }
     return status;
 }
 

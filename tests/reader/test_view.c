@@ -434,6 +434,34 @@ static void stages_have_room(void **state)
     reader_document_destroy(d);
 }
 
+/* Where only a part of a stage's picture is seen, what is read is there, and stays. */
+static void stages_are_read(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "# One\n\nTwo.\n\n```lua live 400x400\nfirst\nsecond\nthird\n```\n"
+        "\nFour.\n\nFive.\n";
+    struct reader_document *d = read_text(text);
+    struct reader_pages_setup setup = usual_setup();
+    const struct reader_block *stage = &d->blocks[2];
+    setup.stage_strip_px = 30;
+    for (int high = 60; high <= 300; high += 60) {
+        setup.width_px = 700;
+        setup.height_px = high;
+        struct reader_view *view = view_of(d, &setup);
+        size_t top = 0, still = 0;
+        assert_int_equal(reader_view_go(view, stage->at, 300), READER_OK); /* its first line */
+        assert_int_equal(reader_view_top(view, &top), READER_OK);
+        assert_int_equal(top, stage->at);
+        setup.width_px = 500;
+        assert_int_equal(reader_view_set(view, &setup), READER_OK);
+        assert_int_equal(reader_view_top(view, &still), READER_OK);
+        assert_int_equal(still, top);
+        reader_view_destroy(view);
+    }
+    reader_document_destroy(d);
+}
+
 /* Room for controls is made under one picture, and goes again; the line that is read stays. */
 static void stages_have_controls(void **state)
 {
@@ -484,7 +512,7 @@ int main(void)
         cmocka_unit_test(notes_open_in_place),  cmocka_unit_test(notes_open_in_margin),
         cmocka_unit_test(letters_are_hit),      cmocka_unit_test(search_folds),
         cmocka_unit_test(hard_documents),       cmocka_unit_test(stages_have_room),
-        cmocka_unit_test(stages_have_controls),
+        cmocka_unit_test(stages_have_controls), cmocka_unit_test(stages_are_read),
     };
     if (without_library())
         return 77;
