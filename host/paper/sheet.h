@@ -177,9 +177,12 @@ struct paper_sheet_config {
 struct paper_sheet_config paper_sheet_config_default(void);
 /* Fibers along the picture's borders where the sheet may end or be thin: 0 without a deckle. */
 double paper_sheet_margin(const struct paper_sheet_config *config);
-/* Memory that a sheet of that size takes of the device, bytes: each field, its replacement, and
- * temporaries between steps. A little above what was measured of 4096x4096 fibers with three
- * pigments (64 float arrays) and with six (89). */
+/* What brushes keep of each fiber on the front end, bytes: its tooth, and how many touch
+ * it. */
+enum { PAPER_BRUSHES_BYTES = 4 };
+/* Memory that a sheet of that size takes, bytes: of the device each field, its replacement, and
+ * temporaries between steps, a little above what was measured of 4096x4096 fibers with three
+ * pigments (64 float arrays) and with six (89); and what brushes keep. */
 double paper_sheet_bytes(double width, double height, int pigments);
 
 struct paper_sheet;

@@ -21,7 +21,8 @@ struct paper_sheet_config paper_sheet_config_default(void)
 
 double paper_sheet_bytes(double width, double height, int pigments)
 {
-    return (double)sizeof(float) * (42 + 8.5 * pigments) * width * height;
+    return ((double)sizeof(float) * (42 + 8.5 * pigments) + PAPER_BRUSHES_BYTES) * width *
+           height;
 }
 
 /* ---- checking ---- */
