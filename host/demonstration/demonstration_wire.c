@@ -4,6 +4,7 @@
 #include "demonstration_wire.h"
 
 #include <visible_text.h>
+#include <word_list.h>
 
 #include <math.h>
 #include <string.h>
@@ -149,21 +150,10 @@ static void line_take(struct reading *r, int most, char *text)
     r->at = end + 1;
 }
 
-static int choices_count(const char *choices)
-{
-    int count = 0;
-    for (const char *at = choices; *at;) {
-        at += strspn(at, " ");
-        count += *at != '\0';
-        at += strcspn(at, " ");
-    }
-    return count;
-}
-
 /* Each kind of control has the numbers that it must have. */
 static bool control_good(const struct demonstration_control *c)
 {
-    const int choices = choices_count(c->choices);
+    const int choices = word_list_count(c->choices);
     if (!c->name[0] || !(c->least < c->most))
         return false;
     switch (c->curve) {

@@ -5,6 +5,7 @@
 #include "script_springs.h"
 
 #include <visible_text.h>
+#include <word_list.h>
 
 #include <math.h>
 #include <string.h>
@@ -33,24 +34,13 @@ static void curve_read(lua_State *L, struct dyn_control *row)
         luaL_error(L, "control choices must be names with blanks between them");
 }
 
-static int choices_count(const char *choices)
-{
-    int count = 0;
-    for (const char *at = choices; *at;) {
-        at += strspn(at, " ");
-        count += *at != '\0';
-        at += strcspn(at, " ");
-    }
-    return count;
-}
-
 /* Between what, and what it is at first. */
 static void range_read(lua_State *L, struct dyn_control *row)
 {
     const bool named = row->curve == DYN_CHOICE || row->curve == DYN_SWITCH;
     row->least =
         named ? 0 : script_arg_number(L, 1, "control", "least", 0, -far_away, far_away);
-    row->most = row->curve == DYN_CHOICE ? choices_count(row->choices) - 1
+    row->most = row->curve == DYN_CHOICE ? word_list_count(row->choices) - 1
                 : named                  ? 1
                         : script_arg_number(L, 1, "control", "most", 1, -far_away, far_away);
     row->usual = row->least;
@@ -123,18 +113,15 @@ static void network_read(lua_State *L, struct live_control *c)
 /* Pushes a control's value: a number, whether a switch is on, or the name of a choice. */
 static void value_push(lua_State *L, const struct script_live_control *c)
 {
-    const char *at = c->row.choices;
+    const char *word;
+    size_t length;
     switch (c->row.curve) {
     case DYN_SWITCH:
         lua_pushboolean(L, c->value != 0);
         return;
     case DYN_CHOICE:
-        at += strspn(at, " ");
-        for (int i = (int)c->value; i > 0; i--) {
-            at += strcspn(at, " ");
-            at += strspn(at, " ");
-        }
-        lua_pushlstring(L, at, strcspn(at, " "));
+        word = word_list_at(c->row.choices, (int)c->value, &length);
+        lua_pushlstring(L, word, length);
         return;
     case DYN_LINEAR:
     case DYN_LOGARITHMIC:
