@@ -140,6 +140,15 @@ static inline bool device_is_ours(const struct device *d)
     return d->process == process_now();
 }
 
+/* ---- contexts.c ---- */
+
+/* A context of these devices: the one that the last machine of this process left, or a new
+ * one. NULL and an error of OpenCL's where none can be made. */
+cl_context device_context(const struct device *d, const cl_device_id *ids, cl_uint count,
+                          cl_int *error);
+/* Takes the device's context from it, for the next machine. */
+void device_context_leave(const struct device *d);
+
 /* ---- sub_devices.c, sub_open.c: a device that is divided among several machines ----
  *
  * Their queues know nothing of each other. So before the device's own commands its sub-devices'

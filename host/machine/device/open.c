@@ -163,7 +163,7 @@ static enum machine_status choose_and_open(struct machine *m,
     cl_device_id ids[1 + SUB_DEVICES_MOST];
     device_divide(m, (int)m->settings.blocks);
     const cl_uint ids_count = device_ids(d, ids);
-    d->context = clCreateContext(NULL, ids_count, ids, NULL, NULL, &error);
+    d->context = device_context(d, ids, ids_count, &error);
     if (error)
         return device_check(m, error, "a context cannot be made");
     const cl_queue_properties profiling[] = {CL_QUEUE_PROPERTIES, CL_QUEUE_PROFILING_ENABLE, 0};
@@ -221,7 +221,7 @@ void device_close(struct machine *m)
     if (d->queue && ours) /* it may wait for threads */
         clReleaseCommandQueue(d->queue);
     if (d->context && ours)
-        clReleaseContext(d->context);
+        device_context_leave(d);
     device_subs_finish(d);
     chunks_finish(d);
 }
