@@ -11,6 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <ft2build.h>
+#include FT_FREETYPE_H
+
 enum { PIECE = 512 /* glyphs on the device at once */, GAP = 1 /* blank, in pixels */ };
 
 struct work {
@@ -28,6 +31,17 @@ struct work {
 
 /* ---- glyphs ---- */
 
+/* Whether the glyphs so far, and a picture of so many pixels, have room. */
+static enum font_status room_check(const struct work *w, double picture_bytes)
+{
+    const double most = w->def->pixels_bytes_max, bytes = w->area + picture_bytes;
+    if (most > 0 && bytes > most)
+        return font_fail(FONT_NO_MEMORY,
+                         "not enough memory: a typeface at this size takes more than %.0f MB",
+                         most * 1e-6);
+    return FONT_OK;
+}
+
 static enum font_status cover_keep(struct work *w, int glyph, const struct font_gray *gray)
 {
     struct font_typeface_glyph *g = &w->out->glyphs[glyph];
@@ -40,6 +54,9 @@ static enum font_status cover_keep(struct work *w, int glyph, const struct font_
                          "a typeface is a picture of %d pixels a side at most: glyph %d is too "
                          "much at this size",
                          FONT_TYPEFACE_SIDE_MAX, glyph);
+    const enum font_status room = room_check(w, w->area);
+    if (room != FONT_OK)
+        return room;
     uint8_t *pixels = malloc(width * height);
     if (!pixels)
         return font_fail(FONT_NO_MEMORY, "no memory for glyph %d of %zux%zu pixels", glyph,
@@ -106,7 +123,8 @@ static enum font_status piece_draw(struct work *w, int first, int end)
     enum font_status status = FONT_OK;
     for (int glyph = first; glyph < end && status == FONT_OK; glyph++) {
         int edges = -1;
-        if (w->many)
+        status = font_patience_ask(glyph);
+        if (status == FONT_OK && w->many)
             status = edges_keep(w, glyph, &edges);
         if (status == FONT_OK && edges < 0) {
             status = glyph_paint(w, glyph);
@@ -201,6 +219,8 @@ static enum font_status picture_make(struct work *w)
     qsort_r(order, (size_t)count, sizeof *order, before, t->glyphs);
     enum font_status status = places_find(t, order);
     free(order);
+    if (status == FONT_OK)
+        status = room_check(w, (double)t->width_px * t->height_px);
     if (status != FONT_OK)
         return status;
     t->pixels = calloc((size_t)t->width_px, (size_t)t->height_px);
@@ -218,6 +238,34 @@ static enum font_status picture_make(struct work *w)
 }
 
 /* ---- a typeface ---- */
+
+double font_typeface_work_bytes(const struct font_face *face, double size_px)
+{
+    struct font_face_info info;
+    font_face_describe(face, &info);
+    const double at_once = info.glyphs_count < PIECE ? info.glyphs_count : PIECE,
+                 side_px = 1.5 * size_px + 16;
+    return 1.25 * at_once * side_px * side_px +
+           (double)info.glyphs_count * (double)sizeof(struct font_typeface_glyph);
+}
+
+/* The first character of each glyph, by glyph number; 0: the glyph has none. */
+static void characters_find(struct font_typeface *t, FT_Face face)
+{
+    const FT_ULong end = 0x110000; /* of Unicode */
+    FT_ULong before = 0, character;
+    FT_UInt glyph;
+    for (character = FT_Get_First_Char(face, &glyph); glyph && character < end;
+         character = FT_Get_Next_Char(face, character, &glyph)) {
+        const bool surrogate = character >= 0xd800 && character < 0xe000;
+        if (character < before) /* a damaged font's are not in order */
+            break;
+        before = character;
+        if (character && !surrogate && glyph < (FT_UInt)t->glyphs_count &&
+            !t->glyphs[glyph].character)
+            t->glyphs[glyph].character = (uint32_t)character;
+    }
+}
 
 static enum font_status glyphs_begin(struct work *w, const struct font_face_info *info)
 {
@@ -237,6 +285,7 @@ static enum font_status glyphs_begin(struct work *w, const struct font_face_info
         t->glyphs[i] = (struct font_typeface_glyph){
             .glyph = (uint32_t)i, .advance_px = advance * w->def->size_px / info->units_per_em};
     }
+    characters_find(t, font_face_freetype(w->face));
     return status;
 }
 

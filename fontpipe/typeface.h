@@ -32,9 +32,16 @@
 
 enum { FONT_TYPEFACE_SIDE_MAX = 16384 };
 
+/* The sizes that users are offered. */
+#define FONT_TYPEFACE_LEAST_PX 0.5
+#define FONT_TYPEFACE_MOST_PX 400.0
+
 struct font_typeface_def {
     double size_px;     /* 0.1..FONT_SIDE_MAX */
     const char *filter; /* a name of filter.h; NULL: "gaussian-fast" */
+    /* The most memory for the picture and, while it is made, for the glyphs before they have
+     * their places in it; 0: as much as there is. */
+    double pixels_bytes_max;
     const char *device; /* as LUTETIA_DEVICE, which NULL looks at */
     /* Asked between pieces of the work, how many glyphs of how many are done; false: it stops,
      * with NO_MEMORY as status.h has it. NULL: nobody asks. */
@@ -44,6 +51,7 @@ struct font_typeface_def {
 
 struct font_typeface_glyph {
     uint32_t glyph;
+    uint32_t character;            /* the first that the glyph stands for; 0: none */
     int x, y, width_px, height_px; /* in the picture; width 0: it has no ink */
     int left_px, top_px;           /* of its first pixel, from its origin; y downwards */
     double advance_px;
@@ -58,9 +66,12 @@ struct font_typeface {
     char device[128];
 };
 
+/* About how much memory the making takes besides the pixels: the glyphs that the device holds
+ * at once, and the table. */
+double font_typeface_work_bytes(const struct font_face *face, double size_px);
 /* Errors: BAD_ARGUMENT (a size or filter that cannot be), NO_DEVICE, DEVICE_FAILED, TOO_LARGE
- * (past FONT_TYPEFACE_SIDE_MAX pixels a side), NO_MEMORY; *out is then empty. Owns: the caller
- * finishes *out. */
+ * (past FONT_TYPEFACE_SIDE_MAX pixels a side), NO_MEMORY, also where patience is over
+ * (patience.h); *out is then empty. Owns: the caller finishes *out. */
 enum font_status font_typeface_draw(struct font_face *face, const struct font_typeface_def *def,
                                     struct font_typeface *out);
 /* Frees its memory, and makes it empty. */

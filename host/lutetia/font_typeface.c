@@ -12,26 +12,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CHARACTERS = 0x110000 };
-
 static bool go_on(void *progress, int done, int count)
 {
     struct progress *p = progress;
     p->total = count;
     progress_show(p, done);
     return !interrupted();
-}
-
-/* The first character of each glyph; 0: none has it. NULL: no memory. Owns: the caller. */
-static uint32_t *characters_find(const struct font_face *face, int glyphs_count)
-{
-    uint32_t *of = calloc((size_t)glyphs_count + 1, sizeof *of);
-    for (uint32_t c = 1; of && c < CHARACTERS; c++) {
-        const uint32_t glyph = c >= 0xd800 && c < 0xe000 ? 0 : font_face_glyph(face, c);
-        if (glyph && glyph < (uint32_t)glyphs_count && !of[glyph])
-            of[glyph] = c;
-    }
-    return of;
 }
 
 /* A name in quotes, in which quotes are doubled. */
@@ -46,8 +32,7 @@ static void name_print(FILE *to, const char *name)
     fputc('"', to);
 }
 
-static void table_print(FILE *to, const struct font_face *face, const uint32_t *characters,
-                        const struct font_typeface *t)
+static void table_print(FILE *to, const struct font_face *face, const struct font_typeface *t)
 {
     char name[FONT_GLYPH_NAME_BYTES];
     fputs("glyph,name,character,x,y,width,height,left,top,advance\r\n", to);
@@ -55,8 +40,8 @@ static void table_print(FILE *to, const struct font_face *face, const uint32_t *
         const struct font_typeface_glyph *g = &t->glyphs[i];
         fprintf(to, "%u,", g->glyph);
         name_print(to, font_face_glyph_name(face, g->glyph, name));
-        if (characters[i])
-            fprintf(to, ",U+%04X", characters[i]);
+        if (g->character)
+            fprintf(to, ",U+%04X", g->character);
         else
             fputc(',', to);
         fprintf(to, ",%d,%d,%d,%d,%d,%d,%.4f\r\n", g->x, g->y, g->width_px, g->height_px,
@@ -68,15 +53,9 @@ static int table_write(const char *path, const struct font_face *face,
                        const struct font_typeface *t)
 {
     struct output_file out;
-    uint32_t *characters = characters_find(face, t->glyphs_count);
-    if (!characters)
-        return fail("font", "no memory for a table of %d glyphs", t->glyphs_count);
-    if (!output_file_open(&out, path)) {
-        free(characters);
+    if (!output_file_open(&out, path))
         return fail("font", "%s: cannot write: %s", path, out.why);
-    }
-    table_print(out.stream, face, characters, t);
-    free(characters);
+    table_print(out.stream, face, t);
     return output_file_commit(&out) ? EXIT_SUCCESS
                                     : fail("font", "%s: cannot write: %s", path, out.why);
 }

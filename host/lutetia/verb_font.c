@@ -7,6 +7,7 @@
 #include "type_common.h"
 
 #include <own.h>
+#include <typeface.h>
 #include <visible_text.h>
 
 #include <math.h>
@@ -87,7 +88,7 @@ static int font_options(struct font_verb *v, int argc, char **argv, bool *help)
         {"typeface", 0, OPTION_NUMBER, "PX",
          "all glyphs at this size in one picture, drawn on the OpenCL device, and a table of "
          "where each is: out.csv",
-         &v->typeface_px, 0.5, 400, 0},
+         &v->typeface_px, FONT_TYPEFACE_LEAST_PX, FONT_TYPEFACE_MOST_PX, 0},
         {"against", 0, OPTION_TEXT, "FILE",
          "compare with another version of the font: both, and what is different", &v->against,
          0, 0, 0},

@@ -179,16 +179,16 @@ void script_memory_take(lua_State *L, double bytes, const char *what)
     script->memory_bytes += (size_t)bytes;
 }
 
-void script_memory_machine(lua_State *L)
+void script_memory_machine(lua_State *L, const char *why)
 {
-    const struct script *script = script_of(L);
-    if (!process_has_room(script, SCRIPT_MACHINE_BYTES))
+    struct script *script = script_of(L);
+    if (!script->driver_works && !process_has_room(script, SCRIPT_MACHINE_BYTES))
         luaL_error(L,
-                   "not enough memory: papers need a machine, whose driver takes %d MB as it "
-                   "begins, and "
-                   "%s allows %d in all",
-                   (int)(SCRIPT_MACHINE_BYTES * 1e-6), script_memory_limit(script),
+                   "not enough memory: %s, whose driver takes %d MB as it begins, and %s "
+                   "allows %d in all",
+                   why, (int)(SCRIPT_MACHINE_BYTES * 1e-6), script_memory_limit(script),
                    (int)((double)script->config->memory_bytes * 1e-6));
+    script->driver_works = true;
 }
 
 void script_memory_give(struct script *script, double bytes)

@@ -8,6 +8,7 @@ const struct script_functions script_functions[] = {
     {NULL, script_song_functions, false},
     {NULL, script_mask_makers, false},
     {NULL, script_page_makers, false},
+    {NULL, script_typeface_makers, false},
     {NULL, script_paper_time_functions, false},
     {NULL, script_stroke_functions, false},
     {NULL, script_picture_functions, false},
@@ -68,6 +69,7 @@ int script_open(lua_State *L)
     script_picture_open(L);
     script_springs_open(L);
     script_song_open(L);
+    script_typeface_open(L);
     for (const struct script_functions *f = script_functions; f->functions; f++)
         functions_open(L, f);
     return 0;

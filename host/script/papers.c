@@ -60,8 +60,7 @@ void script_paper_room_take(lua_State *L, struct script_paper *paper, double wid
     }
     script_memory_take(L, bytes, "a paper");
     paper->bytes = bytes;
-    if (paper->number == 1)
-        script_memory_machine(L);
+    script_memory_machine(L, "papers need a machine");
 }
 
 const char *script_paper_shown(struct script_paper *paper)

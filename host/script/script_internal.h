@@ -57,7 +57,8 @@ struct script {
     bool over; /* only finalizers run, which can no longer call the library */
     bool asked[SCRIPT_WORDS_MAX], words_checked;
     int papers_made;
-    uint64_t seeds;                                /* counter of the seeds of random
+    bool driver_works; /* OpenCL's driver is in the process, with its memory */
+    uint64_t seeds;    /* counter of the seeds of random
                                                     * operations */
     struct script_paper *first_paper, *last_paper; /* open papers, by number */
     int papers_open;
@@ -93,9 +94,9 @@ void script_check_row(lua_State *L, int row);
  * nothing. */
 void script_memory_take(lua_State *L, double bytes, const char *what);
 void script_memory_give(struct script *script, double bytes);
-/* Before the first paper: there must be room for the machine, which is not counted. Else raises
- * an error. */
-void script_memory_machine(lua_State *L);
+/* Before OpenCL's device is used: the first time there must be room for its driver, which is
+ * not counted. Else raises an error, which says why it is used: "papers need a machine". */
+void script_memory_machine(lua_State *L, const char *why);
 /* Counts memory for a while: pushes what gives it back when it is released, or collected after
  * an error. */
 void script_memory_hold(lua_State *L, double bytes, const char *what);
@@ -302,20 +303,21 @@ void script_stroke_open(lua_State *L);
 void script_picture_open(lua_State *L);
 void script_springs_open(lua_State *L);
 void script_song_open(lua_State *L);
+void script_typeface_open(lua_State *L);
 
 extern const char script_mask_type[], script_papers_type[], script_paper_type[],
     script_brush_type[], script_picture_type[], script_spring_type[], script_network_type[];
 
 /* The tables of functions of each file. */
 extern const luaL_Reg script_sandbox_functions[], script_song_functions[], script_mask_makers[],
-    script_page_makers[], script_mask_methods[], script_mask_operators[],
-    script_papers_operators[], script_papers_functions[], script_paper_methods[],
-    script_paper_look_methods[], script_paper_time_methods[], script_paper_time_functions[],
-    script_brush_paper_methods[], script_brush_methods[], script_stroke_methods[],
-    script_stroke_functions[], script_technique_methods[], script_picture_paper_methods[],
-    script_picture_functions[], script_picture_methods[], script_spring_makers[],
-    script_spring_word_makers[], script_network_methods[], script_network_word_methods[],
-    script_network_key_methods[];
+    script_page_makers[], script_typeface_makers[], script_mask_methods[],
+    script_mask_operators[], script_papers_operators[], script_papers_functions[],
+    script_paper_methods[], script_paper_look_methods[], script_paper_time_methods[],
+    script_paper_time_functions[], script_brush_paper_methods[], script_brush_methods[],
+    script_stroke_methods[], script_stroke_functions[], script_technique_methods[],
+    script_picture_paper_methods[], script_picture_functions[], script_picture_methods[],
+    script_spring_makers[], script_spring_word_makers[], script_network_methods[],
+    script_network_word_methods[], script_network_key_methods[];
 
 /* All functions that a script can call (open.c). Ended by a row without functions. */
 struct script_functions {

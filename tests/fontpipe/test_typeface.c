@@ -4,6 +4,7 @@
 
 #include <own.h>
 #include <paint.h>
+#include <patience.h>
 #include <typeface.h>
 
 #include <math.h>
@@ -149,6 +150,71 @@ static void what_the_device_cannot_draw_is_painted(void **state)
     font_face_close(face);
 }
 
+/* As one finds who asks for the glyph of each character in turn. */
+static void characters_are_those_of_glyphs(void **state)
+{
+    (void)state;
+    static const char *const fonts[] = {"EBGaramond12-Italic", "DejaVuSansMono"};
+    for (size_t k = 0; k < sizeof fonts / sizeof *fonts; k++) {
+        struct font_face *face = face_open(fonts[k]);
+        struct font_face_info info;
+        font_face_describe(face, &info);
+        const size_t count = (size_t)info.glyphs_count;
+        uint32_t *first = calloc(count, sizeof *first);
+        const struct font_typeface_def def = {.size_px = 1, .filter = "box"};
+        struct font_typeface t;
+        assert_non_null(first);
+        for (uint32_t c = 1; c < 0x110000; c++) {
+            const uint32_t glyph = c >= 0xd800 && c < 0xe000 ? 0 : font_face_glyph(face, c);
+            if (glyph && !first[glyph])
+                first[glyph] = c;
+        }
+        assert_font(font_typeface_draw(face, &def, &t));
+        for (size_t i = 0; i < count; i++)
+            assert_int_equal(t.glyphs[i].character, first[i]);
+        font_typeface_finish(&t);
+        free(first);
+        font_face_close(face);
+    }
+}
+
+static bool impatient(void *context)
+{
+    int *asked = context;
+    return ++*asked > 3;
+}
+
+/* With less memory than its pixels take, and where it takes too long. */
+static void it_has_its_limits(void **state)
+{
+    (void)state;
+    int asked = 0;
+    struct font_face *face = face_open("DejaVuSansMono");
+    struct font_typeface t;
+    struct font_typeface_def def = {.size_px = 12, .filter = "box"};
+    assert_font(font_typeface_draw(face, &def, &t));
+    double glyphs_bytes = 0, picture_bytes = (double)t.width_px * t.height_px;
+    for (int i = 0; i < t.glyphs_count; i++)
+        glyphs_bytes += (double)t.glyphs[i].width_px * t.glyphs[i].height_px;
+    font_typeface_finish(&t);
+    def.pixels_bytes_max = glyphs_bytes + picture_bytes;
+    assert_font(font_typeface_draw(face, &def, &t));
+    font_typeface_finish(&t);
+    for (int i = 0; i < 2; i++) {
+        def.pixels_bytes_max = i ? glyphs_bytes : glyphs_bytes + picture_bytes - 1;
+        assert_int_equal(font_typeface_draw(face, &def, &t), FONT_NO_MEMORY);
+        assert_non_null(strstr(font_error(), "not enough memory"));
+        assert_null(t.pixels);
+    }
+    def.pixels_bytes_max = 0;
+    const struct patience before = patience_set((struct patience){impatient, &asked});
+    assert_int_equal(font_typeface_draw(face, &def, &t), FONT_NO_MEMORY);
+    patience_set(before);
+    assert_int_equal(asked, 4);
+    assert_null(t.glyphs);
+    font_face_close(face);
+}
+
 static bool stops(void *context, int done, int count)
 {
     int *asked = context;
@@ -185,6 +251,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_glyph_is_there),
         cmocka_unit_test(what_the_device_cannot_draw_is_painted),
+        cmocka_unit_test(characters_are_those_of_glyphs),
+        cmocka_unit_test(it_has_its_limits),
         cmocka_unit_test(it_can_be_stopped_and_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

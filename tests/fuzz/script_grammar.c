@@ -35,6 +35,7 @@ static const struct {
      "width:n height:n margin:n columns:i gap:n size:n font:S italic:S bold:S leading:n "
      "align:S indent:n notes:n page:i hyphenate:b language:S features:S protrude:n expand:n "
      "vertical:b around:t inside:t x:n y:n filter:S darken:n"},
+    {NULL, "typeface", "SO", "size:n filter:S axes:S"},
     {NULL, "image", "snn", ""},
     {NULL, "song", "S", ""},
     {NULL, "mask", "iif", ""},
@@ -82,8 +83,7 @@ static const struct {
     {"paper", "film", "O", "show:S x:n y:n width:n height:n"},
     {"paper", "brush", "O",
      "kind:S width:n depth:n bristles:i angle:n follows:b point:n uneven:n splay:n bend:n "
-     "thickness:n reach:n load:n flow:n "
-     "mixing:n seed:i mirrored:b number:i"},
+     "thickness:n reach:n load:n flow:n mixing:n seed:i mirrored:b number:i"},
     {"paper", "stroke", "U", ""},
     {"paper", "wash", "AO", "from:c to:c into:A mask:m"},
     {"paper", "lift", "mn", ""},
@@ -222,7 +222,7 @@ static void function(struct script_source *s, int depth)
         return;
     }
     say(s, "function(x, y) ");
-    for (unsigned i = 0, count = script_byte(s) % 2 + 1; i < count; i++)
+    for (unsigned count = script_byte(s) % 2 + 1; count > 0; count--)
         statement(s, depth + 1);
     say(s, "return 0.5, 0.25 end");
 }

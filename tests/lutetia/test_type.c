@@ -398,6 +398,68 @@ static void typeface_has_a_table(void **state)
     unlink(path);
 }
 
+/* A script that has the command's table as a text, and says where its own is another; it writes
+ * its mask as a layer. */
+static void typeface_script_write(const char *path, const char *table)
+{
+    FILE *script = fopen(path, "wb"), *rows = fopen(table, "rb");
+    char line[300];
+    assert_true(script && rows);
+    fputs("local wanted = [[\n", script);
+    while (fgets(line, sizeof line, rows))
+        fprintf(script, "%.*s\n", (int)strcspn(line, "\r\n"), line);
+    fputs("]]\n"
+          "local m, glyphs = typeface('DejaVuSansMono', {size = 11.5, filter = 'cone'})\n"
+          "local i, same = 0, 0\n"
+          "for row in wanted:gmatch('[^\\n]+') do\n"
+          "  local g = glyphs[i]\n"
+          "  local c = g and g.character and ('U+%04X'):format(utf8.codepoint(g.character))\n"
+          "  local is = g and ('%d,\"%s\",%s,%d,%d,%d,%d,%d,%d,%.4f'):format(g.glyph, "
+          "g.name, c or '', g.x, g.y, g.width, g.height, g.left, g.top, g.advance)\n"
+          "  if is == row then same = same + 1 elseif g then print(is, row) end\n"
+          "  i = i + 1\n"
+          "end\n"
+          "print('same', same, i - 1, #glyphs)\n"
+          "local x, y, w, h = m:bounds()\n"
+          "print('at', x, y)\n"
+          "local p = paper{width = w, height = h, pigments = {}, model = {'infused'}, "
+          "history = false}\n"
+          "p:layer('resist', m)\n"
+          "p:frame('layer.png', {layer = 'resist', low = 0, high = 1, bits = 8})\n",
+          script);
+    assert_int_equal(fclose(script), 0);
+    fclose(rows);
+}
+
+static void a_script_has_the_same_typeface(void **state)
+{
+    (void)state;
+    const char *path = scratch_path("face.png"), *table = scratch_path("face.csv"),
+               *script = scratch_path("face.lua"), *layer = scratch_path("layer.png");
+    struct display_image a, b;
+    struct child made = {.arguments = {"", "font", "DejaVuSansMono", "--typeface", "11.5",
+                                       "--filter", "cone", "-o", path}},
+                 child = {.arguments = {"", "run", script, "-q", "-o", scratch_dir}};
+    int glyphs = 0, same = 0, rows = 0;
+    run(&made, 0, "wrote ");
+    typeface_script_write(script, table);
+    run(&child, 0, "");
+    if (sscanf(child.output, "same %d %d %d\nat 0 0\n", &same, &rows, &glyphs) != 3)
+        fail_msg("the tables differ: %.600s", child.output);
+    assert_true(same > 3000 && same == rows && rows == glyphs);
+    assert_int_equal(display_png_read_gray(path, &a), DISPLAY_OK);
+    assert_int_equal(display_png_read_gray(layer, &b), DISPLAY_OK);
+    assert_int_equal(a.width_px, b.width_px);
+    assert_int_equal(a.height_px, b.height_px);
+    assert_memory_equal(a.pixels, b.pixels, (size_t)a.width_px * (size_t)a.height_px);
+    display_image_destroy(&a);
+    display_image_destroy(&b);
+    unlink(table);
+    unlink(path);
+    unlink(script);
+    unlink(layer);
+}
+
 static void what_is_no_typeface_is_said(void **state)
 {
     (void)state;
@@ -521,6 +583,7 @@ int main(void)
         cmocka_unit_test(fonts_and_filters_are_shown),
         cmocka_unit_test(proofs_and_versions_are_shown),
         cmocka_unit_test(typeface_has_a_table),
+        cmocka_unit_test(a_script_has_the_same_typeface),
         cmocka_unit_test(what_is_no_typeface_is_said),
         cmocka_unit_test(wrong_lines_are_said),
         cmocka_unit_test(what_is_missing_is_said),
