@@ -255,8 +255,9 @@ struct page_caret {
  * ligature is between its parts. Errors: BAD_ARGUMENT for no place. */
 enum font_status page_caret_get(struct page_text *text, struct page_place place, bool before,
                                 struct page_caret *out);
-/* The place nearest to a point of a page. *before: as page_caret_get() has it. Errors:
- * BAD_ARGUMENT where the page has no text. */
+/* The place nearest to a point of a page: in the frame that is nearest, of the line at the
+ * point's height or nearest to that. *before: as page_caret_get() has it. Errors: BAD_ARGUMENT
+ * where the page has no text. */
 enum font_status page_hit(struct page_text *text, int page, double x, double y,
                           struct page_place *place, bool *before);
 /* The boxes of what lies between two places of one flow, on a page: those of each line, which

@@ -110,27 +110,48 @@ struct nearest {
     double u; /* of the point */
 };
 
+/* How far a number is from an interval. */
+static double outside(double at, double from, double to)
+{
+    return fmax(0, fmax(from - at, at - to));
+}
+
+/* How far a point is from a line: from its frame, then across the lines, then along them. So a
+ * point far beside a frame is on the line at its height, however far lines are moved in. */
+struct distance {
+    double frame, across, along;
+};
+
+static bool is_nearer(const struct distance *a, const struct distance *b)
+{
+    if (a->frame != b->frame)
+        return a->frame < b->frame;
+    return a->across != b->across ? a->across < b->across : a->along < b->along;
+}
+
 /* The line that the point is on, or nearest to. */
 static bool line_nearest(const struct page *page, const struct page_template *template,
                          double x, double y, struct nearest *out)
 {
-    double best = INFINITY;
+    struct distance best = {INFINITY, INFINITY, INFINITY};
     for (int i = 0; i < page->pieces_count; i++) {
         const struct piece *piece = &page->pieces[i];
         for (int k = piece->begin; k < piece->end; k++) {
             const struct slot *s = &page->slots[piece->slots_begin + k - piece->begin];
+            const struct page_frame *f = &template->frames[s->frame];
             double u, v;
-            point_slot(&template->frames[s->frame], x, y, &u, &v);
-            double du = fmax(0, fmax(s->u0 - u, u - s->u1));
-            double dv = fmax(0, fmax(s->v - v, v - s->v - piece->paragraph->leading_px));
-            double far = du * du + dv * dv;
-            if (far < best) {
+            point_slot(f, x, y, &u, &v);
+            const struct distance far = {
+                hypot(outside(x, f->x, f->x + f->width), outside(y, f->y, f->y + f->height)),
+                outside(v, s->v, s->v + piece->paragraph->leading_px),
+                outside(u, s->u0, s->u1)};
+            if (is_nearer(&far, &best)) {
                 best = far;
                 *out = (struct nearest){piece->paragraph, s, k, u - s->u0};
             }
         }
     }
-    return isfinite(best);
+    return isfinite(best.frame);
 }
 
 struct hit {

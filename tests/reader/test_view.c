@@ -462,6 +462,40 @@ static void stages_are_read(void **state)
     reader_document_destroy(d);
 }
 
+/* Each line of the text under a stage's picture can be the one that is read, and stays at other
+ * widths, though the picture stands further to the left. */
+static void lines_of_stages_are_kept(void **state)
+{
+    (void)state;
+    static const char *const lines[] = {"first", "second", "third", "fourth", "fifth"};
+    char text[1000] = "# One\n\nTwo.\n\n```lua live 400x400\nfirst\nsecond\nthird\n```\n\n"
+                      "> ```lua live 300x200\n> fourth\n> fifth\n> ```\n\n";
+    for (int i = 0; i < 40; i++) /* so that the window is full below each of them */
+        strcat(text, "After.\n\n");
+    struct reader_document *d = read_text(text);
+    struct reader_pages_setup setup = usual_setup();
+    setup.stage_strip_px = 30;
+    setup.height_px = 300;
+    for (int i = 0; i < 5; i++) {
+        struct reader_view *view = view_of(d, &setup);
+        size_t begin, end, top = 0;
+        assert_true(reader_document_search(d, lines[i], 0, true, &begin, &end));
+        assert_int_equal(reader_view_go(view, begin, 0), READER_OK);
+        for (int width = 700; width >= 300; width -= 100) {
+            int count;
+            struct reader_pages_setup narrow = setup;
+            narrow.width_px = width;
+            assert_int_equal(reader_view_set(view, &narrow), READER_OK);
+            assert_int_equal(reader_view_top(view, &top), READER_OK);
+            assert_int_equal(top, begin);
+            look(view, &count);
+            assert_true(fabs(box_of(view, begin).y) <= 1);
+        }
+        reader_view_destroy(view);
+    }
+    reader_document_destroy(d);
+}
+
 /* Room for controls is made under one picture, and goes again; the line that is read stays. */
 static void stages_have_controls(void **state)
 {
@@ -507,12 +541,13 @@ static void stages_have_controls(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(passages_follow),      cmocka_unit_test(ways_do_not_matter),
-        cmocka_unit_test(begins_anywhere),      cmocka_unit_test(line_stays),
-        cmocka_unit_test(notes_open_in_place),  cmocka_unit_test(notes_open_in_margin),
-        cmocka_unit_test(letters_are_hit),      cmocka_unit_test(search_folds),
-        cmocka_unit_test(hard_documents),       cmocka_unit_test(stages_have_room),
-        cmocka_unit_test(stages_have_controls), cmocka_unit_test(stages_are_read),
+        cmocka_unit_test(passages_follow),          cmocka_unit_test(ways_do_not_matter),
+        cmocka_unit_test(begins_anywhere),          cmocka_unit_test(line_stays),
+        cmocka_unit_test(notes_open_in_place),      cmocka_unit_test(notes_open_in_margin),
+        cmocka_unit_test(letters_are_hit),          cmocka_unit_test(search_folds),
+        cmocka_unit_test(hard_documents),           cmocka_unit_test(stages_have_room),
+        cmocka_unit_test(stages_have_controls),     cmocka_unit_test(stages_are_read),
+        cmocka_unit_test(lines_of_stages_are_kept),
     };
     if (without_library())
         return 77;
