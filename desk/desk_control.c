@@ -5,6 +5,8 @@
 
 #include <ctype.h>
 #include <libintl.h>
+#include <math.h>
+#include <string.h>
 
 #define _(text) gettext(text)
 
@@ -42,7 +44,7 @@ static struct row *row_of(GtkWidget *box)
 static void value_say(const struct row *row, double value)
 {
     char text[64];
-    stage_control_text(row->control, value, text, sizeof text);
+    stage_control_number(row->control, value, text, sizeof text);
     char *said = g_strdup_printf("%s %s", text, row->control->unit);
     gtk_accessible_update_property(GTK_ACCESSIBLE(row->slider),
                                    GTK_ACCESSIBLE_PROPERTY_VALUE_TEXT, said, -1);
@@ -122,16 +124,44 @@ static GtkWidget *choice_new(const struct stage_control *control)
     return gtk_drop_down_new(G_LIST_MODEL(names), NULL);
 }
 
-/* How fine the number is: by its range. */
-static GtkWidget *number_new(const struct stage_control *control)
+enum { NUMBER_BYTES = 400 };
+
+/* The number has the decimals that it needs. */
+static gboolean number_show(GtkSpinButton *number, const struct row *row)
 {
+    char text[NUMBER_BYTES];
+    stage_control_number(row->control,
+                         gtk_adjustment_get_value(gtk_spin_button_get_adjustment(number)), text,
+                         sizeof text);
+    if (strcmp(text, gtk_editable_get_text(GTK_EDITABLE(number))) != 0)
+        gtk_editable_set_text(GTK_EDITABLE(number), text);
+    return TRUE;
+}
+
+/* Where nobody has typed, the value stays what it is, to the last bit. */
+static int number_read(GtkSpinButton *number, double *value, const struct row *row)
+{
+    const double now = gtk_adjustment_get_value(gtk_spin_button_get_adjustment(number));
+    char text[NUMBER_BYTES];
+    stage_control_number(row->control, now, text, sizeof text);
+    if (strcmp(text, gtk_editable_get_text(GTK_EDITABLE(number))) != 0)
+        return FALSE; /* as GTK reads it */
+    *value = now;
+    return TRUE;
+}
+
+/* How far its arrows go: by its range. */
+static GtkWidget *number_new(struct row *row)
+{
+    const struct stage_control *control = row->control;
     const double span = control->most - control->least;
-    const bool whole = span > 400, rough = span > 20, fine = span > 0.06;
-    GtkWidget *number = gtk_spin_button_new_with_range(control->least, control->most,
-                                                       whole   ? 1
-                                                       : rough ? 0.5
-                                                               : 0.01);
-    gtk_spin_button_set_digits(GTK_SPIN_BUTTON(number), whole ? 0 : rough ? 1 : fine ? 2 : 4);
+    const double step = span > 400   ? 1
+                        : span > 20  ? 0.5
+                        : span > 0.5 ? 0.01
+                                     : pow(10, floor(log10(span / 50)));
+    GtkWidget *number = gtk_spin_button_new_with_range(control->least, control->most, step);
+    g_signal_connect(number, "output", G_CALLBACK(number_show), row);
+    g_signal_connect(number, "input", G_CALLBACK(number_read), row);
     gtk_editable_set_width_chars(GTK_EDITABLE(number), 5);
     gtk_editable_set_max_width_chars(GTK_EDITABLE(number), 5);
     return number;
@@ -143,7 +173,7 @@ static void slider_add(struct row *row, GtkWidget *box, const char *name, const 
     gtk_scale_set_draw_value(GTK_SCALE(row->slider), FALSE);
     gtk_widget_set_hexpand(row->slider, TRUE);
     gtk_widget_set_size_request(row->slider, 96, -1);
-    row->number = number_new(row->control);
+    row->number = number_new(row);
     GtkWidget *again = gtk_button_new_from_icon_name("edit-undo-symbolic");
     gtk_button_set_has_frame(GTK_BUTTON(again), FALSE);
     char *text = g_strdup_printf(_("Usual %s"), name);

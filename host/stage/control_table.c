@@ -89,6 +89,21 @@ void stage_control_text(const struct stage_control *row, double value, char *tex
         snprintf(text, room, "%.4g", value);
 }
 
+void stage_control_number(const struct stage_control *row, double value, char *text,
+                          size_t room)
+{
+    enum { DECIMALS_MOST = 9, NUMBER_BYTES = 400 }; /* those of the largest double */
+    const double near = 5e-5 * fmin(row->most - row->least, fabs(value));
+    char number[NUMBER_BYTES] = "";
+    for (int decimals = 0; decimals <= DECIMALS_MOST; decimals++) {
+        snprintf(number, sizeof number, "%.*f", decimals, value);
+        if (fabs(strtod(number, NULL) - value) <= near)
+            break;
+    }
+    const bool zero = strtod(number, NULL) == 0;
+    snprintf(text, room, "%s", zero ? "0" : number);
+}
+
 /* ---- along a slider ----
  *
  *     0    linear_share          1/2                    1        along

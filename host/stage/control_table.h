@@ -49,6 +49,10 @@ enum stage_status stage_control_parse(const struct stage_control *row, const cha
                                       double *value);
 /* Writes a value as text, without its unit; at most room - 1 characters. */
 void stage_control_text(const struct stage_control *row, double value, char *text, size_t room);
+/* The same of a number that can be typed: with as few decimals as tell it apart from values
+ * near it, at most 9, and never with an exponent. */
+void stage_control_number(const struct stage_control *row, double value, char *text,
+                          size_t room);
 
 /* Converts a value to a slider's position, 0..1, and back, by the curve; for what MIDI plays,
  * too. A logarithmic range whose usual value is one of its ends has its geometric middle in the

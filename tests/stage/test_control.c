@@ -91,6 +91,39 @@ static void texts_are_values_and_back(void **state)
             fail_msg("'%s' is %g", bad[i].text, value);
 }
 
+/* A number that is typed has the decimals that it needs, and no others. */
+static void numbers_have_their_decimals(void **state)
+{
+    (void)state;
+    static const struct {
+        double least, most, value;
+        const char *text;
+    } numbers[] = {{0, 4, 1.5, "1.5"},
+                   {0, 4, 1.0625, "1.0625"},
+                   {0, 4, 0, "0"},
+                   {-4, 4, -0.0, "0"},
+                   {0, 1000, 440.5, "440.5"},
+                   {0, 1000, 1000, "1000"},
+                   {0, 1e6, 123456, "123456"},
+                   {0, 0.01, 0.00125, "0.00125"},
+                   {0, 4, 1.0 / 3, "0.33333"},
+                   {-1, 1, -0.125, "-0.125"},
+                   {0, 1, 1e-12, "0"},
+                   {0, 1e300, 1e300, NULL}};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+        const struct stage_control row = {
+            .name = "a", .unit = "", .least = numbers[i].least, .most = numbers[i].most};
+        char text[400], few[4];
+        stage_control_number(&row, numbers[i].value, text, sizeof text);
+        if (numbers[i].text)
+            assert_string_equal(text, numbers[i].text);
+        assert_true(fabs(strtod(text, NULL) - numbers[i].value) <=
+                    fmax(1e-9, 1e-4 * fabs(numbers[i].value)));
+        stage_control_number(&row, numbers[i].value, few, sizeof few);
+        assert_true(strlen(few) < sizeof few);
+    }
+}
+
 /* A slider's value rises from least to most, and converting a value to its place and back
  * returns the value. */
 static void sliders_are_curves(void **state)
@@ -171,6 +204,7 @@ int main(void)
         cmocka_unit_test(names_are_found),
         cmocka_unit_test(values_are_within_their_range),
         cmocka_unit_test(texts_are_values_and_back),
+        cmocka_unit_test(numbers_have_their_decimals),
         cmocka_unit_test(sliders_are_curves),
         cmocka_unit_test(useful_values_are_in_the_middle),
     };
