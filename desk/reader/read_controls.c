@@ -16,12 +16,14 @@ struct read_controls {
 
 enum { WIDEST = 520, GAP = 4 };
 
-struct read_controls *read_controls_create(GtkWidget *strip)
+struct read_controls *read_controls_create(GtkWidget *strip, const char *called)
 {
     struct read_controls *c = g_new0(struct read_controls, 1);
+    char *name = g_strdup_printf(_("Controls of demonstration %s"), called);
     c->box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 2);
     gtk_widget_set_halign(c->box, GTK_ALIGN_START);
-    desk_name(c->box, _("Controls of the demonstration"), NULL);
+    desk_name(c->box, name, NULL);
+    g_free(name);
     gtk_box_append(GTK_BOX(strip), c->box);
     return c;
 }

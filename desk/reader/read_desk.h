@@ -204,8 +204,9 @@ char *read_stages_told(struct read_desk *d);
 /* read_controls.c */
 struct read_controls;
 struct demonstration;
-/* A box of them, which is below the strip as long as that is there. */
-struct read_controls *read_controls_create(GtkWidget *strip);
+/* A box of them, which is below the strip as long as that is there. called: which demonstration
+ * they are of. */
+struct read_controls *read_controls_create(GtkWidget *strip, const char *called);
 void read_controls_destroy(struct read_controls *controls); /* the strip is gone */
 /* Those that a demonstration has declared, in place of the ones that there are. NULL: it has
  * ended, and nothing can be set. */

@@ -45,10 +45,35 @@ static void line_set(struct stage *s, const char *text)
 static void button_set(struct stage *s)
 {
     const bool runs = s->run != NULL;
+    char *name = g_strdup_printf(runs ? _("Stop demonstration %s") : _("Run demonstration %s"),
+                                 s->called);
     gtk_button_set_label(GTK_BUTTON(s->button), runs ? _("Stop") : _("Run"));
-    desk_name(s->button, runs ? _("Stop the demonstration") : _("Run the demonstration"),
+    desk_name(s->button, name,
               runs ? _("Stop the demonstration")
                    : _("Run the script below, in a process that reaches no files"));
+    g_free(name);
+}
+
+/* "3, Springs": which of the document's it is, and the heading that it stands under. Owns: the
+ * caller frees it. */
+static char *called_of(const struct reader_document *d, int block)
+{
+    enum { LETTERS_MOST = 60 };
+    const struct reader_block *heading = NULL;
+    int number = 0;
+    for (int i = 0; i <= block; i++) {
+        number += read_stages_is(&d->blocks[i]);
+        if (d->blocks[i].kind == READER_HEADING)
+            heading = &d->blocks[i];
+    }
+    if (!heading || !heading->bytes)
+        return g_strdup_printf("%d", number);
+    char *whole = g_utf8_make_valid(heading->text, heading->bytes),
+         *part = g_utf8_substring(whole, 0, MIN(g_utf8_strlen(whole, -1), LETTERS_MOST)),
+         *called = g_strdup_printf("%d, %s", number, part);
+    g_free(part);
+    g_free(whole);
+    return called;
 }
 
 static void stage_stop(struct read_stages *stages, struct stage *s)
@@ -169,7 +194,7 @@ static void strip_make(struct read_stages *stages, struct stage *s)
     gtk_box_append(GTK_BOX(row), s->button);
     gtk_box_append(GTK_BOX(row), s->line);
     gtk_box_append(GTK_BOX(s->strip), row);
-    s->controls = read_controls_create(s->strip);
+    s->controls = read_controls_create(s->strip, s->called);
     g_signal_connect(s->button, "clicked", G_CALLBACK(button_clicked), s);
     gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
     g_signal_connect(keys, "key-pressed", G_CALLBACK(strip_key), s);
@@ -185,6 +210,7 @@ static struct stage *stage_new(struct read_stages *stages, int block)
     s->width = from->stage_width;
     s->height = from->stage_height;
     s->stages = stages;
+    s->called = called_of(stages->desk->document, block);
     strip_make(stages, s);
     button_set(s);
     g_ptr_array_add(stages->all, s);
@@ -197,6 +223,7 @@ static void stage_free(struct stage *s)
     g_clear_object(&s->texture);
     g_clear_pointer(&s->pixels, g_bytes_unref);
     read_controls_destroy(s->controls);
+    g_free(s->called);
     g_free(s);
 }
 

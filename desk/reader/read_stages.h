@@ -8,7 +8,8 @@
 #include <demonstration.h>
 
 struct stage {
-    int block; /* of the document's */
+    int block;    /* of the document's */
+    char *called; /* its number in the document, and the heading that it stands under */
     int width, height;
     GtkWidget *strip, *button, *line;
     struct read_controls *controls;

@@ -176,6 +176,36 @@ static void number_find(AtspiAccessible *a, void *context)
     g_free(name);
 }
 
+struct called {
+    const char *name;
+    int count;
+};
+
+static void called_count(AtspiAccessible *a, void *context)
+{
+    struct called *called = context;
+    char *name = atspi_accessible_get_name(a, NULL);
+    called->count += name && strcmp(name, called->name) == 0;
+    g_free(name);
+}
+
+/* The button of each demonstration has a name of its own: its number in the document, and the
+ * heading that it stands under. */
+static void demonstrations_have_names(void **state)
+{
+    static const char *const names[] = {"Run demonstration 1, Chapter 59",
+                                        "Run demonstration 2, Last",
+                                        "Run demonstration 3, Last"};
+    (void)state;
+    xtest_type(XK_End);
+    for (int i = 0; i < 3; i++) {
+        struct called called = {names[i], 0};
+        assert_true(heard(names[i], true));
+        accessible_walk(frame, called_count, &called);
+        assert_int_equal(called.count, 1);
+    }
+}
+
 /* A demonstration is run by keys, and so are its controls, which have names and values; from
  * the last of them Tab comes back to the page. */
 static void controls_are_reached(void **state)
@@ -185,15 +215,24 @@ static void controls_are_reached(void **state)
     struct names names = {0};
     xtest_type(XK_End);
     xtest_type(XK_Tab);
-    assert_true(heard("Run the demonstration", true));
+    assert_true(heard("Run demonstration 1, Chapter 59", true));
     xtest_type(XK_Return);
-    assert_true(heard("speed <1.5>", true));
+    assert_true(heard("speed <1.0625>", true));
     assert_true(heard("Speed, as a number", true));
     accessible_walk(frame, number_find, &speed);
-    assert_true(speed.value == 1.5);
+    assert_true(speed.value == 1.0625);
     accessible_walk(frame, name_check, &names);
     assert_int_equal(names.nameless, 0);
-    xtest_type(XK_Tab); /* to the slider */
+    assert_true(heard("\n1.0625\n", true)); /* all of its decimals are shown */
+    xtest_type(XK_Tab);                     /* to the slider */
+    xtest_type(XK_Tab);                     /* to the number, and on: it stays what it is */
+    xtest_type(XK_Tab);
+    usleep(300000);
+    assert_true(heard("speed <1.0625>", true));
+    xtest_key(XK_Shift_L, true);
+    xtest_type(XK_Tab);
+    xtest_type(XK_Tab);
+    xtest_key(XK_Shift_L, false);
     xtest_type(XK_Home);
     assert_true(heard("speed <0>", true));
     xtest_type(XK_Tab); /* to the number */
@@ -203,7 +242,7 @@ static void controls_are_reached(void **state)
     assert_true(heard("speed <3>", true));
     xtest_type(XK_Tab); /* to what is usual */
     xtest_type(XK_space);
-    assert_true(heard("speed <1.5>", true));
+    assert_true(heard("speed <1.0625>", true));
     xtest_type(XK_Tab); /* to the page again */
     xtest_type(XK_Home);
     assert_true(heard("The reeds of paragraph 0", true));
@@ -274,9 +313,10 @@ static bool document_write(void)
                 "## Chapter %d\n\nThe reeds of paragraph %d stand in water that goes by.\n\n",
                 i, i);
     fputs("```lua live 200x60\n"
-          "local a = control{name = 'speed', least = 0, most = 4, usual = 1.5}\n"
+          "local a = control{name = 'speed', least = 0, most = 4, usual = 1.0625}\n"
           "function draw() print(string.format('speed <%g>', a())) return '#808080' end\n"
-          "```\n",
+          "```\n\n## Last\n\n```lua live 200x60\n-- two\n```\n\n```lua live 200x60\n-- "
+          "three\n```\n",
           file);
     return fclose(file) == 0;
 }
@@ -285,7 +325,8 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(text_is_heard), cmocka_unit_test(keys_and_wheel_scroll),
-        cmocka_unit_test(controls_are_reached), cmocka_unit_test(hand_leaves_notes)};
+        cmocka_unit_test(demonstrations_have_names), cmocka_unit_test(controls_are_reached),
+        cmocka_unit_test(hand_leaves_notes)};
     const struct CMUnitTest again[] = {cmocka_unit_test(notes_are_kept)};
     char command[100];
     if (argc == 1) { /* with a bus of its own */
