@@ -47,7 +47,7 @@ enum {
 
 struct reader_remark {
     enum reader_remark_kind kind;
-    double made_s; /* since 1970 */
+    double made_s; /* since 1970; of ink: when its last point was drawn */
     double gone_s; /* when it was erased; 0: it was not */
     char *text;    /* UTF-8; "" for none */
     unsigned rgba; /* red in the highest byte */
@@ -74,7 +74,8 @@ bool reader_remarks_read_only(const struct reader_remarks *remarks);
  * NO_MEMORY; what was found is known. */
 enum reader_status reader_remarks_find(struct reader_remarks *remarks, const char *plain,
                                        size_t bytes);
-/* Of what: kind, text, rgba, width, points. Errors: BAD_ARGUMENT, TOO_LARGE, FAILED (it cannot
+/* Of what: kind, text, rgba, width, points, and made_s where it was made before (0: now).
+ * Errors: BAD_ARGUMENT, TOO_LARGE, FAILED (it cannot
  * be written), NO_MEMORY; there is then none more. */
 enum reader_status reader_remarks_add(struct reader_remarks *remarks,
                                       const struct reader_remark *what, const char *plain,
@@ -85,6 +86,17 @@ enum reader_status reader_remarks_move(struct reader_remarks *remarks, int i, do
                                        double y);
 enum reader_status reader_remarks_write(struct reader_remarks *remarks, int i,
                                         const char *text);
+/* A stroke that is played back, and when it begins. */
+struct reader_played {
+    int index;
+    double begins_s;
+};
+#define READER_PAUSE_MOST_S 0.4 /* between strokes, however long the hand has rested */
+/* Ink in the order in which it was drawn, whatever order it was kept in: pieces of a stroke at
+ * the times at which they were drawn. played: room for all remarks; *count: how many there are.
+ * erased: with what is erased. Returns how long all of it lasts. */
+double reader_remarks_play(const struct reader_remarks *remarks, bool erased,
+                           struct reader_played *played, int *count);
 /* What has changed is safe from a loss of power. */
 enum reader_status reader_remarks_sync(struct reader_remarks *remarks);
 

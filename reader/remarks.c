@@ -110,6 +110,8 @@ static enum reader_status what_check(const struct reader_remark *what)
         (what->points_count > 0) != (what->kind == READER_REMARK_INK))
         return reader_fail(READER_BAD_ARGUMENT, "ink has 1..%d points (got %d)",
                            READER_INK_POINTS_MAX, what->points_count);
+    if (!(what->made_s >= 0 && what->made_s <= REMARKS_TIME_MOST_S))
+        return reader_fail(READER_BAD_ARGUMENT, "a note is not made at %g s", what->made_s);
     if (what->text && strlen(what->text) > READER_TYPED_MAX)
         return reader_fail(READER_TOO_LARGE, "a note has up to %d bytes (got %zu)",
                            READER_TYPED_MAX, strlen(what->text));
@@ -123,7 +125,7 @@ static enum reader_status row_make(const struct reader_remark *what, const char 
     const size_t size = (size_t)what->points_count * sizeof *what->points;
     *row = (struct remark_row){.remark = *what};
     struct reader_remark *r = &row->remark;
-    r->made_s = now_s();
+    r->made_s = what->made_s > 0 ? what->made_s : now_s();
     r->gone_s = 0;
     r->orphan = false;
     r->begin = begin;

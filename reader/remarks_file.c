@@ -210,8 +210,8 @@ static bool row_read(sqlite3_stmt *s, struct remark_row *row)
     r->rgba = (unsigned)sqlite3_column_int64(s, RGBA);
     r->text = strdup(text);
     const void *anchor = sqlite3_column_blob(s, ANCHOR);
-    return r->text && number_read(s, MADE, 0, 1e12, &r->made_s) &&
-           number_read(s, GONE, 0, 1e12, &r->gone_s) &&
+    return r->text && number_read(s, MADE, 0, REMARKS_TIME_MOST_S, &r->made_s) &&
+           number_read(s, GONE, 0, REMARKS_TIME_MOST_S, &r->gone_s) &&
            number_read(s, WIDTH, 0, 100, &r->width) && number_read(s, X, -1e6, 1e6, &r->x) &&
            number_read(s, Y, -1e6, 1e6, &r->y) && points_read(s, r) && anchor &&
            reader_anchor_restore(anchor, (size_t)sqlite3_column_bytes(s, ANCHOR),

@@ -8,6 +8,8 @@
 
 #include <stdint.h>
 
+#define REMARKS_TIME_MOST_S 1e12 /* since 1970 */
+
 struct remarks_file;
 
 /* Of one remark: its number in the file, and the anchor that is its own. */

@@ -6,7 +6,6 @@
 #include <math.h>
 
 #define MOUSE_PRESSURE 0.5f
-#define GAP_S 0.4 /* between strokes that are played back, at most */
 
 enum { ERASER_PX = 10, GRAB_PX = 12 };
 
@@ -46,27 +45,24 @@ static int points_until(const struct reader_remark *r, double time_s)
     return count;
 }
 
-/* When each stroke begins in the playback: behind the one before it, after the pause that there
- * was, within reason. */
+/* Those that were drawn later lie over the others. */
 static void strokes_draw(struct read_desk *d, cairo_t *cairo)
 {
-    double begins_s = 0, before_s = 0;
-    for (int i = 0; d->remarks && i < reader_remarks_count(d->remarks); i++) {
-        const struct reader_remark *r = reader_remarks_get(d->remarks, i);
+    const int room = d->remarks ? reader_remarks_count(d->remarks) : 0;
+    struct reader_played *played = g_new(struct reader_played, (gsize)room + 1);
+    int strokes = 0;
+    d->play_end_s =
+        room ? reader_remarks_play(d->remarks, d->playing_erased, played, &strokes) : 0;
+    for (int i = 0; i < strokes; i++) {
+        const struct reader_remark *r = reader_remarks_get(d->remarks, played[i].index);
         double x, y;
-        if (r->kind != READER_REMARK_INK || (r->gone_s != 0 && !d->playing_erased))
-            continue;
-        const double lasts_s = (double)r->points[r->points_count - 1].time_s;
-        if (before_s > 0)
-            begins_s += CLAMP(r->made_s - lasts_s - before_s, 0, GAP_S);
-        const int count = d->playing ? points_until(r, d->play_s - begins_s) : r->points_count;
-        before_s = r->made_s;
-        begins_s += lasts_s;
+        const int count =
+            d->playing ? points_until(r, d->play_s - played[i].begins_s) : r->points_count;
         if (count && read_text_origin(d, r, &x, &y))
             stroke_draw(cairo, r->points, count, x, y, d->size_px, r->width, r->rgba,
                         d->spots->len ? d : NULL);
     }
-    d->play_end_s = begins_s;
+    g_free(played);
 }
 
 void read_ink_draw(struct read_desk *d, GtkSnapshot *snapshot)

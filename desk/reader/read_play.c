@@ -162,6 +162,26 @@ static void picture(struct read_desk *d, const struct input *i)
     g_object_unref(now);
 }
 
+/* Where strokes begin, from left to right in the window, in the order in which they are
+ * played. */
+static char *played_told(struct read_desk *d)
+{
+    const int room = d->remarks ? reader_remarks_count(d->remarks) : 0;
+    struct reader_played *played = g_new(struct reader_played, (gsize)room + 1);
+    GString *told = g_string_new(NULL);
+    int count = 0;
+    if (room)
+        reader_remarks_play(d->remarks, false, played, &count);
+    for (int i = 0; i < count; i++) {
+        const struct reader_remark *r = reader_remarks_get(d->remarks, played[i].index);
+        double x, y;
+        if (read_text_origin(d, r, &x, &y))
+            g_string_append_printf(told, " %.0f", x + d->size_px * (double)r->points[0].x);
+    }
+    g_free(played);
+    return g_string_free(told, FALSE);
+}
+
 /* What is seen, as lines of text. */
 static void tell(struct read_desk *d, const struct input *i)
 {
@@ -188,20 +208,22 @@ static void tell(struct read_desk *d, const struct input *i)
         }
     }
     char *line = g_strndup(d->document->plain + top, 40),
-         *selected = read_text_of(d, d->selected), *stages = read_stages_told(d);
+         *selected = read_text_of(d, d->selected), *stages = read_stages_told(d),
+         *order = played_told(d);
     char *told = g_strdup_printf(
         "top %zu\nline %s\nshown %d\nabove %.0f\nall %.0f\nset %ld\npainted %ld\nhits %u\nhit "
         "%d\n"
         "open %d\nselected %s\nway %u of %u\nfile %s\nheard %u\nremarks %d\norphans %d\nink "
-        "%.1f %.1f\n%s",
+        "%.1f %.1f\nplayed%s\n%s",
         top, g_strdelimit(line, "\n", ' '), count, above, all, reader_view_set_count(d->view),
         read_tiles_painted(d->tiles), d->hits->len, d->hit, opened, selected, d->way_at,
         d->way->len,
         (const char *)g_ptr_array_index(d->options.paths, block ? (guint)block->source : 0),
-        d->heard->len, remarks, orphans, ink_x, ink_y, stages);
+        d->heard->len, remarks, orphans, ink_x, ink_y, order, stages);
     if (!g_file_set_contents(i->text, told, -1, NULL))
         d->say(d, i->text);
     g_free(told);
+    g_free(order);
     g_free(stages);
     g_free(selected);
     g_free(line);

@@ -1,5 +1,6 @@
 /* read_spots.c - an eraser that takes spots out of strokes: what is left of a stroke is one
- * stroke or several, and all that one movement has erased is one deed. */
+ * stroke or several, which were drawn when they were drawn, and all that one movement has
+ * erased is one deed. */
 #include "read_desk.h"
 
 #include <math.h>
@@ -15,7 +16,7 @@ struct spot {
 struct piece {
     GArray *points; /* struct reader_ink_point */
     unsigned rgba;
-    double width;
+    double width, made_s;
     size_t begin, end;
 };
 
@@ -63,10 +64,14 @@ struct cut {
 
 static void run_end(struct cut *c)
 {
-    struct piece piece = {c->run, c->from->rgba, c->from->width, c->from->begin, c->from->end};
+    const struct reader_remark *from = c->from;
+    struct piece piece = {c->run, from->rgba, from->width, 0, from->begin, from->end};
     if (!c->run->len)
         return;
-    const float first_s = g_array_index(c->run, struct reader_ink_point, 0).time_s;
+    const float first_s = g_array_index(c->run, struct reader_ink_point, 0).time_s,
+                last_s = g_array_index(c->run, struct reader_ink_point, c->run->len - 1).time_s;
+    piece.made_s = fmax(0, from->made_s - (double)from->points[from->points_count - 1].time_s +
+                               (double)last_s);
     for (guint i = 0; i < c->run->len; i++)
         g_array_index(c->run, struct reader_ink_point, i).time_s -= first_s;
     g_array_append_val(c->pieces, piece);
@@ -154,6 +159,7 @@ void read_spots_end(struct read_desk *d)
                 .kind = READER_REMARK_INK,
                 .rgba = p->rgba,
                 .width = p->width,
+                .made_s = p->made_s,
                 .points = (struct reader_ink_point *)(void *)p->points->data,
                 .points_count = MIN((int)p->points->len, (int)READER_INK_POINTS_MAX)},
             p->begin, p->end);

@@ -231,6 +231,31 @@ static void spots_are_erased(void **state)
     assert_string_equal(played_told("whole", "remarks"), "1");
 }
 
+/* A stroke that is cut after another one was drawn is played before that still. */
+static void pieces_are_played_first(void **state)
+{
+    char lines[2000];
+    (void)state;
+    notes_remove();
+    snprintf(
+        lines, sizeof lines,
+        "0.2 action pen\n0.3 press 200 300 0.5\n0.301 drag 400 300 0.5\n0.302 lift 400 300\n"
+        "0.5 press 220 340 0.5\n0.501 drag 420 340 0.5\n0.502 lift 420 340\n0.6 tell %s\n"
+        "0.7 key E\n0.8 press 300 280 1\n0.82 drag 300 320 1\n0.84 lift 300 320\n"
+        "1 tell %s\n1.1 action undo\n1.2 tell %s\n",
+        played_path("drawn"), played_path("cut"), played_path("undone"));
+    played_run(lines, played_path("one.md"));
+    played_well();
+    assert_string_equal(played_told("drawn", "played"), "200 220");
+    int first = 0, second = 0, third = 0;
+    assert_int_equal(sscanf(played_told("cut", "played"), "%d %d %d", &first, &second, &third),
+                     3);
+    assert_int_equal(first, 200);
+    assert_true(second > 307 && second < 311);
+    assert_int_equal(third, 220);
+    assert_string_equal(played_told("undone", "played"), "200 220");
+}
+
 static void notes_remove(void)
 {
     unlink(played_path("one.md.notes"));
@@ -371,12 +396,19 @@ static int begin(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(line_is_kept),      cmocka_unit_test(notes_links_and_back),
-        cmocka_unit_test(finds_and_selects), cmocka_unit_test(several_files_are_one),
-        cmocka_unit_test(manual_is_opened),  cmocka_unit_test(only_new_lines_are_painted),
-        cmocka_unit_test(notes_are_kept),    cmocka_unit_test(spots_are_erased),
-        cmocka_unit_test(changed_elsewhere), cmocka_unit_test(foreign_notes_are_said),
-        cmocka_unit_test(picture_is_seen),   cmocka_unit_test(wrong_is_one_line),
+        cmocka_unit_test(line_is_kept),
+        cmocka_unit_test(notes_links_and_back),
+        cmocka_unit_test(finds_and_selects),
+        cmocka_unit_test(several_files_are_one),
+        cmocka_unit_test(manual_is_opened),
+        cmocka_unit_test(only_new_lines_are_painted),
+        cmocka_unit_test(notes_are_kept),
+        cmocka_unit_test(spots_are_erased),
+        cmocka_unit_test(pieces_are_played_first),
+        cmocka_unit_test(changed_elsewhere),
+        cmocka_unit_test(foreign_notes_are_said),
+        cmocka_unit_test(picture_is_seen),
+        cmocka_unit_test(wrong_is_one_line),
     };
     if (!screen_start("1280x900x24"))
         return 77;

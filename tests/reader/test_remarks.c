@@ -110,6 +110,60 @@ static void remarks_are_kept(void **state)
     reader_remarks_close(remarks);
 }
 
+/* Strokes are played in the order in which they were drawn: pieces that were kept later at
+ * their own times, what is drawn while something else is at its distance from that; long pauses
+ * are short ones. */
+static void ink_is_played_in_order(void **state)
+{
+    (void)state;
+    enum { STROKES = 7 };
+    static const struct {
+        double begins_s, lasts_s, played_s; /* played: -1: it is not */
+        bool gone;
+        double played_all_s;                      /* with what is erased */
+    } strokes[STROKES] = {{1000, 4, -1, true, 0}, /* cut into the two at the end */
+                          {1004.25, 1, 2.65, false, 4.25}, {2000, 2, 4.05, false, 5.65},
+                          {2001, 0.5, 5.05, false, 6.65}, /* within that */
+                          {2002, 1, 6.05, false, 7.65},    {1000, 1, 0, false, 0},
+                          {1003, 1, 1.4, false, 3}};
+    static const double all_s[2] = {7.05, 8.65};
+    struct reader_remarks *remarks = open_now(text);
+    for (int i = 0; i < STROKES; i++) {
+        struct reader_ink_point points[2] = {{0, 0, 1, 0},
+                                             {1, 1, 1, (float)strokes[i].lasts_s}};
+        const struct reader_remark ink = {.kind = READER_REMARK_INK,
+                                          .made_s = strokes[i].begins_s + strokes[i].lasts_s,
+                                          .points = points,
+                                          .points_count = 2};
+        assert_int_equal(add(remarks, &ink, "marsh"), i);
+        if (strokes[i].gone)
+            assert_int_equal(reader_remarks_erase(remarks, i, true), READER_OK);
+    }
+    struct reader_remark words = typed("why?");
+    add(remarks, &words, "river");
+    for (int kept = 0; kept < 2; kept++) {
+        for (int erased = 0; erased < 2; erased++) {
+            struct reader_played played[STROKES + 1];
+            int count;
+            const double lasts_s = reader_remarks_play(remarks, erased, played, &count);
+            assert_int_equal(count, erased ? STROKES : STROKES - 1);
+            assert_true(fabs(lasts_s - all_s[erased]) < 1e-6);
+            for (int i = 0; i < count; i++) {
+                const int index = played[i].index;
+                const double begins_s =
+                    erased ? strokes[index].played_all_s : strokes[index].played_s;
+                if (fabs(played[i].begins_s - begins_s) > 1e-6)
+                    fail_msg("stroke %d begins at %g and not at %g", index, played[i].begins_s,
+                             begins_s);
+                assert_true(i == 0 || played[i].begins_s >= played[i - 1].begins_s);
+            }
+        }
+        reader_remarks_close(remarks); /* and the file has those times */
+        remarks = open_now(text);
+    }
+    reader_remarks_close(remarks);
+}
+
 static void wrong_remarks_are_refused(void **state)
 {
     (void)state;
@@ -365,6 +419,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(remarks_are_kept, begin),
+        cmocka_unit_test_setup(ink_is_played_in_order, begin),
         cmocka_unit_test_setup(wrong_remarks_are_refused, begin),
         cmocka_unit_test_setup(remarks_follow_the_text, begin),
         cmocka_unit_test_setup(killed_has_lost_nothing, begin),
