@@ -88,6 +88,7 @@ static bool opened(struct book *b)
     book_close(b);
     if (reader_document_create(&b->document) != READER_OK ||
         reader_document_add(b->document, b->markdown, b->bytes) != READER_OK ||
+        reader_document_refer(b->document) != READER_OK ||
         reader_document_plain(b->document) != READER_OK ||
         reader_view_create(b->document, &b->setup, &b->view) != READER_OK)
         return reader_wrong();

@@ -318,6 +318,35 @@ void reader_block_open(struct reader_builder *b, enum reader_kind kind, int firs
     b->formula = from;
 }
 
+/* Those that wait for a block have the last one. */
+static void labels_give(struct reader_document *d)
+{
+    for (int i = d->labels_count; i > 0 && d->labels[i - 1].block < 0; i--)
+        d->labels[i - 1].block = d->blocks_count - 1;
+}
+
+void reader_label_set(struct reader_builder *b, const char *name, size_t bytes)
+{
+    struct reader_document *d = b->document;
+    char *copy = strndup(name, bytes);
+    if (!copy || !array_reserve(&d->labels, &d->labels_capacity, d->labels_count + 1,
+                                sizeof *d->labels)) {
+        free(copy);
+        reader_builder_fail(b);
+        return;
+    }
+    d->labels[d->labels_count++] = (struct reader_label){copy, d->sources_count, -1};
+}
+
+void reader_labels_end(struct reader_builder *b)
+{
+    struct reader_document *d = b->document;
+    if (d->blocks_count)
+        labels_give(d);
+    while (d->labels_count && d->labels[d->labels_count - 1].block < 0)
+        free(d->labels[--d->labels_count].name);
+}
+
 void reader_block_close(struct reader_builder *b)
 {
     struct reader_document *d = b->document;
@@ -346,6 +375,8 @@ void reader_block_close(struct reader_builder *b)
     (*blocks)[(*count)++] = *block;
     if (b->in_note)
         d->notes[d->notes_count - 1].blocks_count++;
+    else
+        labels_give(d);
     *block = (struct reader_block){0};
 }
 

@@ -43,6 +43,11 @@ void reader_cell_end(struct reader_builder *b);
 void reader_number_add(struct reader_builder *b, int number);
 /* What stands before the next block. A marker that has none yet has an empty one. */
 void reader_marker_set(struct reader_builder *b, const char *marker, int line);
+/* A label of the next block that is the document's: of the one that is open, if it says
+ * something. Errors: NO_MEMORY, in b->status. */
+void reader_label_set(struct reader_builder *b, const char *name, size_t bytes);
+/* Labels that nothing follows are the last block's. */
+void reader_labels_end(struct reader_builder *b);
 void reader_block_finish(struct reader_block *block);
 
 #endif

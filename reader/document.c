@@ -28,6 +28,10 @@ void reader_document_destroy(struct reader_document *d)
         free(d->notes[i].name);
         free(d->notes[i].class);
     }
+    for (int i = 0; i < d->labels_count; i++)
+        free(d->labels[i].name);
+    free(d->labels);
+    free(d->lost);
     free(d->plain);
     free(d->blocks);
     free(d->note_blocks);

@@ -22,6 +22,7 @@ struct walk {
     struct list *lists;
     int lists_count, lists_capacity;
     int notes_before; /* of other sources */
+    int labels;       /* whose tags are open */
     cmark_node *table;
 };
 
@@ -113,11 +114,60 @@ static void code_read(struct walk *w, cmark_node *node)
     reader_block_close(&w->b);
 }
 
-/* A picture that is all of its paragraph. */
-static bool is_picture(cmark_node *paragraph)
+/* The name in <a id="NAME">, a tag that says nothing else, and its length; NULL: it is none. */
+static const char *label_find(const char *tag, size_t *bytes)
+{
+    const char *at = strncmp(tag, "<a ", 3) == 0 ? tag + 3 + strspn(tag + 3, " \n") : "";
+    at += strncmp(at, "id=", 3) == 0 ? 3 : strncmp(at, "name=", 5) == 0 ? 5 : strlen(at);
+    const char quote = *at == '"' || *at == '\'' ? *at++ : '\0';
+    *bytes = strcspn(at, " \t\n\"'<>=`#");
+    const char *end = at + *bytes;
+    if (quote && *end++ != quote)
+        return NULL;
+    end += strspn(end, " \n");
+    return *bytes >= 1 && *bytes <= READER_LABEL_BYTES && strcmp(end, ">") == 0 ? at : NULL;
+}
+
+static bool is_html(cmark_node *node)
+{
+    return cmark.node_get_type(node) == CMARK_NODE_HTML_INLINE;
+}
+
+/* Whether it is a label's tag, which nobody reads. */
+static bool label_read(struct walk *w, const char *tag)
+{
+    const struct reader_document *d = w->b.document;
+    size_t bytes;
+    const char *name = label_find(tag, &bytes);
+    if (w->labels && strcmp(tag, "</a>") == 0) {
+        w->labels--;
+        return true;
+    }
+    if (!name || w->b.in_note || d->labels_count >= READER_LABELS_MAX)
+        return false;
+    reader_label_set(&w->b, name, bytes);
+    w->labels++;
+    return true;
+}
+
+/* The picture that is all of its paragraph, but for labels before it; else NULL. */
+static cmark_node *picture_of(const struct walk *w, cmark_node *paragraph)
 {
     cmark_node *child = cmark.node_first_child(paragraph);
-    return child && cmark.node_get_type(child) == CMARK_NODE_IMAGE && !cmark.node_next(child);
+    size_t bytes;
+    bool open = false; /* a label's tag */
+    while (child && !w->b.in_note) {
+        const bool html = is_html(child),
+                   begins = html && label_find(cmark.node_get_literal(child), &bytes),
+                   ends = html && open && strcmp(cmark.node_get_literal(child), "</a>") == 0;
+        if (!begins && !ends && cmark.node_get_type(child) != CMARK_NODE_SOFTBREAK)
+            break;
+        open = begins || (open && !ends);
+        child = cmark.node_next(child);
+    }
+    return child && cmark.node_get_type(child) == CMARK_NODE_IMAGE && !cmark.node_next(child)
+               ? child
+               : NULL;
 }
 
 static void html_read(struct walk *w, cmark_node *node)
@@ -250,7 +300,8 @@ static void inline_enter(struct walk *w, cmark_node *node)
         reader_text_add(b, b->block.kind == READER_ROW ? " " : "\n", look_of(w), w->link);
     else if (type == CMARK_NODE_CODE)
         code_span_read(w, node);
-    else if (type == CMARK_NODE_HTML_INLINE && strncmp(text, "<!--", 4) != 0)
+    else if (type == CMARK_NODE_HTML_INLINE && strncmp(text, "<!--", 4) != 0 &&
+             !label_read(w, text))
         reader_text_add(b, text, look_of(w) | READER_CODE, NULL);
     else if (type == CMARK_NODE_FOOTNOTE_REFERENCE && text)
         reader_number_add(b, w->notes_before + atoi(text));
@@ -304,11 +355,12 @@ static void block_enter(struct walk *w, cmark_node *node)
     cmark_node_type type = cmark.node_get_type(node);
     if (table_enter(w, node))
         return;
+    w->labels = 0;
     if (type == CMARK_NODE_PARAGRAPH) {
-        bool picture = is_picture(node);
+        cmark_node *picture = picture_of(w, node);
         open_block(w, picture ? READER_PICTURE : READER_PARAGRAPH, node);
         if (picture)
-            w->b.block.target = copy_of(w, cmark.node_get_url(cmark.node_first_child(node)));
+            w->b.block.target = copy_of(w, cmark.node_get_url(picture));
     } else if (type == CMARK_NODE_HEADING) {
         open_block(w, READER_HEADING, node);
         w->b.block.level = cmark.node_get_heading_level(node);
@@ -367,6 +419,7 @@ static void tree_walk(struct walk *w, cmark_node *root)
     }
     cmark.iter_free(iter);
     reader_block_close(&w->b);
+    reader_labels_end(&w->b);
 }
 
 /* Owns: the caller frees it. */
@@ -421,6 +474,8 @@ enum reader_status reader_document_add(struct reader_document *d, const char *ut
     struct reader_mask mask = {0};
     struct walk w = {.b.status = READER_OK, .notes_before = d->notes_count};
     const char *why;
+    if (d->referred)
+        return reader_fail(READER_BAD_ARGUMENT, "references have their names already");
     if (!cmark_load(&why))
         return reader_fail(
             READER_NO_LIBRARY,

@@ -2,6 +2,7 @@
 #include "pages_internal.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -210,6 +211,7 @@ static enum reader_status math_add(struct reader_pages *p, const struct reader_b
     manner.keep_together = true;
     manner.hyphenate = false;
     manner.before_px = manner.after_px = 0.5 * p->setup.size_px;
+    char number[24];
     enum reader_status status = pages_no_memory();
     if (pages_text_add(&t, block->text, block->bytes, READER_FORMULA)) {
         if (t.spans_count)
@@ -217,7 +219,11 @@ static enum reader_status math_add(struct reader_pages *p, const struct reader_b
         for (int i = 0; i < t.bytes; i++)
             if (t.text[i] == '\n' || t.text[i] == '\t')
                 t.text[i] = ' ';
-        status = pages_paragraph_add(p, &t, CONTEXT_TEXT, &manner, true);
+        snprintf(number, sizeof number, "\xe2\x80\x83(%d)", block->number);
+        if (block->number && !pages_text_add(&t, number, (int)strlen(number), 0))
+            status = pages_no_memory();
+        else
+            status = pages_paragraph_add(p, &t, CONTEXT_TEXT, &manner, true);
     }
     pages_text_finish(&t);
     return status;

@@ -15,6 +15,9 @@
  *     [^name], [^margin:name]     notes; what stands before a colon is the note's class
  *     ```lua live, ```c paris     fences that live: a script on a stage, and a program, which
  *                                 for now is shown
+ *     <a id="marsh"></a>          a label of what follows, or of the block that it is in
+ *     [#](#marsh)                 a reference: a link to a label or a heading, whose sign # is
+ *                                 replaced by a number or a title
  * A dollar begins a formula where no blank follows, and no letter, digit or backslash stands
  * before it; it ends one where no blank stands before it and no letter or digit follows, within
  * the same paragraph. In code there are none.
@@ -54,7 +57,10 @@ enum {
     READER_NOTE_BYTES = 128 << 10,
     READER_FORMULA_BYTES = 8192,  /* what is longer is no formula: it stands as it is written */
     READER_PASSAGE_BYTES = 32768, /* a longer paragraph is several, which go on */
-    READER_DEPTH_MAX = 12,        /* deeper items and quotes are shown as deep as this */
+    READER_LABELS_MAX = 20000,
+    READER_LABEL_BYTES = 100,
+    READER_LOST_MAX = 100, /* references that lead nowhere: how many are listed */
+    READER_DEPTH_MAX = 12, /* deeper items and quotes are shown as deep as this */
     /* a stage's sides in pixels: usual ones, and the bounds of those that are said */
     READER_STAGE_WIDTH = 600,
     READER_STAGE_HEIGHT = 240,
@@ -112,6 +118,7 @@ struct reader_block {
     bool head;                     /* of a row: the table's first */
     int columns;
     char aligns[READER_COLUMNS_MAX]; /* of a row: l, c, r */
+    int number;                      /* of a figure or a formula that has a label; else 0 */
     size_t at; /* of its text in the document's plain text, once that has been made */
 };
 
@@ -120,27 +127,56 @@ struct reader_note {
     int first_block, blocks_count; /* of note_blocks */
 };
 
+/* What a block is called in links. */
+struct reader_label {
+    char *name;
+    int source, block; /* block: of the document's */
+};
+
+/* A reference that leads nowhere. */
+struct reader_lost {
+    char label[READER_LABEL_BYTES + 1];
+    int source, line;
+};
+
 struct reader_document {
     struct reader_block *blocks, *note_blocks;
     int blocks_count, note_blocks_count;
     struct reader_note *notes; /* in the order of their numbers, which begin at 1 */
     int notes_count;
     int sources_count, tables_count;
+    struct reader_label *labels; /* by their names, once reader_document_refer() was called */
+    int labels_count;
+    struct reader_lost *lost; /* the first of them */
+    int lost_count;
+    long lost_all;
+    bool referred;
     char *plain; /* NULL: reader_document_plain() has not made it */
     size_t plain_bytes;
     /* What arrays have room for. */
-    int blocks_capacity, note_blocks_capacity, notes_capacity;
+    int blocks_capacity, note_blocks_capacity, notes_capacity, labels_capacity;
 };
 
 /* Without blocks. Errors: NO_MEMORY. Owns: the caller destroys *out. */
 enum reader_status reader_document_create(struct reader_document **out);
 /* Adds what a source says behind what is there; notes' names are each source's own, their
- * numbers go on. Errors: TOO_LARGE (more than READER_BYTES_MAX, _NOTES_MAX, _NOTE_BYTES,
+ * numbers go on. Errors: BAD_ARGUMENT (references have their names already), TOO_LARGE (more than READER_BYTES_MAX, _NOTES_MAX, _NOTE_BYTES,
  * _FORMULAS_MAX or _TARGETS_BYTES; or what cmark-gfm would take hours for), with the line;
  * NO_LIBRARY, NO_MEMORY; the document may then have a part of it. */
 enum reader_status reader_document_add(struct reader_document *document, const char *utf8,
                                        size_t bytes);
 void reader_document_destroy(struct reader_document *document); /* NULL is fine */
+
+/* Figures and formulas that have labels get their numbers, and references the names of what
+ * they lead to: once all sources are there. Of a reference whose label is not there stands what
+ * is written, and it is among those that are lost. Errors: NO_MEMORY; the document may then
+ * have a part of it. */
+enum reader_status reader_document_refer(struct reader_document *document);
+/* The block that has a label, or the heading of that name (small letters, digits, hyphens for
+ * blanks), in a source of the document's (-1: in any). NULL: there is none, or
+ * reader_document_refer() was not called. Owns: the document. */
+const struct reader_block *reader_document_label(const struct reader_document *document,
+                                                 const char *label, int source);
 
 /* Makes its plain text: what is read, block after block, then its notes, without what only says
  * how it looks. Places in it are what is searched, selected and annotated: they stay what they

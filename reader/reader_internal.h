@@ -16,6 +16,11 @@ extern _Thread_local struct error_text reader_last_error;
 /* Whether cmark-gfm is to read it. Errors: TOO_LARGE, with the line. */
 enum reader_status reader_guard_check(const char *source, int bytes);
 
+/* ---- labels.c ---- */
+
+/* Headings have their names, and labels are sorted by their names. Errors: NO_MEMORY. */
+enum reader_status reader_labels_make(struct reader_document *d);
+
 /* ---- mask.c: formulas out of cmark's way ---- */
 
 /* A formula in the source: with its dollars, and without. */

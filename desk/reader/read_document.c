@@ -62,7 +62,8 @@ static struct reader_document *files_read(struct read_desk *d)
         }
         g_free(text);
     }
-    if (good && reader_document_plain(document) != READER_OK) {
+    if (good && (reader_document_refer(document) != READER_OK ||
+                 reader_document_plain(document) != READER_OK)) {
         d->say(d, reader_error());
         good = false;
     }
@@ -117,6 +118,25 @@ static char *notes_file(const struct read_desk *d)
     return file;
 }
 
+/* Says which references lead nowhere. */
+static void lost_tell(struct read_desk *d)
+{
+    const struct reader_document *document = d->document;
+    if (!document->lost_all)
+        return;
+    const struct reader_lost *first = &document->lost[0];
+    const char *path = g_ptr_array_index(d->options.paths, (guint)first->source);
+    char *told =
+        document->lost_all > 1
+            ? g_strdup_printf(_("%s:%d: there is no label #%s, nor that of %ld others: they "
+                                "stand as they are written"),
+                              path, first->line, first->label, document->lost_all - 1)
+            : g_strdup_printf(_("%s:%d: there is no label #%s: it stands as it is written"),
+                              path, first->line, first->label);
+    d->say(d, told);
+    g_free(told);
+}
+
 bool read_document_open(struct read_desk *d)
 {
     struct reader_document *document = files_read(d);
@@ -125,6 +145,7 @@ bool read_document_open(struct read_desk *d)
     char *notes = notes_file(d);
     read_remarks_open(d, notes);
     g_free(notes);
+    lost_tell(d);
     d->document_shown(d);
     read_page_changed(d);
     return true;
@@ -235,38 +256,13 @@ void read_document_back(struct read_desk *d, bool forward)
 
 /* ---- links ---- */
 
-/* As a heading is called in links: small letters, digits, hyphens. */
-static char *heading_name(const struct reader_block *block)
+/* The heading or label of that name, of one of the document's files (-1: of any). */
+static bool label_find(const struct read_desk *d, const char *wanted, int source, size_t *byte)
 {
-    GString *name = g_string_new(NULL);
-    for (const char *at = block->text, *end = at + block->bytes; at < end;) {
-        uint32_t c;
-        font_utf8_next(&at, end, &c);
-        if (g_unichar_isalnum(c) || c == '-' || c == '_')
-            g_string_append_unichar(name, g_unichar_tolower(c));
-        else if (c == ' ')
-            g_string_append_c(name, '-');
-    }
-    return g_string_free(name, FALSE);
-}
-
-/* The first heading of that name, of one of the document's files (-1: of any). */
-static bool heading_find(const struct read_desk *d, const char *wanted, int source,
-                         size_t *byte)
-{
-    for (int i = 0; i < d->document->blocks_count; i++) {
-        const struct reader_block *block = &d->document->blocks[i];
-        if (block->kind != READER_HEADING || (source >= 0 && block->source != source))
-            continue;
-        char *name = heading_name(block);
-        const bool found = strcmp(name, wanted) == 0;
-        g_free(name);
-        if (found) {
-            *byte = block->at;
-            return true;
-        }
-    }
-    return false;
+    const struct reader_block *block = reader_document_label(d->document, wanted, source);
+    if (block)
+        *byte = block->at;
+    return block != NULL;
 }
 
 static bool is_markdown(const char *path)
@@ -312,8 +308,8 @@ static void file_go(struct read_desk *d, const char *path, const char *heading)
         source = other_open(d, paths) ? 0 : -1;
         g_ptr_array_unref(paths);
     }
-    if (source >= 0 && ((heading && heading_find(d, heading, source, &byte)) ||
-                        source_begin(d, source, &byte)))
+    if (source >= 0 &&
+        ((heading && label_find(d, heading, source, &byte)) || source_begin(d, source, &byte)))
         reader_view_go(d->view, byte, d->size_px);
     read_page_changed(d);
     d->acted(d);
@@ -341,11 +337,11 @@ static bool link_follow(struct read_desk *d, const char *target, int source)
     char *told = NULL;
     size_t byte;
     if (target[0] == '#') {
-        if (heading_find(d, target + 1, source, &byte) ||
-            heading_find(d, target + 1, -1, &byte))
+        if (label_find(d, target + 1, source, &byte) || label_find(d, target + 1, -1, &byte))
             read_document_go(d, byte);
         else
-            told = g_strdup_printf(_("There is no heading %s in this document."), target);
+            told =
+                g_strdup_printf(_("There is no heading or label %s in this document."), target);
     } else if (g_str_has_prefix(target, "https://") || g_str_has_prefix(target, "http://") ||
                g_str_has_prefix(target, "mailto:")) {
         gtk_show_uri(GTK_WINDOW(d->window), target, GDK_CURRENT_TIME);

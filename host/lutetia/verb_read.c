@@ -120,7 +120,18 @@ static int document_read(const struct option_words *words, struct reader_documen
         if (status != EXIT_SUCCESS)
             return status;
     }
-    return EXIT_SUCCESS;
+    return reader_document_refer(*document) == READER_OK ? EXIT_SUCCESS : fail_reader(NULL);
+}
+
+/* References that lead nowhere, one a line. */
+static void lost_tell(const struct option_words *words, const struct reader_document *document)
+{
+    for (int i = 0; i < document->lost_count; i++)
+        tell("read", "%s:%d: there is no label #%s: it stands as it is written",
+             words->words[document->lost[i].source], document->lost[i].line,
+             document->lost[i].label);
+    if (document->lost_all > document->lost_count)
+        tell("read", "and %ld others", document->lost_all - document->lost_count);
 }
 
 static void told(const struct reader_pages *pages)
@@ -275,6 +286,8 @@ int verb_read(int argc, char **argv)
     status = document_read(&words, &document, &damaged);
     if (status == EXIT_SUCCESS)
         status = pages_write(&r, &setup, document, damaged);
+    if (status == EXIT_SUCCESS)
+        lost_tell(&words, document);
     reader_document_destroy(document);
     return status;
 }

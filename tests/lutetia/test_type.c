@@ -229,7 +229,7 @@ static void markdown_is_read(void **state)
     fclose(out);
     out = fopen(two, "w");
     assert_non_null(out);
-    fputs("# Two\n\n$\\foo$\n", out);
+    fputs("# Two\n\n$\\foo$ [#](#one) [#](#none)\n", out);
     fclose(out);
     struct child book = {.arguments = {"", "read", one, two, "--statistics", "-o", pdf}};
     book.arguments[0] = lutetia;
@@ -242,6 +242,8 @@ static void markdown_is_read(void **state)
     assert_int_equal(book.status, 0);
     assert_non_null(strstr(book.output, "1 pages"));
     assert_non_null(strstr(book.errors, "'\\foo' is no command"));
+    assert_non_null(strstr(book.errors, "two.md:3: there is no label #none: it stands as"));
+    assert_null(strstr(book.errors, "#one"));
     int width, height;
     struct child page = {.arguments = {"", "read", one, "--paper", "300x200", "--margin", "20",
                                        "--size", "12", "-o", png}};

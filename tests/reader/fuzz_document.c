@@ -61,6 +61,10 @@ static void document_check(const char *text, size_t count, uint8_t choice)
         exit(77);
     }
     must(status == READER_OK || status == READER_TOO_LARGE);
+    for (int i = 0; i < d->labels_count; i++)
+        must(d->labels[i].block >= 0 && d->labels[i].block < d->blocks_count);
+    if (status == READER_OK && choice % 2 == 0)
+        must(reader_document_refer(d) == READER_OK && d->lost_count <= d->lost_all);
     for (int i = 0; i < d->blocks_count; i++)
         block_check(d, &d->blocks[i]);
     for (int i = 0; i < d->note_blocks_count; i++)
@@ -134,6 +138,12 @@ static const char *const pieces[] = {"word ",
                                      "\\",
                                      "~~",
                                      "- [x] ",
+                                     "<a id=\"a\"></a>",
+                                     "<a id=a>",
+                                     "</a>",
+                                     "[#](#a)",
+                                     "[Figure #](#word)",
+                                     "![b](c.png)",
                                      "***\n",
                                      "http://a.b ",
                                      "\xc2\x91",

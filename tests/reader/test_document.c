@@ -62,6 +62,8 @@ static void block_say(struct words *w, const struct reader_block *b)
         say(w, " (%s)", b->info);
     if (b->target)
         say(w, " <%s>", b->target);
+    if (b->number)
+        say(w, " #%d", b->number);
     say(w, " ");
     for (int i = 0, at = 0; i < b->spans_count; i++) {
         const struct reader_span *s = &b->spans[i];
@@ -87,6 +89,7 @@ static void blocks_are(const char *markdown, const char *expected)
 {
     struct words w = {.used = 0};
     struct reader_document *d = read_all(markdown, strlen(markdown));
+    assert_int_equal(reader_document_refer(d), READER_OK);
     for (int i = 0; i < d->blocks_count; i++)
         block_say(&w, &d->blocks[i]);
     for (int i = 0; i < d->notes_count; i++) {
@@ -202,6 +205,153 @@ static void formulas_are_kept_from_markdown(void **state)
     blocks_are("a[^n] $b$\n\n[^n]: $c_d$ e.\n", "p a^1^ {$b$}\nnote :n\np {$c_d$} e.\n");
     blocks_are("a \xc2\x91 b $c$\n", "p a \xc2\x92 b {$c$}\n");
     blocks_are("$$ never ends\n\n$$x$$\n", "p $$ never ends\nmath {x}\n");
+}
+
+/* A label is of what it stands in, or before. Nobody reads its tags. */
+static void labels_are_found(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "# One\n\n<a id=\"a\"></a>\n![A](a.png)\n\n<a name='b'></a>\n\n- <a id=c></a>item\n\n"
+        "Words <a id=\"d\">in</a> it.\n\n<a id=\"e\"></a>\n<a id=\"f\"></a> $$x$$\n\n"
+        "## Two &amp; *three* `4`\n\n## <a id=\"g\"></a>One\n\n### \xc3\x84rger, "
+        "\xe6\xb0\xb4!\n\n"
+        "<a id=\"h\"></a>\n```lua\nx\n```\n\nLast.\n\n<a id=\"end\"></a>\n";
+    static const struct {
+        const char *label, *says;
+    } labels[] = {{"a", "Figure 1: A"},
+                  {"b", "item"},
+                  {"c", "item"},
+                  {"d", "Words in it."},
+                  {"e", "x"},
+                  {"f", "x"},
+                  {"one", "One"},
+                  {"two--three-4", "Two & three 4"},
+                  {"g", "One"},
+                  {"one-1", "One"},
+                  {"\xc3\xa4rger-\xe6\xb0\xb4", "\xc3\x84rger, \xe6\xb0\xb4!"},
+                  {"h", "x"},
+                  {"end", "Last."}};
+    struct reader_document *d = read_all(text, strlen(text));
+    assert_null(reader_document_label(d, "a", 0)); /* not before they are made */
+    assert_int_equal(reader_document_refer(d), READER_OK);
+    for (size_t i = 0; i < sizeof labels / sizeof *labels; i++) {
+        const struct reader_block *block = reader_document_label(d, labels[i].label, -1);
+        if (!block)
+            fail_msg("there is no '%s'", labels[i].label);
+        assert_string_equal(block->text, labels[i].says);
+        assert_ptr_equal(reader_document_label(d, labels[i].label, 0), block);
+        assert_null(reader_document_label(d, labels[i].label, 1));
+    }
+    assert_null(reader_document_label(d, "", -1));
+    assert_null(reader_document_label(d, "none", -1));
+    assert_int_equal(reader_document_add(d, "a", 1), READER_BAD_ARGUMENT);
+    reader_document_destroy(d);
+    /* what is no label stands as it is written, as before */
+    blocks_are(
+        "a <a id=\"x\" href=\"y\">b</a> <a id=\"\">c</a> <a id=\"q r\">d</a> <a>e</a>",
+        "p a `<a id=\"x\" href=\"y\">`b`</a>` `<a id=\"\">`c`</a>` `<a id=\"q r\">`d`</a>` "
+        "`<a>`e`</a>`\n");
+    blocks_are("a[^n]\n\n[^n]: <a id=\"x\"></a>b\n",
+               "p a^1^\nnote :n\np `<a id=\"x\"></a>`b\n");
+    blocks_are("<a id=\"x\"></a>\n", "");
+}
+
+static void references_have_names(void **state)
+{
+    (void)state;
+    blocks_are("# A *b* $c$\n\nSee [#](#a-b-c), *[#](#a-b-c)*.\n",
+               "h1 A *b* {$c$}\np See [A ](#a-b-c)*[b]*(#a-b-c)[ ](#a-b-c){$c$}, "
+               "*[A ]*(#a-b-c)*[b]*(#a-b-c)*[ ]*(#a-b-c)*{$c$}*.\n");
+    blocks_are(
+        "<a id=\"m\"></a>\n![The marsh](m.png)\n\n![No label](n.png)\n\n"
+        "<a id=\"o\"></a>\n![](o.png)\n\n<a id=\"p\"></a>\n![Abb. #: Das Moor](p.png)\n\n"
+        "[#](#m), [#](#o), [Abbildung #](#p), [figures #-](#m)[#](#o).\n",
+        "picture <m.png> #1 *Figure 1: **The marsh*\npicture <n.png> *No label*\n"
+        "picture <o.png> #2 *Figure 2*\npicture <p.png> #3 *Abb. **3**: Das Moor*\n"
+        "p [Figure 1](#m), [Figure 2](#o), [Abbildung ](#p)[3](#p), [figures "
+        "](#m)[1](#m)[-](#m)"
+        "[Figure 2](#o).\n");
+    blocks_are("<a id=\"e\"></a> $$x$$\n\n$$y$$\n\n<a id=\"f\"></a>\n\n```math\nz\n```\n\n"
+               "By [#](#e) and [law #](#f)[^n].\n\n[^n]: As [#](#f).\n",
+               "math #1 {x}\nmath {y}\nmath (math) #2 {z}\n"
+               "p By [(1)](#e) and [law ](#f)[2](#f)^1^.\nnote :n\np As [(2)](#f).\n");
+    /* an item has its number */
+    blocks_are(
+        "After [[#](#b)].\n\n4. <a id=\"a\"></a>One\n5. <a id=\"b\"></a>Two: [#](#a)\n\n"
+        "- <a id=\"c\"></a>None: [#](#c)\n",
+        "p After [[5](#b)].\np- 4. One\np- 5. Two: [4](#a)\np- \xe2\x80\xa2 None: [c](#c)\n");
+    /* a place has the name of the heading that it stands under */
+    blocks_are(
+        "<a id=\"x\"></a>Before. [#](#x)\n\n# One\n\nA <a id=\"y\"></a>place. [#](#y)\n\n"
+        "| [#](#y) | b |\n|---|---|\n| c | d |\n",
+        "p Before. [x](#x)\nh1 One\np A place. [One](#y)\nrow [One](#y)\tb\nrow c\td\n");
+    /* no references: other words, other links, code, titles */
+    blocks_are("# One [#](#one)\n\n[C#](#one-) [##](#one-) [a](#one-) [#](b.md#one) [#](#) "
+               "`[#](#one-)` "
+               "[`#`](#one-)\n",
+               "h1 One [#](#one)\np [C#](#one-) [##](#one-) [a](#one-) [#](b.md#one) [#](#) "
+               "`[#](#one-)` `[#]`\n");
+}
+
+/* What leads nowhere stands as it is written, and is listed. */
+static void lost_references_are_listed(void **state)
+{
+    (void)state;
+    static const char first[] = "A.\n\n[Figure #](#none) and [#](#there).\n",
+                      second[] = "# There\n\n- [#](#n\xc3\xb6)\n";
+    struct reader_document *d = read_all(first, strlen(first));
+    assert_int_equal(reader_document_add(d, second, strlen(second)), READER_OK);
+    assert_int_equal(reader_document_refer(d), READER_OK);
+    assert_int_equal(reader_document_refer(d), READER_OK); /* once is enough */
+    assert_string_equal(d->blocks[1].text, "[Figure #](#none) and There.");
+    assert_int_equal(d->lost_count, 2);
+    assert_int_equal(d->lost_all, 2);
+    assert_string_equal(d->lost[0].label, "none");
+    assert_string_equal(d->lost[1].label, "n\xc3\xb6");
+    assert_true(d->lost[0].source == 0 && d->lost[0].line == 3);
+    assert_true(d->lost[1].source == 1 && d->lost[1].line == 3);
+    reader_document_destroy(d);
+    /* each file's own label is before that of another */
+    static const char one[] =
+        "# Twice\n\nOne. [#](#same)\n\n## First\n\n<a id=\"same\"></a>x\n",
+                      two[] = "## Second\n\n<a id=\"same\"></a>y [#](#same) [#](#twice)\n";
+    d = read_all(one, strlen(one));
+    assert_int_equal(reader_document_add(d, two, strlen(two)), READER_OK);
+    assert_int_equal(reader_document_refer(d), READER_OK);
+    assert_string_equal(d->blocks[1].text, "One. First");
+    assert_string_equal(d->blocks[5].text, "y Second Twice");
+    reader_document_destroy(d);
+}
+
+/* References without end neither make a document much larger nor take long. */
+static void references_are_bounded(void **state)
+{
+    (void)state;
+    enum { TIMES = 200000 };
+    static const char heading[] = "# ", reference[] = "[#](#a) ", label[] = "<a id=\"a\"></a>";
+    char *text = malloc(TIMES * 40 + 100000), *at = text;
+    assert_non_null(text);
+    at = stpcpy(at, heading);
+    for (int i = 0; i < 5000; i++)
+        at = stpcpy(at, "\xc3\xa9 *x*");
+    at = stpcpy(at, "\n\n");
+    for (int i = 0; i < 30000; i++) /* more than there may be */
+        at = stpcpy(at, label);
+    for (int i = 0; i < TIMES; i++)
+        at = stpcpy(at, i % 50 ? reference : "\n\n[#](#none) ");
+    struct reader_document *d = read_all(text, (size_t)(at - text));
+    assert_int_equal(reader_document_refer(d), READER_OK);
+    size_t bytes = 0;
+    for (int i = 0; i < d->blocks_count; i++) {
+        assert_true(d->blocks[i].bytes <= 3 * READER_PASSAGE_BYTES);
+        bytes += (size_t)d->blocks[i].bytes;
+    }
+    assert_true(bytes < (size_t)(at - text) + (20u << 20));
+    assert_int_equal(d->lost_count, READER_LOST_MAX);
+    assert_true(d->lost_all > READER_LOST_MAX && d->labels_count <= READER_LABELS_MAX + 1);
+    reader_document_destroy(d);
+    free(text);
 }
 
 /* ---- the project's own pages ---- */
@@ -374,6 +524,10 @@ int main(void)
         cmocka_unit_test(blocks_are_those_of_markdown),
         cmocka_unit_test(notes_have_numbers_names_and_classes),
         cmocka_unit_test(formulas_are_kept_from_markdown),
+        cmocka_unit_test(labels_are_found),
+        cmocka_unit_test(references_have_names),
+        cmocka_unit_test(lost_references_are_listed),
+        cmocka_unit_test(references_are_bounded),
         cmocka_unit_test(pages_of_ours_lose_no_word),
         cmocka_unit_test(what_is_too_large_is_refused),
     };

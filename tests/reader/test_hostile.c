@@ -110,6 +110,10 @@ static const struct hostile rows[] = {
     {"an address for each word",
      {{"[", 1}, {"a *b* ", 2000}, {"](", 1}, {"u", 100000}, {")\n", 1}},
      "MB of addresses"},
+    {"references", {{"# A title\n\n", 1}, {"[#](#a-title) ", 20000}}, NULL},
+    {"references that lead nowhere", {{"[#](#\1) ", 20000}}, NULL},
+    {"labels", {{"<a id=\"l\1\"></a>", 25000}, {"a\n", 1}}, NULL},
+    {"headings of one name", {{"# a\n", 20000}}, NULL},
     {"mail", {{"a@", 300000}}, "line 1"},
     {"chained mail", {{"a@b.", 125000}}, "line 1"},
     {"HTML that never ends", {{"a <![CDATA[", 100000}}, "line 1"},
@@ -201,6 +205,8 @@ static void hostile_documents_are_set_or_refused(void **state)
         struct reader_document *d;
         assert_int_equal(reader_document_create(&d), READER_OK);
         enum reader_status status = reader_document_add(d, t.bytes, t.count);
+        if (status == READER_OK)
+            status = reader_document_refer(d);
         if (status != READER_OK || h->refused) {
             check_error(h, status);
         } else {

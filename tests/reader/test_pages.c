@@ -31,6 +31,7 @@ static struct made make(const char *markdown, const struct reader_pages_setup *s
     struct made m;
     assert_int_equal(reader_document_create(&m.document), READER_OK);
     if (reader_document_add(m.document, markdown, strlen(markdown)) != READER_OK ||
+        reader_document_refer(m.document) != READER_OK ||
         reader_pages_make(m.document, setup, &m.pages) != READER_OK)
         fail_msg("%s", reader_error());
     m.text = reader_pages_text(m.pages);
@@ -253,6 +254,26 @@ static void pictures_are_shown(void **state)
     made_finish(&m);
 }
 
+/* Figures and formulas with labels stand with their numbers, and references say them. */
+static void numbers_are_said(void **state)
+{
+    (void)state;
+    const struct reader_pages_setup setup = plain_setup();
+    struct made m = make("By [#](#law) and [#](#pond).\n\n<a id=\"law\"></a> $$x = y$$\n\n"
+                         "$$z$$\n\n<a id=\"pond\"></a>\n![A pond](pond.png)\n",
+                         &setup);
+    struct seen s = look(&m, 0);
+    const struct font_placed *number = glyph_of(&s, "(1)\n");
+    assert_non_null(strstr(s.said.utf8, "By (1) and Figure 1.\n"));
+    assert_non_null(strstr(s.said.utf8, "x = y\xe2\x80\x83(1)\n"));
+    assert_non_null(strstr(s.said.utf8, "z\n"));
+    assert_non_null(strstr(s.said.utf8, "Figure 1: A pond [pond.png]"));
+    assert_true(fabs(number->y_px - glyph_of(&s, "x = y")->y_px) < 1); /* in the same line */
+    assert_true(number->x_px > glyph_of(&s, "x = y")->x_px);
+    seen_finish(&s);
+    made_finish(&m);
+}
+
 static char *repeated(const char *before, const char *part, int count, const char *after)
 {
     size_t n = strlen(part);
@@ -325,6 +346,7 @@ int main(void)
         cmocka_unit_test(tables_have_columns_or_are_told),
         cmocka_unit_test(wide_formulas_are_made_smaller),
         cmocka_unit_test(pictures_are_shown),
+        cmocka_unit_test(numbers_are_said),
         cmocka_unit_test(hostile_documents_are_set),
         cmocka_unit_test(wrong_setups_are_refused),
     };

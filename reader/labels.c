@@ -1,0 +1,137 @@
+/* labels.c - what places of a document are called: labels, and headings by their words. See
+ * reader_document.h. */
+#include "reader_internal.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <text.h>
+#include <wctype.h>
+
+/* ---- names of headings ---- */
+
+/* A letter or digit of any script. Beyond ASCII only general signs and blanks are none, whatever
+ * the locale knows. */
+static bool is_word(uint32_t c)
+{
+    if (c < 0x80)
+        return isalnum((int)c) || c == '-' || c == '_';
+    const bool latin_sign = c < 0xc0 && c != 0xaa && c != 0xb5 && c != 0xba;
+    return !latin_sign && c != 0xd7 && c != 0xf7 && !(c >= 0x2000 && c < 0x2070) &&
+           !(c >= 0x2190 && c < 0x2c00) && !(c >= 0x3000 && c < 0x3004) &&
+           !(c >= 0x3008 && c < 0x3020) && !(c >= 0xfe00 && c < 0xfe10) &&
+           !(c >= 0x1f000 && c < 0x20000);
+}
+
+/* Writes a letter as UTF-8; how many bytes. */
+static int letter_put(uint32_t c, char *to)
+{
+    if (c < 0x80) {
+        to[0] = (char)c;
+        return 1;
+    }
+    const int bytes = c < 0x800 ? 2 : c < 0x10000 ? 3 : 4;
+    for (int i = bytes - 1; i > 0; i--, c >>= 6)
+        to[i] = (char)(0x80 | (c & 0x3f));
+    to[0] = (char)((0xf00 >> bytes & 0xf0) | (int)c);
+    return bytes;
+}
+
+/* As links call a heading: small letters, digits, hyphens for blanks. Owns: the caller frees
+ * it; NULL: no memory. */
+static char *heading_name(const struct reader_block *block)
+{
+    enum { GROWS = 3 }; /* a small letter may have more bytes than its capital */
+    char *name = malloc(GROWS * (size_t)block->bytes + 1), *to = name;
+    const char *at = block->text, *const end = at + block->bytes;
+    while (name && at < end) {
+        uint32_t c;
+        font_utf8_next(&at, end, &c);
+        if (c == ' ')
+            *to++ = '-';
+        else if (is_word(c))
+            to += letter_put((uint32_t)towlower((wint_t)c), to);
+    }
+    if (name)
+        *to = '\0';
+    return name;
+}
+
+/* ---- the list ---- */
+
+static enum reader_status label_add(struct reader_document *d, char *name, int source,
+                                    int block)
+{
+    if (!name || !array_reserve(&d->labels, &d->labels_capacity, d->labels_count + 1,
+                                sizeof *d->labels)) {
+        free(name);
+        return reader_fail(READER_NO_MEMORY, "no memory for a document");
+    }
+    d->labels[d->labels_count++] = (struct reader_label){name, source, block};
+    return READER_OK;
+}
+
+static int by_name(const void *a, const void *b)
+{
+    const struct reader_label *x = a, *y = b;
+    const int names = strcmp(x->name, y->name);
+    if (names)
+        return names;
+    return x->source != y->source ? x->source - y->source : x->block - y->block;
+}
+
+static void labels_sort(struct reader_document *d)
+{
+    if (d->labels_count)
+        qsort(d->labels, (size_t)d->labels_count, sizeof *d->labels, by_name);
+}
+
+/* The second heading of a name has -1 behind it in links, and so on. */
+static enum reader_status repeated_add(struct reader_document *d)
+{
+    enum reader_status status = READER_OK;
+    const int count = d->labels_count;
+    for (int i = 1, before = 0; i < count && status == READER_OK; i++) {
+        const struct reader_label label = d->labels[i], last = d->labels[i - 1];
+        const bool same = last.source == label.source && strcmp(last.name, label.name) == 0;
+        before = !same ? 0 : before + (last.block != label.block);
+        if (!before || last.block == label.block ||
+            d->blocks[label.block].kind != READER_HEADING)
+            continue;
+        const size_t room = strlen(label.name) + 16;
+        char *name = malloc(room);
+        if (name)
+            snprintf(name, room, "%s-%d", label.name, before);
+        status = label_add(d, name, label.source, label.block);
+    }
+    labels_sort(d);
+    return status;
+}
+
+enum reader_status reader_labels_make(struct reader_document *d)
+{
+    enum reader_status status = READER_OK;
+    for (int i = 0; i < d->blocks_count && status == READER_OK; i++)
+        if (d->blocks[i].kind == READER_HEADING)
+            status = label_add(d, heading_name(&d->blocks[i]), d->blocks[i].source, i);
+    labels_sort(d);
+    return status == READER_OK ? repeated_add(d) : status;
+}
+
+const struct reader_block *reader_document_label(const struct reader_document *d,
+                                                 const char *label, int source)
+{
+    int low = 0, high = d->labels_count;
+    while (low < high) { /* the first at or behind the name and source */
+        const int half = low + (high - low) / 2, names = strcmp(d->labels[half].name, label);
+        if (names < 0 || (names == 0 && d->labels[half].source < source))
+            low = half + 1;
+        else
+            high = half;
+    }
+    const struct reader_label *found = low < d->labels_count ? &d->labels[low] : NULL;
+    if (!found || strcmp(found->name, label) != 0 || (source >= 0 && found->source != source))
+        return NULL;
+    return &d->blocks[found->block];
+}

@@ -1,0 +1,350 @@
+/* references.c - references to headings, figures and formulas have their names: see
+ * reader_document_refer() in reader_document.h.
+ *
+ * A reference is a link to a label of the document, in whose words the sign # stands alone. A
+ * block that has some is written anew, span by span. */
+#include "builder.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    NAME_BYTES = 200,      /* of a name in a reference: a longer title is cut */
+    NAMES_BYTES = 16 << 20 /* of all of them: references behind that stay as they are */
+};
+
+struct refer {
+    struct reader_document *document;
+    const int *above; /* for each block: the heading that it stands under; -1: none */
+    size_t added;
+    enum reader_status status;
+    /* The block that is written anew. */
+    struct reader_block to;
+    int text_capacity, spans_capacity;
+};
+
+/* ---- finding ---- */
+
+/* What may stand beside a sign that stands alone. */
+static bool is_apart(char c)
+{
+    return strchr(" ()[].,;:!?'\"/-", c) || (unsigned char)c == 0xa0;
+}
+
+/* Where the sign stands alone in these letters; -1: nowhere. */
+static int sign_find(const char *text, int bytes)
+{
+    for (int i = 0; i < bytes; i++)
+        if (text[i] == '#' && (i == 0 || is_apart(text[i - 1])) &&
+            (i + 1 == bytes || is_apart(text[i + 1])))
+            return i;
+    return -1;
+}
+
+static int reference_sign(const struct reader_block *block, const struct reader_span *span)
+{
+    const unsigned others = READER_CODE | READER_NOTE | READER_FORMULA;
+    if (!(span->look & READER_LINK) || (span->look & others) || !span->target ||
+        span->target[0] != '#' || !span->target[1])
+        return -1;
+    return sign_find(block->text + span->begin, span->end - span->begin);
+}
+
+/* ---- writing ---- */
+
+static void no_memory(struct refer *r)
+{
+    if (r->status == READER_OK)
+        r->status = reader_fail(READER_NO_MEMORY, "no memory for a document");
+}
+
+/* Letters of a span of their own. */
+static void text_put(struct refer *r, const char *text, int bytes,
+                     const struct reader_span *like)
+{
+    struct reader_block *to = &r->to;
+    if (bytes <= 0 || r->status != READER_OK)
+        return;
+    char *target = like->target ? strdup(like->target) : NULL;
+    if ((like->target && !target) ||
+        !array_reserve(&to->text, &r->text_capacity, to->bytes + bytes + 1, 1) ||
+        !array_reserve(&to->spans, &r->spans_capacity, to->spans_count + 1,
+                       sizeof *to->spans)) {
+        free(target);
+        no_memory(r);
+        return;
+    }
+    to->spans[to->spans_count++] = (struct reader_span){.begin = to->bytes,
+                                                        .end = to->bytes + bytes,
+                                                        .look = like->look,
+                                                        .note = like->note,
+                                                        .target = target};
+    memcpy(to->text + to->bytes, text, (size_t)bytes);
+    to->bytes += bytes;
+    to->text[to->bytes] = '\0';
+}
+
+/* The same of letters from elsewhere, in one line. */
+static void line_put(struct refer *r, const char *text, int bytes,
+                     const struct reader_span *like)
+{
+    const int begin = r->to.bytes;
+    text_put(r, text, bytes, like);
+    for (int i = begin; i < r->to.bytes; i++)
+        if ((unsigned char)r->to.text[i] < 0x20 || r->to.text[i] == 0x7f)
+            r->to.text[i] = ' ';
+}
+
+static void words_put(struct refer *r, const char *words, const struct reader_span *like)
+{
+    line_put(r, words, (int)strlen(words), like);
+}
+
+/* A heading's words as they look there, as long as there is room. */
+static void title_put(struct refer *r, const struct reader_block *heading,
+                      const struct reader_span *like)
+{
+    int room = NAME_BYTES;
+    for (int i = 0; i < heading->spans_count && room >= 0; i++) {
+        const struct reader_span *s = &heading->spans[i];
+        const unsigned looks = s->look & (READER_SLANTED | READER_HEAVY | READER_FORMULA);
+        struct reader_span as = *like;
+        int bytes = s->end - s->begin;
+        if (s->look & READER_NOTE)
+            continue;
+        const bool cut = bytes > room;
+        if (cut && !(looks & READER_FORMULA))
+            for (bytes = room;
+                 bytes > 0 && ((unsigned char)heading->text[s->begin + bytes] & 0xc0) == 0x80;)
+                bytes--;
+        as.look |= looks;
+        if (looks & READER_FORMULA) {
+            as.look &= ~(unsigned)READER_LINK;
+            as.target = NULL;
+        }
+        if (!cut || !(looks & READER_FORMULA))
+            line_put(r, heading->text + s->begin, bytes, &as);
+        if (cut)
+            words_put(r, "\xe2\x80\xa6", like);
+        room = cut ? -1 : room - bytes;
+    }
+}
+
+/* Of a number that has digits before its sign; 0: it is a bullet. */
+static int digits_of(const char *marker)
+{
+    return marker ? (int)strspn(marker, "0123456789") : 0;
+}
+
+/* What a place is called: a number, or the title of the heading that it stands under. alone:
+ * it is said what the number is of. */
+static void name_put(struct refer *r, const struct reader_block *block, bool alone,
+                     const struct reader_span *like)
+{
+    const int number = block->number, above = r->above[block - r->document->blocks],
+              digits = digits_of(block->marker);
+    char words[40];
+    if (number) {
+        snprintf(words, sizeof words,
+                 !alone                          ? "%d"
+                 : block->kind == READER_PICTURE ? "Figure %d"
+                                                 : "(%d)",
+                 number);
+        words_put(r, words, like);
+    } else if (digits) {
+        line_put(r, block->marker, digits, like);
+    } else if (above >= 0) {
+        title_put(r, &r->document->blocks[above], like);
+    } else {
+        words_put(r, like->target + 1, like); /* the label */
+    }
+}
+
+/* ---- references ---- */
+
+static void lost_add(struct refer *r, const struct reader_block *block, const char *label)
+{
+    struct reader_document *d = r->document;
+    d->lost_all++;
+    if (d->lost_count == READER_LOST_MAX)
+        return;
+    struct reader_lost *lost = &d->lost[d->lost_count++];
+    *lost = (struct reader_lost){.source = block->source, .line = block->first_line};
+    size_t bytes = strnlen(label, sizeof lost->label - 1);
+    while (bytes > 0 && ((unsigned char)label[bytes] & 0xc0) == 0x80) /* no part of a letter */
+        bytes--;
+    memcpy(lost->label, label, bytes);
+}
+
+static const struct reader_block *place_find(const struct reader_document *d, const char *label,
+                                             int source)
+{
+    const struct reader_block *own = reader_document_label(d, label, source);
+    return own ? own : reader_document_label(d, label, -1);
+}
+
+/* As it is written in Markdown: nothing has that label. */
+static void written_put(struct refer *r, const struct reader_block *from,
+                        const struct reader_span *span)
+{
+    struct reader_span plain = *span;
+    plain.look &= ~(unsigned)READER_LINK;
+    plain.target = NULL;
+    words_put(r, "[", &plain);
+    text_put(r, from->text + span->begin, span->end - span->begin, &plain);
+    words_put(r, "](", &plain);
+    words_put(r, span->target, &plain);
+    words_put(r, ")", &plain);
+}
+
+static void reference_put(struct refer *r, const struct reader_block *from,
+                          const struct reader_span *span, int sign)
+{
+    const char *text = from->text + span->begin;
+    const int bytes = span->end - span->begin, bytes_before = r->to.bytes,
+              spans_before = r->to.spans_count;
+    const struct reader_block *place = place_find(r->document, span->target + 1, from->source);
+    if (place) {
+        text_put(r, text, sign, span);
+        name_put(r, place, bytes == 1, span);
+        text_put(r, text + sign + 1, bytes - sign - 1, span);
+    } else {
+        lost_add(r, from, span->target + 1);
+        written_put(r, from, span);
+    }
+    r->added +=
+        (size_t)(r->to.bytes - bytes_before) +
+        (size_t)(r->to.spans_count - spans_before) * (sizeof *span + strlen(span->target));
+}
+
+/* ---- captions ---- */
+
+/* Its number is where the sign stands in the caption, or before it. */
+static void caption_write(struct refer *r, const struct reader_block *from)
+{
+    const struct reader_span plain = {.note = -1, .look = READER_SLANTED};
+    bool put = false;
+    char number[16], before[40];
+    snprintf(number, sizeof number, "%d", from->number);
+    snprintf(before, sizeof before, from->bytes ? "Figure %d: " : "Figure %d", from->number);
+    for (int i = 0; i < from->spans_count && !put; i++)
+        put = !(from->spans[i].look & READER_LINK) &&
+              sign_find(from->text + from->spans[i].begin,
+                        from->spans[i].end - from->spans[i].begin) >= 0;
+    if (!put)
+        words_put(r, before, &plain);
+    for (int i = 0; i < from->spans_count; i++) {
+        const struct reader_span *s = &from->spans[i];
+        const char *text = from->text + s->begin;
+        const int bytes = s->end - s->begin,
+                  sign = put && !(s->look & READER_LINK) ? sign_find(text, bytes) : -1;
+        text_put(r, text, sign < 0 ? bytes : sign, s);
+        if (sign < 0)
+            continue;
+        words_put(r, number, s);
+        text_put(r, text + sign + 1, bytes - sign - 1, s);
+        put = false;
+    }
+}
+
+/* ---- blocks ---- */
+
+/* So that a document does not become much larger by its references. */
+static bool has_room(const struct refer *r, const struct reader_span *span)
+{
+    return r->added < NAMES_BYTES && r->to.bytes < 2 * READER_PASSAGE_BYTES &&
+           strnlen(span->target, NAME_BYTES + 1) <= NAME_BYTES;
+}
+
+static void references_write(struct refer *r, const struct reader_block *from)
+{
+    for (int i = 0; i < from->spans_count; i++) {
+        const struct reader_span *s = &from->spans[i];
+        const int sign = reference_sign(from, s);
+        if (sign >= 0 && has_room(r, s))
+            reference_put(r, from, s, sign);
+        else
+            text_put(r, from->text + s->begin, s->end - s->begin, s);
+    }
+}
+
+/* The block's text as it is written by the function. */
+static void block_write(struct refer *r, struct reader_block *block,
+                        void (*write)(struct refer *r, const struct reader_block *from))
+{
+    r->to = (struct reader_block){0};
+    r->text_capacity = r->spans_capacity = 0;
+    write(r, block);
+    if (r->status == READER_OK && r->to.text) {
+        const struct reader_block before = *block;
+        block->text = r->to.text;
+        block->bytes = r->to.bytes;
+        block->spans = r->to.spans;
+        block->spans_count = r->to.spans_count;
+        r->to = (struct reader_block){
+            .text = before.text, .spans = before.spans, .spans_count = before.spans_count};
+    }
+    reader_block_finish(&r->to);
+}
+
+static void block_refer(struct refer *r, struct reader_block *block)
+{
+    bool refers = false;
+    if (block->number && block->kind == READER_PICTURE)
+        block_write(r, block, caption_write);
+    if (block->kind == READER_HEADING) /* a title leads nowhere by another one */
+        return;
+    for (int i = 0; i < block->spans_count && !refers; i++)
+        refers = reference_sign(block, &block->spans[i]) >= 0;
+    if (refers && r->status == READER_OK)
+        block_write(r, block, references_write);
+}
+
+/* Figures and formulas that have labels are counted. */
+static void numbers_give(struct reader_document *d)
+{
+    int figures = 0, formulas = 0;
+    for (int i = 0; i < d->labels_count; i++)
+        d->blocks[d->labels[i].block].number = 1;
+    for (int i = 0; i < d->blocks_count; i++) {
+        struct reader_block *block = &d->blocks[i];
+        if (block->number)
+            block->number = block->kind == READER_PICTURE ? ++figures
+                            : block->kind == READER_MATH  ? ++formulas
+                                                          : 0;
+    }
+}
+
+enum reader_status reader_document_refer(struct reader_document *d)
+{
+    struct refer r = {.document = d};
+    if (d->referred)
+        return READER_OK;
+    d->referred = true;
+    int *above = malloc(((size_t)d->blocks_count + 1) * sizeof *above);
+    d->lost = calloc(READER_LOST_MAX, sizeof *d->lost);
+    if (!above || !d->lost)
+        no_memory(&r);
+    if (r.status == READER_OK)
+        r.status = reader_labels_make(d);
+    if (r.status != READER_OK) {
+        free(above);
+        return r.status;
+    }
+    r.above = above;
+    for (int i = 0, last = -1; i < d->blocks_count; i++) {
+        const struct reader_block *block = &d->blocks[i];
+        last = block->kind == READER_HEADING                          ? i
+               : last >= 0 && d->blocks[last].source != block->source ? -1
+                                                                      : last;
+        above[i] = last;
+    }
+    numbers_give(d);
+    for (int i = 0; i < d->blocks_count && r.status == READER_OK; i++)
+        block_refer(&r, &d->blocks[i]);
+    for (int i = 0; i < d->note_blocks_count && r.status == READER_OK; i++)
+        block_refer(&r, &d->note_blocks[i]);
+    free(above);
+    return r.status;
+}
