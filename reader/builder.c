@@ -20,6 +20,7 @@ void reader_block_finish(struct reader_block *block)
     free(block->spans);
     free(block->info);
     free(block->target);
+    free(block->include);
     *block = (struct reader_block){0};
 }
 
@@ -335,7 +336,7 @@ void reader_label_set(struct reader_builder *b, const char *name, size_t bytes)
         reader_builder_fail(b);
         return;
     }
-    d->labels[d->labels_count++] = (struct reader_label){copy, d->sources_count, -1};
+    d->labels[d->labels_count++] = (struct reader_label){copy, d->sources_count, -1, -1};
 }
 
 void reader_labels_end(struct reader_builder *b)

@@ -17,7 +17,7 @@
     X(node_first_child) X(node_free) X(node_get_end_line) X(node_get_fence_info)               \
     X(node_get_heading_level) X(node_get_list_delim) X(node_get_list_start)                    \
     X(node_get_list_type) X(node_get_literal) X(node_get_start_line) X(node_get_type)          \
-    X(node_get_type_string) X(node_get_url) X(node_next) X(node_previous)                      \
+    X(node_get_title) X(node_get_type_string) X(node_get_url) X(node_next) X(node_previous)                      \
     X(parser_attach_syntax_extension) X(parser_feed) X(parser_finish) X(parser_free)           \
     X(parser_new)
 #define CMARK_EXTENSION_NAMES(X)                                                               \

@@ -3,6 +3,7 @@
 #include "reader_internal.h"
 
 #include <ctype.h>
+#include <locale.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,8 +12,8 @@
 
 /* ---- names of headings ---- */
 
-/* A letter or digit of any script. Beyond ASCII only general signs and blanks are none, whatever
- * the locale knows. */
+/* A letter or digit of any script. Beyond ASCII only general signs and blanks are none,
+ * whatever the locale knows. */
 static bool is_word(uint32_t c)
 {
     if (c < 0x80)
@@ -38,9 +39,9 @@ static int letter_put(uint32_t c, char *to)
     return bytes;
 }
 
-/* As links call a heading: small letters, digits, hyphens for blanks. Owns: the caller frees
- * it; NULL: no memory. */
-static char *heading_name(const struct reader_block *block)
+/* As links call a heading: small letters, digits, hyphens for blanks. utf8: a locale that knows
+ * small letters; 0: none does. Owns: the caller frees it; NULL: no memory. */
+static char *heading_name(const struct reader_block *block, locale_t utf8)
 {
     enum { GROWS = 3 }; /* a small letter may have more bytes than its capital */
     char *name = malloc(GROWS * (size_t)block->bytes + 1), *to = name;
@@ -51,7 +52,7 @@ static char *heading_name(const struct reader_block *block)
         if (c == ' ')
             *to++ = '-';
         else if (is_word(c))
-            to += letter_put((uint32_t)towlower((wint_t)c), to);
+            to += letter_put(utf8 ? (uint32_t)towlower_l((wint_t)c, utf8) : c, to);
     }
     if (name)
         *to = '\0';
@@ -68,7 +69,7 @@ static enum reader_status label_add(struct reader_document *d, char *name, int s
         free(name);
         return reader_fail(READER_NO_MEMORY, "no memory for a document");
     }
-    d->labels[d->labels_count++] = (struct reader_label){name, source, block};
+    d->labels[d->labels_count++] = (struct reader_label){name, source, block, block};
     return READER_OK;
 }
 
@@ -109,20 +110,39 @@ static enum reader_status repeated_add(struct reader_document *d)
     return status;
 }
 
+static void first_find(struct reader_document *d)
+{
+    for (int begin = 0, end; begin < d->labels_count; begin = end) {
+        int first = d->labels[begin].block;
+        for (end = begin;
+             end < d->labels_count && strcmp(d->labels[end].name, d->labels[begin].name) == 0;
+             end++)
+            first = d->labels[end].block < first ? d->labels[end].block : first;
+        for (int i = begin; i < end; i++)
+            d->labels[i].first = first;
+    }
+}
+
 enum reader_status reader_labels_make(struct reader_document *d)
 {
+    const locale_t utf8 = newlocale(LC_CTYPE_MASK, "C.UTF-8", (locale_t)0);
     enum reader_status status = READER_OK;
     for (int i = 0; i < d->blocks_count && status == READER_OK; i++)
         if (d->blocks[i].kind == READER_HEADING)
-            status = label_add(d, heading_name(&d->blocks[i]), d->blocks[i].source, i);
+            status = label_add(d, heading_name(&d->blocks[i], utf8), d->blocks[i].source, i);
+    if (utf8)
+        freelocale(utf8);
     labels_sort(d);
-    return status == READER_OK ? repeated_add(d) : status;
+    if (status == READER_OK)
+        status = repeated_add(d);
+    first_find(d);
+    return status;
 }
 
 const struct reader_block *reader_document_label(const struct reader_document *d,
                                                  const char *label, int source)
 {
-    int low = 0, high = d->labels_count;
+    int low = 0, high = d->referred ? d->labels_count : 0;
     while (low < high) { /* the first at or behind the name and source */
         const int half = low + (high - low) / 2, names = strcmp(d->labels[half].name, label);
         if (names < 0 || (names == 0 && d->labels[half].source < source))
@@ -130,8 +150,9 @@ const struct reader_block *reader_document_label(const struct reader_document *d
         else
             high = half;
     }
-    const struct reader_label *found = low < d->labels_count ? &d->labels[low] : NULL;
+    const struct reader_label *found =
+        d->referred && low < d->labels_count ? &d->labels[low] : NULL;
     if (!found || strcmp(found->name, label) != 0 || (source >= 0 && found->source != source))
         return NULL;
-    return &d->blocks[found->block];
+    return &d->blocks[source < 0 ? found->first : found->block];
 }

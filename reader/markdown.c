@@ -170,6 +170,18 @@ static cmark_node *picture_of(const struct walk *w, cmark_node *paragraph)
                : NULL;
 }
 
+/* Where a link leads to that is all of its paragraph, and whose title says that it is included;
+ * NULL: it is none. Neither in lists and quotes nor in notes. */
+static const char *included_by(const struct walk *w, cmark_node *paragraph)
+{
+    cmark_node *child = cmark.node_first_child(paragraph);
+    const bool link = child && !cmark.node_next(child) &&
+                      cmark.node_get_type(child) == CMARK_NODE_LINK && !w->b.in_note &&
+                      !w->b.items && !w->b.quotes;
+    const char *title = link ? cmark.node_get_title(child) : NULL;
+    return title && strcmp(title, "include") == 0 ? cmark.node_get_url(child) : NULL;
+}
+
 static void html_read(struct walk *w, cmark_node *node)
 {
     const char *text = cmark.node_get_literal(node);
@@ -361,6 +373,7 @@ static void block_enter(struct walk *w, cmark_node *node)
         open_block(w, picture ? READER_PICTURE : READER_PARAGRAPH, node);
         if (picture)
             w->b.block.target = copy_of(w, cmark.node_get_url(picture));
+        w->b.block.include = copy_of(w, included_by(w, node));
     } else if (type == CMARK_NODE_HEADING) {
         open_block(w, READER_HEADING, node);
         w->b.block.level = cmark.node_get_heading_level(node);

@@ -16,6 +16,7 @@
  *     ```lua live, ```c paris     fences that live: a script on a stage, and a program, which
  *                                 for now is shown
  *     <a id="marsh"></a>          a label of what follows, or of the block that it is in
+ *     [Reeds](reeds.md "include") alone in a paragraph: another file (reader_files.h)
  *     [#](#marsh)                 a reference: a link to a label or a heading, whose sign # is
  *                                 replaced by a number or a title
  * A dollar begins a formula where no blank follows, and no letter, digit or backslash stands
@@ -110,9 +111,10 @@ struct reader_block {
     int bytes;
     struct reader_span *spans;
     int spans_count;
-    int source;                    /* of the document's, from 0 */
-    int first_line, last_line;     /* of that, from 1 */
-    char *info, *target;           /* NULL: none */
+    int source;                /* of the document's, from 0 */
+    int first_line, last_line; /* of that, from 1 */
+    char *info, *target;       /* NULL: none */
+    char *include; /* the file that is meant to be in its place (reader_files.h); NULL: none */
     int stage_width, stage_height; /* of a script that lives, its picture's; else 0 */
     int table;                     /* of a row: which table, from 0 */
     bool head;                     /* of a row: the table's first */
@@ -131,6 +133,7 @@ struct reader_note {
 struct reader_label {
     char *name;
     int source, block; /* block: of the document's */
+    int first;         /* the first block of all that are called so */
 };
 
 /* A reference that leads nowhere. */
@@ -160,9 +163,10 @@ struct reader_document {
 /* Without blocks. Errors: NO_MEMORY. Owns: the caller destroys *out. */
 enum reader_status reader_document_create(struct reader_document **out);
 /* Adds what a source says behind what is there; notes' names are each source's own, their
- * numbers go on. Errors: BAD_ARGUMENT (references have their names already), TOO_LARGE (more than READER_BYTES_MAX, _NOTES_MAX, _NOTE_BYTES,
- * _FORMULAS_MAX or _TARGETS_BYTES; or what cmark-gfm would take hours for), with the line;
- * NO_LIBRARY, NO_MEMORY; the document may then have a part of it. */
+ * numbers go on. Errors: BAD_ARGUMENT (references have their names already), TOO_LARGE (more
+ * than READER_BYTES_MAX, _NOTES_MAX, _NOTE_BYTES, _FORMULAS_MAX or _TARGETS_BYTES; or what
+ * cmark-gfm would take hours for), with the line; NO_LIBRARY, NO_MEMORY; the document may then
+ * have a part of it. */
 enum reader_status reader_document_add(struct reader_document *document, const char *utf8,
                                        size_t bytes);
 void reader_document_destroy(struct reader_document *document); /* NULL is fine */

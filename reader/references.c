@@ -334,10 +334,7 @@ enum reader_status reader_document_refer(struct reader_document *d)
     }
     r.above = above;
     for (int i = 0, last = -1; i < d->blocks_count; i++) {
-        const struct reader_block *block = &d->blocks[i];
-        last = block->kind == READER_HEADING                          ? i
-               : last >= 0 && d->blocks[last].source != block->source ? -1
-                                                                      : last;
+        last = d->blocks[i].kind == READER_HEADING ? i : last;
         above[i] = last;
     }
     numbers_give(d);

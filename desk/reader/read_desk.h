@@ -32,6 +32,7 @@
 #include <desk_shared.h>
 #include <gtk/gtk.h>
 #include <libintl.h>
+#include <reader_files.h>
 #include <reader_remarks.h>
 #include <reader_view.h>
 
@@ -87,6 +88,7 @@ struct read_desk {
     int contents_source; /* whose headings are all in the contents; -1: none */
     /* the document */
     struct reader_document *document;
+    struct reader_files files; /* of it, those that are included, too */
     struct reader_view *view;
     struct reader_pages_setup setup;
     const struct read_colours *colours;

@@ -38,15 +38,14 @@ static bool picture_find(void *user, int source, const char *target, struct read
 {
     const struct read_desk *d = user;
     struct display_image image;
-    if (source < 0 || source >= (int)d->options.paths->len ||
-        !display_beside_read(g_ptr_array_index(d->options.paths, (guint)source), target,
-                             &image))
+    if (source < 0 || source >= d->files.count ||
+        !display_beside_read(d->files.paths[source], target, &image))
         return false;
     *out = (struct reader_picture){image.width_px, image.height_px, image.pixels};
     return true;
 }
 
-static struct reader_document *files_read(struct read_desk *d)
+static struct reader_document *files_read(struct read_desk *d, struct reader_files *files)
 {
     struct reader_document *document = NULL;
     bool good = reader_document_create(&document) == READER_OK;
@@ -54,7 +53,7 @@ static struct reader_document *files_read(struct read_desk *d)
         const char *path = g_ptr_array_index(d->options.paths, i);
         size_t bytes = 0;
         char *text = file_read(d, path, &bytes);
-        good = text && reader_document_add(document, text, bytes) == READER_OK;
+        good = text && reader_files_add(files, document, path, text, bytes) == READER_OK;
         if (text && !good) {
             char *told = g_strdup_printf("%s: %s", path, reader_error());
             d->say(d, told);
@@ -70,27 +69,35 @@ static struct reader_document *files_read(struct read_desk *d)
     if (good)
         return document;
     reader_document_destroy(document);
+    reader_files_finish(files);
     return NULL;
 }
 
-/* In place of the document that there is. False: it was said why not, and all is as it was. */
-static bool document_take(struct read_desk *d, struct reader_document *document)
+/* In place of the document that there is; takes both. False: it was said why not, and all is as
+ * it was. */
+static bool document_take(struct read_desk *d, struct reader_document *document,
+                          const struct reader_files *files)
 {
     struct reader_document *before = d->document;
+    struct reader_files files_before = d->files;
     struct reader_view *view;
     d->setup.picture = picture_find;
     d->setup.picture_user = d;
     d->document = document;
+    d->files = *files;
     read_look_set(d); /* there may be notes */
     if (reader_view_create(document, &d->setup, &view) != READER_OK) {
         d->say(d, reader_error());
+        reader_files_finish(&d->files);
         d->document = before;
+        d->files = files_before;
         reader_document_destroy(document);
         return false;
     }
     read_stages_forget(d);
     reader_view_destroy(d->view);
     reader_document_destroy(before);
+    reader_files_finish(&files_before);
     d->view = view;
     g_array_set_size(d->hits, 0);
     d->hit = -1;
@@ -118,14 +125,16 @@ static char *notes_file(const struct read_desk *d)
     return file;
 }
 
-/* Says which references lead nowhere. */
+/* Says which references lead nowhere, and which files are not included. */
 static void lost_tell(struct read_desk *d)
 {
     const struct reader_document *document = d->document;
+    for (int i = 0; i < d->files.refused_count; i++)
+        d->say(d, d->files.refused[i]);
     if (!document->lost_all)
         return;
     const struct reader_lost *first = &document->lost[0];
-    const char *path = g_ptr_array_index(d->options.paths, (guint)first->source);
+    const char *path = d->files.paths[first->source];
     char *told =
         document->lost_all > 1
             ? g_strdup_printf(_("%s:%d: there is no label #%s, nor that of %ld others: they "
@@ -139,8 +148,9 @@ static void lost_tell(struct read_desk *d)
 
 bool read_document_open(struct read_desk *d)
 {
-    struct reader_document *document = files_read(d);
-    if (!document || !document_take(d, document))
+    struct reader_files files = {0};
+    struct reader_document *document = files_read(d, &files);
+    if (!document || !document_take(d, document, &files))
         return false;
     char *notes = notes_file(d);
     read_remarks_open(d, notes);
@@ -154,11 +164,13 @@ bool read_document_open(struct read_desk *d)
 void read_document_reload(struct read_desk *d)
 {
     struct reader_anchor *anchor = NULL;
-    struct reader_document *document = files_read(d);
+    struct reader_files files = {0};
+    struct reader_document *document = files_read(d, &files);
     size_t top = 0, begin = 0, end = 0;
     double above, all;
     if (!document || !d->view) {
         reader_document_destroy(document);
+        reader_files_finish(&files);
         return;
     }
     reader_view_extent(d->view, &above, &all);
@@ -167,7 +179,7 @@ void read_document_reload(struct read_desk *d)
         const size_t last = MIN(top + 40, bytes);
         reader_anchor_make(d->document->plain, bytes, MIN(top, bytes), last, &anchor);
     }
-    if (document_take(d, document)) {
+    if (document_take(d, document, &files)) {
         const bool found =
             anchor && reader_anchor_find(anchor, document->plain, document->plain_bytes, &begin,
                                          &end) != READER_ANCHOR_ORPHAN;
@@ -186,6 +198,7 @@ void read_document_finish(struct read_desk *d)
 {
     reader_view_destroy(d->view);
     reader_document_destroy(d->document);
+    reader_files_finish(&d->files);
     d->view = NULL;
     d->document = NULL;
     g_array_free(d->way, TRUE);
@@ -276,9 +289,9 @@ static int source_of(const struct read_desk *d, const char *path)
 {
     int source = -1;
     char *whole = g_canonicalize_filename(path, NULL);
-    for (guint i = 0; i < d->options.paths->len && source < 0; i++) {
-        char *own = g_canonicalize_filename(g_ptr_array_index(d->options.paths, i), NULL);
-        source = strcmp(own, whole) == 0 ? (int)i : -1;
+    for (int i = 0; i < d->files.count && source < 0; i++) {
+        char *own = g_canonicalize_filename(d->files.paths[i], NULL);
+        source = strcmp(own, whole) == 0 ? i : -1;
         g_free(own);
     }
     g_free(whole);
@@ -319,7 +332,7 @@ static void file_go(struct read_desk *d, const char *path, const char *heading)
 static bool file_link(struct read_desk *d, const char *target, int source)
 {
     char **parts = g_strsplit(target, "#", 2);
-    char *folder = g_path_get_dirname(g_ptr_array_index(d->options.paths, (guint)source));
+    char *folder = g_path_get_dirname(d->files.paths[source]);
     char *path = g_path_is_absolute(parts[0]) ? g_strdup(parts[0])
                                               : g_build_filename(folder, parts[0], NULL);
     const bool good = is_markdown(path);

@@ -217,8 +217,7 @@ static void tell(struct read_desk *d, const struct input *i)
         "%.1f %.1f\nplayed%s\n%s",
         top, g_strdelimit(line, "\n", ' '), count, above, all, reader_view_set_count(d->view),
         read_tiles_painted(d->tiles), d->hits->len, d->hit, opened, selected, d->way_at,
-        d->way->len,
-        (const char *)g_ptr_array_index(d->options.paths, block ? (guint)block->source : 0),
+        d->way->len, d->files.count ? d->files.paths[block ? block->source : 0] : "",
         d->heard->len, remarks, orphans, ink_x, ink_y, order, stages);
     if (!g_file_set_contents(i->text, told, -1, NULL))
         d->say(d, i->text);

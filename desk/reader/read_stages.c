@@ -32,6 +32,11 @@ struct stage *read_stage_of(const struct read_stages *stages, int block)
     return NULL;
 }
 
+bool read_stages_is(const struct reader_block *block)
+{
+    return block->kind == READER_LIVE && block->stage_width > 0;
+}
+
 /* ---- one of them ---- */
 
 static void line_set(struct stage *s, const char *text)

@@ -95,11 +95,6 @@ bool read_stages_types(const struct read_desk *d)
 
 /* ---- by keys ---- */
 
-bool read_stages_is(const struct reader_block *block)
-{
-    return block->kind == READER_LIVE && block->stage_width > 0;
-}
-
 /* The one whose block begins there; NULL: none does. */
 static struct stage *stage_beginning(const struct read_desk *d, size_t byte)
 {

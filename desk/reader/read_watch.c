@@ -33,8 +33,8 @@ static void file_changed(GFileMonitor *monitor, GFile *file, GFile *other,
 void read_watch_begin(struct read_desk *d, void (*changed)(struct read_desk *d))
 {
     read_watch_end(d);
-    for (guint i = 0; i < d->options.paths->len; i++) {
-        GFile *file = g_file_new_for_path(g_ptr_array_index(d->options.paths, i));
+    for (int i = 0; i < d->files.count; i++) {
+        GFile *file = g_file_new_for_path(d->files.paths[i]);
         GFileMonitor *monitor =
             g_file_monitor_file(file, G_FILE_MONITOR_WATCH_MOVES, NULL, NULL);
         g_object_unref(file);

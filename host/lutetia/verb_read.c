@@ -13,6 +13,7 @@
 #include <paint.h>
 #include <program.h>
 #include <reader_document.h>
+#include <reader_files.h>
 #include <reader_pages.h>
 
 #include <errno.h>
@@ -93,9 +94,9 @@ static int fail_reader(const char *path)
 
 static bool picture_find(void *user, int source, const char *target, struct reader_picture *out)
 {
-    const struct option_words *words = user;
+    const struct reader_files *files = user;
     struct display_image image;
-    if (!display_beside_read(words->words[source], target, &image))
+    if (source >= files->count || !display_beside_read(files->paths[source], target, &image))
         return false;
     *out = (struct reader_picture){image.width_px, image.height_px, image.pixels};
     return true;
@@ -103,7 +104,7 @@ static bool picture_find(void *user, int source, const char *target, struct read
 
 /* All files as one document; how many of their sequences are not UTF-8. */
 static int document_read(const struct option_words *words, struct reader_document **document,
-                         int *damaged)
+                         struct reader_files *files, int *damaged)
 {
     *damaged = 0;
     if (reader_document_create(document) != READER_OK)
@@ -112,7 +113,8 @@ static int document_read(const struct option_words *words, struct reader_documen
         char *text = NULL;
         size_t bytes = 0;
         int status = type_text_read("read", words->words[i], &text, &bytes);
-        if (status == EXIT_SUCCESS && reader_document_add(*document, text, bytes) != READER_OK)
+        if (status == EXIT_SUCCESS &&
+            reader_files_add(files, *document, words->words[i], text, bytes) != READER_OK)
             status = fail_reader(words->words[i]);
         if (status == EXIT_SUCCESS)
             *damaged += font_utf8_damaged(text, bytes);
@@ -123,15 +125,19 @@ static int document_read(const struct option_words *words, struct reader_documen
     return reader_document_refer(*document) == READER_OK ? EXIT_SUCCESS : fail_reader(NULL);
 }
 
-/* References that lead nowhere, one a line. */
-static void lost_tell(const struct option_words *words, const struct reader_document *document)
+/* Files that are not included, and references that lead nowhere, one a line. */
+static void lost_tell(const struct reader_files *files, const struct reader_document *document)
 {
+    for (int i = 0; i < files->refused_count; i++)
+        tell("read", "%s", files->refused[i]);
+    if (files->refused_all > files->refused_count)
+        tell("read", "and %ld other files", files->refused_all - files->refused_count);
     for (int i = 0; i < document->lost_count; i++)
         tell("read", "%s:%d: there is no label #%s: it stands as it is written",
-             words->words[document->lost[i].source], document->lost[i].line,
+             files->paths[document->lost[i].source], document->lost[i].line,
              document->lost[i].label);
     if (document->lost_all > document->lost_count)
-        tell("read", "and %ld others", document->lost_all - document->lost_count);
+        tell("read", "and %ld other labels", document->lost_all - document->lost_count);
 }
 
 static void told(const struct reader_pages *pages)
@@ -262,6 +268,7 @@ int verb_read(int argc, char **argv)
                      .columns = setup.columns};
     int status = read_options(&r, argc, argv, &words), damaged = 0;
     struct reader_document *document = NULL;
+    struct reader_files files = {0};
     if (status != EXIT_SUCCESS || words.help)
         return status;
     if (!r.pages.out_path)
@@ -280,14 +287,15 @@ int verb_read(int argc, char **argv)
     setup.columns = r.columns;
     setup.running = !r.plain;
     setup.picture = picture_find;
-    setup.picture_user = &words;
+    setup.picture_user = &files;
     if (r.ragged)
         setup.align = FONT_ALIGN_START;
-    status = document_read(&words, &document, &damaged);
+    status = document_read(&words, &document, &files, &damaged);
     if (status == EXIT_SUCCESS)
         status = pages_write(&r, &setup, document, damaged);
     if (status == EXIT_SUCCESS)
-        lost_tell(&words, document);
+        lost_tell(&files, document);
     reader_document_destroy(document);
+    reader_files_finish(&files);
     return status;
 }

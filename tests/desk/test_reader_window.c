@@ -132,6 +132,40 @@ static void several_files_are_one(void **state)
     assert_string_equal(played_told("again", "top"), played_told("itself", "top"));
 }
 
+/* A file that includes others and is beside none of them: links lead through all. */
+static void included_files_are_read(void **state)
+{
+    char lines[1000];
+    (void)state;
+    FILE *file = fopen(played_path("deep/part.md"), "w");
+    assert_non_null(file);
+    fputs("## Part\n\nTo [the end](../main.md#end), and see [#](#end).\n\n", file);
+    for (int i = 0; i < 30; i++)
+        fprintf(file, "Part %d.\n\n", i);
+    fclose(file);
+    file = fopen(played_path("main.md"), "w");
+    assert_non_null(file);
+    fputs("# Main\n\n[Part](deep/part.md \"include\")\n\n## End\n\n", file);
+    for (int i = 0; i < 30; i++)
+        fprintf(file, "Over %d.\n\n", i);
+    fclose(file);
+    snprintf(lines, sizeof lines,
+             "0.1 window 400 200\n0.2 go To the end\n0.4 tell %s\n0.5 follow the end\n"
+             "0.7 tell %s\n0.8 action back\n0.9 follow End.\n1.1 tell %s\n",
+             played_path("part"), played_path("end"), played_path("referred"));
+    played_run(lines, played_path("main.md"));
+    played_well();
+    assert_non_null(strstr(played_told("part", "file"), "/deep/part.md"));
+    assert_non_null(strstr(played_told("part", "line"), "To the end, and see End."));
+    assert_non_null(strstr(played_told("end", "file"), "/main.md"));
+    assert_string_equal(played_told("end", "line"), "End  Over 0.  Over 1.  Over 2.  Over 3. ");
+    assert_string_equal(played_told("referred", "top"), played_told("end", "top"));
+    /* what is not there is said, and the rest is read */
+    played_write("lacks.md", "# Lacks\n\n[Part](none.md \"include\")\n");
+    played_run("", played_path("lacks.md"));
+    played_says(0, "lacks.md:3: none.md is not included: No such file");
+}
+
 /* Without a file it is the manual: all of it, with notes that are kept among the reader's own
  * data. */
 static void manual_is_opened(void **state)
@@ -400,6 +434,7 @@ int main(void)
         cmocka_unit_test(notes_links_and_back),
         cmocka_unit_test(finds_and_selects),
         cmocka_unit_test(several_files_are_one),
+        cmocka_unit_test(included_files_are_read),
         cmocka_unit_test(manual_is_opened),
         cmocka_unit_test(only_new_lines_are_painted),
         cmocka_unit_test(notes_are_kept),

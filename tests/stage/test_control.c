@@ -10,6 +10,7 @@
 #include <control_table.h>
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static double value_read(void *actor, int index)
