@@ -3,6 +3,7 @@
 
 #include <error_text.h>
 #include <input_file.h>
+#include <number_text.h>
 #include <output_file.h>
 
 #include <stdarg.h>
@@ -170,18 +171,6 @@ bool studio_palette_read(const char *path, const struct paper_sheet_config *conf
 
 /* ---- writing ---- */
 
-/* With as few digits as give the same number again. */
-static void number_write(FILE *stream, double number)
-{
-    char text[40];
-    for (int digits = 1; digits <= 17; digits++) {
-        snprintf(text, sizeof text, "%.*g", digits, number);
-        if (strtod(text, NULL) == number)
-            break;
-    }
-    fputs(text, stream);
-}
-
 bool studio_palette_write(const char *path, const struct paper_sheet_config *config,
                           const struct studio_palette *palette, char *why, size_t room)
 {
@@ -198,7 +187,7 @@ bool studio_palette_write(const char *path, const struct paper_sheet_config *con
             if (palette->amount[well][i] == 0)
                 continue;
             fprintf(out.stream, "%s%s ", between, i ? config->pigments[i - 1].name : "water");
-            number_write(out.stream, palette->amount[well][i]);
+            number_text_print(out.stream, palette->amount[well][i]);
             between = ", ";
         }
         fputc('\n', out.stream);

@@ -1,9 +1,9 @@
 /* clamps_file.c - clamps as text: see clamps.h. */
 #include "clamps.h"
 #include "clamps_internal.h"
-#include "number_text.h"
 #include "reader.h"
 
+#include <number_text.h>
 #include <output_file.h>
 #include <stdlib.h>
 
@@ -63,24 +63,24 @@ enum dyn_status dyn_clamps_read(const char *path, struct dyn_clamps **out)
 
 enum dyn_status dyn_clamps_print(const struct dyn_clamps *c, FILE *to)
 {
-    struct dyn_plain_numbers plain;
-    if (!dyn_plain_numbers_begin(&plain))
+    struct number_text_locale locale;
+    if (!number_text_begin(&locale))
         return dyn_fail(DYN_NO_MEMORY, "no memory for a locale");
     fputs("clamps 1\n", to);
     for (int i = 0; i < c->count; i++) {
         const struct dyn_key *k = &c->keys[i];
         fprintf(to, "%s %d ", k->free ? "free" : "key", k->mass);
-        dyn_number_print(to, k->time_s);
+        number_text_print(to, k->time_s);
         if (!k->free) {
             fputc(' ', to);
-            dyn_number_print(to, k->x);
+            number_text_print(to, k->x);
             fputc(' ', to);
-            dyn_number_print(to, k->y);
+            number_text_print(to, k->y);
         }
         fputc('\n', to);
     }
     fputs("end\n", to);
-    dyn_plain_numbers_end(&plain);
+    number_text_end(&locale);
     return DYN_OK;
 }
 

@@ -1,8 +1,8 @@
 /* network_write.c - see network_file.h. */
 #include "internal.h"
 #include "network_file.h"
-#include "number_text.h"
 
+#include <number_text.h>
 #include <output_file.h>
 #include <string.h>
 
@@ -14,7 +14,7 @@ static void fields_print(FILE *to, const struct dyn_control *fields, int count, 
         if (memcmp(&value, &fields[i].usual, sizeof value) == 0) /* -0 is not 0 */
             continue;
         fprintf(to, " %s=", fields[i].name);
-        dyn_number_print(to, value);
+        number_text_print(to, value);
     }
 }
 
@@ -26,7 +26,7 @@ static void world_print(FILE *to, const struct dyn_world *world)
         if (value == c->usual)
             continue;
         fprintf(to, "control %s ", c->name);
-        dyn_number_print(to, value);
+        number_text_print(to, value);
         fputc('\n', to);
     }
 }
@@ -55,7 +55,7 @@ static void pull_print(FILE *to, const struct dyn_pull *pull)
     fprintf(to, "pull %d", pull->mass);
     for (int i = 0; i < 4; i++) {
         fputc(' ', to);
-        dyn_number_print(to, values[i]);
+        number_text_print(to, values[i]);
     }
     fputc('\n', to);
 }
@@ -74,14 +74,14 @@ static enum dyn_status look(const struct dyn_network *n)
 
 enum dyn_status dyn_network_print(const struct dyn_network *n, FILE *to)
 {
-    struct dyn_plain_numbers plain;
+    struct number_text_locale locale;
     enum dyn_status status = look(n);
     if (status != DYN_OK)
         return status;
-    if (!dyn_plain_numbers_begin(&plain))
+    if (!number_text_begin(&locale))
         return dyn_fail(DYN_NO_MEMORY, "no memory for a locale");
     fputs("springs 1\ntime_s ", to);
-    dyn_number_print(to, n->time_s);
+    number_text_print(to, n->time_s);
     fputc('\n', to);
     world_print(to, &n->world);
     for (int i = 0; i < n->masses_count; i++) {
@@ -95,7 +95,7 @@ enum dyn_status dyn_network_print(const struct dyn_network *n, FILE *to)
     for (int i = 0; i < n->pulls_count; i++)
         pull_print(to, &n->pulls[i]);
     fputs("end\n", to);
-    dyn_plain_numbers_end(&plain);
+    number_text_end(&locale);
     return DYN_OK;
 }
 

@@ -1,8 +1,8 @@
 /* reader.c - see reader.h. */
 #include "reader.h"
-#include "number_text.h"
 
 #include <input_file.h>
+#include <number_text.h>
 
 #include <errno.h>
 #include <stdio.h>
@@ -134,12 +134,12 @@ enum dyn_status dyn_reader_run(struct dyn_reader *r, const char *text, size_t by
                                const char *heading, const struct dyn_reader_line *lines,
                                int lines_count, void *context)
 {
-    struct dyn_plain_numbers plain;
-    if (!dyn_plain_numbers_begin(&plain))
+    struct number_text_locale locale;
+    if (!number_text_begin(&locale))
         return dyn_fail(DYN_NO_MEMORY, "no memory for a locale");
     enum dyn_status status =
         lines_read(r, text, text + bytes, heading, lines, lines_count, context);
-    dyn_plain_numbers_end(&plain);
+    number_text_end(&locale);
     return status;
 }
 

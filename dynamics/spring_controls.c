@@ -2,6 +2,8 @@
 #include "spring_controls.h"
 #include "internal.h"
 
+#include <word_list.h>
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -111,23 +113,10 @@ enum dyn_status dyn_control_write(const struct dyn_control *c, void *of, double 
     return status;
 }
 
-/* The index of the word in a list separated by blanks; -1: not in it. */
-static int word_number(const char *list, const char *word)
-{
-    size_t length = strlen(word);
-    for (int i = 0; *list; i++) {
-        size_t have = strcspn(list, " ");
-        if (have == length && memcmp(list, word, length) == 0)
-            return i;
-        list += have + (list[have] == ' ');
-    }
-    return -1;
-}
-
 enum dyn_status dyn_control_parse(const struct dyn_control *c, const char *text, double *value)
 {
     const char *words = c->curve == DYN_SWITCH ? "off on" : c->choices;
-    int chosen = words ? word_number(words, text) : -1;
+    int chosen = words ? word_list_find(words, text) : -1;
     if (chosen >= 0) {
         *value = chosen;
         return DYN_OK;

@@ -11,4 +11,7 @@ int word_list_count(const char *list);
  * list's end and 0. Owns: the list. Any thread. */
 const char *word_list_at(const char *list, int index, size_t *length);
 
+/* The number of the word, from 0; -1: the list does not have it. Any thread. */
+int word_list_find(const char *list, const char *word);
+
 #endif

@@ -10,9 +10,9 @@
 #include <describe.h>
 #include <display.h>
 #include <history.h>
+#include <number_text.h>
 #include <output_file.h>
 
-#include <locale.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -356,10 +356,10 @@ enum script_status script_session_write(struct paper_sheet *sheet, enum paper_sh
                                         const char *path)
 {
     struct session *s = calloc(1, sizeof *s);
-    const locale_t plain = newlocale(LC_NUMERIC_MASK, "C", NULL), /* Lua's decimal points */
-        before = uselocale(plain ? plain : (locale_t)0);
-    bool good = s ? paper_history_has(sheet) || failed("the sheet has no history")
-                  : failed("no memory for a script");
+    struct number_text_locale locale; /* Lua's decimal points */
+    const bool plain = number_text_begin(&locale);
+    bool good = s && plain ? paper_history_has(sheet) || failed("the sheet has no history")
+                           : failed("no memory for a script");
     if (s) {
         s->sheet = sheet;
         s->config = paper_sheet_get_config(sheet);
@@ -367,8 +367,7 @@ enum script_status script_session_write(struct paper_sheet *sheet, enum paper_sh
         free(s->text.at);
     }
     free(s);
-    uselocale(before);
     if (plain)
-        freelocale(plain);
+        number_text_end(&locale);
     return good ? SCRIPT_OK : SCRIPT_FAILED;
 }

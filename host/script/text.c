@@ -1,6 +1,8 @@
 /* text.c - see script_text.h. */
 #include "script_text.h"
 
+#include <number_text.h>
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -24,12 +26,8 @@ void script_text_say(struct event_bytes *text, const char *format, ...)
 
 void script_text_number(struct event_bytes *text, double number)
 {
-    char said[40];
-    for (int digits = 15; digits <= 17; digits++) {
-        snprintf(said, sizeof said, "%.*g", digits, number);
-        if (strtod(said, NULL) == number)
-            break;
-    }
+    char said[NUMBER_TEXT_BYTES];
+    number_text(number, said);
     event_put_bytes(text, said, strlen(said));
 }
 

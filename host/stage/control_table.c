@@ -1,6 +1,9 @@
 /* control_table.c - see control_table.h. */
 #include "control_table.h"
 
+#include <error_text.h>
+#include <word_list.h>
+
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -14,8 +17,7 @@ const struct stage_control *stage_control_find(const struct stage_control *rows,
     for (int i = 0; i < count; i++) {
         if (strcmp(rows[i].name, name) == 0)
             return &rows[i];
-        size_t used = strlen(known);
-        snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", rows[i].name);
+        error_text_list(known, sizeof known, ", ", rows[i].name);
     }
     stage_fail(STAGE_BAD_ARGUMENT, "there is no control '%.60s'; there are %s", name, known);
     return NULL;
@@ -37,37 +39,21 @@ enum stage_status stage_control_write(const struct stage_control *row, void *act
     return row->write(actor, row->index, value);
 }
 
-/* The choice of that number, and its length. NULL: none. */
-static const char *choice_at(const char *choices, int number, size_t *length)
-{
-    while (choices && *choices) {
-        *length = strcspn(choices, " ");
-        if (number-- == 0)
-            return choices;
-        choices += *length;
-        choices += strspn(choices, " ");
-    }
-    return NULL;
-}
-
 enum stage_status stage_control_parse(const struct stage_control *row, const char *text,
                                       double *value)
 {
     char *end;
-    size_t length;
     if (row->curve == STAGE_SWITCH && (!strcmp(text, "on") || !strcmp(text, "off"))) {
         *value = text[1] == 'n';
         return STAGE_OK;
     }
-    for (int i = 0; row->curve == STAGE_CHOICE; i++) {
-        const char *choice = choice_at(row->choices, i, &length);
-        if (!choice)
+    if (row->curve == STAGE_CHOICE) {
+        const int chosen = word_list_find(row->choices, text);
+        if (chosen < 0)
             return stage_fail(STAGE_BAD_ARGUMENT, "%s must be one of %s (got '%.40s')",
                               row->name, row->choices, text);
-        if (strlen(text) == length && strncmp(choice, text, length) == 0) {
-            *value = i;
-            return STAGE_OK;
-        }
+        *value = chosen;
+        return STAGE_OK;
     }
     *value = strtod(text, &end);
     if (end == text || *end || !isfinite(*value))
@@ -79,11 +65,12 @@ enum stage_status stage_control_parse(const struct stage_control *row, const cha
 void stage_control_text(const struct stage_control *row, double value, char *text, size_t room)
 {
     size_t length = 0;
-    const char *choice =
-        row->curve == STAGE_CHOICE ? choice_at(row->choices, (int)value, &length) : NULL;
+    const char *choice = row->curve == STAGE_CHOICE && value >= 0
+                             ? word_list_at(row->choices, (int)value, &length)
+                             : NULL;
     if (row->curve == STAGE_SWITCH)
         snprintf(text, room, "%s", value != 0 ? "on" : "off");
-    else if (choice)
+    else if (length > 0)
         snprintf(text, room, "%.*s", (int)length, choice);
     else
         snprintf(text, room, "%.4g", value);

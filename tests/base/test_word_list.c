@@ -28,6 +28,12 @@ static void words_are_counted_and_found(void **state)
     word_is(list, 2, "on-paper");
     word_is(list, 3, "");
     word_is(list, 9, "");
+    assert_int_equal(word_list_find(list, "wet"), 0);
+    assert_int_equal(word_list_find(list, "on-paper"), 2);
+    assert_int_equal(word_list_find(list, "on"), -1);
+    assert_int_equal(word_list_find(list, "dry on-paper"), -1);
+    assert_int_equal(word_list_find(list, ""), -1);
+    assert_int_equal(word_list_find("", "wet"), -1);
     assert_int_equal(word_list_count("one"), 1);
     word_is("one", 0, "one");
     assert_int_equal(word_list_count(""), 0);
