@@ -12,29 +12,113 @@ struct table {
     struct font_filter *filter;
 };
 
-/* A glyph's, in the order of glyphs, and of one glyph as they came. */
-struct own_filter {
+/* Whose it is, in which setting of the axes (0: any), and for which sizes; of gray both are its
+ * own. */
+struct key {
     uint32_t glyph;
-    int setting; /* 0: any */
+    int setting;
     double from_px, to_px;
+};
+
+struct own_filter {
+    struct key key;
     const struct font_filter *filter;
 };
 
 struct own_gray {
-    uint32_t glyph;
-    int setting;
-    double size_px;
+    struct key key;
     struct font_gray gray;
+};
+
+/* Items that begin with their key, in the order of glyphs, and of one glyph as they came. */
+struct items {
+    char *at;
+    size_t size; /* of one */
+    int count, capacity;
 };
 
 struct font_own {
     struct table tables[FONT_OWN_FILTERS_MAX];
     int tables_count;
-    struct own_filter *filters;
-    int filters_count, filters_capacity;
-    struct own_gray *grays;
-    int grays_count, grays_capacity;
+    struct items filters, grays;
 };
+
+/* ---- items ---- */
+
+static void *item_at(const struct items *items, int i)
+{
+    return items->at + (size_t)i * items->size;
+}
+
+static uint32_t glyph_at(const struct items *items, int i)
+{
+    return ((const struct key *)item_at(items, i))->glyph;
+}
+
+/* The first of the glyph's, or where one would be. */
+static int first_of(const struct items *items, uint32_t glyph)
+{
+    int from = 0, to = items->count;
+    while (from < to) {
+        int middle = from + (to - from) / 2;
+        if (glyph_at(items, middle) < glyph)
+            from = middle + 1;
+        else
+            to = middle;
+    }
+    return from;
+}
+
+/* The first of the glyph's in a setting that is for the size; NULL: none. */
+static void *item_find(const struct items *items, uint32_t glyph, int setting, double size_px)
+{
+    for (int i = first_of(items, glyph); i < items->count && glyph_at(items, i) == glyph; i++) {
+        const struct key *key = item_at(items, i);
+        if (key->setting == setting && font_own_size_is(key->from_px, key->to_px, size_px))
+            return item_at(items, i);
+    }
+    return NULL;
+}
+
+/* What is used for the glyph, as the axes are set now; NULL: nothing. */
+static void *item_choose(const struct font_face *face, const struct items *items,
+                         uint32_t glyph, double size_px)
+{
+    void *found = NULL;
+    for (int i = 0; items->count && i < FONT_OWN_PLACES && !found; i++) {
+        const struct font_own_place place = font_own_place(glyph, i);
+        found = item_find(items, place.glyph, place.here ? face->own_setting : 0, size_px);
+    }
+    return found;
+}
+
+/* Puts it behind the others of its glyph. False: no memory. */
+static bool item_add(struct items *items, const void *item)
+{
+    const uint32_t glyph = ((const struct key *)item)->glyph;
+    int i = first_of(items, glyph);
+    if (!array_reserve(&items->at, &items->capacity, items->count + 1, items->size))
+        return false;
+    while (i < items->count && glyph_at(items, i) == glyph)
+        i++;
+    memmove(item_at(items, i + 1), item_at(items, i), (size_t)(items->count - i) * items->size);
+    memcpy(item_at(items, i), item, items->size);
+    items->count++;
+    return true;
+}
+
+struct font_own_place font_own_place(uint32_t glyph, int i)
+{
+    return (struct font_own_place){i < 2 ? glyph : FONT_EVERY_GLYPH, i % 2 == 0};
+}
+
+bool font_own_size_is(double from_px, double to_px, double size_px)
+{
+    return from_px == to_px ? fabs(from_px - size_px) <= 1e-6 * size_px
+                            : size_px >= from_px && size_px < to_px;
+}
+
+/* ---- a face's own ---- */
 
 void font_own_finish(struct font_face *face)
 {
@@ -45,10 +129,10 @@ void font_own_finish(struct font_face *face)
         font_filter_destroy(own->tables[i].filter);
         free(own->tables[i].words);
     }
-    for (int i = 0; i < own->grays_count; i++)
-        font_gray_finish(&own->grays[i].gray);
-    free(own->filters);
-    free(own->grays);
+    for (int i = 0; i < own->grays.count; i++)
+        font_gray_finish(&((struct own_gray *)item_at(&own->grays, i))->gray);
+    free(own->filters.at);
+    free(own->grays.at);
     free(own);
     face->own = NULL;
 }
@@ -64,8 +148,13 @@ static enum font_status begin(struct font_face *face, uint32_t glyph, bool every
     *setting = here ? font_face_own_setting(face) : 0;
     if (glyph >= (uint32_t)face->ft->num_glyphs && !(every && glyph == FONT_EVERY_GLYPH))
         return font_fail(FONT_NO_GLYPH, "%s has no glyph %u", face->path, (unsigned)glyph);
-    if (!face->own)
+    if (!face->own) {
         face->own = calloc(1, sizeof *face->own);
+        if (face->own) {
+            face->own->filters.size = sizeof(struct own_filter);
+            face->own->grays.size = sizeof(struct own_gray);
+        }
+    }
     return face->own && (*setting || !here)
                ? FONT_OK
                : font_fail(FONT_NO_MEMORY, "no memory for a glyph");
@@ -96,129 +185,61 @@ static enum font_status table_find(struct font_own *own, const char *words,
     return FONT_OK;
 }
 
-/* The first of the glyph's, or where one would be: the items begin with their glyph. */
-static int first_of(const void *items, size_t size, int count, uint32_t glyph)
-{
-    int from = 0, to = count;
-    while (from < to) {
-        int middle = from + (to - from) / 2;
-        uint32_t there;
-        memcpy(&there, (const char *)items + (size_t)middle * size, sizeof there);
-        if (there < glyph)
-            from = middle + 1;
-        else
-            to = middle;
-    }
-    return from;
-}
-
 enum font_status font_own_filter_set(struct font_face *face, uint32_t glyph, double from_px,
                                      double to_px, const char *filter, bool here)
 {
-    struct own_filter made = {.glyph = glyph, .from_px = from_px, .to_px = to_px};
+    struct own_filter made = {{glyph, 0, from_px, to_px}, NULL};
     if (!(from_px >= 0 && to_px > from_px))
         return font_fail(FONT_BAD_ARGUMENT,
                          "a filter is for sizes from least to most (got %g..%g)", from_px,
                          to_px);
-    enum font_status status = begin(face, glyph, true, here, &made.setting);
+    enum font_status status = begin(face, glyph, true, here, &made.key.setting);
     if (status == FONT_OK)
         status = table_find(face->own, filter, &made.filter);
-    struct font_own *own = face->own;
-    if (status == FONT_OK && !array_reserve(&own->filters, &own->filters_capacity,
-                                            own->filters_count + 1, sizeof *own->filters))
+    if (status == FONT_OK && !item_add(&face->own->filters, &made))
         status = font_fail(FONT_NO_MEMORY, "no memory for a filter");
-    if (status != FONT_OK)
-        return status;
-    int i = first_of(own->filters, sizeof *own->filters, own->filters_count, glyph);
-    while (i < own->filters_count && own->filters[i].glyph == glyph)
-        i++;
-    memmove(&own->filters[i + 1], &own->filters[i],
-            (size_t)(own->filters_count - i) * sizeof *own->filters);
-    own->filters[i] = made;
-    own->filters_count++;
-    font_face_version_renew(face);
-    return FONT_OK;
-}
-
-static struct own_gray *gray_at(const struct font_face *face, uint32_t glyph, int setting,
-                                double size_px)
-{
-    struct font_own *own = face->own;
-    for (int i = first_of(own->grays, sizeof *own->grays, own->grays_count, glyph);
-         i < own->grays_count && own->grays[i].glyph == glyph; i++)
-        if (own->grays[i].setting == setting &&
-            fabs(own->grays[i].size_px - size_px) <= 1e-6 * size_px)
-            return &own->grays[i];
-    return NULL;
+    if (status == FONT_OK)
+        font_face_version_renew(face);
+    return status;
 }
 
 enum font_status font_own_gray_set(struct font_face *face, uint32_t glyph, double size_px,
                                    const struct font_gray *gray, bool here)
 {
-    struct own_gray made = {.glyph = glyph, .size_px = size_px};
+    struct own_gray made = {.key = {glyph, 0, size_px, size_px}};
     if (!(size_px >= 0.1 && size_px <= FONT_SIDE_MAX))
         return font_fail(FONT_BAD_ARGUMENT, "a size must be 0.1..%d pixels (got %g)",
                          FONT_SIDE_MAX, size_px);
-    enum font_status status = begin(face, glyph, false, here, &made.setting);
+    enum font_status status = begin(face, glyph, false, here, &made.key.setting);
     if (status == FONT_OK)
         status = font_gray_copy(gray, &made.gray);
     if (status != FONT_OK)
         return status;
-    struct font_own *own = face->own;
-    struct own_gray *there = gray_at(face, glyph, made.setting, size_px);
+    struct items *grays = &face->own->grays;
+    struct own_gray *there = item_find(grays, glyph, made.key.setting, size_px);
     if (there) {
         font_gray_finish(&there->gray);
         *there = made;
-    } else if (!array_reserve(&own->grays, &own->grays_capacity, own->grays_count + 1,
-                              sizeof *own->grays)) {
+    } else if (!item_add(grays, &made)) {
         font_gray_finish(&made.gray);
         return font_fail(FONT_NO_MEMORY, "no memory for a glyph");
-    } else {
-        int i = first_of(own->grays, sizeof *own->grays, own->grays_count, glyph);
-        memmove(&own->grays[i + 1], &own->grays[i],
-                (size_t)(own->grays_count - i) * sizeof *own->grays);
-        own->grays[i] = made;
-        own->grays_count++;
     }
     font_face_version_renew(face);
     return FONT_OK;
 }
 
-/* The glyph's first one for the size in a setting. */
-static const struct font_filter *filter_at(const struct font_own *own, uint32_t glyph,
-                                           int setting, double size_px)
-{
-    for (int i = first_of(own->filters, sizeof *own->filters, own->filters_count, glyph);
-         i < own->filters_count && own->filters[i].glyph == glyph; i++)
-        if (own->filters[i].setting == setting && size_px >= own->filters[i].from_px &&
-            size_px < own->filters[i].to_px)
-            return own->filters[i].filter;
-    return NULL;
-}
-
 const struct font_filter *font_own_filter(const struct font_face *face, uint32_t glyph,
                                           double size_px)
 {
-    const uint32_t glyphs[] = {glyph, FONT_EVERY_GLYPH};
-    const int settings[] = {face->own_setting, 0};
-    if (!face->own || !face->own->filters_count)
-        return NULL;
-    for (int i = 0; i < 4; i++) {
-        const struct font_filter *f =
-            filter_at(face->own, glyphs[i / 2], settings[i % 2], size_px);
-        if (f)
-            return f;
-    }
-    return NULL;
+    const struct own_filter *f =
+        face->own ? item_choose(face, &face->own->filters, glyph, size_px) : NULL;
+    return f ? f->filter : NULL;
 }
 
 const struct font_gray *font_own_gray(const struct font_face *face, uint32_t glyph,
                                       double size_px)
 {
-    if (!face->own || !face->own->grays_count)
-        return NULL;
     const struct own_gray *g =
-        face->own_setting ? gray_at(face, glyph, face->own_setting, size_px) : NULL;
-    g = g ? g : gray_at(face, glyph, 0, size_px);
+        face->own ? item_choose(face, &face->own->grays, glyph, size_px) : NULL;
     return g ? &g->gray : NULL;
 }

@@ -43,6 +43,19 @@ const struct font_filter *font_own_filter(const struct font_face *face, uint32_t
                                           double size_px);
 const struct font_gray *font_own_gray(const struct font_face *face, uint32_t glyph,
                                       double size_px);
+/* Where what belongs to a glyph is looked for, in this order: the glyph's own for the axes as
+ * they are set now, its own for any setting, and every glyph's likewise. i: 0 to
+ * FONT_OWN_PLACES - 1. */
+enum { FONT_OWN_PLACES = 4 };
+struct font_own_place {
+    uint32_t glyph;
+    bool here; /* for the axes as they are set now */
+};
+struct font_own_place font_own_place(uint32_t glyph, int i);
+/* Whether the size is at from_px or above, and below to_px; if both are the same, whether it is
+ * that one, to a millionth. */
+bool font_own_size_is(double from_px, double to_px, double size_px);
+
 /* Whether the face has any of them. */
 bool font_own_any(const struct font_face *face);
 

@@ -1,7 +1,6 @@
 /* edits.c - faces and levels with their edits: see edits.h. */
 #include "edits_internal.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -159,29 +158,20 @@ static bool is_formed(const struct form *f)
     return f->outline || f->master || f->parts;
 }
 
-/* The glyph's filter, and its gray, at a size. */
-static const struct edits_row *filter_at(const struct font_edits *edits, uint32_t glyph,
-                                         const char *setting, double size_px)
+/* The row of the filter or of the gray that the glyph has at a size, if it was edited: looked
+ * for as a face looks for its own (own.h). */
+static const struct edits_row *low_find(const struct font_edits *edits,
+                                        enum font_edits_level level, uint32_t glyph,
+                                        const char *setting, double size_px)
 {
-    for (int i = 0; edits && i < edits->rows_count; i++) {
-        const struct font_edit *e = &edits->rows[i].edit;
-        if (e->glyph == glyph && e->level == FONT_EDITS_FILTER && e->edited &&
-            size_px >= e->from_px && size_px < e->to_px &&
-            edits_setting_same(edits->rows[i].setting, setting))
-            return &edits->rows[i];
-    }
-    return NULL;
-}
-
-static const struct edits_row *gray_at(const struct font_edits *edits, uint32_t glyph,
-                                       const char *setting, double size_px)
-{
-    for (int i = 0; edits && i < edits->rows_count; i++) {
-        const struct font_edit *e = &edits->rows[i].edit;
-        if (e->glyph == glyph && e->level == FONT_EDITS_GRAY && e->edited &&
-            fabs(e->from_px - size_px) <= 1e-6 * size_px &&
-            edits_setting_same(edits->rows[i].setting, setting))
-            return &edits->rows[i];
+    for (int i = 0; edits && i < FONT_OWN_PLACES * edits->rows_count; i++) {
+        const struct font_own_place place = font_own_place(glyph, i / edits->rows_count);
+        const struct edits_row *row = &edits->rows[i % edits->rows_count];
+        const struct font_edit *e = &row->edit;
+        if (e->glyph == place.glyph && e->level == level && e->edited &&
+            font_own_size_is(e->from_px, e->to_px, size_px) &&
+            edits_setting_same(row->setting, place.here ? setting : NULL))
+            return row;
     }
     return NULL;
 }
@@ -190,19 +180,10 @@ static const struct edits_row *gray_at(const struct font_edits *edits, uint32_t 
 static enum font_status low_set(const struct font_edits *edits, uint32_t glyph,
                                 const char *setting, double size_px, struct font_levels *levels)
 {
-    const struct {
-        uint32_t glyph;
-        const char *setting;
-    } ways[] = {
-        {glyph, setting}, {glyph, NULL}, {FONT_EVERY_GLYPH, setting}, {FONT_EVERY_GLYPH, NULL}};
-    const struct edits_row *filter = NULL, *gray = NULL;
-    enum font_status status = FONT_OK;
-    for (int i = 0; i < 4 && !filter; i++)
-        filter = filter_at(edits, ways[i].glyph, ways[i].setting, size_px);
-    for (int i = 0; i < 2 && !gray; i++)
-        gray = gray_at(edits, glyph, ways[i].setting, size_px);
-    if (filter)
-        status = font_levels_filter_set(levels, filter->words);
+    const struct edits_row *filter =
+        low_find(edits, FONT_EDITS_FILTER, glyph, setting, size_px);
+    const struct edits_row *gray = low_find(edits, FONT_EDITS_GRAY, glyph, setting, size_px);
+    enum font_status status = filter ? font_levels_filter_set(levels, filter->words) : FONT_OK;
     return status == FONT_OK && gray ? font_levels_gray_set(levels, &gray->gray) : status;
 }
 
