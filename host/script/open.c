@@ -30,6 +30,7 @@ const struct script_functions script_functions[] = {
     {script_network_type, script_network_methods, false},
     {script_network_type, script_network_word_methods, false},
     {script_network_type, script_network_key_methods, false},
+    {script_network_type, script_network_machine_methods, false},
     {NULL, NULL, false}};
 
 void script_functions_list(void (*each)(const char *type, const char *name))
@@ -68,6 +69,7 @@ int script_open(lua_State *L)
     script_stroke_open(L);
     script_picture_open(L);
     script_springs_open(L);
+    script_springs_machine_open(L);
     script_song_open(L);
     script_typeface_open(L);
     for (const struct script_functions *f = script_functions; f->functions; f++)

@@ -302,6 +302,7 @@ void script_brush_open(lua_State *L);
 void script_stroke_open(lua_State *L);
 void script_picture_open(lua_State *L);
 void script_springs_open(lua_State *L);
+void script_springs_machine_open(lua_State *L);
 void script_song_open(lua_State *L);
 void script_typeface_open(lua_State *L);
 
@@ -317,7 +318,8 @@ extern const luaL_Reg script_sandbox_functions[], script_song_functions[], scrip
     script_stroke_methods[], script_stroke_functions[], script_technique_methods[],
     script_picture_paper_methods[], script_picture_functions[], script_picture_methods[],
     script_spring_makers[], script_spring_word_makers[], script_network_methods[],
-    script_network_word_methods[], script_network_key_methods[];
+    script_network_word_methods[], script_network_key_methods[],
+    script_network_machine_methods[];
 
 /* All functions that a script can call (open.c). Ended by a row without functions. */
 struct script_functions {

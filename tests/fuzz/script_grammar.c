@@ -136,6 +136,7 @@ static const struct {
     {"network", "events", "", ""},
     {"network", "on", "f", ""},
     {"network", "step", "in", ""},
+    {"network", "machine", "in", ""},
 };
 enum { GRAMMAR_COUNT = sizeof grammar / sizeof *grammar };
 
@@ -581,9 +582,8 @@ const char *script_by_chance(struct script_source *s)
 static bool row_is(size_t row, const char *of, const char *name)
 {
     static const char prefix[] = "lutetia ";
-    if (strcmp(grammar[row].name, name) != 0 || !grammar[row].of != !of)
-        return false;
-    return !of || strcmp(of + strlen(prefix), grammar[row].of) == 0;
+    return strcmp(grammar[row].name, name) == 0 && !grammar[row].of == !of &&
+           (!of || strcmp(of + strlen(prefix), grammar[row].of) == 0);
 }
 
 const char *script_grammar_lacks(void)

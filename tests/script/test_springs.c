@@ -122,6 +122,15 @@ static void what_cannot_be_is_one_line(void **state)
         {"local n = spring.network() local a = n:mass{} n:spring(a, a)",
          "a spring cannot go from mass 1 to itself"},
         {"local n = spring.network() for i = 1, 1e9 do n:mass{} end", "memory"},
+        {"spring.network():machine()", "needs masses and springs"},
+        {"spring.word{text = 'ab'}:machine(-1)", "the count of steps must be a whole number"},
+        {"spring.word{text = 'ab'}:machine(1, 0 / 0)", "a step's seconds must be"},
+        {"local w = spring.word{text = 'ab'} w:collide(true) w:machine()", "n:step() does"},
+        {"local w = spring.word{text = 'ab'} w:key(1, 1, 0, 0) w:machine()", "n:step() does"},
+        {"local w = spring.word{text = 'ab'} w:pull(1, 1, 1) w:machine()",
+         "no hands that pull"},
+        {"local w = spring.word{text = 'ab'} w:set('integrator', 'thesis') w:machine()",
+         "symplectic steps only"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         fails(bad[i][0], bad[i][1]);
@@ -141,6 +150,37 @@ static void words_wet_a_paper(void **state)
         "true\ntrue\n");
 }
 
+/* A cloth, stepped by both; the paper between is what it is without the machine's steps. */
+static void the_machine_steps_as_c_does(void **state)
+{
+    (void)state;
+    prints(
+        "local side = 12\n"
+        "local function cloth()\n"
+        "  local n = spring.network() n:set('floor_on', true) n:set('floor', -2)\n"
+        "  for y = 1, side do for x = 1, side do\n"
+        "    n:mass{x = x + 0.1 * math.sin(7 * y), y = y, stuck = y == side} end end\n"
+        "  for i = 1, side * side do\n"
+        "    if i % side ~= 0 then n:spring(i, i + 1, {constant = 300 + i}) end\n"
+        "    if i <= side * (side - 1) then n:spring(i, i + side, {constant = 400}) end end\n"
+        "  return n end\n"
+        "local function sheet()\n"
+        "  local p = paper{width = 24, height = 16, pigments = {'cyan'}, seed = 3}\n"
+        "  p:put(circle(9, 8, 5), {water = 0.8, cyan = 0.5}) p:step(3) return p end\n"
+        "local a, b, moved, worst = cloth(), cloth(), 0, 0\n"
+        "local p, q = sheet(), sheet()\n"
+        "a:step(90) p:step(4) q:step(2) b:machine(50) q:step(2) b:machine(40, 1 / 240)\n"
+        "for i = 1, side * side do\n"
+        "  local x, y = a:place(i) local u, v = b:place(i) local s, t = cloth():place(i)\n"
+        "  worst = math.max(worst, math.abs(x - u), math.abs(y - v))\n"
+        "  moved = math.max(moved, math.abs(y - t)) end\n"
+        "local same = true\n"
+        "for y = 0, 15 do for x = 0, 23 do\n"
+        "  same = same and p:at('infused water', x, y) == q:at('infused water', x, y) end end\n"
+        "print(worst < 1e-9, moved > 0.1, a:time() == b:time(), same)",
+        "true\ttrue\ttrue\ttrue\n");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -151,6 +191,7 @@ int main(void)
         cmocka_unit_test(networks_are_saved_and_read),
         cmocka_unit_test(what_cannot_be_is_one_line),
         cmocka_unit_test(words_wet_a_paper),
+        cmocka_unit_test(the_machine_steps_as_c_does),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
