@@ -10,7 +10,10 @@
 
 #define _(text) gettext(text)
 
-enum { WHOLE = 1000 }; /* positions of a slider */
+enum {
+    WHOLE = 1000, /* positions of a slider */
+    NUMBER_BYTES = 400
+};
 
 struct row {
     const struct stage_control *control;
@@ -51,6 +54,21 @@ static void value_say(const struct row *row, double value)
     g_free(said);
 }
 
+/* The number has the decimals that a value needs. */
+static void decimals_fit(struct row *row, double value)
+{
+    char text[NUMBER_BYTES];
+    const bool filling = row->filling;
+    if (!row->number)
+        return;
+    stage_control_number(row->control, value, text, sizeof text);
+    const char *point = strpbrk(text, ".,");
+    row->filling = true; /* GTK tells that the value is another one */
+    gtk_spin_button_set_digits(GTK_SPIN_BUTTON(row->number),
+                               point ? (guint)strlen(point + 1) : 0);
+    row->filling = filling;
+}
+
 void desk_control_set(GtkWidget *box, double value)
 {
     struct row *row = row_of(box);
@@ -61,6 +79,7 @@ void desk_control_set(GtkWidget *box, double value)
         value_say(row, value);
     }
     desk_control_type(box, value);
+    decimals_fit(row, value);
     row->filling = false;
 }
 
@@ -77,6 +96,7 @@ static void slider_moved(GtkRange *range, struct row *row)
 
 static void number_typed(GtkSpinButton *number, struct row *row)
 {
+    decimals_fit(row, gtk_spin_button_get_value(number));
     row_tell(row, gtk_spin_button_get_value(number));
 }
 
@@ -124,20 +144,6 @@ static GtkWidget *choice_new(const struct stage_control *control)
     return gtk_drop_down_new(G_LIST_MODEL(names), NULL);
 }
 
-enum { NUMBER_BYTES = 400 };
-
-/* The number has the decimals that it needs. */
-static gboolean number_show(GtkSpinButton *number, const struct row *row)
-{
-    char text[NUMBER_BYTES];
-    stage_control_number(row->control,
-                         gtk_adjustment_get_value(gtk_spin_button_get_adjustment(number)), text,
-                         sizeof text);
-    if (strcmp(text, gtk_editable_get_text(GTK_EDITABLE(number))) != 0)
-        gtk_editable_set_text(GTK_EDITABLE(number), text);
-    return TRUE;
-}
-
 /* Where nobody has typed, the value stays what it is, to the last bit. */
 static int number_read(GtkSpinButton *number, double *value, const struct row *row)
 {
@@ -160,7 +166,6 @@ static GtkWidget *number_new(struct row *row)
                         : span > 0.5 ? 0.01
                                      : pow(10, floor(log10(span / 50)));
     GtkWidget *number = gtk_spin_button_new_with_range(control->least, control->most, step);
-    g_signal_connect(number, "output", G_CALLBACK(number_show), row);
     g_signal_connect(number, "input", G_CALLBACK(number_read), row);
     gtk_editable_set_width_chars(GTK_EDITABLE(number), 5);
     gtk_editable_set_max_width_chars(GTK_EDITABLE(number), 5);

@@ -223,7 +223,16 @@ static void controls_are_reached(void **state)
     assert_true(speed.value == 1.0625);
     accessible_walk(frame, name_check, &names);
     assert_int_equal(names.nameless, 0);
-    xtest_type(XK_Tab); /* to the slider */
+    assert_true(heard("\n1.0625\n", true)); /* all of its decimals are shown */
+    xtest_type(XK_Tab);                     /* to the slider */
+    xtest_type(XK_Tab);                     /* to the number, and on: it stays what it is */
+    xtest_type(XK_Tab);
+    assert_true(heard("\n1.0625\n", true));
+    assert_true(heard("speed <1.0625>", true));
+    xtest_key(XK_Shift_L, true);
+    xtest_type(XK_Tab);
+    xtest_type(XK_Tab);
+    xtest_key(XK_Shift_L, false);
     xtest_type(XK_Home);
     assert_true(heard("speed <0>", true));
     xtest_type(XK_Tab); /* to the number */
