@@ -54,14 +54,23 @@ int studio_lasso_points(const double *samples, int count, double *points)
 
 /* ---- around a selection ---- */
 
-static bool polygon_has_area(const double *points, int count)
+/* More than a click or a line, and something of the sheet is in its box. The triangles from the
+ * first corner are counted whichever way round they are: a way that crosses itself has area. */
+static bool polygon_selects(const double *points, int count,
+                            const struct paper_sheet_config *config)
 {
-    double area = 0;
+    double area = 0, left = HUGE_VAL, top = HUGE_VAL, right = -HUGE_VAL, bottom = -HUGE_VAL;
     for (int i = 0; i < count; i++) {
         const double *a = points + 2 * i, *b = points + 2 * ((i + 1) % count);
-        area += a[0] * b[1] - b[0] * a[1];
+        area += fabs((a[0] - points[0]) * (b[1] - points[1]) -
+                     (b[0] - points[0]) * (a[1] - points[1]));
+        left = fmin(left, a[0]);
+        right = fmax(right, a[0]);
+        top = fmin(top, a[1]);
+        bottom = fmax(bottom, a[1]);
     }
-    return count >= 3 && fabs(area) >= 2;
+    return count >= 3 && area >= 2 && right > 0 && bottom > 0 && left < config->width &&
+           top < config->height;
 }
 
 /* The polygon, in the numbers of the drawing that it is added to. */
@@ -121,7 +130,7 @@ enum paper_status studio_around_make(const struct studio_selection *selection,
                                                                   : &none;
     struct event_bytes bytes = {0};
     *out = (struct studio_around){0};
-    if (join == STUDIO_JOIN_INVERT ? !before->count : !polygon_has_area(points, count))
+    if (join == STUDIO_JOIN_INVERT ? !before->count : !polygon_selects(points, count, config))
         return PAPER_OK;
     joined_put(&bytes, before, join, points, count, before->scale);
     paper_drawing_number(&bytes, '-', 1, true);

@@ -69,9 +69,10 @@ void studio_selection_clip(const struct studio_selection *selection, int width, 
 enum studio_join { STUDIO_JOIN_NEW, STUDIO_JOIN_ADD, STUDIO_JOIN_SUBTRACT, STUDIO_JOIN_INVERT };
 
 /* Everything around what is selected then, as a screen that knows what it was drawn from.
- * screen.gray NULL: nothing of it is on the sheet, or all of the sheet is. Errors: NO_MEMORY,
- * BAD_ARGUMENT (it would have too many corners; it says so in no words). Owns:
- * studio_around_free(). */
+ * screen.gray NULL: nothing of it is on the sheet, or all of the sheet is; drawing.count 0:
+ * the polygon has no area, or lies beyond the sheet. Errors: NO_MEMORY; BAD_ARGUMENT: a corner
+ * lies too far away, or the drawing would be longer than PAPER_DRAWING_MOST, which is said in
+ * no words. Owns: studio_around_free(). */
 struct studio_around {
     struct paper_screen screen;
     struct paper_drawing drawing;

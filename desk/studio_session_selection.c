@@ -79,7 +79,7 @@ static enum paper_status select_points(struct studio_session *s, enum studio_joi
                                 paper_sheet_get_config(s->sheet), &around);
     if (status == PAPER_NO_MEMORY)
         studio_session_failed(status, "no memory for a selection");
-    if (status == PAPER_BAD_ARGUMENT)
+    if (status == PAPER_BAD_ARGUMENT && around.drawing.count > PAPER_DRAWING_MOST)
         studio_session_failed(status, "what is selected has too many corners by now; select "
                                       "it anew, as fewer parts");
     if (status == PAPER_OK && around.screen.gray) {
