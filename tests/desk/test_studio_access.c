@@ -1,6 +1,7 @@
 /* test_studio_access.c - the studio as a screen reader, a keyboard and a hand find it: every
  * control has a name, each tool is reached by its key, and paint lies under the pointer at any
- * zoom, turned and mirrored. By AT-SPI and XTEST, on an Xvfb with a bus of its own. */
+ * zoom, turned and mirrored, where a unit of the window is one pixel of the screen or two. By
+ * AT-SPI and XTEST, on an Xvfb with a bus of its own. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,12 +16,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <brush.h>
+
 #include "accessible.h"
 #include "clock.h"
-#include "studio_settings.h"
+#include "studio_scene.h"
 #include "xtest.h"
 
 enum { WAIT_S = 60 };
@@ -28,6 +32,7 @@ static pid_t studio;
 static Window window;
 static AtspiAccessible *frame;
 static char events[] = "/tmp/lutetia-studio-XXXXXX";
+enum { SHEET_WIDTH = 128, SHEET_HEIGHT = 96 };
 
 /* ---- the tree ---- */
 
@@ -70,7 +75,8 @@ static bool state_has(AtspiAccessible *a, AtspiStateType state)
 
 /* ---- the window ---- */
 
-static void studio_start(const char *view)
+/* sheet: a file; NULL: a new one. */
+static void studio_start(const char *view, const char *sheet)
 {
     FILE *file = fopen(events, "w");
     assert_non_null(file);
@@ -78,8 +84,11 @@ static void studio_start(const char *view)
     fclose(file);
     studio = fork();
     if (studio == 0) {
-        execl(getenv("LUTETIA"), "lutetia", "studio", "--paper", "128x96", "--stock",
-              "hot press", "--pigment", "french ultramarine", "--play", events, NULL);
+        if (sheet)
+            execl(getenv("LUTETIA"), "lutetia", "studio", sheet, "--play", events, NULL);
+        else
+            execl(getenv("LUTETIA"), "lutetia", "studio", "--paper", "128x96", "--stock",
+                  "hot press", "--pigment", "french ultramarine", "--play", events, NULL);
         _exit(127);
     }
     window = screen_window("Studio", WAIT_S);
@@ -228,6 +237,7 @@ static bool blue_middle(int x, int y, int reach, double middle[2])
     return sum > 300;
 }
 
+/* zoom: pixels of the screen for a fiber. */
 static void drop_at(double zoom, int x, int y)
 {
     const double until_s = clock_now_s() + WAIT_S, most = fmax(1, zoom) / 2 + 0.5;
@@ -274,15 +284,16 @@ static bool canvas_look(int box[4], double *sheet_px)
 }
 
 /* Waits until the sheet is seen at that zoom: its middle is the canvas's. */
-static void sheet_wait(double zoom, int middle[2])
+static void sheet_wait(double zoom, double middle[2])
 {
-    const double until_s = clock_now_s() + WAIT_S, wanted = 128 * 96 * zoom * zoom;
+    const double until_s = clock_now_s() + WAIT_S,
+                 wanted = SHEET_WIDTH * SHEET_HEIGHT * zoom * zoom;
     double sheet_px = 0;
     int box[4];
     while (clock_now_s() < until_s) {
         if (canvas_look(box, &sheet_px) && fabs(sheet_px - wanted) < 0.06 * wanted + 300) {
-            middle[0] = (box[0] + box[2]) / 2;
-            middle[1] = (box[1] + box[3]) / 2;
+            middle[0] = (box[0] + box[2]) / 2.0;
+            middle[1] = (box[1] + box[3]) / 2.0;
             return;
         }
         usleep(50000);
@@ -290,27 +301,149 @@ static void sheet_wait(double zoom, int middle[2])
     fail_msg("zoom %g: %g pixels of the sheet are seen, not %g", zoom, sheet_px, wanted);
 }
 
+/* ---- contact ---- */
+
+enum { CONTACTS = 3 };
+
+/* What is seen, and where a hand has touched it. The oracle of the view's numbers. */
+struct seen {
+    int scale; /* pixels of the screen for a unit of the window */
+    double zoom, degrees;
+    bool mirrored;
+    double middle[2]; /* the canvas's, in pixels */
+    double place[CONTACTS][2];
+    int touched;
+};
+
+static void keys_type(KeySym key, int times)
+{
+    for (int i = 0; i < times; i++)
+        xtest_type(key);
+}
+
+/* A stroke: from a place of the screen, about so many pixels from the middle of the canvas. */
+static void touch(struct seen *seen, int right_px, int down_px)
+{
+    const double turn = seen->degrees * 3.14159265358979 / 180, c = cos(turn), s = sin(turn),
+                 unit = 1 / (seen->scale * seen->zoom);
+    const int x = (int)seen->middle[0] + right_px, y = (int)seen->middle[1] + down_px;
+    const double right = unit * (x - seen->middle[0]), down = unit * (y - seen->middle[1]),
+                 along = c * right + s * down;
+    double *place = seen->place[seen->touched++];
+    place[0] = SHEET_WIDTH / 2.0 + (seen->mirrored ? -along : along);
+    place[1] = SHEET_HEIGHT / 2.0 + c * down - s * right;
+    xtest_move(window, x, y);
+    xtest_button(1, true);
+    xtest_move(window, x + 3, y);
+    xtest_button(1, false);
+}
+
+/* Keys and buttons come in their order, so nothing is waited for. */
+static void touch_at_zooms(struct seen *seen)
+{
+    keys_type(XK_b, 1);
+    touch(seen, 23, -31);
+    keys_type(XK_0, 1);
+    keys_type(XK_plus, 9);
+    seen->zoom = pow(1.25, 9); /* 7.5 */
+    keys_type(XK_h, 1);
+    seen->mirrored = !seen->mirrored;
+    seen->degrees = -seen->degrees;
+    keys_type(XK_semicolon, 2);
+    seen->degrees += 30;
+    touch(seen, -41, 13);
+    keys_type(XK_minus, 19);
+    seen->zoom *= pow(0.8, 19); /* 0.11 */
+    touch(seen, 4, -3);
+}
+
+/* Its strokes begin where the hand has touched it. */
+static void touches_are_saved(const struct seen *seen, const char *sheet)
+{
+    struct studio_session *s;
+    struct paper_moment moment;
+    int strokes = 0;
+    assert_int_equal(studio_session_open(sheet, 64e6, &s), PAPER_OK);
+    for (int i = 0; paper_history_moment(studio_session_sheet(s), i, &moment); i++) {
+        void *arguments;
+        if (strcmp(moment.what, "stroke") != 0)
+            continue;
+        assert_true(strokes < CONTACTS);
+        assert_int_equal(paper_history_arguments(studio_session_sheet(s), i, &arguments),
+                         PAPER_OK);
+        const struct paper_stroke_sample first = ((struct paper_stroke *)arguments)->samples[0];
+        const double *place = seen->place[strokes++];
+        paper_history_arguments_free("stroke", arguments);
+        if (!(hypot(first.x - place[0], first.y - place[1]) < 0.5))
+            fail_msg("scale %d, stroke %d: at %.3f, %.3f, not %.3f, %.3f", seen->scale, strokes,
+                     first.x, first.y, place[0], place[1]);
+    }
+    assert_int_equal(strokes, CONTACTS);
+    studio_session_destroy(s);
+}
+
+static void sheet_make(const char *path)
+{
+    struct paper_sheet_config config = scene_config();
+    struct studio_session *s;
+    config.width = SHEET_WIDTH;
+    config.height = SHEET_HEIGHT;
+    assert_int_equal(studio_session_create(&config, 64e6, &s), PAPER_OK);
+    assert_int_equal(studio_session_save(s, path), PAPER_OK);
+    studio_session_destroy(s);
+}
+
+/* Saved by its key onto the file that it was opened from: another file has its name then. */
+static void sheet_save(const char *path)
+{
+    const double until_s = clock_now_s() + WAIT_S;
+    struct stat before, now;
+    assert_int_equal(stat(path, &before), 0);
+    xtest_key(XK_Control_L, true);
+    xtest_type(XK_s);
+    xtest_key(XK_Control_L, false);
+    do {
+        usleep(20000);
+        assert_true(clock_now_s() < until_s);
+    } while (stat(path, &now) != 0 || now.st_ino == before.st_ino);
+}
+
+/* A drop is seen around the pointer; and strokes begin within half a fiber of it. */
 static void paint_is_under_the_pointer(void **state)
 {
     (void)state;
-    static const struct {
-        double zoom, degrees;
-        bool mirrored;
-    } views[] = {{2, 30, true}, {4, -100, false}};
+    struct seen views[] = {{.scale = 1, .zoom = 2, .degrees = 30, .mirrored = true},
+                           {.scale = 2, .zoom = 4, .degrees = -100}};
+    char sheet[] = "/tmp/lutetia-contact-XXXXXX.h5", journal[64];
+    const int made = mkstemps(sheet, 3);
+    assert_true(made >= 0);
+    close(made);
+    snprintf(journal, sizeof journal, "%s.journal", sheet);
     setenv("GTK_A11Y", "none", 1);
     for (size_t i = 0; i < sizeof views / sizeof *views; i++) {
+        struct seen *seen = &views[i];
+        const double zoom_px = seen->scale * seen->zoom;
         char view[300];
-        int middle[2] = {0, 0};
+        sheet_make(sheet);
+        setenv("GDK_SCALE", seen->scale == 1 ? "1" : "2", 1);
         snprintf(view, sizeof view,
                  "0 set tool drop\n0 set size 3\n0 set water 0.05\n0 set pigment_1 1.5\n"
-                 "0 view %g 64 48 %g %d\n",
-                 views[i].zoom, views[i].degrees, views[i].mirrored);
-        studio_start(view);
-        sheet_wait(views[i].zoom, middle);
-        drop_at(views[i].zoom, middle[0] + 17, middle[1] - 11);
-        drop_at(views[i].zoom, middle[0] - 25, middle[1] + 23);
+                 "0 view %g %g %g %g %d\n",
+                 seen->zoom, SHEET_WIDTH / 2.0, SHEET_HEIGHT / 2.0, seen->degrees,
+                 seen->mirrored);
+        studio_start(view, sheet);
+        sheet_wait(zoom_px, seen->middle);
+        const int x = (int)seen->middle[0], y = (int)seen->middle[1];
+        drop_at(zoom_px, x + 17 * seen->scale, y - 11 * seen->scale);
+        drop_at(zoom_px, x - 25 * seen->scale, y + 23 * seen->scale);
+        touch_at_zooms(seen);
+        sheet_save(sheet);
         studio_end();
+        unlink(journal);
+        touches_are_saved(seen, sheet);
     }
+    unsetenv("GDK_SCALE");
+    unlink(sheet);
 }
 
 /* ---- two moments ---- */
@@ -345,7 +478,8 @@ static void moments_are_side_by_side(void **state)
     bool good = false;
     studio_start("0 set tool wash\n0 set fade 1\n0 set pigment_1 1.5\n0 view 2 64 48 0 0\n"
                  "0.1 down -100 -80 0.5\n0.2 up 100 80 0.5\n0.3 moment 0\n"
-                 "0.4 action beside\n0.5 moment 1\n");
+                 "0.4 action beside\n0.5 moment 1\n",
+                 NULL);
     while (!good && clock_now_s() < until_s) {
         usleep(50000);
         good = halves_look(paint_px, bare_px) && paint_px[0] == 0 && bare_px[0] > 40000 &&
@@ -360,7 +494,7 @@ static void moments_are_side_by_side(void **state)
 static int start(void **state)
 {
     (void)state;
-    studio_start("");
+    studio_start("", NULL);
     frame = accessible_frame_wait(WAIT_S);
     if (!frame)
         puts("no tree of the window's");
@@ -389,7 +523,7 @@ int main(int argc, char **argv)
         puts("[  SKIPPED ] dbus-run-session is not installed");
         return 77;
     }
-    if (!screen_start("1280x900x24"))
+    if (!screen_start("2600x1700x24"))
         return 77;
     const int made = mkstemp(events);
     if (made < 0)
