@@ -188,6 +188,7 @@ void read_document_reload(struct read_desk *d)
         else
             reader_view_go_part(d->view, all > 0 ? above / all : 0);
         read_remarks_find(d);
+        lost_tell(d);
         d->document_shown(d);
         read_page_changed(d);
     }

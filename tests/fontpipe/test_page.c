@@ -234,6 +234,33 @@ static void places_are_hit_again(void **state)
     page_text_destroy(t);
 }
 
+/* A point far beside the page is on the line at its height, however far lines are moved in. */
+static void far_points_hit_their_lines(void **state)
+{
+    (void)state;
+    static const double xs[] = {-1e6, -50, 1e6};
+    struct page_manner manner = page_manner_default();
+    manner.align = FONT_ALIGN_LEFT;
+    manner.left_px = 17;
+    int ids[3];
+    struct page_text *t = one_column(400, "abc def", 7, &manner, &ids[0]);
+    for (int i = 1; i < 3; i++) {
+        manner.left_px = i == 1 ? 0 : 17;
+        manner.right_px = i == 1 ? 17 : 0;
+        assert_font(page_paragraph_add(t, 0, -1, "abc def", 7, 1, &manner, &ids[i]));
+    }
+    for (int i = 0; i < 9; i++) {
+        struct page_caret caret;
+        struct page_place place;
+        bool edge;
+        assert_font(page_caret_get(t, (struct page_place){ids[i / 3], 0}, false, &caret));
+        assert_font(page_hit(t, 0, xs[i % 3], (caret.y0 + caret.y1) / 2, &place, &edge));
+        assert_int_equal(place.paragraph, ids[i / 3]);
+        assert_int_equal(place.byte, xs[i % 3] < 0 ? 0 : 7);
+    }
+    page_text_destroy(t);
+}
+
 static double boxes_width(struct page_text *t, int id, int from, int to, int *count)
 {
     struct page_box boxes[200];
@@ -313,6 +340,7 @@ int main(void)
         cmocka_unit_test(narrow_columns_are_divided),
         cmocka_unit_test(carets_and_hits_agree),
         cmocka_unit_test(places_are_hit_again),
+        cmocka_unit_test(far_points_hit_their_lines),
         cmocka_unit_test(selections_add_up),
         cmocka_unit_test(marks_stay_at_their_letters),
     };
