@@ -4,10 +4,12 @@
  * A lane is its bits, zero-extended to 128. host/machine/interpret/lane_by_folding.c has the
  * same operations for the front end; both must agree to the bit. This file follows prelude.cl,
  * wide.cl, soft.cl, integers.cl and, with MATH, math.cl; VECTOR is 1. Before it stand the
- * numbers of operations and families (#define MACHINE_ADD ..., #define SPELL_BITS ...).
+ * numbers of operations and families (#define MACHINE_ADD ..., #define SPELL_BITS ...), and
+ * INTEGER_CASES and MATH_CASES, which are made of the rows of these families
+ * (host/machine/interpret/device_code.c).
  *
- * A switch over a family has a case for each operation of it: test machine_operations. What is
- * of no family gives 0. */
+ * A switch over another family has a case for each operation of it: test machine_operations.
+ * What is of no family gives 0. */
 
 /* What a step says, beside its places. */
 typedef struct {
@@ -73,57 +75,7 @@ static VQ integers(const step_said *s, VQ a, VQ b)
     const int w = s->from_width;
     const uint n = (uint)b.lo; /* of shifts */
     switch (s->op) {
-    case MACHINE_UDIV:
-        return OF_WIDTH(u_divided_L(a.lo, b.lo, QUOTIENT_TRUNCATE),
-                        u_divided_Q(a, b, QUOTIENT_TRUNCATE));
-    case MACHINE_UCEIL:
-        return OF_WIDTH(u_divided_L(a.lo, b.lo, QUOTIENT_CEILING),
-                        u_divided_Q(a, b, QUOTIENT_CEILING));
-    case MACHINE_UROUND:
-        return OF_WIDTH(u_divided_L(a.lo, b.lo, QUOTIENT_ROUND),
-                        u_divided_Q(a, b, QUOTIENT_ROUND));
-    case MACHINE_UREM:
-        return OF_WIDTH(u_remainder_L(a.lo, b.lo), u_remainder_Q(a, b));
-    case MACHINE_SDIV:
-        return OF_WIDTH(s_divided_L(a.lo, b.lo, w, QUOTIENT_TRUNCATE),
-                        s_divided_Q(a, b, w, QUOTIENT_TRUNCATE));
-    case MACHINE_SFLOOR:
-        return OF_WIDTH(s_divided_L(a.lo, b.lo, w, QUOTIENT_FLOOR),
-                        s_divided_Q(a, b, w, QUOTIENT_FLOOR));
-    case MACHINE_SCEIL:
-        return OF_WIDTH(s_divided_L(a.lo, b.lo, w, QUOTIENT_CEILING),
-                        s_divided_Q(a, b, w, QUOTIENT_CEILING));
-    case MACHINE_SROUND:
-        return OF_WIDTH(s_divided_L(a.lo, b.lo, w, QUOTIENT_ROUND),
-                        s_divided_Q(a, b, w, QUOTIENT_ROUND));
-    case MACHINE_SREM:
-        return OF_WIDTH(s_remainder_L(a.lo, b.lo, w), s_remainder_Q(a, b, w));
-    case MACHINE_SMOD:
-        return OF_WIDTH(s_modulus_L(a.lo, b.lo, w), s_modulus_Q(a, b, w));
-    case MACHINE_POW:
-        return OF_WIDTH(power_L(a.lo, b.lo), power_Q(a, b));
-    case MACHINE_UPOW_BEYOND:
-        return q_of((w > 64 ? u_power_beyond_Q(a, b, w) : u_power_beyond_L(a.lo, b.lo, w)) & 1,
-                    0);
-    case MACHINE_SPOW_BEYOND:
-        return q_of((w > 64 ? s_power_beyond_Q(a, b, w) : s_power_beyond_L(a.lo, b.lo, w)) & 1,
-                    0);
-    case MACHINE_USHIFT:
-        return OF_WIDTH(u_shifted_L(a.lo, n), u_shifted_Q(a, n));
-    case MACHINE_SSHIFT:
-        return OF_WIDTH(s_shifted_L(a.lo, n, w), s_shifted_Q(a, n, w));
-    case MACHINE_ROTATE:
-        return OF_WIDTH(rotated_L(a.lo, n, w), rotated_Q(a, n, w));
-    case MACHINE_POPCOUNT:
-        return OF_WIDTH(population_L(a.lo), population_Q(a));
-    case MACHINE_LENGTH:
-        return OF_WIDTH(bits_length_L(a.lo), bits_length_Q(a));
-    case MACHINE_REVERSE:
-        return OF_WIDTH(reversed_L(a.lo, w), reversed_Q(a, w));
-    case MACHINE_UNGRAY:
-        return OF_WIDTH(from_gray_L(a.lo), from_gray_Q(a));
-    case MACHINE_ISQRT:
-        return OF_WIDTH(square_root_L(a.lo), square_root_Q(a));
+        INTEGER_CASES
     }
     return q_of(0, 0);
 }
@@ -315,48 +267,7 @@ static int float_overflows(const step_said *s, ulong a, ulong b)
 static double float_function_of(int op, double x, double y)
 {
     switch (op) {
-    case MACHINE_FEXP:
-        return math_exp(x);
-    case MACHINE_FLN:
-        return math_ln(x);
-    case MACHINE_FLOG2:
-        return math_log2(x);
-    case MACHINE_FLOG10:
-        return math_log10(x);
-    case MACHINE_FSIN:
-        return math_sin(x);
-    case MACHINE_FCOS:
-        return math_cos(x);
-    case MACHINE_FTAN:
-        return math_tan(x);
-    case MACHINE_FASIN:
-        return math_asin(x);
-    case MACHINE_FACOS:
-        return math_acos(x);
-    case MACHINE_FATAN:
-        return math_atan(x);
-    case MACHINE_FSINH:
-        return math_sinh(x);
-    case MACHINE_FCOSH:
-        return math_cosh(x);
-    case MACHINE_FTANH:
-        return math_tanh(x);
-    case MACHINE_FASINH:
-        return math_asinh(x);
-    case MACHINE_FACOSH:
-        return math_acosh(x);
-    case MACHINE_FATANH:
-        return math_atanh(x);
-    case MACHINE_FATAN2:
-        return math_atan2(x, y);
-    case MACHINE_FPOW:
-        return math_pow(x, y);
-    case MACHINE_FMOD:
-        return math_mod(x, y);
-    case MACHINE_FREM:
-        return math_rem(x, y);
-    case MACHINE_FSCALE:
-        return math_ldexp(x, y);
+        MATH_CASES
     }
     return 0;
 }

@@ -5,6 +5,7 @@
 #include "base/op_families.h"
 
 #define NODE OPERATION
+#define WORD(word) #word
 const struct node_op_info node_ops[NODE_OP_COUNT] = {
 #define OPERATION(op, name, inputs, takes, gives, cost, nan, fold, spell, word, second, flags) \
     [op] = {name, inputs, cost, nan, takes, gives, fold, spell, flags},
@@ -19,6 +20,7 @@ const struct node_words node_words[NODE_OP_COUNT] = {
 #undef OPERATION
 };
 #undef NODE
+#undef WORD
 
 static enum op_soft soft_kind(struct machine_type t)
 {

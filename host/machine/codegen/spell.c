@@ -165,19 +165,22 @@ void spell_bits_binary(char *out, size_t size, int op, struct machine_type t, co
     }
 }
 
+void spell_integer_call(char *out, size_t size, int op, char letter, const char *a,
+                        const char *b, const char *width)
+{
+    const struct node_words *words = &node_words[op];
+    const bool two = node_ops[op].inputs == 2, wants_width = op_has(op, OP_WIDTH);
+    snprintf(out, size, "%s_%c(%s%s%s%s%s%s%s)", words->word, letter, a, two ? ", " : "",
+             two ? b : "", wants_width ? ", " : "", wants_width ? width : "",
+             words->second ? ", " : "", words->second ? words->second : "");
+}
+
 void spell_integer(char *out, size_t size, int op, struct machine_type t, const char *a,
                    const char *b)
 {
-    const struct node_words *words = &node_words[op];
-    char raw[300], second[64] = "", width[16] = "", how[40] = "";
-    char c = spell_letter(t);
-    if (node_ops[op].inputs == 2)
-        snprintf(second, sizeof second, ", %s", b);
-    if (op_has(op, OP_WIDTH))
-        snprintf(width, sizeof width, ", %d", t.width);
-    if (words->second)
-        snprintf(how, sizeof how, ", %s", words->second);
-    snprintf(raw, sizeof raw, "%s_%c(%s%s%s%s)", words->word, c, a, second, width, how);
+    char raw[300], width[16];
+    snprintf(width, sizeof width, "%d", t.width);
+    spell_integer_call(raw, sizeof raw, op, spell_letter(t), a, b, width);
     if (op_has(op, OP_CUTS))
         spell_cut(out, size, raw, t.width);
     else

@@ -21,6 +21,10 @@ void spell_shifted(char *out, size_t size, const char *a, const char *which, int
 /* MACHINE_AND .. MACHINE_SLE on two operands of type t. */
 void spell_bits_binary(char *out, size_t size, int op, struct machine_type t, const char *a,
                        const char *b);
+/* The call of an integers' operation's function of kernels/integers.cl, for words of the
+ * letter's size; width: of the operands, as a text. */
+void spell_integer_call(char *out, size_t size, int op, char letter, const char *a,
+                        const char *b, const char *width);
 /* Integers' operations on operands of 2 bits or more, in the words of kernels/integers.cl. */
 void spell_integer(char *out, size_t size, int op, struct machine_type t, const char *a,
                    const char *b);

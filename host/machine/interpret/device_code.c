@@ -8,6 +8,7 @@
 
 #include "base/arrays.h"
 #include "base/errors.h"
+#include "codegen/spell.h"
 #include "device/call.h"
 #include "kernels.h"
 #include "values/values.h"
@@ -73,10 +74,39 @@ static const struct {
 };
 #undef NAMED
 
+/* Appends the case of an operation whose row says all of it; as lane.cl names operands. */
+static char *case_write(char *end, size_t most, int op)
+{
+    const bool shifts = node_ops[op].fold == FOLD_SHIFT; /* by a count of 32 bits */
+    char small[120], large[120];
+    if (node_ops[op].spell == SPELL_MATH)
+        return end + snprintf(end, most, " case %d: return math_%s(x%s);", op,
+                              node_words[op].word, node_ops[op].inputs == 2 ? ", y" : "");
+    spell_integer_call(small, sizeof small, op, 'L', "a.lo", shifts ? "n" : "b.lo", "w");
+    spell_integer_call(large, sizeof large, op, 'Q', "a", shifts ? "n" : "b", "w");
+    return end + snprintf(end, most,
+                          node_ops[op].gives == GIVES_BIT
+                              ? " case %d: return q_of((w > 64 ? %s : %s) & 1, 0);"
+                              : " case %d: return w > 64 ? %s : q_of(%s, 0);",
+                          op, large, small);
+}
+
+/* Appends a macro with the cases of a family. */
+static char *cases_write(char *end, size_t most, const char *macro, enum op_spell family)
+{
+    end += sprintf(end, "#define %s", macro);
+    for (int op = 0; op < NODE_OP_COUNT; op++)
+        if (node_ops[op].spell == family)
+            end = case_write(end, most, op);
+    *end++ = '\n';
+    *end = '\0';
+    return end;
+}
+
 /* The kernel's whole text. The caller frees it; NULL: no memory. */
 static char *kernel_text(bool math)
 {
-    enum { NAMES = sizeof names / sizeof *names, LINE_MOST = 64 };
+    enum { NAMES = sizeof names / sizeof *names, LINE_MOST = 64, CASE_MOST = 320 };
     const char *const parts[] = {kernel_prelude_cl,
                                  kernel_wide_cl,
                                  kernel_soft_cl,
@@ -86,12 +116,16 @@ static char *kernel_text(bool math)
                                  math ? kernel_math_others_cl : "",
                                  kernel_lane_cl,
                                  kernel_interpret_cl};
-    size_t bytes = NAMES * LINE_MOST + 1;
+    size_t bytes = NAMES * LINE_MOST + (NODE_OP_COUNT + 2) * CASE_MOST + 1;
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         bytes += strlen(parts[i]);
     char *text = malloc(bytes), *end = text;
     for (int i = 0; text && i < NAMES; i++)
         end += snprintf(end, LINE_MOST, "#define %s %d\n", names[i].name, names[i].number);
+    if (text) {
+        end = cases_write(end, CASE_MOST, "INTEGER_CASES", SPELL_INTEGER);
+        end = cases_write(end, CASE_MOST, "MATH_CASES", SPELL_MATH);
+    }
     for (size_t i = 0; text && i < sizeof parts / sizeof *parts; i++)
         end = stpcpy(end, parts[i]);
     return text;

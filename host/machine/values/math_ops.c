@@ -36,75 +36,36 @@ typedef int64_t math_i64;
 #include "math_others.cl"
 #undef ulong
 
+/* A case for each row of the table that is a function of math.cl. */
+#define CALL_1(function) function(a)
+#define CALL_2(function) function(a, b)
+#define CASE_FOLD_MATH(op, inputs, function)                                                   \
+    case OF_##op:                                                                              \
+        *out = CALL_##inputs(function);                                                        \
+        return true;
+#define CASE_FOLD_NEVER(...)
+#define CASE_FOLD_MAKER(...)
+#define CASE_FOLD_BITS(...)
+#define CASE_FOLD_QUOTIENT(...)
+#define CASE_FOLD_POWER(...)
+#define CASE_FOLD_SHIFT(...)
+#define CASE_FOLD_COUNT(...)
+#define WORD(word) math_##word
+#define OPERATION(op, name, inputs, takes, gives, cost, nan, fold, spell, word, ...)           \
+    CASE_##fold(op, inputs, word)
+#define NODE OPERATION
+
 bool math_evaluate(int op, double a, double b, double *out)
 {
     switch ((enum op_math)op) {
-    case OF_MACHINE_FEXP:
-        *out = math_exp(a);
-        return true;
-    case OF_MACHINE_FLN:
-        *out = math_ln(a);
-        return true;
-    case OF_MACHINE_FLOG2:
-        *out = math_log2(a);
-        return true;
-    case OF_MACHINE_FLOG10:
-        *out = math_log10(a);
-        return true;
-    case OF_MACHINE_FSIN:
-        *out = math_sin(a);
-        return true;
-    case OF_MACHINE_FCOS:
-        *out = math_cos(a);
-        return true;
-    case OF_MACHINE_FTAN:
-        *out = math_tan(a);
-        return true;
-    case OF_MACHINE_FASIN:
-        *out = math_asin(a);
-        return true;
-    case OF_MACHINE_FACOS:
-        *out = math_acos(a);
-        return true;
-    case OF_MACHINE_FATAN:
-        *out = math_atan(a);
-        return true;
-    case OF_MACHINE_FSINH:
-        *out = math_sinh(a);
-        return true;
-    case OF_MACHINE_FCOSH:
-        *out = math_cosh(a);
-        return true;
-    case OF_MACHINE_FTANH:
-        *out = math_tanh(a);
-        return true;
-    case OF_MACHINE_FASINH:
-        *out = math_asinh(a);
-        return true;
-    case OF_MACHINE_FACOSH:
-        *out = math_acosh(a);
-        return true;
-    case OF_MACHINE_FATANH:
-        *out = math_atanh(a);
-        return true;
-    case OF_MACHINE_FATAN2:
-        *out = math_atan2(a, b);
-        return true;
-    case OF_MACHINE_FPOW:
-        *out = math_pow(a, b);
-        return true;
-    case OF_MACHINE_FMOD:
-        *out = math_mod(a, b);
-        return true;
-    case OF_MACHINE_FREM:
-        *out = math_rem(a, b);
-        return true;
-    case OF_MACHINE_FSCALE:
-        *out = math_ldexp(a, b);
-        return true;
+#include "machine_op.tab"
     }
     return false; /* it is of another family */
 }
+
+#undef OPERATION
+#undef NODE
+#undef WORD
 
 /* Almost always the C library's result says which single it is. Its error is below a 2^53rd,
  * and 2^50ths are allowed for. */
