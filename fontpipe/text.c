@@ -4,11 +4,21 @@
 #include "internal.h"
 #include "text_internal.h"
 
+#include <word_list.h>
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <hb-ot.h>
+
+bool font_align_named(const char *word, enum font_align *out)
+{
+    const int found = word_list_find("left right center justify", word);
+    if (found >= 0)
+        *out = (enum font_align)(FONT_ALIGN_LEFT + found);
+    return found >= 0;
+}
 
 /* ---- UTF-8 ---- */
 

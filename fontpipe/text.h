@@ -49,6 +49,9 @@ enum font_align {
     FONT_ALIGN_CENTER,
     FONT_ALIGN_JUSTIFY
 };
+/* "left", "right", "center" or "justify". False: the word is none of them, and *out is as it
+ * was. */
+bool font_align_named(const char *word, enum font_align *out);
 
 struct font_text_options {
     const char

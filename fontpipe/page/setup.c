@@ -60,6 +60,27 @@ struct page_setup page_setup_default(void)
                                .tolerance = 200};
 }
 
+#define NUMBER(name, member, least, most, whole)                                               \
+    {                                                                                          \
+        name, least, most, offsetof(struct page_setup, member), whole                          \
+    }
+const struct page_number page_numbers[] = {
+    NUMBER("size", size_px, 1, 1000, false),
+    NUMBER("width", width_px, 16, 16384, false),
+    NUMBER("height", height_px, 16, 16384, false),
+    NUMBER("margin", margin_px, 0, 8000, false),
+    NUMBER("gap", gap_px, 0, 8000, false),
+    NUMBER("columns", columns, 1, PAGE_FRAMES_MAX, true),
+    NUMBER("notes", notes_px, 0, 8000, false),
+    NUMBER("leading", leading, 0, 10, false),
+    NUMBER("indent", indent_em, 0, 20, false),
+    NUMBER("protrude", protrude, 0, 1, false),
+    NUMBER("expand", expand, 0, 0.05, false),
+    NUMBER("tolerance", tolerance, 0, 10000, false),
+};
+#undef NUMBER
+const int page_numbers_count = sizeof page_numbers / sizeof *page_numbers;
+
 const char *page_part_name(enum page_part part)
 {
     static const char *const names[PAGE_PARTS] = {"text", "italic", "bold", "head", "note"};

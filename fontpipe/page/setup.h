@@ -20,6 +20,8 @@
 
 #include "page.h"
 
+#include <stddef.h>
+
 /* Parts of a text that may have a filter of their own. */
 enum page_part {
     PAGE_PART_TEXT,
@@ -59,6 +61,17 @@ struct page_setup {
 };
 /* One justified column of DejaVu Serif on a page of 600 x 840. */
 struct page_setup page_setup_default(void);
+
+/* The numbers of a setup, with the ranges that users may choose in: a double each, or a whole
+ * int. */
+struct page_number {
+    const char *name;
+    double least, most;
+    size_t at; /* in struct page_setup */
+    bool whole;
+};
+extern const struct page_number page_numbers[];
+extern const int page_numbers_count;
 
 /* Sequences that are not UTF-8 become U+FFFD. Errors: those of page.h. Owns: the caller
  * destroys *out, which is NULL on failure. */

@@ -18,67 +18,73 @@ enum { ROUND_CORNERS = 72 };
 
 struct set {
     struct type_pages pages;
-    const char *font, *edits, *italic, *bold, *language, *features, *align, *head;
-    double size_px, leading, margin_px, gap_px, notes_px, indent_em, protrude, expand,
-        tolerance;
-    int columns;
+    const char *edits, *align;
     struct option_list around, inside;
-    bool hyphenate, vertical, folios, grid;
     struct page_setup setup;
     struct option_texts filters;
     struct page_shape shapes[PAGE_SHAPES_MAX];
     double corners[PAGE_SHAPES_MAX][2 * ROUND_CORNERS];
 };
 
+/* A row without a target is that number of the setup. */
+static void number_bind(struct option_row *row, struct page_setup *setup)
+{
+    for (int i = 0; i < page_numbers_count && !row->target; i++)
+        if (strcmp(row->name, page_numbers[i].name) == 0) {
+            row->target = (char *)setup + page_numbers[i].at;
+            row->least = page_numbers[i].least;
+            row->most = page_numbers[i].most;
+        }
+}
+
 static int set_options(struct set *s, int argc, char **argv, const char **path, bool *help)
 {
-    const struct option_row rows[] = {
+    struct option_row rows[] = {
         TYPE_PAGES_OPTIONS(&s->pages, "page", "page.png"),
         {"font", 0, OPTION_TEXT, "F",
-         "the font: a file, the name of one, or a family (DejaVuSerif)", &s->font, 0, 0, 0},
+         "the font: a file, the name of one, or a family (DejaVuSerif)", &s->setup.font, 0, 0,
+         0},
         TYPE_EDITS_OPTION(&s->edits),
-        {"italic", 0, OPTION_TEXT, "F", "font of *slanted* words (the family's)", &s->italic, 0,
-         0, 0},
+        {"italic", 0, OPTION_TEXT, "F", "font of *slanted* words (the family's)",
+         &s->setup.italic, 0, 0, 0},
         {"bold", 0, OPTION_TEXT, "F",
-         "font of `**bold**` words (the family's, where it has one)", &s->bold, 0, 0, 0},
-        {"size", 0, OPTION_NUMBER, "PX", "size of the em (16)", &s->size_px, 1, 1000, 0},
-        {"leading", 0, OPTION_NUMBER, "L", "distance of lines, of the size (the font's)",
-         &s->leading, 0.1, 10, 0},
-        {"margin", 0, OPTION_NUMBER, "PX", "margin around the page's text (60)", &s->margin_px,
-         0, 8000, 0},
-        {"columns", 0, OPTION_INTEGER, "N", "number of columns (1)", &s->columns, 1,
-         PAGE_FRAMES_MAX, 0},
-        {"gap", 0, OPTION_NUMBER, "PX", "space between columns (24)", &s->gap_px, 0, 8000, 0},
+         "font of `**bold**` words (the family's, where it has one)", &s->setup.bold, 0, 0, 0},
+        {"size", 0, OPTION_NUMBER, "PX", "size of the em (16)", NULL, 0, 0, 0},
+        {"leading", 0, OPTION_NUMBER, "L", "distance of lines, of the size (the font's)", NULL,
+         0, 0, 0},
+        {"margin", 0, OPTION_NUMBER, "PX", "margin around the page's text (60)", NULL, 0, 0, 0},
+        {"columns", 0, OPTION_INTEGER, "N", "number of columns (1)", NULL, 0, 0, 0},
+        {"gap", 0, OPTION_NUMBER, "PX", "space between columns (24)", NULL, 0, 0, 0},
         {"notes", 0, OPTION_NUMBER, "PX",
          "width of the margin for [>notes], at the right or below vertical lines (0: at the "
          "foot)",
-         &s->notes_px, 0, 8000, 0},
+         NULL, 0, 0, 0},
         {"align", 0, OPTION_TEXT, "A", "left, right, center or justify (justify)", &s->align, 0,
          0, 0},
-        {"indent", 0, OPTION_NUMBER, "EM", "indent of paragraphs' first lines (1.2)",
-         &s->indent_em, 0, 20, 0},
+        {"indent", 0, OPTION_NUMBER, "EM", "indent of paragraphs' first lines (1.2)", NULL, 0,
+         0, 0},
         {"hyphenate", 0, OPTION_FLAG, NULL,
          "divide words, by the rules of --language; without it by those of English",
-         &s->hyphenate, 0, 0, 0},
-        {"language", 0, OPTION_TEXT, "L", "language of the text, such as fr", &s->language, 0,
-         0, 0},
+         &s->setup.hyphenate, 0, 0, 0},
+        {"language", 0, OPTION_TEXT, "L", "language of the text, such as fr",
+         &s->setup.language, 0, 0, 0},
         {"features", 0, OPTION_TEXT, "F,..", "OpenType features to switch: onum,-liga",
-         &s->features, 0, 0, 0},
+         &s->setup.features, 0, 0, 0},
         {"protrude", 0, OPTION_NUMBER, "P", "how far signs stand in the margins, 0..1 (0)",
-         &s->protrude, 0, 1, 0},
-        {"expand", 0, OPTION_NUMBER, "P", "how far letters are widened, 0..0.05 (0)",
-         &s->expand, 0, 0.05, 0},
-        {"tolerance", 0, OPTION_NUMBER, "B", "the badness that a line may have (200)",
-         &s->tolerance, 0, 10000, 0},
-        {"folios", 0, OPTION_FLAG, NULL, "page numbers in the lower margin", &s->folios, 0, 0,
-         0},
-        {"head", 0, OPTION_TEXT, "T",
-         "running head in the upper margin; %h: the last heading, %p: the page", &s->head, 0, 0,
-         0},
-        {"grid", 0, OPTION_FLAG, NULL, "lines of columns beside each other are level", &s->grid,
+         NULL, 0, 0, 0},
+        {"expand", 0, OPTION_NUMBER, "P", "how far letters are widened, 0..0.05 (0)", NULL, 0,
+         0, 0},
+        {"tolerance", 0, OPTION_NUMBER, "B", "the badness that a line may have (200)", NULL, 0,
+         0, 0},
+        {"folios", 0, OPTION_FLAG, NULL, "page numbers in the lower margin", &s->setup.folios,
          0, 0, 0},
+        {"head", 0, OPTION_TEXT, "T",
+         "running head in the upper margin; %h: the last heading, %p: the page", &s->setup.head,
+         0, 0, 0},
+        {"grid", 0, OPTION_FLAG, NULL, "lines of columns beside each other are level",
+         &s->setup.grid, 0, 0, 0},
         {"vertical", 0, OPTION_FLAG, NULL, "lines go down, from the right to the left",
-         &s->vertical, 0, 0, 0},
+         &s->setup.vertical, 0, 0, 0},
         {"around", 0, OPTION_LIST, "X,Y,RX,RY",
          "text goes around this ellipse; as often as wanted", &s->around, -16384, 16384, 4},
         {"inside", 0, OPTION_LIST, "X,Y,RX,RY", "text stays inside of this ellipse", &s->inside,
@@ -95,6 +101,8 @@ static int set_options(struct set *s, int argc, char **argv, const char **path, 
          &s->pages.darken_px, 0, 2, 0},
         {0}};
     struct option_words words;
+    for (struct option_row *row = rows; row->name; row++)
+        number_bind(row, &s->setup);
     if (!options_parse("set", rows, argc, argv, &words))
         return EXIT_USAGE;
     *help = words.help;
@@ -129,7 +137,7 @@ static int shapes_make(struct set *s)
             s->shapes[n] = (struct page_shape){.points = s->corners[n],
                                                .points_count = ROUND_CORNERS,
                                                .inside = k == 1,
-                                               .distance_px = k ? 0 : s->size_px / 2};
+                                               .distance_px = k ? 0 : s->setup.size_px / 2};
             s->setup.shapes_count++;
         }
     s->setup.shapes = s->shapes;
@@ -158,48 +166,6 @@ static int filters_read(struct set *s)
     return EXIT_SUCCESS;
 }
 
-static int align_read(const char *word, enum font_align *align)
-{
-    static const char *const words[] = {[FONT_ALIGN_LEFT] = "left",
-                                        [FONT_ALIGN_RIGHT] = "right",
-                                        [FONT_ALIGN_CENTER] = "center",
-                                        [FONT_ALIGN_JUSTIFY] = "justify"};
-    for (int i = FONT_ALIGN_LEFT; i <= FONT_ALIGN_JUSTIFY; i++)
-        if (strcmp(word, words[i]) == 0) {
-            *align = (enum font_align)i;
-            return EXIT_SUCCESS;
-        }
-    return fail_usage("set", "--align must be left, right, center or justify (got '%.60s')",
-                      word);
-}
-
-static struct page_setup setup_of(const struct set *s)
-{
-    return (struct page_setup){.font = s->font,
-                               .italic = s->italic,
-                               .bold = s->bold,
-                               .features = s->features,
-                               .language = s->language,
-                               .size_px = s->size_px,
-                               .leading = s->leading,
-                               .width_px = s->pages.page_px[0],
-                               .height_px = s->pages.page_px[1],
-                               .margin_px = s->margin_px,
-                               .gap_px = s->gap_px,
-                               .columns = s->columns,
-                               .notes_px = s->notes_px,
-                               .indent_em = s->indent_em,
-                               .hyphenate = s->hyphenate,
-                               .vertical = s->vertical,
-                               .grid = s->grid,
-                               .folios = s->folios,
-                               .head = s->head,
-                               .colour = true,
-                               .protrude = s->protrude,
-                               .expand = s->expand,
-                               .tolerance = s->tolerance};
-}
-
 int verb_set(int argc, char **argv)
 {
     static struct set s; /* its lists are large */
@@ -207,33 +173,31 @@ int verb_set(int argc, char **argv)
     char *text = NULL, *font = NULL, *filter = NULL;
     size_t bytes = 0;
     bool help = false;
-    const struct page_setup usual = page_setup_default();
+    const char *const usual_font = page_setup_default().font;
     s = (struct set){.pages = {.verb = "set",
                                .out_path = "page.png",
                                .page_px = {600, 840},
                                .darken_px = FONT_DARKEN_BY_STEM},
-                     .align = "justify",
-                     .size_px = usual.size_px,
-                     .margin_px = usual.margin_px,
-                     .gap_px = usual.gap_px,
-                     .indent_em = usual.indent_em,
-                     .tolerance = usual.tolerance,
-                     .columns = 1};
+                     .setup = page_setup_default()};
+    s.setup.font = NULL;
+    s.setup.colour = true;
     int status = set_options(&s, argc, argv, &path, &help);
     if (status == EXIT_SUCCESS && !help)
-        status = type_font_name("set", s.font, s.edits, usual.font, &font);
+        status = type_font_name("set", s.setup.font, s.edits, usual_font, &font);
     if (status != EXIT_SUCCESS || help)
         return status;
-    s.font = font;
+    s.setup.font = font;
     if (s.pages.filter) {
         status = type_filter_read("set", s.pages.filter, &filter);
         s.pages.filter = filter;
     }
-    const char *divided = s.language ? s.language : s.hyphenate ? "en" : NULL;
+    const char *divided = s.setup.language ? s.setup.language : s.setup.hyphenate ? "en" : NULL;
     s.pages.language = divided;
-    s.setup = setup_of(&s);
-    if (status == EXIT_SUCCESS)
-        status = align_read(s.align, &s.setup.align);
+    s.setup.width_px = s.pages.page_px[0];
+    s.setup.height_px = s.pages.page_px[1];
+    if (status == EXIT_SUCCESS && s.align && !font_align_named(s.align, &s.setup.align))
+        status = fail_usage(
+            "set", "--align must be left, right, center or justify (got '%.60s')", s.align);
     if (status == EXIT_SUCCESS)
         status = filters_read(&s);
     if (status == EXIT_SUCCESS)
@@ -246,8 +210,8 @@ int verb_set(int argc, char **argv)
     if (status == EXIT_SUCCESS)
         status = type_pages_write(&s.pages, pages);
     if (status == EXIT_SUCCESS)
-        type_pages_tell(&s.pages, s.font, font_utf8_damaged(text, bytes),
-                        s.hyphenate ? divided : NULL);
+        type_pages_tell(&s.pages, s.setup.font, font_utf8_damaged(text, bytes),
+                        s.setup.hyphenate ? divided : NULL);
     type_left_out_tell("set");
     page_text_destroy(pages);
     free(text);

@@ -23,19 +23,6 @@ struct type {
     bool stripes, to_left, no_fallback, compare, gl, statistics;
 };
 
-/* -1 if there is no such word. */
-static int align_of(const char *word)
-{
-    static const char *const words[] = {[FONT_ALIGN_LEFT] = "left",
-                                        [FONT_ALIGN_RIGHT] = "right",
-                                        [FONT_ALIGN_CENTER] = "center",
-                                        [FONT_ALIGN_JUSTIFY] = "justify"};
-    for (int i = FONT_ALIGN_LEFT; word && i <= FONT_ALIGN_JUSTIFY; i++)
-        if (strcmp(word, words[i]) == 0)
-            return i;
-    return word ? -1 : FONT_ALIGN_START;
-}
-
 static int type_options(struct type *t, int argc, char **argv, bool *help)
 {
     const double far = FONT_SIDE_MAX;
@@ -163,7 +150,8 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
     enum font_display display;
     if (type_display_read("type", t->display, &display) != EXIT_SUCCESS)
         return EXIT_USAGE;
-    if (align_of(t->align) < 0)
+    enum font_align align;
+    if (t->align && !font_align_named(t->align, &align))
         return fail_usage(
             "type", "--align must be left, right, center or justify (got '%.60s')", t->align);
     return type_ink_check("type", &t->more);
@@ -278,7 +266,6 @@ static int type_run(struct type *t, struct font_face *face)
                                         .letter_spacing_px = t->spacing_px,
                                         .line_height = t->leading,
                                         .width_px = t->width_px,
-                                        .align = (enum font_align)align_of(t->align),
                                         .no_fallback = t->no_fallback,
                                         .right_to_left = t->to_left ? 1 : 0};
     struct font_shaper *shaper = NULL;
@@ -286,6 +273,8 @@ static int type_run(struct type *t, struct font_face *face)
     struct font_painter *painter = NULL;
     struct font_layout layout = {0};
     struct font_map map;
+    if (t->align)
+        font_align_named(t->align, &options.align);
     if (strcmp(t->filter, "auto") == 0) {
         enum font_display display = FONT_DISPLAY_LCD;
         (void)type_display_read("type", t->display, &display); /* was read before */

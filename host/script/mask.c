@@ -8,6 +8,7 @@
 
 #include <display.h>
 #include <face.h>
+#include <text.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -384,10 +385,10 @@ static void text_options(lua_State *L, int index, struct paper_line *line)
         "size",  "font",   "x",       "y",        "align",    "tracking", "filter",
         "angle", "width",  "leading", "features", "language", "anchor",   "right_to_left",
         "axes",  "darken", "corners", "warp",     NULL};
-    static const char *const aligns[] = {[PAPER_ALIGN_LEFT] = "left",
-                                         [PAPER_ALIGN_RIGHT] = "right",
-                                         [PAPER_ALIGN_CENTER] = "center",
-                                         [PAPER_ALIGN_JUSTIFY] = "justify"};
+    static const enum paper_align aligns[] = {[FONT_ALIGN_LEFT] = PAPER_ALIGN_LEFT,
+                                              [FONT_ALIGN_RIGHT] = PAPER_ALIGN_RIGHT,
+                                              [FONT_ALIGN_CENTER] = PAPER_ALIGN_CENTER,
+                                              [FONT_ALIGN_JUSTIFY] = PAPER_ALIGN_JUSTIFY};
     script_arg_options(L, index, "text", keys);
     line->font = script_arg_text(L, index, "text", "font");
     line->size_px = script_arg_number(L, index, "text", "size", 100, 1, 8192);
@@ -406,13 +407,13 @@ static void text_options(lua_State *L, int index, struct paper_line *line)
         luaL_error(L, "text warp must be \"projective\" or \"bilinear\" (got '%s')", warp);
     line->bilinear = warp && strcmp(warp, "bilinear") == 0;
     const char *align = script_arg_text(L, index, "text", "align");
-    for (int i = PAPER_ALIGN_LEFT; align && i <= PAPER_ALIGN_JUSTIFY; i++)
-        if (strcmp(align, aligns[i]) == 0)
-            line->align = (enum paper_align)i;
-    if (align && line->align == PAPER_ALIGN_START)
+    enum font_align aligned;
+    if (align && !font_align_named(align, &aligned))
         luaL_error(
             L, "text align must be \"left\", \"center\", \"right\" or \"justify\" (got '%s')",
             align);
+    if (align)
+        line->align = aligns[aligned];
     line->anchor = line->align == PAPER_ALIGN_CENTER  ? 0.5
                    : line->align == PAPER_ALIGN_RIGHT ? 1
                                                       : 0;

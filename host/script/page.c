@@ -58,34 +58,38 @@ static const char *font_read(lua_State *L, int index, const char *name, const ch
     return font ? script_font(L, font, what) : usual;
 }
 
+static void numbers_read(lua_State *L, int index, struct page_setup *s)
+{
+    for (int i = 0; i < page_numbers_count; i++) {
+        const struct page_number *n = &page_numbers[i];
+        void *at = (char *)s + n->at;
+        if (n->whole)
+            *(int *)at =
+                script_arg_integer(L, index, "page", n->name, *(int *)at, n->least, n->most);
+        else
+            *(double *)at =
+                script_arg_number(L, index, "page", n->name, *(double *)at, n->least, n->most);
+    }
+}
+
 static void wanted_read(lua_State *L, int index, struct wanted *w)
 {
     static const char *const keys[] = {
-        "width",  "height",   "margin",    "columns",  "gap",      "size",
-        "font",   "italic",   "bold",      "leading",  "align",    "indent",
-        "notes",  "page",     "hyphenate", "language", "features", "protrude",
-        "expand", "vertical", "around",    "inside",   "x",        "y",
-        "filter", "darken",   "grid",      "folios",   "head",     NULL};
+        "width",     "height",    "margin",   "columns",  "gap",    "size",     "font",
+        "italic",    "bold",      "leading",  "align",    "indent", "notes",    "page",
+        "hyphenate", "language",  "features", "protrude", "expand", "vertical", "around",
+        "inside",    "x",         "y",        "filter",   "darken", "grid",     "folios",
+        "head",      "tolerance", NULL};
     static const char *const fonts[] = {"EBGaramond12-Regular", "DejaVuSerif", NULL};
-    static const char *const aligns[] = {[FONT_ALIGN_LEFT] = "left",
-                                         [FONT_ALIGN_RIGHT] = "right",
-                                         [FONT_ALIGN_CENTER] = "center",
-                                         [FONT_ALIGN_JUSTIFY] = "justify"};
     const double far = SCRIPT_PLACE_MAX;
     struct page_setup *s = &w->setup;
     *s = page_setup_default();
     script_arg_options(L, index, "page", keys);
-    s->size_px = script_arg_number(L, index, "page", "size", 24, 1, 1000);
-    s->width_px = script_arg_number(L, index, "page", "width", 600, 16, 16384);
-    s->height_px = script_arg_number(L, index, "page", "height", 840, 16, 16384);
-    s->margin_px = script_arg_number(L, index, "page", "margin", 2 * s->size_px, 0, 8000);
-    s->gap_px = script_arg_number(L, index, "page", "gap", s->size_px, 0, 8000);
-    s->columns = script_arg_integer(L, index, "page", "columns", 1, 1, PAGE_FRAMES_MAX);
-    s->notes_px = script_arg_number(L, index, "page", "notes", 0, 0, 8000);
-    s->leading = script_arg_number(L, index, "page", "leading", 0, 0, 10);
-    s->indent_em = script_arg_number(L, index, "page", "indent", s->indent_em, 0, 20);
-    s->protrude = script_arg_number(L, index, "page", "protrude", 0, 0, 1);
-    s->expand = script_arg_number(L, index, "page", "expand", 0, 0, 0.05);
+    s->size_px = 24;
+    s->margin_px = s->gap_px = -1; /* by the size */
+    numbers_read(L, index, s);
+    s->margin_px = s->margin_px < 0 ? 2 * s->size_px : s->margin_px;
+    s->gap_px = s->gap_px < 0 ? s->size_px : s->gap_px;
     s->hyphenate = script_arg_boolean(L, index, "page", "hyphenate", false);
     s->vertical = script_arg_boolean(L, index, "page", "vertical", false);
     s->grid = script_arg_boolean(L, index, "page", "grid", false);
@@ -104,17 +108,10 @@ static void wanted_read(lua_State *L, int index, struct wanted *w)
     w->filter = script_arg_text(L, index, "page", "filter");
     w->darken_px = script_arg_number(L, index, "page", "darken", 0, 0, 2);
     const char *align = script_arg_text(L, index, "page", "align");
-    if (align) {
-        int i = FONT_ALIGN_LEFT;
-        while (i <= FONT_ALIGN_JUSTIFY && strcmp(align, aligns[i]) != 0)
-            i++;
-        if (i > FONT_ALIGN_JUSTIFY)
-            luaL_error(
-                L,
-                "page align must be \"left\", \"center\", \"right\" or \"justify\" (got '%s')",
-                align);
-        s->align = (enum font_align)i;
-    }
+    if (align && !font_align_named(align, &s->align))
+        luaL_error(
+            L, "page align must be \"left\", \"center\", \"right\" or \"justify\" (got '%s')",
+            align);
     shape_read(L, index, "around", w, false);
     shape_read(L, index, "inside", w, true);
     s->shapes = w->shapes;

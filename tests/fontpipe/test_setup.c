@@ -289,6 +289,42 @@ static void numbers_without_a_margin_are_refused(void **state)
     assert_int_equal(page_setup_make(&setup, "a", 1, &t), FONT_BAD_ARGUMENT);
 }
 
+/* Each number is usually within its range, and no two are one. */
+static void numbers_have_their_ranges(void **state)
+{
+    (void)state;
+    const struct page_setup setup = page_setup_default();
+    assert_true(page_numbers_count >= 12);
+    for (int i = 0; i < page_numbers_count; i++) {
+        const struct page_number *n = &page_numbers[i];
+        const void *at = (const char *)&setup + n->at;
+        const double usual = n->whole ? *(const int *)at : *(const double *)at;
+        if (!(n->least < n->most && usual >= n->least && usual <= n->most))
+            fail_msg("%s is %g of %g..%g", n->name, usual, n->least, n->most);
+        for (int k = 0; k < i; k++)
+            assert_true(strcmp(n->name, page_numbers[k].name) != 0 &&
+                        n->at != page_numbers[k].at);
+    }
+}
+
+static void alignments_have_names(void **state)
+{
+    (void)state;
+    static const char *const names[] = {[FONT_ALIGN_LEFT] = "left",
+                                        [FONT_ALIGN_RIGHT] = "right",
+                                        [FONT_ALIGN_CENTER] = "center",
+                                        [FONT_ALIGN_JUSTIFY] = "justify"};
+    enum font_align align = FONT_ALIGN_START;
+    assert_false(font_align_named("start", &align));
+    assert_false(font_align_named("", &align));
+    assert_false(font_align_named("left right", &align));
+    assert_int_equal(align, FONT_ALIGN_START);
+    for (int i = FONT_ALIGN_LEFT; i <= FONT_ALIGN_JUSTIFY; i++) {
+        assert_true(font_align_named(names[i], &align));
+        assert_int_equal(align, i);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -300,6 +336,8 @@ int main(void)
         cmocka_unit_test(headings_are_balanced),
         cmocka_unit_test(parts_have_filters_of_their_own),
         cmocka_unit_test(numbers_without_a_margin_are_refused),
+        cmocka_unit_test(numbers_have_their_ranges),
+        cmocka_unit_test(alignments_have_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,7 +34,7 @@ static const struct {
     {NULL, "page", "SO",
      "width:n height:n margin:n columns:i gap:n size:n font:S italic:S bold:S leading:n "
      "align:S indent:n notes:n page:i hyphenate:b language:S features:S protrude:n expand:n "
-     "vertical:b around:t inside:t x:n y:n filter:S darken:n"},
+     "vertical:b around:t inside:t x:n y:n filter:S darken:n tolerance:n"},
     {NULL, "typeface", "SO", "size:n filter:S axes:S"},
     {NULL, "image", "snn", ""},
     {NULL, "song", "S", ""},

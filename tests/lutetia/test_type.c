@@ -459,7 +459,6 @@ static void a_script_has_the_same_typeface(void **state)
     unlink(table);
     unlink(path);
     unlink(script);
-    unlink(layer);
 }
 
 static void what_is_no_typeface_is_said(void **state)
@@ -511,6 +510,8 @@ static void wrong_lines_are_said(void **state)
         {{"type", "a", "-o", "a.svg", "--gl"}, 2, "make pixels"},
         {{"set"}, 2, "give a file with the text"},
         {{"set", "/nowhere"}, 1, "/nowhere: "},
+        {{"set", "/dev/null", "--leading", "11"}, 2, "--leading must be 0..10"},
+        {{"set", "/dev/null", "--align", "middle"}, 2, "left, right, center or justify"},
         {{"set", "/dev/null", "-o", "a.jpg"}, 2, "-o names a picture"},
         {{"type", "a", "--corners", "0,0,9,9,9,0,0,9"}, 1, "without a dent"},
         {{"type", "a", "--gradient", "0,0,9,9"}, 2, "come with --stop"},
