@@ -76,8 +76,6 @@ enum font_edits_level {
 };
 /* "outline", "master", "rectangles", "filter", "gray"; never NULL. */
 const char *font_edits_level_name(enum font_edits_level level);
-/* How a level's file may end; NULL past the last. */
-const char *font_edits_ending(enum font_edits_level level, int i);
 
 /* Opens the font of a folder with edits.txt, and applies them; of a name like FONT+FOLDER that
  * font, with the folder's edits; any other name as font_face_open() does. coloured: as
@@ -135,7 +133,7 @@ enum font_status font_edits_levels(const struct font_edits *edits, struct font_f
 struct font_edits_out {
     uint32_t glyph; /* of a filter also FONT_EVERY_GLYPH */
     enum font_edits_level level;
-    const char *ending;    /* ".svg" or another of font_edits_ending(); NULL: the first */
+    const char *ending;    /* of its file: ".glif" in place of ".svg"; NULL: the level's */
     bool here;             /* for the axes as they are set now, alone */
     double from_px, to_px; /* of a filter: the sizes that it is for; both 0: all */
 };

@@ -17,13 +17,7 @@ struct edits_out {
     bool stray;
 };
 
-static const char *const endings[FONT_EDITS_LEVELS][2] = {
-    {".svg", ".glif"}, {".png", NULL}, {".txt", NULL}, {".txt", NULL}, {".png", NULL}};
-
-const char *font_edits_ending(enum font_edits_level level, int i)
-{
-    return i >= 0 && i < 2 ? endings[level][i] : NULL;
-}
+static const char *const endings[FONT_EDITS_LEVELS] = {".svg", ".png", ".txt", ".txt", ".png"};
 
 /* ---- outlines ---- */
 
@@ -396,7 +390,7 @@ enum font_status font_edits_write(const char *folder, const struct font_edits *e
     struct edits_out to = {0};
     char *bytes = NULL;
     size_t count;
-    const char *ending = what->ending ? what->ending : endings[what->level][0];
+    const char *ending = what->ending ? what->ending : endings[what->level];
     enum font_status status = wanted_make(face, what, levels, &wanted);
     if (status == FONT_OK)
         status = list_begin(folder, face, edits, &list);

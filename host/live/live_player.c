@@ -23,7 +23,6 @@ struct live_player {
     struct beat beat;
     struct osc_stage *osc;
     struct watched_text *watched;
-    uint64_t last_ns;
     double began_s; /* when the first picture was due */
     bool began;
     char told[300]; /* what was told last: once is enough */
@@ -358,7 +357,6 @@ enum stage_status live_player_before(void *player, struct stage *stage, double n
     for (int i = 0; i < MESSAGES_OF_A_TURN && status == STAGE_OK; i++) {
         if (!live_source_next(p->def.source, now_s, &m))
             break;
-        p->last_ns = m.time_ns;
         beat_take(&p->beat, &m);
         if (p->actor.kind->play)
             status = p->actor.kind->play(p->actor.self, m.bytes);
@@ -391,9 +389,4 @@ bool live_player_key(void *player, const struct input_event *event)
 {
     struct live_player *p = player;
     return live_source_key(p->def.source, event) || knobs_key(p, event);
-}
-
-uint64_t live_player_last_ns(const struct live_player *p)
-{
-    return p->last_ns;
 }

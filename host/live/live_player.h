@@ -61,8 +61,4 @@ struct stage_panel_knobs live_player_knobs(struct live_player *player);
  * many. */
 const struct help_row *live_player_keys(const struct live_player *player, int *count);
 
-/* When the message that was taken last was sent, by its own time (CLOCK_MONOTONIC); 0: none was
- * yet. */
-uint64_t live_player_last_ns(const struct live_player *player);
-
 #endif

@@ -247,11 +247,3 @@ double voice_score_at(const struct voice_score *s, enum voice_feature feature, d
     return frame_value(s, feature, i) +
            (at - i) * (frame_value(s, feature, next) - frame_value(s, feature, i));
 }
-
-int voice_score_sound(const struct voice_score *s, double time_s)
-{
-    int sound = 0;
-    while (sound + 1 < s->begins && s->begin_s[sound + 1] <= time_s)
-        sound++;
-    return sound;
-}

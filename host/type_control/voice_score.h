@@ -70,7 +70,5 @@ void voice_score_finish(struct voice_score *score);
 /* 0..1, linear between frames. VOWEL: as OPEN. */
 double voice_score_at(const struct voice_score *score, enum voice_feature feature,
                       double time_s);
-/* The index of the sound at that time: 0 before the second one begins. */
-int voice_score_sound(const struct voice_score *score, double time_s);
 
 #endif
