@@ -1,11 +1,14 @@
-/* springs_machine.c - a script's network stepped by a program in C/Paris, as large ones are
- * faster: n:machine(). */
+/* springs_machine.c - a script's network stepped by a program in C/Paris: n:machine(). */
 #include "script_springs.h"
 
 #include <dyn_machine.h>
 
 /* Of a mass or a spring: its fields, and the front end's copies of them. */
-enum { STEPS_AT_ONCE = 8, STEPS_MOST = 1000000, WORK_BYTES = 800 };
+enum {
+    STEPS_AT_ONCE = 100 /* between looks at the limits */,
+    STEPS_MOST = 1000000,
+    WORK_BYTES = 800
+};
 
 static const char running_type[] = "lutetia springs on the machine";
 
