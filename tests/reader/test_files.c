@@ -1,5 +1,6 @@
 /* test_files.c - files that include others: in their places, beside an oracle that puts texts
- * together itself; and what is not included: files elsewhere, circles, too deep, too many. */
+ * together itself; and what is not included: files elsewhere, circles, too deep, too many
+ * (security.md 37). */
 #include <reader_files.h>
 
 /* clang-format off */
