@@ -11,6 +11,7 @@ import sys
 import tempfile
 
 LUTETIA, BUILD, READS = pathlib.Path(sys.argv[1]), sys.argv[2], sys.argv[3] == "reads"
+FENCE = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)  # what is shown as it is written
 PICTURE = re.compile(r"^!\[[^\]]*\]\(([^):]+\.png)\)$", re.MULTILINE)
 
 
@@ -36,7 +37,7 @@ with tempfile.TemporaryDirectory(prefix="lutetia-manual-") as folder:
     assert len(chapters) > 30 and len(set(chapters)) == len(chapters), chapters
     pictures = 0
     for chapter in chapters:
-        text = (manual / chapter).read_text()
+        text = FENCE.sub("", (manual / chapter).read_text())
         for picture in PICTURE.findall(text):
             assert (manual / chapter).parent.joinpath(picture).is_file(), (chapter, picture)
             pictures += 1
