@@ -22,6 +22,19 @@ bool font_align_named(const char *word, enum font_align *out)
 
 /* ---- UTF-8 ---- */
 
+int font_utf8_put(uint32_t character, char to[FONT_UTF8_BYTES])
+{
+    if (character < 0x80) {
+        to[0] = (char)character;
+        return 1;
+    }
+    const int bytes = character < 0x800 ? 2 : character < 0x10000 ? 3 : 4;
+    for (int i = bytes - 1; i > 0; i--, character >>= 6)
+        to[i] = (char)(0x80 | (character & 0x3f));
+    to[0] = (char)((0xf00 >> bytes & 0xf0) | (int)character);
+    return bytes;
+}
+
 bool font_utf8_next(const char **text, const char *end, uint32_t *character)
 {
     const unsigned char *s = (const unsigned char *)*text;

@@ -159,6 +159,9 @@ struct font_passage {
 /* The next character of UTF-8; *text moves on. false: it was damaged, and U+FFFD is what stands
  * for it. text < end. */
 bool font_utf8_next(const char **text, const char *end, uint32_t *character);
+/* Writes a character, up to U+10FFFF, as UTF-8. Returns how many bytes. */
+enum { FONT_UTF8_BYTES = 4 };
+int font_utf8_put(uint32_t character, char to[FONT_UTF8_BYTES]);
 /* How many sequences are not UTF-8; and the text with U+FFFD in place of each. Owns: the caller
  * frees *out. Errors: NO_MEMORY. */
 int font_utf8_damaged(const char *text, size_t bytes);

@@ -25,26 +25,12 @@ static bool is_word(uint32_t c)
            !(c >= 0x1f000 && c < 0x20000);
 }
 
-/* Writes a letter as UTF-8; how many bytes. */
-static int letter_put(uint32_t c, char *to)
-{
-    if (c < 0x80) {
-        to[0] = (char)c;
-        return 1;
-    }
-    const int bytes = c < 0x800 ? 2 : c < 0x10000 ? 3 : 4;
-    for (int i = bytes - 1; i > 0; i--, c >>= 6)
-        to[i] = (char)(0x80 | (c & 0x3f));
-    to[0] = (char)((0xf00 >> bytes & 0xf0) | (int)c);
-    return bytes;
-}
-
 /* As links call a heading: small letters, digits, hyphens for blanks. utf8: a locale that knows
  * small letters; 0: none does. Owns: the caller frees it; NULL: no memory. */
 static char *heading_name(const struct reader_block *block, locale_t utf8)
 {
     enum { GROWS = 3 }; /* a small letter may have more bytes than its capital */
-    char *name = malloc(GROWS * (size_t)block->bytes + 1), *to = name;
+    char *name = malloc(GROWS * (size_t)block->bytes + FONT_UTF8_BYTES), *to = name;
     const char *at = block->text, *const end = at + block->bytes;
     while (name && at < end) {
         uint32_t c;
@@ -52,7 +38,7 @@ static char *heading_name(const struct reader_block *block, locale_t utf8)
         if (c == ' ')
             *to++ = '-';
         else if (is_word(c))
-            to += letter_put(utf8 ? (uint32_t)towlower_l((wint_t)c, utf8) : c, to);
+            to += font_utf8_put(utf8 ? (uint32_t)towlower_l((wint_t)c, utf8) : c, to);
     }
     if (name)
         *to = '\0';

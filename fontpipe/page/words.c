@@ -116,27 +116,10 @@ static locale_t lower_locale(void)
     return locale;
 }
 
-static int utf8_put(uint32_t c, char *out)
-{
-    if (c < 0x80) {
-        out[0] = (char)c;
-        return 1;
-    }
-    if (c < 0x800) {
-        out[0] = (char)(0xc0 | c >> 6);
-        out[1] = (char)(0x80 | (c & 0x3f));
-        return 2;
-    }
-    out[0] = (char)(0xe0 | c >> 12);
-    out[1] = (char)(0x80 | (c >> 6 & 0x3f));
-    out[2] = (char)(0x80 | (c & 0x3f));
-    return 3;
-}
-
 /* Divides the word of letters begin..end. */
 static void word_divide(HyphenDict *patterns, struct paragraph *p, int begin, int end)
 {
-    char word[3 * WORD_MAX + 1], hyphens[3 * WORD_MAX + 6];
+    char word[3 * WORD_MAX + FONT_UTF8_BYTES], hyphens[3 * WORD_MAX + 6];
     int bytes = 0, ends[WORD_MAX]; /* of each letter, its last byte */
     locale_t locale = lower_locale();
     if (end - begin < LEAST_LETTERS || end - begin > WORD_MAX)
@@ -146,7 +129,7 @@ static void word_divide(HyphenDict *patterns, struct paragraph *p, int begin, in
         uint32_t small = locale && c < 0x10000 ? (uint32_t)towlower_l((wint_t)c, locale) : c;
         if (small > 0xffff)
             return;
-        bytes += utf8_put(small, word + bytes);
+        bytes += font_utf8_put(small, word + bytes);
         ends[i - begin] = bytes - 1;
     }
     word[bytes] = '\0';

@@ -3,12 +3,9 @@
 
 #include <dyn_machine.h>
 
-/* Of a mass or a spring: its fields, and the front end's copies of them. */
-enum {
-    STEPS_AT_ONCE = 100 /* between looks at the limits */,
-    STEPS_MOST = 1000000,
-    WORK_BYTES = 800
-};
+/* WORK_BYTES: of each mass and spring, its fields and the front end's copies of them. */
+enum { STEPS_AT_ONCE = 100 /* between looks at the limits */, STEPS_MOST = 1000000 };
+enum { WORK_BYTES = 800 };
 
 static const char running_type[] = "lutetia springs on the machine";
 

@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <text.h>
 
 void typed_words_begin(struct typed_words *w, bool can)
 {
@@ -13,18 +14,8 @@ void typed_words_begin(struct typed_words *w, bool can)
 /* A character as UTF-8, where there is room. */
 static void character_add(struct typed_words *w, uint32_t c)
 {
-    char bytes[5] = "";
-    if (c < 0x80)
-        snprintf(bytes, sizeof bytes, "%c", (int)c);
-    else if (c < 0x800)
-        snprintf(bytes, sizeof bytes, "%c%c", (int)(0xc0 | c >> 6), (int)(0x80 | (c & 0x3f)));
-    else if (c < 0x10000)
-        snprintf(bytes, sizeof bytes, "%c%c%c", (int)(0xe0 | c >> 12),
-                 (int)(0x80 | (c >> 6 & 0x3f)), (int)(0x80 | (c & 0x3f)));
-    else
-        snprintf(bytes, sizeof bytes, "%c%c%c%c", (int)(0xf0 | c >> 18),
-                 (int)(0x80 | (c >> 12 & 0x3f)), (int)(0x80 | (c >> 6 & 0x3f)),
-                 (int)(0x80 | (c & 0x3f)));
+    char bytes[FONT_UTF8_BYTES + 1] = "";
+    font_utf8_put(c, bytes);
     if (strlen(w->text) + strlen(bytes) < sizeof w->text)
         strcat(w->text, bytes);
 }

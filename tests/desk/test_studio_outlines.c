@@ -11,63 +11,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "studio_scene.h"
-#include "studio_selection.h"
-
-enum { FIBERS = SCENE_WIDTH * SCENE_HEIGHT };
-enum { LEFT = 20, TOP = 12, RIGHT = 70, BOTTOM = 52 };
-
-#define good(call) assert_int_equal(call, PAPER_OK)
-
-static struct studio_session *begin(void)
-{
-    const struct paper_sheet_config config = scene_config();
-    struct studio_session *s;
-    good(studio_session_create(&config, 64e6, &s));
-    good(studio_session_set(s, STUDIO_PAUSED, 1));
-    return s;
-}
-
-static void point(struct studio_session *s, enum studio_point_kind kind, double time_s,
-                  double x, double y)
-{
-    good(studio_session_point(
-        s, &(struct studio_point){
-               .kind = kind, .time_s = time_s, .x = x, .y = y, .pressure = 0.6}));
-}
-
-static void drag(struct studio_session *s, enum studio_tool_number tool, double x1, double y1,
-                 double x2, double y2)
-{
-    good(studio_session_set(s, STUDIO_TOOL, tool));
-    point(s, STUDIO_POINT_DOWN, 1, x1, y1);
-    point(s, STUDIO_POINT_UP, 2, x2, y2);
-}
-
-static void select_rectangle(struct studio_session *s)
-{
-    good(studio_session_set(s, STUDIO_OUTLINE, STUDIO_OUTLINE_RECTANGLE));
-    drag(s, STUDIO_TOOL_SELECT, LEFT, TOP, RIGHT, BOTTOM);
-}
-
-static bool selected(struct studio_session *s)
-{
-    int count;
-    return studio_session_selected(s, &count) != NULL;
-}
-
-static float *layer_of(struct studio_session *s, enum paper_layer layer, int pigment)
-{
-    float *values = malloc(FIBERS * sizeof *values);
-    assert_non_null(values);
-    good(paper_sheet_layer_read(studio_session_sheet(s), layer, pigment, values));
-    return values;
-}
+#include "studio_selecting.h"
 
 /* Fluid lies on each fiber whose middle is outside of the box. */
 static void is_box(struct studio_session *s, int left, int top, int right, int bottom)
 {
-    float *fluid = layer_of(s, PAPER_LAYER_RESIST, 0);
+    float *fluid = selecting_layer(s, PAPER_LAYER_RESIST, 0);
     for (int i = 0; i < FIBERS; i++) {
         const int x = i % SCENE_WIDTH, y = i / SCENE_WIDTH;
         if (fluid[i] != !(x >= left && x < right && y >= top && y < bottom))
@@ -78,13 +27,13 @@ static void is_box(struct studio_session *s, int left, int top, int right, int b
 
 static void is_nothing(struct studio_session *s)
 {
-    assert_false(selected(s));
+    assert_false(selecting_has(s));
     is_box(s, 0, 0, SCENE_WIDTH, SCENE_HEIGHT);
 }
 
 static void is_first(struct studio_session *s)
 {
-    assert_true(selected(s));
+    assert_true(selecting_has(s));
     is_box(s, LEFT, TOP, RIGHT, BOTTOM);
 }
 
@@ -95,9 +44,9 @@ static void lasso(struct studio_session *s, const double (*way)[2], int count)
     good(studio_session_set(s, STUDIO_TOOL, STUDIO_TOOL_SELECT));
     good(studio_session_set(s, STUDIO_OUTLINE, STUDIO_OUTLINE_LASSO));
     for (int i = 0; i < count; i++)
-        point(s, i == 0 ? STUDIO_POINT_DOWN : STUDIO_POINT_MOVE, 1 + 0.01 * i, way[i][0],
-              way[i][1]);
-    point(s, STUDIO_POINT_UP, 2, way[count - 1][0], way[count - 1][1]);
+        selecting_point(s, i == 0 ? STUDIO_POINT_DOWN : STUDIO_POINT_MOVE, 1 + 0.01 * i,
+                        way[i][0], way[i][1]);
+    selecting_point(s, STUDIO_POINT_UP, 2, way[count - 1][0], way[count - 1][1]);
     good(studio_session_set(s, STUDIO_OUTLINE, STUDIO_OUTLINE_RECTANGLE));
 }
 
@@ -113,11 +62,11 @@ static void empty_lassos_select_nothing(void **state)
         int count;
     } ways[] = {{click, 1}, {line, 2}, {back, 4}, {trembles, 4}};
     for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
-        struct studio_session *s = begin();
+        struct studio_session *s = selecting_begin();
         lasso(s, ways[i].way, ways[i].count);
         is_nothing(s);
         assert_false(studio_session_can_undo(s));
-        select_rectangle(s);
+        selecting_rectangle(s);
         for (int join = STUDIO_JOIN_ADD; join <= STUDIO_JOIN_SUBTRACT; join++) {
             good(studio_session_set(s, STUDIO_JOIN, join));
             lasso(s, ways[i].way, ways[i].count);
@@ -138,10 +87,10 @@ static void crossed_lassos_select_both_sides(void **state)
 {
     (void)state;
     static const double bow[][2] = {{20, 12}, {60, 52}, {60, 12}, {20, 52}};
-    struct studio_session *s = begin();
+    struct studio_session *s = selecting_begin();
     lasso(s, bow, 4);
-    assert_true(selected(s));
-    float *fluid = layer_of(s, PAPER_LAYER_RESIST, 0);
+    assert_true(selecting_has(s));
+    float *fluid = selecting_layer(s, PAPER_LAYER_RESIST, 0);
     int sides[2] = {0, 0};
     for (int i = 0; i < FIBERS; i++) {
         const double x = i % SCENE_WIDTH + 0.5 - 40, y = i / SCENE_WIDTH + 0.5 - 32,
@@ -162,22 +111,22 @@ static void crossed_lassos_select_both_sides(void **state)
 static void selections_reach_beyond_the_sheet(void **state)
 {
     (void)state;
-    struct studio_session *s = begin();
+    struct studio_session *s = selecting_begin();
     good(studio_session_set(s, STUDIO_OUTLINE, STUDIO_OUTLINE_RECTANGLE));
-    drag(s, STUDIO_TOOL_SELECT, -40, -3000, 30, 25);
+    selecting_drag(s, STUDIO_TOOL_SELECT, -40, -3000, 30, 25);
     is_box(s, 0, 0, 30, 25);
-    drag(s, STUDIO_TOOL_SELECT, SCENE_WIDTH + 900, 50, 70, SCENE_HEIGHT + 0.25);
+    selecting_drag(s, STUDIO_TOOL_SELECT, SCENE_WIDTH + 900, 50, 70, SCENE_HEIGHT + 0.25);
     is_box(s, 70, 50, SCENE_WIDTH, SCENE_HEIGHT);
     const int deeds = studio_session_deeds_done(s);
     for (int join = STUDIO_JOIN_ADD; join <= STUDIO_JOIN_SUBTRACT; join++) {
         good(studio_session_set(s, STUDIO_JOIN, join)); /* nothing of the sheet: no deed */
-        drag(s, STUDIO_TOOL_SELECT, -90, 10, -2, 60);
-        drag(s, STUDIO_TOOL_SELECT, 10, SCENE_HEIGHT, 60, SCENE_HEIGHT + 40);
+        selecting_drag(s, STUDIO_TOOL_SELECT, -90, 10, -2, 60);
+        selecting_drag(s, STUDIO_TOOL_SELECT, 10, SCENE_HEIGHT, 60, SCENE_HEIGHT + 40);
         assert_int_equal(studio_session_deeds_done(s), deeds);
     }
     is_box(s, 70, 50, SCENE_WIDTH, SCENE_HEIGHT);
     good(studio_session_set(s, STUDIO_JOIN, STUDIO_JOIN_ADD));
-    drag(s, STUDIO_TOOL_SELECT, -5, 50, 75, SCENE_HEIGHT + 5);
+    selecting_drag(s, STUDIO_TOOL_SELECT, -5, 50, 75, SCENE_HEIGHT + 5);
     is_box(s, 0, 50, SCENE_WIDTH, SCENE_HEIGHT);
     good(studio_session_select_invert(s));
     is_box(s, 0, 0, SCENE_WIDTH, 50);
@@ -188,10 +137,10 @@ static void selections_reach_beyond_the_sheet(void **state)
     for (int i = 0; i < count; i++)
         assert_true(points[2 * i] >= 0 && points[2 * i] <= SCENE_WIDTH &&
                     points[2 * i + 1] >= 0 && points[2 * i + 1] <= 50);
-    drag(s, STUDIO_TOOL_DROP, 1, 48, 1, 48); /* at the edges of both */
-    drag(s, STUDIO_TOOL_DROP, SCENE_WIDTH - 1, 2, SCENE_WIDTH - 1, 2);
+    selecting_drag(s, STUDIO_TOOL_DROP, 1, 48, 1, 48); /* at the edges of both */
+    selecting_drag(s, STUDIO_TOOL_DROP, SCENE_WIDTH - 1, 2, SCENE_WIDTH - 1, 2);
     good(studio_session_steps(s, 10, NULL));
-    float *water = layer_of(s, PAPER_LAYER_SURFACE_WATER, 0);
+    float *water = selecting_layer(s, PAPER_LAYER_SURFACE_WATER, 0);
     double within = 0;
     for (int i = 0; i < FIBERS; i++) {
         within += i < 50 * SCENE_WIDTH ? (double)water[i] : 0;
@@ -206,10 +155,10 @@ static void selections_reach_beyond_the_sheet(void **state)
 static void selections_too_far_away_are_told(void **state)
 {
     (void)state;
-    struct studio_session *s = begin();
-    select_rectangle(s);
+    struct studio_session *s = selecting_begin();
+    selecting_rectangle(s);
     const int operations = paper_history_done(studio_session_sheet(s));
-    point(s, STUDIO_POINT_DOWN, 3, 10, 10);
+    selecting_point(s, STUDIO_POINT_DOWN, 3, 10, 10);
     studio_session_error_forget();
     const struct studio_point far = {.kind = STUDIO_POINT_UP, .time_s = 4, .x = 2e7, .y = 50};
     assert_int_equal(studio_session_point(s, &far), PAPER_BAD_ARGUMENT);
@@ -289,21 +238,21 @@ static enum paper_status spiral_select(struct studio_session *s, enum studio_joi
 static void too_many_corners_are_told(void **state)
 {
     (void)state;
-    struct studio_session *s = begin();
+    struct studio_session *s = selecting_begin();
     good(spiral_select(s, STUDIO_JOIN_NEW));
-    assert_true(selected(s));
-    float *before = layer_of(s, PAPER_LAYER_RESIST, 0);
+    assert_true(selecting_has(s));
+    float *before = selecting_layer(s, PAPER_LAYER_RESIST, 0);
     const int operations = paper_history_done(studio_session_sheet(s));
     studio_session_error_forget();
     assert_int_equal(spiral_select(s, STUDIO_JOIN_ADD), PAPER_BAD_ARGUMENT);
     assert_non_null(strstr(studio_session_error(), "too many corners"));
     assert_int_equal(paper_history_done(studio_session_sheet(s)), operations);
-    assert_true(selected(s));
-    float *now = layer_of(s, PAPER_LAYER_RESIST, 0);
+    assert_true(selecting_has(s));
+    float *now = selecting_layer(s, PAPER_LAYER_RESIST, 0);
     assert_memory_equal(now, before, FIBERS * sizeof *now);
     free(now);
     free(before);
-    select_rectangle(s); /* fewer parts */
+    selecting_rectangle(s); /* fewer parts */
     is_first(s);
     assert_true(studio_session_undo(s) && studio_session_undo(s));
     is_nothing(s);

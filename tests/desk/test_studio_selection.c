@@ -13,23 +13,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "studio_scene.h"
-#include "studio_selection.h"
+#include "studio_selecting.h"
 
-enum { FIBERS = SCENE_WIDTH * SCENE_HEIGHT, NUMBERS = 3 * FIBERS };
-enum { LEFT = 20, TOP = 12, RIGHT = 70, BOTTOM = 52 };
+enum { NUMBERS = 3 * FIBERS };
 static uint16_t seen[NUMBERS], expected[NUMBERS];
-
-#define good(call) assert_int_equal(call, PAPER_OK)
-
-static struct studio_session *begin(void)
-{
-    const struct paper_sheet_config config = scene_config();
-    struct studio_session *s;
-    good(studio_session_create(&config, 64e6, &s));
-    good(studio_session_set(s, STUDIO_PAUSED, 1));
-    return s;
-}
 
 static void look(struct studio_session *s, uint16_t *rgb)
 {
@@ -38,52 +25,16 @@ static void look(struct studio_session *s, uint16_t *rgb)
     good(paper_sheet_view(studio_session_sheet(s), &view, rgb));
 }
 
-static void point(struct studio_session *s, enum studio_point_kind kind, double time_s,
-                  double x, double y)
-{
-    good(studio_session_point(
-        s, &(struct studio_point){
-               .kind = kind, .time_s = time_s, .x = x, .y = y, .pressure = 0.6}));
-}
-
-static void drag(struct studio_session *s, enum studio_tool_number tool, double x1, double y1,
-                 double x2, double y2)
-{
-    good(studio_session_set(s, STUDIO_TOOL, tool));
-    point(s, STUDIO_POINT_DOWN, 1, x1, y1);
-    point(s, STUDIO_POINT_UP, 2, x2, y2);
-}
-
-static void select_rectangle(struct studio_session *s)
-{
-    good(studio_session_set(s, STUDIO_OUTLINE, STUDIO_OUTLINE_RECTANGLE));
-    drag(s, STUDIO_TOOL_SELECT, LEFT, TOP, RIGHT, BOTTOM);
-}
-
-static bool selected(struct studio_session *s)
-{
-    int count;
-    return studio_session_selected(s, &count) != NULL;
-}
-
 static bool inside(int i)
 {
     const int x = i % SCENE_WIDTH, y = i / SCENE_WIDTH;
     return x >= LEFT && x < RIGHT && y >= TOP && y < BOTTOM;
 }
 
-static float *layer_of(struct studio_session *s, enum paper_layer layer, int pigment)
-{
-    float *values = malloc(FIBERS * sizeof *values);
-    assert_non_null(values);
-    good(paper_sheet_layer_read(studio_session_sheet(s), layer, pigment, values));
-    return values;
-}
-
 /* Something of it is inside, and nothing outside. */
 static void is_inside(struct studio_session *s, enum paper_layer layer, int pigment)
 {
-    float *values = layer_of(s, layer, pigment);
+    float *values = selecting_layer(s, layer, pigment);
     double sum = 0;
     for (int i = 0; i < FIBERS; i++) {
         if (!inside(i) && values[i] != 0)
@@ -113,9 +64,9 @@ static void paint(struct studio_session *s)
     good(studio_session_set(s, STUDIO_WATER, 1.5));
     good(studio_session_set(s, STUDIO_TOOL, STUDIO_TOOL_BRUSH));
     good(scene_sweep(s, 30, 4, true));
-    drag(s, STUDIO_TOOL_WASH, 4, 4, 60, 40);
-    drag(s, STUDIO_TOOL_DROP, RIGHT - 1, 40, RIGHT - 1, 40);
-    drag(s, STUDIO_TOOL_SPLATTER, 30, 30, 60, 40);
+    selecting_drag(s, STUDIO_TOOL_WASH, 4, 4, 60, 40);
+    selecting_drag(s, STUDIO_TOOL_DROP, RIGHT - 1, 40, RIGHT - 1, 40);
+    selecting_drag(s, STUDIO_TOOL_SPLATTER, 30, 30, 60, 40);
     good(studio_session_set(s, STUDIO_TYPE_SIZE, 30));
     good(studio_session_type(s, &(struct studio_type){"Ag", "DejaVuSans", "", 8.5, 56}));
     good(studio_session_steps(s, 25, NULL));
@@ -124,10 +75,10 @@ static void paint(struct studio_session *s)
 static void paint_stays_inside(void **state)
 {
     (void)state;
-    struct studio_session *s = begin(), *other = begin();
-    assert_false(selected(s));
-    select_rectangle(s);
-    assert_true(selected(s));
+    struct studio_session *s = selecting_begin(), *other = selecting_begin();
+    assert_false(selecting_has(s));
+    selecting_rectangle(s);
+    assert_true(selecting_has(s));
     paint(s);
     is_inside(s, PAPER_LAYER_SURFACE_PIGMENT, 0);
     is_inside(s, PAPER_LAYER_INFUSED_PIGMENT, 0);
@@ -142,9 +93,9 @@ static void paint_stays_inside(void **state)
     studio_session_destroy(other);
     /* and when nothing is selected, the rest takes paint again */
     good(studio_session_select_none(s));
-    assert_false(selected(s));
-    drag(s, STUDIO_TOOL_DROP, 85, 60, 85, 60);
-    float *values = layer_of(s, PAPER_LAYER_SURFACE_PIGMENT, 0);
+    assert_false(selecting_has(s));
+    selecting_drag(s, STUDIO_TOOL_DROP, 85, 60, 85, 60);
+    float *values = selecting_layer(s, PAPER_LAYER_SURFACE_PIGMENT, 0);
     double out = 0;
     for (int i = 0; i < FIBERS; i++)
         out += inside(i) ? 0 : (double)values[i];
@@ -156,14 +107,14 @@ static void paint_stays_inside(void **state)
 static void salt_and_varnish_stay_inside(void **state)
 {
     (void)state;
-    struct studio_session *s = begin();
-    select_rectangle(s);
+    struct studio_session *s = selecting_begin();
+    selecting_rectangle(s);
     good(studio_session_set(s, STUDIO_WIDTH, 14));
-    drag(s, STUDIO_TOOL_VARNISH, 2, 2, 94, 70);
-    drag(s, STUDIO_TOOL_VARNISH, 2, TOP, 94, TOP);
+    selecting_drag(s, STUDIO_TOOL_VARNISH, 2, 2, 94, 70);
+    selecting_drag(s, STUDIO_TOOL_VARNISH, 2, TOP, 94, TOP);
     is_inside(s, PAPER_LAYER_VARNISH, 0);
-    drag(s, STUDIO_TOOL_SALT, 40, 30, 40, 30);
-    float *salt = layer_of(s, PAPER_LAYER_SALT, 0);
+    selecting_drag(s, STUDIO_TOOL_SALT, 40, 30, 40, 30);
+    float *salt = selecting_layer(s, PAPER_LAYER_SALT, 0);
     double most = 0;
     for (int i = 0; i < FIBERS; i++) { /* a grain reaches less than 3 fibers from its middle */
         const int x = i % SCENE_WIDTH, y = i / SCENE_WIDTH;
@@ -197,20 +148,21 @@ static double ellipse_part(int i)
 static void fluid_of_the_hand_stays(void **state)
 {
     (void)state;
-    struct studio_session *s = begin(), *first = begin(), *second = begin();
+    struct studio_session *s = selecting_begin(), *first = selecting_begin(),
+                          *second = selecting_begin();
     fluid_sweep(s, STUDIO_TOOL_MASK, 26);
     good(studio_session_set(s, STUDIO_OUTLINE, STUDIO_OUTLINE_ELLIPSE));
-    drag(s, STUDIO_TOOL_SELECT, 46 - 24, 34 - 22, 46 + 24, 34 + 22);
+    selecting_drag(s, STUDIO_TOOL_SELECT, 46 - 24, 34 - 22, 46 + 24, 34 + 22);
     fluid_sweep(s, STUDIO_TOOL_UNMASK, 26);
     fluid_sweep(s, STUDIO_TOOL_MASK, 42);
-    assert_true(selected(s));
+    assert_true(selecting_has(s));
     good(studio_session_select_none(s));
-    assert_false(selected(s));
+    assert_false(selecting_has(s));
     fluid_sweep(first, STUDIO_TOOL_MASK, 26);
     fluid_sweep(second, STUDIO_TOOL_MASK, 42);
-    float *fluid = layer_of(s, PAPER_LAYER_RESIST, 0),
-          *before = layer_of(first, PAPER_LAYER_RESIST, 0),
-          *within = layer_of(second, PAPER_LAYER_RESIST, 0);
+    float *fluid = selecting_layer(s, PAPER_LAYER_RESIST, 0),
+          *before = selecting_layer(first, PAPER_LAYER_RESIST, 0),
+          *within = selecting_layer(second, PAPER_LAYER_RESIST, 0);
     int kept = 0, rubbed = 0, painted = 0, left = 0;
     for (int i = 0; i < FIBERS; i++) {
         const double part = ellipse_part(i);
@@ -238,19 +190,19 @@ static void selections_are_deeds(void **state)
 {
     (void)state;
     char path[] = "/tmp/lutetia-selection-XXXXXX.h5";
-    struct studio_session *s = begin();
+    struct studio_session *s = selecting_begin();
     int count, file = mkstemps(path, 3);
     assert_true(file >= 0);
     close(file);
     good(studio_session_select_none(s)); /* nothing was selected: no deed */
     assert_false(studio_session_can_undo(s));
-    select_rectangle(s);
+    selecting_rectangle(s);
     good(studio_session_set(s, STUDIO_TOOL, STUDIO_TOOL_BRUSH));
     good(scene_sweep(s, 30, 1, true));
-    drag(s, STUDIO_TOOL_SELECT, 30, 30, 30, 30); /* a click */
-    assert_false(selected(s));
+    selecting_drag(s, STUDIO_TOOL_SELECT, 30, 30, 30, 30); /* a click */
+    assert_false(selecting_has(s));
     assert_true(studio_session_undo(s));
-    assert_true(selected(s));
+    assert_true(selecting_has(s));
     good(studio_session_save(s, path));
     studio_session_destroy(s);
     good(studio_session_open(path, 64e6, &s));
@@ -260,15 +212,15 @@ static void selections_are_deeds(void **state)
     assert_true(points[0] == LEFT && points[1] == TOP && points[4] == RIGHT &&
                 points[5] == BOTTOM);
     assert_true(studio_session_undo(s) && studio_session_undo(s));
-    assert_false(selected(s));
+    assert_false(selecting_has(s));
     assert_true(studio_session_redo(s));
-    assert_true(selected(s));
+    assert_true(selecting_has(s));
     good(studio_session_visit(s, 0));
-    assert_false(selected(s));
+    assert_false(selecting_has(s));
     good(studio_session_present(s));
-    assert_true(selected(s));
-    drag(s, STUDIO_TOOL_SELECT, -50, -50, -10, -10); /* off the sheet: nothing is */
-    assert_false(selected(s));
+    assert_true(selecting_has(s));
+    selecting_drag(s, STUDIO_TOOL_SELECT, -50, -50, -10, -10); /* off the sheet: nothing is */
+    assert_false(selecting_has(s));
     studio_session_destroy(s);
 }
 
@@ -276,16 +228,16 @@ static void selections_are_deeds(void **state)
 static void lassos_are_drawn_anew(void **state)
 {
     (void)state;
-    struct studio_session *s = begin();
+    struct studio_session *s = selecting_begin();
     struct paper_sheet *twice;
     static float fluid[4 * FIBERS];
     good(studio_session_set(s, STUDIO_TOOL, STUDIO_TOOL_SELECT));
     good(studio_session_set(s, STUDIO_OUTLINE, STUDIO_OUTLINE_LASSO));
-    point(s, STUDIO_POINT_DOWN, 1, 20, 12);
-    point(s, STUDIO_POINT_MOVE, 1.1, 70, 12);
-    point(s, STUDIO_POINT_MOVE, 1.2, 70, 12.1); /* too near to be a corner */
-    point(s, STUDIO_POINT_MOVE, 1.3, 70, 52);
-    point(s, STUDIO_POINT_UP, 1.4, 20, 52);
+    selecting_point(s, STUDIO_POINT_DOWN, 1, 20, 12);
+    selecting_point(s, STUDIO_POINT_MOVE, 1.1, 70, 12);
+    selecting_point(s, STUDIO_POINT_MOVE, 1.2, 70, 12.1); /* too near to be a corner */
+    selecting_point(s, STUDIO_POINT_MOVE, 1.3, 70, 52);
+    selecting_point(s, STUDIO_POINT_UP, 1.4, 20, 52);
     int count;
     assert_non_null(studio_session_selected(s, &count));
     assert_int_equal(count, 4);
@@ -312,7 +264,7 @@ static bool other(int i)
 static void select_other(struct studio_session *s, enum studio_join join)
 {
     good(studio_session_set(s, STUDIO_JOIN, join));
-    drag(s, STUDIO_TOOL_SELECT, FROM, UPPER, TO, LOWER);
+    selecting_drag(s, STUDIO_TOOL_SELECT, FROM, UPPER, TO, LOWER);
     good(studio_session_set(s, STUDIO_JOIN, STUDIO_JOIN_NEW));
 }
 
@@ -339,7 +291,7 @@ static bool is_of(int i, int which)
 /* Fluid lies on all that is not selected, and nowhere else; the outline's loops. */
 static void is_selected(struct studio_session *s, int which, int loops, int line)
 {
-    float *fluid = layer_of(s, PAPER_LAYER_RESIST, 0);
+    float *fluid = selecting_layer(s, PAPER_LAYER_RESIST, 0);
     int count, now;
     const double *points = studio_session_selected(s, &count);
     studio_session_selected_loops(s, &now);
@@ -358,13 +310,13 @@ static void selections_are_changed(void **state)
 {
     (void)state;
     char path[] = "/tmp/lutetia-selection-XXXXXX.h5";
-    struct studio_session *s = begin();
+    struct studio_session *s = selecting_begin();
     int deeds, file = mkstemps(path, 3);
     assert_true(file >= 0);
     close(file);
     good(studio_session_select_invert(s)); /* nothing was selected: no deed */
     assert_false(studio_session_can_undo(s));
-    select_rectangle(s);
+    selecting_rectangle(s);
     is_now(OF_FIRST, 1);
     select_other(s, STUDIO_JOIN_NEW);
     is_now(OF_OTHER, 1);
@@ -402,7 +354,7 @@ static void selections_are_changed(void **state)
     is_now(OF_OTHER, 1);
     assert_true(studio_session_redo(s));
     is_now(OF_FIRST_ALONE, 1);
-    drag(s, STUDIO_TOOL_SELECT, 30, 30, 30, 30); /* a click selects nothing, */
+    selecting_drag(s, STUDIO_TOOL_SELECT, 30, 30, 30, 30); /* a click selects nothing, */
     is_now(OF_ALL, 0);
     select_other(s, STUDIO_JOIN_ADD); /* and then something is, as two deeds */
     is_now(OF_OTHER, 1);
@@ -414,26 +366,27 @@ static void selections_are_changed(void **state)
 static void selections_end(void **state)
 {
     (void)state;
-    struct studio_session *s = begin();
+    struct studio_session *s = selecting_begin();
     int count, loops;
     select_other(s, STUDIO_JOIN_SUBTRACT);
     assert_non_null(studio_session_selected(s, &count));
     studio_session_selected_loops(s, &loops);
     assert_int_equal(loops, 2); /* along the sheet, and around the hole */
-    float *fluid = layer_of(s, PAPER_LAYER_RESIST, 0);
+    float *fluid = selecting_layer(s, PAPER_LAYER_RESIST, 0);
     for (int i = 0; i < FIBERS; i++)
         assert_true(fluid[i] == other(i));
     free(fluid);
     select_other(s, STUDIO_JOIN_ADD);
     is_now(OF_ALL, 0);
-    select_rectangle(s);
+    selecting_rectangle(s);
     good(studio_session_set(s, STUDIO_JOIN, STUDIO_JOIN_ADD));
     const int deeds = studio_session_deeds_done(s);
-    drag(s, STUDIO_TOOL_SELECT, 30, 30, 30, 30); /* a click adds nothing, and is no deed */
+    selecting_drag(s, STUDIO_TOOL_SELECT, 30, 30, 30,
+                   30); /* a click adds nothing, and is no deed */
     is_now(OF_FIRST, 1);
     assert_int_equal(studio_session_deeds_done(s), deeds);
     good(studio_session_set(s, STUDIO_JOIN, STUDIO_JOIN_SUBTRACT));
-    drag(s, STUDIO_TOOL_SELECT, -5, -5, SCENE_WIDTH + 5, SCENE_HEIGHT + 5);
+    selecting_drag(s, STUDIO_TOOL_SELECT, -5, -5, SCENE_WIDTH + 5, SCENE_HEIGHT + 5);
     is_now(OF_ALL, 0);
     studio_session_destroy(s);
 }
@@ -443,13 +396,13 @@ static void selections_end(void **state)
 static void fluid_stays_through_others(void **state)
 {
     (void)state;
-    struct studio_session *s = begin(), *alone = begin();
+    struct studio_session *s = selecting_begin(), *alone = selecting_begin();
     fluid_sweep(alone, STUDIO_TOOL_MASK, 44);
     fluid_sweep(s, STUDIO_TOOL_MASK, 44);
-    select_rectangle(s);
+    selecting_rectangle(s);
     select_other(s, STUDIO_JOIN_NEW);
-    float *now = layer_of(s, PAPER_LAYER_RESIST, 0),
-          *hand = layer_of(alone, PAPER_LAYER_RESIST, 0);
+    float *now = selecting_layer(s, PAPER_LAYER_RESIST, 0),
+          *hand = selecting_layer(alone, PAPER_LAYER_RESIST, 0);
     int both = 0;
     for (int i = 0; i < FIBERS; i++) {
         assert_true(fabs((double)now[i] - (other(i) ? (double)hand[i] : 1)) < 1e-6);
@@ -459,7 +412,7 @@ static void fluid_stays_through_others(void **state)
     free(now);
     fluid_sweep(s, STUDIO_TOOL_UNMASK, 44); /* within what is selected */
     good(studio_session_select_none(s));
-    now = layer_of(s, PAPER_LAYER_RESIST, 0);
+    now = selecting_layer(s, PAPER_LAYER_RESIST, 0);
     int kept = 0;
     for (int i = 0; i < FIBERS; i++) {
         assert_true(fabs((double)now[i] - (other(i) ? 0 : (double)hand[i])) < 1e-6);

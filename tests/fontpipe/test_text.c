@@ -50,6 +50,23 @@ static void utf8_is_read_or_replaced(void **state)
     }
 }
 
+/* As the reader of UTF-8 has them, which takes no longer form than the shortest. */
+static void characters_are_written_as_they_are_read(void **state)
+{
+    (void)state;
+    for (uint32_t c = 1; c < 0x110000; c++) {
+        char bytes[FONT_UTF8_BYTES];
+        const char *at = bytes;
+        uint32_t read;
+        if (c >= 0xd800 && c < 0xe000) /* halves of pairs are no characters */
+            continue;
+        const int count = font_utf8_put(c, bytes);
+        assert_true(font_utf8_next(&at, bytes + count, &read));
+        assert_int_equal(read, c);
+        assert_ptr_equal(at, bytes + count);
+    }
+}
+
 static void letters_kern_and_join(void **state)
 {
     (void)state;
@@ -492,6 +509,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(utf8_is_read_or_replaced),
+        cmocka_unit_test(characters_are_written_as_they_are_read),
         cmocka_unit_test(letters_kern_and_join),
         cmocka_unit_test(type_1_fonts_kern_too),
         cmocka_unit_test(advances_are_the_glyphs),
