@@ -173,16 +173,22 @@ static void source_add(struct reader_builder *b, int begin, int end, bool lines)
                                                          : b->source[k]);
 }
 
-/* Between two blocks of what was a paragraph, a formula on its own lines. */
-static void formula_display(struct reader_builder *b, const struct reader_formula *f)
+/* Blanks at a block's end say nothing: before a formula on its own lines, or a label's tag. */
+static void blanks_drop(struct reader_block *block)
 {
-    struct reader_block *block = &b->block;
-    const int last_line = block->last_line;
     while (block->bytes && block->text[block->bytes - 1] == ' ')
         block->text[--block->bytes] = '\0';
     for (int i = block->spans_count - 1; i >= 0 && block->spans[i].end > block->bytes; i--)
         block->spans[i].end =
             block->spans[i].begin < block->bytes ? block->bytes : block->spans[i].begin;
+}
+
+/* Between two blocks of what was a paragraph, a formula on its own lines. */
+static void formula_display(struct reader_builder *b, const struct reader_formula *f)
+{
+    struct reader_block *block = &b->block;
+    const int last_line = block->last_line;
+    blanks_drop(block);
     int formula = b->formula, rest = b->rest;
     char letter = b->letter;
     reader_block_open(b, READER_MATH, f->line, f->line);
@@ -348,6 +354,15 @@ void reader_labels_end(struct reader_builder *b)
         free(d->labels[--d->labels_count].name);
 }
 
+/* Not in code, whose blanks are written. */
+static bool ends_in_words(const struct reader_block *block)
+{
+    const struct reader_span *last =
+        block->spans_count ? &block->spans[block->spans_count - 1] : NULL;
+    return (block->kind == READER_PARAGRAPH || block->kind == READER_HEADING) && last &&
+           !(last->look & READER_CODE);
+}
+
 void reader_block_close(struct reader_builder *b)
 {
     struct reader_document *d = b->document;
@@ -355,6 +370,8 @@ void reader_block_close(struct reader_builder *b)
     if (!b->open)
         return;
     b->open = false;
+    if (ends_in_words(block))
+        blanks_drop(block);
     b->note_bytes += b->in_note ? block->bytes : 0;
     if (b->note_bytes > READER_NOTE_BYTES && b->status == READER_OK)
         b->status =

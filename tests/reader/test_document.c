@@ -216,7 +216,8 @@ static void labels_are_found(void **state)
         "Words <a id=\"d\">in</a> it.\n\n<a id=\"e\"></a>\n<a id=\"f\"></a> $$x$$\n\n"
         "## Two &amp; *three* `4`\n\n## <a id=\"g\"></a>One\n\n### \xc3\x84rger, "
         "\xe6\xb0\xb4!\n\n"
-        "<a id=\"h\"></a>\n```lua\nx\n```\n\nLast.\n\n<a id=\"end\"></a>\n";
+        "<a id=\"h\"></a>\n```lua\nx\n```\n\n"
+        "## Ebb <a id=\"k\"></a>\n\nA tail <a id=\"m\"></a>\n\nLast.\n\n<a id=\"end\"></a>\n";
     static const struct {
         const char *label, *says;
     } labels[] = {{"a", "Figure 1: A"},
@@ -231,6 +232,9 @@ static void labels_are_found(void **state)
                   {"one-1", "One"},
                   {"\xc3\xa4rger-\xe6\xb0\xb4", "\xc3\x84rger, \xe6\xb0\xb4!"},
                   {"h", "x"},
+                  {"ebb", "Ebb"},
+                  {"k", "Ebb"},
+                  {"m", "A tail"},
                   {"end", "Last."}};
     struct reader_document *d = read_all(text, strlen(text));
     assert_null(reader_document_label(d, "a", 0)); /* not before they are made */
