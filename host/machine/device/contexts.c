@@ -1,6 +1,6 @@
-/* contexts.c - OpenCL's contexts: one that a machine leaves is kept for the next machine of this
- * process. PoCL reads its library of built-in functions, 9 MB of LLVM's code, for each context
- * in which it compiles. Reading takes as long as some ten kernels do. */
+/* contexts.c - OpenCL's contexts: one that a machine leaves is kept for the next machine of
+ * this process. PoCL reads its library of built-in functions, 9 MB of LLVM's code, for each
+ * context in which it compiles. Reading takes as long as some ten kernels do. */
 #include <pthread.h>
 
 #include "device/device.h"
