@@ -37,6 +37,14 @@ struct display_image {
     uint8_t *pixels;
 };
 
+/* Memory for a picture that belongs to another, as a window's: a number for each pixel, its
+ * bits 16 to 23 red, 8 to 15 green, 0 to 7 blue, and the highest eight 1. The size is known
+ * from elsewhere. */
+struct display_room {
+    uint32_t *pixels;
+    size_t stride; /* numbers from a row to the next */
+};
+
 /* Detail of this thread's last failure, one line without a newline; "" if there was none.
  * Owns: the library; valid until this thread's next failure. */
 const char *display_error(void);

@@ -69,5 +69,7 @@ void display_reader_finish(struct display_reader *reader);
  * where it has another size. Errors: NO_MEMORY. Owns: the caller destroys the image. */
 enum display_status display_screen_picture(const struct display_screen *screen,
                                            struct display_image *image);
+/* The same into a room of the screen's size: the same colours, byte for byte. */
+void display_screen_paint(const struct display_screen *screen, const struct display_room *room);
 
 #endif

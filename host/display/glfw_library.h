@@ -11,7 +11,7 @@
 
 /* clang-format off */
 #define GLFW_NAMES(X)                                                                          \
-    X(Init) X(InitHint) X(GetError) X(GetProcAddress) X(PollEvents) X(WaitEventsTimeout)                   \
+    X(Init) X(InitHint) X(GetError) X(GetProcAddress) X(PollEvents) X(WaitEventsTimeout) X(PostEmptyEvent) \
     X(GetPrimaryMonitor) X(GetMonitorContentScale) X(GetMonitorWorkarea) X(GetVideoMode)       \
     X(DefaultWindowHints) X(WindowHint) X(CreateWindow) X(DestroyWindow) X(ShowWindow)         \
     X(MakeContextCurrent) X(SwapBuffers) X(SwapInterval) X(GetCursorPos)                       \

@@ -11,7 +11,9 @@
 #include "display_internal.h"
 #include "window_internal.h"
 
+#include <endian.h>
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -73,19 +75,54 @@ static void texture_from_direct(struct window *window)
     window->channels = gl->GetError() == GL_NO_ERROR ? 3 : 0;
 }
 
-/* True: the server shows it as it is. */
-static bool directly_shown(struct window *window, const struct display_image *image)
+/* Four bytes are read for a pixel of three, which is faster; but not of the last one. */
+static void row_keep(const uint8_t *from, uint32_t *to, int count)
+{
+    uint32_t four;
+    for (int i = 0; i < count - 1; i++, from += 3) {
+        memcpy(&four, from, sizeof four);
+        to[i] = UINT32_C(0xff000000) | be32toh(four) >> 8;
+    }
+    to[count - 1] =
+        UINT32_C(0xff000000) | (uint32_t)from[0] << 16 | (uint32_t)from[1] << 8 | from[2];
+}
+
+bool window_room_begin(struct window *window, int width_px, int height_px,
+                       struct display_room *room)
 {
     int width, height;
     glfw3.GetFramebufferSize(window->glfw, &width, &height);
-    if (!window->x11 || image->channels != 3 || image->width_px != width ||
-        image->height_px != height || !window_x11_keep(window->x11, image))
+    if (!window->x11 || window->drawn_by_caller || width_px != width || height_px != height)
         return false;
+    if (window_x11_room(window->x11, width, height, room))
+        return true;
+    window->direct = false; /* what was seen has gone with its memory */
+    return false;
+}
+
+void window_room_show(struct window *window)
+{
+    int width, height;
+    window_x11_pixels(window->x11, &width, &height);
     window->direct = true;
     window->channels = 0; /* there is no texture of this size */
     window->image_width_px = width;
     window->image_height_px = height;
+    window->stale = false;
     window_x11_put(window->x11);
+}
+
+/* True: the server shows it as it is. */
+static bool directly_shown(struct window *window, const struct display_image *image)
+{
+    struct display_room room;
+    if (image->channels != 3 ||
+        !window_room_begin(window, image->width_px, image->height_px, &room))
+        return false;
+    for (int row = 0; row < image->height_px; row++)
+        row_keep(image->pixels + 3 * (size_t)image->width_px * (size_t)row,
+                 room.pixels + (size_t)row * room.stride, image->width_px);
+    window_room_show(window);
     return true;
 }
 
@@ -174,6 +211,27 @@ enum display_status window_show(struct window *window, const struct display_imag
     window->mipmaps = false;
     window_draw(window);
     return DISPLAY_OK;
+}
+
+/* ---- waiting ---- */
+
+static atomic_bool wakes; /* GLFW is there */
+
+void window_wakes(void)
+{
+    wakes = true;
+}
+
+void window_wake(void)
+{
+    if (wakes)
+        glfw3.PostEmptyEvent();
+}
+
+void window_wait(double wait_s)
+{
+    if (wait_s > 0)
+        glfw3.WaitEventsTimeout(wait_s);
 }
 
 /* ---- what others draw ---- */

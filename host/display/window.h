@@ -59,6 +59,13 @@ void window_title_set(struct window *window, const char *title);
  * pixels, or more on a side than the graphics card supports; the image shown before stays. */
 enum display_status window_show(struct window *window, const struct display_image *image);
 
+/* Memory for the next picture, where one of exactly the window's size is shown as it is: a
+ * picture that is painted there costs no copy more. False: take window_show(). What is painted
+ * is seen after window_room_show(), and until then nothing else is shown. */
+bool window_room_begin(struct window *window, int width_px, int height_px,
+                       struct display_room *room);
+void window_room_show(struct window *window);
+
 /* The size of the area to draw on, in pixels. */
 void window_size(const struct window *window, int *width_px, int *height_px);
 
@@ -66,6 +73,11 @@ void window_size(const struct window *window, int *width_px, int *height_px);
  * until it is destroyed. */
 bool window_closing(const struct window *window);
 void window_close(struct window *window);
+
+/* Waits wait_s seconds at most for something to happen to any of the windows, of which there is
+ * one, or for window_wake(), which any thread may call; without a window that does nothing. */
+void window_wait(double wait_s);
+void window_wake(void);
 
 /* Takes the window's next event (input.h), waiting wait_s seconds at most (0: not at all).
  * False if there is none; *event is then NONE. */

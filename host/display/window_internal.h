@@ -68,6 +68,9 @@ struct window {
     int before[4];
 };
 
+/* GLFW is there from now on: window_wake() may be called. */
+void window_wakes(void);
+
 /* Redraws the image, scaled to fit. */
 void window_draw(struct window *window);
 

@@ -44,6 +44,29 @@ enum display_status window_show(struct window *window, const struct display_imag
     abort();
 }
 
+bool window_room_begin(struct window *window, int width_px, int height_px,
+                       struct display_room *room)
+{
+    (void)window, (void)width_px, (void)height_px, (void)room;
+    abort();
+}
+
+void window_room_show(struct window *window)
+{
+    (void)window;
+    abort();
+}
+
+void window_wait(double wait_s)
+{
+    (void)wait_s;
+    abort();
+}
+
+void window_wake(void)
+{
+}
+
 void window_size(const struct window *window, int *width_px, int *height_px)
 {
     (void)window;

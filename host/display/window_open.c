@@ -147,6 +147,7 @@ enum display_status window_create(const struct window_config *config, struct win
     if (!window->drawn_by_caller && gl_is_software(&window->gl))
         window->x11 = x11_begin(window->glfw);
     window_input_begin(window);
+    window_wakes();
     glfw3.ShowWindow(window->glfw);
     window_draw(window);
     *out = window;

@@ -132,32 +132,17 @@ void window_x11_end(struct window_x11 *x11)
     free(x11);
 }
 
-/* Four bytes are read for a pixel of three, which is faster; but not of the last one. */
-static void row_keep(const uint8_t *from, uint32_t *to, int count)
-{
-    uint32_t four;
-    for (int i = 0; i < count - 1; i++, from += 3) {
-        memcpy(&four, from, sizeof four);
-        to[i] = UINT32_C(0xff000000) | be32toh(four) >> 8;
-    }
-    to[count - 1] =
-        UINT32_C(0xff000000) | (uint32_t)from[0] << 16 | (uint32_t)from[1] << 8 | from[2];
-}
-
-bool window_x11_keep(struct window_x11 *x11, const struct display_image *image)
+bool window_x11_room(struct window_x11 *x11, int width_px, int height_px,
+                     struct display_room *room)
 {
     const XImage *kept = x11->image;
-    if (!kept || kept->width != image->width_px || kept->height != image->height_px) {
+    if (!kept || kept->width != width_px || kept->height != height_px) {
         image_end(x11);
-        if (!image_begin(x11, image->width_px, image->height_px))
+        if (!image_begin(x11, width_px, height_px))
             return false;
     }
-    for (int row = 0; row < image->height_px; row++) {
-        const uint8_t *from = image->pixels + 3 * (size_t)image->width_px * (size_t)row;
-        uint32_t *to =
-            (void *)(x11->image->data + (size_t)x11->image->bytes_per_line * (size_t)row);
-        row_keep(from, to, image->width_px);
-    }
+    room->pixels = (void *)x11->image->data;
+    room->stride = (size_t)x11->image->bytes_per_line / sizeof *room->pixels;
     return true;
 }
 

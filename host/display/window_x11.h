@@ -19,8 +19,10 @@ struct window_x11;
 struct window_x11 *window_x11_begin(unsigned long window);
 void window_x11_end(struct window_x11 *x11); /* NULL is fine */
 
-/* Keeps a picture with three channels. False: there is no memory for it. */
-bool window_x11_keep(struct window_x11 *x11, const struct display_image *image);
+/* The memory of the picture that is put next, of that size; valid until the next call. What was
+ * in it may be there still. False: there is no memory. */
+bool window_x11_room(struct window_x11 *x11, int width_px, int height_px,
+                     struct display_room *room);
 
 /* Puts the picture that is kept at the window's upper left corner. */
 void window_x11_put(struct window_x11 *x11);

@@ -12,9 +12,10 @@ void window_x11_end(struct window_x11 *x11)
     (void)x11;
 }
 
-bool window_x11_keep(struct window_x11 *x11, const struct display_image *image)
+bool window_x11_room(struct window_x11 *x11, int width_px, int height_px,
+                     struct display_room *room)
 {
-    (void)x11, (void)image;
+    (void)x11, (void)width_px, (void)height_px, (void)room;
     return false;
 }
 

@@ -132,6 +132,8 @@ static void *read_apart(void *context)
         r->status = bytes_take(r->shown, r->what, r->may_break, bytes, count);
     }
     close(r->over[1]);
+    if (r->shown->wake)
+        r->shown->wake();
     return NULL;
 }
 
@@ -145,7 +147,7 @@ static int from_thread(struct reading *r)
         return fail(r->shown->verb, "no thread: %s", strerror(error));
     struct pollfd over = {.fd = r->over[0], .events = POLLIN};
     while (go_on(r->shown) && poll(&over, 1, 0) == 0)
-        r->shown->turn(r->shown->context, 0.004);
+        r->shown->turn(r->shown->context, r->shown->wake ? 0.05 : 0.004);
     pthread_mutex_lock(&r->shown->lock);
     r->stop = !r->shown->go_on(r->shown->context);
     pthread_mutex_unlock(&r->shown->lock);

@@ -28,6 +28,7 @@ struct shown {
     void *context;
     bool (*go_on)(void *context);               /* false: stop reading, and end the program */
     void (*turn)(void *context, double wait_s); /* takes the window's events, or waits */
+    void (*wake)(void); /* NULL, or ends a turn's wait, from another thread */
     bool (*has_window)(void *context);
     bool (*taken)(void *context); /* something has been shown */
     enum display_status (*feed)(void *context, const uint8_t *bytes, size_t count);

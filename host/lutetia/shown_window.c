@@ -21,9 +21,12 @@ double shown_clock_wait_s(struct shown_clock *c, double time_s)
 enum display_status shown_window_draw(struct shown_window *window)
 {
     double began_s = seconds_now();
-    enum display_status status = window->draw(window->context, &window->image);
-    if (status == DISPLAY_OK)
-        status = window_show(window->window, &window->image);
+    enum display_status status = DISPLAY_OK;
+    if (!window->paint || !window->paint(window->context, window->window)) {
+        status = window->draw(window->context, &window->image);
+        if (status == DISPLAY_OK)
+            status = window_show(window->window, &window->image);
+    }
     frame_pace_drawn(&window->pace, began_s, seconds_now());
     return status;
 }
@@ -72,26 +75,30 @@ static bool key_take(struct shown_window *window, int key)
     return true;
 }
 
+double shown_window_due_s(const struct shown_window *window)
+{
+    return window->stale(window->context) ? fmax(window->pace.due_s - seconds_now(), 0)
+                                          : INFINITY;
+}
+
 enum display_status shown_window_turn(struct shown_window *window, double wait_s, bool *open)
 {
     struct input_event event;
     double until_s = seconds_now() + wait_s;
+    bool taken;
     *open = true;
     do {
-        double left_s = until_s - seconds_now();
-        const bool waiting = window->stale(window->context);
-        if (waiting && seconds_now() >= window->pace.due_s) {
+        const double due_s = shown_window_due_s(window);
+        if (due_s <= 0) {
             enum display_status status = shown_window_draw(window);
             if (status != DISPLAY_OK)
                 return status;
-            left_s = until_s - seconds_now();
-        } else if (waiting) {
-            left_s = fmin(left_s, window->pace.due_s - seconds_now());
         }
-        if (window_input_take(window->window, fmax(left_s, 0), &event) &&
-            event.kind == INPUT_KEY_DOWN && key_take(window, event.key))
+        const double left_s = fmin(until_s - seconds_now(), due_s > 0 ? due_s : INFINITY);
+        taken = window_input_take(window->window, fmax(left_s, 0), &event);
+        if (taken && event.kind == INPUT_KEY_DOWN && key_take(window, event.key))
             return DISPLAY_OK;
         *open = !window_closing(window->window);
-    } while (*open && seconds_now() < until_s);
+    } while (*open && (taken || seconds_now() < until_s));
     return DISPLAY_OK;
 }

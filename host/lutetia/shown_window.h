@@ -29,6 +29,8 @@ double shown_clock_wait_s(struct shown_clock *clock, double time_s);
 struct shown_window {
     bool (*stale)(void *context);
     enum display_status (*draw)(void *context, struct display_image *image);
+    /* NULL, or draws into the window's room (window_room_begin()). False: it could not. */
+    bool (*paint)(void *context, struct window *window);
     void *context;
     struct shown_clock *clock; /* NULL: keys change none */
 
@@ -48,6 +50,9 @@ void shown_window_title(struct shown_window *window, const char *title);
 
 /* Draws now. Errors: those of draw() and window_show(). */
 enum display_status shown_window_draw(struct shown_window *window);
+
+/* Seconds until there is something to be drawn: 0, now; infinity: there is nothing new. */
+double shown_window_due_s(const struct shown_window *window);
 
 /* Takes events for wait_s seconds, and draws if a picture is due. *open becomes false when
  * the window was closed or Esc pressed. Errors: those of shown_window_draw(). */

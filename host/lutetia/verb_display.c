@@ -56,6 +56,8 @@ struct displays {
 
 enum { FILM_FPS = 30, WINDOW_FPS = 60 };
 
+#define OPENING_S 0.004 /* how often it is looked whether a window is wanted */
+
 static bool go_on(void *context)
 {
     const struct displays *d = context;
@@ -190,6 +192,24 @@ static enum display_status screen_draw(void *context, struct display_image *imag
     return status;
 }
 
+static bool screen_paint(void *context, struct window *window)
+{
+    struct screen *s = context;
+    const struct display_screen *screen = &s->all->reader.screens[s->number - 1];
+    struct display_room room;
+    pthread_mutex_lock(&s->all->source.lock);
+    const bool painted =
+        screen->there && window_room_begin(window, screen->width_px, screen->height_px, &room);
+    if (painted) {
+        display_screen_paint(screen, &room);
+        s->stale = false;
+    }
+    pthread_mutex_unlock(&s->all->source.lock);
+    if (painted)
+        window_room_show(window);
+    return painted;
+}
+
 static void title_of(const struct screen *s, const char *after, char *title, size_t bytes)
 {
     const char *name = s->all->reader.screens[s->number - 1].title;
@@ -232,6 +252,7 @@ static void windows_open(struct displays *d)
             continue;
         s->window.stale = screen_stale;
         s->window.draw = screen_draw;
+        s->window.paint = screen_paint;
         s->window.context = s;
         s->window.clock = &d->clock;
         if (shown_window_open(&s->window, title,
@@ -243,21 +264,18 @@ static void windows_open(struct displays *d)
     }
 }
 
-/* Takes the windows' events. The lock is not held. */
-static void windows_turn(struct displays *d, double wait_s)
+/* Draws what is due, and takes the windows' events. Returns the seconds until more is due,
+ * wait_s at most; negative where there is no window. The lock is not held. */
+static double windows_draw(struct displays *d, double wait_s)
 {
-    int count = 0;
-    windows_open(d);
-    for (int i = 0; i < DISPLAY_SCREENS; i++)
-        count += d->screens[i].window.window != NULL;
-    if (!count)
-        usleep((useconds_t)(wait_s * 1e6));
+    bool any = false;
     for (int i = 0; i < DISPLAY_SCREENS; i++) {
         struct shown_window *window = &d->screens[i].window;
         bool open = true;
         if (!window->window)
             continue;
-        const enum display_status status = shown_window_turn(window, wait_s / count, &open);
+        any = true;
+        const enum display_status status = shown_window_turn(window, 0, &open);
         if (status == DISPLAY_OK && open)
             continue;
         pthread_mutex_lock(&d->source.lock);
@@ -265,7 +283,34 @@ static void windows_turn(struct displays *d, double wait_s)
             d->status = fail("display", "%s", display_error());
         d->closed = d->closed || !open;
         pthread_mutex_unlock(&d->source.lock);
+        wait_s = 0;
     }
+    for (int i = 0; any && i < DISPLAY_SCREENS; i++)
+        if (d->screens[i].window.window)
+            wait_s = fmin(wait_s, shown_window_due_s(&d->screens[i].window));
+    return any ? wait_s : -1;
+}
+
+/* Waits until something happens, so many seconds at most. */
+static void windows_turn(struct displays *d, double wait_s)
+{
+    windows_open(d);
+    const double left_s = windows_draw(d, wait_s);
+    if (left_s < 0)
+        usleep((useconds_t)(fmin(wait_s, OPENING_S) * 1e6));
+    else if (left_s > 0) {
+        window_wait(left_s);
+        windows_draw(d, 0);
+    }
+}
+
+static bool windows_stale(const struct displays *d)
+{
+    bool stale = false;
+    for (int i = 0; i < DISPLAY_SCREENS; i++)
+        if (d->screens[i].window.window)
+            stale = stale || shown_window_due_s(&d->screens[i].window) < INFINITY;
+    return stale;
 }
 
 static void source_turn(void *context, double wait_s)
@@ -285,6 +330,14 @@ static void pace(struct displays *d, double time_s)
 
 /* ---- the recording ---- */
 
+/* There is something new to be drawn, by a thread that may be waiting. */
+static void screen_changed(struct screen *s)
+{
+    if (!s->stale && s->all->source.apart)
+        window_wake();
+    s->stale = true;
+}
+
 /* Another picture is seen. */
 static int picture_take(struct displays *d, struct screen *s, uint64_t time_us)
 {
@@ -294,7 +347,7 @@ static int picture_take(struct displays *d, struct screen *s, uint64_t time_us)
         status = time_fill(s, time_us);
     if (d->paced && d->windowed)
         pace(d, (double)time_us * 1e-6);
-    s->stale = true;
+    screen_changed(s);
     if (status == EXIT_SUCCESS && writes && d->pictures % (uint64_t)d->every == 0) {
         if (display_screen_picture(&d->reader.screens[s->number - 1], &s->image) != DISPLAY_OK)
             status = fail("display", "%s", display_error());
@@ -310,7 +363,8 @@ static int picture_take(struct displays *d, struct screen *s, uint64_t time_us)
 static int size_take(struct screen *s)
 {
     const struct display_screen *screen = &s->all->reader.screens[s->number - 1];
-    s->opened = s->stale = true;
+    s->opened = true;
+    screen_changed(s);
     if (s->film && s->pictured &&
         (s->image.width_px != screen->width_px || s->image.height_px != screen->height_px))
         return fail("display", "display %d got another size, and a film has one: take --frames",
@@ -378,7 +432,10 @@ static void windows_linger(struct displays *d)
     bool any = false;
     if (!d->windowed || !go_on(d))
         return;
-    windows_turn(d, 0.1); /* show the last picture, however short */
+    const double until_s = seconds_now() + 0.1;
+    do /* show the last picture, however short */
+        windows_turn(d, 0.02);
+    while (windows_stale(d) && go_on(d) && seconds_now() < until_s);
     for (int i = 0; i < DISPLAY_SCREENS; i++) {
         struct screen *s = &d->screens[i];
         char title[100];
@@ -474,6 +531,7 @@ static void source_prepare(struct displays *d)
                                .context = d,
                                .go_on = go_on,
                                .turn = source_turn,
+                               .wake = window_wake,
                                .has_window = source_has_window,
                                .taken = source_taken,
                                .feed = source_feed,

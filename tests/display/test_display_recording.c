@@ -39,6 +39,26 @@ static uint8_t value_seen(const uint8_t *pixels, int x_offset, int y_offset, con
                : pixels[row * COLUMNS + column];
 }
 
+/* A room has the picture's colours, and nothing beyond its rows is written. */
+static void painted_as_pictured(const struct display_screen *screen,
+                                const struct display_image *image)
+{
+    const size_t width = (size_t)screen->width_px, stride = width + 3;
+    uint32_t *pixels = malloc(stride * (size_t)screen->height_px * sizeof *pixels);
+    assert_non_null(pixels);
+    memset(pixels, 0x55, stride * (size_t)screen->height_px * sizeof *pixels);
+    display_screen_paint(screen, &(struct display_room){pixels, stride});
+    for (size_t y = 0; y < (size_t)screen->height_px; y++)
+        for (size_t x = 0; x < stride; x++) {
+            const uint8_t *is = image->pixels + 3 * (y * width + x);
+            const uint32_t wanted = x < width ? UINT32_C(0xff000000) | (uint32_t)is[0] << 16 |
+                                                    (uint32_t)is[1] << 8 | is[2]
+                                              : UINT32_C(0x55555555);
+            assert_int_equal(pixels[y * stride + x], wanted);
+        }
+    free(pixels);
+}
+
 static void pictures_are_by_offset_zoom_pan_and_map(void **unused)
 {
     (void)unused;
@@ -88,6 +108,7 @@ static void pictures_are_by_offset_zoom_pan_and_map(void **unused)
                     assert_memory_equal(image.pixels + 3 * (y * WIDTH + x),
                                         beyond ? black : map[v], 3);
                 }
+            painted_as_pictured(&reader.screens[2], &image);
             display_image_destroy(&image);
             display_reader_finish(&reader);
         }
@@ -116,6 +137,35 @@ static void deep_pixels_go_through_the_maps_columns(void **unused)
     assert_int_equal(display_screen_picture(&reader.screens[0], &image), DISPLAY_OK);
     const uint8_t wanted[] = {1, 102, 203, 1, 102, 203, 1, 102, 203, 4, 105, 206};
     assert_memory_equal(image.pixels, wanted, sizeof wanted);
+    painted_as_pictured(&reader.screens[0], &image);
+    /* The map that changes nothing; zoom, pan and a buffer that nothing was written to. */
+    for (int i = 0; i < 256; i++)
+        memset(map[i], i, 3);
+    pieces.count = 0;
+    pieces_head(&pieces, 4, 1, 0, 0, sizeof map, 6, 0, 0);
+    memcpy(pieces.bytes + pieces.count, map, sizeof map);
+    pieces.count += sizeof map;
+    assert_int_equal(display_reader_feed(&reader, pieces.bytes, pieces.count), DISPLAY_OK);
+    assert_int_equal(display_screen_picture(&reader.screens[0], &image), DISPLAY_OK);
+    const uint8_t plain[] = {1, 2, 3, 1, 2, 3, 1, 2, 3, 4, 5, 6};
+    assert_memory_equal(image.pixels, plain, sizeof plain);
+    painted_as_pictured(&reader.screens[0], &image);
+    for (int zoom = 1; zoom <= 3; zoom++)
+        for (int pan = -3; pan <= 3; pan++)
+            for (int buffer = 0; buffer < 2; buffer++) {
+                pieces.count = 0;
+                pieces_view(&pieces, 1, buffer, zoom, 4 - zoom, pan, -pan, 8);
+                assert_int_equal(display_reader_feed(&reader, pieces.bytes, pieces.count),
+                                 DISPLAY_OK);
+                assert_int_equal(display_screen_picture(&reader.screens[0], &image),
+                                 DISPLAY_OK);
+                painted_as_pictured(&reader.screens[0], &image);
+            }
+    pieces.count = 0;
+    pieces_view(&pieces, 1, 0, 256, 256, INT32_MIN, INT32_MAX, 8);
+    assert_int_equal(display_reader_feed(&reader, pieces.bytes, pieces.count), DISPLAY_OK);
+    assert_int_equal(display_screen_picture(&reader.screens[0], &image), DISPLAY_OK);
+    painted_as_pictured(&reader.screens[0], &image);
     /* A display that goes, and one in its place. */
     pieces.count = 0;
     pieces_head(&pieces, 6, 1, 0, 0, 0, 9, 0, 0);

@@ -104,6 +104,23 @@ static void images_are_shown_pixel_for_pixel(void **state)
         display_image_destroy(&seen);
         display_image_destroy(&image);
     }
+    /* The same pixels, painted where the window has them; there is no such place on a graphics
+     * card, and none of another size. */
+    struct display_image image = noise(301, 203, 3);
+    struct display_room room;
+    assert_false(window_room_begin(window, 300, 203, &room));
+    if (window_room_begin(window, 301, 203, &room)) {
+        for (size_t y = 0; y < 203; y++)
+            for (size_t x = 0; x < 301; x++) {
+                const uint8_t *pixel = image.pixels + 3 * (301 * y + x);
+                room.pixels[y * room.stride + x] = UINT32_C(0xff000000) |
+                                                   (uint32_t)pixel[0] << 16 |
+                                                   (uint32_t)pixel[1] << 8 | pixel[2];
+            }
+        window_room_show(window);
+        assert_true(screen_shows(there, &image, 5));
+    }
+    display_image_destroy(&image);
     window_destroy(window);
     assert_true(screen_window_gone(there, 5));
 }
