@@ -63,6 +63,9 @@ struct reader_remark {
 /* Errors: FAILED (not a file of remarks, a newer version's, damaged, cannot be read),
  * NO_MEMORY, NO_LIBRARY. Owns: the caller closes *out. */
 enum reader_status reader_remarks_open(const char *path, struct reader_remarks **out);
+/* The same to be read alone: no remark is written, not even where one has moved. Errors: the
+ * same. */
+enum reader_status reader_remarks_read(const char *path, struct reader_remarks **out);
 void reader_remarks_close(struct reader_remarks *remarks); /* NULL is fine */
 int reader_remarks_count(const struct reader_remarks *remarks);
 /* Valid until remarks are added or closed. */
@@ -97,6 +100,9 @@ struct reader_played {
  * erased: with what is erased. Returns how long all of it lasts. */
 double reader_remarks_play(const struct reader_remarks *remarks, bool erased,
                            struct reader_played *played, int *count);
+/* How wide a stroke is between its point i and the one before, as it was pressed; full: at full
+ * pressure. */
+double reader_ink_width(const struct reader_ink_point *points, int i, double full);
 /* What has changed is safe from a loss of power. */
 enum reader_status reader_remarks_sync(struct reader_remarks *remarks);
 

@@ -17,13 +17,13 @@ static double now_s(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-enum reader_status reader_remarks_open(const char *path, struct reader_remarks **out)
+static enum reader_status open_as(const char *path, bool reads, struct reader_remarks **out)
 {
     struct reader_remarks *remarks = calloc(1, sizeof *remarks);
     *out = NULL;
     if (!remarks)
         return reader_fail(READER_NO_MEMORY, "no memory for notes");
-    enum reader_status status = remarks_file_open(path, &remarks->file, &remarks->rows);
+    enum reader_status status = remarks_file_open(path, reads, &remarks->file, &remarks->rows);
     if (status != READER_OK) {
         reader_remarks_close(remarks);
         return status;
@@ -35,6 +35,16 @@ enum reader_status reader_remarks_open(const char *path, struct reader_remarks *
     }
     *out = remarks;
     return READER_OK;
+}
+
+enum reader_status reader_remarks_open(const char *path, struct reader_remarks **out)
+{
+    return open_as(path, false, out);
+}
+
+enum reader_status reader_remarks_read(const char *path, struct reader_remarks **out)
+{
+    return open_as(path, true, out);
 }
 
 void reader_remarks_close(struct reader_remarks *remarks)

@@ -144,13 +144,16 @@ static enum reader_status make(struct remarks_file *file)
     return status;
 }
 
-static enum reader_status open_there(struct remarks_file *file)
+/* reads: nothing will be written. */
+static enum reader_status open_there(struct remarks_file *file, bool reads)
 {
+    file->read_only = reads;
     if (access(file->path, F_OK) != 0)
         return READER_OK; /* made at the first remark */
-    file->read_only = access(file->path, W_OK) != 0;
+    const bool closed = access(file->path, W_OK) != 0;
+    file->read_only = reads || closed;
     if (sqlite3_open_v2(file->path, &file->db,
-                        file->read_only ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE,
+                        closed ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE,
                         NULL) != SQLITE_OK)
         return file_fail(file);
     guard(file);
@@ -256,7 +259,7 @@ static enum reader_status rows_read(struct remarks_file *file, struct remark_row
     return status;
 }
 
-enum reader_status remarks_file_open(const char *path, struct remarks_file **out,
+enum reader_status remarks_file_open(const char *path, bool reads, struct remarks_file **out,
                                      struct remark_rows *rows)
 {
     struct remarks_file *file = calloc(1, sizeof *file);
@@ -265,7 +268,7 @@ enum reader_status remarks_file_open(const char *path, struct remarks_file **out
         free(file);
         return reader_fail(READER_NO_MEMORY, "no memory for notes");
     }
-    enum reader_status status = open_there(file);
+    enum reader_status status = open_there(file, reads);
     if (status == READER_OK && file->db)
         status = rows_read(file, rows);
     if (status == READER_OK)

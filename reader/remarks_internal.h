@@ -24,9 +24,9 @@ struct remark_rows {
     int count, capacity;
 };
 
-/* Reads what there is; a file that there is not has no rows. Errors: as
- * reader_remarks_open(). */
-enum reader_status remarks_file_open(const char *path, struct remarks_file **out,
+/* Reads what there is; a file that there is not has no rows. reads: no row is ever written.
+ * Errors: as reader_remarks_open(). */
+enum reader_status remarks_file_open(const char *path, bool reads, struct remarks_file **out,
                                      struct remark_rows *rows);
 void remarks_file_close(struct remarks_file *file);
 bool remarks_file_read_only(const struct remarks_file *file);

@@ -1,4 +1,5 @@
-/* remarks_play.c - when strokes are played back: see reader_remarks.h. */
+/* remarks_play.c - strokes: when they are played back, how wide they are: see
+ * reader_remarks.h. */
 #include "reader_internal.h"
 #include "reader_remarks.h"
 
@@ -49,4 +50,10 @@ double reader_remarks_play(const struct reader_remarks *remarks, bool erased,
     }
     qsort(played, (size_t)*count, sizeof *played, by_begin);
     return pauses_shorten(remarks, played, *count);
+}
+
+double reader_ink_width(const struct reader_ink_point *points, int i, double full)
+{
+    const double before = (double)points[i > 0 ? i - 1 : 0].pressure;
+    return full * (0.25 + 0.75 * (before + (double)points[i].pressure) / 2);
 }

@@ -32,6 +32,7 @@
 #include <desk_shared.h>
 #include <gtk/gtk.h>
 #include <libintl.h>
+#include <reader_colours.h>
 #include <reader_files.h>
 #include <reader_remarks.h>
 #include <reader_view.h>
@@ -52,12 +53,6 @@ struct read_options {
 /* Bytes of the plain text. */
 struct read_range {
     size_t begin, end;
-};
-
-/* Colours, sRGB 0..1. */
-struct read_colours {
-    double paper[3], ink[3], link[3], struck[3], selected[3], found[3], current[3], marked[3],
-        noted[3];
 };
 
 /* A place that one can go back to. */
@@ -91,7 +86,7 @@ struct read_desk {
     struct reader_files files; /* of it, those that are included, too */
     struct reader_view *view;
     struct reader_pages_setup setup;
-    const struct read_colours *colours;
+    const struct reader_colours *colours;
     bool dark;
     double size_px, column_em; /* column_em: the widest column of text */
     /* the page */

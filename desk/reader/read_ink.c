@@ -23,11 +23,10 @@ static void stroke_draw(cairo_t *cairo, const struct reader_ink_point *points, i
     cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
     for (int i = 0; i < count; i++) {
         const struct reader_ink_point *a = &points[i > 0 ? i - 1 : 0], *b = &points[i];
-        const double pressure = ((double)a->pressure + (double)b->pressure) / 2;
         if (spots && (read_spots_at(spots, x + em * (double)a->x, y + em * (double)a->y) ||
                       read_spots_at(spots, x + em * (double)b->x, y + em * (double)b->y)))
             continue;
-        cairo_set_line_width(cairo, fmax(0.6, em * width * (0.25 + 0.75 * pressure)));
+        cairo_set_line_width(cairo, fmax(0.6, em * reader_ink_width(points, i, width)));
         cairo_move_to(cairo, x + em * (double)a->x, y + em * (double)a->y);
         cairo_line_to(cairo, x + em * (double)b->x, y + em * (double)b->y);
         cairo_stroke(cairo);

@@ -1,5 +1,5 @@
-/* read_look.c - how the page looks: colours of both themes, sizes, and how wide the text is in
- * the window. */
+/* read_look.c - how the page looks: its theme, sizes, and how wide the text is in the
+ * window. */
 #include "read_desk.h"
 
 #include <math.h>
@@ -7,25 +7,6 @@
 enum { STAGE_STRIP_PX = 46 }; /* a button, and what is blank around it */
 
 enum { SIZE_LEAST = 8, SIZE_MOST = 72, COLUMN_LEAST = 12, COLUMN_MOST = 80 };
-
-static const struct read_colours themes[] = {{.paper = {254 / 255.0, 252 / 255.0, 248 / 255.0},
-                                              .ink = {0.07, 0.07, 0.08},
-                                              .link = {0.08, 0.22, 0.55},
-                                              .struck = {0.42, 0.42, 0.42},
-                                              .selected = {0.72, 0.84, 1},
-                                              .found = {1, 0.93, 0.6},
-                                              .current = {1, 0.75, 0.35},
-                                              .marked = {1, 0.93, 0.45},
-                                              .noted = {0.75, 0.89, 1}},
-                                             {.paper = {28 / 255.0, 28 / 255.0, 30 / 255.0},
-                                              .ink = {0.86, 0.85, 0.82},
-                                              .link = {0.55, 0.75, 1},
-                                              .struck = {0.62, 0.62, 0.62},
-                                              .selected = {0.17, 0.29, 0.45},
-                                              .found = {0.36, 0.31, 0.08},
-                                              .current = {0.52, 0.34, 0.05},
-                                              .marked = {0.38, 0.33, 0.04},
-                                              .noted = {0.1, 0.27, 0.4}}};
 
 /* Margins take what the widest column leaves; in a wide window there is a margin for notes. */
 static void column_set(struct read_desk *d)
@@ -42,7 +23,7 @@ static void column_set(struct read_desk *d)
 
 void read_look_set(struct read_desk *d)
 {
-    d->colours = &themes[d->dark];
+    d->colours = reader_colours_of(d->dark);
     d->setup.font = d->options.font ? d->options.font : d->setup.font;
     d->setup.mono = d->options.mono ? d->options.mono : d->setup.mono;
     d->setup.math = d->options.math;

@@ -11,9 +11,13 @@
 #include "display.h"
 
 #include <stdbool.h>
+#include <stdio.h>
 
 /* False: it is elsewhere, no PNG, larger than 512 MB, or cannot be read. Owns: the caller
  * destroys *out. */
 bool display_beside_read(const char *file, const char *target, struct display_image *out);
+
+/* The same, and its bytes as they are, which are those of a PNG. */
+bool display_beside_copy(const char *file, const char *target, FILE *to);
 
 #endif

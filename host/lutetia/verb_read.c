@@ -1,8 +1,9 @@
-/* verb_read.c - `lutetia read`: Markdown as pages: headings, lists, notes, tables, code,
- * formulas. */
+/* verb_read.c - `lutetia read`: Markdown as pages, in a window or as HTML: headings, lists,
+ * notes, tables, code, formulas. */
 #include "help.h"
 #include "lutetia.h"
 #include "options.h"
+#include "read_html.h"
 #include "read_manual.h"
 #include "type_common.h"
 #include "type_pages.h"
@@ -21,6 +22,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <unistd.h>
 
 struct read {
@@ -28,16 +30,48 @@ struct read {
     const char *font, *mono, *math, *theme, *play;
     double size_px, leading, margin_px, gap_px, notes_px;
     int columns;
-    bool ragged, plain;
+    bool ragged, plain, remarks;
     bool manual; /* no file was named */
 };
+
+static bool is_html(const struct read *r)
+{
+    const char *path = r->pages.out_path, *ending = path ? strrchr(path, '.') : NULL;
+    return ending && (strcasecmp(ending, ".html") == 0 || strcasecmp(ending, ".htm") == 0);
+}
+
+/* What is to be written, and that each option has an effect on it. */
+static int out_check(const struct read *r, const struct option_row *rows,
+                     const struct option_words *words)
+{
+    static const char *const of_pages[] = {"page",   "all",     "paper", "leading",
+                                           "margin", "columns", "gap",   "notes",
+                                           "ragged", "plain",   "mono",  "statistics"};
+    if (!r->pages.out_path)
+        return EXIT_SUCCESS;
+    if (!is_html(r)) {
+        if (type_out_of(r->pages.out_path) == TYPE_OUT_NONE)
+            return fail_usage("read", "-o names FILE.html, .pdf, .svg or .png (got '%.80s')",
+                              r->pages.out_path);
+        return r->theme || r->remarks
+                   ? fail_usage("read", "--%s has no effect on pages: it is for .html",
+                                r->theme ? "theme" : "remarks")
+                   : EXIT_SUCCESS;
+    }
+    for (int i = 0; rows[i].name; i++)
+        for (size_t k = 0; words->given[i] && k < sizeof of_pages / sizeof *of_pages; k++)
+            if (strcmp(rows[i].name, of_pages[k]) == 0)
+                return fail_usage("read", "--%s has no effect on .html: it is for pages",
+                                  rows[i].name);
+    return EXIT_SUCCESS;
+}
 
 enum { WORDS_MAX = OPTION_WORDS_MAX + 16 }; /* of the window's program */
 
 static int read_options(struct read *r, int argc, char **argv, struct option_words *words)
 {
     const struct option_row rows[] = {
-        TYPE_PAGES_OPTIONS(&r->pages, "read", "without it a window opens"),
+        TYPE_PAGES_OPTIONS(&r->pages, "read", "all of it as .html; without -o a window opens"),
         {"font", 0, OPTION_TEXT, "F",
          "the font: a file, the name of one, or a family (EB Garamond)", &r->font, 0, 0, 0},
         {"mono", 0, OPTION_TEXT, "F", "font of code (DejaVuSansMono)", &r->mono, 0, 0, 0},
@@ -59,8 +93,11 @@ static int read_options(struct read *r, int argc, char **argv, struct option_wor
         {"ragged", 0, OPTION_FLAG, NULL, "lines end where their words do", &r->ragged, 0, 0, 0},
         {"plain", 0, OPTION_FLAG, NULL, "no page numbers, and no chapter over the page",
          &r->plain, 0, 0, 0},
-        {"theme", 0, OPTION_TEXT, "NAME", "of the window: light or dark (as the desktop is)",
-         &r->theme, 0, 0, 0},
+        {"theme", 0, OPTION_TEXT, "NAME",
+         "of the window, of .html: light or dark (as the desktop is)", &r->theme, 0, 0, 0},
+        {"remarks", 0, OPTION_FLAG, NULL,
+         "in .html: what readers left in FILE.md.notes: highlights, notes, ink", &r->remarks, 0,
+         0, 0},
         {"play", 0, OPTION_TEXT, "FILE",
          "recorded input in place of a hand in the window: lines of docs/reader.md", &r->play,
          0, 0, 0},
@@ -71,7 +108,7 @@ static int read_options(struct read *r, int argc, char **argv, struct option_wor
                                                {"leading", "out"},    {"margin", "out"},
                                                {"columns", "out"},    {"gap", "out"},
                                                {"notes", "out"},      {"plain", "out"},
-                                               {"statistics", "out"}, {"theme", "!out"},
+                                               {"statistics", "out"}, {"remarks", "out"},
                                                {"play", "!out"},      {0}};
     if (!options_parse("read", rows, argc, argv, words))
         return EXIT_USAGE;
@@ -81,7 +118,7 @@ static int read_options(struct read *r, int argc, char **argv, struct option_wor
         return EXIT_USAGE;
     if (r->theme && strcmp(r->theme, "light") != 0 && strcmp(r->theme, "dark") != 0)
         return fail_usage("read", "--theme must be light or dark (got '%.40s')", r->theme);
-    const int status = r->pages.out_path ? type_pages_check(&r->pages) : EXIT_SUCCESS;
+    const int status = out_check(r, rows, words);
     r->manual = words->count == 0;
     return status == EXIT_SUCCESS && r->manual ? read_manual_words(words) : status;
 }
@@ -168,6 +205,26 @@ static int pages_write(struct read *r, const struct reader_pages_setup *setup,
     type_left_out_tell("read");
     reader_pages_destroy(pages);
     return status;
+}
+
+/* All of it as one file that a browser shows. */
+static int html_write(const struct read *r, const struct option_words *words,
+                      struct reader_document *document, const struct reader_files *files)
+{
+    const struct reader_html_setup setup = {.title = r->pages.title,
+                                            .language = r->pages.language,
+                                            .theme = !r->theme ? READER_HTML_BOTH
+                                                     : strcmp(r->theme, "dark") == 0
+                                                         ? READER_HTML_DARK
+                                                         : READER_HTML_LIGHT,
+                                            .size_px = r->size_px,
+                                            .font = r->font,
+                                            .math = r->math,
+                                            .files = files};
+    return read_html_write(r->pages.out_path, document, &setup,
+                           !r->remarks ? NULL
+                           : r->manual ? READ_HTML_MANUAL
+                                       : words->words[0]);
 }
 
 /* ---- the window ---- */
@@ -292,7 +349,8 @@ int verb_read(int argc, char **argv)
         setup.align = FONT_ALIGN_START;
     status = document_read(&words, &document, &files, &damaged);
     if (status == EXIT_SUCCESS)
-        status = pages_write(&r, &setup, document, damaged);
+        status = is_html(&r) ? html_write(&r, &words, document, &files)
+                             : pages_write(&r, &setup, document, damaged);
     if (status == EXIT_SUCCESS)
         lost_tell(&files, document);
     reader_document_destroy(document);

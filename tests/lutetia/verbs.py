@@ -64,6 +64,7 @@ OUTPUTS = [
     ("set", "set", ["out"], ["page.pdf"], ["set", "text.txt", "-o", "page.pdf"], {}),
     ("set all", "set", ["all"], ["pages/"], ["set", "text.txt", "--all", "-o", "pages/page.png"], {}),
     ("read", "read", ["out"], ["read.pdf"], ["read", "text.txt", "-o", "read.pdf"], {}),
+    ("read html", "read", [], ["read.html"], ["read", "text.txt", "-o", "read.html"], {}),
     ("read all", "read", ["all"], ["pages/"], ["read", "text.txt", "--all", "-o", "pages/read.png"], {}),
     ("font", "font", ["out"], ["f.png"], ["font", "DejaVuSans", "-o", "f.png"], {}),
     ("font master", "font", ["master-out"], ["m.png", "levels.png"],

@@ -1,10 +1,13 @@
 /* fuzz_document.c - takes random bytes and random pieces of Markdown as documents, and some of
- * them as pages. Each is read, its spans cover its texts, and pages say something; or it is
- * refused. The seeds are the same in every run, or libFuzzer's with -DLUTETIA_FUZZ_TARGET. */
+ * them as pages or as HTML. Each is read, its spans cover its texts, pages say something, and
+ * HTML is whole; or it is refused. The seeds are the same in every run, or libFuzzer's with
+ * -DLUTETIA_FUZZ_TARGET. */
 #include <reader_document.h>
+#include <reader_html.h>
 #include <reader_pages.h>
 
 #include "../must.h"
+#include "html_tags.h"
 
 #include <stdint.h>
 #include <stdio.h>
@@ -51,6 +54,18 @@ static void pages_check(const struct reader_document *d, unsigned choice)
     reader_pages_destroy(pages);
 }
 
+/* As HTML: whole, whatever the document says, and refused by nobody. */
+static void html_check(struct reader_document *d)
+{
+    char *html = NULL;
+    size_t bytes = 0;
+    FILE *f = open_memstream(&html, &bytes);
+    must(f && reader_document_plain(d) == READER_OK);
+    must(reader_html_write(d, &(struct reader_html_setup){0}, f) == READER_OK);
+    must(fclose(f) == 0 && html_wrong(html) == NULL);
+    free(html);
+}
+
 static void document_check(const char *text, size_t count, uint8_t choice)
 {
     struct reader_document *d;
@@ -73,6 +88,8 @@ static void document_check(const char *text, size_t count, uint8_t choice)
         must(d->notes[i].first_block + d->notes[i].blocks_count <= d->note_blocks_count);
     if (status == READER_OK && choice % 8 == 0)
         pages_check(d, (unsigned)choice * 131 + (unsigned)count);
+    if (status == READER_OK && choice % 8 == 1)
+        html_check(d);
     reader_document_destroy(d);
 }
 

@@ -1,0 +1,127 @@
+/* html_picture.c - formulas and pictures within a file of HTML: see html_internal.h. */
+#include "html_internal.h"
+
+#include <drawing.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SIZE_PX 20.0 /* of the formulas' em; browsers scale them */
+#define SCALE 0.88   /* so that their small letters are about as high as the text's */
+
+enum { FORMULAS_BYTES = 64 << 20 }; /* of their pictures: formulas behind stand as written */
+
+/* Bytes in a data: address. */
+static void base64_put(struct html *h, const unsigned char *bytes, size_t count)
+{
+    static const char letters[] =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (size_t i = 0; i < count; i += 3) {
+        const size_t n = count - i < 3 ? count - i : 3;
+        const unsigned word = (unsigned)bytes[i] << 16 |
+                              (n > 1 ? (unsigned)bytes[i + 1] << 8 : 0) |
+                              (n > 2 ? bytes[i + 2] : 0u);
+        const char four[4] = {letters[word >> 18], letters[word >> 12 & 63],
+                              n > 1 ? letters[word >> 6 & 63] : '=',
+                              n > 2 ? letters[word & 63] : '='};
+        fwrite(four, 1, sizeof four, h->f);
+    }
+}
+
+/* ---- formulas ---- */
+
+static bool math_open(struct html *h)
+{
+    const char *asked = h->setup->math;
+    if (h->math || h->math_missing)
+        return h->math != NULL;
+    if (font_face_open(asked ? asked : font_face_first(font_math_fonts), 0, &h->math_face) ==
+            FONT_OK &&
+        font_math_create(h->math_face, &h->math) == FONT_OK)
+        return true;
+    h->math_missing = true;
+    if (asked)
+        h->status = reader_fail(READER_FAILED, "%s", font_error());
+    return false;
+}
+
+/* The formula as a drawing of SVG. Owns: the caller frees it; NULL: it could not be made. */
+static char *formula_draw(struct html *h, const struct font_layout *layout, double pad,
+                          size_t *bytes)
+{
+    char *svg = NULL;
+    FILE *f = open_memstream(&svg, bytes);
+    const struct font_drawing drawing = {.width_px = layout->width_px + 2 * pad,
+                                         .height_px =
+                                             layout->ascent_px + layout->descent_px + 2 * pad};
+    if (!f)
+        return NULL;
+    const bool drawn =
+        font_drawing_svg(&drawing, layout, NULL, pad, pad + layout->ascent_px, f) == FONT_OK;
+    if (fclose(f) != 0 || !drawn || h->pictured_bytes + *bytes > FORMULAS_BYTES) {
+        free(svg);
+        return NULL;
+    }
+    h->pictured_bytes += *bytes;
+    return svg;
+}
+
+bool html_formula_put(struct html *h, const char *tex, int bytes, bool display)
+{
+    const struct font_math_options options = {.size_px = SIZE_PX, .display = display};
+    const double pad = 1, em = SCALE / SIZE_PX;
+    struct font_layout layout;
+    size_t count = 0;
+    if (bytes >= 2 && tex[0] == '$' && tex[bytes - 1] == '$') {
+        tex++;
+        bytes -= 2;
+    }
+    if (!math_open(h) ||
+        font_math_layout(h->math, tex, (size_t)bytes, &options, &layout) != FONT_OK)
+        return false;
+    char *svg = formula_draw(h, &layout, pad, &count);
+    if (svg) {
+        fprintf(
+            h->f,
+            "<img class=\"formula\" style=\"width:%.3fem;height:%.3fem;vertical-align:%.3fem\" "
+            "alt=\"",
+            em * (layout.width_px + 2 * pad),
+            em * (layout.ascent_px + layout.descent_px + 2 * pad),
+            -em * (layout.descent_px + pad));
+        html_put(h, tex, (size_t)bytes);
+        fputs("\" src=\"data:image/svg+xml;base64,", h->f);
+        base64_put(h, (const unsigned char *)svg, count);
+        fputs("\">", h->f);
+    }
+    font_layout_finish(&layout);
+    free(svg);
+    return svg != NULL;
+}
+
+/* ---- pictures ---- */
+
+bool html_picture_put(struct html *h, const struct reader_block *block)
+{
+    char *png = NULL;
+    size_t bytes = 0;
+    FILE *f = h->setup->picture && block->target ? open_memstream(&png, &bytes) : NULL;
+    if (!f)
+        return false;
+    bool found = h->setup->picture(h->setup->picture_user, block->source, block->target, f);
+    found = fclose(f) == 0 && found;
+    if (found) {
+        fputs("<img alt=\"", h->f);
+        html_put(h, block->text, (size_t)block->bytes);
+        fputs("\" src=\"data:image/png;base64,", h->f);
+        base64_put(h, (const unsigned char *)png, bytes);
+        fputs("\">", h->f);
+    }
+    free(png);
+    return found;
+}
+
+void html_picture_finish(struct html *h)
+{
+    font_math_destroy(h->math);
+    font_face_close(h->math_face);
+}

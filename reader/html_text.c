@@ -1,0 +1,158 @@
+/* html_text.c - letters of a block as HTML: see html_internal.h. */
+#include "html_internal.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- links ---- */
+
+/* Which of the document's files a link of one names; -1: none. */
+static int source_of(const struct html *h, int from, const char *path, size_t bytes)
+{
+    const struct reader_files *files = h->setup->files;
+    char *named = NULL, *whole = NULL;
+    int source = -1;
+    if (!files || from >= files->count)
+        return -1;
+    const char *slash = strrchr(files->paths[from], '/');
+    const int folder = slash ? (int)(slash + 1 - files->paths[from]) : 0;
+    if (bytes < PATH_MAX &&
+        asprintf(&named, "%.*s%.*s", folder, files->paths[from], (int)bytes, path) >= 0)
+        whole = realpath(named, NULL);
+    for (int i = 0; whole && source < 0 && i < files->count; i++)
+        source = files->whole[i] && strcmp(files->whole[i], whole) == 0 ? i : -1;
+    free(whole);
+    free(named);
+    return source;
+}
+
+/* The first block of a file; -1: it has none. */
+static int source_begin(const struct reader_document *d, int source)
+{
+    for (int i = 0; i < d->blocks_count; i++)
+        if (d->blocks[i].source == source)
+            return i;
+    return -1;
+}
+
+/* The block of the document that a link leads to; -1: it leads out of it. */
+static int link_block(const struct html *h, const char *target, int source)
+{
+    const struct reader_document *d = h->document;
+    const char *mark = strchr(target, '#');
+    int to = source;
+    if (target != mark) {
+        to =
+            strchr(target, ':') || *target == '/' || !*target
+                ? -1
+                : source_of(h, source, target, mark ? (size_t)(mark - target) : strlen(target));
+        if (to < 0)
+            return -1;
+    }
+    const struct reader_block *block = mark ? reader_document_label(d, mark + 1, to) : NULL;
+    if (!block && mark && target == mark)
+        block = reader_document_label(d, mark + 1, -1);
+    if (block)
+        return (int)(block - d->blocks);
+    return target == mark ? -1 : source_begin(d, to);
+}
+
+/* Whether a browser may follow it: nothing that runs, and no file by its whole path. */
+static bool is_followed(const char *target)
+{
+    return strncmp(target, "https://", 8) == 0 || strncmp(target, "http://", 7) == 0 ||
+           strncmp(target, "mailto:", 7) == 0 ||
+           (*target && *target != '/' && *target != '\\' && *target != '#' &&
+            !strchr(target, ':'));
+}
+
+static bool link_begin(struct html *h, const struct reader_block *block,
+                       const struct reader_span *span)
+{
+    const int to = span->target ? link_block(h, span->target, block->source) : -1;
+    if (to >= 0) {
+        fprintf(h->f, "<a href=\"#b.%d\">", to);
+    } else if (span->target && is_followed(span->target)) {
+        fputs("<a href=\"", h->f);
+        html_puts(h, span->target);
+        fputs("\">", h->f);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+/* ---- looks ---- */
+
+static const struct {
+    unsigned look;
+    const char *begin, *end;
+} tags[] = {{READER_HEAVY, "<strong>", "</strong>"},
+            {READER_SLANTED, "<em>", "</em>"},
+            {READER_STRUCK, "<s>", "</s>"},
+            {READER_CODE, "<code>", "</code>"}};
+enum { TAGS = sizeof tags / sizeof *tags };
+
+static void note_call(struct html *h, const struct reader_span *span, const char *text)
+{
+    const bool first = span->note >= 0 && !h->called[span->note];
+    fputs("<sup>", h->f);
+    if (span->note >= 0) {
+        h->called[span->note] = true;
+        fprintf(h->f, "<a href=\"#n.%d\"", span->note + 1);
+        if (first)
+            fprintf(h->f, " id=\"c.%d\"", span->note + 1);
+        fputs(">", h->f);
+    }
+    html_put(h, text + span->begin, (size_t)(span->end - span->begin));
+    fputs(span->note >= 0 ? "</a></sup>" : "</sup>", h->f);
+}
+
+/* Letters of one span, all marked or none. */
+static void piece_put(struct html *h, const struct reader_block *block,
+                      const struct reader_span *span, int from, int to)
+{
+    const char *text = block->text;
+    const bool marked = h->marks || h->typed;
+    const bool in_code = block->kind == READER_CODE_BLOCK || block->kind == READER_LIVE ||
+                         block->kind == READER_HTML;
+    const unsigned look = (span ? span->look : 0) & ~(in_code ? (unsigned)READER_CODE : 0);
+    bool linked = false;
+    if (marked)
+        fputs(h->typed ? "<mark class=\"noted\">" : "<mark>", h->f);
+    if (look & READER_NOTE) {
+        note_call(h, span, text);
+    } else {
+        linked = look & READER_LINK && link_begin(h, block, span);
+        for (int i = 0; i < TAGS; i++)
+            if (look & tags[i].look)
+                fputs(tags[i].begin, h->f);
+        if (!(look & READER_FORMULA) || !html_formula_put(h, text + from, to - from, false))
+            html_put(h, text + from, (size_t)(to - from));
+        for (int i = TAGS - 1; i >= 0; i--)
+            if (look & tags[i].look)
+                fputs(tags[i].end, h->f);
+    }
+    fputs(linked ? "</a>" : "", h->f);
+    fputs(marked ? "</mark>" : "", h->f);
+}
+
+void html_block_text(struct html *h, const struct reader_block *block, int from, int to)
+{
+    const unsigned whole = READER_NOTE | READER_FORMULA;
+    int k = 0;
+    for (int at = from; at < to;) {
+        html_events_put(h, block, at);
+        while (k < block->spans_count && block->spans[k].end <= at)
+            k++;
+        const struct reader_span *span =
+            k < block->spans_count && block->spans[k].begin <= at ? &block->spans[k] : NULL;
+        int end = k < block->spans_count ? (span ? span->end : block->spans[k].begin) : to;
+        end = end < to ? end : to;
+        if (!span || !(span->look & whole))
+            end = html_event_next(h, block, end);
+        piece_put(h, block, span, at, end);
+        at = end;
+    }
+}
