@@ -295,7 +295,11 @@ void background_drop(struct machine *m)
     b->begun = false;
 }
 
-/* The name of a mark, by the driver's cache and the size of a work-group. */
+/* PoCL compiles a kernel once for starts that have fewer work-items along each dimension, and
+ * once for all others. */
+enum { WIDE_FROM = UINT16_MAX };
+
+/* The name of a mark, by the driver's cache and for which starts the kernel is. */
 static char *mark_of(const struct machine *m, const struct background_wish *wish)
 {
     const char *folder = getenv("POCL_CACHE_DIR");
@@ -303,8 +307,8 @@ static char *mark_of(const struct machine *m, const struct background_wish *wish
     size_t size = key ? strlen(key) + strlen(folder ? folder : "") + 40 : 0;
     char *mark = key ? malloc(size) : NULL;
     if (mark)
-        snprintf(mark, size, "%s\n%llu\n%s", folder ? folder : "",
-                 (unsigned long long)wish->widest, key);
+        snprintf(mark, size, "%s\n%s\n%u\n%s", folder ? folder : "",
+                 wish->widest < WIDE_FROM ? "narrow" : "wide", wish->group, key);
     free(key);
     return mark;
 }
@@ -406,6 +410,15 @@ void background_foresee(struct machine *m, const struct background_wish *wish)
 done:
     free(request);
     free(mark);
+}
+
+bool background_has_all(const struct machine *m)
+{
+    const struct background *b = m->plans->background;
+    bool all = b != NULL;
+    for (int i = 0; all && i < b->count; i++)
+        all = b->items[i].compiled;
+    return all;
 }
 
 bool background_begin(struct machine *m)

@@ -44,6 +44,9 @@ int background_want(struct machine *m, const struct background_wish *wish);
  * wanted. If no cache has it, which takes long, the process is started meanwhile: PoCL reads
  * its library for most of a second before it compiles anything. */
 void background_foresee(struct machine *m, const struct background_wish *wish);
+/* Whether the driver has all kernels of the next batch, by what is known of it: nothing of the
+ * batch has to be compiled. */
+bool background_has_all(const struct machine *m);
 /* False: no memory. */
 bool background_begin(struct machine *m);
 /* Returns the state of the batch; never waits. One kernel after the other is loaded, a large

@@ -82,6 +82,17 @@ static int32_t number_of(const struct machine_value *v, int k, enum machine_numb
     return v->set;
 }
 
+uint64_t plan_alike(const struct machine *m, const struct reach *r, const struct targets *t)
+{
+    uint64_t h = hash_of(m, r, t);
+    for (int i = 0; i < 2 * r->count; i++) {
+        enum machine_number what;
+        const int32_t number = number_of(r->nodes[i / 2], i % 2, &what);
+        h = mixed(h, what == MACHINE_NUMBER_VPSET ? 0 : (uint32_t)number);
+    }
+    return h;
+}
+
 /* Compares with the first one's numbers. */
 static void compare(struct plan_family *f, const struct reach *r)
 {

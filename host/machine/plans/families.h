@@ -34,6 +34,9 @@ enum { FAMILY_FROM = 2 };
 /* The family of a plan that is about to be made. NULL: no memory, which is no error. */
 struct plan_family *family_join(struct machine *m, const struct reach *r,
                                 const struct targets *t);
+/* A hash of what a plan computes, the same in all programs: which VP sets there are is no part
+ * of it, but which of its values are of the same set is. */
+uint64_t plan_alike(const struct machine *m, const struct reach *r, const struct targets *t);
 /* Those without a plan go. */
 void families_sweep(struct machine *m);
 void families_finish(struct machine *m);

@@ -2,6 +2,7 @@
 #include "plans/background.h"
 #include "plans/division.h"
 #include "plans/explained.h"
+#include "plans/known.h"
 #include "plans/plans.h"
 
 /* How many times as often a plan runs before it gets kernels with its numbers in their text as
@@ -38,7 +39,7 @@ bool plan_is_due(struct machine *m, const struct plan *p)
     if (choice_is_awaited(m) || !device_takes_kernels(m))
         return false;
     if (p->quality == INTERPRETED)
-        return interpreted_is_due(m, p) && !background_busy(m);
+        return (interpreted_is_due(m, p) || interpreted_seeks(m, p)) && !background_busy(m);
     if (plan_is_due_written(m, p) && !background_busy(m))
         return true;
     return quality > p->quality && (quality != OPTIMISED || p->could_be_optimised) &&
@@ -106,6 +107,7 @@ void plans_see_to(struct machine *m)
         better->later = false;
         if (better->lifted && better->family)
             better->family->lifted++;
+        known_keep(m, p, better);
         p->better = NULL;
         plan_becomes(m, p, better);
     } else {
@@ -119,8 +121,11 @@ bool improve_begin(struct machine *m, struct plan *p, const struct plan_request 
 {
     if (!background_on(m) || background_busy(m))
         return false;
+    known_prepare(m, p, q);
     p->better = plan_make(m, q, quality, true);
-    if (p->better && background_begin(m)) {
+    if (p->better && q->form && !background_has_all(m))
+        background_drop(m);
+    else if (p->better && background_begin(m)) {
         m->plans->improving = p;
         return true;
     }
@@ -142,6 +147,12 @@ void plan_promote(struct machine *m, struct plan *p, const struct plan_request *
     } else if (!improve_begin(m, p, q, quality)) {
         plan_improve(m, p, q, quality);
     }
+}
+
+void plan_recall(struct machine *m, struct plan *p, const struct plan_request *q)
+{
+    p->sought = true;
+    improve_begin(m, p, q, q->form->quality);
 }
 
 bool plan_is_of_parent(const struct machine *m, const struct plan *p)

@@ -12,6 +12,7 @@
 
 #include "base/errors.h"
 #include "plans/background.h"
+#include "plans/known.h"
 #include "plans/plans.h"
 
 static double compile_time(const struct machine *m, const struct plan *p)
@@ -24,7 +25,7 @@ static double compile_time(const struct machine *m, const struct plan *p)
 }
 
 /* Byte code has a step for it. */
-static bool is_known(const struct machine_value *v)
+static bool is_a_step(const struct machine_value *v)
 {
     if (v->op == NODE_GATHER)
         return v->in[1]->buffer != NULL;
@@ -48,7 +49,7 @@ static bool could_be(const struct machine *m, const struct plan_request *q)
         return false;
     for (int i = 0; i < q->reach->count; i++) {
         const struct machine_value *v = q->reach->nodes[i];
-        if (v->buffer ? !v->buffer->host && !on_device(m) : !is_known(v))
+        if (v->buffer ? !v->buffer->host && !on_device(m) : !is_a_step(v))
             return false;
     }
     return m->settings.interpret > 1 || must ||
@@ -164,11 +165,22 @@ static bool is_best(const struct plan *p)
     return crosses && !each;
 }
 
+/* Whether the plan's kernels were compiled before, and nothing is left to be searched for long
+ * so that they can be written again. */
+static bool is_known(struct machine *m, const struct plan_request *q, struct plan_form *form)
+{
+    return known_find(m, q, form) && (form->quality != BOXED || !choice_takes_long(m, q) ||
+                                      (q->choice && q->choice->strips.nodes));
+}
+
 struct plan *interpreted_at_hand(struct machine *m, const struct plan_request *q)
 {
     struct plan_request asked = *q;
+    struct plan_form form = {OPTIMISED, false};
     asked.use = PLAN_TO_RUN_AT_HAND;
-    struct plan *made = plan_make(m, &asked, OPTIMISED, false);
+    if (is_known(m, q, &form))
+        asked.form = &form;
+    struct plan *made = plan_make(m, &asked, form.quality, false);
     machine_error_clear(m);
     return made;
 }
@@ -207,6 +219,13 @@ static bool pays_family(const struct machine *m, const struct plan *p)
                compile_time(m, p);
 }
 
+double interpreted_saves_s(const struct machine *m, const struct plan *p)
+{
+    const struct device_shape *shape = &m->device->shape;
+    const double mean_s = p->spent_s / (double)p->runs;
+    return mean_s - shape->kernel_part * mean_s - 1e-9 * shape->wait_ns * p->launches_count;
+}
+
 bool interpreted_is_due(const struct machine *m, const struct plan *p)
 {
     const struct device_shape *shape = &m->device->shape;
@@ -214,11 +233,18 @@ bool interpreted_is_due(const struct machine *m, const struct plan *p)
         return false;
     if (interpreted_asks(p) && p->spent_s > 1e-9 * shape->text_ns)
         return true;
-    double mean = p->spent_s / (double)p->runs,
-           saved = mean - shape->kernel_part * mean - 1e-9 * shape->wait_ns * p->launches_count;
+    const double mean = p->spent_s / (double)p->runs, saved = interpreted_saves_s(m, p);
     if (p->looks_around && p->worked >= m->settings.box_after &&
         mean > 1e-9 * shape->turns_from_ns)
         return true;
     return saved * (double)p->runs > compile_time(m, p) ||
            (saved > 0 && p->asked && pays_family(m, p));
+}
+
+bool interpreted_seeks(struct machine *m, const struct plan *p)
+{
+    return p->quality == INTERPRETED && !p->sought && p->runs > 0 &&
+           p->spent_s > 1e-9 * m->device->shape.text_ns && m->settings.interpret == 1 &&
+           m->settings.keep && !interpreted_asks(p) && interpreted_saves_s(m, p) > 0 &&
+           background_on(m);
 }

@@ -12,6 +12,7 @@
 #include "plans/background.h"
 #include "plans/division.h"
 #include "plans/explained.h"
+#include "plans/known.h"
 #include "plans/plans.h"
 
 /* ---- life ---- */
@@ -211,6 +212,8 @@ static bool lifts(struct machine *m, const struct plan *p, const struct kernel_t
 {
     if (m->settings.numbers != SETTING_FREE)
         return m->settings.numbers;
+    if (p->form)
+        return p->form->lifted;
     if (p->written || !m->settings.optimise_after || !m->settings.box_after)
         return false;
     parts[DEVICE_PARTS - 1] = written;
@@ -380,6 +383,7 @@ static struct plan *plan_attempt(struct machine *m, const struct plan_request *q
         p->later = later;
         p->family = q->family;
         p->written = q->written;
+        p->form = q->form;
         p->only_at_hand = q->use == PLAN_TO_RUN_AT_HAND;
         p->stored = calloc(count, sizeof *p->stored);
         p->arrays = calloc(count, sizeof *p->arrays);
@@ -406,6 +410,8 @@ static struct plan *plan_attempt(struct machine *m, const struct plan_request *q
     }
     free(g.nodes);
     free(stores);
+    if (p)
+        p->form = NULL; /* the request's */
     if (!good) {
         if (p && later)
             plan_notes_settle(m, p);

@@ -12,6 +12,7 @@
 #include "base/errors.h"
 #include "plans/background.h"
 #include "plans/division.h"
+#include "plans/known.h"
 
 /* Of a program that does not repeat, in units of some 4 kilobytes: a plan of few values is one,
  * of many values several. */
@@ -257,9 +258,29 @@ static bool plan_comes_back(struct machine *m, struct plan *p, struct plan_reque
     return made != NULL;
 }
 
+/* What an earlier program had compiled, if it did. */
+static void plan_seek(struct machine *m, struct plan *p, struct plan_request *q)
+{
+    struct plan_form form;
+    if (!known_find(m, q, &form)) {
+        p->sought = true;
+        return;
+    }
+    if (!choice_is_at_hand(m, p, q, form.quality == BOXED || m->device->shape.always_strips))
+        return;
+    q->choice = p->choice;
+    q->form = &form;
+    plan_recall(m, p, q);
+    q->form = NULL;
+}
+
 /* Better kernels for a plan that is due. */
 static void plan_better(struct machine *m, struct plan *p, struct plan_request *q)
 {
+    if (interpreted_seeks(m, p)) {
+        plan_seek(m, p, q);
+        return;
+    }
     enum quality quality = plan_quality_after(m, p->worked);
     const bool asks = p->quality == INTERPRETED && interpreted_asks(p);
     if (!choice_is_at_hand(m, p, q,

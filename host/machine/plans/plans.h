@@ -63,20 +63,23 @@ struct plan {
     uint64_t runs;      /* while it is interpreted */
     double spent_s;     /* ... by these */
     bool asked;         /* ... whether its kernels are at hand */
+    bool sought;        /* ... whether an earlier program had them compiled (known.h) */
     bool looks_around;  /* ... it reads neighbours, so strips and turns of loops may pay */
     bool only_at_hand;  /* while it is made: nothing is compiled */
     bool later;         /* its kernels are compiled in the background */
     bool lifted;        /* kernels take numbers as arguments: codegen/numbers.h */
     bool written;       /* while it is made: none does */
     uint64_t asked_of;  /* its family's lifted kernels when it was last asked */
-    struct plan_family *family; /* NULL: unknown */
-    struct choice *choice;      /* what it would store with kernels; NULL: not known */
-    struct plan *better;        /* the plan whose kernels are being compiled, and which replaces
+    uint64_t alike;     /* what it computes, while better kernels are compiled; 0: not known */
+    const struct plan_form *form; /* while it is made: how its kernels are; NULL: as it pays */
+    struct plan_family *family;   /* NULL: unknown */
+    struct choice *choice;        /* what it would store with kernels; NULL: not known */
+    struct plan *better; /* the plan whose kernels are being compiled, and which replaces
                           * this one */
-    bool empty;                 /* without kernels, except those of a better plan */
-    bool undecided;             /* it is rehearsed, and not known yet what it stores */
-    bool gone;                  /* its kernels had to go; they are on disk */
-    bool hopeless;              /* of many turns that do not fit one kernel */
+    bool empty;          /* without kernels, except those of a better plan */
+    bool undecided;      /* it is rehearsed, and not known yet what it stores */
+    bool gone;           /* its kernels had to go; they are on disk */
+    bool hopeless;       /* of many turns that do not fit one kernel */
     struct division
         *division; /* it is run in blocks, and has no kernels itself; NULL: in one piece */
     struct plan *next;
@@ -142,13 +145,15 @@ struct targets {
     struct machine_value **values;
     int count, capacity;
 };
+struct plan_form;
 struct plan_request {
     const struct reach *reach;
     const struct targets *targets;
     enum plan_use use;
-    struct plan_family *family;  /* set by plan_get() */
-    bool written;                /* no kernel takes numbers as arguments */
-    const struct choice *choice; /* what kernels store; NULL: to be chosen */
+    struct plan_family *family;   /* set by plan_get() */
+    bool written;                 /* no kernel takes numbers as arguments */
+    const struct choice *choice;  /* what kernels store; NULL: to be chosen */
+    const struct plan_form *form; /* how kernels are made (known.h); NULL: as it pays */
 };
 
 /* Returns the plan: a new or a known one, with better kernels if these are due. NULL: error
@@ -235,6 +240,9 @@ void plan_improve(struct machine *m, struct plan *p, const struct plan_request *
 /* One that is interpreted gets kernels: those at hand, or such as are compiled now or in the
  * background. */
 void plan_promote(struct machine *m, struct plan *p, const struct plan_request *q);
+/* One that is interpreted requests the kernels that an earlier program had compiled in this
+ * form. If one of them is not there any more, nothing is requested. */
+void plan_recall(struct machine *m, struct plan *p, const struct plan_request *q);
 /* Drops what is being compiled in the background. */
 void improve_give_up(struct machine *m);
 /* Requests better kernels from the background. False: impossible. */
@@ -272,6 +280,11 @@ struct plan *interpreted_make(struct machine *m, const struct plan_request *q);
 /* What its runs have cost, and are likely to cost, is worth a look at kernels, or compiling
  * them. */
 bool interpreted_is_due(const struct machine *m, const struct plan *p);
+/* What a run with kernels would save of a run as byte code, of which there has been one. */
+double interpreted_saves_s(const struct machine *m, const struct plan *p);
+/* Whether to look now for what an earlier program had compiled (known.h): once for each plan,
+ * where kernels are compiled in the background. */
+bool interpreted_seeks(struct machine *m, const struct plan *p);
 /* Its family has got kernels since it was asked whether there are any. */
 bool interpreted_asks(const struct plan *p);
 /* The same with kernels that need not be compiled; NULL: there are none. */
