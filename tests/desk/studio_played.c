@@ -50,6 +50,15 @@ FILE *played_begin(void)
     return file;
 }
 
+static void run(const char *variable)
+{
+    played.variables[0] = "GTK_A11Y=none"; /* no bus is needed for this */
+    played.variables[1] = variable;
+    child_run(&played);
+    if (played.status != 0)
+        print_message("%s", played.errors);
+}
+
 void played_run(const char *variable)
 {
     memset(&played, 0, sizeof played);
@@ -59,11 +68,16 @@ void played_run(const char *variable)
                                      "--pigment",       "quinacridone rose",
                                      "--play",          played_path("hand.events")};
     memcpy(played.arguments, arguments, sizeof arguments);
-    played.variables[0] = "GTK_A11Y=none"; /* no bus is needed for this */
-    played.variables[1] = variable;
-    child_run(&played);
-    if (played.status != 0)
-        print_message("%s", played.errors);
+    run(variable);
+}
+
+void played_again(void)
+{
+    memset(&played, 0, sizeof played);
+    const char *const arguments[] = {getenv("LUTETIA"), "studio", "--play",
+                                     played_path("hand.events")};
+    memcpy(played.arguments, arguments, sizeof arguments);
+    run(NULL);
 }
 
 pid_t played_start(void)

@@ -27,7 +27,9 @@ FILE *played_begin(void);
 /* Runs the window with the events until they close it, on a new sheet of the scene's
  * (studio_scene.h). */
 void played_run(const char *variable);
-/* The same beside the test: its process. */
+/* The same, on the sheet that was not saved. */
+void played_again(void);
+/* As played_run(), beside the test: its process. */
 pid_t played_start(void);
 /* The bytes of a file; the caller frees them. */
 size_t played_file(const char *path, char **bytes);

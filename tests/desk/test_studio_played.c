@@ -196,11 +196,9 @@ static void last_snapshot_has_all(struct snapshot *last)
     assert_int_equal(last->deeds, DEEDS);
 }
 
-static void killed_at_random_moments(void **state)
+/* Deeds, each with a picture after it. */
+static pid_t pictured_start(void)
 {
-    (void)state;
-    struct snapshot snapshots[MOMENTS], last;
-    int in_time = 0;
     FILE *events = played_begin();
     fprintf(events, "0 set paused on\n0 view 3 48 36 0 0\n");
     for (int i = 0; i < DEEDS; i++) {
@@ -209,7 +207,15 @@ static void killed_at_random_moments(void **state)
                 picture_path(i + 1));
     }
     fclose(events);
-    const pid_t studio = played_start();
+    return played_start();
+}
+
+static void killed_at_random_moments(void **state)
+{
+    (void)state;
+    struct snapshot snapshots[MOMENTS], last;
+    int in_time = 0;
+    const pid_t studio = pictured_start();
     snapshots_take(snapshots);
     last_snapshot_has_all(&last);
     kill(studio, SIGKILL);
@@ -226,6 +232,59 @@ static void killed_at_random_moments(void **state)
     char path[300];
     if (played_journal(path, sizeof path))
         unlink(path);
+}
+
+/* Opened again by the window, without a name, it is what its journal has. */
+static void window_finds_it(void)
+{
+    struct paper_journal_found found;
+    struct studio_session *s;
+    FILE *events = played_begin();
+    fprintf(events, "0.5 picture %s\n0.6 close\n", played_path("found.png"));
+    fclose(events);
+    assert_int_equal(studio_session_find(played_path("killed.journal"), NULL, 64e6, &found, &s),
+                     PAPER_OK);
+    assert_int_equal(studio_session_picture(s, played_path("journal.png"), 1), PAPER_OK);
+    studio_session_destroy(s);
+    played_again();
+    assert_int_equal(played.status, 0);
+    played_files_same(played_path("found.png"), played_path("journal.png"));
+}
+
+/* A studio that is killed, not a journal that is copied; it takes minutes. */
+static void killed_twenty_times(void **state)
+{
+    const char *full = getenv("PAPER_TEST_FULL");
+    uint64_t chance = 11;
+    int in_time = 0;
+    (void)state;
+    if (!full || *full != '1')
+        skip();
+    for (int i = 0; i < MOMENTS; i++) {
+        struct snapshot snapshot = {0};
+        char path[300];
+        for (int k = 1; k <= DEEDS; k++)
+            unlink(picture_path(k));
+        const pid_t studio = pictured_start();
+        while (!played_journal(path, sizeof path))
+            usleep(10000);
+        usleep((useconds_t)(sample_word(&chance) % 7000000));
+        const double killed_s = real_now_s();
+        kill(studio, SIGKILL);
+        waitpid(studio, NULL, 0);
+        assert_true(snapshot_take(&snapshot));
+        snapshot.older = deeds_before(killed_s - LOST_MOST_S);
+        snapshot_is_whole(&snapshot);
+        window_finds_it();
+        print_message("killed %d: %d deeds seen, %d of them over %g s before, %d found\n",
+                      i + 1, deeds_before(killed_s), snapshot.older, LOST_MOST_S,
+                      snapshot.deeds);
+        in_time += snapshot.deeds >= snapshot.older;
+        free(snapshot.bytes);
+        while (played_journal(path, sizeof path))
+            unlink(path);
+    }
+    assert_int_equal(in_time, MOMENTS);
 }
 
 /* ---- a full disk ---- */
@@ -271,6 +330,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(session_is_its_script),
         cmocka_unit_test(killed_at_random_moments),
+        cmocka_unit_test(killed_twenty_times),
         cmocka_unit_test(full_disk_loses_nothing),
     };
     if (!screen_start("1280x900x24"))
