@@ -249,3 +249,14 @@ enum font_status drawn_spread(const struct font_drawing *d, const struct font_la
     font_layout_finish(&spread);
     return status;
 }
+
+int drawn_run(const struct font_drawing_stroke *stroke, int i)
+{
+    const double alike = 0.05; /* of the width */
+    const double width = stroke->points[i].width_px;
+    int end = i + 1;
+    while (end < stroke->points_count &&
+           fabs(stroke->points[end].width_px - width) <= alike * width)
+        end++;
+    return end;
+}

@@ -25,6 +25,23 @@
 
 #include <stdio.h>
 
+/* A box under the letters. rgba: sRGB, and how much it covers. */
+struct font_drawing_box {
+    double x, y, width, height, rgba[4];
+};
+
+/* A stroke over the letters, its ends round. width_px: of the line to this point from the one
+ * before. What lets something through does not let less through where it crosses itself. Parts
+ * that are farther than 100,000 pixels from the page are drawn there. */
+struct font_drawing_point {
+    double x, y, width_px;
+};
+struct font_drawing_stroke {
+    const struct font_drawing_point *points;
+    int points_count;
+    double rgba[4];
+};
+
 struct font_drawing {
     double width_px, height_px;
     double ink[3]; /* sRGB numbers, of letters that have none of the layout's */
@@ -34,6 +51,11 @@ struct font_drawing {
     const struct font_passage
         *passages; /* by where they begin, of PDF; NULL: the text is one paragraph */
     int passages_count;
+    /* beside the letters, in the page's pixels, through no map; in order */
+    const struct font_drawing_box *boxes;
+    int boxes_count;
+    const struct font_drawing_stroke *strokes;
+    int strokes_count;
     const char *title, *language; /* of a PDF of its own: as document.h has them */
 };
 

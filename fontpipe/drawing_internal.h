@@ -32,6 +32,16 @@ struct drawn {
     struct font_painter *painter; /* once there is a picture */
 };
 
+/* No number that a program could stumble over. */
+static inline double drawn_near(double px)
+{
+    const double far = 1e5;
+    return px > far ? far : px > -far ? px : -far;
+}
+
+/* Behind the points from i on that are drawn in one go: about as wide as each other. */
+int drawn_run(const struct font_drawing_stroke *stroke, int i);
+
 enum { DRAWN_FINER = 4 }; /* pixels of a picture to one of the drawing's, along each side */
 
 /* Glyph i's picture, so much finer than the drawing. Owns: the caller frees out->rgba. */

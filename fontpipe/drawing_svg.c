@@ -220,6 +220,43 @@ static void words_put(const struct font_drawing *d, const struct font_layout *la
     fputs("</g>\n", f);
 }
 
+/* ---- beside the letters ---- */
+
+static void boxes_put(const struct font_drawing *d, FILE *f)
+{
+    for (int i = 0; i < d->boxes_count; i++) {
+        const struct font_drawing_box *b = &d->boxes[i];
+        fprintf(f,
+                "<rect x=\"%.3f\" y=\"%.3f\" width=\"%.3f\" height=\"%.3f\" "
+                "fill=\"rgb(%d,%d,%d)\" fill-opacity=\"%.4g\"/>\n",
+                drawn_near(b->x), drawn_near(b->y), drawn_near(b->width), drawn_near(b->height),
+                byte_of(b->rgba[0]), byte_of(b->rgba[1]), byte_of(b->rgba[2]), b->rgba[3]);
+    }
+}
+
+static void strokes_put(const struct font_drawing *d, FILE *f)
+{
+    for (int i = 0; i < d->strokes_count; i++) {
+        const struct font_drawing_stroke *s = &d->strokes[i];
+        fprintf(f,
+                "<g fill=\"none\" stroke=\"rgb(%d,%d,%d)\" stroke-linecap=\"round\" "
+                "stroke-linejoin=\"round\" opacity=\"%.4g\">\n",
+                byte_of(s->rgba[0]), byte_of(s->rgba[1]), byte_of(s->rgba[2]), s->rgba[3]);
+        for (int k = 0; k < s->points_count;) {
+            const int end = drawn_run(s, k);
+            const struct font_drawing_point *from = &s->points[k > 0 ? k - 1 : 0];
+            fprintf(f, "<path stroke-width=\"%.3f\" d=\"M%.3f,%.3f",
+                    drawn_near(s->points[k].width_px), drawn_near(from->x),
+                    drawn_near(from->y));
+            for (; k < end; k++)
+                fprintf(f, "L%.3f,%.3f", drawn_near(s->points[k].x),
+                        drawn_near(s->points[k].y));
+            fputs("\"/>\n", f);
+        }
+        fputs("</g>\n", f);
+    }
+}
+
 static enum font_status spread_put(const struct font_drawing *d,
                                    const struct font_layout *layout, const struct font_map *map,
                                    double x, double y, FILE *f)
@@ -242,11 +279,14 @@ static enum font_status spread_put(const struct font_drawing *d,
     }
     if (status == FONT_OK)
         status = outlines_put(&drawn, f);
-    fprintf(f, "</defs>\n<g fill=\"rgb(%d,%d,%d)\">\n", byte_of(d->ink[0]), byte_of(d->ink[1]),
+    fputs("</defs>\n", f);
+    boxes_put(d, f);
+    fprintf(f, "<g fill=\"rgb(%d,%d,%d)\">\n", byte_of(d->ink[0]), byte_of(d->ink[1]),
             byte_of(d->ink[2]));
     for (int i = 0; i < layout->glyphs_count && status == FONT_OK; i++)
         status = letter_put(d, layout, &drawn, i, map, x, y, f);
     fputs("</g>\n", f);
+    strokes_put(d, f);
     if (d->text)
         words_put(d, layout, &drawn, map, x, y, f);
     fputs("</svg>\n", f);

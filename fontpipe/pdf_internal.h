@@ -193,6 +193,11 @@ enum font_status pdf_inks_make(struct pdf_making *m, int *numbers);
 /* In the page's resources. */
 void pdf_inks_put(const struct pdf_making *m, const int *numbers);
 
+/* pdf_beside.c: boxes and strokes in what is on the page; strokes as objects, their numbers. */
+void pdf_boxes_show(struct pdf_making *m);
+void pdf_strokes_show(struct pdf_making *m);
+enum font_status pdf_strokes_make(const struct pdf_making *m, int *numbers);
+
 /* pdf_text.c: the text in UTF-16, as hexadecimal digits. */
 void pdf_utf16_put(const char *text, size_t begin, size_t end, FILE *file);
 /* How many letters the cluster has, if they are several that go to the left; else 0. */

@@ -318,6 +318,7 @@ static enum font_status content_make(struct pdf_making *m, int marks_begin)
     enum font_status status = drawn_find(m->d, m->layout, &m->drawn);
     if (status == FONT_OK && !order_make(m))
         status = pdf_no_memory();
+    pdf_boxes_show(m);
     for (int k = 0, first = 0; k < m->layout->glyphs_count && status == FONT_OK; k++) {
         int i = m->order[k];
         const struct drawn_text *t = &m->drawn.texts[i];
@@ -338,6 +339,7 @@ static enum font_status content_make(struct pdf_making *m, int marks_begin)
     }
     pdf_run_end(m);
     mark_end(m);
+    pdf_strokes_show(m);
     return status;
 }
 
@@ -346,14 +348,18 @@ static enum font_status objects_put(struct pdf_making *m, const char *content, s
                                     int marks_begin)
 {
     struct font_document *p = m->p;
-    int *inks = calloc((size_t)m->layout->inks_count + 1, sizeof *inks), contents = 0;
-    if (!inks ||
+    int *inks = calloc((size_t)m->layout->inks_count + 1, sizeof *inks),
+        *strokes = calloc((size_t)m->d->strokes_count + 1, sizeof *strokes), contents = 0;
+    if (!inks || !strokes ||
         !array_reserve(&p->pages, &p->pages_capacity, p->pages_count + 1, sizeof *p->pages)) {
         free(inks);
+        free(strokes);
         return pdf_no_memory();
     }
     pdf_stream(p, &contents, "", content, count);
     enum font_status status = pdf_inks_make(m, inks);
+    if (status == FONT_OK)
+        status = pdf_strokes_make(m, strokes);
     for (int i = 0; i < m->pictures_count; i++)
         pdf_picture_put(p, &m->pictures[i]);
     int number = pdf_object(p);
@@ -365,6 +371,8 @@ static enum font_status objects_put(struct pdf_making *m, const char *content, s
             contents, p->pages_count, p->fonts_number);
     for (int i = 0; i < m->pictures_count; i++)
         fprintf(p->f, " /I%d %d 0 R", i, m->pictures[i].number);
+    for (int i = 0; i < m->d->strokes_count; i++)
+        fprintf(p->f, " /S%d %d 0 R", i, strokes[i]);
     fputs(" >>", p->f);
     pdf_inks_put(m, inks);
     fputs(" >> >>\nendobj\n", p->f);
@@ -372,6 +380,7 @@ static enum font_status objects_put(struct pdf_making *m, const char *content, s
                                                    .marks_begin = marks_begin,
                                                    .marks_count = p->marks_count - marks_begin};
     free(inks);
+    free(strokes);
     return status;
 }
 

@@ -46,6 +46,10 @@ void reader_pages_destroy(struct reader_pages *p)
     if (!p)
         return;
     page_text_destroy(p->text);
+    pages_left_destroy(p->left);
+    for (int i = 0; i < p->kept.count; i++)
+        free(p->kept.paragraphs[i].spans);
+    free(p->kept.paragraphs);
     for (int i = 0; i < p->pixels_count; i++)
         free(p->pixels[i]);
     free(p->pixels);
@@ -425,6 +429,8 @@ enum reader_status reader_pages_make(const struct reader_document *document,
         pages_begin(document, setup, setup->height_px - 2 * setup->margin_px, NULL, out);
     if (status == READER_OK)
         status = blocks_add(*out);
+    if (status == READER_OK && setup->remarks)
+        status = pages_left_make(*out);
     if (status != READER_OK) {
         reader_pages_destroy(*out);
         *out = NULL;

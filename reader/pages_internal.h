@@ -63,6 +63,9 @@ struct reader_pages {
     const double *stage_more;  /* of each block: room under its picture; NULL: none */
     const int *opened; /* notes that are seen: those with the passage's number, from 1 */
     int passage;       /* that number */
+    /* Pages with what readers left (pages_remarks.c). */
+    struct made_passage kept; /* all paragraphs */
+    struct pages_left *left;  /* NULL: nothing is asked for */
 };
 
 /* A paragraph that is put together: letters, how they look, where notes are. */
@@ -140,6 +143,10 @@ enum reader_status pages_picture_add(struct reader_pages *p, const struct reader
 /* pages_stage.c: room for the picture of a script that lives, and for the strip under it. */
 enum reader_status pages_stage_add(struct reader_pages *p, const struct reader_block *block,
                                    const struct page_manner *manner);
+
+/* pages_remarks.c: the notes that readers typed, once all paragraphs are there. */
+enum reader_status pages_left_make(struct reader_pages *p);
+void pages_left_destroy(struct pages_left *left); /* NULL is fine */
 
 /* pages_table.c: the rows of one table, blocks[0..count). */
 enum reader_status pages_table_add(struct reader_pages *p, const struct reader_block *blocks,

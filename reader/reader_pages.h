@@ -23,8 +23,9 @@
 #ifndef LUTETIA_READER_PAGES_H
 #define LUTETIA_READER_PAGES_H
 
-#include "reader_document.h"
+#include "reader_remarks.h"
 
+#include <drawing.h>
 #include <page.h>
 
 #include <stdint.h>
@@ -60,6 +61,11 @@ struct reader_pages_setup {
      * gives. */
     bool (*picture)(void *user, int source, const char *target, struct reader_picture *out);
     void *picture_user;
+    /* What readers left, found in the document's plain text; pages only. Typed notes are notes
+     * of the page that has their words, at the foot, or in the margin that notes_px makes;
+     * those whose words are on no page, or in a note, stand behind all else. It must outlive
+     * the pages. NULL: none. */
+    const struct reader_remarks *remarks;
 };
 /* EB Garamond (DejaVu Serif without it) of 17 pixels, justified, on a page of 600 x 840. */
 struct reader_pages_setup reader_pages_setup_default(void);
@@ -72,6 +78,10 @@ enum reader_status reader_pages_make(const struct reader_document *document,
 void reader_pages_destroy(struct reader_pages *pages); /* NULL is fine */
 /* The text that has the pages; never NULL. Owns: `pages`. */
 struct page_text *reader_pages_text(struct reader_pages *pages);
+/* What readers left on a page, as a drawing has it beside the letters: boxes behind words, and
+ * ink. Owns: `pages`, until it is called again. Errors: FAILED, NO_MEMORY. */
+enum reader_status reader_pages_left(struct reader_pages *pages, int page,
+                                     struct font_drawing *drawing);
 /* There are formulas, and no font to set them in: they stand as they are written. */
 bool reader_pages_lacks_math(const struct reader_pages *pages);
 /* How many commands in formulas are not known, and the first of them ("" for none). Owns:

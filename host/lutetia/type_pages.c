@@ -68,7 +68,11 @@ static int page_said(struct type_pages *s, struct page_text *text, int page,
                                      .passages = said->passages,
                                      .passages_count = said->passages_count,
                                      .language = s->language};
-    return EXIT_SUCCESS;
+    if (!s->beside || s->beside(s->beside_user, page, drawing))
+        return EXIT_SUCCESS;
+    font_layout_finish(layout);
+    page_said_finish(said);
+    return EXIT_FAILED;
 }
 
 /* The title of a PDF: what was asked for, else the first heading. Owns: the caller frees it;

@@ -3,6 +3,7 @@
 #ifndef LUTETIA_TYPE_PAGES_H
 #define LUTETIA_TYPE_PAGES_H
 
+#include <drawing.h>
 #include <page.h>
 
 #include <stdbool.h>
@@ -17,6 +18,9 @@ struct type_pages {
     int page_px[2];
     int page; /* which page is drawn, from 1; 0: not said */
     bool all, statistics;
+    /* what a page has beside its letters; false: an error was printed. NULL: nothing */
+    bool (*beside)(void *user, int page, struct font_drawing *drawing);
+    void *beside_user;
     struct font_layout lacking; /* only its missing characters: of all pages that were drawn */
 };
 

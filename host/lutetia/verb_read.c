@@ -4,6 +4,7 @@
 #include "lutetia.h"
 #include "options.h"
 #include "read_html.h"
+#include "read_left.h"
 #include "read_manual.h"
 #include "type_common.h"
 #include "type_pages.h"
@@ -53,9 +54,11 @@ static int out_check(const struct read *r, const struct option_row *rows,
         if (type_out_of(r->pages.out_path) == TYPE_OUT_NONE)
             return fail_usage("read", "-o names FILE.html, .pdf, .svg or .png (got '%.80s')",
                               r->pages.out_path);
-        return r->theme || r->remarks
-                   ? fail_usage("read", "--%s has no effect on pages: it is for .html",
-                                r->theme ? "theme" : "remarks")
+        if (r->theme)
+            return fail_usage("read", "--theme has no effect on pages: it is for %s", ".html");
+        return r->remarks && type_out_of(r->pages.out_path) == TYPE_OUT_PNG
+                   ? fail_usage("read", "--remarks has no effect on pictures: it is for %s",
+                                ".html, .pdf and .svg")
                    : EXIT_SUCCESS;
     }
     for (int i = 0; rows[i].name; i++)
@@ -96,8 +99,8 @@ static int read_options(struct read *r, int argc, char **argv, struct option_wor
         {"theme", 0, OPTION_TEXT, "NAME",
          "of the window, of .html: light or dark (as the desktop is)", &r->theme, 0, 0, 0},
         {"remarks", 0, OPTION_FLAG, NULL,
-         "in .html: what readers left in FILE.md.notes: highlights, notes, ink", &r->remarks, 0,
-         0, 0},
+         "what readers left in FILE.md.notes: highlights, notes, ink (not in .png)",
+         &r->remarks, 0, 0, 0},
         {"play", 0, OPTION_TEXT, "FILE",
          "recorded input in place of a hand in the window: lines of docs/reader.md", &r->play,
          0, 0, 0},
@@ -191,12 +194,23 @@ static void told(const struct reader_pages *pages)
              "stand as they are written");
 }
 
+/* What readers left on a page. */
+static bool left_put(void *user, int page, struct font_drawing *drawing)
+{
+    return reader_pages_left(user, page, drawing) == READER_OK ||
+           fail_reader(NULL) == EXIT_SUCCESS;
+}
+
 static int pages_write(struct read *r, const struct reader_pages_setup *setup,
                        const struct reader_document *document, int damaged)
 {
     struct reader_pages *pages;
     if (reader_pages_make(document, setup, &pages) != READER_OK)
         return fail_reader(NULL);
+    if (setup->remarks) {
+        r->pages.beside = left_put;
+        r->pages.beside_user = pages;
+    }
     int status = type_pages_write(&r->pages, reader_pages_text(pages));
     if (status == EXIT_SUCCESS) {
         told(pages);
@@ -208,8 +222,8 @@ static int pages_write(struct read *r, const struct reader_pages_setup *setup,
 }
 
 /* All of it as one file that a browser shows. */
-static int html_write(const struct read *r, const struct option_words *words,
-                      struct reader_document *document, const struct reader_files *files)
+static int html_write(const struct read *r, const struct reader_document *document,
+                      const struct reader_files *files, const struct reader_remarks *remarks)
 {
     const struct reader_html_setup setup = {.title = r->pages.title,
                                             .language = r->pages.language,
@@ -220,11 +234,29 @@ static int html_write(const struct read *r, const struct option_words *words,
                                             .size_px = r->size_px,
                                             .font = r->font,
                                             .math = r->math,
-                                            .files = files};
-    return read_html_write(r->pages.out_path, document, &setup,
-                           !r->remarks ? NULL
-                           : r->manual ? READ_HTML_MANUAL
-                                       : words->words[0]);
+                                            .files = files,
+                                            .remarks = remarks};
+    return read_html_write(r->pages.out_path, document, &setup);
+}
+
+/* HTML or pages, with what readers left where that is asked for. */
+static int document_write(struct read *r, const struct option_words *words,
+                          struct reader_pages_setup *setup, struct reader_document *document,
+                          const struct reader_files *files, int damaged)
+{
+    struct reader_remarks *remarks = NULL;
+    int status = EXIT_SUCCESS;
+    if ((r->remarks || is_html(r)) && reader_document_plain(document) != READER_OK)
+        status = fail_reader(NULL);
+    if (status == EXIT_SUCCESS && r->remarks)
+        status =
+            read_left_open(r->manual ? READ_LEFT_MANUAL : words->words[0], document, &remarks);
+    setup->remarks = remarks;
+    if (status == EXIT_SUCCESS)
+        status = is_html(r) ? html_write(r, document, files, remarks)
+                            : pages_write(r, setup, document, damaged);
+    reader_remarks_close(remarks);
+    return status;
 }
 
 /* ---- the window ---- */
@@ -349,8 +381,7 @@ int verb_read(int argc, char **argv)
         setup.align = FONT_ALIGN_START;
     status = document_read(&words, &document, &files, &damaged);
     if (status == EXIT_SUCCESS)
-        status = is_html(&r) ? html_write(&r, &words, document, &files)
-                             : pages_write(&r, &setup, document, damaged);
+        status = document_write(&r, &words, &setup, document, &files, damaged);
     if (status == EXIT_SUCCESS)
         lost_tell(&files, document);
     reader_document_destroy(document);

@@ -8,6 +8,7 @@
 #include <paint.h>
 #include <setup.h>
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -166,6 +167,60 @@ static void letters_are_where_they_are_painted(void **state)
     assert_true(tried >= 3);
 }
 
+/* ---- beside letters ---- */
+
+/* A box under the letter, and a stroke over it that crosses itself: it is as dark there as
+ * elsewhere, and numbers beyond all pages do no harm. */
+static void boxes_and_strokes_lie_beside_letters(void **state)
+{
+    (void)state;
+    static const struct font_drawing_point cross[] = {
+        {200, 8, 8}, {240, 48, 8}, {240, 8, 8}, {200, 48, 8}};
+    static const struct font_drawing_point far[] = {{1e9, 1e300, 2}, {-1e9, -1e300, 1e-9}};
+    const struct font_drawing_stroke strokes[] = {{cross, 4, {0, 0, 0, 0.4}},
+                                                  {far, 2, {0, 0, 0, 0}}};
+    const struct font_drawing_box box = {10, 10, 100, 40, {0.6, 0.6, 0.6, 1}};
+    const struct font_drawing d = {.width_px = WIDTH,
+                                   .height_px = HEIGHT,
+                                   .boxes = &box,
+                                   .boxes_count = 1,
+                                   .strokes = strokes,
+                                   .strokes_count = 2};
+    struct font_face *face = face_open("DejaVuSans");
+    struct font_shaper *s = shaper_make(face);
+    struct font_layout l;
+    char path[] = "/tmp/lutetia-document-XXXXXX", *svg = NULL;
+    size_t bytes;
+    assert_font(font_shaper_layout(s, "\xe2\x96\x88", 3, 30, NULL, &l)); /* a full block */
+    FILE *f = fdopen(mkstemp(path), "w"), *text = open_memstream(&svg, &bytes);
+    assert_true(f && text);
+    assert_font(font_drawing_pdf(&d, &l, NULL, 40, 36, f));
+    assert_font(font_drawing_svg(&d, &l, NULL, 40, 36, text));
+    fclose(f);
+    fclose(text);
+    sound(path);
+    if (has_program("pdftoppm")) {
+        double *dark = shown(path);
+        assert_true(fabs(dark[30 * WIDTH + 20] - 102) < 2);  /* the box */
+        assert_true(fabs(dark[30 * WIDTH + 50] - 255) < 2);  /* the letter over it */
+        assert_true(fabs(dark[18 * WIDTH + 210] - 102) < 2); /* the stroke */
+        assert_true(fabs(dark[28 * WIDTH + 220] - 102) < 2); /* where it crosses itself */
+        assert_true(fabs(dark[18 * WIDTH + 240] - 102) < 2);
+        assert_true(dark[30 * WIDTH + 300] < 1);
+        free(dark);
+    }
+    const char *under = strstr(svg, "<rect x=\"10.000\""), *letter = strstr(svg, "<use "),
+               *over = strstr(svg, "<g fill=\"none\"");
+    assert_true(under && letter && over && under < letter && letter < over);
+    assert_non_null(strstr(svg, "opacity=\"0.4\">\n<path stroke-width=\"8.000\" "
+                                "d=\"M200.000,8.000L200.000,8.000L240.000,48.000"));
+    unlink(path);
+    free(svg);
+    font_layout_finish(&l);
+    font_shaper_destroy(s);
+    font_face_close(face);
+}
+
 /* ---- books ---- */
 
 static const char book[] =
@@ -322,6 +377,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(letters_are_where_they_are_painted),
+        cmocka_unit_test(boxes_and_strokes_lie_beside_letters),
         cmocka_unit_test(books_have_tags_and_a_title),
         cmocka_unit_test(books_have_an_outline),
         cmocka_unit_test(words_go_on_behind_pages),
