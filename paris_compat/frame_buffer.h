@@ -48,15 +48,19 @@ bool frame_buffer_good_buffer(unsigned int buffer);
  *     4 map                              256 rows of red, green, blue
  *     5 view          pan                zoom 4, 4; `buffer` is seen
  *     6 end           a display is detached
+ *     7 room          offset             columns 4, slot 4, bytes of the pixels 4
  *
- * Pixels of 24 bits have 4 bytes, of which the last is 0. */
+ * Pixels of 24 bits have 4 bytes, of which the last is 0. Those of a piece of kind 7, which no
+ * file has, lie in a slot of the memory that is shared with the window (picture_room.h); who
+ * reads the piece gives the slot back. */
 enum frame_buffer_kind {
     FRAME_BUFFER_SIZE = 1,
     FRAME_BUFFER_PIXELS,
     FRAME_BUFFER_CLEAR,
     FRAME_BUFFER_MAP,
     FRAME_BUFFER_VIEW,
-    FRAME_BUFFER_END
+    FRAME_BUFFER_END,
+    FRAME_BUFFER_ROOM
 };
 enum { FRAME_BUFFER_HEAD = 24 };
 
@@ -74,5 +78,18 @@ bool frame_buffer_watched(void);
  * the next piece. */
 bool frame_buffer_piece_make(struct frame_buffer_piece *piece, size_t bytes);
 void frame_buffer_piece_add(struct frame_buffer_piece *piece);
+
+/* A piece of pixels: `pixels` has room for so many bytes, where the window sees them if there
+ * is such memory. What was made is added or dropped. */
+struct frame_buffer_pixels {
+    struct frame_buffer_piece piece; /* the caller sets all but its kind, bytes and more */
+    uint32_t columns;
+    uint8_t *pixels;
+    int slot; /* -1: they are in the piece */
+    size_t bytes;
+};
+bool frame_buffer_pixels_make(struct frame_buffer_pixels *p, size_t bytes);
+void frame_buffer_pixels_add(struct frame_buffer_pixels *p);
+void frame_buffer_pixels_drop(struct frame_buffer_pixels *p);
 
 #endif

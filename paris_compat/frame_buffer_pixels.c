@@ -115,7 +115,7 @@ static const uint32_t *order_of(const struct picture *p)
 /* ---- writing ---- */
 
 struct writing {
-    struct frame_buffer_piece piece;
+    struct frame_buffer_pixels to;
     struct picture picture;
     struct machine *m;
     unsigned int bits;
@@ -142,61 +142,67 @@ static bool writing_begin(struct writing *w, const char *name, CMFB_display_id_t
             return false;
     if (!picture_of(&w->picture, d, w->m) || !frame_buffer_watched())
         return false;
-    w->piece = (struct frame_buffer_piece){.kind = FRAME_BUFFER_PIXELS,
-                                           .display = display,
-                                           .buffer = buffer,
-                                           .pixel_bytes = d->bits == 8 ? 1 : 4,
-                                           .x = (uint32_t)x,
-                                           .y = (uint32_t)y};
-    const uint64_t bytes = 4 + w->picture.count * w->piece.pixel_bytes;
-    if (bytes > UINT32_MAX) {
+    w->to = (struct frame_buffer_pixels){.piece = {.display = display,
+                                                   .buffer = buffer,
+                                                   .pixel_bytes = d->bits == 8 ? 1 : 4,
+                                                   .x = (uint32_t)x,
+                                                   .y = (uint32_t)y},
+                                         .columns = w->picture.width};
+    const uint64_t bytes = w->picture.count * w->to.piece.pixel_bytes;
+    if (4 + bytes > UINT32_MAX) {
         paris_fail("a picture of %u x %u is too large for a display", w->picture.width,
                    w->picture.height);
         return false;
     }
     w->m = paris_begin(name); /* calls that were only noted come first */
-    if (!frame_buffer_piece_make(&w->piece, bytes))
-        return false;
-    for (int i = 0; i < 4; i++)
-        w->piece.more[i] = (uint8_t)(w->picture.width >> 8 * i);
-    return true;
+    return frame_buffer_pixels_make(&w->to, bytes);
 }
 
 /* Pixel k becomes value from[k]'s place. */
 static void pixels_permute(const struct writing *w, const uint8_t *values, const uint32_t *by)
 {
-    uint8_t *pixels = w->piece.more + 4;
+    uint8_t *pixels = w->to.pixels;
     for (uint64_t k = 0; k < w->picture.count; k++) {
         const uint64_t index = by ? by[k] : place(&w->picture, k);
-        if (w->piece.pixel_bytes == 1)
+        if (w->to.piece.pixel_bytes == 1)
             pixels[k] = values[index];
         else
             memcpy(pixels + 4 * k, values + 4 * index, 4);
     }
 }
 
+/* Sends what was read, or nothing. */
+static void writing_end(struct writing *w, bool read)
+{
+    if (read)
+        frame_buffer_pixels_add(&w->to);
+    else
+        frame_buffer_pixels_drop(&w->to);
+}
+
 /* The field's values as they lie, or by their places or addresses. */
-static void field_write(struct writing *w, CM_field_id_t source, bool raw)
+static bool field_read(struct writing *w, CM_field_id_t source, bool raw)
 {
     const struct machine_type type = MACHINE_UINT((int)w->bits);
     const uint32_t *by = NULL;
+    bool read = false;
     if (raw && !(by = order_of(&w->picture)))
-        return;
+        return false;
     const bool direct = !raw && straight(&w->picture);
     uint8_t *values =
-        direct ? w->piece.more + 4 : malloc(w->picture.count * w->piece.pixel_bytes);
+        direct ? w->to.pixels : malloc(w->picture.count * w->to.piece.pixel_bytes);
     if (!values)
         paris_fail_memory("not enough memory for a picture of %u x %u", w->picture.width,
                           w->picture.height);
     else if (machine_field_download(w->m, source, type, values) != MACHINE_OK)
         paris_fail_machine();
-    else {
-        if (!direct)
-            pixels_permute(w, values, by);
-        frame_buffer_piece_add(&w->piece);
-    }
+    else
+        read = true;
+    if (read && !direct)
+        pixels_permute(w, values, by);
     if (!direct)
         free(values);
+    return read;
 }
 
 void CMFB_write_news_always(CMFB_display_id_t display, unsigned int buffer,
@@ -205,7 +211,7 @@ void CMFB_write_news_always(CMFB_display_id_t display, unsigned int buffer,
     struct writing w;
     if (writing_begin(&w, "CMFB_write_news_always", display, buffer, &source, 1, x_offset,
                       y_offset))
-        field_write(&w, source, false);
+        writing_end(&w, field_read(&w, source, false));
 }
 
 void CMFB_write_always(CMFB_display_id_t display, unsigned int buffer, CM_field_id_t source,
@@ -213,7 +219,7 @@ void CMFB_write_always(CMFB_display_id_t display, unsigned int buffer, CM_field_
 {
     struct writing w;
     if (writing_begin(&w, "CMFB_write_always", display, buffer, &source, 1, x_offset, y_offset))
-        field_write(&w, source, true);
+        writing_end(&w, field_read(&w, source, true));
 }
 
 static inline void pixel_put(uint8_t *at, uint32_t red, uint32_t green, uint32_t blue)
@@ -227,7 +233,7 @@ static void channels_join(const struct writing *w, const uint8_t *red)
 {
     const uint64_t count = w->picture.count;
     const uint8_t *green = red + count, *blue = green + count;
-    uint8_t *pixels = w->piece.more + 4;
+    uint8_t *pixels = w->to.pixels;
     if (straight(&w->picture)) {
         for (uint64_t k = 0; k < count; k++)
             pixel_put(pixels + 4 * k, red[k], green[k], blue[k]);
@@ -259,11 +265,10 @@ void CMFB_write_rgb_news_always(CMFB_display_id_t display, unsigned int buffer,
         if (!read)
             paris_fail_machine();
     }
-    if (read) {
+    if (read)
         channels_join(&w, values);
-        frame_buffer_piece_add(&w.piece);
-    }
     free(values);
+    writing_end(&w, read);
 }
 
 /* ---- the shuffle ---- */

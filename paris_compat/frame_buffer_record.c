@@ -9,6 +9,7 @@ static void finish(void);
 static struct paris_recording displays_recording = {.variable = "LUTETIA_DISPLAY",
                                                     .verb = "display",
                                                     .line = "lutetia display 1\n",
+                                                    .room_wanted = true,
                                                     .finish = finish};
 static uint8_t *room; /* the head, and what follows it */
 static size_t room_bytes;
@@ -62,4 +63,44 @@ void frame_buffer_piece_add(struct frame_buffer_piece *piece)
     number_put(room + 16, piece->x, 4);
     number_put(room + 20, piece->y, 4);
     paris_recording_add(&displays_recording, room, FRAME_BUFFER_HEAD + piece->bytes);
+}
+
+/* ---- pixels ---- */
+
+bool frame_buffer_pixels_make(struct frame_buffer_pixels *p, size_t bytes)
+{
+    struct picture_room *shared = &displays_recording.room;
+    p->bytes = bytes;
+    p->slot = bytes <= PICTURE_ROOM_SLOT_BYTES ? picture_room_take(shared) : -1;
+    if (p->slot >= 0) {
+        p->pixels = picture_room_slot(shared, p->slot);
+        return true;
+    }
+    p->piece.kind = FRAME_BUFFER_PIXELS;
+    if (!frame_buffer_piece_make(&p->piece, 4 + bytes))
+        return false;
+    number_put(p->piece.more, p->columns, 4);
+    p->pixels = p->piece.more + 4;
+    return true;
+}
+
+void frame_buffer_pixels_add(struct frame_buffer_pixels *p)
+{
+    if (p->slot >= 0) {
+        p->piece.kind = FRAME_BUFFER_ROOM;
+        if (!frame_buffer_piece_make(&p->piece, 12)) {
+            frame_buffer_pixels_drop(p);
+            return;
+        }
+        number_put(p->piece.more, p->columns, 4);
+        number_put(p->piece.more + 4, (uint64_t)p->slot, 4);
+        number_put(p->piece.more + 8, p->bytes, 4);
+    }
+    frame_buffer_piece_add(&p->piece);
+}
+
+void frame_buffer_pixels_drop(struct frame_buffer_pixels *p)
+{
+    if (p->slot >= 0)
+        picture_room_give(&displays_recording.room, p->slot);
 }

@@ -4,6 +4,7 @@
 #include <exit_status.h>
 #include <visible_text.h>
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -44,6 +45,10 @@ static bool file_open(struct paris_recording *r)
     } else if (!growing_file_open(&r->file, getenv(r->variable))) {
         fail(r, "open");
         return false;
+    } else if (r->room_wanted) {
+        char variable[64];
+        snprintf(variable, sizeof variable, "%s_ROOM", r->variable);
+        picture_room_find(&r->room, getenv(variable), getenv(r->variable));
     }
     atexit(r->finish);
     clock_gettime(CLOCK_MONOTONIC, &r->began);

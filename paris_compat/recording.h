@@ -14,6 +14,7 @@
 #define PARIS_RECORDING_H
 
 #include <growing_file.h>
+#include <picture_room.h>
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -23,7 +24,9 @@ struct paris_recording {
     const char *variable, *verb;
     const char *line;     /* what the file begins with */
     void (*finish)(void); /* paris_recording_finish() of it, when the program ends */
+    bool room_wanted;     /* for pictures, in memory that is shared with a window */
     struct growing_file file;
+    struct picture_room room; /* zeros: there is none */
     bool failed, begun;
     struct timespec began;
 };
@@ -38,6 +41,6 @@ uint64_t paris_recording_us(struct paris_recording *r);
 void paris_recording_finish(struct paris_recording *r);
 
 /* The descriptor for pieces, or -1; the error has been reported. */
-int paris_viewer_open(const struct paris_recording *of);
+int paris_viewer_open(struct paris_recording *of);
 
 #endif

@@ -17,21 +17,30 @@
 #include "paris_state.h"
 #include "recording.h"
 
-/* The environment with that variable added. Owns: the caller frees the array. */
-static char **environment_with(char *variable)
+enum { ADDED = 2 };
+
+static bool names_one_of(const char *entry, char *const added[ADDED])
 {
-    size_t count = 0, name = strcspn(variable, "=") + 1;
+    bool names = false;
+    for (int i = 0; i < ADDED; i++)
+        names = names || strncmp(entry, added[i], strcspn(added[i], "=") + 1) == 0;
+    return names;
+}
+
+/* The environment with those variables added. Owns: the caller frees the array. */
+static char **environment_with(char *const added[ADDED])
+{
+    size_t count = 0, kept = 0;
     while (environ[count])
         count++;
-    char **all = malloc((count + 2) * sizeof *all);
-    size_t kept = 0;
+    char **all = malloc((count + ADDED + 1) * sizeof *all);
     for (size_t i = 0; all && i < count; i++)
-        if (strncmp(environ[i], variable, name) != 0)
+        if (!names_one_of(environ[i], added))
             all[kept++] = environ[i];
-    if (all) {
-        all[kept++] = variable;
+    for (int i = 0; all && i < ADDED; i++)
+        all[kept++] = added[i];
+    if (all)
         all[kept] = NULL;
-    }
     return all;
 }
 
@@ -41,17 +50,23 @@ static int viewer_spawn(const struct paris_recording *of, int input, int output)
 {
     char lutetia[] = "lutetia", verb[16], window[] = "--window", standard_input[] = "-";
     char *arguments[] = {lutetia, verb, window, standard_input, NULL};
-    char variable[160];
+    char program[160], room[64 + PICTURE_ROOM_TEXT], text[PICTURE_ROOM_TEXT] = "";
+    const int shared = of->room.at ? of->room.descriptor : -1;
     snprintf(verb, sizeof verb, "%s", of->verb);
-    snprintf(variable, sizeof variable, "%s_PROGRAM=%ld %.100s", of->variable, (long)getpid(),
+    snprintf(program, sizeof program, "%s_PROGRAM=%ld %.100s", of->variable, (long)getpid(),
              program_invocation_short_name);
-    char **environment = environment_with(variable);
+    if (shared >= 0)
+        picture_room_text(&of->room, standard_input, text);
+    snprintf(room, sizeof room, "%s_ROOM=%s", of->variable, text);
+    char **environment = environment_with((char *const[ADDED]){program, room});
     posix_spawn_file_actions_t actions;
     pid_t child;
     int error = ENOMEM;
     if (environment && posix_spawn_file_actions_init(&actions) == 0) {
         posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
         posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+        if (shared >= 0) /* onto itself: it stays open in the child */
+            posix_spawn_file_actions_adddup2(&actions, shared, shared);
         error = posix_spawnp(&child, lutetia, &actions, NULL, arguments, environment);
         if (error == ENOENT) /* not in PATH: try the place where it was installed with this
                               * library */
@@ -83,7 +98,7 @@ static bool is_set(const char *name)
     return value && *value;
 }
 
-int paris_viewer_open(const struct paris_recording *of)
+int paris_viewer_open(struct paris_recording *of)
 {
     int frames[2] = {-1, -1}, answer[2] = {-1, -1}, error = 0, result = -1;
     char byte;
@@ -95,6 +110,8 @@ int paris_viewer_open(const struct paris_recording *of)
     }
     if (!pipe_make(frames) || !pipe_make(answer))
         error = errno;
+    if (!error && of->room_wanted)
+        picture_room_make(&of->room); /* pictures go through the pipe without it */
     if (!error)
         error = viewer_spawn(of, frames[0], answer[1]);
     if (answer[1] >= 0)
@@ -115,6 +132,7 @@ int paris_viewer_open(const struct paris_recording *of)
                                                * while a picture is drawn */
         return result;
     }
+    picture_room_end(&of->room);
     if (frames[1] >= 0)
         close(frames[1]);
     if (error)

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { KIND_SIZE = 1, KIND_PIXELS, KIND_CLEAR, KIND_MAP, KIND_VIEW, KIND_END };
+enum { KIND_SIZE = 1, KIND_PIXELS, KIND_CLEAR, KIND_MAP, KIND_VIEW, KIND_END, KIND_ROOM };
 enum { LINE_BYTES = sizeof DISPLAY_RECORDING_LINE - 1, MAP_BYTES = 3 * 256 };
 
 struct piece {
@@ -41,7 +41,8 @@ static struct piece piece_of(const uint8_t *head)
 /* By the head alone, before the rest is waited for. NULL: it may be. */
 static const char *head_wrong(const struct display_reader *reader, const struct piece *p)
 {
-    if (p->kind < KIND_SIZE || p->kind > KIND_END)
+    if (p->kind < KIND_SIZE ||
+        p->kind > (reader->shared && reader->shared->at ? KIND_ROOM : KIND_END))
         return "there is no such piece";
     if (p->number < 1 || p->number > DISPLAY_SCREENS || p->buffer > 1)
         return "there is no such display or buffer";
@@ -52,7 +53,8 @@ static const char *head_wrong(const struct display_reader *reader, const struct 
         uint64_t least, most;
     } bytes[] = {[KIND_SIZE] = {0, 64}, [KIND_PIXELS] = {4, UINT32_MAX},
                  [KIND_CLEAR] = {0, 0}, [KIND_MAP] = {MAP_BYTES, MAP_BYTES},
-                 [KIND_VIEW] = {8, 8},  [KIND_END] = {0, 0}};
+                 [KIND_VIEW] = {8, 8},  [KIND_END] = {0, 0},
+                 [KIND_ROOM] = {12, 12}};
     if (p->bytes < bytes[p->kind].least || p->bytes > bytes[p->kind].most || p->bytes > most)
         return "a piece of that kind has not so many bytes";
     if (p->kind == KIND_SIZE &&
@@ -64,16 +66,28 @@ static const char *head_wrong(const struct display_reader *reader, const struct 
 
 /* ---- screens ---- */
 
-static void screen_free(struct display_screen *s)
+static void pixels_free(const struct display_reader *reader, struct display_screen *s,
+                        unsigned buffer)
 {
-    free(s->pixels[0]);
-    free(s->pixels[1]);
+    if (s->slot[buffer])
+        picture_room_give(reader->shared, s->slot[buffer] - 1);
+    else
+        free(s->pixels[buffer]);
+    s->pixels[buffer] = NULL;
+    s->slot[buffer] = 0;
+}
+
+static void screen_free(const struct display_reader *reader, struct display_screen *s)
+{
+    pixels_free(reader, s, 0);
+    pixels_free(reader, s, 1);
     *s = (struct display_screen){0};
 }
 
-static void screen_begin(struct display_screen *s, const struct piece *p)
+static void screen_begin(const struct display_reader *reader, struct display_screen *s,
+                         const struct piece *p)
 {
-    screen_free(s);
+    screen_free(reader, s);
     s->there = true;
     s->width_px = (int)p->x;
     s->height_px = (int)p->y;
@@ -92,14 +106,16 @@ static uint8_t *buffer_of(struct display_screen *s, unsigned buffer)
     return s->pixels[buffer];
 }
 
-static enum display_status pixels_put(struct display_screen *s, const struct piece *p)
+/* The pixels of a piece, so many bytes at `from`. */
+static enum display_status pixels_put(struct display_screen *s, const struct piece *p,
+                                      const uint8_t *from, uint64_t bytes)
 {
     const uint64_t columns = number_of(p->more, 4), each = (uint64_t)s->pixel_bytes;
     const int64_t x = (int32_t)p->x, y = (int32_t)p->y;
-    if (!columns || (p->bytes - 4) % (columns * each))
+    if (!columns || bytes % (columns * each))
         return display_fail(DISPLAY_BAD_FILE, "pixels that fill no rows of %llu",
                             (unsigned long long)columns);
-    const int64_t rows = (int64_t)((p->bytes - 4) / (columns * each));
+    const int64_t rows = (int64_t)(bytes / (columns * each));
     const int64_t left = x < 0 ? -x : 0;
     const int64_t right =
         x + (int64_t)columns > s->width_px ? s->width_px - x : (int64_t)columns;
@@ -110,9 +126,43 @@ static enum display_status pixels_put(struct display_screen *s, const struct pie
     for (int64_t row = 0; row < rows && left < right; row++)
         if (y + row >= 0 && y + row < s->height_px)
             memcpy(to + (uint64_t)((y + row) * s->width_px + x + left) * each,
-                   p->more + 4 + ((uint64_t)row * columns + (uint64_t)left) * each,
+                   from + ((uint64_t)row * columns + (uint64_t)left) * each,
                    (uint64_t)(right - left) * each);
     return DISPLAY_OK;
+}
+
+/* Whether a screen's pixels lie in that slot already: a program fills none of those. */
+static bool slot_held(const struct display_reader *reader, int slot)
+{
+    bool held = false;
+    for (int i = 0; i < DISPLAY_SCREENS; i++)
+        held = held || reader->screens[i].slot[0] == slot + 1 ||
+               reader->screens[i].slot[1] == slot + 1;
+    return held;
+}
+
+/* Pixels in the room. Where they are the whole screen they stay there, and the screen gives its
+ * slot of before. */
+static enum display_status slot_take(struct display_reader *reader, struct display_screen *s,
+                                     const struct piece *p)
+{
+    const uint64_t slot = number_of(p->more + 4, 4), bytes = number_of(p->more + 8, 4),
+                   width = (uint64_t)s->width_px;
+    if (slot >= PICTURE_ROOM_SLOTS || bytes > PICTURE_ROOM_SLOT_BYTES ||
+        slot_held(reader, (int)slot))
+        return display_fail(DISPLAY_BAD_FILE, "pixels in slot %llu that are not there",
+                            (unsigned long long)slot);
+    uint8_t *from = picture_room_slot(reader->shared, (int)slot);
+    if (number_of(p->more, 4) == width && !p->x && !p->y &&
+        bytes == width * (uint64_t)s->height_px * (uint64_t)s->pixel_bytes) {
+        pixels_free(reader, s, p->buffer);
+        s->pixels[p->buffer] = from;
+        s->slot[p->buffer] = (int)slot + 1;
+        return DISPLAY_OK;
+    }
+    const enum display_status status = pixels_put(s, p, from, bytes);
+    picture_room_give(reader->shared, (int)slot);
+    return status;
 }
 
 static enum display_status clear(struct display_screen *s, const struct piece *p)
@@ -154,10 +204,11 @@ static enum display_status piece_take(struct display_reader *reader, const struc
     struct display_change change = {.number = (int)p->number, .time_us = p->time_us};
     enum display_status status = DISPLAY_OK;
     if (p->kind == KIND_SIZE) {
-        screen_begin(s, p);
+        screen_begin(reader, s, p);
         change.opened = true;
-    } else if (p->kind == KIND_PIXELS) {
-        status = pixels_put(s, p);
+    } else if (p->kind == KIND_PIXELS || p->kind == KIND_ROOM) {
+        status = p->kind == KIND_ROOM ? slot_take(reader, s, p)
+                                      : pixels_put(s, p, p->more + 4, p->bytes - 4);
         change.seen = s->seen == (int)p->buffer;
     } else if (p->kind == KIND_CLEAR) {
         status = clear(s, p);
@@ -176,7 +227,7 @@ static enum display_status piece_take(struct display_reader *reader, const struc
     reader->pieces++;
     reader->stopped = !reader->take(reader->context, &change);
     if (change.closed)
-        screen_free(s);
+        screen_free(reader, s);
     return DISPLAY_OK;
 }
 
@@ -267,7 +318,7 @@ enum display_status display_reader_end(const struct display_reader *reader)
 void display_reader_finish(struct display_reader *reader)
 {
     for (int i = 0; i < DISPLAY_SCREENS; i++)
-        screen_free(&reader->screens[i]);
+        screen_free(reader, &reader->screens[i]);
     free(reader->bytes);
     reader->bytes = NULL;
     reader->held = reader->room = 0;

@@ -17,6 +17,7 @@
 
 #include "display.h"
 
+#include <picture_room.h>
 #include <stdbool.h>
 
 #define DISPLAY_RECORDING_LINE "lutetia display 1\n"
@@ -30,6 +31,7 @@ struct display_screen {
     /* 1: a row of the map; 4: red, green, blue, each by its own column of it */
     int pixel_bytes;
     uint8_t *pixels[2]; /* NULL: all 0 */
+    int slot[2]; /* 0: the pixels are the screen's own; n: in slot n - 1 of the shared memory */
     int seen;
     uint32_t zoom[2];
     int32_t pan[2];
@@ -48,6 +50,7 @@ struct display_reader {
     /* Receives each change; returns 0 to stop. */
     int (*take)(void *context, const struct display_change *change);
     void *context;
+    struct picture_room *shared; /* NULL: pictures come in the pieces alone */
 
     struct display_screen screens[DISPLAY_SCREENS];
     uint64_t pieces, read; /* taken so far; bytes understood so far */

@@ -50,6 +50,8 @@ const struct environment_row environment_rows[] = {
      "`lutetia display FILE`"},
     {"LUTETIA_DISPLAY_PROGRAM", "PID NAME", PARIS,
      "libparis sets it for the windows that show a program's displays: which program"},
+    {"LUTETIA_DISPLAY_ROOM", "FD NUMBER PIPE", PARIS,
+     "libparis and `lutetia display` set it for each other: memory for pictures that both see"},
 
     {"LUTETIA_SOUNDFONT", "FILE", MIDI,
      "the instruments of what is heard, an SF2 file (the distribution's)"},

@@ -181,6 +181,17 @@ static int from_descriptor(struct shown *s, int descriptor, const char *what, bo
 
 /* ---- programs ---- */
 
+/* The variable that names the room for pictures, and its value for who writes into `of`. */
+static void room_tell(const struct shown *s, const char *of)
+{
+    char variable[64], text[PICTURE_ROOM_TEXT];
+    snprintf(variable, sizeof variable, "%s_ROOM", s->variable);
+    if (s->room.at && fcntl(s->room.descriptor, F_SETFD, 0) == 0)
+        setenv(variable, picture_room_text(&s->room, of, text), 1);
+    else
+        unsetenv(variable);
+}
+
 _Noreturn static void become(const struct shown *s, int write_end, char **arguments)
 {
     char name[64];
@@ -189,6 +200,7 @@ _Noreturn static void become(const struct shown *s, int write_end, char **argume
     sigprocmask(SIG_SETMASK, &none, NULL);
     snprintf(name, sizeof name, "/dev/fd/%d", write_end);
     setenv(s->variable, name, 1);
+    room_tell(s, name);
     /* A program in the current folder needs no ./ before its name. */
     char *here;
     if (!strchr(arguments[0], '/') && access(arguments[0], X_OK) == 0 &&
@@ -245,6 +257,8 @@ static int from_program(struct shown *s, char **arguments)
     fcntl(ends[0], F_SETFD, FD_CLOEXEC);
     fcntl(ends[0], F_SETPIPE_SZ, 1 << 20); /* a larger pipe, so that the program runs on
                                             * while a picture is drawn */
+    if (s->room_wanted)
+        picture_room_make(&s->room);
     fflush(NULL);
     pid_t child = fork();
     if (child < 0)
@@ -288,6 +302,10 @@ static int from_file(struct shown *s, const char *path)
 /* A recording from the standard input, as it comes. */
 static int from_input(struct shown *s)
 {
+    char variable[64];
+    snprintf(variable, sizeof variable, "%s_ROOM", s->variable);
+    if (s->room_wanted && s->watched)
+        picture_room_find(&s->room, getenv(variable), "-");
     int status = from_descriptor(s, STDIN_FILENO, "the standard input", s->watched != 0);
     int nowhere = s->watched ? streams_nowhere(O_RDWR) : -1;
     if (nowhere >= 0) { /* close the output, so that a process waiting for its end goes on */

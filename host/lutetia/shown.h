@@ -16,6 +16,7 @@
 #define LUTETIA_SHOWN_H
 
 #include <display.h>
+#include <picture_room.h>
 
 #include <pthread.h>
 #include <stdbool.h>
@@ -34,6 +35,8 @@ struct shown {
     enum display_status (*feed)(void *context, const uint8_t *bytes, size_t count);
     enum display_status (*end)(void *context); /* the bytes have ended */
     bool apart;
+    bool room_wanted;         /* pictures may lie in memory that is shared with the program */
+    struct picture_room room; /* zeros: there is none */
 
     pid_t watched; /* the process that libparis watches by us; 0: none */
     char name[64]; /* the source's name, for the title */

@@ -24,7 +24,7 @@ enum display_status shown_window_draw(struct shown_window *window)
     enum display_status status = DISPLAY_OK;
     if (!window->paint || !window->paint(window->context, window->window)) {
         status = window->draw(window->context, &window->image);
-        if (status == DISPLAY_OK)
+        if (status == DISPLAY_OK && window->image.pixels)
             status = window_show(window->window, &window->image);
     }
     frame_pace_drawn(&window->pace, began_s, seconds_now());

@@ -28,6 +28,7 @@ double shown_clock_wait_s(struct shown_clock *clock, double time_s);
 
 struct shown_window {
     bool (*stale)(void *context);
+    /* No pixels: what is seen stays. */
     enum display_status (*draw)(void *context, struct display_image *image);
     /* NULL, or draws into the window's room (window_room_begin()). False: it could not. */
     bool (*paint)(void *context, struct window *window);

@@ -187,6 +187,8 @@ static enum display_status screen_draw(void *context, struct display_image *imag
     enum display_status status = DISPLAY_OK;
     if (screen->there)
         status = display_screen_picture(screen, image);
+    else
+        display_image_destroy(image);
     s->stale = false;
     pthread_mutex_unlock(&s->all->source.lock);
     return status;
@@ -198,16 +200,16 @@ static bool screen_paint(void *context, struct window *window)
     const struct display_screen *screen = &s->all->reader.screens[s->number - 1];
     struct display_room room;
     pthread_mutex_lock(&s->all->source.lock);
-    const bool painted =
-        screen->there && window_room_begin(window, screen->width_px, screen->height_px, &room);
-    if (painted) {
+    const bool there = screen->there,
+               painted = there &&
+                         window_room_begin(window, screen->width_px, screen->height_px, &room);
+    if (painted)
         display_screen_paint(screen, &room);
-        s->stale = false;
-    }
+    s->stale = s->stale && there && !painted;
     pthread_mutex_unlock(&s->all->source.lock);
     if (painted)
         window_room_show(window);
-    return painted;
+    return painted || !there; /* of a display that has gone, what was seen stays */
 }
 
 static void title_of(const struct screen *s, const char *after, char *title, size_t bytes)
@@ -470,7 +472,7 @@ static int displays_run(struct displays *d, int argc, char **argv)
         return EXIT_FAILED; /* the program has gone */
     d->paced =
         argc == 1 && shown_is_recording(&d->source, argv[0]) && strcmp(argv[0], "-") != 0;
-    d->source.apart = !writes && !d->paced;
+    d->source.apart = d->source.room_wanted = !writes && !d->paced;
     if (writes)
         d->progress = progress_begin("display", 0);
     status = shown_source(&d->source, argc, argv);
@@ -520,11 +522,13 @@ static void displays_finish(struct displays *d)
         shown_window_close(&d->screens[i].window);
         display_image_destroy(&d->screens[i].image);
     }
+    picture_room_end(&d->source.room);
 }
 
 static void source_prepare(struct displays *d)
 {
-    d->reader = (struct display_reader){.take = change_take, .context = d};
+    d->reader =
+        (struct display_reader){.take = change_take, .context = d, .shared = &d->source.room};
     d->source = (struct shown){.verb = "display",
                                .variable = "LUTETIA_DISPLAY",
                                .line = DISPLAY_RECORDING_LINE,

@@ -175,6 +175,88 @@ static void deep_pixels_go_through_the_maps_columns(void **unused)
     display_reader_finish(&reader);
 }
 
+static struct picture_room shared;
+
+static void room_pixels(int display, int buffer, int columns, int slot, int bytes, int x, int y)
+{
+    pieces_head(&pieces, 7, display, buffer, 1, 12, 3, x, y);
+    pieces_number(&pieces, (uint64_t)columns, 4);
+    pieces_number(&pieces, (uint64_t)slot, 4);
+    pieces_number(&pieces, (uint64_t)bytes, 4);
+}
+
+static int slots_free(void)
+{
+    int taken[PICTURE_ROOM_SLOTS], count = 0;
+    while (count < PICTURE_ROOM_SLOTS && (taken[count] = picture_room_take(&shared)) >= 0)
+        count++;
+    for (int i = 0; i < count; i++)
+        picture_room_give(&shared, taken[i]);
+    return count;
+}
+
+/* Pictures in shared memory: whole ones stay there until the next, parts are copied, and each
+ * slot is given back. */
+static void shared_pixels_are_seen_and_slots_given(void **unused)
+{
+    (void)unused;
+    struct display_reader reader = {.take = count_take, .shared = &shared};
+    struct display_image image = {0};
+    if (!picture_room_make(&shared))
+        skip();
+    for (int round = 0; round < 40; round++) {
+        const int slot = picture_room_take(&shared), part = round % 3 == 2;
+        assert_true(slot >= 0 && slot < 4);
+        uint8_t *at = picture_room_slot(&shared, slot);
+        for (int i = 0; i < 12; i++)
+            at[i] = (uint8_t)(10 * round + i);
+        pieces.count = 0;
+        if (!round)
+            pieces_line(&pieces);
+        if (round % 8 == 0) /* again, while pixels lie in a slot */
+            pieces_size(&pieces, 1, 1, 4, 3, 0);
+        if (part)
+            room_pixels(1, round & 1, 2, slot, 4, 1, 1);
+        else
+            room_pixels(1, round & 1, 4, slot, 12, 0, 0);
+        pieces_view(&pieces, 1, round & 1, 1, 1, 0, 0, 5);
+        assert_int_equal(display_reader_feed(&reader, pieces.bytes, pieces.count), DISPLAY_OK);
+        assert_int_equal(display_screen_picture(&reader.screens[0], &image), DISPLAY_OK);
+        for (int i = 0; i < 12; i++)
+            if (!part)
+                assert_int_equal(image.pixels[3 * i], (uint8_t)(10 * round + i));
+            else if (i == 5 || i == 6 || i == 9 || i == 10)
+                assert_int_equal(image.pixels[3 * i],
+                                 (uint8_t)(10 * round + (i & 1 ? 0 : 1) + (i > 8 ? 2 : 0)));
+        painted_as_pictured(&reader.screens[0], &image);
+        assert_true(slots_free() >= PICTURE_ROOM_SLOTS - 2);
+    }
+    static const int wrong[][3] = {/* columns, slot, bytes */
+                                   {4, PICTURE_ROOM_SLOTS, 12},
+                                   {4, -1, 12},
+                                   {4, 7, PICTURE_ROOM_SLOT_BYTES + 1},
+                                   {0, 7, 12},
+                                   {5, 7, 12}};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        pieces.count = 0;
+        room_pixels(1, 0, wrong[i][0], wrong[i][1], wrong[i][2], 0, 0);
+        assert_int_equal(display_reader_feed(&reader, pieces.bytes, pieces.count),
+                         DISPLAY_BAD_FILE);
+        reader.held = 0;
+    }
+    /* A slot twice. */
+    const int twice = picture_room_take(&shared);
+    pieces.count = 0;
+    room_pixels(1, 0, 4, twice, 12, 0, 0);
+    assert_int_equal(display_reader_feed(&reader, pieces.bytes, pieces.count), DISPLAY_OK);
+    assert_int_equal(display_reader_feed(&reader, pieces.bytes, pieces.count),
+                     DISPLAY_BAD_FILE);
+    display_reader_finish(&reader);
+    assert_int_equal(slots_free(), PICTURE_ROOM_SLOTS);
+    picture_room_end(&shared);
+    display_image_destroy(&image);
+}
+
 static void what_is_wrong_is_said(void **unused)
 {
     (void)unused;
@@ -261,6 +343,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pictures_are_by_offset_zoom_pan_and_map),
         cmocka_unit_test(deep_pixels_go_through_the_maps_columns),
+        cmocka_unit_test(shared_pixels_are_seen_and_slots_given),
         cmocka_unit_test(what_is_wrong_is_said),
         cmocka_unit_test(damaged_recordings_are_refused_or_read),
     };

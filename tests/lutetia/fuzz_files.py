@@ -281,7 +281,7 @@ def table_of(lutetia):
             options.append((verb, words[1]))
         if words[0] == "environment":
             variables += [word for word in words[1:] if re.fullmatch("[A-Z_]{2,}", word)]
-    skipped = {"LUTETIA_LEDS_PROGRAM", "LUTETIA_DISPLAY_PROGRAM", "DISPLAY", "TMPDIR", "XDG_CACHE_HOME", "POCL_CACHE_DIR", "CC"}  # of programs that are not ours
+    skipped = {"LUTETIA_LEDS_PROGRAM", "LUTETIA_DISPLAY_PROGRAM", "LUTETIA_DISPLAY_ROOM", "DISPLAY", "TMPDIR", "XDG_CACHE_HOME", "POCL_CACHE_DIR", "CC"}  # of programs that are not ours
     return options, [name for name in variables if name not in skipped]
 
 

@@ -2,7 +2,8 @@
  * pictures of columns and rows, the last of them seen by a spin; and one of 24 bits, 21x17, if
  * it is asked for.
  *
- *     painter FILE end|wait [two]     once all is shown, FILE holds its pid */
+ *     painter FILE end|wait|leave [two]     once all is shown, FILE holds its pid; `leave`: the
+ *                                           display is detached, too */
 #include <cm/cmfb.h>
 
 #include <signal.h>
@@ -36,6 +37,8 @@ int main(int argc, char **argv)
         CM_u_multiply_constant_2_1L(column, 1111, 24);
         CMFB_write_news_always(second, 0, column, 0, 0);
     }
+    if (strcmp(argv[2], "leave") == 0)
+        CMFB_detach_display(display);
     FILE *file = fopen(argv[1], "w");
     if (!file)
         return 3;

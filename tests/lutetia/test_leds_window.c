@@ -421,6 +421,20 @@ static void programs_without_lights_leave_no_window(void **state)
 
 /* ---- the displays of the frame buffer ---- */
 
+/* Whether a process has memory for pictures that it shares with a window. */
+static bool shares_pictures(pid_t pid)
+{
+    char path[64], line[512];
+    bool shares = false;
+    snprintf(path, sizeof path, "/proc/%ld/maps", (long)pid);
+    FILE *maps = fopen(path, "r");
+    while (maps && fgets(line, sizeof line, maps))
+        shares = shares || strstr(line, "memfd:pictures");
+    if (maps)
+        fclose(maps);
+    return shares;
+}
+
 /* Each display has a window, which shows the newest picture and stays when the program has
  * ended. */
 static void displays_are_shown(void **state)
@@ -450,10 +464,19 @@ static void displays_are_shown(void **state)
     command_start(&alone);
     Window one = window_of("display_painter - display");
     shows(one, &first);
-    pid_in(pid);
+    assert_true(shares_pictures(pid_in(pid)));
     screen_close(one);
     ends_with(&alone, 1000 + SIGINT);
     assert_true(screen_window_gone(one, 20));
+
+    /* Displays that are gone before they were drawn. */
+    for (int i = 0; i < 5; i++) {
+        struct command leaves = {
+            .arguments = {lutetia, "display", "--close", painter, pid, "leave"}};
+        command_start(&leaves);
+        ends_with(&leaves, 0);
+        assert_string_equal(leaves.said, "");
+    }
     display_image_destroy(&first);
     display_image_destroy(&second);
 }
