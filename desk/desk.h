@@ -130,6 +130,9 @@ void desk_window_open(struct desk *d);
 
 /* desk_common.c */
 void desk_say(struct desk *d, const char *text); /* in the window, until it is put away */
+/* A button of which one is chosen: that one has a frame. In the dark theme it is only a little
+ * darker than the others. */
+void desk_choice(GtkWidget *button);
 void desk_send(struct desk *d, enum studio_message_kind kind);
 void desk_set(struct desk *d, int setting,
               double value); /* here, on the paper and in the panel */

@@ -10,6 +10,21 @@ void desk_say(struct desk *d, const char *text)
     gtk_revealer_set_reveal_child(GTK_REVEALER(d->notice), TRUE);
 }
 
+void desk_choice(GtkWidget *button)
+{
+    static const char style[] =
+        ".desk-choice:checked { box-shadow: inset 0 0 0 1px alpha(currentColor, 0.6); }";
+    static GtkCssProvider *provider;
+    if (!provider) {
+        provider = gtk_css_provider_new();
+        gtk_css_provider_load_from_data(provider, style, -1);
+        gtk_style_context_add_provider_for_display(gtk_widget_get_display(button),
+                                                   GTK_STYLE_PROVIDER(provider),
+                                                   GTK_STYLE_PROVIDER_PRIORITY_APPLICATION);
+    }
+    gtk_widget_add_css_class(button, "desk-choice");
+}
+
 /* ---- to the paper ---- */
 
 void desk_send(struct desk *d, enum studio_message_kind kind)

@@ -47,6 +47,7 @@ static GtkWidget *well_new(struct desk *d, int well)
     g_object_set_data(G_OBJECT(button), "well", GINT_TO_POINTER(well + 1));
     gtk_button_set_child(GTK_BUTTON(button), area);
     gtk_widget_set_hexpand(button, TRUE);
+    desk_choice(button);
     desk_name(button, name, tip);
     if (well)
         gtk_toggle_button_set_group(GTK_TOGGLE_BUTTON(button), GTK_TOGGLE_BUTTON(d->wells[0]));

@@ -52,6 +52,7 @@ GtkWidget *desk_tools_new(struct desk *d)
         gtk_box_append(GTK_BOX(row), key);
         gtk_button_set_child(GTK_BUTTON(button), row);
         gtk_button_set_has_frame(GTK_BUTTON(button), FALSE);
+        desk_choice(button);
         desk_name(button, _(tool->name), tip);
         if (i)
             gtk_toggle_button_set_group(GTK_TOGGLE_BUTTON(button),

@@ -266,7 +266,9 @@ static void killed_twenty_times(void **state)
         for (int k = 1; k <= DEEDS; k++)
             unlink(picture_path(k));
         const pid_t studio = pictured_start();
-        while (!played_journal(path, sizeof path))
+        /* the first deed takes long on a busy machine: three of four are killed after it */
+        while (!played_journal(path, sizeof path) ||
+               (i % 4 && access(picture_path(i % 4), F_OK) != 0))
             usleep(10000);
         usleep((useconds_t)(sample_word(&chance) % 7000000));
         const double killed_s = real_now_s();
