@@ -114,6 +114,38 @@ static const uint32_t *order_of(const struct picture *p)
 
 /* ---- writing ---- */
 
+/* Fields' values on their way to pixels. The memory is kept for the next picture: new memory
+ * costs more than what is done with it. */
+static struct {
+    uint8_t *at;
+    uint64_t bytes;
+} values;
+
+static void values_forget(void)
+{
+    free(values.at);
+    values.at = NULL;
+    values.bytes = 0;
+}
+
+/* NULL: no memory; said. */
+static uint8_t *values_room(const struct picture *p, uint64_t bytes)
+{
+    static bool registered;
+    if (bytes <= values.bytes)
+        return values.at;
+    values_forget();
+    values.at = malloc(bytes);
+    if (!values.at) {
+        paris_fail_memory("not enough memory for a picture of %u x %u", p->width, p->height);
+        return NULL;
+    }
+    values.bytes = bytes;
+    if (!registered)
+        registered = atexit(values_forget) == 0;
+    return values.at;
+}
+
 struct writing {
     struct frame_buffer_pixels to;
     struct picture picture;
@@ -159,15 +191,15 @@ static bool writing_begin(struct writing *w, const char *name, CMFB_display_id_t
 }
 
 /* Pixel k becomes value from[k]'s place. */
-static void pixels_permute(const struct writing *w, const uint8_t *values, const uint32_t *by)
+static void pixels_permute(const struct writing *w, const uint8_t *from, const uint32_t *by)
 {
     uint8_t *pixels = w->to.pixels;
     for (uint64_t k = 0; k < w->picture.count; k++) {
         const uint64_t index = by ? by[k] : place(&w->picture, k);
         if (w->to.piece.pixel_bytes == 1)
-            pixels[k] = values[index];
+            pixels[k] = from[index];
         else
-            memcpy(pixels + 4 * k, values + 4 * index, 4);
+            memcpy(pixels + 4 * k, from + 4 * index, 4);
     }
 }
 
@@ -189,19 +221,16 @@ static bool field_read(struct writing *w, CM_field_id_t source, bool raw)
     if (raw && !(by = order_of(&w->picture)))
         return false;
     const bool direct = !raw && straight(&w->picture);
-    uint8_t *values =
-        direct ? w->to.pixels : malloc(w->picture.count * w->to.piece.pixel_bytes);
-    if (!values)
-        paris_fail_memory("not enough memory for a picture of %u x %u", w->picture.width,
-                          w->picture.height);
-    else if (machine_field_download(w->m, source, type, values) != MACHINE_OK)
+    uint8_t *to = direct ? w->to.pixels
+                         : values_room(&w->picture, w->picture.count * w->to.piece.pixel_bytes);
+    if (!to)
+        return false;
+    if (machine_field_download(w->m, source, type, to) != MACHINE_OK)
         paris_fail_machine();
     else
         read = true;
     if (read && !direct)
-        pixels_permute(w, values, by);
-    if (!direct)
-        free(values);
+        pixels_permute(w, to, by);
     return read;
 }
 
@@ -254,20 +283,16 @@ void CMFB_write_rgb_news_always(CMFB_display_id_t display, unsigned int buffer,
     if (!writing_begin(&w, "CMFB_write_rgb_news_always", display, buffer, sources, 3, x_offset,
                        y_offset))
         return;
-    uint8_t *values = malloc(3 * w.picture.count);
-    bool read = values != NULL;
-    if (!values)
-        paris_fail_memory("not enough memory for a picture of %u x %u", w.picture.width,
-                          w.picture.height);
+    uint8_t *planes = values_room(&w.picture, 3 * w.picture.count);
+    bool read = planes != NULL;
     for (int i = 0; read && i < 3; i++) {
         read = machine_field_download(w.m, sources[i], MACHINE_UINT(8),
-                                      values + (uint64_t)i * w.picture.count) == MACHINE_OK;
+                                      planes + (uint64_t)i * w.picture.count) == MACHINE_OK;
         if (!read)
             paris_fail_machine();
     }
     if (read)
-        channels_join(&w, values);
-    free(values);
+        channels_join(&w, planes);
     writing_end(&w, read);
 }
 

@@ -36,14 +36,33 @@ static uint32_t number_at(const uint8_t *pixel)
     return le32toh(number);
 }
 
-/* The pixels of a row of the buffer, as they stand. Compilers make vectors of the second
- * loop. */
+/* Pixels of 8 bits through the map. Eight are read at a time, which is faster. */
+static void looked_up(const struct colours *c, const uint8_t *from, size_t count, uint32_t *to)
+{
+    size_t i = 0;
+    for (; i + 8 <= count; i += 8) {
+        uint64_t eight;
+        memcpy(&eight, from + i, sizeof eight);
+        eight = le64toh(eight);
+        for (int k = 0; k < 8; k++)
+            to[i + (size_t)k] = c->whole[eight >> 8 * k & 0xff];
+    }
+    for (; i < count; i++)
+        to[i] = c->whole[from[i]];
+}
+
+/* The pixels of a row of the buffer, as they stand. Compilers make vectors of the loops without
+ * a table. */
 static void span_paint(const struct display_screen *s, const struct colours *c,
                        const uint8_t *from, size_t count, uint32_t *to)
 {
-    if (s->pixel_bytes == 1) {
-        for (size_t i = 0; i < count; i++)
-            to[i] = c->whole[from[i]];
+    if (s->pixel_bytes == 1 && !c->same) {
+        looked_up(c, from, count, to);
+    } else if (s->pixel_bytes == 1) {
+        for (size_t i = 0; i < count; i++) {
+            const uint32_t n = from[i];
+            to[i] = BLACK | n << 16 | n << 8 | n;
+        }
     } else if (c->same) {
         for (size_t i = 0; i < count; i++) {
             const uint32_t n = number_at(from + 4 * i);
