@@ -125,6 +125,31 @@ enum reader_status reader_labels_make(struct reader_document *d)
     return status;
 }
 
+void reader_cited_name(int block, char to[READER_CITED_BYTES])
+{
+    snprintf(to, READER_CITED_BYTES, "cited %d", block); /* a blank is in no other */
+}
+
+enum reader_status reader_labels_cited(struct reader_document *d,
+                                       const struct reader_citation *list, int count)
+{
+    bool *has = calloc((size_t)d->blocks_count + 1, sizeof *has);
+    enum reader_status status =
+        has ? READER_OK : reader_fail(READER_NO_MEMORY, "no memory for a document");
+    for (int i = 0; i < count && status == READER_OK; i++) {
+        char name[READER_CITED_BYTES];
+        const int where = list[i].where;
+        if (has[where])
+            continue;
+        has[where] = true;
+        reader_cited_name(where, name);
+        status = label_add(d, strdup(name), d->blocks[where].source, where);
+    }
+    free(has);
+    labels_sort(d);
+    return status;
+}
+
 const struct reader_block *reader_document_label(const struct reader_document *d,
                                                  const char *label, int source)
 {

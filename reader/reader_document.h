@@ -17,6 +17,7 @@
  *                                 for now is shown
  *     <a id="marsh"></a>          a label of what follows, or of the block that it is in
  *     [Reeds](reeds.md "include") alone in a paragraph: another file (reader_files.h)
+ *     <a id="bibliography"></a>   that label: what follows is a bibliography
  *     [#](#marsh)                 a reference: a link to a label or a heading, whose sign # is
  *                                 replaced by a number or a title
  * A dollar begins a formula where no blank follows, and no letter, digit or backslash stands
@@ -172,9 +173,11 @@ enum reader_status reader_document_add(struct reader_document *document, const c
 void reader_document_destroy(struct reader_document *document); /* NULL is fine */
 
 /* Figures and formulas that have labels get their numbers, and references the names of what
- * they lead to: once all sources are there. Of a reference whose label is not there stands what
- * is written, and it is among those that are lost. Errors: NO_MEMORY; the document may then
- * have a part of it. */
+ * they lead to: once all sources are there. Before that the bibliography of each source is
+ * sorted by its entries' letters and numbered: the list that has the label "bibliography", or
+ * is the first under a heading that has it. Entries that links lead to have links back. Of a
+ * reference whose label is not there stands what is written, and it is among those that are
+ * lost. Errors: NO_MEMORY; the document may then have a part of it. */
 enum reader_status reader_document_refer(struct reader_document *document);
 /* The block that has a label, or the heading of that name (small letters, digits, hyphens for
  * blanks), in a source of the document's (-1: in any). NULL: there is none, or

@@ -16,7 +16,32 @@ extern _Thread_local struct error_text reader_last_error;
 /* Whether cmark-gfm is to read it. Errors: TOO_LARGE, with the line. */
 enum reader_status reader_guard_check(const char *source, int bytes);
 
+/* ---- bibliography.c ---- */
+
+/* Sorts the entries of each file's bibliography, the list that has that label or stands under a
+ * heading that has it, and numbers them. entry_of: of each block, the first one of the entry
+ * that it is of; else -1. Before labels are made. Errors: NO_MEMORY. */
+enum reader_status reader_bibliography_sort(struct reader_document *d, int *entry_of);
+
+/* ---- cited.c ---- */
+
+/* Where an entry is cited: the blocks that both begin with, or are. */
+struct reader_citation {
+    int entry, where;
+};
+/* In the order of entries and places, each once. Errors: NO_MEMORY. Owns: the caller frees
+ * *list. */
+enum reader_status reader_citations_find(struct reader_document *d, const int *entry_of,
+                                         struct reader_citation **list, int *count);
+
 /* ---- labels.c ---- */
+
+/* What a place is called that an entry leads back to; no label of a document's is so. */
+enum { READER_CITED_BYTES = 24 };
+void reader_cited_name(int block, char to[READER_CITED_BYTES]);
+/* Those blocks have such names, too. Errors: NO_MEMORY. */
+enum reader_status reader_labels_cited(struct reader_document *d,
+                                       const struct reader_citation *list, int count);
 
 /* Headings have their names, and labels are sorted by their names. Errors: NO_MEMORY. */
 enum reader_status reader_labels_make(struct reader_document *d);

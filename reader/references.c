@@ -11,12 +11,15 @@
 
 enum {
     NAME_BYTES = 200,      /* of a name in a reference: a longer title is cut */
+    CITED_MOST = 1000,     /* links back from one entry */
     NAMES_BYTES = 16 << 20 /* of all of them: references behind that stay as they are */
 };
 
 struct refer {
     struct reader_document *document;
     const int *above; /* for each block: the heading that it stands under; -1: none */
+    const struct reader_citation *cited; /* of the entry that is written anew */
+    int cited_count;
     size_t added;
     enum reader_status status;
     /* The block that is written anew. */
@@ -301,6 +304,47 @@ static void block_refer(struct refer *r, struct reader_block *block)
         block_write(r, block, references_write);
 }
 
+/* ---- entries of a bibliography ---- */
+
+/* The entry, and links back to where it is cited. */
+static void back_write(struct refer *r, const struct reader_block *from)
+{
+    const struct reader_span plain = {.note = -1};
+    const int count = r->cited_count < CITED_MOST ? r->cited_count : CITED_MOST;
+    for (int i = 0; i < from->spans_count; i++) {
+        const struct reader_span *s = &from->spans[i];
+        text_put(r, from->text + s->begin, s->end - s->begin, s);
+    }
+    for (int i = 0; i < count && r->added < NAMES_BYTES; i++) {
+        char target[1 + READER_CITED_BYTES] = "#", words[24] = "\xe2\x86\x91";
+        const struct reader_span link = {.note = -1, .look = READER_LINK, .target = target};
+        reader_cited_name(r->cited[i].where, target + 1);
+        if (count > 1)
+            snprintf(words, sizeof words, "\xe2\x86\x91%d", i + 1);
+        words_put(r, " ", &plain);
+        words_put(r, words, &link);
+        r->added += sizeof link + sizeof words + sizeof target;
+    }
+}
+
+/* At the end of the entry's last paragraph. */
+static void entries_write(struct refer *r, const int *entry_of,
+                          const struct reader_citation *list, int count)
+{
+    struct reader_document *d = r->document;
+    for (int i = 0, end; i < count && r->status == READER_OK; i = end) {
+        int last = -1;
+        for (end = i; end < count && list[end].entry == list[i].entry;)
+            end++;
+        for (int b = list[i].entry; b < d->blocks_count && entry_of[b] == list[i].entry; b++)
+            last = d->blocks[b].kind == READER_PARAGRAPH ? b : last;
+        r->cited = &list[i];
+        r->cited_count = end - i;
+        if (last >= 0)
+            block_write(r, &d->blocks[last], back_write);
+    }
+}
+
 /* Figures and formulas that have labels are counted. */
 static void numbers_give(struct reader_document *d)
 {
@@ -316,32 +360,54 @@ static void numbers_give(struct reader_document *d)
     }
 }
 
+/* Labels, numbers, and what stands above each block. */
+static void places_make(struct refer *r, int *above)
+{
+    struct reader_document *d = r->document;
+    r->status = reader_labels_make(d);
+    for (int i = 0, last = -1; i < d->blocks_count; i++) {
+        last = d->blocks[i].kind == READER_HEADING ? i : last;
+        above[i] = last;
+    }
+    r->above = above;
+    if (r->status == READER_OK)
+        numbers_give(d);
+}
+
+static void all_write(struct refer *r, const int *entry_of)
+{
+    struct reader_document *d = r->document;
+    struct reader_citation *list = NULL;
+    int count = 0;
+    r->status = reader_citations_find(d, entry_of, &list, &count);
+    if (r->status == READER_OK)
+        r->status = reader_labels_cited(d, list, count);
+    for (int i = 0; i < d->blocks_count && r->status == READER_OK; i++)
+        block_refer(r, &d->blocks[i]);
+    for (int i = 0; i < d->note_blocks_count && r->status == READER_OK; i++)
+        block_refer(r, &d->note_blocks[i]);
+    entries_write(r, entry_of, list, count);
+    free(list);
+}
+
 enum reader_status reader_document_refer(struct reader_document *d)
 {
     struct refer r = {.document = d};
     if (d->referred)
         return READER_OK;
     d->referred = true;
-    int *above = malloc(((size_t)d->blocks_count + 1) * sizeof *above);
+    int *above = malloc(((size_t)d->blocks_count + 1) * sizeof *above),
+        *entry_of = malloc(((size_t)d->blocks_count + 1) * sizeof *entry_of);
     d->lost = calloc(READER_LOST_MAX, sizeof *d->lost);
-    if (!above || !d->lost)
+    if (!above || !entry_of || !d->lost)
         no_memory(&r);
     if (r.status == READER_OK)
-        r.status = reader_labels_make(d);
-    if (r.status != READER_OK) {
-        free(above);
-        return r.status;
-    }
-    r.above = above;
-    for (int i = 0, last = -1; i < d->blocks_count; i++) {
-        last = d->blocks[i].kind == READER_HEADING ? i : last;
-        above[i] = last;
-    }
-    numbers_give(d);
-    for (int i = 0; i < d->blocks_count && r.status == READER_OK; i++)
-        block_refer(&r, &d->blocks[i]);
-    for (int i = 0; i < d->note_blocks_count && r.status == READER_OK; i++)
-        block_refer(&r, &d->note_blocks[i]);
+        r.status = reader_bibliography_sort(d, entry_of);
+    if (r.status == READER_OK)
+        places_make(&r, above);
+    if (r.status == READER_OK)
+        all_write(&r, entry_of);
     free(above);
+    free(entry_of);
     return r.status;
 }

@@ -74,6 +74,27 @@ static void notes_links_and_back(void **state)
     assert_string_equal(played_told("again", "top"), played_told("back", "top"));
 }
 
+/* From a citation to its entry, and from there back. */
+static void bibliographies_lead_back(void **state)
+{
+    char lines[1000], text[12000], *at = text;
+    (void)state;
+    at = stpcpy(at, "# Books\n\n");
+    for (int i = 0; i < 80; i++)
+        at += sprintf(at, "Paragraph %d%s.\n\n", i, i == 3 ? " cites [[#](#small)]" : "");
+    stpcpy(at,
+           "<a id=\"bibliography\"></a>\n\n- <a id=\"small\"></a>Small\n- Eel\n\nBehind.\n");
+    played_write("books.md", text);
+    snprintf(lines, sizeof lines,
+             "0.2 follow 2]\n0.4 tell %s\n0.5 follow \xe2\x86\x91\n0.7 tell %s\n",
+             played_path("entry"), played_path("cites"));
+    played_run(lines, played_path("books.md"));
+    played_well();
+    assert_string_not_equal(played_told("entry", "top"), "0");
+    assert_non_null(strstr(played_told("cites", "line"), "Paragraph 3 cites [2]"));
+    unlink(played_path("books.md"));
+}
+
 static void finds_and_selects(void **state)
 {
     char lines[2000];
@@ -432,6 +453,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(line_is_kept),
         cmocka_unit_test(notes_links_and_back),
+        cmocka_unit_test(bibliographies_lead_back),
         cmocka_unit_test(finds_and_selects),
         cmocka_unit_test(several_files_are_one),
         cmocka_unit_test(included_files_are_read),

@@ -329,6 +329,40 @@ static void lost_references_are_listed(void **state)
 }
 
 /* References without end neither make a document much larger nor take long. */
+/* Entries are sorted and numbered, keep what is in them, and say where they are cited. */
+static void bibliographies_are_sorted(void **state)
+{
+    (void)state;
+    blocks_are("# One\n\nAs [[#](#zola)] and [[#](#small)][^n].\n\nAgain [[#](#small), "
+               "[Zola](#zola)].\n\n"
+               "<a id=\"bibliography\"></a>\n\n- <a id=\"zola\"></a>*Zola*, \xc3\x89.: "
+               "Paris\n- <a id=\"small\"></a>Small, "
+               "D.: Water\n\n  More of it.\n- <a id=\"eo\"></a>\xc3\x89o, see [#](#small)\n- "
+               "Eel\n\nBehind.\n\n"
+               "[^n]: And [#](#eo), [#](#small).\n",
+               "h1 One\np As [[4](#zola)] and [[3](#small)]^1^.\np Again [[3](#small), "
+               "[Zola](#zola)].\n"
+               "p- 1. Eel\np- 2. \xc3\x89o, see [3](#small) [\xe2\x86\x91](#cited 1)\np- 3. "
+               "Small, D.: Water\n"
+               "p- More of it. [\xe2\x86\x91\x31](#cited 1) [\xe2\x86\x91\x32](#cited 2) "
+               "[\xe2\x86\x91\x33](#cited 4)\n"
+               "p- 4. *Zola*, \xc3\x89.: Paris [\xe2\x86\x91\x31](#cited 1) "
+               "[\xe2\x86\x91\x32](#cited 2)\np Behind.\n"
+               "note :n\np And [2](#eo), [3](#small).\n");
+    /* under a heading that has the label, and only the first list; no other is touched */
+    blocks_are("- b\n- a\n\n<a id=\"bibliography\"></a>\n## Books\n\nThese:\n\n7. <a "
+               "id=\"y\"></a>Y\n8. X\n   - "
+               "in\n   - an\n\nand\n\n- d\n- c\n",
+               "p- \xe2\x80\xa2 b\np- \xe2\x80\xa2 a\nh2 Books\np These:\np- 1. X\np-- "
+               "\xe2\x80\xa2 in\n"
+               "p-- \xe2\x80\xa2 an\np- 2. Y\np and\np- \xe2\x80\xa2 d\np- \xe2\x80\xa2 c\n");
+    /* a heading's own name is no such label, and without a list there is nothing to be done */
+    blocks_are("# Bibliography\n\n- b\n- a\n",
+               "h1 Bibliography\np- \xe2\x80\xa2 b\np- \xe2\x80\xa2 a\n");
+    blocks_are("<a id=\"bibliography\"></a>A\n\n# B\n\n- b\n- a\n",
+               "p A\nh1 B\np- \xe2\x80\xa2 b\np- \xe2\x80\xa2 a\n");
+}
+
 static void references_are_bounded(void **state)
 {
     (void)state;
@@ -531,6 +565,7 @@ int main(void)
         cmocka_unit_test(labels_are_found),
         cmocka_unit_test(references_have_names),
         cmocka_unit_test(lost_references_are_listed),
+        cmocka_unit_test(bibliographies_are_sorted),
         cmocka_unit_test(references_are_bounded),
         cmocka_unit_test(pages_of_ours_lose_no_word),
         cmocka_unit_test(what_is_too_large_is_refused),

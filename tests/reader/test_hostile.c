@@ -278,12 +278,50 @@ static void any_bytes_are_a_document(void **state)
     }
 }
 
+/* A bibliography among very many labels of that name, cited very often: its entries lead back
+ * to places that are found, as many as there are at most; none cites itself. */
+static void bibliographies_are_bounded(void **state)
+{
+    (void)state;
+    enum { LABELS = 30000, TIMES = 100000 };
+    static const char begin[] =
+        "<a id=\"bibliography\"></a>\n\n1. <a id=\"b\"></a>B [#](#b)\n2. "
+        "<a id=\"a\"></a>A\n\n";
+    struct text text = {0};
+    struct reader_document *d;
+    part_add(&text, begin, 0);
+    for (int i = 0; i < TIMES; i++)
+        part_add(&text,
+                 i < LABELS ? "<a id=\"bibliography\"></a>See [[#](#a)].\n\n"
+                            : "See [#](#a).\n\n",
+                 0);
+    assert_int_equal(reader_document_create(&d), READER_OK);
+    assert_int_equal(reader_document_add(d, text.bytes, text.count), READER_OK);
+    assert_int_equal(reader_document_refer(d), READER_OK);
+    assert_string_equal(d->blocks[1].text, "B 2");
+    int back = 0;
+    for (int i = 0; i < d->blocks[0].spans_count; i++) {
+        const char *target = d->blocks[0].spans[i].target;
+        if (!target)
+            continue;
+        const struct reader_block *place = reader_document_label(d, target + 1, 0);
+        assert_non_null(place);
+        assert_string_equal(place->text, "See [1].");
+        assert_true(place == &d->blocks[2 + back]);
+        back++;
+    }
+    assert_int_equal(back, 1000);
+    reader_document_destroy(d);
+    free(text.bytes);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hostile_documents_are_set_or_refused),
         cmocka_unit_test(long_passages_lose_no_letter),
         cmocka_unit_test(any_bytes_are_a_document),
+        cmocka_unit_test(bibliographies_are_bounded),
     };
     if (without_library())
         return 77;
