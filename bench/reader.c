@@ -1,7 +1,7 @@
 /* reader.c - `lutetia bench reader`: documents of 20,000 and 200,000 words as the reader's
- * window has them: read and opened, seen in the middle, at another width, at another size, and
- * all of it; beside Pango, which sets the same paragraphs. One thread, its processor
- * time. */
+ * window has them: read and opened, seen in the middle, scrolled, at another width, size and
+ * font, and all of it; beside Pango, which sets the same paragraphs. One thread, its processor
+ * time, and the memory that it has from malloc(). */
 #include "bench.h"
 #include "options.h"
 #include "text_pango.h"
@@ -9,15 +9,20 @@
 #include <reader_document.h>
 #include <reader_view.h>
 
+#include <malloc.h>
+#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { PARAGRAPH_WORDS = 90, CHAPTER_PARAGRAPHS = 12 };
+enum { PARAGRAPH_WORDS = 90, CHAPTER_PARAGRAPHS = 12, SCROLLED_LINES = 200 };
 
 #define SIZE_PX 17.0
 #define FONT "DejaVuSerif"
+#define FAMILY "DejaVu Serif"
+#define OTHER_FONT "DejaVuSans"
+#define OTHER_FAMILY "DejaVu Sans"
 #define WIDTH_PX 578.0 /* of the column */
 
 static const char *const words[] = {
@@ -118,6 +123,23 @@ static bool other_size(struct book *b)
     return changed(b);
 }
 
+static bool other_font(struct book *b)
+{
+    b->setup.font = strcmp(b->setup.font, FONT) == 0 ? OTHER_FONT : FONT;
+    return changed(b);
+}
+
+/* Line after line; the time is that of all of them. */
+static bool scrolled(struct book *b)
+{
+    bool good = true;
+    for (int i = 0; good && i < SCROLLED_LINES; i++) {
+        reader_view_scroll(b->view, round(b->setup.leading * b->setup.size_px));
+        good = look(b);
+    }
+    return good;
+}
+
 /* From the beginning to the end, window after window. */
 static bool all_seen(struct book *b)
 {
@@ -135,19 +157,51 @@ static bool all_seen(struct book *b)
     return true;
 }
 
-/* Each paragraph is a layout of its own: a layout of all text takes far longer. */
-static bool pango_all(struct book *b)
+/* All of it again, after a change. */
+static bool all_other_width(struct book *b)
 {
+    return other_width(b) && all_seen(b);
+}
+
+static bool all_other_size(struct book *b)
+{
+    return other_size(b) && all_seen(b);
+}
+
+static bool all_other_font(struct book *b)
+{
+    return other_font(b) && all_seen(b);
+}
+
+static bool all_opened(struct book *b)
+{
+    return opened(b) && all_seen(b);
+}
+
+/* As the setup is. Each paragraph is a layout of its own: a layout of all text takes far
+ * longer. kept: room for as many as there are bytes in which they stay; NULL: none does. */
+static bool pango_set(struct book *b, void **kept)
+{
+    const struct reader_pages_setup *s = &b->setup;
     const char *at = b->document->plain, *end = at + b->document->plain_bytes;
     int lines = 0;
+    peer_pango_set(b->pango, strcmp(s->font, FONT) == 0 ? FAMILY : OTHER_FAMILY, s->size_px,
+                   s->width_px - 2 * s->margin_px);
     while (at < end) {
         const char *stop = memchr(at, '\n', (size_t)(end - at));
         const size_t bytes = (size_t)((stop ? stop : end) - at);
-        if (bytes)
+        if (bytes && kept)
+            lines += peer_pango_keep(b->pango, at, bytes, kept++);
+        else if (bytes)
             lines += peer_pango_layout(b->pango, at, bytes);
         at += bytes + 1;
     }
     return lines > 0 || bench_fail("Pango failed");
+}
+
+static bool pango_all(struct book *b)
+{
+    return pango_set(b, NULL);
 }
 
 static const struct row {
@@ -158,10 +212,62 @@ static const struct row {
 } rows[] = {
     {"opened", NULL, opened, NULL},
     {"the middle", opened, middle_seen, NULL},
+    {"200 lines down", middle_seen, scrolled, NULL},
     {"another width", middle_seen, other_width, NULL},
     {"another size", middle_seen, other_size, NULL},
+    {"another font", middle_seen, other_font, NULL},
     {"everything", opened, all_seen, pango_all},
+    {"all, new width", all_opened, all_other_width, pango_all},
+    {"all, new size", all_opened, all_other_size, pango_all},
+    {"all, new font", all_opened, all_other_font, pango_all},
 };
+
+/* ---- memory ---- */
+
+/* Bytes that malloc() has given; 0 where nobody says. */
+static double heap_bytes(void)
+{
+#ifdef __GLIBC__
+    const struct mallinfo2 info = mallinfo2();
+    return (double)info.uordblks + (double)info.hblkhd;
+#else
+    return 0;
+#endif
+}
+
+static void memory_add(struct bench_report *report, const char *who, const char *what,
+                       int count, double bytes)
+{
+    char name[64];
+    snprintf(name, sizeof name, "%s, %d words", what, count);
+    bench_report_add(report, who, name, bench_sample_of(&bytes, 1), 1e-6, "MB");
+}
+
+/* What a document takes that was opened, and was seen from its beginning to its end; what all
+ * of Pango's layouts take, but for the text. */
+static bool memory_run(struct book *b, int count, struct bench_report *report)
+{
+    book_close(b);
+    const double before = heap_bytes();
+    if (!opened(b))
+        return false;
+    memory_add(report, "lutetia", "memory, opened", count, heap_bytes() - before);
+    if (!all_seen(b))
+        return false;
+    memory_add(report, "lutetia", "memory, all", count, heap_bytes() - before);
+    const size_t room = b->document->plain_bytes;
+    void **kept = b->pango ? calloc(room, sizeof *kept) : NULL;
+    if (!b->pango || !kept)
+        return !b->pango || bench_fail("no memory");
+    const double empty = heap_bytes();
+    const bool ok = pango_set(b, kept);
+    if (ok)
+        memory_add(report, "pango", "memory, all", count, heap_bytes() - empty);
+    for (size_t i = 0; i < room && kept[i]; i++)
+        peer_pango_release(kept[i]);
+    free(kept);
+    return ok;
+}
 
 static bool row_run(struct book *b, const struct row *row, int count, int turns,
                     struct bench_report *report)
@@ -196,10 +302,11 @@ static bool book_run(int count, int turns, struct bench_report *report)
     b.setup.width_px = 700;
     b.setup.height_px = 1024;
     b.setup.margin_px = (700 - WIDTH_PX) / 2;
-    b.pango = peer_pango_create("DejaVu Serif", SIZE_PX, WIDTH_PX);
+    b.pango = peer_pango_create(FAMILY, SIZE_PX, WIDTH_PX);
     bool ok = book_write(&b, count) && opened(&b);
     for (size_t i = 0; ok && i < sizeof rows / sizeof *rows; i++)
         ok = row_run(&b, &rows[i], count, turns, report);
+    ok = ok && memory_run(&b, count, report);
     book_close(&b);
     peer_pango_destroy(b.pango);
     free(b.markdown);

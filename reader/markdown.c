@@ -182,11 +182,25 @@ static const char *included_by(const struct walk *w, cmark_node *paragraph)
     return title && strcmp(title, "include") == 0 ? cmark.node_get_url(child) : NULL;
 }
 
+/* Behind the comments that a text begins with; a comment that does not end is all of it. */
+static const char *comments_skip(const char *text)
+{
+    while (strncmp(text, "<!--", 4) == 0) {
+        const char *end = strstr(text + 4, "-->");
+        text = end ? end + 3 : text + strlen(text);
+        text += strspn(text, " \t\n");
+    }
+    return text;
+}
+
 static void html_read(struct walk *w, cmark_node *node)
 {
     const char *text = cmark.node_get_literal(node);
-    if (text && strncmp(text, "<!--", 4) == 0)
-        return;
+    if (text && strncmp(text, "<!--", 4) == 0) {
+        text = comments_skip(text);
+        if (!*text)
+            return;
+    }
     open_block(w, READER_HTML, node);
     reader_code_add(&w->b, text, READER_CODE);
     if (w->b.status == READER_OK)

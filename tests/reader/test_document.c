@@ -157,6 +157,8 @@ static void blocks_are_those_of_markdown(void **state)
                "live (lua live) `x = 1`\nlive (c paris) `y`\ncode (lua) `z`\n");
     blocks_are("a\n\n***\n\n<div>x</div>\n\n<!-- gone -->\n",
                "p a\nrule \nhtml `<div>x</div>`\n");
+    blocks_are("<!-- gone -->*b*\n\n<!-- a --> <!-- b -->\n\n<!-->\n\n<!-- never\n\nends\n",
+               "html `*b*`\n");
     blocks_are("![A *b*](c.png \"d\")\n", "picture <c.png> *A b*\n");
     blocks_are("Not ![A](c.png) alone.\n", "p Not *[A]*(c.png) alone.\n");
     blocks_are("| a | b |\n|--:|:-:|\n| 1 \\| 2 | *c* |\n| d |\n",
