@@ -152,6 +152,8 @@ void html_block_text(struct html *h, const struct reader_block *block, int from,
         end = end < to ? end : to;
         if (!span || !(span->look & whole))
             end = html_event_next(h, block, end);
+        while (end < to && ((unsigned char)block->text[end] & 0xc0) == 0x80)
+            end++; /* what begins within a letter begins behind it */
         piece_put(h, block, span, at, end);
         at = end;
     }

@@ -98,6 +98,16 @@ static int piece_behind(const struct pages_left *left, size_t byte)
     return low;
 }
 
+/* What a file says may begin within a letter: it begins behind it. */
+static struct page_place place_of(const struct reader_pages *p, int paragraph, int byte)
+{
+    size_t bytes = 0;
+    const char *text = page_paragraph_text(p->text, paragraph, &bytes);
+    while (text && (size_t)byte < bytes && ((unsigned char)text[byte] & 0xc0) == 0x80)
+        byte++;
+    return (struct page_place){paragraph, byte};
+}
+
 /* ---- typed notes ---- */
 
 /* Letters from a file that anybody may have written, as a paragraph may have them. */
@@ -147,7 +157,7 @@ static enum reader_status note_set(struct reader_pages *p, const struct piece *p
         manner.align = FONT_ALIGN_START;
     enum reader_status status = pages_style(p, CONTEXT_NOTE, 0, &style);
     if (status == READER_OK &&
-        page_note_add(p->text, piece->paragraph, byte,
+        page_note_add(p->text, piece->paragraph, place_of(p, piece->paragraph, byte).byte,
                       margin ? PAGE_NOTE_MARGIN : PAGE_NOTE_FOOT, t->text, (size_t)t->bytes,
                       style, &manner, &id) != FONT_OK)
         status = pages_failed();
@@ -243,8 +253,8 @@ static enum reader_status piece_boxes(struct reader_pages *p, const struct piece
                                       int from, int to, const double rgb[3])
 {
     struct pages_left *left = p->left;
-    const struct page_place a = {piece->paragraph, piece->begin + from},
-                            b = {piece->paragraph, piece->begin + to};
+    const struct page_place a = place_of(p, piece->paragraph, piece->begin + from),
+                            b = place_of(p, piece->paragraph, piece->begin + to);
     int first, last;
     if (page_find(p->text, a, &first) != FONT_OK || page_find(p->text, b, &last) != FONT_OK)
         return pages_failed();
@@ -323,8 +333,8 @@ static enum reader_status stroke_add(struct reader_pages *p, const struct reader
     if (k == left->pieces_count || left->pieces[k].at > r->begin)
         return READER_OK; /* its word is on no page */
     const int byte = left->pieces[k].begin + (int)(r->begin - left->pieces[k].at);
-    const struct page_place a = {left->pieces[k].paragraph, byte},
-                            b = {left->pieces[k].paragraph, byte + 1};
+    const struct page_place a = place_of(p, left->pieces[k].paragraph, byte),
+                            b = place_of(p, left->pieces[k].paragraph, a.byte + 1);
     if (page_find(p->text, a, &page) != FONT_OK ||
         page_select(p->text, a, b, page, &box, 1, &count) != FONT_OK)
         return pages_failed();

@@ -1,11 +1,15 @@
 /* fuzz_remarks.c - takes random bytes as a kept anchor, and as a file of remarks; and a valid
- * file with bytes changed. What is read is whole, or it is refused with a line. The seeds are
- * the same in every run, or libFuzzer's with -DLUTETIA_FUZZ_TARGET. */
-#include <reader_remarks.h>
+ * file with bytes changed. What is read is whole, and HTML and pages can be made of it; or it
+ * is refused with a line. The seeds are the same in every run, or libFuzzer's with
+ * -DLUTETIA_FUZZ_TARGET. */
+#include <reader_html.h>
+#include <reader_pages.h>
 
 #include "../must.h"
+#include "html_tags.h"
 
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -13,7 +17,7 @@
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count);
 
 static const char plain[] =
-    "# A\n\nThe river ran slowly, and the reeds stood in it. The river ran.\n";
+    "# A\n\nThe river ran slowly, and the reeds stood in it. The river ran.\n\n";
 static char path[] = "/tmp/lutetia-fuzz-remarks-XXXXXX";
 
 static void path_make(void)
@@ -37,6 +41,62 @@ static void anchor_check(const struct reader_anchor *anchor)
         must(begin <= end && end <= sizeof plain - 1);
 }
 
+/* HTML with them is whole. */
+static void html_try(const struct reader_document *d, const struct reader_remarks *remarks)
+{
+    char *html = NULL;
+    size_t bytes = 0;
+    FILE *f = open_memstream(&html, &bytes);
+    must(f != NULL);
+    must(reader_html_write(d, &(struct reader_html_setup){.remarks = remarks}, f) == READER_OK);
+    must(fclose(f) == 0 && html_wrong(html) == NULL);
+    free(html);
+}
+
+/* Pages with them are drawings. */
+static void pages_try(const struct reader_document *d, const struct reader_remarks *remarks)
+{
+    struct reader_pages_setup setup = reader_pages_setup_default();
+    struct reader_pages *pages;
+    int count;
+    setup.font = "DejaVuSans";
+    setup.remarks = remarks;
+    must(reader_pages_make(d, &setup, &pages) == READER_OK);
+    must(page_count(reader_pages_text(pages), &count) == FONT_OK && count > 0);
+    for (int page = 0; page < count; page++) {
+        struct font_drawing drawing = {.width_px = setup.width_px,
+                                       .height_px = setup.height_px};
+        struct font_layout layout;
+        char *pdf = NULL;
+        size_t bytes = 0;
+        FILE *f = open_memstream(&pdf, &bytes);
+        must(f && page_layout(reader_pages_text(pages), page, &layout) == FONT_OK);
+        must(reader_pages_left(pages, page, &drawing) == READER_OK);
+        must(font_drawing_pdf(&drawing, &layout, NULL, 0, 0, f) == FONT_OK);
+        must(fclose(f) == 0 && !memmem(pdf, bytes, "nan", 3) && !memmem(pdf, bytes, "inf ", 4));
+        free(pdf);
+        font_layout_finish(&layout);
+    }
+    reader_pages_destroy(pages);
+}
+
+static void exported_try(const struct reader_remarks *remarks)
+{
+    static struct reader_document *d;
+    static bool without;
+    if (!d && !without) {
+        must(reader_document_create(&d) == READER_OK);
+        without = reader_document_add(d, plain, sizeof plain - 1) != READER_OK;
+        must(without || reader_document_refer(d) == READER_OK);
+        must(without || reader_document_plain(d) == READER_OK);
+        must(without || strcmp(d->plain, plain) == 0);
+    }
+    if (without)
+        return;
+    html_try(d, remarks);
+    pages_try(d, remarks);
+}
+
 static void file_try(const uint8_t *bytes, size_t count)
 {
     struct reader_remarks *remarks;
@@ -52,6 +112,7 @@ static void file_try(const uint8_t *bytes, size_t count)
         anchor_check(r->anchor);
     }
     reader_remarks_find(remarks, plain, sizeof plain - 1);
+    exported_try(remarks);
     reader_remarks_close(remarks);
 }
 

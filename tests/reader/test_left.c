@@ -32,7 +32,7 @@ struct left {
     int count;
 };
 
-static struct left begin(const char *markdown, size_t bytes, bool keep)
+static struct left begin_file(const char *markdown, size_t bytes, bool keep)
 {
     struct left l = {0};
     if (!keep)
@@ -128,7 +128,7 @@ static struct font_placed letter(struct left *l, const char *text, size_t behind
 static void boxes_and_ink_are_at_their_words(void **state)
 {
     (void)state;
-    struct left l = begin(marsh, strlen(marsh), false);
+    struct left l = begin_file(marsh, strlen(marsh), false);
     struct font_drawing d = {0};
     add(&l, READER_REMARK_HIGHLIGHT, "", "town it");
     add(&l, READER_REMARK_HIGHLIGHT, "", "wn it was");
@@ -166,7 +166,7 @@ static void typed_notes_stand_at_the_foot_or_beside(void **state)
 {
     (void)state;
     for (int margin = 0; margin < 2; margin++) {
-        struct left l = begin(marsh, strlen(marsh), false);
+        struct left l = begin_file(marsh, strlen(marsh), false);
         add(&l, READER_REMARK_TYPED, "Which\ntown?\t\x01 \xff.", "town it");
         add(&l, READER_REMARK_TYPED, "one leg", "herons");
         make(&l, margin ? 140 : 0);
@@ -191,7 +191,7 @@ static void typed_notes_stand_at_the_foot_or_beside(void **state)
 static void what_has_no_words_is_told_at_the_end(void **state)
 {
     (void)state;
-    struct left l = begin(marsh, strlen(marsh), false);
+    struct left l = begin_file(marsh, strlen(marsh), false);
     add(&l, READER_REMARK_TYPED, "soon gone", "Gone soon");
     add(&l, READER_REMARK_INK, "", "Gone soon");
     add(&l, READER_REMARK_HIGHLIGHT, "", "Gone soon");
@@ -199,7 +199,7 @@ static void what_has_no_words_is_told_at_the_end(void **state)
     char *shorter = strdup(marsh);
     assert_non_null(shorter);
     memset(strstr(shorter, "Gone soon."), ' ', strlen("Gone soon."));
-    l = begin(shorter, strlen(shorter), true);
+    l = begin_file(shorter, strlen(shorter), true);
     make(&l, 0);
     char *all = said(&l);
     const char *others = strstr(all, "Readers\xe2\x80\x99 other notes\n");
@@ -214,12 +214,39 @@ static void what_has_no_words_is_told_at_the_end(void **state)
     finish(&l);
 }
 
+/* As only a file that somebody made could have it. */
+static void remarks_within_letters_are_set(void **state)
+{
+    (void)state;
+    static const char text[] = "\xc3\xa9\xe6\xb0\xb4\xc3\xa9l\xc3\xa9\n";
+    for (size_t begin = 0; begin < sizeof text - 2; begin++)
+        for (size_t end = begin; end < sizeof text - 1; end++) {
+            struct left l = begin_file(text, sizeof text - 1, false);
+            struct font_drawing d = {0};
+            static struct reader_ink_point point = {0, 0, 1, 0};
+            int index;
+            for (int k = 0; k < 3; k++) {
+                const struct reader_remark what = {.kind = (enum reader_remark_kind)k,
+                                                   .text = "n",
+                                                   .points = &point,
+                                                   .points_count = k == READER_REMARK_INK};
+                assert_int_equal(reader_remarks_add(l.remarks, &what, l.document->plain,
+                                                    l.document->plain_bytes, begin, end,
+                                                    &index),
+                                 READER_OK);
+            }
+            make(&l, 0);
+            assert_int_equal(reader_pages_left(l.pages, 0, &d), READER_OK);
+            finish(&l);
+        }
+}
+
 /* A note of a megabyte, hundreds at one place, remarks that cover all: each is there. */
 static void many_and_long_remarks_are_set(void **state)
 {
     (void)state;
     enum { LONG = READER_TYPED_MAX - 8, MANY = 300 };
-    struct left l = begin(marsh, strlen(marsh), false);
+    struct left l = begin_file(marsh, strlen(marsh), false);
     char *typed = malloc(LONG + 1);
     uint64_t seed = 7;
     struct font_drawing d = {0};
@@ -264,6 +291,7 @@ int main(void)
         cmocka_unit_test(boxes_and_ink_are_at_their_words),
         cmocka_unit_test(typed_notes_stand_at_the_foot_or_beside),
         cmocka_unit_test(what_has_no_words_is_told_at_the_end),
+        cmocka_unit_test(remarks_within_letters_are_set),
         cmocka_unit_test(many_and_long_remarks_are_set),
     };
     const int file = mkstemp(path);
