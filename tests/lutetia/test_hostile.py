@@ -79,13 +79,14 @@ class Hostile(unittest.TestCase):
                 self.refused(self.run_it(*arguments, full=True), "standard output")
 
     def test_a_full_disk_is_named(self):
-        """A full disk in the cache folder: PoCL would abort the process, and unsaved work would be lost."""
+        """A full disk in the cache folder: PoCL would abort the process that compiles a kernel, and unsaved work would be lost."""
         small = self.at / "small"
         small.mkdir()
         if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=100k", "none", small], capture_output=True, check=False).returncode:
             self.skipTest("only root may mount a small disk")
         try:
-            self.refused(self.run_it("run", "sheet.lua", "-q", XDG_CACHE_HOME=str(small), POCL_CACHE_DIR=str(small / "pocl")),
+            self.refused(self.run_it("run", "sheet.lua", "-q", LUTETIA_INTERPRET="0",
+                                     XDG_CACHE_HOME=str(small), POCL_CACHE_DIR=str(small / "pocl")),
                          "the disk is full", str(small))
         finally:
             subprocess.run(["umount", small], check=True)
