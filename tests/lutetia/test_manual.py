@@ -46,6 +46,12 @@ with tempfile.TemporaryDirectory(prefix="lutetia-manual-") as folder:
         page = at / "page.png"
         ended = read(command, at, "--paper", "400x560", "--size", "12", "-o", page)
         assert ended.returncode == 0 and page.read_bytes().startswith(b"\x89PNG"), ended
+        html = at / "manual.html"
+        ended = read(command, at, "--theme", "dark", "-o", html)
+        assert ended.returncode == 0 and html.read_text().count("src=\"data:image/png;base64,") > 50, ended
+        for name, more in (("page.png", ["--remarks"]), ("x.pdf", ["--theme", "dark"]), ("x.html", ["--page", "2"])):
+            ended = read(command, at, *more, "-o", at / name)  # each is for others
+            assert ended.returncode == 2 and more[0] + " has no effect" in ended.stderr, ended
     # damaged
     (manual / chapters[1]).unlink()
     says(read(command, at, "-o", at / "no.pdf"), chapters[1])

@@ -254,7 +254,7 @@ static void markdown_is_read(void **state)
     struct child nothing = {.arguments = {"", "read", "/nowhere.md", "-o", png}};
     run(&nothing, 1, "/nowhere.md: ");
     struct child kind = {.arguments = {"", "read", one, "-o", "read.jpg"}};
-    run(&kind, 2, "-o names a picture");
+    run(&kind, 2, "-o names FILE.html, .pdf, .svg or .png");
     unlink(one);
     unlink(two);
     unlink(pdf);
