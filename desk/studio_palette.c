@@ -6,6 +6,7 @@
 #include <number_text.h>
 #include <output_file.h>
 
+#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -142,24 +143,17 @@ bool studio_palette_parse(const char *text, const struct paper_sheet_config *con
 bool studio_palette_read(const char *path, const struct paper_sheet_config *config,
                          struct studio_palette *out, char *why, size_t room)
 {
-    const char *reason = "";
+    const char *reason;
     char inner[400] = "";
-    FILE *file = input_file_open(path, &reason);
-    char *text = file ? calloc(STUDIO_PALETTE_BYTES + 1, 1) : NULL;
+    size_t count;
+    char *text = input_file_read(path, STUDIO_PALETTE_BYTES, &count, &reason);
     *out = (struct studio_palette){0};
-    if (!file || !text) {
-        snprintf(why, room, "%s: cannot read: %s", path, file ? "no memory" : reason);
-        if (file)
-            fclose(file);
+    if (!text && errno != EFBIG) {
+        snprintf(why, room, "%s: cannot read: %s", path, reason);
         return false;
     }
-    const size_t count = fread(text, 1, STUDIO_PALETTE_BYTES + 1, file);
-    const bool failed = ferror(file) != 0;
-    fclose(file);
     bool good = false;
-    if (failed)
-        snprintf(inner, sizeof inner, "cannot read");
-    else if (count > STUDIO_PALETTE_BYTES || memchr(text, 0, count))
+    if (!text || memchr(text, 0, count))
         snprintf(inner, sizeof inner, "it is no palette");
     else
         good = studio_palette_parse(text, config, out, inner, sizeof inner);

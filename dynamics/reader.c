@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 enum { FILE_MAX_BYTES = 2000000000 };
 
@@ -147,31 +146,13 @@ enum dyn_status dyn_reader_run(struct dyn_reader *r, const char *text, size_t by
 
 enum dyn_status dyn_file_bytes(const char *path, char **text, size_t *bytes)
 {
-    struct stat about;
-    enum dyn_status status = DYN_OK;
     const char *why;
-    FILE *file = input_file_open(path, &why); /* never waits for a pipe */
-    *text = NULL;
-    if (!file)
-        return dyn_fail(DYN_BAD_FILE, "%.200s: cannot be read: %s", path, why);
-    if (fstat(fileno(file), &about) != 0 || !S_ISREG(about.st_mode))
-        status = dyn_fail(DYN_BAD_FILE, "%.200s: is no file", path);
-    else if (about.st_size > FILE_MAX_BYTES)
-        status = dyn_fail(DYN_TOO_LARGE, "%.200s: a file has at most %d bytes", path,
-                          FILE_MAX_BYTES);
-    else if (!(*text = malloc((size_t)about.st_size + 1)))
-        status = dyn_fail(DYN_NO_MEMORY, "%.200s: no memory for it", path);
-    if (status == DYN_OK) {
-        *bytes = fread(*text, 1, (size_t)about.st_size, file);
-        (*text)[*bytes] = '\0';
-        if (ferror(file))
-            status =
-                dyn_fail(DYN_BAD_FILE, "%.200s: cannot be read: %s", path, strerror(errno));
-    }
-    if (status != DYN_OK) {
-        free(*text);
-        *text = NULL;
-    }
-    fclose(file);
-    return status;
+    *text = input_file_read(path, FILE_MAX_BYTES, bytes, &why);
+    if (*text)
+        return DYN_OK;
+    if (errno == EFBIG)
+        return dyn_fail(DYN_TOO_LARGE, "%.200s: a file has at most %d bytes", path,
+                        FILE_MAX_BYTES);
+    return dyn_fail(errno == ENOMEM ? DYN_NO_MEMORY : DYN_BAD_FILE,
+                    "%.200s: cannot be read: %s", path, why);
 }

@@ -3,12 +3,12 @@
 
 #include <input_file.h>
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
 
 #include <fontconfig/fontconfig.h>
 #include <ft2build.h>
@@ -111,30 +111,16 @@ enum font_status font_face_open_memory_coloured(const void *bytes, size_t count,
 
 static enum font_status file_read(const char *path, unsigned char **bytes, size_t *count)
 {
-    struct stat about;
-    const char *why = "";
-    FILE *file = input_file_open(path, &why);
+    const char *why;
+    *bytes = (unsigned char *)input_file_read(path, FILE_BYTES_MAX, count, &why);
+    if (*bytes && *count > 0)
+        return FONT_OK;
+    const int error = *bytes ? EFBIG : errno;
+    free(*bytes);
     *bytes = NULL;
-    if (!file)
-        return font_fail(FONT_BAD_FILE, "%s: %s", path, why);
-    enum font_status status = FONT_OK;
-    if (fstat(fileno(file), &about) != 0 || about.st_size <= 0 ||
-        about.st_size > FILE_BYTES_MAX) {
-        status = font_fail(FONT_BAD_FILE, "%s is no font file", path);
-    } else {
-        *count = (size_t)about.st_size;
-        *bytes = malloc(*count);
-        if (!*bytes)
-            status = font_fail(FONT_NO_MEMORY, "no memory for %s", path);
-        else if (fread(*bytes, 1, *count, file) != *count)
-            status = font_fail(FONT_BAD_FILE, "%s cannot be read whole", path);
-    }
-    if (status != FONT_OK) {
-        free(*bytes);
-        *bytes = NULL;
-    }
-    fclose(file);
-    return status;
+    return error == EFBIG    ? font_fail(FONT_BAD_FILE, "%s is no font file", path)
+           : error == ENOMEM ? font_fail(FONT_NO_MEMORY, "no memory for %s", path)
+                             : font_fail(FONT_BAD_FILE, "%s: %s", path, why);
 }
 
 static enum font_status face_open(const char *name, int index, bool pictures,

@@ -128,27 +128,11 @@ static const char *place_wrong(const struct reader_files *files, int source, con
 /* Its bytes; NULL: *why says why not. */
 static const char *text_read(struct reader_files *files, struct included *in)
 {
-    enum { PIECE = 1 << 16 };
+    const double left = READER_BYTES_MAX - files->bytes;
     const char *why = NULL;
-    FILE *file = input_file_open(in->whole, &why);
-    int capacity = 0;
-    if (!file)
-        return why ? why : "it cannot be read";
-    for (size_t got = 1; got > 0 && !why;) {
-        if (!array_reserve(&in->text, &capacity, (int)in->bytes + PIECE, 1)) {
-            why = "there is no memory for it";
-            break;
-        }
-        got = fread(in->text + in->bytes, 1, PIECE, file);
-        in->bytes += got;
-        if (files->bytes + (double)in->bytes > READER_BYTES_MAX)
-            why = "what is included has up to 32 MB";
-    }
-    if (!why && ferror(file))
-        why = "it cannot be read whole";
-    fclose(file);
-    files->bytes += why ? 0 : (double)in->bytes;
-    return why;
+    in->text = input_file_read(in->whole, left > 0 ? (size_t)left : 0, &in->bytes, &why);
+    files->bytes += (double)in->bytes;
+    return in->text ? NULL : errno == EFBIG ? "what is included has up to 32 MB" : why;
 }
 
 /* Why it is not included; NULL: it is here. */

@@ -6,11 +6,10 @@
 #include <input_file.h>
 #include <sha256.h>
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 bool edits_file_is_plain(const char *file)
 {
@@ -32,36 +31,18 @@ char *edits_path(const char *folder, const char *file)
 enum font_status edits_file_read(const char *folder, const char *file, char **bytes,
                                  size_t *count)
 {
-    struct stat about;
-    const char *why = "";
+    const char *why;
     char *path = edits_path(folder, file);
     *bytes = NULL;
     if (!path)
         return font_fail(FONT_NO_MEMORY, "no memory for %.60s", file);
-    int descriptor = input_file_descriptor_no_link(path, &why);
-    FILE *in = descriptor < 0 ? NULL : fdopen(descriptor, "rb");
-    if (descriptor >= 0 && !in)
-        close(descriptor);
-    enum font_status status = FONT_OK;
-    if (!in) {
-        status = font_fail(FONT_BAD_FILE, "%s: %s", path, why);
-    } else if (fstat(fileno(in), &about) != 0 || about.st_size > EDITS_BYTES_MAX) {
-        status = font_fail(FONT_BAD_FILE, "%s: a file of edits has up to %d bytes", path,
-                           EDITS_BYTES_MAX);
-    } else {
-        *count = (size_t)about.st_size;
-        *bytes = calloc(*count + 1, 1);
-        if (!*bytes)
-            status = font_fail(FONT_NO_MEMORY, "no memory for %s", path);
-        else if (fread(*bytes, 1, *count, in) != *count)
-            status = font_fail(FONT_BAD_FILE, "%s cannot be read whole", path);
-    }
-    if (in)
-        fclose(in);
-    if (status != FONT_OK) {
-        free(*bytes);
-        *bytes = NULL;
-    }
+    *bytes = input_file_read_no_link(path, EDITS_BYTES_MAX, count, &why);
+    const enum font_status status =
+        *bytes            ? FONT_OK
+        : errno == EFBIG  ? font_fail(FONT_BAD_FILE, "%s: a file of edits has up to %d bytes",
+                                      path, EDITS_BYTES_MAX)
+        : errno == ENOMEM ? font_fail(FONT_NO_MEMORY, "no memory for %s", path)
+                          : font_fail(FONT_BAD_FILE, "%s: %s", path, why);
     free(path);
     return status;
 }

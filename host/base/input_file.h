@@ -5,6 +5,11 @@
  *     if (!in)
  *         return fail("%s: cannot read: %s", "marsh.lua", why);
  *
+ * and reads it whole:
+ *
+ *     size_t bytes;
+ *     char *text = input_file_read("marsh.lua", 1 << 20, &bytes, &why);
+ *
  * Only regular files are opened: opening a pipe waits for a writer, and opening a device may
  * have any effect. Data from a pipe is read from the standard input instead. Links are
  * followed, so the file may lie anywhere.
@@ -24,6 +29,17 @@ int input_file_descriptor(const char *path, const char **why);
 
 /* The same, and the name itself may be no link (ELOOP): for files in folders of our own. */
 int input_file_descriptor_no_link(const char *path, const char **why);
+
+/* All of a file's bytes, and a 0 behind them, which is not counted. The caller frees them.
+ * NULL: errno and *why (may be NULL) say why, errno is EFBIG if there are more than `most`
+ * bytes, and *bytes is 0. A file that grows meanwhile is read to its new end. */
+char *input_file_read(const char *path, size_t most, size_t *bytes, const char **why);
+
+/* The same, and the name itself may be no link. */
+char *input_file_read_no_link(const char *path, size_t most, size_t *bytes, const char **why);
+
+/* The same of what is left of a stream, for pipes. The stream stays open. */
+char *input_stream_read(FILE *in, size_t most, size_t *bytes, const char **why);
 
 /* Opens a folder, within the folder `in` (AT_FDCWD: the current one), to read its names and to
  * open what is in it. No link. Negative: errno says why. */

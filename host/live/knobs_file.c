@@ -238,22 +238,14 @@ enum stage_status knobs_text_read(const char *text, size_t bytes, const char *na
 
 enum stage_status knobs_file_read(const char *path, struct knobs_text *out)
 {
-    const char *why = "it is too long";
-    char *text = malloc(FILE_BYTES_MAX + 1);
+    const char *why;
+    size_t count;
+    char *text = input_file_read(path, FILE_BYTES_MAX, &count, &why);
     *out = (struct knobs_text){0};
     if (!text)
-        return stage_fail(STAGE_NO_MEMORY, "no memory for a file of knobs");
-    FILE *file = input_file_open(path, &why);
-    const size_t count = file ? fread(text, 1, FILE_BYTES_MAX + 1, file) : 0;
-    const bool wrong = !file || ferror(file);
-    if (file && wrong)
-        why = strerror(errno);
-    const enum stage_status status =
-        wrong || count > FILE_BYTES_MAX
-            ? stage_fail(STAGE_BAD_FILE, "%s: cannot be read: %s", path, why)
-            : knobs_text_read(text, count, path, out);
-    if (file)
-        fclose(file);
+        return stage_fail(errno == ENOMEM ? STAGE_NO_MEMORY : STAGE_BAD_FILE,
+                          "%s: cannot be read: %s", path, why);
+    const enum stage_status status = knobs_text_read(text, count, path, out);
     free(text);
     return status;
 }

@@ -7,6 +7,7 @@
 #include <output_file.h>
 #include <visible_text.h>
 
+#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -162,23 +163,17 @@ int type_font_name(const char *verb, const char *given, const char *edits, const
 int type_filter_read(const char *verb, const char *name, char **out)
 {
     enum { BYTES_MAX = 16384 };
-    *out = name[0] == '@' ? calloc(1, BYTES_MAX + 1) : strdup(name);
-    if (!*out)
-        return fail(verb, "no memory");
-    if (name[0] != '@')
-        return EXIT_SUCCESS;
-    const char *why = "";
-    FILE *file = input_file_open(name + 1, &why);
-    size_t count = file ? fread(*out, 1, BYTES_MAX, file) : 0;
-    bool whole = file && !ferror(file) && fgetc(file) == EOF;
-    if (file)
-        fclose(file);
-    if (!whole) {
-        free(*out);
-        *out = NULL;
-        return file ? fail(verb, "%s: a filter's file has up to %d bytes", name + 1, BYTES_MAX)
-                    : fail(verb, "%s: %s", name + 1, why);
+    if (name[0] != '@') {
+        *out = strdup(name);
+        return *out ? EXIT_SUCCESS : fail(verb, "no memory");
     }
+    const char *why;
+    size_t count;
+    *out = input_file_read(name + 1, BYTES_MAX, &count, &why);
+    if (!*out)
+        return errno == EFBIG
+                   ? fail(verb, "%s: a filter's file has up to %d bytes", name + 1, BYTES_MAX)
+                   : fail(verb, "%s: %s", name + 1, why);
     font_filter_words(*out, count, *out); /* it gets shorter, if anything */
     return EXIT_SUCCESS;
 }

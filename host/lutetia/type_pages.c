@@ -8,6 +8,7 @@
 #include <input_file.h>
 #include <output_file.h>
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,33 +17,14 @@ enum { TEXT_BYTES_MAX = 64 << 20 };
 
 int type_text_read(const char *verb, const char *path, char **text, size_t *bytes)
 {
-    const char *why = "";
-    bool piped = strcmp(path, "-") == 0;
-    FILE *file = piped ? stdin : input_file_open(path, &why);
-    size_t room = 0;
-    *text = NULL;
-    *bytes = 0;
-    if (!file)
-        return fail(verb, "%s: %s", path, why);
-    for (;;) {
-        if (*bytes == room) {
-            room = room ? 2 * room : 65536;
-            char *more = room <= TEXT_BYTES_MAX ? realloc(*text, room) : NULL;
-            if (!more)
-                break;
-            *text = more;
-        }
-        size_t got = fread(*text + *bytes, 1, room - *bytes, file);
-        *bytes += got;
-        if (!got)
-            break;
-    }
-    bool good = *text && *bytes < room && !ferror(file);
-    if (!piped)
-        fclose(file);
-    return good ? EXIT_SUCCESS
-                : fail(verb, "%s cannot be read whole; a text has up to %d MB", path,
-                       TEXT_BYTES_MAX >> 20);
+    const char *why;
+    *text = strcmp(path, "-") == 0 ? input_stream_read(stdin, TEXT_BYTES_MAX, bytes, &why)
+                                   : input_file_read(path, TEXT_BYTES_MAX, bytes, &why);
+    if (*text)
+        return EXIT_SUCCESS;
+    return errno == EFBIG ? fail(verb, "%s cannot be read whole; a text has up to %d MB", path,
+                                 TEXT_BYTES_MAX >> 20)
+                          : fail(verb, "%s: %s", path, why);
 }
 
 static void lacking_add(struct type_pages *s, const struct font_layout *layout)

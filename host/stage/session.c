@@ -508,18 +508,12 @@ enum stage_status stage_session_read(const char *path, const struct stage_contro
 {
     *out = (struct stage_session){0};
     const char *why;
-    FILE *file = input_file_open(path, &why);
-    if (!file)
-        return stage_fail(STAGE_BAD_FILE, "%s: cannot be read: %s", path, why);
-    long bytes = fseek(file, 0, SEEK_END) == 0 ? ftell(file) : -1;
-    char *text = bytes >= 0 && bytes <= file_bytes_max ? malloc((size_t)bytes + 1) : NULL;
-    rewind(file);
-    size_t count = text ? fread(text, 1, (size_t)bytes, file) : 0;
-    bool whole = text && count == (size_t)bytes && !ferror(file);
-    fclose(file);
-    enum stage_status status =
-        whole ? stage_session_parse(text, count, path, rows, rows_count, out)
-              : stage_fail(STAGE_BAD_FILE, "%s: cannot be read, or is too long", path);
+    size_t count;
+    char *text = input_file_read(path, (size_t)file_bytes_max, &count, &why);
+    if (!text)
+        return stage_fail(errno == ENOMEM ? STAGE_NO_MEMORY : STAGE_BAD_FILE,
+                          "%s: cannot be read: %s", path, why);
+    enum stage_status status = stage_session_parse(text, count, path, rows, rows_count, out);
     free(text);
     for (int i = 0; status == STAGE_OK && i < out->count; i++)
         if (out->deeds[i].kind == STAGE_DEED_LOAD)

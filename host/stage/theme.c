@@ -138,22 +138,13 @@ enum stage_status stage_theme_read(const char *text, size_t bytes, const char *n
 static enum stage_status file_read(const char *path, struct stage_theme *theme)
 {
     static const char hint[] = "a theme is light, dark, or a file with lines `name = value`";
-    const char *why = "it is too long";
-    char *text = malloc(FILE_BYTES_MAX + 1);
-    FILE *file = text ? input_file_open(path, &why) : NULL;
-    size_t count = file ? fread(text, 1, FILE_BYTES_MAX + 1, file) : 0;
-    bool wrong = !file || ferror(file);
-    if (file && wrong)
-        why = strerror(errno);
-    enum stage_status status = STAGE_OK;
+    const char *why;
+    size_t count;
+    char *text = input_file_read(path, FILE_BYTES_MAX, &count, &why);
     if (!text)
-        status = stage_fail(STAGE_NO_MEMORY, "no memory for a theme");
-    else if (wrong || count > FILE_BYTES_MAX)
-        status = stage_fail(STAGE_BAD_FILE, "%s: cannot be read: %s: %s", path, why, hint);
-    else
-        status = stage_theme_read(text, count, path, theme);
-    if (file)
-        fclose(file);
+        return stage_fail(errno == ENOMEM ? STAGE_NO_MEMORY : STAGE_BAD_FILE,
+                          "%s: cannot be read: %s: %s", path, why, hint);
+    const enum stage_status status = stage_theme_read(text, count, path, theme);
     free(text);
     return status;
 }

@@ -5,6 +5,7 @@
 
 #include <input_file.h>
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -310,22 +311,14 @@ bool voice_transcript_read(const char *path, struct voice_transcript *out, char 
                            size_t room)
 {
     const char *reason;
-    FILE *in = input_file_open(path, &reason);
+    size_t count;
+    char *bytes = input_file_read(path, BYTES_MAX, &count, &reason);
     *out = (struct voice_transcript){0};
-    if (!in) {
+    if (!bytes && errno == EFBIG)
+        snprintf(why, room, "%s: a transcript has 16 MB at most", path);
+    else if (!bytes)
         snprintf(why, room, "%s: cannot read: %s", path, reason);
-        return false;
-    }
-    char *bytes = malloc(BYTES_MAX + 1);
-    const size_t count = bytes ? fread(bytes, 1, BYTES_MAX + 1, in) : 0;
-    const bool failed = !bytes || ferror(in) || count > BYTES_MAX;
-    fclose(in);
-    if (failed)
-        snprintf(why, room, "%s: %s", path,
-                 !bytes              ? "no memory"
-                 : count > BYTES_MAX ? "a transcript has 16 MB at most"
-                                     : "cannot read it");
-    const bool done = !failed && voice_transcript_parse(path, bytes, count, out, why, room);
+    const bool done = bytes && voice_transcript_parse(path, bytes, count, out, why, room);
     free(bytes);
     return done;
 }

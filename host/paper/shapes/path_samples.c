@@ -12,29 +12,14 @@
 
 enum paper_status paper_file_read(const char *file, char **bytes, size_t *count)
 {
-    const char *why = "no memory for it";
-    FILE *stream = input_file_open(file, &why);
-    *bytes = stream ? malloc(PAPER_FILE_MAX + 2) : NULL;
-    if (!*bytes) {
-        if (stream)
-            fclose(stream);
-        return paper_fail(PAPER_BAD_ARGUMENT, "%s: cannot read: %s", file, why);
-    }
-    *count = fread(*bytes, 1, PAPER_FILE_MAX + 1, stream);
-    bool failed = ferror(stream) != 0;
-    int error = errno;
-    fclose(stream);
-    if (!failed && *count <= PAPER_FILE_MAX) {
-        (*bytes)[*count] = '\0';
+    const char *why;
+    *bytes = input_file_read(file, PAPER_FILE_MAX, count, &why);
+    if (*bytes)
         return PAPER_OK;
-    }
-    free(*bytes);
-    *bytes = NULL;
-    if (failed)
-        return paper_fail(PAPER_BAD_ARGUMENT, "%s: cannot read: %s", file,
-                          strerror(error ? error : EIO));
-    return paper_fail(PAPER_BAD_ARGUMENT, "%s: it has more than %d bytes", file,
-                      PAPER_FILE_MAX);
+    if (errno == EFBIG)
+        return paper_fail(PAPER_BAD_ARGUMENT, "%s: it has more than %d bytes", file,
+                          PAPER_FILE_MAX);
+    return paper_fail(PAPER_BAD_ARGUMENT, "%s: cannot read: %s", file, why);
 }
 
 /* Reads the numbers of one line, at most 6; -1: the line contains something else. */

@@ -19,7 +19,6 @@
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 struct paper_journal {
@@ -245,27 +244,10 @@ enum paper_status paper_journal_close(struct paper_journal *j)
 /* Owns: the caller frees *bytes; NULL: there is no file. */
 static enum paper_status file_read(const char *path, uint8_t **bytes, size_t *count)
 {
-    struct stat status;
-    FILE *in = input_file_open(path, NULL);
-    *bytes = NULL;
-    *count = 0;
-    if (!in)
-        return errno == ENOENT ? PAPER_OK : cannot(path, "read", errno);
-    if (fstat(fileno(in), &status) != 0) {
-        const int error = errno;
-        fclose(in);
-        return cannot(path, "read", error);
-    }
-    *bytes = malloc((size_t)status.st_size + 1);
-    if (*bytes)
-        *count = fread(*bytes, 1, (size_t)status.st_size, in);
-    const int error = ferror(in) ? errno : 0;
-    fclose(in);
-    if (*bytes && !error)
+    *bytes = (uint8_t *)input_file_read(path, SIZE_MAX / 4, count, NULL);
+    if (*bytes || errno == ENOENT)
         return PAPER_OK;
-    free(*bytes);
-    *bytes = NULL;
-    return error ? cannot(path, "read", error) : no_memory();
+    return errno == ENOMEM ? no_memory() : cannot(path, "read", errno);
 }
 
 static enum paper_status state_make(const char *path, double budget_bytes,
