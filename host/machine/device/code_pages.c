@@ -1,7 +1,12 @@
 /* code_pages.c - see code_pages.h.
  *
  *     a library     | names | code ... this function ... | constants | tables for exceptions | constants with addresses | variables
- *                           '---------- fetched ---------'-----------'                       '--------------------------' */
+ *                           '---------- fetched ---------'-----------'                       '--------------------------'
+ *
+ * So GNU's linkers lay it out; LLVM's and mold put the constants before the code:
+ *
+ *     a library     | names | constants | tables for exceptions | code ... this function ... | constants with addresses | variables
+ *                           '- fetched -'                       '----------------------------'--------------------------' */
 #include "device/code_pages.h"
 
 #include <link.h>
@@ -32,6 +37,40 @@ static uintptr_t place(const struct dl_phdr_info *object, const ElfW(Phdr) * par
     return object->dlpi_addr + part->p_vaddr;
 }
 
+/* Where the names end that the linker has for the loader: symbols, and what is to be relocated.
+ * 0: the object has none. */
+static uintptr_t names_end(const struct dl_phdr_info *object)
+{
+    uintptr_t strings = 0, moved = 0, called = 0;
+    size_t strings_bytes = 0, moved_bytes = 0, called_bytes = 0;
+    const ElfW(Dyn) *entry = NULL;
+    for (int i = 0; i < object->dlpi_phnum; i++)
+        if (object->dlpi_phdr[i].p_type == PT_DYNAMIC)
+            entry = (const ElfW(Dyn) *)place(object, &object->dlpi_phdr[i]);
+    for (; entry && entry->d_tag != DT_NULL; entry++) {
+        strings = entry->d_tag == DT_STRTAB ? entry->d_un.d_ptr : strings;
+        strings_bytes = entry->d_tag == DT_STRSZ ? entry->d_un.d_val : strings_bytes;
+        moved = entry->d_tag == DT_RELA ? entry->d_un.d_ptr : moved;
+        moved_bytes = entry->d_tag == DT_RELASZ ? entry->d_un.d_val : moved_bytes;
+        called = entry->d_tag == DT_JMPREL ? entry->d_un.d_ptr : called;
+        called_bytes = entry->d_tag == DT_PLTRELSZ ? entry->d_un.d_val : called_bytes;
+    }
+    const uintptr_t ends[] = {strings + strings_bytes, moved + moved_bytes,
+                              called + called_bytes};
+    uintptr_t last = 0;
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++)
+        last = ends[i] > last ? ends[i] : last;
+    return last;
+}
+
+/* The constants that lie before the code, with their tables for exceptions at the end. */
+static void constants_before_add(struct search *s, const struct dl_phdr_info *object,
+                                 uintptr_t begin, uintptr_t exceptions)
+{
+    const uintptr_t names = names_end(object);
+    range_add(s, names > begin && names < exceptions ? names : begin, exceptions);
+}
+
 static int object_look(struct dl_phdr_info *object, size_t bytes, void *of)
 {
     struct search *s = of;
@@ -54,6 +93,8 @@ static int object_look(struct dl_phdr_info *object, size_t bytes, void *of)
         if ((p->p_type == PT_LOAD && begin > code && !(p->p_flags & PF_W)) ||
             p->p_type == PT_GNU_RELRO)
             range_add(s, begin, exceptions > begin && exceptions < end ? exceptions : end);
+        else if (p->p_type == PT_LOAD && begin < code && exceptions > begin && exceptions < end)
+            constants_before_add(s, object, begin, exceptions);
     }
     return code != 0;
 }
