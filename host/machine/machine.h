@@ -270,7 +270,6 @@ int machine_vpset_current(const struct machine *m);
 int machine_vpset_rank(const struct machine *m, int vpset);
 int machine_vpset_length(const struct machine *m, int vpset, int axis);
 uint64_t machine_vpset_count(const struct machine *m, int vpset); /* virtual processors */
-enum machine_order machine_vpset_order(const struct machine *m, int vpset);
 uint64_t machine_vpset_ratio(const struct machine *m, int vpset);
 /* The number of bits of a send address of the set, which has P * R addresses; at least 1. */
 int machine_address_bits(const struct machine *m, int vpset);

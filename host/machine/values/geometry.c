@@ -121,12 +121,6 @@ uint64_t machine_vpset_ratio(const struct machine *m, int vpset)
     return s ? s->ratio : 0;
 }
 
-enum machine_order machine_vpset_order(const struct machine *m, int vpset)
-{
-    const struct vpset *s = peek(m, vpset);
-    return s ? s->layout.order : MACHINE_NEWS_ORDER;
-}
-
 int machine_address_bits(const struct machine *m, int vpset)
 {
     const struct vpset *s = peek(m, vpset);
