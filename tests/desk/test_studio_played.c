@@ -18,6 +18,7 @@
 #include <unistd.h>
 
 #include "../clock.h"
+#include "../skip.h"
 #include "sample.h"
 #include "studio_played.h"
 #include "studio_scene.h"
@@ -259,7 +260,7 @@ static void killed_twenty_times(void **state)
     int in_time = 0;
     (void)state;
     if (!full || *full != '1')
-        skip();
+        skip_because("it takes minutes; PAPER_TEST_FULL=1 asks for it");
     for (int i = 0; i < MOMENTS; i++) {
         struct snapshot snapshot = {0};
         char path[300];
