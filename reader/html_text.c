@@ -4,6 +4,7 @@
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
+#include <text.h>
 
 /* ---- links ---- */
 
@@ -58,9 +59,27 @@ static int link_block(const struct html *h, const char *target, int source)
     return target == mark ? -1 : source_begin(d, to);
 }
 
+/* Whether a browser would read it as another address than it looks like: it leaves out control
+ * characters, and blanks at the beginning. */
+static bool is_disguised(const char *target)
+{
+    const char *at = target, *const end = target + strlen(target);
+    if (*target == ' ')
+        return true;
+    while (at < end) {
+        uint32_t c;
+        font_utf8_next(&at, end, &c);
+        if (c < 0x20 || (c >= 0x7f && c < 0xa0))
+            return true;
+    }
+    return false;
+}
+
 /* Whether a browser may follow it: nothing that runs, and no file by its whole path. */
 static bool is_followed(const char *target)
 {
+    if (is_disguised(target))
+        return false;
     return strncmp(target, "https://", 8) == 0 || strncmp(target, "http://", 7) == 0 ||
            strncmp(target, "mailto:", 7) == 0 ||
            (*target && *target != '/' && *target != '\\' && *target != '#' &&

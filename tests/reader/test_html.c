@@ -98,7 +98,11 @@ static void links_lead_where_they_may(void **state)
     char *html = html_plain(
         "# Reeds\n\n[in](#reeds) [out](https://a.b/?x=\"1\"&y) [no](javascript:alert(1)) "
         "[file](file:///etc/passwd) [whole](/etc/passwd) [data](data:text/html,x) "
-        "[beside](other.md#x) [twice](//a.b) [vb](VBScript:x)\n");
+        "[beside](other.md#x) [twice](//a.b) [vb](VBScript:x) [tab](&#9;/etc/a) "
+        "[line](&#10;//a.b) "
+        "[bell](&#7;/etc/b) [next](&#x85;/etc/c) [blank](< /etc/d>) "
+        "[within](&#9;java&#10;script:x) "
+        "[mine](<my reeds.md>)\n");
     has(html, "<a href=\"#b.0\">in</a>");
     has(html, "<a href=\"https://a.b/?x=&quot;1&quot;&amp;y\">out</a>");
     has(html, "<a href=\"other.md#x\">beside</a>");
@@ -107,6 +111,10 @@ static void links_lead_where_they_may(void **state)
     has_not(html, "file:");
     has_not(html, "href=\"/");
     has_not(html, "VBScript");
+    has_not(html, "etc/");
+    has_not(html, "href=\"\n");
+    has_not(html, "script:x");
+    has(html, "<a href=\"my reeds.md\">mine</a>");
     free(html);
 }
 
