@@ -83,8 +83,8 @@ static void style_put(struct html *h)
     for (const char *c = h->setup->font ? h->setup->font : ""; *c; c++) {
         if (c == h->setup->font)
             fputs("'", h->f);
-        if (strchr("'\\<>\n\r\f", *c) == NULL)
-            html_put(h, c, 1);
+        if (strchr("'\\<>", *c) == NULL && (unsigned char)*c >= 0x20)
+            fputc(*c, h->f); /* a style has no names for letters */
         if (!c[1])
             fputs("',", h->f);
     }

@@ -171,12 +171,14 @@ static void themes_are_the_window_s(void **state)
     (void)state;
     struct reader_document *d = read_text("a\n", 2);
     char *light = html_of(d, &(struct reader_html_setup){.theme = READER_HTML_LIGHT}),
-         *dark = html_of(d, &(struct reader_html_setup){.theme = READER_HTML_DARK}),
+         *dark = html_of(d, &(struct reader_html_setup){.theme = READER_HTML_DARK,
+                                                        .font = "Caf\xc3\xa9 & Co"}),
          *both =
              html_of(d, &(struct reader_html_setup){.theme = READER_HTML_BOTH, .size_px = 19});
     has(light, "--paper:#fefcf8");
     has_not(light, "#1c1c1e");
     has(dark, ":root{--paper:#1c1c1e");
+    has(dark, "font-family:'Caf\xc3\xa9 & Co',");
     has(both, "prefers-color-scheme:dark){:root{--paper:#1c1c1e");
     has(both, ";font-size:19px");
     free(light);
