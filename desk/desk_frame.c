@@ -55,15 +55,31 @@ int desk_frame_run(GtkApplication *application, char **argv, GCallback activate,
     return g_application_run(G_APPLICATION(application), 1, argv);
 }
 
+/* GTK 4.20 has schemes of colours, and warns of the switch that there was before.
+ * NULL: an older GTK. */
+static GEnumClass *schemes_of(GtkSettings *settings)
+{
+    GParamSpec *found = g_object_class_find_property(G_OBJECT_GET_CLASS(settings),
+                                                     "gtk-interface-color-scheme");
+    return found && G_IS_PARAM_SPEC_ENUM(found) ? G_PARAM_SPEC_ENUM(found)->enum_class : NULL;
+}
+
 bool desk_frame_theme(int theme)
 {
-    static const char name[] = "gtk-application-prefer-dark-theme";
-    gboolean dark = theme == 1;
+    GtkSettings *settings = gtk_settings_get_default();
+    GEnumClass *schemes = schemes_of(settings);
+    const GEnumValue *is_dark = schemes ? g_enum_get_value_by_nick(schemes, "dark") : NULL,
+                     *is_light = schemes ? g_enum_get_value_by_nick(schemes, "light") : NULL;
+    const char *name = is_dark && is_light ? "gtk-interface-color-scheme"
+                                           : "gtk-application-prefer-dark-theme";
+    const int dark = is_dark && is_light ? is_dark->value : TRUE,
+              light = is_dark && is_light ? is_light->value : FALSE;
+    int now = theme == 1 ? dark : light; /* a gboolean is an int */
     if (theme >= 0)
-        g_object_set(gtk_settings_get_default(), name, dark, NULL);
+        g_object_set(settings, name, now, NULL);
     else
-        g_object_get(gtk_settings_get_default(), name, &dark, NULL);
-    return dark;
+        g_object_get(settings, name, &now, NULL);
+    return now == dark;
 }
 
 /* ---- the header ---- */

@@ -137,14 +137,15 @@ static char *said_by(const char *markdown)
     return out;
 }
 
-/* Of a newer CommonMark than cmark-gfm reads: a number that is no letter's, a tag
- * <textarea>. */
-enum { OTHERS = 2 };
-static bool is_other(int example)
+/* Of a newer CommonMark than cmark-gfm reads: a number that is no letter's, a tag <textarea>;
+ * since its version 0.31.2, signs of money at the end of what is emphasised. */
+enum { OTHERS = 3 };
+static bool is_other(const char *markdown)
 {
-    static const int others[OTHERS] = {28, 171};
+    static const char *const others[OTHERS] = {"&#87654321;", "<textarea>",
+                                               "*\xe2\x82\xac*charlie"};
     for (int i = 0; i < OTHERS; i++)
-        if (others[i] == example)
+        if (strstr(markdown, others[i]))
             return true;
     return false;
 }
@@ -172,7 +173,7 @@ static void examples_say_the_same(void **state)
         }
         if (strcmp(wanted, got) == 0)
             same++;
-        else if (!is_other(atoi(number + 11)))
+        else if (!is_other(markdown))
             fail_msg("example %d:\n%s\nsays %s, and here\n%s", atoi(number + 11), markdown,
                      wanted, got);
         free(markdown);
