@@ -147,6 +147,8 @@ static gboolean report_take(gpointer data)
         desk_say(d, d->report.error);
         d->leaving = NULL;                                  /* it is not saved: stay */
         visible_say("lutetia studio: %s", d->report.error); /* whoever looks at the terminal */
+        if (d->play)
+            d->status = 1; /* nobody is there to do it again */
         if (d->report.failed) {
             d->status = 1;
             g_application_quit(G_APPLICATION(d->application));
