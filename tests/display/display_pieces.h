@@ -55,6 +55,14 @@ static inline void pieces_pixels(struct pieces *p, int display, int buffer, int 
     p->count += bytes;
 }
 
+static inline void pieces_map(struct pieces *p, int display, uint8_t map[256][3], uint64_t us)
+{
+    enum { MAP_BYTES = 256 * 3 };
+    pieces_head(p, 4, display, 0, 0, MAP_BYTES, us, 0, 0);
+    memcpy(p->bytes + p->count, map, MAP_BYTES);
+    p->count += MAP_BYTES;
+}
+
 static inline void pieces_view(struct pieces *p, int display, int buffer, int x_zoom,
                                int y_zoom, int x, int y, uint64_t us)
 {

@@ -79,9 +79,7 @@ static void pictures_are_by_offset_zoom_pan_and_map(void **unused)
         pieces_size(&pieces, 3, 1, WIDTH, HEIGHT, 0);
         pieces_pixels(&pieces, 3, 1, 1, COLUMNS, ROWS, cases[c].offset[0], cases[c].offset[1],
                       pixels, 5);
-        pieces_head(&pieces, 4, 3, 0, 0, sizeof map, 6, 0, 0);
-        memcpy(pieces.bytes + pieces.count, map, sizeof map);
-        pieces.count += sizeof map;
+        pieces_map(&pieces, 3, map, 6);
         pieces_view(&pieces, 3, 1, cases[c].zoom[0], cases[c].zoom[1], cases[c].pan[0],
                     cases[c].pan[1], 7);
         for (size_t step = 1; step <= pieces.count; step = step * 3 + 1) {
@@ -130,9 +128,7 @@ static void deep_pixels_go_through_the_maps_columns(void **unused)
     pieces_size(&pieces, 1, 4, 2, 2, 0);
     pieces_head(&pieces, 3, 1, 0, 0, 0, 1, 0x030201, 0); /* clear */
     pieces_pixels(&pieces, 1, 0, 4, 2, 1, 0, 1, pixels, 2);
-    pieces_head(&pieces, 4, 1, 0, 0, sizeof map, 6, 0, 0);
-    memcpy(pieces.bytes + pieces.count, map, sizeof map);
-    pieces.count += sizeof map;
+    pieces_map(&pieces, 1, map, 6);
     assert_int_equal(display_reader_feed(&reader, pieces.bytes, pieces.count), DISPLAY_OK);
     assert_int_equal(display_screen_picture(&reader.screens[0], &image), DISPLAY_OK);
     const uint8_t wanted[] = {1, 102, 203, 1, 102, 203, 1, 102, 203, 4, 105, 206};
@@ -142,9 +138,7 @@ static void deep_pixels_go_through_the_maps_columns(void **unused)
     for (int i = 0; i < 256; i++)
         memset(map[i], i, 3);
     pieces.count = 0;
-    pieces_head(&pieces, 4, 1, 0, 0, sizeof map, 6, 0, 0);
-    memcpy(pieces.bytes + pieces.count, map, sizeof map);
-    pieces.count += sizeof map;
+    pieces_map(&pieces, 1, map, 6);
     assert_int_equal(display_reader_feed(&reader, pieces.bytes, pieces.count), DISPLAY_OK);
     assert_int_equal(display_screen_picture(&reader.screens[0], &image), DISPLAY_OK);
     const uint8_t plain[] = {1, 2, 3, 1, 2, 3, 1, 2, 3, 4, 5, 6};
