@@ -5,10 +5,12 @@
  * alternate. In the first the program computes its steps alone; in the second it also computes
  * a picture each 1/60 s; in the third it shows that picture, too. Turns are compared with those
  * just before, so that other load affects all alike. The pictures go where LUTETIA_DISPLAY
- * says; if it says nothing, to /dev/null, which leaves the program's own part:
+ * says; if it says nothing, to /dev/null, which leaves the program's own part. The rows say
+ * which it was:
  *
- *     lutetia bench display
- *     lutetia display --close lutetia bench display      in windows
+ *     lutetia bench display                              "no window"
+ *     LUTETIA_DISPLAY=window lutetia bench display       "window"
+ *     lutetia display --close lutetia bench display      "lutetia display"
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -157,6 +159,16 @@ static void turns_judge(const struct turn t[TURN_KINDS], double out[MEASURED])
     out[PICTURES] = t[SHOWN].pictures / t[SHOWN].wall_s;
 }
 
+/* Where the pictures go. */
+static const char *sink_name(void)
+{
+    const char *sink = getenv("LUTETIA_DISPLAY");
+    return strcmp(sink, "/dev/null") == 0      ? "no window"
+           : strcmp(sink, "window") == 0       ? "window"
+           : strncmp(sink, "/dev/fd/", 8) == 0 ? "lutetia display"
+                                               : "to a file";
+}
+
 static bool bits_measure(struct bench_report *r, unsigned int bits, int repeat_count)
 {
     static const struct {
@@ -170,10 +182,10 @@ static bool bits_measure(struct bench_report *r, unsigned int bits, int repeat_c
     const double seconds = bench_quick ? 0.02 : 1.0 / 3;
     struct shown_program p;
     struct turn turns[TURN_KINDS];
-    char of_case[32];
+    char of_case[48];
     double *values[MEASURED], one[MEASURED];
     bool ok = true;
-    snprintf(of_case, sizeof of_case, "%dx%d, %u bits", WIDTH, HEIGHT, bits);
+    snprintf(of_case, sizeof of_case, "%dx%d, %u bits, %s", WIDTH, HEIGHT, bits, sink_name());
     program_begin(&p, bits);
     for (int i = 0; i < MEASURED; i++) {
         values[i] = calloc((size_t)repeat_count, sizeof **values);

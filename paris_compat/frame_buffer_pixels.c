@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "frame_buffer.h"
+#include "machine_rows.h"
 
 /* ---- places ---- */
 
@@ -212,26 +213,56 @@ static void writing_end(struct writing *w, bool read)
         frame_buffer_pixels_drop(&w->to);
 }
 
+/* Where the machine has a field's values as rows of the picture. rows->at is NULL: nowhere.
+ * False: an error, which has been said. */
+static bool rows_look(const struct writing *w, CM_field_id_t source, unsigned int bits,
+                      struct machine_rows *rows)
+{
+    *rows = (struct machine_rows){NULL, 0};
+    if (!straight(&w->picture))
+        return true;
+    if (machine_field_look(w->m, source, MACHINE_UINT((int)bits), rows) == MACHINE_OK)
+        return true;
+    paris_fail_machine();
+    return false;
+}
+
+static bool downloaded(const struct writing *w, CM_field_id_t source, unsigned int bits,
+                       uint8_t *to)
+{
+    if (machine_field_download(w->m, source, MACHINE_UINT((int)bits), to) == MACHINE_OK)
+        return true;
+    paris_fail_machine();
+    return false;
+}
+
+/* A picture that lies as it is, from the machine's memory where that is this computer's. */
+static bool straight_read(struct writing *w, CM_field_id_t source)
+{
+    struct machine_rows rows;
+    if (!rows_look(w, source, w->bits, &rows))
+        return false;
+    if (!rows.at)
+        return downloaded(w, source, w->bits, w->to.pixels);
+    const size_t bytes = (size_t)w->picture.width * w->to.piece.pixel_bytes;
+    for (uint32_t y = 0; y < w->picture.height; y++)
+        memcpy(w->to.pixels + y * bytes, rows.at + y * rows.pitch, bytes);
+    return true;
+}
+
 /* The field's values as they lie, or by their places or addresses. */
 static bool field_read(struct writing *w, CM_field_id_t source, bool raw)
 {
-    const struct machine_type type = MACHINE_UINT((int)w->bits);
     const uint32_t *by = NULL;
-    bool read = false;
     if (raw && !(by = order_of(&w->picture)))
         return false;
-    const bool direct = !raw && straight(&w->picture);
-    uint8_t *to = direct ? w->to.pixels
-                         : values_room(&w->picture, w->picture.count * w->to.piece.pixel_bytes);
-    if (!to)
+    if (!raw && straight(&w->picture))
+        return straight_read(w, source);
+    uint8_t *to = values_room(&w->picture, w->picture.count * w->to.piece.pixel_bytes);
+    if (!to || !downloaded(w, source, w->bits, to))
         return false;
-    if (machine_field_download(w->m, source, type, to) != MACHINE_OK)
-        paris_fail_machine();
-    else
-        read = true;
-    if (read && !direct)
-        pixels_permute(w, to, by);
-    return read;
+    pixels_permute(w, to, by);
+    return true;
 }
 
 void CMFB_write_news_always(CMFB_display_id_t display, unsigned int buffer,
@@ -257,21 +288,68 @@ static inline void pixel_put(uint8_t *at, uint32_t red, uint32_t green, uint32_t
     memcpy(at, &pixel, sizeof pixel);
 }
 
-/* Three planes of bytes to pixels. The first loop is one that compilers make vectors of. */
-static void channels_join(const struct writing *w, const uint8_t *red)
+/* A row of pixels of three of bytes. Compilers make vectors of it. */
+static void row_join(const uint8_t *restrict red, const uint8_t *restrict green,
+                     const uint8_t *restrict blue, uint8_t *restrict pixels, uint32_t width)
+{
+    for (uint32_t x = 0; x < width; x++)
+        pixel_put(pixels + 4 * (size_t)x, red[x], green[x], blue[x]);
+}
+
+/* Three planes of bytes to pixels, by their places. */
+static void planes_join(const struct writing *w, const uint8_t *planes)
 {
     const uint64_t count = w->picture.count;
-    const uint8_t *green = red + count, *blue = green + count;
-    uint8_t *pixels = w->to.pixels;
-    if (straight(&w->picture)) {
-        for (uint64_t k = 0; k < count; k++)
-            pixel_put(pixels + 4 * k, red[k], green[k], blue[k]);
-        return;
-    }
     for (uint64_t k = 0; k < count; k++) {
         const uint64_t index = place(&w->picture, k);
-        pixel_put(pixels + 4 * k, red[index], green[index], blue[index]);
+        pixel_put(w->to.pixels + 4 * k, planes[index], planes[count + index],
+                  planes[2 * count + index]);
     }
+}
+
+/* The channels' rows where the machine has them. *all is false: not all lie there. */
+static bool channels_look(const struct writing *w, const CM_field_id_t sources[3],
+                          struct machine_rows rows[3], bool *all)
+{
+    /* Each is computed by the first look, which may move the others; by the second nothing
+     * is. */
+    for (int i = 0; i < 6; i++)
+        if (!rows_look(w, sources[i % 3], 8, &rows[i % 3]))
+            return false;
+    *all = rows[0].at && rows[1].at && rows[2].at;
+    return true;
+}
+
+/* The channels as dense planes. NULL: an error, which has been said. */
+static uint8_t *planes_read(const struct writing *w, const CM_field_id_t sources[3])
+{
+    uint8_t *planes = values_room(&w->picture, 3 * w->picture.count);
+    for (uint64_t i = 0; planes && i < 3; i++)
+        if (!downloaded(w, sources[i], 8, planes + i * w->picture.count))
+            return NULL;
+    return planes;
+}
+
+static bool channels_read(const struct writing *w, const CM_field_id_t sources[3])
+{
+    const uint32_t width = w->picture.width, height = w->picture.height;
+    struct machine_rows r[3];
+    bool all;
+    if (!channels_look(w, sources, r, &all))
+        return false;
+    if (!all) {
+        const uint8_t *planes = planes_read(w, sources);
+        if (planes && !straight(&w->picture))
+            planes_join(w, planes);
+        if (!planes || !straight(&w->picture))
+            return planes != NULL;
+        for (uint64_t i = 0; i < 3; i++)
+            r[i] = (struct machine_rows){planes + i * w->picture.count, width};
+    }
+    for (uint32_t y = 0; y < height; y++)
+        row_join(r[0].at + y * r[0].pitch, r[1].at + y * r[1].pitch, r[2].at + y * r[2].pitch,
+                 w->to.pixels + 4 * (size_t)width * y, width);
+    return true;
 }
 
 void CMFB_write_rgb_news_always(CMFB_display_id_t display, unsigned int buffer,
@@ -280,20 +358,9 @@ void CMFB_write_rgb_news_always(CMFB_display_id_t display, unsigned int buffer,
 {
     const CM_field_id_t sources[3] = {red, green, blue};
     struct writing w;
-    if (!writing_begin(&w, "CMFB_write_rgb_news_always", display, buffer, sources, 3, x_offset,
-                       y_offset))
-        return;
-    uint8_t *planes = values_room(&w.picture, 3 * w.picture.count);
-    bool read = planes != NULL;
-    for (int i = 0; read && i < 3; i++) {
-        read = machine_field_download(w.m, sources[i], MACHINE_UINT(8),
-                                      planes + (uint64_t)i * w.picture.count) == MACHINE_OK;
-        if (!read)
-            paris_fail_machine();
-    }
-    if (read)
-        channels_join(&w, planes);
-    writing_end(&w, read);
+    if (writing_begin(&w, "CMFB_write_rgb_news_always", display, buffer, sources, 3, x_offset,
+                      y_offset))
+        writing_end(&w, channels_read(&w, sources));
 }
 
 /* ---- the shuffle ---- */

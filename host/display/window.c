@@ -16,6 +16,8 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
 
 struct window_config window_config_default(void)
 {
@@ -215,23 +217,45 @@ enum display_status window_show(struct window *window, const struct display_imag
 
 /* ---- waiting ---- */
 
-static atomic_bool wakes; /* GLFW is there */
+/* GLFW before 3.4 wakes itself through X11's server, which takes processor time from the
+ * program whose pictures are shown. So on X11 a descriptor is waited for, too. */
+static struct {
+    atomic_bool begun; /* GLFW is there */
+    int descriptor;    /* -1: GLFW wakes */
+    void *display;
+} waking = {.descriptor = -1};
 
-void window_wakes(void)
+void window_wakes(void *x11_display)
 {
-    wakes = true;
+    if (waking.begun)
+        return;
+    waking.display = x11_display;
+    waking.descriptor = x11_display ? eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK) : -1;
+    waking.begun = true;
 }
 
 void window_wake(void)
 {
-    if (wakes)
+    const uint64_t one = 1;
+    if (!waking.begun)
+        return;
+    if (waking.descriptor < 0 || write(waking.descriptor, &one, sizeof one) != sizeof one)
         glfw3.PostEmptyEvent();
 }
 
 void window_wait(double wait_s)
 {
-    if (wait_s > 0)
+    uint64_t count;
+    if (!(wait_s > 0))
+        return;
+    if (waking.descriptor < 0) {
         glfw3.WaitEventsTimeout(wait_s);
+        return;
+    }
+    window_x11_wait(waking.display, waking.descriptor, wait_s);
+    while (read(waking.descriptor, &count, sizeof count) > 0)
+        ;
+    glfw3.PollEvents();
 }
 
 /* ---- what others draw ---- */

@@ -68,8 +68,9 @@ struct window {
     int before[4];
 };
 
-/* GLFW is there from now on: window_wake() may be called. */
-void window_wakes(void);
+/* GLFW is there from now on: window_wake() may be called. NULL: it draws on something else than
+ * X11. */
+void window_wakes(void *x11_display);
 
 /* Redraws the image, scaled to fit. */
 void window_draw(struct window *window);

@@ -46,20 +46,33 @@ static bool gl_is_software(const struct gl *gl)
     return false;
 }
 
+static struct {
+    unsigned long (*glfwGetX11Window)(GLFWwindow *);
+    void *(*glfwGetX11Display)(void);
+} native;
+
+static bool native_found(void)
+{
+    static const struct library_function functions[] = {
+        LIBRARY_FUNCTION(native, glfwGetX11Window),
+        LIBRARY_FUNCTION(native, glfwGetX11Display)};
+    const char *missing;
+    return native.glfwGetX11Window ||
+           library_load(GLFW_FILE, functions, sizeof functions / sizeof *functions, &native,
+                        &missing);
+}
+
 /* NULL: none, or GLFW draws on something else than X11. */
 static struct window_x11 *x11_begin(GLFWwindow *glfw)
 {
-    static struct {
-        unsigned long (*glfwGetX11Window)(GLFWwindow *);
-    } native;
-    static const struct library_function functions[] = {
-        LIBRARY_FUNCTION(native, glfwGetX11Window)};
-    const char *missing;
-    const unsigned long window =
-        native.glfwGetX11Window || library_load(GLFW_FILE, functions, 1, &native, &missing)
-            ? native.glfwGetX11Window(glfw)
-            : 0;
+    const unsigned long window = native_found() ? native.glfwGetX11Window(glfw) : 0;
     return window ? window_x11_begin(window) : NULL;
+}
+
+static void *x11_display(GLFWwindow *glfw)
+{
+    const bool is_x11 = native_found() && native.glfwGetX11Window(glfw);
+    return is_x11 && window_x11_waits() ? native.glfwGetX11Display() : NULL;
 }
 
 static GLFWwindow *glfw_window_make(const struct window_config *config)
@@ -147,7 +160,7 @@ enum display_status window_create(const struct window_config *config, struct win
     if (!window->drawn_by_caller && gl_is_software(&window->gl))
         window->x11 = x11_begin(window->glfw);
     window_input_begin(window);
-    window_wakes();
+    window_wakes(x11_display(window->glfw));
     glfw3.ShowWindow(window->glfw);
     window_draw(window);
     *out = window;

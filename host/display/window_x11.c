@@ -6,16 +6,19 @@
 #include <X11/extensions/XShm.h>
 #include <endian.h>
 #include <library.h>
+#include <math.h>
+#include <poll.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ipc.h>
 #include <sys/shm.h>
+#include <time.h>
 
 /* clang-format off */
 #define X_NAMES(X)                                                                             \
     X(OpenDisplay) X(CloseDisplay) X(GetWindowAttributes) X(CreateGC) X(FreeGC) X(Sync)        \
     X(SetErrorHandler) X(ShmQueryExtension) X(ShmCreateImage) X(ShmAttach) X(ShmDetach)        \
-    X(ShmPutImage)
+    X(ShmPutImage) X(ShmGetEventBase) X(CheckTypedEvent) X(Flush) X(Pending)
 /* clang-format on */
 
 #define X_MEMBER(name) __typeof__(X##name) *name;
@@ -40,6 +43,8 @@ struct window_x11 {
     GC context;
     XImage *image; /* NULL: there is none yet */
     XShmSegmentInfo segment;
+    int put_event; /* of a picture that the server has read */
+    bool putting;  /* it may be reading one */
 };
 
 static bool refused;
@@ -58,10 +63,23 @@ static bool pixels_are_known(const XWindowAttributes *a)
            v->green_mask == 0xff00 && v->blue_mask == 0xff;
 }
 
+/* The server has read the picture when this returns, so the next one may be kept. A program's
+ * pictures are 1/60 s apart, and it has said so long before. */
+static void put_end(struct window_x11 *x11)
+{
+    XEvent event;
+    if (x11->putting && !x.CheckTypedEvent(x11->display, x11->put_event, &event)) {
+        x.Sync(x11->display, False);
+        x.CheckTypedEvent(x11->display, x11->put_event, &event);
+    }
+    x11->putting = false;
+}
+
 static void image_end(struct window_x11 *x11)
 {
     if (!x11->image)
         return;
+    put_end(x11);
     x.ShmDetach(x11->display, &x11->segment);
     x.Sync(x11->display, False);
     XDestroyImage(x11->image);
@@ -114,8 +132,10 @@ struct window_x11 *window_x11_begin(unsigned long window)
     if (x11->display && x.ShmQueryExtension(x11->display) &&
         x.GetWindowAttributes(x11->display, window, &x11->attributes) &&
         pixels_are_known(&x11->attributes) &&
-        (x11->context = x.CreateGC(x11->display, window, 0, NULL)) && image_begin(x11, 1, 1))
+        (x11->context = x.CreateGC(x11->display, window, 0, NULL)) && image_begin(x11, 1, 1)) {
+        x11->put_event = x.ShmGetEventBase(x11->display) + ShmCompletion;
         return x11;
+    }
     window_x11_end(x11);
     return NULL;
 }
@@ -141,18 +161,20 @@ bool window_x11_room(struct window_x11 *x11, int width_px, int height_px,
         if (!image_begin(x11, width_px, height_px))
             return false;
     }
+    put_end(x11);
     room->pixels = (void *)x11->image->data;
     room->stride = (size_t)x11->image->bytes_per_line / sizeof *room->pixels;
     return true;
 }
 
-/* The server has read the picture when this returns, so the next one may be kept. */
 void window_x11_put(struct window_x11 *x11)
 {
     const XImage *i = x11->image;
+    put_end(x11);
     x.ShmPutImage(x11->display, x11->window, x11->context, x11->image, 0, 0, 0, 0,
-                  (unsigned int)i->width, (unsigned int)i->height, False);
-    x.Sync(x11->display, False);
+                  (unsigned int)i->width, (unsigned int)i->height, True);
+    x.Flush(x11->display);
+    x11->putting = true;
 }
 
 const uint8_t *window_x11_pixels(const struct window_x11 *x11, int *width_px, int *height_px)
@@ -160,4 +182,19 @@ const uint8_t *window_x11_pixels(const struct window_x11 *x11, int *width_px, in
     *width_px = x11->image->width;
     *height_px = x11->image->height;
     return (const uint8_t *)x11->image->data;
+}
+
+bool window_x11_waits(void)
+{
+    return library_loaded();
+}
+
+void window_x11_wait(void *display, int descriptor, double wait_s)
+{
+    struct pollfd either[] = {{.fd = ConnectionNumber(display), .events = POLLIN},
+                              {.fd = descriptor, .events = POLLIN}};
+    const double s = fmin(wait_s, 1e6);
+    const struct timespec wait = {(time_t)s, (long)(1e9 * (s - floor(s)))};
+    if (!x.Pending(display)) /* what was read is in its queue */
+        ppoll(either, 2, &wait, NULL);
 }

@@ -24,10 +24,16 @@ void window_x11_end(struct window_x11 *x11); /* NULL is fine */
 bool window_x11_room(struct window_x11 *x11, int width_px, int height_px,
                      struct display_room *room);
 
-/* Puts the picture that is kept at the window's upper left corner. */
+/* Puts the picture that is kept at the window's upper left corner. Does not wait for the
+ * server: window_x11_room() does, which may find that it is done. */
 void window_x11_put(struct window_x11 *x11);
 
 /* Its pixels, row by row, each blue, green, red and a byte without meaning. */
 const uint8_t *window_x11_pixels(const struct window_x11 *x11, int *width_px, int *height_px);
+
+/* Waits for an event of that display (GLFW's) or for bytes in the descriptor, so long at most.
+ * waits(): X11's library is there for it. */
+bool window_x11_waits(void);
+void window_x11_wait(void *display, int descriptor, double wait_s);
 
 #endif

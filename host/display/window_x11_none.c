@@ -30,3 +30,13 @@ const uint8_t *window_x11_pixels(const struct window_x11 *x11, int *width_px, in
     *width_px = *height_px = 0;
     return NULL;
 }
+
+bool window_x11_waits(void)
+{
+    return false;
+}
+
+void window_x11_wait(void *display, int descriptor, double wait_s)
+{
+    (void)display, (void)descriptor, (void)wait_s;
+}

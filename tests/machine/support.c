@@ -1,5 +1,6 @@
 /* support.c - see support.h. */
 #include "support.h"
+#include "machine_rows.h"
 
 #include "sample.h"
 
@@ -186,6 +187,21 @@ struct machine_value *support_value(struct machine *m, uint32_t field, struct ma
     return v;
 }
 
+/* Where the field lies in this computer's memory, its rows are those of the array. */
+static void expect_look(struct machine *m, uint32_t field, struct machine_type type,
+                        const unsigned char *array)
+{
+    const int set = machine_field_vpset(m, field);
+    const size_t bytes = (size_t)machine_vpset_length(m, set, machine_vpset_rank(m, set) - 1) *
+                         machine_element_bytes(type);
+    const uint64_t rows = machine_vpset_count(m, set) * machine_element_bytes(type) / bytes;
+    struct machine_rows look;
+
+    assert_ok(machine_field_look(m, field, type, &look), m);
+    for (uint64_t row = 0; look.at && row < rows; row++)
+        assert_memory_equal(look.at + row * look.pitch, array + row * bytes, bytes);
+}
+
 void support_expect_field(struct machine *m, uint32_t field, struct machine_type type,
                           support_expected expected, const void *data, const char *what)
 {
@@ -193,6 +209,7 @@ void support_expect_field(struct machine *m, uint32_t field, struct machine_type
 
     assert_non_null(array);
     assert_ok(machine_field_download(m, field, type, array), m);
+    expect_look(m, field, type, array);
     for (uint64_t n = 0; n < count_of(m); n++) {
         wide got = support_element(array, type, n), wanted = expected(data, n);
 

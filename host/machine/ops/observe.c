@@ -7,6 +7,7 @@
 #include "base/errors.h"
 #include "base/scalar.h"
 #include "base/types.h"
+#include "machine_rows.h"
 #include "memory/memory.h"
 #include "ops/gather.h"
 #include "ops/near.h"
@@ -128,6 +129,34 @@ enum machine_status machine_field_download(struct machine *m, uint32_t field,
     struct machine_value *v =
         f ? machine_field_value(m, field, type, MACHINE_EVERYWHERE) : NULL;
     return v ? observe_out(m, f->vpset, v, out, "reading a field") : m->status;
+}
+
+enum machine_status machine_field_look(struct machine *m, uint32_t field,
+                                       struct machine_type type, struct machine_rows *rows)
+{
+    uint32_t offset;
+    struct field *f = observe_field(m, field, type, &offset);
+    struct machine_value *v =
+        f ? machine_field_value(m, field, type, MACHINE_EVERYWHERE) : NULL;
+    *rows = (struct machine_rows){NULL, 0};
+    if (!v)
+        return m->status;
+    if (!m->settings.near || (v->op == NODE_CONSTANT && !v->buffer))
+        return MACHINE_OK;
+    v = materialise_in_blocks(m, f->vpset, graph_same_bits(m, v));
+    if (!v)
+        return m->status;
+    if (sequencers_has(m, v) || !v->buffer->host)
+        return MACHINE_OK;
+    const struct vpset *s = &m->values->sets[f->vpset];
+    const size_t element = type_bytes(v->type);
+    if (m->watch)
+        watch_bytes(m, s->count * element);
+    if (device_settle_for(m, "looking at a field"))
+        return m->status;
+    *rows = (struct machine_rows){
+        (const unsigned char *)v->buffer->host + (size_t)s->halo * element, s->pitch * element};
+    return MACHINE_OK;
 }
 
 /* Whether an element in memory has bits that the type has not. */
