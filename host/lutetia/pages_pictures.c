@@ -331,7 +331,7 @@ const struct page pages_of_pictures[] = {
      .values = {{.option = "stock", .fill = paper_stock_names},
                 {.option = "pigment", .fill = paper_pigment_names},
                 {.option = "theme", .words = "light, dark"}},
-     .examples = {{"lutetia keys song.mid -o poster.png", "each note as a letter along a line"},
+     .examples = {{"lutetia keys song.mid -o poster.png", "each note as a letter, along lines"},
                   {"lutetia keys song.mid --wet --still wet.png --at 4",
                    "printed on wet paper, after four seconds"},
                   {"lutetia keys song.mid --video song.mp4", "a film with its sound"},

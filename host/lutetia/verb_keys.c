@@ -4,11 +4,12 @@
 #include "keys_live.h"
 #include "lutetia.h"
 #include "options.h"
+#include "poster.h"
 #include "type_common.h"
 #include <visible_text.h>
 
 #include <display.h>
-#include <keys_picture.h>
+#include <keys_poster.h>
 #include <sound.h>
 #include <video.h>
 
@@ -19,14 +20,15 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { SHEET_COLUMNS = 5, SHEET_ROWS = 4, LABEL_PX = 11 };
+enum { SHEET_COLUMNS = 5, SHEET_ROWS = 4, LABEL_PX = 11, POSTER_MARGIN_PX = 24 };
 
 struct keys_work {
     const char *text, *map, *font, *edits, *axes;
     const char *poster, *sheet, *still, *frames, *video, *sound;
-    double size_px[2], second_px, at_s, seconds; /* seconds 0: as long as the song */
+    double size_px[2], second_px, line_px, at_s, seconds; /* seconds 0: as long as the song */
     int picture[2], fps, range[2];
     bool silent, wet, played; /* played: on a stage, by a map in Lua or on wet paper */
+    bool sized;               /* --size says how large letters are */
     const char *stock;
     struct option_texts pigments;
     const char *range_text, *theme;
@@ -105,11 +107,13 @@ static const struct option_need needs[] = {{"param", "map"},
                                            {"osc", "!WORD"},
                                            {"osc-from", "osc"},
                                            {"osc-to", "!WORD"},
+                                           {"picture", "!WORD|sheet|still|frames|video"},
                                            {"at", "still"},
                                            {"fps", "video|frames|sound"},
                                            {"seconds", "video|frames|sound"},
                                            {"silent", "video"},
                                            {"second", POSTER},
+                                           {"line", POSTER},
                                            {"attack", MOMENTS},
                                            {"release", MOMENTS},
                                            {"step", POSTER},
@@ -149,7 +153,7 @@ static int options_read(struct keys_work *w, int argc, char **argv, const char *
          &w->pigments, 0, 0, 0},
         {"theme", 0, OPTION_TEXT, "light|dark|FILE", "colours of a window: a name, or a file",
          &w->theme, 0, 0, 0},
-        {"poster", 'o', OPTION_PNG, "FILE", "one line along which time runs, PNG (out.png)",
+        {"poster", 'o', OPTION_PNG, "FILE", "lines along which time runs, PNG (out.png)",
          &w->poster, 0, 0, 0},
         {"sheet", 0, OPTION_PNG, "FILE", "twenty moments of it, PNG", &w->sheet, 0, 0, 0},
         {"still", 0, OPTION_PNG, "FILE", "the moment --at, PNG", &w->still, 0, 0, 0},
@@ -177,6 +181,8 @@ static int options_read(struct keys_work *w, int argc, char **argv, const char *
          w->size_px, 0, 4000, 2},
         {"second", 0, OPTION_NUMBER, "PX", "length of a second on the poster (160)",
          &w->second_px, 10, 20000, 0},
+        {"line", 0, OPTION_NUMBER, "PX", "the longest line of the poster (as fits)",
+         &w->line_px, 100, 60000, 0},
         {"step", 0, OPTION_NUMBER, "PX", "distance from key to key on the poster, upwards (12)",
          &w->type.step_px, 0, 1000, 0},
         {"attack", 0, OPTION_NUMBER, "S",
@@ -228,8 +234,9 @@ static int song_take(struct keys_work *w, const char *path)
     if (status != EXIT_SUCCESS)
         return status;
     letters_check(w);
-    if (w->size_px[1] <= 0 && keys_type_fit(w->face, &w->score, &w->letters, w->picture[0],
-                                            w->picture[1], &w->size_px[1]) != FONT_OK)
+    w->sized = w->size_px[1] > 0;
+    if (!w->sized && keys_type_fit(w->face, &w->score, &w->letters, w->picture[0],
+                                   w->picture[1], &w->size_px[1]) != FONT_OK)
         return fail_font("keys");
     w->size_px[0] = fmin(w->size_px[0], w->size_px[1]);
     return EXIT_SUCCESS;
@@ -263,24 +270,6 @@ static int type_make(const struct keys_work *w, double scale, struct keys_type *
 
 /* ---- pictures ---- */
 
-/* Crops rows of paper at the top and bottom, up to `margin` pixels from the ink. */
-static void paper_cut(struct display_image *image, int margin)
-{
-    const size_t row = 3 * (size_t)image->width_px;
-    int top = 0, bottom = image->height_px;
-    while (top < bottom && !memcmp(image->pixels + row * (size_t)top, image->pixels, row))
-        top++;
-    while (bottom > top &&
-           !memcmp(image->pixels + row * (size_t)(bottom - 1), image->pixels, row))
-        bottom--;
-    if (top == bottom)
-        return;
-    top = top > margin ? top - margin : 0;
-    bottom = bottom + margin < image->height_px ? bottom + margin : image->height_px;
-    memmove(image->pixels, image->pixels + row * (size_t)top, row * (size_t)(bottom - top));
-    image->height_px = bottom - top;
-}
-
 static void gray_fill(struct display_image *image, int x, int y, int width, int height)
 {
     enum { GRAY = 205 };
@@ -298,30 +287,55 @@ static void frame_draw(struct display_image *image, int x, int y, int width, int
     gray_fill(image, x + width, y, 1, height);
 }
 
-static int poster_write(const struct keys_work *w)
-{
+struct song_poster {
     struct keys_type *type;
-    struct display_image image = {0};
-    /* letters of notes that follow each other closely must not cover each other */
-    const double most = fmin(w->size_px[1], 0.55 * w->second_px);
-    const double margin = ceil(0.3 * most + 8);
-    const double rise = w->type.step_px * w->score.keys_count;
-    int status = type_make(w, most / w->size_px[1], &type);
-    if (status == EXIT_SUCCESS)
-        status =
-            type_image_create("keys", ceil(2 * margin + w->second_px * w->score.seconds + most),
-                              ceil(2 * margin + 1.1 * most + rise), &image);
-    struct font_picture picture = type_picture(&image);
-    if (status == EXIT_SUCCESS &&
-        keys_type_line(type, w->second_px, margin, margin + 0.85 * most + rise, &picture) !=
-            FONT_OK)
-        status = fail_font("keys");
-    if (status == EXIT_SUCCESS) {
-        paper_cut(&image, (int)(0.6 * margin));
-        status = type_image_write("keys", w->poster, &image);
+    struct keys_poster *poster;
+};
+
+static void poster_paper(void *of, struct font_picture *picture)
+{
+    const struct song_poster *p = of;
+    keys_type_paper(p->type, picture);
+}
+
+static int poster_draw(void *of, int line, double top_px, struct font_picture *picture)
+{
+    const struct song_poster *p = of;
+    return keys_poster_draw(p->poster, line, POSTER_MARGIN_PX, top_px, picture) == FONT_OK
+               ? EXIT_SUCCESS
+               : fail_font("keys");
+}
+
+/* One line where it is not too long, else lines of a page's width. */
+static int song_poster_write(const struct keys_work *w)
+{
+    struct song_poster of = {0};
+    const double half_second_px = 0.55 * w->second_px; /* a letter is about as wide as high */
+    const double most = w->sized ? fmin(w->size_px[1], half_second_px) : half_second_px;
+    int status = type_make(w, most / w->size_px[1], &of.type);
+    double line_px = w->line_px > 0 ? w->line_px : POSTER_LINE_MOST_PX;
+    for (int i = 0; i < 2 && status == EXIT_SUCCESS; i++) {
+        keys_poster_destroy(of.poster);
+        if (keys_poster_create(of.type, w->second_px, line_px, &of.poster) != FONT_OK)
+            status = fail_font("keys");
+        if (w->line_px > 0 || !of.poster || keys_poster_lines(of.poster) == 1)
+            break;
+        line_px = POSTER_LINE_PX;
     }
-    display_image_destroy(&image);
-    keys_type_destroy(type);
+    if (status == EXIT_SUCCESS) {
+        const struct poster poster = {.verb = "keys",
+                                      .path = w->poster,
+                                      .lines = keys_poster_lines(of.poster),
+                                      .margin_px = POSTER_MARGIN_PX,
+                                      .pitch_px = keys_poster_height(of.poster) + 0.4 * most,
+                                      .width_px = keys_poster_width(of.poster),
+                                      .of = &of,
+                                      .paper = poster_paper,
+                                      .draw = poster_draw};
+        status = poster_write(&poster);
+    }
+    keys_poster_destroy(of.poster);
+    keys_type_destroy(of.type);
     return status;
 }
 
@@ -446,7 +460,7 @@ static int all_write(struct keys_work *w)
 {
     int status = EXIT_SUCCESS;
     if (w->poster)
-        status = poster_write(w);
+        status = song_poster_write(w);
     if (status == EXIT_SUCCESS && w->sheet)
         status = moments_write(w);
     if (status == EXIT_SUCCESS && w->still)

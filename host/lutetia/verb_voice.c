@@ -100,7 +100,7 @@ static const struct option_need needs[] = {
 static int options_read(struct voice_work *w, int argc, char **argv, bool *help)
 {
     const struct option_row rows[] = {
-        {"poster", 'o', OPTION_PNG, "FILE", "one line along which time runs, PNG (out.png)",
+        {"poster", 'o', OPTION_PNG, "FILE", "lines along which time runs, PNG (out.png)",
          &w->poster, 0, 0, 0},
         {"sheet", 0, OPTION_PNG, "FILE", "twenty moments of it, PNG", &w->sheet, 0, 0, 0},
         {"envelope", 0, OPTION_PNG, "FILE", "a plot of how loud it is, PNG", &w->envelope, 0, 0,

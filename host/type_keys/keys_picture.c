@@ -1,5 +1,5 @@
 /* keys_picture.c - see keys_picture.h. */
-#include "keys_picture.h"
+#include "keys_picture_internal.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,22 +10,28 @@ static const double OVERLAP =
     2.6; /* the largest ratio of a letter's width to its share: not all keys sound at once */
 static const double LETTER_HIGH = 0.9; /* of the em, from the foot of a g to the head of an h */
 
-struct keys_type {
-    struct keys_type_def def;
-    const struct keys_score *score;
-    const struct keys_letters *letters;
-    struct font_shaper *shaper;
-    struct font_painter *painters[KEYS_INKS];
-};
-
 struct keys_type_def keys_type_def_default(void)
 {
-    return (struct keys_type_def){
-        .filter = "box",
-        .size_px = {0, 300},
-        .step_px = 12,
-        .inks = {{0, 0, 0}, {0.72, 0.11, 0.07}, {0.05, 0.2, 0.55}, {0.1, 0.42, 0.2}},
-        .paper = {1, 1, 1}};
+    return (struct keys_type_def){.filter = "box",
+                                  .size_px = {0, 300},
+                                  .step_px = 12,
+                                  .inks = {{0, 0, 0},
+                                           {0.72, 0.11, 0.07},
+                                           {0.05, 0.2, 0.55},
+                                           {0.1, 0.42, 0.2},
+                                           {0.75, 0.43, 0},
+                                           {0.45, 0.15, 0.55},
+                                           {0, 0.5, 0.55},
+                                           {0.55, 0.33, 0.18},
+                                           {0.8, 0.2, 0.5},
+                                           {0.42, 0.5, 0.05},
+                                           {0.25, 0.5, 0.85},
+                                           {0.4, 0, 0.12},
+                                           {0.5, 0.5, 0.5},
+                                           {0.9, 0.4, 0.3},
+                                           {0, 0.27, 0.25},
+                                           {0.6, 0.5, 0.8}},
+                                  .paper = {1, 1, 1}};
 }
 
 enum font_status keys_type_create(const struct keys_type_def *def, struct font_face *face,
@@ -64,7 +70,7 @@ void keys_type_destroy(struct keys_type *t)
     free(t);
 }
 
-static void paper_fill(const struct keys_type *t, struct font_picture *picture)
+void keys_type_paper(const struct keys_type *t, struct font_picture *picture)
 {
     uint8_t paper[3];
     for (int c = 0; c < 3; c++)
@@ -74,21 +80,32 @@ static void paper_fill(const struct keys_type *t, struct font_picture *picture)
             memcpy(picture->rgb + (size_t)y * (size_t)picture->pitch + 3 * (size_t)x, paper, 3);
 }
 
-/* Draws a key's letter at a level, with its middle or its left end at x. */
-static enum font_status letter_draw(struct keys_type *t, int key, int channel, double level,
-                                    double x, bool middle, double y,
-                                    struct font_picture *picture)
+double keys_type_size(const struct keys_type *t, double level)
 {
-    struct font_layout layout = {0};
+    return t->def.size_px[0] + (t->def.size_px[1] - t->def.size_px[0]) * level;
+}
+
+enum font_status keys_type_shape(struct keys_type *t, int key, double size_px,
+                                 struct font_layout *out)
+{
     const char *letter = t->letters->of[key];
-    const double size = t->def.size_px[0] + (t->def.size_px[1] - t->def.size_px[0]) * level;
-    if (size < 0.5 || !letter[0])
+    *out = (struct font_layout){0};
+    return letter[0] ? font_shaper_layout(t->shaper, letter, strlen(letter), size_px, NULL, out)
+                     : FONT_OK;
+}
+
+/* Draws a key's letter at a level, with its middle at x, or as near to it as is entirely
+ * visible. */
+static enum font_status letter_draw(struct keys_type *t, int key, int channel, double level,
+                                    double x, double y, struct font_picture *picture)
+{
+    struct font_layout layout;
+    const double size = keys_type_size(t, level);
+    if (size < 0.5)
         return FONT_OK;
-    enum font_status status =
-        font_shaper_layout(t->shaper, letter, strlen(letter), size, NULL, &layout);
+    enum font_status status = keys_type_shape(t, key, size, &layout);
     const double half = layout.width_px / 2;
-    if (middle) /* entirely visible, also at the edges */
-        x = fmax(half, fmin(x, picture->width_px - half)) - half;
+    x = fmax(half, fmin(x, picture->width_px - half)) - half;
     if (status == FONT_OK)
         status =
             font_painter_layout(t->painters[channel % KEYS_INKS], &layout, NULL, x, y, picture);
@@ -106,27 +123,12 @@ enum font_status keys_type_moment(struct keys_type *t, double time_s,
      * middle */
     const double baseline = picture->height_px / 2.0 + 0.25 * t->def.size_px[1];
     enum font_status status = FONT_OK;
-    paper_fill(t, picture);
+    keys_type_paper(t, picture);
     for (int i = 0; i < s->keys_count && status == FONT_OK; i++) {
         int note;
         const double level = keys_key_level(s, s->keys[i], time_s, &note);
         status = letter_draw(t, s->keys[i], note < 0 ? 0 : s->notes[note].channel, level,
-                             left + (i + 0.5) * part, true, baseline, picture);
-    }
-    return status;
-}
-
-enum font_status keys_type_line(struct keys_type *t, double second_px, double margin_px,
-                                double baseline_px, struct font_picture *picture)
-{
-    const struct keys_score *s = t->score;
-    enum font_status status = FONT_OK;
-    paper_fill(t, picture);
-    for (int i = 0; i < s->notes_count && status == FONT_OK; i++) {
-        const struct keys_note *n = &s->notes[i];
-        status = letter_draw(t, n->note, n->channel, keys_note_most(s, i),
-                             margin_px + second_px * n->begin_s, false,
-                             baseline_px - t->def.step_px * s->rank[n->note], picture);
+                             left + (i + 0.5) * part, baseline, picture);
     }
     return status;
 }

@@ -235,14 +235,28 @@ void keys_score_finish(struct keys_score *s)
     *s = (struct keys_score){0};
 }
 
+/* The first aftertouch at a time or after it. */
+static int pressure_first(const struct keys_score *s, double time_s)
+{
+    int first = 0, end = s->pressures_count;
+    while (first < end) {
+        const int middle = first + (end - first) / 2;
+        if (s->pressures[middle].time_s < time_s)
+            first = middle + 1;
+        else
+            end = middle;
+    }
+    return first;
+}
+
 /* The last aftertouch of the key or its channel since the note began; 0: none. */
 static double pressure_at(const struct keys_score *s, const struct keys_note *n, double time_s)
 {
     double value = 0;
-    for (int i = 0; i < s->pressures_count && s->pressures[i].time_s <= time_s; i++) {
+    for (int i = pressure_first(s, n->begin_s);
+         i < s->pressures_count && s->pressures[i].time_s <= time_s; i++) {
         const struct keys_pressure *p = &s->pressures[i];
-        if (p->time_s >= n->begin_s && p->channel == n->channel &&
-            (p->note == n->note || p->note < 0))
+        if (p->channel == n->channel && (p->note == n->note || p->note < 0))
             value = p->value;
     }
     return value;
@@ -286,10 +300,10 @@ double keys_note_most(const struct keys_score *s, int index)
 {
     const struct keys_note *n = &s->notes[index];
     double most = n->velocity;
-    for (int i = 0; i < s->pressures_count; i++) {
+    for (int i = pressure_first(s, n->begin_s);
+         i < s->pressures_count && s->pressures[i].time_s <= n->end_s; i++) {
         const struct keys_pressure *p = &s->pressures[i];
-        if (p->time_s >= n->begin_s && p->time_s <= n->end_s && p->channel == n->channel &&
-            (p->note == n->note || p->note < 0))
+        if (p->channel == n->channel && (p->note == n->note || p->note < 0))
             most = fmax(most, n->velocity + (1 - n->velocity) * s->def.pressure * p->value);
     }
     return most;
