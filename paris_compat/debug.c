@@ -14,7 +14,7 @@
 #include "machine_inside.h"
 #include "paris_state.h"
 
-enum { TEXT_ROOM = 1 << 16, PATIENCE_S = 120 };
+enum { TEXT_ROOM = 1 << 16, PATIENCE_S = 120, PATIENCE_LOCKED_S = 15 };
 
 /* ---- an answer ---- */
 
@@ -91,6 +91,9 @@ static const char *child_wait(pid_t child)
         return "the process that looks was lost";
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
         return NULL;
+    if (CM_debug_locked && WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
+        return "the program holds a lock of the C library, as after a crash there: `run` again "
+               "and stop before it";
     snprintf(text, sizeof text, "the process that looks ended by %s %d",
              WIFSIGNALED(status) ? "signal" : "status",
              WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status));
@@ -115,10 +118,10 @@ static const char *aside(void (*look)(struct machine *m, const void *what), cons
     sigpending(&waiting);
     pthread_sigmask(SIG_BLOCK, &ends, &before);
     sigaction(SIGCHLD, &usual, &own);
-    const pid_t child = fork();
+    const pid_t child = CM_debug_locked ? machine_fork_bare() : fork();
     if (child == 0) {
         signal(SIGALRM, SIG_DFL);
-        alarm(PATIENCE_S);
+        alarm(CM_debug_locked ? PATIENCE_LOCKED_S : PATIENCE_S);
         machine_begin(paris_the.machine);
         look(paris_the.machine, what);
         _exit(0);

@@ -24,6 +24,9 @@
 /* The debugger stops here; CM_debug_text says why. */
 PARIS_SEEN void CM_debug_stop(void);
 PARIS_SEEN extern char CM_debug_text[1600];
+/* The debugger sets it before it asks: 1, the program has crashed, or is in a library, and may
+ * hold the C library's locks. Then those are not waited for. */
+PARIS_SEEN extern unsigned int CM_debug_locked;
 
 /* The values of a field of any VP set, and that set's context. letter: 'u', 's', 'f'; 0: as it
  * was stored. len 0: all from here on. */

@@ -4,6 +4,7 @@
 #include "debug.h"
 
 char CM_debug_text[1600];
+unsigned int CM_debug_locked;
 
 __attribute__((noinline)) void CM_debug_stop(void)
 {

@@ -5,9 +5,14 @@
 #include "forks.h"
 
 #include <pthread.h>
+#include <signal.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include "base/parts.h"
+#include "base/process.h"
 #include "device/device.h"
+#include "machine_inside.h"
 #include "plans/background.h"
 #include "sequencers/sequencers.h"
 
@@ -52,6 +57,23 @@ static void in_child(void)
         for (int i = 0; m->sequencers && i < m->sequencers->machines_count; i++)
             in_child_of(m->sequencers->machines[i]);
     }
+}
+
+/* The kernel's call: fork() waits for locks of malloc and stdio, and from glibc 2.41 on for
+ * abort()'s, which a process that was aborted holds. */
+pid_t machine_fork_bare(void)
+{
+    before_fork();
+#ifdef SYS_fork
+    const pid_t child = (pid_t)syscall(SYS_fork);
+#else
+    const pid_t child = (pid_t)syscall(SYS_clone, SIGCHLD, 0, 0, 0, 0);
+#endif
+    if (child == 0) {
+        process_forked();
+        in_child();
+    }
+    return child;
 }
 
 static void begin(void)

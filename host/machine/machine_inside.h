@@ -9,6 +9,8 @@
 
 #include "machine.h"
 
+#include <sys/types.h>
+
 /* NULL: the machine can be asked. Else why it cannot be: it belongs to another thread, or is in
  * the midst of an evaluation. */
 const char *machine_busy(const struct machine *m);
@@ -16,6 +18,10 @@ const char *machine_busy(const struct machine *m);
 /* Whether a child after fork() has the machine, with all that waits: see machine.h. If not,
  * asking the machine is a look as of any program. */
 bool machine_forks(const struct machine *m);
+
+/* fork() that waits for no lock of the C library, of a process that has crashed while it may
+ * hold one. Where it does hold malloc's, the child waits for ever. */
+pid_t machine_fork_bare(void);
 
 /* What is recorded and not computed: values, and calls that were foreseen and only counted. */
 struct machine_waiting {

@@ -180,6 +180,41 @@ main ()
 }
 """
 
+# Crashes where locks are held. What waits for one of the C library's waits for ever: before fork(), as glibc 2.41 and later do after abort(), or in malloc.
+CRASHES = """
+#include <cm/paris.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+extern void *__libc_malloc (size_t);
+static volatile int forks_wait, malloc_waits;
+CM_field_id_t f, g;
+static void prepare (void) { while (forks_wait) pause (); }
+void *malloc (size_t n) { while (malloc_waits) pause (); return __libc_malloc (n); }
+static void ended (int s) { forks_wait = 1; raise (SIGSEGV); }
+int main (int count, char **words)
+{
+    unsigned int side[1] = {16};
+    CM_init ();
+    CM_set_vp_set (CM_allocate_vp_set (CM_create_geometry (side, 1)));
+    f = CM_allocate_heap_field (32);
+    g = CM_allocate_heap_field (32);
+    CM_my_send_address (f);
+    CM_u_add_constant_3_1L (g, f, 7, 32);
+    pthread_atfork (prepare, 0, 0);
+    forks_wait = 1;
+    malloc_waits = getenv ("MALLOC_WAITS") != 0;
+    if (getenv ("IN_A_HANDLER")) {
+        forks_wait = 0;
+        signal (SIGALRM, ended);
+        raise (SIGALRM);
+    }
+    abort ();
+}
+"""
+
 
 def line_of(text, part):
     return 1 + next(i for i, line in enumerate(text.splitlines()) if part in line)
@@ -189,7 +224,7 @@ class Debug(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
-        for name, text in (("kinds", KINDS), ("steps", STEPS), ("threads", THREADS), ("fails", FAILS), ("others", OTHERS)):
+        for name, text in (("kinds", KINDS), ("steps", STEPS), ("threads", THREADS), ("fails", FAILS), ("others", OTHERS), ("crashes", CRASHES)):
             with open(cls.path(name + ".c"), "w", encoding="utf-8") as file:
                 file.write(text)
             subprocess.run([LUTETIA, "cc", "-g", "-w", *(["-O2", "-fno-inline"] if name == "others" else []), name + ".c", "-lpthread", "-o", name], check=True, timeout=120,
@@ -360,8 +395,17 @@ class Debug(unittest.TestCase):
 
     def after_a_crash(self, *before):
         lines = self.debug("others", *before, "break here", "run", "field list[1] at 0 0", "field image", "field list[0] u 200", "continue", "field list[0]")
-        for said in ("list[1] at 0 0 = 0", "image: there is no field", "list[0]: the field has 32 bits from here on; 200 were", "received signal SIG", "`finish` goes to its end"):
+        for said in ("list[1] at 0 0 = 0", "image: there is no field", "list[0]: the field has 32 bits from here on; 200 were", "received signal SIG", "`run` again and stop before it"):
             self.assertTrue(any(said in line for line in lines), (said, lines))
+
+    def test_after_a_crash_with_locks_held(self):
+        """Nothing of the C library's is waited for, and a child that waits is given up."""
+        for variables in ({}, {"IN_A_HANDLER": "1"}):
+            lines = self.debug("crashes", "run", "field f at 5", "up", "up", "field g at 15", "context", "watch-field f at 3", **variables)
+            for said in ("received signal SIG", "f at 5 = 7", "g at 15 = 15", "the program has crashed: nothing more will change in it"):
+                self.assertTrue(any(said in line for line in lines), (said, lines))
+        lines = self.debug("crashes", "run", "field g at 5", MALLOC_WAITS="1")
+        self.assertTrue(any("holds a lock of the C library" in line and "`run` again and stop before it" in line for line in lines), lines)
 
     # ---- what is refused ----
 

@@ -18,6 +18,11 @@ static void begin(void)
     pthread_atfork(NULL, NULL, ask);
 }
 
+void process_forked(void)
+{
+    ask();
+}
+
 pid_t process_now(void)
 {
     static pthread_once_t once = PTHREAD_ONCE_INIT;

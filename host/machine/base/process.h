@@ -7,5 +7,7 @@
 
 /* As getpid(), without asking the system each time. */
 pid_t process_now(void);
+/* In a child that was not made by fork(). */
+void process_forked(void);
 
 #endif

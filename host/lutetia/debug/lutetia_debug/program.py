@@ -100,13 +100,31 @@ def may_ask():
                       "`run` again and stop before it")
 
 
+def is_setting(name):
+    try:
+        gdb.parameter(name)
+    except RuntimeError:
+        return False
+    return True
+
+
+def may_hold_locks():
+    """Whether the program is where the C library's locks may be held: it has crashed, or is in a library."""
+    frame = gdb.newest_frame()
+    return has_crashed() or (gdb.solib_name(frame.pc()) is not None and frame.name() != "CM_debug_stop")
+
+
 class Unseen:
     """While the library is asked, its process that looks is not followed, nothing of the user's stops there, and gdb says nothing of it."""
     SETTINGS = {"print inferior-events": "off", "follow-fork-mode": "parent", "detach-on-fork": "on"}
+    # Since gdb 14, a call that takes longer is given up. The library gives up before, where another process looks.
+    TIMEOUTS, PATIENCE_S, PATIENCE_LOCKED_S = ("direct-call-timeout", "indirect-call-timeout"), 150, 20
 
     def __enter__(self):
-        self.before = {name: gdb.parameter(name) for name in self.SETTINGS}
-        self.set(self.SETTINGS)
+        patience = {name: self.PATIENCE_LOCKED_S if may_hold_locks() else self.PATIENCE_S for name in self.TIMEOUTS} | {"unwind-on-timeout": "on"}
+        settings = self.SETTINGS | {name: value for name, value in patience.items() if is_setting(name)}
+        self.before = {name: gdb.parameter(name) for name in settings}
+        self.set(settings)
         self.stops = [b for b in gdb.breakpoints() if b.enabled and b.visible and b.type in (gdb.BP_BREAKPOINT, gdb.BP_CATCHPOINT)]
         for stop in self.stops:
             stop.enabled = False
@@ -119,7 +137,14 @@ class Unseen:
     @staticmethod
     def set(values):
         for name, value in values.items():
-            gdb.execute(f"set {name} {({True: 'on', False: 'off'}).get(value, value)}", to_string=True)
+            word = "on" if value is True else "off" if value is False else "unlimited" if value is None else value
+            gdb.execute(f"set {name} {word}", to_string=True)
+
+
+def tell_locks():
+    locked = may_hold_locks()
+    if known_variable("(long)&CM_debug_locked"):  # an older libparis has none
+        gdb.parse_and_eval(f"*(unsigned int *)&CM_debug_locked = {int(locked)}")
 
 
 def called(name, *arguments):
@@ -128,11 +153,14 @@ def called(name, *arguments):
         gdb.parse_and_eval(f"(long)&{name}")
     except gdb.error:
         raise Refused("the program has no libparis (yet), or an older one: it is loaded when the program runs") from None
+    if name == "CM_debug_watch" and has_crashed():
+        raise Refused("the program has crashed: nothing more will change in it")
     try:
         with Unseen():
+            tell_locks()
             return int(gdb.parse_and_eval(f"((unsigned long (*)({TYPES[name]})) {name})({', '.join(map(str, arguments))})"))
     except gdb.error as error:
-        raise Refused(f"the program could not be asked: {error}") from None
+        raise Refused(f"the program could not be asked: {str(error).splitlines()[0]}") from None
 
 
 class Place:
