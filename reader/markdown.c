@@ -75,12 +75,12 @@ static bool info_says(const char *info, const char *word)
     return false;
 }
 
-/* The stage that a fence's script has: the first word WIDTHxHEIGHT, within bounds, or as
- * usual. */
+/* The stage that a fence's script or program has: the first word WIDTHxHEIGHT, within bounds,
+ * or as usual. */
 static void stage_read(const char *info, struct reader_block *block)
 {
-    block->stage_width = READER_STAGE_WIDTH;
-    block->stage_height = READER_STAGE_HEIGHT;
+    block->stage_width = block->stage_program ? READER_STAGE_PROGRAM : READER_STAGE_WIDTH;
+    block->stage_height = block->stage_program ? READER_STAGE_PROGRAM : READER_STAGE_HEIGHT;
     for (const char *at = info + strcspn(info, " \t"); *at; at += strcspn(at, " \t")) {
         int width = 0, height = 0, read = 0;
         at += strspn(at, " \t");
@@ -106,7 +106,8 @@ static void code_read(struct walk *w, cmark_node *node)
                 strlen(cmark.node_get_literal(node)) <= READER_FORMULA_BYTES;
     open_block(w, math ? READER_MATH : live ? READER_LIVE : READER_CODE_BLOCK, node);
     w->b.block.info = copy_of(w, info);
-    if (lua)
+    w->b.block.stage_program = live && !lua;
+    if (live)
         stage_read(info, &w->b.block);
     reader_code_add(&w->b, cmark.node_get_literal(node), math ? READER_FORMULA : READER_CODE);
     if (w->b.status == READER_OK)

@@ -66,6 +66,7 @@ enum {
     /* a stage's sides in pixels: usual ones, and the bounds of those that are said */
     READER_STAGE_WIDTH = 600,
     READER_STAGE_HEIGHT = 240,
+    READER_STAGE_PROGRAM = 320, /* both sides of a program's */
     READER_STAGE_LEAST = 16,
     READER_STAGE_MOST = 1600
 };
@@ -116,7 +117,8 @@ struct reader_block {
     int first_line, last_line; /* of that, from 1 */
     char *info, *target;       /* NULL: none */
     char *include; /* the file that is meant to be in its place (reader_files.h); NULL: none */
-    int stage_width, stage_height; /* of a script that lives, its picture's; else 0 */
+    int stage_width, stage_height; /* of a fence that lives, its picture's; else 0 */
+    bool stage_program;            /* of such a fence: a program in C/Paris, not a script */
     int table;                     /* of a row: which table, from 0 */
     bool head;                     /* of a row: the table's first */
     int columns;

@@ -20,6 +20,7 @@
  *     read_stages.c    demonstrations in it
  *     read_stages_hand.c  pointer and keys for them
  *     read_controls.c  their controls
+ *     read_printed.c   what those of them that are programs print
  *     read_tiles.c     its pictures, painted by fontpipe and kept
  *     read_look.c      sizes, colours, how wide the text is
  *     read_play.c      recorded input: events from a file
@@ -172,6 +173,9 @@ void read_tiles_forget(struct read_tiles *tiles); /* colours have changed */
 /* read_stages.c */
 struct read_stages *read_stages_create(struct read_desk *d);
 void read_stages_forget(struct read_desk *d); /* the document is another one */
+/* Behind that, where it is the same document with other text: programs that were running, or
+ * were not compiled, are compiled and run anew. Each is told by its place among programs. */
+void read_stages_again(struct read_desk *d);
 void read_stages_finish(struct read_desk *d); /* with the page: all end */
 void read_stages_destroy(struct read_stages *stages);
 void read_stages_changed(struct read_desk *d); /* others may be seen, or elsewhere */

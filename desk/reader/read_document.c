@@ -191,6 +191,7 @@ void read_document_reload(struct read_desk *d)
         lost_tell(d);
         d->document_shown(d);
         read_page_changed(d);
+        read_stages_again(d);
     }
     reader_anchor_destroy(anchor);
 }

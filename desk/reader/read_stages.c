@@ -1,6 +1,6 @@
-/* read_stages.c - demonstrations in the page: scripts that live, each a process, its picture
- * over its text, and under it a button that starts and stops it, a line that it says, and its
- * controls.
+/* read_stages.c - demonstrations in the page: scripts that live and programs in C/Paris, each a
+ * process, its picture over its text, and under it a button that starts and stops it, a line
+ * that it says, its controls, and what it prints.
  *
  * None runs before its button is pressed. It computes only while it is seen; three have
  * processes at a time: of more, the one that was not seen for longest is ended. One that fails,
@@ -19,6 +19,7 @@ struct read_stages *read_stages_create(struct read_desk *d)
     struct read_stages *stages = g_new0(struct read_stages, 1);
     stages->desk = d;
     stages->all = g_ptr_array_new();
+    stages->again = g_array_new(FALSE, FALSE, sizeof(int));
     return stages;
 }
 
@@ -54,8 +55,9 @@ static void button_set(struct stage *s)
                                  s->called);
     gtk_button_set_label(GTK_BUTTON(s->button), runs ? _("Stop") : _("Run"));
     desk_name(s->button, name,
-              runs ? _("Stop the demonstration")
-                   : _("Run the script below, in a process that reaches no files"));
+              runs         ? _("Stop the demonstration")
+              : s->program ? _("Compile and run the program below, where it reaches no files")
+                           : _("Run the script below, in a process that reaches no files"));
     g_free(name);
 }
 
@@ -130,13 +132,16 @@ static void tick_ensure(struct read_stages *stages)
 static void stage_start(struct read_stages *stages, struct stage *s)
 {
     const struct reader_block *block = &stages->desk->document->blocks[s->block];
-    const struct demonstration_def def = demonstration_def_default(
+    struct demonstration_def def = demonstration_def_default(
         block->text ? block->text : "", (size_t)block->bytes, s->width, s->height);
+    def.program = s->program;
     if (!room_make(stages)) {
         line_set(s, _("Three demonstrations run already: stop one of them."));
         return;
     }
     line_set(s, "");
+    s->printed_lines = 0;
+    s->uncompiled = false;
     if (!demonstration_start(&def, &s->run))
         line_set(s, demonstration_error());
     button_set(s);
@@ -200,11 +205,24 @@ static void strip_make(struct read_stages *stages, struct stage *s)
     gtk_box_append(GTK_BOX(row), s->line);
     gtk_box_append(GTK_BOX(s->strip), row);
     s->controls = read_controls_create(s->strip, s->called);
+    if (s->program) {
+        s->printed = read_printed_new(s->called);
+        gtk_box_append(GTK_BOX(s->strip), s->printed);
+    }
     g_signal_connect(s->button, "clicked", G_CALLBACK(button_clicked), s);
     gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
     g_signal_connect(keys, "key-pressed", G_CALLBACK(strip_key), s);
     gtk_widget_add_controller(s->strip, keys);
     gtk_widget_set_parent(s->strip, stages->desk->page);
+}
+
+/* Which of the document's programs a block is, from 0; -1: none. */
+static int program_number(const struct reader_document *d, int block)
+{
+    int number = -1;
+    for (int i = 0; i <= block; i++)
+        number += d->blocks[i].stage_program;
+    return d->blocks[block].stage_program ? number : -1;
 }
 
 static struct stage *stage_new(struct read_stages *stages, int block)
@@ -214,6 +232,8 @@ static struct stage *stage_new(struct read_stages *stages, int block)
     s->block = block;
     s->width = from->stage_width;
     s->height = from->stage_height;
+    s->program = from->stage_program;
+    s->number = program_number(stages->desk->document, block);
     s->stages = stages;
     s->called = called_of(stages->desk->document, block);
     strip_make(stages, s);
@@ -234,9 +254,33 @@ static void stage_free(struct stage *s)
 
 /* ---- all of them ---- */
 
+/* Before the document goes. */
+static void again_note(struct read_stages *stages)
+{
+    g_array_set_size(stages->again, 0);
+    for (guint i = 0; i < stages->all->len; i++) {
+        const struct stage *s = g_ptr_array_index(stages->all, i);
+        if (s->program && (s->run || s->uncompiled))
+            g_array_append_val(stages->again, s->number);
+    }
+}
+
+void read_stages_again(struct read_desk *d)
+{
+    struct read_stages *stages = d->stages;
+    for (int block = 0; block < d->document->blocks_count && stages->again->len; block++) {
+        const int number = program_number(d->document, block);
+        for (guint i = 0; i < stages->again->len && number >= 0; i++)
+            if (g_array_index(stages->again, int, i) == number && !read_stage_of(stages, block))
+                stage_start(stages, stage_new(stages, block));
+    }
+    g_array_set_size(stages->again, 0);
+}
+
 void read_stages_forget(struct read_desk *d)
 {
     struct read_stages *stages = d->stages;
+    again_note(stages);
     for (guint i = 0; i < stages->all->len; i++) {
         struct stage *s = g_ptr_array_index(stages->all, i);
         if (d->page)
@@ -263,6 +307,7 @@ void read_stages_finish(struct read_desk *d)
 void read_stages_destroy(struct read_stages *stages)
 {
     g_ptr_array_unref(stages->all);
+    g_array_unref(stages->again);
     g_free(stages);
 }
 
@@ -275,12 +320,16 @@ static double strip_px(const struct read_desk *d, const struct stage *s)
                 d->setup.width_px - d->setup.margin_px - d->setup.notes_px - s->place.x);
 }
 
-/* There is room in the page for its controls, and no more. */
+/* Of its controls, and of what it has printed. */
+static int more_px(const struct read_desk *d, const struct stage *s)
+{
+    return read_controls_height(s->controls, (int)strip_px(d, s)) + read_printed_height(s);
+}
+
+/* There is room in the page for those, and no more. */
 static void room_ensure(struct read_desk *d, struct stage *s)
 {
-    if (reader_view_stage_room(d->view, s->block,
-                               read_controls_height(s->controls, (int)strip_px(d, s))) !=
-        READER_OK)
+    if (reader_view_stage_room(d->view, s->block, more_px(d, s)) != READER_OK)
         d->say(d, reader_error());
     d->changed(d);
 }
@@ -346,9 +395,7 @@ void read_stages_place(struct read_desk *d)
             continue;
         s->place = place;
         s->seen = place.y < d->setup.height_px &&
-                  place.y + place.height + d->setup.stage_strip_px +
-                          read_controls_height(s->controls, (int)strip_px(d, s)) >
-                      0;
+                  place.y + place.height + d->setup.stage_strip_px + more_px(d, s) > 0;
         s->seen_us = g_get_monotonic_time();
     }
     for (guint i = 0; i < d->stages->all->len; i++)
@@ -421,8 +468,11 @@ static void stage_look(struct read_stages *stages, struct stage *s, double secon
         if (picture_take(s))
             gtk_widget_queue_draw(stages->desk->page);
     }
+    if (read_printed_fill(s))
+        room_ensure(stages->desk, s);
     if (demonstration_ended(s->run)) {
         char *why = g_strdup_printf(_("It has ended: %s"), demonstration_ended(s->run));
+        s->uncompiled = g_str_has_prefix(demonstration_ended(s->run), DEMONSTRATION_UNCOMPILED);
         stage_stop(stages, s);
         line_set(s, why);
         g_free(why);

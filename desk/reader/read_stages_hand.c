@@ -8,8 +8,9 @@ static struct stage *stage_at(const struct read_stages *stages, double x, double
 {
     for (guint i = 0; i < stages->all->len; i++) {
         struct stage *s = g_ptr_array_index(stages->all, i);
-        if (s->seen && s->run && x >= s->place.x && x < s->place.x + s->place.width &&
-            y >= s->place.y && y < s->place.y + s->place.height)
+        if (s->seen && s->run && !s->program && x >= s->place.x &&
+            x < s->place.x + s->place.width && y >= s->place.y &&
+            y < s->place.y + s->place.height)
             return s;
     }
     return NULL;
@@ -119,7 +120,7 @@ bool read_stages_follow(struct read_desk *d, size_t byte)
     if (!s)
         return false;
     read_stage_toggle(s);
-    d->stages->keyed = s->run ? s : NULL; /* so that keys are its own at once */
+    d->stages->keyed = s->run && !s->program ? s : NULL; /* so that keys are its own at once */
     return true;
 }
 
@@ -166,6 +167,7 @@ char *read_stages_told(struct read_desk *d)
                                s->place.y, s->place.width, s->place.height, s->textures, i + 1,
                                gtk_label_get_text(GTK_LABEL(s->line)));
         read_controls_tell(s->controls, all);
+        read_printed_tell(s, i + 1, all);
     }
     return g_string_free(all, FALSE);
 }

@@ -37,6 +37,8 @@ struct demonstration {
     int heard_count;
     struct demonstration_control controls[DEMONSTRATION_CONTROLS_MAX];
     int controls_count;
+    char printed[DEMONSTRATION_LINES][DEMONSTRATION_TEXT_MAX + 1];
+    long lines; /* that have come */
     char said[DEMONSTRATION_TEXT_MAX + 1], ended[DEMONSTRATION_TEXT_MAX + 100];
 };
 
@@ -190,6 +192,16 @@ static void here(void)
 {
 }
 
+static bool process_find(char path[PATH_MAX], bool program)
+{
+    return program
+               ? program_find(path, here,
+                              LUTETIA_LIBEXECDIR "/lutetia/lutetia-demonstration-paris",
+                              "host/demonstration/paris/lutetia-demonstration-paris")
+               : program_find(path, here, LUTETIA_LIBEXECDIR "/lutetia/lutetia-demonstration",
+                              "host/demonstration/lutetia-demonstration");
+}
+
 bool demonstration_start(const struct demonstration_def *def, struct demonstration **out)
 {
     char path[PATH_MAX];
@@ -203,9 +215,9 @@ bool demonstration_start(const struct demonstration_def *def, struct demonstrati
     if (def->bytes > DEMONSTRATION_SCRIPT_MAX)
         return fail("a demonstration has up to %d KB (this one has %zu)",
                     DEMONSTRATION_SCRIPT_MAX >> 10, def->bytes >> 10);
-    if (!program_find(path, here, LUTETIA_LIBEXECDIR "/lutetia/lutetia-demonstration",
-                      "host/demonstration/lutetia-demonstration"))
-        return fail("lutetia-demonstration is not installed");
+    if (!process_find(path, def->program))
+        return fail("%s is not installed",
+                    def->program ? "lutetia-demonstration-paris" : "lutetia-demonstration");
     struct demonstration *d = calloc(1, sizeof *d);
     if (!d)
         return fail("no memory for a demonstration");
@@ -276,10 +288,10 @@ void demonstration_stop(struct demonstration *d)
 {
     if (!d)
         return;
-    if (d->process)
-        process_reap(d, true);
     if (d->socket >= 0)
         close(d->socket);
+    if (d->process) /* a program's keeper removes its folder when the socket is closed */
+        process_reap(d, !d->def.program);
     if (d->memory)
         munmap(d->memory, d->memory_bytes);
     free(d->picture);
@@ -393,6 +405,8 @@ static bool message_take(struct demonstration *d, const struct demonstration_mes
         strcpy(d->said, m->text);
     } else if (m->kind == DEMONSTRATION_FAILED) {
         snprintf(d->ended, sizeof d->ended, "%s", m->text[0] ? m->text : "it failed");
+    } else if (m->kind == DEMONSTRATION_LINE) {
+        strcpy(d->printed[d->lines++ % DEMONSTRATION_LINES], m->text);
     } else if (m->kind == DEMONSTRATION_CONTROL) {
         d->controls[d->controls_count++] = m->control;
     } else if (m->kind == DEMONSTRATION_SHOWN && d->waits && m->number == d->asked) {
@@ -447,6 +461,19 @@ long demonstration_pictures(const struct demonstration *d)
 const char *demonstration_said(const struct demonstration *d)
 {
     return d->said;
+}
+
+const char *demonstration_line(const struct demonstration *d, int line)
+{
+    const long first = d->lines > DEMONSTRATION_LINES ? d->lines - DEMONSTRATION_LINES : 0;
+    return line >= 0 && first + line < d->lines
+               ? d->printed[(first + line) % DEMONSTRATION_LINES]
+               : NULL;
+}
+
+long demonstration_lines(const struct demonstration *d)
+{
+    return d->lines;
 }
 
 const struct demonstration_control *demonstration_control(const struct demonstration *d,

@@ -1,4 +1,5 @@
-/* demonstration.h - a live script in a process of its own, and what it draws.
+/* demonstration.h - a live script, or a program in C/Paris, in a process of its own, and what
+ * it draws.
  *
  *     struct demonstration_def def = demonstration_def_default(text, bytes, 600, 240);
  *     struct demonstration *d;
@@ -18,20 +19,25 @@
  * it. What it sends is checked; nothing that it does can make these functions wait, but for the
  * moment in which a process that has closed its socket ends.
  *
+ * A program is compiled and runs in jails of its own (paris/keeper.h); its lights or its
+ * display are its picture, and it hears nothing. It needs a system that has Landlock.
+ *
  * Threads: a demonstration belongs to the one that has started it. */
 #ifndef LUTETIA_DEMONSTRATION_H
 #define LUTETIA_DEMONSTRATION_H
 
 #include "demonstration_wire.h"
 
-enum { DEMONSTRATION_SCRIPT_MAX = 1 << 20 };
+enum { DEMONSTRATION_SCRIPT_MAX = 1 << 20, DEMONSTRATION_LINES = 8 };
 
 struct demonstration_def {
-    const char *text; /* the script; copied */
+    const char *text; /* the script, or the program; copied */
     size_t bytes;
     int width_px, height_px; /* DEMONSTRATION_SIDE_MIN.._MAX */
+    bool program;            /* in C/Paris */
     int memory_mb;
-    double answer_s;   /* that a call of the script may compute */
+    double answer_s;   /* that a call of the script may compute; of a program four times as long
+                        * to be compiled, and six times without anything new */
     double patience_s; /* without an answer the process is ended */
 };
 /* 512 MB; 5 s of computing, 120 s of waiting. */
@@ -71,8 +77,13 @@ long demonstration_pictures(const struct demonstration *d);
  * demonstration. */
 const struct demonstration_control *demonstration_control(const struct demonstration *d,
                                                           int control);
-/* The last line that the script has printed; "": none. */
+/* The last line that the script has printed; of a program, that it is compiled; "": none. */
 const char *demonstration_said(const struct demonstration *d);
+/* A line that a program has printed, of the last DEMONSTRATION_LINES, the oldest first; NULL:
+ * there is none. Of one that was not compiled: what is wrong with it. */
+const char *demonstration_line(const struct demonstration *d, int line);
+/* How many lines have come. */
+long demonstration_lines(const struct demonstration *d);
 /* Why it has ended; NULL: it runs. */
 const char *demonstration_ended(const struct demonstration *d);
 

@@ -31,8 +31,10 @@ static const struct fields fields[DEMONSTRATION_KINDS] = {
     [DEMONSTRATION_SHOWN] = {.number = true, .which = true, .which_most = 1},
     [DEMONSTRATION_SAID] = {.text = true, .text_max = DEMONSTRATION_TEXT_MAX},
     [DEMONSTRATION_FAILED] = {.text = true, .text_max = DEMONSTRATION_TEXT_MAX},
-    [DEMONSTRATION_CONTROL] = {
-        .which = true, .which_most = DEMONSTRATION_CONTROLS_MAX - 1, .control = true}};
+    [DEMONSTRATION_CONTROL] = {.which = true,
+                               .which_most = DEMONSTRATION_CONTROLS_MAX - 1,
+                               .control = true},
+    [DEMONSTRATION_LINE] = {.text = true, .text_max = DEMONSTRATION_TEXT_MAX}};
 static const double value_most = 1e9;
 
 size_t demonstration_picture_bytes(int width_px, int height_px)

@@ -5,6 +5,7 @@
  *       POINTER, KEY, SET, ... , FRAME 7 (0.016 s)  ->  hears them, steps, draws
  *                                                  picture 7 -> one of two in shared memory
  *                              <- SAID "..."       what the script has printed, its last line
+ *                              <- LINE "...", ...     what a program has printed, its last lines
  *                              <- SHOWN 7, which of the two
  *
  * Each is one packet of a socket that keeps packets apart (SOCK_SEQPACKET), checked as bytes
@@ -29,6 +30,7 @@ enum demonstration_kind {
     DEMONSTRATION_SAID,      /* text */
     DEMONSTRATION_FAILED,    /* text: why it has ended */
     DEMONSTRATION_CONTROL,   /* which, from 0, in order; control */
+    DEMONSTRATION_LINE,      /* text: a line that a program has printed */
     DEMONSTRATION_KINDS
 };
 
@@ -38,6 +40,9 @@ enum demonstration_pointer {
     DEMONSTRATION_UP,
     DEMONSTRATION_POINTERS
 };
+
+/* With this begins why a program has ended that could not be compiled. */
+#define DEMONSTRATION_UNCOMPILED "it was not compiled"
 
 /* What the process has open beside the standard streams. */
 enum { DEMONSTRATION_SOCKET = 3, DEMONSTRATION_PICTURES = 4 };

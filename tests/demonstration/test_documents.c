@@ -10,6 +10,8 @@
 
 #include <stdlib.h>
 
+#include <jail.h>
+
 #include "shown.h"
 
 static char **paths;
@@ -30,6 +32,29 @@ static void runs(struct demonstration *d, const char *path, const char *script)
 {
     if (!shown_wait(d, 1))
         fail_msg("%s: %s\n%.300s", path, demonstration_ended(d), script);
+}
+
+/* A program shows more than one picture. */
+static void program_try(const char *path, const char *program, size_t bytes, int width,
+                        int height)
+{
+    struct demonstration_def def = demonstration_def_default(program, bytes, width, height);
+    struct demonstration *d = NULL;
+    uint8_t *first = malloc(3 * (size_t)width * (size_t)height);
+    bool other = false;
+    def.program = true;
+    def.answer_s = def.patience_s = 200;
+    if (!first || !demonstration_start(&def, &d))
+        fail_msg("%s: %s", path, demonstration_error());
+    runs(d, path, program);
+    memcpy(first, demonstration_picture(d), 3 * (size_t)width * (size_t)height);
+    for (int i = 0; i < 3000 && !other; i++) {
+        runs(d, path, program);
+        other = memcmp(first, demonstration_picture(d), 3 * (size_t)width * (size_t)height);
+    }
+    assert_true(other);
+    demonstration_stop(d);
+    free(first);
 }
 
 static void demonstration_try(const char *path, const char *script, size_t bytes, int width,
@@ -59,20 +84,20 @@ static void demonstration_try(const char *path, const char *script, size_t bytes
 }
 
 /* How many there are. */
-static int document_try(const char *path)
+static int document_try(const char *path, const char *fence,
+                        void (*one)(const char *, const char *, size_t, int, int))
 {
-    static const char fence[] = "\n```lua live ";
     char *text = file_text(path);
     int count = 0;
     for (char *at = text; (at = strstr(at, fence)); count++) {
         int width = 0, height = 0;
-        at += sizeof fence - 1;
+        at += strlen(fence);
         if (sscanf(at, "%dx%d", &width, &height) != 2)
             fail_msg("%s: a fence says no sides", path);
         char *script = strchr(at, '\n') + 1, *end = strstr(script, "\n```");
         assert_non_null(end);
         end[1] = '\0';
-        demonstration_try(path, script, (size_t)(end + 1 - script), width, height);
+        one(path, script, (size_t)(end + 1 - script), width, height);
         at = end + 2;
     }
     free(text);
@@ -82,9 +107,13 @@ static int document_try(const char *path)
 static void demonstrations_run(void **state)
 {
     (void)state;
-    for (int i = 0; i < paths_count; i++)
-        if (document_try(paths[i]) < 1)
+    for (int i = 0; i < paths_count; i++) {
+        int count = document_try(paths[i], "\n```lua live ", demonstration_try);
+        if (jail_possible())
+            count += document_try(paths[i], "\n```c paris ", program_try);
+        if (count < 1)
             fail_msg("%s has no demonstration", paths[i]);
+    }
 }
 
 int main(int argc, char **argv)

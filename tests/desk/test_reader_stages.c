@@ -13,7 +13,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <jail.h>
+
+#include "../skip.h"
 #include "reader_played.h"
 #include "xvfb.h"
 
@@ -139,6 +144,53 @@ static void demonstrations_have_controls(void **state)
     assert_int_equal(after.y, runs.y);
 }
 
+/* A program in C/Paris: its lights are seen, what it prints, and its mistakes; with other text
+ * on the disk it is compiled anew, and one that could not be, too. (security.md 39) */
+static void programs_run(void **state)
+{
+#define PROGRAM(first, second)                                                                 \
+    "# Programs\n\n```c paris 100x100\n#include <cm/paris.h>\n#include <stdio.h>\n"            \
+    "int main ()\n{\n    for (;;) {\n        CM_field_id_t f;\n        CM_init ();\n"          \
+    "        f = CM_allocate_stack_field (1);\n        CM_u_move_constant_1L (f, 1, 1);\n"     \
+    "        puts (\"" first "\");\n        for (;;)\n            CM_latch_leds (f);\n    "    \
+    "}\n}\n```\n\n```c paris 100x100\n" second "\n```\n"
+    char lines[2000];
+    (void)state;
+    if (!jail_possible())
+        skip_because("this kernel has no Landlock");
+    played_write("program.md", PROGRAM("one", "int main ()\n{\n    return nothing;\n}"));
+    snprintf(lines, sizeof lines,
+             "0.4 tell %s\n0.5 stage 1\n0.5 await 1 40\n0.6 stage 2\n0.6 await 2 1000000\n"
+             "0.7 tell %s\n6 await 1 40\n6 await 2 40\n6.1 tell %s\n6.1 stage 1\n6.3 tell %s\n",
+             played_path("before"), played_path("runs"), played_path("anew"),
+             played_path("after"));
+    unlink(played_path("runs")); /* another test's */
+    const pid_t writer = fork(); /* another program */
+    if (writer == 0) {
+        while (access(played_path("runs"), F_OK) != 0)
+            usleep(100000);
+        usleep(300000);
+        played_write("program.md",
+                     PROGRAM("another", "#include <stdio.h>\nint main () { puts (\"good\"); "
+                                        "for (;;) putchar (10); }"));
+        _exit(EXIT_SUCCESS);
+    }
+    played_run(lines, played_path("program.md"));
+    waitpid(writer, NULL, 0);
+    played_well();
+    assert_string_equal(stage_told("before", "stage1").runs, "rests");
+    assert_string_equal(stage_told("runs", "stage1").runs, "runs");
+    assert_string_equal(played_told("runs", "printed1.1"), "one");
+    assert_string_equal(stage_told("runs", "stage2").runs, "rests");
+    assert_non_null(strstr(played_told("runs", "line2"), "It has ended: it was not compiled"));
+    assert_non_null(strstr(played_told("runs", "printed2.1"), "program.c:3:"));
+    assert_string_equal(stage_told("anew", "stage1").runs, "runs");
+    assert_string_equal(played_told("anew", "printed1.1"), "another");
+    assert_string_equal(stage_told("anew", "stage2").runs, "runs");
+    assert_string_equal(played_told("after", "line1"), "Stopped.");
+#undef PROGRAM
+}
+
 /* By keys alone: Tab comes to it, Return runs it and gives it the keys, and after Escape
  * Return stops it. */
 static void demonstrations_are_reached_by_keys(void **state)
@@ -258,6 +310,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(demonstrations_run),
         cmocka_unit_test(demonstrations_have_controls),
+        cmocka_unit_test(programs_run),
         cmocka_unit_test(demonstrations_are_reached_by_keys),
         cmocka_unit_test(three_run_and_rest_unseen),
         cmocka_unit_test(hostile_documents_are_shown),

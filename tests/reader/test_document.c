@@ -105,7 +105,8 @@ static void blocks_are(const char *markdown, const char *expected)
 
 /* ---- tests ---- */
 
-/* A script that lives has a stage: as large as its fence says, where that can be. */
+/* A script or a program that lives has a stage: as large as its fence says, where that can
+ * be. */
 static void live_scripts_have_stages(void **state)
 {
     static const struct {
@@ -123,7 +124,10 @@ static void live_scripts_have_stages(void **state)
                   {"lua alive", 0, 0},
                   {"lua", 0, 0},
                   {"lualive live", 0, 0},
-                  {"c paris 320x200", 0, 0},
+                  {"c paris", 320, 320},
+                  {"c paris 320x200", 320, 200},
+                  {"c paris 8x8", 320, 320},
+                  {"cc paris", 0, 0},
                   {"", 0, 0}};
     (void)state;
     for (size_t i = 0; i < sizeof fences / sizeof *fences; i++) {
@@ -135,6 +139,8 @@ static void live_scripts_have_stages(void **state)
         assert_int_equal(d->blocks[0].stage_height, fences[i].height);
         if (fences[i].width)
             assert_int_equal(d->blocks[0].kind, READER_LIVE);
+        assert_int_equal(d->blocks[0].stage_program,
+                         strncmp(fences[i].info, "c paris", 7) == 0);
         reader_document_destroy(d);
     }
 }
