@@ -35,7 +35,9 @@ _Noreturn static void server_become(int number_to, const char *size)
     char descriptor[16], screen[32];
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     snprintf(descriptor, sizeof descriptor, "%d", number_to);
-    snprintf(screen, sizeof screen, "%sx24", size);
+    /* WIDTHxHEIGHT, or that and the depth */
+    snprintf(screen, sizeof screen, "%s%s", size,
+             strchr(strchr(size, 'x') + 1, 'x') ? "" : "x24");
     freopen("/dev/null", "w", stderr); /* what it says about keyboards */
     execlp("Xvfb", "Xvfb", "-displayfd", descriptor, "-screen", "0", screen, "-nolisten", "tcp",
            "-noreset", (char *)NULL);
@@ -191,6 +193,13 @@ void screen_close(Window window)
 
 /* ---- pictures ---- */
 
+/* Of 256 steps, the nearest. */
+static uint8_t channel_of(unsigned long colour, unsigned long mask)
+{
+    const unsigned long step = mask & -mask, most = mask / step;
+    return (uint8_t)((colour / step & most) * 255 / most);
+}
+
 void screen_read(Window window, struct display_image *image)
 {
     XWindowAttributes attributes;
@@ -205,14 +214,13 @@ void screen_read(Window window, struct display_image *image)
         .width_px = attributes.width, .height_px = attributes.height, .channels = 3};
     enum display_status status = display_image_create(image);
     assert(status == DISPLAY_OK);
-    assert(seen->red_mask == 0xff0000 && seen->blue_mask == 0xff);
     for (int y = 0; y < image->height_px; y++)
         for (int x = 0; x < image->width_px; x++) {
             unsigned long colour = XGetPixel(seen, x, y);
             uint8_t *pixel = image->pixels + 3 * (y * image->width_px + x);
-            pixel[0] = (uint8_t)(colour >> 16);
-            pixel[1] = (uint8_t)(colour >> 8);
-            pixel[2] = (uint8_t)colour;
+            pixel[0] = channel_of(colour, seen->red_mask);
+            pixel[1] = channel_of(colour, seen->green_mask);
+            pixel[2] = channel_of(colour, seen->blue_mask);
         }
     XDestroyImage(seen);
 }

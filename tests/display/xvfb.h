@@ -15,7 +15,8 @@
 #include <display.h>
 #include <stdbool.h>
 
-/* Returns false with a message where Xvfb is not installed. */
+/* WIDTHxHEIGHT, of 24 bits, or WIDTHxHEIGHTxBITS. Returns false with a message where Xvfb is
+ * not installed. */
 bool screen_start(const char *size);
 /* Sets the resolution that desktops tell programs; 0: none. */
 void screen_dpi(int dots_per_inch);
@@ -26,7 +27,8 @@ Window screen_window(const char *title, double wait_s);
 /* Waits until the window is gone. */
 bool screen_window_gone(Window window, double wait_s);
 
-/* Reads a window's pixels from the screen, three channels; the caller destroys the image. */
+/* Reads a window's pixels from the screen, three channels of 8 bits, whatever the screen has;
+ * the caller destroys the image. */
 void screen_read(Window window, struct display_image *image);
 /* Waits until the window shows this image. False, with the first pixel that differs printed: it
  * does not. */
