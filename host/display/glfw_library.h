@@ -12,6 +12,7 @@
 /* clang-format off */
 #define GLFW_NAMES(X)                                                                          \
     X(Init) X(InitHint) X(GetError) X(GetProcAddress) X(PollEvents) X(WaitEventsTimeout) X(PostEmptyEvent) \
+    X(GetMonitors) X(GetMonitorPos) X(GetMonitorName) X(SetWindowPos)                          \
     X(GetPrimaryMonitor) X(GetMonitorContentScale) X(GetMonitorWorkarea) X(GetVideoMode)       \
     X(DefaultWindowHints) X(WindowHint) X(CreateWindow) X(DestroyWindow) X(ShowWindow)         \
     X(MakeContextCurrent) X(SwapBuffers) X(SwapInterval) X(GetCursorPos)                       \

@@ -9,6 +9,7 @@
  * and leak the resources that drivers keep to the end of the process.
  */
 #include "display_internal.h"
+#include "screens.h"
 #include "window_internal.h"
 
 #include <endian.h>
@@ -290,16 +291,14 @@ bool window_fullscreen(const struct window *window)
 
 void window_fullscreen_set(struct window *window, bool full)
 {
-    GLFWmonitor *monitor = glfw3.GetPrimaryMonitor();
-    const GLFWvidmode *mode = monitor ? glfw3.GetVideoMode(monitor) : NULL;
     int *b = window->before;
-    if (full == window->fullscreen || !mode)
+    if (full == window->fullscreen || window->edgeless)
         return;
     if (full) {
         glfw3.GetWindowPos(window->glfw, &b[0], &b[1]);
         glfw3.GetWindowSize(window->glfw, &b[2], &b[3]);
-        glfw3.SetWindowMonitor(window->glfw, monitor, 0, 0, mode->width, mode->height,
-                               mode->refreshRate);
+        if (!screens_fill(window->glfw, screens_at(b[0] + b[2] / 2, b[1] + b[3] / 2)))
+            return;
     } else {
         glfw3.SetWindowMonitor(window->glfw, NULL, b[0], b[1], b[2], b[3], GLFW_DONT_CARE);
     }

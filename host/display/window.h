@@ -38,6 +38,8 @@ struct window_config {
     bool vsync;           /* wait for the screen's refresh before showing a picture; true */
     bool drawn_by_caller; /* the caller draws instead of calling window_show(), see below;
                            * false */
+    const char *screen;   /* "1", "2", ...: the window fills that screen, without edges;
+                           * "all": all of them together; NULL: a usual window */
 };
 struct window_config window_config_default(void);
 
@@ -48,7 +50,8 @@ struct window;
 bool window_possible(void);
 
 /* Errors: NO_WINDOW where there is no display, or none that can draw, or the build has no
- * windows; BAD_ARGUMENT, NO_MEMORY; *out is then NULL. Owns: the caller destroys *out. */
+ * windows; BAD_ARGUMENT (also: no such screen; the line lists them), NO_MEMORY; *out is
+ * then NULL. Owns: the caller destroys *out. */
 enum display_status window_create(const struct window_config *config, struct window **out);
 void window_destroy(struct window *window); /* NULL is fine */
 
@@ -99,7 +102,7 @@ void window_frame_end(struct window *window);
  * on screens that are not fine. */
 double window_scale(const struct window *window);
 
-/* Fills the screen, or restores the window's place and size. */
+/* Fills the screen on which the window's middle is, or restores the window's place and size. */
 void window_fullscreen_set(struct window *window, bool full);
 bool window_fullscreen(const struct window *window);
 

@@ -65,6 +65,7 @@ struct window {
     struct pen *pen;            /* NULL: no pen with pressure */
     /* Where the window was before it filled the screen. */
     bool fullscreen;
+    bool edgeless; /* over all screens: there is no larger size */
     int before[4];
 };
 

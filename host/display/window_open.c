@@ -1,5 +1,6 @@
 /* window_open.c - windows are opened and closed: see window.h. */
 #include "display_internal.h"
+#include "screens.h"
 #include "window_internal.h"
 
 #include <library.h>
@@ -88,6 +89,8 @@ static GLFWwindow *glfw_window_make(const struct window_config *config)
     glfw3.WindowHint(GLFW_STENCIL_BITS, 0);
     glfw3.WindowHint(GLFW_SCALE_TO_MONITOR, x >= SCALE_LEAST);
     glfw3.WindowHint(GLFW_VISIBLE, GLFW_FALSE);
+    glfw3.WindowHint(GLFW_AUTO_ICONIFY, !config->screen); /* it stays where another is used */
+    glfw3.WindowHint(GLFW_DECORATED, !screens_all(config->screen));
     GLFWwindow *glfw =
         glfw3.CreateWindow(config->width_px, config->height_px, config->title, NULL, NULL);
     if (!glfw)
@@ -104,6 +107,22 @@ static GLFWwindow *glfw_window_make(const struct window_config *config)
         glfw3.SetWindowSize(glfw, width > 1 ? width : 1, height > 1 ? height : 1);
     }
     return glfw;
+}
+
+/* NULL: it stays as it is. */
+static void window_screen_fill(struct window *window, const char *screen)
+{
+    if (!screen)
+        return;
+    if (screens_all(screen)) {
+        screens_cover(window->glfw);
+        window->edgeless = true;
+        return;
+    }
+    int *b = window->before;
+    glfw3.GetWindowPos(window->glfw, &b[0], &b[1]);
+    glfw3.GetWindowSize(window->glfw, &b[2], &b[3]);
+    window->fullscreen = screens_fill(window->glfw, atoi(screen) - 1);
 }
 
 enum display_status window_create(const struct window_config *config, struct window **out)
@@ -138,6 +157,11 @@ enum display_status window_create(const struct window_config *config, struct win
         status = fail_glfw("no display");
         goto failed;
     }
+    char why_not[300];
+    if (config->screen && !screens_check(config->screen, why_not, sizeof why_not)) {
+        status = display_fail(DISPLAY_BAD_ARGUMENT, "%s", why_not);
+        goto failed;
+    }
     window->glfw = glfw_window_make(config);
     if (!window->glfw) {
         status = fail_glfw("no window");
@@ -162,6 +186,7 @@ enum display_status window_create(const struct window_config *config, struct win
     window_input_begin(window);
     window_wakes(x11_display(window->glfw));
     glfw3.ShowWindow(window->glfw);
+    window_screen_fill(window, config->screen);
     window_draw(window);
     *out = window;
     return DISPLAY_OK;

@@ -15,6 +15,7 @@ struct live_options {
     struct option_texts params, knobs, osc_from;
     const char *osc, *osc_to;
     const char *text; /* a watched file */
+    const char *screen;
     bool knobs_alone; /* the computer's keyboard plays no notes */
 };
 
@@ -39,6 +40,12 @@ void live_end(struct live *live);
  * there is none. */
 int live_window(struct live *live, struct stage *stage, struct stage_window_def *def,
                 const char *no_display);
+
+#define LIVE_SCREEN_OPTION(value)                                                              \
+    {                                                                                          \
+        "screen", 0, OPTION_TEXT, "N|all",                                                     \
+            "the window fills this screen, or all of them, without edges", value, 0, 0, 0      \
+    }
 
 /* The rows of Open Sound Control, of a table of options. */
 #define LIVE_OSC_OPTIONS(live)                                                                 \

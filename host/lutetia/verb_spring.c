@@ -113,6 +113,7 @@ static int spring_check(struct spring *s, const struct option_words *words)
 /* With what an option has an effect. */
 static const struct option_need needs[] = {{"record", WINDOW},
                                            {"play", WINDOW},
+                                           {"screen", WINDOW},
                                            {"session", "replay|!still+!video+!frames"},
                                            {"fps", "video|frames|sound|song|map|wet|strip"},
                                            {"watch", "!network+!still+!video+!frames"},
@@ -120,6 +121,7 @@ static const struct option_need needs[] = {{"record", WINDOW},
                                            {"osc-from", "osc"},
                                            {"osc-to", WINDOW},
                                            {"silent", "video|!still+!frames"},
+                                           {"loop", "video|frames"},
                                            {"way", FILM},
                                            {"filter", FILM},
                                            {"seconds", FILM},
@@ -168,6 +170,7 @@ static int spring_options(struct spring *s, int argc, char **argv, bool *help)
          "the song that is played (what the MIDI server hears)", &s->song_path, 0, 0, 0},
         {"server", 0, OPTION_TEXT, "ADDRESS", "the MIDI server's socket (the user's own)",
          &s->live_options.server, 0, 0, 0},
+        LIVE_SCREEN_OPTION(&s->window.screen),
         {"theme", 0, OPTION_TEXT, "light|dark|FILE", "colours and widths: a name, or a file",
          &s->scene.theme, 0, 0, 0},
         {"size", 0, OPTION_SIZE, "WxH", "size of the window or the picture (1280x720)", s->size,
@@ -184,6 +187,11 @@ static int spring_options(struct spring *s, int argc, char **argv, bool *help)
          &s->frames, 0, 0, 0},
         {"seconds", 0, OPTION_NUMBER, "S",
          "how long it moves (what is replayed or played, or 5)", &s->film.seconds, 0, 3600, 0},
+        {"loop", 0, OPTION_NUMBER, "S",
+         "film and frames can be repeated: their end goes over into their beginning for so "
+         "long; "
+         "a film is silent then",
+         &s->film.loop_s, 0, 60, 0},
         {"fps", 0, OPTION_INTEGER, "N", "pictures a second (30)", &s->film.fps, 1, 240, 0},
         {"way", 0, OPTION_TEXT, "exact|egl|osmesa",
          "how pictures are drawn: filtered, or by OpenGL (exact)", &s->way, 0, 0, 0},
@@ -303,6 +311,7 @@ static int sound_make(struct spring *s)
 {
     struct spring_scene ahead;
     struct spring_sound *sound = NULL;
+    s->silent = s->silent || s->film.loop_s > 0;
     if (!s->sound_path && (!s->film.video || s->silent))
         return EXIT_SUCCESS;
     if (spring_scene_make(&s->scene, &ahead) != STAGE_OK ||

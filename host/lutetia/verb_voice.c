@@ -1,5 +1,6 @@
 /* verb_voice.c - `lutetia voice`: letters that a voice plays: poster, moments, frames, film. */
 #include "help.h"
+#include "live.h"
 #include "lutetia.h"
 #include "options.h"
 #include "type_common.h"
@@ -31,7 +32,7 @@ enum { SHEET_COLUMNS = 5, SHEET_ROWS = 4, LABEL_PX = 11 };
 struct voice_work {
     const char *sound_path, *text, *font, *edits, *axes, *map;
     const char *poster, *sheet, *envelope, *still, *frames, *video;
-    const char *microphone, *transcript, *features;
+    const char *microphone, *transcript, *features, *screen;
     double seconds;
     bool cry;
     double size_px[2], rise_em, slant, paper[3], inks[9], second_px, line_px, at_s;
@@ -92,10 +93,13 @@ static int words_take(struct voice_work *w, const struct option_words *words)
 
 #define POSTER "poster|!sheet+!envelope+!still+!frames+!video+!features+!microphone"
 
+#define HEARD "microphone+!poster+!sheet+!envelope+!still+!frames+!video+!features"
+
 /* With what an option has an effect. The poster is made where no other picture is asked for. */
 static const struct option_need needs[] = {
-    {"at", "still"},  {"fps", "video|frames"}, {"seconds", "microphone"}, {"rise", "map"},
-    {"slant", "map"}, {"second", POSTER},      {"line", POSTER},          {0}};
+    {"at", "still"},  {"fps", "video|frames"}, {"seconds", "microphone"},
+    {"rise", "map"},  {"slant", "map"},        {"second", POSTER},
+    {"line", POSTER}, {"screen", HEARD},       {0}};
 
 static int options_read(struct voice_work *w, int argc, char **argv, bool *help)
 {
@@ -120,6 +124,7 @@ static int options_read(struct voice_work *w, int argc, char **argv, bool *help)
         {"microphone", 0, OPTION_TEXT, "jack|pulse|any",
          "hear a microphone, in place of a file: in a window, or for --seconds", &w->microphone,
          0, 0, 0},
+        LIVE_SCREEN_OPTION(&w->screen),
         {"features", 0, OPTION_TEXT, "FILE.csv", "what is heard, as a table; needs no text",
          &w->features, 0, 0, 0},
         {"seconds", 0, OPTION_NUMBER, "S", "how long a microphone is heard (5)", &w->seconds,
@@ -161,30 +166,11 @@ static int options_read(struct voice_work *w, int argc, char **argv, bool *help)
 
 /* ---- hearing ---- */
 
-static int microphone_begin(const struct voice_work *w, struct microphone **out)
-{
-    char why[500];
-    const char *source = strcmp(w->microphone, "any") == 0 ? NULL : w->microphone;
-    return microphone_open(source, out, why, sizeof why) ? EXIT_SUCCESS
-                                                         : fail("voice", "%s", why);
-}
-
-static int microphone_record(struct voice_work *w)
-{
-    struct microphone *microphone;
-    int status = microphone_begin(w, &microphone);
-    if (status != EXIT_SUCCESS)
-        return status;
-    status = voice_live_record(microphone, w->seconds, &w->sound);
-    microphone_close(microphone);
-    return status;
-}
-
 static int sound_take(struct voice_work *w)
 {
     char why[300];
     if (w->microphone)
-        return microphone_record(w);
+        return voice_live_record(w->microphone, w->seconds, &w->sound);
     if (!w->cry)
         return voice_sound_read(w->sound_path, &w->sound, why, sizeof why)
                    ? EXIT_SUCCESS
@@ -304,17 +290,17 @@ static int type_prepare(struct voice_work *w)
 /* While it is heard. */
 static int live_play(struct voice_work *w)
 {
-    struct voice_live_def def = {
-        .text = w->text, .hearing = w->hearing, .picture = {w->picture[0], w->picture[1]}};
+    struct voice_live_def def = {.source = w->microphone,
+                                 .text = w->text,
+                                 .hearing = w->hearing,
+                                 .picture = {w->picture[0], w->picture[1]},
+                                 .screen = w->screen};
     int status = face_take(w);
     type_def_take(w);
     def.face = w->face;
     def.type = w->def;
     if (status == EXIT_SUCCESS)
-        status = microphone_begin(w, &def.microphone);
-    if (status == EXIT_SUCCESS)
         status = voice_live_window(&def);
-    microphone_close(def.microphone);
     return status;
 }
 

@@ -29,6 +29,7 @@ struct word {
 
 struct voice_live {
     const struct voice_live_def *def;
+    struct microphone *microphone;
     struct voice *voice;
     struct voice_frame frames[FRAMES_MAX];
     int frames_count, attacks;
@@ -42,13 +43,21 @@ struct voice_live {
 
 /* ---- what is heard ---- */
 
+static int microphone_begin(const char *source, struct microphone **out)
+{
+    char why[500];
+    return microphone_open(strcmp(source, "any") ? source : NULL, out, why, sizeof why)
+               ? EXIT_SUCCESS
+               : fail("voice", "%s", why);
+}
+
 static bool frames_take(struct voice_live *v)
 {
     static float samples[PIECE];
     struct voice_frame f;
     size_t count;
     v->changed = false;
-    while ((count = microphone_take(v->def->microphone, samples, PIECE)) > 0)
+    while ((count = microphone_take(v->microphone, samples, PIECE)) > 0)
         if (!voice_hear(v->voice, samples, count))
             return false;
     while (voice_next(v->voice, &f)) {
@@ -160,7 +169,7 @@ static int window_run(struct voice_live *v, struct window *window)
     int status = EXIT_SUCCESS;
     while (status == EXIT_SUCCESS && !window_closing(window) && !interrupted()) {
         const double due_s = input_now_s() + FRAME_S;
-        if (microphone_gone(v->def->microphone))
+        if (microphone_gone(v->microphone))
             return fail("voice", "the sound server is gone");
         if (!frames_take(v))
             status = fail("voice", "no memory for what is heard");
@@ -183,7 +192,11 @@ static int window_open(struct voice_live *v)
     config.title = "voice";
     config.width_px = v->def->picture[0];
     config.height_px = v->def->picture[1];
-    if (window_create(&config, &window) != DISPLAY_OK)
+    config.screen = v->def->screen;
+    const enum display_status opened = window_create(&config, &window);
+    if (opened == DISPLAY_BAD_ARGUMENT)
+        return fail("voice", "%s", display_error());
+    if (opened != DISPLAY_OK)
         return fail("voice",
                     "%s; run it where there is a desktop, or record: --seconds 5 --poster FILE",
                     display_error());
@@ -206,8 +219,10 @@ int voice_live_window(const struct voice_live_def *def)
     int status = words_make(v);
     if (status == EXIT_SUCCESS)
         status = types_make(v);
+    if (status == EXIT_SUCCESS)
+        status = microphone_begin(def->source, &v->microphone);
     if (status == EXIT_SUCCESS &&
-        !voice_create(&def->hearing, microphone_rate_hz(def->microphone), &v->voice))
+        !voice_create(&def->hearing, microphone_rate_hz(v->microphone), &v->voice))
         status = fail("voice", "no memory for a voice");
     if (status == EXIT_SUCCESS)
         status = type_image_create("voice", def->picture[0], def->picture[1], &v->image);
@@ -221,11 +236,12 @@ int voice_live_window(const struct voice_live_def *def)
     voice_score_finish(&v->score);
     voice_destroy(v->voice);
     display_image_destroy(&v->image);
+    microphone_close(v->microphone);
     free(v);
     return status;
 }
 
-int voice_live_record(struct microphone *microphone, double seconds, struct voice_sound *out)
+static int record(struct microphone *microphone, double seconds, struct voice_sound *out)
 {
     enum { WAIT_US = 10000 };
     const double began_s = seconds_now();
@@ -246,4 +262,14 @@ int voice_live_record(struct microphone *microphone, double seconds, struct voic
         usleep(WAIT_US);
     }
     return EXIT_SUCCESS;
+}
+
+int voice_live_record(const char *source, double seconds, struct voice_sound *out)
+{
+    struct microphone *microphone = NULL;
+    int status = microphone_begin(source, &microphone);
+    if (status == EXIT_SUCCESS)
+        status = record(microphone, seconds, out);
+    microphone_close(microphone);
+    return status;
 }

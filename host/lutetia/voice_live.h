@@ -8,19 +8,20 @@
 #include <voice_sound.h>
 
 struct voice_live_def {
-    struct microphone *microphone;
+    const char *source; /* jack, pulse, or any */
     const char *text;
     struct font_face *face;
     struct voice_def hearing;
     struct voice_type_def type; /* its most size 0: as fits */
     int picture[2];
+    const char *screen; /* as window.h */
 };
 
 /* Until somebody closes the window. Each sound that begins shows the text's next word. Exit
  * statuses; what is wrong has been said. */
 int voice_live_window(const struct voice_live_def *def);
 
-/* So many seconds of it. */
-int voice_live_record(struct microphone *microphone, double seconds, struct voice_sound *out);
+/* So many seconds of a microphone, from jack, pulse or any. */
+int voice_live_record(const char *source, double seconds, struct voice_sound *out);
 
 #endif

@@ -3,6 +3,7 @@
 
 #include "exact.h"
 #include "renderer.h"
+#include "stage_loop.h"
 
 #include <video.h>
 
@@ -28,6 +29,7 @@ struct film {
     double px;
     int moments;
     struct video *video;
+    struct stage_loop loop, flat_loop; /* of `image` and of `flat`; loop 0: none */
 };
 
 struct stage_film_def stage_film_def_default(void)
@@ -104,6 +106,10 @@ static enum stage_status film_begin(struct film *f)
         status = stage_renderer_offscreen(def->way == STAGE_FILM_EGL ? STAGE_BY_EGL
                                                                      : STAGE_BY_OSMESA,
                                           width, height, &f->renderer);
+    if (status == STAGE_OK && def->loop_s > 0)
+        status = stage_loop_begin(&f->loop, def->loop_s, def->seconds, def->fps);
+    if (status == STAGE_OK && def->loop_s > 0)
+        status = stage_loop_begin(&f->flat_loop, def->loop_s, def->seconds, def->fps);
     return status == STAGE_OK && def->video ? video_begin(f) : status;
 }
 
@@ -150,10 +156,35 @@ static bool is_moment(const struct film *f, int frame, int last)
                        : frame == (int)lround((double)last * f->moments / (wanted - 1));
 }
 
+/* Writes a picture of film and frames; of a loop the first are kept instead, and the last faded
+ * into them. */
+static enum stage_status picture_write(struct film *f, int frame)
+{
+    const struct stage_film_def *def = f->def;
+    enum stage_status status = STAGE_OK;
+    char path[4096];
+    if (f->loop.loop) {
+        const bool written = stage_loop_take(&f->loop, frame, &f->image, &status);
+        if (status == STAGE_OK && f->flat.pixels)
+            stage_loop_take(&f->flat_loop, frame, &f->flat, &status);
+        if (status != STAGE_OK || !written)
+            return status;
+        frame -= f->loop.loop;
+    }
+    if (f->video &&
+        video_add(f->video, f->flat.pixels ? f->flat.pixels : f->image.pixels) != DISPLAY_OK)
+        return stage_fail(STAGE_BAD_FILE, "%s", display_error());
+    if (!def->frames)
+        return STAGE_OK;
+    const int length = snprintf(path, sizeof path, "%s/frame-%06d.png", def->frames, frame);
+    return length > 0 && (size_t)length < sizeof path
+               ? png_write(path, &f->image)
+               : stage_fail(STAGE_BAD_FILE, "the folder's name is too long");
+}
+
 static enum stage_status frame_put(struct film *f, int frame, int last)
 {
     const struct stage_film_def *def = f->def;
-    char path[4096];
     bool moment = is_moment(f, frame, last);
     if (!moment && !def->video && !def->frames && !def->over &&
         frame > 0) /* the first one has the view made */
@@ -161,28 +192,23 @@ static enum stage_status frame_put(struct film *f, int frame, int last)
     enum stage_status status = picture_draw(f);
     if (status == STAGE_OK && def->over)
         status = def->over(def->context, f->stage, &f->list, &f->image);
-    if (status == STAGE_OK && f->video &&
-        video_add(f->video, f->flat.pixels ? f->flat.pixels : f->image.pixels) != DISPLAY_OK)
-        status = stage_fail(STAGE_BAD_FILE, "%s", display_error());
-    if (status == STAGE_OK && def->frames) {
-        int length = snprintf(path, sizeof path, "%s/frame-%06d.png", def->frames, frame);
-        status = length > 0 && (size_t)length < sizeof path
-                     ? png_write(path, &f->image)
-                     : stage_fail(STAGE_BAD_FILE, "the folder's name is too long");
-    }
     while (status == STAGE_OK && f->strip.pixels && is_moment(f, frame, last))
         strip_add(f);
     if (status == STAGE_OK && moment && !f->strip.pixels) {
         f->moments++;
         status = png_write(def->still, &f->image);
     }
+    if (status == STAGE_OK && (def->video || def->frames)) /* last: a loop changes it */
+        status = picture_write(f, frame);
     return status;
 }
 
 static enum stage_status frames_run(struct film *f)
 {
     const struct stage_film_def *def = f->def;
-    int last = (int)lround(def->seconds * def->fps);
+    const int end = (int)lround(def->seconds * def->fps);
+    /* a loop's last picture is followed by its first: it is not written twice */
+    const int last = f->loop.loop ? f->loop.count + f->loop.loop - 1 : end;
     enum stage_status status = STAGE_OK;
     for (int frame = 0; frame <= last && status == STAGE_OK; frame++) {
         const double now_s = (double)frame / def->fps;
@@ -217,5 +243,7 @@ enum stage_status stage_film(struct stage *stage, const struct stage_film_def *d
     display_image_destroy(&f.image);
     display_image_destroy(&f.strip);
     display_image_destroy(&f.flat);
+    stage_loop_finish(&f.loop);
+    stage_loop_finish(&f.flat_loop);
     return status;
 }

@@ -36,8 +36,11 @@ struct stage_film_def {
      * usual: where its shorter side (of a strip: that of a moment) has more than 720, as many
      * times as much */
     double px;
-    int fps;                 /* 30 */
-    double seconds;          /* 5 */
+    int fps;        /* 30 */
+    double seconds; /* 5 */
+    /* above 0: the last seconds of film and frames are faded into the first, so that they can
+     * be repeated (stage_loop.h) */
+    double loop_s;
     enum stage_film_way way; /* EXACT */
     const char *filter;      /* for exact pictures; "gaussian-fast" */
     /* Called before each picture's steps, for whoever plays the stage; NULL: nobody does. */

@@ -488,9 +488,13 @@ enum stage_status stage_window_create(struct stage *stage, const struct stage_wi
     config.width_px = def->width_px;
     config.height_px = def->height_px;
     config.drawn_by_caller = true;
+    config.screen = def->screen;
     enum stage_status status = STAGE_OK;
-    if (window_create(&config, &w->window) != DISPLAY_OK)
-        status = stage_fail(STAGE_NO_DISPLAY, "%s", display_error());
+    const enum display_status opened = window_create(&config, &w->window);
+    if (opened != DISPLAY_OK)
+        status =
+            stage_fail(opened == DISPLAY_BAD_ARGUMENT ? STAGE_BAD_ARGUMENT : STAGE_NO_DISPLAY,
+                       "%s", display_error());
     if (status == STAGE_OK)
         status = stage_renderer_window(w->window, &w->renderer);
     if (status == STAGE_OK)

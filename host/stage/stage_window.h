@@ -33,6 +33,7 @@ struct stage_window_def {
     const char *save_path;   /* where the actor is saved and loaded; "stage.net" */
     const char *font;        /* the panel's font; "DejaVuSans" */
     double fps;              /* the most pictures a second; 60 */
+    const char *screen;      /* that the window fills, as window.h; NULL: a usual window */
     /* what the letters on the keyboard play, for the help: they do nothing else then; NULL:
      * they play nothing */
     const char *played;
@@ -60,7 +61,8 @@ struct stage_window_def {
 struct stage_window_def stage_window_def_default(void);
 
 struct stage_window;
-/* stage: borrowed. Errors: NO_DISPLAY, FAILED (no font), NO_MEMORY. */
+/* stage: borrowed. Errors: NO_DISPLAY, BAD_ARGUMENT (no such screen), FAILED (no font),
+ * NO_MEMORY. */
 enum stage_status stage_window_create(struct stage *stage, const struct stage_window_def *def,
                                       struct stage_window **out);
 /* Ends a recording, and destroys the window. NULL is fine. */

@@ -344,6 +344,45 @@ static void screens_are_not_exceeded(void **state)
     window_destroy(window);
 }
 
+/* A window that fills a screen, and one over all; a name of no screen is refused with those
+ * that there are. */
+static void windows_fill_a_screen_from_the_beginning(void **state)
+{
+    (void)state;
+    static const char *const wrong[] = {"0", "2", "-1", "x", "1x", "", "99999999999999999999"};
+    struct window_config config = window_config_default();
+    struct window *window;
+    int width, height;
+    config.title = "filled";
+    for (int i = 0; i < 2; i++) {
+        config.screen = i ? "all" : "1";
+        assert_int_equal(window_create(&config, &window), DISPLAY_OK);
+        window_size(window, &width, &height);
+        for (int k = 0; k < 100 && width != 800; k++) { /* the server tells by an event */
+            struct input_event event;
+            window_input_take(window, 0.05, &event);
+            window_size(window, &width, &height);
+        }
+        assert_int_equal(width, 800);
+        assert_int_equal(height, 600);
+        Window there = on_screen("filled"), root, child;
+        int x, y;
+        unsigned wide, high, border, depth;
+        assert_true(XGetGeometry(screen_display(), there, &root, &x, &y, &wide, &high, &border,
+                                 &depth));
+        assert_true(XTranslateCoordinates(screen_display(), there, root, 0, 0, &x, &y, &child));
+        assert_true(x == 0 && y == 0 && wide == 800 && high == 600);
+        window_destroy(window);
+    }
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        config.screen = wrong[i];
+        assert_int_equal(window_create(&config, &window), DISPLAY_BAD_ARGUMENT);
+        assert_null(window);
+        assert_non_null(strstr(display_error(), "there are 1 ("));
+        assert_non_null(strstr(display_error(), "800x600 at 0,0"));
+    }
+}
+
 static void wrong_arguments_are_refused(void **state)
 {
     (void)state;
@@ -389,6 +428,7 @@ int main(void)
         cmocka_unit_test(keys_and_closing_are_events),
         cmocka_unit_test(windows_are_apart),
         cmocka_unit_test(screens_are_not_exceeded),
+        cmocka_unit_test(windows_fill_a_screen_from_the_beginning),
         cmocka_unit_test(wrong_arguments_are_refused),
     };
     int failed = cmocka_run_group_tests(without, NULL, NULL);
