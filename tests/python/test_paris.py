@@ -111,6 +111,8 @@ def parts_and_turned_arrays():
     assert (paris.read(field, "u4", at=(2, 3), shape=(3, 4)) == whole[2:5, 3:7]).all()
     assert (paris.read(field, "u4", at=(2, 3)) == whole[2:, 3:]).all()
     paris.write(field, np.full((2, 2), 1000, "u4"), at=(4, 0))
+    for part in (np.zeros((2, 2), "u4"), np.zeros((0, 9), "u4")):
+        raises(ValueError, "say `at` to write a part", paris.write, field, part)
     whole[4:6, 0:2] = 1000
     assert (paris.read(field, "u4") == whole).all()
     # A context does not matter; lengths shorter than the element do.
@@ -145,7 +147,7 @@ def errors_are_exceptions():
     error = raises(paris.Error, "CM_u_add_2_1L: ", CM_u_add_2_1L, field, CM_no_field, 8)
     assert error.status == CM_error_call
     raises(paris.Error, "", CM_u_move_constant_1L, field, 1, 2000)
-    raises(paris.Error, "end_vector", paris.write, field, np.zeros((5, 4), "u1"))
+    raises(paris.Error, "end_vector", paris.write, field, np.zeros((5, 4), "u1"), at=(0, 0))
     raises(ValueError, "2 axes", paris.write, field, np.zeros(4, "u1"))
     raises(ValueError, "2 axes", paris.read, field, "u1", at=(1,), shape=(1, 1))
     raises(TypeError, "float16", paris.write, field, np.zeros((4, 4), "f2"))

@@ -282,14 +282,17 @@ def _transfer(what, field, array, at, length):
 def write(field, array, at=None, length=None):
     """Writes an array to a field of the current VP set, in NEWS order, whatever the context.
 
-    The array has as many axes as the VP set. Element k belongs to the processor at + k; `at` is the origin if it is not
-    given, and a part of the set may be written. The array's type chooses the field's: bool and unsigned integers (u), signed
+    The array has the VP set's shape; or `at` is given, and element k belongs to the processor at + k. The array's type chooses the field's: bool and unsigned integers (u), signed
     integers (s), f4 and f8 (f), c8 and c16 (c). `length` is the field's: bits of an integer (the field's own, at most
     the element's, if not given), or (s, e) of a float ((23, 8) or (52, 11) as the array has). The array is copied only if
     it is not contiguous.
     """
     import numpy
-    _transfer("write_to", field, numpy.ascontiguousarray(array), at, length)
+    array = numpy.ascontiguousarray(array)
+    whole = shape()
+    if at is None and array.ndim == len(whole) and array.shape != tuple(whole):
+        raise ValueError(f"the VP set has shape {tuple(whole)}, the array {array.shape}: say `at` to write a part")
+    _transfer("write_to", field, array, at, length)
 
 
 def read(field, dtype, at=None, shape=None, length=None, out=None):
