@@ -254,9 +254,8 @@ void window_wait(double wait_s)
         return;
     }
     window_x11_wait(waking.display, waking.descriptor, wait_s);
-    while (read(waking.descriptor, &count, sizeof count) > 0)
-        ;
-    glfw3.PollEvents();
+    const ssize_t got = read(waking.descriptor, &count, sizeof count);
+    (void)got; /* an event of the window's may have ended it */
 }
 
 /* ---- what others draw ---- */

@@ -266,17 +266,14 @@ static void windows_open(struct displays *d)
     }
 }
 
-/* Draws what is due, and takes the windows' events. Returns the seconds until more is due,
- * wait_s at most; negative where there is no window. The lock is not held. */
-static double windows_draw(struct displays *d, double wait_s)
+/* Draws what is due, and takes the windows' events. The lock is not held. */
+static void windows_draw(struct displays *d)
 {
-    bool any = false;
     for (int i = 0; i < DISPLAY_SCREENS; i++) {
         struct shown_window *window = &d->screens[i].window;
         bool open = true;
         if (!window->window)
             continue;
-        any = true;
         const enum display_status status = shown_window_turn(window, 0, &open);
         if (status == DISPLAY_OK && open)
             continue;
@@ -285,34 +282,36 @@ static double windows_draw(struct displays *d, double wait_s)
             d->status = fail("display", "%s", display_error());
         d->closed = d->closed || !open;
         pthread_mutex_unlock(&d->source.lock);
-        wait_s = 0;
     }
-    for (int i = 0; any && i < DISPLAY_SCREENS; i++)
-        if (d->screens[i].window.window)
-            wait_s = fmin(wait_s, shown_window_due_s(&d->screens[i].window));
-    return any ? wait_s : -1;
 }
 
-/* Waits until something happens, so many seconds at most. */
+/* The seconds until a window is to be drawn, so many at most; negative: there is no window. */
+static double windows_due_s(const struct displays *d, double most_s)
+{
+    double due_s = -1;
+    for (int i = 0; i < DISPLAY_SCREENS; i++)
+        if (d->screens[i].window.window)
+            due_s = fmin(due_s < 0 ? most_s : due_s, shown_window_due_s(&d->screens[i].window));
+    return due_s;
+}
+
+/* Waits until something happens, so many seconds at most. Events are asked for once: asking
+ * takes as many calls of the system as all else. */
 static void windows_turn(struct displays *d, double wait_s)
 {
     windows_open(d);
-    const double left_s = windows_draw(d, wait_s);
+    const double left_s = windows_due_s(d, wait_s);
     if (left_s < 0)
         usleep((useconds_t)(fmin(wait_s, OPENING_S) * 1e6));
-    else if (left_s > 0) {
+    else
         window_wait(left_s);
-        windows_draw(d, 0);
-    }
+    windows_draw(d);
 }
 
 static bool windows_stale(const struct displays *d)
 {
-    bool stale = false;
-    for (int i = 0; i < DISPLAY_SCREENS; i++)
-        if (d->screens[i].window.window)
-            stale = stale || shown_window_due_s(&d->screens[i].window) < INFINITY;
-    return stale;
+    const double due_s = windows_due_s(d, INFINITY);
+    return due_s >= 0 && due_s < INFINITY;
 }
 
 static void source_turn(void *context, double wait_s)
