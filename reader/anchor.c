@@ -219,18 +219,24 @@ static size_t place_after(size_t place, size_t at, size_t removed, size_t insert
     return stays_before ? at : at + inserted;
 }
 
+bool anchor_range_edit(size_t *begin, size_t *end, size_t at, size_t removed, size_t inserted)
+{
+    const bool empty = *begin == *end;
+    if (empty ? at < *begin && at + removed > *end
+              : removed && at <= *begin && at + removed >= *end)
+        return false;
+    *begin = place_after(*begin, at, removed, inserted, empty);
+    *end = place_after(*end, at, removed, inserted, true);
+    *end = *end < *begin ? *begin : *end;
+    return true;
+}
+
 bool reader_anchor_edit(struct reader_anchor *a, size_t at, size_t removed, size_t inserted)
 {
-    bool empty = a->begin == a->end;
-    bool gone = empty ? at < a->begin && at + removed > a->end
-                      : removed && at <= a->begin && at + removed >= a->end;
-    if (a->gone || gone) {
+    if (a->gone || !anchor_range_edit(&a->begin, &a->end, at, removed, inserted)) {
         a->gone = true;
         return false;
     }
-    a->begin = place_after(a->begin, at, removed, inserted, empty);
-    a->end = place_after(a->end, at, removed, inserted, true);
-    a->end = a->end < a->begin ? a->begin : a->end;
     a->bytes = a->bytes - removed + inserted;
     a->digest = 0; /* of a text that nobody has seen */
     return true;

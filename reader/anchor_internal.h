@@ -22,4 +22,7 @@ struct reader_anchor {
     char *headings;
 };
 
+/* As reader_anchor_edit() has it, of bytes begin..end alone. False: all of them are gone. */
+bool anchor_range_edit(size_t *begin, size_t *end, size_t at, size_t removed, size_t inserted);
+
 #endif

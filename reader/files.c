@@ -23,12 +23,14 @@ void reader_files_finish(struct reader_files *files)
     for (int i = 0; i < files->count; i++) {
         free(files->paths[i]);
         free(files->whole[i]);
+        free(files->texts[i].text);
     }
     for (int i = 0; i < files->refused_count; i++)
         free(files->refused[i]);
     free(files->paths);
     free(files->whole);
     free(files->from);
+    free(files->texts);
     *files = (struct reader_files){0};
 }
 
@@ -42,14 +44,32 @@ static enum reader_status path_add(struct reader_files *files, char *path, char 
         !array_reserve(&files->whole, &files->whole_capacity, files->count + 1,
                        sizeof *files->whole) ||
         !array_reserve(&files->from, &files->from_capacity, files->count + 1,
-                       sizeof *files->from)) {
+                       sizeof *files->from) ||
+        !array_reserve(&files->texts, &files->texts_capacity, files->count + 1,
+                       sizeof *files->texts)) {
         free(path);
         free(whole);
         return no_memory();
     }
     files->paths[files->count] = path;
     files->whole[files->count] = whole;
+    files->texts[files->count] = (struct reader_bytes){0};
     files->from[files->count++] = from;
+    return READER_OK;
+}
+
+/* Keeps what the last source says. */
+static enum reader_status text_keep(struct reader_files *files, const char *utf8, size_t bytes)
+{
+    if (!files->keep)
+        return READER_OK;
+    char *copy = malloc(bytes + 1);
+    if (!copy)
+        return no_memory();
+    if (bytes)
+        memcpy(copy, utf8, bytes);
+    copy[bytes] = '\0';
+    files->texts[files->count - 1] = (struct reader_bytes){copy, bytes};
     return READER_OK;
 }
 
@@ -125,11 +145,32 @@ static const char *place_wrong(const struct reader_files *files, int source, con
     return files->count >= READER_FILES_MAX ? "a document has up to 1000 files" : NULL;
 }
 
+/* What is held of a file; NULL: nothing. */
+static const struct reader_bytes *held_find(const struct reader_files *files, const char *whole)
+{
+    for (int i = 0; files->held && i < files->held->count; i++)
+        if (files->held->whole[i] && files->held->texts[i].text &&
+            strcmp(files->held->whole[i], whole) == 0)
+            return &files->held->texts[i];
+    return NULL;
+}
+
 /* Its bytes; NULL: *why says why not. */
 static const char *text_read(struct reader_files *files, struct included *in)
 {
     const double left = READER_BYTES_MAX - files->bytes;
     const char *why = NULL;
+    if (held_find(files, in->whole)) {
+        const struct reader_bytes *held = held_find(files, in->whole);
+        in->text = (double)held->bytes <= left ? malloc(held->bytes + 1) : NULL;
+        if (!in->text)
+            return (double)held->bytes <= left ? "there is no memory for it"
+                                               : "what is included has up to 32 MB";
+        memcpy(in->text, held->text, held->bytes + 1);
+        in->bytes = held->bytes;
+        files->bytes += (double)in->bytes;
+        return NULL;
+    }
     in->text = input_file_read(in->whole, left > 0 ? (size_t)left : 0, &in->bytes, &why);
     files->bytes += (double)in->bytes;
     return in->text ? NULL : errno == EFBIG ? "what is included has up to 32 MB" : why;
@@ -195,6 +236,8 @@ static enum reader_status include_take(struct reader_files *files, struct reader
     char *path = in.path, *whole = in.whole;
     in.path = in.whole = NULL;
     enum reader_status status = path_add(files, path, whole, source);
+    if (status == READER_OK)
+        status = text_keep(files, in.text, in.bytes);
     if (status == READER_OK)
         status = reader_document_add(d, in.text, in.bytes);
     if (status != READER_OK && status != READER_NO_MEMORY) {
@@ -270,6 +313,8 @@ enum reader_status reader_files_add(struct reader_files *files, struct reader_do
     char *copy = strdup(path);
     enum reader_status status =
         path_add(files, copy, strcmp(path, "-") == 0 ? NULL : realpath(path, NULL), -1);
+    if (status == READER_OK)
+        status = text_keep(files, utf8, bytes);
     if (status == READER_OK)
         status = reader_document_add(d, utf8, bytes);
     const int own = d->blocks_count;

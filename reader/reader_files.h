@@ -25,6 +25,11 @@ enum {
     READER_REFUSED_MAX = 100
 };
 
+struct reader_bytes {
+    char *text; /* with a zero behind it, which is not counted */
+    size_t bytes;
+};
+
 struct reader_files {
     char **paths; /* of each of the document's sources */
     int count;
@@ -34,8 +39,13 @@ struct reader_files {
     /* What is included whence. */
     char **whole; /* the same paths from the root on, without links; NULL: there is no file */
     int *from;    /* the source that includes it; -1: it is named */
-    int paths_capacity, whole_capacity, from_capacity;
+    int paths_capacity, whole_capacity, from_capacity, texts_capacity;
     double bytes;
+    /* Who edits a document sets `keep`: then these are the bytes of each source. */
+    bool keep;
+    struct reader_bytes *texts;
+    /* Files that are included are what they are there; NULL: as on the disk. Borrowed. */
+    const struct reader_files *held;
 };
 
 /* Adds what a named file says behind what there is, and what it includes in its places. path:

@@ -77,6 +77,17 @@ bool reader_remarks_read_only(const struct reader_remarks *remarks);
  * NO_MEMORY; what was found is known. */
 enum reader_status reader_remarks_find(struct reader_remarks *remarks, const char *plain,
                                        size_t bytes);
+/* Bytes at..at + removed of the text that they were found in become `inserted` others: each
+ * goes with its letters, or is an orphan when all of them are gone. Its anchor is what it was:
+ * where the edit is not saved, it is found at its place again. */
+void reader_remarks_edit(struct reader_remarks *remarks, size_t at, size_t removed,
+                         size_t inserted);
+/* It is where it was before an edit that is undone. */
+void reader_remarks_place(struct reader_remarks *remarks, int i, size_t begin, size_t end,
+                          bool orphan);
+/* The text is saved: all that are in it are anchored anew, there. Errors: FAILED, NO_MEMORY. */
+enum reader_status reader_remarks_saved(struct reader_remarks *remarks, const char *plain,
+                                        size_t bytes);
 /* Of what: kind, text, rgba, width, points, and made_s where it was made before (0: now).
  * Errors: BAD_ARGUMENT, TOO_LARGE, FAILED (it cannot
  * be written), NO_MEMORY; there is then none more. */

@@ -112,6 +112,24 @@ bool reader_view_note_open(const struct reader_view *view, int note);
 /* The passage in which it is open; -1: it is closed. */
 int reader_view_note_passage(const struct reader_view *view, int note);
 
+/* A caret before a byte, or behind the one before it: a line's height, no width. False: it is
+ * not seen. */
+bool reader_view_caret(struct reader_view *view, size_t byte, bool before,
+                       struct reader_box *out);
+/* The place for a caret that is nearest to a point. *before: as above. False: nothing is
+ * seen. */
+bool reader_view_caret_at(struct reader_view *view, double x, double y, size_t *byte,
+                          bool *before);
+
+/* One block of the document, a passage, has been changed in place: bytes at..at + removed of
+ * the plain text have become `inserted` others. It alone is set anew. Errors: as
+ * reader_view_look(). */
+enum reader_status reader_view_edited(struct reader_view *view, int block, size_t at,
+                                      size_t removed, size_t inserted);
+/* Notes that are open in a view of a document that another one has come for are open, where as
+ * many are called. */
+enum reader_status reader_view_as(struct reader_view *view, const struct reader_view *before);
+
 /* How often passages were set since it was made: what "only what is seen" costs. */
 long reader_view_set_count(const struct reader_view *view);
 

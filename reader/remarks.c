@@ -1,4 +1,5 @@
 /* remarks.c - see reader_remarks.h. */
+#include "anchor_internal.h"
 #include "remarks_internal.h"
 
 #include <stdlib.h>
@@ -107,6 +108,39 @@ enum reader_status reader_remarks_find(struct reader_remarks *remarks, const cha
             reader_anchor_find(row->anchor, plain, bytes, &row->remark.begin, &row->remark.end);
         row->remark.orphan = found == READER_ANCHOR_ORPHAN;
         if (found == READER_ANCHOR_MOVED && status == READER_OK)
+            status = anchor_renew(remarks, row, plain, bytes);
+    }
+    return status;
+}
+
+/* ---- edits ---- */
+
+void reader_remarks_edit(struct reader_remarks *remarks, size_t at, size_t removed,
+                         size_t inserted)
+{
+    for (int i = 0; i < remarks->rows.count; i++) {
+        struct reader_remark *r = &remarks->rows.rows[i].remark;
+        if (!r->orphan)
+            r->orphan = !anchor_range_edit(&r->begin, &r->end, at, removed, inserted);
+    }
+}
+
+void reader_remarks_place(struct reader_remarks *remarks, int i, size_t begin, size_t end,
+                          bool orphan)
+{
+    struct reader_remark *r = &remarks->rows.rows[i].remark;
+    r->begin = begin;
+    r->end = end;
+    r->orphan = orphan;
+}
+
+enum reader_status reader_remarks_saved(struct reader_remarks *remarks, const char *plain,
+                                        size_t bytes)
+{
+    enum reader_status status = READER_OK;
+    for (int i = 0; i < remarks->rows.count && status == READER_OK; i++) {
+        struct remark_row *row = &remarks->rows.rows[i];
+        if (!row->remark.orphan)
             status = anchor_renew(remarks, row, plain, bytes);
     }
     return status;

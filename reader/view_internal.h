@@ -50,9 +50,13 @@ enum reader_status view_load(struct reader_view *view, int from, int to);
 void view_unload(struct reader_view *view); /* all */
 /* Heights are estimates again. */
 void view_forget(struct reader_view *view);
+/* A passage that is loaded is set anew, where it is. */
+enum reader_status view_again(struct reader_view *view, int passage);
 double view_full_px(const struct reader_view *view, int passage);
 
 /* view_point.c */
+/* The document's byte that is a paragraph's, or the next one that it has; -1: it has none. */
+long view_byte_of(const struct made_passage *made, struct page_place place);
 /* The passage of a byte; of a closed note: where it is called. */
 int view_passage_of(const struct reader_view *view, size_t byte);
 /* From the passage's upper edge to the upper and the lower edge of the line that a byte is in.

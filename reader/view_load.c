@@ -65,6 +65,15 @@ static void made_free(struct made_passage *made)
     *made = (struct made_passage){0};
 }
 
+/* How many paragraphs of the flow it is: notes in the margin are none. */
+static int flow_count(const struct reader_view *view, const struct made_passage *made)
+{
+    int count = 0;
+    for (int i = 0; i < made->count; i++)
+        count += made->paragraphs[i].note < 0 || view->pages->setup.notes_px <= 0;
+    return count;
+}
+
 static void made_drop(struct reader_view *view, struct made_passage *made)
 {
     for (int i = made->count - 1; i >= 0; i--) {
@@ -99,34 +108,46 @@ void view_unload(struct reader_view *view)
 
 /* ---- loading ---- */
 
-/* The passage beside those that are loaded. */
-static enum reader_status passage_load(struct reader_view *view, int passage)
+/* A passage's paragraphs, from that place of the flow on; nothing where it fails. */
+static enum reader_status passage_make(struct reader_view *view, int passage, int at,
+                                       struct made_passage *made)
 {
     struct reader_pages *p = view->pages;
-    struct view_passage *to = &view->passages[passage];
-    struct made_passage made;
-    const bool front = passage < view->begin;
-    if (!array_reserve(&view->loaded, &view->loaded_capacity, view->end - view->begin + 1,
-                       sizeof *view->loaded))
-        return pages_no_memory();
+    const struct view_passage *to = &view->passages[passage];
     memset(p->noted, 0, (size_t)view->document->notes_count * sizeof *p->noted);
-    p->at = front ? 0 : view->paragraphs;
+    p->at = at;
     p->opened = view->opened;
     p->stage_more = view->stage_more;
     p->passage = passage + 1;
     p->behind_head =
         !to->first || view->document->blocks[to->first - 1].kind != READER_PARAGRAPH;
-    const int before = p->at;
     enum reader_status status = pages_passage_add(p, to->first, to->blocks);
-    made = view->making;
+    *made = view->making;
     view->making = (struct made_passage){0};
-    if (status != READER_OK) {
-        for (; p->at > before; p->at--)
-            page_paragraph_remove(p->text, page_paragraph_at(p->text, 0, p->at - 1));
-        made_free(&made);
-        return status;
+    if (status == READER_OK) {
+        view->paragraphs += p->at - at;
+        view->passages[passage].version = ++view->versions;
+        view->set_count++;
+        return READER_OK;
     }
-    view->paragraphs += p->at - before;
+    for (; p->at > at; p->at--)
+        page_paragraph_remove(p->text, page_paragraph_at(p->text, 0, p->at - 1));
+    made_free(made);
+    return status;
+}
+
+/* The passage beside those that are loaded. */
+static enum reader_status passage_load(struct reader_view *view, int passage)
+{
+    struct made_passage made;
+    const bool front = passage < view->begin;
+    if (!array_reserve(&view->loaded, &view->loaded_capacity, view->end - view->begin + 1,
+                       sizeof *view->loaded))
+        return pages_no_memory();
+    enum reader_status status =
+        passage_make(view, passage, front ? 0 : view->paragraphs, &made);
+    if (status != READER_OK)
+        return status;
     if (front) {
         memmove(view->loaded + 1, view->loaded,
                 (size_t)(view->end - view->begin) * sizeof *view->loaded);
@@ -135,8 +156,6 @@ static enum reader_status passage_load(struct reader_view *view, int passage)
     } else {
         view->loaded[view->end++ - view->begin] = made;
     }
-    to->version = ++view->versions;
-    view->set_count++;
     return READER_OK;
 }
 
@@ -215,4 +234,20 @@ enum reader_status view_load(struct reader_view *view, int from, int to)
     if (status == READER_OK)
         far_drop(view, from, to);
     return status;
+}
+
+enum reader_status view_again(struct reader_view *view, int passage)
+{
+    struct made_passage *own = &view->loaded[passage - view->begin], made;
+    int at = 0;
+    for (int i = view->begin; i < passage; i++)
+        at += flow_count(view, &view->loaded[i - view->begin]);
+    made_drop(view, own);
+    enum reader_status status = passage_make(view, passage, at, &made);
+    if (status != READER_OK) {
+        view_unload(view);
+        return status;
+    }
+    *own = made;
+    return passage_measure(view, passage);
 }

@@ -21,6 +21,20 @@ static long byte_of(const struct made_paragraph *p, int byte)
     return last;
 }
 
+static const struct made_paragraph *paragraph_of(const struct made_passage *made, int id)
+{
+    for (int i = 0; i < made->count; i++)
+        if (made->paragraphs[i].id == id)
+            return &made->paragraphs[i];
+    return NULL;
+}
+
+long view_byte_of(const struct made_passage *made, struct page_place place)
+{
+    const struct made_paragraph *paragraph = paragraph_of(made, place.paragraph);
+    return paragraph ? byte_of(paragraph, place.byte) : -1;
+}
+
 /* Where a byte of the document stands; false: not in this passage. */
 static bool place_of(const struct made_passage *made, size_t byte, struct page_place *place)
 {
@@ -34,14 +48,6 @@ static bool place_of(const struct made_passage *made, size_t byte, struct page_p
             return true;
         }
     return false;
-}
-
-static const struct made_paragraph *paragraph_of(const struct made_passage *made, int id)
-{
-    for (int i = 0; i < made->count; i++)
-        if (made->paragraphs[i].id == id)
-            return &made->paragraphs[i];
-    return NULL;
 }
 
 /* The note whose block it is. */

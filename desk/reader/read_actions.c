@@ -1,6 +1,13 @@
 /* read_actions.c - actions, their keys, the menu. */
 #include "read_desk.h"
 
+/* Where the document is edited, the same keys select words. */
+static void column_step(struct read_desk *d, guint key, double em)
+{
+    if (!read_edit_key(d, key, GDK_CONTROL_MASK | GDK_SHIFT_MASK))
+        read_look_column(d, d->column_em + em);
+}
+
 #define ACTION(name, does)                                                                     \
     static void name(GSimpleAction *action, GVariant *value, gpointer data)                    \
     {                                                                                          \
@@ -23,6 +30,7 @@ static void select_all(struct read_desk *d)
 {
     if (d->document)
         d->selected = (struct read_range){0, d->document->plain_bytes};
+    read_edit_select(d, d->selected);
     read_page_changed(d);
     read_actions_enable(d);
 }
@@ -59,13 +67,17 @@ ACTION(search_before, read_search_step(d, false))
 ACTION(larger, read_look_size(d, d->size_px *(1 + SIZE_STEP_PERCENT / 100.0)))
 ACTION(smaller, read_look_size(d, d->size_px / (1 + SIZE_STEP_PERCENT / 100.0)))
 ACTION(usual, read_look_size(d, d->options.size_px))
-ACTION(wider, read_look_column(d, d->column_em + COLUMN_STEP))
-ACTION(narrower, read_look_column(d, d->column_em - COLUMN_STEP))
+ACTION(wider, column_step(d, GDK_KEY_Right, COLUMN_STEP))
+ACTION(narrower, column_step(d, GDK_KEY_Left, -COLUMN_STEP))
 ACTION(dark, read_look_theme(d, !d->dark))
 ACTION(copy, copy_selected(d))
 ACTION(all, select_all(d))
-ACTION(undo, read_remarks_undo(d, false))
-ACTION(redo, read_remarks_undo(d, true))
+ACTION(edit, read_edit_toggle(d))
+ACTION(save, read_save(d))
+ACTION(cut, read_edit_cut(d))
+ACTION(paste, read_edit_paste(d))
+ACTION(undo, (read_edit_on(d) ? read_edit_undo : read_remarks_undo)(d, false))
+ACTION(redo, (read_edit_on(d) ? read_edit_undo : read_remarks_undo)(d, true))
 ACTION(highlight, read_keys_key(d, GDK_KEY_h, 0))
 ACTION(note, read_keys_key(d, GDK_KEY_n, 0))
 ACTION(pen, read_keys_key(d, GDK_KEY_d, 0))
@@ -92,6 +104,10 @@ static const GActionEntry entries[] = {
     {.name = "dark", .activate = dark},
     {.name = "copy", .activate = copy},
     {.name = "all", .activate = all},
+    {.name = "edit", .activate = edit},
+    {.name = "save", .activate = save},
+    {.name = "cut", .activate = cut},
+    {.name = "paste", .activate = paste},
     {.name = "undo", .activate = undo},
     {.name = "redo", .activate = redo},
     {.name = "highlight", .activate = highlight},
@@ -115,7 +131,12 @@ static const struct desk_row menu_rows[] = {
     {"win.search-next", "Next hit", "<Control>g"},
     {"win.search-before", "Hit before", "<Control><Shift>g"},
     {NULL, NULL, NULL},
+    {"win.edit", "Edit, or end editing", "F2"},
+    {"win.save", "Save", "<Control>s"},
+    {NULL, NULL, NULL},
+    {"win.cut", "Cut", "<Control>x"},
     {"win.copy", "Copy", "<Control>c"},
+    {"win.paste", "Paste", "<Control>v"},
     {"win.all", "Select all", "<Control>a"},
     {NULL, NULL, NULL},
     {"win.undo", "Undo", "<Control>z"},
@@ -162,11 +183,15 @@ void read_actions_add(struct read_desk *d)
 
 void read_actions_enable(struct read_desk *d)
 {
-    const struct desk_state states[] = {{"back", read_document_can(d, false)},
-                                        {"forward", read_document_can(d, true)},
-                                        {"undo", read_remarks_can(d, false)},
-                                        {"redo", read_remarks_can(d, true)},
-                                        {"copy", d->selected.begin < d->selected.end}};
+    const struct desk_state states[] = {
+        {"back", read_document_can(d, false)},
+        {"forward", read_document_can(d, true)},
+        {"undo", (read_edit_on(d) ? read_edit_can : read_remarks_can)(d, false)},
+        {"redo", (read_edit_on(d) ? read_edit_can : read_remarks_can)(d, true)},
+        {"save", read_save_needed(d)},
+        {"paste", read_edit_on(d)},
+        {"cut", read_edit_on(d) && d->selected.begin < d->selected.end},
+        {"copy", d->selected.begin < d->selected.end}};
     if (d->window)
         desk_frame_enable(d->window, states, G_N_ELEMENTS(states));
 }

@@ -12,6 +12,7 @@
  *     read_list.c      their list
  *     read_ink.c       ink
  *     read_spots.c     spots that are taken out of it
+ *     read_edit.c, read_edit_keys.c, read_edit_im.c, read_save.c  editing: read_edit.h
  *     read_watch.c     files that other programs change
  *     read_text.c      words
  *     read_page.c      the page: a widget that shows a reader_view
@@ -73,6 +74,8 @@ enum read_tool {
 
 struct read_tiles;
 struct read_stages;
+struct read_editing;
+struct reader_edit_change;
 struct read_play;
 
 struct read_desk {
@@ -93,6 +96,8 @@ struct read_desk {
     /* the page */
     struct read_tiles *tiles;
     struct read_stages *stages;
+    struct read_editing *editing;
+    GtkWidget *replace_box, *replace_entry;
     GArray *hits; /* struct read_range */
     int hit;      /* the current one; -1: none */
     struct read_range selected;
@@ -146,6 +151,8 @@ struct read_desk {
     bool (*step)(struct read_desk *d, bool forward); /* read_keys_step() */
     void (*resized)(struct read_desk *d, int width, int height);
     void (*say)(struct read_desk *d, const char *text);
+    void (*titled)(struct read_desk *d);   /* the title may be other */
+    void (*refilled)(struct read_desk *d); /* headings may be other */
 };
 
 /* read_look.c */
@@ -176,6 +183,8 @@ void read_stages_forget(struct read_desk *d); /* the document is another one */
 /* Behind that, where it is the same document with other text: programs that were running, or
  * were not compiled, are compiled and run anew. Each is told by its place among programs. */
 void read_stages_again(struct read_desk *d);
+/* It is another one after an edit: those whose scripts are what they were go on. */
+void read_stages_follow_document(struct read_desk *d, const struct reader_document *before);
 void read_stages_finish(struct read_desk *d); /* with the page: all end */
 void read_stages_destroy(struct read_stages *stages);
 void read_stages_changed(struct read_desk *d); /* others may be seen, or elsewhere */
@@ -262,6 +271,45 @@ void read_document_finish(struct read_desk *d);
 /* Its files anew, as another program has left them: the line that is being read stays, and so
  * do notes. */
 void read_document_reload(struct read_desk *d);
+
+/* What an edit has made of the document is shown. */
+void read_document_edited(struct read_desk *d, const struct reader_edit_change *change);
+
+/* read_edit.c */
+struct read_editing *read_edit_create(void);
+void read_edit_destroy(struct read_editing *editing);
+void read_edit_document(struct read_desk *d); /* the document is another one */
+bool read_edit_on(const struct read_desk *d);
+void read_edit_toggle(struct read_desk *d);
+void read_edit_select(struct read_desk *d, struct read_range range); /* where it is on */
+void read_edit_type(struct read_desk *d, const char *text);
+void read_edit_undo(struct read_desk *d, bool redo);
+bool read_edit_can(const struct read_desk *d, bool redo);
+void read_edit_cut(struct read_desk *d);
+void read_edit_paste(struct read_desk *d);
+/* The hit, or all. */
+void read_edit_replace(struct read_desk *d, const char *text, bool all);
+
+/* read_edit_keys.c: false: it is none of theirs. */
+bool read_edit_key(struct read_desk *d, guint key, GdkModifierType state);
+bool read_edit_press(struct read_desk *d, double x, double y, int times, bool select);
+bool read_edit_drag(struct read_desk *d, double x, double y);
+
+/* read_edit_im.c */
+void read_edit_keys_are(struct read_desk *d, GtkEventController *keys); /* of the page */
+void read_edit_draw(struct read_desk *d, GtkSnapshot *snapshot);
+void read_edit_preedit(struct read_desk *d, const char *text); /* as an input method has it */
+char *read_edit_told(struct read_desk *d); /* as lines that g_free() frees */
+
+/* read_save.c */
+bool read_save(struct read_desk *d); /* false: it was said why not */
+bool read_save_needed(const struct read_desk *d);
+void read_save_soon(struct read_desk *d);    /* there was an edit */
+void read_save_foreign(struct read_desk *d); /* a file may have been changed */
+void read_save_recover(struct read_desk *d); /* what a program that was killed has left */
+void read_save_discard(struct read_desk *d);
+bool read_save_closes(struct read_desk *d); /* false: it is asked first */
+bool read_save_answer(struct read_desk *d, int answer);
 
 /* read_text.c */
 /* The text of bytes; g_free() it. */

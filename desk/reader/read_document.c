@@ -3,6 +3,7 @@
 
 #include <beside.h>
 #include <input_file.h>
+#include <reader_edit.h>
 #include <string.h>
 #include <user_folder.h>
 
@@ -49,6 +50,7 @@ static struct reader_document *files_read(struct read_desk *d, struct reader_fil
 {
     struct reader_document *document = NULL;
     bool good = reader_document_create(&document) == READER_OK;
+    files->keep = true;
     for (guint i = 0; i < d->options.paths->len && good; i++) {
         const char *path = g_ptr_array_index(d->options.paths, i);
         size_t bytes = 0;
@@ -155,9 +157,11 @@ bool read_document_open(struct read_desk *d)
     char *notes = notes_file(d);
     read_remarks_open(d, notes);
     g_free(notes);
+    read_edit_document(d);
     lost_tell(d);
     d->document_shown(d);
     read_page_changed(d);
+    read_save_recover(d);
     return true;
 }
 
@@ -188,12 +192,48 @@ void read_document_reload(struct read_desk *d)
         else
             reader_view_go_part(d->view, all > 0 ? above / all : 0);
         read_remarks_find(d);
+        read_edit_document(d);
         lost_tell(d);
         d->document_shown(d);
         read_page_changed(d);
         read_stages_again(d);
     }
     reader_anchor_destroy(anchor);
+}
+
+/* Another document: the line that is being read stays where it is. */
+static void view_replace(struct read_desk *d, const struct reader_edit_change *change)
+{
+    struct reader_box box = {0};
+    struct reader_view *view;
+    size_t top = 0;
+    read_look_set(d); /* there may be notes */
+    reader_view_top(d->view, &top);
+    reader_view_caret(d->view, top, false, &box);
+    if (reader_view_create(d->document, &d->setup, &view) != READER_OK) {
+        d->say(d, reader_error());
+        d->view = NULL; /* of a document that goes */
+        return;
+    }
+    reader_view_as(view, d->view);
+    reader_view_destroy(d->view);
+    d->view = view;
+    reader_view_go(view, reader_edit_moved(change, top), box.y);
+    read_stages_follow_document(d, change->before);
+    read_tiles_forget(d->tiles);
+}
+
+void read_document_edited(struct read_desk *d, const struct reader_edit_change *change)
+{
+    if (change->before) {
+        view_replace(d, change);
+        return;
+    }
+    for (int i = 0; i < change->moves_count; i++)
+        if (reader_view_edited(d->view, change->block, change->moves[i].at,
+                               change->moves[i].removed,
+                               change->moves[i].inserted) != READER_OK)
+            d->say(d, reader_error());
 }
 
 void read_document_finish(struct read_desk *d)
@@ -240,6 +280,10 @@ static bool other_open(struct read_desk *d, GPtrArray *paths)
     GPtrArray *before = d->options.paths;
     if (paths == before)
         return true;
+    if (read_save_needed(d)) {
+        d->say(d, _("Save what was edited first: Ctrl+S."));
+        return false;
+    }
     d->options.paths = g_ptr_array_ref(paths);
     const bool good = read_document_open(d);
     g_ptr_array_unref(good ? before : d->options.paths);

@@ -142,7 +142,7 @@ void read_hand_press(struct read_desk *d, double x, double y, int times)
     d->glide_px = d->speed_px_s = 0;
     d->dragging = false;
     gtk_widget_grab_focus(d->page);
-    if (read_stages_press(d, x, y))
+    if (read_stages_press(d, x, y) || read_edit_press(d, x, y, times, false))
         return;
     if (!d->view || !reader_view_hit(d->view, x, y, &byte, &inside))
         return;
@@ -168,6 +168,8 @@ void read_hand_move(struct read_desk *d, double x, double y)
         gtk_widget_set_cursor_from_name(d->page, "default");
         return;
     }
+    if (read_edit_drag(d, x, y))
+        return;
     if (!d->view || !reader_view_hit(d->view, x, y, &byte, &inside))
         return;
     if (d->dragging) {
@@ -190,7 +192,8 @@ void read_hand_release(struct read_desk *d, double x, double y)
     size_t byte;
     if (read_stages_release(d, x, y))
         return;
-    const bool clicked = d->dragging && d->selected.begin == d->selected.end;
+    const bool clicked =
+        d->dragging && !read_edit_on(d) && d->selected.begin == d->selected.end;
     d->dragging = false;
     if (clicked && d->view && reader_view_hit(d->view, x, y, &byte, &inside) && inside &&
         !read_document_follow(d, byte)) {
@@ -208,6 +211,15 @@ static void pressed(GtkGestureClick *click, int times, double x, double y, struc
     GdkEvent *event = gtk_event_controller_get_current_event(controller);
     if (d->tool == READ_TOOL_READ) {
         d->pressure = read_ink_pen(d, now_ms, event, 1);
+        const GdkModifierType state = gtk_event_controller_get_current_event_state(controller);
+        bool inside;
+        size_t byte;
+        if (times == 1 && (state & GDK_SHIFT_MASK) && read_edit_press(d, x, y, 1, true))
+            return;
+        if ((state & GDK_CONTROL_MASK) && read_edit_on(d) &&
+            reader_view_hit(d->view, x, y, &byte, &inside) && inside &&
+            read_document_follow(d, byte))
+            return;
         read_hand_press(d, x, y, times);
         return;
     }

@@ -72,6 +72,7 @@ static void desk_begin(struct read_desk *d)
     d->focused = G_MAXSIZE;
     d->tiles = read_tiles_create();
     d->stages = read_stages_create(d);
+    d->editing = read_edit_create();
 }
 
 static void desk_finish(struct read_desk *d)
@@ -79,6 +80,7 @@ static void desk_finish(struct read_desk *d)
     read_heard_finish(d);
     read_play_destroy(d->play);
     read_watch_end(d);
+    read_edit_destroy(d->editing);
     read_remarks_finish(d);
     read_document_finish(d);
     desk_pen_destroy(d->pen);

@@ -71,6 +71,7 @@ static void choose(struct read_desk *d, const struct input *i)
     if (!reader_document_search(d->document, i->text, 0, true, &d->selected.begin,
                                 &d->selected.end))
         d->say(d, i->text);
+    read_edit_select(d, d->selected);
     read_page_changed(d);
 }
 
@@ -89,6 +90,43 @@ static void key(struct read_desk *d, const struct input *i)
     const guint value = gdk_keyval_from_name(i->text);
     if (value == GDK_KEY_VoidSymbol || !read_keys_key(d, value, 0))
         d->say(d, i->text);
+}
+
+/* Letters as an input method gives them. */
+static void type(struct read_desk *d, const struct input *i)
+{
+    read_edit_type(d, i->text);
+}
+
+static void preedit(struct read_desk *d, const struct input *i)
+{
+    read_edit_preedit(d, i->text);
+}
+
+/* A key while the document is edited: "Control+Shift+Left". */
+static void strike(struct read_desk *d, const struct input *i)
+{
+    const char *plus = strrchr(i->text, '+');
+    GdkModifierType state = 0;
+    state |= strstr(i->text, "Shift+") ? GDK_SHIFT_MASK : 0;
+    state |= strstr(i->text, "Control+") ? GDK_CONTROL_MASK : 0;
+    if (!read_edit_key(d, gdk_keyval_from_name(plus ? plus + 1 : i->text), state))
+        d->say(d, i->text);
+}
+
+static void replace(struct read_desk *d, const struct input *i)
+{
+    read_edit_replace(d, i->text, true);
+}
+
+/* To the question whether what was edited is saved: save, discard, stay. */
+static void answer(struct read_desk *d, const struct input *i)
+{
+    const int response = g_str_equal(i->text, "save")      ? GTK_RESPONSE_YES
+                         : g_str_equal(i->text, "discard") ? GTK_RESPONSE_NO
+                                                           : GTK_RESPONSE_CANCEL;
+    if (!read_save_answer(d, response))
+        d->say(d, "nothing was asked");
 }
 
 static void size(struct read_desk *d, const struct input *i)
@@ -209,20 +247,21 @@ static void tell(struct read_desk *d, const struct input *i)
     }
     char *line = g_strndup(d->document->plain + top, 40),
          *selected = read_text_of(d, d->selected), *stages = read_stages_told(d),
-         *order = played_told(d);
+         *order = played_told(d), *editing = read_edit_told(d);
     char *told = g_strdup_printf(
         "top %zu\nline %s\nshown %d\nabove %.0f\nall %.0f\nset %ld\npainted %ld\nhits %u\nhit "
         "%d\n"
         "open %d\nselected %s\nway %u of %u\nfile %s\nheard %u\nremarks %d\norphans %d\nink "
-        "%.1f %.1f\nplayed%s\n%s",
+        "%.1f %.1f\nplayed%s\n%s%s",
         top, g_strdelimit(line, "\n", ' '), count, above, all, reader_view_set_count(d->view),
         read_tiles_painted(d->tiles), d->hits->len, d->hit, opened, selected, d->way_at,
         d->way->len, d->files.count ? d->files.paths[block ? block->source : 0] : "",
-        d->heard->len, remarks, orphans, ink_x, ink_y, order, stages);
+        d->heard->len, remarks, orphans, ink_x, ink_y, order, editing, stages);
     if (!g_file_set_contents(i->text, told, -1, NULL))
         d->say(d, i->text);
     g_free(told);
     g_free(order);
+    g_free(editing);
     g_free(stages);
     g_free(selected);
     g_free(line);
@@ -254,15 +293,16 @@ static void end(struct read_desk *d, const struct input *i)
 }
 
 static const struct word words[] = {
-    {"down", 3, down},     {"move", 2, move},      {"up", 2, up},
-    {"scroll", 1, scroll}, {"glide", 1, glide},    {"key", -1, key},
-    {"size", 1, size},     {"column", 1, column},  {"window", 2, window},
-    {"dark", 1, dark},     {"search", -1, search}, {"follow", -1, follow},
-    {"go", -1, go},        {"action", -1, action}, {"picture", -1, picture},
-    {"tell", -1, tell},    {"press", 3, press},    {"drag", 3, drag},
-    {"lift", 2, lift},     {"note", -1, note},     {"select", -1, choose},
-    {"stage", 1, stage},   {"await", 2, await},    {"set", 3, set},
-    {"close", 0, end}};
+    {"down", 3, down},        {"move", 2, move},        {"up", 2, up},
+    {"scroll", 1, scroll},    {"glide", 1, glide},      {"key", -1, key},
+    {"size", 1, size},        {"column", 1, column},    {"window", 2, window},
+    {"dark", 1, dark},        {"search", -1, search},   {"follow", -1, follow},
+    {"go", -1, go},           {"action", -1, action},   {"picture", -1, picture},
+    {"tell", -1, tell},       {"press", 3, press},      {"drag", 3, drag},
+    {"lift", 2, lift},        {"note", -1, note},       {"select", -1, choose},
+    {"stage", 1, stage},      {"await", 2, await},      {"set", 3, set},
+    {"type", -1, type},       {"preedit", -1, preedit}, {"strike", -1, strike},
+    {"replace", -1, replace}, {"answer", -1, answer},   {"close", 0, end}};
 
 /* ---- reading ---- */
 

@@ -291,6 +291,43 @@ void read_stages_forget(struct read_desk *d)
     stages->held = stages->keyed = NULL;
 }
 
+/* The script of that number in a document; -1: there is none. */
+static int live_of(const struct reader_document *d, int number)
+{
+    for (int i = 0; i < d->blocks_count; i++)
+        if (read_stages_is(&d->blocks[i]) && number-- == 0)
+            return i;
+    return -1;
+}
+
+static int live_number(const struct reader_document *d, int block)
+{
+    int number = 0;
+    for (int i = 0; i < block; i++)
+        number += read_stages_is(&d->blocks[i]);
+    return number;
+}
+
+void read_stages_follow_document(struct read_desk *d, const struct reader_document *before)
+{
+    struct read_stages *stages = d->stages;
+    for (guint i = stages->all->len; i > 0; i--) {
+        struct stage *s = g_ptr_array_index(stages->all, i - 1);
+        const int now = live_of(d->document, live_number(before, s->block));
+        if (now >= 0 &&
+            strcmp(before->blocks[s->block].text, d->document->blocks[now].text) == 0) {
+            s->block = now;
+            continue;
+        }
+        stages->held = stages->held == s ? NULL : stages->held;
+        stages->keyed = stages->keyed == s ? NULL : stages->keyed;
+        if (d->page)
+            gtk_widget_unparent(s->strip);
+        g_ptr_array_remove_index(stages->all, i - 1);
+        stage_free(s);
+    }
+}
+
 void read_stages_finish(struct read_desk *d)
 {
     struct read_stages *stages = d->stages;

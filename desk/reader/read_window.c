@@ -60,6 +60,37 @@ static void search_stopped(GtkSearchEntry *entry, struct read_desk *d)
     gtk_widget_grab_focus(d->page);
 }
 
+static void replace_clicked(GtkWidget *widget, struct read_desk *d)
+{
+    (void)widget;
+    read_edit_replace(d, gtk_editable_get_text(GTK_EDITABLE(d->replace_entry)), false);
+}
+
+static void replace_all_clicked(GtkWidget *widget, struct read_desk *d)
+{
+    (void)widget;
+    read_edit_replace(d, gtk_editable_get_text(GTK_EDITABLE(d->replace_entry)), true);
+}
+
+/* What hits become, where the document is edited. */
+static GtkWidget *replace_new(struct read_desk *d)
+{
+    GtkWidget *one = gtk_button_new_with_label(_("Replace")),
+              *all = gtk_button_new_with_label(_("Replace all"));
+    d->replace_box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
+    d->replace_entry = gtk_entry_new();
+    desk_name(d->replace_entry, _("Replace by"), NULL);
+    gtk_entry_set_placeholder_text(GTK_ENTRY(d->replace_entry), _("Replace by"));
+    g_signal_connect(d->replace_entry, "activate", G_CALLBACK(replace_clicked), d);
+    g_signal_connect(one, "clicked", G_CALLBACK(replace_clicked), d);
+    g_signal_connect(all, "clicked", G_CALLBACK(replace_all_clicked), d);
+    gtk_box_append(GTK_BOX(d->replace_box), d->replace_entry);
+    gtk_box_append(GTK_BOX(d->replace_box), one);
+    gtk_box_append(GTK_BOX(d->replace_box), all);
+    gtk_widget_set_visible(d->replace_box, FALSE);
+    return d->replace_box;
+}
+
 static GtkWidget *search_new(struct read_desk *d)
 {
     GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6),
@@ -81,6 +112,7 @@ static GtkWidget *search_new(struct read_desk *d)
     gtk_box_append(GTK_BOX(box), before);
     gtk_box_append(GTK_BOX(box), next);
     gtk_box_append(GTK_BOX(box), d->search_told);
+    gtk_box_append(GTK_BOX(box), replace_new(d));
     gtk_search_bar_set_child(GTK_SEARCH_BAR(d->search_bar), box);
     return d->search_bar;
 }
@@ -101,7 +133,9 @@ static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint 
 {
     (void)controller;
     (void)code;
-    return !read_stages_types(d) && read_keys_key(d, key, state);
+    if (read_stages_types(d))
+        return FALSE;
+    return read_edit_on(d) ? read_edit_key(d, key, state) : read_keys_key(d, key, state);
 }
 
 static void key_released(GtkEventControllerKey *controller, guint key, guint code,
@@ -126,22 +160,30 @@ static GtkWidget *page_new(struct read_desk *d)
     gtk_box_append(GTK_BOX(box), d->scrollbar);
     g_signal_connect(keys, "key-pressed", G_CALLBACK(key_pressed), d);
     g_signal_connect(keys, "key-released", G_CALLBACK(key_released), d);
+    read_edit_keys_are(d, keys);
     gtk_widget_add_controller(d->page, keys);
     read_hand_attach(d);
     return box;
 }
 
-static void document_shown(struct read_desk *d)
+static void titled(struct read_desk *d)
 {
     char *name = read_document_is_manual(d)
                      ? g_strdup(_("The manual"))
                      : g_path_get_basename(g_ptr_array_index(d->options.paths, 0));
-    char *title = g_strdup_printf("%s - %s", name, _("Reader"));
+    char *title = g_strdup_printf("%s%s - %s", read_save_needed(d) ? "*" : "", name,
+                                  read_edit_on(d) ? _("Reader, editing") : _("Reader"));
     gtk_window_set_title(GTK_WINDOW(d->window), title);
     g_free(title);
     g_free(name);
+    gtk_widget_set_visible(d->replace_box, read_edit_on(d));
+}
+
+static void document_shown(struct read_desk *d)
+{
+    titled(d);
     read_contents_fill(d);
-    read_watch_begin(d, read_document_reload);
+    read_watch_begin(d, read_save_foreign);
     read_actions_enable(d);
 }
 
@@ -166,6 +208,8 @@ static GtkWidget *header_new(void)
 static gboolean close_asked(GtkWindow *window, struct read_desk *d)
 {
     (void)window;
+    if (!read_save_closes(d))
+        return TRUE;
     read_heard_finish(d);
     read_stages_finish(d);
     read_watch_end(d);
@@ -187,6 +231,8 @@ void read_window_open(struct read_desk *d)
     d->changed = read_page_changed;
     d->step = read_keys_step;
     d->resized = read_look_resized;
+    d->titled = titled;
+    d->refilled = read_contents_fill;
     d->window = gtk_application_window_new(d->application);
     gtk_window_set_default_size(GTK_WINDOW(d->window), d->options.width, d->options.height);
     read_actions_add(d);

@@ -1,0 +1,106 @@
+/* edit_internal.h - what the files of editing share: where letters of a block stand in its
+ * source (edit_map.c), one paragraph read alone (edit_block.c), whether what is read is what
+ * was meant (edit_meant.c), changes and undo (edit.c), typing (edit_type.c). */
+#ifndef LUTETIA_READER_EDIT_INTERNAL_H
+#define LUTETIA_READER_EDIT_INTERNAL_H
+
+#include "reader_edit.h"
+#include "reader_internal.h"
+
+/* For each byte of a block's text, the bytes of the source that are it. */
+struct edit_map {
+    int *begin, *end;
+    int count;       /* of the text's bytes: those behind are not known */
+    int first, last; /* the block's lines, without the last one's end */
+    int head;        /* behind the signs of items and quotes, and a heading's */
+};
+/* False: no memory. Owns: the caller finishes *out. */
+bool edit_map_make(const struct reader_block *block, const struct reader_bytes *source,
+                   struct edit_map *out);
+void edit_map_finish(struct edit_map *map);
+/* Where lines first..last (from 1) of a source are, without the last one's end. */
+void edit_lines_find(const struct reader_bytes *source, int first, int last, int *begin,
+                     int *end);
+/* Behind blanks and signs of quotes and items at a line's begin. next: what a line of the next
+ * item begins with, more: one that goes on; either may be NULL, else has room for
+ * EDIT_PREFIX_BYTES. */
+enum { EDIT_PREFIX_BYTES = 256 };
+int edit_prefix(const char *text, int at, int end, char *next, char *more);
+
+/* A change of one source. */
+struct edit_splice {
+    int source;
+    size_t at, removed;
+    const char *text;
+    size_t bytes;
+};
+/* What is meant: bytes begin..end of the plain text become these. */
+struct edit_meant {
+    size_t begin, end;
+    const char *text;
+    size_t bytes;
+    bool any;     /* whatever comes of it */
+    size_t caret; /* then */
+    bool typed;
+};
+
+/* Whether the new plain text is what is meant, but for how many blanks there are in a row, and
+ * none at ends. */
+bool edit_meant_text(const char *before, size_t before_bytes, const struct edit_meant *meant,
+                     const char *now, size_t now_bytes);
+bool edit_meant_document(const struct reader_document *before, const struct edit_meant *meant,
+                         const struct reader_document *now);
+/* What moves remarks from one document to the other. False: no memory. */
+bool edit_moves_find(const struct reader_document *before, const struct reader_document *now,
+                     struct reader_edit_change *change);
+bool edit_move_add(struct reader_edit_change *change, size_t at, size_t removed,
+                   size_t inserted);
+
+/* The paragraph that the splice is in, read alone, in place. *done: it was; else it is not
+ * alone, or is not what is meant. */
+enum reader_status edit_block_try(struct reader_document *d, struct reader_files *files,
+                                  const struct edit_splice *splice,
+                                  const struct edit_meant *meant,
+                                  struct reader_edit_change *change, bool *done);
+
+/* Where a remark was that has lost letters. */
+struct edit_touched {
+    int remark;
+    size_t begin, end;
+    bool orphan;
+};
+
+/* One that can be undone. */
+struct edit_done {
+    int source;
+    size_t at;
+    char *removed, *inserted;
+    size_t removed_bytes, inserted_bytes;
+    size_t caret_before, caret_after;
+    unsigned group;
+    bool typed; /* letters alone: more may be added */
+    struct reader_edit_move *moves;
+    int moves_count;
+    struct edit_touched *touched[2]; /* by doing it, and by undoing it */
+    int touched_count[2];
+};
+
+struct reader_edit {
+    struct reader_document **document;
+    struct reader_files *files;
+    struct reader_remarks *remarks;
+    struct edit_done *done;
+    int done_count, done_capacity, at; /* at: behind the last one that is not undone */
+    unsigned group, groups;            /* group: 0: each by itself */
+    int depth;                         /* groups that have begun */
+    bool part;
+    enum reader_edit_waits waits;
+    size_t waits_at;
+};
+
+/* Tries the splice; *done: it is what is meant, and is done and kept for undo. */
+enum reader_status edit_try(struct reader_edit *e, const struct edit_splice *splice,
+                            const struct edit_meant *meant, struct reader_edit_change *change,
+                            bool *done);
+
+#endif

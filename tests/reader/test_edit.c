@@ -1,0 +1,514 @@
+/* test_edit.c - documents that are edited where they are read: what one types is read, all
+ * other bytes stay, what is read again in part is what would be read from the beginning, and
+ * undo gives back every byte and every note's place. Random edits of documents that have all
+ * that Markdown has.
+ *
+ *     READER_TEST_EDITED=10000 test_reader_edit
+ */
+#include <reader_edit.h>
+
+/* clang-format off */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+/* clang-format on */
+
+#include <locale.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "../sample.h"
+#include "without_library.h"
+
+static char folder[] = "/tmp/lutetia-edit-XXXXXX";
+
+/* A document that is edited. */
+struct edited {
+    struct reader_document *document;
+    struct reader_files files;
+    struct reader_remarks *remarks;
+    struct reader_edit *edit;
+};
+
+static void document_read(struct edited *e, const struct reader_bytes *texts, int count)
+{
+    *e = (struct edited){.files = {.keep = true}};
+    assert_int_equal(reader_document_create(&e->document), READER_OK);
+    for (int i = 0; i < count; i++)
+        if (reader_files_add(&e->files, e->document, i ? "two.md" : "one.md", texts[i].text,
+                             texts[i].bytes) != READER_OK)
+            fail_msg("%s", reader_error());
+    assert_int_equal(reader_document_refer(e->document), READER_OK);
+    assert_int_equal(reader_document_plain(e->document), READER_OK);
+}
+
+static void edited_begin(struct edited *e, const char *one, const char *two)
+{
+    const struct reader_bytes texts[] = {{(char *)(uintptr_t)one, strlen(one)},
+                                         {(char *)(uintptr_t)two, two ? strlen(two) : 0}};
+    document_read(e, texts, two ? 2 : 1);
+    assert_int_equal(reader_edit_create(&e->document, &e->files, NULL, &e->edit), READER_OK);
+}
+
+static void edited_end(struct edited *e)
+{
+    reader_edit_destroy(e->edit);
+    reader_remarks_close(e->remarks);
+    reader_document_destroy(e->document);
+    reader_files_finish(&e->files);
+}
+
+/* ---- the slow twin ---- */
+
+static void blocks_same(const struct reader_block *a, const struct reader_block *b, int count)
+{
+    for (int i = 0; i < count; i++) {
+        assert_int_equal(a[i].kind, b[i].kind);
+        assert_string_equal(a[i].text, b[i].text);
+        assert_int_equal(a[i].bytes, b[i].bytes);
+        assert_int_equal(a[i].at, b[i].at);
+        assert_int_equal(a[i].source, b[i].source);
+        assert_int_equal(a[i].first_line, b[i].first_line);
+        assert_int_equal(a[i].last_line, b[i].last_line);
+        assert_int_equal(a[i].items, b[i].items);
+        assert_int_equal(a[i].quotes, b[i].quotes);
+        assert_int_equal(a[i].level, b[i].level);
+        assert_int_equal(a[i].number, b[i].number);
+        assert_int_equal(a[i].continues, b[i].continues);
+        assert_int_equal(a[i].spans_count, b[i].spans_count);
+        for (int k = 0; k < a[i].spans_count; k++) {
+            const struct reader_span *s = &a[i].spans[k], *t = &b[i].spans[k];
+            assert_int_equal(s->begin, t->begin);
+            assert_int_equal(s->end, t->end);
+            assert_int_equal(s->look, t->look);
+            assert_int_equal(s->note, t->note);
+            assert_string_equal(s->target ? s->target : "", t->target ? t->target : "");
+        }
+    }
+}
+
+static void as_from_scratch(const struct edited *e)
+{
+    struct edited twin;
+    document_read(&twin, e->files.texts, e->files.count);
+    assert_int_equal(e->document->plain_bytes, twin.document->plain_bytes);
+    assert_string_equal(e->document->plain, twin.document->plain);
+    assert_int_equal(e->document->blocks_count, twin.document->blocks_count);
+    assert_int_equal(e->document->note_blocks_count, twin.document->note_blocks_count);
+    blocks_same(e->document->blocks, twin.document->blocks, e->document->blocks_count);
+    blocks_same(e->document->note_blocks, twin.document->note_blocks,
+                e->document->note_blocks_count);
+    assert_int_equal(e->document->lost_count, twin.document->lost_count);
+    for (int i = 0; i < twin.document->lost_count; i++)
+        assert_int_equal(e->document->lost[i].line, twin.document->lost[i].line);
+    edited_end(&twin);
+}
+
+/* ---- single edits ---- */
+
+/* Puts letters in before the first place of `at`, with | where the caret is; returns the
+ * source. */
+static const char *edit_at(struct edited *e, const char *at, const char *type, int back)
+{
+    struct reader_edit_change change;
+    const char *bar = strchr(at, '|');
+    char words[200];
+    snprintf(words, sizeof words, "%.*s%s", (int)(bar - at), at, bar + 1);
+    const char *found = strstr(e->document->plain, words);
+    assert_non_null(found);
+    size_t caret = (size_t)(found - e->document->plain) + (size_t)(bar - at);
+    for (; back > 0; back--) {
+        assert_int_equal(reader_edit_delete(e->edit, caret - 1, caret, &change), READER_OK);
+        caret = change.caret;
+        reader_edit_change_finish(&change);
+    }
+    for (; *type; type++) {
+        enum reader_status status =
+            *type == '\n' ? reader_edit_break(e->edit, caret, &change)
+                          : reader_edit_insert(e->edit, caret, caret, type, 1, &change);
+        if (status != READER_OK)
+            fail_msg("'%c' in %s: %s", *type, e->files.texts[0].text, reader_error());
+        caret = change.caret;
+        reader_edit_change_finish(&change);
+        as_from_scratch(e);
+    }
+    return e->files.texts[0].text;
+}
+
+static void typed_letters_are_written(void **state)
+{
+    static const struct {
+        const char *source, *at, *type;
+        int back;
+        const char *becomes;
+    } cases[] = {
+        {"A word.\n", "A |word", "b", 0, "A bword.\n"},
+        {"A word.\n", "word.|", " more", 0, "A word. more\n"},
+        {"A **word**.\n", "word|", "s", 0, "A **words**.\n"},
+        {"A **word**.\n", "A |word", "s", 0, "A s**word**.\n"},
+        {"A [word](x.md).\n", "word|", "s", 0, "A [word](x.md)s.\n"},
+        {"A [word](x.md).\n", "wor|d", "s", 0, "A [worsd](x.md).\n"},
+        {"A *b.\n", "*b|", "*", 0, "A *b\\*.\n"},
+        {"Word\n", "|Word", "# ", 0, "#&#32;Word\n"},
+        {"Word\n", "|Word", "-", 0, "-Word\n"},
+        {"1 a\n", "1| a", ".", 0, "1\\. a\n"},
+        {"a b\nc d\n", "b |c", "x", 0, "a b\nxc d\n"},
+        {"> a b\n> c d\n", "b |c", "x", 0, "> a b\n> xc d\n"},
+        {"a &amp; b\n", "&| b", "x", 0, "a &amp;x b\n"},
+        {"a \\* b\n", "*| b", "x", 0, "a \\*x b\n"},
+        {"a `b` c\n", "b|", "x", 0, "a `bx` c\n"},
+        {"a[^1] b\n\n[^1]: note\n", "no|te", "x", 0, "a[^1] b\n\n[^1]: noxte\n"},
+        {"| a | b |\n|---|---|\n| c | d |\n", "|c\td", "x", 0,
+         "| a | b |\n|---|---|\n| xc | d |\n"},
+        {"| a | b |\n|---|---|\n| c | d |\n", "c|\td", "|", 0,
+         "| a | b |\n|---|---|\n| c\\| | d |\n"},
+        {"# Head\n\nText\n", "Hea|d", "x", 0, "# Heaxd\n\nText\n"},
+        {"```c\nint a;\n```\n", "int |a", "*", 0, "```c\nint *a;\n```\n"},
+        {"- x\n\n  ```c\n  int a;\n  ```\n", "a;|", "\nb", 0,
+         "- x\n\n  ```c\n  int a;\n  b\n  ```\n"},
+        {"one two\n", "one| two", "\n", 0, "one\n\ntwo\n"},
+        {"one\n\ntwo\n", "one|", "\nx", 0, "one\n\nx\n\ntwo\n"},
+        {"- one\n- two\n", "one|", "\nx", 0, "- one\n- x\n- two\n"},
+        {"- one\n- two\n", "two|", "\n\nx", 0, "- one\n- two\n\nx\n"},
+        {"1. one\n", "one|", "\nx", 0, "1. one\n2. x\n"},
+        {"- [x] one\n", "one|", "\ny", 0, "- [x] one\n- [ ] y\n"},
+        {"> one two\n", "one| two", "\n", 0, "> one\n>\n> two\n"},
+        {"one\n\ntwo\n", "|two", "", 2, NULL},
+        {"A **word** b\n", "word| b", "", 4, "A  b\n"},
+        {"A word b\n", "word|", "", 4, "A  b\n"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct edited e;
+        edited_begin(&e, cases[i].source, NULL);
+        if (!cases[i].becomes) {
+            edited_end(&e);
+            continue;
+        }
+        const char *now = edit_at(&e, cases[i].at, cases[i].type, cases[i].back);
+        if (strcmp(now, cases[i].becomes) != 0)
+            print_message("case %zu: %s", i, cases[i].source);
+        assert_string_equal(now, cases[i].becomes);
+        struct reader_edit_change change;
+        while (reader_edit_can(e.edit, false)) {
+            assert_int_equal(reader_edit_undo(e.edit, false, &change), READER_OK);
+            reader_edit_change_finish(&change);
+        }
+        assert_string_equal(e.files.texts[0].text, cases[i].source);
+        as_from_scratch(&e);
+        edited_end(&e);
+    }
+}
+
+/* ---- random edits ---- */
+
+static const char *const pieces[] = {
+    "Some words that stand in a paragraph, and *more* of them, so that\nit has two lines.\n\n",
+    "A **heavy** word, `code`, a [link](other.md \"title\"), an &amp; and \\*stars\\*.\n\n",
+    "# A heading\n\n",
+    "Under\nit\n---\n\n",
+    "- one\n- two *slanted*\n  goes on\n    - deeper\n- three\n\n",
+    "1. first\n2. second\n\n   of the second\n\n",
+    "- [ ] to do\n- [x] done\n\n",
+    "> A quote\n> that goes on\nlazily\n\n",
+    "> - an item\n>\n>   in a quote\n\n",
+    "```c\nint main(void)\n{\n    return 0;\n}\n```\n\n",
+    "    indented code\n    goes on\n\n",
+    "| a | b |\n|---|:-:|\n| c *d* | e |\n| f \\| g | |\n\n",
+    "A note[^n] and [^m].\n\n[^n]: It *says* this.\n[^margin:m]: And that.\n\n    More of "
+    "it.\n\n",
+    "Water is $x^2$ deep, $$y_1$$\n\n",
+    "<a id=\"pond\"></a> A label, and [#](#a-heading), [see](#pond).\n\n",
+    "<div>\nHTML\n</div>\n\n",
+    "---\n\n",
+    "Hard  \nbreak and\\\nanother, www.example.org and <https://a.b/c>.\n\n",
+    "\xc3\x9c"
+    "ber Fl\xc3\xbc"
+    "sse \xe6\xb0\xb4\xe5\xa2\xa8, e\xcc\x81 end   \n\n",
+    "<!-- nothing -->\n\n",
+    "Line with\r\nits ends\r\n\r\n",
+    "***both** one*, ~~struck~~, __a__ _b_ snake_case_word 2*3*4\n\n",
+    "[r]: https://a.b \"c\"\n\nA [reference][r] and [r].\n\n",
+};
+
+static const char *const typed[] = {"a",  "word", " ", "two words", "*", "_", "#", "[",  "]",
+                                    "`",  "<",    "&", "&amp;",     "$", "|", "-", "1.", ">",
+                                    "\\", "~",    "!", "\xc3\xa9",  ":", "(", "=", "+",  "x y"};
+
+struct dice {
+    uint64_t state;
+};
+
+static size_t below(struct dice *d, size_t n)
+{
+    return n ? sample_word(&d->state) % n : 0;
+}
+
+static char *pieces_write(struct dice *d)
+{
+    char *out = NULL;
+    size_t bytes;
+    FILE *to = open_memstream(&out, &bytes);
+    for (size_t n = 1 + below(d, 9); n > 0; n--)
+        fputs(pieces[below(d, sizeof pieces / sizeof *pieces)], to);
+    fclose(to);
+    return out;
+}
+
+/* A place between letters, most of them in text. */
+static size_t place(struct dice *d, const struct reader_document *doc)
+{
+    size_t at = below(d, doc->plain_bytes + 1);
+    while (at > 0 && ((unsigned char)doc->plain[at] & 0xc0) == 0x80)
+        at--;
+    const struct reader_block *b = reader_document_block(doc, at);
+    if (b && at < b->at)
+        at = b->at;
+    if (b && at > b->at + (size_t)b->bytes)
+        at = b->at + (size_t)b->bytes;
+    return at;
+}
+
+/* Letters alone: neither blanks nor line ends, nor the signs of headings. */
+static char *letters_of(const char *text, size_t bytes)
+{
+    char *out = malloc(bytes + 1);
+    size_t n = 0;
+    for (size_t i = 0; i < bytes; i++)
+        if (!strchr(" \n\t#`0123456789", text[i]))
+            out[n++] = text[i];
+    out[n] = '\0';
+    return out;
+}
+
+struct was {
+    char *plain, *texts[2];
+    size_t plain_bytes;
+};
+
+static void was_keep(const struct edited *e, struct was *was)
+{
+    was->plain = strdup(e->document->plain);
+    was->plain_bytes = e->document->plain_bytes;
+    for (int i = 0; i < 2; i++)
+        was->texts[i] = strdup(e->files.texts[i].text);
+}
+
+static void was_free(struct was *was)
+{
+    free(was->plain);
+    free(was->texts[0]);
+    free(was->texts[1]);
+}
+
+/* What is read is what was there, with these letters in place of begin..end. Headings' names
+ * may have changed references: then only letters around are compared. */
+static void reads_as_meant(const struct edited *e, const struct was *was, size_t begin,
+                           size_t end, const char *text)
+{
+    char *meant = NULL;
+    if (asprintf(&meant, "%.*s%s%s", (int)begin, was->plain, text, was->plain + end) < 0)
+        fail();
+    char *a = letters_of(meant, strlen(meant)),
+         *b = letters_of(e->document->plain, e->document->plain_bytes);
+    if (!strstr(was->texts[0], "[#]") && !strstr(was->texts[1], "[#]"))
+        assert_string_equal(a, b);
+    free(a);
+    free(b);
+    free(meant);
+}
+
+/* Bytes of the sources that are other are few: the rest is what it was, on both sides. */
+static void others_stay(const struct edited *e, const struct was *was, int most)
+{
+    int other = 0;
+    for (int i = 0; i < 2; i++) {
+        const char *a = was->texts[i], *b = e->files.texts[i].text;
+        size_t n = strlen(a), m = strlen(b), begin = 0, back = 0;
+        other += strcmp(a, b) != 0;
+        while (begin < n && begin < m && a[begin] == b[begin])
+            begin++;
+        while (back < n - begin && back < m - begin && a[n - 1 - back] == b[m - 1 - back])
+            back++;
+        if (most >= 0)
+            assert_true(n - begin - back <= (size_t)most);
+    }
+    assert_true(other <= 1); /* one file */
+}
+
+static void all_stays(const struct edited *e, const struct was *was)
+{
+    assert_string_equal(e->document->plain, was->plain);
+    for (int i = 0; i < 2; i++)
+        assert_string_equal(e->files.texts[i].text, was->texts[i]);
+}
+
+struct counts {
+    int typed, refused, in_place, deleted, deleted_refused;
+};
+
+static void insert_some(struct edited *e, struct dice *d, const struct was *was,
+                        struct counts *n)
+{
+    struct reader_edit_change change;
+    const char *text = typed[below(d, sizeof typed / sizeof *typed)];
+    const size_t at = place(d, e->document);
+    enum reader_status status =
+        reader_edit_insert(e->edit, at, at, text, strlen(text), &change);
+    n->typed++;
+    n->refused += status != READER_OK;
+    n->in_place += change.block >= 0;
+    if (status == READER_OK && (change.before || change.block >= 0)) {
+        reads_as_meant(e, was, at, at, text);
+        others_stay(e, was, 0);
+    } else {
+        all_stays(e, was);
+    }
+    reader_edit_change_finish(&change);
+}
+
+static void delete_some(struct edited *e, struct dice *d, const struct was *was,
+                        struct counts *n)
+{
+    struct reader_edit_change change;
+    size_t begin = place(d, e->document), end = begin;
+    for (size_t k = 1 + below(d, below(d, 4) ? 4 : 60); k > 0 && end < was->plain_bytes; k--)
+        for (end++; ((unsigned char)was->plain[end] & 0xc0) == 0x80;)
+            end++;
+    const enum reader_status status = reader_edit_delete(e->edit, begin, end, &change);
+    n->deleted++;
+    n->deleted_refused += status != READER_OK;
+    if (status == READER_OK && (change.before || change.block >= 0)) {
+        reads_as_meant(e, was, begin, end, "");
+        others_stay(e, was, -1);
+    } else {
+        all_stays(e, was);
+    }
+    reader_edit_change_finish(&change);
+}
+
+static void edit_some(struct edited *e, struct dice *d, struct counts *n)
+{
+    struct reader_edit_change change;
+    struct was was;
+    was_keep(e, &was);
+    switch (below(d, 8)) {
+    case 0:
+        if (reader_edit_break(e->edit, place(d, e->document), &change) == READER_OK)
+            others_stay(e, &was, 4);
+        else
+            all_stays(e, &was);
+        reader_edit_change_finish(&change);
+        break;
+    case 1:
+    case 2:
+        delete_some(e, d, &was, n);
+        break;
+    case 3:
+        if (reader_edit_can(e->edit, below(d, 2))) {
+            reader_edit_undo(e->edit, reader_edit_can(e->edit, true) && below(d, 2), &change);
+            reader_edit_change_finish(&change);
+        }
+        break;
+    default:
+        insert_some(e, d, &was, n);
+    }
+    was_free(&was);
+    as_from_scratch(e);
+}
+
+static void remarks_write(struct edited *e, struct dice *d)
+{
+    char path[100];
+    snprintf(path, sizeof path, "%s/edit.notes", folder);
+    unlink(path);
+    assert_int_equal(reader_remarks_open(path, &e->remarks), READER_OK);
+    for (int i = 0; i < 6; i++) {
+        int index;
+        const size_t begin = place(d, e->document), end = begin + below(d, 12);
+        const struct reader_remark what = {.kind = READER_REMARK_HIGHLIGHT};
+        if (end <= e->document->plain_bytes)
+            assert_int_equal(reader_remarks_add(e->remarks, &what, e->document->plain,
+                                                e->document->plain_bytes, begin, end, &index),
+                             READER_OK);
+    }
+    reader_edit_destroy(e->edit);
+    assert_int_equal(reader_edit_create(&e->document, &e->files, e->remarks, &e->edit),
+                     READER_OK);
+}
+
+/* Undo to the beginning, and all again. */
+static void undo_gives_all_back(struct edited *e, const struct was *first,
+                                const struct reader_remark *remarks)
+{
+    struct was last;
+    struct reader_edit_change change;
+    while (reader_edit_can(e->edit, true)) {
+        assert_int_equal(reader_edit_undo(e->edit, true, &change), READER_OK);
+        reader_edit_change_finish(&change);
+    }
+    was_keep(e, &last);
+    for (int redo = 0; redo < 2; redo++) {
+        while (reader_edit_can(e->edit, redo)) {
+            assert_int_equal(reader_edit_undo(e->edit, redo, &change), READER_OK);
+            reader_edit_change_finish(&change);
+        }
+        all_stays(e, redo ? &last : first);
+        for (int i = 0; i < reader_remarks_count(e->remarks) && !redo; i++) {
+            const struct reader_remark *r = reader_remarks_get(e->remarks, i);
+            assert_false(r->orphan);
+            assert_int_equal(r->begin, remarks[i].begin);
+            assert_int_equal(r->end, remarks[i].end);
+        }
+        as_from_scratch(e);
+    }
+    was_free(&last);
+}
+
+static void random_edits(void **state)
+{
+    const char *wanted = getenv("READER_TEST_EDITED");
+    const int documents = wanted ? atoi(wanted) : 40;
+    struct counts n = {0};
+    (void)state;
+    for (int i = 1; i <= documents; i++) {
+        struct dice d = {(uint64_t)i * SAMPLE_GOLDEN};
+        char *one = pieces_write(&d), *two = pieces_write(&d);
+        struct edited e;
+        struct was first;
+        struct reader_remark remarks[8];
+        edited_begin(&e, one, two);
+        was_keep(&e, &first);
+        remarks_write(&e, &d);
+        for (int k = 0; k < reader_remarks_count(e.remarks); k++)
+            remarks[k] = *reader_remarks_get(e.remarks, k);
+        for (int k = 0; k < 40; k++)
+            edit_some(&e, &d, &n);
+        undo_gives_all_back(&e, &first, remarks);
+        was_free(&first);
+        edited_end(&e);
+        free(one);
+        free(two);
+    }
+    print_message("%d typed, %d refused, %d in place; %d deleted, %d refused\n", n.typed,
+                  n.refused, n.in_place, n.deleted, n.deleted_refused);
+    assert_true(n.refused * 4 < n.typed);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(typed_letters_are_written),
+        cmocka_unit_test(random_edits),
+    };
+    if (without_library())
+        return 77;
+    setlocale(LC_ALL, "C.UTF-8");
+    if (!mkdtemp(folder))
+        return 1;
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
