@@ -372,7 +372,9 @@ static enum reader_status within_try(struct reader_edit *e, const struct spot *s
     enum reader_status status = READER_OK;
     if (q > s->map.count)
         return status;
-    const int first = s->map.begin[p], last = s->map.end[q - 1];
+    const bool ends = p > 0 && q == b->bytes && b->text[p - 1] == ' ' && !is_code(b);
+    const int first = ends ? place_behind(s, p - 1) : s->map.begin[p],
+              last = s->map.end[q - 1]; /* with the blank that would be at the end */
     const struct reader_span *own = span_at(b, p), *end = span_at(b, q - 1);
     if (all && !b->items && !b->quotes && !is_code(b) && b->kind == READER_PARAGRAPH) {
         int from, to;
@@ -389,7 +391,7 @@ static enum reader_status within_try(struct reader_edit *e, const struct spot *s
     if (*done || status != READER_OK)
         return status;
     size_t bytes;
-    char *between = between_letters(s, p, q, &bytes);
+    char *between = between_letters(s, ends ? p - 1 : p, q, &bytes);
     if (!between)
         return reader_fail(READER_NO_MEMORY, "no memory for an edit");
     status = try_bytes(e, source, first, last, between, bytes, meant, change, done);
@@ -418,6 +420,22 @@ static enum reader_status across_try(struct reader_edit *e, const struct spot *a
     return status;
 }
 
+static void wait_behind(struct reader_edit *e, const struct reader_block *b,
+                        enum reader_edit_waits waits, struct reader_edit_change *change)
+{
+    e->waits = waits;
+    e->waits_at = change->caret = b->at + (size_t)b->bytes;
+}
+
+/* What is left may end with a blank that is not kept. */
+static void blank_left(struct reader_edit *e, struct reader_edit_change *change)
+{
+    const struct reader_block *left = reader_document_block(*e->document, change->caret);
+    if (left && !is_code(left) && left->bytes &&
+        change->caret == left->at + (size_t)left->bytes + 1)
+        wait_behind(e, left, READER_WAITS_BLANK, change);
+}
+
 enum reader_status reader_edit_delete(struct reader_edit *e, size_t begin, size_t end,
                                       struct reader_edit_change *change)
 {
@@ -425,6 +443,7 @@ enum reader_status reader_edit_delete(struct reader_edit *e, size_t begin, size_
         .begin = begin, .end = end, .text = "", .bytes = 0, .caret = begin};
     struct spot a = {0}, b = {0};
     bool done = false;
+    const int blocks = (*e->document)->blocks_count;
     *change = (struct reader_edit_change){.block = -1, .caret = begin};
     e->waits = READER_WAITS_NOTHING;
     if (begin >= end || end > (*e->document)->plain_bytes)
@@ -432,21 +451,26 @@ enum reader_status reader_edit_delete(struct reader_edit *e, size_t begin, size_
     enum reader_status status = spot_find(e, begin, &a);
     if (status == READER_OK)
         status = spot_find(e, end, &b);
+    const struct reader_document *before = *e->document;
+    const bool within = a.block == b.block;
+    const long block_number =
+        a.block >= before->blocks && a.block < before->blocks + before->blocks_count
+            ? a.block - before->blocks
+            : -1;
     if (status == READER_OK && a.block && a.block == b.block && b.p > a.p)
         status = within_try(e, &a, b.p, &meant, change, &done);
     else if (status == READER_OK && a.block && b.block && a.block != b.block)
         status = across_try(e, &a, &b, &meant, change, &done);
+    const struct reader_document *d = *e->document;
+    const long number = a.block && a.p == 0 && done ? block_number : -1;
     spot_finish(&a);
     spot_finish(&b);
     if (status != READER_OK || !done)
         return status == READER_OK ? cannot() : status;
-    /* What is left ends with a blank that is not kept, or was all of a paragraph. */
-    const struct reader_block *left = reader_document_block(*e->document, change->caret);
-    const size_t left_end = left ? left->at + (size_t)left->bytes : 0;
-    if (left && change->caret == left_end + 1 && !is_code(left)) {
-        e->waits = READER_WAITS_BLANK;
-        e->waits_at = change->caret = left_end;
-    }
+    if (within && number > 0 && number <= d->blocks_count && d->blocks_count == blocks - 1)
+        wait_behind(e, &d->blocks[number - 1], READER_WAITS_PARAGRAPH, change);
+    else
+        blank_left(e, change);
     return READER_OK;
 }
 

@@ -151,8 +151,12 @@ struct read_desk {
     bool (*step)(struct read_desk *d, bool forward); /* read_keys_step() */
     void (*resized)(struct read_desk *d, int width, int height);
     void (*say)(struct read_desk *d, const char *text);
-    void (*titled)(struct read_desk *d);   /* the title may be other */
-    void (*refilled)(struct read_desk *d); /* headings may be other */
+    void (*edits_begin)(struct read_desk *d);        /* read_edit_document() */
+    void (*edits_recover)(struct read_desk *d);      /* read_save_recover() */
+    bool (*edits_needed)(const struct read_desk *d); /* read_save_needed() */
+    void (*edited)(struct read_desk *d);             /* read_save_soon() */
+    void (*titled)(struct read_desk *d);             /* the title may be other */
+    void (*refilled)(struct read_desk *d);           /* headings may be other */
 };
 
 /* read_look.c */
@@ -287,6 +291,8 @@ void read_edit_undo(struct read_desk *d, bool redo);
 bool read_edit_can(const struct read_desk *d, bool redo);
 void read_edit_cut(struct read_desk *d);
 void read_edit_paste(struct read_desk *d);
+/* As lines that g_free() frees. */
+char *read_edit_told(struct read_desk *d);
 /* The hit, or all. */
 void read_edit_replace(struct read_desk *d, const char *text, bool all);
 
@@ -299,7 +305,6 @@ bool read_edit_drag(struct read_desk *d, double x, double y);
 void read_edit_keys_are(struct read_desk *d, GtkEventController *keys); /* of the page */
 void read_edit_draw(struct read_desk *d, GtkSnapshot *snapshot);
 void read_edit_preedit(struct read_desk *d, const char *text); /* as an input method has it */
-char *read_edit_told(struct read_desk *d); /* as lines that g_free() frees */
 
 /* read_save.c */
 bool read_save(struct read_desk *d); /* false: it was said why not */

@@ -157,11 +157,11 @@ bool read_document_open(struct read_desk *d)
     char *notes = notes_file(d);
     read_remarks_open(d, notes);
     g_free(notes);
-    read_edit_document(d);
+    d->edits_begin(d);
     lost_tell(d);
     d->document_shown(d);
     read_page_changed(d);
-    read_save_recover(d);
+    d->edits_recover(d);
     return true;
 }
 
@@ -192,7 +192,7 @@ void read_document_reload(struct read_desk *d)
         else
             reader_view_go_part(d->view, all > 0 ? above / all : 0);
         read_remarks_find(d);
-        read_edit_document(d);
+        d->edits_begin(d);
         lost_tell(d);
         d->document_shown(d);
         read_page_changed(d);
@@ -280,7 +280,7 @@ static bool other_open(struct read_desk *d, GPtrArray *paths)
     GPtrArray *before = d->options.paths;
     if (paths == before)
         return true;
-    if (read_save_needed(d)) {
+    if (d->edits_needed(d)) {
         d->say(d, _("Save what was edited first: Ctrl+S."));
         return false;
     }

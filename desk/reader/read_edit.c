@@ -13,6 +13,8 @@ struct read_editing *read_edit_create(void)
     struct read_editing *e = g_new0(struct read_editing, 1);
     e->saved = g_ptr_array_new_with_free_func((GDestroyNotify)(void (*)(void))g_bytes_unref);
     e->want_x = -1;
+    e->type = read_edit_type;
+    e->erase = read_edit_delete;
     return e;
 }
 
@@ -167,7 +169,7 @@ void read_edit_changed(struct read_desk *d, enum reader_status status,
         ranges_move(d, change);
         if (!e->filling)
             e->filling = g_timeout_add(FILL_MS, contents_fill, d);
-        read_save_soon(d);
+        d->edited(d);
         d->titled(d);
     }
     if (changed || (status == READER_OK && change->caret != e->caret)) {
@@ -296,6 +298,22 @@ void read_edit_paste(struct read_desk *d)
 {
     if (d->editing->on)
         gdk_clipboard_read_text_async(gtk_widget_get_clipboard(d->page), NULL, pasted, d);
+}
+
+char *read_edit_told(struct read_desk *d)
+{
+    const struct read_editing *e = d->editing;
+    struct reader_box box = {0};
+    const size_t from = d->document ? MIN(e->caret, d->document->plain_bytes) : 0;
+    char *near = g_strndup(d->document ? d->document->plain + from : "", 20);
+    if (e->on)
+        read_edit_caret_box(d, &box);
+    char *told = g_strdup_printf(
+        "editing %d\ncaret %zu %.0f %.0f\nat %s\nunsaved %d\npreedit %s\nprocess %d\n", e->on,
+        e->caret, box.x, box.y, g_strdelimit(near, "\n", ' '), d->edits_needed(d),
+        e->preedit ? e->preedit : "", (int)getpid());
+    g_free(near);
+    return told;
 }
 
 /* ---- replacing ---- */

@@ -30,6 +30,9 @@ struct read_editing {
     int writing;      /* they are being written */
     bool asked;       /* the window may be closed */
     GtkWidget *asking;
+    /* what the input method calls */
+    void (*type)(struct read_desk *d, const char *text);
+    void (*erase)(struct read_desk *d, size_t begin, size_t end);
 };
 
 /* read_edit.c */
@@ -42,13 +45,11 @@ struct read_range read_edit_range(const struct read_desk *d); /* what is selecte
 void read_edit_delete(struct read_desk *d, size_t begin, size_t end);
 void read_edit_break(struct read_desk *d);
 
-/* read_edit_keys.c */
-void read_edit_wanted(struct read_desk *d); /* the caret is in the window */
-
 /* read_edit_im.c */
 void read_edit_im_begin(struct read_desk *d);
 void read_edit_im_place(struct read_desk *d);
 void read_edit_blink(struct read_desk *d, bool on);
+void read_edit_wanted(struct read_desk *d); /* the caret is in the window */
 bool read_edit_caret_box(struct read_desk *d, struct reader_box *box);
 
 #endif

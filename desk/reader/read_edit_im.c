@@ -4,7 +4,6 @@
 
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 
 /* ---- where the caret is ---- */
 
@@ -37,12 +36,26 @@ bool read_edit_caret_box(struct read_desk *d, struct reader_box *box)
     return true;
 }
 
+void read_edit_wanted(struct read_desk *d)
+{
+    struct reader_box box;
+    if (!read_edit_caret_box(d, &box)) {
+        reader_view_go(d->view, d->editing->caret, floor(d->setup.height_px / 3));
+        return;
+    }
+    const double line = d->size_px * d->setup.leading;
+    if (box.y < 0)
+        reader_view_scroll(d->view, floor(box.y - line / 2));
+    else if (box.y + box.height > d->setup.height_px)
+        reader_view_scroll(d->view, ceil(box.y + box.height - d->setup.height_px + line / 2));
+}
+
 /* ---- the input method ---- */
 
 static void committed(GtkIMContext *im, const char *text, struct read_desk *d)
 {
     (void)im;
-    read_edit_type(d, text);
+    d->editing->type(d, text);
 }
 
 static void preedit_changed(GtkIMContext *im, struct read_desk *d)
@@ -78,8 +91,8 @@ static gboolean surrounding_delete(GtkIMContext *im, int offset, int count, stru
                *first = d->document->plain + b->at;
     if (begin < first || end > first + b->bytes)
         return FALSE;
-    read_edit_delete(d, (size_t)(begin - d->document->plain),
-                     (size_t)(end - d->document->plain));
+    d->editing->erase(d, (size_t)(begin - d->document->plain),
+                      (size_t)(end - d->document->plain));
     return TRUE;
 }
 
@@ -137,22 +150,6 @@ void read_edit_im_place(struct read_desk *d)
 void read_edit_keys_are(struct read_desk *d, GtkEventController *keys)
 {
     d->editing->keys = keys;
-}
-
-char *read_edit_told(struct read_desk *d)
-{
-    const struct read_editing *e = d->editing;
-    struct reader_box box = {0};
-    const size_t from = d->document ? MIN(e->caret, d->document->plain_bytes) : 0;
-    char *near = g_strndup(d->document ? d->document->plain + from : "", 20);
-    if (e->on)
-        read_edit_caret_box(d, &box);
-    char *told = g_strdup_printf(
-        "editing %d\ncaret %zu %.0f %.0f\nat %s\nunsaved %d\npreedit %s\nprocess %d\n", e->on,
-        e->caret, box.x, box.y, g_strdelimit(near, "\n", ' '), read_save_needed(d),
-        e->preedit ? e->preedit : "", (int)getpid());
-    g_free(near);
-    return told;
 }
 
 void read_edit_preedit(struct read_desk *d, const char *text)

@@ -63,20 +63,6 @@ static size_t step(const struct read_desk *d, size_t byte, bool forward, bool wo
 
 /* ---- lines ---- */
 
-void read_edit_wanted(struct read_desk *d)
-{
-    struct reader_box box;
-    if (!read_edit_caret_box(d, &box)) {
-        reader_view_go(d->view, d->editing->caret, floor(d->setup.height_px / 3));
-        return;
-    }
-    const double line = d->size_px * d->setup.leading;
-    if (box.y < 0)
-        reader_view_scroll(d->view, floor(box.y - line / 2));
-    else if (box.y + box.height > d->setup.height_px)
-        reader_view_scroll(d->view, ceil(box.y + box.height - d->setup.height_px + line / 2));
-}
-
 static void line_go(struct read_desk *d, double by_px, bool select)
 {
     struct read_editing *e = d->editing;
@@ -242,6 +228,6 @@ bool read_edit_drag(struct read_desk *d, double x, double y)
     if (reader_view_caret_at(d->view, x, y, &byte, &before))
         read_edit_caret(d, byte, before, true);
     if (y < 0 || y > d->setup.height_px) /* the page follows */
-        read_hand_scroll(d, y < 0 ? y / 4 : (y - d->setup.height_px) / 4);
+        reader_view_scroll(d->view, trunc(y < 0 ? y / 4 : (y - d->setup.height_px) / 4));
     return true;
 }

@@ -231,6 +231,10 @@ void read_window_open(struct read_desk *d)
     d->changed = read_page_changed;
     d->step = read_keys_step;
     d->resized = read_look_resized;
+    d->edits_begin = read_edit_document;
+    d->edits_recover = read_save_recover;
+    d->edits_needed = read_save_needed;
+    d->edited = read_save_soon;
     d->titled = titled;
     d->refilled = read_contents_fill;
     d->window = gtk_application_window_new(d->application);

@@ -80,14 +80,13 @@ static void all_is_undone(void **state)
     char lines[3000];
     (void)state;
     document_write();
-    snprintf(
-        lines, sizeof lines,
-        "0.2 action edit\n0.3 select another\n0.4 type a new\n0.5 select second\n"
-        "0.6 strike Left\n0.7 strike BackSpace\n0.8 strike Control+End\n0.9 strike Return\n"
-        "1 type More\n1.1 strike Shift+Home\n1.2 strike Delete\n1.3 tell %s\n"
-        "1.4 action undo\n1.5 action undo\n1.6 action undo\n1.7 action undo\n"
-        "1.8 action undo\n1.9 tell %s\n",
-        played_path("edited"), played_path("undone"));
+    snprintf(lines, sizeof lines,
+             "0.2 action edit\n0.3 select another\n0.4 type a new\n0.5 select first\n"
+             "0.6 strike Right\n0.7 strike Delete\n0.8 strike Control+End\n0.9 strike Return\n"
+             "1 type More\n1.1 strike Shift+Home\n1.2 strike Delete\n1.3 tell %s\n"
+             "1.4 action undo\n1.5 action undo\n1.6 action undo\n1.7 action undo\n"
+             "1.8 action undo\n1.9 tell %s\n",
+             played_path("edited"), played_path("undone"));
     played_run(lines, played_path("one.md"));
     played_well();
     assert_string_equal(played_told("edited", "unsaved"), "1");

@@ -180,6 +180,8 @@ static void typed_letters_are_written(void **state)
         {"one\n\ntwo\n", "|two", "", 2, NULL},
         {"A **word** b\n", "word| b", "", 4, "A  b\n"},
         {"A word b\n", "word|", "", 4, "A  b\n"},
+        {"A word\n", "word|", "", 4, "A\n"},
+        {"A word\n", "word|", "b", 4, "A b\n"},
     };
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
