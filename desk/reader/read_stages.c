@@ -317,6 +317,7 @@ void read_stages_follow_document(struct read_desk *d, const struct reader_docume
         if (now >= 0 &&
             strcmp(before->blocks[s->block].text, d->document->blocks[now].text) == 0) {
             s->block = now;
+            s->number = program_number(d->document, now);
             continue;
         }
         stages->held = stages->held == s ? NULL : stages->held;
