@@ -1,6 +1,7 @@
 /* live_player.c - see live_player.h. */
 #include "live_player.h"
 
+#include "cues.h"
 #include "osc_stage.h"
 #include "watched_text.h"
 
@@ -23,6 +24,7 @@ struct live_player {
     struct beat beat;
     struct osc_stage *osc;
     struct watched_text *watched;
+    struct cues *cues;
     double began_s; /* when the first picture was due */
     bool began;
     char told[300]; /* what was told last: once is enough */
@@ -203,14 +205,16 @@ static void knobs_pass(struct live_player *p, double now_s)
 const struct help_row *live_player_keys(const struct live_player *p, int *count)
 {
     static const struct help_row rows[] = {
+        {"G, Page down", "the next cue that waits"},
         {"right click on a slider", "the knob that is turned next moves it"},
         {"Shift and drag on a slider", "an end of its knob"},
         {"Shift and right click on it", "no knob moves it"},
         {"1 to 9, or a program change", "a scene"},
         {"Control 1 to 9", "keep all controls as a scene"},
         {"F1 to F8", "the knobs of another file"}};
-    *count = p->knobs[0] ? (int)(sizeof rows / sizeof *rows) : 0;
-    return rows;
+    const int cues = p->cues ? 1 : 0;
+    *count = p->knobs[0] ? (int)(sizeof rows / sizeof *rows) - 1 + cues : cues;
+    return rows + 1 - cues;
 }
 
 /* True: it was a key for knobs. */
@@ -266,6 +270,16 @@ static const char *osc_knobs(void *context, int number)
     return NULL;
 }
 
+static const char *osc_go(void *context, int number)
+{
+    const struct live_player *p = context;
+    (void)number;
+    if (!p->cues)
+        return "there are no cues: --cues FILE has them";
+    cues_go(p->cues);
+    return NULL;
+}
+
 static enum stage_status osc_begin(struct live_player *p)
 {
     const struct osc_stage_def def = {.port = p->def.osc,
@@ -273,6 +287,7 @@ static enum stage_status osc_begin(struct live_player *p)
                                       .scene = osc_scene,
                                       .knobs = osc_knobs,
                                       .text = map_text,
+                                      .go = osc_go,
                                       .other = osc_other,
                                       .tell = map_tell,
                                       .context = p};
@@ -297,6 +312,30 @@ static void text_pass(struct live_player *p, double now_s)
     const char *wrong = watched_text_wrong(p->watched);
     if (wrong)
         tell(p, wrong);
+}
+
+/* ---- cues ---- */
+
+static enum stage_status cues_begin(struct live_player *p)
+{
+    const struct cues_def def = {.path = p->def.cues,
+                                 .stage = p->stage,
+                                 .is_film = p->def.no_go,
+                                 .scene = p->knobs[0] ? osc_scene : NULL,
+                                 .tell = map_tell,
+                                 .context = p};
+    return cues_open(&def, &p->cues);
+}
+
+/* True: it was the key for cues, alone or, where letters play notes, with Control. */
+static bool cues_key(struct live_player *p, const struct input_event *e)
+{
+    const bool go = e->key == INPUT_KEY_PAGE_DOWN || e->key == 'G';
+    if (!p->cues || e->kind != INPUT_KEY_DOWN || !go ||
+        (e->modifiers & ~(unsigned)INPUT_CONTROL))
+        return false;
+    cues_go(p->cues);
+    return true;
 }
 
 /* ---- a player ---- */
@@ -324,6 +363,8 @@ enum stage_status live_player_create(const struct live_player_def *def, struct s
         status = osc_begin(p);
     if (status == STAGE_OK && def->text)
         status = watched_text_open(def->text, &p->watched);
+    if (status == STAGE_OK && def->cues)
+        status = cues_begin(p);
     if (status != STAGE_OK) {
         live_player_destroy(p);
         return status;
@@ -339,6 +380,7 @@ void live_player_destroy(struct live_player *p)
     script_map_close(p->map);
     osc_stage_close(p->osc);
     watched_text_close(p->watched);
+    cues_close(p->cues);
     for (int i = 0; i < LIVE_KNOBS_MAX; i++)
         knobs_close(p->knobs[i]);
     free(p);
@@ -369,6 +411,8 @@ enum stage_status live_player_before(void *player, struct stage *stage, double n
         text_pass(p, now_s);
     if (p->osc)
         osc_stage_take(p->osc);
+    if (p->cues)
+        cues_frame(p->cues, now_s);
     if (p->map)
         script_map_frame(p->map, now_s);
     knobs_pass(p, now_s);
@@ -382,11 +426,11 @@ enum stage_status live_player_before(void *player, struct stage *stage, double n
 
 bool live_player_leads(const struct live_player *p)
 {
-    return p->map && script_map_leads(p->map);
+    return p->cues || (p->map && script_map_leads(p->map));
 }
 
 bool live_player_key(void *player, const struct input_event *event)
 {
     struct live_player *p = player;
-    return live_source_key(p->def.source, event) || knobs_key(p, event);
+    return live_source_key(p->def.source, event) || knobs_key(p, event) || cues_key(p, event);
 }

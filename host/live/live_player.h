@@ -31,6 +31,8 @@ struct live_player_def {
     bool is_film;             /* nothing is learnt: the files must be there */
     int knobs_count;          /* LIVE_KNOBS_MAX at most */
     const char *text;         /* a file whose words are the stage's as it changes; NULL: none */
+    const char *cues;         /* a file of cues (cues.h); NULL: none */
+    bool no_go;               /* nobody can say go: cues that wait are refused */
     struct osc_port_def osc;  /* zeros: no OSC (osc_stage.h) */
     /* A line for whoever looks: an error of the script's, what it prints, what the server
      * does. */
@@ -49,7 +51,7 @@ void live_player_destroy(struct live_player *player); /* NULL is fine */
 enum stage_status live_player_before(void *player, struct stage *stage, double now_s);
 bool live_player_key(void *player, const struct input_event *event);
 
-/* The script leads by time, whether anything is played or not. */
+/* The script or cues lead by time, whether anything is played or not. */
 bool live_player_leads(const struct live_player *player);
 
 /* What the stage's actor lets hear, for whom OSC is sent to. */

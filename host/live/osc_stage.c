@@ -144,6 +144,7 @@ static bool number_take(struct osc_stage *o, const struct osc_message *m, const 
         bool has_number;
     } rows[] = {{"/scene", o->def.scene, o->def.context, true},
                 {"/knobs", o->def.knobs, o->def.context, true},
+                {"/go", o->def.go, o->def.context, false},
                 {"/undo", undo, o, false},
                 {"/reset", reset, o, false}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
@@ -175,7 +176,7 @@ static void message_take(void *context, const struct osc_message *m)
         else
             why = o->def.text(o->def.context, m->arguments[0].text);
     } else if (!number_take(o, m, &why) && !(o->def.other && o->def.other(o->def.context, m))) {
-        why = "there are /control/NAME, /along/NAME, /text, /scene, /knobs, /undo, /reset";
+        why = "there are /control/NAME, /along/NAME, /text, /scene, /knobs, /go, /undo, /reset";
     }
     if (why)
         tell(o, m->address, why);

@@ -34,6 +34,7 @@ struct osc_stage_def {
      * be. */
     const char *(*scene)(void *context, int number);
     const char *(*knobs)(void *context, int number);
+    const char *(*go)(void *context, int number); /* number: of no meaning */
     const char *(*text)(void *context, const char *text);
     /* Any other address; false: nobody knows it. */
     bool (*other)(void *context, const struct osc_message *m);

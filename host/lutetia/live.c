@@ -51,6 +51,8 @@ int live_begin(const char *verb, const struct live_options *options, struct midi
                                            .knobs_count = options->knobs.count,
                                            .theme = options->theme,
                                            .text = options->text,
+                                           .cues = options->cues,
+                                           .no_go = options->no_go,
                                            .osc = {.listen = options->osc,
                                                    .from = options->osc_from.texts,
                                                    .from_count = options->osc_from.count,

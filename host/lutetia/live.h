@@ -15,6 +15,8 @@ struct live_options {
     struct option_texts params, knobs, osc_from;
     const char *osc, *osc_to;
     const char *text; /* a watched file */
+    const char *cues; /* a file of cues */
+    bool no_go;       /* nobody can say go */
     const char *screen;
     bool knobs_alone; /* the computer's keyboard plays no notes */
 };

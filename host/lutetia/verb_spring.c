@@ -9,6 +9,7 @@
 #include "type_common.h"
 #include <visible_text.h>
 
+#include <cues_file.h>
 #include <live_sound.h>
 #include <stage_film.h>
 #include <stage_window.h>
@@ -72,15 +73,16 @@ static int spring_check(struct spring *s, const struct option_words *words)
     const bool film = s->film.still || s->film.video || s->frames;
     const bool played = s->live_options.map || s->live_options.knobs.count;
     s->live_options.knobs_alone = !s->live_options.map;
-    if (played && s->replay)
-        return fail_usage("spring",
-                          "a session says what is done: --replay has no --map or --knobs");
+    s->live_options.no_go = film;
+    if ((played || s->live_options.cues) && s->replay)
+        return fail_usage(
+            "spring", "a session says what is done: --replay has no --map, --knobs or --cues");
     if (!played && (s->song_path || (s->live_options.server && !s->play)))
         return fail_usage("spring",
                           "what is played goes through a --map FILE.lua, or --knobs FILE");
     if (!s->live_options.map && s->live_options.params.count)
         return fail_usage("spring", "--param is for a --map FILE.lua");
-    if (s->live_options.knobs.count && !s->song_path && film)
+    if (s->live_options.knobs.count && !s->song_path && !s->live_options.cues && film)
         return fail_usage("spring", "a film through --knobs is of a --song FILE.mid");
     const struct spring_wet_def usual = spring_wet_def_default();
     if (!s->is_wet &&
@@ -162,6 +164,9 @@ static int spring_options(struct spring *s, int argc, char **argv, bool *help)
         {"watch", 0, OPTION_TEXT, "FILE",
          "a text file whose words are the window's, as soon as it changes",
          &s->live_options.text, 0, 0, 0},
+        {"cues", 0, OPTION_TEXT, "FILE",
+         "a list of cues: other words, controls and scenes, at times or when G is pressed",
+         &s->live_options.cues, 0, 0, 0},
         LIVE_OSC_OPTIONS(&s->live_options),
         {"param", 0, OPTION_TEXTS, "KEY=VALUE",
          "a parameter of the --map's script; as often as wanted", &s->live_options.params, 0, 0,
@@ -256,7 +261,8 @@ static int map_begin(struct spring *s, struct stage *stage)
 {
     enum { LOWEST = 48 };
     const struct live_options *o = &s->live_options;
-    if ((!o->map && !o->knobs.count && !o->osc && !o->osc_to && !o->text) || s->live.source)
+    if ((!o->map && !o->knobs.count && !o->osc && !o->osc_to && !o->text && !o->cues) ||
+        s->live.source)
         return EXIT_SUCCESS;
     const bool film = s->film.still || s->film.video || s->frames;
     const struct midi_song_def silence = midi_song_def_default();
@@ -348,13 +354,26 @@ static int film_seconds(struct spring *s, struct stage *stage)
     const double last_s = 1, most_s = 3600;
     if (!isnan(s->film.seconds))
         return EXIT_SUCCESS;
-    s->film.seconds = s->replay ? stage_replay_seconds(stage) + last_s
-                      : s->song ? (double)midi_song_info(s->song).end_ns / 1e9 + last_s
-                                : 5;
+    double cues_s = 0;
+    if (s->live_options.cues) {
+        struct cues_text cues;
+        const enum stage_status read = cues_file_read(s->live_options.cues, &cues);
+        cues_s = cues_text_seconds(&cues) + last_s;
+        cues_text_finish(&cues);
+        if (read != STAGE_OK)
+            return fail_stage();
+    }
+    s->film.seconds = s->replay    ? stage_replay_seconds(stage) + last_s
+                      : s->song    ? (double)midi_song_info(s->song).end_ns / 1e9 + last_s
+                      : cues_s > 0 ? cues_s
+                                   : 5;
     return s->film.seconds <= most_s
                ? EXIT_SUCCESS
                : fail("spring", "%s takes %.0f s: say by --seconds S how many are wanted",
-                      s->replay ? s->replay : s->song_path, s->film.seconds);
+                      s->replay      ? s->replay
+                      : s->song_path ? s->song_path
+                                     : s->live_options.cues,
+                      s->film.seconds);
 }
 
 static int film_make(struct spring *s, struct stage *stage)

@@ -28,15 +28,21 @@ double stage_control_read(const struct stage_control *row, void *actor)
     return row->read(actor, row->index);
 }
 
-enum stage_status stage_control_write(const struct stage_control *row, void *actor,
-                                      double value)
+enum stage_status stage_control_check(const struct stage_control *row, double value)
 {
     bool whole = row->curve == STAGE_SWITCH || row->curve == STAGE_CHOICE;
     if (!(value >= row->least && value <= row->most) || (whole && value != floor(value)))
         return stage_fail(STAGE_BAD_ARGUMENT, "%s must be %s%g..%g%s%s (got %g)", row->name,
                           whole ? "a whole number of " : "", row->least, row->most,
                           row->unit[0] ? " " : "", row->unit, value);
-    return row->write(actor, row->index, value);
+    return STAGE_OK;
+}
+
+enum stage_status stage_control_write(const struct stage_control *row, void *actor,
+                                      double value)
+{
+    enum stage_status status = stage_control_check(row, value);
+    return status == STAGE_OK ? row->write(actor, row->index, value) : status;
 }
 
 enum stage_status stage_control_parse(const struct stage_control *row, const char *text,

@@ -37,6 +37,8 @@ struct stage_control {
 const struct stage_control *stage_control_find(const struct stage_control *rows, int count,
                                                const char *name);
 
+/* Errors: BAD_ARGUMENT outside of the range, or not whole where it must be. */
+enum stage_status stage_control_check(const struct stage_control *row, double value);
 double stage_control_read(const struct stage_control *row, void *actor);
 /* Errors: BAD_ARGUMENT outside of the range (a switch: 0 or 1, a choice: whole), and the
  * actor's errors; nothing changes. */

@@ -243,6 +243,56 @@ static struct live_player *player_of(struct stage *stage, struct live_source *so
     return live_player_create(&def, stage, &player) == STAGE_OK ? player : NULL;
 }
 
+/* A cue that waits is due with the picture after the key; a letter with Shift is none. */
+static void cues_wait_for_a_key(void **unused)
+{
+    (void)unused;
+    static const struct {
+        int key;
+        unsigned modifiers;
+        bool goes;
+    } keys[] = {{'G', 0, true},
+                {'G', INPUT_SHIFT, false},
+                {'H', 0, false},
+                {INPUT_KEY_PAGE_DOWN, 0, true},
+                {'G', INPUT_CONTROL, true}};
+    struct midi_song *song = song_of(played, played_ms, 6);
+    struct live_source_def source_def = {.song = song};
+    struct live_source *source;
+    struct live_player *player;
+    assert_int_equal(live_source_open(&source_def, &source), MIDI_OK);
+    struct stage *stage = keys_stage(keys_actor_def_default());
+    const char *path = scratch_path("live.cues");
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs("go set size=0.5\ngo set size=0.25\ngo set size=1.5\n", file);
+    fclose(file);
+    struct live_player_def def = {.source = source, .cues = path, .tell = tell};
+    assert_int_equal(live_player_create(&def, stage, &player), STAGE_OK);
+    assert_true(live_player_leads(player));
+    static const double sizes[] = {0.5, 0.25, 1.5};
+    int due = 0;
+    int count;
+    assert_int_equal(live_player_before(player, stage, 0), STAGE_OK);
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
+        const struct input_event event = {
+            .kind = INPUT_KEY_DOWN, .key = keys[i].key, .modifiers = keys[i].modifiers};
+        const struct stage_control *rows = stage_controls(stage, &count);
+        const struct stage_control *size = stage_control_find(rows, count, "size");
+        const double before = stage_control_read(size, stage);
+        assert_int_equal(live_player_key(player, &event), keys[i].goes);
+        assert_true(stage_control_read(size, stage) == before);
+        assert_int_equal(live_player_before(player, stage, (double)i), STAGE_OK);
+        assert_true(stage_control_read(size, stage) == (keys[i].goes ? sizes[due++] : before));
+    }
+    live_player_destroy(player);
+    def.no_go = true;
+    assert_int_equal(live_player_create(&def, stage, &player), STAGE_BAD_FILE);
+    live_source_close(source);
+    stage_destroy(stage);
+    midi_song_destroy(song);
+}
+
 static void maps_set_controls(void **unused)
 {
     (void)unused;
@@ -344,6 +394,7 @@ int main(void)
         cmocka_unit_test(letters_are_as_high_as_keys_are_struck),
         cmocka_unit_test(keys_outside_are_played_by_octaves),
         cmocka_unit_test(forgotten_notes_make_no_difference),
+        cmocka_unit_test(cues_wait_for_a_key),
         cmocka_unit_test(maps_set_controls),
         cmocka_unit_test(what_maps_do_wrong_is_told),
     };
