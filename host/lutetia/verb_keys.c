@@ -20,7 +20,13 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { SHEET_COLUMNS = 5, SHEET_ROWS = 4, LABEL_PX = 11, POSTER_MARGIN_PX = 24 };
+enum {
+    SHEET_COLUMNS = 5,
+    SHEET_ROWS = 4,
+    LABEL_PX = 11,
+    POSTER_MARGIN_PX = 24,
+    POSTER_EM_PX = 240
+};
 
 struct keys_work {
     const char *text, *map, *font, *edits, *axes;
@@ -313,7 +319,7 @@ static int song_poster_write(const struct keys_work *w)
 {
     struct song_poster of = {0};
     const double half_second_px = 0.55 * w->second_px; /* a letter is about as wide as high */
-    const double most = w->sized ? fmin(w->size_px[1], half_second_px) : half_second_px;
+    const double most = fmin(w->sized ? w->size_px[1] : POSTER_EM_PX, half_second_px);
     int status = type_make(w, most / w->size_px[1], &of.type);
     double line_px = w->line_px > 0 ? w->line_px : POSTER_LINE_MOST_PX;
     for (int i = 0; i < 2 && status == EXIT_SUCCESS; i++) {
