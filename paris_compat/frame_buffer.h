@@ -50,9 +50,9 @@ bool frame_buffer_good_buffer(unsigned int buffer);
  *     6 end           a display is detached
  *     7 room          offset             columns 4, slot 4, bytes of the pixels 4
  *
- * Pixels of 24 bits have 4 bytes, of which the last is 0. Those of a piece of kind 7, which no
- * file has, lie in a slot of the memory that is shared with the window (picture_room.h); who
- * reads the piece gives the slot back. */
+ * Pixels of 24 bits have 4 bytes, red, green, blue and 0. Those of a piece of kind 7, which no
+ * file has, lie in a slot of the memory that is shared with the window (picture_room.h), blue,
+ * green, red and 0, as X11's servers show them; who reads the piece gives the slot back. */
 enum frame_buffer_kind {
     FRAME_BUFFER_SIZE = 1,
     FRAME_BUFFER_PIXELS,

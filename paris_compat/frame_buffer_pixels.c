@@ -191,6 +191,25 @@ static bool writing_begin(struct writing *w, const char *name, CMFB_display_id_t
     return frame_buffer_pixels_make(&w->to, bytes);
 }
 
+static inline void pixel_put(uint8_t *at, uint32_t first, uint32_t second, uint32_t third)
+{
+    const uint32_t pixel = htole32(first | second << 8 | third << 16);
+    memcpy(at, &pixel, sizeof pixel);
+}
+
+/* In the memory that is shared with a window blue is first: see frame_buffer.h. */
+static bool blue_is_first(const struct writing *w)
+{
+    return w->bits == 24 && w->to.slot >= 0;
+}
+
+/* Compilers make vectors of it. */
+static void pixels_turn(uint8_t *pixels, uint64_t count)
+{
+    for (uint64_t k = 0; k < count; k++, pixels += 4)
+        pixel_put(pixels, pixels[2], pixels[1], pixels[0]);
+}
+
 /* Pixel k becomes value from[k]'s place. */
 static void pixels_permute(const struct writing *w, const uint8_t *from, const uint32_t *by)
 {
@@ -251,7 +270,7 @@ static bool straight_read(struct writing *w, CM_field_id_t source)
 }
 
 /* The field's values as they lie, or by their places or addresses. */
-static bool field_read(struct writing *w, CM_field_id_t source, bool raw)
+static bool values_read(struct writing *w, CM_field_id_t source, bool raw)
 {
     const uint32_t *by = NULL;
     if (raw && !(by = order_of(&w->picture)))
@@ -263,6 +282,14 @@ static bool field_read(struct writing *w, CM_field_id_t source, bool raw)
         return false;
     pixels_permute(w, to, by);
     return true;
+}
+
+static bool field_read(struct writing *w, CM_field_id_t source, bool raw)
+{
+    const bool read = values_read(w, source, raw);
+    if (read && blue_is_first(w))
+        pixels_turn(w->to.pixels, w->picture.count);
+    return read;
 }
 
 void CMFB_write_news_always(CMFB_display_id_t display, unsigned int buffer,
@@ -282,18 +309,12 @@ void CMFB_write_always(CMFB_display_id_t display, unsigned int buffer, CM_field_
         writing_end(&w, field_read(&w, source, true));
 }
 
-static inline void pixel_put(uint8_t *at, uint32_t red, uint32_t green, uint32_t blue)
-{
-    const uint32_t pixel = htole32(red | green << 8 | blue << 16);
-    memcpy(at, &pixel, sizeof pixel);
-}
-
 /* A row of pixels of three of bytes. Compilers make vectors of it. */
-static void row_join(const uint8_t *restrict red, const uint8_t *restrict green,
-                     const uint8_t *restrict blue, uint8_t *restrict pixels, uint32_t width)
+static void row_join(const uint8_t *restrict first, const uint8_t *restrict second,
+                     const uint8_t *restrict third, uint8_t *restrict pixels, uint32_t width)
 {
     for (uint32_t x = 0; x < width; x++)
-        pixel_put(pixels + 4 * (size_t)x, red[x], green[x], blue[x]);
+        pixel_put(pixels + 4 * (size_t)x, first[x], second[x], third[x]);
 }
 
 /* Three planes of bytes to pixels, by their places. */
@@ -330,7 +351,7 @@ static uint8_t *planes_read(const struct writing *w, const CM_field_id_t sources
     return planes;
 }
 
-static bool channels_read(const struct writing *w, const CM_field_id_t sources[3])
+static bool channels_read(struct writing *w, const CM_field_id_t sources[3])
 {
     const uint32_t width = w->picture.width, height = w->picture.height;
     struct machine_rows r[3];
@@ -356,11 +377,11 @@ void CMFB_write_rgb_news_always(CMFB_display_id_t display, unsigned int buffer,
                                 CM_field_id_t red, CM_field_id_t green, CM_field_id_t blue,
                                 int x_offset, int y_offset)
 {
-    const CM_field_id_t sources[3] = {red, green, blue};
+    const CM_field_id_t sources[3] = {red, green, blue}, turned[3] = {blue, green, red};
     struct writing w;
     if (writing_begin(&w, "CMFB_write_rgb_news_always", display, buffer, sources, 3, x_offset,
                       y_offset))
-        writing_end(&w, channels_read(&w, sources));
+        writing_end(&w, channels_read(&w, blue_is_first(&w) ? turned : sources));
 }
 
 /* ---- the shuffle ---- */

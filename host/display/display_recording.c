@@ -69,9 +69,9 @@ static const char *head_wrong(const struct display_reader *reader, const struct 
 static void pixels_free(const struct display_reader *reader, struct display_screen *s,
                         unsigned buffer)
 {
-    if (s->slot[buffer])
+    if (s->slot[buffer] && s->slot[buffer] != s->kept)
         picture_room_give(reader->shared, s->slot[buffer] - 1);
-    else
+    else if (!s->slot[buffer])
         free(s->pixels[buffer]);
     s->pixels[buffer] = NULL;
     s->slot[buffer] = 0;
@@ -81,7 +81,16 @@ static void screen_free(const struct display_reader *reader, struct display_scre
 {
     pixels_free(reader, s, 0);
     pixels_free(reader, s, 1);
-    *s = (struct display_screen){0};
+    *s = (struct display_screen){.kept = s->kept};
+}
+
+void display_reader_keep(struct display_reader *reader, int number, bool shown)
+{
+    struct display_screen *s = &reader->screens[number - 1];
+    const int now = shown ? s->slot[s->seen] : 0;
+    if (s->kept && s->kept != now && s->kept != s->slot[0] && s->kept != s->slot[1])
+        picture_room_give(reader->shared, s->kept - 1);
+    s->kept = now;
 }
 
 static void screen_begin(const struct display_reader *reader, struct display_screen *s,
@@ -106,6 +115,20 @@ static uint8_t *buffer_of(struct display_screen *s, unsigned buffer)
     return s->pixels[buffer];
 }
 
+static void row_copied(uint8_t *to, const uint8_t *from, uint64_t bytes)
+{
+    memcpy(to, from, bytes);
+}
+
+/* Pixels of red, green, blue and 0, as pieces have them, blue first. */
+static void row_turned(uint8_t *to, const uint8_t *from, uint64_t bytes)
+{
+    for (uint64_t i = 0; i < bytes; i += 4) {
+        const uint8_t pixel[4] = {from[i + 2], from[i + 1], from[i], 0};
+        memcpy(to + i, pixel, sizeof pixel);
+    }
+}
+
 /* The pixels of a piece, so many bytes at `from`. */
 static enum display_status pixels_put(struct display_screen *s, const struct piece *p,
                                       const uint8_t *from, uint64_t bytes)
@@ -123,11 +146,13 @@ static enum display_status pixels_put(struct display_screen *s, const struct pie
     if (!to)
         return display_fail(DISPLAY_NO_MEMORY, "not enough memory for a display of %d x %d",
                             s->width_px, s->height_px);
+    void (*const put)(uint8_t *, const uint8_t *, uint64_t) =
+        each == 4 && p->kind == KIND_PIXELS ? row_turned : row_copied;
     for (int64_t row = 0; row < rows && left < right; row++)
         if (y + row >= 0 && y + row < s->height_px)
-            memcpy(to + (uint64_t)((y + row) * s->width_px + x + left) * each,
-                   from + ((uint64_t)row * columns + (uint64_t)left) * each,
-                   (uint64_t)(right - left) * each);
+            put(to + (uint64_t)((y + row) * s->width_px + x + left) * each,
+                from + ((uint64_t)row * columns + (uint64_t)left) * each,
+                (uint64_t)(right - left) * each);
     return DISPLAY_OK;
 }
 
@@ -137,7 +162,7 @@ static bool slot_held(const struct display_reader *reader, int slot)
     bool held = false;
     for (int i = 0; i < DISPLAY_SCREENS; i++)
         held = held || reader->screens[i].slot[0] == slot + 1 ||
-               reader->screens[i].slot[1] == slot + 1;
+               reader->screens[i].slot[1] == slot + 1 || reader->screens[i].kept == slot + 1;
     return held;
 }
 
@@ -178,7 +203,7 @@ static enum display_status clear(struct display_screen *s, const struct piece *p
         memset(to, (int)(p->x & 255), count);
         return DISPLAY_OK;
     }
-    const uint8_t pixel[4] = {(uint8_t)p->x, (uint8_t)(p->x >> 8), (uint8_t)(p->x >> 16), 0};
+    const uint8_t pixel[4] = {(uint8_t)(p->x >> 16), (uint8_t)(p->x >> 8), (uint8_t)p->x, 0};
     for (size_t i = 0; i < count; i++)
         memcpy(to + 4 * i, pixel, 4);
     return DISPLAY_OK;
@@ -317,8 +342,10 @@ enum display_status display_reader_end(const struct display_reader *reader)
 
 void display_reader_finish(struct display_reader *reader)
 {
-    for (int i = 0; i < DISPLAY_SCREENS; i++)
+    for (int i = 0; i < DISPLAY_SCREENS; i++) {
+        display_reader_keep(reader, i + 1, false);
         screen_free(reader, &reader->screens[i]);
+    }
     free(reader->bytes);
     reader->bytes = NULL;
     reader->held = reader->room = 0;

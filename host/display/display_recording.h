@@ -28,10 +28,11 @@ struct display_screen {
     bool there;
     char title[68];
     int width_px, height_px;
-    /* 1: a row of the map; 4: red, green, blue, each by its own column of it */
+    /* 1: a row of the map; 4: blue, green, red, each by its own column of it, and 0 */
     int pixel_bytes;
     uint8_t *pixels[2]; /* NULL: all 0 */
     int slot[2]; /* 0: the pixels are the screen's own; n: in slot n - 1 of the shared memory */
+    int kept;    /* n: slot n - 1 is being shown, and not given back until another is */
     int seen;
     uint32_t zoom[2];
     int32_t pan[2];
@@ -74,5 +75,11 @@ enum display_status display_screen_picture(const struct display_screen *screen,
                                            struct display_image *image);
 /* The same into a room of the screen's size: the same colours, byte for byte. */
 void display_screen_paint(const struct display_screen *screen, const struct display_room *room);
+/* Where the seen pixels lie in the shared memory and are what is to be seen, as they are: blue,
+ * green, red and a byte without meaning. Else NULL. */
+const uint8_t *display_screen_as_is(const struct display_screen *screen);
+/* The seen pixels are being shown from there: they stay until the next call. shown: false, what
+ * is shown lies elsewhere. */
+void display_reader_keep(struct display_reader *reader, int number, bool shown);
 
 #endif

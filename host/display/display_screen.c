@@ -66,11 +66,11 @@ static void span_paint(const struct display_screen *s, const struct colours *c,
     } else if (c->same) {
         for (size_t i = 0; i < count; i++) {
             const uint32_t n = number_at(from + 4 * i);
-            to[i] = BLACK | (n & 0xff) << 16 | (n & 0xff00) | (n >> 16 & 0xff);
+            to[i] = BLACK | n;
         }
     } else {
         for (size_t i = 0; i < count; i++, from += 4)
-            to[i] = BLACK | c->part[0][from[0]] | c->part[1][from[1]] | c->part[2][from[2]];
+            to[i] = BLACK | c->part[0][from[2]] | c->part[1][from[1]] | c->part[2][from[0]];
     }
 }
 
@@ -132,6 +132,16 @@ static void seen_paint(const struct display_screen *s, const struct colours *c, 
                   pixels ? pixels + (size_t)y * (size_t)s->width_px * (size_t)s->pixel_bytes
                          : NULL,
                   to);
+}
+
+const uint8_t *display_screen_as_is(const struct display_screen *s)
+{
+    struct colours c;
+    if (!s->slot[s->seen] || s->pixel_bytes != 4 || s->zoom[0] != 1 || s->zoom[1] != 1 ||
+        s->pan[0] || s->pan[1])
+        return NULL;
+    colours_make(&c, s);
+    return c.same ? s->pixels[s->seen] : NULL;
 }
 
 void display_screen_paint(const struct display_screen *s, const struct display_room *room)

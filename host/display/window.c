@@ -103,16 +103,38 @@ bool window_room_begin(struct window *window, int width_px, int height_px,
     return false;
 }
 
-void window_room_show(struct window *window)
+/* The X server shows it. */
+static void directly_seen(struct window *window)
 {
-    int width, height;
-    window_x11_pixels(window->x11, &width, &height);
+    window_x11_pixels(window->x11, &window->image_width_px, &window->image_height_px);
     window->direct = true;
     window->channels = 0; /* there is no texture of this size */
-    window->image_width_px = width;
-    window->image_height_px = height;
     window->stale = false;
+}
+
+void window_room_show(struct window *window)
+{
     window_x11_put(window->x11);
+    directly_seen(window);
+}
+
+bool window_shared_show(struct window *window, const struct picture_room *room,
+                        const uint8_t *pixels, int width_px, int height_px)
+{
+    int width, height;
+    glfw3.GetFramebufferSize(window->glfw, &width, &height);
+    if (!window->x11 || window->drawn_by_caller || width_px != width || height_px != height ||
+        !window_x11_share(window->x11, room->descriptor, room->at) ||
+        !window_x11_put_shared(window->x11, pixels, width, height))
+        return false;
+    directly_seen(window);
+    return true;
+}
+
+void window_settle(struct window *window)
+{
+    if (window->x11)
+        window_x11_settle(window->x11);
 }
 
 /* True: the server shows it as it is. */
@@ -141,7 +163,7 @@ void window_draw(struct window *window)
         return; /* an icon now */
     if (window->direct && width == window->image_width_px &&
         height == window->image_height_px) {
-        window_x11_put(window->x11);
+        window_x11_put_again(window->x11);
         return;
     }
     glfw3.MakeContextCurrent(window->glfw);

@@ -27,6 +27,7 @@
 #include "display.h"
 #include "input.h"
 
+#include <picture_room.h>
 #include <stdbool.h>
 
 enum { WINDOW_SIDE_MIN = 16, WINDOW_SIDE_MAX = 16384 };
@@ -68,6 +69,13 @@ enum display_status window_show(struct window *window, const struct display_imag
 bool window_room_begin(struct window *window, int width_px, int height_px,
                        struct display_room *room);
 void window_room_show(struct window *window);
+/* Shows a picture of exactly the window's size that lies in the room as it is: each pixel blue,
+ * green, red and a byte without meaning. It must stay there until another is shown. False: take
+ * one of the others. */
+bool window_shared_show(struct window *window, const struct picture_room *room,
+                        const uint8_t *pixels, int width_px, int height_px);
+/* Waits until what was shown last has been read. */
+void window_settle(struct window *window);
 
 /* The size of the area to draw on, in pixels. */
 void window_size(const struct window *window, int *width_px, int *height_px);

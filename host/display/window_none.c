@@ -57,6 +57,19 @@ void window_room_show(struct window *window)
     abort();
 }
 
+bool window_shared_show(struct window *window, const struct picture_room *room,
+                        const uint8_t *pixels, int width_px, int height_px)
+{
+    (void)window, (void)room, (void)pixels, (void)width_px, (void)height_px;
+    abort();
+}
+
+void window_settle(struct window *window)
+{
+    (void)window;
+    abort();
+}
+
 void window_wait(double wait_s)
 {
     (void)wait_s;

@@ -5,6 +5,7 @@
 #include <X11/Xutil.h>
 #include <X11/extensions/XShm.h>
 #include <endian.h>
+#include <fcntl.h>
 #include <library.h>
 #include <math.h>
 #include <poll.h>
@@ -13,6 +14,7 @@
 #include <sys/ipc.h>
 #include <sys/shm.h>
 #include <time.h>
+#include <unistd.h>
 
 /* clang-format off */
 #define X_NAMES(X)                                                                             \
@@ -45,6 +47,10 @@ struct window_x11 {
     XShmSegmentInfo segment;
     int put_event; /* of a picture that the server has read */
     bool putting;  /* it may be reading one */
+    /* Memory of another's, and the picture there that is seen; seen is that or image. */
+    bool share_tried;
+    XShmSegmentInfo shared; /* shmseg 0: there is none */
+    XImage *shared_image, *seen;
 };
 
 static bool refused;
@@ -84,7 +90,19 @@ static void image_end(struct window_x11 *x11)
     x.Sync(x11->display, False);
     XDestroyImage(x11->image);
     shmdt(x11->segment.shmaddr);
+    x11->seen = x11->seen == x11->image ? NULL : x11->seen;
     x11->image = NULL;
+}
+
+static void shared_image_end(struct window_x11 *x11)
+{
+    if (!x11->shared_image)
+        return;
+    put_end(x11);
+    x11->shared_image->data = NULL;
+    XDestroyImage(x11->shared_image);
+    x11->seen = x11->seen == x11->shared_image ? NULL : x11->seen;
+    x11->shared_image = NULL;
 }
 
 /* A server on another computer, or in another container, has the extension and refuses here. */
@@ -145,6 +163,7 @@ void window_x11_end(struct window_x11 *x11)
     if (!x11)
         return;
     image_end(x11);
+    shared_image_end(x11);
     if (x11->context)
         x.FreeGC(x11->display, x11->context);
     if (x11->display)
@@ -167,21 +186,109 @@ bool window_x11_room(struct window_x11 *x11, int width_px, int height_px,
     return true;
 }
 
-void window_x11_put(struct window_x11 *x11)
+static void image_put(struct window_x11 *x11, XImage *image)
 {
-    const XImage *i = x11->image;
     put_end(x11);
-    x.ShmPutImage(x11->display, x11->window, x11->context, x11->image, 0, 0, 0, 0,
-                  (unsigned int)i->width, (unsigned int)i->height, True);
+    x.ShmPutImage(x11->display, x11->window, x11->context, image, 0, 0, 0, 0,
+                  (unsigned int)image->width, (unsigned int)image->height, True);
     x.Flush(x11->display);
     x11->putting = true;
+    x11->seen = image;
+}
+
+void window_x11_put(struct window_x11 *x11)
+{
+    image_put(x11, x11->image);
+}
+
+void window_x11_put_again(struct window_x11 *x11)
+{
+    if (x11->seen)
+        image_put(x11, x11->seen);
+}
+
+void window_x11_settle(struct window_x11 *x11)
+{
+    put_end(x11);
 }
 
 const uint8_t *window_x11_pixels(const struct window_x11 *x11, int *width_px, int *height_px)
 {
-    *width_px = x11->image->width;
-    *height_px = x11->image->height;
-    return (const uint8_t *)x11->image->data;
+    *width_px = x11->seen ? x11->seen->width : 0;
+    *height_px = x11->seen ? x11->seen->height : 0;
+    return x11->seen ? (const uint8_t *)x11->seen->data : NULL;
+}
+
+/* ---- memory of another's ---- */
+
+/* Xlib cannot hand a file's memory to the server; the library below it can. */
+struct cookie {
+    unsigned int sequence;
+};
+static struct {
+    void *(*XGetXCBConnection)(Display *display);
+    uint32_t (*xcb_generate_id)(void *connection);
+    void *(*xcb_request_check)(void *connection, struct cookie cookie);
+    struct cookie (*xcb_shm_attach_fd_checked)(void *connection, uint32_t segment,
+                                               int32_t descriptor, uint8_t read_only);
+} xcb;
+
+static bool xcb_loaded(void)
+{
+    static const struct library_function between[] = {LIBRARY_FUNCTION(xcb, XGetXCBConnection)},
+                                         base[] = {LIBRARY_FUNCTION(xcb, xcb_generate_id),
+                                                   LIBRARY_FUNCTION(xcb, xcb_request_check)},
+                                         memory[] = {
+                                             LIBRARY_FUNCTION(xcb, xcb_shm_attach_fd_checked)};
+    const char *missing;
+    return xcb.xcb_shm_attach_fd_checked ||
+           (library_load_exactly("libX11-xcb.so.1", between, 1, &xcb, &missing) &&
+            library_load_exactly("libxcb.so.1", base, 2, &xcb, &missing) &&
+            library_load_exactly("libxcb-shm.so.0", memory, 1, &xcb, &missing));
+}
+
+bool window_x11_share(struct window_x11 *x11, int descriptor, const void *at)
+{
+    if (x11->share_tried)
+        return x11->shared.shmseg != 0;
+    x11->share_tried = true;
+    const int own = fcntl(descriptor, F_DUPFD_CLOEXEC, 3); /* which the library closes */
+    if (own < 0 || x11->attributes.depth != 24 || !xcb_loaded()) {
+        if (own >= 0)
+            close(own);
+        return false;
+    }
+    void *connection = xcb.XGetXCBConnection(x11->display);
+    const uint32_t segment = xcb.xcb_generate_id(connection);
+    void *error = xcb.xcb_request_check(
+        connection, xcb.xcb_shm_attach_fd_checked(connection, segment, own, 1));
+    if (!error)
+        x11->shared = (XShmSegmentInfo){.shmseg = segment, .shmaddr = (char *)(uintptr_t)at};
+    free(error);
+    return !error;
+}
+
+bool window_x11_put_shared(struct window_x11 *x11, const uint8_t *pixels, int width_px,
+                           int height_px)
+{
+    XImage *image = x11->shared_image;
+    if (!x11->shared.shmseg)
+        return false;
+    if (image && (image->width != width_px || image->height != height_px)) {
+        shared_image_end(x11);
+        image = NULL;
+    }
+    if (!image)
+        image = x11->shared_image =
+            x.ShmCreateImage(x11->display, x11->attributes.visual, 24, ZPixmap, NULL,
+                             &x11->shared, (unsigned int)width_px, (unsigned int)height_px);
+    if (!image || image->bits_per_pixel != 32 || image->byte_order != LSBFirst ||
+        image->bytes_per_line != 4 * width_px)
+        return false;
+    put_end(x11);
+    image->data = (char *)(uintptr_t)pixels;
+    image_put(x11, image);
+    return true;
 }
 
 bool window_x11_waits(void)

@@ -24,11 +24,25 @@ void window_x11_end(struct window_x11 *x11); /* NULL is fine */
 bool window_x11_room(struct window_x11 *x11, int width_px, int height_px,
                      struct display_room *room);
 
+/* The same server sees the file's memory, too, which is mapped at `at`. False: it does not;
+ * then or later nothing else is tried. */
+bool window_x11_share(struct window_x11 *x11, int descriptor, const void *at);
+/* Puts a picture that lies in that memory, row by row as window_x11_pixels() says. It must
+ * stay as it is until another is put. False: no memory is shared, or the window has other
+ * pixels. */
+bool window_x11_put_shared(struct window_x11 *x11, const uint8_t *pixels, int width_px,
+                           int height_px);
+/* Waits until the server has read what was put. */
+void window_x11_settle(struct window_x11 *x11);
+
 /* Puts the picture that is kept at the window's upper left corner. Does not wait for the
  * server: window_x11_room() does, which may find that it is done. */
 void window_x11_put(struct window_x11 *x11);
+/* Puts again what is seen. */
+void window_x11_put_again(struct window_x11 *x11);
 
-/* Its pixels, row by row, each blue, green, red and a byte without meaning. */
+/* The pixels that are seen, row by row, each blue, green, red and a byte without meaning; NULL:
+ * none are. */
 const uint8_t *window_x11_pixels(const struct window_x11 *x11, int *width_px, int *height_px);
 
 /* Waits for an event of that display (GLFW's) or for bytes in the descriptor, so long at most.

@@ -19,7 +19,30 @@ bool window_x11_room(struct window_x11 *x11, int width_px, int height_px,
     return false;
 }
 
+bool window_x11_share(struct window_x11 *x11, int descriptor, const void *at)
+{
+    (void)x11, (void)descriptor, (void)at;
+    return false;
+}
+
+bool window_x11_put_shared(struct window_x11 *x11, const uint8_t *pixels, int width_px,
+                           int height_px)
+{
+    (void)x11, (void)pixels, (void)width_px, (void)height_px;
+    return false;
+}
+
+void window_x11_settle(struct window_x11 *x11)
+{
+    (void)x11;
+}
+
 void window_x11_put(struct window_x11 *x11)
+{
+    (void)x11;
+}
+
+void window_x11_put_again(struct window_x11 *x11)
 {
     (void)x11;
 }

@@ -102,3 +102,22 @@ enum display_status shown_window_turn(struct shown_window *window, double wait_s
     } while (*open && (taken || seconds_now() < until_s));
     return DISPLAY_OK;
 }
+
+bool shown_window_paint(struct window *window, struct display_reader *reader, int number)
+{
+    const struct display_screen *screen = &reader->screens[number - 1];
+    const uint8_t *as_is = display_screen_as_is(screen);
+    struct display_room room;
+    if (as_is && window_shared_show(window, reader->shared, as_is, screen->width_px,
+                                    screen->height_px)) {
+        display_reader_keep(reader, number, true);
+        return true;
+    }
+    const bool painted = window_room_begin(window, screen->width_px, screen->height_px, &room);
+    if (painted) {
+        display_screen_paint(screen, &room);
+        window_room_show(window);
+        display_reader_keep(reader, number, false);
+    }
+    return painted;
+}

@@ -11,6 +11,7 @@
 #ifndef LUTETIA_SHOWN_WINDOW_H
 #define LUTETIA_SHOWN_WINDOW_H
 
+#include <display_recording.h>
 #include <frame_clock.h>
 #include <window.h>
 
@@ -58,5 +59,10 @@ double shown_window_due_s(const struct shown_window *window);
 /* Takes events for wait_s seconds, and draws if a picture is due. *open becomes false when
  * the window was closed or Esc pressed. Errors: those of shown_window_draw(). */
 enum display_status shown_window_turn(struct shown_window *window, double wait_s, bool *open);
+
+/* Paints a screen where the window has its pixels; those of the room that is shared with the
+ * program are shown from there. False: there is no such place, draw it. Call window_settle()
+ * before, without the reader's lock: here nothing is waited for. */
+bool shown_window_paint(struct window *window, struct display_reader *reader, int number);
 
 #endif

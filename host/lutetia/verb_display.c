@@ -197,18 +197,12 @@ static enum display_status screen_draw(void *context, struct display_image *imag
 static bool screen_paint(void *context, struct window *window)
 {
     struct screen *s = context;
-    const struct display_screen *screen = &s->all->reader.screens[s->number - 1];
-    struct display_room room;
+    window_settle(window);
     pthread_mutex_lock(&s->all->source.lock);
-    const bool there = screen->there,
-               painted = there &&
-                         window_room_begin(window, screen->width_px, screen->height_px, &room);
-    if (painted)
-        display_screen_paint(screen, &room);
+    const bool there = s->all->reader.screens[s->number - 1].there,
+               painted = there && shown_window_paint(window, &s->all->reader, s->number);
     s->stale = s->stale && there && !painted;
     pthread_mutex_unlock(&s->all->source.lock);
-    if (painted)
-        window_room_show(window);
     return painted || !there; /* of a display that has gone, what was seen stays */
 }
 

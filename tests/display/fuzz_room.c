@@ -185,6 +185,9 @@ static void a_window_bears_a_hostile_program(void **unused)
             taken += status == DISPLAY_OK;
             if (status == DISPLAY_OK && below(4) == 0)
                 screens_are_drawn(&reader, pixels);
+            const int number = 1 + below(DISPLAY_SCREENS);
+            display_reader_keep(&reader, number,
+                                display_screen_as_is(&reader.screens[number - 1]) != NULL);
         }
         refused += status != DISPLAY_OK;
         if (status != DISPLAY_OK)

@@ -251,6 +251,58 @@ static void shared_pixels_are_seen_and_slots_given(void **unused)
     display_image_destroy(&image);
 }
 
+/* Pixels that are shown from their slot keep it, until others are shown. */
+static void slots_that_are_shown_are_kept(void **unused)
+{
+    (void)unused;
+    struct display_reader reader = {.take = count_take, .shared = &shared};
+    struct display_image image = {0};
+    if (!picture_room_make(&shared))
+        skip();
+    int slots[2] = {picture_room_take(&shared), picture_room_take(&shared)};
+    for (int i = 0; i < 2; i++)
+        memcpy(picture_room_slot(&shared, slots[i]), (uint8_t[]){3, 2, 1, 0, 6, 5, 4, 99}, 8);
+    pieces.count = 0;
+    pieces_line(&pieces);
+    pieces_size(&pieces, 1, 4, 2, 1, 0);
+    room_pixels(1, 0, 2, slots[0], 8, 0, 0);
+    assert_int_equal(display_reader_feed(&reader, pieces.bytes, pieces.count), DISPLAY_OK);
+    const struct display_screen *s = &reader.screens[0];
+    assert_ptr_equal(display_screen_as_is(s), picture_room_slot(&shared, slots[0]));
+    assert_int_equal(display_screen_picture(s, &image), DISPLAY_OK);
+    assert_memory_equal(image.pixels, ((uint8_t[]){1, 2, 3, 4, 5, 6}), 6);
+    painted_as_pictured(s, &image);
+    display_reader_keep(&reader, 1, true);
+    pieces.count = 0;
+    room_pixels(1, 0, 2, slots[1], 8, 0, 0);
+    assert_int_equal(display_reader_feed(&reader, pieces.bytes, pieces.count), DISPLAY_OK);
+    assert_int_equal(slots_free(), PICTURE_ROOM_SLOTS - 2); /* it is shown */
+    display_reader_keep(&reader, 1, true);
+    assert_int_equal(slots_free(), PICTURE_ROOM_SLOTS - 1); /* the other one is */
+    /* A part through the pipe is written there; zoomed it is no picture that lies as it is. */
+    const uint8_t red[] = {255, 0, 0, 0};
+    pieces.count = 0;
+    pieces_pixels(&pieces, 1, 0, 4, 1, 1, 1, 0, red, 3);
+    assert_int_equal(display_reader_feed(&reader, pieces.bytes, pieces.count), DISPLAY_OK);
+    assert_int_equal(display_screen_picture(s, &image), DISPLAY_OK);
+    assert_memory_equal(image.pixels, ((uint8_t[]){1, 2, 3, 255, 0, 0}), 6);
+    assert_non_null(display_screen_as_is(s));
+    pieces.count = 0;
+    pieces_view(&pieces, 1, 0, 2, 1, 0, 0, 4);
+    assert_int_equal(display_reader_feed(&reader, pieces.bytes, pieces.count), DISPLAY_OK);
+    assert_null(display_screen_as_is(s));
+    /* A new size, while it is shown. */
+    pieces.count = 0;
+    pieces_size(&pieces, 1, 4, 3, 3, 5);
+    assert_int_equal(display_reader_feed(&reader, pieces.bytes, pieces.count), DISPLAY_OK);
+    assert_int_equal(slots_free(), PICTURE_ROOM_SLOTS - 1);
+    display_reader_keep(&reader, 1, false);
+    assert_int_equal(slots_free(), PICTURE_ROOM_SLOTS);
+    display_reader_finish(&reader);
+    picture_room_end(&shared);
+    display_image_destroy(&image);
+}
+
 static void what_is_wrong_is_said(void **unused)
 {
     (void)unused;
@@ -338,6 +390,7 @@ int main(void)
         cmocka_unit_test(pictures_are_by_offset_zoom_pan_and_map),
         cmocka_unit_test(deep_pixels_go_through_the_maps_columns),
         cmocka_unit_test(shared_pixels_are_seen_and_slots_given),
+        cmocka_unit_test(slots_that_are_shown_are_kept),
         cmocka_unit_test(what_is_wrong_is_said),
         cmocka_unit_test(damaged_recordings_are_refused_or_read),
     };

@@ -125,6 +125,39 @@ static void images_are_shown_pixel_for_pixel(void **state)
     assert_true(screen_window_gone(there, 5));
 }
 
+/* The server shows pixels from the memory of another program; no copy is made. */
+static void shared_pixels_are_shown_from_where_they_lie(void **state)
+{
+    (void)state;
+    struct picture_room room;
+    struct window *window = window_open("shared", 301, 203);
+    Window there = on_screen("shared");
+    if (!picture_room_make(&room))
+        skip();
+    for (int slot = 3; slot >= 0; slot--) {
+        struct display_image image = noise(301, 203, 3);
+        uint8_t *pixels = picture_room_slot(&room, slot);
+        for (int i = 0; i < 301 * 203; i++)
+            for (int c = 0; c < 4; c++)
+                pixels[4 * i + c] = c < 3 ? image.pixels[3 * i + 2 - c] : (uint8_t)i;
+        assert_false(window_shared_show(window, &room, pixels, 203, 301));
+        if (window_shared_show(window, &room, pixels, 301, 203)) {
+            struct input_event event;
+            assert_true(screen_shows(there, &image, 5));
+            screen_resize(there, 602, 400);
+            window_input_take(window, 0.2, &event);
+            screen_resize(there, 301, 203);
+            for (int i = 0; i < 20; i++)
+                window_input_take(window, 0.02, &event);
+            assert_true(screen_shows(there, &image, 5));
+            window_settle(window);
+        }
+        display_image_destroy(&image);
+    }
+    window_destroy(window);
+    picture_room_end(&room);
+}
+
 /* A half transparent colour on black. */
 static void alpha_covers_black(void **state)
 {
@@ -422,6 +455,7 @@ int main(void)
     const struct CMUnitTest without[] = {cmocka_unit_test(no_display_is_said)};
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(images_are_shown_pixel_for_pixel),
+        cmocka_unit_test(shared_pixels_are_shown_from_where_they_lie),
         cmocka_unit_test(alpha_covers_black),
         cmocka_unit_test(ratios_are_kept),
         cmocka_unit_test(shrunk_images_are_means),

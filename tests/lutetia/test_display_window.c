@@ -19,7 +19,7 @@
 #include "sample.h"
 #include "xvfb.h"
 
-enum { WIDTH = 61, HEIGHT = 37 };
+enum { WIDTH = 61, HEIGHT = 37, DEEP_WIDTH = 40, DEEP_HEIGHT = 30 };
 
 static uint64_t random_state = 21;
 static struct pieces pieces;
@@ -69,11 +69,13 @@ static void scene_make(const struct scene *s, struct display_image *wanted)
         }
 }
 
-static pid_t shown(const char *recording)
+/* argument: NULL is fine. */
+static pid_t shown(const char *what, const char *argument)
 {
     const pid_t child = fork();
     if (child == 0) {
-        execl(getenv("LUTETIA"), "lutetia", "display", "--window", recording, (char *)NULL);
+        execl(getenv("LUTETIA"), "lutetia", "display", "--window", what, argument,
+              (char *)NULL);
         _exit(127);
     }
     return child;
@@ -90,12 +92,14 @@ static bool seen_in(Window window, const struct display_image *wanted, bool say)
 {
     struct display_image seen;
     screen_read(window, &seen);
-    bool same = seen.pixels && seen.width_px == WIDTH && seen.height_px == HEIGHT;
-    for (int i = 0; same && i < 3 * WIDTH * HEIGHT; i++) {
+    bool same =
+        seen.pixels && seen.width_px == wanted->width_px && seen.height_px == wanted->height_px;
+    for (int i = 0; same && i < 3 * wanted->width_px * wanted->height_px; i++) {
         same = abs(seen.pixels[i] - wanted->pixels[i]) <= error_most(i % 3);
         if (!same && say)
-            fprintf(stderr, "at %d,%d channel %d: %d is seen for %d\n", i / 3 % WIDTH,
-                    i / 3 / WIDTH, i % 3, seen.pixels[i], wanted->pixels[i]);
+            fprintf(stderr, "at %d,%d channel %d: %d is seen for %d\n",
+                    i / 3 % wanted->width_px, i / 3 / wanted->width_px, i % 3, seen.pixels[i],
+                    wanted->pixels[i]);
     }
     display_image_destroy(&seen);
     return same;
@@ -122,7 +126,7 @@ static void scene_is_seen(const struct scene *s)
     assert_true(file >= 0);
     assert_int_equal(write(file, pieces.bytes, pieces.count), pieces.count);
     close(file);
-    const pid_t child = shown(recording);
+    const pid_t child = shown(recording, NULL);
     const Window window = screen_window("tcit", 20);
     assert_true(window != 0);
     must_be_seen(window, &wanted, s->what);
@@ -138,6 +142,36 @@ static void scene_is_seen(const struct scene *s)
     display_image_destroy(&wanted);
 }
 
+/* What a program writes goes to the window in memory that both have, whole or in parts. */
+static void programs_pixels_are_seen(void **unused)
+{
+    (void)unused;
+    static const char *const ways[] = {"whole", "raw", "channels", "parts", "turned"};
+    struct display_image wanted = {
+        .width_px = DEEP_WIDTH, .height_px = DEEP_HEIGHT, .channels = 3};
+    assert_int_equal(display_image_create(&wanted), DISPLAY_OK);
+    for (int i = 0; i < DEEP_WIDTH * DEEP_HEIGHT; i++) {
+        const int x = i % DEEP_WIDTH, y = i / DEEP_WIDTH;
+        const uint8_t pixel[3] = {(uint8_t)(6 * x), (uint8_t)(8 * y), (uint8_t)(5 * x + y)};
+        memcpy(wanted.pixels + 3 * i, pixel, sizeof pixel);
+    }
+    for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
+        const pid_t child = shown(getenv("DEEP_PAINTER"), ways[i]);
+        const Window window = screen_window("deep", 20);
+        int status;
+        assert_true(window != 0);
+        must_be_seen(window, &wanted, ways[i]);
+        screen_resize(window, 2 * DEEP_WIDTH, DEEP_HEIGHT + 11);
+        usleep(100000);
+        screen_resize(window, DEEP_WIDTH, DEEP_HEIGHT);
+        must_be_seen(window, &wanted, "the first size again");
+        screen_close(window);
+        assert_int_equal(waitpid(child, &status, 0), child);
+        assert_true(screen_window_gone(window, 5));
+    }
+    display_image_destroy(&wanted);
+}
+
 static void pixels_are_the_nearest_that_the_screen_has(void **unused)
 {
     (void)unused;
@@ -148,12 +182,13 @@ static void pixels_are_the_nearest_that_the_screen_has(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pixels_are_the_nearest_that_the_screen_has)};
+        cmocka_unit_test(pixels_are_the_nearest_that_the_screen_has),
+        cmocka_unit_test(programs_pixels_are_seen)};
     const char *const sizes[] = {"300x200", "300x200x16"};
     int failed = 0;
     for (int i = 0; i < 2; i++) {
         screen_bits = i ? 16 : 24;
-        if (!getenv("LUTETIA") || !screen_start(sizes[i]))
+        if (!getenv("LUTETIA") || !getenv("DEEP_PAINTER") || !screen_start(sizes[i]))
             return failed ? failed : 77;
         failed += cmocka_run_group_tests(tests, NULL, NULL);
         screen_end();
