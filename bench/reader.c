@@ -7,6 +7,7 @@
 #include "text_pango.h"
 
 #include <reader_document.h>
+#include <reader_miniatures.h>
 #include <reader_view.h>
 
 #include <malloc.h>
@@ -16,7 +17,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PARAGRAPH_WORDS = 90, CHAPTER_PARAGRAPHS = 12, SCROLLED_LINES = 200 };
+enum {
+    PARAGRAPH_WORDS = 90,
+    CHAPTER_PARAGRAPHS = 12,
+    SCROLLED_LINES = 200,
+    MINIATURE_PX = 100
+};
 
 #define SIZE_PX 17.0
 #define FONT "DejaVuSerif"
@@ -204,6 +210,27 @@ static bool pango_all(struct book *b)
     return pango_set(b, NULL);
 }
 
+/* All pages are set and drawn small. */
+static bool miniatures(struct book *b)
+{
+    struct reader_pages_setup setup = b->setup;
+    const struct reader_miniatures_def def = {.setup = &setup, .width_px = MINIATURE_PX};
+    struct reader_miniatures *small;
+    int width, height;
+    setup.height_px = round(setup.width_px * 1.4);
+    if (reader_miniatures_make(b->document, &def, &small) != READER_OK)
+        return reader_wrong();
+    reader_miniatures_size(small, &width, &height);
+    uint8_t *rgb = malloc(3 * (size_t)width * (size_t)height);
+    bool good = rgb || bench_fail("no memory");
+    for (int i = 0; good && i < reader_miniatures_count(small); i++)
+        good = reader_miniatures_paint(small, i, rgb, 3 * (size_t)width) == READER_OK ||
+               reader_wrong();
+    free(rgb);
+    reader_miniatures_destroy(small);
+    return good;
+}
+
 static const struct row {
     const char *name;
     bool (*before)(struct book *b); /* not measured */
@@ -220,6 +247,7 @@ static const struct row {
     {"all, new width", all_opened, all_other_width, pango_all},
     {"all, new size", all_opened, all_other_size, pango_all},
     {"all, new font", all_opened, all_other_font, pango_all},
+    {"miniatures", opened, miniatures, pango_all},
 };
 
 /* ---- memory ---- */

@@ -79,7 +79,14 @@ static void entry_use(struct font_painter *p, struct entry *e)
 
 static uint32_t bucket_of(const struct key *key)
 {
-    return font_hash(key, sizeof *key) % BUCKETS;
+    uint64_t words[sizeof *key / sizeof(uint64_t)], hash = 0;
+    _Static_assert(sizeof words == sizeof *key, "a key is whole words");
+    memcpy(words, key, sizeof words);
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        hash = (hash ^ words[i]) * UINT64_C(0x9e3779b97f4a7c15);
+        hash ^= hash >> 29;
+    }
+    return (uint32_t)(hash >> 32) % BUCKETS;
 }
 
 static void entry_free(struct font_painter *p, struct entry *e)

@@ -429,7 +429,7 @@ enum reader_status reader_pages_make(const struct reader_document *document,
         pages_begin(document, setup, setup->height_px - 2 * setup->margin_px, NULL, out);
     if (status == READER_OK)
         status = blocks_add(*out);
-    if (status == READER_OK && setup->remarks)
+    if (status == READER_OK && (setup->remarks || setup->places))
         status = pages_left_make(*out);
     if (status != READER_OK) {
         reader_pages_destroy(*out);

@@ -224,7 +224,7 @@ static enum reader_status others_head(struct reader_pages *p)
 enum reader_status pages_left_make(struct reader_pages *p)
 {
     const struct reader_remarks *remarks = p->setup.remarks;
-    const int count = reader_remarks_count(remarks);
+    const int count = remarks ? reader_remarks_count(remarks) : 0;
     bool others = false;
     p->left = calloc(1, sizeof *p->left);
     enum reader_status status = p->left ? pieces_make(p) : pages_no_memory();
@@ -322,6 +322,60 @@ static enum reader_status kind_boxes(struct reader_pages *p, enum reader_remark_
     return status;
 }
 
+enum reader_status
+reader_pages_find(struct reader_pages *p, size_t begin, size_t end,
+                  void (*found)(void *user, int page, const struct page_box *box), void *user)
+{
+    const struct pages_left *left = p->left;
+    for (int k = left ? piece_behind(left, begin) : 0; left && k < left->pieces_count; k++) {
+        const struct piece *piece = &left->pieces[k];
+        struct page_box boxes[LINES_MAX];
+        int first, last, count = 0;
+        if (piece->at >= end)
+            break;
+        const int from = begin > piece->at ? (int)(begin - piece->at) : 0;
+        const size_t length = end - piece->at;
+        const int to = length < (size_t)piece->length ? (int)length : piece->length;
+        const struct page_place a = place_of(p, piece->paragraph, piece->begin + from),
+                                b = place_of(p, piece->paragraph, piece->begin + to);
+        if (from >= to)
+            continue;
+        if (page_find(p->text, a, &first) != FONT_OK || page_find(p->text, b, &last) != FONT_OK)
+            return pages_failed();
+        for (int page = first; page <= last; page++) {
+            if (page_select(p->text, a, b, page, boxes, LINES_MAX, &count) != FONT_OK)
+                return pages_failed();
+            for (int i = 0; i < count && i < LINES_MAX; i++)
+                found(user, page, &boxes[i]);
+        }
+    }
+    return READER_OK;
+}
+
+bool reader_pages_byte(struct reader_pages *p, int page, double x, double y, size_t *byte)
+{
+    struct page_place place;
+    bool before;
+    if (page_hit(p->text, page, x, y, &place, &before) != FONT_OK)
+        return false;
+    const struct made_paragraph *m = NULL;
+    for (int i = 0; i < p->kept.count && !m; i++)
+        m = p->kept.paragraphs[i].id == place.paragraph ? &p->kept.paragraphs[i] : NULL;
+    bool any = false;
+    for (int i = 0; m && i < m->spans_count; i++) {
+        const struct line_span *s = &m->spans[i];
+        if (s->at < 0)
+            continue;
+        const int in = place.byte > s->begin ? place.byte - s->begin : 0,
+                  most = s->end - s->begin;
+        *byte = (size_t)s->at + (size_t)(in < most ? in : most > 0 ? most - 1 : 0);
+        any = true;
+        if (place.byte < s->end)
+            break;
+    }
+    return any;
+}
+
 /* ---- ink ---- */
 
 static enum reader_status stroke_add(struct reader_pages *p, const struct reader_remark *r)
@@ -405,8 +459,10 @@ enum reader_status reader_pages_left(struct reader_pages *p, int page,
 {
     struct pages_left *left = p->left;
     int boxes = 0, strokes = 0;
-    enum reader_status status = !left || left->found ? READER_OK : left_find(p);
-    if (!left || status != READER_OK)
+    if (!left || !p->setup.remarks)
+        return READER_OK;
+    enum reader_status status = left->found ? READER_OK : left_find(p);
+    if (status != READER_OK)
         return status;
     for (int i = 0; i < left->boxes_count; i++)
         if (left->boxes[i].page == page)

@@ -352,7 +352,9 @@ static bool note_text(const struct reader_pages *p, int note, struct paragraph_t
 enum reader_status pages_made_keep(struct reader_pages *p, int id, int note,
                                    struct paragraph_text *t)
 {
-    struct made_passage *made = p->made ? p->made : p->setup.remarks ? &p->kept : NULL;
+    struct made_passage *made = p->made                               ? p->made
+                                : p->setup.remarks || p->setup.places ? &p->kept
+                                                                      : NULL;
     if (!made)
         return READER_OK;
     if (!array_reserve(&made->paragraphs, &made->capacity, made->count + 1,

@@ -66,6 +66,7 @@ struct reader_pages_setup {
      * those whose words are on no page, or in a note, stand behind all else. It must outlive
      * the pages. NULL: none. */
     const struct reader_remarks *remarks;
+    bool places; /* pages only: reader_pages_find() and reader_pages_byte() are asked */
 };
 /* EB Garamond (DejaVu Serif without it) of 17 pixels, justified, on a page of 600 x 840. */
 struct reader_pages_setup reader_pages_setup_default(void);
@@ -82,6 +83,13 @@ struct page_text *reader_pages_text(struct reader_pages *pages);
  * ink. Owns: `pages`, until it is called again. Errors: FAILED, NO_MEMORY. */
 enum reader_status reader_pages_left(struct reader_pages *pages, int page,
                                      struct font_drawing *drawing);
+/* Where bytes begin..end of the document's plain text stand, each line's part a box of a page.
+ * What is on no page has none. Errors: FAILED. */
+enum reader_status
+reader_pages_find(struct reader_pages *pages, size_t begin, size_t end,
+                  void (*found)(void *user, int page, const struct page_box *box), void *user);
+/* The byte that is nearest to a point of a page; false: there is none. */
+bool reader_pages_byte(struct reader_pages *pages, int page, double x, double y, size_t *byte);
 /* There are formulas, and no font to set them in: they stand as they are written. */
 bool reader_pages_lacks_math(const struct reader_pages *pages);
 /* How many commands in formulas are not known, and the first of them ("" for none). Owns:

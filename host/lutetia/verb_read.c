@@ -6,6 +6,7 @@
 #include "read_html.h"
 #include "read_left.h"
 #include "read_manual.h"
+#include "read_small.h"
 #include "type_common.h"
 #include "type_pages.h"
 
@@ -30,7 +31,7 @@ struct read {
     struct type_pages pages;
     const char *font, *mono, *math, *theme, *play;
     double size_px, leading, margin_px, gap_px, notes_px;
-    int columns;
+    int columns, small_px; /* small_px: of miniatures; 0: none */
     bool ragged, plain, remarks;
     bool manual; /* no file was named */
 };
@@ -45,9 +46,9 @@ static bool is_html(const struct read *r)
 static int out_check(const struct read *r, const struct option_row *rows,
                      const struct option_words *words)
 {
-    static const char *const of_pages[] = {"page",   "all",     "paper", "leading",
-                                           "margin", "columns", "gap",   "notes",
-                                           "ragged", "plain",   "mono",  "statistics"};
+    static const char *const of_pages[] = {
+        "page",  "all",    "paper", "leading", "margin",     "columns",   "gap",
+        "notes", "ragged", "plain", "mono",    "statistics", "miniatures"};
     if (!r->pages.out_path)
         return EXIT_SUCCESS;
     if (!is_html(r)) {
@@ -56,6 +57,10 @@ static int out_check(const struct read *r, const struct option_row *rows,
                               r->pages.out_path);
         if (r->theme)
             return fail_usage("read", "--theme has no effect on pages: it is for %s", ".html");
+        if (r->small_px && (type_out_of(r->pages.out_path) != TYPE_OUT_PNG || r->pages.page ||
+                            r->pages.all || r->pages.statistics))
+            return fail_usage("read", "--miniatures has all pages in one picture: -o %s",
+                              "FILE.png, without --page, --all and --statistics");
         return r->remarks && type_out_of(r->pages.out_path) == TYPE_OUT_PNG
                    ? fail_usage("read", "--remarks has no effect on pictures: it is for %s",
                                 ".html, .pdf and .svg")
@@ -98,6 +103,9 @@ static int read_options(struct read *r, int argc, char **argv, struct option_wor
          &r->plain, 0, 0, 0},
         {"theme", 0, OPTION_TEXT, "NAME",
          "of the window, of .html: light or dark (as the desktop is)", &r->theme, 0, 0, 0},
+        {"miniatures", 0, OPTION_INTEGER, "PX",
+         "all pages small in one .png, each so many pixels wide, by the filters of such sizes",
+         &r->small_px, 16, 1000, 0},
         {"remarks", 0, OPTION_FLAG, NULL,
          "what readers left in FILE.md.notes: highlights, notes, ink (not in .png)",
          &r->remarks, 0, 0, 0},
@@ -106,13 +114,12 @@ static int read_options(struct read *r, int argc, char **argv, struct option_wor
          0, 0, 0},
         {0}};
     /* What a window has in its own way, and what pages have not. */
-    static const struct option_need needs[] = {{"page", "out"},       {"all", "out"},
-                                               {"title", "out"},      {"paper", "out"},
-                                               {"leading", "out"},    {"margin", "out"},
-                                               {"columns", "out"},    {"gap", "out"},
-                                               {"notes", "out"},      {"plain", "out"},
-                                               {"statistics", "out"}, {"remarks", "out"},
-                                               {"play", "!out"},      {0}};
+    static const struct option_need needs[] = {
+        {"page", "out"},       {"all", "out"},        {"title", "out"},
+        {"paper", "out"},      {"leading", "out"},    {"margin", "out"},
+        {"columns", "out"},    {"gap", "out"},        {"notes", "out"},
+        {"plain", "out"},      {"statistics", "out"}, {"remarks", "out"},
+        {"miniatures", "out"}, {"play", "!out"},      {0}};
     if (!options_parse("read", rows, argc, argv, words))
         return EXIT_USAGE;
     if (words->help)
@@ -246,7 +253,8 @@ static int document_write(struct read *r, const struct option_words *words,
 {
     struct reader_remarks *remarks = NULL;
     int status = EXIT_SUCCESS;
-    if ((r->remarks || is_html(r)) && reader_document_plain(document) != READER_OK)
+    if ((r->remarks || r->small_px || is_html(r)) &&
+        reader_document_plain(document) != READER_OK)
         status = fail_reader(NULL);
     if (status == EXIT_SUCCESS && r->remarks)
         status =
@@ -254,7 +262,9 @@ static int document_write(struct read *r, const struct option_words *words,
     setup->remarks = remarks;
     if (status == EXIT_SUCCESS)
         status = is_html(r) ? html_write(r, document, files, remarks)
-                            : pages_write(r, setup, document, damaged);
+                 : r->small_px
+                     ? read_small_write(r->pages.out_path, document, setup, r->small_px)
+                     : pages_write(r, setup, document, damaged);
     reader_remarks_close(remarks);
     return status;
 }

@@ -65,6 +65,7 @@ OUTPUTS = [
     ("set all", "set", ["all"], ["pages/"], ["set", "text.txt", "--all", "-o", "pages/page.png"], {}),
     ("read", "read", ["out"], ["read.pdf"], ["read", "text.txt", "-o", "read.pdf"], {}),
     ("read html", "read", [], ["read.html"], ["read", "text.txt", "-o", "read.html"], {}),
+    ("read small", "read", [], ["small.png"], ["read", "text.txt", "--miniatures", "60", "-o", "small.png"], {}),
     ("read all", "read", ["all"], ["pages/"], ["read", "text.txt", "--all", "-o", "pages/read.png"], {}),
     ("font", "font", ["out"], ["f.png"], ["font", "DejaVuSans", "-o", "f.png"], {}),
     ("font master", "font", ["master-out"], ["m.png", "levels.png"],
