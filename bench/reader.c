@@ -6,7 +6,9 @@
 #include "options.h"
 #include "text_pango.h"
 
+#include <paint.h>
 #include <reader_document.h>
+#include <reader_edit.h>
 #include <reader_miniatures.h>
 #include <reader_view.h>
 
@@ -45,6 +47,10 @@ struct book {
     struct reader_pages_setup setup;
     struct peer_pango *pango;
     size_t middle;
+    /* while it is edited */
+    struct reader_files files;
+    struct reader_edit *edit;
+    size_t caret;
 };
 
 static bool reader_wrong(void)
@@ -88,8 +94,11 @@ static void book_close(struct book *b)
 {
     reader_view_destroy(b->view);
     reader_document_destroy(b->document);
+    reader_edit_destroy(b->edit);
+    reader_files_finish(&b->files);
     b->view = NULL;
     b->document = NULL;
+    b->edit = NULL;
 }
 
 /* ---- what is measured ---- */
@@ -184,6 +193,82 @@ static bool all_opened(struct book *b)
     return opened(b) && all_seen(b);
 }
 
+/* ---- editing ---- */
+
+/* Opened to be edited, and seen in the middle: the caret is within a block of that kind. */
+static bool edit_opened(struct book *b, enum reader_kind kind)
+{
+    book_close(b);
+    b->files = (struct reader_files){.keep = true};
+    if (reader_document_create(&b->document) != READER_OK ||
+        reader_files_add(&b->files, b->document, "-", b->markdown, b->bytes) != READER_OK ||
+        reader_document_refer(b->document) != READER_OK ||
+        reader_document_plain(b->document) != READER_OK ||
+        reader_view_create(b->document, &b->setup, &b->view) != READER_OK ||
+        reader_edit_create(&b->document, &b->files, NULL, &b->edit) != READER_OK)
+        return reader_wrong();
+    int i = b->document->blocks_count / 2;
+    while (i > 0 && b->document->blocks[i].kind != kind)
+        i--;
+    b->middle = b->document->blocks[i].at;
+    b->caret = b->middle + 5;
+    return middle_seen(b);
+}
+
+static bool paragraph_opened(struct book *b)
+{
+    return edit_opened(b, READER_PARAGRAPH);
+}
+
+static bool heading_opened(struct book *b)
+{
+    return edit_opened(b, READER_HEADING);
+}
+
+/* Paints the passage that has the caret, as the window does. */
+static bool passage_paint(struct book *b)
+{
+    static uint8_t pixels[3 * 700 * 1024];
+    struct font_painter_def def = font_painter_def_default();
+    struct font_picture picture = {700, 1024, 3 * 700, pixels};
+    struct font_painter *painter;
+    struct font_layout layout;
+    struct reader_box box;
+    if (!reader_view_caret(b->view, b->caret, true, &box))
+        return bench_fail("the caret is not seen");
+    memset(pixels, 255, sizeof pixels);
+    if (font_painter_create(&def, &painter) != FONT_OK)
+        return bench_fail("%s", font_error());
+    bool good = reader_view_layout(b->view, box.passage, &layout) == READER_OK &&
+                font_painter_layout(painter, &layout, NULL, 0, 0, &picture) == FONT_OK;
+    font_layout_finish(&layout);
+    font_painter_destroy(painter);
+    return good || bench_fail("%s", font_error());
+}
+
+/* A letter, from the key to the passage's picture. */
+static bool letter_typed(struct book *b)
+{
+    struct reader_edit_change change;
+    struct reader_view *view;
+    bool good = reader_edit_insert(b->edit, b->caret, b->caret, "e", 1, &change) == READER_OK;
+    if (good && change.before) {
+        good = reader_view_create(b->document, &b->setup, &view) == READER_OK;
+        if (good) {
+            reader_view_destroy(b->view);
+            b->view = view;
+            good = reader_view_go(view, b->middle, 0) == READER_OK;
+        }
+    } else if (good) {
+        good =
+            reader_view_edited(b->view, change.block, change.moves[0].at,
+                               change.moves[0].removed, change.moves[0].inserted) == READER_OK;
+    }
+    b->caret = change.caret;
+    reader_edit_change_finish(&change);
+    return good ? look(b) && passage_paint(b) : reader_wrong();
+}
+
 /* As the setup is. Each paragraph is a layout of its own: a layout of all text takes far
  * longer. kept: room for as many as there are bytes in which they stay; NULL: none does. */
 static bool pango_set(struct book *b, void **kept)
@@ -243,6 +328,8 @@ static const struct row {
     {"another width", middle_seen, other_width, NULL},
     {"another size", middle_seen, other_size, NULL},
     {"another font", middle_seen, other_font, NULL},
+    {"a letter", paragraph_opened, letter_typed, NULL},
+    {"in a heading", heading_opened, letter_typed, NULL},
     {"everything", opened, all_seen, pango_all},
     {"all, new width", all_opened, all_other_width, pango_all},
     {"all, new size", all_opened, all_other_size, pango_all},

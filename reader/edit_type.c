@@ -476,20 +476,6 @@ enum reader_status reader_edit_delete(struct reader_edit *e, size_t begin, size_
 
 /* ---- the source itself ---- */
 
-enum reader_status reader_edit_lines(const struct reader_edit *e, size_t byte, int *source,
-                                     size_t *begin, size_t *end)
-{
-    const struct reader_block *b = reader_document_block(*e->document, byte);
-    int first, last;
-    if (!b)
-        return reader_fail(READER_BAD_ARGUMENT, "the document is empty");
-    edit_lines_find(&e->files->texts[b->source], b->first_line, b->last_line, &first, &last);
-    *source = b->source;
-    *begin = (size_t)first;
-    *end = (size_t)last;
-    return READER_OK;
-}
-
 enum reader_status reader_edit_source(struct reader_edit *e, int source, size_t begin,
                                       size_t end, const char *utf8, size_t bytes,
                                       struct reader_edit_change *change)

@@ -82,9 +82,6 @@ enum reader_status reader_edit_break(struct reader_edit *edit, size_t byte,
 bool reader_edit_wait_end(struct reader_edit *edit);
 enum reader_edit_waits reader_edit_waits(const struct reader_edit *edit);
 
-/* The bytes of the source that a block comes from: whole lines. */
-enum reader_status reader_edit_lines(const struct reader_edit *edit, size_t byte, int *source,
-                                     size_t *begin, size_t *end);
 /* Bytes of a source become others, whatever they say then. Errors: BAD_ARGUMENT, TOO_LARGE,
  * NO_MEMORY. */
 enum reader_status reader_edit_source(struct reader_edit *edit, int source, size_t begin,
