@@ -69,7 +69,8 @@ ACTION(smaller, read_look_size(d, d->size_px / (1 + SIZE_STEP_PERCENT / 100.0)))
 ACTION(usual, read_look_size(d, d->options.size_px))
 ACTION(wider, column_step(d, GDK_KEY_Right, COLUMN_STEP))
 ACTION(narrower, column_step(d, GDK_KEY_Left, -COLUMN_STEP))
-ACTION(dark, read_look_theme(d, !d->dark))
+ACTION(dark, read_miniatures_close(d); read_look_theme(d, !d->dark))
+ACTION(miniatures, read_miniatures_toggle(d))
 ACTION(copy, copy_selected(d))
 ACTION(all, select_all(d))
 ACTION(edit, read_edit_toggle(d))
@@ -102,6 +103,7 @@ static const GActionEntry entries[] = {
     {.name = "wider", .activate = wider},
     {.name = "narrower", .activate = narrower},
     {.name = "dark", .activate = dark},
+    {.name = "miniatures", .activate = miniatures},
     {.name = "copy", .activate = copy},
     {.name = "all", .activate = all},
     {.name = "edit", .activate = edit},
@@ -126,6 +128,7 @@ static const struct desk_row menu_rows[] = {
     {"win.back", "Back", "<Alt>Left"},
     {"win.forward", "Forward", "<Alt>Right"},
     {"win.contents", "Contents", "F9"},
+    {"win.miniatures", "All pages, small", "<Control><Shift>m"},
     {NULL, NULL, NULL},
     {"win.search", "Search…", "<Control>f"},
     {"win.search-next", "Next hit", "<Control>g"},

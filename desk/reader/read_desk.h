@@ -22,6 +22,7 @@
  *     read_stages_hand.c  pointer and keys for them
  *     read_controls.c  their controls
  *     read_printed.c   what those of them that are programs print
+ *     read_miniatures.c  all pages, small
  *     read_tiles.c     its pictures, painted by fontpipe and kept
  *     read_look.c      sizes, colours, how wide the text is
  *     read_play.c      recorded input: events from a file
@@ -74,6 +75,7 @@ enum read_tool {
 
 struct read_tiles;
 struct read_stages;
+struct read_miniatures;
 struct read_editing;
 struct reader_edit_change;
 struct read_play;
@@ -96,6 +98,7 @@ struct read_desk {
     /* the page */
     struct read_tiles *tiles;
     struct read_stages *stages;
+    struct read_miniatures *miniatures;
     struct read_editing *editing;
     GtkWidget *replace_box, *replace_entry;
     GArray *hits; /* struct read_range */
@@ -231,6 +234,16 @@ bool read_controls_enter(struct read_controls *controls); /* the first has the f
 bool read_controls_has(const struct read_controls *controls, const GtkWidget *focus);
 bool read_controls_type(struct read_controls *controls, int number, double value);
 void read_controls_tell(const struct read_controls *controls, GString *to);
+
+/* read_miniatures.c */
+GtkWidget *read_miniatures_new(struct read_desk *d, GtkWidget *page); /* both, one is seen */
+void read_miniatures_finish(struct read_desk *d);                     /* with the window */
+void read_miniatures_destroy(struct read_desk *d);
+void read_miniatures_toggle(struct read_desk *d);
+void read_miniatures_close(struct read_desk *d);
+void read_miniatures_changed(struct read_desk *d);        /* other things are marked */
+bool read_miniatures_key(struct read_desk *d, guint key); /* false: it is none of theirs */
+char *read_miniatures_told(const struct read_desk *d);    /* a line; g_free() it */
 
 /* read_changed.c */
 void read_page_changed(struct read_desk *d); /* to be drawn anew */

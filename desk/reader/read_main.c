@@ -89,6 +89,7 @@ static void desk_finish(struct read_desk *d)
     g_ptr_array_unref(d->watches);
     read_stages_finish(d);
     read_stages_destroy(d->stages);
+    read_miniatures_destroy(d);
     read_tiles_destroy(d->tiles);
     g_array_free(d->hits, TRUE);
     g_ptr_array_unref(d->heard);

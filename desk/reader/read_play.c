@@ -247,21 +247,23 @@ static void tell(struct read_desk *d, const struct input *i)
     }
     char *line = g_strndup(d->document->plain + top, 40),
          *selected = read_text_of(d, d->selected), *stages = read_stages_told(d),
-         *order = played_told(d), *editing = read_edit_told(d);
+         *order = played_told(d), *editing = read_edit_told(d),
+         *small = read_miniatures_told(d);
     char *told = g_strdup_printf(
         "top %zu\nline %s\nshown %d\nabove %.0f\nall %.0f\nset %ld\npainted %ld\nhits %u\nhit "
         "%d\n"
         "open %d\nselected %s\nway %u of %u\nfile %s\nheard %u\nremarks %d\norphans %d\nink "
-        "%.1f %.1f\nplayed%s\n%s%s",
+        "%.1f %.1f\nplayed%s\n%s%s%s",
         top, g_strdelimit(line, "\n", ' '), count, above, all, reader_view_set_count(d->view),
         read_tiles_painted(d->tiles), d->hits->len, d->hit, opened, selected, d->way_at,
         d->way->len, d->files.count ? d->files.paths[block ? block->source : 0] : "",
-        d->heard->len, remarks, orphans, ink_x, ink_y, order, editing, stages);
+        d->heard->len, remarks, orphans, ink_x, ink_y, order, editing, small, stages);
     if (!g_file_set_contents(i->text, told, -1, NULL))
         d->say(d, i->text);
     g_free(told);
     g_free(order);
     g_free(editing);
+    g_free(small);
     g_free(stages);
     g_free(selected);
     g_free(line);

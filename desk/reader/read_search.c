@@ -68,6 +68,7 @@ void read_search_text(struct read_desk *d, const char *text)
         hit_show(d);
     told_show(d);
     read_page_changed(d);
+    read_miniatures_changed(d);
 }
 
 void read_search_step(struct read_desk *d, bool forward)

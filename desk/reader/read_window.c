@@ -182,6 +182,7 @@ static void titled(struct read_desk *d)
 static void document_shown(struct read_desk *d)
 {
     titled(d);
+    read_miniatures_close(d);
     read_contents_fill(d);
     read_watch_begin(d, read_save_foreign);
     read_actions_enable(d);
@@ -212,6 +213,7 @@ static gboolean close_asked(GtkWindow *window, struct read_desk *d)
         return TRUE;
     read_heard_finish(d);
     read_stages_finish(d);
+    read_miniatures_finish(d);
     read_watch_end(d);
     read_remarks_close(d);
     d->notice = NULL;
@@ -242,7 +244,7 @@ void read_window_open(struct read_desk *d)
     read_actions_add(d);
     gtk_window_set_titlebar(GTK_WINDOW(d->window), header_new());
     gtk_box_append(GTK_BOX(middle), read_contents_new(d));
-    gtk_box_append(GTK_BOX(middle), page_new(d));
+    gtk_box_append(GTK_BOX(middle), read_miniatures_new(d, page_new(d)));
     gtk_overlay_set_child(GTK_OVERLAY(over), middle);
     gtk_overlay_add_overlay(GTK_OVERLAY(over), notice_new(d));
     gtk_widget_set_vexpand(over, TRUE);

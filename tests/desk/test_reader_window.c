@@ -412,6 +412,40 @@ static void foreign_notes_are_said(void **state)
     notes_remove();
 }
 
+/* All pages, small: the one that is read is chosen, hits are seen in them, keys riffle through
+ * them, and Return goes to a page. */
+static void pages_are_seen_small(void **state)
+{
+    char lines[1500];
+    int pages = 0, at = 0, marks = 0;
+    (void)state;
+    notes_remove();
+    snprintf(
+        lines, sizeof lines,
+        "0.3 go Paragraph 50 has\n0.4 action miniatures\n0.6 tell %s\n0.7 search Paragraph "
+        "5\n0.9 picture %s\n0.9 tell %s\n1 key Home\n1.1 key Right\n1.1 key plus\n1.2 tell "
+        "%s\n1.3 key Return\n1.4 tell %s\n1.5 action miniatures\n1.6 key Escape\n1.7 tell "
+        "%s\n",
+        played_path("small"), played_path("small.png"), played_path("found"),
+        played_path("second"), played_path("gone"), played_path("closed"));
+    played_run(lines, played_path("one.md"));
+    played_well();
+    assert_int_equal(
+        sscanf(played_told("small", "miniatures"), "%d at %d marks %d", &pages, &at, &marks),
+        3);
+    assert_true(pages > 3 && at > 1 && at <= pages && marks == 0);
+    assert_int_equal(
+        sscanf(played_told("found", "miniatures"), "%d at %d marks %d", &pages, &at, &marks),
+        3);
+    assert_true(marks >= atoi(played_told("found", "hits")) && marks > 5);
+    assert_int_equal(sscanf(played_told("second", "miniatures"), "%d at %d", &pages, &at), 2);
+    assert_int_equal(at, 2);
+    assert_string_equal(played_told("gone", "miniatures"), "closed");
+    assert_true(atoi(played_told("gone", "top")) > 0 &&
+                atoi(played_told("gone", "top")) < atoi(played_told("small", "top")));
+    assert_string_equal(played_told("closed", "miniatures"), "closed");
+}
+
 /* ---- what is wrong ---- */
 
 static void wrong_is_one_line(void **state)
@@ -463,6 +497,7 @@ int main(void)
         cmocka_unit_test(spots_are_erased),
         cmocka_unit_test(pieces_are_played_first),
         cmocka_unit_test(changed_elsewhere),
+        cmocka_unit_test(pages_are_seen_small),
         cmocka_unit_test(foreign_notes_are_said),
         cmocka_unit_test(picture_is_seen),
         cmocka_unit_test(wrong_is_one_line),
