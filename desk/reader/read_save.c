@@ -324,6 +324,20 @@ void read_save_foreign(struct read_desk *d)
 
 /* ---- saving ---- */
 
+/* Whether the file has what another program has written, and that is neither joined nor is the
+ * edited text beside: then nothing may replace it. */
+static bool foreign_stands(const struct read_desk *d, int source)
+{
+    size_t bytes;
+    GBytes *saved = saved_of(d, source);
+    char *there = input_file_read(d->files.whole[source], READER_BYTES_MAX, &bytes, NULL);
+    const bool stands = there && saved &&
+                        (bytes != g_bytes_get_size(saved) ||
+                         (bytes && memcmp(there, g_bytes_get_data(saved, NULL), bytes) != 0));
+    free(there);
+    return stands;
+}
+
 bool read_save(struct read_desk *d)
 {
     bool good = true, any = false;
@@ -335,7 +349,9 @@ bool read_save(struct read_desk *d)
             continue;
         const struct reader_bytes *now = &d->files.texts[i];
         const char *path = d->files.whole[i],
-                   *why = file_write(path, "", now->text, now->bytes, mode_of(path));
+                   *why = foreign_stands(d, i)
+                              ? _("another program has written it")
+                              : file_write(path, "", now->text, now->bytes, mode_of(path));
         if (why) {
             char *told = g_strdup_printf(_("%s cannot be saved: %s"), path, why);
             d->say(d, told);

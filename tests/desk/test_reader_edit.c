@@ -213,6 +213,39 @@ static void both_texts_are_kept(void **state)
     assert_string_equal(is_now("one.md.edited.md"), with("heron", "crane"));
 }
 
+/* Where the edited text cannot be put beside, the other program's is not replaced. */
+static void nothing_replaces_what_others_wrote(void **state)
+{
+    enum { BESIDE_MOST = 1000 };
+    char lines[2000], command[600], path[600];
+    (void)state;
+    document_write();
+    unlink(played_path("edited"));
+    for (int i = 1; i < BESIDE_MOST; i++) { /* all names are taken */
+        snprintf(path, sizeof path, i > 1 ? "%s.edited-%d.md" : "%s.edited.md",
+                 played_path("one.md"), i);
+        fclose(fopen(path, "w"));
+    }
+    snprintf(lines, sizeof lines,
+             "0.2 action edit\n0.3 select heron\n0.4 type crane\n0.5 tell %s\n2.5 action save\n"
+             "2.7 tell %s\n2.8 close\n3.2 answer discard\n",
+             played_path("edited"), played_path("after"));
+    snprintf(command, sizeof command,
+             "(while [ ! -s %s ]; do sleep 0.05; done; sed -i 's/heron/stork/' %s) &",
+             played_path("edited"), played_path("one.md"));
+    assert_int_equal(system(command), 0);
+    played_run(lines, played_path("one.md"));
+    assert_non_null(strstr(played.errors, "there are too many such files"));
+    assert_non_null(strstr(played.errors, "another program has written it"));
+    assert_string_equal(played_told("after", "unsaved"), "1");
+    assert_string_equal(is_now("one.md"), with("heron", "stork"));
+    for (int i = 1; i < BESIDE_MOST; i++) {
+        snprintf(path, sizeof path, i > 1 ? "%s.edited-%d.md" : "%s.edited.md",
+                 played_path("one.md"), i);
+        unlink(path);
+    }
+}
+
 static void read_only_says_so(void **state)
 {
     char lines[1000];
@@ -248,6 +281,7 @@ int main(void)
         cmocka_unit_test(killed_loses_nothing),
         cmocka_unit_test(others_edits_are_joined),
         cmocka_unit_test(both_texts_are_kept),
+        cmocka_unit_test(nothing_replaces_what_others_wrote),
         cmocka_unit_test(read_only_says_so),
     };
     if (!screen_start("1280x900x24"))
