@@ -94,6 +94,10 @@ static const char *child_wait(pid_t child)
     if (CM_debug_locked && WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
         return "the program holds a lock of the C library, as after a crash there: `run` again "
                "and stop before it";
+    if (CM_debug_locked && WIFSIGNALED(status))
+        return "the program has crashed, and what it has damaged is needed to look: `run` "
+               "again "
+               "and stop before it";
     snprintf(text, sizeof text, "the process that looks ended by %s %d",
              WIFSIGNALED(status) ? "signal" : "status",
              WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status));
