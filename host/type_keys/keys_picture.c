@@ -12,26 +12,28 @@ static const double LETTER_HIGH = 0.9; /* of the em, from the foot of a g to the
 
 struct keys_type_def keys_type_def_default(void)
 {
-    return (struct keys_type_def){.filter = "box",
-                                  .size_px = {0, 300},
-                                  .step_px = 12,
-                                  .inks = {{0, 0, 0},
-                                           {0.72, 0.11, 0.07},
-                                           {0.05, 0.2, 0.55},
-                                           {0.1, 0.42, 0.2},
-                                           {0.75, 0.43, 0},
-                                           {0.45, 0.15, 0.55},
-                                           {0, 0.5, 0.55},
-                                           {0.55, 0.33, 0.18},
-                                           {0.8, 0.2, 0.5},
-                                           {0.42, 0.5, 0.05},
-                                           {0.25, 0.5, 0.85},
-                                           {0.4, 0, 0.12},
-                                           {0.5, 0.5, 0.5},
-                                           {0.9, 0.4, 0.3},
-                                           {0, 0.27, 0.25},
-                                           {0.6, 0.5, 0.8}},
-                                  .paper = {1, 1, 1}};
+    return (struct keys_type_def){
+        .filter = "box",
+        .size_px = {0, 300},
+        .step_px = 12,
+        /* each has a contrast of 4.5 to white at the least (WCAG AA) */
+        .inks = {{0, 0, 0},
+                 {0.72, 0.11, 0.07},
+                 {0.05, 0.2, 0.55},
+                 {0.1, 0.42, 0.2},
+                 {0.68, 0.33, 0},
+                 {0.45, 0.15, 0.55},
+                 {0, 0.42, 0.48},
+                 {0.45, 0.27, 0.13},
+                 {0.75, 0.15, 0.45},
+                 {0.35, 0.38, 0.02},
+                 {0.15, 0.42, 0.78},
+                 {0.4, 0, 0.12},
+                 {0.4, 0.4, 0.4},
+                 {0.8, 0.26, 0.2},
+                 {0, 0.25, 0.23},
+                 {0.45, 0.35, 0.75}},
+        .paper = {1, 1, 1}};
 }
 
 enum font_status keys_type_create(const struct keys_type_def *def, struct font_face *face,

@@ -217,7 +217,7 @@ class Outside(unittest.TestCase):
             track = b"\0\xff\x51\x03\xff\xff\xff\0\x90\x3c\x40" + wait + b"\x80\x3c\x40\0\xff\x2f\0"
             (self.at / "long.mid").write_bytes(b"MThd\0\0\0\6\0\0\0\1\0\x01MTrk" + struct.pack(">I", len(track)) + track)
             for output in (("--frames", "pictures"), ("--video", "k.y4m"), ("--sound", "k.wav")):
-                self.assertIn(b"--seconds", self.refused("keys", "long.mid", "--picture", "96x64", *output))
+                self.assertIn(b"--seconds", self.refused("keys", "long.mid", *output))
                 self.assertFalse((self.at / output[1]).exists())
             self.run_it("keys", "long.mid", "--picture", "96x64", "--frames", "pictures", "--fps", "8", "--seconds", "0.5", status=0)
             self.assertEqual(self.pictures(), 5)

@@ -149,6 +149,7 @@ INPUTS = [
     ("spring", "script", ["spring", "a", "--script", "@", "--still", "o.png"]),
     ("spring", "map", ["spring", "a", "--map", "@", "--song", "song.mid", "--still", "o.png"]),
     ("spring", "knobs", ["spring", "a", "--knobs", "@", "--song", "song.mid", "--still", "o.png"]),
+    ("spring", "cues", ["spring", "a", "--cues", "@", "--still", "o.png"]),
     ("spring", "song", ["spring", "a", "--map", "map.lua", "--song", "@", "--still", "o.png"]),
     ("spring", "theme", ["spring", "a", "--theme", "@", "--still", "o.png"]),
     ("spring", "replay", ["spring", "a", "--replay", "@", "--video", "o.y4m"]),

@@ -218,6 +218,14 @@ static void channels_have_inks_of_their_own(void **unused)
                 apart += fabs(def.inks[i][c] - def.inks[k][c]);
             assert_true(apart > 0.25);
         }
+    for (int i = 0; i < KEYS_INKS; i++) { /* WCAG's contrast to white */
+        double light[3];
+        for (int c = 0; c < 3; c++)
+            light[c] = def.inks[i][c] <= 0.04045 ? def.inks[i][c] / 12.92
+                                                 : pow((def.inks[i][c] + 0.055) / 1.055, 2.4);
+        assert_true(1.05 / (0.2126 * light[0] + 0.7152 * light[1] + 0.0722 * light[2] + 0.05) >=
+                    4.5);
+    }
     assert_int_equal(KEYS_INKS, MIDI_CHANNELS);
 }
 
