@@ -46,12 +46,12 @@ static enum stage_status cue_check(const struct cues *c, const struct cue *cue)
         return stage_fail(STAGE_BAD_FILE,
                           "%.200s:%d: there are no scenes: --knobs FILE has them", path,
                           cue->line);
-    if (cue->what != CUE_SET)
-        return STAGE_OK;
     double value;
-    const struct stage_control *row = row_of(c, cue->name);
-    if (row && stage_control_parse(row, cue->text, &value) == STAGE_OK &&
-        stage_control_check(row, value) == STAGE_OK)
+    const struct stage_control *row = cue->what == CUE_SET ? row_of(c, cue->name) : NULL;
+    if (cue->what == CUE_SCENE ||
+        (cue->what == CUE_TEXT && stage_text_check(c->def.stage, cue->text) == STAGE_OK) ||
+        (row && stage_control_parse(row, cue->text, &value) == STAGE_OK &&
+         stage_control_check(row, value) == STAGE_OK))
         return STAGE_OK;
     char why[300];
     snprintf(why, sizeof why, "%s", stage_error());

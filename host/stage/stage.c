@@ -212,27 +212,26 @@ static enum stage_status load_again(struct stage *s, const struct stage_file *fi
     return status == STAGE_OK ? load_do(s, file->path) : status;
 }
 
-static enum stage_status text_check(const char *words)
+enum stage_status stage_text_check(const struct stage *s, const char *words)
 {
     const size_t length = strlen(words);
     bool is_text = length > 0 && font_utf8_damaged(words, length) == 0;
     for (const char *c = words; *c; c++)
         is_text =
             is_text && ((unsigned char)*c >= ' ' || *c == '\n' || *c == '\t') && *c != 0x7f;
-    return is_text && length <= STAGE_TEXT_BYTES
+    if (!is_text || length > STAGE_TEXT_BYTES)
+        return stage_fail(STAGE_BAD_ARGUMENT,
+                          "a stage's text is UTF-8, 1 to %d bytes, without control characters",
+                          STAGE_TEXT_BYTES);
+    return s->actor.kind->text
                ? STAGE_OK
-               : stage_fail(
-                     STAGE_BAD_ARGUMENT,
-                     "a stage's text is UTF-8, 1 to %d bytes, without control characters",
-                     STAGE_TEXT_BYTES);
+               : stage_fail(STAGE_BAD_ARGUMENT, "%s has no text", s->actor.kind->name);
 }
 
 /* A mark was set before it. */
 static enum stage_status text_do(struct stage *s, const char *words)
 {
-    enum stage_status status = text_check(words);
-    if (status == STAGE_OK && !s->actor.kind->text)
-        status = stage_fail(STAGE_BAD_ARGUMENT, "%s has no text", s->actor.kind->name);
+    enum stage_status status = stage_text_check(s, words);
     if (status == STAGE_OK)
         status = s->actor.kind->text(s->actor.self, words);
     if (status != STAGE_OK)

@@ -97,6 +97,10 @@ enum stage_status stage_load(struct stage *stage, const char *path);
  * stage is as it was. */
 enum stage_status stage_text(struct stage *stage, const char *words);
 
+/* Whether stage_text() takes them, but for what making the letters needs. Errors:
+ * BAD_ARGUMENT. */
+enum stage_status stage_text_check(const struct stage *stage, const char *words);
+
 /* ---- sessions: see session.h ---- */
 
 /* Saves the actions since the first frame. Errors: BAD_FILE; BAD_ARGUMENT: a file was

@@ -182,7 +182,7 @@ static void what_cannot_be_done_is_said(void **state)
     struct cues *cues = cues_of("0 scene 9\n1 text \"other words\"\n2 scene 1\n");
     cues_frame(cues, 0);
     assert_string_equal(said, "cue of line 1: it was not kept");
-    cues_frame(cues, 1); /* this scene's words are not to be changed */
+    cues_frame(cues, 1); /* these words are made by hand, and cannot be made anew */
     assert_non_null(strstr(said, "cue of line 2: "));
     cues_frame(cues, 2);
     assert_string_equal(scenes, "9 1 ");
@@ -212,6 +212,9 @@ static void wrong_lists_are_refused_with_their_line(void **state)
         {"0 text hi\n", ":1: text goes with", false, false},
         {"0 text \"hi\n", ":1: text goes with", false, false},
         {"0 text \"h\\i\"\n", ":1: text goes with", false, false},
+        {"0 text \"\"\n", ":1: a stage's text is UTF-8, 1 to 1000 bytes", false, false},
+        {"0 text \"\xff\xfe\"\n", ":1: a stage's text is UTF-8", false, false},
+        {"0 text \"\x1b[2J\"\n", ":1: a stage's text is UTF-8", false, false},
         {"0 set gravity\n", ":1: set goes with", false, false},
         {"0 set gravity=\n", ":1: set goes with", false, false},
         {"0 set gravity=1 fade\n", ":1: fade goes with", false, false},
