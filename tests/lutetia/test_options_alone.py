@@ -29,7 +29,7 @@ def edits_make():
     """Edits of a font that no verb takes by itself."""
     at = folder + "-edits"
     shutil.rmtree(at, ignore_errors=True)
-    subprocess.run([lutetia, "font", "DejaVuSans-Bold", "--glyph", "A", "--edits", at, "--write", "outline"], check=True,
+    subprocess.run([lutetia, "font", "DejaVuSans-Bold", "--glyph", "A", "--edits", at, "--write", "outline", "-o", at + ".png"], check=True,
                    stdout=subprocess.DEVNULL, timeout=100)
     return at
 

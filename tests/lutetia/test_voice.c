@@ -54,6 +54,7 @@ static void features_are_a_table(void **state)
     char line[400];
     double before = -1, step = 0, loudest = 0, pitch = 0;
     int lines = 0, attacks = 0;
+    unlink("out.png"); /* another test's, or an earlier run's */
     run(&child, 0, "");
     assert_int_equal(access("out.png", F_OK), -1);
     FILE *file = fopen(table, "rb");
