@@ -1,6 +1,7 @@
 /* stage_loop.c - see stage_loop.h. */
 #include "stage_loop.h"
 
+#include <ink.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -62,17 +63,9 @@ bool stage_loop_take(struct stage_loop *l, int frame, struct display_image *imag
 
 /* ---- by light ---- */
 
-/* sRGB's curve, IEC 61966-2-1. */
-static double light_of(double number)
-{
-    return number <= 0.04045 ? number / 12.92 : pow((number + 0.055) / 1.055, 2.4);
-}
-
 static uint8_t number_of(double light)
 {
-    const double number =
-        light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1 / 2.4) - 0.055;
-    return (uint8_t)lround(255 * fmin(1, fmax(0, number)));
+    return (uint8_t)lround(255 * fmin(1, fmax(0, font_number(light, 0))));
 }
 
 void stage_loop_fade(struct display_image *from, const struct display_image *into, double part)
@@ -81,7 +74,7 @@ void stage_loop_fade(struct display_image *from, const struct display_image *int
     const int channels = from->channels, colours = channels == 4 ? 3 : channels;
     double light[256];
     for (int i = 0; i < 256; i++)
-        light[i] = light_of(i / 255.0);
+        light[i] = font_light(i / 255.0, 0); /* by sRGB's curve */
     for (size_t i = 0; i < pixels; i++) {
         uint8_t *a = from->pixels + i * (size_t)channels;
         const uint8_t *b = into->pixels + i * (size_t)channels;
