@@ -2,6 +2,7 @@
 #include "keys_actor.h"
 #include "keys_places.h"
 
+#include <font_axes.h>
 #include <keys_picture.h>
 #include <text.h>
 
@@ -9,14 +10,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { OWN_ROWS = 5, AXES = 2, CHANNEL_COLORS = 4 };
+enum { OWN_ROWS = 5, CHANNEL_COLORS = 4 };
+enum { VELOCITY, PRESSURE, PITCH, LEADS };
+
+static const struct stage_lead leads[LEADS] = {
+    [VELOCITY] = {"velocity", "how far a note's velocity moves that axis"},
+    [PRESSURE] = {"pressure", "how far its aftertouch moves that axis"},
+    [PITCH] = {"pitch", "how far its key moves that axis: the lowest -1, the highest 1"}};
 
 static const double FILL = 0.94; /* of a picture's width is for letters, as in keys_picture.c */
 static const double FORGET_S = 0.5; /* between looks for notes that have faded */
 
 /* All doubles, for the table's sake. */
 struct settings {
-    double size, attack, release, pressure, slant, axis[AXES];
+    double size, attack, release, pressure, slant;
+    struct stage_axes_set axes;
 };
 
 struct keys_actor {
@@ -25,9 +33,9 @@ struct keys_actor {
     struct keys_score score;
     struct keys_letters letters;
     struct settings set;
-    struct stage_control rows[OWN_ROWS + AXES];
+    struct stage_control rows[OWN_ROWS + STAGE_AXES_MAX * (1 + STAGE_LEADS_MAX)];
     int rows_count;
-    const char *axes[AXES]; /* tags of the rows behind the own ones */
+    struct stage_axes axes; /* of the font */
     double time_s, forgotten_s;
     int fit_px[2]; /* the picture that fit_size_px is for */
     double fit_size_px;
@@ -44,7 +52,7 @@ static double *setting(struct keys_actor *k, int index)
 {
     struct settings *s = &k->set;
     double *const all[OWN_ROWS] = {&s->size, &s->attack, &s->release, &s->pressure, &s->slant};
-    return index < OWN_ROWS ? all[index] : &s->axis[index - OWN_ROWS];
+    return all[index];
 }
 
 static double row_read(void *actor, int index)
@@ -58,9 +66,6 @@ static enum stage_status row_write(void *actor, int index, double value)
     *setting(k, index) = value;
     k->score.def = (struct keys_def){
         .attack_s = k->set.attack, .release_s = k->set.release, .pressure = k->set.pressure};
-    if (index >= OWN_ROWS &&
-        font_face_axis_set(k->face, k->axes[index - OWN_ROWS], value) != FONT_OK)
-        return stage_fail(STAGE_FAILED, "%s", font_error());
     return STAGE_OK;
 }
 
@@ -76,28 +81,15 @@ static const struct stage_control own_rows[OWN_ROWS] = {
     {"slant", "", -1, 1, 0, STAGE_LINEAR, NULL, "to the right for each up", row_read, row_write,
      4}};
 
-/* The rows of the axes that the face has. */
-static void axes_find(struct keys_actor *k)
+static double axis_read(void *actor, int index)
 {
-    static const char *const tags[AXES] = {"wght", "wdth"}, *const names[AXES] = {"weight",
-                                                                                  "width"};
-    struct font_face_info info;
-    struct font_axis axis;
-    font_face_describe(k->face, &info);
-    for (int i = 0; i < AXES; i++)
-        for (int a = 0; a < info.axes_count; a++) {
-            if (font_face_axis(k->face, a, &axis) != FONT_OK || strcmp(axis.tag, tags[i]) != 0)
-                continue;
-            const int row = k->rows_count, at = row - OWN_ROWS;
-            k->axes[at] = tags[i];
-            k->set.axis[at] = axis.value;
-            k->rows[row] = (struct stage_control){
-                names[i],   "",           axis.least, axis.most,
-                axis.usual, STAGE_LINEAR, NULL,       "of the font's letters",
-                row_read,   row_write,    row};
-            k->rows_count++;
-            break;
-        }
+    return *stage_axes_setting(&((struct keys_actor *)actor)->set.axes, index);
+}
+
+static enum stage_status axis_write(void *actor, int index, double value)
+{
+    struct keys_actor *k = actor;
+    return stage_axes_write(&k->axes, &k->set.axes, index, value);
 }
 
 static const struct stage_control *keys_controls(void *actor, int *count)
@@ -120,6 +112,25 @@ static enum stage_status keys_step(void *actor, double dt_s)
     return STAGE_OK;
 }
 
+/* What sounds goes on with these letters. */
+static void letters_put(struct keys_actor *k, const struct keys_letters *letters)
+{
+    if (memcmp(&k->letters, letters, sizeof *letters) == 0)
+        return;
+    k->letters = *letters;
+    k->fit_px[0] = k->fit_px[1] = 0; /* they may be wider */
+}
+
+static enum stage_status keys_text(void *actor, const char *words)
+{
+    struct keys_actor *k = actor;
+    struct keys_letters letters;
+    const enum stage_status status = keys_places_text(&k->score, words, &letters);
+    if (status == STAGE_OK)
+        letters_put(k, &letters);
+    return status;
+}
+
 /* Nothing sounds any more; its keys have their places still. */
 static enum stage_status silence(struct keys_actor *k)
 {
@@ -136,27 +147,34 @@ static enum stage_status silence(struct keys_actor *k)
     return STAGE_OK;
 }
 
+struct kept {
+    struct settings set;
+    struct keys_letters letters;
+};
+
 static enum stage_status keys_keep(void *actor, void **state)
 {
     const struct keys_actor *k = actor;
-    struct settings *kept = malloc(sizeof *kept);
+    struct kept *kept = malloc(sizeof *kept);
     *state = kept;
     if (!kept)
         return stage_fail(STAGE_NO_MEMORY, "no memory to keep letters as they are");
-    *kept = k->set;
+    kept->set = k->set;
+    kept->letters = k->letters;
     return STAGE_OK;
 }
 
 static enum stage_status keys_restore(void *actor, const void *state)
 {
     struct keys_actor *k = actor;
-    const struct settings kept = *(const struct settings *)state;
+    const struct kept *kept = state;
     enum stage_status status = silence(k);
-    for (int i = 0; status == STAGE_OK && i < k->rows_count; i++) {
-        k->set = kept;
-        status = row_write(k, i, *setting(k, i));
-    }
-    return status;
+    if (status != STAGE_OK)
+        return status;
+    letters_put(k, &kept->letters);
+    k->set = kept->set;
+    stage_axes_put(&k->axes, &k->set.axes);
+    return row_write(k, 0, k->set.size); /* all that the score is told of */
 }
 
 static enum stage_status keys_play(void *actor, const uint8_t *bytes)
@@ -188,29 +206,52 @@ static void size_fit(struct keys_actor *k, const struct stage_look *look)
         k->fit_size_px = look->height_px / 4.0;
 }
 
-/* Sheared along its baseline. */
-static void slant_from(struct stage_draw_list *list, int begin, double slant)
+/* Sheared along its baseline, and with the axes that its note leads to. */
+static void glyphs_finish(const struct keys_actor *k, struct stage_draw_list *list, int begin,
+                          const struct stage_letter_axes *axes)
 {
-    for (int i = begin; i < list->count; i++)
-        list->items[i].glyph.map = (struct font_map){FONT_AFFINE, {1, -slant, 0, 0, 1, 0}};
+    for (int i = begin; i < list->count; i++) {
+        struct stage_glyph *g = &list->items[i].glyph;
+        g->map = (struct font_map){FONT_AFFINE, {1, -k->set.slant, 0, 0, 1, 0}};
+        if (g->face == k->face)
+            g->axes = *axes;
+    }
+}
+
+/* The axes of the letter of the key at a place, which that note plays. */
+static struct stage_letter_axes axes_of(const struct keys_actor *k, int place, int note,
+                                        double time_s)
+{
+    struct stage_letter_axes axes = {0};
+    if (note < 0 || !stage_axes_led(&k->axes, &k->set.axes))
+        return axes;
+    const double last = k->score.keys_count - 1;
+    const double parts[LEADS] = {[VELOCITY] = k->score.notes[note].velocity,
+                                 [PRESSURE] = keys_note_pressure(&k->score, note, time_s),
+                                 [PITCH] = last > 0 ? 2 * place / last - 1 : 0};
+    stage_axes_of(&k->axes, &k->set.axes, parts, &axes);
+    return axes;
 }
 
 static void letter_draw(struct keys_actor *k, int key, double size, double x, double y,
-                        const struct stage_look *look, struct stage_color color,
-                        struct stage_draw_list *list)
+                        const struct stage_look *look, const struct stage_letter_axes *axes,
+                        struct stage_color color, struct stage_draw_list *list)
 {
+    struct stage_letter_axes before;
     struct font_layout layout = {0};
     const char *letter = k->letters.of[key];
     if (size < 0.5 || !letter[0])
         return;
     size = fmin(size, FONT_SIDE_MAX / 2);
+    stage_letter_axes_put(k->face, axes, &before); /* it may be wider so */
     if (font_shaper_layout(k->shaper, letter, strlen(letter), size, NULL, &layout) == FONT_OK) {
         const double half = layout.width_px / 2; /* whole, also at the edges */
         const int begin = list->count;
         x = fmax(half, fmin(x, look->width_px - half)) - half;
         stage_draw_text(list, &layout, x, y, color);
-        slant_from(list, begin, k->set.slant);
+        glyphs_finish(k, list, begin, axes);
     }
+    stage_letter_axes_put(k->face, &before, NULL);
     font_layout_finish(&layout);
 }
 
@@ -230,8 +271,9 @@ static void keys_draw(void *actor, const struct stage_look *look, struct stage_d
         int note;
         const double level = keys_key_level(&k->score, k->score.keys[i], time_s, &note);
         const int channel = note < 0 ? 0 : k->score.notes[note].channel;
+        const struct stage_letter_axes axes = axes_of(k, i, note, time_s);
         letter_draw(k, k->score.keys[i], most * level, left + (i + 0.5) * part,
-                    look->height_px / 2.0 + 0.25 * most, look,
+                    look->height_px / 2.0 + 0.25 * most, look, &axes,
                     look->theme->colors[inks[channel % CHANNEL_COLORS]], list);
     }
 }
@@ -254,6 +296,7 @@ static const struct stage_actor_kind keys_kind = {.name = "keys",
                                                   .keep = keys_keep,
                                                   .restore = keys_restore,
                                                   .forget = free,
+                                                  .text = keys_text,
                                                   .destroy = keys_destroy};
 
 enum stage_status keys_actor_create(const struct keys_actor_def *def, struct stage_actor *out)
@@ -269,7 +312,8 @@ enum stage_status keys_actor_create(const struct keys_actor_def *def, struct sta
                                .pressure = def->keys.pressure};
     memcpy(k->rows, own_rows, sizeof own_rows);
     k->rows_count = OWN_ROWS;
-    axes_find(k);
+    stage_axes_find(&k->axes, &k->set.axes, k->face, leads, LEADS, "slant");
+    k->rows_count += stage_axes_rows(&k->axes, k->rows + OWN_ROWS, axis_read, axis_write);
     enum stage_status status = STAGE_OK;
     if (!keys_score_begin(&def->keys, &k->score) ||
         font_shaper_create(k->face, &k->shaper) != FONT_OK)

@@ -8,8 +8,10 @@
  *         die(stage_error());
  *     keys_actor_play(&actor, message.bytes);               // between two steps: from then on
  *
- * Its controls: how large, how fast letters come and go, what aftertouch adds, slant; weight
- * and width of a font that has such axes. */
+ * Its controls: how large, how fast letters come and go, what aftertouch adds, slant; the axes
+ * of a variable font, and how far a note's velocity, its aftertouch and its pitch lead each
+ * (font_axes.h). Other words (stage_text()) are other letters for the keys; what sounds goes on
+ * with them. */
 #ifndef LUTETIA_KEYS_ACTOR_H
 #define LUTETIA_KEYS_ACTOR_H
 

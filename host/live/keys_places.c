@@ -37,6 +37,17 @@ enum stage_status keys_places_make(const struct keys_actor_def *def, struct keys
     return STAGE_OK;
 }
 
+enum stage_status keys_places_text(const struct keys_score *score, const char *words,
+                                   struct keys_letters *out)
+{
+    struct keys_letters letters;
+    keys_letters_names(&letters);
+    if (!keys_letters_text(score, words, &letters))
+        return stage_fail(STAGE_BAD_ARGUMENT, "there is no letter in the text");
+    *out = letters;
+    return STAGE_OK;
+}
+
 int keys_places_near(const struct keys_score *s, int key)
 {
     for (int away = 0; away < MIDI_NOTES; away += OCTAVE) {

@@ -8,6 +8,11 @@
  * text, a range of less than an octave). */
 enum stage_status keys_places_make(const struct keys_actor_def *def, struct keys_score *score,
                                    struct keys_letters *letters);
+/* The letters of these words for the keys of the score. Errors: BAD_ARGUMENT (no letter in
+ * them); *out is unchanged then. */
+enum stage_status keys_places_text(const struct keys_score *score, const char *words,
+                                   struct keys_letters *out);
+
 /* The key itself, or the nearest octave of it that has a place. */
 int keys_places_near(const struct keys_score *score, int key);
 

@@ -405,10 +405,18 @@ static bool actor_event(void *actor, const struct stage_event *event)
     return true;
 }
 
+/* What is printed stays. */
+static enum stage_status actor_text(void *actor, const char *words)
+{
+    struct paper_actor *a = actor;
+    return keys_places_text(&a->score, words, &a->letters);
+}
+
 /* ---- going back: a state as it is saved, in memory ---- */
 
 struct kept {
     struct settings set;
+    struct keys_letters letters;
     uint8_t *bytes;
     size_t count;
     float *planes;
@@ -435,6 +443,7 @@ static enum stage_status actor_keep(void *actor, void **state)
         return stage_fail(STAGE_NO_MEMORY, "no memory to keep the paper as it is");
     const int count = paper_sheet_planes(a->sheet, planes);
     k->set = a->set;
+    k->letters = a->letters;
     k->plane = (size_t)a->cover.width_px * (size_t)a->cover.height_px;
     k->planes = malloc((size_t)count * k->plane * sizeof *k->planes);
     enum stage_status status =
@@ -469,6 +478,7 @@ static enum stage_status actor_restore(void *actor, const void *state)
     paper_sheet_destroy(a->sheet);
     a->sheet = sheet;
     a->set = k.set;
+    a->letters = k.letters;
     a->due = 0;
     memset(a->held, 0, sizeof a->held);
     memset(a->led, 0, sizeof a->led);
@@ -500,6 +510,7 @@ static const struct stage_actor_kind paper_kind = {.name = "paper",
                                                    .keep = actor_keep,
                                                    .restore = actor_restore,
                                                    .forget = actor_forget,
+                                                   .text = actor_text,
                                                    .destroy = actor_destroy};
 
 static enum stage_status sheet_make(struct paper_actor *a, const struct paper_actor_def *def)

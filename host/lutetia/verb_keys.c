@@ -76,7 +76,8 @@ static int options_check(struct keys_work *w, const struct option_words *words,
         return fail_usage("keys",
                           "--range must be two notes, an octave or more: c3-c5 (got '%.40s')",
                           w->range_text);
-    w->played = w->wet || w->live.knobs.count;
+    w->played = w->wet || w->live.knobs.count || w->live.cues || w->sets.count;
+    w->live.no_go = *song != NULL;
     if (is_script(w->map)) {
         w->played = true;
         w->live.map = w->map;
@@ -91,8 +92,9 @@ static int options_check(struct keys_work *w, const struct option_words *words,
                    : EXIT_SUCCESS;
     if (w->played && (w->poster || w->sheet || !(w->still || w->frames || w->video)))
         return fail_usage(
-            "keys", "what a map in Lua, knobs or wet paper make of a song is seen by --still, "
-                    "--frames and --video");
+            "keys",
+            "what a map in Lua, knobs, cues, --set or wet paper make of a song is seen by "
+            "--still, --frames and --video");
     if (!pictures_wanted(w))
         w->poster = "out.png";
     return EXIT_SUCCESS;
@@ -103,28 +105,30 @@ static int options_check(struct keys_work *w, const struct option_words *words,
 
 /* With what an option has an effect. The poster is made of a song where nothing else is asked
  * for. */
-static const struct option_need needs[] = {{"param", "map"},
-                                           {"set", "!WORD|map|wet|knobs"},
-                                           {"range", "!WORD|map|wet|knobs"},
-                                           {"server", "!WORD"},
-                                           {"device", "!WORD"},
-                                           {"filter", "!WORD"},
-                                           {"theme", "!WORD|map|knobs"},
-                                           {"osc", "!WORD"},
-                                           {"osc-from", "osc"},
-                                           {"osc-to", "!WORD"},
-                                           {"screen", "!WORD"},
-                                           {"picture", "!WORD|sheet|still|frames|video"},
-                                           {"at", "still"},
-                                           {"fps", "video|frames|sound"},
-                                           {"seconds", "video|frames|sound"},
-                                           {"silent", "video"},
-                                           {"second", POSTER},
-                                           {"line", POSTER},
-                                           {"attack", MOMENTS},
-                                           {"release", MOMENTS},
-                                           {"step", POSTER},
-                                           {0}};
+static const struct option_need needs[] = {
+    {"param", "map"},
+    {"set", "!WORD|map|wet|knobs|cues|still|frames|video"},
+    {"range", "!WORD|map|wet|knobs"},
+    {"watch", "!WORD"},
+    {"server", "!WORD"},
+    {"device", "!WORD"},
+    {"filter", "!WORD"},
+    {"theme", "!WORD|map|knobs|cues|set"},
+    {"osc", "!WORD"},
+    {"osc-from", "osc"},
+    {"osc-to", "!WORD"},
+    {"screen", "!WORD"},
+    {"picture", "!WORD|sheet|still|frames|video"},
+    {"at", "still"},
+    {"fps", "video|frames|sound"},
+    {"seconds", "video|frames|sound"},
+    {"silent", "video"},
+    {"second", POSTER},
+    {"line", POSTER},
+    {"attack", MOMENTS},
+    {"release", MOMENTS},
+    {"step", POSTER},
+    {0}};
 
 static int options_read(struct keys_work *w, int argc, char **argv, const char **song,
                         bool *help)
@@ -139,10 +143,16 @@ static int options_read(struct keys_work *w, int argc, char **argv, const char *
         {"knobs", 0, OPTION_TEXTS, "FILE",
          "knobs that are learnt in the window, and scenes; kept there; as often as wanted",
          &w->live.knobs, 0, 0, 0},
+        {"watch", 0, OPTION_TEXT, "FILE",
+         "a text file whose letters are the window's, as soon as it changes", &w->live.text, 0,
+         0, 0},
+        {"cues", 0, OPTION_TEXT, "FILE",
+         "a list of cues: other words, controls and scenes, at times or when Control G says so",
+         &w->live.cues, 0, 0, 0},
         LIVE_OSC_OPTIONS(&w->live),
         {"set", 's', OPTION_TEXTS, "NAME=VALUE",
-         "a control and its value, in a window and through a map; as often as wanted", &w->sets,
-         0, 0, 0},
+         "a control and its value, in a window and on a film's stage; as often as wanted",
+         &w->sets, 0, 0, 0},
         {"range", 0, OPTION_TEXT, "C3-C5", "the keys that have places in a window (c3-c5)",
          &w->range_text, 0, 0, 0},
         {"server", 0, OPTION_TEXT, "ADDRESS", "a MIDI server's socket (the user's own)",

@@ -274,6 +274,11 @@ static int face_take(struct voice_work *w)
         return fail_usage("voice",
                           "%s has no axis of weight to play; choose a variable font with wght",
                           w->font);
+    if (w->def.mapping.feature[TYPE_WIDTH] != VOICE_NOTHING &&
+        !type_axis_there(w->face, "wdth"))
+        return fail_usage("voice",
+                          "%s has no axis of width to play; choose a variable font with wdth",
+                          w->font);
     type_text_check("voice", w->font, w->face, w->text);
     return EXIT_SUCCESS;
 }

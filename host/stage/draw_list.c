@@ -130,8 +130,10 @@ void stage_draw_letter(struct stage_draw_list *list, const struct stage_letter *
                        const struct font_point corners[4], struct stage_color color)
 {
     struct font_point px[4];
-    struct stage_glyph glyph = {
-        .face = letter->face, .glyph = letter->glyph, .size_px = letter->size};
+    struct stage_glyph glyph = {.face = letter->face,
+                                .glyph = letter->glyph,
+                                .size_px = letter->size,
+                                .axes = letter->axes};
     if (color.a <= 0)
         return;
     for (int i = 0; i < 4; i++) {

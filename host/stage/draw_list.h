@@ -40,6 +40,17 @@ struct stage_bar {
     double ring_px; /* 0: filled; else the width of its outline */
 };
 
+/* Axes of a variable font that one letter has otherwise than its face (font_axes.h). */
+enum { STAGE_LETTER_AXES_MAX = 4 };
+struct stage_letter_axis {
+    char tag[5];
+    double value;
+};
+struct stage_letter_axes {
+    int count;
+    struct stage_letter_axis axes[STAGE_LETTER_AXES_MAX];
+};
+
 struct stage_glyph {
     struct font_face *face;
     uint32_t glyph;
@@ -47,6 +58,7 @@ struct stage_glyph {
     struct font_map map; /* from the glyph at that size to the picture */
     double x_px,
         y_px; /* of its origin, if the map is affine; the map's translation is then not used */
+    struct stage_letter_axes axes;
 };
 
 /* An image in a box; between its pixels it is linear. */
@@ -98,6 +110,7 @@ struct stage_letter {
     double size; /* the length of an em in the plane; y is downwards, the origin is on the
                   * baseline */
     double x0, y0, x1, y1; /* the box that is mapped to the corners */
+    struct stage_letter_axes axes;
 };
 
 /* A letter whose corners are further apart, along x or y, is left out: only part of a stroke

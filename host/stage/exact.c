@@ -2,6 +2,7 @@
  * everything is drawn. With alpha, which is the fourth, light is multiplied by it: what covers
  * a pixel then changes all channels in the same way, alpha as a light that is 1 in all ink. */
 #include "exact.h"
+#include "font_axes.h"
 
 #include <gray.h>
 #include <paint.h>
@@ -193,9 +194,12 @@ static enum font_status glyph_draw(struct stage_exact *e, const struct stage_gly
                                    struct stage_color color, struct display_image *image)
 {
     const struct font_gray *gray;
+    struct stage_letter_axes before;
     double x = floor(g->x_px), y = floor(g->y_px);
+    stage_letter_axes_put(g->face, &g->axes, &before);
     enum font_status status = font_painter_glyph(e->painter, g->face, g->glyph, g->size_px,
                                                  &g->map, g->x_px - x, g->y_px - y, &gray);
+    stage_letter_axes_put(g->face, &before, NULL);
     if (status == FONT_OK)
         gray_blend(e, gray, (int)x, (int)y, color, image);
     return status;

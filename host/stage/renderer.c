@@ -1,6 +1,7 @@
 /* renderer.c - see renderer.h. The list is drawn in runs: consecutive bars by one call,
  * consecutive glyphs by another. */
 #include "renderer.h"
+#include "font_axes.h"
 
 #include <gl_offscreen.h>
 #include <gl_shapes.h>
@@ -159,12 +160,25 @@ static int bars_draw(struct stage_renderer *r, const struct stage_draw_list *lis
     return i;
 }
 
+/* Whether a glyph can be drawn by the call that draws the first one: faces have one setting of
+ * their axes during a call. */
+static bool is_of_run(const struct stage_glyph *first, const struct stage_glyph *g)
+{
+    if (!first->axes.count && !g->axes.count)
+        return true;
+    return g->face == first->face && stage_letter_axes_same(&g->axes, &first->axes);
+}
+
 static int glyphs_draw(struct stage_renderer *r, const struct stage_draw_list *list, int i,
                        enum display_status *status)
 {
+    const struct stage_glyph *first = &list->items[i].glyph;
+    struct stage_letter_axes before;
     int count = 0, left_out;
     for (; i < list->count && list->items[i].kind == STAGE_DRAW_GLYPH && count < RUN; i++) {
         const struct stage_glyph *g = &list->items[i].glyph;
+        if (!is_of_run(first, g))
+            break;
         struct gl_type_glyph *to = &r->glyphs[count++];
         *to = (struct gl_type_glyph){.face = g->face,
                                      .glyph = g->glyph,
@@ -174,7 +188,9 @@ static int glyphs_draw(struct stage_renderer *r, const struct stage_draw_list *l
                                      .y_px = g->y_px};
         color_put(list->items[i].color, to->color);
     }
+    stage_letter_axes_put(first->face, &first->axes, &before);
     *status = gl_type_glyphs(r->type, r->glyphs, count, &left_out);
+    stage_letter_axes_put(first->face, &before, NULL);
     return i;
 }
 

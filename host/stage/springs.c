@@ -117,10 +117,10 @@ row_of(const struct dyn_control *c, int index, double (*read)(void *actor, int i
 
 /* A style's choices (box, tacks) take effect only when the word is made, so they are not
  * rows. */
-static enum stage_status rows_make(struct springs *s)
+static enum stage_status rows_make(struct springs *s, struct font_face *face)
 {
     int most = OWN_ROWS + dyn_controls_count + (s->text->word ? dyn_word_controls_count : 0) +
-               SPRINGS_AXES_MAX;
+               SPRINGS_AXES_ROWS;
     s->rows = calloc((size_t)most, sizeof *s->rows);
     if (!s->rows)
         return stage_fail(STAGE_NO_MEMORY, "no memory for springs");
@@ -132,7 +132,8 @@ static enum stage_status rows_make(struct springs *s)
                 row_of(&dyn_word_controls[i], i, style_read, style_write);
     for (int i = 0; i < dyn_controls_count; i++)
         s->rows[s->rows_count++] = row_of(&dyn_controls[i], i, world_read, world_write);
-    s->rows_count += springs_axes_find(s, s->rows + s->rows_count);
+    s->axes_rows = springs_axes_find(s, face, s->rows + s->rows_count);
+    s->rows_count += s->axes_rows;
     return STAGE_OK;
 }
 
@@ -146,11 +147,11 @@ static const struct stage_control *springs_controls(void *actor, int *count)
 static const char *springs_group(void *actor, int row)
 {
     const struct springs *s = actor;
-    const int world = s->rows_count - s->axes_count - dyn_controls_count;
-    return row >= s->rows_count - s->axes_count ? "font"
-           : row < OWN_ROWS                     ? "look and hand"
-           : row < world                        ? "letters and their springs"
-                                                : "world";
+    const int world = s->rows_count - s->axes_rows - dyn_controls_count;
+    return row >= s->rows_count - s->axes_rows ? "font"
+           : row < OWN_ROWS                    ? "look and hand"
+           : row < world                       ? "letters and their springs"
+                                               : "world";
 }
 
 /* ---- time ---- */
@@ -232,7 +233,7 @@ static enum stage_status springs_restore(void *actor, const void *state)
     kept->text->users++;
     springs_text_let(s->text);
     s->text = kept->text;
-    springs_axes_set(s);
+    stage_axes_put(&s->axes, &s->set.axes);
     s->hand = (struct springs_hand){0};
     return STAGE_OK;
 }
@@ -304,7 +305,6 @@ enum stage_status stage_springs_create(const struct stage_springs_def *def,
     s->network = def->network;
     s->clamps = def->clamps;
     s->maker = def->maker;
-    s->face = def->face;
     for (int i = 0; i < OWN_ROWS; i++)
         *own_setting(s, i) = own_rows[i].usual;
     s->set.show_masses = def->show_masses;
@@ -312,7 +312,7 @@ enum stage_status stage_springs_create(const struct stage_springs_def *def,
     s->set.style = def->style;
     enum stage_status status = springs_text_make(def, &s->text);
     if (status == STAGE_OK)
-        status = rows_make(s);
+        status = rows_make(s, def->face);
     if (status != STAGE_OK) {
         springs_destroy(s);
         return status;

@@ -1,75 +1,75 @@
 /* springs_axes.c - the axes of a variable font as controls: letters are drawn as the axes are,
- * in the boxes that they have. */
+ * in the boxes that they have. A letter's axes may be led by its strain. */
 #include "springs_internal.h"
 
-#include <stdio.h>
-#include <string.h>
+#include <math.h>
+#include <stdlib.h>
+
+static const struct stage_lead leads[] = {
+    {"strain", "how far a letter's strain moves that axis: full_strain, as far as it goes"}};
 
 static double axis_read(void *actor, int index)
 {
-    const struct springs *s = actor;
-    return s->set.axes[index];
+    return *stage_axes_setting(&((struct springs *)actor)->set.axes, index);
 }
 
 static enum stage_status axis_write(void *actor, int index, double value)
 {
     struct springs *s = actor;
-    if (font_face_axis_set(s->face, s->axes[index], value) != FONT_OK)
-        return stage_fail(STAGE_FAILED, "%s", font_error());
-    s->set.axes[index] = value;
+    return stage_axes_write(&s->axes, &s->set.axes, index, value);
+}
+
+int springs_axes_find(struct springs *s, struct font_face *face, struct stage_control *rows)
+{
+    stage_axes_find(&s->axes, &s->set.axes, face, leads, 1, NULL);
+    return stage_axes_rows(&s->axes, rows, axis_read, axis_write);
+}
+
+enum stage_status springs_strains_make(struct springs_text *t, int masses_count)
+{
+    t->owners = calloc((size_t)masses_count + 1, sizeof *t->owners);
+    t->strains = calloc((size_t)t->letters_count + 1, sizeof *t->strains);
+    if (!t->owners || !t->strains)
+        return stage_fail(STAGE_NO_MEMORY, "no memory for letters");
+    t->owners_count = masses_count;
+    for (int i = 0; i < t->letters_count; i++)
+        for (int k = 0; k < 4; k++) {
+            int *owner = &t->owners[t->letters[i].masses[k]];
+            if (!*owner) /* marks come after their letters */
+                *owner = 1 + i;
+        }
     return STAGE_OK;
 }
 
-void springs_axes_set(struct springs *s)
+static int owner_of(const struct springs_text *t, int mass)
 {
-    for (int i = 0; i < s->axes_count; i++)
-        (void)font_face_axis_set(s->face, s->axes[i],
-                                 s->set.axes[i]); /* it was set so before */
+    return mass < t->owners_count ? t->owners[mass] - 1 : -1;
 }
 
-/* What people call an axis; else its tag, which has to be a name: letters and digits. NULL: it
- * is none. */
-static const char *name_of(const char *tag)
+bool springs_strains_find(const struct springs *s)
 {
-    static const char *const names[][2] = {{"wght", "weight"},
-                                           {"wdth", "width"},
-                                           {"slnt", "slant"},
-                                           {"ital", "italic"},
-                                           {"opsz", "optical_size"}};
-    static const char allowed[] =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (strcmp(names[i][0], tag) == 0)
-            return names[i][1];
-    return tag[0] && tag[strspn(tag, allowed)] == '\0' ? tag : NULL;
-}
-
-int springs_axes_find(struct springs *s, struct stage_control rows[SPRINGS_AXES_MAX])
-{
-    struct font_face_info info = {0};
-    struct font_axis axis;
-    if (s->face)
-        font_face_describe(s->face, &info);
-    for (int i = 0; i < info.axes_count && s->axes_count < SPRINGS_AXES_MAX; i++) {
-        const int at = s->axes_count;
-        if (font_face_axis(s->face, i, &axis) != FONT_OK || !(axis.most > axis.least))
+    const struct springs_text *t = s->text;
+    if (!stage_axes_led(&s->axes, &s->set.axes))
+        return false;
+    for (int i = 0; i < t->letters_count; i++)
+        t->strains[i] = (struct springs_strain){0};
+    for (int i = 0; i < dyn_springs_count(s->network); i++) {
+        const struct dyn_spring spring = dyn_spring_get(s->network, i);
+        const int owner = owner_of(t, spring.end[0]);
+        if (spring.broken || owner < 0 || owner != owner_of(t, spring.end[1]))
             continue;
-        snprintf(s->axes[at], sizeof s->axes[at], "%.4s", axis.tag);
-        const char *name = name_of(s->axes[at]);
-        if (!name)
-            continue;
-        s->set.axes[at] = axis.value;
-        rows[at] = (struct stage_control){.name = name,
-                                          .unit = "",
-                                          .least = axis.least,
-                                          .most = axis.most,
-                                          .usual = axis.usual,
-                                          .curve = STAGE_LINEAR,
-                                          .does = "of the font's letters: one of its axes",
-                                          .read = axis_read,
-                                          .write = axis_write,
-                                          .index = at};
-        s->axes_count++;
+        t->strains[owner].sum += dyn_spring_strain(s->network, i);
+        t->strains[owner].count++;
     }
-    return s->axes_count;
+    return true;
+}
+
+void springs_letter_lead(const struct springs *s, struct stage_springs_letter *letter)
+{
+    const int owner = owner_of(s->text, letter->masses[0]);
+    const struct springs_strain *strain = owner < 0 ? NULL : &s->text->strains[owner];
+    if (!strain || !strain->count || letter->letter.face != s->axes.face)
+        return;
+    const double part = strain->sum / strain->count / s->set.full_strain;
+    stage_axes_of(&s->axes, &s->set.axes, &part, &letter->letter.axes);
 }

@@ -59,12 +59,15 @@ static void strings_draw(const struct springs *s, const struct stage_look *look,
 static void letters_draw(const struct springs *s, const struct stage_look *look, double ahead_s,
                          struct stage_draw_list *list)
 {
+    const bool led = springs_strains_find(s);
     for (int i = 0; i < s->text->letters_count; i++) {
+        struct stage_springs_letter l = s->text->letters[i];
         struct font_point corners[4];
         for (int k = 0; k < 4; k++)
-            corners[k] = springs_place(s, s->text->letters[i].masses[k], ahead_s);
-        stage_draw_letter(list, &s->text->letters[i].letter, corners,
-                          look->theme->colors[STAGE_COLOR_LETTER]);
+            corners[k] = springs_place(s, l.masses[k], ahead_s);
+        if (led)
+            springs_letter_lead(s, &l);
+        stage_draw_letter(list, &l.letter, corners, look->theme->colors[STAGE_COLOR_LETTER]);
     }
 }
 

@@ -2,6 +2,7 @@
 #ifndef LUTETIA_STAGE_SPRINGS_INTERNAL_H
 #define LUTETIA_STAGE_SPRINGS_INTERNAL_H
 
+#include "font_axes.h"
 #include "springs.h"
 
 /* The state of the hand.
@@ -25,12 +26,16 @@ struct springs_hand {
 };
 
 /* Parameters besides the network's world; all doubles, so that the tables can describe them. */
-enum { SPRINGS_AXES_MAX = 16 };
-
 struct springs_settings {
     double hand, show_masses, show_springs, show_letters, full_strain, collide, record_hand;
     struct dyn_word_style style;
-    double axes[SPRINGS_AXES_MAX];
+    struct stage_axes_set axes;
+};
+
+/* The strains of a letter's springs at this moment. */
+struct springs_strain {
+    double sum;
+    int count;
 };
 
 /* A word and its letters. The actor and the states that it has kept share them. */
@@ -40,6 +45,9 @@ struct springs_text {
     struct stage_springs_letter *letters;
     int letters_count;
     struct font_box extent; /* as stage_springs_def has it */
+    int *owners; /* for each mass: 1 and the number of the letter that it is a corner of; 0 */
+    int owners_count;
+    struct springs_strain *strains; /* for each letter; made anew for a picture */
 };
 
 struct springs {
@@ -52,10 +60,8 @@ struct springs {
     struct dyn_clamps *recorded; /* keys of what hands held while recording; NULL: none */
     double recorded_s;           /* the last key's time */
     struct springs_settings set;
-    /* Of the font: see springs_axes.c. */
-    struct font_face *face;
-    char axes[SPRINGS_AXES_MAX][5]; /* tags */
-    int axes_count;
+    struct stage_axes axes; /* of the font: see springs_axes.c */
+    int axes_rows;          /* how many of the rows, the last ones, are the font's */
     struct springs_hand hand;
 };
 
@@ -66,11 +72,17 @@ enum stage_status springs_text_make(const struct stage_springs_def *def,
 /* One user less; NULL is fine. */
 void springs_text_let(struct springs_text *text);
 
-/* Finds the axes of the face, which is NULL or variable, and their rows: SPRINGS_AXES_MAX at
+/* Finds the axes of the face, which is NULL or variable, and their rows: SPRINGS_AXES_ROWS at
  * most. Returns how many. */
-int springs_axes_find(struct springs *s, struct stage_control rows[SPRINGS_AXES_MAX]);
-/* Sets all axes as the settings have them. */
-void springs_axes_set(struct springs *s);
+enum { SPRINGS_AXES_ROWS = 2 * STAGE_AXES_MAX };
+int springs_axes_find(struct springs *s, struct font_face *face, struct stage_control *rows);
+
+/* Finds whose corners the masses are. Errors: NO_MEMORY. */
+enum stage_status springs_strains_make(struct springs_text *text, int masses_count);
+/* Finds the letters' strains where an axis is led by them; false: none is. */
+bool springs_strains_find(const struct springs *s);
+/* Gives the letter the axes that its strain leads to; springs_strains_find() was true. */
+void springs_letter_lead(const struct springs *s, struct stage_springs_letter *letter);
 
 enum stage_status springs_text_set(void *actor, const char *words);
 bool springs_event(void *actor, const struct stage_event *event);

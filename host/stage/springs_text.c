@@ -13,8 +13,14 @@ static struct stage_springs_letter letter_of(const struct dyn_letter *l)
 {
     double scale = plane_size / l->size;
     return (struct stage_springs_letter){
-        .letter = {l->face, l->glyph, plane_size, scale * l->x0, -scale * l->y1, scale * l->x1,
-                   -scale * l->y0},
+        .letter = {l->face,
+                   l->glyph,
+                   plane_size,
+                   scale * l->x0,
+                   -scale * l->y1,
+                   scale * l->x1,
+                   -scale * l->y0,
+                   {0}},
         .masses = {l->mass[3], l->mass[2], l->mass[1], l->mass[0]}};
 }
 
@@ -36,7 +42,7 @@ static enum stage_status letters_make(struct springs_text *t,
         t->letters[t->letters_count++] = def->letters[i];
     for (int i = 0; i < of_word; i++)
         t->letters[t->letters_count++] = letter_of(dyn_word_letter(t->word, i));
-    return STAGE_OK;
+    return springs_strains_make(t, dyn_masses_count(def->network));
 }
 
 void springs_text_let(struct springs_text *t)
@@ -45,6 +51,8 @@ void springs_text_let(struct springs_text *t)
         return;
     dyn_word_destroy(t->word);
     free(t->letters);
+    free(t->owners);
+    free(t->strains);
     free(t);
 }
 

@@ -20,8 +20,8 @@ struct voice_type {
     bool to_left;
     struct font_shaper *shaper;
     struct font_painter *painter;
-    struct font_axis weight, slant; /* tag "": the font lacks the axis */
-    uint8_t *gray;                  /* of what is set at once */
+    struct font_axis weight, width, slant; /* tag "": the font lacks the axis */
+    uint8_t *gray;                         /* of what is set at once */
     size_t gray_room;
     double light[256]; /* of sRGB numbers */
 };
@@ -70,6 +70,7 @@ enum font_status voice_type_create(const struct voice_type_def *def, struct font
     for (int i = 0; i < 256; i++)
         t->light[i] = font_light(i / 255.0, 0);
     axis_find(face, "wght", &t->weight);
+    axis_find(face, "wdth", &t->width);
     axis_find(face, "slnt", &t->slant);
     painter.filter = def->filter;
     enum font_status status = font_painter_create(&painter, &t->painter);
@@ -155,18 +156,26 @@ static void ink_mix(const struct voice_type *t, const struct font_cover *cover, 
         }
 }
 
+/* From the axis's least to its most, in steps, so that glyphs can be reused; a part below 0
+ * leaves it. */
+static enum font_status axis_play(struct voice_type *t, const struct font_axis *axis,
+                                  double part)
+{
+    if (part < 0 || !axis->tag[0])
+        return FONT_OK;
+    return font_face_axis_set(t->face, axis->tag,
+                              axis->least + (axis->most - axis->least) * round(part * 32) / 32);
+}
+
 /* Computes the axes and the shear of a moment. */
 static enum font_status instrument_set(struct voice_type *t, double time_s,
                                        struct font_map *map)
 {
-    double slant = played(t, TYPE_SLANT, time_s, -1),
-           weight = played(t, TYPE_WEIGHT, time_s, -1);
-    enum font_status status = FONT_OK;
+    double slant = played(t, TYPE_SLANT, time_s, -1);
     *map = font_map_shear(0);
-    if (weight >= 0 && t->weight.tag[0]) /* quantised, so that glyphs can be reused */
-        status = font_face_axis_set(t->face, "wght",
-                                    t->weight.least + (t->weight.most - t->weight.least) *
-                                                          round(weight * 32) / 32);
+    enum font_status status = axis_play(t, &t->weight, played(t, TYPE_WEIGHT, time_s, -1));
+    if (status == FONT_OK)
+        status = axis_play(t, &t->width, played(t, TYPE_WIDTH, time_s, -1));
     if (slant >= 0 && t->slant.tag[0] && status == FONT_OK) {
         double to = fabs(t->slant.least) > fabs(t->slant.most) ? t->slant.least : t->slant.most;
         status = font_face_axis_set(t->face, "slnt", to * round(slant * 32) / 32);

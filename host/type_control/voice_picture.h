@@ -27,8 +27,8 @@ struct voice_type;
 
 /* face, words, timing and score: borrowed; must outlive *out. timing: when words are said;
  * NULL: the whole text is shown at any time, and there are no lines. Errors: BAD_ARGUMENT
- * (weight or slant is mapped, and the font lacks the axis), NO_MEMORY; those of shapers and
- * painters. Owns: the caller destroys *out. */
+ * (weight, width or slant is mapped, and the font lacks the axis), NO_MEMORY; those of shapers
+ * and painters. Owns: the caller destroys *out. */
 enum font_status voice_type_create(const struct voice_type_def *def, struct font_face *face,
                                    const struct voice_words *words,
                                    const struct voice_timing *timing,

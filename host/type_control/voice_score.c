@@ -17,8 +17,8 @@
 
 static const char *const features[VOICE_FEATURES] = {"nothing", "envelope", "level", "pitch",
                                                      "clarity", "open",     "front", "vowel"};
-static const char *const properties[TYPE_PROPERTIES] = {"size", "weight", "slant", "baseline",
-                                                        "ink"};
+static const char *const properties[TYPE_PROPERTIES] = {"size",  "weight",   "width",
+                                                        "slant", "baseline", "ink"};
 
 struct voice_mapping voice_mapping_default(void)
 {

@@ -32,6 +32,7 @@ enum voice_feature {
 enum voice_property {
     TYPE_SIZE,
     TYPE_WEIGHT,
+    TYPE_WIDTH,
     TYPE_SLANT,
     TYPE_BASELINE,
     TYPE_INK,

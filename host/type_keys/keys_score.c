@@ -280,6 +280,11 @@ double keys_note_level(const struct keys_score *s, int index, double time_s)
     return fall_s > 0 ? rise * held * exp(-(time_s - n->end_s) / fall_s) : 0;
 }
 
+double keys_note_pressure(const struct keys_score *s, int index, double time_s)
+{
+    return pressure_at(s, &s->notes[index], fmin(time_s, s->notes[index].end_s));
+}
+
 double keys_key_level(const struct keys_score *s, int key, double time_s, int *index)
 {
     double most = 0;

@@ -72,6 +72,8 @@ void keys_score_forget(struct keys_score *score, double time_s);
 double keys_note_level(const struct keys_score *score, int index, double time_s);
 /* The largest of the key's notes; *index: which, if it is not NULL; -1 where none sounds. */
 double keys_key_level(const struct keys_score *score, int key, double time_s, int *index);
+/* The aftertouch of a note, 0..1. */
+double keys_note_pressure(const struct keys_score *score, int index, double time_s);
 /* The largest that a note gets, once its attack is over. */
 double keys_note_most(const struct keys_score *score, int index);
 

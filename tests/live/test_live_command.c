@@ -121,6 +121,27 @@ static void letters_do_what_a_song_says(void **unused)
         same(frame_of(folder, 9), frame_of(folder, 12))); /* and grows with the wheel */
 }
 
+/* The song's letter, from 0.5 s on, is another one from 0.8 s on. */
+static void letters_are_those_that_cues_say(void **unused)
+{
+    (void)unused;
+    char folders[2][300], cues[400];
+    static const char *const texts[2] = {"0.1 text \"O\"\n",
+                                         "0.1 text \"O\"\n0.8 text \"X\"\n"};
+    for (int i = 0; i < 2; i++) {
+        snprintf(folders[i], sizeof folders[i], "%s", scratch_path(i ? "other" : "one"));
+        snprintf(cues, sizeof cues, "%s", map_written(texts[i]));
+        struct child child = {.arguments = {lutetia, "keys", song_written(), "--cues", cues,
+                                            "--picture", "200x160", "--fps", "10", "--set",
+                                            "size=0.5", "--frames", folders[i]}};
+        must_run(&child);
+    }
+    for (int frame = 0; frame < 15; frame++)
+        if (frame != 8) /* the cue's frame: it may be a little before or after it */
+            assert_int_equal(same(frame_of(folders[0], frame), frame_of(folders[1], frame)),
+                             frame < 8);
+}
+
 static void chords_tighten_words(void **unused)
 {
     (void)unused;
@@ -150,6 +171,9 @@ static void what_cannot_be_is_said(void **unused)
         {{"keys", "--poster", "x.png"}, "of a song", 2},
         {{"keys", song, "--map", "none.lua", "--poster", "x.png"}, "--still, --frames", 2},
         {{"keys", song, "--map", "none.lua", "--still", "x.png"}, "none.lua: cannot read", 1},
+        {{"keys", song, "--cues", "none", "--still", "x.png"}, "none: cannot be read", 1},
+        {{"keys", song, "--cues", "none", "--poster", "x.png"}, "--still, --frames", 2},
+        {{"keys", song, "--watch", "none", "--still", "x.png"}, "--watch", 2},
         {{"keys", "--range", "c3-d3"}, "an octave or more", 2},
         {{"keys", "--server", "/nowhere/socket"}, "/nowhere/socket", 1},
         {{"spring", "x", "--song", song, "--still", "x.png"}, "--map FILE.lua", 2},
@@ -190,6 +214,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(words_do_what_a_song_says),
         cmocka_unit_test(letters_do_what_a_song_says),
+        cmocka_unit_test(letters_are_those_that_cues_say),
         cmocka_unit_test(chords_tighten_words),
         cmocka_unit_test(what_cannot_be_is_said),
         cmocka_unit_test(maps_that_hang_are_ended),

@@ -1,5 +1,5 @@
-/* test_words.c - other words on a stage of springs while it moves: typed, from a watched file,
- * undone, and in a session. */
+/* test_words.c - other words on a stage of springs, or of keys, while it is played: typed, from
+ * a watched file, undone, and in a session; and the axes of their fonts. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -8,6 +8,8 @@
 #include <cmocka.h>
 
 #include <exact.h>
+#include <keys_actor.h>
+#include <midi_message.h>
 #include <springs.h>
 #include <typed_words.h>
 #include <watched_text.h>
@@ -289,6 +291,163 @@ static void axes_of_a_font_are_controls(void **unused)
     shaper = usual;
 }
 
+/* The first letter's width as it is drawn, and whether the face is left as it was. */
+static double width_drawn(struct stage *stage, struct font_face *wide)
+{
+    struct stage_draw_list list = {0};
+    struct font_axis axis;
+    double width = -1;
+    stage_picture(stage, 320, 200, 1, &list);
+    assert_int_equal(font_face_axis(wide, 0, &axis), FONT_OK);
+    assert_true(axis.value == 100);
+    for (int i = 0; i < list.count && width < 0; i++)
+        if (list.items[i].kind == STAGE_DRAW_GLYPH) {
+            const struct stage_letter_axes *axes = &list.items[i].glyph.axes;
+            width = axes->count ? axes->axes[0].value : axis.value;
+            assert_true(axes->count <= 1);
+        }
+    stage_draw_finish(&list);
+    return width;
+}
+
+/* All letters, squeezed or stretched to a part of their width and height. */
+static void letters_stretch(struct stage *stage, double part)
+{
+    struct dyn_network *network = network_of(stage);
+    for (int i = 0; i < dyn_masses_count(network); i++) {
+        struct dyn_mass mass = dyn_mass_get(network, i);
+        mass.x *= part;
+        mass.y *= part;
+        assert_int_equal(dyn_mass_set(network, i, &mass), DYN_OK);
+    }
+}
+
+static void strain_leads_axes(void **unused)
+{
+    (void)unused;
+    struct stage_springs_def springs = stage_springs_def_default();
+    struct stage_def def = stage_def_default();
+    struct stage *stage;
+    struct display_image pictures[3];
+    struct font_shaper *usual = shaper;
+    springs.face = wide_open();
+    assert_int_equal(font_shaper_create(springs.face, &shaper), FONT_OK);
+    assert_int_equal(word_make(NULL, "sé", &springs), STAGE_OK);
+    assert_int_equal(stage_springs_create(&springs, &def.actor), STAGE_OK);
+    assert_int_equal(stage_create(&def, &stage), STAGE_OK);
+    assert_int_equal(stage_set(stage, "width_strain=1.5"), STAGE_BAD_ARGUMENT);
+    letters_stretch(stage, 1.1);
+    assert_true(width_drawn(stage, springs.face) == 100); /* nothing leads */
+    picture_of(stage, &pictures[0]);
+    assert_int_equal(stage_mark(stage), STAGE_OK);
+    assert_int_equal(stage_set(stage, "width_strain=1"), STAGE_OK);
+    assert_int_equal(stage_set(stage, "full_strain=0.2"), STAGE_OK);
+    const double half = width_drawn(stage, springs.face); /* of 90 to 110, in steps */
+    assert_true(fabs(half - 105) < 0.5);
+    picture_of(stage, &pictures[1]);
+    assert_int_equal(stage_set(stage, "full_strain=0.05"), STAGE_OK);
+    assert_true(width_drawn(stage, springs.face) == 110); /* its most, no further */
+    assert_int_equal(stage_set(stage, "width_strain=-0.5"), STAGE_OK);
+    assert_true(fabs(width_drawn(stage, springs.face) - 90) < 0.5 + 5);
+    assert_int_equal(stage_set(stage, "width_strain=1"), STAGE_OK);
+    letters_stretch(stage, 0.8 / 1.1);
+    assert_true(width_drawn(stage, springs.face) == 90); /* squeezed: its least */
+    assert_true(stage_undo(stage));
+    picture_of(stage, &pictures[2]);
+    const size_t bytes = (size_t)3 * 320 * 200;
+    assert_memory_not_equal(pictures[0].pixels, pictures[1].pixels, bytes);
+    assert_memory_equal(pictures[0].pixels, pictures[2].pixels, bytes);
+    for (int i = 0; i < 3; i++)
+        display_image_destroy(&pictures[i]);
+    stage_destroy(stage);
+    font_shaper_destroy(shaper);
+    font_face_close(springs.face);
+    shaper = usual;
+}
+
+/* ---- letters that keys play ---- */
+
+static struct stage *keys_stage(struct font_face *of, struct stage_actor *actor)
+{
+    struct keys_actor_def keys = keys_actor_def_default();
+    struct stage_def def = stage_def_default();
+    struct stage *stage;
+    keys.face = of;
+    keys.text = "abc";
+    keys.keys.attack_s = 0;
+    assert_int_equal(keys_actor_create(&keys, actor), STAGE_OK);
+    def.actor = *actor;
+    assert_int_equal(stage_create(&def, &stage), STAGE_OK);
+    return stage;
+}
+
+static void play(const struct stage_actor *actor, int status, int first, int second)
+{
+    const uint8_t bytes[3] = {(uint8_t)status, (uint8_t)first, (uint8_t)second};
+    assert_int_equal(keys_actor_play(actor, bytes), STAGE_OK);
+}
+
+static void notes_lead_axes(void **unused)
+{
+    (void)unused;
+    struct stage_actor actor;
+    struct font_face *wide = wide_open();
+    struct stage *stage = keys_stage(wide, &actor);
+    play(&actor, MIDI_NOTE_ON, 60, 127);
+    assert_true(width_drawn(stage, wide) == 100);
+    assert_int_equal(stage_set(stage, "width_velocity=1"), STAGE_OK);
+    assert_true(width_drawn(stage, wide) == 110);
+    assert_int_equal(stage_set(stage, "width_velocity=-1"), STAGE_OK);
+    assert_true(width_drawn(stage, wide) == 90);
+    assert_int_equal(stage_set(stage, "width_velocity=0"), STAGE_OK);
+    assert_int_equal(stage_set(stage, "width_pressure=1"), STAGE_OK);
+    assert_true(width_drawn(stage, wide) == 100);
+    play(&actor, MIDI_PRESSURE, 127, 0);
+    assert_true(width_drawn(stage, wide) == 110);
+    assert_int_equal(stage_set(stage, "width_pressure=0"), STAGE_OK);
+    assert_int_equal(stage_set(stage, "width_pitch=1"), STAGE_OK);
+    assert_true(width_drawn(stage, wide) == 100); /* the middle of the range c3 to c5 */
+    play(&actor, MIDI_NOTE_OFF, 60, 64);
+    assert_int_equal(stage_reset(stage), STAGE_OK);
+    play(&actor, MIDI_NOTE_ON, 72, 127);
+    assert_int_equal(stage_set(stage, "width_pitch=1"), STAGE_OK);
+    assert_true(width_drawn(stage, wide) == 110);
+    stage_destroy(stage);
+    font_face_close(wide);
+}
+
+/* The glyph of what sounds loudest. */
+static uint32_t glyph_drawn(struct stage *stage)
+{
+    struct stage_draw_list list = {0};
+    uint32_t glyph = 0;
+    stage_picture(stage, 320, 200, 1, &list);
+    for (int i = 0; i < list.count; i++)
+        if (list.items[i].kind == STAGE_DRAW_GLYPH)
+            glyph = list.items[i].glyph.glyph;
+    stage_draw_finish(&list);
+    return glyph;
+}
+
+static void keys_have_other_words_while_they_sound(void **unused)
+{
+    (void)unused;
+    struct stage_actor actor;
+    struct stage *stage = keys_stage(face, &actor);
+    play(&actor, MIDI_NOTE_ON, 48, 100);
+    assert_int_equal(glyph_drawn(stage), font_face_glyph(face, 'a'));
+    assert_int_equal(stage_text(stage, "xyz"), STAGE_OK);
+    assert_int_equal(glyph_drawn(stage), font_face_glyph(face, 'x')); /* it goes on */
+    assert_true(keys_actor_level(&actor, 48) > 0.7);
+    assert_int_equal(stage_text(stage, " \n\t"), STAGE_BAD_ARGUMENT); /* no letter */
+    assert_int_equal(stage_text(stage, "\xff"), STAGE_BAD_ARGUMENT);
+    assert_int_equal(glyph_drawn(stage), font_face_glyph(face, 'x'));
+    assert_true(stage_undo(stage));
+    play(&actor, MIDI_NOTE_ON, 48, 100);
+    assert_int_equal(glyph_drawn(stage), font_face_glyph(face, 'a'));
+    stage_destroy(stage);
+}
+
 static bool key(struct typed_words *w, struct stage *stage, int code, unsigned modifiers)
 {
     enum stage_status status;
@@ -380,6 +539,9 @@ int main(void)
         cmocka_unit_test(undo_brings_words_back),
         cmocka_unit_test(sessions_have_the_words),
         cmocka_unit_test(axes_of_a_font_are_controls),
+        cmocka_unit_test(strain_leads_axes),
+        cmocka_unit_test(notes_lead_axes),
+        cmocka_unit_test(keys_have_other_words_while_they_sound),
         cmocka_unit_test(typed_words_are_the_stages),
         cmocka_unit_test(a_watched_file_is_read_when_it_has_changed)};
     if (font_face_open("DejaVuSans", 0, &face) != FONT_OK ||

@@ -42,7 +42,7 @@ VERBS = {
         "map": "size=pitch", "font": "DejaVuSans", "axes": "wght=700", "size": "4,20", "rise": "1", "slant": "1",
         "second": "100", "line": "100", "edits": EDITS, "paper": "1,0,0", "inks": "0,0,1,0,1,0"}),
     "keys": (["song.mid", "-o", "out.png"], {
-        "poster": None, "picture": "240x160", "text": "hat", "map": "letters", "knobs": "wheel.knobs", "osc": "9000", "osc-from": "127.0.0.1", "osc-to": "9001", "param": "a=1", "set": "step=1", "range": "c2-c6",
+        "poster": None, "picture": "240x160", "text": "hat", "map": "letters", "knobs": "wheel.knobs", "osc": "9000", "osc-from": "127.0.0.1", "osc-to": "9001", "param": "a=1", "set": "step=1", "range": "c2-c6", "watch": "cue.txt", "cues": "n.cues",
         "server": "/no/where", "device": "d", "filter": "channels=1", "screen": "7", "wet": "", "stock": "hot press", "pigment": "rose madder",
         "theme": "dark", "sheet": PICTURE, "still": PICTURE, "at": "1", "frames": DIRECTORY, "video": FILM, "silent": "",
         "sound": "made.wav", "fps": "7", "seconds": "0.5", "font": "DejaVuSans", "axes": "wght=700", "size": "2,20", "second": "60",

@@ -114,7 +114,7 @@ OUTPUTS = [
 SLOW = {"demo", "tune"}  # tried in full runs only
 # Options and verbs that write no file of their own without a window or a server.
 NOT_TRIED = {("spring", "session"): "written by a window", ("spring", "record"): "written by a window",
-             ("spring", "watch"): "read by a window",
+             ("spring", "watch"): "read by a window", ("keys", "watch"): "read by a window",
              ("info", None): "prints only", ("run", "in"): "a folder", ("studio", None): "opens a window", ("studio", "play"): "opens a window", ("read", "play"): "opens a window", ("keys", "filter"): "of what is heard, no file"}
 
 # What a command line reads: @ is the file.
@@ -170,6 +170,7 @@ INPUTS = [
     ("keys", "map", ["keys", "song.mid", "--map", "@", "-o", "o.png"]),
     ("keys", "map", ["keys", "song.mid", "--map", "@.lua", "--still", "o.png"]),
     ("keys", "knobs", ["keys", "song.mid", "--knobs", "@", "--still", "o.png"]),
+    ("keys", "cues", ["keys", "song.mid", "--cues", "@", "--still", "o.png"]),
     ("keys", "theme", ["keys", "song.mid", "--map", "map.lua", "--theme", "@", "--still", "o.png"]),
     ("keys", "font", ["keys", "song.mid", "--font", "@", "-o", "o.png"]),
     ("midi", None, ["midi", "render", "@", "-o", "o.wav"]),

@@ -28,7 +28,7 @@ struct stage *scene_springs(const char *word, double bottom, struct font_face *f
         static const double corners[4][2] = {{0, 1.2}, {1, 1.2}, {1, 0}, {0, 0}};
         struct stage_springs_letter *l = &letters[i];
         l->letter = (struct stage_letter){
-            face, font_face_glyph(face, (unsigned char)word[i]), 100, 0, -90, 83, 10};
+            face, font_face_glyph(face, (unsigned char)word[i]), 100, 0, -90, 83, 10, {0}};
         for (int k = 0; k < 4; k++) {
             struct dyn_mass mass = dyn_mass_usual();
             mass.x = 1.1 * i + corners[k][0];

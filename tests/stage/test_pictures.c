@@ -255,7 +255,7 @@ static void what_cannot_be_drawn_is_left_out(void **state)
 {
     (void)state;
     struct stage_draw_list list = {0};
-    struct stage_letter letter = {face, font_face_glyph(face, 'a'), 100, 0, -80, 60, 20};
+    struct stage_letter letter = {face, font_face_glyph(face, 'a'), 100, 0, -80, 60, 20, {0}};
     stage_draw_begin(&list, STAGE_VIEW_PIXELS);
     stage_draw_line(&list, NAN, 0, 3, 3, 1, ink);
     stage_draw_disc(&list, 1e300, 0, 3, ink);
@@ -318,7 +318,7 @@ static void large_letters_agree(void **state)
     struct stage_draw_list list = {0};
     struct stage_renderer *renderer;
     struct display_image image = {0};
-    struct stage_letter letter = {face, font_face_glyph(face, 'm'), 100, 0, -80, 100, 20};
+    struct stage_letter letter = {face, font_face_glyph(face, 'm'), 100, 0, -80, 100, 20, {0}};
     const double far = STAGE_LETTER_MAX_PX * 1.1;
     stage_draw_begin(&list, STAGE_VIEW_PIXELS);
     stage_draw_letter(&list, &letter,

@@ -158,17 +158,18 @@ static void mappings_are_read(void **state)
     char why[200];
     struct voice_mapping mapping = voice_mapping_default();
     assert_int_equal(mapping.feature[TYPE_SIZE], VOICE_ENVELOPE);
-    assert_true(
-        voice_mapping_read(&mapping, "size=nothing,ink=vowel,baseline=pitch", why, sizeof why));
+    assert_true(voice_mapping_read(
+        &mapping, "size=nothing,ink=vowel,baseline=pitch,width=level", why, sizeof why));
     assert_int_equal(mapping.feature[TYPE_SIZE], VOICE_NOTHING);
     assert_int_equal(mapping.feature[TYPE_INK], VOICE_VOWEL);
     assert_int_equal(mapping.feature[TYPE_BASELINE], VOICE_PITCH);
+    assert_int_equal(mapping.feature[TYPE_WIDTH], VOICE_LEVEL);
     static const char *const wrong[][2] = {
         {"", "a mapping is like"},
         {"size", "a mapping is like"},
         {"size=", "no feature ''"},
         {"size=loud", "there are nothing, envelope, level"},
-        {"colour=pitch", "there are size, weight, slant, baseline, ink"},
+        {"colour=pitch", "there are size, weight, width, slant, baseline, ink"},
         {"size=vowel", "plays ink only"},
         {"size=pitch,", "a mapping is like"}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
