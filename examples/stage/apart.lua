@@ -8,7 +8,7 @@ function frame(time)
   local t = time % every
   if math.floor(time / every) ~= turn then
     turn = math.floor(time / every)
-    text("t")        -- another word, and the old one again: new springs
+    text("o")        -- a word that begins otherwise, and the old one again: new springs
     text("together")
   end
   set("rest", math.max(0.45, 1.05 - 0.2 * t))

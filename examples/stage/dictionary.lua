@@ -1,4 +1,4 @@
--- A dictionary: a word grows letter by letter, and each entry falls on the floor.
+-- A dictionary: entries grow letter by letter out of the letters that they share.
 -- stage: spring s --preset stiff --at 0,1.4 --set side=900 --set link=900 --set damping=4 --set show_masses=off --set show_springs=off --view -0.4,-0.3,6.2,3 --seconds 12
 
 local entries = {"spring", "springe", "springer", "springy", "sprinkle", "sprint", "sprite"}

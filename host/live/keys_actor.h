@@ -10,8 +10,8 @@
  *
  * Its controls: how large, how fast letters come and go, what aftertouch adds, slant; the axes
  * of a variable font, and how far a note's velocity, its aftertouch and its pitch lead each
- * (font_axes.h). Other words (stage_text()) are other letters for the keys; what sounds goes on
- * with them. */
+ * (font_axes.h: weight_velocity, weight_pressure, weight_pitch). Other words (stage_text()) are
+ * other letters for the keys; what sounds goes on with them. */
 #ifndef LUTETIA_KEYS_ACTOR_H
 #define LUTETIA_KEYS_ACTOR_H
 
