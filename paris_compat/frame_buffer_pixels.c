@@ -232,15 +232,16 @@ static void writing_end(struct writing *w, bool read)
         frame_buffer_pixels_drop(&w->to);
 }
 
-/* Where the machine has a field's values as rows of the picture. rows->at is NULL: nowhere.
+/* Where the machine has the fields' values as rows of the picture. rows->at is NULL: nowhere.
  * False: an error, which has been said. */
-static bool rows_look(const struct writing *w, CM_field_id_t source, unsigned int bits,
-                      struct machine_rows *rows)
+static bool rows_look(const struct writing *w, const CM_field_id_t *sources, int count,
+                      unsigned int bits, struct machine_rows *rows)
 {
-    *rows = (struct machine_rows){NULL, 0};
+    for (int i = 0; i < count; i++)
+        rows[i] = (struct machine_rows){NULL, 0};
     if (!straight(&w->picture))
         return true;
-    if (machine_field_look(w->m, source, MACHINE_UINT((int)bits), rows) == MACHINE_OK)
+    if (machine_fields_look(w->m, sources, count, MACHINE_UINT((int)bits), rows) == MACHINE_OK)
         return true;
     paris_fail_machine();
     return false;
@@ -259,7 +260,7 @@ static bool downloaded(const struct writing *w, CM_field_id_t source, unsigned i
 static bool straight_read(struct writing *w, CM_field_id_t source)
 {
     struct machine_rows rows;
-    if (!rows_look(w, source, w->bits, &rows))
+    if (!rows_look(w, &source, 1, w->bits, &rows))
         return false;
     if (!rows.at)
         return downloaded(w, source, w->bits, w->to.pixels);
@@ -328,19 +329,6 @@ static void planes_join(const struct writing *w, const uint8_t *planes)
     }
 }
 
-/* The channels' rows where the machine has them. *all is false: not all lie there. */
-static bool channels_look(const struct writing *w, const CM_field_id_t sources[3],
-                          struct machine_rows rows[3], bool *all)
-{
-    /* Each is computed by the first look, which may move the others; by the second nothing
-     * is. */
-    for (int i = 0; i < 6; i++)
-        if (!rows_look(w, sources[i % 3], 8, &rows[i % 3]))
-            return false;
-    *all = rows[0].at && rows[1].at && rows[2].at;
-    return true;
-}
-
 /* The channels as dense planes. NULL: an error, which has been said. */
 static uint8_t *planes_read(const struct writing *w, const CM_field_id_t sources[3])
 {
@@ -355,10 +343,9 @@ static bool channels_read(struct writing *w, const CM_field_id_t sources[3])
 {
     const uint32_t width = w->picture.width, height = w->picture.height;
     struct machine_rows r[3];
-    bool all;
-    if (!channels_look(w, sources, r, &all))
+    if (!rows_look(w, sources, 3, 8, r))
         return false;
-    if (!all) {
+    if (!r[0].at || !r[1].at || !r[2].at) {
         const uint8_t *planes = planes_read(w, sources);
         if (planes && !straight(&w->picture))
             planes_join(w, planes);

@@ -1,8 +1,8 @@
-/* machine_rows.h - a field's values where they lie.
+/* machine_rows.h - fields' values where they lie.
  *
- *     struct machine_rows rows;
- *     if (machine_field_look (m, field, MACHINE_UINT (8), &rows) == MACHINE_OK && rows.at)
- *         draw (rows.at + y * rows.pitch);
+ *     struct machine_rows rows[3];
+ *     if (machine_fields_look (m, rgb, 3, MACHINE_UINT (8), rows) == MACHINE_OK && rows[0].at)
+ *         draw (rows[0].at + y * rows[0].pitch);
  *
  * Errors, Threads: as machine.h. */
 #ifndef LUTETIA_MACHINE_ROWS_H
@@ -12,13 +12,16 @@
 
 /* The values that machine_field_download() has, to be read and not copied: rows along the last
  * axis, `pitch` bytes apart, until the machine is called again. at is NULL where they are not
- * in the front end's memory. A field that was looked at, and has not changed since, is not
- * moved by looking at others. */
+ * in the front end's memory. */
 struct machine_rows {
     const unsigned char *at;
     size_t pitch;
 };
-enum machine_status machine_field_look(struct machine *m, uint32_t field,
-                                       struct machine_type type, struct machine_rows *rows);
+
+/* The fields, at most MACHINE_LOOK_MAX, are of one VP set. What of them waits is computed by
+ * one evaluation, which is faster than one for each. */
+enum { MACHINE_LOOK_MAX = 4 };
+enum machine_status machine_fields_look(struct machine *m, const uint32_t *fields, int count,
+                                        struct machine_type type, struct machine_rows *rows);
 
 #endif

@@ -197,7 +197,7 @@ static void expect_look(struct machine *m, uint32_t field, struct machine_type t
     const uint64_t rows = machine_vpset_count(m, set) * machine_element_bytes(type) / bytes;
     struct machine_rows look;
 
-    assert_ok(machine_field_look(m, field, type, &look), m);
+    assert_ok(machine_fields_look(m, &field, 1, type, &look), m);
     for (uint64_t row = 0; look.at && row < rows; row++)
         assert_memory_equal(look.at + row * look.pitch, array + row * bytes, bytes);
 }

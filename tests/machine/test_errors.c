@@ -5,6 +5,7 @@
 
 #include "../skip.h"
 #include "base/arrays.h"
+#include "machine_rows.h"
 #include "support.h"
 
 static struct machine *machine;
@@ -204,6 +205,23 @@ static void access_beyond_the_field_is_refused(void **state)
     support_failed(machine, MACHINE_BAD_ARGUMENT, "");
 }
 
+static void looking_at_fields_of_two_sets_or_at_none_is_refused(void **state)
+{
+    const int other = machine_vpset_create(machine, (int[]){4, 5}, 2);
+    const uint32_t fields[] = {field, machine_field_allocate(machine, other, 32, MACHINE_HEAP)};
+    struct machine_rows rows[2];
+
+    (void)state;
+    assert_int_equal(machine_fields_look(machine, fields, 2, MACHINE_UINT(32), rows),
+                     MACHINE_BAD_ARGUMENT);
+    support_failed(machine, MACHINE_BAD_ARGUMENT, "two VP sets");
+    assert_null(rows[0].at);
+    assert_int_equal(machine_fields_look(machine, fields, 0, MACHINE_UINT(32), rows),
+                     MACHINE_BAD_ARGUMENT);
+    support_failed(machine, MACHINE_BAD_ARGUMENT, "got 0");
+    assert_ok(machine_vpset_destroy(machine, other), machine);
+}
+
 static void operation_on_wrong_types_is_refused(void **state)
 {
     struct machine_value *word, *byte, *real;
@@ -298,6 +316,7 @@ int main(void)
         CASE(field_that_cannot_be_is_refused),
         CASE(field_that_is_gone_is_refused),
         CASE(access_beyond_the_field_is_refused),
+        CASE(looking_at_fields_of_two_sets_or_at_none_is_refused),
         CASE(operation_on_wrong_types_is_refused),
         CASE(values_of_two_sets_do_not_mix),
     };

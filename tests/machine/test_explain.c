@@ -2,6 +2,7 @@
  * stored are known by hand. */
 #include "../skip.h"
 #include "machine_explained.h"
+#include "machine_rows.h"
 #include "support.h"
 
 enum { ROWS = 24, COLUMNS = 160, COUNT = ROWS * COLUMNS };
@@ -98,6 +99,33 @@ static const struct machine_explained_row *row_of(const struct machine_explained
             return &rows[i];
     fail_msg("there is no row \"%s\"", name);
     return NULL;
+}
+
+/* Two results and a number, which has no array. */
+static void fields_looked_at_together_are_computed_by_one_kernel(void **state)
+{
+    const uint32_t a = field_of(1), b = field_of(2);
+    uint32_t looked[3];
+    struct machine_rows rows[3];
+    float out[2][COUNT];
+
+    (void)state;
+    for (int i = 0; i < 3; i++)
+        looked[i] = machine_field_allocate(machine, set, 32, MACHINE_HEAP);
+    store(looked[0], machine_binary(machine, MACHINE_FADD, value(a), value(b)));
+    store(looked[1], machine_constant(machine, MACHINE_F32, (struct machine_scalar){0, 0}));
+    store(looked[2], machine_binary(machine, MACHINE_FMUL, value(a), value(b)));
+    assert_ok(machine_fields_look(machine, looked, 3, MACHINE_F32, rows), machine);
+    assert_int_equal(explained()->kernels_count, 1);
+    assert_int_equal(explained()->kernels[0].runs, 1);
+    assert_null(rows[1].at);
+    for (int i = 0; i < 2; i++) {
+        assert_ok(machine_field_download(machine, looked[2 * i], MACHINE_F32, out[i]), machine);
+        assert_ok(machine_fields_look(machine, looked, 3, MACHINE_F32, rows), machine);
+        for (int row = 0; rows[2 * i].at && row < ROWS; row++)
+            assert_memory_equal(rows[2 * i].at + (size_t)row * rows[2 * i].pitch,
+                                out[i] + (size_t)row * COLUMNS, COLUMNS * sizeof **out);
+    }
 }
 
 static void kernel_has_the_bytes_and_operations_of_its_formula(void **state)
@@ -426,6 +454,7 @@ int main(void)
 #define CASE(test) cmocka_unit_test_setup_teardown(test, setup, teardown)
     const struct CMUnitTest tests[] = {
         CASE(kernel_has_the_bytes_and_operations_of_its_formula),
+        CASE(fields_looked_at_together_are_computed_by_one_kernel),
         CASE(overwritten_value_has_vanished),
         CASE(dear_value_is_stored_for_its_neighbours),
         cmocka_unit_test_setup_teardown(strips_keep_rows_in_no_array, setup_strips, teardown),

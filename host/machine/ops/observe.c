@@ -131,31 +131,76 @@ enum machine_status machine_field_download(struct machine *m, uint32_t field,
     return v ? observe_out(m, f->vpset, v, out, "reading a field") : m->status;
 }
 
-enum machine_status machine_field_look(struct machine *m, uint32_t field,
-                                       struct machine_type type, struct machine_rows *rows)
+/* The fields' values, and the set that they are all of. False: error set. */
+static bool looked_values(struct machine *m, const uint32_t *fields, int count,
+                          struct machine_type type, struct machine_value **values, int *set)
 {
-    uint32_t offset;
-    struct field *f = observe_field(m, field, type, &offset);
-    struct machine_value *v =
-        f ? machine_field_value(m, field, type, MACHINE_EVERYWHERE) : NULL;
-    *rows = (struct machine_rows){NULL, 0};
-    if (!v)
+    if (count < 1 || count > MACHINE_LOOK_MAX) {
+        machine_fail(m, MACHINE_BAD_ARGUMENT, "1 to %d fields are looked at (got %d)",
+                     MACHINE_LOOK_MAX, count);
+        return false;
+    }
+    for (int i = 0; i < count; i++) {
+        uint32_t offset;
+        const struct field *f = observe_field(m, fields[i], type, &offset);
+        if (f && i && f->vpset != *set) {
+            machine_fail(m, MACHINE_BAD_ARGUMENT,
+                         "fields %u and %u are looked at together, and are of two VP sets",
+                         fields[0], fields[i]);
+            return false;
+        }
+        values[i] = f ? machine_field_value(m, fields[i], type, MACHINE_EVERYWHERE) : NULL;
+        if (!values[i])
+            return false;
+        *set = f->vpset;
+    }
+    return true;
+}
+
+/* Those that are numbers have no rows. */
+static bool looked_materialised(struct machine *m, int set, struct machine_value **values,
+                                int count)
+{
+    struct machine_value *arrays[MACHINE_LOOK_MAX];
+    int at[MACHINE_LOOK_MAX], arrays_count = 0;
+    for (int i = 0; i < count; i++)
+        if (values[i]->op != NODE_CONSTANT || values[i]->buffer) {
+            arrays[arrays_count] = graph_same_bits(m, values[i]);
+            at[arrays_count++] = i;
+        }
+    if (arrays_count && !materialise_all_in_blocks(m, set, arrays, arrays_count))
+        return false;
+    for (int i = 0; i < arrays_count; i++)
+        values[at[i]] = arrays[i];
+    return true;
+}
+
+enum machine_status machine_fields_look(struct machine *m, const uint32_t *fields, int count,
+                                        struct machine_type type, struct machine_rows *rows)
+{
+    struct machine_value *values[MACHINE_LOOK_MAX];
+    int set = 0;
+    for (int i = 0; i < count; i++)
+        rows[i] = (struct machine_rows){NULL, 0};
+    if (!looked_values(m, fields, count, type, values, &set))
         return m->status;
-    if (!m->settings.near || (v->op == NODE_CONSTANT && !v->buffer))
+    if (!m->settings.near)
         return MACHINE_OK;
-    v = materialise_in_blocks(m, f->vpset, graph_same_bits(m, v));
-    if (!v)
+    if (!looked_materialised(m, set, values, count) ||
+        device_settle_for(m, "looking at a field"))
         return m->status;
-    if (sequencers_has(m, v) || !v->buffer->host)
-        return MACHINE_OK;
-    const struct vpset *s = &m->values->sets[f->vpset];
-    const size_t element = type_bytes(v->type);
-    if (m->watch)
-        watch_bytes(m, s->count * element);
-    if (device_settle_for(m, "looking at a field"))
-        return m->status;
-    *rows = (struct machine_rows){
-        (const unsigned char *)v->buffer->host + (size_t)s->halo * element, s->pitch * element};
+    const struct vpset *s = &m->values->sets[set];
+    for (int i = 0; i < count; i++) {
+        const struct machine_value *v = values[i];
+        const size_t element = type_bytes(v->type);
+        if (!v->buffer || sequencers_has(m, v) || !v->buffer->host)
+            continue;
+        if (m->watch)
+            watch_bytes(m, s->count * element);
+        rows[i] = (struct machine_rows){(const unsigned char *)v->buffer->host +
+                                            (size_t)s->halo * element,
+                                        s->pitch * element};
+    }
     return MACHINE_OK;
 }
 
