@@ -97,14 +97,47 @@ static int line_above(const struct dyn_word *word, int line)
     return above;
 }
 
+/* Whether a lower corner of the other letter is above the mass, as the letter stands: within
+ * the room between two words. */
+static bool is_above(const struct dyn_network *n, const struct dyn_letter *letter, int mass,
+                     const struct dyn_letter *other)
+{
+    const double beside_most = 0.75; /* ems */
+    const struct dyn_state *s = dyn_network_states(n), *low = &s[letter->mass[0]],
+                           *high = &s[letter->mass[3]];
+    const double x = high->x - low->x, y = high->y - low->y, length = hypot(x, y);
+    for (int k = 0; k < 2; k++) {
+        const struct dyn_state *corner = &s[other->mass[k]];
+        const double beside = (corner->x - s[mass].x) * y - (corner->y - s[mass].y) * x;
+        if (fabs(beside) <= beside_most * letter->size * length)
+            return true;
+    }
+    return false;
+}
+
+/* The line from which a letter's upper corner hangs: the nearest above that has something over
+ * it, so that what is below a short line hangs from the one before, and not in a fan from the
+ * short line's end. Where none has, it is the nearest. -1: there is none. */
+static int line_over(const struct dyn_word *word, const struct dyn_network *n,
+                     const struct dyn_letter *letter, int mass)
+{
+    for (int i = (int)(letter - word->letters) - 1; i >= 0; i--)
+        if (word->letters[i].line < letter->line &&
+            is_above(n, letter, mass, &word->letters[i]))
+            return word->letters[i].line;
+    return line_above(word, letter->line);
+}
+
 static enum dyn_status hang_springs(struct dyn_word *word, struct dyn_network *n,
                                     const struct dyn_letter *letter)
 {
-    int above = line_above(word, letter->line);
     enum dyn_status status = DYN_OK;
-    for (int k = 3; above >= 0 && k >= 2 && status == DYN_OK; k--)
-        status = spring_add(word, n, DYN_HANG, lower_corner(word, n, above, letter->mass[k]),
-                            letter->mass[k]);
+    for (int k = 3; k >= 2 && status == DYN_OK; k--) {
+        const int above = line_over(word, n, letter, letter->mass[k]);
+        if (above >= 0)
+            status = spring_add(word, n, DYN_HANG,
+                                lower_corner(word, n, above, letter->mass[k]), letter->mass[k]);
+    }
     return status;
 }
 
