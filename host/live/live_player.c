@@ -400,6 +400,8 @@ enum stage_status live_player_before(void *player, struct stage *stage, double n
         if (!live_source_next(p->def.source, now_s, &m))
             break;
         beat_take(&p->beat, &m);
+        if (p->def.played)
+            p->def.played(p->def.played_context, &m, now_s - (double)m.time_ns / 1e9);
         if (p->actor.kind->play)
             status = p->actor.kind->play(p->actor.self, m.bytes);
         if (p->map)

@@ -37,6 +37,9 @@ struct live_player_def {
     /* A line for whoever looks: an error of the script's, what it prints, what the server
      * does. */
     void (*tell)(void *context, const char *text);
+    /* A message of a song, which was due late_s ago, for whoever lets it be heard; NULL. */
+    void (*played)(void *context, const struct midi_message *m, double late_s);
+    void *played_context;
     void *context;
 };
 

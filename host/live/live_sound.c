@@ -9,29 +9,38 @@
 
 #include <midi_client.h>
 #include <midi_internal.h>
+#include <midi_message.h>
 #include <sound.h>
 
+#include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
-enum { AT_ONCE = 64, WAITING_MAX = 1024, NAME_MAX_BYTES = 64 };
+enum { AT_ONCE = 64, WAITING_MAX = 4096, NAME_MAX_BYTES = 64, CHANNELS = 16 };
+enum { ALL_NOTES_OFF = 123 };
+
+struct waiting {
+    struct midi_message message;
+    bool song; /* of the song, and not of the stage */
+};
 
 struct live_sound {
-    struct sound *synth;
+    struct sound *synth, *song;
     struct midi_client *client;
     char device[NAME_MAX_BYTES];
     pthread_t player;
     bool playing, mutex_made, wake_made;
     pthread_mutex_t mutex; /* of what follows */
     pthread_cond_t wake;
-    struct midi_message waiting[WAITING_MAX]; /* ascending times, by the monotonic clock */
+    struct waiting waiting[WAITING_MAX]; /* ascending times, by the monotonic clock */
     int waiting_count;
     bool ending;
     /* of the stage's thread */
     void (*heard)(void *context, const struct stage_sound *sound);
     void *heard_context;
+    bool song_lost; /* messages of the song: its notes have to end */
     long played, dropped;
     struct live_recording recording;
 };
@@ -45,11 +54,16 @@ static uint64_t now_ns(void)
 
 /* ---- the player's thread ---- */
 
-static void message_play(struct live_sound *s, const struct midi_message *m)
+static void message_play(struct live_sound *s, const struct waiting *w)
 {
+    const struct midi_message *m = &w->message;
     struct midi_client_event event;
     struct midi_message at_once = *m;
     at_once.time_ns = 0;
+    if (w->song) {
+        sound_message(s->song, m);
+        return;
+    }
     if (s->synth)
         sound_message(s->synth, m);
     if (!s->client)
@@ -63,11 +77,11 @@ static void message_play(struct live_sound *s, const struct midi_message *m)
 }
 
 /* Takes the first message that is due, or waits for it. False: the end. */
-static bool message_next(struct live_sound *s, struct midi_message *out)
+static bool message_next(struct live_sound *s, struct waiting *out)
 {
     pthread_mutex_lock(&s->mutex);
     for (;;) {
-        const bool due = s->waiting_count > 0 && s->waiting[0].time_ns <= now_ns();
+        const bool due = s->waiting_count > 0 && s->waiting[0].message.time_ns <= now_ns();
         if (due || (s->ending && s->waiting_count > 0)) /* at the end all notes end at once */
             break;
         if (s->ending) {
@@ -78,7 +92,7 @@ static bool message_next(struct live_sound *s, struct midi_message *out)
             pthread_cond_wait(&s->wake, &s->mutex);
             continue;
         }
-        const uint64_t until = s->waiting[0].time_ns;
+        const uint64_t until = s->waiting[0].message.time_ns;
         const struct timespec t = {(time_t)(until / 1000000000u), (long)(until % 1000000000u)};
         pthread_cond_timedwait(&s->wake, &s->mutex, &t);
     }
@@ -91,22 +105,22 @@ static bool message_next(struct live_sound *s, struct midi_message *out)
 static void *player_run(void *context)
 {
     struct live_sound *s = context;
-    struct midi_message m;
-    while (message_next(s, &m))
-        message_play(s, &m);
+    struct waiting next;
+    while (message_next(s, &next))
+        message_play(s, &next);
     return NULL;
 }
 
 /* ---- the stage's thread ---- */
 
-static void waiting_put(struct live_sound *s, const struct midi_message *m)
+static void waiting_put(struct live_sound *s, const struct midi_message *m, bool song)
 {
     int at = s->waiting_count;
-    while (at > 0 && s->waiting[at - 1].time_ns > m->time_ns)
+    while (at > 0 && s->waiting[at - 1].message.time_ns > m->time_ns)
         at--;
     memmove(s->waiting + at + 1, s->waiting + at,
             (size_t)(s->waiting_count - at) * sizeof *s->waiting);
-    s->waiting[at] = *m;
+    s->waiting[at] = (struct waiting){*m, song};
     s->waiting_count++;
 }
 
@@ -118,11 +132,35 @@ static void event_play(struct live_sound *s, const struct sound_event *e)
     pthread_mutex_lock(&s->mutex);
     const bool room = s->waiting_count + 3 <= WAITING_MAX; /* a note has its end, too */
     for (int i = 0; i < 3 && room; i++)
-        waiting_put(s, &messages[i]);
+        waiting_put(s, &messages[i], false);
     pthread_cond_signal(&s->wake);
     pthread_mutex_unlock(&s->mutex);
     s->played += room;
     s->dropped += !room;
+}
+
+/* A player that hangs is behind: what has no room is dropped, and all its notes end once there
+ * is room again. */
+void live_sound_song(struct live_sound *s, const struct midi_message *m, double late_s)
+{
+    if (!s || !s->song)
+        return;
+    struct midi_message at = *m;
+    at.time_ns = now_ns() + LIVE_SONG_LATE_MS * 1000000u;
+    at.time_ns -= (uint64_t)(1e9 * fmin(LIVE_SONG_LATE_MS / 1e3, fmax(0, late_s)));
+    pthread_mutex_lock(&s->mutex);
+    const bool room = s->waiting_count + CHANNELS + 1 <= WAITING_MAX;
+    for (int i = 0; i < CHANNELS && room && s->song_lost; i++) {
+        const struct midi_message end =
+            midi_message_make(at.time_ns, (uint8_t)(MIDI_CONTROL | i), ALL_NOTES_OFF, 0);
+        waiting_put(s, &end, true);
+    }
+    if (room)
+        waiting_put(s, &at, true);
+    s->song_lost = !room;
+    s->dropped += !room;
+    pthread_cond_signal(&s->wake);
+    pthread_mutex_unlock(&s->mutex);
 }
 
 void live_sound_take(struct live_sound *s, struct stage *stage)
@@ -167,13 +205,13 @@ enum midi_status live_sound_recorded(struct live_sound *s, struct midi_song *son
 
 /* ---- life ---- */
 
-static enum midi_status synth_open(struct live_sound *s, const char *driver)
+static enum midi_status synth_open(const char *driver, struct sound **out)
 {
     struct sound_def def = sound_def_default();
     def.room = true;
-    enum midi_status status = sound_create(&def, &s->synth);
+    enum midi_status status = sound_create(&def, out);
     if (status == MIDI_OK)
-        status = driver ? sound_listen(s->synth, driver) : sound_listen_any(s->synth);
+        status = driver ? sound_listen(*out, driver) : sound_listen_any(*out);
     return status;
 }
 
@@ -199,7 +237,7 @@ static enum midi_status player_begin(struct live_sound *s)
 {
     pthread_condattr_t monotonic;
     for (int i = 0; i < SOUND_KINDS; i++)
-        s->waiting[s->waiting_count++] = sound_kind_program((enum sound_kind)i);
+        s->waiting[s->waiting_count++].message = sound_kind_program((enum sound_kind)i);
     s->mutex_made = pthread_mutex_init(&s->mutex, NULL) == 0;
     if (pthread_condattr_init(&monotonic) == 0) {
         pthread_condattr_setclock(&monotonic, CLOCK_MONOTONIC);
@@ -219,7 +257,9 @@ enum midi_status live_sound_open(const struct live_sound_def *def, struct live_s
         return midi_fail(MIDI_NO_MEMORY, "no memory for sounds");
     s->heard = def->heard;
     s->heard_context = def->context;
-    enum midi_status status = def->synth ? synth_open(s, def->driver) : MIDI_OK;
+    enum midi_status status = def->synth ? synth_open(def->driver, &s->synth) : MIDI_OK;
+    if (status == MIDI_OK && def->synth && def->song)
+        status = synth_open(def->song_driver ? def->song_driver : def->driver, &s->song);
     if (status == MIDI_OK && def->device)
         status = device_open(s, def);
     if (status == MIDI_OK)
@@ -249,6 +289,7 @@ void live_sound_close(struct live_sound *s)
         pthread_mutex_destroy(&s->mutex);
     midi_client_close(s->client);
     sound_destroy(s->synth);
+    sound_destroy(s->song);
     live_recording_finish(&s->recording);
     free(s);
 }

@@ -9,6 +9,9 @@
  *     live_sound_take(sound, stage);                          // after each frame
  *     live_sound_close(sound);
  *
+ * A song that plays the stage is heard with it, on a synthesizer of its own, each message a
+ * picture's time (LIVE_SONG_LATE_MS) after it was due: so rhythms are as they were written.
+ *
  * A thread of its own plays, so neither a slow device nor a sound server that hangs holds up
  * the stage. What it cannot take in time is dropped, and counted.
  *
@@ -21,11 +24,15 @@
 #include <sound_events.h>
 #include <stage.h>
 
+enum { LIVE_SONG_LATE_MS = 20 };
+
 struct live_sound_def {
+    bool song;  /* there is one, for live_sound_song() */
     bool synth; /* with neither a synthesizer nor a device nothing is heard but in recordings */
     /* A driver of FluidSynth, or a name that ends with .wav; NULL: JACK, PulseAudio or ALSA,
      * the first that works. */
     const char *driver;
+    const char *song_driver;     /* the song's; NULL: the same */
     const char *server, *device; /* a device of the MIDI server; device NULL: none */
     /* Whoever else takes what is let hear; NULL: nobody. */
     void (*heard)(void *context, const struct stage_sound *sound);
@@ -40,6 +47,8 @@ void live_sound_close(struct live_sound *sound); /* ends all notes; NULL is fine
 
 /* Plays what the stage's actor has let hear since the last call. NULL is fine. */
 void live_sound_take(struct live_sound *sound, struct stage *stage);
+/* A message of the song, which was due late_s ago. */
+void live_sound_song(struct live_sound *sound, const struct midi_message *m, double late_s);
 long live_sound_played(const struct live_sound *sound); /* events so far */
 long live_sound_dropped(const struct live_sound *sound);
 

@@ -59,6 +59,8 @@ int live_begin(const char *verb, const struct live_options *options, struct midi
                                                    .send = options->osc_to},
                                            .is_film = song != NULL,
                                            .tell = said,
+                                           .played = song ? options->played : NULL,
+                                           .played_context = options->played_context,
                                            .context = out};
     return live_player_create(&player, stage, &out->player) == STAGE_OK
                ? EXIT_SUCCESS

@@ -18,6 +18,9 @@ struct live_options {
     const char *cues; /* a file of cues */
     bool no_go;       /* nobody can say go */
     const char *screen;
+    /* A song's messages, for whoever lets them be heard (live_player.h); NULL. */
+    void (*played)(void *context, const struct midi_message *m, double late_s);
+    void *played_context;
     bool knobs_alone; /* the computer's keyboard plays no notes */
 };
 

@@ -408,6 +408,12 @@ static void sounds_play(void *context, struct stage *stage)
     live_sound_take(s->sound, stage);
 }
 
+static void song_heard(void *context, const struct midi_message *m, double late_s)
+{
+    const struct spring *s = context;
+    live_sound_song(s->sound, m, late_s);
+}
+
 static void sound_told(void *context, const struct stage_sound *sound)
 {
     const struct spring *s = context;
@@ -437,6 +443,7 @@ static int recording_heard(void *context, double now_s, const char **why)
 static int window_sound(struct spring *s)
 {
     const struct live_sound_def def = {.synth = !s->silent,
+                                       .song = s->song != NULL,
                                        .server = s->live_options.server,
                                        .device = s->play,
                                        .heard = s->live_options.osc_to ? sound_told : NULL,
@@ -466,6 +473,8 @@ static int window_run(struct spring *s, struct stage *stage)
 {
     s->window.save_path = s->save ? s->save : "spring.springs";
     s->live.verb = "spring";
+    s->live_options.played = song_heard;
+    s->live_options.played_context = s;
     if (map_begin(s, stage) != EXIT_SUCCESS || window_sound(s) != EXIT_SUCCESS)
         return EXIT_FAILED;
     return live_window(&s->live, stage, &s->window,
