@@ -315,12 +315,43 @@ int pages_passage_length(const struct reader_document *d, int first)
     return n;
 }
 
+int pages_wide_of(const struct reader_block *block)
+{
+    switch (block->kind) {
+    case READER_HEADING:
+        return block->level <= 2 ? READER_WIDE_HEADINGS : -1;
+    case READER_PICTURE:
+        return READER_WIDE_FIGURES;
+    case READER_LIVE:
+        return READER_WIDE_DEMONSTRATIONS;
+    case READER_ROW:
+        return READER_WIDE_TABLES;
+    case READER_PARAGRAPH:
+    case READER_CODE_BLOCK:
+    case READER_HTML:
+    case READER_MATH:
+    case READER_RULE:
+        break;
+    }
+    return -1;
+}
+
 enum reader_status pages_passage_add(struct reader_pages *p, int first, int count)
 {
     const struct reader_block *block = &p->document->blocks[first];
-    enum reader_status status =
-        count > 1 ? pages_table_add(p, block, count) : block_add(p, block);
-    p->behind_head = block->kind != READER_PARAGRAPH;
+    enum reader_status status = READER_OK;
+    p->wide = pages_wide_of(block);
+    p->block = first;
+    if (block->kind == READER_ROW && count > 1) {
+        status = pages_table_add(p, block, count);
+        p->behind_head = true;
+        return status;
+    }
+    for (int i = 0; i < count && status == READER_OK; i++) {
+        p->block = first + i;
+        status = block_add(p, &block[i]);
+        p->behind_head = block[i].kind != READER_PARAGRAPH;
+    }
     return status;
 }
 
@@ -338,8 +369,54 @@ static enum reader_status blocks_add(struct reader_pages *p)
 
 /* ---- the page ---- */
 
+static struct page_frame frame_of(const struct reader_region *r, double frame_px)
+{
+    return (struct page_frame){.x = r->x,
+                               .width = r->width,
+                               .height = frame_px,
+                               .margin_x = r->notes_width > 0 ? r->notes_x : 0,
+                               .margin_width = r->notes_width};
+}
+
+static bool same_region(const struct reader_region *a, const struct reader_region *b)
+{
+    return a->x == b->x && a->width == b->width && a->notes_x == b->notes_x &&
+           a->notes_width == b->notes_width;
+}
+
+/* One template for text, and one for each place that is another: where all are alike, one. */
+static enum reader_status grid_set(struct reader_pages *p, double frame_px)
+{
+    const struct reader_grid *g = &p->setup.grid;
+    struct page_template t[1 + READER_WIDES] = {{0}};
+    p->templates_count = 1;
+    for (int i = 0; i < g->texts; i++)
+        t[0].frames[t[0].frames_count++] = frame_of(&g->text[i], frame_px);
+    for (int i = 0; i < READER_WIDES; i++) {
+        int at = g->texts == 1 && same_region(&g->wide[i], &g->text[0]) ? 0 : -1;
+        for (int k = 0; k < i && at < 0; k++)
+            if (same_region(&g->wide[i], &g->wide[k]))
+                at = p->wide_templates[k];
+        p->wide_templates[i] = at < 0 ? p->templates_count : at;
+        if (at >= 0)
+            continue;
+        t[p->templates_count].frames[0] = frame_of(&g->wide[i], frame_px);
+        t[p->templates_count++].frames_count = 1;
+    }
+    for (int i = 0; i < p->templates_count; i++) {
+        t[i].width_px = p->setup.width_px;
+        t[i].height_px = frame_px;
+    }
+    return page_templates_set(p->text, t, p->templates_count) == FONT_OK ? READER_OK
+                                                                         : pages_failed();
+}
+
 enum reader_status pages_template_set(struct reader_pages *p, double frame_px)
 {
+    p->wide = -1;
+    p->templates_count = 1;
+    if (p->made && p->setup.grid.texts)
+        return grid_set(p, frame_px);
     const struct reader_pages_setup *s = &p->setup;
     const bool scrolled = p->made != NULL;
     const double width = s->columns >= 1 ? pages_column(p) : 0, height = frame_px;

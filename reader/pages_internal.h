@@ -24,6 +24,8 @@ enum context {
  * letters are. */
 struct made_paragraph {
     int id, note; /* note: of the document's, or -1 */
+    int block;    /* the document's that it is of */
+    bool beside;  /* it stands in a margin, not in the flow */
     struct line_span *spans;
     int spans_count;
 };
@@ -31,6 +33,8 @@ struct made_passage {
     struct made_paragraph *paragraphs;
     int count, capacity;
     double before_px, after_px; /* what is to be left blank around it */
+    int first;                  /* paragraph of the flow; notes may stand before it here */
+    struct page_manner manner;  /* of it */
 };
 
 enum {
@@ -63,6 +67,9 @@ struct reader_pages {
     const double *stage_more;  /* of each block: room under its picture; NULL: none */
     const int *opened; /* notes that are seen: those with the passage's number, from 1 */
     int passage;       /* that number */
+    int block;         /* that paragraphs are of */
+    /* On a grid: where passages of a kind stand, and by which template; -1: as text. */
+    int wide, wide_templates[READER_WIDES], templates_count;
     /* Pages with what readers left (pages_remarks.c). */
     struct made_passage kept; /* all paragraphs */
     struct pages_left *left;  /* NULL: nothing is asked for */
@@ -107,6 +114,7 @@ enum reader_status pages_style(struct reader_pages *p, enum context context, uns
                                int *style);
 struct page_manner pages_manner(const struct reader_pages *p, enum context context);
 double pages_column(const struct reader_pages *p); /* how wide a column is */
+double pages_notes(const struct reader_pages *p);  /* and its margin for notes; 0: none */
 /* A paragraph of the text as it is. Where passages are made, keep it by pages_made_keep(). */
 enum reader_status pages_paragraph_put(struct reader_pages *p, const char *text, size_t bytes,
                                        int style, const struct page_manner *manner, int *id);
@@ -133,6 +141,8 @@ enum reader_status pages_begin(const struct reader_document *document,
 enum reader_status pages_template_set(struct reader_pages *p, double frame_px);
 /* How many blocks from this one on are one passage: a table's rows, or one. */
 int pages_passage_length(const struct reader_document *document, int first);
+/* Where it stands on a grid: a reader_wide, or -1, as text. */
+int pages_wide_of(const struct reader_block *block);
 /* Its paragraphs. p->behind_head is for the next one. */
 enum reader_status pages_passage_add(struct reader_pages *p, int first, int count);
 

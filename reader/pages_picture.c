@@ -115,9 +115,10 @@ static enum reader_status picture_keep(struct reader_pages *p,
                                        const struct reader_picture *picture, double most_px,
                                        int *width, int *height, uint8_t **kept)
 {
-    double scale =
-        fmin(1, fmin(most_px / picture->width_px,
-                     0.6 * (p->setup.height_px - 2 * p->setup.margin_px) / picture->height_px));
+    const double high =
+                     p->made ? p->setup.height_px : p->setup.height_px - 2 * p->setup.margin_px,
+                 scale = fmin(1, fmin(most_px / picture->width_px,
+                                      0.6 * fmax(1, high) / picture->height_px));
     *width = (int)fmax(1, floor(picture->width_px * scale));
     *height = (int)fmax(1, floor(picture->height_px * scale));
     *kept = pixels_shrink(picture, *width, *height);

@@ -93,11 +93,19 @@ void pages_fonts_close(struct reader_pages *p)
 
 double pages_size(const struct reader_pages *p, enum context context)
 {
+    static const int asked[CONTEXTS] = {[CONTEXT_TEXT] = -1,
+                                        [CONTEXT_HEAD_1] = READER_SIZE_HEADING_1,
+                                        [CONTEXT_HEAD_2] = READER_SIZE_HEADING_2,
+                                        [CONTEXT_HEAD_3] = READER_SIZE_HEADING_3,
+                                        [CONTEXT_NOTE] = READER_SIZE_NOTE,
+                                        [CONTEXT_CODE] = READER_SIZE_CODE,
+                                        [CONTEXT_TABLE] = READER_SIZE_TABLE};
     static const double sizes[CONTEXTS] = {
         [CONTEXT_TEXT] = 1,    [CONTEXT_HEAD_1] = 1.7, [CONTEXT_HEAD_2] = 1.3,
         [CONTEXT_HEAD_3] = 1,  [CONTEXT_NOTE] = 0.82,  [CONTEXT_CODE] = 0.88,
         [CONTEXT_TABLE] = 0.92};
-    return sizes[context] * p->setup.size_px;
+    const double own = asked[context] < 0 ? 0 : p->setup.sizes[asked[context]];
+    return (own > 0 ? own : sizes[context]) * p->setup.size_px;
 }
 
 /* ---- styles ---- */
@@ -155,9 +163,27 @@ struct page_manner pages_manner(const struct reader_pages *p, enum context conte
     return manner;
 }
 
+/* Where what is made now stands on the grid; NULL: there is none. */
+static const struct reader_region *region_of(const struct reader_pages *p)
+{
+    const struct reader_grid *grid = &p->setup.grid;
+    if (!p->made || !grid->texts)
+        return NULL;
+    return p->wide < 0 ? &grid->text[0] : &grid->wide[p->wide];
+}
+
+double pages_notes(const struct reader_pages *p)
+{
+    const struct reader_region *region = region_of(p);
+    return region ? region->notes_width : p->setup.notes_px;
+}
+
 double pages_column(const struct reader_pages *p)
 {
     const struct reader_pages_setup *s = &p->setup;
+    const struct reader_region *region = region_of(p);
+    if (region)
+        return region->width;
     return (s->width_px - 2 * s->margin_px - s->notes_px - (s->columns - 1) * s->gap_px) /
            s->columns;
 }
@@ -361,7 +387,12 @@ enum reader_status pages_made_keep(struct reader_pages *p, int id, int note,
                        sizeof *made->paragraphs))
         return pages_no_memory();
     made->paragraphs[made->count++] =
-        (struct made_paragraph){id, note, t->spans, t->spans_count};
+        (struct made_paragraph){.id = id,
+                                .note = note,
+                                .block = p->block,
+                                .beside = note >= 0 && pages_notes(p) > 0,
+                                .spans = t->spans,
+                                .spans_count = t->spans_count};
     t->spans = NULL;
     t->spans_count = t->spans_capacity = 0;
     return READER_OK;
@@ -393,7 +424,7 @@ static enum reader_status note_add(struct reader_pages *p, int note, int id, int
                                    struct paragraph_text *t, int *note_id)
 {
     const char *class = p->document->notes[note].class;
-    bool margin = (p->made || strcmp(class, "margin") == 0) && p->setup.notes_px > 0;
+    bool margin = (p->made || strcmp(class, "margin") == 0) && pages_notes(p) > 0;
     struct page_manner manner = pages_manner(p, CONTEXT_NOTE);
     int style;
     if (margin)
@@ -403,9 +434,8 @@ static enum reader_status note_add(struct reader_pages *p, int note, int id, int
     if (status == READER_OK)
         status = note_put(p, margin, id, byte, t, &manner, style, note_id);
     if (status == READER_OK)
-        status =
-            pages_styles_apply(p, *note_id, t, CONTEXT_NOTE, true,
-                               margin ? p->setup.notes_px : pages_column(p) - manner.left_px);
+        status = pages_styles_apply(p, *note_id, t, CONTEXT_NOTE, true,
+                                    margin ? pages_notes(p) : pages_column(p) - manner.left_px);
     return status;
 }
 
@@ -416,7 +446,7 @@ static bool note_wanted(struct reader_pages *p, int note)
     if (note < 0 || note >= p->document->notes_count || p->noted[note])
         return false;
     if (p->made && p->opened[note] != p->passage &&
-        !(p->setup.notes_px > 0 && strcmp(p->document->notes[note].class, "margin") == 0))
+        !(pages_notes(p) > 0 && strcmp(p->document->notes[note].class, "margin") == 0))
         return false;
     p->noted[note] = true;
     return true;
@@ -467,14 +497,21 @@ enum reader_status pages_paragraph_put(struct reader_pages *p, const char *text,
 {
     struct page_manner own = *manner;
     if (p->made) { /* each passage is a column of its own */
-        own.begins_column = p->made->count == 0;
-        own.keep_with_next = false;
-        if (!p->made->count)
+        const int template = p->wide < 0 ? 0 : p->wide_templates[p->wide];
+        const bool first = p->made->count == 0, paged = p->templates_count > 1;
+        own.begins_column = first && !paged;
+        own.begins_page = first && paged ? template + 1 : 0;
+        own.keep_with_next = paged && p->wide < 0 && manner->keep_with_next;
+        if (first) {
             p->made->before_px = manner->before_px;
+            p->made->manner = own;
+        }
         p->made->after_px = manner->after_px;
     }
     if (page_paragraph_add(p->text, 0, p->at, text, bytes, style, &own, id) != FONT_OK)
         return pages_failed();
+    if (p->made && !p->made->count)
+        p->made->first = *id;
     p->at += p->made != NULL;
     return READER_OK;
 }

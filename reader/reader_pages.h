@@ -38,6 +38,41 @@ struct reader_picture {
     uint8_t *rgb; /* from malloc() */
 };
 
+/* Where things go in a column that is scrolled: in the window's pixels. */
+enum { READER_TEXTS_MAX = 4, READER_GRID_COLUMNS_MAX = 16 };
+enum reader_wide {
+    READER_WIDE_HEADINGS, /* of the first two levels */
+    READER_WIDE_FIGURES,
+    READER_WIDE_DEMONSTRATIONS,
+    READER_WIDE_TABLES,
+    READER_WIDES
+};
+struct reader_region {
+    double x, width;
+    double notes_x, notes_width; /* of the margin for its notes; width 0: they stand in place */
+};
+struct reader_grid {
+    int texts; /* columns of text beside each other; 0: no grid, margins say where text is */
+    struct reader_region text[READER_TEXTS_MAX], wide[READER_WIDES];
+    /* the columns that are seen, to be shown and dragged */
+    struct reader_grid_column {
+        int number; /* of the template's, from 0 */
+        double x, width;
+    } columns[READER_GRID_COLUMNS_MAX];
+    int columns_count;
+};
+
+/* Sizes of letters that are not the text's. */
+enum reader_size {
+    READER_SIZE_HEADING_1,
+    READER_SIZE_HEADING_2,
+    READER_SIZE_HEADING_3,
+    READER_SIZE_NOTE,
+    READER_SIZE_CODE,
+    READER_SIZE_TABLE,
+    READER_SIZES
+};
+
 struct reader_pages_setup {
     const char *font, *mono; /* names as font_face_open() has them */
     const char *math;        /* NULL: the first of font_math_fonts that there is */
@@ -48,6 +83,8 @@ struct reader_pages_setup {
     /* the width of a margin for notes of the class `margin`; 0: they stand at the foot */
     double notes_px;
     int columns;
+    struct reader_grid grid;    /* of a column that is scrolled, in place of those above */
+    double sizes[READER_SIZES]; /* of size_px; 0: as usual */
     enum font_align align;
     bool hyphenate;
     /* more than 0: over scripts that live there is room for their pictures, and so much under

@@ -41,8 +41,11 @@
 
 struct reader_view;
 
-/* setup: columns and page numbers are not looked at; width_px and height_px: of the window.
- * Errors: as reader_pages_make(). Owns: the caller destroys *out. */
+/* setup: columns and page numbers are not looked at; its grid, if it has one, says where text,
+ * notes and what is wide stand (reader_template.h). Where columns of text stand beside each
+ * other, what goes through all of them is one passage, no higher than is seen at once;
+ * width_px and height_px: of the window. Errors: as reader_pages_make(). Owns: the caller
+ * destroys *out. */
 enum reader_status reader_view_create(const struct reader_document *document,
                                       const struct reader_pages_setup *setup,
                                       struct reader_view **out);
@@ -96,6 +99,7 @@ int reader_view_boxes(struct reader_view *view, size_t begin, size_t end,
 struct reader_stage {
     int block;
     double x, y, width, height;
+    double right; /* where its column ends */
 };
 /* That of a passage that is seen; false: it has none, or the setup has no room for them. */
 bool reader_view_stage(struct reader_view *view, const struct reader_shown *shown,

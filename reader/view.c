@@ -33,9 +33,10 @@ static enum reader_status notes_begin(struct reader_view *view)
 {
     const struct reader_document *d = view->document;
     view->opened = calloc((size_t)d->notes_count + 1, sizeof *view->opened);
+    view->opened_at = calloc((size_t)d->notes_count + 1, sizeof *view->opened_at);
     view->called = malloc(((size_t)d->notes_count + 1) * sizeof *view->called);
     view->stage_more = calloc((size_t)d->blocks_count + 1, sizeof *view->stage_more);
-    if (!view->opened || !view->called || !view->stage_more)
+    if (!view->opened || !view->opened_at || !view->called || !view->stage_more)
         return pages_no_memory();
     for (int i = 0; i < d->notes_count; i++)
         view->called[i] = SIZE_MAX;
@@ -77,6 +78,7 @@ void reader_view_destroy(struct reader_view *view)
     free(view->passages);
     free(view->loaded);
     free(view->opened);
+    free(view->opened_at);
     free(view->called);
     free(view->stage_more);
     free(view->shown);
@@ -273,15 +275,33 @@ static bool same_fonts(const struct reader_pages_setup *a, const struct reader_p
 {
     return a->font == b->font && a->mono == b->mono && a->math == b->math &&
            a->language == b->language && a->size_px == b->size_px && a->leading == b->leading &&
+           memcmp(a->sizes, b->sizes, sizeof a->sizes) == 0 &&
            memcmp(a->ink_link, b->ink_link, sizeof a->ink_link) == 0 &&
            memcmp(a->ink_struck, b->ink_struck, sizeof a->ink_struck) == 0;
+}
+
+static bool same_region(const struct reader_region *a, const struct reader_region *b)
+{
+    return a->x == b->x && a->width == b->width && a->notes_x == b->notes_x &&
+           a->notes_width == b->notes_width;
+}
+
+static bool same_grid(const struct reader_grid *a, const struct reader_grid *b)
+{
+    bool same = a->texts == b->texts;
+    for (int i = 0; i < a->texts && same; i++)
+        same = same_region(&a->text[i], &b->text[i]);
+    for (int i = 0; i < READER_WIDES && same; i++)
+        same = same_region(&a->wide[i], &b->wide[i]);
+    return same;
 }
 
 static bool same_column(const struct reader_pages_setup *a, const struct reader_pages_setup *b)
 {
     return a->width_px == b->width_px && a->margin_px == b->margin_px &&
            a->notes_px == b->notes_px && a->gap_px == b->gap_px && a->align == b->align &&
-           a->hyphenate == b->hyphenate && a->stage_strip_px == b->stage_strip_px;
+           a->hyphenate == b->hyphenate && a->stage_strip_px == b->stage_strip_px &&
+           same_grid(&a->grid, &b->grid) && (!view_bands(a) || a->height_px == b->height_px);
 }
 
 /* The same fonts in another column: what was set goes. */
@@ -322,11 +342,9 @@ enum reader_status reader_view_set(struct reader_view *view,
             view->setup = to;
         }
     }
-    if (status == READER_OK) {
-        view_forget(view);
-        status = top_restore(view);
-    }
-    return status;
+    if (status == READER_OK)
+        status = view_passages_again(view);
+    return status == READER_OK ? top_restore(view) : status;
 }
 
 /* ---- stages ---- */
@@ -356,6 +374,7 @@ enum reader_status reader_view_note(struct reader_view *view, int note, size_t b
         return status;
     const int here = view_passage_of(view, byte) + 1, before = view->opened[note];
     view->opened[note] = before == here ? 0 : here;
+    view->opened_at[note] = byte;
     view_unload(view);
     return top_restore(view);
 }

@@ -28,6 +28,26 @@ static int place_fit(const struct made_passage *made, size_t byte, bool before,
     return best;
 }
 
+/* In a block that has no letters. */
+static bool empty_caret(struct reader_view *view, const struct reader_shown *shown, size_t byte,
+                        struct reader_box *out)
+{
+    const struct made_passage *made = &view->loaded[shown->passage - view->begin];
+    struct page_caret caret;
+    for (int i = 0; i < made->count; i++) {
+        const struct reader_block *block = &view->document->blocks[made->paragraphs[i].block];
+        if (made->paragraphs[i].note >= 0 || block->bytes || block->at != byte ||
+            page_caret_get(view->pages->text, (struct page_place){made->paragraphs[i].id, 0},
+                           false, &caret) != FONT_OK)
+            continue;
+        *out = (struct reader_box){shown->passage, caret.x0,
+                                   caret.y0 + shown->y_px + shown->text_px, 0,
+                                   caret.y1 - caret.y0};
+        return true;
+    }
+    return false;
+}
+
 bool reader_view_caret(struct reader_view *view, size_t byte, bool before,
                        struct reader_box *out)
 {
@@ -48,12 +68,8 @@ bool reader_view_caret(struct reader_view *view, size_t byte, bool before,
     }
     for (int i = 0; i < view->shown_count; i++) { /* nothing is written in it yet */
         const struct reader_shown *shown = &view->shown[i];
-        if (byte != shown->begin || shown->end > shown->begin)
-            continue;
-        const struct view_passage *p = &view->passages[shown->passage];
-        *out = (struct reader_box){shown->passage, view->setup.margin_px,
-                                   shown->y_px + shown->text_px, 0, p->text_px};
-        return true;
+        if (empty_caret(view, shown, byte, out))
+            return true;
     }
     return false;
 }
@@ -83,6 +99,9 @@ static void bytes_move(struct reader_view *view, size_t at, size_t removed, size
     for (int i = 0; i < view->document->notes_count; i++)
         if (view->called[i] != SIZE_MAX && view->called[i] > at)
             view->called[i] = view->called[i] - removed + inserted;
+    for (int i = 0; i < view->document->notes_count; i++)
+        if (view->opened[i] && view->opened_at[i] > at)
+            view->opened_at[i] = view->opened_at[i] - removed + inserted;
     if (view->kept && view->kept_byte > at)
         view->kept_byte =
             view->kept_byte > at + removed ? view->kept_byte - removed + inserted : at;
@@ -116,11 +135,9 @@ enum reader_status reader_view_as(struct reader_view *view, const struct reader_
     for (int i = 0; i < count; i++) {
         if (!before->opened[i])
             continue;
-        const int passage = before->opened[i] - 1, passages = before->count;
-        const int now = passage + (passage < passages / 2 ? 0 : view->count - passages);
-        view->opened[i] = now >= 0 && now < view->count ? now + 1 : 0;
-        if (view->called[i] != SIZE_MAX && view->opened[i])
-            view->opened[i] = view_passage_of(view, view->called[i]) + 1;
+        view->opened_at[i] = view->called[i];
+        view->opened[i] =
+            view->called[i] != SIZE_MAX ? view_passage_of(view, view->called[i]) + 1 : 0;
     }
     view_unload(view);
     return READER_OK;

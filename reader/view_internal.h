@@ -25,6 +25,7 @@ struct reader_view {
     int begin, end;             /* passages that are loaded */
     struct made_passage *loaded;
     int loaded_capacity, paragraphs; /* paragraphs: of the text's flow */
+    size_t *opened_at;               /* for each note: the byte where it was opened */
     int *opened;        /* for each note: the passage in which it is open, from 1; 0: closed */
     double *stage_more; /* for each block: room under its stage's picture */
     size_t *called;     /* for each note: the byte that calls it first; SIZE_MAX: none */
@@ -45,6 +46,10 @@ enum { VIEW_FRAME_PX = 1000000 };
 
 /* view_load.c */
 enum reader_status view_passages_make(struct reader_view *view);
+/* Anew, where another grid puts others together: notes stay open. Nothing is loaded. */
+enum reader_status view_passages_again(struct reader_view *view);
+/* Whether passages depend on sizes and heights. */
+bool view_bands(const struct reader_pages_setup *setup);
 /* Passages from..to - 1 are loaded, and measured. What is not beside them may go. */
 enum reader_status view_load(struct reader_view *view, int from, int to);
 void view_unload(struct reader_view *view); /* all */

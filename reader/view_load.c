@@ -13,16 +13,33 @@ enum {
 
 /* ---- what there is ---- */
 
+static double column_of(const struct reader_view *view, int wide)
+{
+    const struct reader_grid *grid = &view->setup.grid;
+    const double column = !grid->texts ? pages_column(view->pages)
+                          : wide < 0   ? grid->text[0].width
+                                       : grid->wide[wide].width;
+    return fmax(view->setup.size_px, column);
+}
+
 /* As high as its letters would be, were they all as wide as half their height. */
+static double block_estimate(const struct reader_view *view, int block)
+{
+    const struct reader_block *b = &view->document->blocks[block];
+    const double size = view->setup.size_px;
+    return view->setup.leading * size *
+           (1 + floor(b->bytes * 0.45 * size / column_of(view, pages_wide_of(b))));
+}
+
 static double text_estimate(const struct reader_view *view, int passage)
 {
     const struct view_passage *p = &view->passages[passage];
-    const double size = view->setup.size_px, line = view->setup.leading * size,
-                 column = fmax(size, pages_column(view->pages));
-    double lines = 0;
+    const int texts = view->setup.grid.texts;
+    double all = 0;
     for (int i = p->first; i < p->first + p->blocks; i++)
-        lines += 1 + floor(view->document->blocks[i].bytes * 0.45 * size / column);
-    return ceil(lines * line);
+        all += block_estimate(view, i);
+    return ceil(texts > 1 && pages_wide_of(&view->document->blocks[p->first]) < 0 ? all / texts
+                                                                                  : all);
 }
 
 void view_forget(struct reader_view *view)
@@ -35,17 +52,75 @@ void view_forget(struct reader_view *view)
     }
 }
 
+bool view_bands(const struct reader_pages_setup *setup)
+{
+    return setup->grid.texts > 1;
+}
+
+/* How many blocks from this one on are a passage: where columns of text stand beside each
+ * other, what goes through all of them before one goes on below: no higher than is seen at
+ * once. */
+static int band_length(const struct reader_view *view, int first)
+{
+    enum { BLOCKS_MAX = 48 };
+    const struct reader_document *d = view->document;
+    const double part = 0.75;
+    int n = pages_passage_length(d, first);
+    if (!view_bands(&view->setup) || pages_wide_of(&d->blocks[first]) >= 0)
+        return n;
+    const double most = part * view->setup.height_px * view->setup.grid.texts;
+    double all = block_estimate(view, first);
+    for (; first + n < d->blocks_count && n < BLOCKS_MAX; n++) {
+        all += block_estimate(view, first + n);
+        if (pages_wide_of(&d->blocks[first + n]) >= 0 || all > most)
+            break;
+    }
+    while (n > 1 && d->blocks[first + n - 1].kind == READER_HEADING)
+        n--; /* a heading goes with what follows */
+    return n;
+}
+
 enum reader_status view_passages_make(struct reader_view *view)
 {
     int capacity = 0;
     for (int i = 0; i < view->document->blocks_count;) {
-        const int n = pages_passage_length(view->document, i);
+        const int n = band_length(view, i);
         if (!array_reserve(&view->passages, &capacity, view->count + 1, sizeof *view->passages))
             return pages_no_memory();
         view->passages[view->count++] = (struct view_passage){.first = i, .blocks = n};
         i += n;
     }
     view_forget(view);
+    return READER_OK;
+}
+
+enum reader_status view_passages_again(struct reader_view *view)
+{
+    struct view_passage *before = view->passages;
+    const int count = view->count, notes = view->document->notes_count;
+    view->passages = NULL;
+    view->count = 0;
+    enum reader_status status = view_passages_make(view);
+    if (status != READER_OK) {
+        free(view->passages);
+        view->passages = before;
+        view->count = count;
+        return status;
+    }
+    free(before);
+    bool any = count != view->count;
+    for (int depth = 0; any && depth < READER_DEPTH_MAX; depth++) {
+        any = false; /* a note within a note follows it */
+        for (int i = 0; i < notes; i++) {
+            if (!view->opened[i])
+                continue;
+            const int at = view_passage_of(view, view->opened_at[i]) + 1;
+            any = any || at != view->opened[i];
+            view->opened[i] = at;
+        }
+    }
+    if (view->at >= view->count)
+        view->at = view->count ? view->count - 1 : 0;
     return READER_OK;
 }
 
@@ -66,11 +141,11 @@ static void made_free(struct made_passage *made)
 }
 
 /* How many paragraphs of the flow it is: notes in the margin are none. */
-static int flow_count(const struct reader_view *view, const struct made_passage *made)
+static int flow_count(const struct made_passage *made)
 {
     int count = 0;
     for (int i = 0; i < made->count; i++)
-        count += made->paragraphs[i].note < 0 || view->pages->setup.notes_px <= 0;
+        count += !made->paragraphs[i].beside;
     return count;
 }
 
@@ -78,8 +153,7 @@ static void made_drop(struct reader_view *view, struct made_passage *made)
 {
     for (int i = made->count - 1; i >= 0; i--) {
         size_t bytes;
-        if (made->paragraphs[i].note < 0 || view->pages->setup.notes_px <= 0)
-            view->paragraphs--;
+        view->paragraphs -= !made->paragraphs[i].beside;
         /* A note in the margin has gone with its paragraph, or goes now. */
         if (page_paragraph_text(view->pages->text, made->paragraphs[i].id, &bytes))
             page_paragraph_remove(view->pages->text, made->paragraphs[i].id);
@@ -159,23 +233,97 @@ static enum reader_status passage_load(struct reader_view *view, int passage)
     return READER_OK;
 }
 
+static enum reader_status end_get(struct reader_view *view, const struct made_paragraph *p,
+                                  struct page_caret *caret)
+{
+    size_t bytes;
+    page_paragraph_text(view->pages->text, p->id, &bytes);
+    const struct page_place end = {p->id, (int)bytes};
+    return page_caret_get(view->pages->text, end, true, caret) == FONT_OK ? READER_OK
+                                                                          : pages_failed();
+}
+
+/* The lower edge of the lowest line that ends a paragraph; beside: of those in margins, too. */
+static enum reader_status ends_measure(struct reader_view *view,
+                                       const struct made_passage *made, bool beside,
+                                       double *high)
+{
+    enum reader_status status = READER_OK;
+    for (int i = 0; i < made->count && status == READER_OK; i++) {
+        struct page_caret caret = {0};
+        if (made->paragraphs[i].beside && !beside)
+            continue;
+        status = end_get(view, &made->paragraphs[i], &caret);
+        *high = fmax(*high, caret.y1);
+    }
+    return status;
+}
+
+/* Its columns are no deeper; *fits: all of it stands in them. */
+static enum reader_status depth_try(struct reader_view *view, int passage, double depth_px,
+                                    bool *fits)
+{
+    struct page_text *text = view->pages->text;
+    const struct made_passage *made = &view->loaded[passage - view->begin];
+    struct page_manner manner = made->manner;
+    manner.page_depth_px = depth_px;
+    *fits = true;
+    if (page_paragraph_manner(text, made->first, &manner) != FONT_OK)
+        return pages_failed();
+    for (int i = made->count - 1; i >= 0 && *fits; i--) {
+        int page;
+        size_t bytes;
+        page_paragraph_text(text, made->paragraphs[i].id, &bytes);
+        const struct page_place end = {made->paragraphs[i].id, (int)bytes};
+        /* one line may be higher than that: it stands nowhere */
+        *fits = page_find(text, end, &page) == FONT_OK && page == passage - view->begin;
+    }
+    return READER_OK;
+}
+
+/* Columns beside each other are about as deep: the least depth that has room for all, line by
+ * line from the one that would have if nothing had to stay together. *high: that depth; 0: all
+ * of it stands in the first column. */
+static enum reader_status band_balance(struct reader_view *view, int passage, double *high)
+{
+    enum { LINES = 12 };
+    const struct made_passage *made = &view->loaded[passage - view->begin];
+    const double line = view->setup.leading * view->setup.size_px;
+    double all = 0, columns = 0;
+    bool fits = false;
+    *high = 0;
+    if (!view_bands(&view->setup) || !made->count ||
+        pages_wide_of(&view->document->blocks[view->passages[passage].first]) >= 0)
+        return READER_OK;
+    enum reader_status status = ends_measure(view, made, false, &all);
+    for (int i = 0; i < view->setup.grid.texts; i++)
+        columns += view->setup.grid.text[i].width / view->setup.grid.text[0].width;
+    double depth = fmax(line, all / columns);
+    for (int i = 0; status == READER_OK && !fits && depth < all; i++) {
+        status = depth_try(view, passage, depth, &fits);
+        *high = depth;
+        depth = i < LINES ? depth + line : 1.25 * depth;
+    }
+    if (status == READER_OK && !fits) {
+        *high = 0;
+        status = depth_try(view, passage, 0, &fits);
+    }
+    return status;
+}
+
 /* How high its lines are, and what is left blank around them: the ends of the text have the
  * margin. */
 static enum reader_status passage_measure(struct reader_view *view, int passage)
 {
     struct view_passage *p = &view->passages[passage];
     const struct made_passage *made = &view->loaded[passage - view->begin];
-    double high = 0;
-    for (int i = 0; i < made->count; i++) {
-        struct page_caret caret;
-        size_t bytes;
-        page_paragraph_text(view->pages->text, made->paragraphs[i].id, &bytes);
-        const struct page_place end = {made->paragraphs[i].id, (int)bytes};
-        if (page_caret_get(view->pages->text, end, true, &caret) != FONT_OK)
-            return pages_failed();
-        high = fmax(high, caret.y1);
-    }
-    p->text_px = ceil(high);
+    double high, ends = 0;
+    enum reader_status status = band_balance(view, passage, &high);
+    if (status == READER_OK)
+        status = ends_measure(view, made, true, &ends);
+    if (status != READER_OK)
+        return status;
+    p->text_px = ceil(fmax(high, ends));
     const double blank = fmin(view->setup.margin_px, 2 * view->setup.size_px);
     p->before_px = round(passage ? made->before_px : blank);
     p->after_px = round(passage + 1 < view->count ? made->after_px : blank);
@@ -241,7 +389,7 @@ enum reader_status view_again(struct reader_view *view, int passage)
     struct made_passage *own = &view->loaded[passage - view->begin], made;
     int at = 0;
     for (int i = view->begin; i < passage; i++)
-        at += flow_count(view, &view->loaded[i - view->begin]);
+        at += flow_count(&view->loaded[i - view->begin]);
     made_drop(view, own);
     enum reader_status status = passage_make(view, passage, at, &made);
     if (status != READER_OK) {

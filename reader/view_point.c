@@ -118,13 +118,20 @@ enum reader_status view_line_of(struct reader_view *view, int passage, size_t by
 static bool line_at(struct reader_view *view, int passage, double y, struct page_place *place,
                     struct page_caret *caret)
 {
-    const double far = 1e5;
+    const double far = 1e5, near = 0.01;
+    const struct reader_grid *grid = &view->setup.grid;
+    const int wide = pages_wide_of(&view->document->blocks[view->passages[passage].first]);
+    const struct reader_region *region = wide < 0 ? &grid->text[0] : &grid->wide[wide];
+    /* notes at the left are not the line */
+    const bool noted = grid->texts && region->notes_width > 0 && region->notes_x < region->x;
+    const double left = noted ? region->x + near : -far,
+                 right = grid->texts ? region->x + region->width - near : far;
     struct page_text *text = view->pages->text;
     bool before;
     const int page = passage - view->begin;
-    if (page_hit(text, page, -far, y, place, &before) != FONT_OK)
+    if (page_hit(text, page, left, y, place, &before) != FONT_OK)
         return false;
-    if (before && page_hit(text, page, far, y, place, &before) != FONT_OK) /* to the left */
+    if (before && page_hit(text, page, right, y, place, &before) != FONT_OK) /* to the left */
         return false;
     return page_caret_get(text, *place, before, caret) == FONT_OK;
 }
@@ -218,6 +225,11 @@ bool reader_view_stage(struct reader_view *view, const struct reader_shown *show
                                  .x = round(box.x),
                                  .y = round(box.y + shown->y_px + shown->text_px),
                                  .width = round(box.width)};
+    const struct reader_grid *grid = &view->setup.grid;
+    const struct reader_region *region = &grid->wide[READER_WIDE_DEMONSTRATIONS];
+    out->right = grid->texts
+                     ? region->x + region->width
+                     : view->setup.width_px - view->setup.margin_px - view->setup.notes_px;
     out->height = round(block->stage_height * out->width / block->stage_width);
     return true;
 }

@@ -5,7 +5,7 @@
 static void column_step(struct read_desk *d, guint key, double em)
 {
     if (!read_edit_key(d, key, GDK_CONTROL_MASK | GDK_SHIFT_MASK))
-        read_look_column(d, d->column_em + em);
+        read_look_column(d, reader_template_text_em(&d->template) + em);
 }
 
 #define ACTION(name, does)                                                                     \
@@ -88,6 +88,10 @@ ACTION(move_ink, read_keys_key(d, GDK_KEY_m, 0))
 ACTION(play_back, read_keys_key(d, GDK_KEY_r, 0))
 ACTION(play_back_all, read_keys_key(d, GDK_KEY_R, 0))
 ACTION(ink, ink_choose(d, g_variant_get_string(value, NULL)))
+ACTION(template, read_grid_open(d, g_variant_get_string(value, NULL)))
+ACTION(template_open, read_grid_choose(d, true))
+ACTION(template_save, read_grid_choose(d, false))
+ACTION(grid, read_grid_show(d, !d->grid_shown))
 ACTION(close_window, gtk_window_close(GTK_WINDOW(d->window)))
 
 static const GActionEntry entries[] = {
@@ -121,6 +125,10 @@ static const GActionEntry entries[] = {
     {.name = "play-back", .activate = play_back},
     {.name = "play-back-all", .activate = play_back_all},
     {.name = "ink", .activate = ink, .parameter_type = "s"},
+    {.name = "template", .activate = template, .parameter_type = "s"},
+    {.name = "template-open", .activate = template_open},
+    {.name = "template-save", .activate = template_save},
+    {.name = "grid", .activate = grid},
     {.name = "close", .activate = close_window},
 };
 
@@ -159,6 +167,13 @@ static const struct desk_row menu_rows[] = {
     {"win.wider", "Wider lines", "<Control><Shift>Right"},
     {"win.narrower", "Narrower lines", "<Control><Shift>Left"},
     {"win.dark", "Light or dark", "<Control>d"},
+    {NULL, NULL, NULL},
+    {"win.template::screen", "Template: screen", NULL},
+    {"win.template::book", "Template: book", NULL},
+    {"win.template::two-columns", "Template: two columns", NULL},
+    {"win.template-open", "Open a template…", NULL},
+    {"win.template-save", "Save the template…", NULL},
+    {"win.grid", "The grid's lines", "F8"},
     {NULL, NULL, NULL},
     {"win.close", "Close", "<Control>w"},
     {NULL, "Inks", NULL},

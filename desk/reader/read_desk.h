@@ -25,6 +25,7 @@
  *     read_miniatures.c  all pages, small
  *     read_tiles.c     its pictures, painted by fontpipe and kept
  *     read_look.c      sizes, colours, how wide the text is
+ *     read_grid.c      the template: its grid's lines, its file
  *     read_play.c      recorded input: events from a file
  *
  * All of this belongs to GTK's thread. */
@@ -38,6 +39,7 @@
 #include <reader_colours.h>
 #include <reader_files.h>
 #include <reader_remarks.h>
+#include <reader_template.h>
 #include <reader_view.h>
 
 #define _(text) gettext(text)
@@ -46,7 +48,7 @@
 struct read_options {
     GPtrArray *paths;  /* of the document's files; not changed once it is open */
     GPtrArray *manual; /* paths, where they are the manual's; else NULL */
-    const char *font, *mono, *math, *language, *play;
+    const char *font, *mono, *math, *language, *play, *template;
     double size_px;
     int width, height;
     int theme; /* -1: as the desktop; 0: light; 1: dark */
@@ -94,7 +96,10 @@ struct read_desk {
     struct reader_pages_setup setup;
     const struct reader_colours *colours;
     bool dark;
-    double size_px, column_em; /* column_em: the widest column of text */
+    double size_px;
+    struct reader_template template;
+    bool grid_shown, grid_held; /* its lines are seen; one of them is dragged */
+    int grid_edge;              /* the line that is chosen; -1: none */
     /* the page */
     struct read_tiles *tiles;
     struct read_stages *stages;
@@ -168,6 +173,21 @@ void read_look_size(struct read_desk *d, double size_px);
 void read_look_column(struct read_desk *d, double column_em);
 void read_look_theme(struct read_desk *d, bool dark);
 void read_look_resized(struct read_desk *d, int width, int height);
+
+void read_look_again(struct read_desk *d); /* the template is another */
+
+/* read_grid.c */
+/* A template that is built in, or of a file. False: it was said why not. */
+bool read_grid_open(struct read_desk *d, const char *name_or_path);
+bool read_grid_save(struct read_desk *d, const char *path);
+void read_grid_choose(struct read_desk *d, bool opens); /* the file, by a dialog */
+void read_grid_show(struct read_desk *d, bool show);
+/* False: it is none of theirs. */
+bool read_grid_press(struct read_desk *d, double x);
+bool read_grid_move(struct read_desk *d, double x);
+bool read_grid_release(struct read_desk *d);
+bool read_grid_key(struct read_desk *d, guint key);
+void read_grid_draw(struct read_desk *d, GtkSnapshot *snapshot);
 
 /* read_tiles.c */
 struct read_tiles *read_tiles_create(void);

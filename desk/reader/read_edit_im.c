@@ -7,6 +7,17 @@
 
 /* ---- where the caret is ---- */
 
+/* Where the column of text begins that a point is in. */
+static double column_x(const struct read_desk *d, double x)
+{
+    const struct reader_grid *grid = &d->setup.grid;
+    double begins = grid->text[0].x;
+    for (int i = 1; i < grid->texts; i++)
+        if (x >= grid->text[i].x - d->size_px / 2)
+            begins = grid->text[i].x;
+    return begins;
+}
+
 bool read_edit_caret_box(struct read_desk *d, struct reader_box *box)
 {
     const struct read_editing *e = d->editing;
@@ -30,7 +41,7 @@ bool read_edit_caret_box(struct read_desk *d, struct reader_box *box)
     case READER_WAITS_PARAGRAPH:
     case READER_WAITS_OUTSIDE:
         box->y += box->height;
-        box->x = d->setup.margin_px;
+        box->x = column_x(d, box->x);
         break;
     }
     return true;

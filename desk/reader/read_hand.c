@@ -142,7 +142,8 @@ void read_hand_press(struct read_desk *d, double x, double y, int times)
     d->glide_px = d->speed_px_s = 0;
     d->dragging = false;
     gtk_widget_grab_focus(d->page);
-    if (read_stages_press(d, x, y) || read_edit_press(d, x, y, times, false))
+    if (read_grid_press(d, x) || read_stages_press(d, x, y) ||
+        read_edit_press(d, x, y, times, false))
         return;
     if (!d->view || !reader_view_hit(d->view, x, y, &byte, &inside))
         return;
@@ -164,6 +165,8 @@ void read_hand_move(struct read_desk *d, double x, double y)
     size_t byte;
     d->pointer_x = x;
     d->pointer_y = y;
+    if (read_grid_move(d, x))
+        return;
     if (!d->dragging && read_stages_move(d, x, y)) {
         gtk_widget_set_cursor_from_name(d->page, "default");
         return;
@@ -190,7 +193,7 @@ void read_hand_release(struct read_desk *d, double x, double y)
 {
     bool inside;
     size_t byte;
-    if (read_stages_release(d, x, y))
+    if (read_grid_release(d) || read_stages_release(d, x, y))
         return;
     const bool clicked =
         d->dragging && !read_edit_on(d) && d->selected.begin == d->selected.end;

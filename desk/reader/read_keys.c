@@ -140,7 +140,7 @@ bool read_keys_key(struct read_desk *d, guint key, GdkModifierType state)
     const bool shift = state & GDK_SHIFT_MASK;
     if (!d->view || (state & (GDK_CONTROL_MASK | GDK_ALT_MASK | GDK_SUPER_MASK)))
         return false;
-    if (read_miniatures_key(d, key) || read_stages_key(d, key))
+    if (read_miniatures_key(d, key) || read_grid_key(d, key) || read_stages_key(d, key))
         return true;
     if (key == GDK_KEY_Tab && !shift && read_stages_enter(d, d->focused))
         return true;

@@ -2,28 +2,25 @@
  * window. */
 #include "read_desk.h"
 
-#include <math.h>
-
 enum { STAGE_STRIP_PX = 46 }; /* a button, and what is blank around it */
 
 enum { SIZE_LEAST = 8, SIZE_MOST = 72, COLUMN_LEAST = 12, COLUMN_MOST = 80 };
 
-/* Margins take what the widest column leaves; in a wide window there is a margin for notes. */
-static void column_set(struct read_desk *d)
+static void grid_set(struct read_desk *d)
 {
-    const double em = d->size_px, width = fmax(d->setup.width_px, 4 * em), least = 1.2 * em,
-                 notes = 13 * em;
-    const bool wide =
-        d->document && d->document->notes_count > 0 && width >= (d->column_em + 15) * em;
-    const double column = fmin(d->column_em * em, width - 2 * least - (wide ? notes : 0));
-    d->setup.notes_px = wide ? notes : 0;
-    d->setup.gap_px = 1.6 * em;
-    d->setup.margin_px = floor((width - d->setup.notes_px - fmax(column, 2 * em)) / 2);
+    struct reader_pages_setup *s = &d->setup;
+    reader_template_grid(&d->template, s->width_px, d->size_px,
+                         d->document && d->document->notes_count > 0, &s->grid);
+    s->gap_px = d->template.gutter_em * d->size_px;
+    s->margin_px = s->grid.text[0].x;
+    s->notes_px = 0;
+    for (int i = 0; i < READER_SIZES; i++)
+        s->sizes[i] = d->template.sizes[i];
 }
 
 void read_look_set(struct read_desk *d)
 {
-    d->colours = reader_colours_of(d->dark);
+    d->colours = &d->template.colours[d->dark];
     d->setup.font = d->options.font ? d->options.font : d->setup.font;
     d->setup.mono = d->options.mono ? d->options.mono : d->setup.mono;
     d->setup.math = d->options.math;
@@ -35,7 +32,7 @@ void read_look_set(struct read_desk *d)
         d->setup.ink_link[i] = d->colours->link[i];
         d->setup.ink_struck[i] = d->colours->struck[i];
     }
-    column_set(d);
+    grid_set(d);
 }
 
 static void look_changed(struct read_desk *d)
@@ -46,6 +43,11 @@ static void look_changed(struct read_desk *d)
     read_page_changed(d);
 }
 
+void read_look_again(struct read_desk *d)
+{
+    look_changed(d);
+}
+
 void read_look_size(struct read_desk *d, double size_px)
 {
     d->size_px = CLAMP(size_px, SIZE_LEAST, SIZE_MOST);
@@ -54,7 +56,7 @@ void read_look_size(struct read_desk *d, double size_px)
 
 void read_look_column(struct read_desk *d, double column_em)
 {
-    d->column_em = CLAMP(column_em, COLUMN_LEAST, COLUMN_MOST);
+    reader_template_text_set(&d->template, CLAMP(column_em, COLUMN_LEAST, COLUMN_MOST));
     look_changed(d);
 }
 

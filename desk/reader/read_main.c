@@ -1,6 +1,6 @@
 /* read_main.c - the program lutetia-reader, which `lutetia read` runs. Its words are of that
  * verb's making, NAME=VALUE, and have been checked there: file (in their order), font, mono,
- * math, language, size, width, height, theme, ragged, play; manual: the files are the
+ * math, language, size, width, height, theme, ragged, template, play; manual: the files are the
  * manual. */
 #include "read_desk.h"
 
@@ -33,6 +33,8 @@ static bool word_take(void *context, const char *name, const char *value)
         o->ragged = true;
     else if (strcmp(name, "manual") == 0)
         o->manual = g_ptr_array_ref(o->paths);
+    else if (strcmp(name, "template") == 0)
+        o->template = value;
     else if (strcmp(name, "play") == 0)
         o->play = value;
     else
@@ -52,12 +54,11 @@ static void activate(GtkApplication *application, gpointer data)
 
 static void desk_begin(struct read_desk *d)
 {
-    enum { COLUMN_EM = 34 };
     d->setup = reader_pages_setup_default();
     d->setup.width_px = d->options.width;
     d->setup.height_px = d->options.height;
     d->size_px = d->options.size_px;
-    d->column_em = COLUMN_EM;
+    d->grid_edge = -1;
     d->hits = g_array_new(FALSE, FALSE, sizeof(struct read_range));
     d->way = g_array_new(FALSE, FALSE, sizeof(struct read_place));
     d->heard = g_ptr_array_new();
@@ -113,6 +114,11 @@ int main(int argc, char **argv)
     if (!d->options.paths->len) {
         visible_say("lutetia read: `lutetia read` runs this program, with a file");
         return 2;
+    }
+    if (reader_template_open(d->options.template ? d->options.template : "screen",
+                             &d->template) != READER_OK) {
+        visible_say("lutetia read: %s", reader_error());
+        return 1;
     }
     desk_begin(d);
     if (d->options.play && !(d->play = read_play_open(d, d->options.play)))

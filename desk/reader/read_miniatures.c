@@ -129,7 +129,8 @@ void read_miniatures_changed(struct read_desk *d)
 static struct reader_pages_setup setup_of(const struct read_desk *d)
 {
     struct reader_pages_setup s = d->setup;
-    const double column = s.width_px - 2 * s.margin_px - s.notes_px;
+    const double column = s.grid.text[0].width;
+    s.grid = (struct reader_grid){0};
     s.margin_px = 3 * s.size_px;
     s.width_px = column + 2 * s.margin_px;
     s.height_px = round(1.4 * s.width_px);

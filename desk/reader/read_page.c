@@ -99,6 +99,7 @@ static void page_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
     read_ink_draw(d, snapshot);
     focus_draw(d, snapshot);
     read_edit_draw(d, snapshot);
+    read_grid_draw(d, snapshot);
     gtk_snapshot_pop(snapshot);
     g_array_free(marks, TRUE);
 }

@@ -224,6 +224,8 @@ static char *played_told(struct read_desk *d)
 static void tell(struct read_desk *d, const struct input *i)
 {
     const struct reader_shown *shown;
+    const struct reader_grid *grid = &d->setup.grid;
+    const struct reader_grid_column *last = &grid->columns[MAX(1, grid->columns_count) - 1];
     int count = 0, opened = 0, remarks = 0, orphans = 0;
     double ink_x = -1, ink_y = -1;
     size_t top = 0;
@@ -253,11 +255,12 @@ static void tell(struct read_desk *d, const struct input *i)
         "top %zu\nline %s\nshown %d\nabove %.0f\nall %.0f\nset %ld\npainted %ld\nhits %u\nhit "
         "%d\n"
         "open %d\nselected %s\nway %u of %u\nfile %s\nheard %u\nremarks %d\norphans %d\nink "
-        "%.1f %.1f\nplayed%s\n%s%s%s",
+        "%.1f %.1f\ngrid %d %d\nedge %.1f\nplayed%s\n%s%s%s",
         top, g_strdelimit(line, "\n", ' '), count, above, all, reader_view_set_count(d->view),
         read_tiles_painted(d->tiles), d->hits->len, d->hit, opened, selected, d->way_at,
         d->way->len, d->files.count ? d->files.paths[block ? block->source : 0] : "",
-        d->heard->len, remarks, orphans, ink_x, ink_y, order, editing, small, stages);
+        d->heard->len, remarks, orphans, ink_x, ink_y, grid->texts, grid->columns_count,
+        last->x + last->width, order, editing, small, stages);
     if (!g_file_set_contents(i->text, told, -1, NULL))
         d->say(d, i->text);
     g_free(told);
@@ -288,23 +291,54 @@ static void await(struct read_desk *d, const struct input *i)
     (void)i;
 }
 
+static void template(struct read_desk *d, const struct input *i)
+{
+    read_grid_open(d, i->text);
+}
+
+static void template_save(struct read_desk *d, const struct input *i)
+{
+    read_grid_save(d, i->text);
+}
+
 static void end(struct read_desk *d, const struct input *i)
 {
     (void)i;
     gtk_window_close(GTK_WINDOW(d->window));
 }
 
-static const struct word words[] = {
-    {"down", 3, down},        {"move", 2, move},        {"up", 2, up},
-    {"scroll", 1, scroll},    {"glide", 1, glide},      {"key", -1, key},
-    {"size", 1, size},        {"column", 1, column},    {"window", 2, window},
-    {"dark", 1, dark},        {"search", -1, search},   {"follow", -1, follow},
-    {"go", -1, go},           {"action", -1, action},   {"picture", -1, picture},
-    {"tell", -1, tell},       {"press", 3, press},      {"drag", 3, drag},
-    {"lift", 2, lift},        {"note", -1, note},       {"select", -1, choose},
-    {"stage", 1, stage},      {"await", 2, await},      {"set", 3, set},
-    {"type", -1, type},       {"preedit", -1, preedit}, {"strike", -1, strike},
-    {"replace", -1, replace}, {"answer", -1, answer},   {"close", 0, end}};
+static const struct word words[] = {{"down", 3, down},
+                                    {"move", 2, move},
+                                    {"up", 2, up},
+                                    {"scroll", 1, scroll},
+                                    {"glide", 1, glide},
+                                    {"key", -1, key},
+                                    {"size", 1, size},
+                                    {"column", 1, column},
+                                    {"window", 2, window},
+                                    {"dark", 1, dark},
+                                    {"search", -1, search},
+                                    {"follow", -1, follow},
+                                    {"go", -1, go},
+                                    {"action", -1, action},
+                                    {"picture", -1, picture},
+                                    {"tell", -1, tell},
+                                    {"press", 3, press},
+                                    {"drag", 3, drag},
+                                    {"lift", 2, lift},
+                                    {"note", -1, note},
+                                    {"select", -1, choose},
+                                    {"stage", 1, stage},
+                                    {"await", 2, await},
+                                    {"set", 3, set},
+                                    {"type", -1, type},
+                                    {"preedit", -1, preedit},
+                                    {"strike", -1, strike},
+                                    {"replace", -1, replace},
+                                    {"answer", -1, answer},
+                                    {"template", -1, template},
+                                    {"save-template", -1, template_save},
+                                    {"close", 0, end}};
 
 /* ---- reading ---- */
 

@@ -352,22 +352,21 @@ void read_stages_destroy(struct read_stages *stages)
 /* ---- what is seen ---- */
 
 /* How wide its strip may be: as far as the column goes. */
-static double strip_px(const struct read_desk *d, const struct stage *s)
+static double strip_px(const struct stage *s)
 {
-    return fmax(s->place.width,
-                d->setup.width_px - d->setup.margin_px - d->setup.notes_px - s->place.x);
+    return fmax(s->place.width, s->place.right - s->place.x);
 }
 
 /* Of its controls, and of what it has printed. */
-static int more_px(const struct read_desk *d, const struct stage *s)
+static int more_px(const struct stage *s)
 {
-    return read_controls_height(s->controls, (int)strip_px(d, s)) + read_printed_height(s);
+    return read_controls_height(s->controls, (int)strip_px(s)) + read_printed_height(s);
 }
 
 /* There is room in the page for those, and no more. */
 static void room_ensure(struct read_desk *d, struct stage *s)
 {
-    if (reader_view_stage_room(d->view, s->block, more_px(d, s)) != READER_OK)
+    if (reader_view_stage_room(d->view, s->block, more_px(s)) != READER_OK)
         d->say(d, reader_error());
     d->changed(d);
 }
@@ -400,16 +399,16 @@ void read_stages_changed(struct read_desk *d)
 }
 
 /* Under its picture: what it says may be longer than that is wide. */
-static void strip_place(const struct read_desk *d, const struct stage *s)
+static void strip_place(const struct stage *s)
 {
     enum { GAP = 4 };
     int least = 0, natural = 0, wide = 0;
     gtk_widget_set_child_visible(s->strip, s->seen);
     if (!s->seen)
         return;
-    read_controls_height(s->controls, (int)strip_px(d, s)); /* in this column */
+    read_controls_height(s->controls, (int)strip_px(s)); /* in this column */
     gtk_widget_measure(s->strip, GTK_ORIENTATION_HORIZONTAL, -1, &wide, &natural, NULL, NULL);
-    wide = MAX(wide, (int)strip_px(d, s));
+    wide = MAX(wide, (int)strip_px(s));
     gtk_widget_measure(s->strip, GTK_ORIENTATION_VERTICAL, wide, &least, &natural, NULL, NULL);
     const GtkAllocation box = {(int)s->place.x, (int)(s->place.y + s->place.height) + GAP, wide,
                                least};
@@ -433,11 +432,11 @@ void read_stages_place(struct read_desk *d)
             continue;
         s->place = place;
         s->seen = place.y < d->setup.height_px &&
-                  place.y + place.height + d->setup.stage_strip_px + more_px(d, s) > 0;
+                  place.y + place.height + d->setup.stage_strip_px + more_px(s) > 0;
         s->seen_us = g_get_monotonic_time();
     }
     for (guint i = 0; i < d->stages->all->len; i++)
-        strip_place(d, g_ptr_array_index(d->stages->all, i));
+        strip_place(g_ptr_array_index(d->stages->all, i));
     tick_ensure(d->stages);
 }
 

@@ -12,11 +12,17 @@
 
 enum { EMPTY_PAGES_MAX = 2 };
 
-const struct page_template *flow_template(const struct page_text *t, int page)
+static const struct page_template *template_numbered(const struct page_text *t, int number)
 {
     return t->templates_count
-               ? &t->templates[page < t->templates_count ? page : t->templates_count - 1]
+               ? &t->templates[number < t->templates_count ? number : t->templates_count - 1]
                : NULL;
+}
+
+const struct page_template *flow_template(const struct page_text *t, int page)
+{
+    const int asked = page < t->pages_count ? t->pages[page].template : 0;
+    return template_numbered(t, asked ? asked - 1 : page);
 }
 
 /* ---- slots to come ---- */
@@ -25,7 +31,7 @@ struct walk {
     const struct page_text *t;
     const struct page_template *template;
     int flow, page, frame, part;
-    double v, v_end;
+    double v, v_end, depth_px; /* depth_px: of this page's frames at most; 0: as they are */
     int empty_pages;
 };
 
@@ -37,6 +43,12 @@ static int frame_next(const struct page_template *t, int flow, int frame)
     return -1;
 }
 
+static double depth_within(const struct page_frame *frame, double most)
+{
+    const double depth = frame_depth(frame);
+    return most > 0 && most < depth ? most : depth;
+}
+
 /* On to the flow's next frame; false: there are none any more. */
 static bool walk_on(struct walk *w)
 {
@@ -44,12 +56,13 @@ static bool walk_on(struct walk *w)
     while (w->frame < 0) {
         if (++w->empty_pages > EMPTY_PAGES_MAX)
             return false;
-        w->template = flow_template(w->t, ++w->page);
+        w->template = template_numbered(w->t, ++w->page);
+        w->depth_px = 0;
         w->frame = frame_next(w->template, w->flow, -1);
     }
     w->v = 0;
     w->part = 0;
-    w->v_end = frame_depth(&w->template->frames[w->frame]);
+    w->v_end = depth_within(&w->template->frames[w->frame], w->depth_px);
     return true;
 }
 
@@ -70,7 +83,9 @@ struct filling {
     const struct page_template *template;
     int number, flow, frame;
     double v, foot_px, margin_v;
-    bool top; /* nothing stands in the frame yet */
+    double depth_px; /* of the frame */
+    bool top;        /* nothing stands in the frame yet */
+    bool first;      /* the frame is its flow's first on the page */
     struct paragraph **notes;
     int notes_count, notes_capacity;
     double *widths;
@@ -143,7 +158,8 @@ static enum font_status break_here(struct filling *f, struct paragraph *p, int f
                          .page = f->number,
                          .frame = f->frame,
                          .v = f->v,
-                         .v_end = frame_depth(&f->template->frames[f->frame]) - f->foot_px};
+                         .v_end = f->depth_px - f->foot_px,
+                         .depth_px = f->page->depth_px};
         int count = 0;
         if (!array_reserve(&f->widths, &f->widths_capacity, wanted, sizeof *f->widths))
             return font_fail(FONT_NO_MEMORY, "no memory for a page");
@@ -217,12 +233,12 @@ static enum font_status lines_fit(struct filling *f, const struct paragraph *p, 
         if (status != FONT_OK)
             return status;
         double after = foot + own + (own > 0 && foot == 0 ? frame->foot_gap_px : 0);
-        bool room = slots_next(f->template, f->frame, &v, &part, frame_depth(frame) - after,
+        bool room = slots_next(f->template, f->frame, &v, &part, f->depth_px - after,
                                p->leading_px, &slot);
         /* A note that is too high for any column stands over its edge. */
         if (!room && f->top && *fit == 0 && own > 0)
-            room = slots_next(f->template, f->frame, &v, &part, frame_depth(frame),
-                              p->leading_px, &slot);
+            room =
+                slots_next(f->template, f->frame, &v, &part, f->depth_px, p->leading_px, &slot);
         if (!room)
             return FONT_OK;
         if (!array_reserve(&f->slots, &f->slots_capacity, *fit + 1, sizeof *f->slots))
@@ -243,7 +259,7 @@ static enum font_status chain_height(struct filling *f, const struct paragraph *
     for (int i = p->at + 1; i < flow->count && i <= p->at + FLOW_CHAIN_MAX; i++) {
         struct paragraph *q = flow->paragraphs[i];
         double own;
-        if (q->manner.begins_column)
+        if (q->manner.begins_column || q->manner.begins_page)
             break;
         enum font_status status = note_height(f, q, width, &own);
         if (status != FONT_OK)
@@ -267,7 +283,7 @@ static enum font_status lines_keep(struct filling *f, const struct paragraph *p,
 {
     const struct page_manner *m = &p->manner;
     int left = p->lines_count - from, orphans = from ? 0 : m->orphans;
-    double depth = frame_depth(&f->template->frames[f->frame]), behind;
+    double depth = f->depth_px, behind;
     *stand = fit;
     if (fit < left) {
         if (m->keep_together && !from && left * p->leading_px <= depth)
@@ -399,7 +415,7 @@ static enum font_status notes_take(struct filling *f, struct paragraph *p, int f
 static enum font_status feet_place(struct filling *f)
 {
     const struct page_frame *frame = &f->template->frames[f->frame];
-    double v = frame_depth(frame) - f->foot_px + frame->foot_gap_px, height;
+    double v = f->depth_px - f->foot_px + frame->foot_gap_px, height;
     enum font_status status = FONT_OK;
     for (int i = 0; i < f->notes_count && status == FONT_OK; i++) {
         status = note_height(f, f->notes[i], frame_measure(frame), &height);
@@ -429,7 +445,8 @@ static enum font_status paragraph_place(struct filling *f, struct paragraph *p,
 {
     int from = cursor->line, fit = 0, stand = 0, limit = -1, here = 0;
     enum font_status status = FONT_OK;
-    *full = p->manner.begins_column && !from && !f->top;
+    *full = !from && ((p->manner.begins_column && !f->top) ||
+                      (p->manner.begins_page && !(f->top && f->first)));
     if (*full)
         return FONT_OK;
     status = set_analyse(f->t, p);
@@ -472,6 +489,8 @@ static enum font_status frame_fill(struct filling *f, struct cursor *cursor)
     const struct flow *flow = &f->t->flows[f->flow];
     enum font_status status = FONT_OK;
     f->v = f->foot_px = f->margin_v = 0;
+    f->depth_px = depth_within(&f->template->frames[f->frame], f->page->depth_px);
+    f->first = frame_next(f->template, f->flow, -1) == f->frame;
     f->top = true;
     for (bool full = false; status == FONT_OK && !full && cursor->at < flow->count;) {
         status = paragraph_place(f, flow->paragraphs[cursor->at], cursor, &full);
@@ -481,11 +500,22 @@ static enum font_status frame_fill(struct filling *f, struct cursor *cursor)
     return status == FONT_OK ? feet_place(f) : status;
 }
 
+/* The template that the page's first paragraph asks for. */
+static void page_ask(const struct page_text *t, struct page *page, const struct cursor *start)
+{
+    const struct flow *flow = &t->flows[0];
+    const bool begins = start->at < flow->count && start->line == 0;
+    const struct page_manner *m = begins ? &flow->paragraphs[start->at]->manner : NULL;
+    page->template = m ? m->begins_page : 0;
+    page->depth_px = m && m->begins_page ? m->page_depth_px : 0;
+}
+
 enum font_status flow_frames_fill(struct page_text *t, struct page *page, int number,
                                   struct cursor *ends)
 {
     struct filling f = {.t = t, .page = page, .number = number};
     enum font_status status = FONT_OK;
+    page_ask(t, page, &ends[0]);
     f.template = flow_template(t, number);
     page->pieces_count = page->slots_count = 0;
     for (int i = 0; i < f.template->frames_count && status == FONT_OK; i++) {

@@ -97,6 +97,10 @@ struct page_manner {
     /* the badness a line may have before words are hyphenated more freely; 200 */
     double tolerance;
     bool keep_together, keep_with_next, begins_column;
+    /* from 1: in flow 0 it begins a page, which is by the template of that number; 0: no */
+    int begins_page;
+    /* that page's frames are no deeper; 0: they are as the template has them */
+    double page_depth_px;
     bool balance; /* its lines are about as long as each other, for headings; not justified */
     enum font_role
         role;  /* what it is, for who reads a PDF; a note is one whatever stands here */

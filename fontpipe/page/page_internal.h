@@ -16,7 +16,7 @@
 
 #include <own.h>
 
-enum { LETTERS_MAX = 1000000, FLOWS_MAX = 8, PAGES_MAX = 100000 };
+enum { LETTERS_MAX = 1000000, FLOWS_MAX = 8, PAGES_MAX = 100000, TEMPLATES_MAX = 1000 };
 
 /* One look of letters, and the shaper of its face. Faces are shared. */
 struct style {
@@ -147,6 +147,8 @@ struct page {
     int pieces_count, pieces_capacity, slots_count, slots_capacity;
     bool filled; /* its pieces and its ends are what its starts give */
     bool last;
+    int template;    /* that its first paragraph asks for, from 1; 0: that of its number */
+    double depth_px; /* and how deep its frames are at most; 0: as they are */
 };
 
 struct flow {
@@ -303,7 +305,8 @@ double frame_depth(const struct page_frame *f);
 
 /* flow.c */
 enum { FLOW_CHAIN_MAX = 4 }; /* paragraphs that one kept with the next looks at */
-const struct page_template *flow_template(const struct page_text *t, int page);
+const struct page_template *flow_template(const struct page_text *t,
+                                          int page); /* one that is filled */
 /* Fills the page's frames from *ends on, which become those of the page. */
 enum font_status flow_frames_fill(struct page_text *t, struct page *page, int number,
                                   struct cursor *ends);

@@ -261,6 +261,12 @@ static enum font_status manner_check(const struct page_manner *m)
         if (!(m->tabs[i].x_px >= 0 && m->tabs[i].x_px <= 1e6))
             return font_fail(FONT_BAD_ARGUMENT, "a tab is at 0..1e6 pixels (got %g)",
                              m->tabs[i].x_px);
+    if (m->begins_page < 0 || m->begins_page > TEMPLATES_MAX ||
+        !(m->page_depth_px >= 0 && m->page_depth_px <= 1e6))
+        return font_fail(FONT_BAD_ARGUMENT,
+                         "a page begins by template 1..%d, and its frames are at most 0..1e6 "
+                         "pixels deep (got %d, %g)",
+                         TEMPLATES_MAX, m->begins_page, m->page_depth_px);
     return FONT_OK;
 }
 

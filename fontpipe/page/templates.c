@@ -84,9 +84,8 @@ static enum font_status template_check(const struct page_template *t)
 enum font_status page_templates_set(struct page_text *t, const struct page_template *templates,
                                     int count)
 {
-    enum { COUNT_MAX = 1000 };
-    if (count < 1 || count > COUNT_MAX)
-        return font_fail(FONT_BAD_ARGUMENT, "there are 1..%d templates (got %d)", COUNT_MAX,
+    if (count < 1 || count > TEMPLATES_MAX)
+        return font_fail(FONT_BAD_ARGUMENT, "there are 1..%d templates (got %d)", TEMPLATES_MAX,
                          count);
     for (int i = 0; i < count; i++) {
         enum font_status status = template_check(&templates[i]);

@@ -18,6 +18,7 @@
 #include <reader_document.h>
 #include <reader_files.h>
 #include <reader_pages.h>
+#include <reader_template.h>
 
 #include <errno.h>
 #include <stdarg.h>
@@ -29,7 +30,7 @@
 
 struct read {
     struct type_pages pages;
-    const char *font, *mono, *math, *theme, *play;
+    const char *font, *mono, *math, *theme, *play, *template;
     double size_px, leading, margin_px, gap_px, notes_px;
     int columns, small_px; /* small_px: of miniatures; 0: none */
     bool ragged, plain, remarks;
@@ -103,6 +104,9 @@ static int read_options(struct read *r, int argc, char **argv, struct option_wor
          &r->plain, 0, 0, 0},
         {"theme", 0, OPTION_TEXT, "NAME",
          "of the window, of .html: light or dark (as the desktop is)", &r->theme, 0, 0, 0},
+        {"template", 0, OPTION_TEXT, "T",
+         "the window's layout: screen, book, two-columns, or a file (screen)", &r->template, 0,
+         0, 0},
         {"miniatures", 0, OPTION_INTEGER, "PX",
          "all pages small in one .png, each so many pixels wide, by the filters of such sizes",
          &r->small_px, 16, 1000, 0},
@@ -115,11 +119,10 @@ static int read_options(struct read *r, int argc, char **argv, struct option_wor
         {0}};
     /* What a window has in its own way, and what pages have not. */
     static const struct option_need needs[] = {
-        {"page", "out"},       {"all", "out"},        {"title", "out"},
-        {"paper", "out"},      {"leading", "out"},    {"margin", "out"},
-        {"columns", "out"},    {"gap", "out"},        {"notes", "out"},
-        {"plain", "out"},      {"statistics", "out"}, {"remarks", "out"},
-        {"miniatures", "out"}, {"play", "!out"},      {0}};
+        {"page", "out"},       {"all", "out"},    {"title", "out"},      {"paper", "out"},
+        {"leading", "out"},    {"margin", "out"}, {"columns", "out"},    {"gap", "out"},
+        {"notes", "out"},      {"plain", "out"},  {"statistics", "out"}, {"remarks", "out"},
+        {"miniatures", "out"}, {"play", "!out"},  {"template", "!out"},  {0}};
     if (!options_parse("read", rows, argc, argv, words))
         return EXIT_USAGE;
     if (words->help)
@@ -298,8 +301,9 @@ static void line_fill(struct line *line, const struct read *r, const struct opti
 {
     const struct {
         const char *name, *value;
-    } texts[] = {{"font", r->font},   {"mono", r->mono}, {"math", r->math},
-                 {"theme", r->theme}, {"play", r->play}, {"language", r->pages.language}};
+    } texts[] = {{"font", r->font},        {"mono", r->mono}, {"math", r->math},
+                 {"theme", r->theme},      {"play", r->play}, {"language", r->pages.language},
+                 {"template", r->template}};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
         if (texts[i].value)
             word_add(line, "%s=%s", texts[i].name, texts[i].value);
@@ -332,9 +336,12 @@ static int window_run(const struct read *r, const struct option_words *words)
 {
     char path[PATH_MAX];
     struct line line = {.count = 1, .good = true};
+    struct reader_template template;
     int status = files_check(words);
     if (status != EXIT_SUCCESS)
         return status;
+    if (r->template && reader_template_open(r->template, &template) != READER_OK)
+        return fail_usage("read", "--template: %s", reader_error());
     if (!program_find(path, here, LUTETIA_LIBEXECDIR "/lutetia/lutetia-reader",
                       "desk/reader/lutetia-reader"))
         return fail("read",

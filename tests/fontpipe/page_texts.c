@@ -79,6 +79,8 @@ struct page_manner page_random_manner(uint32_t *seed)
     m.keep_with_next = random_next(seed) % 6 == 0;
     m.keep_together = random_next(seed) % 6 == 0;
     m.begins_column = random_next(seed) % 12 == 0;
+    m.begins_page = random_next(seed) % 12 ? 0 : 1 + (int)(random_next(seed) % 4);
+    m.page_depth_px = m.begins_page && random_next(seed) % 2 ? 90 : 0;
     m.leading_px = random_next(seed) % 4 ? 18 : 0; /* 0: the faces' own */
     m.tabs[0] = (struct page_tab){60, PAGE_TAB_RIGHT};
     m.tabs_count = 1;

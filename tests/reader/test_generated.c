@@ -1,12 +1,13 @@
 /* test_generated.c - documents made by chance of all that Markdown has: lists, quotes, tables,
  * code, notes, links, formulas, one within the other. Each word in them is one of a kind, so it
  * is known which must be read, in which order: none is lost, said twice or moved. At widths by
- * chance each word has its place in the window, none stands on another, and none is beyond the
- * edges.
+ * chance, in templates that are built in or made by chance, each word has its place in the
+ * window, none stands on another, and none is beyond the edges.
  *
  *     READER_TEST_GENERATED=1000 test_reader_generated
  */
 #include <reader_document.h>
+#include <reader_template.h>
 #include <reader_view.h>
 
 /* clang-format off */
@@ -18,6 +19,7 @@
 /* clang-format on */
 
 #include <locale.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -332,11 +334,121 @@ static int word_boxes(struct reader_view *view, size_t byte, double width,
     return count < 8 ? count : 8;
 }
 
+/* A template by chance: most are as one would make them. */
+static void template_make(struct made *m, struct reader_template *t)
+{
+    char text[600];
+    const int kind = chance(m, 5);
+    if (kind < 3) {
+        assert_int_equal(reader_template_named(reader_template_names[kind], t), READER_OK);
+        return;
+    }
+    const int a = 1 + chance(m, 20), b = 4 + chance(m, 30), c = 4 + chance(m, 40);
+    const int notes = chance(m, 3);
+    snprintf(text, sizeof text,
+             "columns %d..%d %d %d 1* %d\ngutter 1.%d\ntext 2 3\n%sheadings %d-%d\n"
+             "figures %d\ndemonstrations 1-%d\ntables 2-%d\n",
+             a, a + chance(m, 9), b, c, 1 + chance(m, 14), chance(m, 9),
+             notes == 0   ? ""
+             : notes == 1 ? "notes 1 5\n"
+                          : "notes 5 1\n",
+             1 + chance(m, 2), 2 + chance(m, 4), 2 + chance(m, 4), 1 + chance(m, 5),
+             2 + chance(m, 4));
+    assert_int_equal(reader_template_parse(text, strlen(text), "chance", t), READER_OK);
+}
+
 /* Neither's middle is on the other. */
 static bool apart(const struct reader_box *a, const struct reader_box *b)
 {
     const double x = a->x + a->width / 2, y = a->y + a->height / 2;
     return x < b->x || x > b->x + b->width || y < b->y || y > b->y + b->height;
+}
+
+struct placed {
+    const char *word;
+    struct reader_box box;
+};
+
+/* All words that are seen, of text and of notes, are apart. */
+static void window_apart(const struct reader_document *d, const struct made *m,
+                         struct reader_view *view, double width)
+{
+    enum { MOST = 1500 };
+    static struct placed seen[MOST];
+    int count = 0;
+    for (int kind = 0; kind < 2; kind++)
+        for (int i = 0; i < (kind ? m->notes_count : m->count) && count + 8 < MOST; i++) {
+            struct reader_box boxes[8];
+            const char *word = kind ? m->notes[i] : m->words[i];
+            const char *at = strstr(d->plain, word);
+            const int n = at ? word_boxes(view, (size_t)(at - d->plain), width, boxes) : 0;
+            for (int k = 0; k < n; k++)
+                seen[count++] = (struct placed){word, boxes[k]};
+        }
+    for (int a = 0; a < count; a++)
+        for (int b = 0; b < a; b++)
+            if (strcmp(seen[a].word, seen[b].word) != 0 &&
+                (!apart(&seen[a].box, &seen[b].box) || !apart(&seen[b].box, &seen[a].box)))
+                fail_msg("seed %llu: '%s' and '%s' stand on each other in a window %g wide\n%s",
+                         seed_now, seen[a].word, seen[b].word, width, source);
+}
+
+/* Half of the notes are opened where they are called. */
+static void notes_open(const struct reader_document *d, struct made *m,
+                       struct reader_view *view)
+{
+    for (int i = 0; i < d->blocks_count; i++)
+        for (int k = 0; k < d->blocks[i].spans_count; k++) {
+            const struct reader_span *s = &d->blocks[i].spans[k];
+            if ((s->look & READER_NOTE) && s->note >= 0 && chance(m, 2))
+                assert_int_equal(
+                    reader_view_note(view, s->note, d->blocks[i].at + (size_t)s->begin),
+                    READER_OK);
+        }
+}
+
+static void templates_have_places(const struct reader_document *d, struct made *m)
+{
+    struct reader_pages_setup setup = reader_pages_setup_default();
+    struct reader_template t;
+    struct reader_view *view;
+    setup.font = "DejaVuSerif";
+    setup.size_px = 10 + chance(m, 12);
+    setup.stage_strip_px = 40;
+    setup.height_px = 100 + chance(m, 900);
+    setup.width_px = 20 + chance(m, 2500);
+    template_make(m, &t);
+    reader_template_grid(&t, setup.width_px, setup.size_px, true, &setup.grid);
+    assert_int_equal(reader_view_create(d, &setup, &view), READER_OK);
+    notes_open(d, m, view);
+    for (int turn = 0; turn < 4; turn++) {
+        for (int i = 0; i < m->count; i += 1 + chance(m, 30)) {
+            const struct reader_shown *shown;
+            struct reader_box boxes[8];
+            int count;
+            const size_t byte = (size_t)(strstr(d->plain, m->words[i]) - d->plain);
+            /* in the narrowest windows some words are wider than they */
+            const double width = setup.width_px < 15 * setup.size_px ? 1e4 : setup.width_px;
+            if (reader_view_go(view, byte, 30) != READER_OK)
+                fail_msg("seed %llu: %s", seed_now, reader_error());
+            if (reader_view_look(view, &shown, &count) != READER_OK)
+                fail_msg("seed %llu: %s", seed_now, reader_error());
+            if (word_boxes(view, byte, width, boxes) < 1)
+                fail_msg("seed %llu: '%s' has no place at a width of %g\n%s", seed_now,
+                         m->words[i], setup.width_px, source);
+            window_apart(d, m, view, width);
+        }
+        setup.width_px = 20 + chance(m, 2500);
+        if (chance(m, 2))
+            template_make(m, &t);
+        reader_template_grid(&t, setup.width_px, setup.size_px, true, &setup.grid);
+        size_t before, after;
+        assert_int_equal(reader_view_top(view, &before), READER_OK);
+        assert_int_equal(reader_view_set(view, &setup), READER_OK);
+        assert_int_equal(reader_view_top(view, &after), READER_OK);
+        assert_int_equal(before, after); /* the line that is read stays */
+    }
+    reader_view_destroy(view);
 }
 
 static void words_have_places(const struct reader_document *d, const struct made *m,
@@ -394,6 +506,7 @@ static void all_is_there(void **state)
             fail_msg("%s", reader_error());
         words_are_read(d, &made);
         words_have_places(d, &made, 200 + (double)(sample_word(&made.state) % 1400));
+        templates_have_places(d, &made);
         reader_document_destroy(d);
         free(text);
     }
