@@ -10,7 +10,7 @@
 #include <midi_client.h>
 #include <midi_internal.h>
 #include <midi_message.h>
-#include <sound.h>
+#include <sound_keeper.h>
 
 #include <math.h>
 #include <pthread.h>
@@ -28,6 +28,7 @@ struct waiting {
 
 struct live_sound {
     struct sound *synth, *song;
+    struct sound_keeper *synth_keeper, *song_keeper;
     struct midi_client *client;
     char device[NAME_MAX_BYTES];
     pthread_t player;
@@ -182,6 +183,11 @@ void live_sound_take(struct live_sound *s, struct stage *stage)
         }
 }
 
+const char *live_sound_said(struct live_sound *s)
+{
+    return s ? sound_keeper_said(s->synth_keeper) : NULL;
+}
+
 long live_sound_played(const struct live_sound *s)
 {
     return s->played;
@@ -205,14 +211,15 @@ enum midi_status live_sound_recorded(struct live_sound *s, struct midi_song *son
 
 /* ---- life ---- */
 
-static enum midi_status synth_open(const char *driver, struct sound **out)
+static enum midi_status synth_open(const char *driver, struct sound **out,
+                                   struct sound_keeper **keeper)
 {
     struct sound_def def = sound_def_default();
     def.room = true;
     enum midi_status status = sound_create(&def, out);
     if (status == MIDI_OK)
         status = driver ? sound_listen(*out, driver) : sound_listen_any(*out);
-    return status;
+    return status == MIDI_OK ? sound_keeper_begin(*out, keeper) : status;
 }
 
 static enum midi_status device_open(struct live_sound *s, const struct live_sound_def *def)
@@ -257,9 +264,11 @@ enum midi_status live_sound_open(const struct live_sound_def *def, struct live_s
         return midi_fail(MIDI_NO_MEMORY, "no memory for sounds");
     s->heard = def->heard;
     s->heard_context = def->context;
-    enum midi_status status = def->synth ? synth_open(def->driver, &s->synth) : MIDI_OK;
+    enum midi_status status =
+        def->synth ? synth_open(def->driver, &s->synth, &s->synth_keeper) : MIDI_OK;
     if (status == MIDI_OK && def->synth && def->song)
-        status = synth_open(def->song_driver ? def->song_driver : def->driver, &s->song);
+        status = synth_open(def->song_driver ? def->song_driver : def->driver, &s->song,
+                            &s->song_keeper);
     if (status == MIDI_OK && def->device)
         status = device_open(s, def);
     if (status == MIDI_OK)
@@ -288,6 +297,8 @@ void live_sound_close(struct live_sound *s)
     if (s->mutex_made)
         pthread_mutex_destroy(&s->mutex);
     midi_client_close(s->client);
+    sound_keeper_end(s->synth_keeper);
+    sound_keeper_end(s->song_keeper);
     sound_destroy(s->synth);
     sound_destroy(s->song);
     live_recording_finish(&s->recording);

@@ -49,6 +49,8 @@ void live_sound_close(struct live_sound *sound); /* ends all notes; NULL is fine
 void live_sound_take(struct live_sound *sound, struct stage *stage);
 /* A message of the song, which was due late_s ago. */
 void live_sound_song(struct live_sound *sound, const struct midi_message *m, double late_s);
+/* What has become of the sound server since the last call (sound_keeper.h); NULL: nothing. */
+const char *live_sound_said(struct live_sound *sound);
 long live_sound_played(const struct live_sound *sound); /* events so far */
 long live_sound_dropped(const struct live_sound *sound);
 

@@ -406,6 +406,9 @@ static void sounds_play(void *context, struct stage *stage)
 {
     struct spring *s = context;
     live_sound_take(s->sound, stage);
+    const char *said = live_sound_said(s->sound);
+    if (said && s->live.window)
+        stage_window_say(s->live.window, said);
 }
 
 static void song_heard(void *context, const struct midi_message *m, double late_s)

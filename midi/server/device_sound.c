@@ -2,12 +2,13 @@
 #include "device_kinds.h"
 
 #include <midi_internal.h>
-#include <sound.h>
+#include <sound_keeper.h>
 
 #include <stdlib.h>
 
 struct synthesizer {
     struct sound *sound;
+    struct sound_keeper *keeper; /* of a sound server that comes back */
     struct midi_parser parser;
 };
 
@@ -23,6 +24,8 @@ static enum midi_status sound_open(struct server_device *d)
     enum midi_status status = sound_create(&def, &s->sound);
     if (status == MIDI_OK)
         status = sound_listen(s->sound, d->argument[0] ? d->argument : NULL);
+    if (status == MIDI_OK)
+        status = sound_keeper_begin(s->sound, &s->keeper);
     /* Trying again ten times a second would delay the instruments, so a failure is
      * permanent, and reported at the start. */
     return status == MIDI_OK ? MIDI_OK : MIDI_BAD_ARGUMENT;
@@ -33,6 +36,7 @@ static void sound_close(struct server_device *d)
     struct synthesizer *s = d->own;
     if (!s)
         return;
+    sound_keeper_end(s->keeper);
     sound_destroy(s->sound);
     free(s);
     d->own = NULL;

@@ -27,6 +27,10 @@ struct fluid {
     int (*fluid_synth_system_reset)(void *synth);
     void *(*new_fluid_audio_driver)(void *settings, void *synth);
     void (*delete_fluid_audio_driver)(void *driver);
+    void *(*new_fluid_sequencer2)(int by_clock);
+    void (*delete_fluid_sequencer)(void *sequencer);
+    short (*fluid_sequencer_register_fluidsynth)(void *sequencer, void *synth);
+    unsigned (*fluid_sequencer_get_tick)(void *sequencer);
     int (*fluid_synth_write_s16)(void *synth, int count, void *left, int left_at, int left_step,
                                  void *right, int right_at, int right_step);
     int (*fluid_synth_get_active_voice_count)(void *synth);

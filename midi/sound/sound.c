@@ -17,6 +17,8 @@ enum { PERIODS = 8 }; /* blocks that wait to be heard: 12 ms in all */
 struct sound {
     const struct fluid *fluid;
     void *settings, *synth, *driver;
+    void *taken;      /* a sequencer, whose time is what the driver has taken; NULL: a file */
+    char listens[64]; /* the driver's name; "": any that works */
 };
 
 struct sound_def sound_def_default(void)
@@ -120,6 +122,8 @@ void sound_destroy(struct sound *s)
         return;
     if (s->driver)
         s->fluid->delete_fluid_audio_driver(s->driver);
+    if (s->taken)
+        s->fluid->delete_fluid_sequencer(s->taken);
     if (s->synth)
         s->fluid->delete_fluid_synth(s->synth);
     if (s->settings)
@@ -127,7 +131,27 @@ void sound_destroy(struct sound *s)
     free(s);
 }
 
-enum midi_status sound_listen(struct sound *s, const char *driver)
+/* A sequencer without events: FluidSynth moves its time on as it makes samples. Without one
+ * nobody knows whether the sound server is there. */
+static void taken_count(struct sound *s)
+{
+    if (!s->taken)
+        s->taken = s->fluid->new_fluid_sequencer2(0);
+    if (s->taken)
+        s->fluid->fluid_sequencer_register_fluidsynth(s->taken, s->synth);
+}
+
+bool sound_is_live(const struct sound *s)
+{
+    return s->driver && s->taken;
+}
+
+unsigned sound_taken_ms(const struct sound *s)
+{
+    return s->taken ? s->fluid->fluid_sequencer_get_tick(s->taken) : 0;
+}
+
+static enum midi_status driver_open(struct sound *s, const char *driver)
 {
     const size_t count = driver ? strlen(driver) : 0;
     const bool file = count > 4 && !strcmp(driver + count - 4, ".wav");
@@ -145,6 +169,8 @@ enum midi_status sound_listen(struct sound *s, const char *driver)
             "FluidSynth has no sound driver '%.40s' here; pulseaudio, alsa and jack "
             "are usual, and a name that ends with .wav is a file",
             driver);
+    if (!file && !s->taken)
+        taken_count(s);
     s->driver = s->fluid->new_fluid_audio_driver(s->settings, s->synth);
     return s->driver
                ? MIDI_OK
@@ -169,15 +195,33 @@ static bool pulse_there(void)
     return access(path, W_OK) == 0 || access("/run/pulse/native", W_OK) == 0;
 }
 
+enum midi_status sound_listen(struct sound *s, const char *driver)
+{
+    snprintf(s->listens, sizeof s->listens, "%s", driver ? driver : "");
+    return driver_open(s, driver);
+}
+
 enum midi_status sound_listen_any(struct sound *s)
 {
     static const char *const drivers[] = {"jack", "pulseaudio", "alsa"};
+    s->listens[0] = '\0';
     for (size_t i = 0; i < sizeof drivers / sizeof *drivers; i++)
         if ((strcmp(drivers[i], "pulseaudio") != 0 || pulse_there()) &&
-            sound_listen(s, drivers[i]) == MIDI_OK)
+            driver_open(s, drivers[i]) == MIDI_OK)
             return MIDI_OK;
     return midi_fail(MIDI_NO_DEVICE,
                      "no sound comes out of this machine: JACK, PulseAudio or ALSA is needed");
+}
+
+enum midi_status sound_listen_again(struct sound *s)
+{
+    enum { CHANNELS = 16, ALL_SOUND_OFF = 120 };
+    if (s->driver)
+        s->fluid->delete_fluid_audio_driver(s->driver);
+    s->driver = NULL;
+    for (int i = 0; i < CHANNELS; i++)
+        s->fluid->fluid_synth_cc(s->synth, i, ALL_SOUND_OFF, 0);
+    return s->listens[0] ? driver_open(s, s->listens) : sound_listen_any(s);
 }
 
 void sound_message(struct sound *s, const struct midi_message *m)

@@ -46,6 +46,14 @@ void sound_destroy(struct sound *sound); /* takes NULL */
 enum midi_status sound_listen(struct sound *sound, const char *driver);
 /* The same through JACK, PulseAudio or ALSA, the first that works. Errors: NO_DEVICE. */
 enum midi_status sound_listen_any(struct sound *sound);
+/* Whether a driver that is no file listens. */
+bool sound_is_live(const struct sound *sound);
+/* Milliseconds of sound that a driver has taken: they stand still where its sound server is
+ * gone. Of files 0. Threads: any. */
+unsigned sound_taken_ms(const struct sound *sound);
+/* Gives up a driver whose sound server is gone, ends all notes, and listens as before. May wait
+ * for a server that hangs. Errors: as before; it may be tried again. */
+enum midi_status sound_listen_again(struct sound *sound);
 /* Ignores messages without sound. Threads: any. */
 void sound_message(struct sound *sound, const struct midi_message *m);
 
