@@ -25,7 +25,7 @@ struct pdf_letter {
     struct font_face *face;
     uint32_t glyph;
     size_t said, bytes; /* its text, in the document's */
-    int parts;          /* it has so much of the glyph's width */
+    int parts;          /* it has so much of the glyph's width; 0: none */
     double width;       /* its own, in ems */
     int font, code, next;
 };
@@ -204,8 +204,15 @@ void pdf_utf16_put(const char *text, size_t begin, size_t end, FILE *file);
 int pdf_leftward(const struct font_drawing *d, const struct drawn_text *text);
 /* Whether what it shows goes to the left. */
 bool pdf_is_leftward(const struct font_drawing *d, const struct drawn_text *text);
-/* Whether it shows one sign that goes with numbers, such as a point or a comma. */
-bool pdf_is_weak(const struct font_drawing *d, const struct drawn_text *text);
+/* Whether the glyph shows joiners or marks of direction alone: it takes no place, whatever the
+ * font says. */
+bool pdf_is_unseen(const struct font_drawing *d, const struct drawn_text *text,
+                   const struct font_placed *g);
+/* In clusters that go to the left glyphs that stand on others show none of the letters, which
+ * are shared by the others, and so are joiners behind them: programs put letters in the order
+ * in which they stand, and take one that is higher for another line's. */
+void pdf_marks_tell_nothing(const struct font_drawing *d, const struct font_layout *layout,
+                            struct drawn *drawn);
 /* What of them the glyph itself shows, cut off the text's end: *letters of them, 0 for nothing.
  * Glyphs stand from the left to the right, the cluster's last letters with its first glyph. */
 void pdf_share(const struct font_drawing *d, const struct drawn_text *text, size_t *end,

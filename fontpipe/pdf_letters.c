@@ -68,7 +68,7 @@ int pdf_letter_find(struct font_document *p, struct font_face *face, uint32_t gl
                                         .said = pdf_say(p, text, bytes),
                                         .bytes = bytes,
                                         .parts = parts,
-                                        .width = width_of(face, glyph) / parts,
+                                        .width = parts ? width_of(face, glyph) / parts : 0,
                                         .next = p->heads[bucket] - 1};
     if (p->failed || !letter_place(p, k, picture))
         return -1;

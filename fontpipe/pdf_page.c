@@ -1,6 +1,9 @@
 /* pdf_page.c - a layout as a page of PDF: see pdf_internal.h. */
 #include "pdf_internal.h"
+#include "text_internal.h"
 
+#include <fribidi.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -69,22 +72,45 @@ static size_t letter_begin(const char *text, size_t end)
     return end;
 }
 
-/* Whether the letter to the right of a glyph is before it in the text. */
-static bool runs_left(const struct pdf_making *m, int i)
-{
-    const struct font_placed *g = m->layout->glyphs;
-    return i + 1 < m->layout->glyphs_count && g[i + 1].line == g[i].line &&
-           g[i + 1].cluster < g[i].cluster;
-}
-
-/* A point or comma in a line that goes to the left. Programs take it for a part of a number,
- * which goes to the right, with the space behind it; a mark of direction (U+200F) before it
- * ends that. */
-static bool weak_show(struct pdf_making *m, int i, const double em[6], bool hidden)
+/* The last sign that a glyph shows. */
+static uint32_t sign_of(const struct pdf_making *m, int i)
 {
     const struct drawn_text *t = &m->drawn.texts[i];
-    char room[8] = "\xe2\x80\x8f";
+    const char *at = m->d->text + t->begin, *end = m->d->text + t->end;
+    uint32_t c = 0;
+    while (at < end)
+        font_utf8_next(&at, end, &c);
+    return c;
+}
+
+/* In a line that goes to the left programs take signs and spaces behind a number or a word that
+ * goes to the right, up to the next letter, for a part of it. A mark of direction (U+200F)
+ * with the sign that is farthest to the left of it ends that. Of letters beyond U+FFFF programs
+ * do not know that they go to the left. */
+static bool mark_needed(const struct pdf_making *m, int i)
+{
+    const struct font_placed *g = m->layout->glyphs;
+    if (i == 0 || g[i - 1].line != g[i].line || g[i - 1].cluster < g[i].cluster)
+        return false;
+    const uint32_t beside = sign_of(m, i - 1);
+    const FriBidiCharType own = fribidi_get_bidi_type(sign_of(m, i)),
+                          left = fribidi_get_bidi_type(beside);
+    const bool goes_right = i + 1 < m->layout->glyphs_count && g[i + 1].line == g[i].line &&
+                            g[i + 1].cluster > g[i].cluster;
+    const bool begins = FRIBIDI_IS_LETTER(own) || FRIBIDI_IS_NUMBER(own) ||
+                        FRIBIDI_IS_ES_OR_CS(own) ||
+                        FRIBIDI_IS_NUMBER_SEPARATOR_OR_TERMINATOR(own);
+    return (begins || goes_right) && !FRIBIDI_IS_RTL(own) &&
+           (beside > 0xffff || (!FRIBIDI_IS_RTL(left) && left != FRIBIDI_TYPE_NSM));
+}
+
+static bool marked_show(struct pdf_making *m, int i, const double em[6], bool hidden)
+{
+    const struct drawn_text *t = &m->drawn.texts[i];
+    char room[3 + FONT_UTF8_BYTES] = "\xe2\x80\x8f";
     size_t bytes = t->end - t->begin;
+    if (bytes > FONT_UTF8_BYTES)
+        bytes = FONT_UTF8_BYTES;
     memcpy(room + 3, m->d->text + t->begin, bytes);
     return letter_show(m, i, room, 3 + bytes, 1, em, 0, hidden);
 }
@@ -99,8 +125,12 @@ static enum font_status text_show(struct pdf_making *m, int i, const double em[6
     const char *text = m->d->text;
     int leftward = text ? pdf_leftward(m->d, t) : 0, letters = 0;
     size_t end = t->begins ? t->end : t->begin;
-    if (text && t->begins && t->ends && runs_left(m, i) && pdf_is_weak(m->d, t))
-        return weak_show(m, i, em, hidden) ? FONT_OK : pdf_no_memory();
+    if (text && t->begins && t->ends && mark_needed(m, i))
+        return marked_show(m, i, em, hidden) ? FONT_OK : pdf_no_memory();
+    if (text && t->begins && t->ends && pdf_is_unseen(m->d, t, g))
+        return letter_show(m, i, text + t->begin, t->end - t->begin, 0, em, 0, true)
+                   ? FONT_OK
+                   : pdf_no_memory();
     if (leftward)
         pdf_share(m->d, t, &end, &letters);
     int parts = letters > 1 ? letters : 1;
@@ -289,33 +319,65 @@ static double right_of(const struct pdf_making *m, int i)
     return g->x_px + advance * font_placed_size(m->layout, g) / info.units_per_em;
 }
 
-/* Programs take a cluster that is told as a whole to end where its last glyph does, and a gap
- * behind it for a space. Where another glyph ends farther on (a mark stands behind its letter),
- * that is written once more, unseen. */
+/* Where a cluster of LTR text ends, of glyphs first..last of the order: where the next one on
+ * its line begins, else where the farthest of its glyphs does. */
+static double cluster_end(const struct pdf_making *m, int first, int last)
+{
+    const struct font_placed *g = m->layout->glyphs;
+    const int next = m->order[last] + 1, count = m->layout->glyphs_count;
+    double far = right_of(m, m->order[first]), begin = INFINITY;
+    for (int k = first + 1; k <= last; k++)
+        far = fmax(far, right_of(m, m->order[k]));
+    for (int k = next;
+         k < count && g[k].line == g[next].line && g[k].cluster == g[next].cluster; k++)
+        begin = fmin(begin, g[k].x_px);
+    bool follows = next < count && g[next].line == g[next - 1].line &&
+                   g[next].y_px == g[m->order[first]].y_px;
+    return follows && begin > g[m->order[first]].x_px ? begin : far;
+}
+
+/* Programs take a cluster that is told as a whole to end where its last glyph does, a gap
+ * behind it for a space, and none for none. Where the cluster ends elsewhere (a mark stands
+ * behind its letter, or the font puts the next one farther away), its last glyph is written
+ * once more, unseen, so that it ends there. */
 static enum font_status cluster_close(struct pdf_making *m, int first, int last)
 {
     const double gap_ems = 0.02;
-    const struct font_placed *g = &m->layout->glyphs[m->order[last]];
-    int far = last;
+    const int i = m->order[last];
+    const struct font_placed *g = &m->layout->glyphs[i];
+    const double size = font_placed_size(m->layout, g);
+    double lacks = cluster_end(m, first, last) - right_of(m, i), em[6];
     struct font_map whole;
-    double em[6];
-    for (int k = first; k < last; k++)
-        if (right_of(m, m->order[k]) > right_of(m, m->order[far]))
-            far = k;
-    if (far == last || right_of(m, m->order[far]) - right_of(m, m->order[last]) <
-                           gap_ems * font_placed_size(m->layout, g))
+    if (fabs(lacks) < gap_ems * size)
         return FONT_OK;
-    int i = m->order[far];
     enum font_status status = drawn_map(m->layout, i, m->map, m->x, m->y, &whole);
     if (status != FONT_OK)
         return status;
-    em_find(m, &m->layout->glyphs[i], &whole, em);
-    return letter_show(m, i, NULL, 0, 1, em, 0, true) ? FONT_OK : pdf_no_memory();
+    em_find(m, g, &whole, em);
+    return letter_show(m, i, NULL, 0, 1, em, lacks / size, true) ? FONT_OK : pdf_no_memory();
+}
+
+/* Whether there is more room to the right of a glyph than it has of its own, and no space in
+ * the text: programs would read one. Its cluster is then told as a whole, too. */
+static bool stands_apart(const struct pdf_making *m, int k)
+{
+    const double gap_ems = 0.08;
+    const int i = m->order[k];
+    const struct font_placed *g = m->layout->glyphs;
+    const struct drawn_text *t = &m->drawn.texts[i];
+    if (!m->d->text || !t->begins || !t->ends || pdf_leftward(m->d, t) ||
+        i + 1 >= m->layout->glyphs_count || g[i + 1].line != g[i].line ||
+        (t[1].begin != t->end && t[1].end != t->begin) || font_text_white(sign_of(m, i)) ||
+        font_text_white(sign_of(m, i + 1)))
+        return false;
+    return cluster_end(m, k, k) - right_of(m, i) > gap_ems * font_placed_size(m->layout, &g[i]);
 }
 
 static enum font_status content_make(struct pdf_making *m, int marks_begin)
 {
     enum font_status status = drawn_find(m->d, m->layout, &m->drawn);
+    if (status == FONT_OK)
+        pdf_marks_tell_nothing(m->d, m->layout, &m->drawn);
     if (status == FONT_OK && !order_make(m))
         status = pdf_no_memory();
     pdf_boxes_show(m);
@@ -324,13 +386,14 @@ static enum font_status content_make(struct pdf_making *m, int marks_begin)
         const struct drawn_text *t = &m->drawn.texts[i];
         if (!mark_see(m, i, marks_begin))
             return pdf_no_memory();
-        if (pdf_said_begins(m->d, t)) {
+        const bool apart = stands_apart(m, k);
+        if (apart || pdf_said_begins(m->d, t)) {
             first = k;
             pdf_run_end(m);
             pdf_said_begin(m->d, t, m->f);
         }
         status = glyph_show(m, i);
-        if (pdf_said_ends(m->d, t)) {
+        if (apart || pdf_said_ends(m->d, t)) {
             if (status == FONT_OK)
                 status = cluster_close(m, first, k);
             pdf_run_end(m);

@@ -1,7 +1,9 @@
 /* pdf_text.c - what glyphs say, in PDF's words: see pdf_internal.h. */
 #include "pdf_internal.h"
+#include "text_internal.h"
 
 #include <fribidi.h>
+#include <hb-ot.h>
 
 enum { LETTERS_MOST = 256 };
 
@@ -57,16 +59,66 @@ int pdf_leftward(const struct font_drawing *d, const struct drawn_text *t)
     return left && count > 1 ? count : 0;
 }
 
-bool pdf_is_weak(const struct font_drawing *d, const struct drawn_text *t)
+/* A glyph that stands on another and takes no place of its own. */
+static bool is_mark(const struct font_placed *g)
+{
+    double advance = 0;
+    hb_face_t *face = font_face_harfbuzz(g->face);
+    if (hb_ot_layout_has_glyph_classes(face))
+        return hb_ot_layout_get_glyph_class(face, g->glyph) == HB_OT_LAYOUT_GLYPH_CLASS_MARK;
+    (void)font_face_advance(g->face, g->glyph, &advance);
+    return advance <= 0;
+}
+
+bool pdf_is_unseen(const struct font_drawing *d, const struct drawn_text *t,
+                   const struct font_placed *g)
 {
     const char *at = d->text + t->begin, *end = d->text + t->end;
-    uint32_t c;
-    if (at >= end)
-        return false;
-    font_utf8_next(&at, end, &c);
-    FriBidiCharType type = fribidi_get_bidi_type(c);
-    return at == end &&
-           (type == FRIBIDI_TYPE_CS || type == FRIBIDI_TYPE_ES || type == FRIBIDI_TYPE_ET);
+    bool unseen = d->text && at < end && g->glyph != 0; /* that of a sign that is missing */
+    while (unseen && at < end) {
+        uint32_t c;
+        font_utf8_next(&at, end, &c);
+        unseen = font_text_invisible(c);
+    }
+    return unseen;
+}
+
+/* The joiner of glyph i goes with the cluster before it in the text, that of glyph i + 1. */
+static void joiner_give(const struct font_drawing *d, const struct font_layout *layout,
+                        struct drawn_text *texts, int i)
+{
+    const struct font_placed *g = layout->glyphs;
+    struct drawn_text *t = &texts[i], *before = t + 1;
+    if (!t->begins || !t->ends || i + 1 >= layout->glyphs_count || g[i + 1].line != g[i].line ||
+        before->end != t->begin || !pdf_is_leftward(d, before) || !pdf_is_unseen(d, t, &g[i]))
+        return;
+    for (int k = 0; k < before->of && i + 1 + k < layout->glyphs_count; k++)
+        before[k].end = t->end;
+    t->begin = before->begin;
+    t->at = pdf_leftward(d, before);
+}
+
+void pdf_marks_tell_nothing(const struct font_drawing *d, const struct font_layout *layout,
+                            struct drawn *drawn)
+{
+    for (int i = 0, n = 1; d->text && i < layout->glyphs_count; i += n) {
+        struct drawn_text *t = &drawn->texts[i];
+        int letters = 0, bases = 0, last = -1;
+        n = t->of > 0 ? t->of : 1;
+        joiner_give(d, layout, drawn->texts, i);
+        if (n > 1)
+            letters = pdf_leftward(d, t);
+        for (int k = 0; letters && k < n; k++)
+            bases += !is_mark(&layout->glyphs[i + k]);
+        if (!bases || bases == n)
+            continue;
+        for (int k = 0; k < n; k++) {
+            bool mark = is_mark(&layout->glyphs[i + k]);
+            last += !mark;
+            t[k].at = mark ? letters : last;
+            t[k].of = bases;
+        }
+    }
 }
 
 static size_t letter_before(const struct font_drawing *d, size_t end)
