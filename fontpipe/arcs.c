@@ -7,6 +7,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#define INLINE static inline __attribute__((always_inline))
+
 /* A turning point closer to an arc's end than this part of it is left alone: it is then off by
  * a millionth of the bend. */
 #define TURN_PART 1e-3f
@@ -21,7 +23,7 @@ struct maker {
 };
 
 /* Room for one more. */
-static bool room(struct maker *m)
+INLINE bool room(struct maker *m)
 {
     struct font_edges *e = m->e;
     if (m->status != FONT_OK)
@@ -35,12 +37,12 @@ static bool room(struct maker *m)
     return m->status == FONT_OK;
 }
 
-static float larger(float a, float b)
+INLINE float larger(float a, float b)
 {
     return a > b ? a : b;
 }
 
-static void range_add(struct maker *m, float x, float y)
+INLINE void range_add(struct maker *m, float x, float y)
 {
     m->x0 = x < m->x0 ? x : m->x0;
     m->x1 = x > m->x1 ? x : m->x1;
@@ -48,7 +50,7 @@ static void range_add(struct maker *m, float x, float y)
     m->y1 = y > m->y1 ? y : m->y1;
 }
 
-static struct font_arc part(const struct font_arc *a, float t0, float t1)
+INLINE struct font_arc part(const struct font_arc *a, float t0, float t1)
 {
     float h = t1 - t0;
     return (struct font_arc){a->x + t0 * (a->cx + t0 * a->bx),
@@ -59,7 +61,7 @@ static struct font_arc part(const struct font_arc *a, float t0, float t1)
                              a->by * h * h};
 }
 
-static void put(struct maker *m, const struct font_arc *a)
+INLINE void put(struct maker *m, const struct font_arc *a)
 {
     struct font_edges *e = m->e;
     float x = a->x + a->cx + a->bx, y = a->y + a->cy + a->by;
@@ -107,7 +109,7 @@ static void disc_put(struct maker *m, const struct font_arc *a)
 }
 
 /* Neither x nor y turns around in it. */
-static void straight_put(struct maker *m, const struct font_arc *a)
+INLINE void straight_put(struct maker *m, const struct font_arc *a)
 {
     /* However a curve is cut, x and y change by at most |c| + 2 |b| over t, and the curve is at
      * most b / 4 away from its chord. */
@@ -121,7 +123,7 @@ static void straight_put(struct maker *m, const struct font_arc *a)
 }
 
 /* Where a polynomial c + 2 t b is zero, if that is well within 0..1; else 1. */
-static float turn_at(float c, float b)
+INLINE float turn_at(float c, float b)
 {
     if (!(c * (c + 2 * b) < 0))
         return 1;
@@ -129,7 +131,7 @@ static float turn_at(float c, float b)
     return t > TURN_PART && t < 1 - TURN_PART ? t : 1;
 }
 
-static void curve_put(struct maker *m, const struct font_arc *a)
+INLINE void curve_put(struct maker *m, const struct font_arc *a)
 {
     float tx = turn_at(a->cx, a->bx), ty = turn_at(a->cy, a->by);
     if (m->discs) {
@@ -155,7 +157,7 @@ static void curve_put(struct maker *m, const struct font_arc *a)
         }
 }
 
-static void arc_put(struct maker *m, const struct font_arc *a)
+INLINE void arc_put(struct maker *m, const struct font_arc *a)
 {
     bool line = a->bx == 0 && a->by == 0;
     if (a->cx == 0 && a->bx == 0) {

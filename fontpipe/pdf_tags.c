@@ -6,6 +6,8 @@
  * time, since that is what readers expect. */
 #include "pdf_internal.h"
 
+#define NOTE_NAME "note-%08d"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -97,7 +99,7 @@ static void element_put(struct font_document *p, const struct pdf_element *e, in
     pdf_object_begin(p, e->number);
     fprintf(p->f, "<< /Type /StructElem /S /%s /P %d 0 R", pdf_tag(e, room), parent);
     if (e->role == FONT_ROLE_NOTE)
-        fprintf(p->f, " /ID (note-%d)", e->number);
+        fprintf(p->f, " /ID (" NOTE_NAME ")", e->number);
     marks_put(p, e);
     fputs(" >>\nendobj\n", p->f);
 }
@@ -160,6 +162,26 @@ static void elements_put(struct font_document *p, struct tree *t)
     }
 }
 
+/* Notes by their names, which are sorted as their numbers are; 0: there are none. */
+static int names_put(struct font_document *p)
+{
+    int number = 0;
+    for (int i = 0; i < p->elements_count; i++) {
+        const struct pdf_element *e = &p->elements[i];
+        if (e->role != FONT_ROLE_NOTE)
+            continue;
+        if (!number) {
+            number = pdf_object(p);
+            pdf_object_begin(p, number);
+            fputs("<< /Names [", p->f);
+        }
+        fprintf(p->f, "\n(" NOTE_NAME ") %d 0 R", e->number, e->number);
+    }
+    if (number)
+        fputs(" ] >>\nendobj\n", p->f);
+    return number;
+}
+
 /* Which element each mark of each page is of. */
 static int parents_put(struct font_document *p)
 {
@@ -182,13 +204,15 @@ static int tree_put(struct font_document *p)
 {
     struct tree t = {.root = pdf_object(p), .document = pdf_object(p)};
     elements_put(p, &t);
-    int parents = parents_put(p);
+    int parents = parents_put(p), names = names_put(p);
     group_put(p, t.document, "Document", t.root, t.children, t.count);
     pdf_object_begin(p, t.root);
     fprintf(p->f,
-            "<< /Type /StructTreeRoot /K [%d 0 R] /ParentTree %d 0 R /ParentTreeNextKey %d "
-            ">>\nendobj\n",
+            "<< /Type /StructTreeRoot /K [%d 0 R] /ParentTree %d 0 R /ParentTreeNextKey %d",
             t.document, parents, p->pages_count);
+    if (names)
+        fprintf(p->f, " /IDTree %d 0 R", names);
+    fputs(" >>\nendobj\n", p->f);
     free(t.children);
     return t.root;
 }

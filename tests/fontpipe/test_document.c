@@ -304,6 +304,13 @@ static void books_have_tags_and_a_title(void **state)
     assert_int_equal(times(tree, "Note <"), 1);
     assert_int_equal(times(tree, "* * *"), 0);
     assert_non_null(strstr(tree, "over to the one"));
+    /* A note has a name, by which it is found. */
+    char *names = printed("grep -a -A 1 '/Names \\['", path, "", &rc);
+    assert_int_equal(times(names, "(note-"), 1);
+    free(names);
+    names = printed("grep -a -c /IDTree", path, "", &rc);
+    assert_string_equal(names, "1\n");
+    free(names);
     free(info);
     free(tree);
     unlink(path);
