@@ -9,11 +9,14 @@
  * a program takes the place of the instrument, because the terminal's bytes go through a kernel
  * worker, which has no such priority.
  *
+ * At last what is played, seen and heard (midi_live.c).
+ *
  * --thorough: ten minutes of soak, too. `lutetia bench midi --soak SECONDS`: that alone
  * (midi_soak.c).
  */
 #include "bench.h"
 #include "latency.h"
+#include "midi_live.h"
 #include "midi_scene.h"
 #include "midi_soak.h"
 #include "options.h"
@@ -216,7 +219,8 @@ int bench_midi_main(int argc, char **argv)
         ok = soak_add(&report, soak_s);
         return bench_options_finish(&options, &report, "server", ok);
     }
-    ok = cases_measure(&report, options.repeat_count);
+    ok = cases_measure(&report, options.repeat_count) &&
+         midi_live_measure(&report, options.repeat_count);
     if (ok && options.thorough)
         ok = soak_add(&report, SOAK_S);
     return bench_options_finish(&options, &report, "server", ok);
