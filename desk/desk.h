@@ -60,6 +60,7 @@ struct desk_gl;
 struct desk_play;
 struct desk_measure;
 struct desk_beside;
+struct desk_springs;
 
 struct desk {
     struct desk_options options;
@@ -101,6 +102,7 @@ struct desk {
     bool typing;
     double type_x, type_y;
     char *font, *features;
+    struct desk_springs *springs;   /* NULL: what is typed lies still */
     struct studio_outlined outline; /* of what is selected */
     /* stamps */
     GtkWidget *stamp_box, *stamp_name;
@@ -223,6 +225,18 @@ void desk_type_drop(struct desk *d);
 void desk_type_changed(struct desk *d);
 bool desk_type_key(struct desk *d, guint key, GdkModifierType state);
 void desk_type_text(struct desk *d, const char *text);
+
+/* desk_springs.c */
+/* By events' times and places, fibers; rests() prints it once it has landed. False: there is no
+ * springy type there. */
+bool desk_springs_take(struct desk *d, double time_s, double x, double y,
+                       void (*rests)(struct desk *d));
+bool desk_springs_held(const struct desk *d);
+void desk_springs_move(struct desk *d, double time_s, double x,
+                       double y); /* while it is held */
+void desk_springs_let_go(struct desk *d, double time_s);
+void desk_springs_print(struct desk *d); /* as it is now; there is one */
+void desk_springs_drop(struct desk *d);  /* what is typed lies still again */
 
 /* desk_stamp.c */
 void desk_stamp_attach(struct desk *d);

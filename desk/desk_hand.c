@@ -90,7 +90,8 @@ static void down(struct desk *d, const struct input_event *e)
         return;
     d->eraser = e->eraser;
     if (desk_tool(d) == STUDIO_TOOL_TYPE) {
-        desk_type_begin(d, at.x, at.y);
+        if (!desk_springs_take(d, e->time_s, at.x, at.y, desk_type_print))
+            desk_type_begin(d, at.x, at.y);
         return;
     }
     if (desk_tool(d) == STUDIO_TOOL_STAMP) {
@@ -149,6 +150,8 @@ static void up(struct desk *d, const struct input_event *e)
         d->panning = false;
         return;
     }
+    if (e->button == INPUT_BUTTON_LEFT)
+        desk_springs_let_go(d, e->time_s);
     if (!d->down || e->button != INPUT_BUTTON_LEFT)
         return;
     lift(d, e);
@@ -165,6 +168,9 @@ void desk_hand_event(struct desk *d, const struct input_event *e)
     if (e->kind == INPUT_POINTER_MOVE && d->panning) {
         studio_view_pan(&d->view, e->x_px - d->last_x, e->y_px - d->last_y);
         desk_canvas_changed(d);
+    } else if (e->kind == INPUT_POINTER_MOVE && desk_springs_held(d)) {
+        const struct studio_place at = studio_view_to_sheet(&d->view, e->x_px, e->y_px);
+        desk_springs_move(d, e->time_s, at.x, at.y);
     } else if (e->kind == INPUT_POINTER_MOVE && d->down && !d->shaping)
         point_send(d, STUDIO_POINT_MOVE, e);
     else if (e->kind == INPUT_POINTER_DOWN)
@@ -194,6 +200,7 @@ void desk_hand_lift(struct desk *d)
 {
     const struct input_event e = where_it_is(d);
     d->panning = d->space = false;
+    desk_springs_let_go(d, e.time_s);
     if (d->down)
         lift(d, &e);
 }

@@ -70,7 +70,8 @@ static void type_do(struct desk *d, const struct studio_input *input)
     desk_set(d, STUDIO_TOOL, STUDIO_TOOL_TYPE);
     desk_type_begin(d, input->x, input->y);
     desk_type_text(d, input->text);
-    desk_type_print(d);
+    if (d->settings.value[STUDIO_TYPE_SPRINGS] == 0) /* springy type waits to be thrown */
+        desk_type_print(d);
 }
 
 static void action_do(struct desk *d, const struct studio_input *input)

@@ -21,6 +21,7 @@ static struct studio_message type_message(struct desk *d, enum studio_message_ki
 
 void desk_type_changed(struct desk *d)
 {
+    desk_springs_drop(d);
     if (d->paper && d->typing)
         studio_paper_send(d->paper, type_message(d, STUDIO_MESSAGE_TYPE_SHOW, true));
 }
@@ -61,7 +62,9 @@ void desk_type_print(struct desk *d)
 {
     if (!d->typing)
         return;
-    if (d->typed->str[strspn(d->typed->str, " \n\t")])
+    if (d->springs)
+        desk_springs_print(d);
+    else if (d->typed->str[strspn(d->typed->str, " \n\t")])
         studio_paper_send(d->paper, type_message(d, STUDIO_MESSAGE_TYPE, false));
     type_end(d);
 }
@@ -76,7 +79,7 @@ void desk_type_drop(struct desk *d)
 
 void desk_type_text(struct desk *d, const char *text)
 {
-    if (!d->typing)
+    if (!d->typing || d->springs) /* what flies is not changed */
         return;
     g_string_append(d->typed, text);
     desk_type_changed(d);
@@ -92,11 +95,14 @@ static void preedit(GtkIMContext *context, struct desk *d)
 {
     g_free(d->preedit);
     gtk_im_context_get_preedit_string(context, &d->preedit, NULL, NULL);
-    desk_type_changed(d);
+    if (!d->springs)
+        desk_type_changed(d);
 }
 
 static void back(struct desk *d)
 {
+    if (d->springs)
+        return;
     if (d->typed->len > 0)
         g_string_truncate(
             d->typed, (gsize)(g_utf8_prev_char(d->typed->str + d->typed->len) - d->typed->str));

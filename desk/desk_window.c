@@ -43,7 +43,7 @@ static void setting_changed(struct desk *d, int setting)
 {
     if (setting == STUDIO_TOOL && (int)d->settings.value[STUDIO_TOOL] != STUDIO_TOOL_TYPE)
         desk_type_drop(d);
-    if (setting >= STUDIO_TYPE_SIZE && setting <= STUDIO_TYPE_ALIGN)
+    if (setting >= STUDIO_TYPE_SIZE && setting <= STUDIO_TYPE_SLIDE)
         desk_type_changed(d);
     if (setting == STUDIO_TOOL ||
         (setting >= STUDIO_STAMP_AS && setting <= STUDIO_STAMP_NEGATIVE))

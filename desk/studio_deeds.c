@@ -431,25 +431,34 @@ enum paper_status studio_session_type_screen(const struct studio_settings *setti
     return status;
 }
 
+enum paper_status studio_session_put(struct studio_session *s,
+                                     const struct paper_screen *screen, int x, int y)
+{
+    double amount[1 + PAPER_PIGMENTS_MAX];
+    if (s->down)
+        return studio_session_failed(PAPER_BAD_ARGUMENT, "the brush is on the paper");
+    enum paper_status status = studio_session_insert(s);
+    if (status == PAPER_OK)
+        status = studio_session_air(s);
+    studio_settings_amounts(&s->settings, amount);
+    if (status == PAPER_OK)
+        status = paper_sheet_put(s->sheet, screen, x, y, amount);
+    return studio_session_deed_done(s, status);
+}
+
 enum paper_status studio_session_type(struct studio_session *s, const struct studio_type *type)
 {
     struct paper_screen screen;
-    double amount[1 + PAPER_PIGMENTS_MAX];
     uint32_t missing;
     int x, y;
     if (s->down)
         return studio_session_failed(PAPER_BAD_ARGUMENT, "the brush is on the paper");
     enum paper_status status =
         studio_session_type_screen(&s->settings, type, &screen, &x, &y, &missing);
-    if (status == PAPER_OK)
-        status = studio_session_insert(s);
-    if (status == PAPER_OK)
-        status = studio_session_air(s);
-    studio_settings_amounts(&s->settings, amount);
-    if (status == PAPER_OK)
-        status = paper_sheet_put(s->sheet, &screen, x, y, amount);
+    status = status == PAPER_OK ? studio_session_put(s, &screen, x, y)
+                                : studio_session_deed_done(s, status);
     paper_screen_destroy(&screen);
-    return studio_session_deed_done(s, status);
+    return status;
 }
 
 /* ---- stamps ---- */

@@ -7,14 +7,14 @@
  *     0.900      up         60 80 0.3
  *     1.000      undo
  *
- * Words: set NAME VALUE (studio_settings.h); down, move, up X Y [PRESSURE [TILT_X TILT_Y]] with
- * the units of input.h, no pressure being a mouse; eraser-down, eraser-move, eraser-up, the
- * same by a pen's other end; shift-down and alt-down, with that key held; middle-down,
+ * Words: set NAME VALUE (studio_settings.h); down, move, up X Y [PRESSURE [TILT_X TILT_Y]]
+ * with the units of input.h, no pressure being a mouse; eraser-down, eraser-move, eraser-up,
+ * the same by a pen's other end; shift-down and alt-down, with that key held; middle-down,
  * middle-up; leave; focus-lost; action NAME [WORD]; bookmark NAME (this moment); step N; view
  * ZOOM X Y DEGREES MIRRORED; moment N (after so many deeds); type X Y TEXT (in fibers; \n is a
- * new line); undo, redo, dry, seal, save FILE, picture FILE, script FILE, palette FILE,
- * save-palette FILE, stamp FILE, film FILE, measure NAME (desk_measure.c), close. Times do not
- * go back. */
+ * new line; springy type waits to be thrown); undo, redo, dry, seal, save FILE, picture FILE,
+ * script FILE, palette FILE, save-palette FILE, stamp FILE, film FILE, measure NAME
+ * (desk_measure.c), close. Times do not go back. */
 #ifndef LUTETIA_STUDIO_INPUT_H
 #define LUTETIA_STUDIO_INPUT_H
 

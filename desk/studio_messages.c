@@ -13,6 +13,7 @@ void studio_message_free(struct studio_message *message)
     free(message->font);
     free(message->features);
     free(message->config);
+    paper_screen_destroy(&message->screen);
     *message = (struct studio_message){0};
 }
 

@@ -39,8 +39,10 @@ enum studio_message_kind {
     STUDIO_MESSAGE_SEAL,
     STUDIO_MESSAGE_SELECT_NONE,
     STUDIO_MESSAGE_SELECT_INVERT,
-    STUDIO_MESSAGE_TYPE,      /* type: is let into the paper */
-    STUDIO_MESSAGE_TYPE_SHOW, /* type: is shown as it would be; an empty text: nothing is */
+    STUDIO_MESSAGE_TYPE,        /* type: is let into the paper */
+    STUDIO_MESSAGE_TYPE_SHOW,   /* type: is shown as it would be; an empty text: nothing is */
+    STUDIO_MESSAGE_SCREEN,      /* screen: takes what is in the dish at type_x, type_y */
+    STUDIO_MESSAGE_SCREEN_SHOW, /* screen: is shown there; without gray: nothing is */
     STUDIO_MESSAGE_STAMP, /* text: the picture's file; type_x, type_y: where its middle is */
     /* text: the file; is shown as it would be at 0, 0; "": none is; value: it is read anew */
     STUDIO_MESSAGE_STAMP_SHOW,
@@ -61,6 +63,7 @@ struct studio_message {
     double type_x, type_y;
     char *text, *font, *features;      /* belong to the message; who takes it frees them */
     struct paper_sheet_config *config; /* likewise */
+    struct paper_screen screen;        /* likewise, its gray */
     unsigned long number;              /* given when it is put: from 1 on */
 };
 void studio_message_free(struct studio_message *message);

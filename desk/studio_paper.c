@@ -66,10 +66,10 @@ static bool needs_rest(enum studio_message_kind kind)
     return kind == STUDIO_MESSAGE_CARE || kind == STUDIO_MESSAGE_DRY ||
            kind == STUDIO_MESSAGE_SEAL || kind == STUDIO_MESSAGE_SELECT_NONE ||
            kind == STUDIO_MESSAGE_SELECT_INVERT || kind == STUDIO_MESSAGE_TYPE ||
-           kind == STUDIO_MESSAGE_STAMP || kind == STUDIO_MESSAGE_NEW ||
-           kind == STUDIO_MESSAGE_OPEN || kind == STUDIO_MESSAGE_SAVE ||
-           kind == STUDIO_MESSAGE_PICTURE || kind == STUDIO_MESSAGE_SCRIPT ||
-           kind == STUDIO_MESSAGE_FILM ||
+           kind == STUDIO_MESSAGE_SCREEN || kind == STUDIO_MESSAGE_STAMP ||
+           kind == STUDIO_MESSAGE_NEW || kind == STUDIO_MESSAGE_OPEN ||
+           kind == STUDIO_MESSAGE_SAVE || kind == STUDIO_MESSAGE_PICTURE ||
+           kind == STUDIO_MESSAGE_SCRIPT || kind == STUDIO_MESSAGE_FILM ||
            (kind >= STUDIO_MESSAGE_VISIT && kind <= STUDIO_MESSAGE_WAY);
 }
 
@@ -138,6 +138,20 @@ static enum paper_status type_show(struct studio_paper *p, const struct studio_m
     shown.gray = screen.gray; /* which is the window's now */
     studio_paper_show(p, &shown);
     return status;
+}
+
+static enum paper_status screen_do(struct studio_paper *p, struct studio_message *m)
+{
+    const struct studio_shown shown = {.x = (int)m->type_x,
+                                       .y = (int)m->type_y,
+                                       .width = m->screen.width_px,
+                                       .height = m->screen.height_px,
+                                       .gray = m->screen.gray};
+    if (m->kind == STUDIO_MESSAGE_SCREEN)
+        return studio_session_put(p->session, &m->screen, shown.x, shown.y);
+    m->screen.gray = NULL; /* it is the window's now */
+    studio_paper_show(p, &shown);
+    return PAPER_OK;
 }
 
 /* How many steps a second strokes may ask for follows from what they took. */
@@ -215,7 +229,7 @@ static void undo_do(struct studio_paper *p, bool undo)
         studio_session_redo(s);
 }
 
-static enum paper_status message_do(struct studio_paper *p, const struct studio_message *m)
+static enum paper_status message_do(struct studio_paper *p, struct studio_message *m)
 {
     struct studio_session *s = p->session;
     const struct studio_type type = type_of(m);
@@ -261,6 +275,9 @@ static enum paper_status message_do(struct studio_paper *p, const struct studio_
         return studio_session_type(s, &type);
     case STUDIO_MESSAGE_TYPE_SHOW:
         return type_show(p, m);
+    case STUDIO_MESSAGE_SCREEN:
+    case STUDIO_MESSAGE_SCREEN_SHOW:
+        return screen_do(p, m);
     case STUDIO_MESSAGE_STAMP:
     case STUDIO_MESSAGE_STAMP_SHOW:
         return studio_paper_stamp(p, m);
@@ -294,8 +311,8 @@ static bool changes(const struct studio_message *m)
     return of_past(m->kind) || m->kind == STUDIO_MESSAGE_DRY ||
            m->kind == STUDIO_MESSAGE_SEAL || m->kind == STUDIO_MESSAGE_TYPE ||
            m->kind == STUDIO_MESSAGE_SELECT_NONE || m->kind == STUDIO_MESSAGE_SELECT_INVERT ||
-           m->kind == STUDIO_MESSAGE_STAMP || m->kind == STUDIO_MESSAGE_STEP ||
-           m->kind == STUDIO_MESSAGE_POINT;
+           m->kind == STUDIO_MESSAGE_SCREEN || m->kind == STUDIO_MESSAGE_STAMP ||
+           m->kind == STUDIO_MESSAGE_STEP || m->kind == STUDIO_MESSAGE_POINT;
 }
 
 static void message_hear(struct studio_paper *p, struct studio_message *m)

@@ -19,6 +19,7 @@ struct studio_paper {
     struct studio_keeper keeper;
     bool kept; /* there is a keeper */
     bool dirty, end, forget;
+    bool shown_ends; /* with the next picture nothing is shown any more */
     double due, looked_s;
     unsigned long heard;
     struct studio_message *later; /* what waits until the hand is lifted */

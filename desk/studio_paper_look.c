@@ -81,6 +81,8 @@ void studio_paper_look(struct studio_paper *p)
         return; /* the old picture is seen until the new one is whole */
     studio_pictures_publish(p->pictures, &changed, seen_of(p));
     studio_paper_pictured(p);
+    if (p->shown_ends)
+        studio_paper_show(p, &(struct studio_shown){0});
     p->def.wake(p->def.context);
 }
 
@@ -154,6 +156,9 @@ bool studio_paper_outline(struct studio_paper *p, struct studio_outlined *outlin
 
 void studio_paper_show(struct studio_paper *p, const struct studio_shown *shown)
 {
+    p->shown_ends = !shown->gray && p->dirty;
+    if (p->shown_ends)
+        return; /* what was let into the paper is seen until the paper is, with it */
     pthread_mutex_lock(&p->lock);
     uint8_t *before = (uint8_t *)(uintptr_t)p->shown.gray;
     p->shown = *shown;

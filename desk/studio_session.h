@@ -104,6 +104,11 @@ enum paper_status studio_session_type_screen(const struct studio_settings *setti
 enum paper_status studio_session_type(struct studio_session *session,
                                       const struct studio_type *type);
 
+/* What is in the dish through a screen whose upper left corner is at x, y, as type. Errors: as
+ * paper_sheet_put(). */
+enum paper_status studio_session_put(struct studio_session *session,
+                                     const struct paper_screen *screen, int x, int y);
+
 /* A picture with its middle at a place, as the settings say. Errors: as
  * studio_stamp_place(), paper_sheet_put(), paper_sheet_print(). */
 struct studio_stamp;

@@ -108,6 +108,10 @@ const struct stage_control studio_controls[STUDIO_SETTINGS] = {
         "from line to line; 0: as the font says"),
     ROW(STUDIO_TYPE_ALIGN, "align", "", 0, 4, 0, CHOICE, "start left right center justify",
         "how lines stand"),
+    ROW(STUDIO_TYPE_SPRINGS, "springs", "", 0, 3, 0, CHOICE, "none stiff jelly breakdown",
+        "letters hang on springs: take one, throw it, and the type is printed where it lands"),
+    ROW(STUDIO_TYPE_SLIDE, "slide", "s", 0.1, 10, 2, LOGARITHMIC, NULL,
+        "about how long thrown type slides and swings"),
     ROW(STUDIO_PAUSED, "paused", "", 0, 1, 0, SWITCH, NULL, "time on the paper stands still"),
     ROW(STUDIO_PACE, "pace", "steps/s", 1, 400, 60, LOGARITHMIC, NULL,
         "how fast time goes by on the paper"),
@@ -231,7 +235,7 @@ const struct studio_tool studio_tools[STUDIO_TOOLS] = {
     [STUDIO_TOOL_TYPE] = {"Type", "t",
                           "Click where the type begins, and type. Control and Enter lets it "
                           "into the paper, Escape takes it away.",
-                          STUDIO_TYPE_SIZE, STUDIO_TYPE_ALIGN, true, false},
+                          STUDIO_TYPE_SIZE, STUDIO_TYPE_SLIDE, true, false},
     [STUDIO_TOOL_SELECT] =
         {"Selection", "r",
          "Drag around a part of the sheet: what you do next stays inside, and "

@@ -63,6 +63,8 @@ enum studio_setting {
     STUDIO_TYPE_COLUMN,
     STUDIO_TYPE_LEADING,
     STUDIO_TYPE_ALIGN,
+    STUDIO_TYPE_SPRINGS,
+    STUDIO_TYPE_SLIDE,
     /* time and air */
     STUDIO_PAUSED,
     STUDIO_PACE,

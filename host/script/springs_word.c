@@ -5,6 +5,7 @@
 
 #include <edges.h>
 #include <edits.h>
+#include <word_gray.h>
 
 #include <math.h>
 #include <stdlib.h>
@@ -221,27 +222,15 @@ static int network_letter(lua_State *L)
 
 /* ---- masks ---- */
 
-struct view {
-    double scale, x, y; /* fibers a unit; the place of the world's origin */
-};
-
 /* Gets the letter's gray and its place in the picture. False: the letter is not visible. */
 static bool letter_draw(lua_State *L, struct script_network *s, const struct dyn_word *word,
-                        int index, const struct view *view, const struct font_gray **gray)
+                        int index, const struct dyn_view *view, const struct font_gray **gray)
 {
-    static const int from[4] = {3, 2, 1, 0}; /* from the upper left clockwise, with y
-                                              * downwards */
-    const struct dyn_letter *l = dyn_word_letter(word, index);
-    double corners[4][2], px = fmin(fmax(view->scale * l->size, 1), 2000), unit = px / l->size;
     struct font_point to[4];
-    struct font_map map;
-    dyn_word_quad(word, s->network, index, corners);
-    for (int i = 0; i < 4; i++) {
-        to[i].x = view->x + view->scale * corners[from[i]][0];
-        to[i].y = view->y - view->scale * corners[from[i]][1];
+    dyn_word_corners(word, s->network, index, view, to);
+    for (int i = 0; i < 4; i++)
         if (!(fabs(to[i].x) < SCRIPT_PLACE_MAX && fabs(to[i].y) < SCRIPT_PLACE_MAX))
             return false;
-    }
     /* the most memory for drawing, descenders included: checked, and released at once */
     double wide = fmax(fmax(to[0].x, to[1].x), fmax(to[2].x, to[3].x)) -
                   fmin(fmin(to[0].x, to[1].x), fmin(to[2].x, to[3].x)) + 16;
@@ -249,33 +238,14 @@ static bool letter_draw(lua_State *L, struct script_network *s, const struct dyn
                   fmin(fmin(to[0].y, to[1].y), fmin(to[2].y, to[3].y)) + 16;
     script_memory_take(L, 16 * wide * high, "a letter");
     script_memory_give(s->script, 16 * wide * high);
-    if (font_map_corners(FONT_SMOOTH, l->x0 * unit, -l->y1 * unit, l->x1 * unit, -l->y0 * unit,
-                         to, &map) != FONT_OK)
-        return false;
-    enum font_status status =
-        font_painter_glyph(s->painter, l->face, l->glyph, px, &map, 0, 0, gray);
+    enum font_status status = dyn_word_gray(word, index, view, to, s->painter, gray);
     if (status == FONT_NO_MEMORY)
         script_fail(L, font_error());
     return status == FONT_OK && (*gray)->width_px > 0;
 }
 
-/* Clips to the mask: a finalizer may have moved letters since the mask was measured. */
-static void gray_add(struct script_mask *mask, const struct font_gray *gray)
-{
-    int left = gray->left_px - mask->x, top = gray->top_px - mask->y;
-    int x0 = left < 0 ? -left : 0,
-        x1 = gray->width_px < mask->width - left ? gray->width_px : mask->width - left;
-    for (int row = top < 0 ? -top : 0; row < gray->height_px && top + row < mask->height;
-         row++) {
-        const uint8_t *from = gray->pixels + (size_t)row * (size_t)gray->pitch;
-        uint8_t *to = mask->gray + (size_t)(top + row) * (size_t)mask->width;
-        for (int x = x0; x < x1; x++)
-            to[left + x] = (uint8_t)(to[left + x] + (255 - to[left + x]) * from[x] / 255);
-    }
-}
-
 /* For each visible letter: extends the box, or draws onto the mask. */
-static void letters_go(lua_State *L, struct script_network *s, const struct view *view,
+static void letters_go(lua_State *L, struct script_network *s, const struct dyn_view *view,
                        struct font_box *box, struct script_mask *mask)
 {
     for (int i = 0; i < s->words_count; i++)
@@ -288,8 +258,8 @@ static void letters_go(lua_State *L, struct script_network *s, const struct view
             box->y0 = fmin(box->y0, gray->top_px);
             box->x1 = fmax(box->x1, gray->left_px + gray->width_px);
             box->y1 = fmax(box->y1, gray->top_px + gray->height_px);
-            if (mask)
-                gray_add(mask, gray);
+            if (mask) /* a finalizer may have moved letters since it was measured */
+                dyn_gray_over(gray, mask->gray, mask->x, mask->y, mask->width, mask->height);
         }
 }
 
@@ -301,7 +271,7 @@ static int network_mask(lua_State *L)
     lua_settop(L, 2);
     struct script_network *s = script_network_at(L, 1);
     script_arg_options(L, 2, "mask", keys);
-    struct view view = {
+    struct dyn_view view = {
         script_arg_number(L, 2, "mask", "scale", 100, 0.1, 10000),
         script_arg_number(L, 2, "mask", "x", 0, -SCRIPT_PLACE_MAX, SCRIPT_PLACE_MAX),
         script_arg_number(L, 2, "mask", "y", 0, -SCRIPT_PLACE_MAX, SCRIPT_PLACE_MAX)};

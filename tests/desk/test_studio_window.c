@@ -167,6 +167,27 @@ static void stamps_are_in_the_script(void **state)
     played_script_is("stamped.lua", "made/stamped.png", "stamped.png");
 }
 
+/* Springy type is taken by a letter, thrown, and let into the paper when it rests: one deed,
+ * which the script has. A click beside it, and the setting of another tool, print nothing. */
+static void springy_type_is_printed_where_it_lands(void **state)
+{
+    (void)state;
+    FILE *events = played_begin();
+    fprintf(events,
+            "0 set paused on\n0 view 4 48 36 0 0\n0 set tool type\n0 set springs jelly\n"
+            "0 set type_size 30\n0 set slide 0.3\n0.1 type 20 50 Wa\n"
+            "0.2 down -104 16\n0.25 move -80 0\n0.3 move -60 -10\n0.35 up -60 -10\n"
+            "0.36 down 180 120\n0.37 up 180 120\n"
+            "6 step 3\n6.1 set tool brush\n6.1 type 20 50 never\n6.1 down -104 16\n"
+            "6.2 set tool brush\n6.3 picture %s\n6.3 script %s\n6.4 save %s\n6.5 close\n",
+            played_path("thrown.png"), played_path("thrown.lua"), played_path("thrown.h5"));
+    fclose(events);
+    played_run(NULL);
+    assert_int_equal(played.status, 0);
+    assert_int_equal(saved_count("thrown.h5", "put"), 1);
+    played_script_is("thrown.lua", "made/thrown.png", "thrown.png");
+}
+
 /* ---- shapes and steadying ---- */
 
 /* The strokes of a saved sheet, in their order; the caller frees each with its moment's
@@ -421,6 +442,7 @@ int main(void)
         cmocka_unit_test(selection_is_in_the_script),
         cmocka_unit_test(eraser_is_another_tool),
         cmocka_unit_test(stamps_are_in_the_script),
+        cmocka_unit_test(springy_type_is_printed_where_it_lands),
         cmocka_unit_test(hand_is_helped),
         cmocka_unit_test(closed_in_mid_stroke),
         cmocka_unit_test(killed_and_found_again),
