@@ -156,10 +156,11 @@ struct pdf_making {
     const struct font_map *map;
     double x, y; /* of the layout's origin, in pixels */
     struct drawn drawn;
-    int *order; /* in which glyphs are written: as the text has them */
-    bool *ends; /* of glyphs: the last of a line, with another behind it */
-    FILE *f;    /* what is on the page */
-    int ink;    /* of the glyph before; -1 */
+    int *order;       /* in which glyphs are written: as the text has them */
+    bool *ends;       /* of glyphs: the last of a line, with another behind it */
+    double *advances; /* of drawn.glyphs, in ems; NAN: not asked for yet */
+    FILE *f;          /* what is on the page */
+    int ink;          /* of the glyph before; -1 */
     struct pdf_run run;
     struct pdf_picture *pictures;
     int pictures_count, pictures_capacity;

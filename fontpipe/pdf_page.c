@@ -292,8 +292,11 @@ static bool order_make(struct pdf_making *m)
     struct font_layout layout = *m->layout;
     m->order = malloc(((size_t)n + 1) * sizeof *m->order);
     m->ends = calloc((size_t)n + 1, sizeof *m->ends);
-    if (!m->order || !m->ends)
+    m->advances = malloc(((size_t)m->drawn.count + 1) * sizeof *m->advances);
+    if (!m->order || !m->ends || !m->advances)
         return false;
+    for (int k = 0; k < m->drawn.count; k++)
+        m->advances[k] = NAN;
     for (int i = 0; i < n; i++)
         m->order[i] = i;
     for (int i = 0, begin = 0; i < n; i++) {
@@ -312,11 +315,15 @@ static bool order_make(struct pdf_making *m)
 static double right_of(const struct pdf_making *m, int i)
 {
     const struct font_placed *g = &m->layout->glyphs[i];
-    struct font_face_info info;
-    double advance = 0;
-    font_face_describe(g->face, &info);
-    (void)font_face_advance(g->face, g->glyph, &advance);
-    return g->x_px + advance * font_placed_size(m->layout, g) / info.units_per_em;
+    double *advance = &m->advances[m->drawn.of[i]];
+    if (isnan(*advance)) {
+        struct font_face_info info;
+        font_face_describe(g->face, &info);
+        *advance = 0;
+        (void)font_face_advance(g->face, g->glyph, advance);
+        *advance /= info.units_per_em;
+    }
+    return g->x_px + *advance * font_placed_size(m->layout, g);
 }
 
 /* Where a cluster of LTR text ends, of glyphs first..last of the order: where the next one on
@@ -365,12 +372,13 @@ static bool stands_apart(const struct pdf_making *m, int k)
     const int i = m->order[k];
     const struct font_placed *g = m->layout->glyphs;
     const struct drawn_text *t = &m->drawn.texts[i];
-    if (!m->d->text || !t->begins || !t->ends || pdf_leftward(m->d, t) ||
-        i + 1 >= m->layout->glyphs_count || g[i + 1].line != g[i].line ||
-        (t[1].begin != t->end && t[1].end != t->begin) || font_text_white(sign_of(m, i)) ||
-        font_text_white(sign_of(m, i + 1)))
+    if (!m->d->text || !t->begins || !t->ends || i + 1 >= m->layout->glyphs_count ||
+        g[i + 1].line != g[i].line || (t[1].begin != t->end && t[1].end != t->begin) ||
+        g[i + 1].x_px - right_of(m, i) <= gap_ems * font_placed_size(m->layout, &g[i]))
         return false;
-    return cluster_end(m, k, k) - right_of(m, i) > gap_ems * font_placed_size(m->layout, &g[i]);
+    return !pdf_leftward(m->d, t) && !font_text_white(sign_of(m, i)) &&
+           !font_text_white(sign_of(m, i + 1)) &&
+           cluster_end(m, k, k) - right_of(m, i) > gap_ems * font_placed_size(m->layout, &g[i]);
 }
 
 static enum font_status content_make(struct pdf_making *m, int marks_begin)
@@ -469,6 +477,7 @@ enum font_status pdf_page_put(struct font_document *p, const struct font_drawing
     free(m.pictures);
     free(m.order);
     free(m.ends);
+    free(m.advances);
     free(content);
     drawn_finish(&m.drawn);
     return status;

@@ -74,7 +74,8 @@ bool pdf_is_unseen(const struct font_drawing *d, const struct drawn_text *t,
                    const struct font_placed *g)
 {
     const char *at = d->text + t->begin, *end = d->text + t->end;
-    bool unseen = d->text && at < end && g->glyph != 0; /* that of a sign that is missing */
+    /* No letter of ASCII is; glyph 0 is that of a sign that is missing. */
+    bool unseen = d->text && at < end && (unsigned char)*at >= 0x80 && g->glyph != 0;
     while (unseen && at < end) {
         uint32_t c;
         font_utf8_next(&at, end, &c);
