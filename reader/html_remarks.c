@@ -35,7 +35,7 @@ enum reader_status html_remarks_begin(struct html *h)
         return reader_fail(READER_NO_MEMORY, "no memory for notes");
     for (int i = 0; i < count; i++) {
         const struct reader_remark *r = remark_of(h, i);
-        if (r->orphan || r->gone_s > 0)
+        if (r->orphan || !reader_remark_seen(r))
             continue;
         if (r->kind == READER_REMARK_INK) {
             event_add(h, r->begin, HTML_INK, i);
@@ -176,6 +176,11 @@ static void quotation_put(struct html *h, const struct reader_remark *r)
     shown = bytes < QUOTED_MOST ? bytes : QUOTED_MOST;
     while (shown < bytes && shown && ((unsigned char)text[shown] & 0xc0) == 0x80)
         shown--;
+    if (*r->by) {
+        fputs("<b>", h->f);
+        html_puts(h, r->by);
+        fputs("</b>: ", h->f);
+    }
     fputs("<q>", h->f);
     html_put(h, text, shown);
     fputs(shown < bytes ? "\xe2\x80\xa6</q> " : "</q> ", h->f);
@@ -227,7 +232,7 @@ void html_orphans_put(struct html *h)
     for (int i = 0; i < count; i++) {
         const struct reader_remark *r = remark_of(h, i);
         const char *headings = reader_anchor_headings(r->anchor);
-        if (!r->orphan || r->gone_s > 0)
+        if (!r->orphan || !reader_remark_seen(r))
             continue;
         if (!any)
             fputs("<section class=\"gone\">\n<h2>Readers\xe2\x80\x99 notes to words that are "

@@ -140,7 +140,9 @@ static bool quotation_add(struct paragraph_text *t, const struct reader_remark *
     size_t bytes;
     const char *text = reader_anchor_quotation(r->anchor, &bytes);
     const size_t shown = cut(text, bytes, QUOTED_BYTES);
-    return pages_text_add(t, "\xe2\x80\x9c", 3, READER_SLANTED) &&
+    return (!*r->by || (words_add(t, r->by, strlen(r->by), READER_HEAVY) &&
+                        pages_text_add(t, ": ", 2, 0))) &&
+           pages_text_add(t, "\xe2\x80\x9c", 3, READER_SLANTED) &&
            words_add(t, text, shown, READER_SLANTED) &&
            (shown == bytes || pages_text_add(t, "\xe2\x80\xa6", 3, READER_SLANTED)) &&
            pages_text_add(t, "\xe2\x80\x9d ", 4, READER_SLANTED);
@@ -234,7 +236,7 @@ enum reader_status pages_left_make(struct reader_pages *p)
             int byte = 0;
             const struct piece *piece = words_end(p->left, r, &byte);
             const bool listed = r->kind == READER_REMARK_TYPED ? !piece : r->orphan;
-            if (r->gone_s > 0 || listed != (turn == 1) ||
+            if (!reader_remark_seen(r) || listed != (turn == 1) ||
                 (!listed && r->kind != READER_REMARK_TYPED))
                 continue;
             if (listed && !others)
@@ -298,7 +300,7 @@ static enum reader_status kind_boxes(struct reader_pages *p, enum reader_remark_
     size_t done = 0;
     for (int i = 0; i < count && sorted; i++) {
         const struct reader_remark *r = reader_remarks_get(remarks, i);
-        if (r->kind == kind && r->gone_s <= 0 && !r->orphan)
+        if (r->kind == kind && reader_remark_seen(r) && !r->orphan)
             sorted[n++] = r;
     }
     if (n)

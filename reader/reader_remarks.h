@@ -20,6 +20,11 @@
  * power, too. Several programs may have the file open; each sees what was there when it opened
  * it, and its own.
  *
+ * Layers. A file has the notes of several readers, each in a layer with a name; the first one
+ * has none. All are shown but those that are hidden, and one is written: what is added is in
+ * it, and only what is in it can be changed. Which are hidden and which is written is not kept.
+ * A file gets layers, and is then of a later version, when the first one is added.
+ *
  * Ink. Points are in ems from the upper left corner of the anchor's first letter, with a
  * pressure of 0..1 and the seconds since its first one: so it moves with the text, grows with
  * it, and is played back.
@@ -42,7 +47,9 @@ struct reader_ink_point {
 enum {
     READER_REMARKS_MAX = 100000,
     READER_INK_POINTS_MAX = 100000,
-    READER_TYPED_MAX = 1 << 20
+    READER_TYPED_MAX = 1 << 20,
+    READER_LAYERS_MAX = 32,
+    READER_LAYER_BYTES = 64 /* of a name, with its end */
 };
 
 struct reader_remark {
@@ -58,7 +65,15 @@ struct reader_remark {
     const struct reader_anchor *anchor;
     bool orphan;
     size_t begin, end; /* where its anchor was found */
+    int layer;
+    const char *by; /* the layer's name */
+    bool hidden;    /* its layer is */
 };
+/* It is to be shown: neither erased nor hidden. */
+static inline bool reader_remark_seen(const struct reader_remark *r)
+{
+    return !(r->gone_s > 0) && !r->hidden;
+}
 
 /* Errors: FAILED (not a file of remarks, a newer version's, damaged, cannot be read),
  * NO_MEMORY, NO_LIBRARY. Owns: the caller closes *out. */
@@ -72,6 +87,20 @@ int reader_remarks_count(const struct reader_remarks *remarks);
 const struct reader_remark *reader_remarks_get(const struct reader_remarks *remarks, int i);
 /* The file can be read only: remarks are shown, and adding some fails. */
 bool reader_remarks_read_only(const struct reader_remarks *remarks);
+
+/* How many layers there are: at least 1. */
+int reader_remarks_layers(const struct reader_remarks *remarks);
+/* Its name; "" for the first one, and for one that there is not. */
+const char *reader_remarks_layer(const struct reader_remarks *remarks, int layer);
+bool reader_remarks_layer_shown(const struct reader_remarks *remarks, int layer);
+void reader_remarks_layer_show(struct reader_remarks *remarks, int layer, bool shown);
+/* The one that is written: the first, until another one is chosen, which is then shown. */
+int reader_remarks_written(const struct reader_remarks *remarks);
+void reader_remarks_write_layer(struct reader_remarks *remarks, int layer);
+/* One more, or the one that has that name. Errors: BAD_ARGUMENT (a name has 1..63 bytes of
+ * UTF-8 and no signs that are not seen), TOO_LARGE, FAILED (it cannot be written). */
+enum reader_status reader_remarks_layer_add(struct reader_remarks *remarks, const char *name,
+                                            int *layer);
 
 /* Finds all anchors in a text. Those that have moved are anchored anew, there. Errors: FAILED,
  * NO_MEMORY; what was found is known. */
@@ -94,7 +123,8 @@ enum reader_status reader_remarks_saved(struct reader_remarks *remarks, const ch
 enum reader_status reader_remarks_add(struct reader_remarks *remarks,
                                       const struct reader_remark *what, const char *plain,
                                       size_t bytes, size_t begin, size_t end, int *index);
-/* Erases it, or has it back. Errors: BAD_ARGUMENT, FAILED; it is then as it was. */
+/* Erases it, or has it back. Errors: BAD_ARGUMENT (its layer is not written, too), FAILED; it
+ * is then as it was. */
 enum reader_status reader_remarks_erase(struct reader_remarks *remarks, int i, bool erased);
 enum reader_status reader_remarks_move(struct reader_remarks *remarks, int i, double x,
                                        double y);

@@ -9,6 +9,7 @@
 struct reader_remarks {
     struct remarks_file *file;
     struct remark_rows rows;
+    struct remark_layers layers;
 };
 
 static double now_s(void)
@@ -24,7 +25,8 @@ static enum reader_status open_as(const char *path, bool reads, struct reader_re
     *out = NULL;
     if (!remarks)
         return reader_fail(READER_NO_MEMORY, "no memory for notes");
-    enum reader_status status = remarks_file_open(path, reads, &remarks->file, &remarks->rows);
+    enum reader_status status =
+        remarks_file_open(path, reads, &remarks->file, &remarks->rows, &remarks->layers);
     if (status != READER_OK) {
         reader_remarks_close(remarks);
         return status;
@@ -33,6 +35,7 @@ static enum reader_status open_as(const char *path, bool reads, struct reader_re
         struct remark_row *row = &remarks->rows.rows[i];
         row->remark.anchor = row->anchor;
         row->remark.orphan = true; /* until it is found */
+        row->remark.by = remarks->layers.names[row->remark.layer];
     }
     *out = remarks;
     return READER_OK;
@@ -171,7 +174,7 @@ static enum reader_status row_make(const struct reader_remark *what, const char 
     struct reader_remark *r = &row->remark;
     r->made_s = what->made_s > 0 ? what->made_s : now_s();
     r->gone_s = 0;
-    r->orphan = false;
+    r->hidden = r->orphan = false;
     r->begin = begin;
     r->end = end;
     r->text = strdup(what->text ? what->text : "");
@@ -198,6 +201,8 @@ enum reader_status reader_remarks_add(struct reader_remarks *remarks,
         return reader_fail(READER_TOO_LARGE, "a document has up to %d notes",
                            READER_REMARKS_MAX);
     status = row_make(what, plain, bytes, begin, end, &row);
+    row.remark.layer = remarks->layers.written;
+    row.remark.by = remarks->layers.names[row.remark.layer];
     if (status == READER_OK &&
         !array_reserve(&rows->rows, &rows->capacity, rows->count + 1, sizeof *rows->rows))
         status = reader_fail(READER_NO_MEMORY, "no memory for a note");
@@ -224,6 +229,10 @@ static enum reader_status row_change(struct reader_remarks *remarks, int i,
     struct remark_row *row = row_of(remarks, i);
     if (!row)
         return reader_fail(READER_BAD_ARGUMENT, "there is no note %d", i);
+    if (row->remark.layer != remarks->layers.written)
+        return reader_fail(READER_BAD_ARGUMENT,
+                           "this is in the layer %s: it is changed where that is written",
+                           *row->remark.by ? row->remark.by : "that has no name");
     const struct reader_remark before = row->remark;
     row->remark = *to;
     enum reader_status status = remarks_file_write(remarks->file, row);
@@ -266,6 +275,73 @@ enum reader_status reader_remarks_write(struct reader_remarks *remarks, int i, c
         return reader_fail(READER_TOO_LARGE, "a note has up to %d bytes", READER_TYPED_MAX);
     enum reader_status status = row_change(remarks, i, &to);
     free(status == READER_OK ? before : to.text);
+    return status;
+}
+
+/* ---- layers ---- */
+
+int reader_remarks_layers(const struct reader_remarks *remarks)
+{
+    return remarks->layers.count;
+}
+
+static bool is_layer(const struct reader_remarks *remarks, int layer)
+{
+    return layer >= 0 && layer < remarks->layers.count;
+}
+
+const char *reader_remarks_layer(const struct reader_remarks *remarks, int layer)
+{
+    return is_layer(remarks, layer) ? remarks->layers.names[layer] : "";
+}
+
+bool reader_remarks_layer_shown(const struct reader_remarks *remarks, int layer)
+{
+    return is_layer(remarks, layer) && !remarks->layers.hidden[layer];
+}
+
+void reader_remarks_layer_show(struct reader_remarks *remarks, int layer, bool shown)
+{
+    if (!is_layer(remarks, layer))
+        return;
+    remarks->layers.hidden[layer] = !shown;
+    for (int i = 0; i < remarks->rows.count; i++) {
+        struct reader_remark *r = &remarks->rows.rows[i].remark;
+        r->hidden = remarks->layers.hidden[r->layer];
+    }
+}
+
+int reader_remarks_written(const struct reader_remarks *remarks)
+{
+    return remarks->layers.written;
+}
+
+void reader_remarks_write_layer(struct reader_remarks *remarks, int layer)
+{
+    if (!is_layer(remarks, layer))
+        return;
+    remarks->layers.written = layer;
+    reader_remarks_layer_show(remarks, layer, true);
+}
+
+enum reader_status reader_remarks_layer_add(struct reader_remarks *remarks, const char *name,
+                                            int *layer)
+{
+    struct remark_layers *layers = &remarks->layers;
+    if (!remark_layer_named(name))
+        return reader_fail(READER_BAD_ARGUMENT,
+                           "a layer's name has 1..%d bytes of UTF-8 that can be seen",
+                           READER_LAYER_BYTES - 1);
+    for (*layer = 1; *layer < layers->count; ++*layer)
+        if (strcmp(layers->names[*layer], name) == 0)
+            return READER_OK;
+    if (layers->count == READER_LAYERS_MAX)
+        return reader_fail(READER_TOO_LARGE, "notes have up to %d layers", READER_LAYERS_MAX);
+    enum reader_status status = remarks_file_layer(remarks->file, name, layers->count);
+    if (status == READER_OK) {
+        memcpy(layers->names[layers->count], name, strlen(name) + 1);
+        layers->hidden[layers->count++] = false;
+    }
     return status;
 }
 

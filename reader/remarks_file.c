@@ -13,7 +13,8 @@
 
 enum {
     APPLICATION = 0x4c55524d, /* of the file's head, so that it is known what it is */
-    VERSION = 1,
+    PLAIN = 1,                /* version without layers */
+    VERSION = 2,
     LENGTH_MOST = 16 << 20, /* bytes of a value */
     BUSY_MS = 2000
 };
@@ -26,10 +27,17 @@ static const char schema[] = "CREATE TABLE remark(id INTEGER PRIMARY KEY AUTOINC
                              "NULL, y REAL NOT NULL, points "
                              "BLOB NOT NULL)";
 
+/* A layer's number, from 1, and its name; and of remarks that are not in the first, the number
+ * of theirs. */
+static const char layer_schema[] = "CREATE TABLE layer(id INTEGER PRIMARY KEY, name TEXT NOT "
+                                   "NULL)",
+                  in_layer_schema[] = "CREATE TABLE in_layer(remark INTEGER PRIMARY KEY, layer "
+                                      "INTEGER NOT NULL)";
+
 struct remarks_file {
     char *path;
-    sqlite3 *db; /* NULL: there is no file yet */
-    bool read_only;
+    sqlite3 *db;             /* NULL: there is no file yet */
+    bool read_only, layered; /* layered: of the version that has layers */
 };
 
 static enum reader_status file_fail(const struct remarks_file *file)
@@ -98,9 +106,14 @@ static enum reader_status check(struct remarks_file *file)
                                              : "this is another program's file");
     if (version > VERSION)
         return foreign(file, "this file is of a newer version");
-    if (version != VERSION ||
+    file->layered = version == VERSION;
+    if (version < PLAIN ||
         number_of(file, "SELECT count(*) FROM sqlite_schema WHERE name NOT LIKE 'sqlite_%'") !=
-            1 ||
+            (file->layered ? 3 : 1) ||
+        (file->layered &&
+         (!text_is(file, "SELECT sql FROM sqlite_schema WHERE name='layer'", layer_schema) ||
+          !text_is(file, "SELECT sql FROM sqlite_schema WHERE name='in_layer'",
+                   in_layer_schema))) ||
         !text_is(file, "SELECT sql FROM sqlite_schema WHERE name='remark'", schema))
         return foreign(file, "this file is not as notes are");
     if (!text_is(file, "PRAGMA quick_check(1)", "ok"))
@@ -131,7 +144,7 @@ static enum reader_status make(struct remarks_file *file)
     guard(file);
     journal(file);
     snprintf(pragmas, sizeof pragmas, "PRAGMA application_id=%d; PRAGMA user_version=%d",
-             APPLICATION, VERSION);
+             APPLICATION, PLAIN);
     const bool good = run(file, "BEGIN IMMEDIATE") &&
                       (number_of(file, "SELECT count(*) FROM sqlite_schema") > 0 ||
                        (run(file, schema) && run(file, pragmas))) &&
@@ -165,7 +178,7 @@ static enum reader_status open_there(struct remarks_file *file, bool reads)
 
 /* ---- rows ---- */
 
-enum column { ID, KIND, MADE, GONE, ANCHOR, TEXT, RGBA, WIDTH, X, Y, POINTS };
+enum column { ID, KIND, MADE, GONE, ANCHOR, TEXT, RGBA, WIDTH, X, Y, POINTS, LAYER };
 
 static bool number_read(sqlite3_stmt *s, enum column column, double least, double most,
                         double *out)
@@ -229,20 +242,63 @@ void remark_row_finish(struct remark_row *row)
     *row = (struct remark_row){0};
 }
 
-static enum reader_status rows_read(struct remarks_file *file, struct remark_rows *rows)
+bool remark_layer_named(const char *name)
+{
+    const size_t bytes = strlen(name);
+    bool seen = bytes > 0 && bytes < READER_LAYER_BYTES;
+    for (size_t i = 0; seen && i < bytes;) {
+        const unsigned char first = (unsigned char)name[i];
+        const size_t more = first >= 0xf0 ? 3 : first >= 0xe0 ? 2 : first >= 0xc2 ? 1 : 0;
+        seen = (first >= 0x20 && first < 0x7f) || (first >= 0xc2 && first < 0xf5);
+        if (first == 0xc2 && (unsigned char)name[i + 1] < 0xa0)
+            seen = false;
+        for (size_t k = 1; seen && k <= more; k++)
+            seen = ((unsigned char)name[i + k] & 0xc0) == 0x80;
+        i += more + 1;
+    }
+    return seen;
+}
+
+/* Their numbers are 1, 2, 3. */
+static enum reader_status layers_read(struct remarks_file *file, struct remark_layers *layers)
+{
+    sqlite3_stmt *s = NULL;
+    bool good = sqlite3_prepare_v2(file->db, "SELECT id, name FROM layer ORDER BY id", -1, &s,
+                                   NULL) == SQLITE_OK;
+    while (good && sqlite3_step(s) == SQLITE_ROW) {
+        const char *name = (const char *)sqlite3_column_text(s, 1);
+        good = layers->count < READER_LAYERS_MAX &&
+               sqlite3_column_int64(s, 0) == layers->count && name &&
+               strlen(name) == (size_t)sqlite3_column_bytes(s, 1) && remark_layer_named(name);
+        if (good)
+            memcpy(layers->names[layers->count++], name, strlen(name) + 1);
+    }
+    sqlite3_finalize(s);
+    return good ? READER_OK : foreign(file, "this file is damaged");
+}
+
+static enum reader_status rows_read(struct remarks_file *file, struct remark_rows *rows,
+                                    const struct remark_layers *layers)
 {
     sqlite3_stmt *s = NULL;
     enum reader_status status = READER_OK;
     int step = SQLITE_ERROR;
-    if (sqlite3_prepare_v2(file->db,
-                           "SELECT id, kind, made, gone, anchor, text, rgba, width, x, y, "
-                           "points FROM remark ORDER BY id",
-                           -1, &s, NULL) == SQLITE_OK)
+    if (sqlite3_prepare_v2(
+            file->db,
+            file->layered ? "SELECT id, kind, made, gone, anchor, text, rgba, width, x, y, "
+                            "points, coalesce((SELECT layer FROM in_layer WHERE remark = "
+                            "remark.id), 0) FROM remark ORDER BY id"
+                          : "SELECT id, kind, made, gone, anchor, text, rgba, width, x, y, "
+                            "points, 0 FROM remark ORDER BY id",
+            -1, &s, NULL) == SQLITE_OK)
         step = SQLITE_ROW;
     while (status == READER_OK && step == SQLITE_ROW &&
            (step = sqlite3_step(s)) == SQLITE_ROW) {
         struct remark_row row = {0};
-        if (rows->count == READER_REMARKS_MAX || !row_read(s, &row)) {
+        const sqlite3_int64 layer = sqlite3_column_int64(s, LAYER);
+        row.remark.layer = (int)layer;
+        if (rows->count == READER_REMARKS_MAX || layer < 0 || layer >= layers->count ||
+            !row_read(s, &row)) {
             remark_row_finish(&row);
             status = foreign(file, "this file is damaged");
         } else if (!array_reserve(&rows->rows, &rows->capacity, rows->count + 1,
@@ -260,7 +316,7 @@ static enum reader_status rows_read(struct remarks_file *file, struct remark_row
 }
 
 enum reader_status remarks_file_open(const char *path, bool reads, struct remarks_file **out,
-                                     struct remark_rows *rows)
+                                     struct remark_rows *rows, struct remark_layers *layers)
 {
     struct remarks_file *file = calloc(1, sizeof *file);
     *out = NULL;
@@ -269,8 +325,11 @@ enum reader_status remarks_file_open(const char *path, bool reads, struct remark
         return reader_fail(READER_NO_MEMORY, "no memory for notes");
     }
     enum reader_status status = open_there(file, reads);
+    *layers = (struct remark_layers){.count = 1};
+    if (status == READER_OK && file->layered)
+        status = layers_read(file, layers);
     if (status == READER_OK && file->db)
-        status = rows_read(file, rows);
+        status = rows_read(file, rows, layers);
     if (status == READER_OK)
         *out = file;
     else
@@ -318,6 +377,49 @@ static bool row_bind(sqlite3_stmt *s, const struct remark_row *row, const unsign
                                        SQLITE_STATIC) == SQLITE_OK;
 }
 
+/* With the first one the file becomes one of the version that has them. */
+enum reader_status remarks_file_layer(struct remarks_file *file, const char *name, int number)
+{
+    sqlite3_stmt *s = NULL;
+    char version[60];
+    if (file->read_only)
+        return reader_fail(READER_FAILED, "%s can be read only", file->path);
+    enum reader_status status = file->db ? READER_OK : make(file);
+    if (status != READER_OK)
+        return status;
+    snprintf(version, sizeof version, "PRAGMA user_version=%d", VERSION);
+    bool good = run(file, "BEGIN IMMEDIATE") &&
+                (file->layered ||
+                 (run(file, layer_schema) && run(file, in_layer_schema) && run(file, version)));
+    good = good &&
+           sqlite3_prepare_v2(file->db, "INSERT INTO layer VALUES(?,?)", -1, &s, NULL) ==
+               SQLITE_OK &&
+           sqlite3_bind_int(s, 1, number) == SQLITE_OK &&
+           sqlite3_bind_text(s, 2, name, -1, SQLITE_STATIC) == SQLITE_OK &&
+           sqlite3_step(s) == SQLITE_DONE;
+    sqlite3_finalize(s);
+    good = good && run(file, "COMMIT");
+    if (!good) {
+        status = file_fail(file);
+        run(file, "ROLLBACK");
+    }
+    file->layered = file->layered || good;
+    return status;
+}
+
+/* Which layer a new row is in. */
+static bool layer_write(struct remarks_file *file, long long id, int layer)
+{
+    sqlite3_stmt *s = NULL;
+    const bool good =
+        sqlite3_prepare_v2(file->db, "INSERT OR REPLACE INTO in_layer VALUES(?,?)", -1, &s,
+                           NULL) == SQLITE_OK &&
+        sqlite3_bind_int64(s, 1, id) == SQLITE_OK &&
+        sqlite3_bind_int(s, 2, layer) == SQLITE_OK && sqlite3_step(s) == SQLITE_DONE;
+    sqlite3_finalize(s);
+    return good;
+}
+
 enum reader_status remarks_file_write(struct remarks_file *file, struct remark_row *row)
 {
     sqlite3_stmt *s = NULL;
@@ -330,16 +432,23 @@ enum reader_status remarks_file_write(struct remarks_file *file, struct remark_r
         status = reader_anchor_keep(row->anchor, &anchor, &bytes);
     if (status != READER_OK)
         return status;
-    const bool good =
-        sqlite3_prepare_v2(file->db,
-                           "INSERT OR REPLACE INTO remark VALUES(?,?,?,?,?,?,?,?,?,?,?,?)", -1,
-                           &s, NULL) == SQLITE_OK &&
-        row_bind(s, row, anchor, bytes) && sqlite3_step(s) == SQLITE_DONE;
+    const bool both = row->id == 0 && row->remark.layer > 0; /* both, or neither */
+    bool good = (!both || run(file, "BEGIN IMMEDIATE")) &&
+                sqlite3_prepare_v2(
+                    file->db, "INSERT OR REPLACE INTO remark VALUES(?,?,?,?,?,?,?,?,?,?,?,?)",
+                    -1, &s, NULL) == SQLITE_OK &&
+                row_bind(s, row, anchor, bytes) && sqlite3_step(s) == SQLITE_DONE;
+    const long long id = good ? sqlite3_last_insert_rowid(file->db) : 0;
+    if (both)
+        good = good && sqlite3_reset(s) == SQLITE_OK &&
+               layer_write(file, id, row->remark.layer) && run(file, "COMMIT");
     if (!good)
         status = file_fail(file);
     else if (row->id == 0)
-        row->id = sqlite3_last_insert_rowid(file->db);
+        row->id = id;
     sqlite3_finalize(s);
+    if (both && !good)
+        run(file, "ROLLBACK");
     free(anchor);
     return status;
 }

@@ -24,10 +24,21 @@ struct remark_rows {
     int count, capacity;
 };
 
+/* The names of layers; the first is "". */
+struct remark_layers {
+    char names[READER_LAYERS_MAX][READER_LAYER_BYTES];
+    bool hidden[READER_LAYERS_MAX];
+    int count, written;
+};
+
 /* Reads what there is; a file that there is not has no rows. reads: no row is ever written.
  * Errors: as reader_remarks_open(). */
 enum reader_status remarks_file_open(const char *path, bool reads, struct remarks_file **out,
-                                     struct remark_rows *rows);
+                                     struct remark_rows *rows, struct remark_layers *layers);
+/* One more, layers->count, of that name. Errors: FAILED. */
+enum reader_status remarks_file_layer(struct remarks_file *file, const char *name, int number);
+/* Whether a layer can be called so. */
+bool remark_layer_named(const char *name);
 void remarks_file_close(struct remarks_file *file);
 bool remarks_file_read_only(const struct remarks_file *file);
 /* Writes a row; id 0: a new one, whose number becomes row->id. Makes the file where there is

@@ -45,7 +45,7 @@ double reader_remarks_play(const struct reader_remarks *remarks, bool erased,
     *count = 0;
     for (int i = 0; i < reader_remarks_count(remarks); i++) {
         const struct reader_remark *r = reader_remarks_get(remarks, i);
-        if (r->kind == READER_REMARK_INK && (r->gone_s == 0 || erased))
+        if (r->kind == READER_REMARK_INK && !r->hidden && (r->gone_s == 0 || erased))
             played[(*count)++] = (struct reader_played){i, r->made_s - lasts_s(r)};
     }
     qsort(played, (size_t)*count, sizeof *played, by_begin);

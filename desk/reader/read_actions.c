@@ -92,6 +92,7 @@ ACTION(template, read_grid_open(d, g_variant_get_string(value, NULL)))
 ACTION(template_open, read_grid_choose(d, true))
 ACTION(template_save, read_grid_choose(d, false))
 ACTION(grid, read_grid_show(d, !d->grid_shown))
+ACTION(layers, read_layers_open(d))
 ACTION(close_window, gtk_window_close(GTK_WINDOW(d->window)))
 
 static const GActionEntry entries[] = {
@@ -129,6 +130,7 @@ static const GActionEntry entries[] = {
     {.name = "template-open", .activate = template_open},
     {.name = "template-save", .activate = template_save},
     {.name = "grid", .activate = grid},
+    {.name = "layers", .activate = layers},
     {.name = "close", .activate = close_window},
 };
 
@@ -154,6 +156,7 @@ static const struct desk_row menu_rows[] = {
     {"win.redo", "Redo", "<Control><Shift>z"},
     {"win.highlight", "Highlight (H)", "<Control>h"},
     {"win.note", "Note (N)", "<Control>n"},
+    {"win.layers", "Readers' layers…", "<Control>l"},
     {"win.pen", "Draw (D)", "<Control><Shift>d"},
     {"win.eraser", "Erase ink (E)", "<Control>e"},
     {"win.spots", "Erase spots of ink (Shift+E)", "<Control><Shift>e"},

@@ -10,6 +10,7 @@
  *     read_hand.c      pointer, wheel, touch: scrolling, selecting
  *     read_remarks.c   highlights, typed notes, undo
  *     read_list.c      their list
+ *     read_layers.c    readers' layers: which are shown, which is written
  *     read_ink.c       ink
  *     read_spots.c     spots that are taken out of it
  *     read_edit.c, read_edit_keys.c, read_edit_im.c, read_save.c  editing: read_edit.h
@@ -188,6 +189,12 @@ bool read_grid_move(struct read_desk *d, double x);
 bool read_grid_release(struct read_desk *d);
 bool read_grid_key(struct read_desk *d, guint key);
 void read_grid_draw(struct read_desk *d, GtkSnapshot *snapshot);
+
+/* read_layers.c */
+void read_layers_begin(struct read_desk *d); /* the one of the user's name is written */
+void read_layers_show(struct read_desk *d, int layer, bool shown);
+void read_layers_write(struct read_desk *d, const char *name); /* "": the first */
+void read_layers_open(struct read_desk *d);                    /* a small window of them */
 
 /* read_tiles.c */
 struct read_tiles *read_tiles_create(void);

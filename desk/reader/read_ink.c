@@ -102,7 +102,8 @@ static int stroke_at(struct read_desk *d, double px, double py, double reach)
     for (int i = d->remarks ? reader_remarks_count(d->remarks) - 1 : -1; i >= 0; i--) {
         const struct reader_remark *r = reader_remarks_get(d->remarks, i);
         double x, y;
-        if (r->kind != READER_REMARK_INK || r->gone_s != 0 || !read_text_origin(d, r, &x, &y))
+        if (r->kind != READER_REMARK_INK || !reader_remark_seen(r) ||
+            r->layer != reader_remarks_written(d->remarks) || !read_text_origin(d, r, &x, &y))
             continue;
         for (int k = 0; k < r->points_count; k++)
             if (hypot(x + d->size_px * (double)r->points[k].x - px,

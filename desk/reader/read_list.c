@@ -22,7 +22,7 @@ static char *row_text(const struct reader_remark *r)
     const char *quoted = reader_anchor_quotation(r->anchor, &bytes);
     char *part = g_utf8_make_valid(quoted, (gssize)MIN(bytes, 60)),
          *headings = g_strdup(reader_anchor_headings(r->anchor));
-    char *text = g_strdup_printf("%s%s: “%s”%s%s%s%s",
+    char *text = g_strdup_printf("%s%s%s%s: “%s”%s%s%s%s", r->by, *r->by ? " — " : "",
                                  r->orphan ? _("Gone from the text. ") : "", _(kinds[r->kind]),
                                  g_strdelimit(part, "\n", ' '), r->text[0] ? " — " : "",
                                  r->text, r->orphan ? " · " : "", r->orphan ? headings : "");
@@ -40,7 +40,7 @@ void read_list_fill(struct read_desk *d)
         gtk_list_box_remove(GTK_LIST_BOX(d->remarks_list), row);
     for (int i = 0; d->remarks && i < reader_remarks_count(d->remarks); i++) {
         const struct reader_remark *r = reader_remarks_get(d->remarks, i);
-        if (r->gone_s != 0)
+        if (!reader_remark_seen(r))
             continue;
         char *text = row_text(r);
         GtkWidget *label = gtk_label_new(text);

@@ -32,7 +32,7 @@ static void marks_set(struct read_miniatures *m)
     GArray *marks = g_array_new(FALSE, FALSE, sizeof(struct reader_mark));
     for (int i = 0; d->remarks && i < reader_remarks_count(d->remarks); i++) {
         const struct reader_remark *r = reader_remarks_get(d->remarks, i);
-        if (r->gone_s == 0 && !r->orphan)
+        if (reader_remark_seen(r) && !r->orphan)
             mark_add(marks, r->begin, MAX(r->end, r->begin + 1),
                      r->kind == READER_REMARK_TYPED ? d->colours->noted : d->colours->marked);
     }

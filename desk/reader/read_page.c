@@ -43,7 +43,7 @@ static void remarks_mark(struct read_desk *d, GArray *marks)
 {
     for (int i = 0; d->remarks && i < reader_remarks_count(d->remarks); i++) {
         const struct reader_remark *r = reader_remarks_get(d->remarks, i);
-        if (r->kind != READER_REMARK_INK && r->gone_s == 0 && !r->orphan)
+        if (r->kind != READER_REMARK_INK && reader_remark_seen(r) && !r->orphan)
             range_mark(d, (struct read_range){r->begin, r->end},
                        r->kind == READER_REMARK_TYPED ? d->colours->noted : d->colours->marked,
                        marks);

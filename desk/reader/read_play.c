@@ -239,9 +239,9 @@ static void tell(struct read_desk *d, const struct input *i)
     for (int k = 0; d->remarks && k < reader_remarks_count(d->remarks); k++) {
         const struct reader_remark *r = reader_remarks_get(d->remarks, k);
         struct reader_box box;
-        remarks += r->gone_s == 0;
-        orphans += r->gone_s == 0 && r->orphan;
-        if (r->kind == READER_REMARK_INK && r->gone_s == 0 && !r->orphan &&
+        remarks += reader_remark_seen(r);
+        orphans += reader_remark_seen(r) && r->orphan;
+        if (r->kind == READER_REMARK_INK && reader_remark_seen(r) && !r->orphan &&
             reader_view_boxes(d->view, r->begin, r->begin + 1, &box, 1) > 0) {
             ink_x = box.x + d->size_px * (r->x + (double)r->points[0].x);
             ink_y = box.y + d->size_px * (r->y + (double)r->points[0].y);
@@ -296,6 +296,18 @@ static void template(struct read_desk *d, const struct input *i)
     read_grid_open(d, i->text);
 }
 
+static void layer(struct read_desk *d, const struct input *i)
+{
+    read_layers_write(d, i->text);
+}
+
+static void hide(struct read_desk *d, const struct input *i)
+{
+    for (int k = 0; d->remarks && k < reader_remarks_layers(d->remarks); k++)
+        if (strcmp(reader_remarks_layer(d->remarks, k), i->text) == 0)
+            read_layers_show(d, k, !reader_remarks_layer_shown(d->remarks, k));
+}
+
 static void template_save(struct read_desk *d, const struct input *i)
 {
     read_grid_save(d, i->text);
@@ -338,6 +350,8 @@ static const struct word words[] = {{"down", 3, down},
                                     {"answer", -1, answer},
                                     {"template", -1, template},
                                     {"save-template", -1, template_save},
+                                    {"layer", -1, layer},
+                                    {"hide", -1, hide},
                                     {"close", 0, end}};
 
 /* ---- reading ---- */

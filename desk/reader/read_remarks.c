@@ -49,6 +49,8 @@ void read_remarks_open(struct read_desk *d, const char *file)
     read_remarks_close(d);
     if (reader_remarks_open(file, &d->remarks) != READER_OK)
         d->say(d, reader_error());
+    else
+        read_layers_begin(d);
     read_remarks_find(d);
 }
 
@@ -188,8 +190,8 @@ int read_remarks_at(const struct read_desk *d, size_t byte)
 {
     for (int i = d->remarks ? reader_remarks_count(d->remarks) - 1 : -1; i >= 0; i--) {
         const struct reader_remark *r = reader_remarks_get(d->remarks, i);
-        if (r->kind != READER_REMARK_INK && r->gone_s == 0 && !r->orphan && byte >= r->begin &&
-            byte < r->end)
+        if (r->kind != READER_REMARK_INK && reader_remark_seen(r) && !r->orphan &&
+            byte >= r->begin && byte < r->end)
             return i;
     }
     return -1;
@@ -299,6 +301,7 @@ void read_remarks_edit(struct read_desk *d, int index)
 {
     struct typing *t = g_new0(struct typing, 1);
     const struct reader_remark *r = reader_remarks_get(d->remarks, index);
+    const bool own = r->layer == reader_remarks_written(d->remarks);
     struct reader_box box = {.x = d->setup.width_px / 2, .y = 40, .width = 1, .height = 1};
     GtkWidget *all = gtk_box_new(GTK_ORIENTATION_VERTICAL, 6),
               *erase = gtk_button_new_with_label(_("Erase this note")),
@@ -312,6 +315,8 @@ void read_remarks_edit(struct read_desk *d, int index)
                          .before = g_strdup(r->text)};
     GtkTextBuffer *buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(t->text));
     gtk_text_buffer_set_text(buffer, r->text, -1);
+    gtk_text_view_set_editable(GTK_TEXT_VIEW(t->text), own); /* others' are read */
+    gtk_widget_set_sensitive(erase, own);
     gtk_text_view_set_wrap_mode(GTK_TEXT_VIEW(t->text), GTK_WRAP_WORD_CHAR);
     desk_name(t->text, _("What the note says"), NULL);
     gtk_widget_set_size_request(scrolled, 280, 120);

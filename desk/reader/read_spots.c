@@ -123,7 +123,8 @@ static bool stroke_cut(struct read_desk *d, const struct reader_remark *r, GArra
 {
     struct cut c = {.desk = d, .from = r, .em = d->size_px, .pieces = pieces};
     const guint before = pieces->len;
-    if (r->kind != READER_REMARK_INK || r->gone_s != 0 || !read_text_origin(d, r, &c.x, &c.y))
+    if (r->kind != READER_REMARK_INK || !reader_remark_seen(r) ||
+        r->layer != reader_remarks_written(d->remarks) || !read_text_origin(d, r, &c.x, &c.y))
         return false;
     c.run = g_array_new(FALSE, FALSE, sizeof(struct reader_ink_point));
     for (int i = 0; i < r->points_count; i++) {

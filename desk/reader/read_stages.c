@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { STAGES_AT_ONCE = 3 };
+enum { STAGES_AT_ONCE = 3, EDITED_MS = 900 };
 
 struct read_stages *read_stages_create(struct read_desk *d)
 {
@@ -20,6 +20,7 @@ struct read_stages *read_stages_create(struct read_desk *d)
     stages->desk = d;
     stages->all = g_ptr_array_new();
     stages->again = g_array_new(FALSE, FALSE, sizeof(int));
+    stages->edited = g_array_new(FALSE, FALSE, sizeof(int));
     return stages;
 }
 
@@ -277,10 +278,64 @@ void read_stages_again(struct read_desk *d)
     g_array_set_size(stages->again, 0);
 }
 
+/* ---- edited programs ---- */
+
+static void edited_forget(struct read_stages *stages)
+{
+    if (stages->resting)
+        g_source_remove(stages->resting);
+    stages->resting = 0;
+    g_array_set_size(stages->edited, 0);
+}
+
+/* Those that still do not run are compiled and run with the text that they have now. */
+static gboolean edited_start(gpointer data)
+{
+    struct read_stages *stages = data;
+    const struct reader_document *d = stages->desk->document;
+    stages->resting = 0;
+    for (int block = 0; block < d->blocks_count && stages->edited->len; block++) {
+        const int number = program_number(d, block);
+        for (guint i = 0; i < stages->edited->len && number >= 0; i++) {
+            if (g_array_index(stages->edited, int, i) != number)
+                continue;
+            struct stage *s = read_stage_of(stages, block);
+            if (!s)
+                s = stage_new(stages, block);
+            if (!s->run)
+                stage_start(stages, s);
+        }
+    }
+    g_array_set_size(stages->edited, 0);
+    return G_SOURCE_REMOVE;
+}
+
+/* Its text is another: it ends, and one that was running, or was not compiled, is compiled when
+ * the hand rests. */
+static void edited_note(struct read_stages *stages, const struct stage *s)
+{
+    bool known = false;
+    for (guint i = 0; i < stages->edited->len; i++)
+        known = known || g_array_index(stages->edited, int, i) == s->number;
+    if (s->program && (s->run || s->uncompiled) && !known)
+        g_array_append_val(stages->edited, s->number);
+}
+
+/* Any edit: there is time yet. */
+static void edited_wait(struct read_stages *stages)
+{
+    if (!stages->edited->len)
+        return;
+    if (stages->resting)
+        g_source_remove(stages->resting);
+    stages->resting = g_timeout_add(EDITED_MS, edited_start, stages);
+}
+
 void read_stages_forget(struct read_desk *d)
 {
     struct read_stages *stages = d->stages;
     again_note(stages);
+    edited_forget(stages);
     for (guint i = 0; i < stages->all->len; i++) {
         struct stage *s = g_ptr_array_index(stages->all, i);
         if (d->page)
@@ -320,6 +375,7 @@ void read_stages_follow_document(struct read_desk *d, const struct reader_docume
             s->number = program_number(d->document, now);
             continue;
         }
+        edited_note(stages, s);
         stages->held = stages->held == s ? NULL : stages->held;
         stages->keyed = stages->keyed == s ? NULL : stages->keyed;
         if (d->page)
@@ -327,6 +383,7 @@ void read_stages_follow_document(struct read_desk *d, const struct reader_docume
         g_ptr_array_remove_index(stages->all, i - 1);
         stage_free(s);
     }
+    edited_wait(stages);
 }
 
 void read_stages_finish(struct read_desk *d)
@@ -346,6 +403,7 @@ void read_stages_destroy(struct read_stages *stages)
 {
     g_ptr_array_unref(stages->all);
     g_array_unref(stages->again);
+    g_array_unref(stages->edited);
     g_free(stages);
 }
 

@@ -36,7 +36,9 @@ struct read_stages {
     struct stage *keyed; /* keys go to it */
     guint filling, tick;
     gint64 tick_us;
-    GArray *again; /* of the programs that the document had, those that were running */
+    GArray *again;  /* of the programs that the document had, those that were running */
+    GArray *edited; /* numbers of those whose text is being edited */
+    guint resting;  /* they are compiled when nothing was typed for a while */
 };
 
 /* That of a block of the document; NULL: it has not been seen yet. */

@@ -191,6 +191,36 @@ static void programs_run(void **state)
 #undef PROGRAM
 }
 
+/* One that runs and is edited in the page is compiled anew when the hand rests; one that rests
+ * is not. */
+static void edited_programs_are_compiled(void **state)
+{
+    static const char program[] =
+        "# Edited\n\n```c paris 100x100\n#include <stdio.h>\nint main ()\n{\n    for (;;)\n"
+        "        puts (\"one\");\n}\n```\n\n```c paris 100x100\nint main () { return 0; "
+        "}\n```\n";
+    char lines[2000];
+    (void)state;
+    if (!jail_possible())
+        skip_because("this kernel has no Landlock");
+    played_write("edited.md", program);
+    snprintf(
+        lines, sizeof lines,
+        "0.4 stage 1\n0.4 await 1 40\n0.5 tell %s\n0.6 action edit\n0.7 select one\n0.8 type "
+        "twenty\n0.8 tell %s\n0.8 await 2 40\n0.8 tell %s\n0.9 action undo\n1 tell %s\n",
+        played_path("first"), played_path("meanwhile"), played_path("second"),
+        played_path("undone"));
+    played_run(lines, played_path("edited.md"));
+    played_well();
+    assert_string_equal(played_told("first", "printed1.1"), "one");
+    /* it is the second one now: it was seen again behind the other */
+    assert_string_equal(stage_told("meanwhile", "stage1").runs, "rests");
+    assert_string_equal(stage_told("second", "stage1").runs, "rests");
+    assert_string_equal(stage_told("second", "stage2").runs, "runs");
+    assert_string_equal(played_told("second", "printed2.1"), "twenty");
+    assert_string_equal(stage_told("undone", "stage2").runs, "rests");
+}
+
 /* By keys alone: Tab comes to it, Return runs it and gives it the keys, and after Escape
  * Return stops it. */
 static void demonstrations_are_reached_by_keys(void **state)
@@ -311,6 +341,7 @@ int main(void)
         cmocka_unit_test(demonstrations_run),
         cmocka_unit_test(demonstrations_have_controls),
         cmocka_unit_test(programs_run),
+        cmocka_unit_test(edited_programs_are_compiled),
         cmocka_unit_test(demonstrations_are_reached_by_keys),
         cmocka_unit_test(three_run_and_rest_unseen),
         cmocka_unit_test(hostile_documents_are_shown),

@@ -112,6 +112,37 @@ static void templates_are_chosen_and_dragged(void **state)
     played_says(0, "bad.template:2: a place is columns of the grid's 1..1");
 }
 
+/* Two readers' notes beside each other; one's are hidden; HTML says whose they are. */
+static void readers_have_layers(void **state)
+{
+    char lines[1500];
+    (void)state;
+    played_write("layers.md", "# Layers\n\nOne word, and another word.\n");
+    snprintf(
+        lines, sizeof lines,
+        "0.3 select One word\n0.4 note Mine.\n0.5 layer Anna\n0.6 select another\n0.7 note "
+        "Hers.\n0.8 tell %s\n0.9 layer \n1 hide Anna\n1.2 tell %s\n1.3 hide Anna\n1.4 "
+        "tell %s\n1.5 action layers\n1.7 scroll 1\n",
+        played_path("both"), played_path("mine"), played_path("again"));
+    played_run(lines, played_path("layers.md"));
+    played_well();
+    assert_string_equal(played_told("both", "remarks"), "2");
+    assert_string_equal(played_told("mine", "remarks"), "1");
+    assert_string_equal(played_told("again", "remarks"), "2");
+    played.arguments[3] = "--remarks";
+    played.arguments[4] = "-o";
+    played.arguments[5] = played_path("layers.html");
+    played.arguments[6] = NULL;
+    played_window();
+    char html[60000];
+    FILE *file = fopen(played_path("layers.html"), "r");
+    assert_non_null(file);
+    html[fread(html, 1, sizeof html - 1, file)] = '\0';
+    fclose(file);
+    assert_non_null(strstr(html, "<b>Anna</b>: <q>another</q>"));
+    assert_null(strstr(html, "</b>: <q>One word"));
+}
+
 /* From a citation to its entry, and from there back. */
 static void bibliographies_lead_back(void **state)
 {
@@ -526,6 +557,7 @@ int main(void)
         cmocka_unit_test(line_is_kept),
         cmocka_unit_test(notes_links_and_back),
         cmocka_unit_test(templates_are_chosen_and_dragged),
+        cmocka_unit_test(readers_have_layers),
         cmocka_unit_test(bibliographies_lead_back),
         cmocka_unit_test(finds_and_selects),
         cmocka_unit_test(several_files_are_one),

@@ -108,6 +108,7 @@ static void file_try(const uint8_t *bytes, size_t count)
     }
     for (int i = 0; i < reader_remarks_count(remarks); i++) {
         const struct reader_remark *r = reader_remarks_get(remarks, i);
+        must(r->layer >= 0 && r->layer < reader_remarks_layers(remarks) && r->by);
         must(r->text && r->anchor && (r->points_count == 0 || r->points));
         anchor_check(r->anchor);
     }
@@ -134,9 +135,14 @@ static const uint8_t *valid_file(size_t *count)
         return bytes;
     unlink(path);
     must(reader_remarks_open(path, &remarks) == READER_OK);
-    for (size_t i = 0; i < sizeof what / sizeof *what; i++)
+    for (size_t i = 0; i < sizeof what / sizeof *what; i++) {
+        if (i == 1) { /* the others are another reader's */
+            must(reader_remarks_layer_add(remarks, "Anna", &index) == READER_OK);
+            reader_remarks_write_layer(remarks, index);
+        }
         must(reader_remarks_add(remarks, &what[i], plain, sizeof plain - 1, 5 + i, 14 + i,
                                 &index) == READER_OK);
+    }
     reader_remarks_close(remarks);
     FILE *file = fopen(path, "rb");
     must(file && fseek(file, 0, SEEK_END) == 0);

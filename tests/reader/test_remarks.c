@@ -164,6 +164,69 @@ static void ink_is_played_in_order(void **state)
     reader_remarks_close(remarks);
 }
 
+/* ---- layers ---- */
+
+/* Two readers: each changes only what is its own; what is hidden is not to be shown. */
+static void layers_are_kept(void **state)
+{
+    (void)state;
+    const struct reader_ink_point dot = {1, 1, 0.5f, 0};
+    const struct reader_remark ink = {.kind = READER_REMARK_INK,
+                                      .width = 0.2,
+                                      .rgba = 0x2060c0b0,
+                                      .points = (struct reader_ink_point *)(uintptr_t)&dot,
+                                      .points_count = 1};
+    struct reader_remark words = typed("first");
+    struct reader_remarks *remarks = open_now(text);
+    struct reader_played played[4];
+    int anna, ben, count;
+    assert_int_equal(reader_remarks_layers(remarks), 1);
+    add(remarks, &words, "marsh");
+    assert_int_equal(reader_remarks_layer_add(remarks, "Anna Ö.", &anna), READER_OK);
+    assert_int_equal(reader_remarks_layer_add(remarks, "Ben", &ben), READER_OK);
+    assert_int_equal(reader_remarks_layer_add(remarks, "Anna Ö.", &count), READER_OK);
+    assert_true(anna == 1 && ben == 2 && count == 1);
+    reader_remarks_write_layer(remarks, anna);
+    add(remarks, &ink, "river");
+    assert_int_equal(reader_remarks_erase(remarks, 0, true), READER_BAD_ARGUMENT);
+    assert_non_null(strstr(reader_error(), "the layer that has no name"));
+    assert_int_equal(reader_remarks_move(remarks, 1, 3, 4), READER_OK);
+    reader_remarks_close(remarks);
+
+    remarks = open_now(text);
+    assert_int_equal(reader_remarks_layers(remarks), 3);
+    assert_string_equal(reader_remarks_layer(remarks, 1), "Anna Ö.");
+    assert_string_equal(reader_remarks_layer(remarks, 7), "");
+    assert_string_equal(reader_remarks_get(remarks, 0)->by, "");
+    assert_string_equal(reader_remarks_get(remarks, 1)->by, "Anna Ö.");
+    assert_true(reader_remarks_get(remarks, 1)->x == 3);
+    assert_int_equal(reader_remarks_move(remarks, 1, 0, 0), READER_BAD_ARGUMENT);
+    assert_int_equal(reader_remarks_erase(remarks, 0, true), READER_OK);
+    assert_int_equal(reader_remarks_erase(remarks, 0, false), READER_OK);
+    reader_remarks_play(remarks, false, played, &count);
+    assert_int_equal(count, 1);
+    reader_remarks_layer_show(remarks, anna, false);
+    assert_false(reader_remark_seen(reader_remarks_get(remarks, 1)));
+    assert_true(reader_remark_seen(reader_remarks_get(remarks, 0)));
+    reader_remarks_play(remarks, true, played, &count);
+    assert_int_equal(count, 0);
+    reader_remarks_write_layer(remarks, anna); /* is shown, then */
+    assert_true(reader_remark_seen(reader_remarks_get(remarks, 1)));
+    assert_int_equal(reader_remarks_written(remarks), anna);
+    assert_int_equal(reader_remarks_layer_add(remarks, "", &count), READER_BAD_ARGUMENT);
+    assert_int_equal(reader_remarks_layer_add(remarks, "a\nb", &count), READER_BAD_ARGUMENT);
+    assert_int_equal(reader_remarks_layer_add(remarks, "\xc3", &count), READER_BAD_ARGUMENT);
+    assert_int_equal(reader_remarks_layer_add(remarks, "\xc2\x9b", &count),
+                     READER_BAD_ARGUMENT);
+    for (int i = 3; i <= READER_LAYERS_MAX; i++) {
+        char name[20];
+        snprintf(name, sizeof name, "reader %d", i);
+        assert_int_equal(reader_remarks_layer_add(remarks, name, &count),
+                         i < READER_LAYERS_MAX ? READER_OK : READER_TOO_LARGE);
+    }
+    reader_remarks_close(remarks);
+}
+
 static void wrong_remarks_are_refused(void **state)
 {
     (void)state;
@@ -331,8 +394,12 @@ static void foreign_files_are_left(void **state)
     is_refused("another program's");
     unlink(path);
     valid_make(3);
-    sql_run("PRAGMA user_version=2");
+    sql_run("PRAGMA user_version=3");
     is_refused("newer version");
+    unlink(path);
+    valid_make(3);
+    sql_run("PRAGMA user_version=2"); /* without its tables */
+    is_refused("not as notes are");
     unlink(path);
     valid_make(3);
     sql_run("CREATE TRIGGER t AFTER UPDATE ON remark BEGIN DELETE FROM remark; END");
@@ -389,6 +456,32 @@ static void damaged_files_are_left(void **state)
 }
 
 /* A folder that cannot be written to. */
+/* Layers that are not as layers are. */
+static void damaged_layers_are_left(void **state)
+{
+    static const char *const harms[] = {"UPDATE layer SET id=3 WHERE id=2",
+                                        "UPDATE layer SET name=''",
+                                        "UPDATE layer SET name=x'0a'",
+                                        "UPDATE in_layer SET layer=9",
+                                        "UPDATE in_layer SET layer=-1",
+                                        "DELETE FROM layer WHERE id=1",
+                                        "UPDATE layer SET name='a' || char(27) || 'b'"};
+    (void)state;
+    for (size_t i = 0; i < sizeof harms / sizeof *harms; i++) {
+        int layer;
+        struct reader_remark words = typed("hers");
+        struct reader_remarks *remarks = open_now(text);
+        assert_int_equal(reader_remarks_layer_add(remarks, "Anna", &layer), READER_OK);
+        assert_int_equal(reader_remarks_layer_add(remarks, "Ben", &layer), READER_OK);
+        reader_remarks_write_layer(remarks, layer);
+        add(remarks, &words, "marsh");
+        reader_remarks_close(remarks);
+        sql_run(harms[i]);
+        is_refused("damaged");
+        unlink(path);
+    }
+}
+
 static void folder_missing(void **state)
 {
     (void)state;
@@ -419,12 +512,14 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(remarks_are_kept, begin),
+        cmocka_unit_test_setup(layers_are_kept, begin),
         cmocka_unit_test_setup(ink_is_played_in_order, begin),
         cmocka_unit_test_setup(wrong_remarks_are_refused, begin),
         cmocka_unit_test_setup(remarks_follow_the_text, begin),
         cmocka_unit_test_setup(killed_has_lost_nothing, begin),
         cmocka_unit_test_setup(foreign_files_are_left, begin),
         cmocka_unit_test_setup(damaged_files_are_left, begin),
+        cmocka_unit_test_setup(damaged_layers_are_left, begin),
         cmocka_unit_test_setup(folder_missing, begin),
     };
     if (!mkdtemp(folder))
