@@ -129,6 +129,7 @@ struct read_desk {
     /* what readers leave */
     struct reader_remarks *remarks;   /* NULL: none are kept */
     GtkWidget *remarks_list, *typing; /* typing: the small window of a note */
+    GtkWidget *layers;                /* that of layers, while it is open */
     GArray *deeds;                    /* struct read_deed */
     guint deeds_done, syncing;
     unsigned group; /* of deeds that are undone together; their number so far */

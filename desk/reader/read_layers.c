@@ -85,6 +85,7 @@ static gboolean popover_drop(gpointer popover)
 static void closed(GtkPopover *popover, struct opened *o)
 {
     (void)popover;
+    o->desk->layers = NULL;
     g_idle_add(popover_drop, o->popover);
 }
 
@@ -119,6 +120,10 @@ static void rows_add(struct opened *o, GtkWidget *grid)
 
 void read_layers_open(struct read_desk *d)
 {
+    if (d->layers) { /* the same key closes it */
+        gtk_popover_popdown(GTK_POPOVER(d->layers));
+        return;
+    }
     if (!d->remarks) {
         d->say(d, _("Notes are not kept for this document."));
         return;
@@ -140,5 +145,6 @@ void read_layers_open(struct read_desk *d)
     g_object_set_data_full(G_OBJECT(o->popover), "owner", o, g_free);
     g_signal_connect(o->entry, "activate", G_CALLBACK(added), o);
     g_signal_connect(o->popover, "closed", G_CALLBACK(closed), o);
+    d->layers = o->popover;
     gtk_popover_popup(GTK_POPOVER(o->popover));
 }

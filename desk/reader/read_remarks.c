@@ -66,6 +66,8 @@ void read_remarks_close(struct read_desk *d)
 {
     if (d->typing)
         gtk_popover_popdown(GTK_POPOVER(d->typing));
+    if (d->layers)
+        gtk_popover_popdown(GTK_POPOVER(d->layers));
     if (d->syncing)
         g_source_remove(d->syncing);
     d->syncing = 0;

@@ -173,8 +173,11 @@ static enum font_status break_here(struct filling *f, struct paragraph *p, int f
         }
         if (!count)
             f->widths[count++] = fmax(narrow, frame_measure(&template->frames[f->frame]));
+        int told = count; /* the last one is that of all behind it: the fewest that say so */
+        while (told > 1 && f->widths[told - 1] == f->widths[told - 2])
+            told--;
         if (!from)
-            status = lines_break(f->t, p, f->widths, count);
+            status = lines_break(f->t, p, f->widths, told);
         else if (more && p->lines_count - from > count)
             continue;
         else if (!rest_fits(p, from, f->widths, count))

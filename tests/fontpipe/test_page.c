@@ -179,6 +179,7 @@ static void carets_and_hits_agree(void **state)
         size_t bytes = page_random_text(&seed, text, 1 + (int)(random_next(&seed) % 25));
         struct page_manner manner = page_random_manner(&seed);
         manner.begins_column = false;
+        manner.begins_page = 0;
         struct page_text *t = one_column(120 + 10 * (turn % 20), text, bytes, &manner, &id);
         struct page_place at = {id, 0};
         do {
