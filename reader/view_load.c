@@ -370,7 +370,8 @@ enum reader_status view_load(struct reader_view *view, int from, int to)
         view_unload(view);
         view->begin = view->end = from;
     }
-    const int least = from < view->begin ? (from > AHEAD ? from - AHEAD : 0) : view->begin;
+    const int ahead = view_bands(&view->setup) ? 1 : AHEAD; /* a band is a window's worth */
+    const int least = from < view->begin ? (from > ahead ? from - ahead : 0) : view->begin;
     const int loaded_begin = view->begin, loaded_end = view->end;
     while (status == READER_OK && view->begin > least)
         status = passage_load(view, view->begin - 1);
