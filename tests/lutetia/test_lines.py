@@ -104,6 +104,14 @@ def compile_run(folder, files, *flags, **variables):
     return subprocess.run(["./prog"], cwd=folder, env=environment, capture_output=True, text=True, timeout=100)
 
 
+def loaded(path):
+    """What of a program is loaded to run: its bytes, without the build's name, and where they go."""
+    bytes_only = path + ".loaded"
+    subprocess.run(["objcopy", "-O", "binary", "--remove-section=.note.gnu.build-id", path, bytes_only], check=True)
+    segments = subprocess.run(["readelf", "-lW", path], capture_output=True, text=True, check=True).stdout
+    return open(bytes_only, "rb").read(), [line.split()[2:6] for line in segments.split("\n") if line.startswith("  LOAD")]
+
+
 def place(files):
     """The place of the marked call: "file:line"."""
     if isinstance(files, str):
@@ -130,6 +138,12 @@ with tempfile.TemporaryDirectory() as folder:
                 assert ended.returncode == 1, ended
                 assert ended.stderr.count("\n") == 1, ended.stderr
                 begins_right(ended.stderr, files, call)
+            # A program that runs with lines is the one without: no instruction and no byte more is loaded.
+            for files in (DIRECT, INLINED, INCLUDED, HANDLED):
+                compile_run(folder, files, level, "-w", CC=compiler)
+                with_lines = loaded(os.path.join(folder, "prog"))
+                compile_run(folder, files, level, "-w", "-g0", CC=compiler)
+                assert with_lines[1] and with_lines == loaded(os.path.join(folder, "prog")), (compiler, level)
     ended = compile_run(folder, HANDLED, "-w")
     lines = ended.stdout.splitlines()
     assert ended.returncode == 0 and len(lines) == 1000 and len(set(lines)) == 1, ended
