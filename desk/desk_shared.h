@@ -1,5 +1,5 @@
-/* desk_shared.h - what the studio's and the reader's window share: names for screen readers, a
- * pen's pressure. */
+/* desk_shared.h - what the studio's and the reader's window share: names for screen readers,
+ * popovers, a pen's pressure. */
 #ifndef LUTETIA_DESK_SHARED_H
 #define LUTETIA_DESK_SHARED_H
 
@@ -11,6 +11,11 @@
 void desk_name(GtkWidget *widget, const char *name, const char *tip);
 /* The same for the bars of a scrolled window, which later GTK shows to screen readers. */
 void desk_name_bars(GtkWidget *scrolled, const char *name);
+
+/* desk_popover.c: a popover that was made to be opened once. For its signal "closed": it goes
+ * when GTK has done with it. And at once, before its window goes. */
+void desk_popover_drop_later(GtkWidget *popover);
+void desk_popover_end(GtkWidget *popover);
 
 struct desk_pen;
 /* desk_pen.c */

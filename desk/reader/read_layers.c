@@ -76,17 +76,11 @@ static void added(GtkEntry *entry, struct opened *o)
     gtk_popover_popdown(GTK_POPOVER(o->popover));
 }
 
-static gboolean popover_drop(gpointer popover)
-{
-    gtk_widget_unparent(popover);
-    return G_SOURCE_REMOVE;
-}
-
 static void closed(GtkPopover *popover, struct opened *o)
 {
     (void)popover;
     o->desk->layers = NULL;
-    g_idle_add(popover_drop, o->popover);
+    desk_popover_drop_later(o->popover);
 }
 
 static GtkWidget *check_add(struct opened *o, GtkWidget *grid, int layer, int column,

@@ -65,9 +65,9 @@ void read_remarks_find(struct read_desk *d)
 void read_remarks_close(struct read_desk *d)
 {
     if (d->typing)
-        gtk_popover_popdown(GTK_POPOVER(d->typing));
+        desk_popover_end(d->typing);
     if (d->layers)
-        gtk_popover_popdown(GTK_POPOVER(d->layers));
+        desk_popover_end(d->layers);
     if (d->syncing)
         g_source_remove(d->syncing);
     d->syncing = 0;
@@ -261,12 +261,6 @@ static void typed_changed(GtkTextBuffer *buffer, struct typing *t)
         t->source = g_timeout_add(TYPED_MS, typed_write, t);
 }
 
-static gboolean popover_drop(gpointer popover)
-{
-    gtk_widget_unparent(popover);
-    return G_SOURCE_REMOVE;
-}
-
 /* One deed for all that was typed. */
 static void typing_end(GtkPopover *popover, struct typing *t)
 {
@@ -286,7 +280,7 @@ static void typing_end(GtkPopover *popover, struct typing *t)
     t->before = NULL;
     d->typing = NULL;
     d->acted(d);
-    g_idle_add(popover_drop, t->popover);
+    desk_popover_drop_later(t->popover);
 }
 
 static void erase_clicked(GtkButton *button, struct typing *t)

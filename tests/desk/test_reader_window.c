@@ -112,7 +112,8 @@ static void templates_are_chosen_and_dragged(void **state)
     played_says(0, "bad.template:2: a place is columns of the grid's 1..1");
 }
 
-/* Two readers' notes beside each other; one's are hidden; HTML says whose they are. */
+/* Two readers' notes beside each other; one's are hidden; HTML says whose they are. The window
+ * is closed with theirs open. */
 static void readers_have_layers(void **state)
 {
     char lines[1500];
@@ -122,7 +123,8 @@ static void readers_have_layers(void **state)
         lines, sizeof lines,
         "0.3 select One word\n0.4 note Mine.\n0.5 layer Anna\n0.6 select another\n0.7 note "
         "Hers.\n0.8 tell %s\n0.9 layer \n1 hide Anna\n1.2 tell %s\n1.3 hide Anna\n1.4 "
-        "tell %s\n1.5 action layers\n1.7 action layers\n",
+        "tell %s\n1.5 action layers\n1.7 action layers\n1.8 action "
+        "layers\n",
         played_path("both"), played_path("mine"), played_path("again"));
     played_run(lines, played_path("layers.md"));
     played_well();
