@@ -18,23 +18,27 @@ struct desk_springs {
     guint tick;
     void (*rests)(struct desk *d); /* then it is let into the paper */
     gint64 seen_us;                /* the frame clock's time of the last picture */
-    unsigned long sent;            /* the last stencil */
 };
 
 #define STILL_MOST 0.1 /* seconds at the most that go by between two deeds and were not seen */
 
-static void message_send(struct desk *d, enum studio_message_kind kind)
+/* False: it cannot be drawn; said. */
+static bool drawn(struct desk *d, struct paper_screen *screen, int *x, int *y)
 {
-    struct studio_message m = {.kind = kind};
-    int x = 0, y = 0;
-    if (studio_springs_screen(d->springs->springs, &m.screen, &x, &y) != PAPER_OK) {
+    const bool good = studio_springs_screen(d->springs->springs, screen, x, y) == PAPER_OK;
+    if (!good)
         desk_say(d, studio_session_error());
-        return;
-    }
-    m.type_x = x;
-    m.type_y = y;
-    if (kind != STUDIO_MESSAGE_SCREEN || m.screen.gray)
-        d->springs->sent = studio_paper_send(d->paper, m);
+    return good;
+}
+
+/* The stencil moves also while the paper is busy. */
+static void stencil_show(struct desk *d)
+{
+    struct paper_screen screen;
+    int x = 0, y = 0;
+    if (drawn(d, &screen, &x, &y))
+        studio_paper_show_now(d->paper, &(struct studio_shown){x, y, screen.width_px,
+                                                               screen.height_px, screen.gray});
 }
 
 static void step(struct desk_springs *s, double seconds)
@@ -77,8 +81,7 @@ static gboolean tick(GtkWidget *canvas, GdkFrameClock *clock, gpointer data)
         s->rests(d);
         return G_SOURCE_REMOVE;
     }
-    if (d->report.answered >= s->sent) /* a busy paper gets fewer stencils */
-        message_send(d, STUDIO_MESSAGE_SCREEN_SHOW);
+    stencil_show(d);
     return G_SOURCE_CONTINUE;
 }
 
@@ -145,7 +148,13 @@ void desk_springs_let_go(struct desk *d, double time_s)
 
 void desk_springs_print(struct desk *d)
 {
-    message_send(d, STUDIO_MESSAGE_SCREEN);
+    struct studio_message m = {.kind = STUDIO_MESSAGE_SCREEN};
+    int x = 0, y = 0;
+    if (!drawn(d, &m.screen, &x, &y) || !m.screen.gray)
+        return;
+    m.type_x = x;
+    m.type_y = y;
+    studio_paper_send(d->paper, m);
 }
 
 void desk_springs_drop(struct desk *d)

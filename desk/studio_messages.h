@@ -39,10 +39,9 @@ enum studio_message_kind {
     STUDIO_MESSAGE_SEAL,
     STUDIO_MESSAGE_SELECT_NONE,
     STUDIO_MESSAGE_SELECT_INVERT,
-    STUDIO_MESSAGE_TYPE,        /* type: is let into the paper */
-    STUDIO_MESSAGE_TYPE_SHOW,   /* type: is shown as it would be; an empty text: nothing is */
-    STUDIO_MESSAGE_SCREEN,      /* screen: takes what is in the dish at type_x, type_y */
-    STUDIO_MESSAGE_SCREEN_SHOW, /* screen: is shown there; without gray: nothing is */
+    STUDIO_MESSAGE_TYPE,      /* type: is let into the paper */
+    STUDIO_MESSAGE_TYPE_SHOW, /* type: is shown as it would be; an empty text: nothing is */
+    STUDIO_MESSAGE_SCREEN,    /* screen: takes what is in the dish at type_x, type_y */
     STUDIO_MESSAGE_STAMP, /* text: the picture's file; type_x, type_y: where its middle is */
     /* text: the file; is shown as it would be at 0, 0; "": none is; value: it is read anew */
     STUDIO_MESSAGE_STAMP_SHOW,

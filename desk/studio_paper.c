@@ -140,20 +140,6 @@ static enum paper_status type_show(struct studio_paper *p, const struct studio_m
     return status;
 }
 
-static enum paper_status screen_do(struct studio_paper *p, struct studio_message *m)
-{
-    const struct studio_shown shown = {.x = (int)m->type_x,
-                                       .y = (int)m->type_y,
-                                       .width = m->screen.width_px,
-                                       .height = m->screen.height_px,
-                                       .gray = m->screen.gray};
-    if (m->kind == STUDIO_MESSAGE_SCREEN)
-        return studio_session_put(p->session, &m->screen, shown.x, shown.y);
-    m->screen.gray = NULL; /* it is the window's now */
-    studio_paper_show(p, &shown);
-    return PAPER_OK;
-}
-
 /* How many steps a second strokes may ask for follows from what they took. */
 static void stroke_measure(struct studio_paper *p)
 {
@@ -229,7 +215,7 @@ static void undo_do(struct studio_paper *p, bool undo)
         studio_session_redo(s);
 }
 
-static enum paper_status message_do(struct studio_paper *p, struct studio_message *m)
+static enum paper_status message_do(struct studio_paper *p, const struct studio_message *m)
 {
     struct studio_session *s = p->session;
     const struct studio_type type = type_of(m);
@@ -276,8 +262,7 @@ static enum paper_status message_do(struct studio_paper *p, struct studio_messag
     case STUDIO_MESSAGE_TYPE_SHOW:
         return type_show(p, m);
     case STUDIO_MESSAGE_SCREEN:
-    case STUDIO_MESSAGE_SCREEN_SHOW:
-        return screen_do(p, m);
+        return studio_session_put(s, &m->screen, (int)m->type_x, (int)m->type_y);
     case STUDIO_MESSAGE_STAMP:
     case STUDIO_MESSAGE_STAMP_SHOW:
         return studio_paper_stamp(p, m);

@@ -118,5 +118,7 @@ struct studio_shown {
     const uint8_t *gray;
 };
 bool studio_paper_shown(struct studio_paper *paper, struct studio_shown *out);
+/* From here on this is shown, whatever the paper does meanwhile; gray is the paper's then. */
+void studio_paper_show_now(struct studio_paper *paper, const struct studio_shown *shown);
 
 #endif

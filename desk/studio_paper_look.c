@@ -157,8 +157,12 @@ bool studio_paper_outline(struct studio_paper *p, struct studio_outlined *outlin
 void studio_paper_show(struct studio_paper *p, const struct studio_shown *shown)
 {
     p->shown_ends = !shown->gray && p->dirty;
-    if (p->shown_ends)
-        return; /* what was let into the paper is seen until the paper is, with it */
+    if (!p->shown_ends) /* what was let into the paper is seen until the paper is, with it */
+        studio_paper_show_now(p, shown);
+}
+
+void studio_paper_show_now(struct studio_paper *p, const struct studio_shown *shown)
+{
     pthread_mutex_lock(&p->lock);
     uint8_t *before = (uint8_t *)(uintptr_t)p->shown.gray;
     p->shown = *shown;
