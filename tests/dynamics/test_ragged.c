@@ -49,7 +49,7 @@ static void ragged_lines_hang_straight(void **state)
         struct dyn_word_def def = def_of("nobody left the town\nand\nthe river rose");
         struct dyn_network *n;
         def.y = 8;
-        def.path = way ? (const double(*)[2])(way == 1 ? turned : circle) : NULL;
+        def.path = way == 1 ? turned : way ? (const double(*)[2])circle : NULL;
         def.path_count = way == 0 ? 0 : way == 1 ? 2 : 721;
         struct dyn_word *word;
         scene_must(dyn_network_create(&n));
