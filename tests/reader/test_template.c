@@ -18,6 +18,7 @@
 #include <string.h>
 
 #include "../sample.h"
+#include "../skip.h"
 
 static struct reader_template parsed(const char *text)
 {
@@ -64,7 +65,7 @@ static void numbers_are_of_no_locale(void **state)
 {
     (void)state;
     if (!setlocale(LC_NUMERIC, "de_DE.UTF-8"))
-        skip();
+        skip_because("the locale de_DE.UTF-8 is not installed");
     struct reader_template t = parsed("columns 30.5\ntext 1");
     char *written = reader_template_text(&t);
     setlocale(LC_NUMERIC, "C");
