@@ -61,6 +61,7 @@ static void desk_finish(struct desk *d)
         g_string_free(d->typed, TRUE);
     free(d->past.deeds);
     desk_beside_free(d);
+    desk_springs_drop(d);
     studio_outlined_free(&d->outline);
     g_free(d->preedit);
     g_free(d->font);

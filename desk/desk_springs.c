@@ -163,7 +163,7 @@ void desk_springs_drop(struct desk *d)
     if (!s)
         return;
     d->springs = NULL;
-    if (s->tick)
+    if (s->tick && d->window) /* with the window it has gone already */
         gtk_widget_remove_tick_callback(d->canvas, s->tick);
     studio_springs_destroy(s->springs);
     g_array_free(s->deeds, TRUE);

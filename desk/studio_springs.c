@@ -18,11 +18,12 @@
 /* Springs on the move lose half of what sliding loses: of their speed a fiftieth is left after
  * so many times the drag's time. */
 #define SLID 7.8
-#define PULL 150.0    /* of the hand's spring: kg/s2 for each kg of the word */
-#define SLOW 0.02     /* ems a second, RMS: it does not seem to move */
-#define QUIET_S 0.15  /* so long */
-#define CORNERS 4.0   /* masses of a letter */
-#define PULL_MOST 1e5 /* of a spring's constant */
+#define PULL 150.0      /* of the hand's spring: kg/s2 for each kg of the word */
+#define SLOW 0.02       /* ems a second, RMS: it does not seem to move */
+#define QUIET_S 0.15    /* so long */
+#define SLIDES_MOST 6.0 /* so many times slide_s: where edges squeeze it, it is never slow */
+#define CORNERS 4.0     /* masses of a letter */
+#define PULL_MOST 1e5   /* of a spring's constant */
 
 struct studio_springs {
     struct font_face *face;
@@ -34,10 +35,11 @@ struct studio_springs {
     double width, height; /* the sheet, fibers */
     double mass_kg;       /* the word's */
     bool collides, held, thrown;
-    int mass;                /* the one that is held */
-    double apart_x, apart_y; /* the held mass from the hand, ems */
-    double left_s;           /* of time that has gone by, and was not stepped */
-    double quiet_s;
+    int mass;                 /* the one that is held */
+    double apart_x, apart_y;  /* the held mass from the hand, ems */
+    double left_s;            /* of time that has gone by, and was not stepped */
+    double quiet_s, thrown_s; /* how long it has been slow; since it was let go */
+    double slide_s;           /* it slides about so long */
 };
 
 static enum paper_status font_failed(enum font_status status)
@@ -146,6 +148,7 @@ enum paper_status studio_springs_create(const struct studio_type *type,
     if (!s)
         return studio_session_failed(PAPER_NO_MEMORY, "not enough memory for springy type");
     s->view.scale = settings->value[STUDIO_TYPE_SIZE];
+    s->slide_s = settings->value[STUDIO_TYPE_SLIDE];
     s->width = width;
     s->height = height;
     enum paper_status status = fonts_open(s, type->font);
@@ -215,7 +218,7 @@ void studio_springs_let_go(struct studio_springs *s)
     dyn_pull_end(s->network, s->mass);
     s->held = false;
     s->thrown = true;
-    s->quiet_s = 0;
+    s->quiet_s = s->thrown_s = 0;
 }
 
 bool studio_springs_held(const struct studio_springs *s)
@@ -225,7 +228,8 @@ bool studio_springs_held(const struct studio_springs *s)
 
 bool studio_springs_rests(const struct studio_springs *s)
 {
-    return s->thrown && !s->held && s->quiet_s > QUIET_S;
+    return s->thrown && !s->held &&
+           (s->quiet_s > QUIET_S || s->thrown_s > SLIDES_MOST * s->slide_s);
 }
 
 /* ---- time ---- */
@@ -246,6 +250,7 @@ void studio_springs_step(struct studio_springs *s, double seconds)
         if (s->collides)
             dyn_words_collide(s->network, &word, 1, NULL);
         s->quiet_s = is_slow(s) ? s->quiet_s + TICK_S : 0;
+        s->thrown_s += TICK_S;
     }
 }
 

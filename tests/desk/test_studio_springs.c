@@ -163,6 +163,36 @@ static void thrown_it_comes_to_rest_on_the_sheet(void **state)
         }
 }
 
+/* Letters that join, marks on letters, two directions and a letter of another font, large and
+ * partly off the sheet: as they are set, and at rest in the end. */
+static void any_script_is_thrown(void **state)
+{
+    static const char *const texts[] = {"سلام é مرحبا", "नमस्ते", "e\xcc\x81\xcc\xa3 😀", "W"};
+    (void)state;
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        for (int preset = 1; preset <= PRESETS; preset++) {
+            struct studio_settings settings = settings_of(preset, 0);
+            const struct studio_type of = {texts[i], "DejaVu Sans", "", 300, 200};
+            settings.value[STUDIO_TYPE_SIZE] = i == 3 ? 2000 : 120;
+            struct studio_springs *springs = springs_of(&of, &settings);
+            double at[2], area, seconds = 0;
+            bool taken = false;
+            for (int x = 0; x < WIDTH && !taken; x += 10)
+                for (int y = 0; y < HEIGHT && !taken; y += 10)
+                    taken = studio_springs_take(springs, x, y);
+            assert_true(taken);
+            studio_springs_move(springs, 100, -300);
+            studio_springs_step(springs, 0.1);
+            studio_springs_let_go(springs);
+            for (; !studio_springs_rests(springs) && seconds < 120; seconds += 0.1)
+                studio_springs_step(springs, 0.1);
+            assert_true(seconds < 120);
+            middle(springs, at, &area);
+            assert_true(area > 0);
+            studio_springs_destroy(springs);
+        }
+}
+
 static void the_longer_it_slides_the_farther(void **state)
 {
     double before[2], at[2][2], area, seconds[2];
@@ -243,6 +273,7 @@ int main(void)
         cmocka_unit_test(untouched_it_is_type_that_is_set),
         cmocka_unit_test(only_a_letter_can_be_taken),
         cmocka_unit_test(thrown_it_comes_to_rest_on_the_sheet),
+        cmocka_unit_test(any_script_is_thrown),
         cmocka_unit_test(the_longer_it_slides_the_farther),
         cmocka_unit_test(no_type_is_an_error),
         cmocka_unit_test(it_is_printed_where_it_lands),
