@@ -169,7 +169,7 @@ static enum reader_status all_try(struct reader_edit *e, const struct edit_splic
 
 /* ---- remarks ---- */
 
-static bool loses_letters(const struct reader_remark *r,
+static bool loses_letters(const struct reader_remark_place *r,
                           const struct reader_edit_change *change)
 {
     size_t begin = r->begin, end = r->end;
@@ -185,19 +185,19 @@ static bool loses_letters(const struct reader_remark *r,
 /* Keeps where remarks were that lose letters. Without memory for that they come back when the
  * text is found again. */
 static void touched_keep(struct reader_edit *e, const struct reader_edit_change *change,
-                         struct edit_touched **out, int *count)
+                         struct reader_remark_place **out, int *count)
 {
     const int all = e->remarks ? reader_remarks_count(e->remarks) : 0;
     int capacity = 0;
     *out = NULL;
     *count = 0;
     for (int i = 0; i < all; i++) {
-        const struct reader_remark *r = reader_remarks_get(e->remarks, i);
-        if (!loses_letters(r, change))
+        const struct reader_remark_place place = reader_remarks_place_of(e->remarks, i);
+        if (!loses_letters(&place, change))
             continue;
         if (!array_reserve(out, &capacity, *count + 1, sizeof **out))
             return;
-        (*out)[(*count)++] = (struct edit_touched){i, r->begin, r->end, r->orphan};
+        (*out)[(*count)++] = place;
     }
 }
 
@@ -383,10 +383,8 @@ enum reader_status reader_edit_undo(struct reader_edit *e, bool redo,
     free(one->touched[own]);
     touched_keep(e, change, &one->touched[own], &one->touched_count[own]);
     remarks_move(e, change);
-    for (int i = 0; i < one->touched_count[1 - own]; i++) {
-        const struct edit_touched *t = &one->touched[1 - own][i];
-        reader_remarks_place(e->remarks, t->remark, t->begin, t->end, t->orphan);
-    }
+    if (e->remarks)
+        reader_remarks_place(e->remarks, one->touched[1 - own], one->touched_count[1 - own]);
     e->at += redo ? 1 : -1;
     e->part = true;
     const size_t caret = redo ? one->caret_after : one->caret_before;

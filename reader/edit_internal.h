@@ -63,13 +63,6 @@ enum reader_status edit_block_try(struct reader_document *d, struct reader_files
                                   const struct edit_meant *meant,
                                   struct reader_edit_change *change, bool *done);
 
-/* Where a remark was that has lost letters. */
-struct edit_touched {
-    int remark;
-    size_t begin, end;
-    bool orphan;
-};
-
 /* One that can be undone. */
 struct edit_done {
     int source;
@@ -81,7 +74,8 @@ struct edit_done {
     bool typed; /* letters alone: more may be added */
     struct reader_edit_move *moves;
     int moves_count;
-    struct edit_touched *touched[2]; /* by doing it, and by undoing it */
+    /* where remarks were that have lost letters by doing it, and by undoing it */
+    struct reader_remark_place *touched[2];
     int touched_count[2];
 };
 

@@ -61,7 +61,7 @@ enum reader_status html_remarks_begin(struct html *h)
 
 static double width_of(const struct reader_remark *ink, int i)
 {
-    return reader_ink_width(ink->points, i, ink->width);
+    return reader_ink_place(ink, i).width;
 }
 
 /* A stroke as paths: as wide as it was pressed, points that are about as wide in one path. */
@@ -71,11 +71,11 @@ static void stroke_put(struct html *h, const struct reader_remark *r)
             r->rgba >> 8 & 0xffffff, (r->rgba & 255) / 255.0);
     for (int i = 0; i < r->points_count;) {
         const double width = width_of(r, i);
-        const struct reader_ink_point *a = &r->points[i > 0 ? i - 1 : 0];
-        fprintf(h->f, "<path stroke-width=\"%.3f\" d=\"M%.3f %.3fL", width, (double)a->x,
-                (double)a->y);
+        const struct reader_ink_place a = reader_ink_place(r, i > 0 ? i - 1 : 0);
+        fprintf(h->f, "<path stroke-width=\"%.3f\" d=\"M%.3f %.3fL", width, a.x, a.y);
         do {
-            fprintf(h->f, "%.3f %.3f ", (double)r->points[i].x, (double)r->points[i].y);
+            const struct reader_ink_place b = reader_ink_place(r, i);
+            fprintf(h->f, "%.3f %.3f ", b.x, b.y);
             i++;
         } while (i < r->points_count && fabs(width_of(r, i) - width) < 0.004);
         fputs("\"/>", h->f);
@@ -209,12 +209,11 @@ static void ink_alone_put(struct html *h, const struct reader_remark *r)
     const double most = 30;
     double x0 = INFINITY, y0 = INFINITY, x1 = -INFINITY, y1 = -INFINITY;
     for (int i = 0; i < r->points_count; i++) {
-        const double x = (double)r->points[i].x, y = (double)r->points[i].y,
-                     half = width_of(r, i) / 2;
-        x0 = fmin(x0, x - half);
-        y0 = fmin(y0, y - half);
-        x1 = fmax(x1, x + half);
-        y1 = fmax(y1, y + half);
+        const struct reader_ink_place p = reader_ink_place(r, i);
+        x0 = fmin(x0, p.x - p.width / 2);
+        y0 = fmin(y0, p.y - p.width / 2);
+        x1 = fmax(x1, p.x + p.width / 2);
+        y1 = fmax(y1, p.y + p.width / 2);
     }
     const double scale = fmin(1, most / fmax(x1 - x0, y1 - y0));
     fprintf(h->f,

@@ -403,11 +403,12 @@ static enum reader_status stroke_add(struct reader_pages *p, const struct reader
     if (!points)
         return pages_no_memory();
     const double em = p->setup.size_px;
-    for (int i = 0; i < r->points_count; i++)
-        points[i] = (struct font_drawing_point){
-            box.x + em * (r->x + (double)r->points[i].x),
-            box.y + em * (r->y + (double)r->points[i].y),
-            fmax(0.6, em * reader_ink_width(r->points, i, r->width))};
+    for (int i = 0; i < r->points_count; i++) {
+        const struct reader_ink_place place = reader_ink_place(r, i);
+        points[i] = (struct font_drawing_point){box.x + em * (r->x + place.x),
+                                                box.y + em * (r->y + place.y),
+                                                fmax(0.6, em * place.width)};
+    }
     left->strokes[left->strokes_count++] =
         (struct left_stroke){page,
                              {points,

@@ -20,6 +20,11 @@
  * power, too. Several programs may have the file open; each sees what was there when it opened
  * it, and its own.
  *
+ * Arranging. A stroke is moved and scaled; its points stay what they were. Strokes of a group
+ * are taken together, and hang on one anchor, that of one of them, so that a drawing stays
+ * whole when its words part. A file is of a later version when a first stroke is scaled or
+ * grouped.
+ *
  * Layers. A file has the notes of several readers, each in a layer with a name; the first one
  * has none. All are shown but those that are hidden, and one is written: what is added is in
  * it, and only what is in it can be changed. Which are hidden and which is written is not kept.
@@ -54,17 +59,20 @@ enum {
 
 struct reader_remark {
     enum reader_remark_kind kind;
-    double made_s; /* since 1970; of ink: when its last point was drawn */
-    double gone_s; /* when it was erased; 0: it was not */
-    char *text;    /* UTF-8; "" for none */
-    unsigned rgba; /* red in the highest byte */
-    double width;  /* of ink at full pressure, in ems */
-    double x, y;   /* by how much it was moved, in ems */
+    double made_s;           /* since 1970; of ink: when its last point was drawn */
+    double gone_s;           /* when it was erased; 0: it was not */
+    char *text;              /* UTF-8; "" for none */
+    unsigned rgba;           /* red in the highest byte */
+    double width;            /* of ink at full pressure, in ems */
+    double x, y;             /* by how much it was moved, in ems */
+    double scale_x, scale_y; /* of its points, from the anchor */
+    int hangs;               /* whose anchor it hangs on: a remark's, most often its own */
+    int group;               /* a remark that the group is called by; -1: it is in none */
     struct reader_ink_point *points;
     int points_count;
-    const struct reader_anchor *anchor;
+    const struct reader_anchor *anchor; /* that it hangs on */
     bool orphan;
-    size_t begin, end; /* where its anchor was found */
+    size_t begin, end; /* where that was found */
     int layer;
     const char *by; /* the layer's name */
     bool hidden;    /* its layer is */
@@ -111,9 +119,16 @@ enum reader_status reader_remarks_find(struct reader_remarks *remarks, const cha
  * where the edit is not saved, it is found at its place again. */
 void reader_remarks_edit(struct reader_remarks *remarks, size_t at, size_t removed,
                          size_t inserted);
-/* It is where it was before an edit that is undone. */
-void reader_remarks_place(struct reader_remarks *remarks, int i, size_t begin, size_t end,
-                          bool orphan);
+/* Where its own anchor was found, whatever it hangs on. */
+struct reader_remark_place {
+    int index;
+    size_t begin, end;
+    bool orphan;
+};
+struct reader_remark_place reader_remarks_place_of(const struct reader_remarks *remarks, int i);
+/* They are where they were before an edit that is undone. */
+void reader_remarks_place(struct reader_remarks *remarks,
+                          const struct reader_remark_place *places, int count);
 /* The text is saved: all that are in it are anchored anew, there. Errors: FAILED, NO_MEMORY. */
 enum reader_status reader_remarks_saved(struct reader_remarks *remarks, const char *plain,
                                         size_t bytes);
@@ -126,8 +141,20 @@ enum reader_status reader_remarks_add(struct reader_remarks *remarks,
 /* Erases it, or has it back. Errors: BAD_ARGUMENT (its layer is not written, too), FAILED; it
  * is then as it was. */
 enum reader_status reader_remarks_erase(struct reader_remarks *remarks, int i, bool erased);
-enum reader_status reader_remarks_move(struct reader_remarks *remarks, int i, double x,
-                                       double y);
+/* Of ink: how it lies, what it hangs on, and which group it is in. */
+struct reader_arranged {
+    int index;
+    double x, y, scale_x, scale_y; /* READER_SCALE_LEAST..MOST */
+    int hangs, group;
+};
+#define READER_SCALE_LEAST 0.01
+#define READER_SCALE_MOST 100.0
+#define READER_MOVED_MOST 1e6 /* ems */
+struct reader_arranged reader_remarks_arranged(const struct reader_remarks *remarks, int i);
+/* All of them are arranged so, or, where one cannot be, none. Errors: BAD_ARGUMENT (not ink,
+ * out of range, its layer is not written), FAILED. */
+enum reader_status reader_remarks_arrange(struct reader_remarks *remarks,
+                                          const struct reader_arranged *to, int count);
 enum reader_status reader_remarks_write(struct reader_remarks *remarks, int i,
                                         const char *text);
 /* A stroke that is played back, and when it begins. */
@@ -144,6 +171,12 @@ double reader_remarks_play(const struct reader_remarks *remarks, bool erased,
 /* How wide a stroke is between its point i and the one before, as it was pressed; full: at full
  * pressure. */
 double reader_ink_width(const struct reader_ink_point *points, int i, double full);
+/* A point of ink as it is scaled, in ems from where the stroke was moved to, and how wide it is
+ * between the point before and it. */
+struct reader_ink_place {
+    double x, y, width;
+};
+struct reader_ink_place reader_ink_place(const struct reader_remark *r, int i);
 /* What has changed is safe from a loss of power. */
 enum reader_status reader_remarks_sync(struct reader_remarks *remarks);
 

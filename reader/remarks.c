@@ -19,6 +19,23 @@ static double now_s(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+/* It is where the anchor is that it hangs on. */
+static void one_hangs(struct reader_remarks *remarks, int i)
+{
+    struct reader_remark *r = &remarks->rows.rows[i].remark;
+    const struct remark_row *on = &remarks->rows.rows[r->hangs];
+    r->anchor = on->anchor;
+    r->begin = on->place.begin;
+    r->end = on->place.end;
+    r->orphan = on->place.orphan;
+}
+
+static void all_hang(struct reader_remarks *remarks)
+{
+    for (int i = 0; i < remarks->rows.count; i++)
+        one_hangs(remarks, i);
+}
+
 static enum reader_status open_as(const char *path, bool reads, struct reader_remarks **out)
 {
     struct reader_remarks *remarks = calloc(1, sizeof *remarks);
@@ -33,10 +50,10 @@ static enum reader_status open_as(const char *path, bool reads, struct reader_re
     }
     for (int i = 0; i < remarks->rows.count; i++) {
         struct remark_row *row = &remarks->rows.rows[i];
-        row->remark.anchor = row->anchor;
-        row->remark.orphan = true; /* until it is found */
+        row->place.orphan = true; /* until it is found */
         row->remark.by = remarks->layers.names[row->remark.layer];
     }
+    all_hang(remarks);
     *out = remarks;
     return READER_OK;
 }
@@ -85,7 +102,7 @@ static enum reader_status anchor_renew(struct reader_remarks *remarks, struct re
 {
     struct reader_anchor *before = row->anchor, *now;
     enum reader_status status =
-        reader_anchor_make(plain, bytes, row->remark.begin, row->remark.end, &now);
+        reader_anchor_make(plain, bytes, row->place.begin, row->place.end, &now);
     if (status != READER_OK)
         return status;
     row->anchor = now;
@@ -96,7 +113,6 @@ static enum reader_status anchor_renew(struct reader_remarks *remarks, struct re
         reader_anchor_destroy(now);
         return status;
     }
-    row->remark.anchor = now;
     reader_anchor_destroy(before);
     return READER_OK;
 }
@@ -108,11 +124,12 @@ enum reader_status reader_remarks_find(struct reader_remarks *remarks, const cha
     for (int i = 0; i < remarks->rows.count; i++) {
         struct remark_row *row = &remarks->rows.rows[i];
         const enum reader_found found =
-            reader_anchor_find(row->anchor, plain, bytes, &row->remark.begin, &row->remark.end);
-        row->remark.orphan = found == READER_ANCHOR_ORPHAN;
+            reader_anchor_find(row->anchor, plain, bytes, &row->place.begin, &row->place.end);
+        row->place.orphan = found == READER_ANCHOR_ORPHAN;
         if (found == READER_ANCHOR_MOVED && status == READER_OK)
             status = anchor_renew(remarks, row, plain, bytes);
     }
+    all_hang(remarks);
     return status;
 }
 
@@ -122,19 +139,26 @@ void reader_remarks_edit(struct reader_remarks *remarks, size_t at, size_t remov
                          size_t inserted)
 {
     for (int i = 0; i < remarks->rows.count; i++) {
-        struct reader_remark *r = &remarks->rows.rows[i].remark;
-        if (!r->orphan)
-            r->orphan = !anchor_range_edit(&r->begin, &r->end, at, removed, inserted);
+        struct reader_remark_place *p = &remarks->rows.rows[i].place;
+        if (!p->orphan)
+            p->orphan = !anchor_range_edit(&p->begin, &p->end, at, removed, inserted);
     }
+    all_hang(remarks);
 }
 
-void reader_remarks_place(struct reader_remarks *remarks, int i, size_t begin, size_t end,
-                          bool orphan)
+struct reader_remark_place reader_remarks_place_of(const struct reader_remarks *remarks, int i)
 {
-    struct reader_remark *r = &remarks->rows.rows[i].remark;
-    r->begin = begin;
-    r->end = end;
-    r->orphan = orphan;
+    struct reader_remark_place place = remarks->rows.rows[i].place;
+    place.index = i;
+    return place;
+}
+
+void reader_remarks_place(struct reader_remarks *remarks,
+                          const struct reader_remark_place *places, int count)
+{
+    for (int i = 0; i < count; i++)
+        remarks->rows.rows[places[i].index].place = places[i];
+    all_hang(remarks);
 }
 
 enum reader_status reader_remarks_saved(struct reader_remarks *remarks, const char *plain,
@@ -143,9 +167,10 @@ enum reader_status reader_remarks_saved(struct reader_remarks *remarks, const ch
     enum reader_status status = READER_OK;
     for (int i = 0; i < remarks->rows.count && status == READER_OK; i++) {
         struct remark_row *row = &remarks->rows.rows[i];
-        if (!row->remark.orphan)
+        if (!row->place.orphan)
             status = anchor_renew(remarks, row, plain, bytes);
     }
+    all_hang(remarks);
     return status;
 }
 
@@ -174,9 +199,10 @@ static enum reader_status row_make(const struct reader_remark *what, const char 
     struct reader_remark *r = &row->remark;
     r->made_s = what->made_s > 0 ? what->made_s : now_s();
     r->gone_s = 0;
-    r->hidden = r->orphan = false;
-    r->begin = begin;
-    r->end = end;
+    r->hidden = false;
+    r->scale_x = r->scale_y = 1;
+    r->group = -1;
+    row->place = (struct reader_remark_place){0, begin, end, false};
     r->text = strdup(what->text ? what->text : "");
     r->points = malloc(size + 1);
     enum reader_status status = r->text && r->points
@@ -184,7 +210,6 @@ static enum reader_status row_make(const struct reader_remark *what, const char 
                                     : reader_fail(READER_NO_MEMORY, "no memory for a note");
     if (status == READER_OK && size)
         memcpy(r->points, what->points, size);
-    r->anchor = row->anchor;
     return status;
 }
 
@@ -212,8 +237,9 @@ enum reader_status reader_remarks_add(struct reader_remarks *remarks,
         remark_row_finish(&row);
         return status;
     }
-    *index = rows->count;
+    *index = row.remark.hangs = rows->count;
     rows->rows[rows->count++] = row;
+    one_hangs(remarks, *index);
     return READER_OK;
 }
 
@@ -222,17 +248,26 @@ static struct remark_row *row_of(struct reader_remarks *remarks, int i)
     return i >= 0 && i < remarks->rows.count ? &remarks->rows.rows[i] : NULL;
 }
 
-/* Writes it, or leaves it as it was. */
-static enum reader_status row_change(struct reader_remarks *remarks, int i,
-                                     const struct reader_remark *to)
+/* It is there, and in the layer that is written. */
+static enum reader_status row_check(struct reader_remarks *remarks, int i)
 {
-    struct remark_row *row = row_of(remarks, i);
+    const struct remark_row *row = row_of(remarks, i);
     if (!row)
         return reader_fail(READER_BAD_ARGUMENT, "there is no note %d", i);
     if (row->remark.layer != remarks->layers.written)
         return reader_fail(READER_BAD_ARGUMENT,
                            "this is in the layer %s: it is changed where that is written",
                            *row->remark.by ? row->remark.by : "that has no name");
+    return READER_OK;
+}
+
+/* Writes it, or leaves it as it was. */
+static enum reader_status row_change(struct reader_remarks *remarks, int i,
+                                     const struct reader_remark *to)
+{
+    struct remark_row *row = row_of(remarks, i);
+    if (row_check(remarks, i) != READER_OK)
+        return READER_BAD_ARGUMENT;
     const struct reader_remark before = row->remark;
     row->remark = *to;
     enum reader_status status = remarks_file_write(remarks->file, row);
@@ -250,18 +285,59 @@ enum reader_status reader_remarks_erase(struct reader_remarks *remarks, int i, b
     return row_change(remarks, i, &to);
 }
 
-enum reader_status reader_remarks_move(struct reader_remarks *remarks, int i, double x,
-                                       double y)
+/* ---- arranging ---- */
+
+struct reader_arranged reader_remarks_arranged(const struct reader_remarks *remarks, int i)
 {
-    const double most = 1e6;
-    struct reader_remark to = {0};
-    if (!(x >= -most && x <= most && y >= -most && y <= most))
-        return reader_fail(READER_BAD_ARGUMENT, "a note cannot be moved by %g, %g", x, y);
-    if (row_of(remarks, i))
-        to = row_of(remarks, i)->remark;
-    to.x = x;
-    to.y = y;
-    return row_change(remarks, i, &to);
+    const struct reader_remark *r = reader_remarks_get(remarks, i);
+    return (struct reader_arranged){i, r->x, r->y, r->scale_x, r->scale_y, r->hangs, r->group};
+}
+
+static bool is_within(double value, double least, double most)
+{
+    return value >= least && value <= most;
+}
+
+static enum reader_status arranged_check(struct reader_remarks *remarks,
+                                         const struct reader_arranged *to)
+{
+    const double moved = READER_MOVED_MOST, least = READER_SCALE_LEAST,
+                 most = READER_SCALE_MOST;
+    if (row_check(remarks, to->index) != READER_OK)
+        return READER_BAD_ARGUMENT;
+    if (reader_remarks_get(remarks, to->index)->kind != READER_REMARK_INK)
+        return reader_fail(READER_BAD_ARGUMENT, "only ink is arranged");
+    if (!is_within(to->x, -moved, moved) || !is_within(to->y, -moved, moved))
+        return reader_fail(READER_BAD_ARGUMENT, "ink cannot be moved by %g, %g ems", to->x,
+                           to->y);
+    if (!is_within(to->scale_x, least, most) || !is_within(to->scale_y, least, most))
+        return reader_fail(READER_BAD_ARGUMENT, "ink is scaled by %g to %g (got %g, %g)", least,
+                           most, to->scale_x, to->scale_y);
+    if (!row_of(remarks, to->hangs) || (to->group != -1 && !row_of(remarks, to->group)))
+        return reader_fail(READER_BAD_ARGUMENT, "ink hangs on no note %d, group %d", to->hangs,
+                           to->group);
+    return READER_OK;
+}
+
+enum reader_status reader_remarks_arrange(struct reader_remarks *remarks,
+                                          const struct reader_arranged *to, int count)
+{
+    enum reader_status status = READER_OK;
+    for (int i = 0; i < count && status == READER_OK; i++)
+        status = arranged_check(remarks, &to[i]);
+    if (status == READER_OK)
+        status = remarks_file_arrange(remarks->file, &remarks->rows, to, count);
+    for (int i = 0; i < count && status == READER_OK; i++) {
+        struct reader_remark *r = &remarks->rows.rows[to[i].index].remark;
+        r->x = to[i].x;
+        r->y = to[i].y;
+        r->scale_x = to[i].scale_x;
+        r->scale_y = to[i].scale_y;
+        r->hangs = to[i].hangs;
+        r->group = to[i].group;
+    }
+    all_hang(remarks);
+    return status;
 }
 
 enum reader_status reader_remarks_write(struct reader_remarks *remarks, int i, const char *text)
@@ -335,14 +411,7 @@ enum reader_status reader_remarks_layer_add(struct reader_remarks *remarks, cons
     for (*layer = 1; *layer < layers->count; ++*layer)
         if (strcmp(layers->names[*layer], name) == 0)
             return READER_OK;
-    if (layers->count == READER_LAYERS_MAX)
-        return reader_fail(READER_TOO_LARGE, "notes have up to %d layers", READER_LAYERS_MAX);
-    enum reader_status status = remarks_file_layer(remarks->file, name, layers->count);
-    if (status == READER_OK) {
-        memcpy(layers->names[layers->count], name, strlen(name) + 1);
-        layers->hidden[layers->count++] = false;
-    }
-    return status;
+    return remarks_file_layer(remarks->file, name, layers, layer);
 }
 
 enum reader_status reader_remarks_sync(struct reader_remarks *remarks)

@@ -2,10 +2,8 @@
  *
  * What is in such a file may have been written by anybody. So nothing in it is run (no
  * triggers, no views, a schema that is exactly ours), and each row is checked as it is read. */
-#include "remarks_internal.h"
+#include "remarks_file_internal.h"
 
-#include <math.h>
-#include <sqlite3.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,9 +11,7 @@
 
 enum {
     APPLICATION = 0x4c55524d, /* of the file's head, so that it is known what it is */
-    PLAIN = 1,                /* version without layers */
-    VERSION = 2,
-    LENGTH_MOST = 16 << 20, /* bytes of a value */
+    LENGTH_MOST = 16 << 20,   /* bytes of a value */
     BUSY_MS = 2000
 };
 
@@ -34,24 +30,30 @@ static const char layer_schema[] = "CREATE TABLE layer(id INTEGER PRIMARY KEY, n
                   in_layer_schema[] = "CREATE TABLE in_layer(remark INTEGER PRIMARY KEY, layer "
                                       "INTEGER NOT NULL)";
 
-struct remarks_file {
-    char *path;
-    sqlite3 *db;             /* NULL: there is no file yet */
-    bool read_only, layered; /* layered: of the version that has layers */
-};
+/* Of ink that is scaled, hangs on another's anchor, or is in a group; 0: in none. */
+static const char arranged_schema[] =
+    "CREATE TABLE arranged(remark INTEGER PRIMARY KEY, scale_x REAL NOT NULL, scale_y REAL NOT "
+    "NULL, hangs INTEGER NOT NULL, grouped INTEGER NOT NULL)";
+
+/* Every table that there is, and the version that it came with. */
+static const struct {
+    const char *name, *schema;
+    int version;
+} tables[] = {{"remark", schema, REMARKS_PLAIN},
+              {"layer", layer_schema, REMARKS_LAYERED},
+              {"in_layer", in_layer_schema, REMARKS_LAYERED},
+              {"arranged", arranged_schema, REMARKS_ARRANGED}};
+enum { TABLES = sizeof tables / sizeof *tables };
 
 static enum reader_status file_fail(const struct remarks_file *file)
 {
+    const int code = file->db ? sqlite3_errcode(file->db) : SQLITE_OK;
+    if (code == SQLITE_BUSY || code == SQLITE_LOCKED)
+        return reader_fail(READER_FAILED,
+                           "%s: another program has been writing it for %d seconds: try again",
+                           file->path, BUSY_MS / 1000);
     return reader_fail(READER_FAILED, "%s: %s", file->path,
                        file->db ? sqlite3_errmsg(file->db) : "it cannot be opened");
-}
-
-static enum reader_status foreign(const struct remarks_file *file, const char *why)
-{
-    return reader_fail(READER_FAILED,
-                       "%s: %s: it is left as it is, and notes are not kept until it is moved "
-                       "away",
-                       file->path, why);
 }
 
 /* ---- opening ---- */
@@ -96,28 +98,51 @@ static void guard(struct remarks_file *file)
     run(file, "PRAGMA cell_size_check=ON");
 }
 
+/* It has the tables of its version, and nothing else. */
+static bool tables_are(struct remarks_file *file)
+{
+    int count = 0;
+    bool good = true;
+    for (int i = 0; i < TABLES && good; i++)
+        if (tables[i].version <= file->version) {
+            char sql[80];
+            snprintf(sql, sizeof sql, "SELECT sql FROM sqlite_schema WHERE name='%s'",
+                     tables[i].name);
+            good = text_is(file, sql, tables[i].schema);
+            count++;
+        }
+    return good && number_of(file, "SELECT count(*) FROM sqlite_schema WHERE name NOT LIKE "
+                                   "'sqlite_%'") == count;
+}
+
+/* Within a transaction: the file is of that version at least, whoever has made it so. */
+static bool version_raise(struct remarks_file *file, int version)
+{
+    char pragma[60];
+    const int now = (int)number_of(file, "PRAGMA user_version");
+    bool good = now >= 0;
+    for (int i = 0; i < TABLES && good; i++)
+        if (tables[i].version > now && tables[i].version <= version)
+            good = run(file, tables[i].schema);
+    snprintf(pragma, sizeof pragma, "PRAGMA user_version=%d", version);
+    return good && (now >= version || run(file, pragma));
+}
+
 /* That it is a file of ours, whole, and of a version that is known. */
 static enum reader_status check(struct remarks_file *file)
 {
     const long long application = number_of(file, "PRAGMA application_id"),
                     version = number_of(file, "PRAGMA user_version");
     if (application != APPLICATION)
-        return foreign(file, application < 0 ? sqlite3_errmsg(file->db)
-                                             : "this is another program's file");
-    if (version > VERSION)
-        return foreign(file, "this file is of a newer version");
-    file->layered = version == VERSION;
-    if (version < PLAIN ||
-        number_of(file, "SELECT count(*) FROM sqlite_schema WHERE name NOT LIKE 'sqlite_%'") !=
-            (file->layered ? 3 : 1) ||
-        (file->layered &&
-         (!text_is(file, "SELECT sql FROM sqlite_schema WHERE name='layer'", layer_schema) ||
-          !text_is(file, "SELECT sql FROM sqlite_schema WHERE name='in_layer'",
-                   in_layer_schema))) ||
-        !text_is(file, "SELECT sql FROM sqlite_schema WHERE name='remark'", schema))
-        return foreign(file, "this file is not as notes are");
+        return remarks_foreign(file, application < 0 ? sqlite3_errmsg(file->db)
+                                                     : "this is another program's file");
+    if (version > REMARKS_ARRANGED)
+        return remarks_foreign(file, "this file is of a newer version");
+    file->version = (int)version;
+    if (version < REMARKS_PLAIN || !tables_are(file))
+        return remarks_foreign(file, "this file is not as notes are");
     if (!text_is(file, "PRAGMA quick_check(1)", "ok"))
-        return foreign(file, "this file is damaged");
+        return remarks_foreign(file, "this file is damaged");
     return READER_OK;
 }
 
@@ -133,7 +158,7 @@ static void journal(struct remarks_file *file)
 
 static enum reader_status make(struct remarks_file *file)
 {
-    char pragmas[120];
+    char pragma[60];
     if (sqlite3_open_v2(file->path, &file->db, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE,
                         NULL) != SQLITE_OK) {
         enum reader_status status = file_fail(file);
@@ -143,11 +168,10 @@ static enum reader_status make(struct remarks_file *file)
     }
     guard(file);
     journal(file);
-    snprintf(pragmas, sizeof pragmas, "PRAGMA application_id=%d; PRAGMA user_version=%d",
-             APPLICATION, PLAIN);
+    snprintf(pragma, sizeof pragma, "PRAGMA application_id=%d", APPLICATION);
     const bool good = run(file, "BEGIN IMMEDIATE") &&
                       (number_of(file, "SELECT count(*) FROM sqlite_schema") > 0 ||
-                       (run(file, schema) && run(file, pragmas))) &&
+                       (run(file, pragma) && version_raise(file, REMARKS_PLAIN))) &&
                       run(file, "COMMIT");
     enum reader_status status = good ? check(file) : file_fail(file);
     if (status != READER_OK) {
@@ -155,6 +179,14 @@ static enum reader_status make(struct remarks_file *file)
         file->db = NULL;
     }
     return status;
+}
+
+/* Nothing was ever written to it. */
+static bool is_empty(struct remarks_file *file)
+{
+    return number_of(file, "SELECT count(*) FROM sqlite_schema") == 0 &&
+           number_of(file, "PRAGMA application_id") == 0 &&
+           number_of(file, "PRAGMA user_version") == 0;
 }
 
 /* reads: nothing will be written. */
@@ -170,150 +202,18 @@ static enum reader_status open_there(struct remarks_file *file, bool reads)
                         NULL) != SQLITE_OK)
         return file_fail(file);
     guard(file);
+    if (is_empty(file)) { /* as one that another program is about to make */
+        sqlite3_close(file->db);
+        file->db = NULL;
+        return READER_OK;
+    }
     enum reader_status status = check(file);
     if (status == READER_OK)
         journal(file);
     return status;
 }
 
-/* ---- rows ---- */
-
-enum column { ID, KIND, MADE, GONE, ANCHOR, TEXT, RGBA, WIDTH, X, Y, POINTS, LAYER };
-
-static bool number_read(sqlite3_stmt *s, enum column column, double least, double most,
-                        double *out)
-{
-    *out = sqlite3_column_double(s, (int)column);
-    return *out >= least && *out <= most;
-}
-
-static bool points_read(sqlite3_stmt *s, struct reader_remark *remark)
-{
-    const size_t bytes = (size_t)sqlite3_column_bytes(s, POINTS),
-                 count = bytes / sizeof *remark->points;
-    const void *from = sqlite3_column_blob(s, POINTS);
-    if (bytes % sizeof *remark->points || count > READER_INK_POINTS_MAX ||
-        (count == 0) != (remark->kind != READER_REMARK_INK))
-        return false;
-    remark->points = malloc(bytes + 1);
-    if (!remark->points)
-        return false;
-    if (bytes)
-        memcpy(remark->points, from, bytes);
-    remark->points_count = (int)count;
-    float before = 0;
-    for (size_t i = 0; i < count; i++) {
-        const struct reader_ink_point *p = &remark->points[i];
-        if (!(fabsf(p->x) < 1e6f && fabsf(p->y) < 1e6f && p->pressure >= 0 &&
-              p->pressure <= 1 && p->time_s >= before && p->time_s < 1e6f))
-            return false;
-        before = p->time_s;
-    }
-    return true;
-}
-
-/* A row that is not as rows are is refused as a whole. */
-static bool row_read(sqlite3_stmt *s, struct remark_row *row)
-{
-    struct reader_remark *r = &row->remark;
-    const char *text = (const char *)sqlite3_column_text(s, TEXT);
-    const int kind = sqlite3_column_int(s, KIND);
-    row->id = sqlite3_column_int64(s, ID);
-    if (kind < READER_REMARK_HIGHLIGHT || kind > READER_REMARK_INK || !text ||
-        sqlite3_column_bytes(s, TEXT) > READER_TYPED_MAX)
-        return false;
-    r->kind = (enum reader_remark_kind)kind;
-    r->rgba = (unsigned)sqlite3_column_int64(s, RGBA);
-    r->text = strdup(text);
-    const void *anchor = sqlite3_column_blob(s, ANCHOR);
-    return r->text && number_read(s, MADE, 0, REMARKS_TIME_MOST_S, &r->made_s) &&
-           number_read(s, GONE, 0, REMARKS_TIME_MOST_S, &r->gone_s) &&
-           number_read(s, WIDTH, 0, 100, &r->width) && number_read(s, X, -1e6, 1e6, &r->x) &&
-           number_read(s, Y, -1e6, 1e6, &r->y) && points_read(s, r) && anchor &&
-           reader_anchor_restore(anchor, (size_t)sqlite3_column_bytes(s, ANCHOR),
-                                 &row->anchor) == READER_OK;
-}
-
-void remark_row_finish(struct remark_row *row)
-{
-    free(row->remark.text);
-    free(row->remark.points);
-    reader_anchor_destroy(row->anchor);
-    *row = (struct remark_row){0};
-}
-
-bool remark_layer_named(const char *name)
-{
-    const size_t bytes = strlen(name);
-    bool seen = bytes > 0 && bytes < READER_LAYER_BYTES;
-    for (size_t i = 0; seen && i < bytes;) {
-        const unsigned char first = (unsigned char)name[i];
-        const size_t more = first >= 0xf0 ? 3 : first >= 0xe0 ? 2 : first >= 0xc2 ? 1 : 0;
-        seen = (first >= 0x20 && first < 0x7f) || (first >= 0xc2 && first < 0xf5);
-        if (first == 0xc2 && (unsigned char)name[i + 1] < 0xa0)
-            seen = false;
-        for (size_t k = 1; seen && k <= more; k++)
-            seen = ((unsigned char)name[i + k] & 0xc0) == 0x80;
-        i += more + 1;
-    }
-    return seen;
-}
-
-/* Their numbers are 1, 2, 3. */
-static enum reader_status layers_read(struct remarks_file *file, struct remark_layers *layers)
-{
-    sqlite3_stmt *s = NULL;
-    bool good = sqlite3_prepare_v2(file->db, "SELECT id, name FROM layer ORDER BY id", -1, &s,
-                                   NULL) == SQLITE_OK;
-    while (good && sqlite3_step(s) == SQLITE_ROW) {
-        const char *name = (const char *)sqlite3_column_text(s, 1);
-        good = layers->count < READER_LAYERS_MAX &&
-               sqlite3_column_int64(s, 0) == layers->count && name &&
-               strlen(name) == (size_t)sqlite3_column_bytes(s, 1) && remark_layer_named(name);
-        if (good)
-            memcpy(layers->names[layers->count++], name, strlen(name) + 1);
-    }
-    sqlite3_finalize(s);
-    return good ? READER_OK : foreign(file, "this file is damaged");
-}
-
-static enum reader_status rows_read(struct remarks_file *file, struct remark_rows *rows,
-                                    const struct remark_layers *layers)
-{
-    sqlite3_stmt *s = NULL;
-    enum reader_status status = READER_OK;
-    int step = SQLITE_ERROR;
-    if (sqlite3_prepare_v2(
-            file->db,
-            file->layered ? "SELECT id, kind, made, gone, anchor, text, rgba, width, x, y, "
-                            "points, coalesce((SELECT layer FROM in_layer WHERE remark = "
-                            "remark.id), 0) FROM remark ORDER BY id"
-                          : "SELECT id, kind, made, gone, anchor, text, rgba, width, x, y, "
-                            "points, 0 FROM remark ORDER BY id",
-            -1, &s, NULL) == SQLITE_OK)
-        step = SQLITE_ROW;
-    while (status == READER_OK && step == SQLITE_ROW &&
-           (step = sqlite3_step(s)) == SQLITE_ROW) {
-        struct remark_row row = {0};
-        const sqlite3_int64 layer = sqlite3_column_int64(s, LAYER);
-        row.remark.layer = (int)layer;
-        if (rows->count == READER_REMARKS_MAX || layer < 0 || layer >= layers->count ||
-            !row_read(s, &row)) {
-            remark_row_finish(&row);
-            status = foreign(file, "this file is damaged");
-        } else if (!array_reserve(&rows->rows, &rows->capacity, rows->count + 1,
-                                  sizeof *rows->rows)) {
-            remark_row_finish(&row);
-            status = reader_fail(READER_NO_MEMORY, "no memory for notes");
-        } else {
-            rows->rows[rows->count++] = row;
-        }
-    }
-    if (status == READER_OK && step != SQLITE_DONE)
-        status = foreign(file, sqlite3_errmsg(file->db));
-    sqlite3_finalize(s);
-    return status;
-}
+/* ---- all of it ---- */
 
 enum reader_status remarks_file_open(const char *path, bool reads, struct remarks_file **out,
                                      struct remark_rows *rows, struct remark_layers *layers)
@@ -326,10 +226,10 @@ enum reader_status remarks_file_open(const char *path, bool reads, struct remark
     }
     enum reader_status status = open_there(file, reads);
     *layers = (struct remark_layers){.count = 1};
-    if (status == READER_OK && file->layered)
-        status = layers_read(file, layers);
+    if (status == READER_OK && file->version >= REMARKS_LAYERED)
+        status = remarks_layers_read(file, layers);
     if (status == READER_OK && file->db)
-        status = rows_read(file, rows, layers);
+        status = remarks_rows_read(file, rows, layers);
     if (status == READER_OK)
         *out = file;
     else
@@ -353,59 +253,132 @@ bool remarks_file_read_only(const struct remarks_file *file)
 
 /* ---- writing ---- */
 
-static bool row_bind(sqlite3_stmt *s, const struct remark_row *row, const unsigned char *anchor,
-                     size_t anchor_bytes)
-{
-    const struct reader_remark *r = &row->remark;
-    size_t quoted;
-    const char *quotation = reader_anchor_quotation(row->anchor, &quoted);
-    bool good = row->id == 0 ? sqlite3_bind_null(s, 1) == SQLITE_OK
-                             : sqlite3_bind_int64(s, 1, row->id) == SQLITE_OK;
-    good =
-        good && sqlite3_bind_int(s, 2, (int)r->kind) == SQLITE_OK &&
-        sqlite3_bind_double(s, 3, r->made_s) == SQLITE_OK &&
-        sqlite3_bind_double(s, 4, r->gone_s) == SQLITE_OK &&
-        sqlite3_bind_blob64(s, 5, anchor, anchor_bytes, SQLITE_STATIC) == SQLITE_OK &&
-        sqlite3_bind_text64(s, 6, quotation, quoted, SQLITE_STATIC, SQLITE_UTF8) == SQLITE_OK &&
-        sqlite3_bind_text(s, 7, r->text, -1, SQLITE_STATIC) == SQLITE_OK &&
-        sqlite3_bind_int64(s, 8, r->rgba) == SQLITE_OK &&
-        sqlite3_bind_double(s, 9, r->width) == SQLITE_OK &&
-        sqlite3_bind_double(s, 10, r->x) == SQLITE_OK &&
-        sqlite3_bind_double(s, 11, r->y) == SQLITE_OK;
-    return good && sqlite3_bind_blob64(s, 12, r->points ? (const void *)r->points : "",
-                                       (size_t)r->points_count * sizeof *r->points,
-                                       SQLITE_STATIC) == SQLITE_OK;
-}
-
-/* With the first one the file becomes one of the version that has them. */
-enum reader_status remarks_file_layer(struct remarks_file *file, const char *name, int number)
+static bool layer_insert(struct remarks_file *file, int number, const char *name)
 {
     sqlite3_stmt *s = NULL;
-    char version[60];
+    const bool good = sqlite3_prepare_v2(file->db, "INSERT INTO layer VALUES(?,?)", -1, &s,
+                                         NULL) == SQLITE_OK &&
+                      sqlite3_bind_int(s, 1, number) == SQLITE_OK &&
+                      sqlite3_bind_text(s, 2, name, -1, SQLITE_STATIC) == SQLITE_OK &&
+                      sqlite3_step(s) == SQLITE_DONE;
+    sqlite3_finalize(s);
+    return good;
+}
+
+/* Within a transaction, so that no other program adds one meanwhile. */
+static enum reader_status layer_make(struct remarks_file *file, const char *name,
+                                     struct remark_layers *layers, int *layer)
+{
+    if (!version_raise(file, REMARKS_LAYERED))
+        return file_fail(file);
+    enum reader_status status = remarks_layers_read(file, layers);
+    if (status != READER_OK)
+        return status;
+    for (*layer = 1; *layer < layers->count; ++*layer)
+        if (strcmp(layers->names[*layer], name) == 0)
+            return READER_OK; /* another program has made it */
+    if (layers->count == READER_LAYERS_MAX)
+        return reader_fail(READER_TOO_LARGE, "notes have up to %d layers", READER_LAYERS_MAX);
+    if (!layer_insert(file, layers->count, name))
+        return file_fail(file);
+    memcpy(layers->names[layers->count++], name, strlen(name) + 1);
+    return READER_OK;
+}
+
+/* Begins a change of a file that can be written. */
+static enum reader_status change_begin(struct remarks_file *file)
+{
     if (file->read_only)
         return reader_fail(READER_FAILED, "%s can be read only", file->path);
     enum reader_status status = file->db ? READER_OK : make(file);
-    if (status != READER_OK)
-        return status;
-    snprintf(version, sizeof version, "PRAGMA user_version=%d", VERSION);
-    bool good = run(file, "BEGIN IMMEDIATE") &&
-                (file->layered ||
-                 (run(file, layer_schema) && run(file, in_layer_schema) && run(file, version)));
-    good = good &&
-           sqlite3_prepare_v2(file->db, "INSERT INTO layer VALUES(?,?)", -1, &s, NULL) ==
-               SQLITE_OK &&
-           sqlite3_bind_int(s, 1, number) == SQLITE_OK &&
-           sqlite3_bind_text(s, 2, name, -1, SQLITE_STATIC) == SQLITE_OK &&
-           sqlite3_step(s) == SQLITE_DONE;
-    sqlite3_finalize(s);
-    good = good && run(file, "COMMIT");
-    if (!good) {
+    if (status == READER_OK && !run(file, "BEGIN IMMEDIATE"))
         status = file_fail(file);
-        run(file, "ROLLBACK");
-    }
-    file->layered = file->layered || good;
     return status;
 }
+
+/* All of it is in the file, or nothing. */
+static enum reader_status change_end(struct remarks_file *file, enum reader_status status)
+{
+    if (status == READER_OK && !run(file, "COMMIT"))
+        status = file_fail(file);
+    if (status != READER_OK)
+        run(file, "ROLLBACK");
+    else
+        file->version = (int)number_of(file, "PRAGMA user_version");
+    return status;
+}
+
+enum reader_status remarks_file_layer(struct remarks_file *file, const char *name,
+                                      struct remark_layers *layers, int *layer)
+{
+    struct remark_layers now = *layers;
+    enum reader_status status = change_begin(file);
+    if (status != READER_OK)
+        return status;
+    now.count = 1;
+    status = change_end(file, layer_make(file, name, &now, layer));
+    if (status == READER_OK)
+        *layers = now;
+    return status;
+}
+
+/* ---- arranging ---- */
+
+static bool moved_write(struct remarks_file *file, long long id,
+                        const struct reader_arranged *to)
+{
+    sqlite3_stmt *s = NULL;
+    const bool good = sqlite3_prepare_v2(file->db, "UPDATE remark SET x=?, y=? WHERE id=?", -1,
+                                         &s, NULL) == SQLITE_OK &&
+                      sqlite3_bind_double(s, 1, to->x) == SQLITE_OK &&
+                      sqlite3_bind_double(s, 2, to->y) == SQLITE_OK &&
+                      sqlite3_bind_int64(s, 3, id) == SQLITE_OK &&
+                      sqlite3_step(s) == SQLITE_DONE;
+    sqlite3_finalize(s);
+    return good;
+}
+
+static bool arranged_write(struct remarks_file *file, const struct remark_rows *rows,
+                           const struct reader_arranged *to)
+{
+    sqlite3_stmt *s = NULL;
+    const bool good =
+        sqlite3_prepare_v2(file->db, "INSERT OR REPLACE INTO arranged VALUES(?,?,?,?,?)", -1,
+                           &s, NULL) == SQLITE_OK &&
+        sqlite3_bind_int64(s, 1, rows->rows[to->index].id) == SQLITE_OK &&
+        sqlite3_bind_double(s, 2, to->scale_x) == SQLITE_OK &&
+        sqlite3_bind_double(s, 3, to->scale_y) == SQLITE_OK &&
+        sqlite3_bind_int64(s, 4, rows->rows[to->hangs].id) == SQLITE_OK &&
+        sqlite3_bind_int64(s, 5, to->group < 0 ? 0 : rows->rows[to->group].id) == SQLITE_OK &&
+        sqlite3_step(s) == SQLITE_DONE;
+    sqlite3_finalize(s);
+    return good;
+}
+
+/* What is moved and nothing else needs no later version. */
+static bool is_only_moved(const struct reader_arranged *to)
+{
+    return to->scale_x == 1 && to->scale_y == 1 && to->hangs == to->index && to->group < 0;
+}
+
+enum reader_status remarks_file_arrange(struct remarks_file *file,
+                                        const struct remark_rows *rows,
+                                        const struct reader_arranged *to, int count)
+{
+    enum reader_status status = change_begin(file);
+    bool good = true;
+    if (status != READER_OK)
+        return status;
+    for (int i = 0; i < count && good; i++) {
+        const bool kept = number_of(file, "PRAGMA user_version") >= REMARKS_ARRANGED;
+        good = moved_write(file, rows->rows[to[i].index].id, &to[i]) &&
+               (kept || is_only_moved(&to[i]) || version_raise(file, REMARKS_ARRANGED)) &&
+               ((!kept && is_only_moved(&to[i])) || arranged_write(file, rows, &to[i]));
+    }
+    return change_end(file, good ? READER_OK : file_fail(file));
+}
+
+/* ---- rows ---- */
 
 /* Which layer a new row is in. */
 static bool layer_write(struct remarks_file *file, long long id, int layer)
@@ -437,7 +410,7 @@ enum reader_status remarks_file_write(struct remarks_file *file, struct remark_r
                 sqlite3_prepare_v2(
                     file->db, "INSERT OR REPLACE INTO remark VALUES(?,?,?,?,?,?,?,?,?,?,?,?)",
                     -1, &s, NULL) == SQLITE_OK &&
-                row_bind(s, row, anchor, bytes) && sqlite3_step(s) == SQLITE_DONE;
+                remark_row_bind(s, row, anchor, bytes) && sqlite3_step(s) == SQLITE_DONE;
     const long long id = good ? sqlite3_last_insert_rowid(file->db) : 0;
     if (both)
         good = good && sqlite3_reset(s) == SQLITE_OK &&

@@ -52,6 +52,13 @@ double reader_remarks_play(const struct reader_remarks *remarks, bool erased,
     return pauses_shorten(remarks, played, *count);
 }
 
+struct reader_ink_place reader_ink_place(const struct reader_remark *r, int i)
+{
+    return (struct reader_ink_place){
+        r->scale_x * (double)r->points[i].x, r->scale_y * (double)r->points[i].y,
+        sqrt(r->scale_x * r->scale_y) * reader_ink_width(r->points, i, r->width)};
+}
+
 double reader_ink_width(const struct reader_ink_point *points, int i, double full)
 {
     const double before = (double)points[i > 0 ? i - 1 : 0].pressure;

@@ -28,6 +28,10 @@ static void copy_selected(struct read_desk *d)
 
 static void select_all(struct read_desk *d)
 {
+    if (d->tool == READ_TOOL_MOVE) {
+        read_chosen_all(d);
+        return;
+    }
     if (d->document)
         d->selected = (struct read_range){0, d->document->plain_bytes};
     read_edit_select(d, d->selected);
@@ -85,6 +89,8 @@ ACTION(pen, read_keys_key(d, GDK_KEY_d, 0))
 ACTION(eraser, read_keys_key(d, GDK_KEY_e, 0))
 ACTION(spots, read_keys_key(d, GDK_KEY_E, 0))
 ACTION(move_ink, read_keys_key(d, GDK_KEY_m, 0))
+ACTION(group_ink, read_chosen_group(d, true))
+ACTION(ungroup_ink, read_chosen_group(d, false))
 ACTION(play_back, read_keys_key(d, GDK_KEY_r, 0))
 ACTION(play_back_all, read_keys_key(d, GDK_KEY_R, 0))
 ACTION(ink, ink_choose(d, g_variant_get_string(value, NULL)))
@@ -123,6 +129,8 @@ static const GActionEntry entries[] = {
     {.name = "eraser", .activate = eraser},
     {.name = "spots", .activate = spots},
     {.name = "move-ink", .activate = move_ink},
+    {.name = "group-ink", .activate = group_ink},
+    {.name = "ungroup-ink", .activate = ungroup_ink},
     {.name = "play-back", .activate = play_back},
     {.name = "play-back-all", .activate = play_back_all},
     {.name = "ink", .activate = ink, .parameter_type = "s"},
@@ -160,7 +168,9 @@ static const struct desk_row menu_rows[] = {
     {"win.pen", "Draw (D)", "<Control><Shift>d"},
     {"win.eraser", "Erase ink (E)", "<Control>e"},
     {"win.spots", "Erase spots of ink (Shift+E)", "<Control><Shift>e"},
-    {"win.move-ink", "Move ink (M)", "<Control>m"},
+    {"win.move-ink", "Choose ink: move, scale, group (M)", "<Control>m"},
+    {"win.group-ink", "Group the chosen ink (G)", "<Control><Alt>g"},
+    {"win.ungroup-ink", "Ungroup it (Shift+G)", "<Control><Alt><Shift>g"},
     {"win.play-back", "Play ink back (R)", "<Control>r"},
     {"win.play-back-all", "Play back with what was erased", "<Control><Shift>r"},
     {NULL, NULL, NULL},
@@ -209,6 +219,8 @@ void read_actions_enable(struct read_desk *d)
         {"forward", read_document_can(d, true)},
         {"undo", (read_edit_on(d) ? read_edit_can : read_remarks_can)(d, false)},
         {"redo", (read_edit_on(d) ? read_edit_can : read_remarks_can)(d, true)},
+        {"group-ink", read_chosen_count(d) > 1},
+        {"ungroup-ink", read_chosen_count(d) > 0},
         {"save", read_save_needed(d)},
         {"paste", read_edit_on(d)},
         {"cut", read_edit_on(d) && d->selected.begin < d->selected.end},

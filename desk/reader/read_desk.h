@@ -13,6 +13,8 @@
  *     read_layers.c    readers' layers: which are shown, which is written
  *     read_ink.c       ink
  *     read_spots.c     spots that are taken out of it
+ *     read_chosen.c    strokes that are chosen: moved, scaled, grouped
+ *     read_chosen_hand.c  pointer and keys for them
  *     read_edit.c, read_edit_keys.c, read_edit_im.c, read_save.c  editing: read_edit.h
  *     read_watch.c     files that other programs change
  *     read_text.c      words
@@ -83,6 +85,20 @@ struct read_editing;
 struct reader_edit_change;
 struct read_play;
 
+/* How strokes lie in the window: scaled from a point, and then moved. */
+struct read_lay {
+    double from_x, from_y, scale_x, scale_y, by_x, by_y;
+};
+
+/* What of chosen strokes the hand holds, while it is down. */
+struct read_hold {
+    enum { READ_HOLD_NOTHING, READ_HOLD_FRAME, READ_HOLD_BOX } what;
+    int handle;
+    double from_x, from_y, x, y;
+    struct reader_box box;
+    int at; /* the stroke that Tab has come to */
+};
+
 struct read_desk {
     struct read_options options;
     int status; /* the program's exit status */
@@ -140,10 +156,12 @@ struct read_desk {
     double ink_width; /* ems */
     GArray *stroke;   /* struct reader_ink_point, in the window's pixels */
     double stroke_s;
-    GArray *spots; /* where an eraser of spots has been, while the hand is down */
-    bool drawn;    /* the hand is down */
-    int moving_stroke;
-    double move_x, move_y;
+    GArray *spots;  /* where an eraser of spots has been, while the hand is down */
+    bool drawn;     /* the hand is down */
+    GArray *chosen; /* int: strokes */
+    struct read_hold hold;
+    bool laid; /* what is chosen is shown as it will be */
+    struct read_lay lay;
     bool playing, playing_erased;
     double play_s, play_end_s;
     gint64 play_us;
@@ -374,7 +392,8 @@ void read_remarks_finish(struct read_desk *d);
 int read_remarks_add(struct read_desk *d, const struct reader_remark *what, size_t begin,
                      size_t end);
 void read_remarks_erase(struct read_desk *d, int index);
-void read_remarks_move(struct read_desk *d, int index, double x, double y);
+/* So many strokes at once, as one deed. */
+void read_remarks_arrange(struct read_desk *d, const struct reader_arranged *to, int count);
 /* Deeds from one to the other are undone together. */
 void read_remarks_group(struct read_desk *d, bool begins);
 void read_remarks_undo(struct read_desk *d, bool redo);
@@ -398,13 +417,45 @@ void read_list_fill(struct read_desk *d);
 
 /* read_ink.c */
 void read_ink_draw(struct read_desk *d, GtkSnapshot *snapshot);
-void read_ink_press(struct read_desk *d, double x, double y, double pressure, double time_s);
+/* more: with Shift, what is pressed is chosen besides. */
+void read_ink_press(struct read_desk *d, double x, double y, double pressure, double time_s,
+                    bool more);
 void read_ink_move(struct read_desk *d, double x, double y, double pressure, double time_s);
 void read_ink_release(struct read_desk *d, double x, double y);
 double read_ink_pressure(struct read_desk *d, guint32 time_ms, GdkEvent *event);
 /* Of a pen; without one what a mouse has. */
 double read_ink_pen(struct read_desk *d, guint32 time_ms, GdkEvent *event, double mouse);
 void read_ink_play(struct read_desk *d, bool erased); /* or ends it */
+
+/* read_chosen.c */
+/* Whether it can be: ink that is seen, in the layer that is written. */
+bool read_chosen_can(const struct read_desk *d, int index);
+bool read_chosen_is(const struct read_desk *d, int index);
+int read_chosen_count(struct read_desk *d); /* those that can still be */
+void read_chosen_none(struct read_desk *d);
+/* A stroke with its group, alone or with those that are; or all; or no longer. */
+void read_chosen_take(struct read_desk *d, int index, bool more);
+void read_chosen_leave(struct read_desk *d, int index);
+void read_chosen_all(struct read_desk *d);
+/* The newest stroke that can be chosen within reach of a point; -1: none is. */
+int read_chosen_at(struct read_desk *d, double x, double y, double reach);
+/* The box of those that are in the window; false: none is. */
+bool read_chosen_box(struct read_desk *d, struct reader_box *box);
+/* The box of one; false: it is not in the window. */
+bool read_chosen_box_of(struct read_desk *d, int index, struct reader_box *box);
+void read_chosen_lay(struct read_desk *d, const struct read_lay *lay);
+/* While the hand is down they are shown so; NULL: as they are. */
+void read_chosen_preview(struct read_desk *d, const struct read_lay *lay);
+void read_chosen_previewed(struct read_desk *d, int index, struct reader_remark *r);
+void read_chosen_group(struct read_desk *d, bool together);
+void read_chosen_erase(struct read_desk *d);
+
+/* read_chosen_hand.c */
+void read_chosen_press(struct read_desk *d, double x, double y, bool more);
+void read_chosen_drag(struct read_desk *d, double x, double y);
+void read_chosen_release(struct read_desk *d);
+bool read_chosen_key(struct read_desk *d, guint key, bool shift);
+void read_chosen_draw(struct read_desk *d, cairo_t *cairo);
 
 /* read_spots.c */
 void read_spots_add(struct read_desk *d, double x, double y);

@@ -227,7 +227,8 @@ static void pressed(GtkGestureClick *click, int times, double x, double y, struc
         return;
     }
     gtk_widget_grab_focus(d->page);
-    read_ink_press(d, x, y, read_ink_pressure(d, now_ms, event), now_ms * 1e-3);
+    const bool more = gtk_event_controller_get_current_event_state(controller) & GDK_SHIFT_MASK;
+    read_ink_press(d, x, y, read_ink_pressure(d, now_ms, event), now_ms * 1e-3, more);
 }
 
 static void released(GtkGestureClick *click, int times, double x, double y, struct read_desk *d)

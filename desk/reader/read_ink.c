@@ -7,28 +7,30 @@
 
 #define MOUSE_PRESSURE 0.5f
 
-enum { ERASER_PX = 10, GRAB_PX = 12 };
+enum { ERASER_PX = 10 };
 
 /* ---- drawing ---- */
 
-/* spots: where none of it is drawn; NULL: all is. */
-static void stroke_draw(cairo_t *cairo, const struct reader_ink_point *points, int count,
-                        double x, double y, double em, double width, unsigned rgba,
-                        const struct read_desk *spots)
+/* So many of its points, from where it was moved to. spots: where none of it is drawn;
+ * NULL: all is. */
+static void stroke_draw(cairo_t *cairo, const struct reader_remark *r, int count, double x,
+                        double y, double em, const struct read_desk *spots)
 {
+    const unsigned rgba = r->rgba;
     const double red = (rgba >> 24) / 255.0, green = (rgba >> 16 & 255) / 255.0,
                  blue = (rgba >> 8 & 255) / 255.0, alpha = (rgba & 255) / 255.0;
     cairo_push_group(cairo); /* where it crosses itself it is no darker */
     cairo_set_source_rgb(cairo, red, green, blue);
     cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
     for (int i = 0; i < count; i++) {
-        const struct reader_ink_point *a = &points[i > 0 ? i - 1 : 0], *b = &points[i];
-        if (spots && (read_spots_at(spots, x + em * (double)a->x, y + em * (double)a->y) ||
-                      read_spots_at(spots, x + em * (double)b->x, y + em * (double)b->y)))
+        const struct reader_ink_place a = reader_ink_place(r, i > 0 ? i - 1 : 0),
+                                      b = reader_ink_place(r, i);
+        if (spots && (read_spots_at(spots, x + em * a.x, y + em * a.y) ||
+                      read_spots_at(spots, x + em * b.x, y + em * b.y)))
             continue;
-        cairo_set_line_width(cairo, fmax(0.6, em * reader_ink_width(points, i, width)));
-        cairo_move_to(cairo, x + em * (double)a->x, y + em * (double)a->y);
-        cairo_line_to(cairo, x + em * (double)b->x, y + em * (double)b->y);
+        cairo_set_line_width(cairo, fmax(0.6, em * b.width));
+        cairo_move_to(cairo, x + em * a.x, y + em * a.y);
+        cairo_line_to(cairo, x + em * b.x, y + em * b.y);
         cairo_stroke(cairo);
     }
     cairo_pop_group_to_source(cairo);
@@ -53,13 +55,13 @@ static void strokes_draw(struct read_desk *d, cairo_t *cairo)
     d->play_end_s =
         room ? reader_remarks_play(d->remarks, d->playing_erased, played, &strokes) : 0;
     for (int i = 0; i < strokes; i++) {
-        const struct reader_remark *r = reader_remarks_get(d->remarks, played[i].index);
+        struct reader_remark r = *reader_remarks_get(d->remarks, played[i].index);
         double x, y;
         const int count =
-            d->playing ? points_until(r, d->play_s - played[i].begins_s) : r->points_count;
-        if (count && read_text_origin(d, r, &x, &y))
-            stroke_draw(cairo, r->points, count, x, y, d->size_px, r->width, r->rgba,
-                        d->spots->len ? d : NULL);
+            d->playing ? points_until(&r, d->play_s - played[i].begins_s) : r.points_count;
+        read_chosen_previewed(d, played[i].index, &r);
+        if (count && read_text_origin(d, &r, &x, &y))
+            stroke_draw(cairo, &r, count, x, y, d->size_px, d->spots->len ? d : NULL);
     }
     g_free(played);
 }
@@ -77,8 +79,16 @@ void read_ink_draw(struct read_desk *d, GtkSnapshot *snapshot)
                                                                 (float)d->setup.height_px));
     strokes_draw(d, cairo);
     if (some)
-        stroke_draw(cairo, (const struct reader_ink_point *)(void *)d->stroke->data,
-                    (int)d->stroke->len, 0, 0, 1, d->ink_width * d->size_px, d->ink_rgba, NULL);
+        stroke_draw(cairo,
+                    &(const struct reader_remark){
+                        .points = (struct reader_ink_point *)(void *)d->stroke->data,
+                        .points_count = (int)d->stroke->len,
+                        .width = d->ink_width * d->size_px,
+                        .rgba = d->ink_rgba,
+                        .scale_x = 1,
+                        .scale_y = 1},
+                    (int)d->stroke->len, 0, 0, 1, NULL);
+    read_chosen_draw(d, cairo);
     cairo_destroy(cairo);
 }
 
@@ -96,44 +106,25 @@ static void point_add(struct read_desk *d, double x, double y, double pressure, 
     read_page_changed(d);
 }
 
-/* The newest stroke within reach of a point; -1: none is. */
-static int stroke_at(struct read_desk *d, double px, double py, double reach)
-{
-    for (int i = d->remarks ? reader_remarks_count(d->remarks) - 1 : -1; i >= 0; i--) {
-        const struct reader_remark *r = reader_remarks_get(d->remarks, i);
-        double x, y;
-        if (r->kind != READER_REMARK_INK || !reader_remark_seen(r) ||
-            r->layer != reader_remarks_written(d->remarks) || !read_text_origin(d, r, &x, &y))
-            continue;
-        for (int k = 0; k < r->points_count; k++)
-            if (hypot(x + d->size_px * (double)r->points[k].x - px,
-                      y + d->size_px * (double)r->points[k].y - py) < reach)
-                return i;
-    }
-    return -1;
-}
-
 static void erase_at(struct read_desk *d, double x, double y)
 {
-    const int index = stroke_at(d, x, y, ERASER_PX);
+    const int index = read_chosen_at(d, x, y, ERASER_PX);
     if (index >= 0)
         read_remarks_erase(d, index);
 }
 
-void read_ink_press(struct read_desk *d, double x, double y, double pressure, double time_s)
+void read_ink_press(struct read_desk *d, double x, double y, double pressure, double time_s,
+                    bool more)
 {
     d->drawn = true;
     d->playing = false;
-    d->moving_stroke = -1;
     if (d->tool == READ_TOOL_ERASER)
         erase_at(d, x, y);
     else if (d->tool == READ_TOOL_SPOTS)
         read_spots_add(d, x, y);
-    else if (d->tool == READ_TOOL_MOVE) {
-        d->moving_stroke = stroke_at(d, x, y, GRAB_PX);
-        d->move_x = x;
-        d->move_y = y;
-    } else
+    else if (d->tool == READ_TOOL_MOVE)
+        read_chosen_press(d, x, y, more);
+    else
         point_add(d, x, y, pressure, time_s);
 }
 
@@ -145,6 +136,8 @@ void read_ink_move(struct read_desk *d, double x, double y, double pressure, dou
         erase_at(d, x, y);
     else if (d->tool == READ_TOOL_SPOTS)
         read_spots_add(d, x, y);
+    else if (d->tool == READ_TOOL_MOVE)
+        read_chosen_drag(d, x, y);
     else if (d->tool == READ_TOOL_PEN)
         point_add(d, x, y, pressure, time_s);
 }
@@ -202,12 +195,10 @@ void read_ink_release(struct read_desk *d, double x, double y)
     if (d->stroke->len)
         stroke_keep(d);
     g_array_set_size(d->stroke, 0);
-    if (d->tool == READ_TOOL_MOVE && d->moving_stroke >= 0) {
-        const struct reader_remark *r = reader_remarks_get(d->remarks, d->moving_stroke);
-        read_remarks_move(d, d->moving_stroke, r->x + (x - d->move_x) / d->size_px,
-                          r->y + (y - d->move_y) / d->size_px);
+    if (d->tool == READ_TOOL_MOVE) {
+        read_chosen_drag(d, x, y);
+        read_chosen_release(d);
     }
-    d->moving_stroke = -1;
     read_page_changed(d);
 }
 

@@ -99,6 +99,7 @@ static bool scroll_key(struct read_desk *d, guint key, bool shift)
 static void tool_set(struct read_desk *d, enum read_tool tool)
 {
     d->tool = d->tool == tool ? READ_TOOL_READ : tool; /* the same key again: one reads */
+    read_chosen_none(d);
     gtk_widget_set_cursor_from_name(d->page, d->tool == READ_TOOL_READ   ? "text"
                                              : d->tool == READ_TOOL_MOVE ? "move"
                                                                          : "crosshair");
@@ -141,6 +142,8 @@ bool read_keys_key(struct read_desk *d, guint key, GdkModifierType state)
     if (!d->view || (state & (GDK_CONTROL_MASK | GDK_ALT_MASK | GDK_SUPER_MASK)))
         return false;
     if (read_miniatures_key(d, key) || read_grid_key(d, key) || read_stages_key(d, key))
+        return true;
+    if (d->tool == READ_TOOL_MOVE && read_chosen_key(d, key, shift))
         return true;
     if (key == GDK_KEY_Tab && !shift && read_stages_enter(d, d->focused))
         return true;

@@ -67,7 +67,7 @@ static void desk_begin(struct read_desk *d)
     d->watches = g_ptr_array_new_with_free_func(g_object_unref);
     d->ink_rgba = 0x1f4fbfc8u; /* blue, translucent */
     d->ink_width = 0.16;
-    d->moving_stroke = -1;
+    d->chosen = g_array_new(FALSE, FALSE, sizeof(int));
     d->pressure = 1;
     d->hit = -1;
     d->focused = G_MAXSIZE;
@@ -87,6 +87,7 @@ static void desk_finish(struct read_desk *d)
     desk_pen_destroy(d->pen);
     g_array_free(d->stroke, TRUE);
     g_array_free(d->spots, TRUE);
+    g_array_free(d->chosen, TRUE);
     g_ptr_array_unref(d->watches);
     read_stages_finish(d);
     read_stages_destroy(d->stages);

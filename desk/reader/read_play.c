@@ -47,7 +47,13 @@ static void up(struct read_desk *d, const struct input *i)
 
 static void press(struct read_desk *d, const struct input *i)
 {
-    read_ink_press(d, i->value[0], i->value[1], i->value[2], i->time_s);
+    read_ink_press(d, i->value[0], i->value[1], i->value[2], i->time_s, false);
+}
+
+/* With Shift. */
+static void press_more(struct read_desk *d, const struct input *i)
+{
+    read_ink_press(d, i->value[0], i->value[1], i->value[2], i->time_s, true);
 }
 
 static void drag(struct read_desk *d, const struct input *i)
@@ -103,14 +109,15 @@ static void preedit(struct read_desk *d, const struct input *i)
     read_edit_preedit(d, i->text);
 }
 
-/* A key while the document is edited: "Control+Shift+Left". */
+/* A key with what is held: "Control+Shift+Left". */
 static void strike(struct read_desk *d, const struct input *i)
 {
     const char *plus = strrchr(i->text, '+');
     GdkModifierType state = 0;
     state |= strstr(i->text, "Shift+") ? GDK_SHIFT_MASK : 0;
     state |= strstr(i->text, "Control+") ? GDK_CONTROL_MASK : 0;
-    if (!read_edit_key(d, gdk_keyval_from_name(plus ? plus + 1 : i->text), state))
+    const guint value = gdk_keyval_from_name(plus ? plus + 1 : i->text);
+    if (!read_edit_key(d, value, state) && !read_keys_key(d, value, state))
         d->say(d, i->text);
 }
 
@@ -214,10 +221,20 @@ static char *played_told(struct read_desk *d)
         const struct reader_remark *r = reader_remarks_get(d->remarks, played[i].index);
         double x, y;
         if (read_text_origin(d, r, &x, &y))
-            g_string_append_printf(told, " %.0f", x + d->size_px * (double)r->points[0].x);
+            g_string_append_printf(told, " %.0f", x + d->size_px * reader_ink_place(r, 0).x);
     }
     g_free(played);
     return g_string_free(told, FALSE);
+}
+
+/* The box of the strokes that are chosen, and how many are. */
+static char *chosen_told(struct read_desk *d)
+{
+    struct reader_box box;
+    if (!read_chosen_box(d, &box))
+        return g_strdup_printf("%d", read_chosen_count(d));
+    return g_strdup_printf("%d %.1f %.1f %.1f %.1f", read_chosen_count(d), box.x, box.y,
+                           box.width, box.height);
 }
 
 /* What is seen, as lines of text. */
@@ -243,28 +260,29 @@ static void tell(struct read_desk *d, const struct input *i)
         orphans += reader_remark_seen(r) && r->orphan;
         if (r->kind == READER_REMARK_INK && reader_remark_seen(r) && !r->orphan &&
             reader_view_boxes(d->view, r->begin, r->begin + 1, &box, 1) > 0) {
-            ink_x = box.x + d->size_px * (r->x + (double)r->points[0].x);
-            ink_y = box.y + d->size_px * (r->y + (double)r->points[0].y);
+            ink_x = box.x + d->size_px * (r->x + reader_ink_place(r, 0).x);
+            ink_y = box.y + d->size_px * (r->y + reader_ink_place(r, 0).y);
         }
     }
     char *line = g_strndup(d->document->plain + top, 40),
          *selected = read_text_of(d, d->selected), *stages = read_stages_told(d),
-         *order = played_told(d), *editing = read_edit_told(d),
+         *order = played_told(d), *chosen = chosen_told(d), *editing = read_edit_told(d),
          *small = read_miniatures_told(d);
     char *told = g_strdup_printf(
         "top %zu\nline %s\nshown %d\nabove %.0f\nall %.0f\nset %ld\npainted %ld\nhits %u\nhit "
         "%d\n"
         "open %d\nselected %s\nway %u of %u\nfile %s\nheard %u\nremarks %d\norphans %d\nink "
-        "%.1f %.1f\ngrid %d %d\nedge %.1f\nplayed%s\n%s%s%s",
+        "%.1f %.1f\ngrid %d %d\nedge %.1f\nplayed%s\nchosen %s\n%s%s%s",
         top, g_strdelimit(line, "\n", ' '), count, above, all, reader_view_set_count(d->view),
         read_tiles_painted(d->tiles), d->hits->len, d->hit, opened, selected, d->way_at,
         d->way->len, d->files.count ? d->files.paths[block ? block->source : 0] : "",
         d->heard->len, remarks, orphans, ink_x, ink_y, grid->texts, grid->columns_count,
-        last->x + last->width, order, editing, small, stages);
+        last->x + last->width, order, chosen, editing, small, stages);
     if (!g_file_set_contents(i->text, told, -1, NULL))
         d->say(d, i->text);
     g_free(told);
     g_free(order);
+    g_free(chosen);
     g_free(editing);
     g_free(small);
     g_free(stages);
@@ -336,6 +354,7 @@ static const struct word words[] = {{"down", 3, down},
                                     {"picture", -1, picture},
                                     {"tell", -1, tell},
                                     {"press", 3, press},
+                                    {"press-more", 3, press_more},
                                     {"drag", 3, drag},
                                     {"lift", 2, lift},
                                     {"note", -1, note},

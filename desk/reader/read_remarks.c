@@ -10,8 +10,9 @@ enum { SYNC_MS = 900, TYPED_MS = 400 };
 /* What can be undone: a remark as it was before, and after. */
 struct read_deed {
     int index;
-    enum { DEED_MADE, DEED_ERASED, DEED_MOVED, DEED_WRITTEN } kind;
-    double x[2], y[2];
+    enum { DEED_MADE, DEED_ERASED, DEED_ARRANGED, DEED_WRITTEN } kind;
+    struct reader_arranged *arranged[2];
+    int arranged_count;
     char *text[2];
     unsigned group; /* those of one number are undone together; 0: alone */
 };
@@ -19,8 +20,10 @@ struct read_deed {
 static void deed_clear(gpointer item)
 {
     struct read_deed *deed = item;
-    g_free(deed->text[0]);
-    g_free(deed->text[1]);
+    for (int k = 0; k < 2; k++) {
+        g_free(deed->text[k]);
+        g_free(deed->arranged[k]);
+    }
 }
 
 /* ---- opening ---- */
@@ -77,6 +80,8 @@ void read_remarks_close(struct read_desk *d)
     }
     g_array_set_size(d->deeds, 0);
     d->deeds_done = 0;
+    g_array_set_size(d->chosen, 0);
+    d->laid = false;
     if (d->remarks && reader_remarks_sync(d->remarks) != READER_OK)
         d->say(d, reader_error());
     reader_remarks_close(d->remarks);
@@ -112,8 +117,8 @@ static enum reader_status deed_do(struct read_desk *d, const struct read_deed *d
         return reader_remarks_erase(d->remarks, deed->index, !redo);
     case DEED_ERASED:
         return reader_remarks_erase(d->remarks, deed->index, redo);
-    case DEED_MOVED:
-        return reader_remarks_move(d->remarks, deed->index, deed->x[redo], deed->y[redo]);
+    case DEED_ARRANGED:
+        return reader_remarks_arrange(d->remarks, deed->arranged[redo], deed->arranged_count);
     case DEED_WRITTEN:
         return reader_remarks_write(d->remarks, deed->index, deed->text[redo]);
     }
@@ -175,15 +180,21 @@ void read_remarks_erase(struct read_desk *d, int index)
     changed(d);
 }
 
-void read_remarks_move(struct read_desk *d, int index, double x, double y)
+void read_remarks_arrange(struct read_desk *d, const struct reader_arranged *to, int count)
 {
-    const struct reader_remark *r = reader_remarks_get(d->remarks, index);
-    const struct read_deed deed = {
-        .index = index, .kind = DEED_MOVED, .x = {r->x, x}, .y = {r->y, y}};
-    if (reader_remarks_move(d->remarks, index, x, y) == READER_OK)
+    struct read_deed deed = {.kind = DEED_ARRANGED, .arranged_count = count};
+    for (int k = 0; k < 2; k++)
+        deed.arranged[k] = g_new(struct reader_arranged, (gsize)count);
+    for (int i = 0; i < count; i++) {
+        deed.arranged[0][i] = reader_remarks_arranged(d->remarks, to[i].index);
+        deed.arranged[1][i] = to[i];
+    }
+    if (reader_remarks_arrange(d->remarks, to, count) == READER_OK) {
         deed_keep(d, deed);
-    else
+    } else {
+        deed_clear(&deed);
         d->say(d, reader_error());
+    }
     changed(d);
 }
 

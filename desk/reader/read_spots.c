@@ -15,9 +15,8 @@ struct spot {
 /* A run of points that stays. */
 struct piece {
     GArray *points; /* struct reader_ink_point */
-    unsigned rgba;
-    double width, made_s;
-    size_t begin, end;
+    double made_s;
+    int of; /* a stroke */
 };
 
 /* ---- where it was ---- */
@@ -57,6 +56,7 @@ static void piece_clear(gpointer item)
 struct cut {
     struct read_desk *desk;
     const struct reader_remark *from;
+    int of;
     double x, y, em; /* where its points are counted from */
     bool touched;
     GArray *run, *pieces;
@@ -65,7 +65,7 @@ struct cut {
 static void run_end(struct cut *c)
 {
     const struct reader_remark *from = c->from;
-    struct piece piece = {c->run, from->rgba, from->width, 0, from->begin, from->end};
+    struct piece piece = {c->run, 0, c->of};
     if (!c->run->len)
         return;
     const float first_s = g_array_index(c->run, struct reader_ink_point, 0).time_s,
@@ -118,25 +118,58 @@ static void way_cut(struct cut *c, const struct reader_ink_point *a,
         point_cut(c, between(a, b, (float)i / (float)steps));
 }
 
-/* Whether a spot is on the stroke; what stays of it is added to the pieces. */
-static bool stroke_cut(struct read_desk *d, const struct reader_remark *r, GArray *pieces)
+/* A piece is not scaled. */
+static struct reader_ink_point as_scaled(const struct reader_remark *r, int i)
 {
-    struct cut c = {.desk = d, .from = r, .em = d->size_px, .pieces = pieces};
+    const struct reader_ink_place place = reader_ink_place(r, i);
+    return (struct reader_ink_point){(float)place.x, (float)place.y, r->points[i].pressure,
+                                     r->points[i].time_s};
+}
+
+/* Whether a spot is on the stroke; what stays of it is added to the pieces. */
+static bool stroke_cut(struct read_desk *d, int of, GArray *pieces)
+{
+    const struct reader_remark *r = reader_remarks_get(d->remarks, of);
+    struct cut c = {.desk = d, .from = r, .of = of, .em = d->size_px, .pieces = pieces};
     const guint before = pieces->len;
-    if (r->kind != READER_REMARK_INK || !reader_remark_seen(r) ||
-        r->layer != reader_remarks_written(d->remarks) || !read_text_origin(d, r, &c.x, &c.y))
+    if (!read_chosen_can(d, of) || !read_text_origin(d, r, &c.x, &c.y))
         return false;
     c.run = g_array_new(FALSE, FALSE, sizeof(struct reader_ink_point));
     for (int i = 0; i < r->points_count; i++) {
-        if (i)
-            way_cut(&c, &r->points[i - 1], &r->points[i]);
-        point_cut(&c, r->points[i]);
+        const struct reader_ink_point point = as_scaled(r, i);
+        if (i) {
+            const struct reader_ink_point before_it = as_scaled(r, i - 1);
+            way_cut(&c, &before_it, &point);
+        }
+        point_cut(&c, point);
     }
     run_end(&c);
     g_array_unref(c.run);
     if (!c.touched)
         g_array_set_size(pieces, before);
     return c.touched;
+}
+
+/* In the group of the stroke that it is of. */
+static void piece_keep(struct read_desk *d, const struct piece *p)
+{
+    const struct reader_remark from = *reader_remarks_get(d->remarks, p->of);
+    const int index = read_remarks_add(
+        d,
+        &(struct reader_remark){.kind = READER_REMARK_INK,
+                                .rgba = from.rgba,
+                                .width = from.width * sqrt(from.scale_x * from.scale_y),
+                                .made_s = p->made_s,
+                                .points = (struct reader_ink_point *)(void *)p->points->data,
+                                .points_count =
+                                    MIN((int)p->points->len, (int)READER_INK_POINTS_MAX)},
+        from.begin, from.end);
+    if (index < 0 || from.group < 0)
+        return;
+    struct reader_arranged to = reader_remarks_arranged(d->remarks, index);
+    to.hangs = from.hangs;
+    to.group = from.group;
+    read_remarks_arrange(d, &to, 1);
 }
 
 void read_spots_end(struct read_desk *d)
@@ -146,25 +179,14 @@ void read_spots_end(struct read_desk *d)
            *cut = g_array_new(FALSE, FALSE, sizeof(int));
     g_array_set_clear_func(pieces, piece_clear);
     for (int i = 0; i < count && d->spots->len; i++)
-        if (stroke_cut(d, reader_remarks_get(d->remarks, i), pieces))
+        if (stroke_cut(d, i, pieces))
             g_array_append_val(cut, i);
     g_array_set_size(d->spots, 0);
     read_remarks_group(d, true);
     for (guint i = 0; i < cut->len; i++)
         read_remarks_erase(d, g_array_index(cut, int, i));
-    for (guint i = 0; i < pieces->len; i++) {
-        const struct piece *p = &g_array_index(pieces, struct piece, i);
-        read_remarks_add(
-            d,
-            &(struct reader_remark){
-                .kind = READER_REMARK_INK,
-                .rgba = p->rgba,
-                .width = p->width,
-                .made_s = p->made_s,
-                .points = (struct reader_ink_point *)(void *)p->points->data,
-                .points_count = MIN((int)p->points->len, (int)READER_INK_POINTS_MAX)},
-            p->begin, p->end);
-    }
+    for (guint i = 0; i < pieces->len; i++)
+        piece_keep(d, &g_array_index(pieces, struct piece, i));
     read_remarks_group(d, false);
     g_array_unref(pieces);
     g_array_unref(cut);

@@ -110,6 +110,9 @@ static void file_try(const uint8_t *bytes, size_t count)
         const struct reader_remark *r = reader_remarks_get(remarks, i);
         must(r->layer >= 0 && r->layer < reader_remarks_layers(remarks) && r->by);
         must(r->text && r->anchor && (r->points_count == 0 || r->points));
+        must(r->scale_x > 0 && r->scale_y > 0 && r->hangs >= 0 && r->group >= -1);
+        must(r->hangs < reader_remarks_count(remarks) &&
+             r->group < reader_remarks_count(remarks));
         anchor_check(r->anchor);
     }
     reader_remarks_find(remarks, plain, sizeof plain - 1);
@@ -117,7 +120,7 @@ static void file_try(const uint8_t *bytes, size_t count)
     reader_remarks_close(remarks);
 }
 
-/* A file of three remarks, made once. */
+/* A file of four remarks, made once. */
 static const uint8_t *valid_file(size_t *count)
 {
     static uint8_t *bytes;
@@ -126,9 +129,11 @@ static const uint8_t *valid_file(size_t *count)
     struct reader_ink_point points[3] = {{0, 0, 0.5f, 0}, {1, 1, 0.7f, 0.1f}, {2, 0, 1, 0.2f}};
     char words[] = "words";
     const struct reader_remark what[] = {
+        {.kind = READER_REMARK_INK, .points = points, .points_count = 2, .width = 1},
         {.kind = READER_REMARK_INK, .points = points, .points_count = 3, .width = 1},
         {.kind = READER_REMARK_TYPED, .text = words},
         {.kind = READER_REMARK_HIGHLIGHT}};
+    struct reader_arranged to[2];
     int index;
     *count = length;
     if (bytes)
@@ -136,12 +141,20 @@ static const uint8_t *valid_file(size_t *count)
     unlink(path);
     must(reader_remarks_open(path, &remarks) == READER_OK);
     for (size_t i = 0; i < sizeof what / sizeof *what; i++) {
-        if (i == 1) { /* the others are another reader's */
+        if (i == 2) { /* the others are another reader's */
             must(reader_remarks_layer_add(remarks, "Anna", &index) == READER_OK);
             reader_remarks_write_layer(remarks, index);
         }
         must(reader_remarks_add(remarks, &what[i], plain, sizeof plain - 1, 5 + i, 14 + i,
                                 &index) == READER_OK);
+        if (i != 1)
+            continue;
+        for (int k = 0; k < 2; k++) { /* both are a group, and scaled */
+            to[k] = reader_remarks_arranged(remarks, k);
+            to[k].scale_x = 2;
+            to[k].hangs = to[k].group = 0;
+        }
+        must(reader_remarks_arrange(remarks, to, 2) == READER_OK);
     }
     reader_remarks_close(remarks);
     FILE *file = fopen(path, "rb");

@@ -261,6 +261,28 @@ static void remarks_are_at_their_words(void **state)
     reader_document_destroy(d);
 }
 
+/* A stroke that is scaled, and hangs on the words of another one. */
+static void ink_is_scaled_and_grouped(void **state)
+{
+    (void)state;
+    struct reader_document *d = read_text(marsh, strlen(marsh));
+    struct reader_remarks *remarks = marsh_remarks(d);
+    struct reader_arranged to = reader_remarks_arranged(remarks, 5);
+    to.scale_x = 4;
+    to.y = 3;
+    to.hangs = to.group = 2;
+    assert_int_equal(reader_remarks_arrange(remarks, &to, 1), READER_OK);
+    char *html = html_of(d, &(struct reader_html_setup){.remarks = remarks});
+    const char *left = strstr(html, "left:0.000rem;top:3.000rem\">");
+    assert_non_null(left);
+    assert_non_null(strstr(left,
+                           "d=\"M0.000 0.000L4.000 1.000 \"/><path stroke-width=\"0.400\" "
+                           "d=\"M4.000 1.000L8.000 1.000 \"/></g></svg></span>river"));
+    free(html);
+    reader_remarks_close(remarks);
+    reader_document_destroy(d);
+}
+
 static void remarks_without_words_stand_at_the_end(void **state)
 {
     (void)state;
@@ -358,6 +380,7 @@ int main(void)
         cmocka_unit_test(pictures_and_formulas_are_within),
         cmocka_unit_test(themes_are_the_window_s),
         cmocka_unit_test(remarks_are_at_their_words),
+        cmocka_unit_test(ink_is_scaled_and_grouped),
         cmocka_unit_test(remarks_without_words_stand_at_the_end),
         cmocka_unit_test(words_stay_under_remarks),
     };

@@ -162,6 +162,31 @@ static void boxes_and_ink_are_at_their_words(void **state)
     finish(&l);
 }
 
+/* A stroke that is scaled, moved, and hangs on the words of another one of its group. */
+static void ink_is_scaled_and_grouped(void **state)
+{
+    (void)state;
+    struct left l = begin_file(marsh, strlen(marsh), false);
+    struct font_drawing d = {0};
+    add(&l, READER_REMARK_INK, "", "river");
+    add(&l, READER_REMARK_INK, "", "town it");
+    struct reader_arranged to[2] = {reader_remarks_arranged(l.remarks, 0),
+                                    reader_remarks_arranged(l.remarks, 1)};
+    to[0].scale_x = 2;
+    to[0].scale_y = 0.5;
+    to[0].hangs = to[0].group = to[1].group = 1;
+    to[0].x = 3;
+    assert_int_equal(reader_remarks_arrange(l.remarks, to, 2), READER_OK);
+    make(&l, 0);
+    assert_int_equal(reader_pages_left(l.pages, 0, &d), READER_OK);
+    assert_int_equal(d.strokes_count, 2);
+    const struct font_drawing_point *p = d.strokes[0].points, *on = d.strokes[1].points;
+    assert_true(fabs(p[0].x - on[0].x - 36) < 0.01 && fabs(p[0].y - on[0].y) < 0.01);
+    assert_true(fabs(p[1].x - p[0].x - 24) < 0.01 && fabs(p[1].y - p[0].y - 3) < 0.01);
+    assert_true(fabs(p[1].width_px - 3) < 0.01);
+    finish(&l);
+}
+
 static void typed_notes_stand_at_the_foot_or_beside(void **state)
 {
     (void)state;
@@ -289,6 +314,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(boxes_and_ink_are_at_their_words),
+        cmocka_unit_test(ink_is_scaled_and_grouped),
         cmocka_unit_test(typed_notes_stand_at_the_foot_or_beside),
         cmocka_unit_test(what_has_no_words_is_told_at_the_end),
         cmocka_unit_test(remarks_within_letters_are_set),

@@ -22,33 +22,7 @@
 #include <unistd.h>
 
 #include "../sample.h"
-
-static char folder[] = "/tmp/lutetia-remarks-XXXXXX";
-static char path[100];
-static const char text[] =
-    "# The marsh\n\nBefore it was a town it was a marsh. The river ran slowly.\n\n"
-    "# The town\n\nIt was a town before long. The river ran slowly, and the bridge held.\n\n";
-
-static struct reader_remarks *open_now(const char *plain)
-{
-    struct reader_remarks *remarks;
-    if (reader_remarks_open(path, &remarks) != READER_OK ||
-        reader_remarks_find(remarks, plain, strlen(plain)) != READER_OK)
-        fail_msg("%s", reader_error());
-    return remarks;
-}
-
-/* At the first place of what is quoted. */
-static int add(struct reader_remarks *remarks, const struct reader_remark *what,
-               const char *quotation)
-{
-    const size_t begin = (size_t)(strstr(text, quotation) - text);
-    int index;
-    if (reader_remarks_add(remarks, what, text, strlen(text), begin, begin + strlen(quotation),
-                           &index) != READER_OK)
-        fail_msg("%s", reader_error());
-    return index;
-}
+#include "kept.h"
 
 static struct reader_remark typed(const char *words)
 {
@@ -56,14 +30,6 @@ static struct reader_remark typed(const char *words)
     snprintf(kept, sizeof kept, "%s", words);
     return (struct reader_remark){
         .kind = READER_REMARK_TYPED, .text = kept, .rgba = 0xffee00ff};
-}
-
-static void quotation_is(const struct reader_remark *r, const char *quotation)
-{
-    size_t bytes;
-    const char *quoted = reader_anchor_quotation(r->anchor, &bytes);
-    assert_int_equal(bytes, strlen(quotation));
-    assert_memory_equal(quoted, quotation, bytes);
 }
 
 /* ---- keeping ---- */
@@ -81,22 +47,22 @@ static void remarks_are_kept(void **state)
                                       .points = points,
                                       .points_count = 200};
     struct reader_remark words = typed("who says so?");
-    struct reader_remarks *remarks = open_now(text);
-    assert_int_equal(access(path, F_OK), -1); /* nothing was written yet */
-    add(remarks, &words, "bridge held");
-    add(remarks, &ink, "marsh");
-    assert_int_equal(reader_remarks_move(remarks, 1, 2.5, -1), READER_OK);
+    struct reader_remarks *remarks = kept_open(kept_text);
+    assert_int_equal(access(kept_path, F_OK), -1); /* nothing was written yet */
+    kept_add(remarks, &words, "bridge held");
+    kept_add(remarks, &ink, "marsh");
+    assert_int_equal(kept_move(remarks, 1, 2.5, -1), READER_OK);
     assert_int_equal(reader_remarks_write(remarks, 0, "the engineer"), READER_OK);
     assert_int_equal(reader_remarks_erase(remarks, 0, true), READER_OK);
     assert_int_equal(reader_remarks_sync(remarks), READER_OK);
     reader_remarks_close(remarks);
 
-    remarks = open_now(text);
+    remarks = kept_open(kept_text);
     assert_int_equal(reader_remarks_count(remarks), 2);
     const struct reader_remark *r = reader_remarks_get(remarks, 0);
     assert_string_equal(r->text, "the engineer");
     assert_true(r->gone_s >= r->made_s && r->made_s > 1e9);
-    quotation_is(r, "bridge held");
+    kept_quotation_is(r, "bridge held");
     assert_string_equal(reader_anchor_headings(r->anchor), "The town");
     r = reader_remarks_get(remarks, 1);
     assert_int_equal(r->kind, READER_REMARK_INK);
@@ -105,7 +71,7 @@ static void remarks_are_kept(void **state)
     assert_true(r->x == 2.5 && r->y == -1 && r->width == 0.25 && r->rgba == 0x2060c0b0);
     assert_int_equal(reader_remarks_erase(remarks, 0, false), READER_OK);
     reader_remarks_close(remarks);
-    remarks = open_now(text);
+    remarks = kept_open(kept_text);
     assert_true(reader_remarks_get(remarks, 0)->gone_s == 0);
     reader_remarks_close(remarks);
 }
@@ -127,7 +93,7 @@ static void ink_is_played_in_order(void **state)
                           {2002, 1, 6.05, false, 7.65},    {1000, 1, 0, false, 0},
                           {1003, 1, 1.4, false, 3}};
     static const double all_s[2] = {7.05, 8.65};
-    struct reader_remarks *remarks = open_now(text);
+    struct reader_remarks *remarks = kept_open(kept_text);
     for (int i = 0; i < STROKES; i++) {
         struct reader_ink_point points[2] = {{0, 0, 1, 0},
                                              {1, 1, 1, (float)strokes[i].lasts_s}};
@@ -135,12 +101,12 @@ static void ink_is_played_in_order(void **state)
                                           .made_s = strokes[i].begins_s + strokes[i].lasts_s,
                                           .points = points,
                                           .points_count = 2};
-        assert_int_equal(add(remarks, &ink, "marsh"), i);
+        assert_int_equal(kept_add(remarks, &ink, "marsh"), i);
         if (strokes[i].gone)
             assert_int_equal(reader_remarks_erase(remarks, i, true), READER_OK);
     }
     struct reader_remark words = typed("why?");
-    add(remarks, &words, "river");
+    kept_add(remarks, &words, "river");
     for (int kept = 0; kept < 2; kept++) {
         for (int erased = 0; erased < 2; erased++) {
             struct reader_played played[STROKES + 1];
@@ -159,7 +125,7 @@ static void ink_is_played_in_order(void **state)
             }
         }
         reader_remarks_close(remarks); /* and the file has those times */
-        remarks = open_now(text);
+        remarks = kept_open(kept_text);
     }
     reader_remarks_close(remarks);
 }
@@ -177,30 +143,30 @@ static void layers_are_kept(void **state)
                                       .points = (struct reader_ink_point *)(uintptr_t)&dot,
                                       .points_count = 1};
     struct reader_remark words = typed("first");
-    struct reader_remarks *remarks = open_now(text);
+    struct reader_remarks *remarks = kept_open(kept_text);
     struct reader_played played[4];
     int anna, ben, count;
     assert_int_equal(reader_remarks_layers(remarks), 1);
-    add(remarks, &words, "marsh");
+    kept_add(remarks, &words, "marsh");
     assert_int_equal(reader_remarks_layer_add(remarks, "Anna Ö.", &anna), READER_OK);
     assert_int_equal(reader_remarks_layer_add(remarks, "Ben", &ben), READER_OK);
     assert_int_equal(reader_remarks_layer_add(remarks, "Anna Ö.", &count), READER_OK);
     assert_true(anna == 1 && ben == 2 && count == 1);
     reader_remarks_write_layer(remarks, anna);
-    add(remarks, &ink, "river");
+    kept_add(remarks, &ink, "river");
     assert_int_equal(reader_remarks_erase(remarks, 0, true), READER_BAD_ARGUMENT);
     assert_non_null(strstr(reader_error(), "the layer that has no name"));
-    assert_int_equal(reader_remarks_move(remarks, 1, 3, 4), READER_OK);
+    assert_int_equal(kept_move(remarks, 1, 3, 4), READER_OK);
     reader_remarks_close(remarks);
 
-    remarks = open_now(text);
+    remarks = kept_open(kept_text);
     assert_int_equal(reader_remarks_layers(remarks), 3);
     assert_string_equal(reader_remarks_layer(remarks, 1), "Anna Ö.");
     assert_string_equal(reader_remarks_layer(remarks, 7), "");
     assert_string_equal(reader_remarks_get(remarks, 0)->by, "");
     assert_string_equal(reader_remarks_get(remarks, 1)->by, "Anna Ö.");
     assert_true(reader_remarks_get(remarks, 1)->x == 3);
-    assert_int_equal(reader_remarks_move(remarks, 1, 0, 0), READER_BAD_ARGUMENT);
+    assert_int_equal(kept_move(remarks, 1, 0, 0), READER_BAD_ARGUMENT);
     assert_int_equal(reader_remarks_erase(remarks, 0, true), READER_OK);
     assert_int_equal(reader_remarks_erase(remarks, 0, false), READER_OK);
     reader_remarks_play(remarks, false, played, &count);
@@ -230,17 +196,16 @@ static void layers_are_kept(void **state)
 static void wrong_remarks_are_refused(void **state)
 {
     (void)state;
-    struct reader_remarks *remarks = open_now(text);
+    struct reader_remarks *remarks = kept_open(kept_text);
     struct reader_remark what = typed("x");
     int index;
-    assert_int_equal(reader_remarks_add(remarks, &what, text, 10, 5, 11, &index),
+    assert_int_equal(reader_remarks_add(remarks, &what, kept_text, 10, 5, 11, &index),
                      READER_BAD_ARGUMENT);
     what.kind = READER_REMARK_INK;
-    assert_int_equal(reader_remarks_add(remarks, &what, text, 10, 5, 7, &index),
+    assert_int_equal(reader_remarks_add(remarks, &what, kept_text, 10, 5, 7, &index),
                      READER_BAD_ARGUMENT);
     assert_int_equal(reader_remarks_erase(remarks, 0, true), READER_BAD_ARGUMENT);
     assert_int_equal(reader_remarks_write(remarks, -1, "a"), READER_BAD_ARGUMENT);
-    assert_int_equal(reader_remarks_move(remarks, 0, NAN, 0), READER_BAD_ARGUMENT);
     assert_int_equal(reader_remarks_count(remarks), 0);
     reader_remarks_close(remarks);
 }
@@ -251,13 +216,13 @@ static void remarks_follow_the_text(void **state)
 {
     (void)state;
     struct reader_remark words = typed("a");
-    struct reader_remarks *remarks = open_now(text);
-    add(remarks, &words, "bridge held");
-    add(remarks, &words, "Before it was a town it was");
+    struct reader_remarks *remarks = kept_open(kept_text);
+    kept_add(remarks, &words, "bridge held");
+    kept_add(remarks, &words, "Before it was a town it was");
     reader_remarks_close(remarks);
     char changed[400];
-    snprintf(changed, sizeof changed, "More before it.\n\n%s", text);
-    remarks = open_now(changed);
+    snprintf(changed, sizeof changed, "More before it.\n\n%s", kept_text);
+    remarks = kept_open(changed);
     const struct reader_remark *r = reader_remarks_get(remarks, 0);
     assert_false(r->orphan);
     assert_memory_equal(changed + r->begin, "bridge held", 11);
@@ -267,16 +232,16 @@ static void remarks_follow_the_text(void **state)
         changed, sizeof changed,
         "Even more.\n\nMore before it.\n\n# The town\n\nIt was a town before long. The river "
         "ran slowly, and the bridge held.\n\n");
-    remarks = open_now(changed);
+    remarks = kept_open(changed);
     r = reader_remarks_get(remarks, 0);
     assert_false(r->orphan);
     assert_memory_equal(changed + r->begin, "bridge held", 11);
     r = reader_remarks_get(remarks, 1);
     assert_true(r->orphan);
-    quotation_is(r, "Before it was a town it was");
+    kept_quotation_is(r, "Before it was a town it was");
     reader_remarks_close(remarks);
     /* And the text is back. */
-    remarks = open_now(text);
+    remarks = kept_open(kept_text);
     assert_false(reader_remarks_get(remarks, 1)->orphan);
     reader_remarks_close(remarks);
 }
@@ -298,10 +263,10 @@ static void killed_has_lost_nothing(void **state)
             struct reader_remarks *remarks;
             struct reader_remark words = typed("kept");
             int index;
-            if (reader_remarks_open(path, &remarks) != READER_OK)
+            if (reader_remarks_open(kept_path, &remarks) != READER_OK)
                 _exit(1);
-            while (reader_remarks_add(remarks, &words, text, strlen(text), 20, 30, &index) ==
-                       READER_OK &&
+            while (reader_remarks_add(remarks, &words, kept_text, strlen(kept_text), 20, 30,
+                                      &index) == READER_OK &&
                    write(pipes[1], "x", 1) == 1)
                 ;
             _exit(1);
@@ -316,7 +281,7 @@ static void killed_has_lost_nothing(void **state)
         while (read(pipes[0], &one, 1) == 1)
             told++;
         close(pipes[0]);
-        struct reader_remarks *remarks = open_now(text);
+        struct reader_remarks *remarks = kept_open(kept_text);
         /* one may have been kept before it could be told */
         assert_true(reader_remarks_count(remarks) >= told);
         assert_true(reader_remarks_count(remarks) <= told + turn + 1);
@@ -326,97 +291,52 @@ static void killed_has_lost_nothing(void **state)
 
 /* ---- files that are wrong ---- */
 
-static char *file_read(size_t *count)
-{
-    FILE *file = fopen(path, "rb");
-    assert_non_null(file);
-    fseek(file, 0, SEEK_END);
-    *count = (size_t)ftell(file);
-    rewind(file);
-    char *bytes = malloc(*count + 1);
-    assert_non_null(bytes);
-    assert_int_equal(fread(bytes, 1, *count, file), *count);
-    fclose(file);
-    return bytes;
-}
-
-static void file_write(const char *bytes, size_t count)
-{
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(bytes, 1, count, file), count);
-    fclose(file);
-}
-
-/* Refused with one line that has the path and says that, and not changed. */
-static void is_refused(const char *says)
-{
-    struct reader_remarks *remarks;
-    size_t before_count, after_count;
-    char *before = file_read(&before_count);
-    assert_int_equal(reader_remarks_open(path, &remarks), READER_FAILED);
-    assert_null(remarks);
-    if (!strstr(reader_error(), path) || !strstr(reader_error(), says) ||
-        strchr(reader_error(), '\n'))
-        fail_msg("it said: %s", reader_error());
-    char *after = file_read(&after_count);
-    assert_int_equal(before_count, after_count);
-    assert_memory_equal(before, after, before_count);
-    free(before);
-    free(after);
-}
-
-static void sql_run(const char *sql)
-{
-    sqlite3 *db;
-    assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
-    if (sqlite3_exec(db, sql, NULL, NULL, NULL) != SQLITE_OK)
-        fail_msg("%s: %s", sql, sqlite3_errmsg(db));
-    sqlite3_close(db);
-}
-
 static void valid_make(int count)
 {
-    struct reader_remarks *remarks = open_now(text);
+    struct reader_remarks *remarks = kept_open(kept_text);
     struct reader_remark words = typed("a remark");
     for (int i = 0; i < count; i++)
-        add(remarks, &words, i % 2 ? "bridge held" : "river");
+        kept_add(remarks, &words, i % 2 ? "bridge held" : "river");
     reader_remarks_close(remarks);
 }
 
 static void foreign_files_are_left(void **state)
 {
     (void)state;
-    file_write("this is no file of notes, but a letter", 38);
-    is_refused("not a database");
-    unlink(path);
-    sql_run("CREATE TABLE birds(name TEXT); INSERT INTO birds VALUES('heron')");
-    is_refused("another program's");
-    unlink(path);
+    kept_write("this is no file of notes, but a letter", 38);
+    kept_is_refused("not a database");
+    unlink(kept_path);
+    kept_sql("CREATE TABLE birds(name TEXT); INSERT INTO birds VALUES('heron')");
+    kept_is_refused("another program's");
+    unlink(kept_path);
     valid_make(3);
-    sql_run("PRAGMA user_version=3");
-    is_refused("newer version");
-    unlink(path);
+    kept_sql("PRAGMA user_version=4");
+    kept_is_refused("newer version");
+    for (int version = 2; version <= 3; version++) { /* without its tables */
+        char sql[40];
+        unlink(kept_path);
+        valid_make(3);
+        snprintf(sql, sizeof sql, "PRAGMA user_version=%d", version);
+        kept_sql(sql);
+        kept_is_refused("not as notes are");
+    }
+    unlink(kept_path);
     valid_make(3);
-    sql_run("PRAGMA user_version=2"); /* without its tables */
-    is_refused("not as notes are");
-    unlink(path);
+    kept_sql("CREATE TRIGGER t AFTER UPDATE ON remark BEGIN DELETE FROM remark; END");
+    kept_is_refused("not as notes are");
+    unlink(kept_path);
     valid_make(3);
-    sql_run("CREATE TRIGGER t AFTER UPDATE ON remark BEGIN DELETE FROM remark; END");
-    is_refused("not as notes are");
-    unlink(path);
+    kept_sql("UPDATE remark SET width=1e300 WHERE id=2");
+    kept_is_refused("damaged");
+    unlink(kept_path);
     valid_make(3);
-    sql_run("UPDATE remark SET width=1e300 WHERE id=2");
-    is_refused("damaged");
-    unlink(path);
-    valid_make(3);
-    sql_run("UPDATE remark SET anchor=x'00' WHERE id=2");
-    is_refused("damaged");
-    unlink(path);
-    assert_int_equal(mkdir(path, 0700), 0);
+    kept_sql("UPDATE remark SET anchor=x'00' WHERE id=2");
+    kept_is_refused("damaged");
+    unlink(kept_path);
+    assert_int_equal(mkdir(kept_path, 0700), 0);
     struct reader_remarks *remarks;
-    assert_int_equal(reader_remarks_open(path, &remarks), READER_FAILED);
-    rmdir(path);
+    assert_int_equal(reader_remarks_open(kept_path, &remarks), READER_FAILED);
+    rmdir(kept_path);
 }
 
 /* A file cut off or with damaged bytes is refused, or what it has is whole. */
@@ -427,7 +347,7 @@ static void damaged_files_are_left(void **state)
     size_t count;
     int refused = 0;
     valid_make(30);
-    char *whole = file_read(&count), *bytes = malloc(count);
+    char *whole = kept_read(&count), *bytes = malloc(count);
     assert_non_null(bytes);
     for (int turn = 0; turn < 300; turn++) {
         struct reader_remarks *remarks;
@@ -435,19 +355,19 @@ static void damaged_files_are_left(void **state)
         size_t length = turn % 3 ? count : (size_t)(sample_word(&random) % count);
         for (int k = 0; turn % 3 && k < 1 + turn % 5; k++)
             bytes[sample_word(&random) % count] = (char)sample_word(&random);
-        file_write(bytes, length);
-        if (reader_remarks_open(path, &remarks) == READER_OK) {
+        kept_write(bytes, length);
+        if (reader_remarks_open(kept_path, &remarks) == READER_OK) {
             assert_true(length == 0 || reader_remarks_count(remarks) <= 30);
-            reader_remarks_find(remarks, text, strlen(text));
+            reader_remarks_find(remarks, kept_text, strlen(kept_text));
             reader_remarks_close(remarks);
         } else {
-            assert_non_null(strstr(reader_error(), path));
+            assert_non_null(strstr(reader_error(), kept_path));
             refused++;
         }
         char other[120];
-        snprintf(other, sizeof other, "%s-wal", path);
+        snprintf(other, sizeof other, "%s-wal", kept_path);
         unlink(other);
-        snprintf(other, sizeof other, "%s-shm", path);
+        snprintf(other, sizeof other, "%s-shm", kept_path);
         unlink(other);
     }
     assert_true(refused > 100);
@@ -470,15 +390,15 @@ static void damaged_layers_are_left(void **state)
     for (size_t i = 0; i < sizeof harms / sizeof *harms; i++) {
         int layer;
         struct reader_remark words = typed("hers");
-        struct reader_remarks *remarks = open_now(text);
+        struct reader_remarks *remarks = kept_open(kept_text);
         assert_int_equal(reader_remarks_layer_add(remarks, "Anna", &layer), READER_OK);
         assert_int_equal(reader_remarks_layer_add(remarks, "Ben", &layer), READER_OK);
         reader_remarks_write_layer(remarks, layer);
-        add(remarks, &words, "marsh");
+        kept_add(remarks, &words, "marsh");
         reader_remarks_close(remarks);
-        sql_run(harms[i]);
-        is_refused("damaged");
-        unlink(path);
+        kept_sql(harms[i]);
+        kept_is_refused("damaged");
+        unlink(kept_path);
     }
 }
 
@@ -489,44 +409,27 @@ static void folder_missing(void **state)
     struct reader_remark words = typed("x");
     int index;
     assert_int_equal(reader_remarks_open("/proc/none/marsh.md.notes", &remarks), READER_OK);
-    assert_int_equal(reader_remarks_add(remarks, &words, text, strlen(text), 20, 30, &index),
-                     READER_FAILED);
+    assert_int_equal(
+        reader_remarks_add(remarks, &words, kept_text, strlen(kept_text), 20, 30, &index),
+        READER_FAILED);
     assert_non_null(strstr(reader_error(), "/proc/none/marsh.md.notes"));
     assert_int_equal(reader_remarks_count(remarks), 0);
     reader_remarks_close(remarks);
 }
 
-static int begin(void **state)
-{
-    (void)state;
-    char other[120];
-    unlink(path);
-    snprintf(other, sizeof other, "%s-wal", path);
-    unlink(other);
-    snprintf(other, sizeof other, "%s-shm", path);
-    unlink(other);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(remarks_are_kept, begin),
-        cmocka_unit_test_setup(layers_are_kept, begin),
-        cmocka_unit_test_setup(ink_is_played_in_order, begin),
-        cmocka_unit_test_setup(wrong_remarks_are_refused, begin),
-        cmocka_unit_test_setup(remarks_follow_the_text, begin),
-        cmocka_unit_test_setup(killed_has_lost_nothing, begin),
-        cmocka_unit_test_setup(foreign_files_are_left, begin),
-        cmocka_unit_test_setup(damaged_files_are_left, begin),
-        cmocka_unit_test_setup(damaged_layers_are_left, begin),
-        cmocka_unit_test_setup(folder_missing, begin),
+        cmocka_unit_test_setup(remarks_are_kept, kept_begin),
+        cmocka_unit_test_setup(layers_are_kept, kept_begin),
+        cmocka_unit_test_setup(ink_is_played_in_order, kept_begin),
+        cmocka_unit_test_setup(wrong_remarks_are_refused, kept_begin),
+        cmocka_unit_test_setup(remarks_follow_the_text, kept_begin),
+        cmocka_unit_test_setup(killed_has_lost_nothing, kept_begin),
+        cmocka_unit_test_setup(foreign_files_are_left, kept_begin),
+        cmocka_unit_test_setup(damaged_files_are_left, kept_begin),
+        cmocka_unit_test_setup(damaged_layers_are_left, kept_begin),
+        cmocka_unit_test_setup(folder_missing, kept_begin),
     };
-    if (!mkdtemp(folder))
-        return 1;
-    snprintf(path, sizeof path, "%s/marsh.md.notes", folder);
-    const int status = cmocka_run_group_tests(tests, NULL, NULL);
-    begin(NULL);
-    rmdir(folder);
-    return status;
+    return kept_all(tests, sizeof tests / sizeof *tests);
 }
