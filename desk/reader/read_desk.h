@@ -11,6 +11,7 @@
  *     read_remarks.c   highlights, typed notes, undo
  *     read_list.c      their list
  *     read_layers.c    readers' layers: which are shown, which is written
+ *     read_layers_kept.c  the same, from one time to the next
  *     read_ink.c       ink
  *     read_spots.c     spots that are taken out of it
  *     read_chosen.c    strokes that are chosen: moved, scaled, grouped
@@ -144,6 +145,7 @@ struct read_desk {
     guint way_at;
     /* what readers leave */
     struct reader_remarks *remarks;   /* NULL: none are kept */
+    char *remarks_path;               /* of their file */
     GtkWidget *remarks_list, *typing; /* typing: the small window of a note */
     GtkWidget *layers;                /* that of layers, while it is open */
     GArray *deeds;                    /* struct read_deed */
@@ -210,10 +212,14 @@ bool read_grid_key(struct read_desk *d, guint key);
 void read_grid_draw(struct read_desk *d, GtkSnapshot *snapshot);
 
 /* read_layers.c */
-void read_layers_begin(struct read_desk *d); /* the one of the user's name is written */
+void read_layers_begin(struct read_desk *d); /* as they were, or the user's own is written */
 void read_layers_show(struct read_desk *d, int layer, bool shown);
 void read_layers_write(struct read_desk *d, const char *name); /* "": the first */
 void read_layers_open(struct read_desk *d);                    /* a small window of them */
+
+/* read_layers_kept.c: which are hidden and which is written, as it was the last time */
+void read_layers_kept(struct read_desk *d);
+void read_layers_keep(struct read_desk *d);
 
 /* read_tiles.c */
 struct read_tiles *read_tiles_create(void);

@@ -17,6 +17,8 @@ void read_layers_begin(struct read_desk *d)
     for (int i = 1; i < reader_remarks_layers(d->remarks); i++)
         if (strcmp(reader_remarks_layer(d->remarks, i), g_get_real_name()) == 0)
             reader_remarks_write_layer(d->remarks, i);
+    read_layers_kept(d);
+    reader_remarks_write_layer(d->remarks, reader_remarks_written(d->remarks)); /* is seen */
 }
 
 void read_layers_show(struct read_desk *d, int layer, bool shown)
@@ -24,6 +26,7 @@ void read_layers_show(struct read_desk *d, int layer, bool shown)
     reader_remarks_layer_show(d->remarks, layer, shown);
     if (!shown && layer == reader_remarks_written(d->remarks)) /* what is written is seen */
         reader_remarks_layer_show(d->remarks, layer, true);
+    read_layers_keep(d);
     changed(d);
 }
 
@@ -39,6 +42,7 @@ void read_layers_write(struct read_desk *d, const char *name)
         return;
     }
     reader_remarks_write_layer(d->remarks, layer);
+    read_layers_keep(d);
     changed(d);
 }
 

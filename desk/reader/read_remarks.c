@@ -50,6 +50,7 @@ static void changed(struct read_desk *d)
 void read_remarks_open(struct read_desk *d, const char *file)
 {
     read_remarks_close(d);
+    d->remarks_path = g_strdup(file);
     if (reader_remarks_open(file, &d->remarks) != READER_OK)
         d->say(d, reader_error());
     else
@@ -86,6 +87,7 @@ void read_remarks_close(struct read_desk *d)
         d->say(d, reader_error());
     reader_remarks_close(d->remarks);
     d->remarks = NULL;
+    g_clear_pointer(&d->remarks_path, g_free);
 }
 
 /* ---- undo ---- */

@@ -177,6 +177,60 @@ static void pieces_stay_in_the_group(void **state)
     chosen_is("cut", 3, 200, 300, 200, 240);
 }
 
+/* A spot in the middle of a stroke, whose points are far apart, leaves two; beside it nothing
+ * happens; one undo has the stroke back. */
+static void spots_are_erased(void **state)
+{
+    char lines[2000];
+    (void)state;
+    notes_remove();
+    snprintf(lines, sizeof lines,
+             "0.2 action pen\n0.3 press 200 300 0.5\n0.32 drag 400 300 0.5\n0.34 lift 400 300\n"
+             "0.5 key E\n0.6 press 300 340 1\n0.62 lift 300 340\n0.7 tell %s\n"
+             "0.8 press 300 280 1\n0.82 drag 300 320 1\n0.84 lift 300 320\n1 tell %s\n"
+             "1.1 action undo\n1.2 tell %s\n1.3 action redo\n1.4 tell %s\n"
+             "1.5 press 190 300 1\n1.52 drag 410 300 1\n1.54 lift 410 300\n1.6 tell %s\n"
+             "1.7 action undo\n1.8 action undo\n1.9 tell %s\n",
+             played_path("beside"), played_path("cut"), played_path("undone"),
+             played_path("redone"), played_path("gone"), played_path("whole"));
+    played_run(lines, played_path("one.md"));
+    played_well();
+    assert_string_equal(played_told("beside", "remarks"), "1");
+    assert_string_equal(played_told("cut", "remarks"), "2");
+    const double x = atof(played_told("cut", "ink")); /* where the last one begins */
+    assert_true(x > 307 && x < 311);
+    assert_string_equal(played_told("undone", "remarks"), "1");
+    assert_string_equal(played_told("undone", "ink"), "200.0 300.0");
+    assert_string_equal(played_told("redone", "remarks"), "2");
+    assert_string_equal(played_told("gone", "remarks"), "0");
+    assert_string_equal(played_told("whole", "remarks"), "1");
+}
+
+/* A stroke that is cut after another one was drawn is played before that still. */
+static void pieces_are_played_first(void **state)
+{
+    char lines[2000];
+    (void)state;
+    notes_remove();
+    snprintf(
+        lines, sizeof lines,
+        "0.2 action pen\n0.3 press 200 300 0.5\n0.301 drag 400 300 0.5\n0.302 lift 400 300\n"
+        "0.5 press 220 340 0.5\n0.501 drag 420 340 0.5\n0.502 lift 420 340\n0.6 tell %s\n"
+        "0.7 key E\n0.8 press 300 280 1\n0.82 drag 300 320 1\n0.84 lift 300 320\n"
+        "1 tell %s\n1.1 action undo\n1.2 tell %s\n",
+        played_path("drawn"), played_path("cut"), played_path("undone"));
+    played_run(lines, played_path("one.md"));
+    played_well();
+    assert_string_equal(played_told("drawn", "played"), "200 220");
+    int first = 0, second = 0, third = 0;
+    assert_int_equal(sscanf(played_told("cut", "played"), "%d %d %d", &first, &second, &third),
+                     3);
+    assert_int_equal(first, 200);
+    assert_true(second > 307 && second < 311);
+    assert_int_equal(third, 220);
+    assert_string_equal(played_told("undone", "played"), "200 220");
+}
+
 static int begin(void **state)
 {
     const int status = played_begin(state);
@@ -199,6 +253,8 @@ int main(void)
         cmocka_unit_test(strokes_are_scaled),
         cmocka_unit_test(strokes_are_grouped_by_keys),
         cmocka_unit_test(pieces_stay_in_the_group),
+        cmocka_unit_test(spots_are_erased),
+        cmocka_unit_test(pieces_are_played_first),
     };
     if (!screen_start("1280x900x24"))
         return 77;

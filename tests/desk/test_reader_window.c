@@ -145,6 +145,42 @@ static void readers_have_layers(void **state)
     assert_null(strstr(html, "</b>: <q>One word"));
 }
 
+/* Which layers are hidden and which is written is the reader's own, and there the next time;
+ * the notes' file knows nothing of it. */
+static void hidden_layers_are_kept(void **state)
+{
+    char lines[1500], notes[2][20000];
+    size_t bytes[2];
+    (void)state;
+    played_write("hidden.md", "# Layers\n\nOne word, and another word.\n");
+    snprintf(lines, sizeof lines,
+             "0.2 select One word\n0.3 note Mine.\n0.4 layer Ben\n0.5 select another\n0.6 note "
+             "His.\n0.7 layer Anna\n0.8 select and\n0.9 note Hers.\n");
+    played_run(lines, played_path("hidden.md"));
+    played_well();
+    for (int i = 0; i < 2; i++) {
+        FILE *file = fopen(played_path("hidden.md.notes"), "r");
+        assert_non_null(file);
+        bytes[i] = fread(notes[i], 1, sizeof notes[i], file);
+        fclose(file);
+        snprintf(lines, sizeof lines, "0.3 hide Ben\n0.4 hide \n0.5 tell %s\n",
+                 played_path("one"));
+        if (i == 0)
+            played_run(lines, played_path("hidden.md"));
+    }
+    assert_true(bytes[0] == bytes[1] && memcmp(notes[0], notes[1], bytes[0]) == 0);
+    assert_string_equal(played_told("one", "remarks"), "1");
+    snprintf(lines, sizeof lines,
+             "0.3 tell %s\n0.4 select word\n0.5 note Hers, too.\n0.6 hide Ben\n0.7 tell %s\n"
+             "0.8 layer \n0.9 tell %s\n",
+             played_path("again"), played_path("two"), played_path("all"));
+    played_run(lines, played_path("hidden.md"));
+    played_well();
+    assert_string_equal(played_told("again", "remarks"), "1");
+    assert_string_equal(played_told("two", "remarks"), "3");
+    assert_string_equal(played_told("all", "remarks"), "4"); /* what is written is seen */
+}
+
 /* From a citation to its entry, and from there back. */
 static void bibliographies_lead_back(void **state)
 {
@@ -326,62 +362,6 @@ static void picture_is_seen(void **state)
 
 /* ---- notes ---- */
 
-static void notes_remove(void);
-
-/* A spot in the middle of a stroke, whose points are far apart, leaves two; beside it nothing
- * happens; one undo has the stroke back. */
-static void spots_are_erased(void **state)
-{
-    char lines[2000];
-    (void)state;
-    notes_remove();
-    snprintf(lines, sizeof lines,
-             "0.2 action pen\n0.3 press 200 300 0.5\n0.32 drag 400 300 0.5\n0.34 lift 400 300\n"
-             "0.5 key E\n0.6 press 300 340 1\n0.62 lift 300 340\n0.7 tell %s\n"
-             "0.8 press 300 280 1\n0.82 drag 300 320 1\n0.84 lift 300 320\n1 tell %s\n"
-             "1.1 action undo\n1.2 tell %s\n1.3 action redo\n1.4 tell %s\n"
-             "1.5 press 190 300 1\n1.52 drag 410 300 1\n1.54 lift 410 300\n1.6 tell %s\n"
-             "1.7 action undo\n1.8 action undo\n1.9 tell %s\n",
-             played_path("beside"), played_path("cut"), played_path("undone"),
-             played_path("redone"), played_path("gone"), played_path("whole"));
-    played_run(lines, played_path("one.md"));
-    played_well();
-    assert_string_equal(played_told("beside", "remarks"), "1");
-    assert_string_equal(played_told("cut", "remarks"), "2");
-    const double x = atof(played_told("cut", "ink")); /* where the last one begins */
-    assert_true(x > 307 && x < 311);
-    assert_string_equal(played_told("undone", "remarks"), "1");
-    assert_string_equal(played_told("undone", "ink"), "200.0 300.0");
-    assert_string_equal(played_told("redone", "remarks"), "2");
-    assert_string_equal(played_told("gone", "remarks"), "0");
-    assert_string_equal(played_told("whole", "remarks"), "1");
-}
-
-/* A stroke that is cut after another one was drawn is played before that still. */
-static void pieces_are_played_first(void **state)
-{
-    char lines[2000];
-    (void)state;
-    notes_remove();
-    snprintf(
-        lines, sizeof lines,
-        "0.2 action pen\n0.3 press 200 300 0.5\n0.301 drag 400 300 0.5\n0.302 lift 400 300\n"
-        "0.5 press 220 340 0.5\n0.501 drag 420 340 0.5\n0.502 lift 420 340\n0.6 tell %s\n"
-        "0.7 key E\n0.8 press 300 280 1\n0.82 drag 300 320 1\n0.84 lift 300 320\n"
-        "1 tell %s\n1.1 action undo\n1.2 tell %s\n",
-        played_path("drawn"), played_path("cut"), played_path("undone"));
-    played_run(lines, played_path("one.md"));
-    played_well();
-    assert_string_equal(played_told("drawn", "played"), "200 220");
-    int first = 0, second = 0, third = 0;
-    assert_int_equal(sscanf(played_told("cut", "played"), "%d %d %d", &first, &second, &third),
-                     3);
-    assert_int_equal(first, 200);
-    assert_true(second > 307 && second < 311);
-    assert_int_equal(third, 220);
-    assert_string_equal(played_told("undone", "played"), "200 220");
-}
-
 static void notes_remove(void)
 {
     unlink(played_path("one.md.notes"));
@@ -560,6 +540,7 @@ int main(void)
         cmocka_unit_test(notes_links_and_back),
         cmocka_unit_test(templates_are_chosen_and_dragged),
         cmocka_unit_test(readers_have_layers),
+        cmocka_unit_test(hidden_layers_are_kept),
         cmocka_unit_test(bibliographies_lead_back),
         cmocka_unit_test(finds_and_selects),
         cmocka_unit_test(several_files_are_one),
@@ -567,8 +548,6 @@ int main(void)
         cmocka_unit_test(manual_is_opened),
         cmocka_unit_test(only_new_lines_are_painted),
         cmocka_unit_test(notes_are_kept),
-        cmocka_unit_test(spots_are_erased),
-        cmocka_unit_test(pieces_are_played_first),
         cmocka_unit_test(changed_elsewhere),
         cmocka_unit_test(pages_are_seen_small),
         cmocka_unit_test(foreign_notes_are_said),
