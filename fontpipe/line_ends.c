@@ -193,12 +193,17 @@ static bool plain_at(const uint32_t *characters, int at)
                                       characters[before] == '\'');
 }
 
-bool font_breaks_find(const uint32_t *characters, int count, const char *language, char *breaks)
+bool font_breaks_plain(const uint32_t *characters, int count)
 {
     int first = 0; /* white space at the beginning is no plain text */
     while (first < count && plain_at(characters, first) && characters[0] != ' ')
         first++;
-    if (first < count) {
+    return first == count;
+}
+
+bool font_breaks_find(const uint32_t *characters, int count, const char *language, char *breaks)
+{
+    if (!font_breaks_plain(characters, count)) {
         pthread_once(&icu_once, icu_begin);
         if (icu_there && by_icu(characters, count, language, breaks))
             return true;

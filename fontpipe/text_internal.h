@@ -83,6 +83,9 @@ enum font_stand font_stand_of(uint32_t character);
  * character. False: no memory. */
 bool font_breaks_find(const uint32_t *characters, int count, const char *language,
                       char *breaks);
+/* Whether both libraries say the same of all places but the last, at which only libunibreak
+ * says that a line must end. */
+bool font_breaks_plain(const uint32_t *characters, int count);
 /* By ICU whatever the characters; false also where it is not installed. */
 bool font_breaks_by_icu(const uint32_t *characters, int count, const char *language,
                         char *breaks);
@@ -90,6 +93,19 @@ bool font_breaks_by_icu(const uint32_t *characters, int count, const char *langu
  * first letter; *base: its own level. False: no memory. */
 bool font_levels_find(const uint32_t *characters, int count, int direction, int8_t *levels,
                       int *base);
+
+/* What a character does to levels: nothing by itself, it runs to the right or to the left, is a
+ * number in a text that runs to the left, or begins or ends what is embedded or isolated. */
+enum font_direction {
+    FONT_RUNS_NOWHERE,
+    FONT_RUNS_RIGHT,
+    FONT_RUNS_LEFT,
+    FONT_NUMBERS,
+    FONT_EMBEDS
+};
+enum font_direction font_direction_of(uint32_t character);
+/* Whether it is one of a pair of brackets. */
+bool font_bracket(uint32_t character);
 
 /* Characters of one level, and whatever else they have in common. */
 struct font_run {

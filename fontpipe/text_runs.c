@@ -158,6 +158,23 @@ bool font_levels_find(const uint32_t *characters, int count, int direction, int8
     return good;
 }
 
+enum font_direction font_direction_of(uint32_t c)
+{
+    const FriBidiCharType type = fribidi_get_bidi_type(c);
+    if (FRIBIDI_IS_EXPLICIT(type) || FRIBIDI_IS_ISOLATE(type))
+        return FONT_EMBEDS;
+    if (type == FRIBIDI_TYPE_RTL || type == FRIBIDI_TYPE_AL)
+        return FONT_RUNS_LEFT;
+    return type == FRIBIDI_TYPE_LTR  ? FONT_RUNS_RIGHT
+           : type == FRIBIDI_TYPE_AN ? FONT_NUMBERS
+                                     : FONT_RUNS_NOWHERE;
+}
+
+bool font_bracket(uint32_t c)
+{
+    return fribidi_get_bracket(c) != FRIBIDI_NO_BRACKET;
+}
+
 void font_runs_order(struct font_run *runs, int count)
 {
     int highest = 0, lowest = 127;

@@ -82,10 +82,20 @@ static bool caret_before(const struct paragraph *p, int i, int flags)
     return !(flag_half(c) && flags % 2);
 }
 
-void carets_find(struct paragraph *p)
+void carets_find(const struct page_text *t, struct paragraph *p, int begin, int end)
 {
-    for (int i = 0, flags = 0; i < p->count; i++) {
-        p->letters[i].grapheme = caret_before(p, i, flags);
+    int flags = 0;
+    while (flags < begin && flag_half(p->characters[begin - 1 - flags]))
+        flags++;
+    for (int i = begin; i < end; i++) {
+        struct letter *l = &p->letters[i];
+        l->grapheme = caret_before(p, i, flags) &&
+                      !(i && t->styles[l->style]->is_inset && l->style == l[-1].style);
         flags = flag_half(p->characters[i]) ? flags + 1 : 0;
     }
+}
+
+bool carets_apart(uint32_t c)
+{
+    return !font_text_mark(c) && c != 0x200d && c != 0x200c && !flag_half(c);
 }

@@ -297,13 +297,13 @@ enum font_status page_count(struct page_text *t, int *count)
  * the one that ends. */
 int layout_line(const struct paragraph *p, int byte, bool before)
 {
-    int line = 0;
-    while (line + 1 < p->lines_count) {
-        int next = p->lines[line + 1].begin;
-        int begins = next < p->count ? p->letters[next].byte : p->bytes;
+    int line = 0, behind = p->lines_count > 0 ? p->lines_count : 1; /* by halves */
+    while (behind - line > 1) {
+        int half = line + (behind - line) / 2, begins = line_byte(p, half);
         if (byte < begins || (byte == begins && before))
-            break;
-        line++;
+            behind = half;
+        else
+            line = half;
     }
     return line;
 }
@@ -361,11 +361,12 @@ void page_stats_get(const struct page_text *t, struct page_stats *out)
     for (int i = 0; i < t->ids_count; i++) {
         const struct paragraph *p = t->by_id[i];
         if (p)
-            out->bytes += sizeof *p + (size_t)p->bytes +
-                          (p->letters ? (size_t)(p->bytes + 1) * (sizeof *p->letters + 4) : 0) +
-                          (size_t)p->glyphs_capacity * sizeof *p->glyphs +
-                          (size_t)p->runs_capacity * sizeof *p->runs +
-                          (size_t)p->lines_capacity * sizeof *p->lines;
+            out->bytes +=
+                sizeof *p + (size_t)p->bytes +
+                (size_t)p->letters_capacity * (sizeof *p->letters + sizeof *p->characters) +
+                (size_t)p->glyphs_capacity * sizeof *p->glyphs +
+                (size_t)p->runs_capacity * sizeof *p->runs +
+                (size_t)p->lines_capacity * sizeof *p->lines + lines_bytes(p);
     }
     for (int i = 0; i < t->pages_count; i++)
         out->bytes += (size_t)t->pages[i].pieces_capacity * sizeof(struct piece) +

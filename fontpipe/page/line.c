@@ -64,12 +64,14 @@ static enum font_status piece_glyphs(struct page_text *t, const struct paragraph
     if (!safe)
         return set_shape(t, p, run, piece->begin, piece->end, &out->work, &out->work_count,
                          &out->work_capacity);
-    if (!array_reserve(&out->work, &out->work_capacity, run->glyphs_end - run->glyphs_begin + 1,
-                       sizeof *out->work))
+    int begin, end;
+    set_glyphs_of(p->glyphs, run->glyphs_begin, run->glyphs_end, piece->begin, piece->end,
+                  &begin, &end);
+    if (!array_reserve(&out->work, &out->work_capacity, end - begin + 1, sizeof *out->work))
         return font_fail(FONT_NO_MEMORY, "no memory for a line");
-    for (int g = run->glyphs_begin; g < run->glyphs_end; g++)
-        if (p->glyphs[g].letter >= piece->begin && p->glyphs[g].letter < piece->end)
-            out->work[out->work_count++] = p->glyphs[g];
+    if (end > begin)
+        memcpy(out->work, p->glyphs + begin, (size_t)(end - begin) * sizeof *out->work);
+    out->work_count = end - begin;
     return FONT_OK;
 }
 

@@ -1,7 +1,9 @@
 /* page_internal.h - what the files of fontpipe/page share.
  *
  *     page_text -> flows -> paragraphs -> letters, shaped runs        set.c: once for each
- *                                                                     change of the text
+ *                                                                     change of the text; a
+ *                                                                     long one's, where it
+ *                                                                     changed (renew.c)
  *                                      -> lines                       lines.c: once for each
  *                                                                     change of widths
  *               -> pages: which lines of which paragraphs, where      flow.c; pages.c: those
@@ -99,7 +101,14 @@ struct paragraph {
     int marks_count, marks_capacity;
     /* From here on made of the above. */
     bool analysed, vertical;
+    /* All but its ends is another text than what stands here was made of: renew.c. So many
+     * bytes at its beginning and at its end are the same; it had so many. */
+    bool edited;
+    int head, tail, bytes_before;
+    bool counted; /* the numbers of letters of which renew.c asks are known */
+    int letters_turning, letters_embedding, letters_thai;
     int count, base;
+    int letters_capacity; /* of characters, too */
     struct letter *letters;
     uint32_t *characters;
     struct shaped *glyphs;
@@ -113,6 +122,11 @@ struct paragraph {
     bool broken;
     double *widths; /* that lines were broken for */
     int widths_count, widths_capacity;
+    /* Of a long one, how it was broken (lines_internal.h); known: what of its letters changed
+     * since, begin -1: nothing. */
+    struct ways *ways;
+    bool change_known;
+    struct break_change change;
     int overfull;
     uint32_t breakings; /* how often its lines have been made */
     int first_page;     /* that it was placed on when pages were last filled; -1: none */
@@ -218,10 +232,17 @@ bool inset_put(const struct style *style, double x, double y, const struct font_
 /* words.c: marks the letters behind which words may be divided; and breaks between words of
  * Thai, which are written together. */
 void words_hyphenate(struct page_text *t, struct paragraph *p);
+/* The same of words that have letters *begin..*end, where it was done: from where to where. */
+void words_hyphenate_again(struct page_text *t, struct paragraph *p, int *begin, int *end);
 void words_thai(struct paragraph *p);
 
-/* set.c: letters, levels, faces, and glyphs for all of the paragraph. */
+/* renew.c: letters, levels, faces, and glyphs for all of the paragraph, if they are not there;
+ * after an edit of a long one where that changed them. */
 enum font_status set_analyse(struct page_text *t, struct paragraph *p);
+/* Notes that bytes are about to be taken out. */
+void renew_edited(struct paragraph *p, int byte, int removed);
+/* set.c: all of it, whatever is there. */
+enum font_status set_all(struct page_text *t, struct paragraph *p);
 /* upright.c: which letters of a vertical paragraph stand, once their faces, scripts and places
  * for carets are known. */
 void upright_find(struct page_text *t, struct paragraph *p);
@@ -231,10 +252,27 @@ bool upright_script(hb_script_t script);
  * place of an em. */
 void upright_across(struct shaped *glyphs, int count, hb_font_t *font, double scale,
                     double em_px, double centre_px);
-/* carets.c: before which letters a caret may stand. */
-void carets_find(struct paragraph *p);
+/* carets.c: before which letters of begin..end a caret may stand. */
+void carets_find(const struct page_text *t, struct paragraph *p, int begin, int end);
+/* Whether a caret's place behind the character is no matter of what stands before it. */
+bool carets_apart(uint32_t character);
 
 void set_forget(struct paragraph *p); /* all that is made of the text */
+/* The parts of the analysis, of letters begin..end: the letter at *at in the span *span; faces;
+ * runs, appended; what a line can be stretched and shrunk by; clusters, of glyphs. */
+struct letter set_letter(const struct page_text *t, const struct paragraph *p, const char **at,
+                         int *span);
+void set_faces(struct page_text *t, struct paragraph *p, int begin, int end);
+bool set_runs_cut(const struct paragraph *p, int begin, int end, struct set_run **runs,
+                  int *count, int *capacity);
+void set_spaces(const struct page_text *t, struct paragraph *p, int begin, int end);
+void set_clusters(struct paragraph *p, const struct shaped *glyphs, int count);
+/* Leading, once the runs are known. */
+void set_leading(const struct page_text *t, struct paragraph *p);
+/* Which of glyphs from..to, of one run, are of letters begin..end. */
+void set_glyphs_of(const struct shaped *glyphs, int from, int to, int begin, int end,
+                   int *glyphs_begin, int *glyphs_end);
+
 /* Glyphs of letters begin..end, which are of one run, as they are at a line's end. Appends to
  * *out. */
 enum font_status set_shape(struct page_text *t, const struct paragraph *p,
@@ -248,6 +286,12 @@ enum font_status lines_break(struct page_text *t, struct paragraph *p, const dou
  * behind them. */
 enum font_status lines_break_rest(struct page_text *t, struct paragraph *p, int kept,
                                   const double *widths, int count);
+
+/* What is kept of how it was broken is forgotten, or has other letters begin..end where there
+ * were letters begin..end_before. */
+void lines_forget(struct paragraph *p);
+size_t lines_bytes(const struct paragraph *p); /* that it takes */
+void lines_changed(struct paragraph *p, int begin, int end_before, int end);
 
 /* Where the pen is behind a tab that it comes to at `pen`, in a line that ends before the
  * letter `end`. */

@@ -22,7 +22,9 @@ void set_forget(struct paragraph *p)
     p->glyphs = NULL;
     p->runs = NULL;
     p->glyphs_count = p->glyphs_capacity = p->runs_count = p->runs_capacity = p->count = 0;
-    p->analysed = p->hyphenated = p->broken = false;
+    p->letters_capacity = 0;
+    lines_forget(p);
+    p->analysed = p->hyphenated = p->broken = p->edited = p->counted = false;
 }
 
 /* Signs that are no letters of any run: tabs, and line ends within the paragraph. */
@@ -34,20 +36,26 @@ static bool is_control(uint32_t c)
 /* What an inset's letters count as: a sign of no script that lines are not broken beside. */
 static const uint32_t inset_sign = '=';
 
+struct letter set_letter(const struct page_text *t, const struct paragraph *p, const char **at,
+                         int *span)
+{
+    struct letter l = {.byte = (int32_t)(*at - p->text)};
+    while (*span + 1 < p->spans_count && p->spans[*span + 1].begin <= l.byte)
+        ++*span;
+    l.style = (int16_t)p->spans[*span].style;
+    font_utf8_next(at, p->text + p->bytes, &l.character);
+    if (t->styles[l.style]->is_inset)
+        l.character = inset_sign;
+    return l;
+}
+
 static void letters_read(const struct page_text *t, struct paragraph *p)
 {
     const char *at = p->text, *end = p->text + p->bytes;
     int span = 0;
     for (p->count = 0; at < end; p->count++) {
-        struct letter *l = &p->letters[p->count];
-        *l = (struct letter){.byte = (int32_t)(at - p->text)};
-        while (span + 1 < p->spans_count && p->spans[span + 1].begin <= l->byte)
-            span++;
-        l->style = (int16_t)p->spans[span].style;
-        font_utf8_next(&at, end, &l->character);
-        if (t->styles[l->style]->is_inset)
-            l->character = inset_sign;
-        p->characters[p->count] = l->character;
+        p->letters[p->count] = set_letter(t, p, &at, &span);
+        p->characters[p->count] = p->letters[p->count].character;
     }
 }
 
@@ -62,9 +70,9 @@ static int picture_of(const struct paragraph *p, int i)
     return n;
 }
 
-static void faces_choose(struct page_text *t, struct paragraph *p)
+void set_faces(struct page_text *t, struct paragraph *p, int begin, int end)
 {
-    for (int i = 0; i < p->count; i++) {
+    for (int i = begin; i < end; i++) {
         struct letter *l = &p->letters[i];
         struct font_shaper *s = t->styles[l->style]->shaper;
         int before = i && p->letters[i - 1].style == l->style ? p->letters[i - 1].face : 0;
@@ -117,11 +125,7 @@ static bool scripts_find(struct page_text *t, struct paragraph *p)
         }
     }
     if (good)
-        carets_find(p);
-    for (int i = 1; good && i < p->count; i++)
-        if (t->styles[p->letters[i].style]->is_inset &&
-            p->letters[i].style == p->letters[i - 1].style)
-            p->letters[i].grapheme = false;
+        carets_find(t, p, 0, p->count);
     if (good && p->vertical)
         upright_find(t, p);
     free(scripts);
@@ -130,25 +134,33 @@ static bool scripts_find(struct page_text *t, struct paragraph *p)
     return good;
 }
 
-static bool runs_cut(struct paragraph *p)
+/* Whether letter i goes with the one before it. */
+static bool run_goes_on(const struct paragraph *p, int i)
 {
-    for (int i = 0; i < p->count; i++) {
-        const struct letter *l = &p->letters[i], *b = i ? l - 1 : NULL;
-        if (b && b->style == l->style && b->face == l->face && b->script == l->script &&
-            b->level == l->level && b->stands == l->stands && b->across == l->across &&
-            !is_control(l->character) && !is_control(b->character)) {
-            p->runs[p->runs_count - 1].end = i + 1;
+    const struct letter *l = &p->letters[i], *b = i ? l - 1 : NULL;
+    return b && b->style == l->style && b->face == l->face && b->script == l->script &&
+           b->level == l->level && b->stands == l->stands && b->across == l->across &&
+           !is_control(l->character) && !is_control(b->character);
+}
+
+bool set_runs_cut(const struct paragraph *p, int begin, int end, struct set_run **runs,
+                  int *count, int *capacity)
+{
+    for (int i = begin; i < end; i++) {
+        const struct letter *l = &p->letters[i];
+        if (run_goes_on(p, i)) {
+            (*runs)[*count - 1].end = i + 1;
             continue;
         }
-        if (!array_reserve(&p->runs, &p->runs_capacity, p->runs_count + 1, sizeof *p->runs))
+        if (!array_reserve(runs, capacity, *count + 1, sizeof **runs))
             return false;
-        p->runs[p->runs_count++] = (struct set_run){.begin = i,
-                                                    .end = i + 1,
-                                                    .style = l->style,
-                                                    .face = l->face,
-                                                    .level = l->level,
-                                                    .upright = l->stands,
-                                                    .across = l->across};
+        (*runs)[(*count)++] = (struct set_run){.begin = i,
+                                               .end = i + 1,
+                                               .style = l->style,
+                                               .face = l->face,
+                                               .level = l->level,
+                                               .upright = l->stands,
+                                               .across = l->across};
     }
     return true;
 }
@@ -235,18 +247,49 @@ enum font_status set_shape(struct page_text *t, const struct paragraph *p,
     return FONT_OK;
 }
 
-/* What a line can be stretched and shrunk by, behind a letter. */
-static void spaces_find(struct page_text *t, struct paragraph *p)
+void set_spaces(const struct page_text *t, struct paragraph *p, int begin, int end)
 {
-    for (int i = 0; i < p->count; i++) {
+    for (int i = begin; i < end; i++) {
         struct letter *l = &p->letters[i];
         uint32_t c = l->character;
+        l->stretch_px = l->shrink_px = 0;
         if (c == ' ' || c == 0xa0) {
             l->stretch_px = l->advance_px / 2;
             l->shrink_px = l->advance_px / 3;
         } else if (l->brk == LINEBREAK_ALLOWBREAK && breathes(l->script)) {
             l->stretch_px = (float)(0.08 * t->styles[l->style]->look.size_px);
         }
+    }
+}
+
+/* Along a run letters only grow, or only shrink: halves find the first glyph that is not on
+ * the side of its beginning. */
+static int glyph_from(const struct shaped *glyphs, int low, int high, int letter, bool falls)
+{
+    while (low < high) {
+        int half = low + (high - low) / 2;
+        if ((glyphs[half].letter < letter) != falls)
+            low = half + 1;
+        else
+            high = half;
+    }
+    return low;
+}
+
+void set_glyphs_of(const struct shaped *glyphs, int from, int to, int begin, int end,
+                   int *glyphs_begin, int *glyphs_end)
+{
+    bool falls = to > from && glyphs[from].letter > glyphs[to - 1].letter;
+    *glyphs_begin = glyph_from(glyphs, from, to, falls ? end : begin, falls);
+    *glyphs_end = glyph_from(glyphs, *glyphs_begin, to, falls ? begin : end, falls);
+}
+
+void set_clusters(struct paragraph *p, const struct shaped *glyphs, int count)
+{
+    for (int g = 0; g < count; g++) {
+        struct letter *l = &p->letters[glyphs[g].letter];
+        l->cluster = true;
+        l->advance_px += glyphs[g].advance_px;
     }
 }
 
@@ -263,11 +306,7 @@ static enum font_status runs_shape(struct page_text *t, struct paragraph *p)
             return status;
         run->glyphs_end = p->glyphs_count;
         p->letters[run->begin].cluster = p->letters[run->begin].safe = true;
-        for (int g = run->glyphs_begin; g < run->glyphs_end; g++) {
-            struct letter *l = &p->letters[p->glyphs[g].letter];
-            l->cluster = true;
-            l->advance_px += p->glyphs[g].advance_px;
-        }
+        set_clusters(p, p->glyphs + run->glyphs_begin, run->glyphs_end - run->glyphs_begin);
     }
     return FONT_OK;
 }
@@ -275,25 +314,25 @@ static enum font_status runs_shape(struct page_text *t, struct paragraph *p)
 /* From line to line: what the paragraph asks for, letters' middles being in the middle of it;
  * else what its font's own leading is, or as much more as letters of other faces need above and
  * below the baseline. */
-static void leading_find(const struct page_text *t, struct paragraph *p)
+void set_leading(const struct page_text *t, struct paragraph *p)
 {
     const struct style *first = t->styles[p->style];
     double asked = p->manner.leading_px, leading = asked > 0 ? asked : first->leading_px;
     double rise = leading / 2 + middle(first), above = rise, below = leading - rise;
-    const struct letter *last = NULL;
-    for (int i = 0; i < p->count && asked <= 0; i++) {
-        const struct letter *l = &p->letters[i];
-        if (!l->face || (last && last->face == l->face && last->style == l->style))
+    const struct set_run *last = NULL;
+    for (int i = 0; i < p->runs_count && asked <= 0; i++) {
+        const struct set_run *run = &p->runs[i];
+        if (!run->face || (last && last->face == run->face && last->style == run->style))
             continue;
-        const struct style *style = t->styles[l->style];
+        const struct style *style = t->styles[run->style];
         struct font_room room =
-            font_room_of(style->shaper->faces[l->face].face, style->look.size_px);
-        last = l;
+            font_room_of(style->shaper->faces[run->face].face, style->look.size_px);
+        last = run;
         above = fmax(above, room.above_px);
         below = fmax(below, room.below_px);
     }
-    for (int i = 0; i < p->count; i++) {
-        const struct style *style = t->styles[p->letters[i].style];
+    for (int i = 0; i < p->runs_count; i++) {
+        const struct style *style = t->styles[p->runs[i].style];
         if (!style->is_inset)
             continue;
         above = fmax(above, style->shown.ascent_px);
@@ -303,33 +342,28 @@ static void leading_find(const struct page_text *t, struct paragraph *p)
     p->rise_px = p->vertical ? p->leading_px / 2 + middle(first) : above;
 }
 
-enum font_status set_analyse(struct page_text *t, struct paragraph *p)
+enum font_status set_all(struct page_text *t, struct paragraph *p)
 {
-    if (p->analysed)
-        return FONT_OK;
     set_forget(p);
-    size_t room = (size_t)p->bytes + 1;
-    p->letters = calloc(room, sizeof *p->letters);
-    p->characters = calloc(room, sizeof *p->characters);
+    int room = p->bytes + 1;
+    p->letters = calloc((size_t)room, sizeof *p->letters);
+    p->characters = calloc((size_t)room, sizeof *p->characters);
     if (!p->letters || !p->characters)
         return font_fail(FONT_NO_MEMORY, "no memory for a paragraph");
+    p->letters_capacity = room;
     letters_read(t, p);
     p->base = p->manner.right_to_left > 0;
     enum font_status status = FONT_OK;
-    if (p->count)
-        faces_choose(t, p);
-    leading_find(t, p);
-    if (p->count) {
-        if (!scripts_find(t, p) || !runs_cut(p))
-            status = font_fail(FONT_NO_MEMORY, "no memory for a paragraph");
-        if (status == FONT_OK)
-            status = runs_shape(t, p);
-        if (status == FONT_OK) {
-            words_thai(p);
-            spaces_find(t, p);
-        }
+    set_faces(t, p, 0, p->count);
+    if (p->count && (!scripts_find(t, p) || !set_runs_cut(p, 0, p->count, &p->runs,
+                                                          &p->runs_count, &p->runs_capacity)))
+        status = font_fail(FONT_NO_MEMORY, "no memory for a paragraph");
+    set_leading(t, p);
+    if (status == FONT_OK)
+        status = runs_shape(t, p);
+    if (status == FONT_OK) {
+        words_thai(p);
+        set_spaces(t, p, 0, p->count);
     }
-    p->analysed = status == FONT_OK;
-    t->stats.paragraphs_analysed++;
     return status;
 }

@@ -492,7 +492,8 @@ enum font_status page_text_replace(struct page_text *t, int id, int byte, int re
     memcpy(text, p->text, (size_t)byte);
     memcpy(text + byte, utf8, bytes);
     memcpy(text + byte + put, p->text + byte + removed, (size_t)left + 1);
-    paragraph_changed(t, p);
+    flow_changed(t, p);
+    renew_edited(p, byte, removed);
     free(p->text);
     p->text = text;
     p->bytes = byte + put + left;

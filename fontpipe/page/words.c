@@ -162,12 +162,9 @@ static bool is_letter(uint32_t c)
            font_text_mark(c);
 }
 
-void words_hyphenate(struct page_text *t, struct paragraph *p)
+static void words_divide(struct page_text *t, struct paragraph *p, int begin, int to)
 {
-    if (p->hyphenated || !p->manner.hyphenate)
-        return;
-    p->hyphenated = true;
-    for (int i = 0; i < p->count;) {
+    for (int i = begin; i < to;) {
         int end = i;
         while (end < p->count && is_letter(p->characters[end]))
             end++;
@@ -182,6 +179,29 @@ void words_hyphenate(struct page_text *t, struct paragraph *p)
         }
         i = end > i ? end : i + 1;
     }
+}
+
+void words_hyphenate(struct page_text *t, struct paragraph *p)
+{
+    if (p->hyphenated || !p->manner.hyphenate)
+        return;
+    p->hyphenated = true;
+    words_divide(t, p, 0, p->count);
+}
+
+void words_hyphenate_again(struct page_text *t, struct paragraph *p, int *begin, int *end)
+{
+    if (!p->hyphenated)
+        return;
+    *begin -= *begin > 0; /* a sign for where to divide is of the words on both sides */
+    *end += *end < p->count;
+    while (*begin > 0 && is_letter(p->characters[*begin - 1]))
+        --*begin;
+    while (*end < p->count && is_letter(p->characters[*end]))
+        ++*end;
+    for (int i = *begin; i < *end; i++)
+        p->letters[i].hyphen = false;
+    words_divide(t, p, *begin, *end);
 }
 
 /* ---- Thai ---- */
