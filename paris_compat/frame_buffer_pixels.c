@@ -203,11 +203,19 @@ static bool blue_is_first(const struct writing *w)
     return w->bits == 24 && w->to.slot >= 0;
 }
 
-/* Compilers make vectors of it. */
-static void pixels_turn(uint8_t *pixels, uint64_t count)
+/* Rows of pixels of three of bytes, turned in their places. Compilers make vectors of it. */
+static void rows_turn(void *writing, size_t first, size_t end)
 {
-    for (uint64_t k = 0; k < count; k++, pixels += 4)
+    const struct writing *w = writing;
+    const size_t width = w->picture.width;
+    uint8_t *pixels = w->to.pixels + 4 * width * first;
+    for (size_t k = width * first; k < width * end; k++, pixels += 4)
         pixel_put(pixels, pixels[2], pixels[1], pixels[0]);
+}
+
+static size_t row_bytes(const struct writing *w)
+{
+    return (size_t)w->picture.width * w->to.piece.pixel_bytes;
 }
 
 /* Pixel k becomes value from[k]'s place. */
@@ -256,17 +264,29 @@ static bool downloaded(const struct writing *w, CM_field_id_t source, unsigned i
     return false;
 }
 
+/* Rows on their way to pixels: of one field, or of three channels. */
+struct rows_read {
+    const struct writing *w;
+    struct machine_rows from[3];
+};
+
+static void rows_copy(void *rows_read, size_t first, size_t end)
+{
+    const struct rows_read *r = rows_read;
+    const size_t bytes = row_bytes(r->w);
+    for (size_t y = first; y < end; y++)
+        memcpy(r->w->to.pixels + y * bytes, r->from[0].at + y * r->from[0].pitch, bytes);
+}
+
 /* A picture that lies as it is, from the machine's memory where that is this computer's. */
 static bool straight_read(struct writing *w, CM_field_id_t source)
 {
-    struct machine_rows rows;
-    if (!rows_look(w, &source, 1, w->bits, &rows))
+    struct rows_read r = {.w = w};
+    if (!rows_look(w, &source, 1, w->bits, r.from))
         return false;
-    if (!rows.at)
+    if (!r.from[0].at)
         return downloaded(w, source, w->bits, w->to.pixels);
-    const size_t bytes = (size_t)w->picture.width * w->to.piece.pixel_bytes;
-    for (uint32_t y = 0; y < w->picture.height; y++)
-        memcpy(w->to.pixels + y * bytes, rows.at + y * rows.pitch, bytes);
+    machine_rows_share(w->m, w->picture.height, row_bytes(w), rows_copy, &r);
     return true;
 }
 
@@ -289,7 +309,7 @@ static bool field_read(struct writing *w, CM_field_id_t source, bool raw)
 {
     const bool read = values_read(w, source, raw);
     if (read && blue_is_first(w))
-        pixels_turn(w->to.pixels, w->picture.count);
+        machine_rows_share(w->m, w->picture.height, row_bytes(w), rows_turn, w);
     return read;
 }
 
@@ -318,6 +338,16 @@ static void row_join(const uint8_t *restrict first, const uint8_t *restrict seco
         pixel_put(pixels + 4 * (size_t)x, first[x], second[x], third[x]);
 }
 
+static void rows_join(void *rows_read, size_t first, size_t end)
+{
+    const struct rows_read *r = rows_read;
+    const struct machine_rows *from = r->from;
+    for (size_t y = first; y < end; y++)
+        row_join(from[0].at + y * from[0].pitch, from[1].at + y * from[1].pitch,
+                 from[2].at + y * from[2].pitch, r->w->to.pixels + y * row_bytes(r->w),
+                 r->w->picture.width);
+}
+
 /* Three planes of bytes to pixels, by their places. */
 static void planes_join(const struct writing *w, const uint8_t *planes)
 {
@@ -341,22 +371,19 @@ static uint8_t *planes_read(const struct writing *w, const CM_field_id_t sources
 
 static bool channels_read(struct writing *w, const CM_field_id_t sources[3])
 {
-    const uint32_t width = w->picture.width, height = w->picture.height;
-    struct machine_rows r[3];
-    if (!rows_look(w, sources, 3, 8, r))
+    struct rows_read r = {.w = w};
+    if (!rows_look(w, sources, 3, 8, r.from))
         return false;
-    if (!r[0].at || !r[1].at || !r[2].at) {
+    if (!r.from[0].at || !r.from[1].at || !r.from[2].at) {
         const uint8_t *planes = planes_read(w, sources);
         if (planes && !straight(&w->picture))
             planes_join(w, planes);
         if (!planes || !straight(&w->picture))
             return planes != NULL;
         for (uint64_t i = 0; i < 3; i++)
-            r[i] = (struct machine_rows){planes + i * w->picture.count, width};
+            r.from[i] = (struct machine_rows){planes + i * w->picture.count, w->picture.width};
     }
-    for (uint32_t y = 0; y < height; y++)
-        row_join(r[0].at + y * r[0].pitch, r[1].at + y * r[1].pitch, r[2].at + y * r[2].pitch,
-                 w->to.pixels + 4 * (size_t)width * y, width);
+    machine_rows_share(w->m, w->picture.height, row_bytes(w), rows_join, &r);
     return true;
 }
 

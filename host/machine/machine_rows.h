@@ -24,4 +24,11 @@ enum { MACHINE_LOOK_MAX = 4 };
 enum machine_status machine_fields_look(struct machine *m, const uint32_t *fields, int count,
                                         struct machine_type type, struct machine_rows *rows);
 
+/* Works at rows first to end - 1. Several threads are at it at once, each at its own rows. */
+typedef void machine_rows_work(void *context, size_t first, size_t end);
+/* Has all rows worked at, shared out between the machine's threads where that takes less
+ * time. It copies, or takes as long as copying: row_bytes are written for a row. */
+void machine_rows_share(struct machine *m, size_t rows, size_t row_bytes,
+                        machine_rows_work *work, void *context);
+
 #endif

@@ -204,6 +204,29 @@ enum machine_status machine_fields_look(struct machine *m, const uint32_t *field
     return MACHINE_OK;
 }
 
+struct rows_shared {
+    size_t rows;
+    int parts;
+    machine_rows_work *work;
+    void *context;
+};
+
+static void rows_part(void *of, int part, int worker)
+{
+    const struct rows_shared *r = of;
+    (void)worker;
+    r->work(r->context, r->rows * (size_t)part / (size_t)r->parts,
+            r->rows * (size_t)(part + 1) / (size_t)r->parts);
+}
+
+void machine_rows_share(struct machine *m, size_t rows, size_t row_bytes,
+                        machine_rows_work *work, void *context)
+{
+    const double seconds = 1e-9 * m->device->shape.move_ns * (double)rows * (double)row_bytes;
+    struct rows_shared r = {rows, device_parts(m, seconds), work, context};
+    crew_run(m->device->crew, r.parts, rows_part, &r);
+}
+
 /* Whether an element in memory has bits that the type has not. */
 static bool is_masked(struct machine_type type)
 {
