@@ -508,7 +508,7 @@ static void stages_have_controls(void **state)
     setup.height_px = 3000;
     setup.stage_strip_px = 30;
     struct reader_view *view = view_of(d, &setup);
-    struct reader_stage before[2], after[2];
+    struct reader_stage before[2] = {{0}}, after[2];
     const double rooms[] = {0, 70, 120, 0};
     for (int k = 0; k < 4; k++) {
         int count, stages = 0;
