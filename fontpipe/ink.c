@@ -2,6 +2,8 @@
 #include "ink.h"
 #include "internal.h"
 
+#include <srgb.h>
+
 #include <math.h>
 
 struct font_ink font_ink_plain(double red, double green, double blue, double cover)
@@ -105,12 +107,12 @@ double font_light(double number, double gamma)
 {
     if (gamma > 0)
         return pow(number, gamma);
-    return number <= 0.04045 ? number / 12.92 : pow((number + 0.055) / 1.055, 2.4);
+    return srgb_light(number);
 }
 
 double font_number(double light, double gamma)
 {
     if (gamma > 0)
         return pow(light, 1 / gamma);
-    return light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1 / 2.4) - 0.055;
+    return srgb_number(light);
 }

@@ -16,6 +16,8 @@
 #include "display_internal.h"
 #include "front_panel_scene.h"
 
+#include <srgb.h>
+
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -207,8 +209,7 @@ static void curve_make(struct front_panel *panel)
         float x = (float)i / (CURVE_COUNT - 1);
         x = x * x * CURVE_END;
         float seen = 1 - expf(-1.15f * x);
-        float s = seen <= 0.0031308f ? 12.92f * seen : 1.055f * powf(seen, 1 / 2.4f) - 0.055f;
-        panel->curve[i] = (uint16_t)(s * 255 * 256);
+        panel->curve[i] = (uint16_t)(srgb_number(seen) * 255 * 256);
     }
 }
 

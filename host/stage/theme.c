@@ -2,6 +2,7 @@
 #include "theme.h"
 
 #include <input_file.h>
+#include <srgb.h>
 #include <themes.h>
 
 #include <errno.h>
@@ -164,19 +165,9 @@ enum stage_status stage_theme_open(const char *name, struct stage_theme *theme)
 
 /* ---- colours ---- */
 
-static float light_of(float number)
-{
-    return number <= 0.04045f ? number / 12.92f : powf((number + 0.055f) / 1.055f, 2.4f);
-}
-
-static float number_of(float light)
-{
-    return light <= 0.0031308f ? 12.92f * light : 1.055f * powf(light, 1 / 2.4f) - 0.055f;
-}
-
 static float mixed(float from, float to, float part)
 {
-    return number_of(light_of(from) + part * (light_of(to) - light_of(from)));
+    return (float)srgb_number(srgb_light(from) + part * (srgb_light(to) - srgb_light(from)));
 }
 
 struct stage_color stage_color_mix(struct stage_color from, struct stage_color to, double part)

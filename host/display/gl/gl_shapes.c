@@ -4,7 +4,8 @@
 #include "gl_light.h"
 #include "gl_program.h"
 
-#include <math.h>
+#include <srgb.h>
+
 #include <stdlib.h>
 
 #define GL_FUNCTIONS(X)                                                                        \
@@ -109,12 +110,10 @@ void gl_shapes_begin(struct gl_shapes *s, int width_px, int height_px)
 }
 
 /* Converts a colour's component to the numbers that the framebuffer mixes: linear light, if
- * it mixes light. Source: IEC 61966-2-1. */
+ * it mixes light. */
 static float mixed(const struct gl_shapes *s, float number)
 {
-    if (!s->light)
-        return number;
-    return number <= 0.04045f ? number / 12.92f : powf((number + 0.055f) / 1.055f, 2.4f);
+    return s->light ? (float)srgb_light(number) : number;
 }
 
 void gl_shapes_clear(struct gl_shapes *s, const float color[3])

@@ -10,6 +10,8 @@
 
 #include "base/base.h"
 
+#include <srgb.h>
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -127,10 +129,10 @@ void paper_pigment_unband(struct paper_pigment *pigment)
 
 double paper_light_linear(double display)
 {
-    return display <= 0.04045 ? display / 12.92 : pow((display + 0.055) / 1.055, 2.4);
+    return srgb_light(display);
 }
 
 double paper_light_display(double linear)
 {
-    return linear <= 0.0031308 ? linear * 12.92 : 1.055 * pow(linear, 1 / 2.4) - 0.055;
+    return srgb_number(linear);
 }
