@@ -342,7 +342,8 @@ void reader_label_set(struct reader_builder *b, const char *name, size_t bytes)
         reader_builder_fail(b);
         return;
     }
-    d->labels[d->labels_count++] = (struct reader_label){copy, d->sources_count, -1, -1};
+    d->labels[d->labels_count++] = (struct reader_label){
+        .name = copy, .source = d->sources_count, .block = -1, .first = -1};
 }
 
 void reader_labels_end(struct reader_builder *b)

@@ -1,5 +1,5 @@
 /* edit_internal.h - what the files of editing share: where letters of a block stand in its
- * source (edit_map.c), one paragraph read alone (edit_block.c), whether what is read is what
+ * source (edit_map.c), one block read alone (edit_block.c), whether what is read is what
  * was meant (edit_meant.c), changes and undo (edit.c), typing (edit_type.c). */
 #ifndef LUTETIA_READER_EDIT_INTERNAL_H
 #define LUTETIA_READER_EDIT_INTERNAL_H
@@ -56,8 +56,8 @@ bool edit_moves_find(const struct reader_document *before, const struct reader_d
 bool edit_move_add(struct reader_edit_change *change, size_t at, size_t removed,
                    size_t inserted);
 
-/* The paragraph that the splice is in, read alone, in place. *done: it was; else it is not
- * alone, or is not what is meant. */
+/* The block that the splice is in, read with the lines around it alone, in place. *done: it
+ * was; else others have to do with it, or it is not what is meant. */
 enum reader_status edit_block_try(struct reader_document *d, struct reader_files *files,
                                   const struct edit_splice *splice,
                                   const struct edit_meant *meant,

@@ -383,8 +383,10 @@ static enum reader_status within_try(struct reader_edit *e, const struct spot *s
     }
     if (all && status == READER_OK && !*done && !is_code(b)) /* and the signs around it */
         status = try_bytes(e, source, s->map.head, s->map.last, "", 0, meant, change, done);
+    if (*done || status != READER_OK) /* the spans are gone */
+        return status;
     if (own && end && own->begin == p && end->end == q && (own->look || end->look) &&
-        status == READER_OK && !*done && place_behind(s, p) <= first)
+        place_behind(s, p) <= first)
         status = try_bytes(e, source, place_behind(s, p),
                            place_before(s, q) < 0 ? last : place_before(s, q), "", 0, meant,
                            change, done);

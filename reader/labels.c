@@ -55,8 +55,17 @@ static enum reader_status label_add(struct reader_document *d, char *name, int s
         free(name);
         return reader_fail(READER_NO_MEMORY, "no memory for a document");
     }
-    d->labels[d->labels_count++] = (struct reader_label){name, source, block, block};
+    d->labels[d->labels_count++] =
+        (struct reader_label){.name = name, .source = source, .block = block, .first = block};
     return READER_OK;
+}
+
+static enum reader_status heading_add(struct reader_document *d, char *name, int block)
+{
+    enum reader_status status = label_add(d, name, d->blocks[block].source, block);
+    if (status == READER_OK)
+        d->labels[d->labels_count - 1].heading = true;
+    return status;
 }
 
 static int by_name(const void *a, const void *b)
@@ -90,7 +99,7 @@ static enum reader_status repeated_add(struct reader_document *d)
         char *name = malloc(room);
         if (name)
             snprintf(name, room, "%s-%d", label.name, before);
-        status = label_add(d, name, label.source, label.block);
+        status = heading_add(d, name, label.block);
     }
     labels_sort(d);
     return status;
@@ -115,7 +124,7 @@ enum reader_status reader_labels_make(struct reader_document *d)
     enum reader_status status = READER_OK;
     for (int i = 0; i < d->blocks_count && status == READER_OK; i++)
         if (d->blocks[i].kind == READER_HEADING)
-            status = label_add(d, heading_name(&d->blocks[i], utf8), d->blocks[i].source, i);
+            status = heading_add(d, heading_name(&d->blocks[i], utf8), i);
     if (utf8)
         freelocale(utf8);
     labels_sort(d);
@@ -123,6 +132,20 @@ enum reader_status reader_labels_make(struct reader_document *d)
         status = repeated_add(d);
     first_find(d);
     return status;
+}
+
+enum reader_status reader_labels_again(struct reader_document *d)
+{
+    int kept = 0;
+    for (int i = 0; i < d->labels_count; i++) {
+        d->labels[i].first = d->labels[i].block;
+        if (d->labels[i].heading)
+            free(d->labels[i].name);
+        else
+            d->labels[kept++] = d->labels[i];
+    }
+    d->labels_count = kept;
+    return reader_labels_make(d);
 }
 
 void reader_cited_name(int block, char to[READER_CITED_BYTES])

@@ -137,6 +137,7 @@ struct reader_label {
     char *name;
     int source, block; /* block: of the document's */
     int first;         /* the first block of all that are called so */
+    bool heading;      /* by its words */
 };
 
 /* A reference that leads nowhere. */
@@ -157,7 +158,8 @@ struct reader_document {
     int lost_count;
     long lost_all;
     bool referred;
-    char *plain; /* NULL: reader_document_plain() has not made it */
+    bool references; /* some blocks say what others are called */
+    char *plain;     /* NULL: reader_document_plain() has not made it */
     size_t plain_bytes;
     /* What arrays have room for. */
     int blocks_capacity, note_blocks_capacity, notes_capacity, labels_capacity;

@@ -45,6 +45,8 @@ enum reader_status reader_labels_cited(struct reader_document *d,
 
 /* Headings have their names, and labels are sorted by their names. Errors: NO_MEMORY. */
 enum reader_status reader_labels_make(struct reader_document *d);
+/* The same once a heading has another name. */
+enum reader_status reader_labels_again(struct reader_document *d);
 
 /* ---- mask.c: formulas out of cmark's way ---- */
 

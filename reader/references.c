@@ -300,6 +300,7 @@ static void block_refer(struct refer *r, struct reader_block *block)
         return;
     for (int i = 0; i < block->spans_count && !refers; i++)
         refers = reference_sign(block, &block->spans[i]) >= 0;
+    r->document->references = r->document->references || refers;
     if (refers && r->status == READER_OK)
         block_write(r, block, references_write);
 }

@@ -79,6 +79,14 @@ static void blocks_same(const struct reader_block *a, const struct reader_block 
         assert_int_equal(a[i].level, b[i].level);
         assert_int_equal(a[i].number, b[i].number);
         assert_int_equal(a[i].continues, b[i].continues);
+        assert_string_equal(a[i].marker ? a[i].marker : "", b[i].marker ? b[i].marker : "");
+        assert_string_equal(a[i].target ? a[i].target : "", b[i].target ? b[i].target : "");
+        assert_int_equal(a[i].head, b[i].head);
+        assert_int_equal(a[i].columns, b[i].columns);
+        if (a[i].kind == READER_ROW) {
+            assert_int_equal(a[i].table, b[i].table);
+            assert_memory_equal(a[i].aligns, b[i].aligns, sizeof a[i].aligns);
+        }
         assert_int_equal(a[i].spans_count, b[i].spans_count);
         for (int k = 0; k < a[i].spans_count; k++) {
             const struct reader_span *s = &a[i].spans[k], *t = &b[i].spans[k];
@@ -102,6 +110,15 @@ static void as_from_scratch(const struct edited *e)
     blocks_same(e->document->blocks, twin.document->blocks, e->document->blocks_count);
     blocks_same(e->document->note_blocks, twin.document->note_blocks,
                 e->document->note_blocks_count);
+    assert_int_equal(e->document->tables_count, twin.document->tables_count);
+    assert_int_equal(e->document->labels_count, twin.document->labels_count);
+    for (int i = 0; i < twin.document->labels_count; i++) {
+        const struct reader_label *l = &e->document->labels[i], *m = &twin.document->labels[i];
+        assert_string_equal(l->name, m->name);
+        assert_int_equal(l->source, m->source);
+        assert_int_equal(l->block, m->block);
+        assert_int_equal(l->first, m->first);
+    }
     assert_int_equal(e->document->lost_count, twin.document->lost_count);
     for (int i = 0; i < twin.document->lost_count; i++)
         assert_int_equal(e->document->lost[i].line, twin.document->lost[i].line);
@@ -201,6 +218,59 @@ static void typed_letters_are_written(void **state)
             reader_edit_change_finish(&change);
         }
         assert_string_equal(e.files.texts[0].text, cases[i].source);
+        as_from_scratch(&e);
+        edited_end(&e);
+    }
+}
+
+/* A letter in a heading, an item, a quote, a cell is read with the lines around it alone; where
+ * other blocks have to do with it, all is read. */
+static void touched_blocks_are_read_alone(void **state)
+{
+    static const struct {
+        const char *source, *at;
+        bool alone;
+    } cases[] = {
+        {"Before\n\n# Head\n\nText\n", "Hea|d", true},
+        {"Head\nof two\n===\n\nText\n", "two|", true},
+        {"# Head\nText\n", "Tex|t", true},
+        {"A\n\n- one\n- two\n    1. deep\n\n       more\n- three\n\nB\n", "mor|e", true},
+        {"- one\n\n- two\n\n- three\n", "tw|o", true},
+        {"3. one\n4. two\n", "tw|o", true},
+        {"- [x] done\n- [ ] to do\n", "do|ne", true},
+        {"> one\n> two\n>\n> - item\n", "ite|m", true},
+        {"| a | b |\n|---|:-:|\n| c | d |\n", "c|", true},
+        {"One\n\n| a |\n|---|\n\n| a |\n|---|\n| c |\n", "c|", true},
+        {"- [one](one.md) and *two*\n- [three](#three)\n\n# Three\n", "tw|o", true},
+        {"- [one](#head)\n\n# Head\n", "on|e", true},
+        {"One\n\n# Head\n\n[r]: x.md\n", "Hea|d", true},
+        {"- a [r]\n- b\n\n[r]: x.md\n", "|b", false}, /* brackets are defined */
+        {"# Head\n\n## B\n\nSee [#](#b).\n", "Hea|d", false},
+        {"# Head\n\nSee [#](#head).\n", "Se|e", false},
+        {"- <a id=\"bibliography\"></a>b\n- a\n", "a|", false},
+        {"# Bibliography\n\n- zc\n- za\n", "za|", false},
+        {"- one\n\n```\ncode\n```\n", "on|e", true},
+        {"- one\n\n      code\n\ntext\n", "on|e", true},
+        {"```\n- one\n\n- two\n```\n", "on|e", false},
+        {"A[^n]\n\n[^n]: - one\n\n    - two\n", "tw|o", false},
+        {"<!--\n\n- no\n\n-->\n\n- one\n", "on|e", true},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct edited e;
+        struct reader_edit_change change;
+        char words[40];
+        edited_begin(&e, cases[i].source, NULL);
+        const char *bar = strchr(cases[i].at, '|');
+        snprintf(words, sizeof words, "%.*s%s", (int)(bar - cases[i].at), cases[i].at, bar + 1);
+        const char *found = strstr(e.document->plain, words);
+        assert_non_null(found);
+        const size_t caret = (size_t)(found - e.document->plain) + (size_t)(bar - cases[i].at);
+        if (reader_edit_insert(e.edit, caret, caret, "x", 1, &change) != READER_OK)
+            fail_msg("%s: %s", cases[i].source, reader_error());
+        if ((change.block >= 0) != cases[i].alone)
+            fail_msg("%s is%s read alone", cases[i].source, cases[i].alone ? " not" : "");
+        reader_edit_change_finish(&change);
         as_from_scratch(&e);
         edited_end(&e);
     }
@@ -499,12 +569,14 @@ static void random_edits(void **state)
     print_message("%d typed, %d refused, %d in place; %d deleted, %d refused\n", n.typed,
                   n.refused, n.in_place, n.deleted, n.deleted_refused);
     assert_true(n.refused * 4 < n.typed);
+    assert_true(n.in_place * 4 > n.typed);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(typed_letters_are_written),
+        cmocka_unit_test(touched_blocks_are_read_alone),
         cmocka_unit_test(random_edits),
     };
     if (without_library())
