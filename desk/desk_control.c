@@ -198,13 +198,13 @@ static void slider_add(struct row *row, GtkWidget *box, const char *name, const 
 
 static void widgets_add(struct row *row, GtkWidget *box, const char *name, const char *tip)
 {
-    if (row->control->curve == STAGE_CHOICE) {
+    if (row->control->curve == CONTROL_CHOICE) {
         row->choice = choice_new(row->control);
         gtk_widget_set_hexpand(row->choice, TRUE);
         desk_name(row->choice, name, tip);
         g_signal_connect(row->choice, "notify::selected", G_CALLBACK(choice_made), row);
         gtk_box_append(GTK_BOX(box), row->choice);
-    } else if (row->control->curve == STAGE_SWITCH) {
+    } else if (row->control->curve == CONTROL_SWITCH) {
         row->toggle = gtk_switch_new();
         gtk_widget_set_valign(row->toggle, GTK_ALIGN_CENTER);
         desk_name(row->toggle, name, tip);

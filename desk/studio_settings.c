@@ -22,7 +22,7 @@ static enum stage_status value_write(void *settings, int index, double value)
                 .least = least_,                                                               \
                 .most = most_,                                                                 \
                 .usual = usual_,                                                               \
-                .curve = STAGE_##curve_,                                                       \
+                .curve = CONTROL_##curve_,                                                     \
                 .choices = choices_,                                                           \
                 .does = does_,                                                                 \
                 .read = value_read,                                                            \

@@ -10,31 +10,31 @@
 #define SPRING(member) offsetof(struct dyn_spring, member)
 
 const struct dyn_control dyn_mass_fields[] = {
-    {"x", "units", -1e6, 1e6, 0, DYN_LINEAR, NULL, "where it is", MASS(x)},
-    {"y", "units", -1e6, 1e6, 0, DYN_LINEAR, NULL, "where it is, upwards", MASS(y)},
-    {"vx", "units/s", -DYN_SPEED_MAX, DYN_SPEED_MAX, 0, DYN_LINEAR, NULL, "how fast it goes",
-     MASS(vx)},
-    {"vy", "units/s", -DYN_SPEED_MAX, DYN_SPEED_MAX, 0, DYN_LINEAR, NULL,
+    {"x", "units", -1e6, 1e6, 0, CONTROL_LINEAR, NULL, "where it is", MASS(x)},
+    {"y", "units", -1e6, 1e6, 0, CONTROL_LINEAR, NULL, "where it is, upwards", MASS(y)},
+    {"vx", "units/s", -DYN_SPEED_MAX, DYN_SPEED_MAX, 0, CONTROL_LINEAR, NULL,
+     "how fast it goes", MASS(vx)},
+    {"vy", "units/s", -DYN_SPEED_MAX, DYN_SPEED_MAX, 0, CONTROL_LINEAR, NULL,
      "how fast it goes, upwards", MASS(vy)},
-    {"mass", "kg", 1e-6, 1e6, 1, DYN_LOGARITHMIC, NULL, "what it weighs", MASS(mass)},
-    {"drag", "kg/s", 0, 1e6, 0, DYN_LOGARITHMIC, NULL,
+    {"mass", "kg", 1e-6, 1e6, 1, CONTROL_LOGARITHMIC, NULL, "what it weighs", MASS(mass)},
+    {"drag", "kg/s", 0, 1e6, 0, CONTROL_LOGARITHMIC, NULL,
      "the air's drag on it, beside the world's", MASS(drag)},
-    {"gravity", "", -10, 10, 1, DYN_LINEAR, NULL, "how much of the world's gravity it feels",
-     MASS(gravity)},
-    {"restitution", "", 0, 10, 1, DYN_LINEAR, NULL, "of the world's; their product counts to 1",
-     MASS(restitution)},
-    {"friction", "", 0, 100, 1, DYN_LINEAR, NULL, "of the world's", MASS(friction)},
+    {"gravity", "", -10, 10, 1, CONTROL_LINEAR, NULL,
+     "how much of the world's gravity it feels", MASS(gravity)},
+    {"restitution", "", 0, 10, 1, CONTROL_LINEAR, NULL,
+     "of the world's; their product counts to 1", MASS(restitution)},
+    {"friction", "", 0, 100, 1, CONTROL_LINEAR, NULL, "of the world's", MASS(friction)},
 };
 const int dyn_mass_fields_count = sizeof dyn_mass_fields / sizeof *dyn_mass_fields;
 
 const struct dyn_control dyn_spring_fields[] = {
-    {"constant", "kg/s2", 0, 1e9, 100, DYN_LOGARITHMIC, NULL, "how strong it is",
+    {"constant", "kg/s2", 0, 1e9, 100, CONTROL_LOGARITHMIC, NULL, "how strong it is",
      SPRING(constant)},
-    {"rest_length", "units", 0, 1e7, 1, DYN_LOGARITHMIC, NULL, "how long it would be",
+    {"rest_length", "units", 0, 1e7, 1, CONTROL_LOGARITHMIC, NULL, "how long it would be",
      SPRING(rest_length)},
-    {"damping", "kg/s", 0, 1e7, 0, DYN_LOGARITHMIC, NULL,
+    {"damping", "kg/s", 0, 1e7, 0, CONTROL_LOGARITHMIC, NULL,
      "how it resists changes of its length", SPRING(damping)},
-    {"breaking_strain", "", 0, INFINITY, INFINITY, DYN_LOGARITHMIC, NULL,
+    {"breaking_strain", "", 0, INFINITY, INFINITY, CONTROL_LOGARITHMIC, NULL,
      "by which part of its rest length it can be longer", SPRING(breaking_strain)},
 };
 const int dyn_spring_fields_count = sizeof dyn_spring_fields / sizeof *dyn_spring_fields;

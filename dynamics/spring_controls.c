@@ -13,46 +13,49 @@
 #define FAR_AWAY 1e5 /* limit of the sides' places: well within the edges of the plane */
 
 const struct dyn_control dyn_controls[] = {
-    {"gravity", "units/s2", -100, 100, 9.81, DYN_CENTRED, NULL, "pulls masses down",
+    {"gravity", "units/s2", -100, 100, 9.81, CONTROL_CENTRED, NULL, "pulls masses down",
      AT(gravity)},
-    {"wind_x", "units/s", -100, 100, 0, DYN_CENTRED, NULL,
+    {"wind_x", "units/s", -100, 100, 0, CONTROL_CENTRED, NULL,
      "what drag drags along: the air's speed to the right", AT(wind_x)},
-    {"wind_y", "units/s", -100, 100, 0, DYN_CENTRED, NULL, "the air's speed upwards",
+    {"wind_y", "units/s", -100, 100, 0, CONTROL_CENTRED, NULL, "the air's speed upwards",
      AT(wind_y)},
-    {"drag", "kg/s", 0, 1000, 0.02, DYN_LOGARITHMIC, NULL,
+    {"drag", "kg/s", 0, 1000, 0.02, CONTROL_LOGARITHMIC, NULL,
      "viscous damping: how strongly the air slows masses down", AT(drag)},
-    {"stiffness", "", 0, 1000, 1, DYN_LOGARITHMIC, NULL, "of all springs' constants",
+    {"stiffness", "", 0, 1000, 1, CONTROL_LOGARITHMIC, NULL, "of all springs' constants",
      AT(stiffness)},
-    {"damping", "", 0, 1000, 1, DYN_LOGARITHMIC, NULL, "of all springs' damping", AT(damping)},
-    {"rest", "", 0.01, 10, 1, DYN_LOGARITHMIC, NULL, "of all springs' rest lengths", AT(rest)},
-    {"mass", "", 0.001, 1000, 1, DYN_LOGARITHMIC, NULL, "of all masses", AT(mass)},
-    {"breaking", "", 0.001, 1000, 1, DYN_LOGARITHMIC, NULL,
+    {"damping", "", 0, 1000, 1, CONTROL_LOGARITHMIC, NULL, "of all springs' damping",
+     AT(damping)},
+    {"rest", "", 0.01, 10, 1, CONTROL_LOGARITHMIC, NULL, "of all springs' rest lengths",
+     AT(rest)},
+    {"mass", "", 0.001, 1000, 1, CONTROL_LOGARITHMIC, NULL, "of all masses", AT(mass)},
+    {"breaking", "", 0.001, 1000, 1, CONTROL_LOGARITHMIC, NULL,
      "of all springs' breaking strains; those that never break never do", AT(breaking)},
-    {"restitution", "", 0, 1, 0.6, DYN_LINEAR, NULL,
+    {"restitution", "", 0, 1, 0.6, CONTROL_LINEAR, NULL,
      "how much of its speed a mass has after a bounce", AT(restitution)},
-    {"friction", "", 0, 10, 0.3, DYN_CENTRED, NULL,
+    {"friction", "", 0, 10, 0.3, CONTROL_CENTRED, NULL,
      "Coulomb's: how much of a bounce's change of speed is taken from the speed along the "
      "floor",
      AT(friction)},
-    {"floor_on", "", 0, 1, 1, DYN_SWITCH, NULL, "there is a floor", AT(floor_on)},
-    {"floor", "units", -FAR_AWAY, FAR_AWAY, 0, DYN_LINEAR, NULL, "how high the floor is",
+    {"floor_on", "", 0, 1, 1, CONTROL_SWITCH, NULL, "there is a floor", AT(floor_on)},
+    {"floor", "units", -FAR_AWAY, FAR_AWAY, 0, CONTROL_LINEAR, NULL, "how high the floor is",
      AT(floor)},
-    {"ceiling_on", "", 0, 1, 0, DYN_SWITCH, NULL, "there is a ceiling", AT(ceiling_on)},
-    {"ceiling", "units", -FAR_AWAY, FAR_AWAY, 10, DYN_LINEAR, NULL, "how high the ceiling is",
-     AT(ceiling)},
-    {"left_on", "", 0, 1, 0, DYN_SWITCH, NULL, "there is a wall on the left", AT(left_on)},
-    {"left", "units", -FAR_AWAY, FAR_AWAY, -10, DYN_LINEAR, NULL, "where the left wall is",
+    {"ceiling_on", "", 0, 1, 0, CONTROL_SWITCH, NULL, "there is a ceiling", AT(ceiling_on)},
+    {"ceiling", "units", -FAR_AWAY, FAR_AWAY, 10, CONTROL_LINEAR, NULL,
+     "how high the ceiling is", AT(ceiling)},
+    {"left_on", "", 0, 1, 0, CONTROL_SWITCH, NULL, "there is a wall on the left", AT(left_on)},
+    {"left", "units", -FAR_AWAY, FAR_AWAY, -10, CONTROL_LINEAR, NULL, "where the left wall is",
      AT(left)},
-    {"right_on", "", 0, 1, 0, DYN_SWITCH, NULL, "there is a wall on the right", AT(right_on)},
-    {"right", "units", -FAR_AWAY, FAR_AWAY, 10, DYN_LINEAR, NULL, "where the right wall is",
+    {"right_on", "", 0, 1, 0, CONTROL_SWITCH, NULL, "there is a wall on the right",
+     AT(right_on)},
+    {"right", "units", -FAR_AWAY, FAR_AWAY, 10, CONTROL_LINEAR, NULL, "where the right wall is",
      AT(right)},
-    {"speed_limit", "units/s", 1, DYN_SPEED_MAX, 1000, DYN_LOGARITHMIC, NULL,
+    {"speed_limit", "units/s", 1, DYN_SPEED_MAX, 1000, CONTROL_LOGARITHMIC, NULL,
      "no mass is faster along an axis", AT(speed_limit)},
-    {"clank_speed", "units/s", 0, 1000, 0.2, DYN_LOGARITHMIC, NULL,
+    {"clank_speed", "units/s", 0, 1000, 0.2, CONTROL_LOGARITHMIC, NULL,
      "bounces that leave a mass slower are not heard", AT(clank_speed)},
-    {"safety", "", 0.05, 0.95, 0.5, DYN_LINEAR, NULL,
+    {"safety", "", 0.05, 0.95, 0.5, CONTROL_LINEAR, NULL,
      "the longest part of a step, of what would just be stable", AT(safety)},
-    {"integrator", "", 0, 2, DYN_SYMPLECTIC, DYN_CHOICE, "symplectic verlet thesis",
+    {"integrator", "", 0, 2, DYN_SYMPLECTIC, CONTROL_CHOICE, "symplectic verlet thesis",
      "how steps are made", AT(integrator)},
 };
 
@@ -93,7 +96,7 @@ enum dyn_status dyn_control_check(const struct dyn_control *c, double value)
     if (!(value >= c->least && value <= c->most))
         return dyn_fail(DYN_BAD_ARGUMENT, "%s must be %g..%g%s%s (got %g)", c->name, c->least,
                         c->most, *c->unit ? " " : "", c->unit, value);
-    if ((c->curve == DYN_SWITCH || c->curve == DYN_CHOICE) && value != floor(value))
+    if ((c->curve == CONTROL_SWITCH || c->curve == CONTROL_CHOICE) && value != floor(value))
         return dyn_fail(DYN_BAD_ARGUMENT, "%s must be whole (got %g)", c->name, value);
     return DYN_OK;
 }
@@ -115,7 +118,7 @@ enum dyn_status dyn_control_write(const struct dyn_control *c, void *of, double 
 
 enum dyn_status dyn_control_parse(const struct dyn_control *c, const char *text, double *value)
 {
-    const char *words = c->curve == DYN_SWITCH ? "off on" : c->choices;
+    const char *words = c->curve == CONTROL_SWITCH ? "off on" : c->choices;
     int chosen = words ? word_list_find(words, text) : -1;
     if (chosen >= 0) {
         *value = chosen;

@@ -15,16 +15,14 @@
 
 #include "status.h"
 
-#include <stddef.h>
+#include <control_curve.h>
 
-/* The curve of a slider. LOGARITHMIC and CENTRED: the usual value is in its middle. SWITCH: 0
- * or 1. CHOICE: the number of one of the choices. */
-enum dyn_curve { DYN_LINEAR, DYN_LOGARITHMIC, DYN_CENTRED, DYN_SWITCH, DYN_CHOICE };
+#include <stddef.h>
 
 struct dyn_control {
     const char *name, *unit; /* unit: "" for a pure number */
     double least, most, usual;
-    enum dyn_curve curve;
+    enum control_curve curve;
     const char *choices; /* separated by blanks; NULL: none */
     const char *does;
     size_t at; /* offset of the double in the table's struct */

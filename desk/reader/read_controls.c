@@ -45,18 +45,12 @@ static void changed(void *user, int number, double value)
 /* The row of the table that widgets are made of. */
 static struct stage_control row_of(const struct demonstration_control *c)
 {
-    static const enum stage_curve curves[DEMONSTRATION_CURVES] = {
-        [DEMONSTRATION_LINEAR] = STAGE_LINEAR,
-        [DEMONSTRATION_LOGARITHMIC] = STAGE_LOGARITHMIC,
-        [DEMONSTRATION_CENTRED] = STAGE_CENTRED,
-        [DEMONSTRATION_SWITCH] = STAGE_SWITCH,
-        [DEMONSTRATION_CHOICE] = STAGE_CHOICE};
     return (struct stage_control){.name = c->name,
                                   .unit = c->unit,
                                   .least = c->least,
                                   .most = c->most,
                                   .usual = c->usual,
-                                  .curve = curves[c->curve],
+                                  .curve = c->curve,
                                   .choices = c->choices,
                                   .does = c->does};
 }

@@ -86,19 +86,13 @@ static void controls_tell(const struct process *p)
 {
     const struct script_live_control *from;
     for (int i = 0; (from = script_live_control(p->live, i)); i++) {
-        static const enum demonstration_curve curves[] = {[DYN_LINEAR] = DEMONSTRATION_LINEAR,
-                                                          [DYN_LOGARITHMIC] =
-                                                              DEMONSTRATION_LOGARITHMIC,
-                                                          [DYN_CENTRED] = DEMONSTRATION_CENTRED,
-                                                          [DYN_SWITCH] = DEMONSTRATION_SWITCH,
-                                                          [DYN_CHOICE] = DEMONSTRATION_CHOICE};
         struct demonstration_message m = {.kind = DEMONSTRATION_CONTROL, .which = i};
         struct demonstration_control *to = &m.control;
         to->least = from->row.least;
         to->most = from->row.most;
         to->usual = from->row.usual;
         to->value = from->value;
-        to->curve = curves[from->row.curve];
+        to->curve = from->row.curve;
         visible_text(to->name, sizeof to->name, from->row.name);
         visible_text(to->unit, sizeof to->unit, from->row.unit);
         visible_text(to->choices, sizeof to->choices, from->row.choices);

@@ -159,16 +159,14 @@ static bool control_good(const struct demonstration_control *c)
     if (!c->name[0] || !(c->least < c->most))
         return false;
     switch (c->curve) {
-    case DEMONSTRATION_CHOICE:
+    case CONTROL_CHOICE:
         return choices > 1 && c->least == 0 && c->most == choices - 1;
-    case DEMONSTRATION_SWITCH:
+    case CONTROL_SWITCH:
         return choices == 0 && c->least == 0 && c->most == 1;
-    case DEMONSTRATION_LINEAR:
-    case DEMONSTRATION_LOGARITHMIC:
-    case DEMONSTRATION_CENTRED:
+    case CONTROL_LINEAR:
+    case CONTROL_LOGARITHMIC:
+    case CONTROL_CENTRED:
         return choices == 0;
-    case DEMONSTRATION_CURVES:
-        break;
     }
     return false;
 }
@@ -177,8 +175,8 @@ static void control_take(struct reading *r, struct demonstration_control *c)
 {
     uint8_t curve = 0;
     take(r, &curve, 1);
-    r->good = r->good && curve < DEMONSTRATION_CURVES;
-    c->curve = r->good ? (enum demonstration_curve)curve : DEMONSTRATION_LINEAR;
+    r->good = r->good && curve < CONTROL_CURVES;
+    c->curve = r->good ? (enum control_curve)curve : CONTROL_LINEAR;
     c->least = number_take(r, -value_most, value_most);
     c->most = number_take(r, -value_most, value_most);
     c->usual = number_take(r, c->least, c->most);

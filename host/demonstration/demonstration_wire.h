@@ -15,6 +15,8 @@
 #ifndef LUTETIA_DEMONSTRATION_WIRE_H
 #define LUTETIA_DEMONSTRATION_WIRE_H
 
+#include <control_curve.h>
+
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -59,23 +61,13 @@ enum {
     DEMONSTRATION_NOTE_MAX = 200
 };
 
-/* The curve of a slider; of a choice the value is the number of one of the choices. */
-enum demonstration_curve {
-    DEMONSTRATION_LINEAR,
-    DEMONSTRATION_LOGARITHMIC,
-    DEMONSTRATION_CENTRED,
-    DEMONSTRATION_SWITCH,
-    DEMONSTRATION_CHOICE,
-    DEMONSTRATION_CURVES
-};
-
 /* A number that a slider sets: least < most, and usual and value are between them. */
 struct demonstration_control {
     char name[DEMONSTRATION_NAME_MAX + 1], unit[DEMONSTRATION_UNIT_MAX + 1],
         choices[DEMONSTRATION_NOTE_MAX + 1] /* with blanks between them */,
         does[DEMONSTRATION_NOTE_MAX + 1];
     double least, most, usual, value;
-    enum demonstration_curve curve;
+    enum control_curve curve;
 };
 
 struct demonstration_message {

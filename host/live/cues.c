@@ -122,7 +122,7 @@ static const char *control_set(struct cues *c, const struct cue *cue, double due
         return stage_error();
     struct fade *fade = fade_of(c, cue->name);
     *fade = (struct fade){.name = cue->name};
-    const bool steps = row->curve == STAGE_SWITCH || row->curve == STAGE_CHOICE;
+    const bool steps = row->curve == CONTROL_SWITCH || row->curve == CONTROL_CHOICE;
     if (cue->fade_s <= 0 || steps)
         return stage_control_write(row, c->def.stage, value) == STAGE_OK ? NULL : stage_error();
     fade->from = stage_control_along(row, stage_control_read(row, c->def.stage));

@@ -70,16 +70,16 @@ static enum stage_status row_write(void *actor, int index, double value)
 }
 
 static const struct stage_control own_rows[OWN_ROWS] = {
-    {"size", "", 0.05, 4, 1, STAGE_LOGARITHMIC, NULL, "of all letters; 1 is as large as fits",
+    {"size", "", 0.05, 4, 1, CONTROL_LOGARITHMIC, NULL, "of all letters; 1 is as large as fits",
      row_read, row_write, 0},
-    {"attack", "s", 0, 2, 0.03, STAGE_LOGARITHMIC, NULL,
+    {"attack", "s", 0, 2, 0.03, CONTROL_LOGARITHMIC, NULL,
      "until a letter is as large as its velocity", row_read, row_write, 1},
-    {"release", "s", 0, 10, 0.25, STAGE_LOGARITHMIC, NULL, "until it is a third, once let go",
+    {"release", "s", 0, 10, 0.25, CONTROL_LOGARITHMIC, NULL, "until it is a third, once let go",
      row_read, row_write, 2},
-    {"pressure", "", 0, 1, 1, STAGE_LINEAR, NULL, "what aftertouch adds", row_read, row_write,
+    {"pressure", "", 0, 1, 1, CONTROL_LINEAR, NULL, "what aftertouch adds", row_read, row_write,
      3},
-    {"slant", "", -1, 1, 0, STAGE_LINEAR, NULL, "to the right for each up", row_read, row_write,
-     4}};
+    {"slant", "", -1, 1, 0, CONTROL_LINEAR, NULL, "to the right for each up", row_read,
+     row_write, 4}};
 
 static double axis_read(void *actor, int index)
 {

@@ -267,7 +267,7 @@ static void scene_drop(struct knobs_text *text, int scene)
 static void value_print(const struct stage_control *row, double value,
                         char out[KNOBS_NAME_BYTES])
 {
-    if (row->curve == STAGE_SWITCH || row->curve == STAGE_CHOICE)
+    if (row->curve == CONTROL_SWITCH || row->curve == CONTROL_CHOICE)
         stage_control_text(row, value, out, KNOBS_NAME_BYTES);
     else
         snprintf(out, KNOBS_NAME_BYTES, "%.17g", value);
@@ -302,7 +302,7 @@ static void scene_move(struct knobs *k, double part)
 {
     for (int i = 0; i < k->rows_count; i++) {
         const struct stage_control *row = &k->rows[i];
-        const bool whole = row->curve == STAGE_SWITCH || row->curve == STAGE_CHOICE;
+        const bool whole = row->curve == CONTROL_SWITCH || row->curve == CONTROL_CHOICE;
         if (isnan(k->to[i]) || (whole && part < 1))
             continue;
         const double value =

@@ -131,30 +131,30 @@ static enum stage_status row_write(void *actor, int index, double value)
 static void rows_make(struct paper_actor *a)
 {
     static const struct stage_control rows[ROWS] = {
-        {"gravity", "", -0.95, 0.95, 0, STAGE_LINEAR, NULL, "pulls water down the sheet", 0, 0,
-         0},
-        {"tilt", "", -0.95, 0.95, 0, STAGE_LINEAR, NULL, "pulls water to the right", 0, 0, 0},
-        {"humidity", "", 0, 0.05, 0, STAGE_LOGARITHMIC, NULL, "water that dries in a step", 0,
+        {"gravity", "", -0.95, 0.95, 0, CONTROL_LINEAR, NULL, "pulls water down the sheet", 0,
          0, 0},
-        {"edge", "", 0, 200, 0, STAGE_LINEAR, NULL, "how much faster wet edges dry", 0, 0, 0},
-        {"pace", "/s", 0, 400, 60, STAGE_LINEAR, NULL, "steps of the paper in a second", 0, 0,
+        {"tilt", "", -0.95, 0.95, 0, CONTROL_LINEAR, NULL, "pulls water to the right", 0, 0, 0},
+        {"humidity", "", 0, 0.05, 0, CONTROL_LOGARITHMIC, NULL, "water that dries in a step", 0,
+         0, 0},
+        {"edge", "", 0, 200, 0, CONTROL_LINEAR, NULL, "how much faster wet edges dry", 0, 0, 0},
+        {"pace", "/s", 0, 400, 60, CONTROL_LINEAR, NULL, "steps of the paper in a second", 0, 0,
          0},
-        {"size", "", 0.05, 4, 1, STAGE_LOGARITHMIC, NULL,
+        {"size", "", 0.05, 4, 1, CONTROL_LOGARITHMIC, NULL,
          "of all letters; 1 is as large as fits", 0, 0, 0},
-        {"height", "", 0, 1, 0.5, STAGE_LINEAR, NULL, "where letters are, from the bottom", 0,
+        {"height", "", 0, 1, 0.5, CONTROL_LINEAR, NULL, "where letters are, from the bottom", 0,
          0, 0},
-        {"water", "", 0, 4, 0.8, STAGE_LINEAR, NULL, "of a letter", 0, 0, 0},
-        {"ink", "", 0, 4, 0.6, STAGE_LINEAR, NULL, "of a letter", 0, 0, 0},
-        {"pigment", "", 0, 0, 0, STAGE_CHOICE, NULL, "what letters and brushes are of", 0, 0,
+        {"water", "", 0, 4, 0.8, CONTROL_LINEAR, NULL, "of a letter", 0, 0, 0},
+        {"ink", "", 0, 4, 0.6, CONTROL_LINEAR, NULL, "of a letter", 0, 0, 0},
+        {"pigment", "", 0, 0, 0, CONTROL_CHOICE, NULL, "what letters and brushes are of", 0, 0,
          0},
-        {"brush_x", "", 0, 1, 0.5, STAGE_LINEAR, NULL, "where the brush is, from the left", 0,
+        {"brush_x", "", 0, 1, 0.5, CONTROL_LINEAR, NULL, "where the brush is, from the left", 0,
          0, 0},
-        {"brush_y", "", 0, 1, 0.5, STAGE_LINEAR, NULL, "where the brush is, from the bottom", 0,
-         0, 0},
-        {"brush_size", "", 1, 100, 12, STAGE_LOGARITHMIC, NULL,
+        {"brush_y", "", 0, 1, 0.5, CONTROL_LINEAR, NULL, "where the brush is, from the bottom",
+         0, 0, 0},
+        {"brush_size", "", 1, 100, 12, CONTROL_LOGARITHMIC, NULL,
          "how many fibers a brush is wide", 0, 0, 0},
-        {"brush_water", "", 0, 4, 0, STAGE_LINEAR, NULL, "that the brush leaves", 0, 0, 0},
-        {"brush_ink", "", 0, 4, 0, STAGE_LINEAR, NULL, "that the brush leaves", 0, 0, 0}};
+        {"brush_water", "", 0, 4, 0, CONTROL_LINEAR, NULL, "that the brush leaves", 0, 0, 0},
+        {"brush_ink", "", 0, 4, 0, CONTROL_LINEAR, NULL, "that the brush leaves", 0, 0, 0}};
     const struct paper_air *air = paper_sheet_get_air(a->sheet);
     const struct paper_sheet_config *config = paper_sheet_get_config(a->sheet);
     const double usual[4] = {air->gravity[1], air->gravity[0], air->humidity, air->edge};
@@ -173,7 +173,7 @@ static void rows_make(struct paper_actor *a)
         r->index = i;
         if (i < 4)
             r->usual = usual[i];
-        if (r->curve == STAGE_CHOICE) {
+        if (r->curve == CONTROL_CHOICE) {
             r->choices = a->choices;
             r->most = config->pigments_count - 1;
         }

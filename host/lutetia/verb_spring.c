@@ -243,9 +243,9 @@ static int controls_print(struct stage *stage)
     for (int i = 0; i < count; i++) {
         char value[64], range[96];
         stage_control_text(&rows[i], stage_control_read(&rows[i], stage), value, sizeof value);
-        if (rows[i].curve == STAGE_SWITCH)
+        if (rows[i].curve == CONTROL_SWITCH)
             snprintf(range, sizeof range, "on, off");
-        else if (rows[i].curve == STAGE_CHOICE)
+        else if (rows[i].curve == CONTROL_CHOICE)
             snprintf(range, sizeof range, "%s", rows[i].choices);
         else
             snprintf(range, sizeof range, "%g..%g%s%s", rows[i].least, rows[i].most,

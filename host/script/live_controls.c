@@ -27,21 +27,22 @@ static void curve_read(lua_State *L, struct dyn_control *row)
     static const char *const curves[] = {"linear", "logarithmic", "centred",
                                          "switch", "choice",      NULL};
     const char *curve = script_arg_text(L, 1, "control", "curve");
-    row->curve = row->choices[0] ? DYN_CHOICE
-                 : curve ? (enum dyn_curve)script_arg_choice(L, "control curve", curve, curves)
-                         : DYN_LINEAR;
-    if (row->curve == DYN_CHOICE && !row->choices[0])
+    row->curve = row->choices[0] ? CONTROL_CHOICE
+                 : curve
+                     ? (enum control_curve)script_arg_choice(L, "control curve", curve, curves)
+                     : CONTROL_LINEAR;
+    if (row->curve == CONTROL_CHOICE && !row->choices[0])
         luaL_error(L, "control choices must be names with blanks between them");
 }
 
 /* Between what, and what it is at first. */
 static void range_read(lua_State *L, struct dyn_control *row)
 {
-    const bool named = row->curve == DYN_CHOICE || row->curve == DYN_SWITCH;
+    const bool named = row->curve == CONTROL_CHOICE || row->curve == CONTROL_SWITCH;
     row->least =
         named ? 0 : script_arg_number(L, 1, "control", "least", 0, -far_away, far_away);
-    row->most = row->curve == DYN_CHOICE ? word_list_count(row->choices) - 1
-                : named                  ? 1
+    row->most = row->curve == CONTROL_CHOICE ? word_list_count(row->choices) - 1
+                : named                      ? 1
                         : script_arg_number(L, 1, "control", "most", 1, -far_away, far_away);
     row->usual = row->least;
     if (!(row->least < row->most))
@@ -116,16 +117,16 @@ static void value_push(lua_State *L, const struct script_live_control *c)
     const char *word;
     size_t length;
     switch (c->row.curve) {
-    case DYN_SWITCH:
+    case CONTROL_SWITCH:
         lua_pushboolean(L, c->value != 0);
         return;
-    case DYN_CHOICE:
+    case CONTROL_CHOICE:
         word = word_list_at(c->row.choices, (int)c->value, &length);
         lua_pushlstring(L, word, length);
         return;
-    case DYN_LINEAR:
-    case DYN_LOGARITHMIC:
-    case DYN_CENTRED:
+    case CONTROL_LINEAR:
+    case CONTROL_LOGARITHMIC:
+    case CONTROL_CENTRED:
         lua_pushnumber(L, c->value);
         return;
     }

@@ -30,7 +30,7 @@ double stage_control_read(const struct stage_control *row, void *actor)
 
 enum stage_status stage_control_check(const struct stage_control *row, double value)
 {
-    bool whole = row->curve == STAGE_SWITCH || row->curve == STAGE_CHOICE;
+    bool whole = row->curve == CONTROL_SWITCH || row->curve == CONTROL_CHOICE;
     if (!(value >= row->least && value <= row->most) || (whole && value != floor(value)))
         return stage_fail(STAGE_BAD_ARGUMENT, "%s must be %s%g..%g%s%s (got %g)", row->name,
                           whole ? "a whole number of " : "", row->least, row->most,
@@ -49,11 +49,11 @@ enum stage_status stage_control_parse(const struct stage_control *row, const cha
                                       double *value)
 {
     char *end;
-    if (row->curve == STAGE_SWITCH && (!strcmp(text, "on") || !strcmp(text, "off"))) {
+    if (row->curve == CONTROL_SWITCH && (!strcmp(text, "on") || !strcmp(text, "off"))) {
         *value = text[1] == 'n';
         return STAGE_OK;
     }
-    if (row->curve == STAGE_CHOICE) {
+    if (row->curve == CONTROL_CHOICE) {
         const int chosen = word_list_find(row->choices, text);
         if (chosen < 0)
             return stage_fail(STAGE_BAD_ARGUMENT, "%s must be one of %s (got '%.40s')",
@@ -64,17 +64,17 @@ enum stage_status stage_control_parse(const struct stage_control *row, const cha
     *value = strtod(text, &end);
     if (end == text || *end || !isfinite(*value))
         return stage_fail(STAGE_BAD_ARGUMENT, "%s must be %s (got '%.40s')", row->name,
-                          row->curve == STAGE_SWITCH ? "on or off" : "a number", text);
+                          row->curve == CONTROL_SWITCH ? "on or off" : "a number", text);
     return STAGE_OK;
 }
 
 void stage_control_text(const struct stage_control *row, double value, char *text, size_t room)
 {
     size_t length = 0;
-    const char *choice = row->curve == STAGE_CHOICE && value >= 0
+    const char *choice = row->curve == CONTROL_CHOICE && value >= 0
                              ? word_list_at(row->choices, (int)value, &length)
                              : NULL;
-    if (row->curve == STAGE_SWITCH)
+    if (row->curve == CONTROL_SWITCH)
         snprintf(text, room, "%s", value != 0 ? "on" : "off");
     else if (length > 0)
         snprintf(text, room, "%.*s", (int)length, choice);
@@ -124,9 +124,9 @@ static double unbend(double bent)
 static double middle_of(const struct stage_control *row)
 {
     if (row->usual > row->least && row->usual < row->most &&
-        (row->usual > 0 || row->curve == STAGE_CENTRED))
+        (row->usual > 0 || row->curve == CONTROL_CENTRED))
         return row->usual;
-    if (row->curve == STAGE_CENTRED)
+    if (row->curve == CONTROL_CENTRED)
         return (row->least + row->most) / 2;
     return row->least > 0 ? sqrt(row->least * row->most) : row->most * middle_part;
 }
@@ -172,9 +172,9 @@ static double logarithmic_at(const struct stage_control *row, double along)
 double stage_control_along(const struct stage_control *row, double value)
 {
     value = fmin(row->most, fmax(row->least, value));
-    if (row->curve == STAGE_LOGARITHMIC)
+    if (row->curve == CONTROL_LOGARITHMIC)
         return logarithmic_along(row, value);
-    if (row->curve == STAGE_CENTRED)
+    if (row->curve == CONTROL_CENTRED)
         return centred_along(row, value);
     return (value - row->least) / (row->most - row->least);
 }
@@ -183,11 +183,11 @@ double stage_control_at(const struct stage_control *row, double along)
 {
     along = fmin(1, fmax(0, along));
     double value = row->least + along * (row->most - row->least);
-    if (row->curve == STAGE_LOGARITHMIC)
+    if (row->curve == CONTROL_LOGARITHMIC)
         value = logarithmic_at(row, along);
-    if (row->curve == STAGE_CENTRED)
+    if (row->curve == CONTROL_CENTRED)
         value = centred_at(row, along);
-    if (row->curve == STAGE_SWITCH || row->curve == STAGE_CHOICE)
+    if (row->curve == CONTROL_SWITCH || row->curve == CONTROL_CHOICE)
         value = floor(value + 0.5);
     return fmin(row->most, fmax(row->least, value));
 }

@@ -15,17 +15,14 @@
 
 #include "stage_status.h"
 
-#include <stddef.h>
+#include <control_curve.h>
 
-/* The curve of a slider. LOGARITHMIC and CENTRED: the usual value is in the middle, and values
- * near it have the most of the way. SWITCH: 0 or
- * 1. CHOICE: the number of one of the choices. */
-enum stage_curve { STAGE_LINEAR, STAGE_LOGARITHMIC, STAGE_CENTRED, STAGE_SWITCH, STAGE_CHOICE };
+#include <stddef.h>
 
 struct stage_control {
     const char *name, *unit; /* unit: "" for a pure number */
     double least, most, usual;
-    enum stage_curve curve;
+    enum control_curve curve;
     const char *choices; /* of a CHOICE: names, separated by blanks */
     const char *does;    /* half a sentence */
     double (*read)(void *actor, int index);

@@ -108,14 +108,14 @@ double stage_panel_text(struct stage_panel *p, struct stage_draw_list *list, con
 /* Changes with a click. */
 static bool is_clicked(const struct stage_control *row)
 {
-    return row->curve == STAGE_SWITCH || row->curve == STAGE_CHOICE;
+    return row->curve == CONTROL_SWITCH || row->curve == CONTROL_CHOICE;
 }
 
 /* Controls with an unbounded range of places have no slider; their values are typed. */
 static bool has_slider(const struct stage_control *row)
 {
     return !is_clicked(row) &&
-           (row->curve == STAGE_LOGARITHMIC || row->most - row->least < slider_range_max);
+           (row->curve == CONTROL_LOGARITHMIC || row->most - row->least < slider_range_max);
 }
 
 /* The stage's own controls are the first group, the actor's follow. Groups that were there keep

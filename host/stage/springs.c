@@ -58,18 +58,19 @@ static enum stage_status own_write(void *actor, int index, double value)
 }
 
 static const struct stage_control own_rows[OWN_ROWS] = {
-    {"hand", "kg/s2", 1, 1e5, 300, STAGE_LOGARITHMIC, NULL, "how stiff the hand's spring is",
+    {"hand", "kg/s2", 1, 1e5, 300, CONTROL_LOGARITHMIC, NULL, "how stiff the hand's spring is",
      own_read, own_write, 0},
-    {"show_masses", "", 0, 1, 1, STAGE_SWITCH, NULL, "masses are seen", own_read, own_write, 1},
-    {"show_springs", "", 0, 1, 1, STAGE_SWITCH, NULL, "springs are seen, coloured by strain",
+    {"show_masses", "", 0, 1, 1, CONTROL_SWITCH, NULL, "masses are seen", own_read, own_write,
+     1},
+    {"show_springs", "", 0, 1, 1, CONTROL_SWITCH, NULL, "springs are seen, coloured by strain",
      own_read, own_write, 2},
-    {"show_letters", "", 0, 1, 1, STAGE_SWITCH, NULL, "letters are seen", own_read, own_write,
+    {"show_letters", "", 0, 1, 1, CONTROL_SWITCH, NULL, "letters are seen", own_read, own_write,
      3},
-    {"full_strain", "", 0.001, 10, 0.25, STAGE_LOGARITHMIC, NULL,
+    {"full_strain", "", 0.001, 10, 0.25, CONTROL_LOGARITHMIC, NULL,
      "the strain at which a spring has all of its colour", own_read, own_write, 4},
-    {"collide", "", 0, 1, 0, STAGE_SWITCH, NULL, "letters push each other apart", own_read,
+    {"collide", "", 0, 1, 0, CONTROL_SWITCH, NULL, "letters push each other apart", own_read,
      own_write, 5},
-    {"record_hand", "", 0, 1, 0, STAGE_SWITCH, NULL,
+    {"record_hand", "", 0, 1, 0, CONTROL_SWITCH, NULL,
      "what a hand holds becomes a script of clamps, saved beside the rest", own_read, own_write,
      6}};
 
@@ -97,17 +98,12 @@ static struct stage_control
 row_of(const struct dyn_control *c, int index, double (*read)(void *actor, int index),
        enum stage_status (*write)(void *actor, int index, double value))
 {
-    static const enum stage_curve curves[] = {[DYN_LINEAR] = STAGE_LINEAR,
-                                              [DYN_LOGARITHMIC] = STAGE_LOGARITHMIC,
-                                              [DYN_CENTRED] = STAGE_CENTRED,
-                                              [DYN_SWITCH] = STAGE_SWITCH,
-                                              [DYN_CHOICE] = STAGE_CHOICE};
     return (struct stage_control){.name = c->name,
                                   .unit = c->unit,
                                   .least = c->least,
                                   .most = c->most,
                                   .usual = c->usual,
-                                  .curve = curves[c->curve],
+                                  .curve = c->curve,
                                   .choices = c->choices,
                                   .does = c->does,
                                   .read = read,
@@ -127,7 +123,7 @@ static enum stage_status rows_make(struct springs *s, struct font_face *face)
     memcpy(s->rows, own_rows, sizeof own_rows);
     s->rows_count = OWN_ROWS;
     for (int i = 0; s->text->word && i < dyn_word_controls_count; i++)
-        if (dyn_word_controls[i].curve != DYN_CHOICE)
+        if (dyn_word_controls[i].curve != CONTROL_CHOICE)
             s->rows[s->rows_count++] =
                 row_of(&dyn_word_controls[i], i, style_read, style_write);
     for (int i = 0; i < dyn_controls_count; i++)

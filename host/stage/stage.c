@@ -55,17 +55,17 @@ static enum stage_status own_write(void *of, int index, double value)
 }
 
 static const struct stage_control own_rows[OWN_CONTROLS] = {
-    {"rate", "", 0.01, 10, 1, STAGE_LOGARITHMIC, NULL,
+    {"rate", "", 0.01, 10, 1, CONTROL_LOGARITHMIC, NULL,
      "simulated seconds in one second: below 1 slow motion", own_read, own_write, 0},
-    {"skins", "", 0, STAGE_SKINS_MAX, 0, STAGE_LINEAR, NULL,
+    {"skins", "", 0, STAGE_SKINS_MAX, 0, CONTROL_LINEAR, NULL,
      "how many earlier moments are seen behind the present", own_read, own_write, 1},
-    {"skin_every", "s", 0.01, 2, 0.1, STAGE_LOGARITHMIC, NULL,
+    {"skin_every", "s", 0.01, 2, 0.1, CONTROL_LOGARITHMIC, NULL,
      "how far these moments are apart", own_read, own_write, 2},
-    {"skin_of", "", 0, 1, 0, STAGE_CHOICE, "letters all", "what is seen of them", own_read,
+    {"skin_of", "", 0, 1, 0, CONTROL_CHOICE, "letters all", "what is seen of them", own_read,
      own_write, 3},
-    {"grid", "", 0, 1, 0, STAGE_SWITCH, NULL, "lines a unit of the world apart", own_read,
+    {"grid", "", 0, 1, 0, CONTROL_SWITCH, NULL, "lines a unit of the world apart", own_read,
      own_write, 4},
-    {"shadow", "", 0, 1, 0, STAGE_SWITCH, NULL, "letters throw a shadow on what is behind",
+    {"shadow", "", 0, 1, 0, CONTROL_SWITCH, NULL, "letters throw a shadow on what is behind",
      own_read, own_write, 5}};
 
 static const struct stage_control *actors_row(const struct stage *s, int index)

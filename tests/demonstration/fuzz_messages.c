@@ -27,8 +27,8 @@ static void control_check(const struct demonstration_control *c)
     must(c->least < c->most && c->least >= -1e9 && c->most <= 1e9);
     must(c->usual >= c->least && c->usual <= c->most);
     must(c->value >= c->least && c->value <= c->most);
-    must(c->curve < DEMONSTRATION_CURVES);
-    must(c->curve != DEMONSTRATION_CHOICE || strchr(c->choices, ' '));
+    must((unsigned)c->curve < CONTROL_CURVES);
+    must(c->curve != CONTROL_CHOICE || strchr(c->choices, ' '));
 }
 
 static void message_check(const struct demonstration_message *m, bool to_process)
@@ -107,9 +107,9 @@ int main(void)
         {.kind = DEMONSTRATION_SET, .which = 11, .value = -2.5},
         {.kind = DEMONSTRATION_CONTROL,
          .which = 3,
-         .control = {"speed", "1/s", "", "how fast", 0, 4, 1, 2, DEMONSTRATION_CENTRED}},
+         .control = {"speed", "1/s", "", "how fast", 0, 4, 1, 2, CONTROL_CENTRED}},
         {.kind = DEMONSTRATION_CONTROL,
-         .control = {"ink", "", "blue red", "", 0, 1, 1, 0, DEMONSTRATION_CHOICE}}};
+         .control = {"ink", "", "blue red", "", 0, 1, 1, 0, CONTROL_CHOICE}}};
     enum { TRIES = 200000, SEEDS = sizeof seeds / sizeof *seeds };
     uint8_t packet[DEMONSTRATION_PACKET_MAX + 20];
     for (int i = 0; i < SEEDS; i++) { /* each goes one way only */

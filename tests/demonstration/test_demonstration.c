@@ -105,7 +105,7 @@ static void steps_and_hears(void **state)
 }
 
 static void control_is(const struct demonstration *d, int number, const char *name,
-                       enum demonstration_curve curve, double least, double most, double usual)
+                       enum control_curve curve, double least, double most, double usual)
 {
     const struct demonstration_control *c = demonstration_control(d, number);
     assert_non_null(c);
@@ -133,11 +133,11 @@ static void controls_are_declared_and_set(void **state)
         "function draw() print(a(), b(), c(), g(), w:get('gravity'), last) return '#ffffff' "
         "end");
     runs(d, 1);
-    control_is(d, 0, "speed", DEMONSTRATION_CENTRED, 0, 4, 1.5);
+    control_is(d, 0, "speed", CONTROL_CENTRED, 0, 4, 1.5);
     assert_string_equal(demonstration_control(d, 0)->unit, "1/s");
     assert_string_equal(demonstration_control(d, 0)->does, "how \\x1b fast");
-    control_is(d, 1, "wet", DEMONSTRATION_SWITCH, 0, 1, 1);
-    control_is(d, 2, "ink", DEMONSTRATION_CHOICE, 0, 2, 1);
+    control_is(d, 1, "wet", CONTROL_SWITCH, 0, 1, 1);
+    control_is(d, 2, "ink", CONTROL_CHOICE, 0, 2, 1);
     assert_string_equal(demonstration_control(d, 2)->choices, "blue red green");
     const struct demonstration_control *gravity = demonstration_control(d, 3);
     assert_true(gravity && gravity->value == 3 && gravity->least < 0 && gravity->most > 9.81);

@@ -44,18 +44,18 @@ static double any_of(uint64_t *state, const struct dyn_control *c)
 {
     double most = isfinite(c->most) ? c->most : 1000, low;
     switch (c->curve) {
-    case DYN_SWITCH:
+    case CONTROL_SWITCH:
         return (double)(sample_word(state) % 2);
-    case DYN_CHOICE:
+    case CONTROL_CHOICE:
         return (double)(sample_word(state) % 2); /* of integrators: not the thesis's */
-    case DYN_LINEAR:
-    case DYN_CENTRED:
-    case DYN_LOGARITHMIC:
+    case CONTROL_LINEAR:
+    case CONTROL_CENTRED:
+    case CONTROL_LOGARITHMIC:
         break;
     }
     if (sample_word(state) % 8 == 0)
         return sample_word(state) % 2 ? most : c->least;
-    if (c->curve == DYN_LINEAR || c->curve == DYN_CENTRED)
+    if (c->curve == CONTROL_LINEAR || c->curve == CONTROL_CENTRED)
         return scene_chance(state, c->least, most);
     low = c->least > 0 ? c->least : most * 1e-7;
     return fmin(fmax(low * exp(scene_chance(state, 0, log(most / low))), c->least), most);

@@ -26,12 +26,13 @@ static inline enum stage_status scene_write(void *actor, int index, double value
 static inline const struct stage_control *scene_controls(void *actor, int *count)
 {
     static const struct stage_control rows[SCENE_CONTROLS] = {
-        {"height", "em", 0, 10, 5, STAGE_LINEAR, NULL, "how high", scene_read, scene_write, 0},
-        {"weight", "kg", 1, 10000, 100, STAGE_LOGARITHMIC, NULL, "how heavy", scene_read,
+        {"height", "em", 0, 10, 5, CONTROL_LINEAR, NULL, "how high", scene_read, scene_write,
+         0},
+        {"weight", "kg", 1, 10000, 100, CONTROL_LOGARITHMIC, NULL, "how heavy", scene_read,
          scene_write, 1},
-        {"lit", "", 0, 1, 0, STAGE_SWITCH, NULL, "whether", scene_read, scene_write, 2},
-        {"way", "", 0, 2, 0, STAGE_CHOICE, "left right round", "where", scene_read, scene_write,
-         3}};
+        {"lit", "", 0, 1, 0, CONTROL_SWITCH, NULL, "whether", scene_read, scene_write, 2},
+        {"way", "", 0, 2, 0, CONTROL_CHOICE, "left right round", "where", scene_read,
+         scene_write, 3}};
     (void)actor;
     *count = SCENE_CONTROLS;
     return rows;

@@ -28,11 +28,11 @@ static enum stage_status value_write(void *actor, int index, double value)
 
 #define ACCESS .read = value_read, .write = value_write
 static const struct stage_control rows[] = {
-    {"gravity", "em/s2", -100, 100, 9.81, STAGE_LINEAR, NULL, "", ACCESS, .index = 0},
-    {"stiffness", "kg/s2", 0, 1e6, 500, STAGE_LOGARITHMIC, NULL, "", ACCESS, .index = 1},
-    {"mass", "kg", 1e-3, 1e3, 1, STAGE_LOGARITHMIC, NULL, "", ACCESS, .index = 2},
-    {"floor", "", 0, 1, 1, STAGE_SWITCH, NULL, "", ACCESS, .index = 3},
-    {"step", "", 0, 2, 0, STAGE_CHOICE, "symplectic verlet thesis", "", ACCESS, .index = 4}};
+    {"gravity", "em/s2", -100, 100, 9.81, CONTROL_LINEAR, NULL, "", ACCESS, .index = 0},
+    {"stiffness", "kg/s2", 0, 1e6, 500, CONTROL_LOGARITHMIC, NULL, "", ACCESS, .index = 1},
+    {"mass", "kg", 1e-3, 1e3, 1, CONTROL_LOGARITHMIC, NULL, "", ACCESS, .index = 2},
+    {"floor", "", 0, 1, 1, CONTROL_SWITCH, NULL, "", ACCESS, .index = 3},
+    {"step", "", 0, 2, 0, CONTROL_CHOICE, "symplectic verlet thesis", "", ACCESS, .index = 4}};
 enum { ROWS = sizeof rows / sizeof *rows };
 
 static void names_are_found(void **state)
@@ -154,30 +154,31 @@ static void useful_values_are_in_the_middle(void **state)
     static const struct {
         struct stage_control row;
         double low, high, share; /* these values have at least this share of the way */
-    } ways[] = {{{"side", "", 0, 1e6, 900, STAGE_LOGARITHMIC, NULL, "", ACCESS, .index = 0},
-                 100,
-                 3000,
-                 0.3},
-                {{"mass", "", 1e-3, 1e3, 1, STAGE_LOGARITHMIC, NULL, "", ACCESS, .index = 0},
-                 0.1,
-                 10,
-                 0.4},
-                {{"gravity", "", -100, 100, 9.81, STAGE_CENTRED, NULL, "", ACCESS, .index = 0},
-                 -10,
-                 30,
-                 0.3},
-                {{"wind", "", -100, 100, 0, STAGE_CENTRED, NULL, "", ACCESS, .index = 0},
-                 -10,
-                 10,
-                 0.17},
-                {{"drag", "", 0, 1000, 0.02, STAGE_LOGARITHMIC, NULL, "", ACCESS, .index = 0},
-                 0.002,
-                 0.2,
-                 0.35},
-                {{"breaking", "", 0, 100, 0, STAGE_LOGARITHMIC, NULL, "", ACCESS, .index = 0},
-                 0.1,
-                 10,
-                 0.4}};
+    } ways[] = {
+        {{"side", "", 0, 1e6, 900, CONTROL_LOGARITHMIC, NULL, "", ACCESS, .index = 0},
+         100,
+         3000,
+         0.3},
+        {{"mass", "", 1e-3, 1e3, 1, CONTROL_LOGARITHMIC, NULL, "", ACCESS, .index = 0},
+         0.1,
+         10,
+         0.4},
+        {{"gravity", "", -100, 100, 9.81, CONTROL_CENTRED, NULL, "", ACCESS, .index = 0},
+         -10,
+         30,
+         0.3},
+        {{"wind", "", -100, 100, 0, CONTROL_CENTRED, NULL, "", ACCESS, .index = 0},
+         -10,
+         10,
+         0.17},
+        {{"drag", "", 0, 1000, 0.02, CONTROL_LOGARITHMIC, NULL, "", ACCESS, .index = 0},
+         0.002,
+         0.2,
+         0.35},
+        {{"breaking", "", 0, 100, 0, CONTROL_LOGARITHMIC, NULL, "", ACCESS, .index = 0},
+         0.1,
+         10,
+         0.4}};
     for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
         const struct stage_control *row = &ways[i].row;
         const double low = stage_control_along(row, ways[i].low),
