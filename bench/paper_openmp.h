@@ -40,6 +40,7 @@ enum {
 /* What a step leaves from pass to pass, a row for each row of the sheet. */
 enum {
     T_PART,
+    T_STIRRED,
     T_LOAD,
     T_ROOM,
     T_DEPTH,

@@ -42,15 +42,28 @@ static void water_own(const struct paper_openmp *o, int y)
     }
 }
 
+static void stirred_own(const struct paper_openmp *o, int y)
+{
+    const float *across = field_row(o, F_SPEED_X, y), *along = field_row(o, F_SPEED_Y, y),
+                *below = field_row(o, F_SPEED_Y, y - 1);
+    float *stirred = term_row(o, T_STIRRED, y);
+#pragma omp simd
+    for (int x = 0; x < o->config.width; x++)
+        stirred[x] = ((across[x] * across[x] + across[x - 1] * across[x - 1]) +
+                      (along[x] * along[x] + below[x] * below[x])) *
+                         500.0f +
+                     1.0f;
+}
+
 static void pigment_own(const struct paper_openmp *o, int y, int pigment)
 {
     const struct paper_pigment *p = &o->config.pigments[pigment];
     const int width = o->config.width, field = F_PIGMENTS + 3 * pigment;
     float *surface = field_row(o, field, y), *infused = field_row(o, field + 1, y),
           *fixed = field_row(o, field + 2, y);
-    const float *part_row = term_row(o, T_PART, y), *height = field_row(o, F_HEIGHT, y),
-                *water = field_row(o, F_SURFACE_WATER, y), *wet = field_row(o, o->wet_now, y),
-                *around = field_row(o, o->around_now, y);
+    const float *part_row = term_row(o, T_PART, y), *stirred = term_row(o, T_STIRRED, y),
+                *height = field_row(o, F_HEIGHT, y), *water = field_row(o, F_SURFACE_WATER, y),
+                *wet = field_row(o, o->wet_now, y), *around = field_row(o, o->around_now, y);
     const double pace = o->config.air.settling * 4 * p->density,
                  lift = o->config.air.settling * 0.4 / p->staining,
                  hollows = p->granulation * 0.6;
@@ -74,6 +87,7 @@ static void pigment_own(const struct paper_openmp *o, int y, int pigment)
         slow = slow * -0.75f + 1.0f;
         float dry = 1.0f - least(water[x], 1.0f);
         slow *= greatest(covered, dry);
+        slow /= stirred[x];
         float up = (height[x] * up_slope + up_base) * thin;
         up = up_cut ? least(up, 1.0f) : up;
         float inside = greatest(around[x] * 4.0f + -3.0f, 0.0f);
@@ -175,7 +189,10 @@ static void edge_own(const struct paper_openmp *o, int y)
         help_here = least(help_here, greatest(near * -0.5f + 6.0f, 0.0f));
         float advance = sizing[x] * pinning * help_here;
         float damp = least(full, 1.0f);
-        advance *= damp * damp * -0.85f + 1.0f;
+        damp *= damp;
+        advance *= greatest(
+            (around[x] * -2.0f + 1.0f) * greatest(damp * -16.0f + 1.0f, 0.0f) + 1.0f, 0.1f);
+        advance *= damp * -0.85f + 1.0f;
         advance = greatest(advance, 1e-3f);
         float part = least(h * film, wet[x]);
         part = least(greatest(part, h / advance), 1.0f);
@@ -239,6 +256,7 @@ static void load_own(const struct paper_openmp *o, int y)
 static void own_part(const struct paper_openmp *o, int y)
 {
     water_own(o, y);
+    stirred_own(o, y);
     for (int i = 0; i < o->config.pigments_count; i++)
         pigment_own(o, y, i);
     if (o->config.air.humidity > 0)

@@ -240,6 +240,8 @@ void sheet_wet_put(struct paper_sheet *p, bool water, CM_field_id_t share);
 
 /* Grip from the seed. Errors: NO_MEMORY. */
 enum paper_status sheet_grip_make(struct paper_sheet *p);
+/* How uneven sizing is, 0..1. */
+double sheet_sizing_strength(const struct paper_sheet *p);
 /* Sizing and currents from the seed. Errors: NO_MEMORY. */
 enum paper_status sheet_sizing_make(struct paper_sheet *p);
 /* What a step needs of them at faces and corners; after sheet_faces_make(). Uses t[0..4]. */

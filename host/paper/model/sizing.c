@@ -76,6 +76,11 @@ static bool octaves_make(const struct paper_sheet *p, float *out, const struct o
     return clouds_make(out, p->config.width, p->config.height, p->config.torus, &clouds);
 }
 
+double sheet_sizing_strength(const struct paper_sheet *p)
+{
+    return fmin(1, 2 * p->config.stock.absorbency_variation);
+}
+
 enum paper_status sheet_sizing_make(struct paper_sheet *p)
 {
     const struct paper_sheet_config *config = &p->config;
@@ -85,8 +90,7 @@ enum paper_status sheet_sizing_make(struct paper_sheet *p)
     float *values = malloc(count * sizeof *values);
     bool made = values && octaves_make(p, values, &sizes);
     if (made) {
-        spread_out(values, count,
-                   (float)(DEVIATION_MOST * fmin(1, 2 * config->stock.absorbency_variation)));
+        spread_out(values, count, (float)(DEVIATION_MOST * sheet_sizing_strength(p)));
         kit_grid_f_write(&p->page.grid, p->sizing, values);
         made = octaves_make(p, values, &eddies);
     }

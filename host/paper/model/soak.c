@@ -11,7 +11,12 @@
  *
  * So type's gray edge stays as gray as it was put. `advance` is the angle at which water comes
  * forward, as a height: it goes with the sizing, is less on damp paper, and less where more of
- * the neighbours are wet, so that edges are neither lines along the axes nor frayed.
+ * the neighbours are wet, so that edges are neither lines along the axes nor frayed. A film's
+ * surface also pulls along a bent edge: it closes dry spots and holds back tips, over some ten
+ * fibers. wet_around says how an edge is bent: it is 1/2 at a straight one, more in a bay, less
+ * at a tip. It follows the water late, so a fast front must stand higher than a slow one, as
+ * angles of moving water are larger. That goes with how uneven the sizing is, which bends
+ * edges: glass has none, and drops run on it as they will. Damp paper has no edge to bend.
  *
  * What part is stained. Paint that comes into a clean fiber lies on the part that is wet, and
  * on more as the water comes forward in it; it stays there when the water is gone. A dark line
@@ -34,6 +39,8 @@
 #define HOLE_FROM 12.0
 #define HOLE_STEEPNESS 0.5
 #define DAMP_HELP 0.85
+#define BAY_LEAST 0.1 /* of `advance`, at the end of a dry spot; at a thin tip it is doubled */
+#define UNBENT_FROM 16.0 /* 1 / the square of the saturation at which bends count no longer */
 #define EMPTY_PART 0.015625 /* of a fiber, that counts as full up to `advance` */
 #define DEEP_FROM 8.0 /* a wet part of less than 1 / this of a fiber does not move as a film */
 #define SUCTION 10.0  /* of the stock's absorbency: well absorbing paper sucks the more */
@@ -52,6 +59,10 @@
  * would be washed out. */
 #define LIFTED_WET 4.0
 #define HELD_UP 0.75 /* by a unit of depth, of what settles */
+/* Water that moves keeps its pigments: they settle half as fast at a speed of about 0.03
+ * through all faces of a fiber. So rivulets do not leave all of them on their way, and end in
+ * dark beads. */
+#define STIRRED 500.0
 #define SEEPED_SETTLING 0.1
 #define FIBERS_DRYING 0.25  /* of what dries on the surface */
 #define DRIED_LEAST 4.0     /* grains */
@@ -158,8 +169,24 @@ static void pigment_settle(struct paper_sheet *p, int i, CM_field_id_t thin, CM_
     kit_f_add(surface, surface, up);
 }
 
-/* Pigments settle, in hollows more than on hills, slower from deep water; what falls dry stays.
- * Uses t[8..15]. */
+/* slow /= 1 + STIRRED times the squares of the speeds at the four faces. Uses t[11..13]. */
+static void stirred_heed(struct paper_sheet *p, CM_field_id_t slow)
+{
+    CM_field_id_t squares[2] = {p->t[11], p->t[12]}, other = p->t[13];
+    for (unsigned axis = 0; axis < 2; axis++) {
+        kit_f_previous(other, p->speed[axis], axis);
+        kit_f_mul(other, other, other);
+        kit_f_mul(squares[axis], p->speed[axis], p->speed[axis]);
+        kit_f_add(squares[axis], squares[axis], other);
+    }
+    kit_f_add(other, squares[0], squares[1]);
+    kit_f_times(other, other, STIRRED * p->finer * p->finer);
+    kit_f_plus(other, other, 1.0);
+    kit_f_div(slow, slow, other);
+}
+
+/* Pigments settle, in hollows more than on hills, slower from deep water and from water that
+ * moves; what falls dry stays. Uses t[8..15]. */
 static void settle_under(struct paper_sheet *p)
 {
     CM_field_id_t thin = p->t[8], slow = p->t[9], wet = p->t[10], dry = p->t[14],
@@ -181,6 +208,7 @@ static void settle_under(struct paper_sheet *p)
     kit_f_from(dry, 1.0, dry);
     kit_f_max(wet, wet, dry); /* what is not lifted must not settle, or it gathers there */
     kit_f_mul(slow, slow, wet);
+    stirred_heed(p, slow);
     kit_f_times(inside, p->wet_around, 4.0);
     kit_f_plus(inside, inside, -3.0);
     kit_f_least(inside, inside, 0.0);
@@ -318,6 +346,21 @@ static void neighbourhood_make(struct paper_sheet *p, CM_field_id_t d)
     kit_f_add(d, d, corners);
 }
 
+/* d = by how much `advance` is more or less where an edge is bent. damp: the square of how
+ * saturated the fiber is. Uses t[10]. */
+static void bend_make(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t damp)
+{
+    CM_field_id_t dry = p->t[10];
+    kit_f_times(dry, damp, -UNBENT_FROM);
+    kit_f_plus(dry, dry, 1.0);
+    kit_f_least(dry, dry, 0.0);
+    kit_f_times(d, p->wet_around, -2 * sheet_sizing_strength(p));
+    kit_f_plus(d, d, sheet_sizing_strength(p));
+    kit_f_mul(d, d, dry);
+    kit_f_plus(d, d, 1.0);
+    kit_f_least(d, d, BAY_LEAST);
+}
+
 /* Moves the edge of the wet part forward or back, then computes level and deep from it. Uses
  * t[7..14]. */
 static void edge_move(struct paper_sheet *p, const struct sheet_terms *terms)
@@ -337,6 +380,8 @@ static void edge_move(struct paper_sheet *p, const struct sheet_terms *terms)
     kit_f_mul(advance, advance, help);
     kit_f_most(help, terms->saturated, 1.0);
     kit_f_mul(help, help, help);
+    bend_make(p, part, help);
+    kit_f_mul(advance, advance, part);
     kit_f_times(help, help, -DAMP_HELP);
     kit_f_plus(help, help, 1.0);
     kit_f_mul(advance, advance, help);
