@@ -48,7 +48,7 @@ local effects = {
     p:put(text("R", {size = px(120), x = middle, y = px(136), align = "center"}), {water = 1.3, [blue] = 0.8, [umber] = 1}) steps(p, 1500)
   end},
   {"drips", "hot press", function(p)
-    p:air{gravity = {0.03, 0.2}}
+    p:air{gravity = {0.03, 0.4}}
     p:put(rect(px(18), px(16), px(156), px(40)), {water = 1.6, [green] = 0.4, [blue] = 0.3}) steps(p, 900)
   end},
   {"dry-brush", "rough", function(p)

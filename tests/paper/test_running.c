@@ -1,5 +1,5 @@
 /* test_running.c - water that runs down a sheet that leans: few spots stay dry in its way, it
- * comes together to rivulets, and these end in beads that are as dark as what they come from. */
+ * comes together to rivulets, and these end in beads, darker than what they come from. */
 #include <paper.h>
 #include <sheet.h>
 

@@ -168,7 +168,7 @@ static void damage_is_told(void **state)
     assert_int_equal(bytes[14], '2');
     bytes[14] = '1'; /* of sheets whose water was another */
     sample_file_write(path, bytes, count);
-    refused(path, "(format 1, model of paper 3); this one reads format 2, model 3");
+    refused(path, "(format 1, model of paper 4); this one reads format 2, model 4");
     sample_file_write(path, (const uint8_t *)"hello", 5);
     refused(path, "not a saved state");
     unlink(path);

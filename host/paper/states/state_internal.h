@@ -3,7 +3,7 @@
  * The first 512 bytes, text, the rest of them 0:
  *
  *     LUTETIA STATE 2                    the version of this format
- *     model 3                            the version of the paper's model; 1 and 2 are read, too
+ *     model 4                            the version of the paper's model; 1 to 3 are read, too
  *                                        (sheet.h)
  *     program X.Y.Z                      that wrote it
  *     bytes 123456                       of the whole file
