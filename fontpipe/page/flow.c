@@ -201,17 +201,34 @@ static enum font_status note_height(struct filling *f, struct paragraph *p, doub
     return status;
 }
 
+/* Which of the paragraph's notes, which are in the order of their places, are a line's. */
+static void notes_of(const struct paragraph *p, const struct line *line, int *from, int *to)
+{
+    const int end = line->end < p->count ? p->letters[line->end].byte : p->bytes + 1;
+    const int begin = line->begin < p->count ? p->letters[line->begin].byte : 0;
+    int low = 0, high = p->notes_count; /* by halves */
+    while (low < high) {
+        int half = low + (high - low) / 2;
+        if (p->notes[half].byte <= (begin ? begin : -1))
+            low = half + 1;
+        else
+            high = half;
+    }
+    for (*from = *to = low; *to < p->notes_count && p->notes[*to].byte <= end;)
+        ++*to;
+}
+
 /* What a line's notes take at the foot. */
 static enum font_status line_notes(struct filling *f, const struct paragraph *p,
                                    const struct line *line, double *height)
 {
     const struct page_frame *frame = &f->template->frames[f->frame];
+    int from, to;
     *height = 0;
-    for (int i = 0; i < p->notes_count; i++) {
+    notes_of(p, line, &from, &to);
+    for (int i = from; i < to; i++) {
         const struct note *n = &p->notes[i];
-        int end = line->end < p->count ? p->letters[line->end].byte : p->bytes + 1;
-        int begin = line->begin < p->count ? p->letters[line->begin].byte : 0;
-        if (n->kind != PAGE_NOTE_FOOT || n->byte > end || n->byte <= (begin ? begin : -1))
+        if (n->kind != PAGE_NOTE_FOOT)
             continue;
         double own;
         enum font_status status = note_height(f, n->paragraph, frame_measure(frame), &own);
@@ -387,12 +404,10 @@ static enum font_status notes_take(struct filling *f, struct paragraph *p, int f
             return status;
         if (own > 0)
             f->foot_px += own + (f->foot_px == 0 ? frame->foot_gap_px : 0);
-        for (int k = 0; k < p->notes_count; k++) {
+        int first, behind;
+        notes_of(p, line, &first, &behind);
+        for (int k = first; k < behind; k++) {
             const struct note *n = &p->notes[k];
-            int last = line->end < p->count ? p->letters[line->end].byte : p->bytes + 1;
-            int begin = line->begin < p->count ? p->letters[line->begin].byte : 0;
-            if (n->byte > last || n->byte <= (begin ? begin : -1))
-                continue;
             if (n->kind == PAGE_NOTE_FOOT) {
                 if (!array_reserve(&f->notes, &f->notes_capacity, f->notes_count + 1,
                                    sizeof *f->notes))
