@@ -414,6 +414,7 @@ static enum font_status prepare(struct font_outline *o, enum font_fill rule, boo
     struct fill_work w = {0};
     struct font_outline out = {0};
     int least = 0, most = 0;
+    o->box = font_outline_box(o);
     if (status == FONT_OK)
         status = fill_find(&w, o, rule, quickly, &least, &most);
     if (status == FONT_OK && fill_twice(least, most))
@@ -438,7 +439,8 @@ static enum font_status prepare(struct font_outline *o, enum font_fill rule, boo
     }
     if (status == FONT_OK) {
         o->crossings = w.crossings;
-        o->box = font_outline_box(o);
+        if (o->rebuilt)
+            o->box = font_outline_box(o);
         status = font_outline_polynomials(o);
         o->prepared = status == FONT_OK;
     }

@@ -438,9 +438,14 @@ static void arc_curve(const struct fill_arc *a, struct curve *out)
     out->t1 = 1;
 }
 
-static bool boxes_meet(const struct font_box *a, const struct font_box *b)
+/* A box's corners, each a vector. */
+typedef double corner __attribute__((vector_size(16), aligned(8), may_alias));
+
+static inline bool boxes_meet(const struct font_box *a, const struct font_box *b)
 {
-    return !((a->x0 > b->x1) | (a->x1 < b->x0) | (a->y0 > b->y1) | (a->y1 < b->y0));
+    const corner *p = (const void *)a, *q = (const void *)b;
+    const __typeof__(p[0] > q[0]) apart = (p[0] > q[1]) | (q[0] > p[1]);
+    return !(apart[0] | apart[1]);
 }
 
 /* A box around each few arcs that follow each other: behind the arcs' own. */

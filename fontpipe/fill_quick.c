@@ -222,7 +222,7 @@ bool fill_quick(struct fill_work *w, const struct font_outline *o, enum font_fil
                 bool shaken_first, int *least, int *most)
 {
     struct wound wound = {.rule = rule};
-    struct font_box box = font_outline_box(o);
+    const struct font_box box = o->box;
     double extent = fmax(box.x1 - box.x0, box.y1 - box.y0);
     wound.close = 1e-10 * extent;
     w->crossings = w->arcs_count = w->links_count = w->meets_count = w->portions_count = 0;

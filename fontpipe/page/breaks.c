@@ -1,63 +1,14 @@
 /* breaks.c - what a line costs: see breaks.h. breaks_again.c finds the way. */
-#include "breaks.h"
-
-#include <math.h>
-#include <stdlib.h>
-
-/* TeX's usual numbers. */
-static const double line_penalty = 10, adjacent_demerits = 10000, hyphens_demerits = 10000,
-                    last_hyphen_demerits = 5000;
-/* Demerits are whole parts of that: so their sums are exact, and two ways differ by as much
- * whatever stands before them. */
-static const double demerits_parts = 1 << 14;
-
-enum fitness { VERY_LOOSE, LOOSE, DECENT = BREAK_DECENT, TIGHT = BREAK_TIGHT };
+#include "breaks_cost.h"
 
 double breaks_ratio(const struct break_place *from, const struct break_place *to, double width,
                     const struct break_rules *rules, bool last)
 {
-    double lacks = width - (to->end.px - from->next.px);
-    if (lacks >= 0) {
-        double stretch = to->end.stretch - from->next.stretch + rules->emergency_px;
-        if (last && rules->last_fills)
-            return 0;
-        return lacks < 1e-9 ? 0 : stretch > 0 ? lacks / stretch : BREAK_OVERFULL;
-    }
-    double shrink = to->end.shrink - from->next.shrink;
-    return lacks > -1e-9 ? 0 : shrink > 0 ? lacks / shrink : -BREAK_OVERFULL;
-}
-
-double breaks_badness(double ratio)
-{
-    double bad = 100 * fabs(ratio * ratio * ratio);
-    return bad < BREAK_INFINITE ? bad : BREAK_INFINITE;
-}
-
-/* TeX's badness: a whole number, of which the fitness is a matter; about 100 |ratio|^3. */
-static double badness_whole(double ratio)
-{
-    double r = floor(297 * fabs(ratio));
-    return r > 1290 ? BREAK_INFINITE : floor((r * r * r + 131072) / 262144);
-}
-
-static enum fitness fitness_of(double ratio)
-{
-    double badness = badness_whole(ratio);
-    if (ratio < 0)
-        return badness > 12 ? TIGHT : DECENT;
-    return badness > 99 ? VERY_LOOSE : badness > 12 ? LOOSE : DECENT;
+    return cost_ratio(from, to, width, rules, last);
 }
 
 double breaks_demerits(const struct break_place *from, const struct break_place *to,
                        double ratio, int fitness_before, int *fitness, bool last)
 {
-    double bad = breaks_badness(ratio), line = line_penalty + bad, p = to->penalty;
-    double demerits = line * line;
-    *fitness = (int)fitness_of(ratio);
-    demerits += p > 0 ? p * p : p > -BREAK_INFINITE ? -p * p : 0;
-    if (from->flagged && (to->flagged || last))
-        demerits += last ? last_hyphen_demerits : hyphens_demerits;
-    if (abs(*fitness - fitness_before) > 1)
-        demerits += adjacent_demerits;
-    return rint(demerits * demerits_parts) / demerits_parts;
+    return cost_demerits(from, to, ratio, fitness_before, fitness, last);
 }

@@ -92,10 +92,20 @@ bool breaks_find_again(const struct break_place *places, int places_count, const
                        struct break_search *search, const struct break_change *change,
                        int **chosen, int *count, double *demerits);
 
-/* A length as whole parts of a pixel of which all sums are exact up to 2^26 pixels. */
-double breaks_exact(double px);
+/* The whole number nearest to one below 2^51, as rint() has it: that is a call. */
+static inline double breaks_whole(double number)
+{
+    const double shift = 0x1.8p52;
+    return number + shift - shift;
+}
 
-double breaks_badness(double ratio);
+/* A length as whole parts of a pixel of which all sums are exact up to 2^26 pixels. */
+static inline double breaks_exact(double px)
+{
+    const double parts = 1 << 27;
+    return breaks_whole(px * parts) / parts;
+}
+
 /* A line's ratio; its stretch may be 0. */
 double breaks_ratio(const struct break_place *from, const struct break_place *to, double width,
                     const struct break_rules *rules, bool last);

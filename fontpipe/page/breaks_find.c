@@ -1,4 +1,5 @@
 /* breaks_find.c - nodes from place to place, of which the way is made: see breaks.h. */
+#include "breaks_cost.h"
 #include "breaks_internal.h"
 
 #include <array.h>
@@ -15,12 +16,6 @@ static const double overfull_demerits = 1e12;
 
 enum { LINES_ASK = 4096 };    /* lines that are tried between two questions of patience.h */
 enum { PLACES_A_CHECK = 64 }; /* between two of break_search's */
-
-double breaks_exact(double px)
-{
-    const double parts = 1 << 27;
-    return rint(px * parts) / parts;
-}
 
 bool search_node_add(struct search *s, struct break_node node)
 {
@@ -66,19 +61,19 @@ static double width_of(const struct search *s, int line)
     return s->widths[line < s->widths_count ? line : s->widths_count - 1];
 }
 
-/* A line from node `number` to place b, if it is good enough. */
-static bool line_try(struct search *s, int number, int b, int first_new, double r)
+/* A line from node `number` to place b, not too long, if it is good enough. */
+static inline bool line_try(struct search *s, int number, int b, int first_new, double r)
 {
+    if (!(cost_badness(r) <= s->rules->tolerance))
+        return true;
     const struct break_node a = s->nodes[number];
     const struct break_place *from = &s->places[a.place], *to = &s->places[b];
     const bool last = b == s->last;
     const int ladder = s->rules->ladder_max && to->flagged ? a.ladder + 1 : 0;
-    if (!(r >= -1 && breaks_badness(r) <= s->rules->tolerance &&
-          ladder <= s->rules->ladder_max))
+    if (ladder > s->rules->ladder_max)
         return true;
     int fitness;
-    const double demerits = a.demerits +
-                            breaks_demerits(from, to, r, a.fitness, &fitness, last) +
+    const double demerits = a.demerits + cost_demerits(from, to, r, a.fitness, &fitness, last) +
                             (last ? last_demerits(s, a.place) : 0);
     return candidate_keep(s, first_new,
                           (struct break_node){.place = b,
@@ -93,15 +88,16 @@ static bool line_try(struct search *s, int number, int b, int first_new, double 
 /* Tries a line from each active node to place b. */
 static bool place_try(struct search *s, int b)
 {
-    const struct break_place *to = &s->places[b];
+    const struct break_place *const places = s->places, *to = &places[b];
+    const struct break_rules rules = *s->rules;
     bool last = b == s->last, ends = last || to->penalty <= -BREAK_INFINITE;
     int first_new = s->count, olds = s->active_count, kept = 0;
     int rescue = -1; /* of those that go, the one to make a line too long from */
     for (int k = 0; k < olds; k++) {
         int number = s->active[k];
         const struct break_node *a = &s->nodes[number];
-        double r = breaks_ratio(&s->places[a->place], to, width_of(s, a->line), s->rules, last);
-        if (!line_try(s, number, b, first_new, r))
+        double r = cost_ratio(&places[a->place], to, width_of(s, a->line), &rules, last);
+        if (r >= -1 && !line_try(s, number, b, first_new, r))
             return false;
         a = &s->nodes[number];
         if (!(r < -1 || ends)) {

@@ -6,7 +6,7 @@
  *     face                   a letter of a word, which is no part of a picture
  *     script                 a letter that has one of its own
  *     level                  a letter that runs as the paragraph does
- *     line ends              a letter behind a letter and a space; Han behind Han
+ *     line ends              a letter or digit behind another and a space; Han behind Han
  *     carets                 no mark, joiner or half of a flag
  *
  * Each is found anew between its cuts; then runs are cut anew there, and glyphs are shaped anew
@@ -202,9 +202,11 @@ static bool scripts_renew(struct renewal *r)
         return false;
     font_scripts_choose(p->characters + from, to - from, scripts);
     for (int i = from; i < to; i++)
-        p->letters[i].script = scripts[i - from];
+        if (p->letters[i].script != scripts[i - from]) {
+            p->letters[i].script = scripts[i - from];
+            widen(r, i, i + 1);
+        }
     free(scripts);
-    widen(r, from, to);
     return true;
 }
 
@@ -234,10 +236,17 @@ static bool levels_renew(struct renewal *r, bool turned, bool brackets)
                 font_levels_find(p->characters + from, to - from, direction, levels, &base) &&
                 base == p->base;
     for (int i = from; good && i < to; i++)
-        p->letters[i].level = levels[i - from];
+        if (p->letters[i].level != levels[i - from]) {
+            p->letters[i].level = levels[i - from];
+            widen(r, i, i + 1);
+        }
     free(levels);
-    widen(r, from, to);
     return good;
+}
+
+static bool is_of_word(uint32_t c)
+{
+    return is_letter(c) || (c >= '0' && c <= '9');
 }
 
 /* Whether a line may end before letter i, whatever else there is. */
@@ -246,14 +255,14 @@ static bool line_certain(const struct paragraph *p, int i)
     const uint32_t *c = p->characters + i;
     if (i > 0 && c[-1] >= 0x4e00 && c[-1] < 0xa000 && c[0] >= 0x4e00 && c[0] < 0xa000)
         return true;
-    return i > 1 && c[-1] == ' ' && is_letter(c[0]) && is_letter(c[-2]);
+    return i > 1 && c[-1] == ' ' && is_of_word(c[0]) && is_of_word(c[-2]);
 }
 
 static bool line_ends_renew(struct renewal *r)
 {
     struct paragraph *p = r->p;
     int from = r->begin - 2, to = r->end + 2;
-    while (from > 0 && !(line_certain(p, from) && is_letter(p->characters[from + 1])))
+    while (from > 0 && !(line_certain(p, from) && is_of_word(p->characters[from + 1])))
         from--;
     while (to < p->count && !line_certain(p, to))
         to++;
@@ -269,9 +278,11 @@ static bool line_ends_renew(struct renewal *r)
         ((by_icu && font_breaks_by_icu(p->characters + from, count, language, breaks)) ||
          font_breaks_find(p->characters + from, count, language, breaks));
     for (int i = from; good && i < to; i++)
-        p->letters[i].brk = (uint8_t)breaks[i - from];
+        if (p->letters[i].brk != (uint8_t)breaks[i - from]) {
+            p->letters[i].brk = (uint8_t)breaks[i - from];
+            widen(r, i, i + 1);
+        }
     free(breaks);
-    widen(r, from, to);
     return good;
 }
 

@@ -166,7 +166,7 @@ static void words_divide(struct page_text *t, struct paragraph *p, int begin, in
 {
     for (int i = begin; i < to;) {
         int end = i;
-        while (end < p->count && is_letter(p->characters[end]))
+        while (end < to && is_letter(p->characters[end]))
             end++;
         if (end > i) {
             const char *language = t->styles[p->letters[i].style]->language;
@@ -195,9 +195,10 @@ void words_hyphenate_again(struct page_text *t, struct paragraph *p, int *begin,
         return;
     *begin -= *begin > 0; /* a sign for where to divide is of the words on both sides */
     *end += *end < p->count;
-    while (*begin > 0 && is_letter(p->characters[*begin - 1]))
+    /* To the ends of words; not of those that are too long to be divided, and were before. */
+    for (int n = 0; n <= WORD_MAX && *begin > 0 && is_letter(p->characters[*begin - 1]); n++)
         --*begin;
-    while (*end < p->count && is_letter(p->characters[*end]))
+    for (int n = 0; n <= WORD_MAX && *end < p->count && is_letter(p->characters[*end]); n++)
         ++*end;
     for (int i = *begin; i < *end; i++)
         p->letters[i].hyphen = false;

@@ -74,6 +74,12 @@ static const struct kind kinds[] = {
      {"word ", "\U0001f469\u200d\U0001f4bb", "\U0001f1e9\U0001f1ea", "\U0001f1eb",
       "1\ufe0f\u20e3", "#", "\u2764\ufe0f ", "\U0001f44d\U0001f3fd ", "of ", "letters ",
       "\u200d", "\ufe0f"}},
+    {"long words",
+     true,
+     true,
+     0,
+     {"hyphenation", "typesetting", "considerable", "international", "paragraphs", "of", " ",
+      "a"}},
     {"no letters", false, false, 0, {"12 ", "- ", "? ", "\u2026", "(", ")", "3", "\n"}},
     {"tabs", true, true, 0, {"word\t", "of ", "\t", "letters ", "hyphenation ", "end\n"}}};
 enum { KINDS = sizeof kinds / sizeof *kinds, BYTES = 6000, BYTES_MOST = 9000 };
