@@ -107,6 +107,7 @@ struct paragraph {
     int head, tail, bytes_before;
     bool counted; /* the numbers of letters of which renew.c asks are known */
     int letters_turning, letters_embedding, letters_thai;
+    bool plain; /* as font_breaks_plain() has it */
     int count, base;
     int letters_capacity; /* of characters, too */
     struct letter *letters;

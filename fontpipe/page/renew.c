@@ -268,11 +268,16 @@ static bool line_ends_renew(struct renewal *r)
         to++;
     from = from > 0 ? from : 0;
     to = to < p->count ? to : p->count;
+    /* The text's last place is told by the library that is asked of all of it. */
+    const bool plain = p->plain;
+    p->plain = plain && font_breaks_plain(p->characters + from, to - from)
+                   ? true
+                   : font_breaks_plain(p->characters, p->count);
+    to = p->plain == plain ? to : p->count;
     const int count = to - from + (to < p->count); /* with what stands behind it */
     char *breaks = calloc((size_t)count + 1, 1);
     const char *language = r->t->styles[p->style]->language;
-    /* The text's last place is told by the library that is asked of all of it. */
-    const bool by_icu = to == p->count && !font_breaks_plain(p->characters, p->count);
+    const bool by_icu = to == p->count && !p->plain;
     const bool good =
         breaks &&
         ((by_icu && font_breaks_by_icu(p->characters + from, count, language, breaks)) ||
@@ -356,6 +361,7 @@ static bool renew_all(struct renewal *r)
         p->letters_turning = p->letters_embedding = p->letters_thai = 0;
         for (int i = 0; i < p->count; i++)
             letters_count(p, p->characters[i], 1);
+        p->plain = font_breaks_plain(p->characters, p->count);
         p->counted = true;
     }
     if (p->letters_embedding || p->letters_thai || !fresh_read(r))
