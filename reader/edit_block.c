@@ -208,6 +208,14 @@ static bool ends_at(const struct reader_document *d, int source, const char *s, 
            (!is_item(s, next, bytes) || !list_before(d, source, line + 1));
 }
 
+static int line_ends(const char *text, size_t bytes)
+{
+    int count = 0;
+    for (size_t i = 0; i < bytes; i++)
+        count += text[i] == '\n';
+    return count;
+}
+
 /* The lines around the splice that stand alone. */
 static bool lines_find(const struct reader_document *d, const struct reader_bytes *source,
                        const struct edit_splice *splice, struct alone *out)
@@ -219,9 +227,7 @@ static bool lines_find(const struct reader_document *d, const struct reader_byte
     while (end < source->bytes && s[end] != '\n')
         end++;
     out->line = line_of(source, begin);
-    int last = out->line;
-    for (size_t i = begin; i < end; i++)
-        last += s[i] == '\n';
+    int last = out->line + line_ends(s + begin, end - begin);
     while (!begins_at(d, splice->source, s, begin, source->bytes, out->line)) {
         if (begin == 0 || end - begin > LINES_BYTES_MOST)
             return false;
@@ -407,8 +413,10 @@ static bool alone_find(const struct reader_document *d, const struct reader_file
     if (a->was && is_as_alone(d, splice->source, a) && bytes && !strchr(" \t\n", now[0]) &&
         (!is_item(now, 0, bytes) || !list_before(d, splice->source, a->line)))
         a->now = lines_read(now, bytes, brackets);
+    const int more =
+        line_ends(now, bytes) - line_ends(source->text + a->begin, a->end - a->begin);
     free(now);
-    return a->now && one_changed(a) &&
+    return a->now && one_changed(a) && a->lines == more &&
            (a->was->blocks[a->changed].kind == READER_PARAGRAPH ||
             a->was->blocks[a->changed].kind == READER_HEADING ||
             a->was->blocks[a->changed].kind == READER_ROW) &&
