@@ -1,5 +1,6 @@
-/* text_edit.c - `lutetia bench text`, second part: a text of 200,000 words in pages. A
- * letter is inserted and removed in the middle, and the visible page is set anew each time. */
+/* text_edit.c - `lutetia bench text`, second part: a text of 200,000 words in pages, and one
+ * paragraph of 900 kB. A letter is inserted and removed in the middle, and the visible page is
+ * set anew each time. */
 #include "text_edit.h"
 #include "harness.h"
 
@@ -9,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WORDS = 200000, PARAGRAPH_WORDS = 110, EDITS = 101 };
+enum { WORDS = 200000, PARAGRAPH_WORDS = 110, EDITS = 101, LONG_BYTES = 900000 };
 
 static int words_least(void)
 {
@@ -24,6 +25,7 @@ static int edits(void)
 struct book {
     struct page_text *text;
     int middle, pages; /* the paragraph in the middle */
+    int byte;          /* of it, where letters are put in */
     double whole_s;
 };
 
@@ -56,10 +58,36 @@ static bool paragraphs_add(struct book *b, const char *const *words, uint32_t wo
         if (p == words_least() / PARAGRAPH_WORDS / 2)
             b->middle = id;
     }
+    b->byte = 200;
     return true;
 }
 
-static bool book_make(struct book *b, const char *const *words, uint32_t words_count)
+static bool paragraph_add(struct book *b, const char *const *words, uint32_t words_count,
+                          int style)
+{
+    const size_t least = (size_t)bench_many(LONG_BYTES, 9000);
+    struct page_manner manner = page_manner_default();
+    uint32_t random = 7;
+    char *text = malloc(least + 64);
+    size_t bytes = 0;
+    manner.align = FONT_ALIGN_JUSTIFY;
+    manner.hyphenate = true;
+    while (text && bytes < least) {
+        random = random * 1664525u + 1013904223u;
+        const char *word = words[(random >> 16) % words_count];
+        memcpy(text + bytes, word, strlen(word));
+        bytes += strlen(word);
+        text[bytes++] = ' ';
+        b->byte = bytes <= least / 2 ? (int)bytes : b->byte;
+    }
+    const bool ok = text && page_paragraph_add(b->text, 0, -1, text, bytes, style, &manner,
+                                               &b->middle) == FONT_OK;
+    free(text);
+    return ok || font_wrong();
+}
+
+static bool book_make(struct book *b, const char *const *words, uint32_t words_count,
+                      bool (*add)(struct book *, const char *const *, uint32_t, int))
 {
     struct page_template page = {.width_px = 600, .height_px = 800, .frames_count = 1};
     struct page_style style = page_style_default();
@@ -73,7 +101,7 @@ static bool book_make(struct book *b, const char *const *words, uint32_t words_c
         page_style_add(b->text, &style, &id) != FONT_OK)
         return font_wrong();
     double began_s = bench_thread_s();
-    if (!paragraphs_add(b, words, words_count, id))
+    if (!add(b, words, words_count, id))
         return false;
     if (page_count(b->text, &b->pages) != FONT_OK)
         return font_wrong();
@@ -86,7 +114,7 @@ static bool edit(struct book *b, int turn, int page, double *seconds)
 {
     struct font_layout seen;
     double began_s = bench_thread_s();
-    enum font_status status = page_text_replace(b->text, b->middle, 200, turn % 2,
+    enum font_status status = page_text_replace(b->text, b->middle, b->byte, turn % 2,
                                                 turn % 2 ? "" : "x", turn % 2 ? 0 : 1);
     if (status == FONT_OK)
         status = page_layout(b->text, page, &seen);
@@ -97,13 +125,35 @@ static bool edit(struct book *b, int turn, int page, double *seconds)
     return true;
 }
 
+static bool long_run(struct bench_report *report, const char *const *words,
+                     uint32_t words_count)
+{
+    static const char of_case[] = "one paragraph, 900 kB";
+    struct book b = {0};
+    double seconds[EDITS];
+    int page = 0;
+    bool ok = book_make(&b, words, words_count, paragraph_add);
+    if (ok && page_find(b.text, (struct page_place){b.middle, b.byte}, &page) != FONT_OK)
+        ok = font_wrong();
+    for (int i = -1; ok && i < edits() - 1; i++) /* -1 warms up */
+        ok = edit(&b, i + 2, page, &seconds[i + 1]);
+    if (ok) {
+        bench_report_add(report, "edit, page seen", of_case, bench_sample_of(seconds, edits()),
+                         1e6, "us");
+        bench_report_add(report, "from scratch", of_case,
+                         (struct bench_sample){b.whole_s, b.whole_s}, 1e3, "ms");
+    }
+    page_text_destroy(b.text);
+    return ok;
+}
+
 bool bench_text_edit(struct bench_report *report, const char *const *words,
                      uint32_t words_count)
 {
     struct book b = {0};
     double seconds[EDITS], line_s[EDITS];
     int page = 0, pages = 0;
-    bool ok = book_make(&b, words, words_count);
+    bool ok = book_make(&b, words, words_count, paragraphs_add);
     if (ok && page_find(b.text, (struct page_place){b.middle, 200}, &page) != FONT_OK)
         ok = font_wrong();
     for (int i = -1; ok && i < edits() - 1; i++) /* -1 warms up */
@@ -137,5 +187,5 @@ bool bench_text_edit(struct bench_report *report, const char *const *words,
                          1e-6, "MB");
     }
     page_text_destroy(b.text);
-    return ok;
+    return ok && long_run(report, words, words_count);
 }

@@ -204,6 +204,9 @@ static enum font_status note_height(struct filling *f, struct paragraph *p, doub
 /* Which of the paragraph's notes, which are in the order of their places, are a line's. */
 static void notes_of(const struct paragraph *p, const struct line *line, int *from, int *to)
 {
+    *from = *to = 0;
+    if (!p->notes_count)
+        return;
     const int end = line->end < p->count ? p->letters[line->end].byte : p->bytes + 1;
     const int begin = line->begin < p->count ? p->letters[line->begin].byte : 0;
     int low = 0, high = p->notes_count; /* by halves */
