@@ -60,6 +60,21 @@ static void ink_choose(struct read_desk *d, const char *name)
         read_keys_key(d, GDK_KEY_d, 0);
 }
 
+/* While the grid's lines are seen, of what was moved of them. */
+static void undo_any(struct read_desk *d, bool redo)
+{
+    (d->grid_shown     ? read_grid_undo
+     : read_edit_on(d) ? read_edit_undo
+                       : read_remarks_undo)(d, redo);
+}
+
+static bool can_any(const struct read_desk *d, bool redo)
+{
+    return (d->grid_shown     ? read_grid_can
+            : read_edit_on(d) ? read_edit_can
+                              : read_remarks_can)(d, redo);
+}
+
 enum { SIZE_STEP_PERCENT = 8, COLUMN_STEP = 3 };
 
 ACTION(back, read_document_back(d, false))
@@ -81,8 +96,8 @@ ACTION(edit, read_edit_toggle(d))
 ACTION(save, read_save(d))
 ACTION(cut, read_edit_cut(d))
 ACTION(paste, read_edit_paste(d))
-ACTION(undo, (read_edit_on(d) ? read_edit_undo : read_remarks_undo)(d, false))
-ACTION(redo, (read_edit_on(d) ? read_edit_undo : read_remarks_undo)(d, true))
+ACTION(undo, undo_any(d, false))
+ACTION(redo, undo_any(d, true))
 ACTION(highlight, read_keys_key(d, GDK_KEY_h, 0))
 ACTION(note, read_keys_key(d, GDK_KEY_n, 0))
 ACTION(pen, read_keys_key(d, GDK_KEY_d, 0))
@@ -217,8 +232,8 @@ void read_actions_enable(struct read_desk *d)
     const struct desk_state states[] = {
         {"back", read_document_can(d, false)},
         {"forward", read_document_can(d, true)},
-        {"undo", (read_edit_on(d) ? read_edit_can : read_remarks_can)(d, false)},
-        {"redo", (read_edit_on(d) ? read_edit_can : read_remarks_can)(d, true)},
+        {"undo", can_any(d, false)},
+        {"redo", can_any(d, true)},
         {"group-ink", read_chosen_count(d) > 1},
         {"ungroup-ink", read_chosen_count(d) > 0},
         {"save", read_save_needed(d)},

@@ -118,6 +118,9 @@ struct read_desk {
     struct reader_template template;
     bool grid_shown, grid_held; /* its lines are seen; one of them is dragged */
     int grid_edge;              /* the line that is chosen; -1: none */
+    bool grid_moved;            /* since it is held */
+    GArray *grid_past;          /* struct reader_template: what moved lines can be undone to */
+    guint grid_done;            /* of them, those that are not undone */
     /* the page */
     struct read_tiles *tiles;
     struct read_stages *stages;
@@ -209,6 +212,8 @@ bool read_grid_press(struct read_desk *d, double x);
 bool read_grid_move(struct read_desk *d, double x);
 bool read_grid_release(struct read_desk *d);
 bool read_grid_key(struct read_desk *d, guint key);
+bool read_grid_can(const struct read_desk *d, bool redo); /* while its lines are seen */
+void read_grid_undo(struct read_desk *d, bool redo);
 void read_grid_draw(struct read_desk *d, GtkSnapshot *snapshot);
 
 /* read_layers.c */

@@ -18,6 +18,8 @@ bool read_grid_open(struct read_desk *d, const char *name)
         d->say(d, reader_error());
         return false;
     }
+    g_array_set_size(d->grid_past, 0);
+    d->grid_done = 0;
     read_tiles_forget(d->tiles); /* colours may be others */
     read_miniatures_close(d);
     read_look_again(d);
@@ -65,6 +67,37 @@ static int beside(const struct read_desk *d, int edge)
     return at >= 0 && at < d->setup.grid.columns_count ? d->setup.grid.columns[at].number : -1;
 }
 
+/* ---- undo ---- */
+
+/* The template as it is before lines are moved. */
+static void past_keep(struct read_desk *d)
+{
+    g_array_set_size(d->grid_past, d->grid_done);
+    g_array_append_val(d->grid_past, d->template);
+    d->grid_done++;
+}
+
+bool read_grid_can(const struct read_desk *d, bool redo)
+{
+    return d->grid_shown && (redo ? d->grid_done < d->grid_past->len : d->grid_done > 0);
+}
+
+/* The one of the past and the present one change places. */
+void read_grid_undo(struct read_desk *d, bool redo)
+{
+    if (!read_grid_can(d, redo))
+        return;
+    struct reader_template *past =
+        &g_array_index(d->grid_past, struct reader_template, d->grid_done - (redo ? 0 : 1));
+    const struct reader_template now = d->template;
+    d->template = *past;
+    *past = now;
+    d->grid_done += redo ? 1 : -1u;
+    d->grid_held = false;
+    read_look_again(d);
+    d->acted(d);
+}
+
 /* What is in the middle grows on both sides of it. */
 static void edge_move(struct read_desk *d, int edge, double by_px)
 {
@@ -101,6 +134,7 @@ bool read_grid_press(struct read_desk *d, double x)
         return false;
     d->grid_edge = edge_at(d, x);
     d->grid_held = d->grid_edge >= 0;
+    d->grid_moved = false;
     read_page_changed(d);
     return d->grid_held;
 }
@@ -117,8 +151,12 @@ bool read_grid_move(struct read_desk *d, double x)
     }
     if (d->grid_edge >= edges_count(d)) /* columns have gone: the window is another */
         d->grid_held = false;
-    else
+    else if (x != edge_px(d, d->grid_edge)) {
+        if (!d->grid_moved) /* one drag is one deed */
+            past_keep(d);
+        d->grid_moved = true;
         edge_move(d, d->grid_edge, x - edge_px(d, d->grid_edge));
+    }
     return true;
 }
 
@@ -126,6 +164,8 @@ bool read_grid_release(struct read_desk *d)
 {
     const bool held = d->grid_held;
     d->grid_held = false;
+    if (held)
+        d->acted(d);
     return held;
 }
 
@@ -148,8 +188,11 @@ bool read_grid_key(struct read_desk *d, guint key)
         return true;
     case GDK_KEY_Left:
     case GDK_KEY_Right:
-        if (d->grid_edge >= 0 && d->grid_edge < count)
+        if (d->grid_edge >= 0 && d->grid_edge < count) {
+            past_keep(d);
             edge_move(d, d->grid_edge, (key == GDK_KEY_Left ? -0.5 : 0.5) * d->size_px);
+            d->acted(d);
+        }
         return true;
     default:
         return false;

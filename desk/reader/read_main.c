@@ -59,6 +59,7 @@ static void desk_begin(struct read_desk *d)
     d->setup.height_px = d->options.height;
     d->size_px = d->options.size_px;
     d->grid_edge = -1;
+    d->grid_past = g_array_new(FALSE, FALSE, sizeof(struct reader_template));
     d->hits = g_array_new(FALSE, FALSE, sizeof(struct read_range));
     d->way = g_array_new(FALSE, FALSE, sizeof(struct read_place));
     d->heard = g_ptr_array_new();
@@ -88,6 +89,7 @@ static void desk_finish(struct read_desk *d)
     g_array_free(d->stroke, TRUE);
     g_array_free(d->spots, TRUE);
     g_array_free(d->chosen, TRUE);
+    g_array_free(d->grid_past, TRUE);
     g_ptr_array_unref(d->watches);
     read_stages_finish(d);
     read_stages_destroy(d->stages);

@@ -91,12 +91,13 @@ static void templates_are_chosen_and_dragged(void **state)
     snprintf(
         lines, sizeof lines,
         "0.1 window 1500 700\n0.3 template two-columns\n0.6 action grid\n0.7 down %g 300 1\n"
-        "0.8 move %g 300\n0.9 up %g 300\n1 tell %s\n1.1 key Tab\n1.2 key Right\n1.3 key "
+        "0.8 move %g 300\n0.9 up %g 300\n1 tell %s\n1.02 action undo\n1.04 tell %s\n1.06 "
+        "action redo\n1.08 tell %s\n1.1 key Tab\n1.2 key Right\n1.3 key "
         "Escape\n1.4 save-template %s\n1.5 template book\n1.6 tell %s\n1.7 template "
         "%s\n1.8 tell %s\n1.9 window 600 700\n2.1 key Tab\n2.2 key Return\n2.4 tell %s\n",
-        edge, edge - 20, edge - 20, played_path("dragged"), played_path("own.template"),
-        played_path("book"), played_path("own.template"), played_path("own"),
-        played_path("narrow"));
+        edge, edge - 20, edge - 20, played_path("dragged"), played_path("undone"),
+        played_path("redone"), played_path("own.template"), played_path("book"),
+        played_path("own.template"), played_path("own"), played_path("narrow"));
     played_run(lines, played_path("wide.md"));
     played_well();
     assert_string_equal(played_told("two", "grid"), "2 4");
@@ -105,6 +106,8 @@ static void templates_are_chosen_and_dragged(void **state)
     assert_string_equal(played_told("narrow", "grid"), "1 1");
     assert_string_equal(played_told("narrow", "open"), "1");
     assert_true(atof(played_told("dragged", "edge")) < edge - 10);
+    assert_string_equal(played_told("redone", "edge"), played_told("dragged", "edge"));
+    assert_true(atof(played_told("undone", "edge")) == edge);
     played_run("0.3 action grid\n", played_path("wide.md"));
     played_well();
     snprintf(lines, sizeof lines, "0.3 template %s\n", played_path("bad.template"));
