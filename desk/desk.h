@@ -28,6 +28,7 @@
 
 #include "desk_frame.h"
 #include "desk_shared.h"
+#include "desk_words.h"
 #include "studio_palette.h"
 #include "studio_paper.h"
 #include "studio_selection.h"
@@ -35,9 +36,6 @@
 
 #include <gtk/gtk.h>
 #include <input.h>
-#include <libintl.h>
-
-#define _(text) gettext(text)
 
 #define DESK_FILM_S 60.0 /* how long a film is at the most */
 

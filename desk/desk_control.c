@@ -1,14 +1,12 @@
 /* desk_control.c - a control as a row of widgets: see desk_control.h. */
 #include "desk_control.h"
+#include "desk_words.h"
 
 #include "desk_shared.h"
 
 #include <ctype.h>
-#include <libintl.h>
 #include <math.h>
 #include <string.h>
-
-#define _(text) gettext(text)
 
 enum {
     WHOLE = 1000, /* positions of a slider */

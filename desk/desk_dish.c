@@ -62,9 +62,10 @@ static GtkWidget *palettes_new(void)
     static const struct {
         const char *label, *action, *tip;
     } buttons[] = {
-        {"Open a palette…", "win.palette-open", "Fill the wells from a file (Ctrl+Shift+O)"},
-        {"Save the palette…", "win.palette-save",
-         "Write what is in the wells to a file (Ctrl+Shift+P)"},
+        {N_("Open a palette…"), "win.palette-open",
+         N_("Fill the wells from a file (Ctrl+Shift+O)")},
+        {N_("Save the palette…"), "win.palette-save",
+         N_("Write what is in the wells to a file (Ctrl+Shift+P)")},
     };
     GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 4);
     for (size_t i = 0; i < G_N_ELEMENTS(buttons); i++) {

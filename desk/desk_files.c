@@ -319,7 +319,8 @@ static void film_write(struct desk *d, const char *path)
 
 static void open_choose(struct desk *d)
 {
-    static const struct asked asked = {true, "Open a sheet", ".h5", NULL, sheet_open, false};
+    static const struct asked asked = {true, N_("Open a sheet"), ".h5",
+                                       NULL, sheet_open,         false};
     choose(d, &asked);
 }
 
@@ -331,7 +332,7 @@ void desk_file_open(struct desk *d)
 void desk_file_save(struct desk *d, bool as)
 {
     static const struct asked asked = {
-        false, "Save the sheet with its past", ".h5", "sheet.h5", sheet_save, false};
+        false, N_("Save the sheet with its past"), ".h5", "sheet.h5", sheet_save, false};
     if (!as && d->report.path[0])
         sheet_save(d, d->report.path);
     else
@@ -340,38 +341,39 @@ void desk_file_save(struct desk *d, bool as)
 
 void desk_file_script(struct desk *d)
 {
-    static const struct asked asked = {false,        "Write a script that makes the same sheet",
-                                       ".lua",       "sheet.lua",
-                                       script_write, false};
+    static const struct asked asked = {
+        false,        N_("Write a script that makes the same sheet"),
+        ".lua",       "sheet.lua",
+        script_write, false};
     choose(d, &asked);
 }
 
 void desk_file_picture(struct desk *d)
 {
-    static const struct asked asked = {false,       "Write a picture", ".png",
-                                       "sheet.png", picture_write,     false};
+    static const struct asked asked = {false,       N_("Write a picture"), ".png",
+                                       "sheet.png", picture_write,         false};
     choose(d, &asked);
 }
 
 void desk_file_palette(struct desk *d, bool opens)
 {
-    static const struct asked opened = {true, "Open a palette",  ".palette",
-                                        NULL, desk_palette_open, false},
-                              saved = {false,          "Save the palette", ".palette",
-                                       "dish.palette", desk_palette_save,  false};
+    static const struct asked opened = {true, N_("Open a palette"), ".palette",
+                                        NULL, desk_palette_open,    false},
+                              saved = {false,          N_("Save the palette"), ".palette",
+                                       "dish.palette", desk_palette_save,      false};
     choose(d, opens ? &opened : &saved);
 }
 
 void desk_file_stamp(struct desk *d)
 {
-    static const struct asked asked = {true, "Choose a picture", ".png",
-                                       NULL, desk_stamp_choose,  false};
+    static const struct asked asked = {true, N_("Choose a picture"), ".png",
+                                       NULL, desk_stamp_choose,      false};
     choose(d, &asked);
 }
 
 void desk_file_film(struct desk *d)
 {
     static const struct asked asked = {
-        false, "Write a film of the making", ".mp4", "sheet.mp4", film_write, true};
+        false, N_("Write a film of the making"), ".mp4", "sheet.mp4", film_write, true};
     choose(d, &asked);
 }

@@ -2,13 +2,11 @@
 #include "desk_frame.h"
 
 #include "desk_shared.h"
+#include "desk_words.h"
 
-#include <libintl.h>
 #include <locale.h>
 #include <string.h>
 #include <visible_text.h>
-
-#define _(text) gettext(text)
 
 /* ---- the program ---- */
 

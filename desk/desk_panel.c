@@ -93,9 +93,9 @@ static GtkWidget *care_new(struct desk *d)
         const char *name, *does;
         enum studio_care care;
     } cares[] = {
-        {"Dip", "Fill the brush with what is in the dish", STUDIO_DIP},
-        {"Rinse", "Fill the brush with clean water", STUDIO_RINSE},
-        {"Wipe", "Press all out of the brush on a cloth", STUDIO_WIPE},
+        {N_("Dip"), N_("Fill the brush with what is in the dish"), STUDIO_DIP},
+        {N_("Rinse"), N_("Fill the brush with clean water"), STUDIO_RINSE},
+        {N_("Wipe"), N_("Press all out of the brush on a cloth"), STUDIO_WIPE},
     };
     GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 4);
     for (size_t i = 0; i < G_N_ELEMENTS(cares); i++) {

@@ -202,13 +202,13 @@ static void pause_toggled(GtkToggleButton *button, struct desk *d)
 static GtkWidget *header_new(struct desk *d)
 {
     static const struct desk_button buttons[] = {
-        {"document-new-symbolic", "New sheet", "win.new", "Ctrl+N"},
-        {"document-open-symbolic", "Open", "win.open", "Ctrl+O"},
-        {"document-save-symbolic", "Save", "win.save", "Ctrl+S"},
-        {"edit-undo-symbolic", "Undo", "win.undo", "Ctrl+Z"},
-        {"edit-redo-symbolic", "Redo", "win.redo", "Ctrl+Shift+Z"},
+        {"document-new-symbolic", N_("New sheet"), "win.new", "Ctrl+N"},
+        {"document-open-symbolic", N_("Open"), "win.open", "Ctrl+O"},
+        {"document-save-symbolic", N_("Save"), "win.save", "Ctrl+S"},
+        {"edit-undo-symbolic", N_("Undo"), "win.undo", "Ctrl+Z"},
+        {"edit-redo-symbolic", N_("Redo"), "win.redo", "Ctrl+Shift+Z"},
     };
-    static const struct desk_button past = {"document-open-recent-symbolic", "The past",
+    static const struct desk_button past = {"document-open-recent-symbolic", N_("The past"),
                                             "win.past", "Ctrl+T"};
     GMenuModel *menu = desk_menu_new();
     GtkWidget *header = desk_frame_header(buttons, G_N_ELEMENTS(buttons), menu);

@@ -1,5 +1,6 @@
 /* studio_settings.c - see studio_settings.h. */
 #include "studio_settings.h"
+#include "desk_words.h"
 
 #include <math.h>
 
@@ -206,44 +207,47 @@ void studio_settings_amounts(const struct studio_settings *settings,
 /* ---- tools ---- */
 
 const struct studio_tool studio_tools[STUDIO_TOOLS] = {
-    [STUDIO_TOOL_BRUSH] = {"Brush", "b",
-                           "Paint with bristles that carry what is in the dish: drag.",
+    [STUDIO_TOOL_BRUSH] = {N_("Brush"), "b",
+                           N_("Paint with bristles that carry what is in the dish: drag."),
                            STUDIO_BRUSH, STUDIO_SHAPE, true, true},
-    [STUDIO_TOOL_WATER] = {"Clean water", "w",
-                           "The same brush with water alone: wets, softens edges, lifts.",
+    [STUDIO_TOOL_WATER] = {N_("Clean water"), "w",
+                           N_("The same brush with water alone: wets, softens edges, lifts."),
                            STUDIO_BRUSH, STUDIO_SHAPE, false, true},
-    [STUDIO_TOOL_WASH] = {"Wash", "a",
-                          "A broad layer that fades: drag from one corner to the other.",
+    [STUDIO_TOOL_WASH] = {N_("Wash"), "a",
+                          N_("A broad layer that fades: drag from one corner to the other."),
                           STUDIO_FADE, STUDIO_FADE, true, false},
-    [STUDIO_TOOL_DROP] = {"Drop", "d", "Let a drop of the dish fall: click.", STUDIO_SIZE,
-                          STUDIO_SIZE, true, false},
-    [STUDIO_TOOL_SPLATTER] = {"Splatter", "x",
-                              "Throw drops: click, or drag in the direction of the throw.",
+    [STUDIO_TOOL_DROP] = {N_("Drop"), "d", N_("Let a drop of the dish fall: click."),
+                          STUDIO_SIZE, STUDIO_SIZE, true, false},
+    [STUDIO_TOOL_SPLATTER] = {N_("Splatter"), "x",
+                              N_("Throw drops: click, or drag in the direction of the throw."),
                               STUDIO_DROPS, STUDIO_SCATTER, true, false},
-    [STUDIO_TOOL_SALT] = {"Salt", "s", "Strew salt on wet paint, which flees from it: click.",
+    [STUDIO_TOOL_SALT] = {N_("Salt"), "s",
+                          N_("Strew salt on wet paint, which flees from it: click."),
                           STUDIO_SCATTER, STUDIO_SALT, false, false},
-    [STUDIO_TOOL_BLOT] = {"Blot", "c", "A cloth takes water and wet paint: drag.", STUDIO_SOAK,
-                          STUDIO_SOAK, false, true},
-    [STUDIO_TOOL_LIFT] = {"Lift", "l", "A damp sponge rubs dry paint off: drag.", STUDIO_RUB,
-                          STUDIO_RUB, false, true},
-    [STUDIO_TOOL_MASK] = {"Masking fluid", "m", "Where it is, the paper takes nothing: drag.",
-                          STUDIO_WIDTH, STUDIO_WIDTH, false, true},
-    [STUDIO_TOOL_UNMASK] = {"Rub masking fluid off", "e", "The paper takes paint again: drag.",
-                            STUDIO_WIDTH, STUDIO_WIDTH, false, true},
-    [STUDIO_TOOL_VARNISH] = {"Varnish", "v", "A clear gloss, for good: drag.", STUDIO_GLOSS,
-                             STUDIO_GLOSS, false, true},
-    [STUDIO_TOOL_TYPE] = {"Type", "t",
-                          "Click where the type begins, and type. Control and Enter lets it "
-                          "into the paper, Escape takes it away.",
+    [STUDIO_TOOL_BLOT] = {N_("Blot"), "c", N_("A cloth takes water and wet paint: drag."),
+                          STUDIO_SOAK, STUDIO_SOAK, false, true},
+    [STUDIO_TOOL_LIFT] = {N_("Lift"), "l", N_("A damp sponge rubs dry paint off: drag."),
+                          STUDIO_RUB, STUDIO_RUB, false, true},
+    [STUDIO_TOOL_MASK] = {N_("Masking fluid"), "m",
+                          N_("Where it is, the paper takes nothing: drag."), STUDIO_WIDTH,
+                          STUDIO_WIDTH, false, true},
+    [STUDIO_TOOL_UNMASK] = {N_("Rub masking fluid off"), "e",
+                            N_("The paper takes paint again: drag."), STUDIO_WIDTH,
+                            STUDIO_WIDTH, false, true},
+    [STUDIO_TOOL_VARNISH] = {N_("Varnish"), "v", N_("A clear gloss, for good: drag."),
+                             STUDIO_GLOSS, STUDIO_GLOSS, false, true},
+    [STUDIO_TOOL_TYPE] = {N_("Type"), "t",
+                          N_("Click where the type begins, and type. Control and Enter lets it "
+                             "into the paper, Escape takes it away."),
                           STUDIO_TYPE_SIZE, STUDIO_TYPE_SLIDE, true, false},
     [STUDIO_TOOL_SELECT] =
-        {"Selection", "r",
+        {N_("Selection"), "r",
          "Drag around a part of the sheet: what you do next stays inside, and "
          "no water flows across. A click selects nothing.",
          STUDIO_OUTLINE, STUDIO_JOIN, false, false},
-    [STUDIO_TOOL_STAMP] = {"Stamp", "i",
-                           "A picture as paint, as water, as masking fluid or in its own "
-                           "colours: choose one, or drop its file on the sheet, and click.",
+    [STUDIO_TOOL_STAMP] = {N_("Stamp"), "i",
+                           N_("A picture as paint, as water, as masking fluid or in its own "
+                              "colours: choose one, or drop its file on the sheet, and click."),
                            STUDIO_STAMP_AS, STUDIO_STAMP_NEGATIVE, true, false},
 };
 

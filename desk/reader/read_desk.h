@@ -38,16 +38,13 @@
 
 #include <desk_frame.h>
 #include <desk_shared.h>
+#include <desk_words.h>
 #include <gtk/gtk.h>
-#include <libintl.h>
 #include <reader_colours.h>
 #include <reader_files.h>
 #include <reader_remarks.h>
 #include <reader_template.h>
 #include <reader_view.h>
-
-#define _(text) gettext(text)
-#define N_(text) (text) /* translated where it is shown */
 
 struct read_options {
     GPtrArray *paths;  /* of the document's files; not changed once it is open */

@@ -193,13 +193,13 @@ static void document_shown(struct read_desk *d)
 static GtkWidget *header_new(void)
 {
     static const struct desk_button buttons[] = {
-        {"view-list-symbolic", "Contents", "win.contents", "F9"},
-        {"go-previous-symbolic", "Back", "win.back", "Alt+Left"},
-        {"go-next-symbolic", "Forward", "win.forward", "Alt+Right"},
-        {"edit-find-symbolic", "Search", "win.search", "Ctrl+F"},
-        {"format-text-underline-symbolic", "Highlight", "win.highlight", "H"},
-        {"insert-text-symbolic", "Note", "win.note", "N"},
-        {"document-edit-symbolic", "Draw", "win.pen", "D"}};
+        {"view-list-symbolic", N_("Contents"), "win.contents", "F9"},
+        {"go-previous-symbolic", N_("Back"), "win.back", "Alt+Left"},
+        {"go-next-symbolic", N_("Forward"), "win.forward", "Alt+Right"},
+        {"edit-find-symbolic", N_("Search"), "win.search", "Ctrl+F"},
+        {"format-text-underline-symbolic", N_("Highlight"), "win.highlight", "H"},
+        {"insert-text-symbolic", N_("Note"), "win.note", "N"},
+        {"document-edit-symbolic", N_("Draw"), "win.pen", "D"}};
     GMenuModel *menu = read_menu_new();
     GtkWidget *header = desk_frame_header(buttons, G_N_ELEMENTS(buttons), menu);
     g_object_unref(menu);
