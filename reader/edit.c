@@ -95,13 +95,22 @@ static bool same_files(const struct reader_files *a, const struct reader_files *
     return same;
 }
 
+/* Where paragraphs are cut for their length may be elsewhere now. */
+static bool has_cuts(const struct reader_document *d)
+{
+    for (int i = 1; i < d->blocks_count; i++)
+        if (d->blocks[i].continues && d->blocks[i - 1].kind != READER_MATH)
+            return true;
+    return false;
+}
+
 static enum reader_status all_moves(const struct reader_document *before,
                                     const struct edit_meant *meant,
                                     const struct reader_document *now,
                                     struct reader_edit_change *change)
 {
     const size_t removed = meant->end - meant->begin;
-    const bool exact = !meant->any &&
+    const bool exact = !meant->any && !has_cuts(before) && !has_cuts(now) &&
                        now->plain_bytes + removed == before->plain_bytes + meant->bytes &&
                        edit_meant_text(before->plain, before->plain_bytes, meant, now->plain,
                                        now->plain_bytes);
@@ -210,6 +219,30 @@ static void remarks_move(struct reader_edit *e, const struct reader_edit_change 
 
 /* ---- trying ---- */
 
+/* Where the caret is in the text that was read: behind the letters that were meant to be before
+ * it. before: what was there, where all has been read again; else NULL. */
+static size_t caret_now(const struct reader_document *before, const struct reader_document *now,
+                        const struct edit_meant *meant)
+{
+    const size_t caret = meant->caret < now->plain_bytes ? meant->caret : now->plain_bytes;
+    if (!before || meant->any || meant->caret != meant->begin + meant->bytes ||
+        (!has_cuts(before) && !has_cuts(now)))
+        return caret;
+    size_t letters = 0, at = 0;
+    for (size_t i = 0; i < meant->begin; i++)
+        letters += before->plain[i] != ' ';
+    for (size_t i = 0; i < meant->bytes; i++)
+        letters += meant->text[i] != ' ';
+    for (; at < now->plain_bytes && letters > 0; at++)
+        letters -= now->plain[at] != ' ';
+    const char last = meant->bytes   ? meant->text[meant->bytes - 1]
+                      : meant->begin ? before->plain[meant->begin - 1]
+                                     : '\n';
+    while (last == ' ' && at < now->plain_bytes && now->plain[at] == ' ')
+        at++;
+    return at;
+}
+
 static enum reader_status splice_do(struct reader_edit *e, const struct edit_splice *splice,
                                     const struct edit_meant *meant,
                                     struct reader_edit_change *change, bool *done)
@@ -306,8 +339,7 @@ enum reader_status edit_try(struct reader_edit *e, const struct edit_splice *spl
     }
     touched_keep(e, change, &one.touched[0], &one.touched_count[0]);
     remarks_move(e, change);
-    change->caret =
-        meant->caret < (*e->document)->plain_bytes ? meant->caret : (*e->document)->plain_bytes;
+    change->caret = caret_now(change->before, *e->document, meant);
     if (typed_join(e, splice, meant, change)) {
         done_finish(&one);
     } else {

@@ -416,8 +416,26 @@ static int head_find(const struct reader_block *block, const char *s, int first,
     return head;
 }
 
-bool edit_map_make(const struct reader_block *block, const struct reader_bytes *source,
-                   struct edit_map *out)
+/* Whether a block is what was cut off the one before it, for its length. */
+static bool is_cut_off(const struct reader_block *block)
+{
+    return block->continues && block[-1].kind != READER_MATH;
+}
+
+/* Behind blanks and a line's end. */
+static int blanks_skip(const char *s, int at, int last)
+{
+    while (at < last && is_blank(s[at]))
+        at++;
+    if (at == last || s[at] != '\n')
+        return at;
+    const char *stop = memchr(s + at + 1, '\n', (size_t)(last - at - 1));
+    return edit_prefix(s, at + 1, stop ? (int)(stop - s) : last, NULL, NULL);
+}
+
+/* at: where its text begins; -1: where that of its lines does. */
+static bool map_from(const struct reader_block *block, const struct reader_bytes *source,
+                     int at, struct edit_map *out)
 {
     *out = (struct edit_map){.begin = malloc(((size_t)block->bytes + 1) * sizeof(int)),
                              .end = malloc(((size_t)block->bytes + 1) * sizeof(int))};
@@ -427,7 +445,7 @@ bool edit_map_make(const struct reader_block *block, const struct reader_bytes *
     }
     edit_lines_find(source, block->first_line, block->last_line, &out->first, &out->last);
     struct walk w = {.block = block, .s = source->text, .end = out->last, .map = out};
-    out->head = w.at = head_find(block, source->text, out->first, out->last);
+    out->head = w.at = at < 0 ? head_find(block, source->text, out->first, out->last) : at;
     switch (block->kind) {
     case READER_CODE_BLOCK:
     case READER_LIVE:
@@ -446,4 +464,22 @@ bool edit_map_make(const struct reader_block *block, const struct reader_bytes *
         break;
     }
     return true;
+}
+
+bool edit_map_make(const struct reader_block *block, const struct reader_bytes *source,
+                   struct edit_map *out)
+{
+    const struct reader_block *b = block;
+    int at = -1;
+    while (is_cut_off(b))
+        b--;
+    for (; b < block; b++) {
+        struct edit_map map;
+        if (!map_from(b, source, at, &map))
+            return false;
+        if (map.count)
+            at = blanks_skip(source->text, map.end[map.count - 1], map.last);
+        edit_map_finish(&map);
+    }
+    return map_from(block, source, at, out);
 }

@@ -31,9 +31,18 @@ static const char *before_of(const struct reader_block *block)
     return "";
 }
 
-static const char *behind_of(const struct reader_block *block)
+/* next: the block behind it; NULL: none. Where its length has cut a paragraph, there are
+ * blanks, so that the text does not depend on where that is. */
+static const char *behind_of(const struct reader_block *block, const struct reader_block *next)
 {
+    if (next && next->continues && block->kind != READER_MATH)
+        return "  ";
     return before_of(block)[0] == '`' ? "\n```\n\n" : "\n\n";
+}
+
+static const struct reader_block *next_of(const struct reader_block *blocks, int count, int i)
+{
+    return i + 1 < count ? &blocks[i + 1] : NULL;
 }
 
 static size_t bytes_of(const struct reader_block *blocks, int count)
@@ -41,7 +50,7 @@ static size_t bytes_of(const struct reader_block *blocks, int count)
     size_t bytes = 0;
     for (int i = 0; i < count; i++)
         bytes += strlen(before_of(&blocks[i])) + (size_t)blocks[i].bytes +
-                 strlen(behind_of(&blocks[i]));
+                 strlen(behind_of(&blocks[i], next_of(blocks, count, i)));
     return bytes;
 }
 
@@ -52,7 +61,7 @@ static char *blocks_write(struct reader_block *blocks, int count, const char *be
         blocks[i].at = (size_t)(at - begin);
         if (blocks[i].bytes)
             memcpy(at, blocks[i].text, (size_t)blocks[i].bytes);
-        at = stpcpy(at + blocks[i].bytes, behind_of(&blocks[i]));
+        at = stpcpy(at + blocks[i].bytes, behind_of(&blocks[i], next_of(blocks, count, i)));
     }
     return at;
 }
