@@ -99,7 +99,7 @@ static bool same_files(const struct reader_files *a, const struct reader_files *
 static bool has_cuts(const struct reader_document *d)
 {
     for (int i = 1; i < d->blocks_count; i++)
-        if (d->blocks[i].continues && d->blocks[i - 1].kind != READER_MATH)
+        if (reader_block_is_cut_off(&d->blocks[i]))
             return true;
     return false;
 }

@@ -416,12 +416,6 @@ static int head_find(const struct reader_block *block, const char *s, int first,
     return head;
 }
 
-/* Whether a block is what was cut off the one before it, for its length. */
-static bool is_cut_off(const struct reader_block *block)
-{
-    return block->continues && block[-1].kind != READER_MATH;
-}
-
 /* Behind blanks and a line's end. */
 static int blanks_skip(const char *s, int at, int last)
 {
@@ -471,7 +465,7 @@ bool edit_map_make(const struct reader_block *block, const struct reader_bytes *
 {
     const struct reader_block *b = block;
     int at = -1;
-    while (is_cut_off(b))
+    while (reader_block_is_cut_off(b))
         b--;
     for (; b < block; b++) {
         struct edit_map map;

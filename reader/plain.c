@@ -35,7 +35,7 @@ static const char *before_of(const struct reader_block *block)
  * blanks, so that the text does not depend on where that is. */
 static const char *behind_of(const struct reader_block *block, const struct reader_block *next)
 {
-    if (next && next->continues && block->kind != READER_MATH)
+    if (next && reader_block_is_cut_off(next))
         return "  ";
     return before_of(block)[0] == '`' ? "\n```\n\n" : "\n\n";
 }

@@ -50,6 +50,12 @@ enum reader_status reader_labels_again(struct reader_document *d);
 
 /* ---- mask.c: formulas out of cmark's way ---- */
 
+/* Whether a document's block is what was cut off the one before it, for its length. */
+static inline bool reader_block_is_cut_off(const struct reader_block *block)
+{
+    return block->continues && block[-1].kind != READER_MATH;
+}
+
 /* A formula in the source: with its dollars, and without. */
 struct reader_formula {
     int begin, end, inner_begin, inner_end, line;

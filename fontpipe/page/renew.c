@@ -304,19 +304,6 @@ static void carets_renew(struct renewal *r)
 
 /* ---- runs ---- */
 
-static int run_with(const struct set_run *runs, int count, int letter)
-{
-    int low = 0, high = count;
-    while (high - low > 1) {
-        int half = low + (high - low) / 2;
-        if (runs[half].begin <= letter)
-            low = half;
-        else
-            high = half;
-    }
-    return low;
-}
-
 /* Runs before letters from..to stay, and those behind, but for where they are; glyphs are not
  * told yet. */
 static bool runs_renew(struct renewal *r)
@@ -325,8 +312,8 @@ static bool runs_renew(struct renewal *r)
     const int by = r->end - r->end_before, n = p->runs_count, to = r->to;
     struct set_run *runs = NULL;
     int count = 0, capacity = 0;
-    const int left = r->from > 0 ? run_with(p->runs, n, r->from - 1) + 1 : 0;
-    const int right = to < p->count ? run_with(p->runs, n, to - by) : n;
+    const int left = r->from > 0 ? renew_run_at(p->runs, n, r->from - 1) + 1 : 0;
+    const int right = to < p->count ? renew_run_at(p->runs, n, to - by) : n;
     if (!array_reserve(&runs, &capacity, left + n - right + 1, sizeof *runs))
         return false;
     if (left)

@@ -15,6 +15,8 @@ struct renewal {
     int runs_before_count;
 };
 
+/* The number of the run that has the letter. */
+int renew_run_at(const struct set_run *runs, int count, int letter);
 /* The glyphs, once the runs are known. False: all must be set anew. */
 bool renew_glyphs(struct renewal *r);
 

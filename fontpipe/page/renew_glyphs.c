@@ -51,7 +51,7 @@ static int safe_behind(const struct paragraph *p, int i, int margin)
     return i;
 }
 
-static int run_at(const struct set_run *runs, int count, int letter)
+int renew_run_at(const struct set_run *runs, int count, int letter)
 {
     int low = 0, high = count;
     while (high - low > 1) {
@@ -68,7 +68,7 @@ static int run_at(const struct set_run *runs, int count, int letter)
 static void glyphs_before(const struct renewal *r, int begin, int end, int *from, int *to)
 {
     const struct set_run *run =
-        &r->runs_before[run_at(r->runs_before, r->runs_before_count, begin)];
+        &r->runs_before[renew_run_at(r->runs_before, r->runs_before_count, begin)];
     set_glyphs_of(r->p->glyphs, run->glyphs_begin, run->glyphs_end, begin, end, from, to);
 }
 
@@ -243,8 +243,8 @@ static bool reshape(struct reshaping *s, int margin, bool *same)
     s->begin = safe_before(p, s->proof_begin, margin);
     s->proof_end = safe_behind(p, r->to, margin);
     s->end = safe_behind(p, s->proof_end, margin);
-    s->first = run_at(p->runs, p->runs_count, s->begin);
-    s->last = run_at(p->runs, p->runs_count, s->end - 1) + 1;
+    s->first = renew_run_at(p->runs, p->runs_count, s->begin);
+    s->last = renew_run_at(p->runs, p->runs_count, s->end - 1) + 1;
     int *parts_of = calloc((size_t)(s->last - s->first), sizeof *parts_of);
     bool good = parts_of != NULL;
     *same = true;
