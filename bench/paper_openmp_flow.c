@@ -193,7 +193,8 @@ static void edge_own(const struct paper_openmp *o, int y)
         advance *= greatest(
             (around[x] * -2.0f + 1.0f) * greatest(damp * -16.0f + 1.0f, 0.0f) + 1.0f, 0.1f);
         advance *= damp * -0.85f + 1.0f;
-        advance = greatest(advance, 1e-3f);
+        float pressing = around[x] * -1.0f + 2.0f;
+        advance = greatest(advance / pressing, 1e-3f);
         float part = least(h * film, wet[x]);
         part = least(greatest(part, h / advance), 1.0f);
         float high = (advance * 0.015625f + h) / (part + 0.015625f);
@@ -201,7 +202,7 @@ static void edge_own(const struct paper_openmp *o, int y)
         depth[x] = h;
         saturated[x] = full;
         deep[x] = high * least(part * 8.0f, 1.0f);
-        level[x] = high + height[x] * relief;
+        level[x] = high * pressing + height[x] * relief;
         inverse[x] = 1.0f / greatest(h, least_depth);
         float inside = greatest(around[x] * 2.0f + -1.0f, 0.0f);
         swirled[x] = inside * inside * greatest(h + still, 0.0f);
@@ -329,16 +330,14 @@ INLINE void film_faces(const struct paper_openmp *o, int y, int axis, const floa
         float drive = (level[x] - level2[x] + gravity) * pull;
         float high = greatest(deep[x], deep2[x]);
         float ease = least(ease_row[x] * spread * high * high, 4.0f);
-        high = high * 0.75f + 1.0f;
+        high = high * 1.5f + 1.0f;
         float u = (speed[x] * high + drive) * ease / ((ease + pull) * high);
         u = greatest(least(u, 0.14f), -0.14f);
         float out = greatest(u * gate(wet[x], wet2[x]) + -1e-5f, 0.0f),
               in = least(u * gate(wet2[x], wet[x]) + 1e-5f, 0.0f);
         speed[x] = out + in;
-        out *= room2[x];
-        in *= room[x];
-        water_out[x] = out;
-        water_in[x] = in;
+        water_out[x] = out * room2[x];
+        water_in[x] = in * room[x];
         float net = out * depth[x] + in * depth2[x];
         net *= within(greatest(depth[x], depth2[x]) * carries + -0.5f, 0.0f, 1.0f);
         net += eddies[x];

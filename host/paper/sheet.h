@@ -157,7 +157,7 @@ struct paper_air paper_air_default(void);
 /* The version of the model, which saved states name. A change that gives other bits, or another
  * plane, is a new version. States of older versions are read: their water and paint have the
  * same bits; that of version 1 lies on all of each fiber. */
-enum { PAPER_MODEL_VERSION = 4, PAPER_MODEL_READ = 1 };
+enum { PAPER_MODEL_VERSION = 5, PAPER_MODEL_READ = 1 };
 
 struct paper_sheet_config {
     int width, height; /* fibers, PAPER_SIDE_MIN..PAPER_SIDE_MAX */

@@ -4,10 +4,11 @@
  * A step: what happens in each fiber by itself (soak.c), then what flows over faces, from the
  * state that this left:
  *
- *        level H + relief      drives      speed u at a face, damped by the paper: thin water is slow (H^2)
+ *        level H r + relief    drives      speed u at a face, damped by the paper: thin water is slow (H^2)
  *             u                moves       water, and with it what floats in it
  *        eddies, edge          move        pigments only
  *
+ *     r: how much more water presses near edges (soak.c)
  *     D  = level(x) - level(x+1) + gravity                  a fiber that is not all wet stands as high as its wet part; a dry one as
  *                                                           high as water must be to come in: no edge is a special case
  *     m  = ease H^2,  at most MOBILITY_MOST                 ease = 2 / (sizing + sizing'), H the deeper side's depth
@@ -46,7 +47,7 @@
 #define MOBILITY 2.0 /* of spread */
 #define MOBILITY_MOST 4.0
 #define PULL 0.3
-#define SWING 0.75
+#define SWING (0.75 * (1 + SHEET_ROUND))
 #define SPEED_MOST 0.14
 #define TOO_SLOW 1e-5
 #define GATE_STEEPNESS 4.0
@@ -283,9 +284,9 @@ static void film_flow(struct paper_sheet *p, const struct sheet_terms *terms)
     swirl_make(p, terms->swirled);
     for (unsigned axis = 0; axis < 2; axis++) {
         speed_make(p, terms, axis, water.out[axis], water.in[axis]);
-        room_heed(p, terms->room, axis, water.out[axis], water.in[axis]);
         pigment_faces_make(p, terms, axis, water.out[axis], water.in[axis], pigment.out[axis],
                            pigment.in[axis]);
+        room_heed(p, terms->room, axis, water.out[axis], water.in[axis]);
         room_heed(p, terms->room, axis, pigment.out[axis], pigment.in[axis]);
     }
     sheet_faces_below(&water);

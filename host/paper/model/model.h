@@ -263,6 +263,8 @@ struct sheet_terms {
 int sheet_around_reach(const struct paper_sheet *p);
 /* How fast a pigment settles, with surface water: a part of it in a step. */
 double sheet_settling_pace(const struct paper_sheet *p, int pigment);
+/* How much more water presses for its height where edges are near; see soak.c. */
+#define SHEET_ROUND 1.0
 /* Water in which pigments do not mix, times air.film. */
 #define SHEET_STILL 4.0
 /* Fibers over which the nearness of an edge falls to 1/e. */

@@ -18,6 +18,14 @@
  * angles of moving water are larger. That goes with how uneven the sizing is, which bends
  * edges: glass has none, and drops run on it as they will. Damp paper has no edge to bend.
  *
+ * How round. The surface of water pulls itself round: its edge lies on the paper, so water is
+ * low there and high in the middle, and the narrower it is, the harder it presses for its
+ * height. Its height counts for 1 + SHEET_ROUND (1 - wet_around): once well inside, half as
+ * much more at a straight edge, more where edges are near on both sides. So the end of a
+ * rivulet is a bead whose depth grows over its whole length, and most in the middle; without
+ * this it was a basin with a level surface, and its paint began at a level line. `advance` is
+ * the height of water well inside that presses as hard.
+ *
  * What part is stained. Paint that comes into a clean fiber lies on the part that is wet, and
  * on more as the water comes forward in it; it stays there when the water is gone. A dark line
  * gathers in a fiber at an edge as much paint as others have on all of them; it is seen beside
@@ -361,6 +369,13 @@ static void bend_make(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t damp
     kit_f_least(d, d, BAY_LEAST);
 }
 
+/* d = how hard water presses for its height, by how near edges are; 1 well inside. */
+static void round_make(const struct paper_sheet *p, CM_field_id_t d)
+{
+    kit_f_times(d, p->wet_around, -SHEET_ROUND);
+    kit_f_plus(d, d, 1 + SHEET_ROUND);
+}
+
 /* Moves the edge of the wet part forward or back, then computes level and deep from it. Uses
  * t[7..14]. */
 static void edge_move(struct paper_sheet *p, const struct sheet_terms *terms)
@@ -385,6 +400,8 @@ static void edge_move(struct paper_sheet *p, const struct sheet_terms *terms)
     kit_f_times(help, help, -DAMP_HELP);
     kit_f_plus(help, help, 1.0);
     kit_f_mul(advance, advance, help);
+    round_make(p, help);
+    kit_f_div(advance, advance, help);
     kit_f_least(advance, advance, ADVANCE_LEAST);
 
     kit_f_times(part, terms->depth, 1 / p->air.film);
@@ -405,6 +422,8 @@ static void edge_move(struct paper_sheet *p, const struct sheet_terms *terms)
     kit_f_times(part, p->wet_part, DEEP_FROM);
     kit_f_most(part, part, 1.0);
     kit_f_mul(terms->deep, advance, part);
+    round_make(p, help);
+    kit_f_mul(advance, advance, help);
     kit_f_times(part, p->height, p->air.relief);
     kit_f_add(terms->level, advance, part);
 }

@@ -33,6 +33,13 @@
 /* The tooth's deviation at which hairs lift in full. On smoother paper they lift less, in
  * proportion: with the same lifting everywhere they left streaks there, and not the tooth. */
 #define LIFT_TOOTH 0.25
+/* A bristle's share of a tuft that stands, as a disc's radius, to that of discs that fill it;
+ * places in it for each fiber; and how often bristles are exchanged for that, at most. */
+#define SHARES_OVERLAP 1.7
+#define PLACES_WITHIN 1.5
+#define RESTS_MOST 32
+#define TURN 6.283185307179586
+#define GOLDEN_ANGLE 2.3999632297286533
 #define CONTACT_STEPS                                                                          \
     65536.0 /* a contact is a whole number of these: the last bits of exp() vary */
 
@@ -77,9 +84,14 @@ static double spacing_of(const struct paper_sheet *p)
     return PLACE_SPACING / p->finer;
 }
 
+/* Where a place lies beside where its bristle is, in fibers along the tuft's axes. */
+struct beside {
+    double side, ahead;
+};
+
 /* Places that lie evenly on a line as wide as the bristle, however many of them there are:
  * multiples of the golden section, counted from a place of the bristle's own. */
-static void place_beside(const struct sheet_going *g, int number, double *side, double *ahead)
+static struct beside place_beside(const struct sheet_going *g, int number)
 {
     const struct paper_brush *brush = &g->own->brush;
     double from = sheet_chance(brush->seed + 7, (uint64_t)number, 0),
@@ -91,30 +103,30 @@ static void place_beside(const struct sheet_going *g, int number, double *side, 
     const double width =
         fmin(brush->thickness,
              fmax(g->sheet->finer, LINES_OVERLAP * brush->width / brush->bristles));
-    *side = width * (place - 0.5) * (brush->mirrored ? -1 : 1);
-    *ahead = spacing_of(g->sheet) * (forward - 0.5);
+    return (struct beside){width * (place - 0.5), spacing_of(g->sheet) * (forward - 0.5)};
 }
 
 /* One place of bristle `number`; false: it does not touch. */
 static bool place_make(const struct sheet_going *g, const struct tuft *tuft, int number,
-                       const struct sheet_hair *hair, struct sheet_place *place, double *force)
+                       const struct sheet_hair *hair, struct beside beside,
+                       struct sheet_place *place, double *force)
 {
     const struct paper_sheet *p = g->sheet;
     const struct sheet_brush *own = g->own;
     const struct sheet_bristle *bristle = &own->bristles[number];
-    double across = bristle->across * (own->brush.mirrored ? -1 : 1), along = bristle->along;
+    const int turned = own->brush.mirrored ? -1 : 1;
+    double across = bristle->across * turned, along = bristle->along;
     double pressed = tuft->pressure * (1 + tuft->lean[0] * across + tuft->lean[1] * along) -
                      bristle->shorter;
     if (!(pressed > 0))
         return false;
     *force = fmin(1, pressed / FORCE_FULL);
-    double side, ahead, at[2];
-    place_beside(g, number, &side, &ahead);
-    side += hair->aside * (own->brush.mirrored ? -1 : 1);
+    double at[2];
+    const double side = (beside.side + hair->aside) * turned;
     for (int i = 0; i < 2; i++)
         at[i] = (i == 0 ? tuft->x : tuft->y) +
                 tuft->across[i] * (across + side / tuft->half[0]) +
-                tuft->along[i] * (along + ahead / tuft->half[1]);
+                tuft->along[i] * (along + beside.ahead / tuft->half[1]);
     return sheet_place_make(p, at[0], at[1], *force, hair->lifted, place);
 }
 
@@ -214,40 +226,16 @@ static struct sheet_hair hair_between(const struct sheet_hair *from,
                                from->lifted + part * (to->lifted - from->lifted)};
 }
 
-/* Fills p->brushes->contacts for the times from..from + rows * length; false: nothing touches.
- * *exchanging: the sheet, or a box of it, that the addresses are of. */
-static bool contacts_make(struct sheet_going *g, double from, double length, int rows,
-                          double dwell, struct paper_sheet **exchanging)
+static struct sheet_place places[BRUSH_PLACES]; /* of an exchange */
+
+/* Fills p->brushes->contacts from places of which some touch. The sheet, or a box of it, that
+ * the addresses are of. */
+static struct paper_sheet *contacts_deal(struct sheet_going *g, double dwell, int rows)
 {
-    static struct sheet_place places[BRUSH_PLACES];
     static struct sheet_dealt dealt;
-    static struct sheet_hair hairs[2][PAPER_BRISTLES_MAX];
     struct paper_sheet *p = g->sheet;
     struct sheet_contacts *c = &p->brushes->contacts;
-    int bristles = g->own->brush.bristles, touching = 0;
-    double part = 1 - exp(-g->own->brush.flow * dwell);
-    memset(c, 0, sizeof *c);
-    memset(places, 0, sizeof places);
-    hairs_make(g, rows, hairs);
-    const double lift = fmin(1, p->tooth_deviation / LIFT_TOOTH);
-    for (int row = 0; row < rows; row++, g->moment++, g->way += g->stride) {
-        struct tuft tuft = tuft_at(g, from + (row + 0.5) * length, length);
-        for (int i = 0; i < bristles; i++) {
-            const int number = row * PAPER_BRISTLES_MAX + i;
-            struct sheet_hair hair =
-                hair_between(&hairs[0][i], &hairs[1][i], (row + 0.5) / rows);
-            hair.lifted *= lift;
-            double force;
-            if (!place_make(g, &tuft, i, &hair, &places[number], &force))
-                continue;
-            const float contact = whole_contact(part * force);
-            if (!(contact > 0))
-                places[number].force = 0;
-            c->contact[number] = contact;
-            touching += contact > 0;
-        }
-    }
-    places_count(c, rows, bristles);
+    places_count(c, rows, g->own->brush.bristles);
     sheet_places_deal(p->brushes, places, &dealt);
     for (int i = 0; i < BRUSH_PLACES; i++) {
         c->contact[i] = 0;
@@ -256,9 +244,113 @@ static bool contacts_make(struct sheet_going *g, double from, double length, int
         c->contact[i] = whole_contact(contact_of(g->own, dwell, dealt.touch[i]));
         c->reach[i] = reach_of(p, dealt.fibers[i], dealt.force[i]);
     }
-    *exchanging = touching > 0 ? addresses_make(p, dealt.fibers, c->address) : p;
-    return touching > 0;
+    return addresses_make(p, dealt.fibers, c->address);
 }
+
+static void places_begin(struct sheet_going *g)
+{
+    memset(&g->sheet->brushes->contacts, 0, sizeof g->sheet->brushes->contacts);
+    memset(places, 0, sizeof places);
+}
+
+/* A place in a row; false: it does not touch. */
+static bool place_add(const struct sheet_going *g, const struct tuft *tuft, int row,
+                      int bristle, const struct sheet_hair *hair, struct beside beside,
+                      double part)
+{
+    const int number = row * PAPER_BRISTLES_MAX + bristle;
+    double force;
+    if (!place_make(g, tuft, bristle, hair, beside, &places[number], &force))
+        return false;
+    const float contact = whole_contact(part * force);
+    if (!(contact > 0))
+        places[number].force = 0;
+    g->sheet->brushes->contacts.contact[number] = contact;
+    return contact > 0;
+}
+
+/* The touches at the times from..from + rows * length. The sheet, or a box of it, on which they
+ * are; NULL: nothing touches. */
+static struct paper_sheet *contacts_make(struct sheet_going *g, double from, double length,
+                                         int rows, double dwell)
+{
+    static struct sheet_hair hairs[2][PAPER_BRISTLES_MAX];
+    const double part = 1 - exp(-g->own->brush.flow * dwell),
+                 lift = fmin(1, g->sheet->tooth_deviation / LIFT_TOOTH);
+    bool touching = false;
+    places_begin(g);
+    hairs_make(g, rows, hairs);
+    for (int row = 0; row < rows; row++, g->moment++, g->way += g->stride) {
+        struct tuft tuft = tuft_at(g, from + (row + 0.5) * length, length);
+        for (int i = 0; i < g->own->brush.bristles; i++) {
+            struct sheet_hair hair =
+                hair_between(&hairs[0][i], &hairs[1][i], (row + 0.5) / rows);
+            hair.lifted *= lift;
+            touching |= place_add(g, &tuft, row, i, &hair, place_beside(g, i), part);
+        }
+    }
+    return touching ? contacts_deal(g, dwell, rows) : NULL;
+}
+
+/* ---- where a stroke begins and ends ---- */
+
+/* The place `count` of so many in a bristle's share of the tuft: they lie evenly on a disc. */
+static struct beside place_within(const struct sheet_going *g, int bristle, int count, int many,
+                                  double share)
+{
+    const double turn = TURN * sheet_chance(g->own->brush.seed + 8, (uint64_t)bristle, 0),
+                 out = share * sqrt((count + 0.5) / many), angle = GOLDEN_ANGLE * count + turn;
+    return (struct beside){out * cos(angle), out * sin(angle)};
+}
+
+static bool under_tuft(const struct sheet_brush *own, int bristle, const struct tuft *tuft,
+                       struct beside beside)
+{
+    const double across = own->bristles[bristle].across + beside.side / tuft->half[0],
+                 along = own->bristles[bristle].along + beside.ahead / tuft->half[1];
+    return own->brush.flat ? fabs(across) <= 1 && fabs(along) <= 1
+                           : across * across + along * along <= 1;
+}
+
+/* The tuft stands on the paper for a moment. What its hairs hold stands between them, too, so
+ * all that lies under the tuft is touched: each hair touches its share of it. (Without this a
+ * stroke of a wet mop began and ended in combs, where single hairs were set down and lifted.)
+ * It is touched as much as half of the tuft does that passes in the same way. */
+static void tuft_rest(struct sheet_going *g, double time, double dwell)
+{
+    static struct sheet_hair hairs[2][PAPER_BRISTLES_MAX];
+    const struct paper_brush *brush = &g->own->brush;
+    const double finer = g->sheet->finer,
+                 lift = fmin(1, g->sheet->tooth_deviation / LIFT_TOOTH);
+    const struct tuft tuft = tuft_at(g, time, 0);
+    const double share = SHARES_OVERLAP * sqrt(tuft.half[0] * tuft.half[1] / brush->bristles);
+    const double area = TURN / 2 * share * share;
+    const int times = (int)fmin(RESTS_MOST, fmax(1, ceil(area * PLACES_WITHIN / BRUSH_ROWS)));
+    const double moment = dwell * finer * TURN / 2 * tuft.half[1] /
+                          (4 * PLACE_SPACING * BRUSH_ROWS * times),
+                 part = 1 - exp(-brush->flow * moment);
+    hairs_make(g, 0, hairs);
+    for (int done = 0; done < times; done++) {
+        if (g->sheet->due && g->sheet->due(g->sheet->due_context))
+            return;
+        bool touching = false;
+        places_begin(g);
+        for (int row = 0; row < BRUSH_ROWS; row++)
+            for (int i = 0; i < brush->bristles; i++) {
+                struct sheet_hair hair = hairs[0][i];
+                hair.lifted *= lift;
+                const struct beside beside =
+                    place_within(g, i, row * times + done, BRUSH_ROWS * times, share);
+                touching |= under_tuft(g->own, i, &tuft, beside) &&
+                            place_add(g, &tuft, row, i, &hair, beside, part);
+            }
+        if (touching)
+            sheet_brush_exchange(contacts_deal(g, moment, BRUSH_ROWS), g->sheet->brushes,
+                                 g->own);
+    }
+}
+
+/* ---- on its way ---- */
 
 /* How far the stroke goes from..to. */
 static double way_length(struct sheet_going *g, double from, double to)
@@ -275,24 +367,29 @@ static double way_length(struct sheet_going *g, double from, double to)
     return sum;
 }
 
-static void brush_go(struct sheet_going *g, double from, double to)
+/* first, last: it is the stroke's first interval, its last. */
+static void brush_go(struct sheet_going *g, double from, double to, bool first, bool last)
 {
     double length = way_length(g, from, to), seconds = to - from;
     /* finer fibers are touched as often each as coarse ones */
-    int places = (int)fmin(100000, fmax(1, ceil(length / spacing_of(g->sheet))));
+    int count = (int)fmin(100000, fmax(1, ceil(length / spacing_of(g->sheet))));
     double thick = fmax(spacing_of(g->sheet), g->own->brush.thickness);
     double dwell = length > thick ? seconds * thick / length : seconds;
-    g->stride = length / places;
-    for (int done = 0; done < places;) {
+    g->stride = length / count;
+    if (first)
+        tuft_rest(g, from, dwell);
+    for (int done = 0; done < count;) {
         if (g->sheet->due && g->sheet->due(g->sheet->due_context))
             return;
-        const int rows = places - done < BRUSH_ROWS ? places - done : BRUSH_ROWS;
-        struct paper_sheet *at;
-        if (contacts_make(g, from + done * seconds / places, seconds / places, rows, dwell,
-                          &at))
+        const int rows = count - done < BRUSH_ROWS ? count - done : BRUSH_ROWS;
+        struct paper_sheet *at =
+            contacts_make(g, from + done * seconds / count, seconds / count, rows, dwell);
+        if (at)
             sheet_brush_exchange(at, g->sheet->brushes, g->own);
         done += rows;
     }
+    if (last)
+        tuft_rest(g, to, dwell);
 }
 
 static double stroke_start(const struct paper_stroke *stroke)
@@ -413,7 +510,8 @@ enum paper_status sheet_going_on(struct sheet_going *g, int until)
             paper_leave(&p->page);
             break;
         }
-        brush_go(g, from, last && to <= from ? from + 1 / pace : fmax(to, from));
+        brush_go(g, from, last && to <= from ? from + 1 / pace : fmax(to, from),
+                 g->interval == 0, last);
         status = paper_leave(&p->page);
         if (g->stroke->pace > 0 && status == PAPER_OK) {
             status = sheet_step(p, NULL);
