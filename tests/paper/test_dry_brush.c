@@ -1,5 +1,6 @@
 /* test_dry_brush.c - marks of tooth and hand: what a brush that runs dry leaves bare, flakes of
- * the paper's tooth, not of its clouds; and gaps between its hairs that open and close. */
+ * the paper's tooth, not of its clouds; gaps between its hairs that open and close; and where
+ * a wet brush's strokes begin and end. */
 #include <brush.h>
 #include <paper.h>
 
@@ -196,9 +197,77 @@ static void gaps_open_and_close(void **state)
     assert_true(far / count < 0.5);
 }
 
+/* ---- ends ---- */
+
+/* A wide wet mop's stroke along x, dried at once; in all: its paint. */
+static void mop_stroke(struct paper_sheet *sheet, uint64_t seed, float all[FIBERS])
+{
+    struct paper_brush brush = paper_brush_default();
+    brush.width = 70;
+    assert_true(paper_brush_of_kind(&brush, "mop"));
+    brush.seed = seed;
+    check(paper_sheet_brush(sheet, &brush));
+    check(paper_sheet_dip(
+        sheet, &(struct paper_dip){.part = 1, .side = {-1, 1}, .amount = {1, 0.8, 0}}));
+    const struct paper_stroke_sample line[2] = {
+        {.x = 80, .y = 64, .pressure = 0.8},
+        {.time_s = 0.25, .x = WIDTH - 60, .y = 64, .pressure = 0.8}};
+    check(paper_sheet_stroke(
+        sheet, &(struct paper_stroke){.pace = 60, .samples_count = 2, .samples = line}, NULL));
+    check(paper_sheet_dry(sheet));
+    check(paper_sheet_layer_read(sheet, PAPER_LAYER_FIXED_PIGMENT, 0, all));
+}
+
+/* How far a stroke's end is off a smooth one, RMS: in each row the first fiber with paint, by
+ * the mean of those 4 rows before and behind. The last fibers, if `last`. */
+static double teeth(const float *all, bool last)
+{
+    enum { FIRST = 40, ROWS = 48, APART = 4 };
+    double at[ROWS], sum = 0;
+    for (int i = 0; i < ROWS; i++) {
+        int x = 0;
+        while (x < WIDTH - 1 &&
+               !((double)all[(FIRST + i) * WIDTH + (last ? WIDTH - 1 - x : x)] > 0.02))
+            x++;
+        at[i] = x;
+    }
+    for (int i = APART; i < ROWS - APART; i++) {
+        const double off = at[i] - (at[i - APART] + at[i + APART]) / 2;
+        sum += off * off;
+    }
+    return sqrt(sum / (ROWS - 2 * APART));
+}
+
+/* Of a wet mop; with single hairs that are set down one by one they have teeth of 4 fibers or
+ * more. */
+static void wet_strokes_begin_and_end_in_no_combs(void **state)
+{
+    (void)state;
+    static float all[FIBERS];
+    static const char *const stocks[] = {"cold press", "hot press", "rough",   "laid",
+                                         "glass",      "xuan",      "blotting"};
+    const bool many = all_sheets_wanted();
+    for (size_t i = 0; i < (many ? sizeof stocks / sizeof *stocks : 2); i++) {
+        double begins = 0, ends = 0;
+        const int seeds = many ? 20 : 2;
+        for (int seed = 1; seed <= seeds; seed++) {
+            struct paper_sheet *sheet = sheet_make(stocks[i], (uint64_t)seed);
+            mop_stroke(sheet, (uint64_t)seed, all);
+            begins += teeth(all, false) / seeds;
+            ends += teeth(all, true) / seeds;
+            paper_sheet_destroy(sheet);
+        }
+        print_message("%s: a mop's stroke begins with teeth of %.1f fibers, ends with %.1f\n",
+                      stocks[i], begins, ends);
+        assert_true(begins < 2);
+        assert_true(ends < 2);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(flakes_are_of_the_tooth),
-                                       cmocka_unit_test(gaps_open_and_close)};
+                                       cmocka_unit_test(gaps_open_and_close),
+                                       cmocka_unit_test(wet_strokes_begin_and_end_in_no_combs)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
