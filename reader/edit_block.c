@@ -261,7 +261,8 @@ static bool stand_alike(const struct reader_block *a, const struct reader_block 
            a->quotes == b->quotes && is_same_text(a->marker, b->marker) && !a->continues &&
            !b->continues && is_same_text(a->info, b->info) &&
            is_same_text(a->target, b->target) && !a->include && !b->include &&
-           a->head == b->head && a->columns == b->columns && a->number == b->number &&
+           reader_beside_same(&a->beside, &b->beside) && a->head == b->head &&
+           a->columns == b->columns && a->number == b->number &&
            (a->kind != READER_ROW || memcmp(a->aligns, b->aligns, sizeof a->aligns) == 0);
 }
 

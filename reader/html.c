@@ -25,8 +25,7 @@ static const char style_begin[] =
     "blockquote{margin:.4em 1.5em}\n"
     "figure{margin:1em 0;text-align:center}\n"
     "figure img{max-width:100%}\n"
-    "figcaption{font-size:.92em}\n"
-    ".math{text-align:center}\n"
+    "figcaption{font-size:.92em}\n" HTML_BESIDE_STYLE ".math{text-align:center}\n"
     ".formula{filter:var(--formula)}\n"
     "table{border-collapse:collapse;font-size:.92em;margin:.6em 0}\n"
     "td,th{padding:.1em .6em;vertical-align:top;border-top:1px solid var(--struck)}\n"
@@ -232,11 +231,17 @@ static void math_put(struct html *h, const struct reader_block *block)
 
 static void picture_put(struct html *h, const struct reader_block *block)
 {
-    fputs("<figure", h->f);
-    name_put(h, block);
+    const bool beside = html_beside_put(h, block);
+    if (!beside) {
+        fputs("<figure", h->f);
+        name_put(h, block);
+    }
     fputs(">", h->f);
     const bool found = html_picture_put(h, block);
-    fputs("<figcaption>", h->f);
+    fputs("<figcaption", h->f);
+    if (beside) /* such a figure has no box of its own */
+        name_put(h, block);
+    fputs(">", h->f);
     marker_put(h, block);
     whole_put(h, block);
     if (!found && block->target) {

@@ -69,6 +69,22 @@ void html_orphans_put(struct html *h);
 /* A formula, dollars and all; false: it stands as it is written. */
 bool html_formula_put(struct html *h, const char *tex, int bytes, bool display);
 bool html_picture_put(struct html *h, const struct reader_block *block);
+/* A figure's tag but for its end, if text flows around it. False: nothing was written. */
+bool html_beside_put(struct html *h, const struct reader_block *block);
+
+/* Such figures: picture and caption are two boxes, so that lines follow the picture's shape. In
+ * a narrow window they have the column. */
+#define HTML_BESIDE_STYLE                                                                      \
+    "figure.left,figure.right{display:contents}\n"                                             \
+    ".left>img,.left>figcaption{float:left;clear:left;margin:.3em 1em .3em 0}\n"               \
+    ".right>img,.right>figcaption{float:right;clear:right;margin:.3em 0 .3em 1em}\n"           \
+    "figure.left>img,figure.right>img{max-width:var(--w)}\n"                                   \
+    ".left>figcaption,.right>figcaption{width:var(--w);text-align:center}\n"                   \
+    ".left~:is(h1,h2,pre,table,hr,.math),.left~figure:not(.left,.right){clear:left}\n"         \
+    ".right~:is(h1,h2,pre,table,hr,.math),.right~figure:not(.left,.right){clear:both}\n"       \
+    "@media(max-width:28rem){.left>*,.right>*{float:none!important;display:block;"             \
+    "margin:.3em auto!important;max-width:100%!important;width:auto!important;"                \
+    "shape-outside:none!important}}\n"
 void html_picture_finish(struct html *h);
 
 #endif

@@ -100,6 +100,37 @@ bool html_formula_put(struct html *h, const char *tex, int bytes, bool display)
 
 /* ---- pictures ---- */
 
+bool html_beside_put(struct html *h, const struct reader_block *block)
+{
+    enum { USUAL = 40 };
+    const struct reader_beside own =
+        block->beside.side == READER_SIDE_USUAL ? h->setup->beside : block->beside;
+    const bool left = own.side == READER_SIDE_LEFT;
+    if ((!left && own.side != READER_SIDE_RIGHT) || block->items || block->quotes ||
+        block->marker)
+        return false;
+    fprintf(h->f, "<figure class=\"%s\" style=\"--w:%d%%\"", left ? "left" : "right",
+            own.percent ? own.percent : USUAL);
+    return true;
+}
+
+/* What lines follow, of a picture that text flows around. */
+static void shape_put(struct html *h, const struct reader_block *block, const char *png,
+                      size_t bytes)
+{
+    const struct reader_beside *own =
+        block->beside.side == READER_SIDE_USUAL ? &h->setup->beside : &block->beside;
+    if (own->side != READER_SIDE_LEFT && own->side != READER_SIDE_RIGHT)
+        return;
+    if (own->round)
+        fputs(" style=\"shape-outside:ellipse(50% 50%);shape-margin:1em\"", h->f);
+    if (!own->shape)
+        return;
+    fputs(" style=\"shape-margin:1em;shape-outside:url(data:image/png;base64,", h->f);
+    base64_put(h, (const unsigned char *)png, bytes);
+    fputs(")\"", h->f);
+}
+
 bool html_picture_put(struct html *h, const struct reader_block *block)
 {
     char *png = NULL;
@@ -110,7 +141,9 @@ bool html_picture_put(struct html *h, const struct reader_block *block)
     bool found = h->setup->picture(h->setup->picture_user, block->source, block->target, f);
     found = fclose(f) == 0 && found;
     if (found) {
-        fputs("<img alt=\"", h->f);
+        fputs("<img", h->f);
+        shape_put(h, block, png, bytes);
+        fputs(" alt=\"", h->f);
         html_put(h, block->text, (size_t)block->bytes);
         fputs("\" src=\"data:image/png;base64,", h->f);
         base64_put(h, (const unsigned char *)png, bytes);

@@ -386,8 +386,10 @@ static void block_enter(struct walk *w, cmark_node *node)
     if (type == CMARK_NODE_PARAGRAPH) {
         cmark_node *picture = picture_of(w, node);
         open_block(w, picture ? READER_PICTURE : READER_PARAGRAPH, node);
-        if (picture)
+        if (picture) {
             w->b.block.target = copy_of(w, cmark.node_get_url(picture));
+            reader_beside_read(cmark.node_get_title(picture), &w->b.block.beside);
+        }
         w->b.block.include = copy_of(w, included_by(w, node));
     } else if (type == CMARK_NODE_HEADING) {
         open_block(w, READER_HEADING, node);

@@ -50,11 +50,10 @@ void reader_pages_destroy(struct reader_pages *p)
     for (int i = 0; i < p->kept.count; i++)
         free(p->kept.paragraphs[i].spans);
     free(p->kept.paragraphs);
-    for (int i = 0; i < p->pixels_count; i++)
-        free(p->pixels[i]);
-    free(p->pixels);
+    pages_pictures_free(p);
     pages_fonts_close(p);
     free(p->noted);
+    free(p->obstacles);
     free(p);
 }
 
@@ -251,15 +250,9 @@ static enum reader_status rule_add(struct reader_pages *p)
 static enum reader_status picture_add(struct reader_pages *p, const struct reader_block *block)
 {
     struct paragraph_text t = {0};
-    enum { TARGET_BYTES = 1000 };
     struct page_manner manner = pages_manner(p, CONTEXT_TABLE);
-    const char *target = block->target ? block->target : "";
-    const bool whole = strlen(target) <= TARGET_BYTES;
-    int told = whole ? (int)strlen(target) : TARGET_BYTES;
     const double gap = 0.6 * p->setup.size_px;
-    bool shown = false, good = true;
-    while (!whole && told && ((unsigned char)target[told] & 0xc0) == 0x80)
-        told--;
+    bool shown = false;
     manner_nest(p, block, &manner);
     manner.align = FONT_ALIGN_CENTER;
     manner.before_px = gap;
@@ -270,19 +263,21 @@ static enum reader_status picture_add(struct reader_pages *p, const struct reade
     manner.keep_with_next = false;
     manner.before_px = shown ? gap / 3 : gap;
     manner.after_px = gap;
-    good = pages_block_add(&t, block, 0, block->bytes, READER_SLANTED);
-    if (!shown)
-        good = good && pages_text_add(&t, " [", 2, 0) &&
-               pages_text_add(&t, target, told, READER_CODE) &&
-               pages_text_add(&t, whole ? "]" : "\xe2\x80\xa6]", whole ? 1 : 4, 0);
-    status =
-        good ? pages_paragraph_add(p, &t, CONTEXT_TABLE, &manner, false) : pages_no_memory();
+    status = pages_caption(&t, block, shown)
+                 ? pages_paragraph_add(p, &t, CONTEXT_TABLE, &manner, false)
+                 : pages_no_memory();
     pages_text_finish(&t);
     return status;
 }
 
 static enum reader_status block_add(struct reader_pages *p, const struct reader_block *block)
 {
+    bool waits;
+    enum reader_status status = pages_beside_wait(p, block, &waits);
+    if (status != READER_OK || waits)
+        return status;
+    p->below =
+        block->kind != READER_PARAGRAPH && !(block->kind == READER_HEADING && block->level > 2);
     switch (block->kind) {
     case READER_PARAGRAPH:
         return text_add(p, block);
@@ -315,13 +310,17 @@ int pages_passage_length(const struct reader_document *d, int first)
     return n;
 }
 
-int pages_wide_of(const struct reader_block *block)
+int pages_wide_of(const struct reader_pages_setup *setup,
+                  const struct reader_document *document, int number)
 {
+    const struct reader_block *block = &document->blocks[number];
+    double width;
     switch (block->kind) {
     case READER_HEADING:
         return block->level <= 2 ? READER_WIDE_HEADINGS : -1;
     case READER_PICTURE:
-        return READER_WIDE_FIGURES;
+        return pages_beside_host(setup, document, number, &width) < 0 ? READER_WIDE_FIGURES
+                                                                      : -1;
     case READER_LIVE:
         return READER_WIDE_DEMONSTRATIONS;
     case READER_ROW:
@@ -336,13 +335,26 @@ int pages_wide_of(const struct reader_block *block)
     return -1;
 }
 
+/* Figures that no text followed have their column. */
+static enum reader_status waiting_end(struct reader_pages *p)
+{
+    enum reader_status status = READER_OK;
+    const int count = p->waiting_count;
+    p->waiting_count = 0;
+    for (int i = 0; i < count && status == READER_OK; i++)
+        status = picture_add(p, p->waiting[i]);
+    return status;
+}
+
 enum reader_status pages_passage_add(struct reader_pages *p, int first, int count)
 {
     const struct reader_block *block = &p->document->blocks[first];
     enum reader_status status = READER_OK;
-    p->wide = pages_wide_of(block);
+    p->wide = pages_wide_of(&p->setup, p->document, first);
     p->block = first;
+    p->obstacled = p->made ? -1 : p->obstacled; /* it may be set again */
     if (block->kind == READER_ROW && count > 1) {
+        p->below = true;
         status = pages_table_add(p, block, count);
         p->behind_head = true;
         return status;
@@ -350,8 +362,11 @@ enum reader_status pages_passage_add(struct reader_pages *p, int first, int coun
     for (int i = 0; i < count && status == READER_OK; i++) {
         p->block = first + i;
         status = block_add(p, &block[i]);
-        p->behind_head = block[i].kind != READER_PARAGRAPH;
+        if (!p->waiting_count) /* a figure beside text is not before it */
+            p->behind_head = block[i].kind != READER_PARAGRAPH;
     }
+    if (p->made && status == READER_OK)
+        status = waiting_end(p);
     return status;
 }
 
@@ -364,7 +379,7 @@ static enum reader_status blocks_add(struct reader_pages *p)
         status = pages_passage_add(p, i, n);
         i += n;
     }
-    return status;
+    return status == READER_OK ? waiting_end(p) : status;
 }
 
 /* ---- the page ---- */
@@ -478,7 +493,7 @@ enum reader_status pages_begin(const struct reader_document *document,
     p->setup = *setup;
     p->document = document;
     p->made = made;
-    p->at = -1;
+    p->at = p->obstacled = -1;
     p->noted = calloc((size_t)document->notes_count + 1, sizeof *p->noted);
     enum reader_status status = p->noted ? READER_OK : pages_no_memory();
     if (status == READER_OK && page_text_create(&p->text) != FONT_OK)
@@ -504,6 +519,12 @@ enum reader_status reader_pages_make(const struct reader_document *document,
 {
     enum reader_status status =
         pages_begin(document, setup, setup->height_px - 2 * setup->margin_px, NULL, out);
+    if (status == READER_OK && setup->remarks) {
+        struct reader_pages *p = *out;
+        status = reader_around_find(setup->remarks, document, &p->obstacles,
+                                    &p->setup.obstacles_count);
+        p->setup.obstacles = p->obstacles;
+    }
     if (status == READER_OK)
         status = blocks_add(*out);
     if (status == READER_OK && (setup->remarks || setup->places))

@@ -25,7 +25,8 @@ enum context {
 struct made_paragraph {
     int id, note; /* note: of the document's, or -1 */
     int block;    /* the document's that it is of */
-    bool beside;  /* it stands in a margin, not in the flow */
+    bool beside;  /* it stands in a margin, or beside lines: not in the flow */
+    bool figure;  /* beside lines */
     struct line_span *spans;
     int spans_count;
 };
@@ -37,7 +38,16 @@ struct made_passage {
     struct page_manner manner;  /* of it */
 };
 
+/* A picture at the size that it has on pages, as a style that shows it. */
+struct pictured {
+    int source, style, width, height;
+    char *target;
+    double most_px, high_px; /* that it had room in */
+    uint8_t *pixels, *alpha; /* alpha: NULL: all of it is opaque */
+};
+
 enum {
+    PAGES_WAITING_MAX = 8,
     LOOKS = 32,
     FACES = 8
 }; /* slanted, heavy, code, link, struck; the first three choose the face */
@@ -57,9 +67,14 @@ struct reader_pages {
     int unknown_count;
     char unknown[48];
     const struct reader_document *document;
-    uint8_t **pixels; /* of pictures */
-    int pixels_count, pixels_capacity;
-    bool *noted; /* notes that stand on a page already */
+    struct pictured *pictures; /* that were found */
+    int pictures_count, pictures_capacity;
+    const struct reader_block *waiting[PAGES_WAITING_MAX]; /* figures beside what follows */
+    int waiting_count;
+    bool below;                        /* what is set stands below figures */
+    int obstacled;                     /* the block whose obstacles are there */
+    struct reader_obstacle *obstacles; /* that were found for pages */
+    bool *noted;                       /* notes that stand on a page already */
     bool behind_head;
     /* A column that is scrolled: passages are made one by one. */
     struct made_passage *made; /* NULL: pages */
@@ -142,11 +157,46 @@ enum reader_status pages_template_set(struct reader_pages *p, double frame_px);
 /* How many blocks from this one on are one passage: a table's rows, or one. */
 int pages_passage_length(const struct reader_document *document, int first);
 /* Where it stands on a grid: a reader_wide, or -1, as text. */
-int pages_wide_of(const struct reader_block *block);
+int pages_wide_of(const struct reader_pages_setup *setup,
+                  const struct reader_document *document, int block);
 /* Its paragraphs. p->behind_head is for the next one. */
 enum reader_status pages_passage_add(struct reader_pages *p, int first, int count);
 
-/* pages_picture.c: a picture that is found, as a box in a line of its own. *done: it was. */
+/* The notes that the letters call, at a byte of the paragraph; -1: each behind its letters. */
+enum reader_status pages_notes_add(struct reader_pages *p, int id,
+                                   const struct paragraph_text *t, int byte);
+
+/* pages_beside.c. The block whose text flows around a figure, and how wide the figure is at
+ * most; -1: it has its column for itself. */
+int pages_beside_host(const struct reader_pages_setup *setup,
+                      const struct reader_document *document, int block, double *width_px);
+/* How many blocks, from this one on, might stand beside a figure that it is: to be set
+ * together. */
+int pages_beside_length(const struct reader_pages_setup *setup,
+                        const struct reader_document *document, int block);
+/* The same of obstacles of a block that end so far below its upper edge. */
+int pages_around_length(const struct reader_pages_setup *setup,
+                        const struct reader_document *document, int block, double need_px);
+/* Where obstacles of a block end, from its upper edge; 0: it has none. */
+double pages_around_end(const struct reader_pages_setup *setup, int block);
+/* From where ink is counted on its side: from the frame's left edge. */
+double pages_around_x(const struct reader_pages *p, enum reader_around side);
+/* The block's obstacles are the paragraph's, if it is its first. */
+enum reader_status pages_obstacles_put(struct reader_pages *p, int id);
+/* A figure that text flows around waits for the paragraph; *waits: it does. */
+enum reader_status pages_beside_wait(struct reader_pages *p, const struct reader_block *block,
+                                     bool *waits);
+/* Those that wait stand beside the paragraph. */
+enum reader_status pages_besides_add(struct reader_pages *p, int id);
+
+/* pages_picture.c: a picture at the size that it has where so much is free; *out NULL: it is
+ * not found. Owns: the pages. */
+enum reader_status pages_pictured(struct reader_pages *p, const struct reader_block *block,
+                                  double most_px, const struct pictured **out);
+void pages_pictures_free(struct reader_pages *p);
+/* What a figure's caption says. shown: its picture is. False: no memory. */
+bool pages_caption(struct paragraph_text *t, const struct reader_block *block, bool shown);
+/* A picture that is found, as a box in a line of its own. *done: it was. */
 enum reader_status pages_picture_add(struct reader_pages *p, const struct reader_block *block,
                                      const struct page_manner *manner, bool *done);
 

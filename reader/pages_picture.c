@@ -109,50 +109,138 @@ static enum reader_status picture_style(struct reader_pages *p, const struct blo
                                                                     : pages_failed();
 }
 
-/* Its pixels at the size that it has on the page: as it is, or as the column and six tenths of
- * the page have room. */
-static enum reader_status picture_keep(struct reader_pages *p,
-                                       const struct reader_picture *picture, double most_px,
-                                       int *width, int *height, uint8_t **kept)
+/* How large it is on the page: as it is, or as the column and six tenths of the page have
+ * room. */
+static double picture_high(const struct reader_pages *p)
 {
-    const double high =
-                     p->made ? p->setup.height_px : p->setup.height_px - 2 * p->setup.margin_px,
-                 scale = fmin(1, fmin(most_px / picture->width_px,
-                                      0.6 * fmax(1, high) / picture->height_px));
+    return p->made ? p->setup.height_px : p->setup.height_px - 2 * p->setup.margin_px;
+}
+
+static void picture_size(const struct reader_picture *picture, double most_px, double high_px,
+                         int *width, int *height)
+{
+    const double scale =
+        fmin(1, fmin(most_px / picture->width_px, 0.6 * fmax(1, high_px) / picture->height_px));
     *width = (int)fmax(1, floor(picture->width_px * scale));
     *height = (int)fmax(1, floor(picture->height_px * scale));
-    *kept = pixels_shrink(picture, *width, *height);
-    if (!*kept || !array_reserve(&p->pixels, &p->pixels_capacity, p->pixels_count + 1,
-                                 sizeof *p->pixels)) {
-        free(*kept);
-        return pages_no_memory();
+}
+
+/* How opaque pixels are at that size: as the most opaque of those that each covers. NULL: all
+ * are, or no memory. */
+static uint8_t *alpha_shrink(const struct reader_picture *from, int width, int height)
+{
+    uint8_t *to = from->alpha ? calloc((size_t)width, (size_t)height) : NULL;
+    for (int y = 0; y < height && to; y++)
+        for (int x = 0; x < width; x++) {
+            int x0, x1, y0, y1;
+            uint8_t *own = &to[(size_t)y * (size_t)width + (size_t)x];
+            covered(x, width, from->width_px, &x0, &x1);
+            covered(y, height, from->height_px, &y0, &y1);
+            for (int v = y0; v < y1; v++)
+                for (int u = x0; u < x1; u++) {
+                    const uint8_t a =
+                        from->alpha[(size_t)v * (size_t)from->width_px + (size_t)u];
+                    *own = a > *own ? a : *own;
+                }
+        }
+    return to;
+}
+
+static enum reader_status pictured_make(struct reader_pages *p, const struct block *full,
+                                        const struct reader_picture *picture,
+                                        struct pictured *own)
+{
+    picture_size(picture, own->most_px, own->high_px, &own->width, &own->height);
+    own->pixels = pixels_shrink(picture, own->width, own->height);
+    own->alpha = alpha_shrink(picture, own->width, own->height);
+    return own->pixels
+               ? picture_style(p, full, own->pixels, own->width, own->height, &own->style)
+               : pages_no_memory();
+}
+
+static void pictured_free(struct pictured *own)
+{
+    free(own->target);
+    free(own->pixels);
+    free(own->alpha);
+}
+
+void pages_pictures_free(struct reader_pages *p)
+{
+    for (int i = 0; i < p->pictures_count; i++)
+        pictured_free(&p->pictures[i]);
+    free(p->pictures);
+}
+
+/* One that was set in so much room before. */
+static const struct pictured *pictured_known(const struct reader_pages *p, int source,
+                                             const char *target, double most_px, double high_px)
+{
+    for (int i = 0; i < p->pictures_count; i++) {
+        const struct pictured *own = &p->pictures[i];
+        if (own->source == source && own->most_px == most_px && own->high_px == high_px &&
+            strcmp(own->target, target) == 0)
+            return own;
     }
-    p->pixels[p->pixels_count++] = *kept;
+    return NULL;
+}
+
+enum reader_status pages_pictured(struct reader_pages *p, const struct reader_block *block,
+                                  double most_px, const struct pictured **out)
+{
+    struct reader_picture picture = {0};
+    const char *target = block->target ? block->target : "";
+    const double high = picture_high(p);
+    struct block full;
+    *out = pictured_known(p, block->source, target, most_px, high);
+    if (*out || !p->setup.picture || !*target || !block_find(p->faces[READER_CODE], &full) ||
+        !p->setup.picture(p->setup.picture_user, block->source, target, &picture))
+        return READER_OK;
+    struct pictured own = {
+        .source = block->source, .target = strdup(target), .most_px = most_px, .high_px = high};
+    enum reader_status status =
+        own.target && array_reserve(&p->pictures, &p->pictures_capacity, p->pictures_count + 1,
+                                    sizeof *p->pictures)
+            ? pictured_make(p, &full, &picture, &own)
+            : pages_no_memory();
+    free(picture.rgb);
+    free(picture.alpha);
+    if (status != READER_OK) {
+        pictured_free(&own);
+        return status;
+    }
+    p->pictures[p->pictures_count++] = own;
+    *out = &p->pictures[p->pictures_count - 1];
     return READER_OK;
+}
+
+bool pages_caption(struct paragraph_text *t, const struct reader_block *block, bool shown)
+{
+    enum { TARGET_BYTES = 1000 };
+    const char *target = block->target ? block->target : "";
+    const bool whole = strlen(target) <= TARGET_BYTES;
+    int told = whole ? (int)strlen(target) : TARGET_BYTES;
+    while (!whole && told && ((unsigned char)target[told] & 0xc0) == 0x80)
+        told--;
+    return pages_block_add(t, block, 0, block->bytes, READER_SLANTED) &&
+           (shown ||
+            (pages_text_add(t, " [", 2, 0) && pages_text_add(t, target, told, READER_CODE) &&
+             pages_text_add(t, whole ? "]" : "\xe2\x80\xa6]", whole ? 1 : 4, 0)));
 }
 
 enum reader_status pages_picture_add(struct reader_pages *p, const struct reader_block *block,
                                      const struct page_manner *manner, bool *done)
 {
-    struct reader_picture picture = {0};
-    const char *target = block->target ? block->target : "";
-    int width, height, style, plain;
-    uint8_t *kept;
-    struct block full;
+    const struct pictured *own;
+    int plain;
     *done = false;
-    if (!block_find(p->faces[READER_CODE], &full) || !p->setup.picture || !*target ||
-        !p->setup.picture(p->setup.picture_user, block->source, target, &picture))
-        return READER_OK;
     enum reader_status status =
-        picture_keep(p, &picture, pages_column(p) - manner->left_px - manner->right_px, &width,
-                     &height, &kept);
-    free(picture.rgb);
+        pages_pictured(p, block, pages_column(p) - manner->left_px - manner->right_px, &own);
+    if (status != READER_OK || !own)
+        return status;
+    status = pages_style(p, CONTEXT_TABLE, 0, &plain);
     if (status == READER_OK)
-        status = picture_style(p, &full, kept, width, height, &style);
-    if (status == READER_OK)
-        status = pages_style(p, CONTEXT_TABLE, 0, &plain);
-    if (status == READER_OK)
-        status = pages_inset_put(p, target, plain, style, manner);
+        status = pages_inset_put(p, own->target, plain, own->style, manner);
     *done = status == READER_OK;
     return status;
 }

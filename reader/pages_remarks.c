@@ -15,7 +15,7 @@ enum { QUOTED_BYTES = 200, TYPED_BYTES = 16384, LINES_MAX = 64 };
 
 struct piece {
     size_t at;
-    int length, paragraph, begin;
+    int length, paragraph, begin, block;
     bool in_note;
 };
 struct left_box {
@@ -76,8 +76,12 @@ static enum reader_status pieces_make(struct reader_pages *p)
         for (int k = 0; k < m->spans_count; k++)
             if (m->spans[k].at >= 0)
                 left->pieces[left->pieces_count++] =
-                    (struct piece){(size_t)m->spans[k].at, m->spans[k].end - m->spans[k].begin,
-                                   m->id, m->spans[k].begin, m->note >= 0};
+                    (struct piece){(size_t)m->spans[k].at,
+                                   m->spans[k].end - m->spans[k].begin,
+                                   m->id,
+                                   m->spans[k].begin,
+                                   m->block,
+                                   m->note >= 0};
     }
     if (left->pieces_count)
         qsort(left->pieces, (size_t)left->pieces_count, sizeof *left->pieces, by_at);
@@ -380,6 +384,23 @@ bool reader_pages_byte(struct reader_pages *p, int page, double x, double y, siz
 
 /* ---- ink ---- */
 
+/* Whether text flows around ink that hangs on the piece: then it is counted from where its
+ * paragraph begins. *page, *box: that. */
+static enum reader_status around_find(struct reader_pages *p, const struct reader_remark *r,
+                                      const struct piece *piece, int *page,
+                                      struct page_box *box, bool *around)
+{
+    *around = false;
+    for (int i = 0; i < p->setup.obstacles_count && r->around && !piece->in_note; i++)
+        *around = *around || p->setup.obstacles[i].block == piece->block;
+    if (!*around)
+        return READER_OK;
+    if (page_paragraph_begins(p->text, piece->paragraph, page, &box->x, &box->y) != FONT_OK)
+        return pages_failed();
+    box->x += pages_around_x(p, r->around);
+    return READER_OK;
+}
+
 static enum reader_status stroke_add(struct reader_pages *p, const struct reader_remark *r)
 {
     struct pages_left *left = p->left;
@@ -388,13 +409,17 @@ static enum reader_status stroke_add(struct reader_pages *p, const struct reader
     int page, count = 0;
     if (k == left->pieces_count || left->pieces[k].at > r->begin)
         return READER_OK; /* its word is on no page */
+    bool around;
+    enum reader_status status = around_find(p, r, &left->pieces[k], &page, &box, &around);
+    if (status != READER_OK)
+        return status;
     const int byte = left->pieces[k].begin + (int)(r->begin - left->pieces[k].at);
     const struct page_place a = place_of(p, left->pieces[k].paragraph, byte),
                             b = place_of(p, left->pieces[k].paragraph, a.byte + 1);
-    if (page_find(p->text, a, &page) != FONT_OK ||
-        page_select(p->text, a, b, page, &box, 1, &count) != FONT_OK)
+    if (!around && (page_find(p->text, a, &page) != FONT_OK ||
+                    page_select(p->text, a, b, page, &box, 1, &count) != FONT_OK))
         return pages_failed();
-    if (!count)
+    if (!around && !count)
         return READER_OK;
     if (!array_reserve(&left->strokes, &left->strokes_capacity, left->strokes_count + 1,
                        sizeof *left->strokes))

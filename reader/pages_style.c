@@ -481,14 +481,14 @@ static enum reader_status notes_chain(struct reader_pages *p, int note, int id, 
     return status;
 }
 
-/* The notes that the paragraph's letters call, each where it is called first. */
-static enum reader_status notes_add(struct reader_pages *p, int id,
-                                    const struct paragraph_text *t)
+/* Each where it is called first. */
+enum reader_status pages_notes_add(struct reader_pages *p, int id,
+                                   const struct paragraph_text *t, int byte)
 {
     enum reader_status status = READER_OK;
     for (int i = 0; i < t->spans_count && status == READER_OK; i++)
         if (note_wanted(p, t->spans[i].note))
-            status = notes_chain(p, t->spans[i].note, id, t->spans[i].end);
+            status = notes_chain(p, t->spans[i].note, id, byte >= 0 ? byte : t->spans[i].end);
     return status;
 }
 
@@ -496,6 +496,7 @@ enum reader_status pages_paragraph_put(struct reader_pages *p, const char *text,
                                        int style, const struct page_manner *manner, int *id)
 {
     struct page_manner own = *manner;
+    own.below = p->below;
     if (p->made) { /* each passage is a column of its own */
         const int template = p->wide < 0 ? 0 : p->wide_templates[p->wide];
         const bool first = p->made->count == 0, paged = p->templates_count > 1;
@@ -513,7 +514,9 @@ enum reader_status pages_paragraph_put(struct reader_pages *p, const char *text,
     if (p->made && !p->made->count)
         p->made->first = *id;
     p->at += p->made != NULL;
-    return READER_OK;
+    enum reader_status status =
+        p->setup.obstacles_count ? pages_obstacles_put(p, *id) : READER_OK;
+    return status == READER_OK && p->waiting_count ? pages_besides_add(p, *id) : status;
 }
 
 enum reader_status pages_inset_put(struct reader_pages *p, const char *text, int plain,
@@ -545,6 +548,6 @@ enum reader_status pages_paragraph_add(struct reader_pages *p, struct paragraph_
     if (status == READER_OK)
         status = pages_styles_apply(p, id, t, context, display, most);
     if (status == READER_OK)
-        status = notes_add(p, id, t);
+        status = pages_notes_add(p, id, t, -1);
     return status == READER_OK ? pages_made_keep(p, id, -1, t) : status;
 }

@@ -15,6 +15,7 @@
  *     [^name], [^margin:name]     notes; what stands before a colon is the note's class
  *     ```lua live, ```c paris     fences that live: a script on a stage, and a program, which
  *                                 for now is shown
+ *     ![Reeds](a.png "left 40%")  a picture that text flows around (struct reader_beside)
  *     <a id="marsh"></a>          a label of what follows, or of the block that it is in
  *     [Reeds](reeds.md "include") alone in a paragraph: another file (reader_files.h)
  *     <a id="bibliography"></a>   that label: what follows is a bibliography
@@ -103,6 +104,24 @@ enum reader_kind {
 
 enum { READER_COLUMNS_MAX = 16 };
 
+/* Where a figure stands that text flows around. */
+enum reader_side {
+    READER_SIDE_USUAL, /* as whoever sets it says */
+    READER_SIDE_LEFT,
+    READER_SIDE_RIGHT,
+    READER_SIDE_NONE /* it has its column for itself */
+};
+struct reader_beside {
+    enum reader_side side;
+    int percent; /* of the column that it takes at most, 10..90; 0: as usual */
+    bool round;  /* lines follow the ellipse in its box */
+    bool shape;  /* lines follow the picture's opaque pixels */
+};
+/* From words: left or right, beside them a share as 40%, and round or shape; or full. False:
+ * they say something else, and *out is zeros. */
+bool reader_beside_read(const char *words, struct reader_beside *out);
+bool reader_beside_same(const struct reader_beside *a, const struct reader_beside *b);
+
 struct reader_block {
     enum reader_kind kind;
     int level;         /* of a heading, from 1 */
@@ -119,6 +138,7 @@ struct reader_block {
     char *include; /* the file that is meant to be in its place (reader_files.h); NULL: none */
     int stage_width, stage_height; /* of a fence that lives, its picture's; else 0 */
     bool stage_program;            /* of such a fence: a program in C/Paris, not a script */
+    struct reader_beside beside;   /* of a picture */
     int table;                     /* of a row: which table, from 0 */
     bool head;                     /* of a row: the table's first */
     int columns;

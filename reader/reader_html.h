@@ -38,6 +38,7 @@ struct reader_html_setup {
     const char *font,
         *math; /* font: a family's name; math: as font_face_open() has it; NULL: the
                               * usual ones */
+    struct reader_beside beside; /* of figures that do not say where they stand; usual: no */
     const struct reader_files *files;     /* the document's, for links among them; NULL: none */
     const struct reader_remarks *remarks; /* NULL: none */
     /* Writes the bytes of the PNG that source number `source` names; false: it is told by its

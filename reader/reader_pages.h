@@ -13,7 +13,9 @@
  * smaller. A table whose columns have no room beside each other is set row by row, each cell
  * behind its column's name. Pictures that are found are shown no wider than the column, and
  * their captions under them; others, and all where the font of code has no full block (U+2588),
- * are told by their captions and files. A script that lives is set as its code, and over it is
+ * are told by their captions and files. Text flows around a picture that says so, or that the
+ * setup says it of, where a line beside it has room for a few words; what is no text, and
+ * headings of the first two levels, stand below it. A script that lives is set as its code, and over it is
  * room for its picture where somebody will draw it (stage_strip_px).
  *
  * Errors: functions that can fail return a status and leave one line in reader_error().
@@ -23,7 +25,7 @@
 #ifndef LUTETIA_READER_PAGES_H
 #define LUTETIA_READER_PAGES_H
 
-#include "reader_remarks.h"
+#include "reader_around.h"
 
 #include <drawing.h>
 #include <page.h>
@@ -35,7 +37,8 @@ struct reader_pages;
 /* A picture's pixels: red, green, blue, rows without gaps. */
 struct reader_picture {
     int width_px, height_px;
-    uint8_t *rgb; /* from malloc() */
+    uint8_t *rgb;   /* from malloc() */
+    uint8_t *alpha; /* how opaque each is, from malloc(); NULL: all are */
 };
 
 /* Where things go in a column that is scrolled: in the window's pixels. */
@@ -83,8 +86,9 @@ struct reader_pages_setup {
     /* the width of a margin for notes of the class `margin`; 0: they stand at the foot */
     double notes_px;
     int columns;
-    struct reader_grid grid;    /* of a column that is scrolled, in place of those above */
-    double sizes[READER_SIZES]; /* of size_px; 0: as usual */
+    struct reader_grid grid;     /* of a column that is scrolled, in place of those above */
+    double sizes[READER_SIZES];  /* of size_px; 0: as usual */
+    struct reader_beside beside; /* of figures that do not say where they stand; usual: no */
     enum font_align align;
     bool hyphenate;
     /* more than 0: over scripts that live there is room for their pictures, and so much under
@@ -103,6 +107,10 @@ struct reader_pages_setup {
      * those whose words are on no page, or in a note, stand behind all else. It must outlive
      * the pages. NULL: none. */
     const struct reader_remarks *remarks;
+    /* What text flows around besides. Pages with remarks find their own, a view is told by
+     * reader_view_around(). */
+    const struct reader_obstacle *obstacles;
+    int obstacles_count;
     bool places; /* pages only: reader_pages_find() and reader_pages_byte() are asked */
 };
 /* EB Garamond (DejaVu Serif without it) of 17 pixels, justified, on a page of 600 x 840. */

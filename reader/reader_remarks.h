@@ -25,6 +25,10 @@
  * whole when its words part. A file is of a later version when a first stroke is scaled or
  * grouped.
  *
+ * Text flows around ink that says so. It is then counted from the paragraph that its anchor is
+ * in: from an edge of that one's column, and from its upper edge (reader_around.h). A file is
+ * of a later version when a first stroke says so.
+ *
  * Layers. A file has the notes of several readers, each in a layer with a name; the first one
  * has none. All are shown but those that are hidden, and one is written: what is added is in
  * it, and only what is in it can be changed. Which are hidden and which is written is not kept.
@@ -57,6 +61,9 @@ enum {
     READER_LAYER_BYTES = 64 /* of a name, with its end */
 };
 
+/* Whether text flows around ink, and from which edge of its column it is counted. */
+enum reader_around { READER_AROUND_NOT, READER_AROUND_LEFT, READER_AROUND_RIGHT };
+
 struct reader_remark {
     enum reader_remark_kind kind;
     double made_s;           /* since 1970; of ink: when its last point was drawn */
@@ -68,6 +75,7 @@ struct reader_remark {
     double scale_x, scale_y; /* of its points, from the anchor */
     int hangs;               /* whose anchor it hangs on: a remark's, most often its own */
     int group;               /* a remark that the group is called by; -1: it is in none */
+    enum reader_around around;
     struct reader_ink_point *points;
     int points_count;
     const struct reader_anchor *anchor; /* that it hangs on */
@@ -146,6 +154,7 @@ struct reader_arranged {
     int index;
     double x, y, scale_x, scale_y; /* READER_SCALE_LEAST..MOST */
     int hangs, group;
+    enum reader_around around;
 };
 #define READER_SCALE_LEAST 0.01
 #define READER_SCALE_MOST 100.0

@@ -51,6 +51,7 @@ struct reader_template {
     struct reader_place_span notes[READER_TEXTS_MAX];
     int notes_count;
     struct reader_place_span wide[READER_WIDES]; /* headings, figures, ... */
+    struct reader_beside beside;                 /* of figures that do not say it themselves */
     double sizes[READER_SIZES];                  /* of the text's; 0: as usual */
     struct reader_colours colours[2];            /* light, dark */
 };

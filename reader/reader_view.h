@@ -109,6 +109,15 @@ bool reader_view_stage(struct reader_view *view, const struct reader_shown *show
  * being read stays. Errors: BAD_ARGUMENT (no such block, less than nothing), NO_MEMORY. */
 enum reader_status reader_view_stage_room(struct reader_view *view, int block, double more_px);
 
+/* Text flows around these, in place of those before: the line that is being read stays. They
+ * are copied. Errors: as reader_view_look(). */
+enum reader_status reader_view_around(struct reader_view *view,
+                                      const struct reader_obstacle *obstacles, int count);
+/* From where obstacles of a block on a side are counted: a point of the window. False: the
+ * block is not seen. */
+bool reader_view_begins(struct reader_view *view, int block, enum reader_around side, double *x,
+                        double *y);
+
 /* Opens a note where the byte calls it, or closes it. Errors: BAD_ARGUMENT (no such note),
  * NO_MEMORY. */
 enum reader_status reader_view_note(struct reader_view *view, int note, size_t byte);

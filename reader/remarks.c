@@ -202,6 +202,7 @@ static enum reader_status row_make(const struct reader_remark *what, const char 
     r->hidden = false;
     r->scale_x = r->scale_y = 1;
     r->group = -1;
+    r->around = READER_AROUND_NOT;
     row->place = (struct reader_remark_place){0, begin, end, false};
     r->text = strdup(what->text ? what->text : "");
     r->points = malloc(size + 1);
@@ -290,7 +291,8 @@ enum reader_status reader_remarks_erase(struct reader_remarks *remarks, int i, b
 struct reader_arranged reader_remarks_arranged(const struct reader_remarks *remarks, int i)
 {
     const struct reader_remark *r = reader_remarks_get(remarks, i);
-    return (struct reader_arranged){i, r->x, r->y, r->scale_x, r->scale_y, r->hangs, r->group};
+    return (struct reader_arranged){i,          r->x,     r->y,     r->scale_x,
+                                    r->scale_y, r->hangs, r->group, r->around};
 }
 
 static bool is_within(double value, double least, double most)
@@ -316,6 +318,9 @@ static enum reader_status arranged_check(struct reader_remarks *remarks,
     if (!row_of(remarks, to->hangs) || (to->group != -1 && !row_of(remarks, to->group)))
         return reader_fail(READER_BAD_ARGUMENT, "ink hangs on no note %d, group %d", to->hangs,
                            to->group);
+    if ((unsigned)to->around > READER_AROUND_RIGHT)
+        return reader_fail(READER_BAD_ARGUMENT, "text does not flow around ink by %d",
+                           (int)to->around);
     return READER_OK;
 }
 
@@ -335,6 +340,7 @@ enum reader_status reader_remarks_arrange(struct reader_remarks *remarks,
         r->scale_y = to[i].scale_y;
         r->hangs = to[i].hangs;
         r->group = to[i].group;
+        r->around = to[i].around;
     }
     all_hang(remarks);
     return status;

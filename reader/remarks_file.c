@@ -35,6 +35,10 @@ static const char arranged_schema[] =
     "CREATE TABLE arranged(remark INTEGER PRIMARY KEY, scale_x REAL NOT NULL, scale_y REAL NOT "
     "NULL, hangs INTEGER NOT NULL, grouped INTEGER NOT NULL)";
 
+/* Of ink that text flows around: from which edge of its column it is counted; 0: no longer. */
+static const char around_schema[] = "CREATE TABLE around(remark INTEGER PRIMARY KEY, side "
+                                    "INTEGER NOT NULL)";
+
 /* Every table that there is, and the version that it came with. */
 static const struct {
     const char *name, *schema;
@@ -42,7 +46,8 @@ static const struct {
 } tables[] = {{"remark", schema, REMARKS_PLAIN},
               {"layer", layer_schema, REMARKS_LAYERED},
               {"in_layer", in_layer_schema, REMARKS_LAYERED},
-              {"arranged", arranged_schema, REMARKS_ARRANGED}};
+              {"arranged", arranged_schema, REMARKS_ARRANGED},
+              {"around", around_schema, REMARKS_AROUND}};
 enum { TABLES = sizeof tables / sizeof *tables };
 
 static enum reader_status file_fail(const struct remarks_file *file)
@@ -136,7 +141,7 @@ static enum reader_status check(struct remarks_file *file)
     if (application != APPLICATION)
         return remarks_foreign(file, application < 0 ? sqlite3_errmsg(file->db)
                                                      : "this is another program's file");
-    if (version > REMARKS_ARRANGED)
+    if (version > REMARKS_AROUND)
         return remarks_foreign(file, "this file is of a newer version");
     file->version = (int)version;
     if (version < REMARKS_PLAIN || !tables_are(file))
@@ -355,6 +360,29 @@ static bool arranged_write(struct remarks_file *file, const struct remark_rows *
     return good;
 }
 
+static bool around_write(struct remarks_file *file, long long id, enum reader_around around)
+{
+    sqlite3_stmt *s = NULL;
+    const bool good = sqlite3_prepare_v2(file->db, "INSERT OR REPLACE INTO around VALUES(?,?)",
+                                         -1, &s, NULL) == SQLITE_OK &&
+                      sqlite3_bind_int64(s, 1, id) == SQLITE_OK &&
+                      sqlite3_bind_int(s, 2, (int)around) == SQLITE_OK &&
+                      sqlite3_step(s) == SQLITE_DONE;
+    sqlite3_finalize(s);
+    return good;
+}
+
+/* Where no ink was ever so, that it is not is not kept. */
+static bool around_keep(struct remarks_file *file, const struct remark_rows *rows,
+                        const struct reader_arranged *to)
+{
+    const bool kept = number_of(file, "PRAGMA user_version") >= REMARKS_AROUND;
+    if (!kept && to->around == READER_AROUND_NOT)
+        return true;
+    return (kept || version_raise(file, REMARKS_AROUND)) &&
+           around_write(file, rows->rows[to->index].id, to->around);
+}
+
 /* What is moved and nothing else needs no later version. */
 static bool is_only_moved(const struct reader_arranged *to)
 {
@@ -373,7 +401,8 @@ enum reader_status remarks_file_arrange(struct remarks_file *file,
         const bool kept = number_of(file, "PRAGMA user_version") >= REMARKS_ARRANGED;
         good = moved_write(file, rows->rows[to[i].index].id, &to[i]) &&
                (kept || is_only_moved(&to[i]) || version_raise(file, REMARKS_ARRANGED)) &&
-               ((!kept && is_only_moved(&to[i])) || arranged_write(file, rows, &to[i]));
+               ((!kept && is_only_moved(&to[i])) || arranged_write(file, rows, &to[i])) &&
+               around_keep(file, rows, &to[i]);
     }
     return change_end(file, good ? READER_OK : file_fail(file));
 }

@@ -8,7 +8,7 @@
 #include <sqlite3.h>
 
 /* Versions: with remarks alone, with layers, and with those and how ink lies. */
-enum { REMARKS_PLAIN = 1, REMARKS_LAYERED = 2, REMARKS_ARRANGED = 3 };
+enum { REMARKS_PLAIN = 1, REMARKS_LAYERED = 2, REMARKS_ARRANGED = 3, REMARKS_AROUND = 4 };
 
 struct remarks_file {
     char *path;

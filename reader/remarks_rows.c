@@ -32,24 +32,31 @@ enum column {
     SCALE_X,
     SCALE_Y,
     HANGS,
-    GROUPED
+    GROUPED,
+    AROUND
 };
 
 /* By the version: what all have, and what is behind it. */
 static const char *const selects[] = {
     [REMARKS_PLAIN] =
         "SELECT id, kind, made, gone, anchor, text, rgba, width, x, y, points, 0, 1, 1, "
-        "id, 0 FROM remark ORDER BY id",
+        "id, 0, 0 FROM remark ORDER BY id",
     [REMARKS_LAYERED] =
         "SELECT id, kind, made, gone, anchor, text, rgba, width, x, y, points, "
         "coalesce((SELECT layer FROM in_layer WHERE remark = remark.id), 0), 1, 1, id, "
-        "0 FROM remark ORDER BY id",
+        "0, 0 FROM remark ORDER BY id",
     [REMARKS_ARRANGED] =
         "SELECT id, kind, made, gone, anchor, text, rgba, width, x, y, points, "
         "coalesce((SELECT layer FROM in_layer WHERE remark = remark.id), 0), "
         "coalesce(scale_x, 1), coalesce(scale_y, 1), coalesce(hangs, id), "
-        "coalesce(grouped, 0) FROM remark LEFT JOIN arranged ON arranged.remark = "
-        "remark.id ORDER BY id"};
+        "coalesce(grouped, 0), 0 FROM remark LEFT JOIN arranged ON arranged.remark = "
+        "remark.id ORDER BY id",
+    [REMARKS_AROUND] =
+        "SELECT id, kind, made, gone, anchor, text, rgba, width, x, y, points, "
+        "coalesce((SELECT layer FROM in_layer WHERE remark = remark.id), 0), "
+        "coalesce(scale_x, 1), coalesce(scale_y, 1), coalesce(hangs, id), "
+        "coalesce(grouped, 0), coalesce((SELECT side FROM around WHERE remark = remark.id), "
+        "0) FROM remark LEFT JOIN arranged ON arranged.remark = remark.id ORDER BY id"};
 
 static bool number_read(sqlite3_stmt *s, enum column column, double least, double most,
                         double *out)
@@ -92,9 +99,14 @@ static bool row_read(sqlite3_stmt *s, struct remark_row *row)
     row->id = sqlite3_column_int64(s, ID);
     row->hangs_id = sqlite3_column_int64(s, HANGS);
     row->group_id = sqlite3_column_int64(s, GROUPED);
+    const sqlite3_int64 around = sqlite3_column_int64(s, AROUND);
     if (kind < READER_REMARK_HIGHLIGHT || kind > READER_REMARK_INK || !text ||
         sqlite3_column_bytes(s, TEXT) > READER_TYPED_MAX)
         return false;
+    if (around < READER_AROUND_NOT || around > READER_AROUND_RIGHT ||
+        (around && kind != READER_REMARK_INK))
+        return false;
+    r->around = (enum reader_around)around;
     r->kind = (enum reader_remark_kind)kind;
     r->rgba = (unsigned)sqlite3_column_int64(s, RGBA);
     r->text = strdup(text);

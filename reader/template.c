@@ -198,6 +198,20 @@ static enum reader_status size_read(struct reading *r)
                     "code or table");
 }
 
+/* right 40%: the words as a figure would say them. */
+static enum reader_status beside_line(struct reading *r)
+{
+    char words[WORDS_MAX * READER_TEMPLATE_NAME_BYTES] = "";
+    for (int i = 1; i < r->count; i++) {
+        strcat(words, r->words[i]);
+        strcat(words, " ");
+    }
+    return reader_beside_read(words, &r->t->beside)
+               ? READER_OK
+               : wrong(r, "figures stand beside text as 'beside right 40%%': left or right, "
+                          "10%%..90%% of the column, and round or shape; or full");
+}
+
 static bool colour_read(const char *word, double *rgb)
 {
     if (*word != '#' || strlen(word) != 7 || strspn(word + 1, "0123456789abcdefABCDEF") != 6)
@@ -244,6 +258,8 @@ static enum reader_status line_take(struct reading *r)
     }
     if (strcmp(word, "notes") == 0)
         return spans_read(r, r->t->notes, READER_TEXTS_MAX, &r->t->notes_count);
+    if (strcmp(word, "beside") == 0)
+        return beside_line(r);
     if (strcmp(word, "size") == 0)
         return size_read(r);
     if (strcmp(word, "colour") == 0)
@@ -263,7 +279,7 @@ static enum reader_status line_take(struct reading *r)
     }
     return wrong(r,
                  "there is no '%.40s' (known: name, columns, gutter, text, notes, headings, "
-                 "figures, demonstrations, tables, size, colour)",
+                 "figures, demonstrations, tables, beside, size, colour)",
                  word);
 }
 
@@ -413,6 +429,17 @@ static void columns_put(FILE *out, const struct reader_template *t)
     fputc('\n', out);
 }
 
+static void beside_put(FILE *out, const struct reader_beside *b)
+{
+    static const char *const sides[] = {"", "left", "right", "full"};
+    if (b->side == READER_SIDE_USUAL)
+        return;
+    fprintf(out, "beside %s", sides[b->side]);
+    if (b->percent)
+        fprintf(out, " %d%%", b->percent);
+    fprintf(out, "%s\n", b->round ? " round" : b->shape ? " shape" : "");
+}
+
 /* Those that are not as usual. */
 static void colours_put(FILE *out, const struct reader_template *t)
 {
@@ -446,6 +473,7 @@ char *reader_template_text(const struct reader_template *t)
     spans_put(out, "notes", t->notes, t->notes_count);
     for (int i = 0; i < READER_WIDES; i++)
         spans_put(out, wide_names[i], &t->wide[i], 1);
+    beside_put(out, &t->beside);
     for (int i = 0; i < READER_SIZES; i++)
         if (t->sizes[i] > 0) {
             fprintf(out, "size %s ", size_names[i]);

@@ -8,11 +8,15 @@
 
 /* ---- making ---- */
 
-static struct reader_pages_setup column_setup(const struct reader_pages_setup *setup)
+/* Obstacles are the view's own. */
+static struct reader_pages_setup column_setup(const struct reader_view *view,
+                                              const struct reader_pages_setup *setup)
 {
     struct reader_pages_setup own = *setup;
     own.columns = 1;
     own.running = false;
+    own.obstacles = view->obstacles;
+    own.obstacles_count = view->setup.obstacles_count;
     return own;
 }
 
@@ -54,7 +58,7 @@ enum reader_status reader_view_create(const struct reader_document *document,
     if (!view)
         return pages_no_memory();
     view->document = document;
-    view->setup = column_setup(setup);
+    view->setup = column_setup(view, setup);
     enum reader_status status = notes_begin(view);
     if (status == READER_OK)
         status =
@@ -82,6 +86,7 @@ void reader_view_destroy(struct reader_view *view)
     free(view->called);
     free(view->stage_more);
     free(view->shown);
+    free(view->obstacles);
     free(view);
 }
 
@@ -296,12 +301,15 @@ static bool same_grid(const struct reader_grid *a, const struct reader_grid *b)
     return same;
 }
 
-static bool same_column(const struct reader_pages_setup *a, const struct reader_pages_setup *b)
+/* besides: figures stand beside text: how high they are depends on the window's height. */
+static bool same_column(const struct reader_pages_setup *a, const struct reader_pages_setup *b,
+                        bool besides)
 {
     return a->width_px == b->width_px && a->margin_px == b->margin_px &&
            a->notes_px == b->notes_px && a->gap_px == b->gap_px && a->align == b->align &&
            a->hyphenate == b->hyphenate && a->stage_strip_px == b->stage_strip_px &&
-           same_grid(&a->grid, &b->grid) && (!view_bands(a) || a->height_px == b->height_px);
+           same_grid(&a->grid, &b->grid) && reader_beside_same(&a->beside, &b->beside) &&
+           ((!view_bands(a) && !besides) || a->height_px == b->height_px);
 }
 
 /* The same fonts in another column: what was set goes. */
@@ -322,12 +330,12 @@ static enum reader_status column_change(struct reader_view *view,
 enum reader_status reader_view_set(struct reader_view *view,
                                    const struct reader_pages_setup *setup)
 {
-    const struct reader_pages_setup to = column_setup(setup);
+    const struct reader_pages_setup to = column_setup(view, setup);
     struct reader_pages *pages = NULL;
     enum reader_status status = top_keep(view);
     if (status != READER_OK)
         return status;
-    if (same_fonts(&to, &view->setup) && same_column(&to, &view->setup)) {
+    if (same_fonts(&to, &view->setup) && same_column(&to, &view->setup, view->besides)) {
         view->setup = to;
         return READER_OK;
     }
@@ -345,6 +353,59 @@ enum reader_status reader_view_set(struct reader_view *view,
     if (status == READER_OK)
         status = view_passages_again(view);
     return status == READER_OK ? top_restore(view) : status;
+}
+
+enum reader_status view_grouped(struct reader_view *view)
+{
+    const bool kept = view->kept;
+    enum reader_status status = top_keep(view);
+    view_unload(view);
+    if (status == READER_OK)
+        status = view_passages_again(view);
+    if (status == READER_OK)
+        status = top_restore(view);
+    view->kept = kept && view->kept;
+    return status;
+}
+
+/* ---- obstacles ---- */
+
+static bool same_obstacles(const struct reader_view *view, const struct reader_obstacle *to,
+                           int count)
+{
+    const struct reader_obstacle *own = view->obstacles;
+    bool same = view->setup.obstacles_count == count;
+    for (int i = 0; i < count && same; i++) {
+        same = own[i].block == to[i].block && own[i].side == to[i].side &&
+               own[i].x == to[i].x && own[i].y == to[i].y && own[i].height == to[i].height &&
+               own[i].rows_count == to[i].rows_count;
+        for (int k = 0; k < to[i].rows_count && same; k++)
+            same = own[i].rows[k].from_px == to[i].rows[k].from_px &&
+                   own[i].rows[k].to_px == to[i].rows[k].to_px;
+    }
+    return same;
+}
+
+enum reader_status reader_view_around(struct reader_view *view,
+                                      const struct reader_obstacle *to, int count)
+{
+    struct reader_obstacle *own = NULL;
+    if (same_obstacles(view, to, count))
+        return READER_OK;
+    enum reader_status status = top_keep(view);
+    if (status == READER_OK && count) {
+        own = malloc((size_t)count * sizeof *own);
+        status = own ? READER_OK : pages_no_memory();
+        if (own)
+            memcpy(own, to, (size_t)count * sizeof *own);
+    }
+    if (status != READER_OK)
+        return status;
+    free(view->obstacles);
+    view->obstacles = own;
+    view->setup.obstacles = view->pages->setup.obstacles = own;
+    view->setup.obstacles_count = view->pages->setup.obstacles_count = count;
+    return view_grouped(view);
 }
 
 /* ---- stages ---- */

@@ -121,6 +121,9 @@ enum reader_status reader_view_edited(struct reader_view *view, int block, size_
     while (passage + 1 < view->count && view->passages[passage + 1].first <= block)
         passage++;
     bytes_move(view, at, removed, inserted);
+    if (view->besides && view_passage_length(view, view->passages[passage].first) !=
+                             view->passages[passage].blocks)
+        return view_grouped(view);
     if (passage >= view->begin && passage < view->end)
         return view_again(view, passage);
     view->passages[passage].known = false;

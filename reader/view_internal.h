@@ -21,6 +21,8 @@ struct reader_view {
     struct reader_pages *pages;
     struct view_passage *passages;
     int count;
+    bool besides; /* figures stand beside text, or ink does */
+    struct reader_obstacle *obstacles;
     struct made_passage making; /* what the next passage becomes */
     int begin, end;             /* passages that are loaded */
     struct made_passage *loaded;
@@ -46,6 +48,9 @@ enum { VIEW_FRAME_PX = 1000000 };
 
 /* view_load.c */
 enum reader_status view_passages_make(struct reader_view *view);
+/* How many blocks from this one on are a passage. */
+int view_passage_length(const struct reader_view *view, int first);
+int view_wide_of(const struct reader_view *view, int block);
 /* Anew, where another grid puts others together: notes stay open. Nothing is loaded. */
 enum reader_status view_passages_again(struct reader_view *view);
 /* Whether passages depend on sizes and heights. */
@@ -57,11 +62,15 @@ void view_unload(struct reader_view *view); /* all */
 void view_forget(struct reader_view *view);
 /* A passage that is loaded is set anew, where it is. */
 enum reader_status view_again(struct reader_view *view, int passage);
+/* Other blocks stand beside figures than before: the line that is read stays. */
+enum reader_status view_grouped(struct reader_view *view);
 double view_full_px(const struct reader_view *view, int passage);
 
 /* view_point.c */
 /* The document's byte that is a paragraph's, or the next one that it has; -1: it has none. */
 long view_byte_of(const struct made_passage *made, struct page_place place);
+/* The first paragraph of a block; -1: it has none here. */
+int view_paragraph_of(const struct made_passage *made, int block);
 /* The passage of a byte; of a closed note: where it is called. */
 int view_passage_of(const struct reader_view *view, size_t byte);
 /* From the passage's upper edge to the upper and the lower edge of the line that a byte is in.

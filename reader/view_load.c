@@ -13,6 +13,11 @@ enum {
 
 /* ---- what there is ---- */
 
+int view_wide_of(const struct reader_view *view, int block)
+{
+    return pages_wide_of(&view->setup, view->document, block);
+}
+
 static double column_of(const struct reader_view *view, int wide)
 {
     const struct reader_grid *grid = &view->setup.grid;
@@ -28,7 +33,7 @@ static double block_estimate(const struct reader_view *view, int block)
     const struct reader_block *b = &view->document->blocks[block];
     const double size = view->setup.size_px;
     return view->setup.leading * size *
-           (1 + floor(b->bytes * 0.45 * size / column_of(view, pages_wide_of(b))));
+           (1 + floor(b->bytes * 0.45 * size / column_of(view, view_wide_of(view, block))));
 }
 
 static double text_estimate(const struct reader_view *view, int passage)
@@ -38,8 +43,7 @@ static double text_estimate(const struct reader_view *view, int passage)
     double all = 0;
     for (int i = p->first; i < p->first + p->blocks; i++)
         all += block_estimate(view, i);
-    return ceil(texts > 1 && pages_wide_of(&view->document->blocks[p->first]) < 0 ? all / texts
-                                                                                  : all);
+    return ceil(texts > 1 && view_wide_of(view, p->first) < 0 ? all / texts : all);
 }
 
 void view_forget(struct reader_view *view)
@@ -66,13 +70,13 @@ static int band_length(const struct reader_view *view, int first)
     const struct reader_document *d = view->document;
     const double part = 0.75;
     int n = pages_passage_length(d, first);
-    if (!view_bands(&view->setup) || pages_wide_of(&d->blocks[first]) >= 0)
+    if (!view_bands(&view->setup) || view_wide_of(view, first) >= 0)
         return n;
     const double most = part * view->setup.height_px * view->setup.grid.texts;
     double all = block_estimate(view, first);
     for (; first + n < d->blocks_count && n < BLOCKS_MAX; n++) {
         all += block_estimate(view, first + n);
-        if (pages_wide_of(&d->blocks[first + n]) >= 0 || all > most)
+        if (view_wide_of(view, first + n) >= 0 || all > most)
             break;
     }
     while (n > 1 && d->blocks[first + n - 1].kind == READER_HEADING)
@@ -80,11 +84,37 @@ static int band_length(const struct reader_view *view, int first)
     return n;
 }
 
+/* What stands beside figures is set with them; where one of them stands beside the last of what
+ * another one has beside it, without an end, a passage ends before some figure. */
+int view_passage_length(const struct reader_view *view, int first)
+{
+    enum { MANY = 24 };
+    const struct reader_document *d = view->document;
+    int n = band_length(view, first);
+    double width;
+    for (int i = 0; i < n; i++) {
+        const bool figure = pages_beside_host(&view->setup, d, first + i, &width) >= 0;
+        if (figure && i >= MANY &&
+            pages_beside_host(&view->setup, d, first + i - 1, &width) < 0)
+            return i;
+        int length = figure ? pages_beside_length(&view->setup, d, first + i) : 1;
+        const double end = pages_around_end(&view->setup, first + i);
+        if (end > 0)
+            length = pages_around_length(&view->setup, d, first + i, end);
+        n = i + length > n ? i + length : n;
+    }
+    return n;
+}
+
 enum reader_status view_passages_make(struct reader_view *view)
 {
     int capacity = 0;
+    double width;
+    view->besides = view->setup.obstacles_count > 0;
+    for (int i = 0; i < view->document->blocks_count && !view->besides; i++)
+        view->besides = pages_beside_host(&view->setup, view->document, i, &width) >= 0;
     for (int i = 0; i < view->document->blocks_count;) {
-        const int n = band_length(view, i);
+        const int n = view_passage_length(view, i);
         if (!array_reserve(&view->passages, &capacity, view->count + 1, sizeof *view->passages))
             return pages_no_memory();
         view->passages[view->count++] = (struct view_passage){.first = i, .blocks = n};
@@ -254,6 +284,8 @@ static enum reader_status ends_measure(struct reader_view *view,
         if (made->paragraphs[i].beside && !beside)
             continue;
         status = end_get(view, &made->paragraphs[i], &caret);
+        if (made->paragraphs[i].figure) /* and what is blank below it */
+            caret.y1 += 0.6 * view->setup.size_px;
         *high = fmax(*high, caret.y1);
     }
     return status;
@@ -293,7 +325,7 @@ static enum reader_status band_balance(struct reader_view *view, int passage, do
     bool fits = false;
     *high = 0;
     if (!view_bands(&view->setup) || !made->count ||
-        pages_wide_of(&view->document->blocks[view->passages[passage].first]) >= 0)
+        view_wide_of(view, view->passages[passage].first) >= 0)
         return READER_OK;
     enum reader_status status = ends_measure(view, made, false, &all);
     for (int i = 0; i < view->setup.grid.texts; i++)
@@ -311,6 +343,25 @@ static enum reader_status band_balance(struct reader_view *view, int passage, do
     return status;
 }
 
+/* The lower edge of the lowest obstacle. */
+static enum reader_status obstacles_measure(struct reader_view *view, int passage, double *high)
+{
+    const struct view_passage *p = &view->passages[passage];
+    const struct made_passage *made = &view->loaded[passage - view->begin];
+    for (int i = p->first; i < p->first + p->blocks && view->setup.obstacles_count; i++) {
+        const double end = pages_around_end(&view->setup, i);
+        const int id = end > 0 ? view_paragraph_of(made, i) : -1;
+        double x, y;
+        int page;
+        if (id < 0)
+            continue;
+        if (page_paragraph_begins(view->pages->text, id, &page, &x, &y) != FONT_OK)
+            return pages_failed();
+        *high = fmax(*high, y + end);
+    }
+    return READER_OK;
+}
+
 /* How high its lines are, and what is left blank around them: the ends of the text have the
  * margin. */
 static enum reader_status passage_measure(struct reader_view *view, int passage)
@@ -321,6 +372,8 @@ static enum reader_status passage_measure(struct reader_view *view, int passage)
     enum reader_status status = band_balance(view, passage, &high);
     if (status == READER_OK)
         status = ends_measure(view, made, true, &ends);
+    if (status == READER_OK)
+        status = obstacles_measure(view, passage, &ends);
     if (status != READER_OK)
         return status;
     p->text_px = ceil(fmax(high, ends));

@@ -35,6 +35,35 @@ long view_byte_of(const struct made_passage *made, struct page_place place)
     return paragraph ? byte_of(paragraph, place.byte) : -1;
 }
 
+int view_paragraph_of(const struct made_passage *made, int block)
+{
+    for (int i = 0; i < made->count; i++) {
+        const struct made_paragraph *own = &made->paragraphs[i];
+        if (own->block == block && own->note < 0 && !own->beside)
+            return own->id;
+    }
+    return -1;
+}
+
+bool reader_view_begins(struct reader_view *view, int block, enum reader_around side, double *x,
+                        double *y)
+{
+    for (int i = 0; i < view->shown_count; i++) {
+        const struct reader_shown *shown = &view->shown[i];
+        const struct view_passage *p = &view->passages[shown->passage];
+        int page;
+        if (block < p->first || block >= p->first + p->blocks)
+            continue;
+        const int id = view_paragraph_of(&view->loaded[shown->passage - view->begin], block);
+        if (id < 0 || page_paragraph_begins(view->pages->text, id, &page, x, y) != FONT_OK)
+            return false;
+        *x += pages_around_x(view->pages, side);
+        *y += shown->y_px + shown->text_px;
+        return true;
+    }
+    return false;
+}
+
 /* Where a byte of the document stands; false: not in this passage. */
 static bool place_of(const struct made_passage *made, size_t byte, struct page_place *place)
 {
@@ -113,6 +142,50 @@ enum reader_status view_line_of(struct reader_view *view, int passage, size_t by
     return READER_OK;
 }
 
+static bool is_figure(const struct reader_view *view, int passage, struct page_place place)
+{
+    const struct made_paragraph *own =
+        paragraph_of(&view->loaded[passage - view->begin], place.paragraph);
+    return own && own->figure;
+}
+
+/* Where the place is a figure's, the line beside it, if there is one. */
+static bool line_beside(struct reader_view *view, int passage, double y,
+                        struct page_place *place, bool *before)
+{
+    enum { PARTS = 8 };
+    const struct reader_grid *grid = &view->setup.grid;
+    const double x0 = grid->texts ? grid->text[0].x : view->setup.margin_px,
+                 width = grid->texts ? grid->text[0].width : pages_column(view->pages);
+    if (!is_figure(view, passage, *place))
+        return true;
+    for (int i = 1; i < PARTS; i++) {
+        struct page_place other;
+        bool edge;
+        struct page_caret caret;
+        if (page_hit(view->pages->text, passage - view->begin, x0 + width * i / PARTS, y,
+                     &other, &edge) != FONT_OK)
+            return false;
+        if (is_figure(view, passage, other) ||
+            page_caret_get(view->pages->text, other, edge, &caret) != FONT_OK || caret.y0 > y ||
+            caret.y1 < y)
+            continue;
+        *place = (struct page_place){other.paragraph, other.byte};
+        *before = edge;
+        /* from there to the line's first letter */
+        while (page_place_step(view->pages->text, &other, false)) {
+            struct page_caret next;
+            if (page_caret_get(view->pages->text, other, false, &next) != FONT_OK ||
+                next.y0 != caret.y0)
+                break;
+            *place = other;
+            *before = false;
+        }
+        return true;
+    }
+    return true;
+}
+
 /* The first letter of the line at y of the passage's page, and the line's edges. False: there
  * is none. */
 static bool line_at(struct reader_view *view, int passage, double y, struct page_place *place,
@@ -120,7 +193,7 @@ static bool line_at(struct reader_view *view, int passage, double y, struct page
 {
     const double far = 1e5, near = 0.01;
     const struct reader_grid *grid = &view->setup.grid;
-    const int wide = pages_wide_of(&view->document->blocks[view->passages[passage].first]);
+    const int wide = view_wide_of(view, view->passages[passage].first);
     const struct reader_region *region = wide < 0 ? &grid->text[0] : &grid->wide[wide];
     /* notes at the left are not the line */
     const bool noted = grid->texts && region->notes_width > 0 && region->notes_x < region->x;
@@ -132,6 +205,8 @@ static bool line_at(struct reader_view *view, int passage, double y, struct page
     if (page_hit(text, page, left, y, place, &before) != FONT_OK)
         return false;
     if (before && page_hit(text, page, right, y, place, &before) != FONT_OK) /* to the left */
+        return false;
+    if (!line_beside(view, passage, y, place, &before))
         return false;
     return page_caret_get(text, *place, before, caret) == FONT_OK;
 }

@@ -106,6 +106,7 @@ ACTION(spots, read_keys_key(d, GDK_KEY_E, 0))
 ACTION(move_ink, read_keys_key(d, GDK_KEY_m, 0))
 ACTION(group_ink, read_chosen_group(d, true))
 ACTION(ungroup_ink, read_chosen_group(d, false))
+ACTION(around_ink, read_around_toggle(d))
 ACTION(play_back, read_keys_key(d, GDK_KEY_r, 0))
 ACTION(play_back_all, read_keys_key(d, GDK_KEY_R, 0))
 ACTION(ink, ink_choose(d, g_variant_get_string(value, NULL)))
@@ -146,6 +147,7 @@ static const GActionEntry entries[] = {
     {.name = "move-ink", .activate = move_ink},
     {.name = "group-ink", .activate = group_ink},
     {.name = "ungroup-ink", .activate = ungroup_ink},
+    {.name = "around-ink", .activate = around_ink},
     {.name = "play-back", .activate = play_back},
     {.name = "play-back-all", .activate = play_back_all},
     {.name = "ink", .activate = ink, .parameter_type = "s"},
@@ -186,6 +188,7 @@ static const struct desk_row menu_rows[] = {
     {"win.move-ink", N_("Choose ink: move, scale, group (M)"), "<Control>m"},
     {"win.group-ink", N_("Group the chosen ink (G)"), "<Control><Alt>g"},
     {"win.ungroup-ink", N_("Ungroup it (Shift+G)"), "<Control><Alt><Shift>g"},
+    {"win.around-ink", N_("Text flows around it, or not (F)"), "<Control><Alt>f"},
     {"win.play-back", N_("Play ink back (R)"), "<Control>r"},
     {"win.play-back-all", N_("Play back with what was erased"), "<Control><Shift>r"},
     {NULL, NULL, NULL},
@@ -236,6 +239,7 @@ void read_actions_enable(struct read_desk *d)
         {"redo", can_any(d, true)},
         {"group-ink", read_chosen_count(d) > 1},
         {"ungroup-ink", read_chosen_count(d) > 0},
+        {"around-ink", read_chosen_count(d) > 0},
         {"save", read_save_needed(d)},
         {"paste", read_edit_on(d)},
         {"cut", read_edit_on(d) && d->selected.begin < d->selected.end},

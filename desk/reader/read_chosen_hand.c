@@ -222,6 +222,9 @@ static bool deed_key(struct read_desk *d, guint key, bool shift)
     case GDK_KEY_G:
         read_chosen_group(d, key == GDK_KEY_g);
         return true;
+    case GDK_KEY_f:
+        read_around_toggle(d);
+        return true;
     case GDK_KEY_Delete:
     case GDK_KEY_BackSpace:
         read_chosen_erase(d);

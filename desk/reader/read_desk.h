@@ -15,6 +15,7 @@
  *     read_ink.c       ink
  *     read_spots.c     spots that are taken out of it
  *     read_chosen.c    strokes that are chosen: moved, scaled, grouped
+ *     read_around.c    and those that text flows around
  *     read_chosen_hand.c  pointer and keys for them
  *     read_edit.c, read_edit_keys.c, read_edit_im.c, read_save.c  editing: read_edit.h
  *     read_watch.c     files that other programs change
@@ -457,6 +458,14 @@ void read_chosen_preview(struct read_desk *d, const struct read_lay *lay);
 void read_chosen_previewed(struct read_desk *d, int index, struct reader_remark *r);
 void read_chosen_group(struct read_desk *d, bool together);
 void read_chosen_erase(struct read_desk *d);
+
+/* ---- read_around.c ---- */
+/* The view is told around which ink text flows: after remarks or the document have changed. */
+void read_around_again(struct read_desk *d);
+/* Text flows around what is chosen, or no longer. */
+void read_around_toggle(struct read_desk *d);
+/* What is chosen was moved: it may be beside another paragraph. */
+void read_around_moved(struct read_desk *d);
 
 /* read_chosen_hand.c */
 void read_chosen_press(struct read_desk *d, double x, double y, bool more);

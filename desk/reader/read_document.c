@@ -39,10 +39,11 @@ static bool picture_find(void *user, int source, const char *target, struct read
 {
     const struct read_desk *d = user;
     struct display_image image;
+    uint8_t *alpha;
     if (source < 0 || source >= d->files.count ||
-        !display_beside_read(d->files.paths[source], target, &image))
+        !display_beside_read_alpha(d->files.paths[source], target, &image, &alpha))
         return false;
-    *out = (struct reader_picture){image.width_px, image.height_px, image.pixels};
+    *out = (struct reader_picture){image.width_px, image.height_px, image.pixels, alpha};
     return true;
 }
 
@@ -219,6 +220,7 @@ static void view_replace(struct read_desk *d, const struct reader_edit_change *c
     reader_view_destroy(d->view);
     d->view = view;
     reader_view_go(view, reader_edit_moved(change, top), box.y);
+    read_around_again(d);
     read_stages_follow_document(d, change->before);
     read_tiles_forget(d->tiles);
 }
@@ -234,6 +236,7 @@ void read_document_edited(struct read_desk *d, const struct reader_edit_change *
                                change->moves[i].removed,
                                change->moves[i].inserted) != READER_OK)
             d->say(d, reader_error());
+    read_around_again(d);
 }
 
 void read_document_finish(struct read_desk *d)

@@ -16,6 +16,7 @@ static void grid_set(struct read_desk *d)
     s->notes_px = 0;
     for (int i = 0; i < READER_SIZES; i++)
         s->sizes[i] = d->template.sizes[i];
+    s->beside = d->template.beside;
 }
 
 void read_look_set(struct read_desk *d)

@@ -91,11 +91,17 @@ static void glide(struct read_desk *d, const struct input *i)
     read_hand_glide(d, i->value[0]);
 }
 
+static void nothing_does(struct read_desk *d, const char *name)
+{
+    char *told = g_strdup_printf("nothing is done by the key %s", name);
+    d->say(d, told);
+    g_free(told);
+}
+
 static void key(struct read_desk *d, const struct input *i)
 {
-    const guint value = gdk_keyval_from_name(i->text);
-    if (value == GDK_KEY_VoidSymbol || !read_keys_key(d, value, 0))
-        d->say(d, i->text);
+    if (!read_keys_key(d, gdk_keyval_from_name(i->text), 0))
+        nothing_does(d, i->text);
 }
 
 /* Letters as an input method gives them. */
@@ -118,7 +124,7 @@ static void strike(struct read_desk *d, const struct input *i)
     state |= strstr(i->text, "Control+") ? GDK_CONTROL_MASK : 0;
     const guint value = gdk_keyval_from_name(plus ? plus + 1 : i->text);
     if (!read_edit_key(d, value, state) && !read_keys_key(d, value, state))
-        d->say(d, i->text);
+        nothing_does(d, i->text);
 }
 
 static void replace(struct read_desk *d, const struct input *i)
@@ -237,6 +243,27 @@ static char *chosen_told(struct read_desk *d)
                            box.width, box.height);
 }
 
+/* How many parts of lines stand under what is chosen. */
+static int under_chosen(struct read_desk *d)
+{
+    enum { MOST = 1000 };
+    const struct reader_shown *shown;
+    struct reader_box chosen, *boxes = g_new(struct reader_box, MOST);
+    int count = 0, under = 0;
+    if (read_chosen_box(d, &chosen))
+        reader_view_look(d->view, &shown, &count);
+    for (int i = 0; i < count; i++) {
+        const int found = reader_view_boxes(d->view, shown[i].begin, shown[i].end, boxes, MOST);
+        for (int k = 0; k < MIN(found, MOST); k++)
+            under += boxes[k].x < chosen.x + chosen.width &&
+                     boxes[k].x + boxes[k].width > chosen.x &&
+                     boxes[k].y < chosen.y + chosen.height &&
+                     boxes[k].y + boxes[k].height > chosen.y;
+    }
+    g_free(boxes);
+    return under;
+}
+
 /* What is seen, as lines of text. */
 static void tell(struct read_desk *d, const struct input *i)
 {
@@ -255,13 +282,12 @@ static void tell(struct read_desk *d, const struct input *i)
         opened += reader_view_note_open(d->view, k);
     for (int k = 0; d->remarks && k < reader_remarks_count(d->remarks); k++) {
         const struct reader_remark *r = reader_remarks_get(d->remarks, k);
-        struct reader_box box;
         remarks += reader_remark_seen(r);
         orphans += reader_remark_seen(r) && r->orphan;
         if (r->kind == READER_REMARK_INK && reader_remark_seen(r) && !r->orphan &&
-            reader_view_boxes(d->view, r->begin, r->begin + 1, &box, 1) > 0) {
-            ink_x = box.x + d->size_px * (r->x + reader_ink_place(r, 0).x);
-            ink_y = box.y + d->size_px * (r->y + reader_ink_place(r, 0).y);
+            read_text_origin(d, r, &ink_x, &ink_y)) {
+            ink_x += d->size_px * reader_ink_place(r, 0).x;
+            ink_y += d->size_px * reader_ink_place(r, 0).y;
         }
     }
     char *line = g_strndup(d->document->plain + top, 40),
@@ -272,12 +298,12 @@ static void tell(struct read_desk *d, const struct input *i)
         "top %zu\nline %s\nshown %d\nabove %.0f\nall %.0f\nset %ld\npainted %ld\nhits %u\nhit "
         "%d\n"
         "open %d\nselected %s\nway %u of %u\nfile %s\nheard %u\nremarks %d\norphans %d\nink "
-        "%.1f %.1f\ngrid %d %d\nedge %.1f\nplayed%s\nchosen %s\n%s%s%s",
+        "%.1f %.1f\ngrid %d %d\nedge %.1f\nplayed%s\nchosen %s\nunder %d\n%s%s%s",
         top, g_strdelimit(line, "\n", ' '), count, above, all, reader_view_set_count(d->view),
         read_tiles_painted(d->tiles), d->hits->len, d->hit, opened, selected, d->way_at,
         d->way->len, d->files.count ? d->files.paths[block ? block->source : 0] : "",
         d->heard->len, remarks, orphans, ink_x, ink_y, grid->texts, grid->columns_count,
-        last->x + last->width, order, chosen, editing, small, stages);
+        last->x + last->width, order, chosen, under_chosen(d), editing, small, stages);
     if (!g_file_set_contents(i->text, told, -1, NULL))
         d->say(d, i->text);
     g_free(told);
@@ -375,6 +401,29 @@ static const struct word words[] = {{"down", 3, down},
 
 /* ---- reading ---- */
 
+/* Of words that name a key: that there is one, and what is held with it. Owns: the caller frees
+ * what is wrong; NULL: nothing. */
+static char *key_wrong(const struct input *input)
+{
+    static const char known[] =
+        "a letter, Left, Right, Up, Down, Home, End, Page_Up, Page_Down, Return, Tab, "
+        "ISO_Left_Tab, space, Escape, BackSpace, Delete, plus, minus, slash";
+    const bool strikes = input->word->does == strike;
+    const char *at = input->text;
+    if (!strikes && input->word->does != key)
+        return NULL;
+    for (const char *plus; strikes && (plus = strchr(at, '+')) && plus[1]; at = plus + 1) {
+        const size_t bytes = (size_t)(plus - at);
+        if (strncmp(at, "Shift", MAX(bytes, 5)) != 0 &&
+            strncmp(at, "Control", MAX(bytes, 7)) != 0)
+            return g_strdup_printf("'%.*s' is not held with a key; Shift and Control are",
+                                   (int)MIN(bytes, 40), at);
+    }
+    return gdk_keyval_from_name(at) == GDK_KEY_VoidSymbol
+               ? g_strdup_printf("no key is called '%.40s'; there are %s", at, known)
+               : NULL;
+}
+
 /* False: *why has the reason. A line that is empty, or begins with #, has no word. */
 static bool line_read(char *line, struct input *input, char **why)
 {
@@ -399,7 +448,8 @@ static bool line_read(char *line, struct input *input, char **why)
     at = g_strchug(at + length);
     if (input->word->values < 0) {
         input->text = g_strdup(at);
-        return true;
+        *why = key_wrong(input);
+        return !*why;
     }
     for (int i = 0; i < input->word->values; i++) {
         char *next;
@@ -436,9 +486,10 @@ struct read_play *read_play_open(struct read_desk *d, const char *path)
     for (int number = 1; good && fgets(line, sizeof line, file); number++) {
         struct input input;
         good = line_read(line, &input, &why);
-        if (!good)
+        if (!good) {
             visible_say("lutetia read: %s:%d: %s", path, number, why);
-        else if (input.word)
+            g_free(input.text);
+        } else if (input.word)
             g_array_append_val(play->inputs, input);
     }
     g_free(why);

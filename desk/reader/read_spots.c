@@ -164,11 +164,13 @@ static void piece_keep(struct read_desk *d, const struct piece *p)
                                 .points_count =
                                     MIN((int)p->points->len, (int)READER_INK_POINTS_MAX)},
         from.begin, from.end);
-    if (index < 0 || from.group < 0)
+    if (index < 0 || (from.group < 0 && !from.around))
         return;
     struct reader_arranged to = reader_remarks_arranged(d->remarks, index);
-    to.hangs = from.hangs;
+    if (from.group >= 0)
+        to.hangs = from.hangs;
     to.group = from.group;
+    to.around = from.around;
     read_remarks_arrange(d, &to, 1);
 }
 

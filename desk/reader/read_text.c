@@ -38,7 +38,14 @@ struct read_range read_text_word(const struct read_desk *d, size_t byte)
 bool read_text_origin(struct read_desk *d, const struct reader_remark *r, double *x, double *y)
 {
     struct reader_box box;
-    if (r->orphan || reader_view_boxes(d->view, r->begin, r->begin + 1, &box, 1) < 1)
+    const int block = r->around ? reader_around_block(d->document, r) : -1;
+    if (block >= 0 && reader_view_begins(d->view, block, r->around, x, y)) {
+        *x += r->x * d->size_px;
+        *y += r->y * d->size_px;
+        return true;
+    }
+    if (block >= 0 || r->orphan ||
+        reader_view_boxes(d->view, r->begin, r->begin + 1, &box, 1) < 1)
         return false;
     *x = box.x + r->x * d->size_px;
     *y = box.y + r->y * d->size_px;

@@ -1,10 +1,10 @@
-/* flow.c - paragraphs onto pages: see page_internal.h.
+/* flow.c - paragraphs onto pages: see flow_internal.h.
  *
  * A page is filled from where the one before it ended, frame after frame. A paragraph is broken
  * for the widths of the slots that it is going to stand in; then it is seen how many of its
  * lines may stand in the frame (its keeps, the notes that its lines bring along), and where
  * fewer stand here than fit, it is broken again for the slots that it gets. */
-#include "page_internal.h"
+#include "flow_internal.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -33,6 +33,8 @@ struct walk {
     int flow, page, frame, part;
     double v, v_end, depth_px; /* depth_px: of this page's frames at most; 0: as they are */
     int empty_pages;
+    const struct covers *covers; /* of the frame; NULL: none */
+    double blank_px;
 };
 
 static int frame_next(const struct page_template *t, int flow, int frame)
@@ -62,13 +64,15 @@ static bool walk_on(struct walk *w)
     }
     w->v = 0;
     w->part = 0;
+    w->covers = NULL;
     w->v_end = depth_within(&w->template->frames[w->frame], w->depth_px);
     return true;
 }
 
 static bool walk_next(struct walk *w, double height, struct slot *slot)
 {
-    while (!slots_next(w->template, w->frame, &w->v, &w->part, w->v_end, height, slot))
+    while (!slots_next(w->template, w->frame, w->covers, w->blank_px, &w->v, &w->part, w->v_end,
+                       height, slot))
         if (!walk_on(w))
             return false;
     w->empty_pages = 0;
@@ -77,34 +81,11 @@ static bool walk_next(struct walk *w, double height, struct slot *slot)
 
 /* ---- filling a frame ---- */
 
-struct filling {
-    struct page_text *t;
-    struct page *page;
-    const struct page_template *template;
-    int number, flow, frame;
-    double v, foot_px, margin_v;
-    double depth_px; /* of the frame */
-    bool top;        /* nothing stands in the frame yet */
-    bool first;      /* the frame is its flow's first on the page */
-    struct paragraph **notes;
-    int notes_count, notes_capacity;
-    double *widths;
-    int widths_capacity;
-    struct slot *slots;
-    int slots_capacity;
-};
-
-static double paragraph_measure(const struct paragraph *p, const struct slot *s, bool first)
-{
-    return s->u1 - s->u0 - p->manner.left_px - p->manner.right_px -
-           (first ? p->manner.indent_px : 0);
-}
-
 bool flow_uniform(const struct page_text *t, int flow, double *width)
 {
     *width = 0;
     for (int k = 0; k < t->templates_count; k++) {
-        if (t->templates[k].shapes_count)
+        if (t->templates[k].shapes_count || t->besides_count)
             return false;
         for (int i = 0; i < t->templates[k].frames_count; i++) {
             const struct page_frame *f = &t->templates[k].frames[i];
@@ -146,8 +127,8 @@ static enum font_status break_here(struct filling *f, struct paragraph *p, int f
         if (from)
             return FONT_OK;
         slot = (struct slot){.u1 = width};
-        double widths[2] = {fmax(narrow, paragraph_measure(p, &slot, true)),
-                            fmax(narrow, paragraph_measure(p, &slot, false))};
+        double widths[2] = {fmax(narrow, flow_measure(p, &slot, true)),
+                            fmax(narrow, flow_measure(p, &slot, false))};
         return lines_break(f->t, p, widths, widths[0] == widths[1] ? 1 : 2);
     }
     for (int wanted = 16;; wanted *= 4) {
@@ -159,14 +140,16 @@ static enum font_status break_here(struct filling *f, struct paragraph *p, int f
                          .frame = f->frame,
                          .v = f->v,
                          .v_end = f->depth_px - f->foot_px,
-                         .depth_px = f->page->depth_px};
+                         .depth_px = f->page->depth_px,
+                         .covers = &f->covers,
+                         .blank_px = p->manner.left_px + p->manner.right_px};
         int count = 0;
         if (!array_reserve(&f->widths, &f->widths_capacity, wanted, sizeof *f->widths))
             return font_fail(FONT_NO_MEMORY, "no memory for a page");
         bool more = limit != 0 || walk_on(&w);
         *here = 0;
         while (more && count < wanted && (more = walk_next(&w, p->leading_px, &slot))) {
-            f->widths[count] = fmax(narrow, paragraph_measure(p, &slot, from + count == 0));
+            f->widths[count] = fmax(narrow, flow_measure(p, &slot, from + count == 0));
             *here += w.page == f->number && w.frame == f->frame;
             if (++count == limit)
                 more = walk_on(&w);
@@ -187,81 +170,29 @@ static enum font_status break_here(struct filling *f, struct paragraph *p, int f
     }
 }
 
-/* How high a note is, set as wide as the frame. */
-static enum font_status note_height(struct filling *f, struct paragraph *p, double width_px,
-                                    double *height)
-{
-    struct slot slot = {.u1 = width_px};
-    enum font_status status = set_analyse(f->t, p);
-    double widths[2] = {fmax(1, paragraph_measure(p, &slot, true)),
-                        fmax(1, paragraph_measure(p, &slot, false))};
-    if (status == FONT_OK)
-        status = lines_break(f->t, p, widths, 2);
-    *height = p->lines_count * p->leading_px + p->manner.before_px + p->manner.after_px;
-    return status;
-}
-
-/* Which of the paragraph's notes, which are in the order of their places, are a line's. */
-static void notes_of(const struct paragraph *p, const struct line *line, int *from, int *to)
-{
-    *from = *to = 0;
-    if (!p->notes_count)
-        return;
-    const int end = line->end < p->count ? p->letters[line->end].byte : p->bytes + 1;
-    const int begin = line->begin < p->count ? p->letters[line->begin].byte : 0;
-    int low = 0, high = p->notes_count; /* by halves */
-    while (low < high) {
-        int half = low + (high - low) / 2;
-        if (p->notes[half].byte <= (begin ? begin : -1))
-            low = half + 1;
-        else
-            high = half;
-    }
-    for (*from = *to = low; *to < p->notes_count && p->notes[*to].byte <= end;)
-        ++*to;
-}
-
-/* What a line's notes take at the foot. */
-static enum font_status line_notes(struct filling *f, const struct paragraph *p,
-                                   const struct line *line, double *height)
-{
-    const struct page_frame *frame = &f->template->frames[f->frame];
-    int from, to;
-    *height = 0;
-    notes_of(p, line, &from, &to);
-    for (int i = from; i < to; i++) {
-        const struct note *n = &p->notes[i];
-        if (n->kind != PAGE_NOTE_FOOT)
-            continue;
-        double own;
-        enum font_status status = note_height(f, n->paragraph, frame_measure(frame), &own);
-        if (status != FONT_OK)
-            return status;
-        *height += own;
-    }
-    return FONT_OK;
-}
-
 /* How many lines from `from` on fit into the frame; their slots are in f->slots. */
 static enum font_status lines_fit(struct filling *f, const struct paragraph *p, int from,
                                   int *fit)
 {
     const struct page_frame *frame = &f->template->frames[f->frame];
+    const double blank = p->manner.left_px + p->manner.right_px;
     double v = f->v, foot = f->foot_px, own;
     int part = 0;
     *fit = 0;
     for (int i = from; i < p->lines_count; i++) {
         struct slot slot;
-        enum font_status status = line_notes(f, p, &p->lines[i], &own);
+        enum font_status status = flow_line_notes(f, p, &p->lines[i], &own);
         if (status != FONT_OK)
             return status;
         double after = foot + own + (own > 0 && foot == 0 ? frame->foot_gap_px : 0);
-        bool room = slots_next(f->template, f->frame, &v, &part, f->depth_px - after,
-                               p->leading_px, &slot);
+        bool room = slots_next(f->template, f->frame, &f->covers, blank, &v, &part,
+                               f->depth_px - after, p->leading_px, &slot);
+        if (own > 0 && covers_end(&f->covers) > f->depth_px - after + 1e-6)
+            room = false; /* what stands beside lines stands on no note */
         /* A note that is too high for any column stands over its edge. */
         if (!room && f->top && *fit == 0 && own > 0)
-            room =
-                slots_next(f->template, f->frame, &v, &part, f->depth_px, p->leading_px, &slot);
+            room = slots_next(f->template, f->frame, &f->covers, blank, &v, &part, f->depth_px,
+                              p->leading_px, &slot);
         if (!room)
             return FONT_OK;
         if (!array_reserve(&f->slots, &f->slots_capacity, *fit + 1, sizeof *f->slots))
@@ -284,7 +215,7 @@ static enum font_status chain_height(struct filling *f, const struct paragraph *
         double own;
         if (q->manner.begins_column || q->manner.begins_page)
             break;
-        enum font_status status = note_height(f, q, width, &own);
+        enum font_status status = flow_note_height(f, q, width, &own);
         if (status != FONT_OK)
             return status;
         if (q->manner.keep_with_next) {
@@ -294,7 +225,10 @@ static enum font_status chain_height(struct filling *f, const struct paragraph *
         int lines = q->manner.keep_together || q->lines_count < q->manner.orphans
                         ? q->lines_count
                         : q->manner.orphans;
-        *height += q->manner.before_px + lines * q->leading_px;
+        status = flow_besides_height(f, q, &own);
+        if (status != FONT_OK)
+            return status;
+        *height += q->manner.before_px + fmax(own, lines * q->leading_px);
         break;
     }
     return FONT_OK;
@@ -349,8 +283,8 @@ uint32_t flow_lines_hash(const struct paragraph *p, int begin, int end)
     return hash;
 }
 
-static bool piece_add(struct page *page, struct paragraph *p, int begin, int end, int frame,
-                      const struct slot *slots)
+bool flow_piece_add(struct page *page, struct paragraph *p, int begin, int end, int frame,
+                    const struct slot *slots)
 {
     if (begin == end)
         return true;
@@ -378,76 +312,6 @@ static bool piece_add(struct page *page, struct paragraph *p, int begin, int end
     return true;
 }
 
-/* A note's lines, from v on, in a box of the frame's. */
-static enum font_status note_place(struct filling *f, struct paragraph *p, double u0, double u1,
-                                   double v)
-{
-    if (!array_reserve(&f->slots, &f->slots_capacity, p->lines_count, sizeof *f->slots))
-        return font_fail(FONT_NO_MEMORY, "no memory for a page");
-    for (int i = 0; i < p->lines_count; i++)
-        f->slots[i] =
-            (struct slot){u0, u1, v + p->manner.before_px + i * p->leading_px, f->frame};
-    p->first_page = f->number;
-    return piece_add(f->page, p, 0, p->lines_count, f->frame, f->slots)
-               ? FONT_OK
-               : font_fail(FONT_NO_MEMORY, "no memory for a page");
-}
-
-/* The notes of lines that were just placed: those of the margin at once, those of the foot when
- * the frame is full. */
-static enum font_status notes_take(struct filling *f, struct paragraph *p, int from, int end)
-{
-    const struct page_frame *frame = &f->template->frames[f->frame];
-    int first_slot = f->page->slots_count - (end - from);
-    for (int i = from; i < end; i++) {
-        const struct line *line = &p->lines[i];
-        double own;
-        enum font_status status = line_notes(f, p, line, &own);
-        if (status != FONT_OK)
-            return status;
-        if (own > 0)
-            f->foot_px += own + (f->foot_px == 0 ? frame->foot_gap_px : 0);
-        int first, behind;
-        notes_of(p, line, &first, &behind);
-        for (int k = first; k < behind; k++) {
-            const struct note *n = &p->notes[k];
-            if (n->kind == PAGE_NOTE_FOOT) {
-                if (!array_reserve(&f->notes, &f->notes_capacity, f->notes_count + 1,
-                                   sizeof *f->notes))
-                    return font_fail(FONT_NO_MEMORY, "no memory for notes");
-                f->notes[f->notes_count++] = n->paragraph;
-            } else if (frame->margin_width > 0) {
-                double beside = frame->margin_x - (frame->vertical ? frame->y : frame->x);
-                double height, v = f->page->slots[first_slot + i - from].v;
-                status = note_height(f, n->paragraph, frame->margin_width, &height);
-                v = fmax(v, f->margin_v);
-                if (status == FONT_OK)
-                    status =
-                        note_place(f, n->paragraph, beside, beside + frame->margin_width, v);
-                if (status != FONT_OK)
-                    return status;
-                f->margin_v = v + height;
-            }
-        }
-    }
-    return FONT_OK;
-}
-
-static enum font_status feet_place(struct filling *f)
-{
-    const struct page_frame *frame = &f->template->frames[f->frame];
-    double v = f->depth_px - f->foot_px + frame->foot_gap_px, height;
-    enum font_status status = FONT_OK;
-    for (int i = 0; i < f->notes_count && status == FONT_OK; i++) {
-        status = note_height(f, f->notes[i], frame_measure(frame), &height);
-        if (status == FONT_OK)
-            status = note_place(f, f->notes[i], 0, frame_measure(frame), v);
-        v += height;
-    }
-    f->notes_count = 0;
-    return status;
-}
-
 /* The next place of a grid from v on, for paragraphs whose lines are as high as its
  * distances. */
 static double grid_next(const struct page_frame *frame, const struct paragraph *p, double v)
@@ -459,45 +323,73 @@ static double grid_next(const struct page_frame *frame, const struct paragraph *
     return ceil(v / frame->grid_px - near) * frame->grid_px;
 }
 
-/* As many lines of the paragraph, from the cursor's on, as may stand in the frame. *full: the
- * rest goes on. */
+/* Where the paragraph begins, and what stands beside it there. *full: that has no room. */
+static enum font_status paragraph_begin(struct filling *f, struct paragraph *p, bool *full)
+{
+    bool room = true;
+    if (p->manner.below)
+        f->v = fmax(f->v, covers_end(&f->covers));
+    if (!f->top)
+        f->v += p->manner.before_px;
+    f->v = grid_next(&f->template->frames[f->frame], p, f->v);
+    p->begins_frame = f->frame;
+    p->begins_v = f->v;
+    enum font_status status = flow_besides_place(f, p, &room);
+    *full = !room;
+    return status;
+}
+
+/* As many lines of the paragraph, from the cursor's on, as may stand in the frame; what stands
+ * beside it is there. */
+static enum font_status lines_place(struct filling *f, struct paragraph *p, int from,
+                                    int *stand)
+{
+    int fit = 0, limit = -1, here = 0;
+    for (;;) { /* until as many stand here as it was broken for: ever fewer */
+        enum font_status status = break_here(f, p, from, limit, &here);
+        if (status == FONT_OK)
+            status = lines_fit(f, p, from, &fit);
+        if (status == FONT_OK)
+            status = lines_keep(f, p, from, limit >= 0 && limit < fit ? limit : fit, stand);
+        if (status != FONT_OK || *stand == p->lines_count - from || *stand >= here)
+            return status;
+        limit = *stand;
+    }
+}
+
+/* The same, with what stands beside it. *full: the rest goes on. */
 static enum font_status paragraph_place(struct filling *f, struct paragraph *p,
                                         struct cursor *cursor, bool *full)
 {
-    int from = cursor->line, fit = 0, stand = 0, limit = -1, here = 0;
+    const int from = cursor->line, pieces = f->page->pieces_count, slots = f->page->slots_count,
+              covers = f->covers.count;
+    int stand = 0;
     enum font_status status = FONT_OK;
     *full = !from && ((p->manner.begins_column && !f->top) ||
                       (p->manner.begins_page && !(f->top && f->first)));
     if (*full)
         return FONT_OK;
     status = set_analyse(f->t, p);
+    if (status == FONT_OK && !from)
+        status = paragraph_begin(f, p, full);
+    const bool room = !*full;
+    if (status == FONT_OK && room)
+        status = lines_place(f, p, from, &stand);
     if (status != FONT_OK)
         return status;
-    if (!from && !f->top)
-        f->v += p->manner.before_px;
-    if (!from)
-        f->v = grid_next(&f->template->frames[f->frame], p, f->v);
-    for (;;) { /* until as many stand here as it was broken for: ever fewer */
-        status = break_here(f, p, from, limit, &here);
-        if (status == FONT_OK)
-            status = lines_fit(f, p, from, &fit);
-        if (status == FONT_OK)
-            status = lines_keep(f, p, from, limit >= 0 && limit < fit ? limit : fit, &stand);
-        if (status != FONT_OK)
-            return status;
-        if (stand == p->lines_count - from || stand >= here)
-            break;
-        limit = stand;
-    }
-    *full = stand < p->lines_count - from;
+    *full = !room || stand < p->lines_count - from;
     if (!from)
         p->first_page = f->number;
-    if (!stand)
+    if (!stand) { /* what stands beside it goes with it */
+        f->page->pieces_count = pieces;
+        f->page->slots_count = slots;
+        f->covers.count = covers;
         return FONT_OK;
+    }
     double end = f->slots[stand - 1].v + p->leading_px;
-    if (!piece_add(f->page, p, from, from + stand, f->frame, f->slots))
+    if (!flow_piece_add(f->page, p, from, from + stand, f->frame, f->slots))
         return font_fail(FONT_NO_MEMORY, "no memory for a page");
-    status = notes_take(f, p, from, from + stand);
+    status = flow_notes_take(f, p, from, from + stand);
     f->v = end + (*full ? 0 : p->manner.after_px);
     f->top = false;
     cursor->line = from + stand;
@@ -510,6 +402,7 @@ static enum font_status frame_fill(struct filling *f, struct cursor *cursor)
     const struct flow *flow = &f->t->flows[f->flow];
     enum font_status status = FONT_OK;
     f->v = f->foot_px = f->margin_v = 0;
+    f->covers.count = 0;
     f->depth_px = depth_within(&f->template->frames[f->frame], f->page->depth_px);
     f->first = frame_next(f->template, f->flow, -1) == f->frame;
     f->top = true;
@@ -518,7 +411,7 @@ static enum font_status frame_fill(struct filling *f, struct cursor *cursor)
         if (!full && status == FONT_OK)
             *cursor = (struct cursor){.at = cursor->at + 1};
     }
-    return status == FONT_OK ? feet_place(f) : status;
+    return status == FONT_OK ? flow_feet_place(f) : status;
 }
 
 /* The template that the page's first paragraph asks for. */
@@ -547,5 +440,6 @@ enum font_status flow_frames_fill(struct page_text *t, struct page *page, int nu
     free(f.notes);
     free(f.widths);
     free(f.slots);
+    free(f.covers.items);
     return status;
 }

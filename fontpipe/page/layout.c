@@ -55,12 +55,12 @@ static bool piece_say(struct output *o, const struct piece *piece)
     said->bytes += (size_t)bytes;
     said->utf8[said->bytes++] = '\n';
     said->utf8[said->bytes] = '\0';
-    said->passages[said->passages_count++] =
-        (struct font_passage){.begin = (size_t)begin,
-                              .end = said->bytes,
-                              .role = p->flow < 0 ? FONT_ROLE_NOTE : p->manner.role,
-                              .level = p->manner.level,
-                              .paragraph = p->id};
+    said->passages[said->passages_count++] = (struct font_passage){
+        .begin = (size_t)begin,
+        .end = said->bytes,
+        .role = p->flow < 0 && !p->beside ? FONT_ROLE_NOTE : p->manner.role,
+        .level = p->manner.level,
+        .paragraph = p->id};
     return true;
 }
 

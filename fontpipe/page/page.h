@@ -97,6 +97,7 @@ struct page_manner {
     /* the badness a line may have before words are hyphenated more freely; 200 */
     double tolerance;
     bool keep_together, keep_with_next, begins_column;
+    bool below; /* it stands below what stands beside the paragraphs before it */
     /* from 1: in flow 0 it begins a page, which is by the template of that number; 0: no */
     int begins_page;
     /* that page's frames are no deeper; 0: they are as the template has them */
@@ -146,6 +147,56 @@ enum page_note { PAGE_NOTE_FOOT, PAGE_NOTE_MARGIN };
 enum font_status page_note_add(struct page_text *text, int id, int byte, enum page_note kind,
                                const char *utf8, size_t bytes, int style,
                                const struct page_manner *manner, int *note_id);
+
+/* ---- beside paragraphs ---- */
+
+enum page_side { PAGE_SIDE_LEFT, PAGE_SIDE_RIGHT };
+/* What a row of a box covers, from its left edge; nothing where to is not behind from. */
+struct page_row {
+    double from_px, to_px;
+};
+enum { PAGE_ROWS_MAX = 512 };
+
+/* A figure, or its caption: it stands at a side of the frame, from a paragraph's upper edge on,
+ * and lines beside it are shorter. Several of one paragraph and side stand below each other.
+ * Where it has no room above the frame's end, its paragraph begins the next frame. */
+struct page_beside {
+    enum page_side side; /* in a vertical frame, left is above */
+    double width_px;
+    double gap_px; /* between it and lines */
+    /* the narrowest piece of line beside it that is used, without what the piece's paragraph
+     * leaves blank at its sides */
+    double least_px;
+    /* what of it lines keep away from: rows of equal height, from above to below; none: all of
+     * it, and what its own manner leaves blank above and below */
+    const struct page_row *rows;
+    int rows_count;
+};
+/* Its paragraph has an id, and is changed as others are; it goes with the paragraph that it
+ * stands beside. rows are copied. Errors: BAD_ARGUMENT (no such paragraph, or one that is no
+ * flow's; no box), TOO_LARGE, NO_MEMORY. */
+enum font_status page_beside_add(struct page_text *text, int id,
+                                 const struct page_beside *beside, const char *utf8,
+                                 size_t bytes, int style, const struct page_manner *manner,
+                                 int *beside_id);
+
+/* A shape that others draw, and that lines keep away from: a box of rows, from the frame's left
+ * edge and the paragraph's upper edge. It ends with the frame that its paragraph begins in. */
+struct page_obstacle {
+    double x_px, y_px, height_px;
+    double gap_px, least_px; /* as page_beside has them */
+    const struct page_row *rows;
+    int rows_count;
+};
+/* Replaces those that the paragraph had. rows are copied. Errors: BAD_ARGUMENT, NO_MEMORY. */
+enum font_status page_obstacles_set(struct page_text *text, int id,
+                                    const struct page_obstacle *obstacles, int count);
+
+/* Where a paragraph begins: its page, the left edge of its frame, and its upper edge: from there
+ * obstacles are counted. In a vertical frame: the right edge of its first line, and the frame's
+ * upper edge. Errors: as page_find(). */
+enum font_status page_paragraph_begins(struct page_text *text, int id, int *page, double *x,
+                                       double *y);
 
 /* ---- marks ---- */
 

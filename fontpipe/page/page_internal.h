@@ -72,10 +72,13 @@ struct line {
     bool hyphen, last;
 };
 
+/* kind: of a note; beside: what stands beside the paragraph is one of its notes,
+ * at byte -1, before all of them. */
 struct note {
     int byte;
     enum page_note kind;
     struct paragraph *paragraph;
+    struct page_beside *beside; /* owned; NULL: a note */
 };
 
 struct mark {
@@ -97,6 +100,10 @@ struct paragraph {
     struct page_manner manner;
     struct note *notes;
     int notes_count, notes_capacity;
+    struct page_obstacle *obstacles; /* rows owned */
+    int obstacles_count;
+    int begins_frame; /* when it was placed last */
+    double begins_v;
     struct mark *marks;
     int marks_count, marks_capacity;
     /* From here on made of the above. */
@@ -132,6 +139,7 @@ struct paragraph {
     uint32_t breakings; /* how often its lines have been made */
     int first_page;     /* that it was placed on when pages were last filled; -1: none */
     int owner;          /* of a note: the paragraph that it belongs to; -1 */
+    bool beside;        /* such a note that stands beside it */
 };
 
 /* A piece of a line that text can stand in: the box of a line in a frame, or of what obstacles
@@ -204,8 +212,9 @@ struct page_text {
     int running_count;
     struct page *pages;
     int pages_count, pages_capacity;
-    int pages_good;  /* so many of them are as the text is now */
-    int last_filled; /* the page of them that was filled last; -1: none was */
+    int pages_good;    /* so many of them are as the text is now */
+    int last_filled;   /* the page of them that was filled last; -1: none was */
+    int besides_count; /* all that stands beside paragraphs, obstacles, too */
     struct page_stats stats;
     hb_buffer_t *buffer;
 };
@@ -221,6 +230,10 @@ static inline enum font_status style_filter_set(const struct page_style *look,
 
 /* story.c */
 struct paragraph *story_paragraph(const struct page_text *t, int id); /* NULL: there is none */
+/* A note, or what stands beside the paragraph, which takes `beside`, whatever becomes of it. */
+enum font_status story_note_add(struct page_text *t, int id, const struct note *note,
+                                const char *utf8, size_t bytes, int style,
+                                const struct page_manner *manner, int *note_id);
 /* templates.c */
 bool templates_vertical(const struct page_text *t, int flow);
 void templates_finish(struct page_text *t);
@@ -340,10 +353,43 @@ struct font_face *widths_face(struct page_text *t, const struct style *style, ui
                               float *scale);
 void widths_finish(struct page_text *t);
 
-/* slots.c: the next slot for a line so high in a frame from v on that ends above v_end. False:
- * there is no more. */
-bool slots_next(const struct page_template *t, int frame, double *v, int *part, double v_end,
-                double height_px, struct slot *out);
+/* What stands beside a frame's lines: beside.c. */
+struct cover {
+    double u, width;      /* along the lines */
+    double v0, v1;        /* across them */
+    double rows_v, row_v; /* where its rows begin, and how high each is */
+    const struct page_row *rows;
+    int rows_count;
+    int side; /* a page_side; -1: an obstacle */
+    double gap, least;
+};
+struct covers {
+    struct cover *items;
+    int count, capacity;
+};
+/* What of a line v..v + height a cover takes; false: nothing. */
+bool cover_takes(const struct cover *c, double v, double height, double *a, double *b);
+/* The lower edge of all; of one side. */
+double covers_end(const struct covers *c);
+double covers_side_end(const struct covers *c, enum page_side side);
+/* From where on something so wide has room at a side of lines so long, and beside it at least
+ * so much is left. */
+double covers_room(const struct covers *c, enum page_side side, double v, double width,
+                   double measure, double least);
+/* Of what stands at v; height: with what its manner leaves blank. False: no memory. */
+bool covers_beside_add(struct covers *c, const struct page_beside *beside,
+                       const struct page_manner *manner, double measure, double v,
+                       double height);
+bool covers_obstacles_add(struct covers *c, const struct paragraph *p, double v);
+void beside_free(struct page_beside *beside); /* NULL is fine */
+void obstacles_free(struct paragraph *p);
+
+/* slots.c: the next slot for a line so high in a frame from v on that ends above v_end. covers:
+ * NULL: none. blank_px: what a line's paragraph leaves blank at its sides. False: there is no
+ * more. */
+bool slots_next(const struct page_template *t, int frame, const struct covers *covers,
+                double blank_px, double *v, int *part, double v_end, double height_px,
+                struct slot *out);
 /* The frame's length along its lines, and across them. */
 double frame_measure(const struct page_frame *f);
 double frame_depth(const struct page_frame *f);
@@ -355,7 +401,7 @@ const struct page_template *flow_template(const struct page_text *t,
 /* Fills the page's frames from *ends on, which become those of the page. */
 enum font_status flow_frames_fill(struct page_text *t, struct page *page, int number,
                                   struct cursor *ends);
-/* Whether all of the flow's lines are of one width. */
+/* Whether all of the flow's lines are of one width, whatever is placed. */
 bool flow_uniform(const struct page_text *t, int flow, double *width);
 /* Of what is seen of lines begin..end. */
 uint32_t flow_lines_hash(const struct paragraph *p, int begin, int end);

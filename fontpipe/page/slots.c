@@ -111,6 +111,20 @@ static void take_out(struct intervals *l, double a, double b)
     }
 }
 
+/* Takes out what stands beside lines of the frame. */
+static void covers_take_out(const struct covers *covers, double blank, double v, double height,
+                            struct intervals *l, double *least)
+{
+    for (int i = 0; covers && i < covers->count; i++) {
+        const struct cover *c = &covers->items[i];
+        double a, b;
+        if (!cover_takes(c, v, height, &a, &b))
+            continue;
+        *least = fmax(*least, c->least + blank);
+        take_out(l, a, b);
+    }
+}
+
 static void free_find(const struct page_template *t, const struct page_frame *f, double v,
                       double height, struct intervals *l, double *least)
 {
@@ -142,6 +156,10 @@ static void free_find(const struct page_template *t, const struct page_frame *f,
         for (int k = 0; k < covered.count; k++)
             take_out(l, covered.items[k].a - d, covered.items[k].b + d);
     }
+}
+
+static void intervals_sort(struct intervals *l)
+{
     for (int i = 1; i < l->count; i++)
         for (int k = i; k > 0 && l->items[k].a < l->items[k - 1].a; k--) {
             struct interval swap = l->items[k];
@@ -150,8 +168,9 @@ static void free_find(const struct page_template *t, const struct page_frame *f,
         }
 }
 
-bool slots_next(const struct page_template *t, int frame, double *v, int *part, double v_end,
-                double height_px, struct slot *out)
+bool slots_next(const struct page_template *t, int frame, const struct covers *covers,
+                double blank_px, double *v, int *part, double v_end, double height_px,
+                struct slot *out)
 {
     const struct page_frame *f = &t->frames[frame];
     for (; *v + height_px <= v_end + 1e-6; *v += height_px, *part = 0) {
@@ -159,6 +178,8 @@ bool slots_next(const struct page_template *t, int frame, double *v, int *part, 
         double least;
         int n = 0;
         free_find(t, f, *v, height_px, &l, &least);
+        covers_take_out(covers, blank_px, *v, height_px, &l, &least);
+        intervals_sort(&l);
         for (int i = 0; i < l.count; i++) {
             if (l.items[i].b - l.items[i].a < fmax(least, 1e-3) || n++ < *part)
                 continue;

@@ -35,7 +35,10 @@ static void paragraph_free(struct paragraph *p)
     set_forget(p);
     free(p->text);
     free(p->spans);
+    for (int i = 0; i < p->notes_count; i++)
+        beside_free(p->notes[i].beside);
     free(p->notes);
+    obstacles_free(p);
     free(p->marks);
     free(p->lines);
     free(p->widths);
@@ -343,6 +346,7 @@ static void paragraph_gone(struct page_text *t, struct paragraph *p)
     for (int i = 0; i < p->marks_count; i++)
         t->marks_of[p->marks[i].id] = -1;
     t->stats.lines_overfull -= p->overfull;
+    t->besides_count -= p->beside + p->obstacles_count;
     t->by_id[p->id] = NULL;
     paragraph_free(p);
 }
@@ -359,6 +363,8 @@ enum font_status page_paragraph_remove(struct page_text *t, int id)
         for (int i = 0; i < owner->notes_count; i++)
             if (owner->notes[i].paragraph != p)
                 owner->notes[kept++] = owner->notes[i];
+            else
+                beside_free(owner->notes[i].beside);
         owner->notes_count = kept;
         paragraph_gone(t, p);
         return FONT_OK;
@@ -521,30 +527,45 @@ int page_paragraph_at(const struct page_text *t, int flow, int at)
                : -1;
 }
 
+enum font_status story_note_add(struct page_text *t, int id, const struct note *note,
+                                const char *utf8, size_t bytes, int style,
+                                const struct page_manner *manner, int *note_id)
+{
+    struct paragraph *owner = story_paragraph(t, id), *p = NULL;
+    enum font_status status = FONT_OK;
+    *note_id = -1;
+    if (!owner || owner->flow < 0)
+        status = owner ? font_fail(FONT_BAD_ARGUMENT, "a note has no notes") : no_paragraph(id);
+    else if (!note->beside && !is_boundary(owner, note->byte))
+        status = font_fail(FONT_BAD_ARGUMENT, "byte %d is no character of paragraph %d",
+                           note->byte, id);
+    else if (!array_reserve(&owner->notes, &owner->notes_capacity, owner->notes_count + 1,
+                            sizeof *owner->notes))
+        status = no_memory();
+    if (status == FONT_OK)
+        status = paragraph_make(t, utf8, bytes, style, manner, &p);
+    if (status != FONT_OK) {
+        beside_free(note->beside);
+        return status;
+    }
+    p->owner = id;
+    p->vertical = owner->vertical;
+    p->beside = note->beside != NULL;
+    t->besides_count += p->beside;
+    int at = owner->notes_count++; /* in the order of their places */
+    for (; at > 0 && owner->notes[at - 1].byte > note->byte; at--)
+        owner->notes[at] = owner->notes[at - 1];
+    owner->notes[at] = *note;
+    owner->notes[at].paragraph = p;
+    flow_changed(t, owner);
+    *note_id = p->id;
+    return FONT_OK;
+}
+
 enum font_status page_note_add(struct page_text *t, int id, int byte, enum page_note kind,
                                const char *utf8, size_t bytes, int style,
                                const struct page_manner *manner, int *note_id)
 {
-    struct paragraph *owner = story_paragraph(t, id), *p;
-    *note_id = -1;
-    if (!owner || owner->flow < 0)
-        return owner ? font_fail(FONT_BAD_ARGUMENT, "a note has no notes") : no_paragraph(id);
-    if (!is_boundary(owner, byte))
-        return font_fail(FONT_BAD_ARGUMENT, "byte %d is no character of paragraph %d", byte,
-                         id);
-    if (!array_reserve(&owner->notes, &owner->notes_capacity, owner->notes_count + 1,
-                       sizeof *owner->notes))
-        return no_memory();
-    enum font_status status = paragraph_make(t, utf8, bytes, style, manner, &p);
-    if (status != FONT_OK)
-        return status;
-    p->owner = id;
-    p->vertical = owner->vertical;
-    int at = owner->notes_count++; /* in the order of their places */
-    for (; at > 0 && owner->notes[at - 1].byte > byte; at--)
-        owner->notes[at] = owner->notes[at - 1];
-    owner->notes[at] = (struct note){byte, kind, p};
-    flow_changed(t, owner);
-    *note_id = p->id;
-    return FONT_OK;
+    const struct note note = {.byte = byte, .kind = kind};
+    return story_note_add(t, id, &note, utf8, bytes, style, manner, note_id);
 }

@@ -1,5 +1,6 @@
 /* beside.c - see beside.h. */
 #include "beside.h"
+#include "display_internal.h"
 
 #include <input_file.h>
 #include <stdio.h>
@@ -18,7 +19,7 @@ static char *path_of(const char *file, const char *target)
         return NULL;
     if (asprintf(&path, "%.*s%s", slash ? (int)(slash + 1 - file) : 0, file, target) < 0)
         return NULL;
-    if (display_png_bytes(path, 3) <= bytes_max)
+    if (display_png_bytes(path, 4) <= bytes_max)
         return path;
     free(path);
     return NULL;
@@ -28,6 +29,24 @@ bool display_beside_read(const char *file, const char *target, struct display_im
 {
     char *path = path_of(file, target);
     const bool found = path && display_png_read_rgb(path, out) == DISPLAY_OK;
+    free(path);
+    return found;
+}
+
+bool display_beside_read_alpha(const char *file, const char *target, struct display_image *out,
+                               uint8_t **alpha)
+{
+    char *path = path_of(file, target);
+    *alpha = NULL;
+    const bool found = path && display_png_read_rgb_alpha(path, out, alpha) == DISPLAY_OK;
+    const size_t all = found ? (size_t)out->width_px * (size_t)out->height_px : 0;
+    size_t opaque = 0;
+    while (opaque < all && (*alpha)[opaque] == UINT8_MAX)
+        opaque++;
+    if (opaque == all) {
+        free(*alpha);
+        *alpha = NULL;
+    }
     free(path);
     return found;
 }

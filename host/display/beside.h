@@ -16,6 +16,10 @@
 /* False: it is elsewhere, no PNG, larger than 512 MB, or cannot be read. Owns: the caller
  * destroys *out. */
 bool display_beside_read(const char *file, const char *target, struct display_image *out);
+/* The same, with how opaque each pixel is; *alpha NULL: all are. Owns: the caller frees
+ * *alpha. */
+bool display_beside_read_alpha(const char *file, const char *target, struct display_image *out,
+                               uint8_t **alpha);
 
 /* The same, and its bytes as they are, which are those of a PNG. */
 bool display_beside_copy(const char *file, const char *target, FILE *to);

@@ -23,6 +23,8 @@ struct png_source {
         *rows; /* as libpng gives them, gray+alpha or RGB+alpha; one row, or all if the image
                * is interlaced */
     struct display_image image; /* channels: 1 or 3, as the caller asked */
+    bool with_alpha;            /* how opaque pixels are is wanted, too */
+    uint8_t *alpha;
 };
 
 static void source_read(png_structp png, png_bytep bytes, size_t count)
@@ -60,6 +62,13 @@ static void row_to_gray(const uint8_t *row, int channels, int width_px, uint8_t 
     }
 }
 
+/* How opaque one row of RGB+alpha is. */
+static void row_to_alpha(const uint8_t *row, int width_px, uint8_t *alpha)
+{
+    for (int x = 0; x < width_px; x++)
+        alpha[x] = row[4 * x + 3];
+}
+
 /* One row of RGB+alpha over white. */
 static void row_to_rgb(const uint8_t *row, int width_px, uint8_t *rgb)
 {
@@ -94,8 +103,10 @@ static int png_decode(png_structp png, png_infop info, struct png_source *source
     if (channels != 4 && (channels != 2 || wanted == 3))
         png_error(png, "unknown kind of pixels");
     size_t height = (size_t)source->image.height_px, row_bytes = png_get_rowbytes(png, info);
+    const size_t width = (size_t)source->image.width_px;
     if (display_image_create(&source->image) != DISPLAY_OK ||
-        !(source->rows = calloc(passes > 1 ? height : 1, row_bytes))) {
+        !(source->rows = calloc(passes > 1 ? height : 1, row_bytes)) ||
+        (source->with_alpha && !(source->alpha = malloc(height * width)))) {
         source->error = ENOMEM;
         png_error(png, "no memory");
     }
@@ -105,12 +116,13 @@ static int png_decode(png_structp png, png_infop info, struct png_source *source
                 png_error(png, "it takes too long");
             uint8_t *row = source->rows + (passes > 1 ? y * row_bytes : 0);
             png_read_row(png, row, NULL);
-            uint8_t *out = source->image.pixels +
-                           y * (size_t)source->image.width_px * (size_t)source->image.channels;
+            uint8_t *out = source->image.pixels + y * width * (size_t)source->image.channels;
             if (pass == passes - 1 && source->image.channels == 3)
                 row_to_rgb(row, source->image.width_px, out);
             else if (pass == passes - 1)
                 row_to_gray(row, channels, source->image.width_px, out);
+            if (pass == passes - 1 && source->with_alpha)
+                row_to_alpha(row, source->image.width_px, source->alpha + y * width);
         }
     png_read_end(png, NULL);
     return 1;
@@ -139,12 +151,15 @@ double display_png_bytes(const char *path, int channels)
     return side[0] * side[1] * channels + side[0] * rows * PLANES * wide;
 }
 
-static enum display_status read_as(const char *path, int channels, struct display_image *image)
+/* alpha: NULL: it is not wanted. */
+static enum display_status read_as(const char *path, int channels, struct display_image *image,
+                                   uint8_t **alpha)
 {
     *image = (struct display_image){0};
     const char *why = "";
     struct png_source source = {.file = input_file_open(path, &why),
-                                .image = {.channels = channels}};
+                                .image = {.channels = channels},
+                                .with_alpha = alpha != NULL};
     if (!source.file)
         return display_fail(DISPLAY_IO_FAILED, "%s: cannot read: %s", path, why);
     png_structp png =
@@ -160,9 +175,12 @@ static enum display_status read_as(const char *path, int channels, struct displa
     fclose(source.file);
     if (decoded) {
         *image = source.image;
+        if (alpha)
+            *alpha = source.alpha;
         return DISPLAY_OK;
     }
     display_image_destroy(&source.image);
+    free(source.alpha);
     if (source.error)
         return display_fail(source.error == ENOMEM ? DISPLAY_NO_MEMORY : DISPLAY_IO_FAILED,
                             "%s: cannot read: %s", path, strerror(source.error));
@@ -171,10 +189,17 @@ static enum display_status read_as(const char *path, int channels, struct displa
 
 enum display_status display_png_read_gray(const char *path, struct display_image *image)
 {
-    return read_as(path, 1, image);
+    return read_as(path, 1, image, NULL);
 }
 
 enum display_status display_png_read_rgb(const char *path, struct display_image *image)
 {
-    return read_as(path, 3, image);
+    return read_as(path, 3, image, NULL);
+}
+
+enum display_status display_png_read_rgb_alpha(const char *path, struct display_image *image,
+                                               uint8_t **alpha)
+{
+    *alpha = NULL;
+    return read_as(path, 3, image, alpha);
 }

@@ -146,9 +146,11 @@ static bool picture_find(void *user, int source, const char *target, struct read
 {
     const struct reader_files *files = user;
     struct display_image image;
-    if (source >= files->count || !display_beside_read(files->paths[source], target, &image))
+    uint8_t *alpha;
+    if (source >= files->count ||
+        !display_beside_read_alpha(files->paths[source], target, &image, &alpha))
         return false;
-    *out = (struct reader_picture){image.width_px, image.height_px, image.pixels};
+    *out = (struct reader_picture){image.width_px, image.height_px, image.pixels, alpha};
     return true;
 }
 

@@ -116,6 +116,43 @@ static void strokes_are_scaled(void **state)
     chosen_is("kept", 2, 200, 300, 100, 240);
 }
 
+/* Text keeps away from what says so, goes with it when it is moved, at once where it is in
+ * another paragraph, and again when the file is opened; undone at once. */
+static void text_flows_around_ink(void **state)
+{
+    char lines[4000];
+    (void)state;
+    notes_remove();
+    snprintf(lines, sizeof lines,
+             TWO "0.5 action all\n0.55 tell %s\n0.6 key f\n0.7 tell %s\n0.8 picture %s\n"
+                 "0.9 press 301 380 1\n0.91 drag 330 500 1\n0.92 lift 341 560\n1 tell %s\n"
+                 "1.1 action undo\n1.2 tell %s\n1.3 action undo\n1.35 action all\n"
+                 "1.4 tell %s\n1.5 action redo\n1.55 action all\n1.6 tell %s\n",
+             played_path("over"), played_path("around"), played_path("around.png"),
+             played_path("moved"), played_path("back"), played_path("undone"),
+             played_path("again"));
+    played_run(lines, played_path("one.md"));
+    played_well();
+    chosen_is("over", 2, 200, 300, 100, 120);
+    assert_true(atoi(played_told("over", "under")) > 2);
+    chosen_is("around", 2, 200, 300, 100, 120);
+    assert_string_equal(played_told("around", "under"), "0");
+    chosen_is("moved", 2, 240, 480, 100, 120);
+    assert_string_equal(played_told("moved", "under"), "0");
+    assert_true(atoi(played_told("undone", "under")) > 2);
+    chosen_is("again", 2, 200, 300, 100, 120);
+    assert_string_equal(played_told("again", "under"), "0");
+    snprintf(lines, sizeof lines,
+             "0.2 action move-ink\n0.3 action all\n0.4 tell %s\n0.5 key f\n0.6 tell %s\n",
+             played_path("kept"), played_path("ended"));
+    played_run(lines, played_path("one.md"));
+    played_well();
+    chosen_is("kept", 2, 200, 300, 100, 120);
+    assert_string_equal(played_told("kept", "under"), "0");
+    chosen_is("ended", 2, 200, 300, 100, 120);
+    assert_true(atoi(played_told("ended", "under")) > 2);
+}
+
 /* A group is taken at once, hangs on one word, so that it stays whole in a narrow window, and
  * is parted again; by keys alone. */
 static void strokes_are_grouped_by_keys(void **state)
@@ -251,6 +288,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(strokes_are_chosen_and_moved),
         cmocka_unit_test(strokes_are_scaled),
+        cmocka_unit_test(text_flows_around_ink),
         cmocka_unit_test(strokes_are_grouped_by_keys),
         cmocka_unit_test(pieces_stay_in_the_group),
         cmocka_unit_test(spots_are_erased),

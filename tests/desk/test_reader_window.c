@@ -507,6 +507,14 @@ static void wrong_is_one_line(void **state)
     (void)state;
     played_run("0 jump", played_path("one.md"));
     played_says(1, "hand.events:1: no such word: 'jump'");
+    played_run("0 key Lefft", played_path("one.md"));
+    played_says(1, "hand.events:1: no key is called 'Lefft'; there are a letter, Left, ");
+    played_run("0 strike Control+Shift+Lefft", played_path("one.md"));
+    played_says(1, "hand.events:1: no key is called 'Lefft'; there are ");
+    played_run("0 strike Ctrl+Left", played_path("one.md"));
+    played_says(1, "'Ctrl' is not held with a key; Shift and Control are");
+    played_run("0.2 key F35", played_path("one.md"));
+    played_says(0, "nothing is done by the key F35");
     played_run("0 down 1", played_path("one.md"));
     played_says(1, "hand.events:1: 'down' has 3 numbers");
     played_run("0.2 follow bad", played_path("one.md"));

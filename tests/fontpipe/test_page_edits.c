@@ -1,5 +1,5 @@
-/* test_page_edits.c - edited texts, with keeps, notes, shapes and tabs, against the same texts
- * set from scratch. */
+/* test_page_edits.c - edited texts, with keeps, notes, shapes, tabs, figures and obstacles
+ * beside them, against the same texts set from scratch. */
 #include "page_texts.h"
 
 #include <stdlib.h>
@@ -7,6 +7,7 @@
 
 static const double diamond[] = {200, 80, 280, 180, 200, 280, 120, 180};
 
+static bool besides;   /* the run has some */
 static double grid_px; /* of the frames of the run; paragraphs' leading is 18 */
 
 static void columns_set(struct page_text *t, bool shaped)
@@ -28,7 +29,7 @@ static void columns_set(struct page_text *t, bool shaped)
     assert_font(page_templates_set(t, &page, 1));
 }
 
-enum { NOTES = 3 };
+enum { NOTES = 3, BESIDES = 2 };
 
 struct model {
     int id;
@@ -37,6 +38,9 @@ struct model {
     uint8_t *styles; /* of each byte */
     struct page_manner manner;
     int notes[NOTES], notes_count; /* where: each says the word of its number */
+    uint32_t besides[BESIDES];     /* what stands beside it, by a number each */
+    int besides_count;
+    uint32_t obstacle; /* 0: none */
 };
 enum { MODELS = 60, MODEL_BYTES = 4000 };
 
@@ -89,6 +93,49 @@ static void note_put(struct page_text *t, int id, int byte)
     manner.leading_px = 13;
     assert_font(
         page_note_add(t, id, byte, PAGE_NOTE_FOOT, text, sizeof text - 1, 0, &manner, &note));
+}
+
+/* What stands beside a paragraph, made of a number: at either side, round or not. */
+static void beside_put(struct page_text *t, int id, uint32_t number)
+{
+    static const char text[] = "beside of it some words";
+    struct page_manner manner = page_manner_default();
+    struct page_row rows[9];
+    struct page_beside beside = {.side = number % 2 ? PAGE_SIDE_LEFT : PAGE_SIDE_RIGHT,
+                                 .width_px = 40 + number % 50,
+                                 .gap_px = number % 7,
+                                 .least_px = 50,
+                                 .rows = rows,
+                                 .rows_count = number % 3 ? 0 : 9};
+    int beside_id;
+    for (int i = 0; i < 9; i++)
+        rows[i] = (struct page_row){i, beside.width_px - 3 * i};
+    manner.before_px = number % 5;
+    assert_font(page_beside_add(t, id, &beside, text, sizeof text - 1, 0, &manner, &beside_id));
+}
+
+static void obstacle_put(struct page_text *t, int id, uint32_t number)
+{
+    const struct page_row rows[3] = {{0, 30 + number % 20}, {5, 60}, {20, 10}};
+    const struct page_obstacle obstacle = {.x_px = number % 140,
+                                           .y_px = number % 60,
+                                           .height_px = 30 + number % 90,
+                                           .gap_px = 4,
+                                           .least_px = 40,
+                                           .rows = rows,
+                                           .rows_count = 3};
+    assert_font(page_obstacles_set(t, id, &obstacle, number ? 1 : 0));
+}
+
+static void model_beside(struct page_text *t, struct model *m, uint32_t *seed)
+{
+    if (random_next(seed) % 2) {
+        m->obstacle = m->obstacle ? 0 : random_next(seed);
+        obstacle_put(t, m->id, m->obstacle);
+    } else if (m->besides_count < BESIDES) {
+        m->besides[m->besides_count++] = random_next(seed);
+        beside_put(t, m->id, m->besides[m->besides_count - 1]);
+    }
 }
 
 static void model_replace(struct page_text *t, struct model *m, uint32_t *seed)
@@ -165,6 +212,10 @@ static struct page_text *text_from(const struct model *models, int count, bool s
         }
         for (int k = 0; k < m->notes_count; k++)
             note_put(t, id, m->notes[k]);
+        for (int k = 0; k < m->besides_count; k++)
+            beside_put(t, id, m->besides[k]);
+        if (m->obstacle)
+            obstacle_put(t, id, m->obstacle);
     }
     columns_set(t, shaped);
     return t;
@@ -177,6 +228,8 @@ static void model_change(struct page_text *t, struct model *models, int *count, 
     uint32_t what = random_next(seed) % 10;
     if (random_next(seed) % 16 == 0)
         model_note(t, m, seed);
+    if (besides && random_next(seed) % 12 == 0)
+        model_beside(t, m, seed);
     if (what == 0 && *count < MODELS) {
         model_add(t, models, count, seed);
     } else if (what == 1 && *count > 5) {
@@ -222,6 +275,7 @@ static void edited_is_as_from_scratch(void **state)
         uint32_t seed = 77u + (uint32_t)round * 1000003u;
         bool shaped = round % 2;
         grid_px = round % 3 == 2 ? 18 : 0;
+        besides = round >= 3;
         int count = 0;
         struct page_text *t = page_text_begin();
         columns_set(t, shaped);
@@ -254,6 +308,7 @@ static void pages_left_unfilled_are_not_stale(void **state)
         uint32_t seed = 1234567u + (uint32_t)run * 2654435761u;
         bool shaped = run % 3 == 2;
         grid_px = run % 4 == 3 ? 18 : 0;
+        besides = run % 5 >= 3;
         int count = 0, pages;
         page_words_used = run % 30 == 0 ? all : PAGE_WORDS_NEAR;
         struct page_text *t = page_text_begin();

@@ -166,6 +166,30 @@ static void pictures_and_formulas_are_within(void **state)
     reader_document_destroy(d);
 }
 
+/* Each says its side and its share; in lists and quotes it has its place for itself. */
+static void figures_stand_beside_text(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "![A](a.png \"left round 30%\")\n\n![](a.png \"right shape\")\n\n"
+        "![C](a.png \"a title\")\n\nText.\n\n> ![D](a.png \"left\")\n";
+    struct reader_document *d = read_text(text, sizeof text - 1);
+    char *html = html_of(d, &(struct reader_html_setup){.picture = picture_give}),
+         *usual = html_of(d, &(struct reader_html_setup){.picture = picture_give,
+                                                         .beside = {READER_SIDE_RIGHT, 25}});
+    has(html, "<figure class=\"left\" style=\"--w:30%\"><img "
+              "style=\"shape-outside:ellipse(50% 50%);shape-margin:1em\" alt=\"A\"");
+    has(html, "<figure class=\"right\" style=\"--w:40%\"><img style=\"shape-margin:1em;"
+              "shape-outside:url(data:image/png;base64,TWFu)\"");
+    has(html, "<figure><img alt=\"C\"");
+    has(html, "<blockquote>\n<figure><img alt=\"D\"");
+    has(usual, "<figure class=\"right\" style=\"--w:25%\"><img alt=\"C\"");
+    has(usual, "<blockquote>\n<figure><img alt=\"D\"");
+    free(html);
+    free(usual);
+    reader_document_destroy(d);
+}
+
 static void themes_are_the_window_s(void **state)
 {
     (void)state;
@@ -378,6 +402,7 @@ int main(void)
         cmocka_unit_test(links_lead_where_they_may),
         cmocka_unit_test(nothing_runs_in_it),
         cmocka_unit_test(pictures_and_formulas_are_within),
+        cmocka_unit_test(figures_stand_beside_text),
         cmocka_unit_test(themes_are_the_window_s),
         cmocka_unit_test(remarks_are_at_their_words),
         cmocka_unit_test(ink_is_scaled_and_grouped),

@@ -48,12 +48,13 @@ static void what_is_written_is_read(void **state)
     }
     static const char text[] =
         "# a comment\n\n  name  marsh\ncolumns 2* 20..34.25 9.5\ngutter 1.25\ntext 2\nnotes 3\n"
-        "figures 1-2\nsize note 0.8\ncolour ink #010203 #fefdfc";
+        "figures 1-2\nbeside  round right 40%\nsize note 0.8\ncolour ink #010203 #fefdfc";
     struct reader_template t = parsed(text), again;
     char *written = reader_template_text(&t);
     assert_string_equal(written,
                         "name marsh\ncolumns 2* 20..34.25 9.5\ngutter 1.25\ntext 2\nnotes 3\n"
-                        "headings 2\nfigures 1-2\ndemonstrations 2\ntables 2\nsize note 0.8\n"
+                        "headings 2\nfigures 1-2\ndemonstrations 2\ntables 2\n"
+                        "beside right 40% round\nsize note 0.8\n"
                         "colour ink #010203 #fefdfc\n");
     assert_int_equal(reader_template_parse(written, strlen(written), "own", &again), READER_OK);
     assert_memory_equal(&t, &again, sizeof t);
@@ -83,7 +84,7 @@ static void what_is_wrong_is_said(void **state)
         {"columns 30", "which of them are 'text'"},
         {"text 1\ncolumns 30", "own:1: 'columns' comes before 'text'"},
         {"colums 30", "own:1: there is no 'colums' (known: name, columns, gutter, text, notes, "
-                      "headings, figures, demonstrations, tables, size, colour)"},
+                      "headings, figures, demonstrations, tables, beside, size, colour)"},
         {"columns 0\ntext 1", "1..200 ems wide"},
         {"columns nan\ntext 1", "(got 'nan')"},
         {"columns inf*\ntext 1", "(got 'inf*')"},
@@ -103,6 +104,9 @@ static void what_is_wrong_is_said(void **state)
         {"columns 20\ntext 1\nsize nose 1", "of heading-1, heading-2"},
         {"columns 20\ntext 1\ncolour ink red #000000", "#rrggbb"},
         {"columns 20\ntext 1\ncolour inc #000000 #000000", "of paper, ink"},
+        {"columns 20\ntext 1\nbeside", "as 'beside right 40%'"},
+        {"columns 20\ntext 1\nbeside up", "left or right"},
+        {"columns 20\ntext 1\nbeside left 95%", "10%..90%"},
         {"columns 20\ntext 1\nname a b", "a name is one word"},
         {"columns 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1\ntext 1",
          "own:1: a grid has 1..16 columns"},
