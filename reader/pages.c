@@ -494,6 +494,7 @@ enum reader_status pages_begin(const struct reader_document *document,
     p->document = document;
     p->made = made;
     p->at = p->obstacled = -1;
+    p->placed = pages_besides_put;
     p->noted = calloc((size_t)document->notes_count + 1, sizeof *p->noted);
     enum reader_status status = p->noted ? READER_OK : pages_no_memory();
     if (status == READER_OK && page_text_create(&p->text) != FONT_OK)

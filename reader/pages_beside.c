@@ -132,7 +132,7 @@ double pages_around_x(const struct reader_pages *p, enum reader_around side)
     return side == READER_AROUND_RIGHT ? column_of(&p->setup) : 0;
 }
 
-enum reader_status pages_obstacles_put(struct reader_pages *p, int id)
+static enum reader_status obstacles_put(struct reader_pages *p, int id)
 {
     enum { MOST = 16 };
     struct page_obstacle own[MOST];
@@ -299,10 +299,10 @@ static enum reader_status figure_put(struct reader_pages *p, int id,
                                                : status;
 }
 
-enum reader_status pages_besides_add(struct reader_pages *p, int id)
+enum reader_status pages_besides_put(struct reader_pages *p, int id)
 {
     const int block = p->block, count = p->waiting_count;
-    enum reader_status status = READER_OK;
+    enum reader_status status = p->setup.obstacles_count ? obstacles_put(p, id) : READER_OK;
     p->waiting_count = 0; /* notes of captions are paragraphs, too */
     for (int i = 0; i < count && status == READER_OK; i++) {
         p->block = (int)(p->waiting[i] - p->document->blocks);

@@ -71,6 +71,8 @@ struct reader_pages {
     int pictures_count, pictures_capacity;
     const struct reader_block *waiting[PAGES_WAITING_MAX]; /* figures beside what follows */
     int waiting_count;
+    /* What comes beside a paragraph of the text that was just put there (pages_beside.c). */
+    enum reader_status (*placed)(struct reader_pages *p, int id);
     bool below;                        /* what is set stands below figures */
     int obstacled;                     /* the block whose obstacles are there */
     struct reader_obstacle *obstacles; /* that were found for pages */
@@ -181,13 +183,11 @@ int pages_around_length(const struct reader_pages_setup *setup,
 double pages_around_end(const struct reader_pages_setup *setup, int block);
 /* From where ink is counted on its side: from the frame's left edge. */
 double pages_around_x(const struct reader_pages *p, enum reader_around side);
-/* The block's obstacles are the paragraph's, if it is its first. */
-enum reader_status pages_obstacles_put(struct reader_pages *p, int id);
 /* A figure that text flows around waits for the paragraph; *waits: it does. */
 enum reader_status pages_beside_wait(struct reader_pages *p, const struct reader_block *block,
                                      bool *waits);
-/* Those that wait stand beside the paragraph. */
-enum reader_status pages_besides_add(struct reader_pages *p, int id);
+/* Those that wait stand beside the paragraph, and its block's obstacles, if it is its first. */
+enum reader_status pages_besides_put(struct reader_pages *p, int id);
 
 /* pages_picture.c: a picture at the size that it has where so much is free; *out NULL: it is
  * not found. Owns: the pages. */

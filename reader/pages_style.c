@@ -514,9 +514,7 @@ enum reader_status pages_paragraph_put(struct reader_pages *p, const char *text,
     if (p->made && !p->made->count)
         p->made->first = *id;
     p->at += p->made != NULL;
-    enum reader_status status =
-        p->setup.obstacles_count ? pages_obstacles_put(p, *id) : READER_OK;
-    return status == READER_OK && p->waiting_count ? pages_besides_add(p, *id) : status;
+    return p->placed(p, *id);
 }
 
 enum reader_status pages_inset_put(struct reader_pages *p, const char *text, int plain,

@@ -7,9 +7,10 @@
  *     free(obstacles);
  *
  * Strokes of a group are one obstacle; what lies between its strokes in one height is of it,
- * too, so that no line stands within a ring. An obstacle is of the paragraph that its anchor is in:
- * counted from an edge of that one's column and from its upper edge, in ems. Only paragraphs
- * and headings of the third level and below have some: before others it is ink as any other.
+ * too, so that no line stands within a ring. An obstacle is of the paragraph that its anchor
+ * is in: it is counted from an edge of that one's column and from its upper edge, in ems. Only
+ * paragraphs and headings of the third level and below have some: before others it is ink as
+ * any other.
  *
  * Threads: no function keeps anything. */
 #ifndef LUTETIA_READER_AROUND_H

@@ -15,8 +15,8 @@
  * their captions under them; others, and all where the font of code has no full block (U+2588),
  * are told by their captions and files. Text flows around a picture that says so, or that the
  * setup says it of, where a line beside it has room for a few words; what is no text, and
- * headings of the first two levels, stand below it. A script that lives is set as its code, and over it is
- * room for its picture where somebody will draw it (stage_strip_px).
+ * headings of the first two levels, stand below it. A script that lives is set as its code, and
+ * over it is room for its picture where somebody will draw it (stage_strip_px).
  *
  * Errors: functions that can fail return a status and leave one line in reader_error().
  *

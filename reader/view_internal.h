@@ -50,7 +50,10 @@ enum { VIEW_FRAME_PX = 1000000 };
 enum reader_status view_passages_make(struct reader_view *view);
 /* How many blocks from this one on are a passage. */
 int view_passage_length(const struct reader_view *view, int first);
-int view_wide_of(const struct reader_view *view, int block);
+static inline int view_wide_of(const struct reader_view *view, int block)
+{
+    return pages_wide_of(&view->setup, view->document, block);
+}
 /* Anew, where another grid puts others together: notes stay open. Nothing is loaded. */
 enum reader_status view_passages_again(struct reader_view *view);
 /* Whether passages depend on sizes and heights. */

@@ -13,11 +13,6 @@ enum {
 
 /* ---- what there is ---- */
 
-int view_wide_of(const struct reader_view *view, int block)
-{
-    return pages_wide_of(&view->setup, view->document, block);
-}
-
 static double column_of(const struct reader_view *view, int wide)
 {
     const struct reader_grid *grid = &view->setup.grid;

@@ -1,22 +1,8 @@
-/* read_around.c - ink that text flows around: the view is told of it; chosen strokes become
- * such ink, or ordinary ink again. */
+/* read_around.c - ink that text flows around: chosen strokes become such ink, or ordinary ink
+ * again. */
 #include "read_desk.h"
 
 #include <math.h>
-
-void read_around_again(struct read_desk *d)
-{
-    struct reader_obstacle *obstacles = NULL;
-    int count = 0;
-    if (!d->view || !d->document)
-        return;
-    enum reader_status status = reader_around_find(d->remarks, d->document, &obstacles, &count);
-    if (status == READER_OK)
-        status = reader_view_around(d->view, obstacles, count);
-    if (status != READER_OK)
-        d->say(d, reader_error());
-    free(obstacles);
-}
 
 /* ---- of which paragraph ---- */
 
@@ -203,8 +189,11 @@ void read_around_toggle(struct read_desk *d)
     read_remarks_group(d, false);
 }
 
-void read_around_moved(struct read_desk *d)
+void read_around_lay(struct read_desk *d, const struct read_lay *lay)
 {
+    read_remarks_group(d, true);
+    read_chosen_lay(d, lay);
     if (around_count(d) > 0 && around_count(d) == read_chosen_count(d))
         around_make(d, true);
+    read_remarks_group(d, false);
 }

@@ -197,10 +197,7 @@ void read_chosen_lay(struct read_desk *d, const struct read_lay *wanted)
     struct reader_arranged *to = g_new(struct reader_arranged, strokes->len);
     for (guint i = 0; i < strokes->len; i++)
         to[i] = arranged_by(d, g_array_index(strokes, int, i), &lay);
-    read_remarks_group(d, true);
     read_remarks_arrange(d, to, (int)strokes->len);
-    read_around_moved(d);
-    read_remarks_group(d, false);
     g_free(to);
 }
 

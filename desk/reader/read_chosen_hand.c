@@ -148,7 +148,7 @@ void read_chosen_release(struct read_desk *d)
         const struct read_lay lay =
             lay_of(d->hold.handle, &d->hold.box, d->hold.x - d->hold.from_x,
                    d->hold.y - d->hold.from_y);
-        read_chosen_lay(d, &lay);
+        read_around_lay(d, &lay);
     }
     d->hold.what = READ_HOLD_NOTHING;
 }
@@ -180,7 +180,7 @@ static void scale_by(struct read_desk *d, double x, double y)
 {
     struct reader_box box;
     if (read_chosen_box(d, &box))
-        read_chosen_lay(d, &(struct read_lay){.from_x = box.x + box.width / 2,
+        read_around_lay(d, &(struct read_lay){.from_x = box.x + box.width / 2,
                                               .from_y = box.y + box.height / 2,
                                               .scale_x = x,
                                               .scale_y = y});
@@ -192,7 +192,7 @@ static bool arrow(struct read_desk *d, double x, double y, bool stretch)
     if (stretch)
         scale_by(d, pow(STEP_SCALE, x), pow(STEP_SCALE, -y));
     else
-        read_chosen_lay(
+        read_around_lay(
             d, &(struct read_lay){.scale_x = 1, .scale_y = 1, .by_x = px * x, .by_y = px * y});
     return true;
 }

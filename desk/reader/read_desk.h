@@ -390,6 +390,8 @@ char *read_text_of(const struct read_desk *d, struct read_range range);
 struct read_range read_text_word(const struct read_desk *d, size_t byte);
 /* From where a stroke's points are counted; false: it is not seen. */
 bool read_text_origin(struct read_desk *d, const struct reader_remark *r, double *x, double *y);
+/* The view is told around which ink text flows: after remarks or the document have changed. */
+void read_text_around(struct read_desk *d);
 
 /* read_remarks.c */
 void read_remarks_open(struct read_desk *d, const char *file);
@@ -459,13 +461,10 @@ void read_chosen_previewed(struct read_desk *d, int index, struct reader_remark 
 void read_chosen_group(struct read_desk *d, bool together);
 void read_chosen_erase(struct read_desk *d);
 
-/* ---- read_around.c ---- */
-/* The view is told around which ink text flows: after remarks or the document have changed. */
-void read_around_again(struct read_desk *d);
-/* Text flows around what is chosen, or no longer. */
+/* read_around.c: text flows around what is chosen, or no longer. */
 void read_around_toggle(struct read_desk *d);
-/* What is chosen was moved: it may be beside another paragraph. */
-void read_around_moved(struct read_desk *d);
+/* read_chosen_lay(); what text flows around may be beside another paragraph then. */
+void read_around_lay(struct read_desk *d, const struct read_lay *lay);
 
 /* read_chosen_hand.c */
 void read_chosen_press(struct read_desk *d, double x, double y, bool more);

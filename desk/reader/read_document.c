@@ -220,7 +220,7 @@ static void view_replace(struct read_desk *d, const struct reader_edit_change *c
     reader_view_destroy(d->view);
     d->view = view;
     reader_view_go(view, reader_edit_moved(change, top), box.y);
-    read_around_again(d);
+    read_text_around(d);
     read_stages_follow_document(d, change->before);
     read_tiles_forget(d->tiles);
 }
@@ -236,7 +236,7 @@ void read_document_edited(struct read_desk *d, const struct reader_edit_change *
                                change->moves[i].removed,
                                change->moves[i].inserted) != READER_OK)
             d->say(d, reader_error());
-    read_around_again(d);
+    read_text_around(d);
 }
 
 void read_document_finish(struct read_desk *d)

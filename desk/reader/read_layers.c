@@ -27,7 +27,7 @@ void read_layers_show(struct read_desk *d, int layer, bool shown)
     if (!shown && layer == reader_remarks_written(d->remarks)) /* what is written is seen */
         reader_remarks_layer_show(d->remarks, layer, true);
     read_layers_keep(d);
-    read_around_again(d);
+    read_text_around(d);
     changed(d);
 }
 

@@ -42,7 +42,7 @@ static void changed(struct read_desk *d)
 {
     if (!d->syncing)
         d->syncing = g_timeout_add(SYNC_MS, sync_now, d);
-    read_around_again(d);
+    read_text_around(d);
     d->listed(d);
     read_page_changed(d);
     d->acted(d);
@@ -64,7 +64,7 @@ void read_remarks_find(struct read_desk *d)
     if (d->remarks && reader_remarks_find(d->remarks, d->document->plain,
                                           d->document->plain_bytes) != READER_OK)
         d->say(d, reader_error());
-    read_around_again(d);
+    read_text_around(d);
     d->listed(d);
 }
 

@@ -51,3 +51,17 @@ bool read_text_origin(struct read_desk *d, const struct reader_remark *r, double
     *y = box.y + r->y * d->size_px;
     return true;
 }
+
+void read_text_around(struct read_desk *d)
+{
+    struct reader_obstacle *obstacles = NULL;
+    int count = 0;
+    if (!d->view || !d->document)
+        return;
+    enum reader_status status = reader_around_find(d->remarks, d->document, &obstacles, &count);
+    if (status == READER_OK)
+        status = reader_view_around(d->view, obstacles, count);
+    if (status != READER_OK)
+        d->say(d, reader_error());
+    free(obstacles);
+}

@@ -263,55 +263,6 @@ static enum font_status lines_keep(struct filling *f, const struct paragraph *p,
     return FONT_OK;
 }
 
-static bool slot_add(struct page *page, struct slot slot)
-{
-    if (!array_reserve(&page->slots, &page->slots_capacity, page->slots_count + 1,
-                       sizeof *page->slots))
-        return false;
-    page->slots[page->slots_count++] = slot;
-    return true;
-}
-
-uint32_t flow_lines_hash(const struct paragraph *p, int begin, int end)
-{
-    uint32_t hash = 0;
-    for (int i = begin; i < end; i++) {
-        const struct line *l = &p->lines[i];
-        const int seen[] = {(int)hash, l->begin, l->end, l->ink_end, l->hyphen, l->last};
-        hash = font_hash(seen, sizeof seen);
-    }
-    return hash;
-}
-
-bool flow_piece_add(struct page *page, struct paragraph *p, int begin, int end, int frame,
-                    const struct slot *slots)
-{
-    if (begin == end)
-        return true;
-    if (!array_reserve(&page->pieces, &page->pieces_capacity, page->pieces_count + 1,
-                       sizeof *page->pieces))
-        return false;
-    page->pieces[page->pieces_count++] =
-        (struct piece){.paragraph = p,
-                       .begin = begin,
-                       .end = end,
-                       .slots_begin = page->slots_count,
-                       .frame = frame,
-                       .lines_hash = flow_lines_hash(p, begin, end),
-                       .breakings = p->breakings};
-    for (int i = 0; i < end - begin; i++) {
-        struct slot s = slots[i];
-        bool first = begin + i == 0;
-        s.u0 += (p->base ? p->manner.right_px : p->manner.left_px) +
-                (first && !p->base ? p->manner.indent_px : 0);
-        s.u1 -= (p->base ? p->manner.left_px : p->manner.right_px) +
-                (first && p->base ? p->manner.indent_px : 0);
-        if (!slot_add(page, s))
-            return false;
-    }
-    return true;
-}
-
 /* The next place of a grid from v on, for paragraphs whose lines are as high as its
  * distances. */
 static double grid_next(const struct page_frame *frame, const struct paragraph *p, double v)

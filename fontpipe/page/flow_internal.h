@@ -29,11 +29,11 @@ static inline double flow_measure(const struct paragraph *p, const struct slot *
            (first ? p->manner.indent_px : 0);
 }
 
-/* flow.c: lines begin..end of a paragraph, each in its slot. False: no memory. */
+/* flow_notes.c: lines begin..end of a paragraph, each in its slot. False: no memory. */
 bool flow_piece_add(struct page *page, struct paragraph *p, int begin, int end, int frame,
                     const struct slot *slots);
 
-/* flow_notes.c. How high a note is, set so wide. */
+/* How high a note is, set so wide. */
 enum font_status flow_note_height(struct filling *f, struct paragraph *p, double width_px,
                                   double *height);
 /* What a line's notes take at the foot. */

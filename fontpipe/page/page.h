@@ -192,9 +192,9 @@ struct page_obstacle {
 enum font_status page_obstacles_set(struct page_text *text, int id,
                                     const struct page_obstacle *obstacles, int count);
 
-/* Where a paragraph begins: its page, the left edge of its frame, and its upper edge: from there
- * obstacles are counted. In a vertical frame: the right edge of its first line, and the frame's
- * upper edge. Errors: as page_find(). */
+/* Where a paragraph begins: its page, the left edge of its frame, and its upper edge, from
+ * which obstacles are counted. In a vertical frame: the right edge of its first line, and the
+ * frame's upper edge. Errors: as page_find(). */
 enum font_status page_paragraph_begins(struct page_text *text, int id, int *page, double *x,
                                        double *y);
 

@@ -353,7 +353,7 @@ struct font_face *widths_face(struct page_text *t, const struct style *style, ui
                               float *scale);
 void widths_finish(struct page_text *t);
 
-/* What stands beside a frame's lines: beside.c. */
+/* What stands beside a frame's lines: covers.c. */
 struct cover {
     double u, width;      /* along the lines */
     double v0, v1;        /* across them */
@@ -403,7 +403,7 @@ enum font_status flow_frames_fill(struct page_text *t, struct page *page, int nu
                                   struct cursor *ends);
 /* Whether all of the flow's lines are of one width, whatever is placed. */
 bool flow_uniform(const struct page_text *t, int flow, double *width);
-/* Of what is seen of lines begin..end. */
+/* flow_notes.c: of what is seen of lines begin..end. */
 uint32_t flow_lines_hash(const struct paragraph *p, int begin, int end);
 
 /* pages.c: pages up to this one are as the text is now. */
