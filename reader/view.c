@@ -358,12 +358,16 @@ enum reader_status reader_view_set(struct reader_view *view,
 enum reader_status view_grouped(struct reader_view *view)
 {
     const bool kept = view->kept;
+    const struct reader_shown *shown;
+    int count;
     enum reader_status status = top_keep(view);
     view_unload(view);
     if (status == READER_OK)
         status = view_passages_again(view);
     if (status == READER_OK)
         status = top_restore(view);
+    if (status == READER_OK) /* what is seen is asked about at once */
+        status = reader_view_look(view, &shown, &count);
     view->kept = kept && view->kept;
     return status;
 }
