@@ -414,8 +414,7 @@ static char *key_wrong(const struct input *input)
         return NULL;
     for (const char *plus; strikes && (plus = strchr(at, '+')) && plus[1]; at = plus + 1) {
         const size_t bytes = (size_t)(plus - at);
-        if (strncmp(at, "Shift", MAX(bytes, 5)) != 0 &&
-            strncmp(at, "Control", MAX(bytes, 7)) != 0)
+        if (strncmp(at, "Shift+", 6) != 0 && strncmp(at, "Control+", 8) != 0)
             return g_strdup_printf("'%.*s' is not held with a key; Shift and Control are",
                                    (int)MIN(bytes, 40), at);
     }

@@ -181,10 +181,10 @@ static void figures_stand_beside_text(void **state)
               "style=\"shape-outside:ellipse(50% 50%);shape-margin:1em\" alt=\"A\"");
     has(html, "<figure class=\"right\" style=\"--w:40%\"><img style=\"shape-margin:1em;"
               "shape-outside:url(data:image/png;base64,TWFu)\"");
-    has(html, "<figure><img alt=\"C\"");
-    has(html, "<blockquote>\n<figure><img alt=\"D\"");
+    has(html, "<figure id=\"b.2\"><img alt=\"C\"");
+    has(html, "<blockquote>\n<figure id=\"b.4\"><img alt=\"D\"");
     has(usual, "<figure class=\"right\" style=\"--w:25%\"><img alt=\"C\"");
-    has(usual, "<blockquote>\n<figure><img alt=\"D\"");
+    has(usual, "<blockquote>\n<figure id=\"b.4\"><img alt=\"D\"");
     free(html);
     free(usual);
     reader_document_destroy(d);
