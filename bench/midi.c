@@ -182,13 +182,23 @@ static bool soak_add(struct bench_report *r, double seconds)
     } rows[] = {{"soak, deliveries", "messages", (double)soak.deliveries},
                 {"soak, lost or altered", "messages", (double)soak.wrong},
                 {"soak, programs killed", "programs", (double)soak.killed},
-                {"soak, memory grown", "KiB", soak.grown_kib},
+                {"soak, unplugged", "times", (double)soak.plugged},
+                {"soak, OSC answered", "values", (double)soak.answers},
+                {"soak, OSC or knobs wrong", "values", (double)soak.wrong_answers},
+                {"soak, server's memory", "KiB", soak.server_kib},
+                {"soak, server's memory grown", "KiB", soak.grown_kib},
+                {"soak, stage's memory", "KiB", soak.stage_kib},
+                {"soak, stage's memory grown", "KiB", soak.stage_grown_kib},
+                {"soak, p50", "us", soak.p50_us},
                 {"soak, p99", "us", soak.p99_us}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         bench_report_add(r, rows[i].what, name,
                          (struct bench_sample){rows[i].value, rows[i].value}, 1, rows[i].unit);
-    return soak.wrong == 0 ||
-           bench_fail("%llu messages were lost or altered", (unsigned long long)soak.wrong);
+    if (soak.wrong)
+        return bench_fail("%llu messages were lost or altered", (unsigned long long)soak.wrong);
+    return soak.wrong_answers == 0 ||
+           bench_fail("%llu values of OSC or knobs are not what they must be",
+                      (unsigned long long)soak.wrong_answers);
 }
 
 int bench_midi_main(int argc, char **argv)

@@ -82,8 +82,7 @@ static void bounce_note(void *context, const struct stage_sound *sound)
         b->bounced_s[b->sent++] = sound->time_s;
 }
 
-/* Masses without springs, which bounce for ever, each at its own height. */
-static bool masses_make(struct stage **out)
+bool midi_live_masses(struct stage **out)
 {
     struct stage_springs_def springs = stage_springs_def_default();
     struct stage_def def = stage_def_default();
@@ -143,7 +142,7 @@ static bool bounces_round(const char *server, int count, double *us)
               midi_client_listen(b.client, "keys", "") == MIDI_OK;
     if (!ok)
         return bench_fail("%s", midi_error());
-    ok = masses_make(&stage) || bench_fail("no memory for masses");
+    ok = midi_live_masses(&stage) || bench_fail("no memory for masses");
     if (ok && pthread_create(&listener, NULL, notes_hear, &b) == 0) {
         ok = bounces_play(&b, stage, server, us);
         b.most = ok ? b.most : 0;

@@ -7,6 +7,12 @@
 
 #include <stdbool.h>
 
+struct stage;
+
+/* A stage of masses without springs, which bounce for ever, each at its own height; it keeps no
+ * session. Owns: the caller destroys *out. Errors: false. */
+bool midi_live_masses(struct stage **out);
+
 /* Adds the rows. Without a display there is none of pictures, and a line says so. Errors:
  * false. */
 bool midi_live_measure(struct bench_report *r, int rounds);

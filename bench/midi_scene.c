@@ -5,6 +5,7 @@
 #include "user_folder.h"
 
 #include <midi_client.h>
+#include <midi_notes.h>
 #include <midi_server.h>
 
 #include <errno.h>
@@ -103,8 +104,34 @@ static void serve(const struct midi_scene *s)
     _exit(0);
 }
 
+/* A device has come or gone: no note may sound then. */
+static void device_told(struct midi_listener *l, struct midi_notes *notes, const char *text,
+                        uint32_t next)
+{
+    const size_t length = strlen(text);
+    const bool up = length > 3 && strcmp(text + length - 3, " up") == 0;
+    if (!l->wrong && midi_notes_count(notes) > 0)
+        l->wrong = 1 + next;
+    if (up)
+        l->back++;
+    else
+        l->away++;
+}
+
+/* The end of a note that sounds, because the instrument is being unplugged. */
+static bool is_end(const struct midi_scene *s, const struct midi_notes *notes,
+                   const struct midi_message *m, uint32_t next)
+{
+    struct midi_notes left = *notes;
+    if (next != s->shared->unplugged || (m->bytes[0] & 0xf0) != MIDI_NOTE_OFF)
+        return false;
+    midi_notes_take(&left, m);
+    return midi_notes_count(&left) == midi_notes_count(notes) - 1;
+}
+
 static void listen_on(const struct midi_scene *s, struct midi_listener *l, uint32_t next)
 {
+    struct midi_notes notes = {0};
     struct midi_client_def def = {.name = "listener", .address = s->path};
     struct midi_client *client;
     struct midi_client_event e;
@@ -117,7 +144,13 @@ static void listen_on(const struct midi_scene *s, struct midi_listener *l, uint3
     while (midi_client_next(client, -1, &e) == MIDI_OK) {
         if (e.kind == MIDI_CLIENT_LOST)
             l->lost += e.lost;
+        if (e.kind == MIDI_CLIENT_DEVICE)
+            device_told(l, &notes, e.text, next);
         if (e.kind != MIDI_CLIENT_MESSAGE)
+            continue;
+        const bool end = is_end(s, &notes, &e.message, next);
+        midi_notes_take(&notes, &e.message);
+        if (end)
             continue;
         const uint64_t now_ns = midi_now_ns();
         const struct midi_message wanted = midi_scene_message(next);
@@ -253,6 +286,37 @@ bool midi_scene_wait(struct midi_scene *s, uint32_t count)
         sum = now_sum;
         poll(NULL, 0, 2);
     }
+}
+
+/* Until all listeners have been told that the instrument has gone, or is there, so often. */
+static bool listeners_told(const struct midi_scene *s, uint32_t away, uint32_t back)
+{
+    const uint64_t until_ns = midi_now_ns() + READY_MS * UINT64_C(1000000);
+    for (int i = 0; i < s->listeners_count; i++)
+        while (s->shared->listeners[i].away < away || s->shared->listeners[i].back < back) {
+            if (midi_now_ns() > until_ns)
+                return bench_fail("listener %d was not told that the instrument %s", i + 1,
+                                  s->shared->listeners[i].away < away ? "has gone" : "is back");
+            poll(NULL, 0, 2);
+        }
+    return true;
+}
+
+bool midi_scene_replug(struct midi_scene *s, uint32_t i)
+{
+    if (!midi_scene_wait(s, i))
+        return false;
+    const uint32_t away = s->shared->listeners[0].away + 1,
+                   back = s->shared->listeners[0].back + 1;
+    s->shared->unplugged = i;
+    close(s->port);
+    unlink(s->link);
+    s->port = -1;
+    s->encoder = (struct midi_encoder){.running_status = true};
+    if (!listeners_told(s, away, back - 1) || !port_open(s) || !listeners_told(s, away, back))
+        return false;
+    s->shared->unplugged = 0;
+    return true;
 }
 
 static void process_end(pid_t process, int signal_number)

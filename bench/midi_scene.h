@@ -27,6 +27,8 @@ struct midi_listener {
     _Atomic uint32_t heard; /* messages, all as they must be */
     _Atomic uint32_t wrong; /* 1 + the number of the first that was not; 0: none */
     _Atomic uint32_t lost;  /* told by the server */
+    _Atomic uint32_t away;  /* how often it was told that the instrument had gone */
+    _Atomic uint32_t back;  /* how often that it was there, which is once more */
     _Atomic bool ready;
     struct midi_histogram took; /* from the write at the instrument's end to here */
     struct midi_histogram read; /* from there to the server's read: through the terminal */
@@ -34,6 +36,9 @@ struct midi_listener {
 
 struct midi_shared {
     _Atomic uint64_t sent_ns[MIDI_TIMES]; /* of message i at i % MIDI_TIMES */
+    /* Before message so many the instrument is unplugged, so that ends of notes come; 0: it is
+     * not. */
+    _Atomic uint32_t unplugged;
     struct midi_listener listeners[MIDI_LISTENERS_MAX];
 };
 
@@ -69,6 +74,10 @@ struct midi_message midi_scene_message(uint32_t i);
 /* Until all listeners have so many, five seconds at most after the last one got something.
  * Errors: false, and what is missing. */
 bool midi_scene_wait(struct midi_scene *s, uint32_t count);
+/* After message i - 1: once all listeners have it, the instrument is unplugged, and plugged in
+ * again when all have been told so. All notes must have been ended then. Errors: false, and
+ * what did not happen in five seconds. */
+bool midi_scene_replug(struct midi_scene *s, uint32_t i);
 void midi_scene_end(struct midi_scene *s);
 
 /* Whether this user may have real-time priority, and keep processors awake. */

@@ -19,20 +19,10 @@ static bool place_of(GLFWmonitor *monitor, int place[4])
     return true;
 }
 
-bool screens_all(const char *name)
+static void known_tell(GLFWmonitor **monitors, int count, const char *words, char *why,
+                       size_t room)
 {
-    return name && strcmp(name, "all") == 0;
-}
-
-bool screens_check(const char *name, char *why, size_t room)
-{
-    int count = 0;
-    GLFWmonitor **monitors = glfw3.GetMonitors(&count);
-    char *end, known[200] = "";
-    const long number = strtol(name, &end, 10);
-    if (count > 0 &&
-        (screens_all(name) || (end != name && !*end && number >= 1 && number <= count)))
-        return true;
+    char known[400] = "";
     for (int i = 0; i < count; i++) {
         int p[4] = {0};
         char one[80];
@@ -42,8 +32,54 @@ bool screens_check(const char *name, char *why, size_t room)
                  p[2], p[3], p[0], p[1]);
         error_text_list(known, sizeof known, ", ", one);
     }
-    snprintf(why, room, "there is no screen '%.20s'; there are %s%s", name, known,
+    snprintf(why, room, "there is no screen '%.20s'; there are %s%s", words, known,
              count ? ", and all" : "none");
+}
+
+static bool is_taken(const struct screens *s, int screen)
+{
+    bool taken = false;
+    for (int i = 0; i < s->over_count; i++)
+        taken = taken || s->over[i] == screen;
+    for (int i = 0; i < s->same_count; i++)
+        taken = taken || s->same[i] == screen;
+    return taken;
+}
+
+/* Numbers from 1, each once; after an `=` those that show the same. */
+static bool numbers_read(const char *words, int count, struct screens *out)
+{
+    bool same = false;
+    for (;;) {
+        char *end;
+        const long number = *words >= '0' && *words <= '9' ? strtol(words, &end, 10) : 0;
+        if (number < 1 || number > count || number > SCREENS_MAX ||
+            is_taken(out, (int)number - 1))
+            return false;
+        if (same)
+            out->same[out->same_count++] = (int)number - 1;
+        else
+            out->over[out->over_count++] = (int)number - 1;
+        if (!*end)
+            return true;
+        if (*end != '=' && (*end != ',' || same))
+            return false;
+        same = *end == '=';
+        words = end + 1;
+    }
+}
+
+bool screens_read(const char *words, struct screens *out, char *why, size_t room)
+{
+    int count = 0;
+    GLFWmonitor **monitors = glfw3.GetMonitors(&count);
+    *out = (struct screens){0};
+    const bool all = strcmp(words, "all") == 0;
+    for (int i = 0; all && i < count && i < SCREENS_MAX; i++)
+        out->over[out->over_count++] = i;
+    if (all ? count > 0 : numbers_read(words, count, out))
+        return true;
+    known_tell(monitors, count, words, why, room);
     return false;
 }
 
@@ -70,13 +106,13 @@ bool screens_fill(GLFWwindow *window, int screen)
     return mode;
 }
 
-void screens_cover(GLFWwindow *window)
+void screens_cover(GLFWwindow *window, const int *screens, int screens_count)
 {
     int count = 0, p[4], all[4] = {0};
     bool any = false;
     GLFWmonitor **monitors = glfw3.GetMonitors(&count);
-    for (int i = 0; i < count; i++) {
-        if (!place_of(monitors[i], p))
+    for (int i = 0; i < screens_count; i++) {
+        if (screens[i] >= count || !place_of(monitors[screens[i]], p))
             continue;
         const int right = p[0] + p[2], bottom = p[1] + p[3];
         all[0] = any && all[0] < p[0] ? all[0] : p[0];

@@ -11,6 +11,7 @@
 #include "display_internal.h"
 #include "screens.h"
 #include "window_internal.h"
+#include "window_repeat.h"
 
 #include <endian.h>
 #include <math.h>
@@ -190,6 +191,8 @@ void window_draw(struct window *window)
         rectangle_draw(gl);
         gl->Disable(GL_BLEND);
     }
+    if (window->repeat)
+        window_repeat_show(window->repeat);
     glfw3.SwapBuffers(window->glfw);
 }
 
@@ -295,6 +298,8 @@ void window_frame_begin(struct window *window)
 void window_frame_end(struct window *window)
 {
     window->stale = false;
+    if (window->repeat)
+        window_repeat_show(window->repeat);
     glfw3.SwapBuffers(window->glfw);
 }
 

@@ -39,8 +39,9 @@ struct window_config {
     bool vsync;           /* wait for the screen's refresh before showing a picture; true */
     bool drawn_by_caller; /* the caller draws instead of calling window_show(), see below;
                            * false */
-    const char *screen;   /* "1", "2", ...: the window fills that screen, without edges;
-                           * "all": all of them together; NULL: a usual window */
+    const char *screen;   /* "1", "2", ...: the window fills that screen, without edges; "1,2":
+                           * it lies over both; "1=2": both show the same; "all": it lies over
+                           * all; NULL: a usual window */
 };
 struct window_config window_config_default(void);
 

@@ -18,10 +18,12 @@
     X(BlendFunc, (GLenum, GLenum))                                                             \
     X(Clear, (GLbitfield))                                                                     \
     X(ClearColor, (GLfloat, GLfloat, GLfloat, GLfloat))                                        \
+    X(CopyTexImage2D, (GLenum, GLint, GLenum, GLint, GLint, GLsizei, GLsizei, GLint))          \
     X(DeleteTextures, (GLsizei, const GLuint *))                                               \
     X(Disable, (GLenum))                                                                       \
     X(Enable, (GLenum))                                                                        \
     X(End, (void))                                                                             \
+    X(Flush, (void))                                                                           \
     X(GenTextures, (GLsizei, GLuint *))                                                        \
     X(GetIntegerv, (GLenum, GLint *))                                                          \
     X(PixelStorei, (GLenum, GLint))                                                            \
@@ -65,7 +67,8 @@ struct window {
     struct pen *pen;            /* NULL: no pen with pressure */
     /* Where the window was before it filled the screen. */
     bool fullscreen;
-    bool edgeless; /* over all screens: there is no larger size */
+    bool edgeless;                /* over several screens: there is no larger size */
+    struct window_repeat *repeat; /* NULL: on no further screens */
     int before[4];
 };
 

@@ -2,6 +2,7 @@
 #include "display_internal.h"
 #include "screens.h"
 #include "window_internal.h"
+#include "window_repeat.h"
 
 #include <library.h>
 #include <math.h>
@@ -76,7 +77,9 @@ static void *x11_display(GLFWwindow *glfw)
     return is_x11 && window_x11_waits() ? native.glfwGetX11Display() : NULL;
 }
 
-static GLFWwindow *glfw_window_make(const struct window_config *config)
+/* screens: NULL: a usual window. */
+static GLFWwindow *glfw_window_make(const struct window_config *config,
+                                    const struct screens *screens)
 {
     float x = 1, y = 1;
     GLFWmonitor *monitor = glfw3.GetPrimaryMonitor();
@@ -89,8 +92,8 @@ static GLFWwindow *glfw_window_make(const struct window_config *config)
     glfw3.WindowHint(GLFW_STENCIL_BITS, 0);
     glfw3.WindowHint(GLFW_SCALE_TO_MONITOR, x >= SCALE_LEAST);
     glfw3.WindowHint(GLFW_VISIBLE, GLFW_FALSE);
-    glfw3.WindowHint(GLFW_AUTO_ICONIFY, !config->screen); /* it stays where another is used */
-    glfw3.WindowHint(GLFW_DECORATED, !screens_all(config->screen));
+    glfw3.WindowHint(GLFW_AUTO_ICONIFY, !screens); /* it stays where another is used */
+    glfw3.WindowHint(GLFW_DECORATED, !screens || screens->over_count == 1);
     GLFWwindow *glfw =
         glfw3.CreateWindow(config->width_px, config->height_px, config->title, NULL, NULL);
     if (!glfw)
@@ -110,19 +113,23 @@ static GLFWwindow *glfw_window_make(const struct window_config *config)
 }
 
 /* NULL: it stays as it is. */
-static void window_screen_fill(struct window *window, const char *screen)
+static enum display_status window_screens_fill(struct window *window,
+                                               const struct screens *screens)
 {
-    if (!screen)
-        return;
-    if (screens_all(screen)) {
-        screens_cover(window->glfw);
-        window->edgeless = true;
-        return;
-    }
     int *b = window->before;
-    glfw3.GetWindowPos(window->glfw, &b[0], &b[1]);
-    glfw3.GetWindowSize(window->glfw, &b[2], &b[3]);
-    window->fullscreen = screens_fill(window->glfw, atoi(screen) - 1);
+    if (!screens)
+        return DISPLAY_OK;
+    if (screens->over_count > 1) {
+        screens_cover(window->glfw, screens->over, screens->over_count);
+        window->edgeless = true;
+    } else {
+        glfw3.GetWindowPos(window->glfw, &b[0], &b[1]);
+        glfw3.GetWindowSize(window->glfw, &b[2], &b[3]);
+        window->fullscreen = screens_fill(window->glfw, screens->over[0]);
+    }
+    if (screens->same_count && !(window->repeat = window_repeat_create(window, screens)))
+        return fail_glfw("no window on a further screen");
+    return DISPLAY_OK;
 }
 
 enum display_status window_create(const struct window_config *config, struct window **out)
@@ -157,12 +164,13 @@ enum display_status window_create(const struct window_config *config, struct win
         status = fail_glfw("no display");
         goto failed;
     }
-    char why_not[300];
-    if (config->screen && !screens_check(config->screen, why_not, sizeof why_not)) {
+    char why_not[500];
+    struct screens chosen, *screens = config->screen ? &chosen : NULL;
+    if (screens && !screens_read(config->screen, screens, why_not, sizeof why_not)) {
         status = display_fail(DISPLAY_BAD_ARGUMENT, "%s", why_not);
         goto failed;
     }
-    window->glfw = glfw_window_make(config);
+    window->glfw = glfw_window_make(config, screens);
     if (!window->glfw) {
         status = fail_glfw("no window");
         goto failed;
@@ -181,12 +189,15 @@ enum display_status window_create(const struct window_config *config, struct win
     window->gl.TexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
     window->gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     window->drawn_by_caller = config->drawn_by_caller;
-    if (!window->drawn_by_caller && gl_is_software(&window->gl))
+    if (!window->drawn_by_caller && !(screens && screens->same_count) &&
+        gl_is_software(&window->gl))
         window->x11 = x11_begin(window->glfw);
     window_input_begin(window);
     window_wakes(x11_display(window->glfw));
     glfw3.ShowWindow(window->glfw);
-    window_screen_fill(window, config->screen);
+    status = window_screens_fill(window, screens);
+    if (status != DISPLAY_OK)
+        goto failed;
     window_draw(window);
     *out = window;
     return DISPLAY_OK;
@@ -203,6 +214,7 @@ void window_destroy(struct window *window)
     window_x11_end(window->x11);
     if (window->glfw) {
         glfw3.MakeContextCurrent(window->glfw);
+        window_repeat_destroy(window->repeat);
         if (window->texture)
             window->gl.DeleteTextures(1, &window->texture);
         glfw3.DestroyWindow(window->glfw);

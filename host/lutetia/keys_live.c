@@ -109,6 +109,7 @@ int keys_live_window(const struct keys_live *def)
     window.height_px = def->size[1];
     window.record_path = "keys.mp4";
     window.screen = def->live.screen;
+    window.stream = def->live.stream;
     int status = both_make(def, &stage, &live);
     if (status == EXIT_SUCCESS)
         status =

@@ -17,7 +17,7 @@ struct live_options {
     const char *text; /* a watched file */
     const char *cues; /* a file of cues */
     bool no_go;       /* nobody can say go */
-    const char *screen;
+    const char *screen, *stream;
     /* A song's messages, for whoever lets them be heard (live_player.h); NULL. */
     void (*played)(void *context, const struct midi_message *m, double late_s);
     void *played_context;
@@ -48,8 +48,17 @@ int live_window(struct live *live, struct stage *stage, struct stage_window_def 
 
 #define LIVE_SCREEN_OPTION(value)                                                              \
     {                                                                                          \
-        "screen", 0, OPTION_TEXT, "N|all",                                                     \
-            "the window fills this screen, or all of them, without edges", value, 0, 0, 0      \
+        "screen", 0, OPTION_TEXT, "N|N,N|N=N|all",                                             \
+            "the window fills this screen, lies over several, or is the same on each, "        \
+            "without edges",                                                                   \
+            value, 0, 0, 0                                                                     \
+    }
+
+#define LIVE_STREAM_OPTION(value)                                                              \
+    {                                                                                          \
+        "stream", 0, OPTION_TEXT, "TO[,WxH][,FPS]",                                            \
+            "hand the window's pictures to other programs: pipewire, or a loopback device",    \
+            value, 0, 0, 0                                                                     \
     }
 
 /* The rows of Open Sound Control, of a table of options. */

@@ -223,3 +223,39 @@ void stage_draw_again(struct stage_draw_list *list, const struct stage_draw_list
         item_move(item, x_px, y_px);
     }
 }
+
+static void item_scale(struct stage_item *item, double scale)
+{
+    struct font_map to = {FONT_AFFINE, {scale, 0, 0, 0, scale, 0}};
+    if (item->kind == STAGE_DRAW_BAR) {
+        struct stage_bar *b = &item->bar;
+        double *const lengths[] = {&b->x_px,          &b->y_px,      &b->half_length_px,
+                                   &b->half_width_px, &b->radius_px, &b->ring_px};
+        for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++)
+            *lengths[i] *= scale;
+    } else if (item->kind == STAGE_DRAW_IMAGE) {
+        item->image.x0_px *= scale;
+        item->image.x1_px *= scale;
+        item->image.y0_px *= scale;
+        item->image.y1_px *= scale;
+    } else {
+        item->glyph.x_px *= scale;
+        item->glyph.y_px *= scale;
+        item->glyph.map = font_map_then(item->glyph.map, to);
+    }
+}
+
+void stage_draw_scaled(struct stage_draw_list *list, const struct stage_draw_list *other,
+                       double scale, double x_px, double y_px)
+{
+    for (int i = 0; i < other->count; i++) {
+        struct stage_item *item = item_add(list, other->items[i].kind, other->items[i].color);
+        if (!item)
+            return;
+        *item = other->items[i];
+        if (scale != 1)
+            item_scale(item, scale);
+        item_move(item, x_px, y_px);
+    }
+    list->incomplete |= other->incomplete;
+}

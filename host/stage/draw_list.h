@@ -138,6 +138,10 @@ void stage_draw_again(struct stage_draw_list *list, const struct stage_draw_list
                       double x_px, double y_px, const struct stage_color *tint, double fade,
                       bool letters_only);
 
+/* Appends another list, `scale` times as large and then moved by that many pixels. */
+void stage_draw_scaled(struct stage_draw_list *list, const struct stage_draw_list *other,
+                       double scale, double x_px, double y_px);
+
 /* ---- places ---- */
 
 void stage_view_to_px(struct stage_view view, double x, double y, double *x_px, double *y_px);

@@ -7,6 +7,7 @@
 #include <gl_shapes.h>
 #include <gl_target.h>
 #include <gl_type.h>
+#include <srgb.h>
 
 #include <stdlib.h>
 #include <string.h>
@@ -18,6 +19,7 @@ struct stage_renderer {
     struct window *window;          /* or */
     struct gl_offscreen *offscreen; /* what is drawn to */
     struct gl_target *target;       /* of a window */
+    struct gl_target *apart;        /* for pictures that are not shown; NULL: none yet */
     struct gl_type *type;
     struct gl_shapes *shapes;
     void (*(*function)(const char *name))(void);
@@ -36,11 +38,11 @@ static enum stage_status fail_display(enum display_status status)
 }
 
 /* Makes the atlas of glyphs, and makes it again when the picture has become larger. */
-static enum display_status type_make(struct stage_renderer *r)
+static enum display_status type_make(struct stage_renderer *r, int width_px, int height_px)
 {
     struct gl_type_def def = gl_type_def_default();
     int page_px = PAGE_MIN;
-    while (page_px < PAGE_MAX && (page_px < 2 * r->width_px || page_px < 2 * r->height_px))
+    while (page_px < PAGE_MAX && (page_px < 2 * width_px || page_px < 2 * height_px))
         page_px *= 2;
     if (r->type && page_px <= r->page_px)
         return DISPLAY_OK;
@@ -61,7 +63,7 @@ static enum display_status type_make(struct stage_renderer *r)
 
 static enum stage_status tools_make(struct stage_renderer *r)
 {
-    enum display_status status = type_make(r);
+    enum display_status status = type_make(r, r->width_px, r->height_px);
     if (status == DISPLAY_OK)
         status = gl_shapes_create(r->function, &r->shapes);
     return status == DISPLAY_OK ? STAGE_OK : fail_display(status);
@@ -117,6 +119,7 @@ void stage_renderer_destroy(struct stage_renderer *r)
     gl_type_destroy(r->type);
     gl_shapes_destroy(r->shapes);
     gl_target_destroy(r->target);
+    gl_target_destroy(r->apart);
     gl_offscreen_destroy(r->offscreen);
     free(r);
 }
@@ -216,21 +219,18 @@ static enum display_status frame_begin(struct stage_renderer *r)
             r->width_px = r->height_px = 1;
         status = gl_target_begin(r->target, r->width_px, r->height_px);
     }
-    return status == DISPLAY_OK ? type_make(r) : status;
+    return status == DISPLAY_OK ? type_make(r, r->width_px, r->height_px) : status;
 }
 
-enum stage_status stage_renderer_draw(struct stage_renderer *r,
-                                      const struct stage_draw_list *list,
-                                      struct stage_color background)
+/* background[3]: its alpha; the colour is multiplied by it, as light. */
+static enum display_status list_draw(struct stage_renderer *r,
+                                     const struct stage_draw_list *list, int width_px,
+                                     int height_px, const float background[4])
 {
-    if (list->incomplete)
-        return stage_fail(STAGE_NO_MEMORY, "no memory for all that is to be drawn");
-    enum display_status status = frame_begin(r);
-    if (status != DISPLAY_OK)
-        return fail_display(status);
-    gl_type_begin(r->type, r->width_px, r->height_px);
-    gl_shapes_begin(r->shapes, r->width_px, r->height_px);
-    gl_shapes_clear(r->shapes, (const float[]){background.r, background.g, background.b});
+    enum display_status status = DISPLAY_OK;
+    gl_type_begin(r->type, width_px, height_px);
+    gl_shapes_begin(r->shapes, width_px, height_px);
+    gl_shapes_clear(r->shapes, background);
     for (int i = 0; i < list->count && status == DISPLAY_OK;)
         switch (list->items[i].kind) {
         case STAGE_DRAW_BAR:
@@ -243,10 +243,50 @@ enum stage_status stage_renderer_draw(struct stage_renderer *r,
             image_draw(r, &list->items[i++].image);
             break;
         }
+    return status;
+}
+
+enum stage_status stage_renderer_draw(struct stage_renderer *r,
+                                      const struct stage_draw_list *list,
+                                      struct stage_color background)
+{
+    const float opaque[] = {background.r, background.g, background.b, 1};
+    if (list->incomplete)
+        return stage_fail(STAGE_NO_MEMORY, "no memory for all that is to be drawn");
+    enum display_status status = frame_begin(r);
+    if (status != DISPLAY_OK)
+        return fail_display(status);
+    status = list_draw(r, list, r->width_px, r->height_px, opaque);
     if (r->window) {
         gl_target_show(r->target);
         window_frame_end(r->window);
     }
+    return status == DISPLAY_OK ? STAGE_OK : fail_display(status);
+}
+
+enum stage_status stage_renderer_apart(struct stage_renderer *r,
+                                       const struct stage_draw_list *list,
+                                       struct stage_color background, int width_px,
+                                       int height_px, bool alpha, struct display_image *image)
+{
+    const float a = alpha ? background.a : 1;
+    float clear[4] = {background.r, background.g, background.b, a};
+    for (int i = 0; i < 3 && a < 1; i++)
+        clear[i] = (float)srgb_number(srgb_light(clear[i]) * a);
+    if (list->incomplete)
+        return stage_fail(STAGE_NO_MEMORY, "no memory for all that is to be drawn");
+    if (r->window)
+        window_frame_begin(r->window);
+    enum display_status status =
+        r->apart ? DISPLAY_OK : gl_target_create(r->function, &r->apart);
+    if (status == DISPLAY_OK)
+        status = gl_target_begin(r->apart, width_px, height_px);
+    if (status == DISPLAY_OK)
+        status = type_make(r, width_px, height_px);
+    if (status == DISPLAY_OK)
+        status = list_draw(r, list, width_px, height_px, clear);
+    if (status == DISPLAY_OK)
+        status = (alpha ? gl_target_read_alpha : gl_target_read)(r->apart, image);
     return status == DISPLAY_OK ? STAGE_OK : fail_display(status);
 }
 

@@ -47,4 +47,11 @@ enum stage_status stage_renderer_draw(struct stage_renderer *renderer,
 enum stage_status stage_renderer_read(struct stage_renderer *renderer,
                                       struct display_image *image);
 
+/* Draws the list into *image, of a size of its own, and shows it nowhere: 3 channels, or 4 with
+ * the background's alpha. The image is reused as above. Errors: as those of both. */
+enum stage_status stage_renderer_apart(struct stage_renderer *renderer,
+                                       const struct stage_draw_list *list,
+                                       struct stage_color background, int width_px,
+                                       int height_px, bool alpha, struct display_image *image);
+
 #endif

@@ -51,3 +51,13 @@ enum stage_status stage_renderer_read(struct stage_renderer *renderer,
     (void)renderer, (void)image;
     abort();
 }
+
+enum stage_status stage_renderer_apart(struct stage_renderer *renderer,
+                                       const struct stage_draw_list *list,
+                                       struct stage_color background, int width_px,
+                                       int height_px, bool alpha, struct display_image *image)
+{
+    (void)renderer, (void)list, (void)background, (void)width_px, (void)height_px;
+    (void)alpha, (void)image;
+    abort();
+}

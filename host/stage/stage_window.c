@@ -2,6 +2,7 @@
 #include "stage_window.h"
 
 #include "renderer.h"
+#include "stage_stream.h"
 #include "typed_words.h"
 
 #include <video.h>
@@ -22,6 +23,7 @@ struct stage_window {
     struct window *window;
     struct stage_renderer *renderer;
     struct stage_panel *panel;
+    struct stage_stream *stream; /* NULL: none */
     struct stage_draw_list list;
     struct frame_pace pace;
     bool open, drawn; /* drawn: at least once */
@@ -434,6 +436,19 @@ static void overlay_draw(struct stage_window *w, int width, int height, double p
         stage_draw_disc(&w->list, text, text, 0.5 * text, colors[STAGE_COLOR_RECORDING]);
 }
 
+/* The stage alone, of that size. */
+static enum stage_status stream_take(struct stage_window *w, int width, int height,
+                                     double now_s)
+{
+    if (!w->stream)
+        return STAGE_OK;
+    const char *said = stage_stream_said(w->stream);
+    if (said)
+        say(w, "%s", said);
+    return stage_stream_take(w->stream, w->renderer, &w->list, width, height,
+                             stage_background(w->stage), now_s);
+}
+
 static enum stage_status frame_draw(struct stage_window *w, double now_s)
 {
     int width, height;
@@ -441,8 +456,11 @@ static enum stage_status frame_draw(struct stage_window *w, double now_s)
     stage_renderer_size(w->renderer, &width, &height);
     if (width < 1 || height < 1)
         return STAGE_OK; /* an icon now */
-    stage_picture(w->stage, stage_panel_beside(w->panel, w->stage, width, px), height, px,
-                  &w->list);
+    const int beside = stage_panel_beside(w->panel, w->stage, width, px);
+    stage_picture(w->stage, beside, height, px, &w->list);
+    const enum stage_status streamed = stream_take(w, beside, height, now_s);
+    if (streamed != STAGE_OK)
+        return streamed;
     overlay_draw(w, width, height, px, now_s);
     w->drawn = true;
     return stage_renderer_draw(w->renderer, &w->list, stage_background(w->stage));
@@ -501,6 +519,12 @@ enum stage_status stage_window_create(struct stage *stage, const struct stage_wi
         status = stage_panel_create(def->font, &w->panel);
     if (status == STAGE_OK)
         stage_panel_knobs_set(w->panel, &def->knobs);
+    if (status == STAGE_OK && def->stream) {
+        int width, height;
+        stage_renderer_size(w->renderer, &width, &height);
+        status = stage_stream_open(def->stream, width, height, stage_background(stage).a < 1,
+                                   &w->stream);
+    }
     if (status == STAGE_OK) /* pointer events may come at once, and need a view */
         status = frame_draw(w, input_now_s());
     if (status == STAGE_OK)
@@ -515,6 +539,7 @@ void stage_window_destroy(struct stage_window *w)
     if (!w)
         return;
     recording_end(w);
+    stage_stream_close(w->stream);
     stage_panel_destroy(w->panel);
     stage_renderer_destroy(w->renderer);
     window_destroy(w->window);

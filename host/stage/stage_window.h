@@ -34,6 +34,7 @@ struct stage_window_def {
     const char *font;        /* the panel's font; "DejaVuSans" */
     double fps;              /* the most pictures a second; 60 */
     const char *screen;      /* that the window fills, as window.h; NULL: a usual window */
+    const char *stream;      /* where its pictures go, too, as stage_stream.h; NULL: nowhere */
     /* what the letters on the keyboard play, for the help: they do nothing else then; NULL:
      * they play nothing */
     const char *played;
@@ -61,8 +62,8 @@ struct stage_window_def {
 struct stage_window_def stage_window_def_default(void);
 
 struct stage_window;
-/* stage: borrowed. Errors: NO_DISPLAY, BAD_ARGUMENT (no such screen), FAILED (no font),
- * NO_MEMORY. */
+/* stage: borrowed. Errors: NO_DISPLAY, BAD_ARGUMENT (no such screen), FAILED (no font, no
+ * stream), NO_MEMORY. */
 enum stage_status stage_window_create(struct stage *stage, const struct stage_window_def *def,
                                       struct stage_window **out);
 /* Ends a recording, and destroys the window. NULL is fine. */

@@ -42,7 +42,7 @@ VERBS = {
         "map": "size=pitch", "font": "DejaVuSans", "axes": "wght=700", "size": "4,20", "rise": "1", "slant": "1",
         "second": "100", "line": "100", "edits": EDITS, "paper": "1,0,0", "inks": "0,0,1,0,1,0"}),
     "keys": (["song.mid", "-o", "out.png"], {
-        "poster": None, "picture": "240x160", "text": "hat", "map": "letters", "knobs": "wheel.knobs", "osc": "9000", "osc-from": "127.0.0.1", "osc-to": "9001", "param": "a=1", "set": "step=1", "range": "c2-c6", "watch": "cue.txt", "cues": "n.cues",
+        "poster": None, "picture": "240x160", "text": "hat", "map": "letters", "knobs": "wheel.knobs", "osc": "9000", "osc-from": "127.0.0.1", "osc-to": "9001", "param": "a=1", "set": "step=1", "range": "c2-c6", "watch": "cue.txt", "cues": "n.cues", "stream": "/dev/null",
         "server": "/no/where", "device": "d", "filter": "channels=1", "screen": "7", "wet": "", "stock": "hot press", "pigment": "rose madder",
         "theme": "dark", "sheet": PICTURE, "still": PICTURE, "at": "1", "frames": DIRECTORY, "video": FILM, "silent": "",
         "sound": "made.wav", "fps": "7", "seconds": "0.5", "font": "DejaVuSans", "axes": "wght=700", "size": "2,20", "second": "60",
@@ -51,7 +51,7 @@ VERBS = {
         "still": None, "seconds": "0.6", "size": "64x96", "preset": "pendulum", "set": "gravity=0", "controls": "", "network": "n",
         "font": "EBGaramond12-Regular", "edits": EDITS, "at": "0,4", "turn": "30", "column": "0.5", "circle": "1", "script": "n", "map": "n.lua",
         "knobs": "n.knobs", "watch": "cue.txt", "osc": "9000", "osc-from": "127.0.0.1", "osc-to": "9001", "param": "a=1", "song": "song.mid", "server": "/no/where", "theme": "dark", "view": "0,0,9,9", "strip": "2x1",
-        "video": FILM, "frames": DIRECTORY, "fps": "7", "screen": "7", "cues": "n.cues", "loop": "0.1", "way": "cuda", "wet": "", "pigment": "rose madder", "every": "1",
+        "video": FILM, "frames": DIRECTORY, "fps": "7", "screen": "7", "stream": "/dev/null", "cues": "n.cues", "loop": "0.1", "way": "cuda", "wet": "", "pigment": "rose madder", "every": "1",
         "filter": "box", "sound": "made.wav", "silent": "", "save": FILE, "session": FILE, "replay": "n", "record": FILE,
         "play": "d"}),
     "midi render": (["song.mid", "-o", "out.wav"], {

@@ -10,6 +10,7 @@
 #include <exact.h>
 #include <face.h>
 #include <renderer.h>
+#include <srgb.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -218,6 +219,68 @@ static void images_by_opengl(enum stage_way way)
     stage_draw_finish(&list);
 }
 
+/* Of a picture with alpha, that which is seen in front of the paper. */
+static void put_on_paper(struct display_image *image)
+{
+    struct display_image flat = {image->width_px, image->height_px, 3, NULL};
+    assert_int_equal(display_image_create(&flat), DISPLAY_OK);
+    for (long i = 0; i < (long)flat.width_px * flat.height_px; i++) {
+        const uint8_t *from = image->pixels + 4 * i;
+        for (int c = 0; c < 3; c++) {
+            const double a = from[3] / 255.0,
+                         light = a * srgb_light(from[c] / 255.0) +
+                                 (1 - a) * srgb_light(paper_bytes[c] / 255.0);
+            flat.pixels[3 * i + c] = (uint8_t)lround(255 * srgb_number(light));
+        }
+    }
+    display_image_destroy(image);
+    *image = flat;
+}
+
+/* Apart: of another size than what is shown, scaled and moved, opaque or with alpha, as the
+ * exact picture of the same list; the picture that is shown stays. */
+static void apart_agrees(void **state)
+{
+    (void)state;
+    struct stage_draw_list list = {0}, scaled = {0};
+    struct stage_renderer *renderer;
+    struct display_image shown = {0}, again = {0}, image = {0};
+    scene_make(&list);
+    stage_draw_begin(&scaled, STAGE_VIEW_PIXELS);
+    stage_draw_scaled(&scaled, &list, 0.5, 30, 10);
+    assert_int_equal(scaled.count, list.count);
+    if (stage_renderer_offscreen(STAGE_BY_EGL, WIDTH, HEIGHT, &renderer) != STAGE_OK)
+        fail_msg("%s", stage_error());
+    assert_int_equal(stage_renderer_draw(renderer, &list, paper), STAGE_OK);
+    assert_int_equal(stage_renderer_read(renderer, &shown), STAGE_OK);
+    struct display_image wanted = {WIDTH, HEIGHT, 3, NULL};
+    assert_int_equal(display_image_create(&wanted), DISPLAY_OK);
+    assert_int_equal(stage_exact_draw(exact, &scaled, paper, &wanted), STAGE_OK);
+    for (int alpha = 0; alpha < 2; alpha++) {
+        struct stage_color background = paper;
+        background.a = 0.25f;
+        assert_int_equal(
+            stage_renderer_apart(renderer, &scaled, background, WIDTH, HEIGHT, alpha, &image),
+            STAGE_OK);
+        assert_int_equal(image.channels, alpha ? 4 : 3);
+        if (alpha) {
+            assert_int_equal(image.pixels[3], 64);
+            put_on_paper(&image);
+        }
+        keep(alpha ? "apart-alpha" : "apart", &image);
+        agrees(&image, &wanted, 0.97);
+    }
+    display_image_destroy(&wanted);
+    assert_int_equal(stage_renderer_read(renderer, &again), STAGE_OK);
+    assert_memory_equal(again.pixels, shown.pixels, 3 * WIDTH * HEIGHT);
+    display_image_destroy(&shown);
+    display_image_destroy(&again);
+    display_image_destroy(&image);
+    stage_renderer_destroy(renderer);
+    stage_draw_finish(&list);
+    stage_draw_finish(&scaled);
+}
+
 static void egl_agrees(void **state)
 {
     (void)state;
@@ -380,6 +443,7 @@ int main(void)
         cmocka_unit_test(exact_ink_is_area_times_cover),
         cmocka_unit_test(osmesa_agrees),
         cmocka_unit_test(egl_agrees),
+        cmocka_unit_test(apart_agrees),
         cmocka_unit_test(wrong_sizes_are_refused),
         cmocka_unit_test(what_cannot_be_drawn_is_left_out),
         cmocka_unit_test(lists_are_drawn_again),

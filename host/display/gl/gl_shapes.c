@@ -11,7 +11,7 @@
 #define GL_FUNCTIONS(X)                                                                        \
     X(void, Begin, (GLenum))                                                                   \
     X(void, BindTexture, (GLenum, GLuint))                                                     \
-    X(void, BlendFunc, (GLenum, GLenum))                                                       \
+    X(void, BlendFuncSeparate, (GLenum, GLenum, GLenum, GLenum))                               \
     X(void, Clear, (GLbitfield))                                                               \
     X(void, ClearColor, (GLfloat, GLfloat, GLfloat, GLfloat))                                  \
     X(void, Color4f, (GLfloat, GLfloat, GLfloat, GLfloat))                                     \
@@ -116,10 +116,10 @@ static float mixed(const struct gl_shapes *s, float number)
     return s->light ? (float)srgb_light(number) : number;
 }
 
-void gl_shapes_clear(struct gl_shapes *s, const float color[3])
+void gl_shapes_clear(struct gl_shapes *s, const float color[4])
 {
-    s->gl.ClearColor(color[0], color[1], color[2],
-                     1); /* unchanged without GL_FRAMEBUFFER_SRGB */
+    /* as numbers, unchanged without GL_FRAMEBUFFER_SRGB */
+    s->gl.ClearColor(color[0], color[1], color[2], color[3]);
     s->gl.Clear(GL_COLOR_BUFFER_BIT);
 }
 
@@ -146,7 +146,7 @@ void gl_shapes_bars(struct gl_shapes *s, const struct gl_bar *bars, int count)
     const struct gl *gl = &s->gl;
     gl->UseProgram(s->program);
     gl->Enable(GL_BLEND);
-    gl->BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    gl->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     if (s->light)
         gl->Enable(GL_FRAMEBUFFER_SRGB);
     gl->Begin(GL_QUADS);

@@ -57,8 +57,9 @@ void gl_shapes_destroy(struct gl_shapes *shapes); /* NULL is fine */
 /* A new frame: the size of the viewport, which is the picture's. */
 void gl_shapes_begin(struct gl_shapes *shapes, int width_px, int height_px);
 
-/* The whole picture in one colour. */
-void gl_shapes_clear(struct gl_shapes *shapes, const float color[3]);
+/* The whole picture in one colour, and its alpha. What is drawn over alpha leaves colours that
+ * are multiplied by it, as light. */
+void gl_shapes_clear(struct gl_shapes *shapes, const float color[4]);
 
 /* Draws the bars in order, later ones over earlier ones. */
 void gl_shapes_bars(struct gl_shapes *shapes, const struct gl_bar *bars, int count);

@@ -3,6 +3,8 @@
 #include "gl_target.h"
 #include "display_internal.h"
 
+#include <srgb.h>
+
 #include <stdlib.h>
 
 #define GL_FUNCTIONS(X)                                                                        \
@@ -27,6 +29,7 @@
 struct gl_target {
     struct gl gl;
     GLuint framebuffer, colors;
+    GLint before; /* the framebuffer that was drawn to */
     int width_px, height_px;
 };
 
@@ -69,6 +72,7 @@ void gl_target_destroy(struct gl_target *t)
 enum display_status gl_target_begin(struct gl_target *t, int width_px, int height_px)
 {
     const struct gl *gl = &t->gl;
+    gl->GetIntegerv(GL_FRAMEBUFFER_BINDING, &t->before);
     gl->BindFramebuffer(GL_FRAMEBUFFER, t->framebuffer);
     if (width_px == t->width_px && height_px == t->height_px)
         return DISPLAY_OK;
@@ -95,21 +99,50 @@ void gl_target_show(struct gl_target *t)
     t->gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-enum display_status gl_target_read(struct gl_target *t, struct display_image *image)
+/* Rows from the top; OpenGL's are from the bottom up. */
+static enum display_status rows_read(struct gl_target *t, struct display_image *image,
+                                     int channels)
 {
     const int w = t->width_px, h = t->height_px;
     if (!image->pixels || image->width_px != w || image->height_px != h ||
-        image->channels != 3) {
+        image->channels != channels) {
         display_image_destroy(image);
-        *image = (struct display_image){.width_px = w, .height_px = h, .channels = 3};
+        *image = (struct display_image){.width_px = w, .height_px = h, .channels = channels};
         enum display_status status = display_image_create(image);
         if (status != DISPLAY_OK)
             return status;
     }
     t->gl.BindFramebuffer(GL_FRAMEBUFFER, t->framebuffer);
     t->gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
-    for (int y = 0; y < h; y++) /* OpenGL's rows are from the bottom up */
-        t->gl.ReadPixels(0, h - 1 - y, w, 1, GL_RGB, GL_UNSIGNED_BYTE,
-                         image->pixels + (size_t)y * (size_t)w * 3);
+    for (int y = 0; y < h; y++)
+        t->gl.ReadPixels(0, h - 1 - y, w, 1, channels == 4 ? GL_RGBA : GL_RGB, GL_UNSIGNED_BYTE,
+                         image->pixels + (size_t)y * (size_t)w * (size_t)channels);
+    t->gl.BindFramebuffer(GL_FRAMEBUFFER, (GLuint)t->before);
+    return DISPLAY_OK;
+}
+
+enum display_status gl_target_read(struct gl_target *t, struct display_image *image)
+{
+    return rows_read(t, image, 3);
+}
+
+enum display_status gl_target_read_alpha(struct gl_target *t, struct display_image *image)
+{
+    enum { STEPS = 4095 };
+    double light[256];
+    uint8_t number[STEPS + 1];
+    enum display_status status = rows_read(t, image, 4);
+    if (status != DISPLAY_OK)
+        return status;
+    for (int i = 0; i < 256; i++)
+        light[i] = srgb_light(i / 255.0);
+    for (int i = 0; i <= STEPS; i++)
+        number[i] = (uint8_t)lround(255 * srgb_number((double)i / STEPS));
+    uint8_t *p = image->pixels;
+    for (size_t left = (size_t)image->width_px * (size_t)image->height_px; left; left--, p += 4)
+        for (int c = 0; p[3] < 255 && c < 3; c++) {
+            const double whole = p[3] ? light[p[c]] * 255 / p[3] : 0;
+            p[c] = number[whole < 1 ? (int)(STEPS * whole + 0.5) : STEPS];
+        }
     return DISPLAY_OK;
 }

@@ -14,7 +14,7 @@ enum { QUADS = 1024, PAGES_MAX = 64 };
 #define GL_FUNCTIONS(X)                                                                        \
     X(void, Begin, (GLenum))                                                                   \
     X(void, BindTexture, (GLenum, GLuint))                                                     \
-    X(void, BlendFunc, (GLenum, GLenum))                                                       \
+    X(void, BlendFuncSeparate, (GLenum, GLenum, GLenum, GLenum))                               \
     X(void, Color3f, (GLfloat, GLfloat, GLfloat))                                              \
     X(void, Color4f, (GLfloat, GLfloat, GLfloat, GLfloat))                                     \
     X(void, DeleteTextures, (GLsizei, const GLuint *))                                         \
@@ -212,7 +212,7 @@ static void state_set(const struct gl_type *t)
     const struct gl *gl = &t->gl;
     gl->Enable(GL_TEXTURE_2D);
     gl->Enable(GL_BLEND);
-    gl->BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    gl->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     gl->TexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_MODULATE);
     if (t->light)
         gl->Enable(GL_FRAMEBUFFER_SRGB);
