@@ -27,6 +27,11 @@ void microphone_close(struct microphone *m)
     free(m);
 }
 
+bool microphone_known(const char *source)
+{
+    return !source || strcmp(source, "jack") == 0 || strcmp(source, "pulse") == 0;
+}
+
 bool microphone_open(const char *source, struct microphone **out, char *why, size_t room)
 {
     static const struct {

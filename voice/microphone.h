@@ -25,6 +25,8 @@ struct microphone;
 /* "jack", "pulse"; NULL: the first of both that works. Of JACK the first port that captures is
  * connected, if there is one. False: `why` has one line. Owns: the caller closes *out. */
 bool microphone_open(const char *source, struct microphone **out, char *why, size_t room);
+/* Whether there may be such a source: "jack", "pulse", NULL. */
+bool microphone_known(const char *source);
 void microphone_close(struct microphone *microphone); /* NULL is fine */
 
 int microphone_rate_hz(const struct microphone *microphone);

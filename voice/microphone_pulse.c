@@ -13,7 +13,7 @@
 #include <stdlib.h>
 
 enum { RATE_HZ = 48000, PIECE = 256 /* samples, 5 ms */, FLOAT32_LE = 5 };
-enum { ADJUST_LATENCY = 0x2000 };
+enum { ADJUST_LATENCY = 0x2000, NO_AUTOSPAWN = 1 /* of a server that nobody ends */ };
 enum { CONTEXT_READY = 4, STREAM_READY = 2 };
 
 struct sample_spec {
@@ -134,7 +134,7 @@ static bool stream_open(struct pulse *p)
                                      PIECE * sizeof(float)};
     p->loop = pa.pa_mainloop_new();
     p->context = p->loop ? pa.pa_context_new(pa.pa_mainloop_get_api(p->loop), "lutetia") : NULL;
-    if (!p->context || pa.pa_context_connect(p->context, NULL, 0, NULL) < 0 ||
+    if (!p->context || pa.pa_context_connect(p->context, NULL, NO_AUTOSPAWN, NULL) < 0 ||
         !state_reach(p->loop, pa.pa_context_get_state, p->context, CONTEXT_READY))
         return false;
     p->stream = pa.pa_stream_new(p->context, "voice", &spec, NULL);

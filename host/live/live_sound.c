@@ -14,6 +14,7 @@
 
 #include <math.h>
 #include <pthread.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -43,6 +44,7 @@ struct live_sound {
     void *heard_context;
     bool song_lost; /* messages of the song: its notes have to end */
     long played, dropped;
+    char silent[300]; /* why nothing is heard yet */
     struct live_recording recording;
 };
 
@@ -188,6 +190,11 @@ const char *live_sound_said(struct live_sound *s)
     return s ? sound_keeper_said(s->synth_keeper) : NULL;
 }
 
+const char *live_sound_silent(const struct live_sound *s)
+{
+    return s->silent[0] ? s->silent : NULL;
+}
+
 long live_sound_played(const struct live_sound *s)
 {
     return s->played;
@@ -211,14 +218,20 @@ enum midi_status live_sound_recorded(struct live_sound *s, struct midi_song *son
 
 /* ---- life ---- */
 
-static enum midi_status synth_open(const char *driver, struct sound **out,
-                                   struct sound_keeper **keeper)
+static enum midi_status synth_open(struct live_sound *s, const char *driver, bool waits,
+                                   struct sound **out, struct sound_keeper **keeper)
 {
     struct sound_def def = sound_def_default();
     def.room = true;
     enum midi_status status = sound_create(&def, out);
     if (status == MIDI_OK)
         status = driver ? sound_listen(*out, driver) : sound_listen_any(*out);
+    else
+        waits = false; /* what is missing here does not come */
+    if (status == MIDI_NO_DEVICE && waits) {
+        snprintf(s->silent, sizeof s->silent, "%.250s; it is looked for", midi_error());
+        return sound_keeper_wait(*out, keeper);
+    }
     return status == MIDI_OK ? sound_keeper_begin(*out, keeper) : status;
 }
 
@@ -265,10 +278,11 @@ enum midi_status live_sound_open(const struct live_sound_def *def, struct live_s
     s->heard = def->heard;
     s->heard_context = def->context;
     enum midi_status status =
-        def->synth ? synth_open(def->driver, &s->synth, &s->synth_keeper) : MIDI_OK;
+        def->synth ? synth_open(s, def->driver, def->waits, &s->synth, &s->synth_keeper)
+                   : MIDI_OK;
     if (status == MIDI_OK && def->synth && def->song)
-        status = synth_open(def->song_driver ? def->song_driver : def->driver, &s->song,
-                            &s->song_keeper);
+        status = synth_open(s, def->song_driver ? def->song_driver : def->driver, def->waits,
+                            &s->song, &s->song_keeper);
     if (status == MIDI_OK && def->device)
         status = device_open(s, def);
     if (status == MIDI_OK)

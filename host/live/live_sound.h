@@ -34,6 +34,7 @@ struct live_sound_def {
     const char *driver;
     const char *song_driver;     /* the song's; NULL: the same */
     const char *server, *device; /* a device of the MIDI server; device NULL: none */
+    bool waits; /* where no sound server runs yet, that is no error: it is looked for */
     /* Whoever else takes what is let hear; NULL: nobody. */
     void (*heard)(void *context, const struct stage_sound *sound);
     void *context;
@@ -44,6 +45,10 @@ struct live_sound;
  * Owns: the caller closes *out. */
 enum midi_status live_sound_open(const struct live_sound_def *def, struct live_sound **out);
 void live_sound_close(struct live_sound *sound); /* ends all notes; NULL is fine */
+
+/* Why nothing is heard yet, where def.waits; NULL: a sound server was there. Valid as long as
+ * the sound. */
+const char *live_sound_silent(const struct live_sound *sound);
 
 /* Plays what the stage's actor has let hear since the last call. NULL is fine. */
 void live_sound_take(struct live_sound *sound, struct stage *stage);

@@ -451,6 +451,7 @@ static int window_sound(struct spring *s)
                                        .song = s->song != NULL,
                                        .server = s->live_options.server,
                                        .device = s->play,
+                                       .waits = true,
                                        .heard = s->live_options.osc_to ? sound_told : NULL,
                                        .context = s};
     if (s->silent && !s->play && !s->live_options.osc_to)
@@ -465,6 +466,9 @@ static int window_sound(struct spring *s)
     }
     if (status != MIDI_OK)
         return EXIT_SUCCESS;
+    if (live_sound_silent(s->sound))
+        snprintf(s->live.note, sizeof s->live.note, "the window is silent: %s",
+                 live_sound_silent(s->sound));
     s->window.after = sounds_play;
     s->window.after_context = s;
     if (!s->silent) {

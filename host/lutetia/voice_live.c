@@ -29,7 +29,8 @@ struct word {
 
 struct voice_live {
     const struct voice_live_def *def;
-    struct microphone *microphone;
+    struct microphone *microphone; /* NULL: there is none, and it is looked for */
+    double look_s;                 /* when */
     struct voice *voice;
     struct voice_frame frames[FRAMES_MAX];
     int frames_count, attacks;
@@ -43,12 +44,47 @@ struct voice_live {
 
 /* ---- what is heard ---- */
 
+static const char *source_of(const char *name)
+{
+    return strcmp(name, "any") ? name : NULL;
+}
+
 static int microphone_begin(const char *source, struct microphone **out)
 {
     char why[500];
-    return microphone_open(strcmp(source, "any") ? source : NULL, out, why, sizeof why)
-               ? EXIT_SUCCESS
-               : fail("voice", "%s", why);
+    return microphone_open(source_of(source), out, why, sizeof why) ? EXIT_SUCCESS
+                                                                    : fail("voice", "%s", why);
+}
+
+/* Of the microphone that is there now; one that was before may have had another rate. False: no
+ * memory. */
+static bool hearing_begin(struct voice_live *v)
+{
+    voice_destroy(v->voice);
+    v->voice = NULL;
+    v->frames_count = 0;
+    return voice_create(&v->def->hearing, microphone_rate_hz(v->microphone), &v->voice);
+}
+
+/* A microphone that has gone is told once; one that is not there is looked for once a second.
+ * False: no memory. */
+static bool microphone_keep(struct voice_live *v)
+{
+    enum { APART_S = 1 };
+    char why[500];
+    if (v->microphone && microphone_gone(v->microphone)) {
+        tell("voice", "the sound server is gone; it is looked for");
+        microphone_close(v->microphone);
+        v->microphone = NULL;
+        v->look_s = input_now_s() + APART_S;
+    }
+    if (v->microphone || input_now_s() < v->look_s)
+        return true;
+    v->look_s = input_now_s() + APART_S;
+    if (!microphone_open(source_of(v->def->source), &v->microphone, why, sizeof why))
+        return true;
+    tell("voice", "a microphone is heard");
+    return hearing_begin(v);
 }
 
 static bool frames_take(struct voice_live *v)
@@ -57,6 +93,8 @@ static bool frames_take(struct voice_live *v)
     struct voice_frame f;
     size_t count;
     v->changed = false;
+    if (!v->microphone)
+        return true;
     while ((count = microphone_take(v->microphone, samples, PIECE)) > 0)
         if (!voice_hear(v->voice, samples, count))
             return false;
@@ -169,9 +207,7 @@ static int window_run(struct voice_live *v, struct window *window)
     int status = EXIT_SUCCESS;
     while (status == EXIT_SUCCESS && !window_closing(window) && !interrupted()) {
         const double due_s = input_now_s() + FRAME_S;
-        if (microphone_gone(v->microphone))
-            return fail("voice", "the sound server is gone");
-        if (!frames_take(v))
+        if (!microphone_keep(v) || !frames_take(v))
             status = fail("voice", "no memory for what is heard");
         if (status == EXIT_SUCCESS && v->changed)
             status = moment_draw(v);
@@ -183,6 +219,17 @@ static int window_run(struct voice_live *v, struct window *window)
                 window_close(window);
     }
     return status;
+}
+
+/* One that is not there yet is told, and looked for. */
+static int microphone_first(struct voice_live *v)
+{
+    char why[500];
+    if (!microphone_open(source_of(v->def->source), &v->microphone, why, sizeof why)) {
+        tell("voice", "%s; it is looked for", why);
+        return EXIT_SUCCESS;
+    }
+    return hearing_begin(v) ? EXIT_SUCCESS : fail("voice", "no memory for a voice");
 }
 
 static int window_open(struct voice_live *v)
@@ -204,6 +251,8 @@ static int window_open(struct voice_live *v)
     if (status == EXIT_SUCCESS && window_show(window, &v->image) != DISPLAY_OK)
         status = fail("voice", "%s", display_error());
     if (status == EXIT_SUCCESS)
+        status = microphone_first(v);
+    if (status == EXIT_SUCCESS)
         status = window_run(v, window);
     window_destroy(window);
     return status;
@@ -219,11 +268,8 @@ int voice_live_window(const struct voice_live_def *def)
     int status = words_make(v);
     if (status == EXIT_SUCCESS)
         status = types_make(v);
-    if (status == EXIT_SUCCESS)
-        status = microphone_begin(def->source, &v->microphone);
-    if (status == EXIT_SUCCESS &&
-        !voice_create(&def->hearing, microphone_rate_hz(v->microphone), &v->voice))
-        status = fail("voice", "no memory for a voice");
+    if (status == EXIT_SUCCESS && !microphone_known(source_of(def->source)))
+        status = microphone_begin(def->source, &v->microphone); /* says which there are */
     if (status == EXIT_SUCCESS)
         status = type_image_create("voice", def->picture[0], def->picture[1], &v->image);
     if (status == EXIT_SUCCESS)

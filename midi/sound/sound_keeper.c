@@ -40,8 +40,8 @@ static void *keeper_run(void *context)
 {
     struct sound_keeper *k = context;
     unsigned taken_ms = sound_taken_ms(k->sound);
-    int still = 0;
-    bool gone = false;
+    bool gone = atomic_load(&k->server) == SERVER_GONE;
+    int still = gone ? LOOKS_STILL : 0;
     while (look_wait(k)) {
         const unsigned now_ms = sound_taken_ms(k->sound);
         still = now_ms == taken_ms ? still + 1 : 0;
@@ -62,16 +62,16 @@ static void *keeper_run(void *context)
     return NULL;
 }
 
-enum midi_status sound_keeper_begin(struct sound *sound, struct sound_keeper **out)
+static enum midi_status keeper_begin(struct sound *sound, enum server server,
+                                     struct sound_keeper **out)
 {
     pthread_condattr_t monotonic;
-    *out = NULL;
-    if (!sound_is_live(sound))
-        return MIDI_OK;
     struct sound_keeper *k = calloc(1, sizeof *k);
     if (!k)
         return midi_fail(MIDI_NO_MEMORY, "no memory for sounds");
     k->sound = sound;
+    k->said = (int)server;
+    atomic_store(&k->server, (int)server);
     pthread_mutex_init(&k->mutex, NULL); /* on Linux it cannot fail, nor can the others */
     pthread_condattr_init(&monotonic);
     pthread_condattr_setclock(&monotonic, CLOCK_MONOTONIC);
@@ -84,6 +84,18 @@ enum midi_status sound_keeper_begin(struct sound *sound, struct sound_keeper **o
     }
     *out = k;
     return MIDI_OK;
+}
+
+enum midi_status sound_keeper_begin(struct sound *sound, struct sound_keeper **out)
+{
+    *out = NULL;
+    return sound_is_live(sound) ? keeper_begin(sound, SERVER_THERE, out) : MIDI_OK;
+}
+
+enum midi_status sound_keeper_wait(struct sound *sound, struct sound_keeper **out)
+{
+    *out = NULL;
+    return keeper_begin(sound, SERVER_GONE, out);
 }
 
 void sound_keeper_end(struct sound_keeper *k)

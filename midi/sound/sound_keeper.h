@@ -20,6 +20,9 @@ struct sound_keeper;
 /* *out becomes NULL, and that is fine, where the sound goes into a file. Borrows the sound,
  * which nobody else lets listen again. Errors: NO_MEMORY. Owns: the caller ends *out. */
 enum midi_status sound_keeper_begin(struct sound *sound, struct sound_keeper **out);
+/* The same of a sound whose server was not there when it was to listen: it is looked for, and
+ * that is known, so it is not said. */
+enum midi_status sound_keeper_wait(struct sound *sound, struct sound_keeper **out);
 /* NULL is fine. May wait for a sound server that hangs. */
 void sound_keeper_end(struct sound_keeper *keeper);
 
