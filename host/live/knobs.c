@@ -1,6 +1,7 @@
 /* knobs.c - see knobs.h. */
 #include "knobs.h"
 
+#include <midi_fine.h>
 #include <midi_time.h>
 
 #include <errno.h>
@@ -11,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-static const double save_after_s = 1;
+static const double save_after_s = 1, pair_within_s = 0.5;
 
 struct knobs {
     struct stage *stage;
@@ -19,7 +20,14 @@ struct knobs {
     int rows_count;
     char *path;
     struct knobs_text text;
-    int learning;     /* a row; -1: none */
+    int learning; /* a row; -1: none */
+    struct midi_fine fine;
+    /* Upper bits whose lower ones have not come: they move their knobs at the next frame. */
+    struct midi_fine_value upper;
+    bool has_upper;
+    /* What was just learnt, and when: lower bits that follow make it a pair. */
+    int learnt_row;
+    double learnt_s;
     double now_s;     /* of the last frame */
     double changed_s; /* NaN: all is saved */
     /* A scene that is being reached: from where each control began. */
@@ -92,7 +100,7 @@ enum stage_status knobs_open(struct stage *stage, const char *path, const char *
         return stage_fail(STAGE_NO_MEMORY, "no memory for knobs");
     k->stage = stage;
     k->rows = stage_controls(stage, &k->rows_count);
-    k->learning = -1;
+    k->learning = k->learnt_row = -1;
     k->changed_s = NAN;
     k->path = strdup(path);
     k->from = calloc((size_t)k->rows_count, sizeof *k->from);
@@ -195,11 +203,13 @@ void knobs_learn(struct knobs *k, int row)
         told(k, "turn a knob for %s", k->rows[row].name);
 }
 
-static void learnt(struct knobs *k, const struct knob *knob)
+static void learnt(struct knobs *k, int row, const struct knob *knob)
 {
-    struct knobs_row *r = row_of(k, k->learning);
-    const char *name = k->rows[k->learning].name;
+    struct knobs_row *r = row_of(k, row);
+    const char *name = k->rows[row].name;
     k->learning = -1;
+    k->learnt_row = row;
+    k->learnt_s = k->now_s;
     if (!r && k->text.rows_count == KNOBS_MAX) {
         told(k, "%d knobs are the most", KNOBS_MAX);
         return;
@@ -231,7 +241,7 @@ void knobs_end(struct knobs *k, int row, double along)
 void knobs_forget(struct knobs *k, int row)
 {
     struct knobs_row *r = row_of(k, row);
-    k->learning = -1;
+    k->learning = k->learnt_row = -1;
     if (!r)
         return;
     told(k, "no knob moves %s", r->control);
@@ -349,6 +359,58 @@ enum stage_status knobs_scene_play(struct knobs *k, int scene)
     return STAGE_OK;
 }
 
+/* ---- 14 bits ---- */
+
+static struct knob fine_knob(const struct midi_fine_value *value)
+{
+    return (struct knob){.kind = value->is_parameter ? KNOB_NRPN : KNOB_FINE,
+                         .channel = value->channel,
+                         .number = value->number};
+}
+
+static void upper_move(struct knobs *k)
+{
+    const struct knob knob = fine_knob(&k->upper);
+    if (k->has_upper)
+        knob_move(k, &knob, k->upper.value / (double)MIDI_FINE_MOST);
+    k->has_upper = false;
+}
+
+/* A knob that is learnt by its upper bits becomes one of 14 bits when its lower ones follow. */
+static void pair_learn(struct knobs *k, const struct knob *knob)
+{
+    const struct knobs_row *r = row_of(k, k->learnt_row);
+    if (r && knob->kind == KNOB_FINE && r->knob.kind == KNOB_CONTROL &&
+        r->knob.channel == knob->channel && r->knob.number == knob->number &&
+        k->now_s <= k->learnt_s + pair_within_s)
+        learnt(k, k->learnt_row, knob);
+}
+
+/* True: the message was a part of a parameter, and of nothing else. */
+static bool fine_message(struct knobs *k, const struct midi_message *m)
+{
+    struct midi_fine_value value;
+    const bool has = midi_fine_take(&k->fine, m, &value);
+    const bool parameter = midi_fine_chooses(&k->fine, m);
+    if (!has)
+        return parameter && k->learning >= 0; /* what chooses is not learnt */
+    const struct knob knob = fine_knob(&value);
+    if (value.is_parameter && k->learning >= 0)
+        learnt(k, k->learning, &knob);
+    if (!value.is_whole) {
+        upper_move(k); /* another one's, that has waited */
+        k->upper = value;
+        k->has_upper = true;
+        return value.is_parameter;
+    }
+    pair_learn(k, &knob);
+    if (k->has_upper && k->upper.is_parameter == value.is_parameter &&
+        k->upper.channel == value.channel && k->upper.number == value.number)
+        k->has_upper = false;
+    knob_move(k, &knob, value.value / (double)MIDI_FINE_MOST);
+    return value.is_parameter;
+}
+
 /* ---- time ---- */
 
 void knobs_message(struct knobs *k, const struct midi_message *m)
@@ -360,10 +422,10 @@ void knobs_message(struct knobs *k, const struct midi_message *m)
             told(k, "%s", stage_error());
         return;
     }
-    if (!knob_of(m, &knob, &part))
+    if (fine_message(k, m) || !knob_of(m, &knob, &part))
         return;
     if (k->learning >= 0)
-        learnt(k, &knob);
+        learnt(k, k->learning, &knob);
     knob_move(k, &knob, part);
 }
 
@@ -383,6 +445,7 @@ static void beat_move(struct knobs *k, const struct beat *beat)
 void knobs_frame(struct knobs *k, double now_s, const struct beat *beat)
 {
     k->now_s = now_s;
+    upper_move(k);
     if (k->fading)
         scene_move(k, (now_s - k->fade_began_s) / k->text.fade_s[k->fading]);
     beat_move(k, beat);

@@ -15,16 +15,20 @@
 enum { LINE_BYTES = 400, WORDS_MAX = 7, FILE_BYTES_MAX = 1 << 20 };
 static const double fade_most_s = 600;
 
-/* has_channel, has_number: which words stand behind the kind. */
+/* has_channel, has_number: which words stand behind the kind; number_most: the largest
+ * number. */
 static const struct {
     const char *name, *words;
     bool has_channel, has_number;
-} kinds[KNOB_KINDS] = {[KNOB_CONTROL] = {"control", "controller", true, true},
-                       [KNOB_BEND] = {"bend", "bend", true, false},
-                       [KNOB_PRESSURE] = {"pressure", "aftertouch", true, false},
-                       [KNOB_NOTE] = {"note", "key", true, true},
-                       [KNOB_CLOCK] = {"clock", "beat", false, false},
-                       [KNOB_TEMPO] = {"tempo", "tempo", false, false}};
+    int number_most;
+} kinds[KNOB_KINDS] = {[KNOB_CONTROL] = {"control", "controller", true, true, 127},
+                       [KNOB_FINE] = {"fine", "fine controller", true, true, 31},
+                       [KNOB_NRPN] = {"nrpn", "NRPN", true, true, 16383},
+                       [KNOB_BEND] = {"bend", "bend", true, false, 0},
+                       [KNOB_PRESSURE] = {"pressure", "aftertouch", true, false, 0},
+                       [KNOB_NOTE] = {"note", "key", true, true, 127},
+                       [KNOB_CLOCK] = {"clock", "beat", false, false, 0},
+                       [KNOB_TEMPO] = {"tempo", "tempo", false, false, 0}};
 
 void knob_words(const struct knob *knob, char *text, size_t room)
 {
@@ -119,8 +123,8 @@ static int kind_find(const char *name)
 static const char *knob_read(struct line *line, struct knobs_text *out)
 {
     static const char must[] =
-        "`knob KIND [CHANNEL] [NUMBER] CONTROL FROM TO`, KIND control, bend, pressure, note, "
-        "clock or tempo, CHANNEL 1 to 16 or *, FROM and TO 0 to 1";
+        "`knob KIND [CHANNEL] [NUMBER] CONTROL FROM TO`, KIND control, fine, nrpn, bend, "
+        "pressure, note, clock or tempo, CHANNEL 1 to 16 or *, FROM and TO 0 to 1";
     struct knobs_row row = {.knob.channel = -1};
     const int kind = line->count > 1 ? kind_find(line->words[1]) : -1;
     int at = 2;
@@ -136,7 +140,8 @@ static const char *knob_read(struct line *line, struct knobs_text *out)
             return must;
         row.knob.channel = channel - 1;
     }
-    if (kinds[kind].has_number && !integer_read(line->words[at++], 0, 127, &row.knob.number))
+    if (kinds[kind].has_number &&
+        !integer_read(line->words[at++], 0, kinds[kind].number_most, &row.knob.number))
         return must;
     if (!name_read(line->words[at], row.control) ||
         !number_read(line->words[at + 1], 1, &row.from) ||

@@ -4,6 +4,8 @@
  *     theme dark                                the stage's colours; may be left out
  *     knob control 1 74 gravity 0 0.5           MIDI channel 1, controller 74: from one end of
  *                                               the way to the other
+ *     knob fine 1 7 drag 0 1                    controllers 7 and 39 together: 14 bits
+ *     knob nrpn 1 1000 mass 0 1                 a parameter without a registered number, 0..16383
  *     knob bend * stiffness 0.2 0.8             the pitch wheel of any channel
  *     knob pressure 1 rate 0 1                  the channel's aftertouch
  *     knob note 10 36 restitution 1 0           how hard a key is struck
@@ -38,6 +40,8 @@ enum {
 
 enum knob_kind {
     KNOB_CONTROL,
+    KNOB_FINE,
+    KNOB_NRPN,
     KNOB_BEND,
     KNOB_PRESSURE,
     KNOB_NOTE,
@@ -49,7 +53,8 @@ enum knob_kind {
 struct knob {
     enum knob_kind kind;
     int channel; /* 0..15; -1: any, and for a clock */
-    int number;  /* of a controller or a key, 0..127; else 0 */
+    int number;  /* of a controller or a key, 0..127; a pair's first, 0..31; a parameter's,
+                  * 0..16383; else 0 */
 };
 
 struct knobs_row {

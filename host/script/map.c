@@ -3,6 +3,8 @@
 
 #include "script_internal.h"
 
+#include <midi_fine.h>
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,6 +23,7 @@ struct script_map {
     struct script_host host;
     struct script_map_def def;
     lua_State *L;
+    struct midi_fine fine;
     bool frames, hears_osc; /* there is a function `frame`, and `osc` */
 };
 
@@ -180,11 +183,25 @@ static int open_protected(lua_State *L)
     return 0;
 }
 
+struct message_call {
+    struct midi_message message;
+    struct midi_fine_value fine;
+    bool is_fine;
+};
+
 static int message_protected(lua_State *L)
 {
-    const struct midi_message *m = lua_touserdata(L, 1);
+    const struct message_call *c = lua_touserdata(L, 1);
     if (lua_getglobal(L, "message") == LUA_TFUNCTION) {
-        script_midi_push(L, m);
+        script_midi_push(L, &c->message);
+        if (c->is_fine) {
+            lua_pushnumber(L, c->fine.value / (double)MIDI_FINE_MOST);
+            lua_setfield(L, -2, "fine");
+        }
+        if (c->is_fine && c->fine.is_parameter) {
+            lua_pushinteger(L, c->fine.number);
+            lua_setfield(L, -2, "nrpn");
+        }
         lua_call(L, 1, 0);
     }
     return 0;
@@ -202,8 +219,9 @@ static int frame_protected(lua_State *L)
 
 bool script_map_message(struct script_map *map, const struct midi_message *m)
 {
-    struct midi_message copy = *m;
-    return answer(map, message_protected, &copy);
+    struct message_call call = {.message = *m};
+    call.is_fine = midi_fine_take(&map->fine, m, &call.fine);
+    return answer(map, message_protected, &call);
 }
 
 bool script_map_hears_osc(const struct script_map *map)

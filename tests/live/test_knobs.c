@@ -96,6 +96,99 @@ static void a_knob_is_learnt_by_turning_it(void **unused)
     stage_destroy(stage);
 }
 
+/* Seven bits, and then the lower seven: a pair, which goes in steps of a 16383rd. */
+static void a_pair_is_learnt_by_its_lower_bits(void **unused)
+{
+    (void)unused;
+    const char *path = fresh("fine.knobs");
+    struct stage *stage = scene_stage();
+    struct knobs *k = opened(stage, path);
+    const int height = scene_row(stage, "height");
+    knobs_learn(k, height);
+    send(k, 0xb2, 7, 64);
+    assert_string_equal(knobs_said(k), "controller 7, ch 3 moves height");
+    send(k, 0xb2, 39, 3);
+    assert_string_equal(knobs_said(k), "fine controller 7, ch 3 moves height");
+    assert_true(fabs(scene_values[0] - 10 * (64 * 128 + 3) / 16383.0) < 1e-9);
+    send(k, 0xb2, 7, 65); /* its lower bits will follow */
+    assert_true(fabs(scene_values[0] - 10 * (64 * 128 + 3) / 16383.0) < 1e-9);
+    send(k, 0xb2, 39, 127);
+    assert_true(fabs(scene_values[0] - 10 * (65 * 128 + 127) / 16383.0) < 1e-9);
+    send(k, 0xb2, 39, 126); /* lower bits alone */
+    assert_true(fabs(scene_values[0] - 10 * (65 * 128 + 126) / 16383.0) < 1e-9);
+    send(k, 0xb2, 7, 1);
+    knobs_frame(k, 0.1, NULL); /* none have followed: they are 0 */
+    assert_true(fabs(scene_values[0] - 10 * 128 / 16383.0) < 1e-9);
+    send(k, 0xb1, 39, 5); /* another channel */
+    send(k, 0xb2, 40, 5); /* another pair */
+    knobs_frame(k, 0.2, NULL);
+    assert_true(fabs(scene_values[0] - 10 * 128 / 16383.0) < 1e-9);
+    knobs_close(k);
+    assert_string_equal(text_of(path), "knobs 1\ntheme dark\nknob fine 3 7 height 0 1\nend\n");
+    k = opened(stage, path);
+    send(k, 0xb2, 7, 127);
+    send(k, 0xb2, 39, 127);
+    assert_true(scene_values[0] == 10);
+    knobs_close(k);
+    /* a knob of seven bits stays one where another controller follows much later */
+    path = fresh("coarse.knobs");
+    k = opened(stage, path);
+    knobs_learn(k, height);
+    send(k, 0xb2, 7, 64);
+    knobs_frame(k, 2, NULL);
+    send(k, 0xb2, 39, 3);
+    assert_true(fabs(scene_values[0] - 10 * 64 / 127.0) < 1e-9);
+    knobs_close(k);
+    assert_string_equal(text_of(path),
+                        "knobs 1\ntheme dark\nknob control 3 7 height 0 1\nend\n");
+    stage_destroy(stage);
+}
+
+static void parameters_without_a_number_are_learnt(void **unused)
+{
+    (void)unused;
+    const char *path = fresh("nrpn.knobs");
+    struct stage *stage = scene_stage();
+    struct knobs *k = opened(stage, path);
+    const int height = scene_row(stage, "height");
+    knobs_learn(k, height);
+    send(k, 0xb0, 99, 7); /* chooses, and is not learnt */
+    send(k, 0xb0, 98, 104);
+    send(k, 0xb0, 6, 100);
+    send(k, 0xb0, 38, 20);
+    assert_string_equal(knobs_said(k), "NRPN 1000, ch 1 moves height");
+    const double there = 10 * (100 * 128 + 20) / 16383.0;
+    assert_true(fabs(scene_values[0] - there) < 1e-9);
+    send(k, 0xb0, 98, 105); /* another parameter */
+    send(k, 0xb0, 6, 1);
+    send(k, 0xb0, 38, 1);
+    knobs_frame(k, 0.1, NULL);
+    assert_true(fabs(scene_values[0] - there) < 1e-9);
+    send(k, 0xb0, 101, 0); /* a registered one, and then none */
+    send(k, 0xb0, 100, 0);
+    send(k, 0xb0, 6, 1);
+    knobs_frame(k, 0.2, NULL);
+    assert_true(fabs(scene_values[0] - there) < 1e-9);
+    send(k, 0xb0, 99, 7);
+    send(k, 0xb0, 98, 104);
+    send(k, 0xb0, 6, 127);
+    knobs_frame(k, 0.3, NULL);
+    assert_true(fabs(scene_values[0] - 10 * (127 * 128) / 16383.0) < 1e-9);
+    knobs_close(k);
+    assert_string_equal(text_of(path),
+                        "knobs 1\ntheme dark\nknob nrpn 1 1000 height 0 1\nend\n");
+    static const char *const wrong[] = {"knob fine 1 32 height 0 1",
+                                        "knob nrpn 1 16384 height 0 1",
+                                        "knob nrpn 1 height 0 1", "knob fine 17 1 height 0 1"};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        char text[100];
+        snprintf(text, sizeof text, "knobs 1\n%s\nend\n", wrong[i]);
+        text_write(path, text);
+        assert_int_equal(knobs_open(stage, path, "dark", false, &k), STAGE_BAD_FILE);
+    }
+    stage_destroy(stage);
+}
+
 static void ends_turn_a_knob_round(void **unused)
 {
     (void)unused;
@@ -223,19 +316,20 @@ static void wrong_files_are_refused_in_one_line(void **unused)
     (void)unused;
     static const struct {
         const char *text, *says;
-    } wrong[] = {{"knob 1\nend\n", ":1: must be `knobs 1`"},
-                 {"knobs 1\n", "cut short"},
-                 {"knobs 1\nknob control 17 1 height 0 1\nend\n", ":2: must be `knob KIND"},
-                 {"knobs 1\nknob control 1 128 height 0 1\nend\n", "`knob KIND"},
-                 {"knobs 1\nknob bend 1 height 0 1.5\nend\n", "`knob KIND"},
-                 {"knobs 1\nknob bend 1 height 0 nan\nend\n", "`knob KIND"},
-                 {"knobs 1\nknob wheel 1 height 0 1\nend\n", "control, bend, pressure"},
-                 {"knobs 1\nknob bend 1 hight 0 1\nend\n", "no control 'hight'; there are"},
-                 {"knobs 1\nscene 1 height 11\nend\n", "height must be 0..10"},
-                 {"knobs 1\nscene 1 way up\nend\n", "left right round"},
-                 {"knobs 1\nscene 129 height 1\nend\n", "NUMBER 1 to 128"},
-                 {"knobs 1\nfade 1 -1\nend\n", "SECONDS at most 600"},
-                 {"knobs 1\nturn\nend\n", "knob, scene, fade, theme or end"}};
+    } wrong[] = {
+        {"knob 1\nend\n", ":1: must be `knobs 1`"},
+        {"knobs 1\n", "cut short"},
+        {"knobs 1\nknob control 17 1 height 0 1\nend\n", ":2: must be `knob KIND"},
+        {"knobs 1\nknob control 1 128 height 0 1\nend\n", "`knob KIND"},
+        {"knobs 1\nknob bend 1 height 0 1.5\nend\n", "`knob KIND"},
+        {"knobs 1\nknob bend 1 height 0 nan\nend\n", "`knob KIND"},
+        {"knobs 1\nknob wheel 1 height 0 1\nend\n", "control, fine, nrpn, bend, pressure"},
+        {"knobs 1\nknob bend 1 hight 0 1\nend\n", "no control 'hight'; there are"},
+        {"knobs 1\nscene 1 height 11\nend\n", "height must be 0..10"},
+        {"knobs 1\nscene 1 way up\nend\n", "left right round"},
+        {"knobs 1\nscene 129 height 1\nend\n", "NUMBER 1 to 128"},
+        {"knobs 1\nfade 1 -1\nend\n", "SECONDS at most 600"},
+        {"knobs 1\nturn\nend\n", "knob, scene, fade, theme or end"}};
     struct stage *stage = scene_stage();
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         const char *path = scratch_path("wrong.knobs");
@@ -438,6 +532,8 @@ int main(int argc, char **argv)
 {
     folder = argc > 1 ? argv[1] : NULL;
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_knob_is_learnt_by_turning_it),
+                                       cmocka_unit_test(a_pair_is_learnt_by_its_lower_bits),
+                                       cmocka_unit_test(parameters_without_a_number_are_learnt),
                                        cmocka_unit_test(ends_turn_a_knob_round),
                                        cmocka_unit_test(all_kinds_of_knobs_move),
                                        cmocka_unit_test(scenes_come_by_programs),
