@@ -6,6 +6,7 @@
 
 #include <live_player.h>
 #include <osc.h>
+#include <output_file.h>
 
 #include <arpa/inet.h>
 #include <errno.h>
@@ -85,11 +86,12 @@ static int socket_make(int *port)
 
 static bool knobs_write(const char *path)
 {
-    FILE *file = fopen(path, "wx");
-    if (!file)
-        return bench_fail("%s: %s", path, strerror(errno));
-    fprintf(file, "knobs 1\nknob control * %d " KNOB_CONTROL_NAME " 0 1\nend\n", CONTROLLER);
-    return fclose(file) == 0 || bench_fail("%s: %s", path, strerror(errno));
+    struct output_file out;
+    if (!output_file_open(&out, path))
+        return bench_fail("%s: %s", path, out.why);
+    fprintf(out.stream, "knobs 1\nknob control * %d " KNOB_CONTROL_NAME " 0 1\nend\n",
+            CONTROLLER);
+    return output_file_commit(&out) || bench_fail("%s: %s", path, out.why);
 }
 
 static size_t packet_next(int file, uint8_t bytes[OSC_PACKET_MAX])

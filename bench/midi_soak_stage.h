@@ -1,5 +1,5 @@
-/* midi_soak_stage.h - a stage of 60 pictures a second as a process of its own, for the soak: the
- * server's instrument turns a knob of it, and OSC sets another control and asks for it.
+/* midi_soak_stage.h - a stage of 60 pictures a second as a process of its own, for the soak:
+ * the server's instrument turns a knob of it, and OSC sets another control and asks for it.
  *
  *     struct soak_stage stage;
  *     if (soak_stage_begin(&stage, &scene)) {

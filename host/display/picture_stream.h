@@ -1,5 +1,5 @@
-/* picture_stream.h - pictures that other programs read as they come: through a loopback device of
- * Video4Linux (the kernel's module v4l2loopback), which is a camera for them, or PipeWire.
+/* picture_stream.h - pictures that other programs read as they come: through a loopback device
+ * of Video4Linux (the kernel's module v4l2loopback), which is a camera for them, or PipeWire.
  *
  *     struct picture_stream_def def;
  *     struct picture_stream *stream;

@@ -1,5 +1,5 @@
-/* picture_stream_internal.h - a way to hand pictures out. Its functions are called by one thread
- * at a time: the first open() by the caller of picture_stream_open(), all else by the
+/* picture_stream_internal.h - a way to hand pictures out. Its functions are called by one
+ * thread at a time: the first open() by the caller of picture_stream_open(), all else by the
  * stream's. */
 #ifndef LUTETIA_PICTURE_STREAM_INTERNAL_H
 #define LUTETIA_PICTURE_STREAM_INTERNAL_H

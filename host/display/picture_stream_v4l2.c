@@ -12,7 +12,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-static int system_open(const char *path, int flags)
+static int device_file_open(const char *path, int flags)
 {
     return open(path, flags);
 }
@@ -22,7 +22,7 @@ static int system_ioctl(int file, unsigned long request, void *argument)
     return ioctl(file, request, argument);
 }
 
-struct picture_system picture_system = {system_open, system_ioctl, write, close};
+struct picture_system picture_system = {device_file_open, system_ioctl, write, close};
 
 struct device {
     int file;
@@ -173,7 +173,7 @@ static bool device_send(void *own, const struct display_image *image, char *why,
         count = picture_system.write(d->file, d->pixels, d->bytes);
     while (count < 0 && errno == EINTR);
     if (count == (ssize_t)d->bytes || (count < 0 && errno == EAGAIN))
-        return true; /* EAGAIN: who reads is not done with the last ones; this one is left out */
+        return true; /* EAGAIN: its reader is slow; this picture is left out */
     snprintf(why, room, "%s: %s", d->path,
              count < 0 ? strerror(errno) : "it took a part of a picture");
     return false;

@@ -132,6 +132,18 @@ static enum display_status window_screens_fill(struct window *window,
     return DISPLAY_OK;
 }
 
+static void texture_make(struct window *window)
+{
+    const struct gl *gl = &window->gl;
+    gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &window->side_max_px);
+    gl->GenTextures(1, &window->texture);
+    gl->BindTexture(GL_TEXTURE_2D, window->texture);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    gl->TexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
+    gl->BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+}
+
 enum display_status window_create(const struct window_config *config, struct window **out)
 {
     enum display_status status;
@@ -181,13 +193,7 @@ enum display_status window_create(const struct window_config *config, struct win
         goto failed;
     }
     glfw3.SwapInterval(config->vsync);
-    window->gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &window->side_max_px);
-    window->gl.GenTextures(1, &window->texture);
-    window->gl.BindTexture(GL_TEXTURE_2D, window->texture);
-    window->gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    window->gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    window->gl.TexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
-    window->gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    texture_make(window);
     window->drawn_by_caller = config->drawn_by_caller;
     if (!window->drawn_by_caller && !(screens && screens->same_count) &&
         gl_is_software(&window->gl))

@@ -1,5 +1,5 @@
-/* window_repeat.h - a window's picture on further screens: each has a window of its own that fills
- * it, and shares the first one's textures. They take no input.
+/* window_repeat.h - a window's picture on further screens: each has a window of its own that
+ * fills it, and shares the first one's textures. They take no input.
  *
  * Threads. The main thread. */
 #ifndef LUTETIA_WINDOW_REPEAT_H

@@ -1,5 +1,5 @@
-/* pipewire_reader.h - a PipeWire daemon of the test's own, and a program that reads the video of
- * a node and links itself to it, as a mixer does. */
+/* pipewire_reader.h - a PipeWire daemon of the test's own, and a program that reads the video
+ * of a node and links itself to it, as a mixer does. */
 #ifndef LUTETIA_TEST_PIPEWIRE_READER_H
 #define LUTETIA_TEST_PIPEWIRE_READER_H
 

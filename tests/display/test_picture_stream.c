@@ -1,5 +1,5 @@
-/* test_picture_stream.c - streams: to a device that the test plays, and through a PipeWire daemon
- * to a program that reads them. */
+/* test_picture_stream.c - streams: to a device that the test plays, and through a PipeWire
+ * daemon to a program that reads them. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
-/* test_screens.c - windows on several screens: over some of them, and the same picture on others,
- * on an Xorg with the dummy driver, which has as many as one likes. */
+/* test_screens.c - windows on several screens: over some of them, and the same picture on
+ * others, on an Xorg with the dummy driver, which has as many as one likes. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -31,7 +31,8 @@ enum display_status gl_target_begin(struct gl_target *target, int width_px, int 
 void gl_target_show(struct gl_target *target);
 
 /* Reads the picture as red, green, blue; drawing goes to where it went before
- * gl_target_begin() then. An image of the same size is reused, else one is created. Errors: NO_MEMORY. Owns: the caller destroys *image. */
+ * gl_target_begin() then. An image of the same size is reused, else one is created. Errors:
+ * NO_MEMORY. Owns: the caller destroys *image. */
 enum display_status gl_target_read(struct gl_target *target, struct display_image *image);
 /* The same with alpha, which the colours that are read are not multiplied by any more. */
 enum display_status gl_target_read_alpha(struct gl_target *target, struct display_image *image);
