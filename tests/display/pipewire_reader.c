@@ -245,9 +245,7 @@ void pipewire_reader_close(struct pipewire_reader *r)
 bool pipewire_reader_next(struct pipewire_reader *r, struct display_image *image)
 {
     pw_thread_loop_lock(r->loop);
-    bool ok = true;
-    while (ok && r->come == r->taken)
-        ok = wait_for(r);
+    bool ok = r->come != r->taken;
     r->taken = r->come;
     if (ok) {
         display_image_destroy(image);

@@ -18,8 +18,8 @@ struct pipewire_reader;
  * cannot be reached. */
 struct pipewire_reader *pipewire_reader_open(const char *node, bool is_slow);
 void pipewire_reader_close(struct pipewire_reader *reader);
-/* Waits for a picture after the last one; its format is *bgr (blue first) and its 4 channels
- * are in the image. False: none came in five seconds. */
+/* The newest picture that has come since the last call, with 4 channels, red first. False:
+ * none has. */
 bool pipewire_reader_next(struct pipewire_reader *reader, struct display_image *image);
 /* What was negotiated: the rate, and whether there is alpha. */
 double pipewire_reader_fps(const struct pipewire_reader *reader);

@@ -340,12 +340,11 @@ static void reads_what_was_put(bool alpha)
     assert_non_null(reader);
     struct display_image want = picture_make(&def, 40), got = {0};
     int same = 0;
-    for (int i = 0; i < 200 && same < 5; i++) {
+    for (int i = 0; i < 600 && same < 5; i++) {
         picture_put(s, &def, 40);
         usleep(33000);
-        if (i < 5)
+        if (!pipewire_reader_next(reader, &got))
             continue;
-        assert_true(pipewire_reader_next(reader, &got));
         assert_true(got.width_px == 96 && got.height_px == 64);
         bool equal = true;
         for (int p = 0; p < 96 * 64 && equal; p++)
