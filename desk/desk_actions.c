@@ -189,7 +189,7 @@ CALLS(keys, keys_show(d))
 
 static void width_change(struct desk *d, double factor)
 {
-    const struct stage_control *control = &studio_controls[STUDIO_WIDTH];
+    const struct control *control = &studio_controls[STUDIO_WIDTH];
     desk_set(
         d, STUDIO_WIDTH,
         fmin(control->most, fmax(control->least, d->settings.value[STUDIO_WIDTH] * factor)));
@@ -386,7 +386,7 @@ GMenuModel *desk_menu_new(void)
     GMenu *tools = g_menu_new();
     for (int i = 0; i < STUDIO_TOOLS; i++) {
         char name[64];
-        stage_control_text(&studio_controls[STUDIO_TOOL], i, name, sizeof name);
+        control_text(&studio_controls[STUDIO_TOOL], i, name, sizeof name);
         char *action = g_strdup_printf("win.tool::%s", name);
         g_menu_append(tools, _(studio_tools[i].name), action);
         g_free(action);

@@ -14,7 +14,7 @@ enum {
 };
 
 struct row {
-    const struct stage_control *control;
+    const struct control *control;
     desk_control_changed *changed;
     void *user;
     int number_of; /* the caller's number */
@@ -45,7 +45,7 @@ static struct row *row_of(GtkWidget *box)
 static void value_say(const struct row *row, double value)
 {
     char text[64];
-    stage_control_number(row->control, value, text, sizeof text);
+    control_number(row->control, value, text, sizeof text);
     char *said = g_strdup_printf("%s %s", text, row->control->unit);
     gtk_accessible_update_property(GTK_ACCESSIBLE(row->slider),
                                    GTK_ACCESSIBLE_PROPERTY_VALUE_TEXT, said, -1);
@@ -59,7 +59,7 @@ static void decimals_fit(struct row *row, double value)
     const bool filling = row->filling;
     if (!row->number)
         return;
-    stage_control_number(row->control, value, text, sizeof text);
+    control_number(row->control, value, text, sizeof text);
     const char *point = strpbrk(text, ".,");
     row->filling = true; /* GTK tells that the value is another one */
     gtk_spin_button_set_digits(GTK_SPIN_BUTTON(row->number),
@@ -72,8 +72,7 @@ void desk_control_set(GtkWidget *box, double value)
     struct row *row = row_of(box);
     row->filling = true;
     if (row->slider) {
-        gtk_range_set_value(GTK_RANGE(row->slider),
-                            WHOLE * stage_control_along(row->control, value));
+        gtk_range_set_value(GTK_RANGE(row->slider), WHOLE * control_along(row->control, value));
         value_say(row, value);
     }
     desk_control_type(box, value);
@@ -89,7 +88,7 @@ static void row_tell(struct row *row, double value)
 
 static void slider_moved(GtkRange *range, struct row *row)
 {
-    row_tell(row, stage_control_at(row->control, gtk_range_get_value(range) / WHOLE));
+    row_tell(row, control_at(row->control, gtk_range_get_value(range) / WHOLE));
 }
 
 static void number_typed(GtkSpinButton *number, struct row *row)
@@ -129,7 +128,7 @@ void desk_control_type(GtkWidget *box, double value)
 
 /* ---- widgets ---- */
 
-static GtkWidget *choice_new(const struct stage_control *control)
+static GtkWidget *choice_new(const struct control *control)
 {
     char **words = g_strsplit(control->choices, " ", -1);
     GtkStringList *names = gtk_string_list_new(NULL);
@@ -147,7 +146,7 @@ static int number_read(GtkSpinButton *number, double *value, const struct row *r
 {
     const double now = gtk_adjustment_get_value(gtk_spin_button_get_adjustment(number));
     char text[NUMBER_BYTES];
-    stage_control_number(row->control, now, text, sizeof text);
+    control_number(row->control, now, text, sizeof text);
     if (strcmp(text, gtk_editable_get_text(GTK_EDITABLE(number))) != 0)
         return FALSE; /* as GTK reads it */
     *value = now;
@@ -157,7 +156,7 @@ static int number_read(GtkSpinButton *number, double *value, const struct row *r
 /* How far its arrows go: by its range. */
 static GtkWidget *number_new(struct row *row)
 {
-    const struct stage_control *control = row->control;
+    const struct control *control = row->control;
     const double span = control->most - control->least;
     const double step = span > 400   ? 1
                         : span > 20  ? 0.5
@@ -213,7 +212,7 @@ static void widgets_add(struct row *row, GtkWidget *box, const char *name, const
     }
 }
 
-GtkWidget *desk_control_new(const struct stage_control *control, const char *label,
+GtkWidget *desk_control_new(const struct control *control, const char *label,
                             desk_control_changed *changed, void *user, int number)
 {
     struct row *row = g_new0(struct row, 1);

@@ -15,7 +15,7 @@ typedef void desk_control_changed(void *user, int number, double value);
 
 /* name: in place of the control's own. Owns: the widget copies nothing of the control, which
  * must be there as long. */
-GtkWidget *desk_control_new(const struct stage_control *control, const char *name,
+GtkWidget *desk_control_new(const struct control *control, const char *name,
                             desk_control_changed *changed, void *user, int number);
 /* Shows a value; nobody is told. */
 void desk_control_set(GtkWidget *row, double value);

@@ -11,7 +11,7 @@ static double value_read(void *settings, int index)
     return ((const struct studio_settings *)settings)->value[index];
 }
 
-static enum stage_status value_write(void *settings, int index, double value)
+static unsigned value_write(void *settings, int index, double value)
 {
     ((struct studio_settings *)settings)->value[index] = value;
     return STAGE_OK;
@@ -28,12 +28,12 @@ static enum stage_status value_write(void *settings, int index, double value)
                 .does = does_,                                                                 \
                 .read = value_read,                                                            \
                 .write = value_write,                                                          \
-                .index = index_}
+                .at = index_}
 #define PIGMENT(n, usual_)                                                                     \
     ROW(STUDIO_PIGMENT + n - 1, "pigment_" #n, "", 0, 2, usual_, LINEAR, NULL,                 \
         "how much of this pigment is in the dish: 0.5 is a usual wash")
 
-const struct stage_control studio_controls[STUDIO_SETTINGS] = {
+const struct control studio_controls[STUDIO_SETTINGS] = {
     ROW(STUDIO_TOOL, "tool", "", 0, STUDIO_TOOLS - 1, STUDIO_TOOL_BRUSH, CHOICE,
         "brush water wash drop splatter salt blot lift mask unmask varnish type select stamp",
         "what the pointer does"),

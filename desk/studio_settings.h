@@ -102,7 +102,7 @@ enum studio_show {
 struct studio_settings {
     double value[STUDIO_SETTINGS];
 };
-extern const struct stage_control studio_controls[STUDIO_SETTINGS];
+extern const struct control studio_controls[STUDIO_SETTINGS];
 void studio_settings_usual(struct studio_settings *settings);
 
 /* The bristles' settings become those of a kind of brushes, from 0 as in the control's

@@ -6,10 +6,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#define MASS(member) offsetof(struct dyn_mass, member)
-#define SPRING(member) offsetof(struct dyn_spring, member)
+#define MASS(member) .at = offsetof(struct dyn_mass, member)
+#define SPRING(member) .at = offsetof(struct dyn_spring, member)
 
-const struct dyn_control dyn_mass_fields[] = {
+const struct control dyn_mass_fields[] = {
     {"x", "units", -1e6, 1e6, 0, CONTROL_LINEAR, NULL, "where it is", MASS(x)},
     {"y", "units", -1e6, 1e6, 0, CONTROL_LINEAR, NULL, "where it is, upwards", MASS(y)},
     {"vx", "units/s", -DYN_SPEED_MAX, DYN_SPEED_MAX, 0, CONTROL_LINEAR, NULL,
@@ -27,7 +27,7 @@ const struct dyn_control dyn_mass_fields[] = {
 };
 const int dyn_mass_fields_count = sizeof dyn_mass_fields / sizeof *dyn_mass_fields;
 
-const struct dyn_control dyn_spring_fields[] = {
+const struct control dyn_spring_fields[] = {
     {"constant", "kg/s2", 0, 1e9, 100, CONTROL_LOGARITHMIC, NULL, "how strong it is",
      SPRING(constant)},
     {"rest_length", "units", 0, 1e7, 1, CONTROL_LOGARITHMIC, NULL, "how long it would be",
@@ -39,22 +39,22 @@ const struct dyn_control dyn_spring_fields[] = {
 };
 const int dyn_spring_fields_count = sizeof dyn_spring_fields / sizeof *dyn_spring_fields;
 
-static const struct dyn_control *field_find(const struct dyn_control *fields, int count,
-                                            const char *of, const char *name)
+static const struct control *field_find(const struct control *fields, int count, const char *of,
+                                        const char *name)
 {
     char names[200];
-    const struct dyn_control *row = dyn_row_find(fields, count, name, names, sizeof names);
+    const struct control *row = control_find(fields, count, name, names, sizeof names);
     if (!row)
         dyn_fail(DYN_BAD_ARGUMENT, "a %s has no '%.40s'; it has %s", of, name, names);
     return row;
 }
 
-const struct dyn_control *dyn_mass_field_find(const char *name)
+const struct control *dyn_mass_field_find(const char *name)
 {
     return field_find(dyn_mass_fields, dyn_mass_fields_count, "mass", name);
 }
 
-const struct dyn_control *dyn_spring_field_find(const char *name)
+const struct control *dyn_spring_field_find(const char *name)
 {
     return field_find(dyn_spring_fields, dyn_spring_fields_count, "spring", name);
 }

@@ -10,22 +10,21 @@
 
 enum { DYN_ALL = -1 };
 
-extern const struct dyn_control
-    dyn_mass_fields[]; /* a row for each number of struct dyn_mass */
+extern const struct control dyn_mass_fields[]; /* a row for each number of struct dyn_mass */
 extern const int dyn_mass_fields_count;
-extern const struct dyn_control
+extern const struct control
     dyn_spring_fields[]; /* a row for each number of struct dyn_spring */
 extern const int dyn_spring_fields_count;
 
 /* NULL: there is no field of that name, and dyn_error() lists the names. */
-const struct dyn_control *dyn_mass_field_find(const char *name);
-const struct dyn_control *dyn_spring_field_find(const char *name);
+const struct control *dyn_mass_field_find(const char *name);
+const struct control *dyn_spring_field_find(const char *name);
 
 /* index: one, or DYN_ALL. Errors: BAD_ARGUMENT (the value or the index is invalid); nothing
  * changes. */
-enum dyn_status dyn_mass_write(struct dyn_network *n, int index,
-                               const struct dyn_control *field, double value);
-enum dyn_status dyn_spring_write(struct dyn_network *n, int index,
-                                 const struct dyn_control *field, double value);
+enum dyn_status dyn_mass_write(struct dyn_network *n, int index, const struct control *field,
+                               double value);
+enum dyn_status dyn_spring_write(struct dyn_network *n, int index, const struct control *field,
+                                 double value);
 
 #endif

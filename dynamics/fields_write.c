@@ -6,8 +6,8 @@
 
 /* Checks only the changed number: others may have values that could not be set, such as a
  * place far outside. */
-enum dyn_status dyn_mass_write(struct dyn_network *n, int index,
-                               const struct dyn_control *field, double value)
+enum dyn_status dyn_mass_write(struct dyn_network *n, int index, const struct control *field,
+                               double value)
 {
     enum dyn_status status = dyn_control_check(field, value);
     if (status == DYN_OK && index != DYN_ALL)
@@ -23,8 +23,8 @@ enum dyn_status dyn_mass_write(struct dyn_network *n, int index,
     return DYN_OK;
 }
 
-enum dyn_status dyn_spring_write(struct dyn_network *n, int index,
-                                 const struct dyn_control *field, double value)
+enum dyn_status dyn_spring_write(struct dyn_network *n, int index, const struct control *field,
+                                 double value)
 {
     enum dyn_status status = dyn_control_check(field, value);
     if (status == DYN_OK && index != DYN_ALL)

@@ -6,8 +6,8 @@
 #include <string.h>
 
 /* Reads name=value. *seen: a bit for each field that the line has had. */
-static enum dyn_status field_read(struct dyn_reader *r, const struct dyn_control *fields,
-                                  const struct dyn_control *(*find)(const char *), char *word,
+static enum dyn_status field_read(struct dyn_reader *r, const struct control *fields,
+                                  const struct control *(*find)(const char *), char *word,
                                   void *of, unsigned *seen)
 {
     double value = 0;
@@ -15,7 +15,7 @@ static enum dyn_status field_read(struct dyn_reader *r, const struct dyn_control
     if (!equals)
         return dyn_reader_fail(r, "'%.40s' is no name=value", word);
     *equals = '\0';
-    const struct dyn_control *field = find(word);
+    const struct control *field = find(word);
     if (!field)
         return dyn_reader_wrong(r, DYN_BAD_ARGUMENT);
     if (*seen >> (field - fields) & 1)
@@ -40,14 +40,14 @@ static enum dyn_status time_read(struct dyn_reader *r, void *network)
     return DYN_OK;
 }
 
-static enum dyn_status control_read(struct dyn_reader *r, void *network)
+static enum dyn_status control_line_read(struct dyn_reader *r, void *network)
 {
     const char *name = dyn_reader_word(r), *text = dyn_reader_word(r);
     struct dyn_world world = *dyn_network_world(network);
     double value = 0;
     if (!name || !text)
         return dyn_reader_fail(r, "a control has a name and a value");
-    const struct dyn_control *control = dyn_control_find(name);
+    const struct control *control = dyn_control_find(name);
     if (!control || dyn_control_parse(control, text, &value) != DYN_OK ||
         dyn_control_write(control, &world, value) != DYN_OK ||
         dyn_network_world_set(network, &world) != DYN_OK)
@@ -117,7 +117,7 @@ enum dyn_status dyn_network_parse(const char *text, size_t bytes, const char *na
                                   struct dyn_network **out)
 {
     static const struct dyn_reader_line lines[] = {{"time_s", time_read},
-                                                   {"control", control_read},
+                                                   {"control", control_line_read},
                                                    {"mass", mass_read},
                                                    {"spring", spring_read},
                                                    {"pull", pull_read}};

@@ -7,10 +7,10 @@
 #include <string.h>
 
 /* Prints name=value for fields that differ from the usual value. */
-static void fields_print(FILE *to, const struct dyn_control *fields, int count, const void *of)
+static void fields_print(FILE *to, const struct control *fields, int count, const void *of)
 {
     for (int i = 0; i < count; i++) {
-        double value = dyn_control_read(&fields[i], of);
+        double value = control_read(&fields[i], of);
         if (memcmp(&value, &fields[i].usual, sizeof value) == 0) /* -0 is not 0 */
             continue;
         fprintf(to, " %s=", fields[i].name);
@@ -21,8 +21,8 @@ static void fields_print(FILE *to, const struct dyn_control *fields, int count, 
 static void world_print(FILE *to, const struct dyn_world *world)
 {
     for (int i = 0; i < dyn_controls_count; i++) {
-        const struct dyn_control *c = &dyn_controls[i];
-        double value = dyn_control_read(c, world);
+        const struct control *c = &dyn_controls[i];
+        double value = control_read(c, world);
         if (value == c->usual)
             continue;
         fprintf(to, "control %s ", c->name);

@@ -2,17 +2,12 @@
 #include "spring_controls.h"
 #include "internal.h"
 
-#include <word_list.h>
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#define AT(member) offsetof(struct dyn_world, member)
+#define AT(member) .at = offsetof(struct dyn_world, member)
 #define FAR_AWAY 1e5 /* limit of the sides' places: well within the edges of the plane */
 
-const struct dyn_control dyn_controls[] = {
+const struct control dyn_controls[] = {
     {"gravity", "units/s2", -100, 100, 9.81, CONTROL_CENTRED, NULL, "pulls masses down",
      AT(gravity)},
     {"wind_x", "units/s", -100, 100, 0, CONTROL_CENTRED, NULL,
@@ -69,78 +64,40 @@ struct dyn_world dyn_world_usual(void)
     return world;
 }
 
-const struct dyn_control *dyn_row_find(const struct dyn_control *rows, int count,
-                                       const char *name, char *names, size_t room)
-{
-    *names = '\0';
-    for (int i = 0; i < count; i++) {
-        if (strcmp(rows[i].name, name) == 0)
-            return &rows[i];
-        error_text_list(names, room, " ", rows[i].name);
-    }
-    return NULL;
-}
-
-const struct dyn_control *dyn_control_find(const char *name)
+const struct control *dyn_control_find(const char *name)
 {
     char names[400];
-    const struct dyn_control *row =
-        dyn_row_find(dyn_controls, dyn_controls_count, name, names, sizeof names);
+    const struct control *row =
+        control_find(dyn_controls, dyn_controls_count, name, names, sizeof names);
     if (!row)
         dyn_fail(DYN_BAD_ARGUMENT, "there is no control '%.40s'; there are %s", name, names);
     return row;
 }
 
-enum dyn_status dyn_control_check(const struct dyn_control *c, double value)
+enum dyn_status dyn_control_check(const struct control *c, double value)
 {
-    if (!(value >= c->least && value <= c->most))
-        return dyn_fail(DYN_BAD_ARGUMENT, "%s must be %g..%g%s%s (got %g)", c->name, c->least,
-                        c->most, *c->unit ? " " : "", c->unit, value);
-    if ((c->curve == CONTROL_SWITCH || c->curve == CONTROL_CHOICE) && value != floor(value))
-        return dyn_fail(DYN_BAD_ARGUMENT, "%s must be whole (got %g)", c->name, value);
-    return DYN_OK;
+    struct error_text why;
+    return control_check(c, value, &why) ? DYN_OK : dyn_fail(DYN_BAD_ARGUMENT, "%s", why.text);
 }
 
-double dyn_control_read(const struct dyn_control *c, const void *of)
+enum dyn_status dyn_control_write(const struct control *c, void *of, double value)
 {
-    double value;
-    memcpy(&value, (const char *)of + c->at, sizeof value);
-    return value;
+    const enum dyn_status status = dyn_control_check(c, value);
+    return status == DYN_OK ? (enum dyn_status)control_put(c, of, value) : status;
 }
 
-enum dyn_status dyn_control_write(const struct dyn_control *c, void *of, double value)
+enum dyn_status dyn_control_parse(const struct control *c, const char *text, double *value)
 {
-    enum dyn_status status = dyn_control_check(c, value);
-    if (status == DYN_OK)
-        memcpy((char *)of + c->at, &value, sizeof value);
-    return status;
+    struct error_text why;
+    return control_parse(c, text, value, &why) ? DYN_OK
+                                               : dyn_fail(DYN_BAD_ARGUMENT, "%s", why.text);
 }
 
-enum dyn_status dyn_control_parse(const struct dyn_control *c, const char *text, double *value)
-{
-    const char *words = c->curve == CONTROL_SWITCH ? "off on" : c->choices;
-    int chosen = words ? word_list_find(words, text) : -1;
-    if (chosen >= 0) {
-        *value = chosen;
-        return DYN_OK;
-    }
-    char *end;
-    double number = strtod(text, &end);
-    if (end == text || *end)
-        return dyn_fail(DYN_BAD_ARGUMENT, "%s: '%.40s' is no number%s%s", c->name, text,
-                        words ? " and none of: " : "", words ? words : "");
-    enum dyn_status status = dyn_control_check(c, number);
-    if (status == DYN_OK)
-        *value = number;
-    return status;
-}
-
-enum dyn_status dyn_controls_check(const struct dyn_control *controls, int count,
-                                   const void *of)
+enum dyn_status dyn_controls_check(const struct control *controls, int count, const void *of)
 {
     for (int i = 0; i < count; i++) {
         enum dyn_status status =
-            dyn_control_check(&controls[i], dyn_control_read(&controls[i], of));
+            dyn_control_check(&controls[i], control_read(&controls[i], of));
         if (status != DYN_OK)
             return status;
     }

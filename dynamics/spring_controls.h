@@ -2,7 +2,7 @@
  * units, ranges and usual values, for options, scripts, sliders and the reference.
  *
  *     struct dyn_world world = dyn_world_usual();
- *     const struct dyn_control *c = dyn_control_find("gravity");
+ *     const struct control *c = dyn_control_find("gravity");
  *     if (c && dyn_control_write(c, &world, 3.7) == DYN_OK)
  *         dyn_network_world_set(network, &world);
  *
@@ -15,18 +15,7 @@
 
 #include "status.h"
 
-#include <control_curve.h>
-
-#include <stddef.h>
-
-struct dyn_control {
-    const char *name, *unit; /* unit: "" for a pure number */
-    double least, most, usual;
-    enum control_curve curve;
-    const char *choices; /* separated by blanks; NULL: none */
-    const char *does;
-    size_t at; /* offset of the double in the table's struct */
-};
+#include <control.h>
 
 /* SYMPLECTIC: semi-implicit Euler, in as many parts of a step as stability requires. VERLET:
  * velocity Verlet, likewise. THESIS: the thesis's own step (step.h). */
@@ -44,34 +33,26 @@ struct dyn_world {
 /* Each control at its usual value. */
 struct dyn_world dyn_world_usual(void);
 
-extern const struct dyn_control dyn_controls[]; /* the rows of struct dyn_world */
+extern const struct control dyn_controls[]; /* the rows of struct dyn_world */
 extern const int dyn_controls_count;
 
 /* NULL: there is no control of that name, and dyn_error() lists the names. A row of the table,
  * valid for ever. */
-const struct dyn_control *dyn_control_find(const char *name);
-
-/* The row of that name in any table, valid as long as the table; NULL: there is none, and
- * `names` has their names, as many as there is room for. */
-const struct dyn_control *dyn_row_find(const struct dyn_control *rows, int count,
-                                       const char *name, char *names, size_t room);
+const struct control *dyn_control_find(const char *name);
 
 /* Checks that the value is in the range, and whole where required. Errors: BAD_ARGUMENT,
  * with the control's name and range. */
-enum dyn_status dyn_control_check(const struct dyn_control *control, double value);
+enum dyn_status dyn_control_check(const struct control *control, double value);
 
-/* Reads from the control's struct. */
-double dyn_control_read(const struct dyn_control *control, const void *of);
 /* Errors: BAD_ARGUMENT; nothing is written. */
-enum dyn_status dyn_control_write(const struct dyn_control *control, void *of, double value);
+enum dyn_status dyn_control_write(const struct control *control, void *of, double value);
 
 /* A choice is given by its name, a switch by "on" or "off", others by a number. Errors:
  * BAD_ARGUMENT. */
-enum dyn_status dyn_control_parse(const struct dyn_control *control, const char *text,
+enum dyn_status dyn_control_parse(const struct control *control, const char *text,
                                   double *value);
 
 /* Checks all members of a struct. Errors: BAD_ARGUMENT for the first wrong one. */
-enum dyn_status dyn_controls_check(const struct dyn_control *controls, int count,
-                                   const void *of);
+enum dyn_status dyn_controls_check(const struct control *controls, int count, const void *of);
 
 #endif

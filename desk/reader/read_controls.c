@@ -10,7 +10,7 @@ struct read_controls {
     struct demonstration *run; /* NULL: it has ended */
     GtkWidget *box, *rows[DEMONSTRATION_CONTROLS_MAX];
     struct demonstration_control declared[DEMONSTRATION_CONTROLS_MAX];
-    struct stage_control table[DEMONSTRATION_CONTROLS_MAX];
+    struct control table[DEMONSTRATION_CONTROLS_MAX];
     int count;
 };
 
@@ -43,16 +43,16 @@ static void changed(void *user, int number, double value)
 }
 
 /* The row of the table that widgets are made of. */
-static struct stage_control row_of(const struct demonstration_control *c)
+static struct control row_of(const struct demonstration_control *c)
 {
-    return (struct stage_control){.name = c->name,
-                                  .unit = c->unit,
-                                  .least = c->least,
-                                  .most = c->most,
-                                  .usual = c->usual,
-                                  .curve = c->curve,
-                                  .choices = c->choices,
-                                  .does = c->does};
+    return (struct control){.name = c->name,
+                            .unit = c->unit,
+                            .least = c->least,
+                            .most = c->most,
+                            .usual = c->usual,
+                            .curve = c->curve,
+                            .choices = c->choices,
+                            .does = c->does};
 }
 
 void read_controls_fill(struct read_controls *c, struct demonstration *run)

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define AT(member) offsetof(struct dyn_word_style, member)
+#define AT(member) .at = offsetof(struct dyn_word_style, member)
 
-const struct dyn_control dyn_word_controls[] = {
+const struct control dyn_word_controls[] = {
     {"letter_mass", "kg", 0.001, 1000, 1, CONTROL_LOGARITHMIC, NULL,
      "of a letter: a quarter in each corner", AT(letter_mass)},
     {"side", "kg/s2", 0, 1e6, 900, CONTROL_LOGARITHMIC, NULL, "how strong a box's sides are",
@@ -61,7 +61,7 @@ struct dyn_word_style dyn_word_style_usual(void)
     return style;
 }
 
-static const struct dyn_control *style_find(const char *name)
+static const struct control *style_find(const char *name)
 {
     for (int i = 0; i < dyn_word_controls_count; i++)
         if (strcmp(dyn_word_controls[i].name, name) == 0)
@@ -72,8 +72,8 @@ static const struct dyn_control *style_find(const char *name)
 static enum dyn_status one_set(const char *name, const char *text, struct dyn_word_style *style,
                                struct dyn_world *world)
 {
-    const struct dyn_control *of_style = style_find(name);
-    const struct dyn_control *control = of_style ? of_style : dyn_control_find(name);
+    const struct control *of_style = style_find(name);
+    const struct control *control = of_style ? of_style : dyn_control_find(name);
     double value;
     enum dyn_status status =
         control ? dyn_control_parse(control, text, &value) : DYN_BAD_ARGUMENT;

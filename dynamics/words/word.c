@@ -312,7 +312,7 @@ enum dyn_status dyn_word_style_set(struct dyn_word *word, struct dyn_network *n,
 {
     enum dyn_status status =
         dyn_controls_check(dyn_word_controls, dyn_word_controls_count, style);
-    const struct dyn_control *mass = dyn_mass_field_find("mass");
+    const struct control *mass = dyn_mass_field_find("mass");
     if (status != DYN_OK)
         return status;
     for (int i = 0; i < word->range.masses_count; i++)

@@ -67,7 +67,7 @@ struct dyn_word_style {
     double box, tack;       /* enum dyn_box, enum dyn_tack: used when a word is made */
 };
 
-extern const struct dyn_control dyn_word_controls[]; /* the rows of struct dyn_word_style */
+extern const struct control dyn_word_controls[]; /* the rows of struct dyn_word_style */
 extern const int dyn_word_controls_count;
 /* Each control at its usual value. */
 struct dyn_word_style dyn_word_style_usual(void);

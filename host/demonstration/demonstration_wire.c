@@ -57,7 +57,7 @@ static uint8_t *put(uint8_t *at, const void *value, size_t bytes)
 }
 
 /* Its curve, its numbers, its texts with a line end behind each. */
-static uint8_t *control_put(uint8_t *at, const struct demonstration_control *c)
+static uint8_t *control_bytes_put(uint8_t *at, const struct demonstration_control *c)
 {
     const double numbers[4] = {c->least, c->most, c->usual, c->value};
     const char *const texts[4] = {c->name, c->unit, c->choices, c->does};
@@ -88,7 +88,7 @@ size_t demonstration_message_write(const struct demonstration_message *m,
     if (f->value)
         at = put(at, &m->value, sizeof m->value);
     if (f->control)
-        at = control_put(at, &m->control);
+        at = control_bytes_put(at, &m->control);
     if (f->text) {
         const size_t bytes = strlen(m->text), most = (size_t)f->text_max;
         at = put(at, m->text, bytes < most ? bytes : most);

@@ -15,7 +15,7 @@
 #ifndef LUTETIA_DEMONSTRATION_WIRE_H
 #define LUTETIA_DEMONSTRATION_WIRE_H
 
-#include <control_curve.h>
+#include <control.h>
 
 #include <stdatomic.h>
 #include <stdbool.h>

@@ -25,10 +25,10 @@ struct cues {
     double last_s; /* when the cue before was due */
 };
 
-static const struct stage_control *row_of(const struct cues *c, const char *name)
+static const struct control *row_of(const struct cues *c, const char *name)
 {
     int count;
-    const struct stage_control *rows = stage_controls(c->def.stage, &count);
+    const struct control *rows = stage_controls(c->def.stage, &count);
     return stage_control_find(rows, count, name);
 }
 
@@ -47,7 +47,7 @@ static enum stage_status cue_check(const struct cues *c, const struct cue *cue)
                           "%.200s:%d: there are no scenes: --knobs FILE has them", path,
                           cue->line);
     double value;
-    const struct stage_control *row = cue->what == CUE_SET ? row_of(c, cue->name) : NULL;
+    const struct control *row = cue->what == CUE_SET ? row_of(c, cue->name) : NULL;
     if (cue->what == CUE_SCENE ||
         (cue->what == CUE_TEXT && stage_text_check(c->def.stage, cue->text) == STAGE_OK) ||
         (row && stage_control_parse(row, cue->text, &value) == STAGE_OK &&
@@ -117,7 +117,7 @@ static struct fade *fade_of(struct cues *c, const char *name)
 static const char *control_set(struct cues *c, const struct cue *cue, double due_s)
 {
     double value;
-    const struct stage_control *row = row_of(c, cue->name);
+    const struct control *row = row_of(c, cue->name);
     if (!row || stage_control_parse(row, cue->text, &value) != STAGE_OK)
         return stage_error();
     struct fade *fade = fade_of(c, cue->name);
@@ -125,8 +125,8 @@ static const char *control_set(struct cues *c, const struct cue *cue, double due
     const bool steps = row->curve == CONTROL_SWITCH || row->curve == CONTROL_CHOICE;
     if (cue->fade_s <= 0 || steps)
         return stage_control_write(row, c->def.stage, value) == STAGE_OK ? NULL : stage_error();
-    fade->from = stage_control_along(row, stage_control_read(row, c->def.stage));
-    fade->to = stage_control_along(row, value);
+    fade->from = control_along(row, control_read(row, c->def.stage));
+    fade->to = control_along(row, value);
     fade->begin_s = due_s;
     fade->length_s = cue->fade_s;
     fade->value = value;
@@ -148,13 +148,12 @@ static void cue_do(struct cues *c, const struct cue *cue, double due_s)
 
 static void fade_frame(struct cues *c, struct fade *fade, double now_s)
 {
-    const struct stage_control *row = fade->length_s > 0 ? row_of(c, fade->name) : NULL;
+    const struct control *row = fade->length_s > 0 ? row_of(c, fade->name) : NULL;
     if (!row)
         return;
     const double part = fmax(0, (now_s - fade->begin_s) / fade->length_s);
     const double along = fade->from + part * (fade->to - fade->from);
-    stage_control_write(row, c->def.stage,
-                        part < 1 ? stage_control_at(row, along) : fade->value);
+    stage_control_write(row, c->def.stage, part < 1 ? control_at(row, along) : fade->value);
     if (part >= 1)
         fade->length_s = 0;
 }

@@ -33,7 +33,7 @@ struct keys_actor {
     struct keys_score score;
     struct keys_letters letters;
     struct settings set;
-    struct stage_control rows[OWN_ROWS + STAGE_AXES_MAX * (1 + STAGE_LEADS_MAX)];
+    struct control rows[OWN_ROWS + STAGE_AXES_MAX * (1 + STAGE_LEADS_MAX)];
     int rows_count;
     struct stage_axes axes; /* of the font */
     double time_s, forgotten_s;
@@ -60,7 +60,7 @@ static double row_read(void *actor, int index)
     return *setting(actor, index);
 }
 
-static enum stage_status row_write(void *actor, int index, double value)
+static unsigned row_write(void *actor, int index, double value)
 {
     struct keys_actor *k = actor;
     *setting(k, index) = value;
@@ -69,7 +69,7 @@ static enum stage_status row_write(void *actor, int index, double value)
     return STAGE_OK;
 }
 
-static const struct stage_control own_rows[OWN_ROWS] = {
+static const struct control own_rows[OWN_ROWS] = {
     {"size", "", 0.05, 4, 1, CONTROL_LOGARITHMIC, NULL, "of all letters; 1 is as large as fits",
      row_read, row_write, 0},
     {"attack", "s", 0, 2, 0.03, CONTROL_LOGARITHMIC, NULL,
@@ -86,13 +86,13 @@ static double axis_read(void *actor, int index)
     return *stage_axes_setting(&((struct keys_actor *)actor)->set.axes, index);
 }
 
-static enum stage_status axis_write(void *actor, int index, double value)
+static unsigned axis_write(void *actor, int index, double value)
 {
     struct keys_actor *k = actor;
     return stage_axes_write(&k->axes, &k->set.axes, index, value);
 }
 
-static const struct stage_control *keys_controls(void *actor, int *count)
+static const struct control *keys_controls(void *actor, int *count)
 {
     const struct keys_actor *k = actor;
     *count = k->rows_count;

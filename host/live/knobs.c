@@ -16,7 +16,7 @@ static const double save_after_s = 1, pair_within_s = 0.5;
 
 struct knobs {
     struct stage *stage;
-    const struct stage_control *rows;
+    const struct control *rows;
     int rows_count;
     char *path;
     struct knobs_text text;
@@ -79,8 +79,7 @@ static enum stage_status names_check(const struct knobs *k)
             return stage_fail(STAGE_BAD_FILE, "%.200s: %.500s", k->path, stage_error());
     for (int i = 0; i < k->text.sets_count; i++) {
         const struct knobs_set *set = &k->text.sets[i];
-        const struct stage_control *row =
-            stage_control_find(k->rows, k->rows_count, set->control);
+        const struct control *row = stage_control_find(k->rows, k->rows_count, set->control);
         if (!row || stage_control_parse(row, set->value, &value) != STAGE_OK)
             return stage_fail(STAGE_BAD_FILE, "%.200s: scene %d: %.500s", k->path, set->scene,
                               stage_error());
@@ -146,9 +145,9 @@ static struct knobs_row *row_of(struct knobs *k, int row)
 
 static void row_move(struct knobs *k, const struct knobs_row *r, double part)
 {
-    const struct stage_control *row = stage_control_find(k->rows, k->rows_count, r->control);
+    const struct control *row = stage_control_find(k->rows, k->rows_count, r->control);
     const double along = r->from + part * (r->to - r->from);
-    if (row && stage_control_write(row, k->stage, stage_control_at(row, along)) != STAGE_OK)
+    if (row && stage_control_write(row, k->stage, control_at(row, along)) != STAGE_OK)
         told(k, "%s", stage_error());
 }
 
@@ -274,11 +273,10 @@ static void scene_drop(struct knobs_text *text, int scene)
     text->sets_count = kept;
 }
 
-static void value_print(const struct stage_control *row, double value,
-                        char out[KNOBS_NAME_BYTES])
+static void value_print(const struct control *row, double value, char out[KNOBS_NAME_BYTES])
 {
     if (row->curve == CONTROL_SWITCH || row->curve == CONTROL_CHOICE)
-        stage_control_text(row, value, out, KNOBS_NAME_BYTES);
+        control_text(row, value, out, KNOBS_NAME_BYTES);
     else
         snprintf(out, KNOBS_NAME_BYTES, "%.17g", value);
 }
@@ -291,7 +289,7 @@ enum stage_status knobs_scene_keep(struct knobs *k, int scene)
     for (int i = 0; i < k->rows_count; i++) {
         struct knobs_set set = {.scene = KNOBS_SCENES + 1}; /* until all of it is there */
         snprintf(set.control, sizeof set.control, "%s", k->rows[i].name);
-        value_print(&k->rows[i], stage_control_read(&k->rows[i], k->stage), set.value);
+        value_print(&k->rows[i], control_read(&k->rows[i], k->stage), set.value);
         const enum stage_status status = knobs_set_add(&k->text, &set);
         if (status != STAGE_OK) {
             k->text.sets_count = before;
@@ -311,14 +309,13 @@ enum stage_status knobs_scene_keep(struct knobs *k, int scene)
 static void scene_move(struct knobs *k, double part)
 {
     for (int i = 0; i < k->rows_count; i++) {
-        const struct stage_control *row = &k->rows[i];
+        const struct control *row = &k->rows[i];
         const bool whole = row->curve == CONTROL_SWITCH || row->curve == CONTROL_CHOICE;
         if (isnan(k->to[i]) || (whole && part < 1))
             continue;
         const double value =
-            part < 1 ? stage_control_at(
-                           row, k->from[i] +
-                                    part * (stage_control_along(row, k->to[i]) - k->from[i]))
+            part < 1 ? control_at(row, k->from[i] +
+                                           part * (control_along(row, k->to[i]) - k->from[i]))
                      : k->to[i];
         if (stage_control_write(row, k->stage, value) != STAGE_OK)
             told(k, "%s", stage_error());
@@ -332,12 +329,11 @@ enum stage_status knobs_scene_play(struct knobs *k, int scene)
     bool found = false;
     for (int i = 0; i < k->rows_count; i++) {
         k->to[i] = NAN;
-        k->from[i] =
-            stage_control_along(&k->rows[i], stage_control_read(&k->rows[i], k->stage));
+        k->from[i] = control_along(&k->rows[i], control_read(&k->rows[i], k->stage));
     }
     for (int i = 0; i < k->text.sets_count; i++) {
         const struct knobs_set *set = &k->text.sets[i];
-        const struct stage_control *row =
+        const struct control *row =
             set->scene == scene ? stage_control_find(k->rows, k->rows_count, set->control)
                                 : NULL;
         found = found || row;

@@ -48,10 +48,10 @@ static void map_tell(void *context, const char *text)
     tell(context, text);
 }
 
-static const struct stage_control *row_of(struct live_player *p, const char *name)
+static const struct control *row_of(struct live_player *p, const char *name)
 {
     int count;
-    const struct stage_control *rows = stage_controls(p->stage, &count);
+    const struct control *rows = stage_controls(p->stage, &count);
     return stage_control_find(rows, count, name);
 }
 
@@ -59,7 +59,7 @@ static const char *map_set(void *context, const char *name, const char *text)
 {
     struct live_player *p = context;
     double value;
-    const struct stage_control *row = row_of(p, name);
+    const struct control *row = row_of(p, name);
     if (!row || stage_control_parse(row, text, &value) != STAGE_OK ||
         stage_control_write(row, p->stage, value) != STAGE_OK)
         return stage_error();
@@ -69,8 +69,8 @@ static const char *map_set(void *context, const char *name, const char *text)
 static const char *map_along(void *context, const char *name, double along)
 {
     struct live_player *p = context;
-    const struct stage_control *row = row_of(p, name);
-    if (!row || stage_control_write(row, p->stage, stage_control_at(row, along)) != STAGE_OK)
+    const struct control *row = row_of(p, name);
+    if (!row || stage_control_write(row, p->stage, control_at(row, along)) != STAGE_OK)
         return stage_error();
     return NULL;
 }
@@ -84,10 +84,10 @@ static const char *map_text(void *context, const char *words)
 static const char *map_get(void *context, const char *name, double *value)
 {
     struct live_player *p = context;
-    const struct stage_control *row = row_of(p, name);
+    const struct control *row = row_of(p, name);
     if (!row)
         return stage_error();
-    *value = stage_control_read(row, p->stage);
+    *value = control_read(row, p->stage);
     return NULL;
 }
 

@@ -13,7 +13,7 @@ enum { PACKETS_OF_A_TURN = 500, ADDRESS_BYTES = 64 }; /* more wait for the next 
 struct osc_stage {
     struct osc_stage_def def;
     struct osc_port *port;
-    const struct stage_control *rows;
+    const struct control *rows;
     int rows_count;
     double *sent; /* by row; NaN: nothing yet */
 };
@@ -67,11 +67,11 @@ static size_t value_write(const struct osc_stage *o, int row, uint8_t *out, size
     char address[ADDRESS_BYTES];
     snprintf(address, sizeof address, "/control/%.50s", o->rows[row].name);
     return osc_message_write(out, room, address, "f",
-                             stage_control_read(&o->rows[row], o->def.stage));
+                             control_read(&o->rows[row], o->def.stage));
 }
 
 /* A number, T or F, or words as the command line has them. */
-static enum stage_status value_of(const struct stage_control *row, const struct osc_argument *a,
+static enum stage_status value_of(const struct control *row, const struct osc_argument *a,
                                   double *value)
 {
     if (a->text)
@@ -83,7 +83,7 @@ static enum stage_status value_of(const struct stage_control *row, const struct 
 
 static void control_set(struct osc_stage *o, int row, const struct osc_message *m, bool along)
 {
-    const struct stage_control *control = &o->rows[row];
+    const struct control *control = &o->rows[row];
     uint8_t out[OSC_PACKET_MAX];
     double value;
     if (m->count == 0) {
@@ -93,11 +93,11 @@ static void control_set(struct osc_stage *o, int row, const struct osc_message *
     enum stage_status status = value_of(control, &m->arguments[0], &value);
     if (status == STAGE_OK)
         status = stage_control_write(control, o->def.stage,
-                                     along ? stage_control_at(control, value) : value);
+                                     along ? control_at(control, value) : value);
     if (status != STAGE_OK)
         tell(o, m->address, stage_error());
     else
-        o->sent[row] = stage_control_read(control, o->def.stage);
+        o->sent[row] = control_read(control, o->def.stage);
 }
 
 /* Whether it is of controls; then it has been done. */
@@ -201,7 +201,7 @@ void osc_stage_tell(struct osc_stage *o)
 {
     uint8_t out[OSC_PACKET_MAX];
     for (int i = 0; i < o->rows_count; i++) {
-        const double value = stage_control_read(&o->rows[i], o->def.stage);
+        const double value = control_read(&o->rows[i], o->def.stage);
         if (value == o->sent[i])
             continue;
         o->sent[i] = value;

@@ -55,7 +55,7 @@ struct paper_actor {
     struct font_shaper *shaper;
     struct font_painter *painter;
     struct settings set;
-    struct stage_control rows[ROWS];
+    struct control rows[ROWS];
     char choices[CHOICES_BYTES];
     double fit_px; /* the size of a letter of the most velocity */
     double due;    /* steps of the sheet that are due, a fraction */
@@ -117,7 +117,7 @@ static enum stage_status air_set(struct paper_actor *a)
                                              : STAGE_OK;
 }
 
-static enum stage_status row_write(void *actor, int index, double value)
+static unsigned row_write(void *actor, int index, double value)
 {
     struct paper_actor *a = actor;
     const double before = *setting(&a->set, index);
@@ -130,7 +130,7 @@ static enum stage_status row_write(void *actor, int index, double value)
 
 static void rows_make(struct paper_actor *a)
 {
-    static const struct stage_control rows[ROWS] = {
+    static const struct control rows[ROWS] = {
         {"gravity", "", -0.95, 0.95, 0, CONTROL_LINEAR, NULL, "pulls water down the sheet", 0,
          0, 0},
         {"tilt", "", -0.95, 0.95, 0, CONTROL_LINEAR, NULL, "pulls water to the right", 0, 0, 0},
@@ -167,10 +167,10 @@ static void rows_make(struct paper_actor *a)
             *c = *c == ' ' ? '-' : *c; /* blanks separate choices */
     }
     for (int i = 0; i < ROWS; i++) {
-        struct stage_control *r = &a->rows[i];
+        struct control *r = &a->rows[i];
         r->read = row_read;
         r->write = row_write;
-        r->index = i;
+        r->at = i;
         if (i < 4)
             r->usual = usual[i];
         if (r->curve == CONTROL_CHOICE) {
@@ -181,7 +181,7 @@ static void rows_make(struct paper_actor *a)
     }
 }
 
-static const struct stage_control *actor_controls(void *actor, int *count)
+static const struct control *actor_controls(void *actor, int *count)
 {
     *count = ROWS;
     return ((struct paper_actor *)actor)->rows;

@@ -32,7 +32,7 @@ static enum stage_status fail_dyn(enum dyn_status status)
 /* ---- controls of a word's style, which are set before the word is made ---- */
 
 /* The style's control that NAME=VALUE sets; NULL: none. */
-static const struct dyn_control *style_row(const char *assignment)
+static const struct control *style_row(const char *assignment)
 {
     size_t length = strcspn(assignment, "=");
     for (int i = 0; i < dyn_word_controls_count; i++)
@@ -46,7 +46,7 @@ static enum stage_status style_set(const struct spring_scene_def *def,
                                    struct dyn_word_style *style)
 {
     for (int i = 0; i < def->sets_count; i++) {
-        const struct dyn_control *row = style_row(def->sets[i]);
+        const struct control *row = style_row(def->sets[i]);
         const char *equals = strchr(def->sets[i], '=');
         double value;
         if (!row || !equals)

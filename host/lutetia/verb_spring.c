@@ -241,10 +241,10 @@ static int spring_options(struct spring *s, int argc, char **argv, bool *help)
 static int controls_print(struct stage *stage)
 {
     int count;
-    const struct stage_control *rows = stage_controls(stage, &count);
+    const struct control *rows = stage_controls(stage, &count);
     for (int i = 0; i < count; i++) {
         char value[64], range[96];
-        stage_control_text(&rows[i], stage_control_read(&rows[i], stage), value, sizeof value);
+        control_text(&rows[i], control_read(&rows[i], stage), value, sizeof value);
         if (rows[i].curve == CONTROL_SWITCH)
             snprintf(range, sizeof range, "on, off");
         else if (rows[i].curve == CONTROL_CHOICE)

@@ -131,7 +131,7 @@ static int brush_wipe(lua_State *L)
 {
     struct script_paper *paper = brush_begin(L, 2);
     struct paper_dip d = dip_of(L);
-    d.part = lua_isnil(L, 2) ? 1 : script_arg_at(L, 2, "wipe's part", 0, 1);
+    d.part = script_member_at(L, 2, "wipe's part", &paper_dip_members, "part", 1);
     script_paper_check(L, paper_sheet_dip(paper->sheet, &d));
     return 0;
 }

@@ -4,6 +4,7 @@
 
 #include <limits.h>
 #include <math.h>
+#include <string.h>
 
 enum { NAMES_MAX = 64, ELEMENTS_MAX = 10 };
 
@@ -79,4 +80,17 @@ void script_fields_read(lua_State *L, int index, const char *what,
                 number_store(&m[i], 0, of, values[i]);
         m += count - 1;
     }
+}
+
+double script_member_at(lua_State *L, int index, const char *what,
+                        const struct members *members, const char *name, double fallback)
+{
+    const struct member *m = members->first, *end = m + members->count;
+    while (m < end && (!m->name || strcmp(m->name, name) != 0))
+        m++;
+    if (m == end)
+        luaL_error(L, "there is no row '%s'", name); /* a mistake of the caller's */
+    return lua_isnoneornil(L, index) && !isnan(fallback)
+               ? fallback
+               : script_arg_at(L, index, what, m->least, m->most);
 }

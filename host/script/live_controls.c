@@ -22,7 +22,7 @@ static void text_read(lua_State *L, const char *key, char *out, size_t room)
     visible_text(out, room, text ? text : "");
 }
 
-static void curve_read(lua_State *L, struct dyn_control *row)
+static void curve_read(lua_State *L, struct control *row)
 {
     static const char *const curves[] = {"linear", "logarithmic", "centred",
                                          "switch", "choice",      NULL};
@@ -36,7 +36,7 @@ static void curve_read(lua_State *L, struct dyn_control *row)
 }
 
 /* Between what, and what it is at first. */
-static void range_read(lua_State *L, struct dyn_control *row)
+static void range_read(lua_State *L, struct control *row)
 {
     const bool named = row->curve == CONTROL_CHOICE || row->curve == CONTROL_SWITCH;
     row->least =
@@ -60,11 +60,11 @@ static void range_read(lua_State *L, struct dyn_control *row)
 /* Numbers of the script's own. */
 static void own_read(lua_State *L, struct live_control *c)
 {
-    struct dyn_control *row = &c->shown.row;
+    struct control *row = &c->shown.row;
     text_read(L, "unit", c->unit, sizeof c->unit);
     text_read(L, "does", c->does, sizeof c->does);
     text_read(L, "choices", c->choices, sizeof c->choices);
-    *row = (struct dyn_control){
+    *row = (struct control){
         .name = c->name, .unit = c->unit, .choices = c->choices, .does = c->does};
     curve_read(L, row);
     range_read(L, row);
@@ -74,20 +74,20 @@ static void own_read(lua_State *L, struct live_control *c)
 /* The value of a control of the network's first word, or of its world, and its row. Raises an
  * error where there is none. */
 static double network_value(lua_State *L, const struct script_network *s, const char *name,
-                            struct dyn_control *row)
+                            struct control *row)
 {
-    const struct dyn_control *of_world;
+    const struct control *of_world;
     for (int i = 0; s->words_count && i < dyn_word_controls_count; i++)
         if (strcmp(dyn_word_controls[i].name, name) == 0) {
             const struct dyn_word_style style = dyn_word_style_get(s->words[0]);
             *row = dyn_word_controls[i];
-            return dyn_control_read(row, &style);
+            return control_read(row, &style);
         }
     of_world = dyn_control_find(name);
     if (!of_world)
         script_fail(L, dyn_error());
     *row = *of_world;
-    return dyn_control_read(row, dyn_network_world(s->network));
+    return control_read(row, dyn_network_world(s->network));
 }
 
 /* The row of a network's control, in its table. What is usual is what it is now. The network is

@@ -371,8 +371,8 @@ static int paper_blot(lua_State *L)
     struct script_paper *paper = script_paper_begin(L, 4);
     struct paper_screen screen;
     int x, y;
-    double part = lua_isnoneornil(L, 3) ? 1 : script_arg_at(L, 3, "blot's part", 0, 1);
-    double lift = lua_isnoneornil(L, 4) ? 0 : script_arg_at(L, 4, "blot's lift", 0, 1);
+    double part = script_member_at(L, 3, "blot's part", &paper_blot_members, "part", 1);
+    double lift = script_member_at(L, 4, "blot's lift", &paper_blot_members, "lift", 0);
     if (screen_read(L, 2, paper, &screen, &x, &y))
         script_paper_check(L, paper_sheet_blot(paper->sheet, &screen, x, y, part, lift));
     script_check(L);

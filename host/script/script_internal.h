@@ -218,6 +218,10 @@ void script_fields_options(lua_State *L, int index, const char *what,
  * missing fields are unchanged. */
 void script_fields_read(lua_State *L, int index, const char *what,
                         const struct members *members, void *of);
+/* Reads the number at an argument's index, within the range of the row of that name; default:
+ * fallback, or none where that is NaN. */
+double script_member_at(lua_State *L, int index, const char *what,
+                        const struct members *members, const char *name, double fallback);
 /* Reads the integer at an argument's index, within bounds; default: fallback. */
 long script_arg_count(lua_State *L, int index, const char *what, long fallback, long low,
                       long high);

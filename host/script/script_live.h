@@ -71,7 +71,7 @@ bool script_live_key(struct script_live *live, bool down, const char *name);
 /* A control as the script has declared it, from 0; NULL: there is none. What is usual is what
  * it was at first. Owns: the live script. */
 struct script_live_control {
-    struct dyn_control row; /* `at` has no meaning */
+    struct control row; /* `at` has no meaning */
     double value;
 };
 const struct script_live_control *script_live_control(const struct script_live *live,

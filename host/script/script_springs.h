@@ -43,7 +43,7 @@ void script_network_painter_take(lua_State *L, struct script_network *s);
 /* Counts the memory that the network has allocated since. */
 void script_network_count(lua_State *L, struct script_network *s);
 /* Pops a control's value: a number, a text or a boolean. */
-double script_control_pop(lua_State *L, const struct dyn_control *control);
+double script_control_pop(lua_State *L, const struct control *control);
 /* Sets a control of the world, or of all words' styles. */
 void script_network_set(lua_State *L, struct script_network *s, const char *name, int index);
 

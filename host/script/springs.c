@@ -115,7 +115,7 @@ static double place_at(lua_State *L, int index, const char *what)
     return script_arg_at(L, index, what, -1e6, 1e6);
 }
 
-double script_control_pop(lua_State *L, const struct dyn_control *control)
+double script_control_pop(lua_State *L, const struct control *control)
 {
     double value = 0;
     switch (lua_type(L, -1)) {
@@ -138,7 +138,7 @@ double script_control_pop(lua_State *L, const struct dyn_control *control)
     return value;
 }
 
-static const struct dyn_control *style_find(const char *name)
+static const struct control *style_find(const char *name)
 {
     for (int i = 0; i < dyn_word_controls_count; i++)
         if (strcmp(dyn_word_controls[i].name, name) == 0)
@@ -148,8 +148,8 @@ static const struct dyn_control *style_find(const char *name)
 
 void script_network_set(lua_State *L, struct script_network *s, const char *name, int index)
 {
-    const struct dyn_control *of_style = style_find(name);
-    const struct dyn_control *control = of_style ? of_style : dyn_control_find(name);
+    const struct control *of_style = style_find(name);
+    const struct control *control = of_style ? of_style : dyn_control_find(name);
     if (!control)
         script_fail(L, dyn_error());
     lua_pushvalue(L, index);
@@ -189,7 +189,7 @@ static int make_network(lua_State *L)
 }
 
 /* Reads the fields that a copied table of options at index has. */
-static void fields_read(lua_State *L, int index, const struct dyn_control *fields, int count,
+static void fields_read(lua_State *L, int index, const struct control *fields, int count,
                         void *of)
 {
     for (int i = 0; i < count; i++) {
@@ -345,10 +345,10 @@ static int network_set(lua_State *L)
 static int network_get(lua_State *L)
 {
     const struct script_network *s = script_network_at(L, 1);
-    const struct dyn_control *control = dyn_control_find(luaL_checkstring(L, 2));
+    const struct control *control = dyn_control_find(luaL_checkstring(L, 2));
     if (!control)
         script_fail(L, dyn_error());
-    lua_pushnumber(L, dyn_control_read(control, dyn_network_world(s->network)));
+    lua_pushnumber(L, control_read(control, dyn_network_world(s->network)));
     return 1;
 }
 
@@ -358,7 +358,7 @@ static int network_set_mass(lua_State *L)
     lua_settop(L, 4);
     const struct script_network *s = script_network_at(L, 1);
     int index = lua_isnil(L, 2) ? DYN_ALL : script_network_mass_at(L, s, 2);
-    const struct dyn_control *field = dyn_mass_field_find(luaL_checkstring(L, 3));
+    const struct control *field = dyn_mass_field_find(luaL_checkstring(L, 3));
     if (!field)
         script_fail(L, dyn_error());
     script_dyn_check(L, dyn_mass_write(s->network, index, field, script_control_pop(L, field)));
@@ -370,7 +370,7 @@ static int network_set_spring(lua_State *L)
     lua_settop(L, 4);
     const struct script_network *s = script_network_at(L, 1);
     int index = lua_isnil(L, 2) ? DYN_ALL : spring_at(L, s, 2);
-    const struct dyn_control *field = dyn_spring_field_find(luaL_checkstring(L, 3));
+    const struct control *field = dyn_spring_field_find(luaL_checkstring(L, 3));
     if (!field)
         script_fail(L, dyn_error());
     script_dyn_check(L,

@@ -53,8 +53,8 @@ static struct font_shaper *shaper_of(lua_State *L, struct script_network *s, con
 }
 
 /* Reads the controls in the options at index into a style and a world. */
-static void controls_read(lua_State *L, int index, const struct dyn_control *controls,
-                          int count, void *of)
+static void controls_read(lua_State *L, int index, const struct control *controls, int count,
+                          void *of)
 {
     for (int i = 0; i < count; i++) {
         lua_pushstring(L, controls[i].name);

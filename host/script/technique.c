@@ -59,7 +59,8 @@ static int paper_lift(lua_State *L)
     struct paper_sheet *sheet = script_paper_begin(L, 3)->sheet;
     const struct paper_sheet_config *config = paper_sheet_get_config(sheet);
     struct paper_screen screen;
-    struct paper_lift lift = {.part = script_arg_at(L, 3, "lift's part", 0, 1)};
+    struct paper_lift lift = {
+        .part = script_member_at(L, 3, "lift's part", &paper_lift_members, "part", NAN)};
     if (script_mask_screen(L, 2, config->width, config->height, &screen, &lift.place.x,
                            &lift.place.y)) {
         lift.place.screen = &screen;
@@ -76,7 +77,8 @@ static int paper_varnish(lua_State *L)
     const struct paper_sheet_config *config = paper_sheet_get_config(sheet);
     struct paper_screen screen;
     struct paper_varnish varnish = {
-        .amount = lua_isnoneornil(L, 3) ? 1 : script_arg_at(L, 3, "varnish's amount", 0, 1)};
+        .amount =
+            script_member_at(L, 3, "varnish's amount", &paper_varnish_members, "amount", 1)};
     if (script_mask_screen(L, 2, config->width, config->height, &screen, &varnish.place.x,
                            &varnish.place.y)) {
         varnish.place.screen = &screen;

@@ -60,7 +60,7 @@ struct stage_actor_kind {
     const char *name;
     /* Returns the actor's controls; *count: how many. The rows stay the same as long as the
      * actor exists. */
-    const struct stage_control *(*controls)(void *actor, int *count);
+    const struct control *(*controls)(void *actor, int *count);
     enum stage_status (*step)(void *actor, double dt_s);
     void (*draw)(void *actor, const struct stage_look *look, struct stage_draw_list *list);
     /* True: the actor took the event; then moves and the release go to it alone. */

@@ -1,193 +1,35 @@
 /* control_table.c - see control_table.h. */
 #include "control_table.h"
 
-#include <error_text.h>
-#include <word_list.h>
-
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-const struct stage_control *stage_control_find(const struct stage_control *rows, int count,
-                                               const char *name)
+const struct control *stage_control_find(const struct control *rows, int count,
+                                         const char *name)
 {
-    char known[400] = "";
-    for (int i = 0; i < count; i++) {
-        if (strcmp(rows[i].name, name) == 0)
-            return &rows[i];
-        error_text_list(known, sizeof known, ", ", rows[i].name);
-    }
-    stage_fail(STAGE_BAD_ARGUMENT, "there is no control '%.60s'; there are %s", name, known);
-    return NULL;
+    char known[400];
+    const struct control *row = control_find(rows, count, name, known, sizeof known);
+    if (!row)
+        stage_fail(STAGE_BAD_ARGUMENT, "there is no control '%.60s'; there are %s", name,
+                   known);
+    return row;
 }
 
-double stage_control_read(const struct stage_control *row, void *actor)
+enum stage_status stage_control_check(const struct control *row, double value)
 {
-    return row->read(actor, row->index);
+    struct error_text why;
+    return control_check(row, value, &why) ? STAGE_OK
+                                           : stage_fail(STAGE_BAD_ARGUMENT, "%s", why.text);
 }
 
-enum stage_status stage_control_check(const struct stage_control *row, double value)
+enum stage_status stage_control_write(const struct control *row, void *actor, double value)
 {
-    bool whole = row->curve == CONTROL_SWITCH || row->curve == CONTROL_CHOICE;
-    if (!(value >= row->least && value <= row->most) || (whole && value != floor(value)))
-        return stage_fail(STAGE_BAD_ARGUMENT, "%s must be %s%g..%g%s%s (got %g)", row->name,
-                          whole ? "a whole number of " : "", row->least, row->most,
-                          row->unit[0] ? " " : "", row->unit, value);
-    return STAGE_OK;
+    const enum stage_status status = stage_control_check(row, value);
+    return status == STAGE_OK ? (enum stage_status)control_put(row, actor, value) : status;
 }
 
-enum stage_status stage_control_write(const struct stage_control *row, void *actor,
-                                      double value)
-{
-    enum stage_status status = stage_control_check(row, value);
-    return status == STAGE_OK ? row->write(actor, row->index, value) : status;
-}
-
-enum stage_status stage_control_parse(const struct stage_control *row, const char *text,
+enum stage_status stage_control_parse(const struct control *row, const char *text,
                                       double *value)
 {
-    char *end;
-    if (row->curve == CONTROL_SWITCH && (!strcmp(text, "on") || !strcmp(text, "off"))) {
-        *value = text[1] == 'n';
-        return STAGE_OK;
-    }
-    if (row->curve == CONTROL_CHOICE) {
-        const int chosen = word_list_find(row->choices, text);
-        if (chosen < 0)
-            return stage_fail(STAGE_BAD_ARGUMENT, "%s must be one of %s (got '%.40s')",
-                              row->name, row->choices, text);
-        *value = chosen;
-        return STAGE_OK;
-    }
-    *value = strtod(text, &end);
-    if (end == text || *end || !isfinite(*value))
-        return stage_fail(STAGE_BAD_ARGUMENT, "%s must be %s (got '%.40s')", row->name,
-                          row->curve == CONTROL_SWITCH ? "on or off" : "a number", text);
-    return STAGE_OK;
-}
-
-void stage_control_text(const struct stage_control *row, double value, char *text, size_t room)
-{
-    size_t length = 0;
-    const char *choice = row->curve == CONTROL_CHOICE && value >= 0
-                             ? word_list_at(row->choices, (int)value, &length)
-                             : NULL;
-    if (row->curve == CONTROL_SWITCH)
-        snprintf(text, room, "%s", value != 0 ? "on" : "off");
-    else if (length > 0)
-        snprintf(text, room, "%.*s", (int)length, choice);
-    else
-        snprintf(text, room, "%.4g", value);
-}
-
-void stage_control_number(const struct stage_control *row, double value, char *text,
-                          size_t room)
-{
-    enum { DECIMALS_MOST = 9, NUMBER_BYTES = 400 }; /* those of the largest double */
-    const double near = 5e-5 * fmin(row->most - row->least, fabs(value));
-    char number[NUMBER_BYTES] = "";
-    for (int decimals = 0; decimals <= DECIMALS_MOST; decimals++) {
-        snprintf(number, sizeof number, "%.*f", decimals, value);
-        if (fabs(strtod(number, NULL) - value) <= near)
-            break;
-    }
-    const bool zero = strtod(number, NULL) == 0;
-    snprintf(text, room, "%s", zero ? "0" : number);
-}
-
-/* ---- along a slider ----
- *
- *     0    linear_share          1/2                    1        along
- *     |---------|-----------------|---------------------|
- *   least     bottom            middle                 most      value
- *      (0 or below)
- *
- * Each half is bent: it begins at the middle with half of its mean slope, and ends with one and
- * a half times that. */
-
-static const double linear_share = 0.05, bottom_part = 1e-3, middle_part = 1e-2;
-
-/* 0..1 to 0..1, and back. */
-static double bend(double part)
-{
-    return (part + part * part) / 2;
-}
-
-static double unbend(double bent)
-{
-    return (sqrt(1 + 8 * bent) - 1) / 2;
-}
-
-/* What the middle of the slider is. */
-static double middle_of(const struct stage_control *row)
-{
-    if (row->usual > row->least && row->usual < row->most &&
-        (row->usual > 0 || row->curve == CONTROL_CENTRED))
-        return row->usual;
-    if (row->curve == CONTROL_CENTRED)
-        return (row->least + row->most) / 2;
-    return row->least > 0 ? sqrt(row->least * row->most) : row->most * middle_part;
-}
-
-static double centred_along(const struct stage_control *row, double value)
-{
-    const double middle = middle_of(row);
-    return value >= middle ? 0.5 + unbend((value - middle) / (row->most - middle)) / 2
-                           : 0.5 - unbend((middle - value) / (middle - row->least)) / 2;
-}
-
-static double centred_at(const struct stage_control *row, double along)
-{
-    const double middle = middle_of(row);
-    return along >= 0.5 ? middle + bend(2 * along - 1) * (row->most - middle)
-                        : middle - bend(1 - 2 * along) * (middle - row->least);
-}
-
-static double logarithmic_along(const struct stage_control *row, double value)
-{
-    const double middle = middle_of(row);
-    const double bottom = row->least > 0 ? row->least : middle * bottom_part;
-    const double share = row->least > 0 ? 0 : linear_share;
-    if (value >= middle)
-        return 0.5 + unbend(log(value / middle) / log(row->most / middle)) / 2;
-    if (value < bottom)
-        return share * (value - row->least) / (bottom - row->least);
-    return 0.5 - (0.5 - share) * unbend(log(value / middle) / log(bottom / middle));
-}
-
-static double logarithmic_at(const struct stage_control *row, double along)
-{
-    const double middle = middle_of(row);
-    const double bottom = row->least > 0 ? row->least : middle * bottom_part;
-    const double share = row->least > 0 ? 0 : linear_share;
-    if (along >= 0.5)
-        return middle * pow(row->most / middle, bend(2 * along - 1));
-    if (along < share)
-        return row->least + along / share * (bottom - row->least);
-    return middle * pow(bottom / middle, bend((0.5 - along) / (0.5 - share)));
-}
-
-double stage_control_along(const struct stage_control *row, double value)
-{
-    value = fmin(row->most, fmax(row->least, value));
-    if (row->curve == CONTROL_LOGARITHMIC)
-        return logarithmic_along(row, value);
-    if (row->curve == CONTROL_CENTRED)
-        return centred_along(row, value);
-    return (value - row->least) / (row->most - row->least);
-}
-
-double stage_control_at(const struct stage_control *row, double along)
-{
-    along = fmin(1, fmax(0, along));
-    double value = row->least + along * (row->most - row->least);
-    if (row->curve == CONTROL_LOGARITHMIC)
-        value = logarithmic_at(row, along);
-    if (row->curve == CONTROL_CENTRED)
-        value = centred_at(row, along);
-    if (row->curve == CONTROL_SWITCH || row->curve == CONTROL_CHOICE)
-        value = floor(value + 0.5);
-    return fmin(row->most, fmax(row->least, value));
+    struct error_text why;
+    return control_parse(row, text, value, &why)
+               ? STAGE_OK
+               : stage_fail(STAGE_BAD_ARGUMENT, "%s", why.text);
 }

@@ -61,33 +61,33 @@ void stage_axes_find(struct stage_axes *a, struct stage_axes_set *set, struct fo
     }
 }
 
-int stage_axes_rows(const struct stage_axes *a, struct stage_control *rows,
+int stage_axes_rows(const struct stage_axes *a, struct control *rows,
                     double (*read)(void *actor, int index),
-                    enum stage_status (*write)(void *actor, int index, double value))
+                    unsigned (*write)(void *actor, int index, double value))
 {
     int count = 0;
     for (int i = 0; i < a->count; i++) {
-        rows[count++] = (struct stage_control){.name = a->names[i][0],
-                                               .unit = "",
-                                               .least = a->least[i],
-                                               .most = a->most[i],
-                                               .usual = a->usual[i],
-                                               .curve = CONTROL_LINEAR,
-                                               .does = "of the font's letters: one of its axes",
-                                               .read = read,
-                                               .write = write,
-                                               .index = i * COLUMNS};
+        rows[count++] = (struct control){.name = a->names[i][0],
+                                         .unit = "",
+                                         .least = a->least[i],
+                                         .most = a->most[i],
+                                         .usual = a->usual[i],
+                                         .curve = CONTROL_LINEAR,
+                                         .does = "of the font's letters: one of its axes",
+                                         .read = read,
+                                         .write = write,
+                                         .at = i * COLUMNS};
         for (int lead = 0; lead < a->leads_count; lead++)
-            rows[count++] = (struct stage_control){.name = a->names[i][1 + lead],
-                                                   .unit = "",
-                                                   .least = -1,
-                                                   .most = 1,
-                                                   .usual = 0,
-                                                   .curve = CONTROL_LINEAR,
-                                                   .does = a->leads[lead].does,
-                                                   .read = read,
-                                                   .write = write,
-                                                   .index = i * COLUMNS + 1 + lead};
+            rows[count++] = (struct control){.name = a->names[i][1 + lead],
+                                             .unit = "",
+                                             .least = -1,
+                                             .most = 1,
+                                             .usual = 0,
+                                             .curve = CONTROL_LINEAR,
+                                             .does = a->leads[lead].does,
+                                             .read = read,
+                                             .write = write,
+                                             .at = i * COLUMNS + 1 + lead};
     }
     return count;
 }

@@ -50,9 +50,9 @@ void stage_axes_find(struct stage_axes *axes, struct stage_axes_set *set,
 
 /* Writes their rows and returns how many, at most STAGE_AXES_MAX (1 + STAGE_LEADS_MAX). The
  * rows' names are the axes'. */
-int stage_axes_rows(const struct stage_axes *axes, struct stage_control *rows,
+int stage_axes_rows(const struct stage_axes *axes, struct control *rows,
                     double (*read)(void *actor, int index),
-                    enum stage_status (*write)(void *actor, int index, double value));
+                    unsigned (*write)(void *actor, int index, double value));
 
 double *stage_axes_setting(struct stage_axes_set *set, int index);
 /* Sets the axis of the face, or what leads it. Errors: BAD_ARGUMENT, where more axes would be

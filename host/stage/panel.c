@@ -106,13 +106,13 @@ double stage_panel_text(struct stage_panel *p, struct stage_draw_list *list, con
 /* ---- places ---- */
 
 /* Changes with a click. */
-static bool is_clicked(const struct stage_control *row)
+static bool is_clicked(const struct control *row)
 {
     return row->curve == CONTROL_SWITCH || row->curve == CONTROL_CHOICE;
 }
 
 /* Controls with an unbounded range of places have no slider; their values are typed. */
-static bool has_slider(const struct stage_control *row)
+static bool has_slider(const struct control *row)
 {
     return !is_clicked(row) &&
            (row->curve == CONTROL_LOGARITHMIC || row->most - row->least < slider_range_max);
@@ -262,17 +262,17 @@ static void knob_draw(const struct stage_panel *p, const struct stage_panel_knob
     stage_draw_line(list, at[0], y, at[1], y, 3 * p->px, colors[STAGE_COLOR_SLIDER_KNOB]);
 }
 
-static void row_draw(struct stage_panel *p, struct stage *stage,
-                     const struct stage_control *row, int number, struct stage_draw_list *list)
+static void row_draw(struct stage_panel *p, struct stage *stage, const struct control *row,
+                     int number, struct stage_draw_list *list)
 {
     const struct stage_theme *theme = stage_theme(stage);
     const struct stage_color *colors = theme->colors;
     char value[64], text[96];
-    double y = row_top(p, number) + p->text_px, now = stage_control_read(row, stage);
+    double y = row_top(p, number) + p->text_px, now = control_read(row, stage);
     bool typing = p->typed_row == number;
     struct stage_panel_knob knob = {0};
     const bool has_knob = knob_of(p, number, &knob);
-    stage_control_text(row, now, value, sizeof value);
+    control_text(row, now, value, sizeof value);
     if (typing)
         snprintf(text, sizeof text, "%s|", p->typed);
     else if (knob.waits)
@@ -288,7 +288,7 @@ static void row_draw(struct stage_panel *p, struct stage *stage,
         return;
     struct font_box box = slider_box(p, number);
     double middle = (box.y0 + box.y1) / 2;
-    double at = box.x0 + stage_control_along(row, now) * (box.x1 - box.x0);
+    double at = box.x0 + control_along(row, now) * (box.x1 - box.x0);
     stage_draw_line(list, box.x0, middle, box.x1, middle, 2 * p->px,
                     colors[STAGE_COLOR_SLIDER]);
     if (has_knob && !knob.waits)
@@ -339,7 +339,7 @@ static int lines_draw(struct stage_panel *p, struct stage_draw_list *list, const
 }
 
 /* What a control does, on the left of its row. */
-static void help_draw(struct stage_panel *p, const struct stage_control *row, int number,
+static void help_draw(struct stage_panel *p, const struct control *row, int number,
                       const struct stage_color *colors, struct stage_draw_list *list)
 {
     const double pad = 0.8 * p->text_px, line = 1.4 * p->text_px,
@@ -370,7 +370,7 @@ void stage_panel_draw(struct stage_panel *p, struct stage *stage, int width_px, 
                       double px, struct stage_draw_list *list)
 {
     const struct stage_theme *theme = stage_theme(stage);
-    const struct stage_control *rows = stage_controls(stage, &p->rows_count);
+    const struct control *rows = stage_controls(stage, &p->rows_count);
     p->width_px = width_px;
     p->height_px = height_px;
     p->px = px;
@@ -405,8 +405,8 @@ void stage_panel_draw(struct stage_panel *p, struct stage *stage, int width_px, 
 /* ---- input ---- */
 
 /* An error is kept for the message; then there is nothing to undo. */
-static void value_set(struct stage_panel *p, struct stage *stage,
-                      const struct stage_control *row, double value)
+static void value_set(struct stage_panel *p, struct stage *stage, const struct control *row,
+                      double value)
 {
     p->message[0] = '\0';
     if (stage_control_write(row, stage, value) != STAGE_OK)
@@ -416,10 +416,10 @@ static void value_set(struct stage_panel *p, struct stage *stage,
 static void drag(struct stage_panel *p, struct stage *stage, double x_px)
 {
     int count;
-    const struct stage_control *row = &stage_controls(stage, &count)[p->dragged];
+    const struct control *row = &stage_controls(stage, &count)[p->dragged];
     struct font_box box = slider_box(p, p->dragged);
     const double along = (x_px - box.x0) / (box.x1 - box.x0);
-    double value = stage_control_at(row, along);
+    double value = control_at(row, along);
     if (p->of_knob) {
         p->knobs.end(p->knobs.context, p->dragged, along);
         return;
@@ -460,7 +460,7 @@ static bool group_fold(struct stage_panel *p, double y_px)
 static void press(struct stage_panel *p, struct stage *stage, const struct input_event *e)
 {
     int count;
-    const struct stage_control *rows = stage_controls(stage, &count);
+    const struct control *rows = stage_controls(stage, &count);
     const bool shift = (e->modifiers & INPUT_SHIFT) != 0;
     struct stage_panel_knob knob;
     p->typed_row = -1;
@@ -474,10 +474,10 @@ static void press(struct stage_panel *p, struct stage *stage, const struct input
         (shift ? p->knobs.forget : p->knobs.learn)(p->knobs.context, number);
     if (e->button != INPUT_BUTTON_LEFT)
         return;
-    const struct stage_control *row = &rows[number];
+    const struct control *row = &rows[number];
     struct font_box slider = slider_box(p, number), value = value_box(p, number);
     if (is_clicked(row)) {
-        double next = stage_control_read(row, stage) + 1;
+        double next = control_read(row, stage) + 1;
         stage_mark(stage);
         value_set(p, stage, row, next > row->most ? row->least : next);
     } else if (has_slider(row) && inside(&slider, e)) {
@@ -497,7 +497,7 @@ static void typed_commit(struct stage_panel *p, struct stage *stage)
 {
     int count;
     double value;
-    const struct stage_control *row = &stage_controls(stage, &count)[p->typed_row];
+    const struct control *row = &stage_controls(stage, &count)[p->typed_row];
     p->typed_row = -1;
     p->message[0] = '\0';
     if (!p->typed[0])

@@ -226,7 +226,7 @@ enum stage_status stage_session_file_check(const struct stage_file *file, const 
 /* ---- writing ---- */
 
 static void deed_print(const struct stage_session *s, const struct stage_deed *d,
-                       const struct stage_control *rows, FILE *to)
+                       const struct control *rows, FILE *to)
 {
     const struct stage_event *e = &d->event;
     fprintf(to, "%lld %s", (long long)d->step, kind_names[d->kind]);
@@ -245,8 +245,8 @@ static void deed_print(const struct stage_session *s, const struct stage_deed *d
     fputc('\n', to);
 }
 
-enum stage_status stage_session_write(const struct stage_session *s,
-                                      const struct stage_control *rows, const char *path)
+enum stage_status stage_session_write(const struct stage_session *s, const struct control *rows,
+                                      const char *path)
 {
     struct output_file out;
     if (s->broken)
@@ -334,10 +334,10 @@ static bool hand_read(const struct line *line, struct stage_event *event)
 }
 
 /* STEP set NAME VALUE. NULL: it is fine; else what it must be. */
-static const char *set_read(const struct line *line, const struct stage_control *rows,
-                            int count, struct stage_deed *deed)
+static const char *set_read(const struct line *line, const struct control *rows, int count,
+                            struct stage_deed *deed)
 {
-    const struct stage_control *row =
+    const struct control *row =
         line->count == 4 ? stage_control_find(rows, count, line->words[2]) : NULL;
     if (line->count != 4)
         return "`STEP set NAME VALUE`";
@@ -394,9 +394,8 @@ static const char *text_read(struct line *line, struct stage_session *out,
 }
 
 /* NULL: it is fine; else what the line must be. */
-static const char *deed_read(struct line *line, const struct stage_control *rows,
-                             int rows_count, int number, struct stage_session *out,
-                             struct stage_deed *deed)
+static const char *deed_read(struct line *line, const struct control *rows, int rows_count,
+                             int number, struct stage_session *out, struct stage_deed *deed)
 {
     int64_t least_step = out->count ? out->deeds[out->count - 1].step : 0;
     long long step;
@@ -427,7 +426,7 @@ static enum stage_status wrong(const char *name, int number, const char *must)
 }
 
 struct reader {
-    const struct stage_control *rows;
+    const struct control *rows;
     int rows_count, number; /* of the line */
     bool begun, ended;
 };
@@ -468,7 +467,7 @@ static const char *line_read(struct reader *r, struct line *line, struct stage_s
 }
 
 enum stage_status stage_session_parse(const char *text, size_t bytes, const char *name,
-                                      const struct stage_control *rows, int rows_count,
+                                      const struct control *rows, int rows_count,
                                       struct stage_session *out)
 {
     const char *end = text + bytes;
@@ -503,7 +502,7 @@ enum stage_status stage_session_parse(const char *text, size_t bytes, const char
     return status;
 }
 
-enum stage_status stage_session_read(const char *path, const struct stage_control *rows,
+enum stage_status stage_session_read(const char *path, const struct control *rows,
                                      int rows_count, struct stage_session *out)
 {
     *out = (struct stage_session){0};

@@ -88,7 +88,7 @@ void stage_session_add(struct stage_session *session, const struct stage_deed *d
 
 /* rows: the controls' names. Errors: BAD_FILE, BAD_ARGUMENT (broken). */
 enum stage_status stage_session_write(const struct stage_session *session,
-                                      const struct stage_control *rows, const char *path);
+                                      const struct control *rows, const char *path);
 
 /* How long a session takes that begins with this rate, of steps of this length: rates that are
  * set, undone and reset count. Without a known end it is that of the last action. rate_control:
@@ -110,11 +110,11 @@ enum stage_status stage_session_file_check(const struct stage_file *file, const 
 
 /* Errors: BAD_FILE, with the file's name and the line, also if a loaded file is not there or
  * has changed; NO_MEMORY. *out is then empty. */
-enum stage_status stage_session_read(const char *path, const struct stage_control *rows,
+enum stage_status stage_session_read(const char *path, const struct control *rows,
                                      int rows_count, struct stage_session *out);
 /* The same for a text in memory, without a look at loaded files; name: used in errors. */
 enum stage_status stage_session_parse(const char *text, size_t bytes, const char *name,
-                                      const struct stage_control *rows, int rows_count,
+                                      const struct control *rows, int rows_count,
                                       struct stage_session *out);
 
 #endif

@@ -24,10 +24,10 @@ struct stage_springs_def stage_springs_def_default(void)
 static double world_read(void *actor, int index)
 {
     const struct springs *s = actor;
-    return dyn_control_read(&dyn_controls[index], dyn_network_world(s->network));
+    return control_read(&dyn_controls[index], dyn_network_world(s->network));
 }
 
-static enum stage_status world_write(void *actor, int index, double value)
+static unsigned world_write(void *actor, int index, double value)
 {
     struct springs *s = actor;
     struct dyn_world world = *dyn_network_world(s->network);
@@ -51,13 +51,13 @@ static double own_read(void *actor, int index)
     return *own_setting(actor, index);
 }
 
-static enum stage_status own_write(void *actor, int index, double value)
+static unsigned own_write(void *actor, int index, double value)
 {
     *own_setting(actor, index) = value;
     return STAGE_OK;
 }
 
-static const struct stage_control own_rows[OWN_ROWS] = {
+static const struct control own_rows[OWN_ROWS] = {
     {"hand", "kg/s2", 1, 1e5, 300, CONTROL_LOGARITHMIC, NULL, "how stiff the hand's spring is",
      own_read, own_write, 0},
     {"show_masses", "", 0, 1, 1, CONTROL_SWITCH, NULL, "masses are seen", own_read, own_write,
@@ -78,10 +78,10 @@ static const struct stage_control own_rows[OWN_ROWS] = {
 static double style_read(void *actor, int index)
 {
     const struct springs *s = actor;
-    return dyn_control_read(&dyn_word_controls[index], &s->set.style);
+    return control_read(&dyn_word_controls[index], &s->set.style);
 }
 
-static enum stage_status style_write(void *actor, int index, double value)
+static unsigned style_write(void *actor, int index, double value)
 {
     struct springs *s = actor;
     struct dyn_word_style style = s->set.style;
@@ -94,21 +94,15 @@ static enum stage_status style_write(void *actor, int index, double value)
     return STAGE_OK;
 }
 
-static struct stage_control
-row_of(const struct dyn_control *c, int index, double (*read)(void *actor, int index),
-       enum stage_status (*write)(void *actor, int index, double value))
+static struct control row_of(const struct control *c, int index,
+                             double (*read)(void *actor, int index),
+                             unsigned (*write)(void *actor, int index, double value))
 {
-    return (struct stage_control){.name = c->name,
-                                  .unit = c->unit,
-                                  .least = c->least,
-                                  .most = c->most,
-                                  .usual = c->usual,
-                                  .curve = c->curve,
-                                  .choices = c->choices,
-                                  .does = c->does,
-                                  .read = read,
-                                  .write = write,
-                                  .index = index};
+    struct control row = *c;
+    row.read = read;
+    row.write = write;
+    row.at = index;
+    return row;
 }
 
 /* A style's choices (box, tacks) take effect only when the word is made, so they are not
@@ -133,7 +127,7 @@ static enum stage_status rows_make(struct springs *s, struct font_face *face)
     return STAGE_OK;
 }
 
-static const struct stage_control *springs_controls(void *actor, int *count)
+static const struct control *springs_controls(void *actor, int *count)
 {
     const struct springs *s = actor;
     *count = s->rows_count;

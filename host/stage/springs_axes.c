@@ -13,13 +13,13 @@ static double axis_read(void *actor, int index)
     return *stage_axes_setting(&((struct springs *)actor)->set.axes, index);
 }
 
-static enum stage_status axis_write(void *actor, int index, double value)
+static unsigned axis_write(void *actor, int index, double value)
 {
     struct springs *s = actor;
     return stage_axes_write(&s->axes, &s->set.axes, index, value);
 }
 
-int springs_axes_find(struct springs *s, struct font_face *face, struct stage_control *rows)
+int springs_axes_find(struct springs *s, struct font_face *face, struct control *rows)
 {
     stage_axes_find(&s->axes, &s->set.axes, face, leads, 1, NULL);
     return stage_axes_rows(&s->axes, rows, axis_read, axis_write);

@@ -53,7 +53,7 @@ struct springs_text {
 struct springs {
     struct dyn_network *network;
     struct springs_text *text;
-    struct stage_control *rows;
+    struct control *rows;
     int rows_count;
     struct stage_springs_maker maker;
     struct dyn_clamps *clamps;
@@ -75,7 +75,7 @@ void springs_text_let(struct springs_text *text);
 /* Finds the axes of the face, which is NULL or variable, and their rows: SPRINGS_AXES_ROWS at
  * most. Returns how many. */
 enum { SPRINGS_AXES_ROWS = 2 * STAGE_AXES_MAX };
-int springs_axes_find(struct springs *s, struct font_face *face, struct stage_control *rows);
+int springs_axes_find(struct springs *s, struct font_face *face, struct control *rows);
 
 /* Finds whose corners the masses are. Errors: NO_MEMORY. */
 enum stage_status springs_strains_make(struct springs_text *text, int masses_count);

@@ -40,7 +40,7 @@ static double own_read(void *stage, int index)
     return values[index];
 }
 
-static enum stage_status own_write(void *of, int index, double value)
+static unsigned own_write(void *of, int index, double value)
 {
     struct stage *stage = of;
     struct stage_settings *s = &stage->settings;
@@ -54,7 +54,7 @@ static enum stage_status own_write(void *of, int index, double value)
     return STAGE_OK;
 }
 
-static const struct stage_control own_rows[OWN_CONTROLS] = {
+static const struct control own_rows[OWN_CONTROLS] = {
     {"rate", "", 0.01, 10, 1, CONTROL_LOGARITHMIC, NULL,
      "simulated seconds in one second: below 1 slow motion", own_read, own_write, 0},
     {"skins", "", 0, STAGE_SKINS_MAX, 0, CONTROL_LINEAR, NULL,
@@ -68,7 +68,7 @@ static const struct stage_control own_rows[OWN_CONTROLS] = {
     {"shadow", "", 0, 1, 0, CONTROL_SWITCH, NULL, "letters throw a shadow on what is behind",
      own_read, own_write, 5}};
 
-static const struct stage_control *actors_row(const struct stage *s, int index)
+static const struct control *actors_row(const struct stage *s, int index)
 {
     return &s->actors_rows[index];
 }
@@ -77,10 +77,10 @@ static const struct stage_control *actors_row(const struct stage *s, int index)
 static double actors_read(void *stage, int index)
 {
     const struct stage *s = stage;
-    return stage_control_read(actors_row(s, index), s->actor.self);
+    return control_read(actors_row(s, index), s->actor.self);
 }
 
-static enum stage_status actors_write(void *stage, int index, double value)
+static unsigned actors_write(void *stage, int index, double value)
 {
     struct stage *s = stage;
     enum stage_status status = stage_control_write(actors_row(s, index), s->actor.self, value);
@@ -99,8 +99,8 @@ static enum stage_status controls_make(struct stage *s)
         return stage_fail(STAGE_NO_MEMORY, "no memory for a stage");
     memcpy(s->controls, own_rows, sizeof own_rows);
     for (int i = 0; i < count; i++) {
-        struct stage_control row = s->actors_rows[i];
-        row.index = i;
+        struct control row = s->actors_rows[i];
+        row.at = i;
         row.read = actors_read;
         row.write = actors_write;
         s->controls[OWN_CONTROLS + i] = row;
@@ -109,7 +109,7 @@ static enum stage_status controls_make(struct stage *s)
     return STAGE_OK;
 }
 
-const struct stage_control *stage_controls(struct stage *s, int *count)
+const struct control *stage_controls(struct stage *s, int *count)
 {
     *count = s->controls_count;
     return s->controls;
@@ -125,7 +125,7 @@ enum stage_status stage_set(struct stage *s, const char *assignment)
                           assignment);
     memcpy(name, assignment, (size_t)(equals - assignment));
     name[equals - assignment] = '\0';
-    const struct stage_control *row = stage_control_find(s->controls, s->controls_count, name);
+    const struct control *row = stage_control_find(s->controls, s->controls_count, name);
     if (!row)
         return STAGE_BAD_ARGUMENT;
     enum stage_status status = stage_control_parse(row, equals + 1, &value);

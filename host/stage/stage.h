@@ -47,8 +47,8 @@ struct stage_actor stage_actor(const struct stage *stage);
 /* ---- controls ---- */
 
 /* The controls of the stage and then those of the actor, as one table: pass `stage` to
- * stage_control_read() and so on. */
-const struct stage_control *stage_controls(struct stage *stage, int *count);
+ * control_read() and so on. */
+const struct control *stage_controls(struct stage *stage, int *count);
 /* Sets NAME=VALUE. Errors: BAD_ARGUMENT. */
 enum stage_status stage_set(struct stage *stage, const char *assignment);
 

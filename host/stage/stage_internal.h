@@ -22,9 +22,9 @@ struct stage {
     struct frame_clock clock;
     bool began, forgets;
     struct stage_settings settings;
-    struct stage_control *controls; /* the stage's and the actor's */
+    struct control *controls; /* the stage's and the actor's */
     int controls_count;
-    const struct stage_control *actors_rows;
+    const struct control *actors_rows;
     /* The view, for a size. */
     struct stage_view view;
     int width_px, height_px;

@@ -18,7 +18,7 @@ static bool is_line(const char *text)
     return true;
 }
 
-static void control_check(const struct demonstration_control *c)
+static void control_checked(const struct demonstration_control *c)
 {
     must(c->name[0] && strlen(c->name) <= DEMONSTRATION_NAME_MAX && is_line(c->name));
     must(strlen(c->unit) <= DEMONSTRATION_UNIT_MAX && is_line(c->unit));
@@ -36,7 +36,7 @@ static void message_check(const struct demonstration_message *m, bool to_process
     must(m->kind >= DEMONSTRATION_FRAME && m->kind < DEMONSTRATION_KINDS);
     must((m->kind <= DEMONSTRATION_SET) == to_process);
     if (m->kind == DEMONSTRATION_CONTROL)
-        control_check(&m->control);
+        control_checked(&m->control);
     must(m->seconds >= 0 && m->seconds <= 1);
     must(m->x >= -1e6 && m->x <= 1e6 && m->y >= -1e6 && m->y <= 1e6);
     must(m->pressure >= 0 && m->pressure <= 1);

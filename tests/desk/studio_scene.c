@@ -238,7 +238,7 @@ void scene_write(FILE *out, double zoom)
         const double begins =
             0.25 * i; /* the numbers of seconds are exact: so are their differences */
         char tool[32];
-        stage_control_text(&studio_controls[STUDIO_TOOL], d->tool, tool, sizeof tool);
+        control_text(&studio_controls[STUDIO_TOOL], d->tool, tool, sizeof tool);
         fprintf(out, "%g set tool %s\n%g set width %g\n", begins, tool, begins, d->width);
         for (int k = 0; k < d->count; k++) {
             const double x = zoom * (d->way[k][0] - SCENE_WIDTH / 2.0),

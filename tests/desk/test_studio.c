@@ -89,14 +89,14 @@ static void tables_are_whole(void **state)
     struct studio_settings settings;
     studio_settings_usual(&settings);
     for (int i = 0; i < STUDIO_SETTINGS; i++) {
-        const struct stage_control *row = &studio_controls[i];
+        const struct control *row = &studio_controls[i];
         assert_non_null(row->name);
         assert_non_null(row->does);
-        assert_int_equal(row->index, i);
+        assert_int_equal(row->at, i);
         assert_true(row->least < row->most && row->usual >= row->least &&
                     row->usual <= row->most);
         assert_int_equal(stage_control_write(row, &settings, row->usual), STAGE_OK);
-        assert_true(stage_control_read(row, &settings) == row->usual);
+        assert_true(control_read(row, &settings) == row->usual);
         for (int k = 0; k < i; k++)
             assert_string_not_equal(row->name, studio_controls[k].name);
     }
@@ -104,14 +104,14 @@ static void tables_are_whole(void **state)
         char name[64];
         assert_non_null(studio_tools[i].name);
         assert_int_equal(strlen(studio_tools[i].key), 1);
-        stage_control_text(&studio_controls[STUDIO_TOOL], i, name, sizeof name);
+        control_text(&studio_controls[STUDIO_TOOL], i, name, sizeof name);
         assert_true(name[0] >= 'a' && name[0] <= 'z');
         for (int k = 0; k < i; k++)
             assert_string_not_equal(studio_tools[i].key, studio_tools[k].key);
     }
     for (int i = 0; paper_brush_kind(i); i++) { /* the choices are the kinds */
         char name[64];
-        stage_control_text(&studio_controls[STUDIO_BRUSH], i, name, sizeof name);
+        control_text(&studio_controls[STUDIO_BRUSH], i, name, sizeof name);
         assert_string_equal(name, paper_brush_kind(i));
         assert_true(i <= studio_controls[STUDIO_BRUSH].most);
         struct paper_brush kind = paper_brush_default();

@@ -40,7 +40,7 @@ enum {
 };
 #define GROWTH 20.0
 
-static double any_of(uint64_t *state, const struct dyn_control *c)
+static double any_of(uint64_t *state, const struct control *c)
 {
     double most = isfinite(c->most) ? c->most : 1000, low;
     switch (c->curve) {
@@ -61,7 +61,7 @@ static double any_of(uint64_t *state, const struct dyn_control *c)
     return fmin(fmax(low * exp(scene_chance(state, 0, log(most / low))), c->least), most);
 }
 
-static void fields_fill(uint64_t *state, const struct dyn_control *fields, int first, int count,
+static void fields_fill(uint64_t *state, const struct control *fields, int first, int count,
                         void *of)
 {
     for (int i = first; i < count; i++)

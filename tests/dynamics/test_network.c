@@ -96,26 +96,26 @@ static void tables_name_ranges_and_choices(void **unused)
     double value;
     assert_null(dyn_control_find("gravy"));
     assert_non_null(
-        strstr(dyn_error(), "there is no control 'gravy'; there are gravity wind_x"));
-    const struct dyn_control *integrator = dyn_control_find("integrator");
+        strstr(dyn_error(), "there is no control 'gravy'; there are gravity, wind_x"));
+    const struct control *integrator = dyn_control_find("integrator");
     scene_must(dyn_control_parse(integrator, "verlet", &value));
     assert_true(value == DYN_VERLET);
     refused(dyn_control_parse(integrator, "euler", &value), DYN_BAD_ARGUMENT,
-            "integrator: 'euler' is no number and none of: symplectic verlet thesis");
+            "integrator must be one of symplectic verlet thesis (got 'euler')");
     scene_must(dyn_control_parse(dyn_control_find("floor_on"), "off", &value));
     assert_true(value == 0);
     refused(dyn_control_parse(dyn_control_find("gravity"), "1e9", &value), DYN_BAD_ARGUMENT,
             "gravity must be -100..100 units/s2 (got 1e+09)");
     refused(dyn_control_write(integrator, &w, 0.5), DYN_BAD_ARGUMENT,
-            "integrator must be whole (got 0.5)");
+            "integrator must be a whole number of 0..2 (got 0.5)");
     for (int i = 0; i < dyn_controls_count; i++) {
-        const struct dyn_control *c = &dyn_controls[i];
+        const struct control *c = &dyn_controls[i];
         assert_ptr_equal(dyn_control_find(c->name), c);
-        assert_true(dyn_control_read(c, &w) == c->usual);
+        assert_true(control_read(c, &w) == c->usual);
         assert_int_equal(dyn_control_write(c, &w, c->least), DYN_OK);
-        assert_true(dyn_control_read(c, &w) == c->least);
+        assert_true(control_read(c, &w) == c->least);
         assert_int_equal(dyn_control_write(c, &w, c->most + 1), DYN_BAD_ARGUMENT);
-        assert_true(dyn_control_read(c, &w) == c->least);
+        assert_true(control_read(c, &w) == c->least);
     }
     assert_int_equal(sizeof w,
                      (size_t)dyn_controls_count * sizeof(double)); /* none without a row */
@@ -126,17 +126,17 @@ static void rows_of_a_long_table_are_found(void **unused)
 {
     enum { MANY = 64 };
     static char words[MANY][40];
-    static struct dyn_control rows[MANY];
+    static struct control rows[MANY];
     char names[400];
     (void)unused;
     for (int i = 0; i < MANY; i++) {
         snprintf(words[i], sizeof words[i], "a_name_of_some_length_%04d", i);
         rows[i].name = words[i];
     }
-    assert_null(dyn_row_find(rows, MANY, "none", names, sizeof names));
+    assert_null(control_find(rows, MANY, "none", names, sizeof names));
     assert_in_range(strlen(names), 350, sizeof names - 1);
     assert_string_equal(names + strlen(names) - 26, words[13]); /* 14 names of 26, 13 blanks */
-    assert_ptr_equal(dyn_row_find(rows, MANY, words[40], names, sizeof names), &rows[40]);
+    assert_ptr_equal(control_find(rows, MANY, words[40], names, sizeof names), &rows[40]);
 }
 
 /* Writes and reads all fields of masses and springs, one by one and all at once. */
@@ -152,11 +152,11 @@ static void fields_are_written_and_read(void **unused)
         n = scene_by_chance(&state);
     }
     for (int i = 0; i < dyn_mass_fields_count; i++) {
-        const struct dyn_control *field = &dyn_mass_fields[i];
+        const struct control *field = &dyn_mass_fields[i];
         struct dyn_mass before = dyn_mass_get(n, 2), other = dyn_mass_get(n, 3), now;
         scene_must(dyn_mass_write(n, 2, field, field->most));
         now = dyn_mass_get(n, 2);
-        assert_true(dyn_control_read(field, &now) == field->most);
+        assert_true(control_read(field, &now) == field->most);
         dyn_control_write(field, &before, field->most);
         assert_memory_equal(&now, &before, whole);
         now = dyn_mass_get(n, 3);
@@ -164,22 +164,22 @@ static void fields_are_written_and_read(void **unused)
         scene_must(dyn_mass_write(n, DYN_ALL, field, field->usual));
         for (int m = 0; m < dyn_masses_count(n); m++) {
             now = dyn_mass_get(n, m);
-            assert_true(dyn_control_read(field, &now) == field->usual);
+            assert_true(control_read(field, &now) == field->usual);
         }
     }
     for (int i = 0; i < dyn_spring_fields_count; i++) {
-        const struct dyn_control *field = &dyn_spring_fields[i];
+        const struct control *field = &dyn_spring_fields[i];
         double value = isfinite(field->most) ? field->most : 7;
         scene_must(dyn_spring_write(n, DYN_ALL, field, value));
         for (int s = 0; s < dyn_springs_count(n); s++) {
             struct dyn_spring now = dyn_spring_get(n, s);
-            assert_true(dyn_control_read(field, &now) == value);
+            assert_true(control_read(field, &now) == value);
         }
     }
     assert_null(dyn_mass_field_find("weight"));
     assert_string_equal(dyn_error(),
-                        "a mass has no 'weight'; it has x y vx vy mass drag gravity "
-                        "restitution friction");
+                        "a mass has no 'weight'; it has x, y, vx, vy, mass, drag, gravity, "
+                        "restitution, friction");
     dyn_network_destroy(n);
 }
 

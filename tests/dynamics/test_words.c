@@ -343,11 +343,11 @@ static void presets_and_styles_are_looked_up_and_checked(void **state)
         scene_must(dyn_preset_apply(dyn_presets[i].name, &style, &world));
         int changed = 0;
         for (int k = 0; k < dyn_word_controls_count; k++)
-            changed += dyn_control_read(&dyn_word_controls[k], &style) !=
-                       dyn_control_read(&dyn_word_controls[k], &usual);
+            changed += control_read(&dyn_word_controls[k], &style) !=
+                       control_read(&dyn_word_controls[k], &usual);
         for (int k = 0; k < dyn_controls_count; k++)
-            changed += dyn_control_read(&dyn_controls[k], &world) !=
-                       dyn_control_read(&dyn_controls[k], &before);
+            changed += control_read(&dyn_controls[k], &world) !=
+                       control_read(&dyn_controls[k], &before);
         assert_int_equal(changed, words); /* each is set, to what is not usual */
     }
     assert_int_equal(dyn_preset_apply("soup", &style, &world), DYN_BAD_ARGUMENT);

@@ -16,16 +16,16 @@ static inline double scene_read(void *actor, int index)
     return scene_values[index];
 }
 
-static inline enum stage_status scene_write(void *actor, int index, double value)
+static inline unsigned scene_write(void *actor, int index, double value)
 {
     (void)actor;
     scene_values[index] = value;
     return STAGE_OK;
 }
 
-static inline const struct stage_control *scene_controls(void *actor, int *count)
+static inline const struct control *scene_controls(void *actor, int *count)
 {
-    static const struct stage_control rows[SCENE_CONTROLS] = {
+    static const struct control rows[SCENE_CONTROLS] = {
         {"height", "em", 0, 10, 5, CONTROL_LINEAR, NULL, "how high", scene_read, scene_write,
          0},
         {"weight", "kg", 1, 10000, 100, CONTROL_LOGARITHMIC, NULL, "how heavy", scene_read,
@@ -60,7 +60,7 @@ static inline struct stage *scene_stage(void)
     struct stage_def def = stage_def_default();
     struct stage *stage = NULL;
     int count;
-    const struct stage_control *rows = scene_controls(NULL, &count);
+    const struct control *rows = scene_controls(NULL, &count);
     for (int i = 0; i < count; i++)
         scene_values[i] = rows[i].usual;
     def.actor = (struct stage_actor){&kind, NULL};
@@ -74,7 +74,7 @@ static inline struct stage *scene_stage(void)
 static inline int scene_row(struct stage *stage, const char *name)
 {
     int count;
-    const struct stage_control *rows = stage_controls(stage, &count);
+    const struct control *rows = stage_controls(stage, &count);
     return (int)(stage_control_find(rows, count, name) - rows);
 }
 

@@ -58,10 +58,10 @@ static struct cues *cues_of(const char *text)
 static double now(const char *name)
 {
     int count;
-    const struct stage_control *rows = stage_controls(stage, &count);
-    const struct stage_control *row = stage_control_find(rows, count, name);
+    const struct control *rows = stage_controls(stage, &count);
+    const struct control *row = stage_control_find(rows, count, name);
     assert_non_null(row);
-    return stage_control_read(row, stage);
+    return control_read(row, stage);
 }
 
 static int setup(void **state)
@@ -149,18 +149,17 @@ static void controls_fade(void **state)
 {
     (void)state;
     int count;
-    const struct stage_control *rows = stage_controls(stage, &count);
-    const struct stage_control *row = stage_control_find(rows, count, "stiffness");
+    const struct control *rows = stage_controls(stage, &count);
+    const struct control *row = stage_control_find(rows, count, "stiffness");
     assert_non_null(row);
     struct cues *cues = cues_of("0 set stiffness=2\n0 set stiffness=200 fade 4\n"
                                 "+6 set stiffness=5 fade 10\n+1 set stiffness=0.5\n");
     double before = 0;
     for (int i = 0; i <= 40; i++) {
         cues_frame(cues, i / 10.0);
-        const double along = stage_control_along(row, now("stiffness"));
-        const double wanted =
-            stage_control_along(row, 2) +
-            i / 40.0 * (stage_control_along(row, 200) - stage_control_along(row, 2));
+        const double along = control_along(row, now("stiffness"));
+        const double wanted = control_along(row, 2) +
+                              i / 40.0 * (control_along(row, 200) - control_along(row, 2));
         assert_true(fabs(along - wanted) < 1e-9);
         assert_true(now("stiffness") > before);
         before = now("stiffness");

@@ -205,18 +205,18 @@ static void ends_turn_a_knob_round(void **unused)
     knobs_end(k, weight, 0.25);
     assert_true(knobs_of(k, weight, &knob) && knob.from == 0.25 && knob.to == 0.75);
     int count;
-    const struct stage_control *row = &stage_controls(stage, &count)[weight];
+    const struct control *row = &stage_controls(stage, &count)[weight];
     send(k, 0xe0, 0, 0);
-    assert_true(fabs(scene_values[1] - stage_control_at(row, 0.25)) < 1e-9);
+    assert_true(fabs(scene_values[1] - control_at(row, 0.25)) < 1e-9);
     send(k, 0xe0, 0, 0x40); /* 8192 of 16383 */
-    assert_true(fabs(stage_control_along(row, scene_values[1]) - 0.5) < 1e-4);
+    assert_true(fabs(control_along(row, scene_values[1]) - 0.5) < 1e-4);
     knobs_close(k);
     k = opened(stage, path); /* what was learnt is there again */
     send(k, 0xe0, 0x7f, 0x7f);
-    assert_true(fabs(scene_values[1] - stage_control_at(row, 0.75)) < 1e-6);
+    assert_true(fabs(scene_values[1] - control_at(row, 0.75)) < 1e-6);
     knobs_forget(k, weight);
     send(k, 0xe0, 0, 0);
-    assert_true(fabs(scene_values[1] - stage_control_at(row, 0.75)) < 1e-6);
+    assert_true(fabs(scene_values[1] - control_at(row, 0.75)) < 1e-6);
     knobs_close(k);
     assert_string_equal(text_of(path), "knobs 1\ntheme dark\nend\n");
     stage_destroy(stage);
@@ -290,15 +290,13 @@ static void a_fade_goes_along_the_slider(void **unused)
     text_write(path, "knobs 1\nfade 2 4\nscene 2 weight 10000\nscene 2 lit on\nend\n");
     struct knobs *k = opened(stage, path);
     int count;
-    const struct stage_control *row =
-        &stage_controls(stage, &count)[scene_row(stage, "weight")];
+    const struct control *row = &stage_controls(stage, &count)[scene_row(stage, "weight")];
     knobs_frame(k, 10, NULL);
     assert_int_equal(knobs_scene_play(k, 2), STAGE_OK);
     double last = 100;
     for (double t = 10; t < 14; t += 0.25) {
         knobs_frame(k, t, NULL);
-        assert_true(fabs(stage_control_along(row, scene_values[1]) - (0.5 + (t - 10) / 8)) <
-                    1e-9);
+        assert_true(fabs(control_along(row, scene_values[1]) - (0.5 + (t - 10) / 8)) < 1e-9);
         assert_true(scene_values[1] >= last && scene_values[2] == 0 && scene_values[0] == 5);
         last = scene_values[1];
     }
@@ -520,9 +518,8 @@ static void a_beat_moves_controls(void **unused)
     }
     knobs_frame(k, 1, &beat);
     int count;
-    const struct stage_control *row =
-        &stage_controls(stage, &count)[scene_row(stage, "weight")];
-    assert_true(fabs(stage_control_along(row, scene_values[1]) - 0.5) < 1e-3);
+    const struct control *row = &stage_controls(stage, &count)[scene_row(stage, "weight")];
+    assert_true(fabs(control_along(row, scene_values[1]) - 0.5) < 1e-3);
     assert_true(scene_values[0] >= 10.0 / 24 - 1e-6 && scene_values[0] <= 10 * 2.0 / 24 + 1e-6);
     knobs_close(k);
     stage_destroy(stage);

@@ -67,8 +67,8 @@ static void tell(void *context, const char *text)
 static double value_of(struct stage *stage, const char *name)
 {
     int count;
-    const struct stage_control *rows = stage_controls(stage, &count);
-    return stage_control_read(stage_control_find(rows, count, name), stage);
+    const struct control *rows = stage_controls(stage, &count);
+    return control_read(stage_control_find(rows, count, name), stage);
 }
 
 /* ---- the computer's keyboard ---- */
@@ -277,13 +277,13 @@ static void cues_wait_for_a_key(void **unused)
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
         const struct input_event event = {
             .kind = INPUT_KEY_DOWN, .key = keys[i].key, .modifiers = keys[i].modifiers};
-        const struct stage_control *rows = stage_controls(stage, &count);
-        const struct stage_control *size = stage_control_find(rows, count, "size");
-        const double before = stage_control_read(size, stage);
+        const struct control *rows = stage_controls(stage, &count);
+        const struct control *size = stage_control_find(rows, count, "size");
+        const double before = control_read(size, stage);
         assert_int_equal(live_player_key(player, &event), keys[i].goes);
-        assert_true(stage_control_read(size, stage) == before);
+        assert_true(control_read(size, stage) == before);
         assert_int_equal(live_player_before(player, stage, (double)i), STAGE_OK);
-        assert_true(stage_control_read(size, stage) == (keys[i].goes ? sizes[due++] : before));
+        assert_true(control_read(size, stage) == (keys[i].goes ? sizes[due++] : before));
     }
     live_player_destroy(player);
     def.no_go = true;

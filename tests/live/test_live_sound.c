@@ -52,7 +52,7 @@ static enum stage_status clanker_step(void *actor, double dt_s)
     return STAGE_OK;
 }
 
-static const struct stage_control *clanker_controls(void *actor, int *count)
+static const struct control *clanker_controls(void *actor, int *count)
 {
     (void)actor;
     *count = 0;

@@ -102,7 +102,7 @@ static void written_again(struct stage *stage, const struct stage_session *s)
 {
     struct stage_session again;
     int rows_count;
-    const struct stage_control *rows = stage_controls(stage, &rows_count);
+    const struct control *rows = stage_controls(stage, &rows_count);
     if (stage_session_write(s, rows, path) != STAGE_OK)
         abort();
     FILE *file = fopen(path, "r");
@@ -131,7 +131,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
     struct stage_session s;
     struct stage *stage = stage_make();
     int rows_count;
-    const struct stage_control *rows = stage_controls(stage, &rows_count);
+    const struct control *rows = stage_controls(stage, &rows_count);
     char *text = malloc(count ? count : 1); /* its end is where a sanitizer sees it */
     path_make();
     if (!text)

@@ -18,7 +18,7 @@ static double value_read(void *actor, int index)
     return ((double *)actor)[index];
 }
 
-static enum stage_status value_write(void *actor, int index, double value)
+static unsigned value_write(void *actor, int index, double value)
 {
     if (value == 13)
         return stage_fail(STAGE_FAILED, "thirteen is not wanted");
@@ -27,12 +27,12 @@ static enum stage_status value_write(void *actor, int index, double value)
 }
 
 #define ACCESS .read = value_read, .write = value_write
-static const struct stage_control rows[] = {
-    {"gravity", "em/s2", -100, 100, 9.81, CONTROL_LINEAR, NULL, "", ACCESS, .index = 0},
-    {"stiffness", "kg/s2", 0, 1e6, 500, CONTROL_LOGARITHMIC, NULL, "", ACCESS, .index = 1},
-    {"mass", "kg", 1e-3, 1e3, 1, CONTROL_LOGARITHMIC, NULL, "", ACCESS, .index = 2},
-    {"floor", "", 0, 1, 1, CONTROL_SWITCH, NULL, "", ACCESS, .index = 3},
-    {"step", "", 0, 2, 0, CONTROL_CHOICE, "symplectic verlet thesis", "", ACCESS, .index = 4}};
+static const struct control rows[] = {
+    {"gravity", "em/s2", -100, 100, 9.81, CONTROL_LINEAR, NULL, "", ACCESS, .at = 0},
+    {"stiffness", "kg/s2", 0, 1e6, 500, CONTROL_LOGARITHMIC, NULL, "", ACCESS, .at = 1},
+    {"mass", "kg", 1e-3, 1e3, 1, CONTROL_LOGARITHMIC, NULL, "", ACCESS, .at = 2},
+    {"floor", "", 0, 1, 1, CONTROL_SWITCH, NULL, "", ACCESS, .at = 3},
+    {"step", "", 0, 2, 0, CONTROL_CHOICE, "symplectic verlet thesis", "", ACCESS, .at = 4}};
 enum { ROWS = sizeof rows / sizeof *rows };
 
 static void names_are_found(void **state)
@@ -50,7 +50,7 @@ static void values_are_within_their_range(void **state)
     (void)state;
     double values[ROWS] = {0};
     assert_int_equal(stage_control_write(&rows[0], values, 3.5), STAGE_OK);
-    assert_true(stage_control_read(&rows[0], values) == 3.5);
+    assert_true(control_read(&rows[0], values) == 3.5);
     const double wrong[] = {-100.1, 101, NAN, INFINITY};
     for (int i = 0; i < 4; i++)
         assert_int_equal(stage_control_write(&rows[0], values, wrong[i]), STAGE_BAD_ARGUMENT);
@@ -84,7 +84,7 @@ static void texts_are_values_and_back(void **state)
         assert_int_equal(stage_control_parse(&rows[good[i].row], good[i].text, &value),
                          STAGE_OK);
         assert_true(value == good[i].value);
-        stage_control_text(&rows[good[i].row], value, text, sizeof text);
+        control_text(&rows[good[i].row], value, text, sizeof text);
         assert_string_equal(text, good[i].written);
     }
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
@@ -112,15 +112,15 @@ static void numbers_have_their_decimals(void **state)
                    {0, 1, 1e-12, "0"},
                    {0, 1e300, 1e300, NULL}};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
-        const struct stage_control row = {
+        const struct control row = {
             .name = "a", .unit = "", .least = numbers[i].least, .most = numbers[i].most};
         char text[400], few[4];
-        stage_control_number(&row, numbers[i].value, text, sizeof text);
+        control_number(&row, numbers[i].value, text, sizeof text);
         if (numbers[i].text)
             assert_string_equal(text, numbers[i].text);
         assert_true(fabs(strtod(text, NULL) - numbers[i].value) <=
                     fmax(1e-9, 1e-4 * fabs(numbers[i].value)));
-        stage_control_number(&row, numbers[i].value, few, sizeof few);
+        control_number(&row, numbers[i].value, few, sizeof few);
         assert_true(strlen(few) < sizeof few);
     }
 }
@@ -132,18 +132,18 @@ static void sliders_are_curves(void **state)
     (void)state;
     for (int r = 0; r < 3; r++) {
         double before = -INFINITY;
-        assert_true(stage_control_at(&rows[r], 0) == rows[r].least);
-        assert_true(fabs(stage_control_at(&rows[r], 1) / rows[r].most - 1) < 1e-12);
+        assert_true(control_at(&rows[r], 0) == rows[r].least);
+        assert_true(fabs(control_at(&rows[r], 1) / rows[r].most - 1) < 1e-12);
         for (int i = 0; i <= 1000; i++) {
-            double along = i / 1000.0, value = stage_control_at(&rows[r], along);
+            double along = i / 1000.0, value = control_at(&rows[r], along);
             assert_true(value > before);
-            assert_true(fabs(stage_control_along(&rows[r], value) - along) < 1e-9);
+            assert_true(fabs(control_along(&rows[r], value) - along) < 1e-9);
             before = value;
         }
     }
-    assert_true(stage_control_at(&rows[4], 0.4) == 1);
-    assert_true(stage_control_at(&rows[3], 0.4) == 0);
-    assert_true(stage_control_along(&rows[0], 1e9) == 1);
+    assert_true(control_at(&rows[4], 0.4) == 1);
+    assert_true(control_at(&rows[3], 0.4) == 0);
+    assert_true(control_along(&rows[0], 1e9) == 1);
 }
 
 /* What is usual is in the middle, what is useful around it; what MIDI plays goes the same way
@@ -152,49 +152,46 @@ static void useful_values_are_in_the_middle(void **state)
 {
     (void)state;
     static const struct {
-        struct stage_control row;
+        struct control row;
         double low, high, share; /* these values have at least this share of the way */
     } ways[] = {
-        {{"side", "", 0, 1e6, 900, CONTROL_LOGARITHMIC, NULL, "", ACCESS, .index = 0},
+        {{"side", "", 0, 1e6, 900, CONTROL_LOGARITHMIC, NULL, "", ACCESS, .at = 0},
          100,
          3000,
          0.3},
-        {{"mass", "", 1e-3, 1e3, 1, CONTROL_LOGARITHMIC, NULL, "", ACCESS, .index = 0},
+        {{"mass", "", 1e-3, 1e3, 1, CONTROL_LOGARITHMIC, NULL, "", ACCESS, .at = 0},
          0.1,
          10,
          0.4},
-        {{"gravity", "", -100, 100, 9.81, CONTROL_CENTRED, NULL, "", ACCESS, .index = 0},
+        {{"gravity", "", -100, 100, 9.81, CONTROL_CENTRED, NULL, "", ACCESS, .at = 0},
          -10,
          30,
          0.3},
-        {{"wind", "", -100, 100, 0, CONTROL_CENTRED, NULL, "", ACCESS, .index = 0},
-         -10,
-         10,
-         0.17},
-        {{"drag", "", 0, 1000, 0.02, CONTROL_LOGARITHMIC, NULL, "", ACCESS, .index = 0},
+        {{"wind", "", -100, 100, 0, CONTROL_CENTRED, NULL, "", ACCESS, .at = 0}, -10, 10, 0.17},
+        {{"drag", "", 0, 1000, 0.02, CONTROL_LOGARITHMIC, NULL, "", ACCESS, .at = 0},
          0.002,
          0.2,
          0.35},
-        {{"breaking", "", 0, 100, 0, CONTROL_LOGARITHMIC, NULL, "", ACCESS, .index = 0},
+        {{"breaking", "", 0, 100, 0, CONTROL_LOGARITHMIC, NULL, "", ACCESS, .at = 0},
          0.1,
          10,
          0.4}};
     for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
-        const struct stage_control *row = &ways[i].row;
-        const double low = stage_control_along(row, ways[i].low),
-                     high = stage_control_along(row, ways[i].high);
+        const struct control *row = &ways[i].row;
+        const double low = control_along(row, ways[i].low),
+                     high = control_along(row, ways[i].high);
         if (row->usual > row->least)
-            assert_true(fabs(stage_control_along(row, row->usual) - 0.5) < 1e-12);
+            assert_true(fabs(control_along(row, row->usual) - 0.5) < 1e-12);
         if (!(low > 0.15 && high < 0.85 && high - low >= ways[i].share))
             fail_msg("%s: %g is at %g, %g at %g", row->name, ways[i].low, low, ways[i].high,
                      high);
-        assert_true(stage_control_at(row, 0) == row->least);
-        assert_true(stage_control_at(row, 1) == row->most);
+        assert_true(control_at(row, 0) == row->least);
+        assert_true(control_at(row, 1) == row->most);
         double before = -INFINITY;
         for (int k = 0; k <= 1000; k++) {
-            const double value = stage_control_at(row, k / 1000.0);
+            const double value = control_at(row, k / 1000.0);
             assert_true(value > before);
-            assert_true(fabs(stage_control_along(row, value) - k / 1000.0) < 1e-9);
+            assert_true(fabs(control_along(row, value) - k / 1000.0) < 1e-9);
             before = value;
         }
     }

@@ -120,7 +120,7 @@ static void rows_are_shown(void **state)
     struct stage_panel *panel;
     struct stage_draw_list list = {0};
     int count;
-    const struct stage_control *rows = stage_controls(stage, &count);
+    const struct control *rows = stage_controls(stage, &count);
     assert_int_equal(stage_panel_create("DejaVuSans", &panel), STAGE_OK);
     stage_panel_show(panel, true);
     for (int i = 0; i < SIZES; i++) {

@@ -125,7 +125,7 @@ static enum stage_status parse(const char *text, size_t bytes, struct stage_sess
     if (!stage)
         stage = stage_make();
     int count;
-    const struct stage_control *rows = stage_controls(stage, &count);
+    const struct control *rows = stage_controls(stage, &count);
     enum stage_status status = stage_session_parse(text, bytes, "t", rows, count, session);
     if (!bytes) {
         stage_destroy(stage);

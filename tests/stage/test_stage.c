@@ -94,9 +94,9 @@ static void controls_are_the_stages_and_the_actors(void **state)
 {
     (void)state;
     int count;
-    const struct stage_control *rows = stage_controls(stage, &count);
+    const struct control *rows = stage_controls(stage, &count);
     for (int i = 0; i < count; i++) { /* each control has its default; names differ */
-        if (fabs(stage_control_read(&rows[i], stage) - rows[i].usual) > 1e-12)
+        if (fabs(control_read(&rows[i], stage) - rows[i].usual) > 1e-12)
             fail_msg("%s", rows[i].name);
         assert_int_equal(stage_control_write(&rows[i], stage, rows[i].usual), STAGE_OK);
         assert_ptr_equal(stage_control_find(rows, count, rows[i].name), &rows[i]);
@@ -335,9 +335,9 @@ static void what_is_done_is_undone(void **state)
     assert_true(mass(0).y == before);
     assert_true(dyn_network_world(network())->gravity == 9.81);
     int count;
-    const struct stage_control *rows = stage_controls(stage, &count);
-    assert_true(stage_control_read(stage_control_find(rows, count, "hand"), stage) == 300);
-    assert_true(stage_control_read(stage_control_find(rows, count, "grid"), stage) == 0);
+    const struct control *rows = stage_controls(stage, &count);
+    assert_true(control_read(stage_control_find(rows, count, "hand"), stage) == 300);
+    assert_true(control_read(stage_control_find(rows, count, "grid"), stage) == 0);
     count = 0;
     while (stage_undo(stage))
         count++;

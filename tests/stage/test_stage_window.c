@@ -93,11 +93,11 @@ static unsigned hold_of(int i)
     return dyn_mass_get(network(), i).hold;
 }
 
-static const struct stage_control *control(const char *name, int *row)
+static const struct control *control(const char *name, int *row)
 {
     int count;
-    const struct stage_control *rows = stage_controls(stage, &count);
-    const struct stage_control *found = stage_control_find(rows, count, name);
+    const struct control *rows = stage_controls(stage, &count);
+    const struct control *found = stage_control_find(rows, count, name);
     assert_non_null(found);
     *row = (int)(found - rows);
     return found;
@@ -106,7 +106,7 @@ static const struct stage_control *control(const char *name, int *row)
 static double value_of(const char *name)
 {
     int row;
-    return stage_control_read(control(name, &row), stage);
+    return control_read(control(name, &row), stage);
 }
 
 /* Reads the window's pixel at a place of the world from the screen. */
@@ -302,17 +302,17 @@ static void sliders_and_typed_values_set_controls(void **state)
     xtest_type(XK_space);
     xtest_type(XK_Tab);
     UNTIL(stage_panel_shown(stage_window_panel(window)));
-    const struct stage_control *gravity = control("gravity", &row);
+    const struct control *gravity = control("gravity", &row);
     stage_panel_reveal(stage_window_panel(window), row);
     turn();
     assert_true(stage_panel_place(stage_window_panel(window), row, &slider, &value));
     int y = (int)((slider.y0 + slider.y1) / 2), width = (int)(slider.x1 - slider.x0);
     xtest_move(there, (int)slider.x0 + width / 4, y);
     xtest_button(1, true);
-    UNTIL(fabs(value_of("gravity") - stage_control_at(gravity, 0.25)) < 1.5);
+    UNTIL(fabs(value_of("gravity") - control_at(gravity, 0.25)) < 1.5);
     xtest_move(there, (int)slider.x0 + width * 3 / 4,
                y + 30); /* held, it may leave the slider */
-    UNTIL(fabs(value_of("gravity") - stage_control_at(gravity, 0.75)) < 1.5);
+    UNTIL(fabs(value_of("gravity") - control_at(gravity, 0.75)) < 1.5);
     xtest_button(1, false);
     turn();
     xtest_move(there, (int)slider.x0, y);

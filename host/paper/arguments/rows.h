@@ -9,8 +9,8 @@
 
 /* Other rows are in public headers. The order and the kinds of rows never change, because
  * files depend on them. */
-extern const struct members paper_put_members, paper_blot_members, paper_resist_members,
-    paper_layer_members, paper_bookmark_members;
+extern const struct members paper_put_members, paper_resist_members, paper_layer_members,
+    paper_bookmark_members;
 
 /* As members_check(). Errors: BAD_ARGUMENT. */
 enum paper_status paper_members_check(const struct members *members, const void *of,
