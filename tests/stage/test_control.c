@@ -69,15 +69,20 @@ static void texts_are_values_and_back(void **state)
         const char *text;
         double value;
         const char *written;
-    } good[] = {{0, "9.81", 9.81, "9.81"},  {0, "-1e1", -10, "-10"},
-                {3, "on", 1, "on"},         {3, "off", 0, "off"},
-                {3, "1", 1, "on"},          {4, "verlet", 1, "verlet"},
-                {4, "thesis", 2, "thesis"}, {1, "123456", 123456, "1.235e+05"}};
+    } good[] = {{0, "9.81", 9.81, "9.81"},
+                {0, "-1e1", -10, "-10"},
+                {3, "on", 1, "on"},
+                {3, "off", 0, "off"},
+                {3, "1", 1, "on"},
+                {4, "verlet", 1, "verlet"},
+                {4, "1", 1, "verlet"},
+                {4, "thesis", 2, "thesis"},
+                {1, "123456", 123456, "1.235e+05"}};
     static const struct {
         int row;
         const char *text;
-    } bad[] = {{0, ""},    {0, "1x"},      {0, "nan"}, {0, "inf"}, {3, "yes"},
-               {4, "ver"}, {4, "thesis2"}, {4, " "},   {4, "1"}};
+    } bad[] = {{0, ""},        {0, "1x"}, {0, "nan"}, {0, "inf"}, {3, "yes"}, {4, "ver"},
+               {4, "thesis2"}, {4, " "},  {4, "3"},   {4, "0.5"}, {0, "1000"}};
     double value;
     char text[32];
     for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
