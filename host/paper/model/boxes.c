@@ -29,9 +29,7 @@
 
 enum {
     UNIT_USUAL = 64,
-    /* fibers that stay at rest along a box's sides: a picture looks over the first of them to
-     * the next */
-    REST = 2 * SHEET_LOOK_REACH,
+    REST_LEAST = 2 * SHEET_LOOK_REACH,
     SHEET_LEAST = 64, /* units x units: a step of less takes no longer than a box's beginning */
     WAIT_MOST = 384
 };
@@ -44,6 +42,14 @@ enum {
 static int spread_in_a_step(const struct paper_sheet *p)
 {
     return sheet_has(p, PAPER_PART_SURFACE) ? sheet_around_reach(p) : 1;
+}
+
+/* Fibers that stay at rest along a box's sides: a picture looks over the first of them to the
+ * next, and what salt does in a fiber depends on the heights of others, at rest or not. */
+static int rest_of(const struct paper_sheet *p)
+{
+    const int salt = sheet_salt_reach(p);
+    return salt > REST_LEAST ? salt : REST_LEAST;
 }
 
 /* mask = 1 where a fiber is not at rest. All that is added is 0 or more. Uses t[0..2]. */
@@ -115,7 +121,17 @@ static int steps_ahead(const struct paper_sheet *p)
 static struct boxes_wish wish_of(const struct paper_sheet *p)
 {
     return (struct boxes_wish){p->page.grid.width, p->page.grid.height, p->boxes_unit,
-                               REST + spread_in_a_step(p) * steps_ahead(p)};
+                               rest_of(p) + spread_in_a_step(p) * steps_ahead(p)};
+}
+
+/* Steps that boxes are good for whose sides are so far from what is active; INT_MAX: nothing
+ * is. */
+static int steps_good(const struct paper_sheet *p, int distance)
+{
+    const int rest = rest_of(p);
+    return distance == INT_MAX ? INT_MAX
+           : distance < rest   ? 0
+                               : (distance - rest) / spread_in_a_step(p);
 }
 
 /* The sheet's active fibers, from those of the parts; good = steps that they are good for. */
@@ -139,9 +155,7 @@ static void parts_look(struct paper_sheet *p, const struct boxes_wish *wish, uin
                        (size_t)((box->x + x) % wish->width)] =
                     own[(size_t)y * (size_t)box->width + (size_t)x];
     }
-    b->good = distance == INT_MAX ? INT_MAX
-              : distance < REST   ? 0
-                                  : (distance - REST) / spread_in_a_step(p);
+    b->good = steps_good(p, distance);
 }
 
 /* Steps for which active fibers there leave the part as it is: 0 where they are not in it. */
@@ -161,9 +175,7 @@ static int part_good_for(const struct paper_sheet *p, const struct part *part,
         if (sides[i][3] != lengths[i] && least < distance)
             distance = least;
     }
-    return distance == INT_MAX ? INT_MAX
-           : distance < REST   ? 0
-                               : (distance - REST) / spread_in_a_step(p);
+    return steps_good(p, distance);
 }
 
 /* The open part that these fibers are well within; NULL: there is none. */

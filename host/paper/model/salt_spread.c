@@ -60,12 +60,23 @@ static void crystals_dissolve(struct paper_sheet *p, CM_field_id_t wet)
     kit_f_least(p->salt, p->salt, 0.0);
 }
 
+/* Fibers between neighbours, of the stock. */
+static int neighbours_distance(const struct paper_sheet *p)
+{
+    return (int)fmax(1, round(p->finer));
+}
+
+int sheet_salt_reach(const struct paper_sheet *p)
+{
+    return p->salted ? 1 + neighbours_distance(p) : 0;
+}
+
 /* d = its mean with four neighbours, of the stock. Sums go in pairs: a mirrored sheet has the
  * same bits. Uses t[1..3]. */
 static void neighbours_mean(struct paper_sheet *p, CM_field_id_t d)
 {
     CM_field_id_t pair[2] = {p->t[1], p->t[2]}, other = p->t[3];
-    const int distance = (int)fmax(1, round(p->finer));
+    const int distance = neighbours_distance(p);
     for (unsigned axis = 0; axis < 2; axis++) {
         kit_f_copy(pair[axis], d);
         kit_f_copy(other, d);
