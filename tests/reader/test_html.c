@@ -175,8 +175,9 @@ static void figures_stand_beside_text(void **state)
         "![C](a.png \"a title\")\n\nText.\n\n> ![D](a.png \"left\")\n";
     struct reader_document *d = read_text(text, sizeof text - 1);
     char *html = html_of(d, &(struct reader_html_setup){.picture = picture_give}),
-         *usual = html_of(d, &(struct reader_html_setup){.picture = picture_give,
-                                                         .beside = {READER_SIDE_RIGHT, 25}});
+         *usual = html_of(d, &(struct reader_html_setup){
+                                 .picture = picture_give,
+                                 .beside = {.side = READER_SIDE_RIGHT, .percent = 25}});
     has(html, "<figure class=\"left\" style=\"--w:30%\"><img "
               "style=\"shape-outside:ellipse(50% 50%);shape-margin:1em\" alt=\"A\"");
     has(html, "<figure class=\"right\" style=\"--w:40%\"><img style=\"shape-margin:1em;"
