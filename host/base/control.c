@@ -86,8 +86,7 @@ void control_text(const struct control *row, double value, char *text, size_t ro
         snprintf(text, room, "%.4g", value);
 }
 
-void control_number(const struct control *row, double value, char *text,
-                          size_t room)
+void control_number(const struct control *row, double value, char *text, size_t room)
 {
     enum { DECIMALS_MOST = 9, NUMBER_BYTES = 400 }; /* those of the largest double */
     const double near = 5e-5 * fmin(row->most - row->least, fabs(value));

@@ -38,9 +38,9 @@ struct control {
     enum control_curve curve;
     const char *choices; /* of a CHOICE: names, separated by blanks */
     const char *does;    /* half a sentence */
-    /* The value is read and written by these two, which get `at`. write returns 0, or a status
-     * of the module that has the table. NULL: the value is a double in a struct, and `at` is its
-     * offset. */
+    /* The value is read and written by these two, which get `at`. write returns 0, or a
+     * status of the module that has the table. NULL: the value is a double in a struct, and
+     * `at` is its offset. */
     double (*read)(void *of, int at);
     unsigned (*write)(void *of, int at, double value);
     int at;

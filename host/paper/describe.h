@@ -8,9 +8,9 @@
 
 /* Of struct paper_air, paper_stock, paper_deckle, paper_pigment and its bands (sheet.h);
  * paper_brush, paper_dip, paper_stroke, paper_stroke_sample (brush.h); paper_salt,
- * paper_splatter, paper_wash, paper_print, paper_lift, paper_varnish (techniques.h); event_blot,
- * whose members paper_sheet_blot() takes one by one. The order and the kinds of rows never
- * change, because files depend on them. */
+ * paper_splatter, paper_wash, paper_print, paper_lift, paper_varnish (techniques.h);
+ * event_blot, whose members paper_sheet_blot() takes one by one. The order and the kinds of
+ * rows never change, because files depend on them. */
 extern const struct members paper_air_members, paper_stock_members, paper_deckle_members,
     paper_pigment_members, paper_bands_members, paper_brush_members, paper_dip_members,
     paper_stroke_members, paper_sample_members, paper_salt_members, paper_splatter_members,

@@ -261,8 +261,8 @@ struct sheet_terms {
 };
 /* How far apart the fibers are among which wet_around spreads in a step. */
 int sheet_around_reach(const struct paper_sheet *p);
-/* How many fibers away are those on whose heights it depends what salt does in a fiber; 0: there
- * is no salt. */
+/* How many fibers away are those on whose heights it depends what salt does in a fiber; 0:
+ * there is no salt. */
 int sheet_salt_reach(const struct paper_sheet *p);
 /* How fast a pigment settles, with surface water: a part of it in a step. */
 double sheet_settling_pace(const struct paper_sheet *p, int pigment);
