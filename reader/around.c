@@ -7,7 +7,13 @@
 #include <string.h>
 
 #define ROW_EM 0.2
-#define STEP_EM 0.1 /* between places of a stroke that are looked at */
+/* Between places of a stroke that are looked at, where there are no more of them than that. */
+#define STEP_EM 0.1
+#define STEPS_MOST 20000.0
+/* Ink that is larger, or farther from its paragraph, is no drawing in a text: a file of
+ * remarks may say anything. */
+#define SIDE_MOST_EM 200.0
+#define AWAY_MOST_EM 1000.0
 
 bool reader_around_has(const struct reader_block *block)
 {
@@ -65,14 +71,25 @@ static void rows_cover(struct reader_obstacle *o, double x, double y, double hal
     }
 }
 
+static double stroke_length(const struct reader_remark *r)
+{
+    double length = 0;
+    for (int i = 1; i < r->points_count; i++) {
+        const struct reader_ink_place a = reader_ink_place(r, i - 1),
+                                      b = reader_ink_place(r, i);
+        length += hypot(b.x - a.x, b.y - a.y);
+    }
+    return length;
+}
+
 static void stroke_cover(const struct reader_remark *r, struct reader_obstacle *o)
 {
-    enum { STEPS_MOST = 1000 };
+    const double step = fmax(STEP_EM, stroke_length(r) / STEPS_MOST);
     for (int i = 0; i < r->points_count; i++) {
         const struct reader_ink_place b = reader_ink_place(r, i),
                                       a = i ? reader_ink_place(r, i - 1) : b;
         const double way = hypot(b.x - a.x, b.y - a.y);
-        const int steps = (int)fmin(STEPS_MOST, 1 + floor(way / STEP_EM));
+        const int steps = (int)fmin(STEPS_MOST, 1 + floor(way / step));
         for (int k = 1; k <= steps; k++)
             rows_cover(o, r->x + a.x + (b.x - a.x) * k / steps,
                        r->y + a.y + (b.y - a.y) * k / steps, fmax(b.width, 0.01) / 2);
@@ -99,7 +116,8 @@ static bool is_made(const struct reader_remarks *remarks, const struct reader_do
     return false;
 }
 
-static void obstacle_make(const struct reader_remarks *remarks, const struct reader_document *d,
+/* False: it is too large to be one. */
+static bool obstacle_make(const struct reader_remarks *remarks, const struct reader_document *d,
                           int index, struct reader_obstacle *out)
 {
     const struct reader_remark *first = reader_remarks_get(remarks, index);
@@ -109,6 +127,9 @@ static void obstacle_make(const struct reader_remarks *remarks, const struct rea
     for (int i = index; i < end; i++)
         if (i == index || is_with(d, first, reader_remarks_get(remarks, i)))
             stroke_extent(reader_remarks_get(remarks, i), &e);
+    if (!(e.x1 - e.x0 <= SIDE_MOST_EM && e.y1 - e.y0 <= SIDE_MOST_EM &&
+          fabs(e.x0) <= AWAY_MOST_EM && fabs(e.y0) <= AWAY_MOST_EM))
+        return false;
     *out = (struct reader_obstacle){.block = reader_around_block(d, first),
                                     .side = first->around,
                                     .x = e.x0,
@@ -119,6 +140,7 @@ static void obstacle_make(const struct reader_remarks *remarks, const struct rea
     for (int i = index; i < end; i++)
         if (i == index || is_with(d, first, reader_remarks_get(remarks, i)))
             stroke_cover(reader_remarks_get(remarks, i), out);
+    return true;
 }
 
 enum reader_status reader_around_find(const struct reader_remarks *remarks,
@@ -139,7 +161,7 @@ enum reader_status reader_around_find(const struct reader_remarks *remarks,
             *count = 0;
             return reader_fail(READER_NO_MEMORY, "no memory for ink");
         }
-        obstacle_make(remarks, d, i, &(*out)[(*count)++]);
+        *count += obstacle_make(remarks, d, i, &(*out)[*count]);
     }
     return READER_OK;
 }

@@ -35,8 +35,9 @@ bool reader_around_has(const struct reader_block *block);
 /* The block of the document's that ink is an obstacle of; -1: it is none, and is counted from
  * its word. */
 int reader_around_block(const struct reader_document *document, const struct reader_remark *r);
-/* Those of ink that is seen and whose words are there; no more than the first
- * READER_OBSTACLES_MAX. Errors: NO_MEMORY. Owns: the caller frees *out. */
+/* Those of ink that is seen and whose words are there, that is at most 200 ems wide and high,
+ * and at most 1,000 from its paragraph's corner; no more than the first READER_OBSTACLES_MAX.
+ * Errors: NO_MEMORY. Owns: the caller frees *out. */
 enum reader_status reader_around_find(const struct reader_remarks *remarks,
                                       const struct reader_document *document,
                                       struct reader_obstacle **out, int *count);

@@ -21,7 +21,8 @@ static const struct reader_remark lined = {.kind = READER_REMARK_INK,
 static bool is_same(const struct reader_arranged *a, const struct reader_arranged *b)
 {
     return a->index == b->index && a->x == b->x && a->y == b->y && a->scale_x == b->scale_x &&
-           a->scale_y == b->scale_y && a->hangs == b->hangs && a->group == b->group;
+           a->scale_y == b->scale_y && a->hangs == b->hangs && a->group == b->group &&
+           a->around == b->around;
 }
 
 static long long version_now(void)
