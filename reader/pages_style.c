@@ -91,6 +91,15 @@ void pages_fonts_close(struct reader_pages *p)
     font_face_close(p->math_face);
 }
 
+double reader_size_usual(enum reader_size size)
+{
+    static const double sizes[READER_SIZES] = {
+        [READER_SIZE_HEADING_1] = 1.7, [READER_SIZE_HEADING_2] = 1.3,
+        [READER_SIZE_HEADING_3] = 1,   [READER_SIZE_NOTE] = 0.82,
+        [READER_SIZE_CODE] = 0.88,     [READER_SIZE_TABLE] = 0.92};
+    return sizes[size];
+}
+
 double pages_size(const struct reader_pages *p, enum context context)
 {
     static const int asked[CONTEXTS] = {[CONTEXT_TEXT] = -1,
@@ -100,12 +109,9 @@ double pages_size(const struct reader_pages *p, enum context context)
                                         [CONTEXT_NOTE] = READER_SIZE_NOTE,
                                         [CONTEXT_CODE] = READER_SIZE_CODE,
                                         [CONTEXT_TABLE] = READER_SIZE_TABLE};
-    static const double sizes[CONTEXTS] = {
-        [CONTEXT_TEXT] = 1,    [CONTEXT_HEAD_1] = 1.7, [CONTEXT_HEAD_2] = 1.3,
-        [CONTEXT_HEAD_3] = 1,  [CONTEXT_NOTE] = 0.82,  [CONTEXT_CODE] = 0.88,
-        [CONTEXT_TABLE] = 0.92};
-    const double own = asked[context] < 0 ? 0 : p->setup.sizes[asked[context]];
-    return (own > 0 ? own : sizes[context]) * p->setup.size_px;
+    const int size = asked[context];
+    const double own = size < 0 ? 1 : p->setup.sizes[size];
+    return (own > 0 ? own : reader_size_usual((enum reader_size)size)) * p->setup.size_px;
 }
 
 /* ---- styles ---- */

@@ -76,6 +76,9 @@ enum reader_size {
     READER_SIZES
 };
 
+/* Of the text's, where nobody has asked for another one. */
+double reader_size_usual(enum reader_size size);
+
 struct reader_pages_setup {
     const char *font, *mono; /* names as font_face_open() has them */
     const char *math;        /* NULL: the first of font_math_fonts that there is */

@@ -56,6 +56,10 @@ struct reader_template {
     struct reader_colours colours[2];            /* light, dark */
 };
 
+#define READER_SIZE_LEAST 0.4 /* of the text's */
+#define READER_SIZE_MOST 4.0
+extern const char *const reader_size_names[READER_SIZES];
+
 /* The names of those that are built in, NULL behind the last. */
 extern const char *const reader_template_names[];
 /* One of them. Errors: BAD_ARGUMENT, with their names. */

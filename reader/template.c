@@ -55,13 +55,8 @@ enum reader_status reader_template_named(const char *name, struct reader_templat
 
 static const char *const wide_names[READER_WIDES] = {"headings", "figures", "demonstrations",
                                                      "tables"};
-static const char *const size_names[READER_SIZES] = {"heading-1", "heading-2", "heading-3",
+const char *const reader_size_names[READER_SIZES] = {"heading-1", "heading-2", "heading-3",
                                                      "note",      "code",      "table"};
-static const char *const colour_names[] = {"paper", "ink",     "link",   "struck", "selected",
-                                           "found", "current", "marked", "noted"};
-enum { COLOURS = sizeof colour_names / sizeof *colour_names };
-_Static_assert(sizeof(struct reader_colours) == COLOURS * 3 * sizeof(double), "all have names");
-
 enum { WORDS_MAX = READER_GRID_COLUMNS_MAX + 2 };
 
 /* A line's words, and where it is. */
@@ -187,9 +182,10 @@ static enum reader_status size_read(struct reading *r)
     const char *rest;
     double size;
     for (int i = 0; i < READER_SIZES && r->count == 3; i++) {
-        if (strcmp(r->words[1], size_names[i]) != 0)
+        if (strcmp(r->words[1], reader_size_names[i]) != 0)
             continue;
-        if (!number_read(r->words[2], &size, &rest) || *rest || size < 0.4 || size > 4)
+        if (!number_read(r->words[2], &size, &rest) || *rest || size < READER_SIZE_LEAST ||
+            size > READER_SIZE_MOST)
             return wrong(r, "a size is 0.4..4 of the text's (got '%.40s')", r->words[2]);
         r->t->sizes[i] = size;
         return READER_OK;
@@ -212,27 +208,17 @@ static enum reader_status beside_line(struct reading *r)
                           "10%%..90%% of the column, and round or shape; or full");
 }
 
-static bool colour_read(const char *word, double *rgb)
-{
-    if (*word != '#' || strlen(word) != 7 || strspn(word + 1, "0123456789abcdefABCDEF") != 6)
-        return false;
-    const unsigned long all = strtoul(word + 1, NULL, 16);
-    for (int c = 0; c < 3; c++)
-        rgb[c] = (double)(all >> (16 - 8 * c) & 255) / 255;
-    return true;
-}
-
 static double *colour_of(struct reader_template *t, int theme, int number)
 {
-    return (double *)(void *)&t->colours[theme] + 3 * (size_t)number;
+    return reader_colour_at(&t->colours[theme], number);
 }
 
 static enum reader_status colour_line(struct reading *r)
 {
-    for (int i = 0; i < COLOURS && r->count == 4; i++)
-        if (strcmp(r->words[1], colour_names[i]) == 0)
-            return colour_read(r->words[2], colour_of(r->t, 0, i)) &&
-                           colour_read(r->words[3], colour_of(r->t, 1, i))
+    for (int i = 0; i < READER_COLOURS && r->count == 4; i++)
+        if (strcmp(r->words[1], reader_colour_names[i]) == 0)
+            return reader_colour_read(r->words[2], colour_of(r->t, 0, i)) &&
+                           reader_colour_read(r->words[3], colour_of(r->t, 1, i))
                        ? READER_OK
                        : wrong(r,
                                "a colour is #rrggbb, light and dark (got '%.20s' and '%.20s')",
@@ -445,15 +431,16 @@ static void colours_put(FILE *out, const struct reader_template *t)
 {
     struct reader_template own = *t, usual = {.colours = {*reader_colours_of(false),
                                                           *reader_colours_of(true)}};
-    for (int i = 0; i < COLOURS; i++) {
+    for (int i = 0; i < READER_COLOURS; i++) {
         if (memcmp(colour_of(&own, 0, i), colour_of(&usual, 0, i), 3 * sizeof(double)) == 0 &&
             memcmp(colour_of(&own, 1, i), colour_of(&usual, 1, i), 3 * sizeof(double)) == 0)
             continue;
-        fprintf(out, "colour %s", colour_names[i]);
+        fprintf(out, "colour %s", reader_colour_names[i]);
         for (int theme = 0; theme < 2; theme++) {
+            char text[8];
             const double *c = colour_of(&own, theme, i);
-            fprintf(out, " #%02lx%02lx%02lx", (unsigned long)lrint(255 * c[0]),
-                    (unsigned long)lrint(255 * c[1]), (unsigned long)lrint(255 * c[2]));
+            reader_colour_text(c, text);
+            fprintf(out, " %s", text);
         }
         fputc('\n', out);
     }
@@ -476,7 +463,7 @@ char *reader_template_text(const struct reader_template *t)
     beside_put(out, &t->beside);
     for (int i = 0; i < READER_SIZES; i++)
         if (t->sizes[i] > 0) {
-            fprintf(out, "size %s ", size_names[i]);
+            fprintf(out, "size %s ", reader_size_names[i]);
             number_put(out, t->sizes[i]);
             fputc('\n', out);
         }

@@ -60,19 +60,25 @@ static void ink_choose(struct read_desk *d, const char *name)
         read_keys_key(d, GDK_KEY_d, 0);
 }
 
-/* While the grid's lines are seen, of what was moved of them. */
+/* The grid's lines are seen, or keys go to its colours and sizes: it is the template that is
+ * worked at. */
+static bool template_edited(const struct read_desk *d)
+{
+    return d->grid_shown || read_panel_focused(d);
+}
+
 static void undo_any(struct read_desk *d, bool redo)
 {
-    (d->grid_shown     ? read_grid_undo
-     : read_edit_on(d) ? read_edit_undo
-                       : read_remarks_undo)(d, redo);
+    (template_edited(d) ? read_grid_undo
+     : read_edit_on(d)  ? read_edit_undo
+                        : read_remarks_undo)(d, redo);
 }
 
 static bool can_any(const struct read_desk *d, bool redo)
 {
-    return (d->grid_shown     ? read_grid_can
-            : read_edit_on(d) ? read_edit_can
-                              : read_remarks_can)(d, redo);
+    return (template_edited(d) ? read_grid_can
+            : read_edit_on(d)  ? read_edit_can
+                               : read_remarks_can)(d, redo);
 }
 
 enum { SIZE_STEP_PERCENT = 8, COLUMN_STEP = 3 };
@@ -114,6 +120,7 @@ ACTION(template, read_grid_open(d, g_variant_get_string(value, NULL)))
 ACTION(template_open, read_grid_choose(d, true))
 ACTION(template_save, read_grid_choose(d, false))
 ACTION(grid, read_grid_show(d, !d->grid_shown))
+ACTION(panel, read_panel_toggle(d))
 ACTION(layers, read_layers_open(d))
 ACTION(close_window, gtk_window_close(GTK_WINDOW(d->window)))
 
@@ -155,6 +162,7 @@ static const GActionEntry entries[] = {
     {.name = "template-open", .activate = template_open},
     {.name = "template-save", .activate = template_save},
     {.name = "grid", .activate = grid},
+    {.name = "panel", .activate = panel},
     {.name = "layers", .activate = layers},
     {.name = "close", .activate = close_window},
 };
@@ -205,6 +213,7 @@ static const struct desk_row menu_rows[] = {
     {"win.template-open", N_("Open a template…"), NULL},
     {"win.template-save", N_("Save the template…"), NULL},
     {"win.grid", N_("The grid's lines"), "F8"},
+    {"win.panel", N_("Colours and sizes"), "F7"},
     {NULL, NULL, NULL},
     {"win.close", N_("Close"), "<Control>w"},
     {NULL, N_("Inks"), NULL},

@@ -31,6 +31,7 @@
  *     read_tiles.c     its pictures, painted by fontpipe and kept
  *     read_look.c      sizes, colours, how wide the text is
  *     read_grid.c      the template: its grid's lines, its file
+ *     read_panel.c     its colours and sizes, at the page's side
  *     read_play.c      recorded input: events from a file
  *
  * All of this belongs to GTK's thread. */
@@ -104,7 +105,8 @@ struct read_desk {
     GtkApplication *application;
     GtkWidget *window, *page, *scrollbar, *contents, *contents_side, *search_bar, *search_entry,
         *search_told, *notice, *notice_text, *told;
-    int contents_source; /* whose headings are all in the contents; -1: none */
+    struct read_panel *panel; /* of colours and sizes */
+    int contents_source;      /* whose headings are all in the contents; -1: none */
     /* the document */
     struct reader_document *document;
     struct reader_files files; /* of it, those that are included, too */
@@ -188,6 +190,7 @@ struct read_desk {
     void (*edited)(struct read_desk *d);             /* read_save_soon() */
     void (*titled)(struct read_desk *d);             /* the title may be other */
     void (*refilled)(struct read_desk *d);           /* headings may be other */
+    void (*looked)(struct read_desk *d);             /* the page looks otherwise now */
 };
 
 /* read_look.c */
@@ -210,7 +213,8 @@ bool read_grid_press(struct read_desk *d, double x);
 bool read_grid_move(struct read_desk *d, double x);
 bool read_grid_release(struct read_desk *d);
 bool read_grid_key(struct read_desk *d, guint key);
-bool read_grid_can(const struct read_desk *d, bool redo); /* while its lines are seen */
+void read_grid_keep(struct read_desk *d); /* the template can be undone to what it is */
+bool read_grid_can(const struct read_desk *d, bool redo);
 void read_grid_undo(struct read_desk *d, bool redo);
 void read_grid_draw(struct read_desk *d, GtkSnapshot *snapshot);
 
@@ -415,6 +419,14 @@ void read_remarks_highlight(
 void read_remarks_type(struct read_desk *d);
 void read_remarks_typed(struct read_desk *d, const char *text); /* without its small window */
 void read_remarks_edit(struct read_desk *d, int index);
+
+/* read_panel.c */
+GtkWidget *read_panel_new(struct read_desk *d);
+void read_panel_toggle(struct read_desk *d);
+void read_panel_follow(struct read_desk *d);        /* the template or the theme is another */
+bool read_panel_focused(const struct read_desk *d); /* keys go to it */
+/* As a hand: "ink #204060", "note 0.9". False: there is no such colour, or size. */
+bool read_panel_set(struct read_desk *d, const char *words);
 
 /* read_contents.c */
 GtkWidget *read_contents_new(struct read_desk *d);

@@ -69,8 +69,7 @@ static int beside(const struct read_desk *d, int edge)
 
 /* ---- undo ---- */
 
-/* The template as it is before lines are moved. */
-static void past_keep(struct read_desk *d)
+void read_grid_keep(struct read_desk *d)
 {
     g_array_set_size(d->grid_past, d->grid_done);
     g_array_append_val(d->grid_past, d->template);
@@ -79,7 +78,7 @@ static void past_keep(struct read_desk *d)
 
 bool read_grid_can(const struct read_desk *d, bool redo)
 {
-    return d->grid_shown && (redo ? d->grid_done < d->grid_past->len : d->grid_done > 0);
+    return redo ? d->grid_done < d->grid_past->len : d->grid_done > 0;
 }
 
 /* The one of the past and the present one change places. */
@@ -94,6 +93,7 @@ void read_grid_undo(struct read_desk *d, bool redo)
     *past = now;
     d->grid_done += redo ? 1 : -1u;
     d->grid_held = false;
+    read_tiles_forget(d->tiles); /* colours may be others */
     read_look_again(d);
     d->acted(d);
 }
@@ -153,7 +153,7 @@ bool read_grid_move(struct read_desk *d, double x)
         d->grid_held = false;
     else if (x != edge_px(d, d->grid_edge)) {
         if (!d->grid_moved) /* one drag is one deed */
-            past_keep(d);
+            read_grid_keep(d);
         d->grid_moved = true;
         edge_move(d, d->grid_edge, x - edge_px(d, d->grid_edge));
     }
@@ -189,7 +189,7 @@ bool read_grid_key(struct read_desk *d, guint key)
     case GDK_KEY_Left:
     case GDK_KEY_Right:
         if (d->grid_edge >= 0 && d->grid_edge < count) {
-            past_keep(d);
+            read_grid_keep(d);
             edge_move(d, d->grid_edge, (key == GDK_KEY_Left ? -0.5 : 0.5) * d->size_px);
             d->acted(d);
         }

@@ -42,6 +42,8 @@ static void look_changed(struct read_desk *d)
     if (d->view && reader_view_set(d->view, &d->setup) != READER_OK)
         d->say(d, reader_error());
     read_page_changed(d);
+    if (d->looked)
+        d->looked(d);
 }
 
 void read_look_again(struct read_desk *d)

@@ -340,6 +340,12 @@ static void template(struct read_desk *d, const struct input *i)
     read_grid_open(d, i->text);
 }
 
+static void panel(struct read_desk *d, const struct input *i)
+{
+    if (!read_panel_set(d, i->text))
+        d->say(d, "there is no such colour or size");
+}
+
 static void layer(struct read_desk *d, const struct input *i)
 {
     read_layers_write(d, i->text);
@@ -395,6 +401,7 @@ static const struct word words[] = {{"down", 3, down},
                                     {"answer", -1, answer},
                                     {"template", -1, template},
                                     {"save-template", -1, template_save},
+                                    {"panel", -1, panel},
                                     {"layer", -1, layer},
                                     {"hide", -1, hide},
                                     {"close", 0, end}};

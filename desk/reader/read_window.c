@@ -239,12 +239,14 @@ void read_window_open(struct read_desk *d)
     d->edited = read_save_soon;
     d->titled = titled;
     d->refilled = read_contents_fill;
+    d->looked = read_panel_follow;
     d->window = gtk_application_window_new(d->application);
     gtk_window_set_default_size(GTK_WINDOW(d->window), d->options.width, d->options.height);
     read_actions_add(d);
     gtk_window_set_titlebar(GTK_WINDOW(d->window), header_new());
     gtk_box_append(GTK_BOX(middle), read_contents_new(d));
     gtk_box_append(GTK_BOX(middle), read_miniatures_new(d, page_new(d)));
+    gtk_box_append(GTK_BOX(middle), read_panel_new(d));
     gtk_overlay_set_child(GTK_OVERLAY(over), middle);
     gtk_overlay_add_overlay(GTK_OVERLAY(over), notice_new(d));
     gtk_widget_set_vexpand(over, TRUE);

@@ -74,47 +74,6 @@ static void notes_links_and_back(void **state)
     assert_string_equal(played_told("again", "top"), played_told("back", "top"));
 }
 
-/* Two columns and their notes; lines that are dragged, and taken by keys; the file that they
- * are kept in. A narrow window has one column, where a note of the margin opens in place. */
-static void templates_are_chosen_and_dragged(void **state)
-{
-    char lines[2000];
-    (void)state;
-    played_write("wide.md", "# Wide\n\nOne word[^margin:a] of the first.\n\nTwo words of the "
-                            "second.\n\nThree of the third.\n\n[^margin:a]: Beside it.\n");
-    played_write("bad.template", "columns 30\ntext 2\n");
-    snprintf(lines, sizeof lines,
-             "0.1 window 1500 700\n0.3 template two-columns\n0.5 tell %s\n",
-             played_path("two"));
-    played_run(lines, played_path("wide.md"));
-    const double edge = atof(played_told("two", "edge"));
-    snprintf(
-        lines, sizeof lines,
-        "0.1 window 1500 700\n0.3 template two-columns\n0.6 action grid\n0.7 down %g 300 1\n"
-        "0.8 move %g 300\n0.9 up %g 300\n1 tell %s\n1.02 action undo\n1.04 tell %s\n1.06 "
-        "action redo\n1.08 tell %s\n1.1 key Tab\n1.2 key Right\n1.3 key "
-        "Escape\n1.4 save-template %s\n1.5 template book\n1.6 tell %s\n1.7 template "
-        "%s\n1.8 tell %s\n1.9 window 600 700\n2.1 key Tab\n2.2 key Return\n2.4 tell %s\n",
-        edge, edge - 20, edge - 20, played_path("dragged"), played_path("undone"),
-        played_path("redone"), played_path("own.template"), played_path("book"),
-        played_path("own.template"), played_path("own"), played_path("narrow"));
-    played_run(lines, played_path("wide.md"));
-    played_well();
-    assert_string_equal(played_told("two", "grid"), "2 4");
-    assert_string_equal(played_told("book", "grid"), "1 3");
-    assert_string_equal(played_told("own", "grid"), "2 4");
-    assert_string_equal(played_told("narrow", "grid"), "1 1");
-    assert_string_equal(played_told("narrow", "open"), "1");
-    assert_true(atof(played_told("dragged", "edge")) < edge - 10);
-    assert_string_equal(played_told("redone", "edge"), played_told("dragged", "edge"));
-    assert_true(atof(played_told("undone", "edge")) == edge);
-    played_run("0.3 action grid\n", played_path("wide.md"));
-    played_well();
-    snprintf(lines, sizeof lines, "0.3 template %s\n", played_path("bad.template"));
-    played_run(lines, played_path("wide.md"));
-    played_says(0, "bad.template:2: a place is columns of the grid's 1..1");
-}
-
 /* Two readers' notes beside each other; one's are hidden; HTML says whose they are. The window
  * is closed with theirs open. */
 static void readers_have_layers(void **state)
@@ -549,7 +508,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(line_is_kept),
         cmocka_unit_test(notes_links_and_back),
-        cmocka_unit_test(templates_are_chosen_and_dragged),
         cmocka_unit_test(readers_have_layers),
         cmocka_unit_test(hidden_layers_are_kept),
         cmocka_unit_test(bibliographies_lead_back),

@@ -277,10 +277,40 @@ static void lines_go_where_they_are_dragged(void **state)
     }
 }
 
+/* WCAG's AA for small letters, in both themes; black on white is 21, and equal colours 1. */
+static void usual_colours_are_read_well(void **state)
+{
+    (void)state;
+    struct reader_colours own = *reader_colours_of(false);
+    for (int dark = 0; dark < 2; dark++)
+        for (int i = 0; i < READER_COLOURS; i++) {
+            const double ratio = reader_colour_contrast(reader_colours_of(dark), i);
+            if (!(ratio >= READER_CONTRAST_LEAST))
+                fail_msg("%s, %s: %.2f : 1", dark ? "dark" : "light", reader_colour_names[i],
+                         ratio);
+        }
+    for (int c = 0; c < 3; c++) {
+        own.paper[c] = 1;
+        own.ink[c] = 0;
+        own.link[c] = 1;
+    }
+    assert_true(fabs(reader_colour_contrast(&own, 0) - 21) < 1e-9);
+    assert_true(fabs(reader_colour_contrast(&own, 1) - 21) < 1e-9);
+    assert_true(fabs(reader_colour_contrast(&own, 2) - 1) < 1e-9);
+    double rgb[3] = {0, 0, 0};
+    char text[8];
+    assert_false(reader_colour_read("#12345", rgb));
+    assert_false(reader_colour_read("#12345g", rgb));
+    assert_true(reader_colour_read("#12aBf0", rgb));
+    reader_colour_text(rgb, text);
+    assert_string_equal(text, "#12abf0");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_written_is_read),
+        cmocka_unit_test(usual_colours_are_read_well),
         cmocka_unit_test(numbers_are_of_no_locale),
         cmocka_unit_test(what_is_wrong_is_said),
         cmocka_unit_test(grids_are_in_their_windows),
