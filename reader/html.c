@@ -55,7 +55,8 @@ static void colour_put(struct html *h, const char *name, const double rgb[3])
 
 static void theme_put(struct html *h, bool dark)
 {
-    const struct reader_colours *c = reader_colours_of(dark);
+    const struct reader_template *t = h->setup->template;
+    const struct reader_colours *c = t ? &t->colours[dark] : reader_colours_of(dark);
     fputs(":root{", h->f);
     colour_put(h, "paper", c->paper);
     colour_put(h, "ink", c->ink);
@@ -66,6 +67,23 @@ static void theme_put(struct html *h, bool dark)
     /* formulas are black pictures */
     fprintf(h->f, "--formula:%s;color-scheme:%s}\n", dark ? "invert(.85)" : "none",
             dark ? "dark" : "light");
+}
+
+/* What a template says of letters, and of the column. */
+static void template_put(struct html *h)
+{
+    static const char *const of_size[READER_SIZES] = {"h1",    "h2",       "h3,h4,h5,h6",
+                                                      "aside", "pre,code", "table"};
+    const struct reader_template *t = h->setup->template;
+    if (!t)
+        return;
+    if (reader_template_text_em(t) > 0) /* else it takes what there is */
+        fprintf(h->f, "body{max-width:%.4grem}\n", reader_template_text_em(t));
+    for (int i = 0; i < READER_SIZES; i++)
+        if (t->sizes[i] > 0)
+            fprintf(h->f, "%s{font-size:%.4gem}\n", of_size[i], t->sizes[i]);
+    if (t->sizes[READER_SIZE_CODE] > 0) /* it is in another that has the size */
+        fputs("pre code{font-size:1em}\n", h->f);
 }
 
 static void style_put(struct html *h)
@@ -92,6 +110,7 @@ static void style_put(struct html *h)
         fprintf(h->f, ";font-size:%gpx", h->setup->size_px);
     fputs("}\n", h->f);
     fputs(style_begin, h->f);
+    template_put(h);
     fputs("</style>\n", h->f);
 }
 

@@ -100,11 +100,17 @@ bool html_formula_put(struct html *h, const char *tex, int bytes, bool display)
 
 /* ---- pictures ---- */
 
+/* As the block says itself, or the template. */
+static struct reader_beside beside_of(const struct html *h, const struct reader_block *block)
+{
+    const struct reader_template *t = h->setup->template;
+    return block->beside.side != READER_SIDE_USUAL || !t ? block->beside : t->beside;
+}
+
 bool html_beside_put(struct html *h, const struct reader_block *block)
 {
     enum { USUAL = 40 };
-    const struct reader_beside own =
-        block->beside.side == READER_SIDE_USUAL ? h->setup->beside : block->beside;
+    const struct reader_beside own = beside_of(h, block);
     const bool left = own.side == READER_SIDE_LEFT;
     if ((!left && own.side != READER_SIDE_RIGHT) || block->items || block->quotes ||
         block->marker)
@@ -118,13 +124,12 @@ bool html_beside_put(struct html *h, const struct reader_block *block)
 static void shape_put(struct html *h, const struct reader_block *block, const char *png,
                       size_t bytes)
 {
-    const struct reader_beside *own =
-        block->beside.side == READER_SIDE_USUAL ? &h->setup->beside : &block->beside;
-    if (own->side != READER_SIDE_LEFT && own->side != READER_SIDE_RIGHT)
+    const struct reader_beside own = beside_of(h, block);
+    if (own.side != READER_SIDE_LEFT && own.side != READER_SIDE_RIGHT)
         return;
-    if (own->round)
+    if (own.round)
         fputs(" style=\"shape-outside:ellipse(50% 50%);shape-margin:1em\"", h->f);
-    if (!own->shape)
+    if (!own.shape)
         return;
     fputs(" style=\"shape-margin:1em;shape-outside:url(data:image/png;base64,", h->f);
     base64_put(h, (const unsigned char *)png, bytes);

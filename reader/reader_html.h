@@ -25,6 +25,7 @@
 #include "reader_document.h"
 #include "reader_files.h"
 #include "reader_remarks.h"
+#include "reader_template.h"
 
 #include <stdio.h>
 
@@ -38,7 +39,9 @@ struct reader_html_setup {
     const char *font,
         *math; /* font: a family's name; math: as font_face_open() has it; NULL: the
                               * usual ones */
-    struct reader_beside beside; /* of figures that do not say where they stand; usual: no */
+    /* Its colours, its sizes of letters, how wide its first column of text is at most, and
+     * where figures stand that do not say so themselves; NULL: the usual ones. */
+    const struct reader_template *template;
     const struct reader_files *files;     /* the document's, for links among them; NULL: none */
     const struct reader_remarks *remarks; /* NULL: none */
     /* Writes the bytes of the PNG that source number `source` names; false: it is told by its

@@ -31,6 +31,7 @@
 struct read {
     struct type_pages pages;
     const char *font, *mono, *math, *theme, *play, *template;
+    struct reader_template look; /* where there is a template */
     double size_px, leading, margin_px, gap_px, notes_px;
     int columns, small_px; /* small_px: of miniatures; 0: none */
     bool ragged, plain, remarks;
@@ -41,6 +42,18 @@ static bool is_html(const struct read *r)
 {
     const char *path = r->pages.out_path, *ending = path ? strrchr(path, '.') : NULL;
     return ending && (strcasecmp(ending, ".html") == 0 || strcasecmp(ending, ".htm") == 0);
+}
+
+/* It says something that pages have. */
+static bool template_has_pages(const struct reader_template *t)
+{
+    const struct reader_colours *usual = reader_colours_of(false), *own = &t->colours[0];
+    bool has = t->beside.side != READER_SIDE_USUAL ||
+               memcmp(own->link, usual->link, sizeof own->link) != 0 ||
+               memcmp(own->struck, usual->struck, sizeof own->struck) != 0;
+    for (int i = 0; i < READER_SIZES; i++)
+        has = has || t->sizes[i] > 0;
+    return has;
 }
 
 /* What is to be written, and that each option has an effect on it. */
@@ -58,6 +71,12 @@ static int out_check(const struct read *r, const struct option_row *rows,
                               r->pages.out_path);
         if (r->theme)
             return fail_usage("read", "--theme has no effect on pages: it is for %s", ".html");
+        if (r->template && !template_has_pages(&r->look))
+            return fail_usage("read",
+                              "--template: '%.60s' says nothing that pages have, as sizes, "
+                              "links' colours and figures beside text; they have --columns "
+                              "and --notes",
+                              r->template);
         if (r->small_px && (type_out_of(r->pages.out_path) != TYPE_OUT_PNG || r->pages.page ||
                             r->pages.all || r->pages.statistics))
             return fail_usage("read", "--miniatures has all pages in one picture: -o %s",
@@ -105,8 +124,8 @@ static int read_options(struct read *r, int argc, char **argv, struct option_wor
         {"theme", 0, OPTION_TEXT, "NAME",
          "of the window, of .html: light or dark (as the desktop is)", &r->theme, 0, 0, 0},
         {"template", 0, OPTION_TEXT, "T",
-         "the window's layout: screen, book, two-columns, or a file (screen)", &r->template, 0,
-         0, 0},
+         "layout, colours and sizes: screen, book, two-columns, or a file (screen)",
+         &r->template, 0, 0, 0},
         {"miniatures", 0, OPTION_INTEGER, "PX",
          "all pages small in one .png, each so many pixels wide, by the filters of such sizes",
          &r->small_px, 16, 1000, 0},
@@ -119,10 +138,11 @@ static int read_options(struct read *r, int argc, char **argv, struct option_wor
         {0}};
     /* What a window has in its own way, and what pages have not. */
     static const struct option_need needs[] = {
-        {"page", "out"},       {"all", "out"},    {"title", "out"},      {"paper", "out"},
-        {"leading", "out"},    {"margin", "out"}, {"columns", "out"},    {"gap", "out"},
-        {"notes", "out"},      {"plain", "out"},  {"statistics", "out"}, {"remarks", "out"},
-        {"miniatures", "out"}, {"play", "!out"},  {"template", "!out"},  {0}};
+        {"page", "out"},       {"all", "out"},        {"title", "out"},
+        {"paper", "out"},      {"leading", "out"},    {"margin", "out"},
+        {"columns", "out"},    {"gap", "out"},        {"notes", "out"},
+        {"plain", "out"},      {"statistics", "out"}, {"remarks", "out"},
+        {"miniatures", "out"}, {"play", "!out"},      {0}};
     if (!options_parse("read", rows, argc, argv, words))
         return EXIT_USAGE;
     if (words->help)
@@ -131,6 +151,8 @@ static int read_options(struct read *r, int argc, char **argv, struct option_wor
         return EXIT_USAGE;
     if (r->theme && strcmp(r->theme, "light") != 0 && strcmp(r->theme, "dark") != 0)
         return fail_usage("read", "--theme must be light or dark (got '%.40s')", r->theme);
+    if (r->template && reader_template_open(r->template, &r->look) != READER_OK)
+        return fail_usage("read", "--template: %s", reader_error());
     const int status = out_check(r, rows, words);
     r->manual = words->count == 0;
     return status == EXIT_SUCCESS && r->manual ? read_manual_words(words) : status;
@@ -246,9 +268,22 @@ static int html_write(const struct read *r, const struct reader_document *docume
                                             .size_px = r->size_px,
                                             .font = r->font,
                                             .math = r->math,
+                                            .template = r->template ? &r->look : NULL,
                                             .files = files,
                                             .remarks = remarks};
     return read_html_write(r->pages.out_path, document, &setup);
+}
+
+/* Sizes and colours on pages; their columns are their own. */
+static void template_set(const struct read *r, struct reader_pages_setup *setup)
+{
+    const struct reader_colours *colours = &r->look.colours[0];
+    if (!r->template)
+        return;
+    memcpy(setup->sizes, r->look.sizes, sizeof setup->sizes);
+    memcpy(setup->ink_link, colours->link, sizeof setup->ink_link);
+    memcpy(setup->ink_struck, colours->struck, sizeof setup->ink_struck);
+    setup->beside = r->look.beside;
 }
 
 /* HTML or pages, with what readers left where that is asked for. */
@@ -338,12 +373,9 @@ static int window_run(const struct read *r, const struct option_words *words)
 {
     char path[PATH_MAX];
     struct line line = {.count = 1, .good = true};
-    struct reader_template template;
     int status = files_check(words);
     if (status != EXIT_SUCCESS)
         return status;
-    if (r->template && reader_template_open(r->template, &template) != READER_OK)
-        return fail_usage("read", "--template: %s", reader_error());
     if (!program_find(path, here, LUTETIA_LIBEXECDIR "/lutetia/lutetia-reader",
                       "desk/reader/lutetia-reader"))
         return fail("read",
@@ -394,6 +426,7 @@ int verb_read(int argc, char **argv)
     setup.notes_px = r.notes_px;
     setup.columns = r.columns;
     setup.running = !r.plain;
+    template_set(&r, &setup);
     setup.picture = picture_find;
     setup.picture_user = &files;
     if (r.ragged)

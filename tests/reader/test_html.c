@@ -173,11 +173,13 @@ static void figures_stand_beside_text(void **state)
     static const char text[] =
         "![A](a.png \"left round 30%\")\n\n![](a.png \"right shape\")\n\n"
         "![C](a.png \"a title\")\n\nText.\n\n> ![D](a.png \"left\")\n";
+    static const char own[] = "columns 30\ntext 1\nbeside right 25%\n";
+    struct reader_template template;
     struct reader_document *d = read_text(text, sizeof text - 1);
+    assert_int_equal(reader_template_parse(own, sizeof own - 1, "own", &template), READER_OK);
     char *html = html_of(d, &(struct reader_html_setup){.picture = picture_give}),
-         *usual = html_of(d, &(struct reader_html_setup){
-                                 .picture = picture_give,
-                                 .beside = {.side = READER_SIDE_RIGHT, .percent = 25}});
+         *usual = html_of(
+             d, &(struct reader_html_setup){.picture = picture_give, .template = &template});
     has(html, "<figure class=\"left\" style=\"--w:30%\"><img "
               "style=\"shape-outside:ellipse(50% 50%);shape-margin:1em\" alt=\"A\"");
     has(html, "<figure class=\"right\" style=\"--w:40%\"><img style=\"shape-margin:1em;"
@@ -188,6 +190,30 @@ static void figures_stand_beside_text(void **state)
     has(usual, "<blockquote>\n<figure id=\"b.4\"><img alt=\"D\"");
     free(html);
     free(usual);
+    reader_document_destroy(d);
+}
+
+/* Its colours, sizes and column; without one, none of its rules is there. */
+static void templates_are_followed(void **state)
+{
+    (void)state;
+    static const char own[] = "columns 26..30 8\ntext 1\nsize heading-1 2.5\nsize code 0.7\n"
+                              "colour paper #102030 #405060\n";
+    struct reader_template template;
+    struct reader_document *d = read_text("# A\n\n`b`\n", 9);
+    assert_int_equal(reader_template_parse(own, sizeof own - 1, "own", &template), READER_OK);
+    char *with = html_of(
+             d, &(struct reader_html_setup){.theme = READER_HTML_BOTH, .template = &template}),
+         *without = html_of(d, &(struct reader_html_setup){.theme = READER_HTML_BOTH});
+    has(with, "--paper:#102030;");
+    has(with, "--paper:#405060;");
+    has(with, "body{max-width:30rem}");
+    has(with, "h1{font-size:2.5em}\npre,code{font-size:0.7em}\npre code{font-size:1em}\n");
+    assert_null(strstr(with, "table{font-size"));
+    has(without, "--paper:#fefcf8;");
+    assert_null(strstr(without, "body{max-width:30rem}"));
+    free(with);
+    free(without);
     reader_document_destroy(d);
 }
 
@@ -404,6 +430,7 @@ int main(void)
         cmocka_unit_test(nothing_runs_in_it),
         cmocka_unit_test(pictures_and_formulas_are_within),
         cmocka_unit_test(figures_stand_beside_text),
+        cmocka_unit_test(templates_are_followed),
         cmocka_unit_test(themes_are_the_window_s),
         cmocka_unit_test(remarks_are_at_their_words),
         cmocka_unit_test(ink_is_scaled_and_grouped),
