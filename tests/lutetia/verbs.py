@@ -140,6 +140,7 @@ INPUTS = [
     ("read", None, ["read", "@", "-o", "o.png"]),
     ("read", "font", ["read", "text.txt", "--font", "@", "-o", "o.png"]),
     ("read", "mono", ["read", "text.txt", "--mono", "@", "-o", "o.png"]),
+    ("read", "template", ["read", "text.txt", "--template", "@", "-o", "o.html"]),
     ("read", "math", ["read", "formula.md", "--math", "@", "-o", "o.png"]),
     ("font", None, ["font", "@", "-o", "o.png"]),
     ("font", "master", ["font", "DejaVuSans", "--glyph", "a", "--master", "@", "-o", "o.png"]),
