@@ -168,7 +168,11 @@ static void damage_is_told(void **state)
     assert_int_equal(bytes[14], '2');
     bytes[14] = '1'; /* of sheets whose water was another */
     sample_file_write(path, bytes, count);
-    refused(path, "(format 1, model of paper 4); this one reads format 2, model 4");
+    char says[100];
+    snprintf(says, sizeof says,
+             "(format 1, model of paper %d); this one reads format 2, model %d",
+             PAPER_MODEL_VERSION, PAPER_MODEL_VERSION);
+    refused(path, says);
     sample_file_write(path, (const uint8_t *)"hello", 5);
     refused(path, "not a saved state");
     unlink(path);
