@@ -103,7 +103,7 @@ static void what_cannot_be_is_one_line(void **state)
         {"spring.word{text = 'a', side = -1}", "side must be 0..1e+06 kg/s2 (got -1)"},
         {"spring.word{text = 'a', preset = 'soup'}",
          "there is no preset 'soup'; there are stiff"},
-        {"spring.word{text = 'a', tack = 'all'}", "none of: none first ends top bottom"},
+        {"spring.word{text = 'a', tack = 'all'}", "one of none first ends top bottom"},
         {"spring.word{text = 'a', font = '/etc/passwd'}", "must be a font's name"},
         {"spring.word{text = 'a', path = {{1, 2}}}", "word path must be 2..10000 points"},
         {"spring.network():set('gravy', 1)", "there is no control 'gravy'; there are gravity"},
