@@ -3,7 +3,6 @@
 
 #include "reader_colours.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -49,8 +48,9 @@ static const char style_begin[] =
 
 static void colour_put(struct html *h, const char *name, const double rgb[3])
 {
-    fprintf(h->f, "--%s:#%02lx%02lx%02lx;", name, lrint(255 * rgb[0]), lrint(255 * rgb[1]),
-            lrint(255 * rgb[2]));
+    char text[8];
+    reader_colour_text(rgb, text);
+    fprintf(h->f, "--%s:%s;", name, text);
 }
 
 static void theme_put(struct html *h, bool dark)

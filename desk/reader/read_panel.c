@@ -6,15 +6,15 @@
 #include <math.h>
 #include <string.h>
 
-enum {
-    SHARE_US = 1500000
-}; /* what follows a change of the same thing so soon is one with it */
+/* What follows a change of the same thing so soon is one with it. */
+enum { SHARE_US = 1500000 };
 enum { WIDTH = 330 };
 
 struct read_panel {
     struct read_desk *desk;
     GtkWidget *side, *theme, *colours[READER_COLOURS], *read[READER_COLOURS],
         *sizes[READER_SIZES];
+    struct control rows[READER_SIZES]; /* size_rows, with what is usual */
     bool filling;
     int last; /* what was changed last: a colour, or a size behind them; -1: none */
     guint done;
@@ -26,18 +26,19 @@ static const char *const colour_labels[READER_COLOURS] = {
     N_("Paper"), N_("Letters"),     N_("Links"),      N_("Struck out"), N_("Selected"),
     N_("Found"), N_("Found, here"), N_("Highlights"), N_("Notes")};
 
+/* What is usual the pages say. */
 static const struct control size_rows[READER_SIZES] = {
-    {N_("heading_1"), "", READER_SIZE_LEAST, READER_SIZE_MOST, 1.7, CONTROL_LOGARITHMIC, NULL,
+    {N_("heading_1"), "", READER_SIZE_LEAST, READER_SIZE_MOST, 1, CONTROL_LOGARITHMIC, NULL,
      N_("headings of the first level, of the text's size"), .at = 0},
-    {N_("heading_2"), "", READER_SIZE_LEAST, READER_SIZE_MOST, 1.3, CONTROL_LOGARITHMIC, NULL,
+    {N_("heading_2"), "", READER_SIZE_LEAST, READER_SIZE_MOST, 1, CONTROL_LOGARITHMIC, NULL,
      N_("headings of the second level"), .at = 0},
     {N_("heading_3"), "", READER_SIZE_LEAST, READER_SIZE_MOST, 1, CONTROL_LOGARITHMIC, NULL,
      N_("other headings"), .at = 0},
-    {N_("note"), "", READER_SIZE_LEAST, READER_SIZE_MOST, 0.82, CONTROL_LOGARITHMIC, NULL,
+    {N_("note"), "", READER_SIZE_LEAST, READER_SIZE_MOST, 1, CONTROL_LOGARITHMIC, NULL,
      N_("notes"), .at = 0},
-    {N_("code"), "", READER_SIZE_LEAST, READER_SIZE_MOST, 0.88, CONTROL_LOGARITHMIC, NULL,
+    {N_("code"), "", READER_SIZE_LEAST, READER_SIZE_MOST, 1, CONTROL_LOGARITHMIC, NULL,
      N_("code"), .at = 0},
-    {N_("table"), "", READER_SIZE_LEAST, READER_SIZE_MOST, 0.92, CONTROL_LOGARITHMIC, NULL,
+    {N_("table"), "", READER_SIZE_LEAST, READER_SIZE_MOST, 1, CONTROL_LOGARITHMIC, NULL,
      N_("tables"), .at = 0}};
 
 /* ---- what is set ---- */
@@ -211,7 +212,9 @@ GtkWidget *read_panel_new(struct read_desk *d)
     gtk_box_append(GTK_BOX(all), grid);
     gtk_box_append(GTK_BOX(all), headed(_("Sizes, of the text's")));
     for (int i = 0; i < READER_SIZES; i++) {
-        p->sizes[i] = desk_control_new(&size_rows[i], NULL, size_set, p, i);
+        p->rows[i] = size_rows[i];
+        p->rows[i].usual = reader_size_usual((enum reader_size)i);
+        p->sizes[i] = desk_control_new(&p->rows[i], NULL, size_set, p, i);
         gtk_box_append(GTK_BOX(all), p->sizes[i]);
     }
     gtk_actionable_set_action_name(GTK_ACTIONABLE(save), "win.template-save");
