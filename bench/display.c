@@ -1,10 +1,11 @@
 /* display.c - `lutetia bench display`: what 60 pictures a second on the frame buffer take from
  * a program that computes.
  *
- * The program is the thesis's diffusion on 1024x512 fibers. Turns of a third of a second
- * alternate. In the first the program computes its steps alone; in the second it also computes
- * and looks at a picture each 1/60 s; in the third it shows that picture. Turns are compared
- * with those just before, so that other load affects all alike. The pictures go where
+ * The program is the thesis's diffusion on 1024x512 fibers. Turns of a fifteenth of a second
+ * alternate, since what else the computer does changes within seconds. In the first the program
+ * computes its steps alone; in the second it also computes and looks at a picture each 1/60 s;
+ * in the third it shows that picture. Turns are compared with those just before, so that other
+ * load affects all alike; TURNS_EACH of each are one counted run. The pictures go where
  * LUTETIA_DISPLAY says; if it says nothing, to /dev/null, which leaves the program's own part.
  * The rows say which it was:
  *
@@ -24,7 +25,7 @@
 #include "of_machine.h"
 #include "paris_internal.h"
 
-enum { WIDTH = 1024, HEIGHT = 512, PICTURES_PER_S = 60, UNSEEN = 100000 };
+enum { WIDTH = 1024, HEIGHT = 512, PICTURES_PER_S = 60, UNSEEN = 100000, TURNS_EACH = 10 };
 
 struct shown_program {
     struct listing listing;
@@ -190,7 +191,8 @@ static bool bits_measure(struct bench_report *r, unsigned int bits, int repeat_c
                         {"60 shown, of a processor", "%"},
                         {"slower by showing, wall", "%"},
                         {"pictures", "1/s"}};
-    const double seconds = bench_quick ? 0.02 : 1.0 / 3;
+    const double seconds = bench_quick ? 0.02 : 1.0 / 15;
+    repeat_count *= bench_quick ? 1 : TURNS_EACH;
     struct shown_program p;
     struct turn turns[TURN_KINDS];
     char of_case[48];
@@ -202,7 +204,7 @@ static bool bits_measure(struct bench_report *r, unsigned int bits, int repeat_c
         values[i] = calloc((size_t)repeat_count, sizeof **values);
         ok = ok && (values[i] || bench_fail("no memory for %d times", repeat_count));
     }
-    ok = ok && turns_take(&p, 6 * seconds, turns); /* to warm up */
+    ok = ok && turns_take(&p, 30 * seconds, turns); /* to warm up */
     for (int k = 0; ok && k < repeat_count; k++) {
         ok = turns_take(&p, seconds, turns);
         if (ok)

@@ -269,7 +269,7 @@ static void kind_run(const struct kind *kind, uint32_t seed, int turns)
 static void long_paragraph_is_set_anew_where_it_changed(void **state)
 {
     (void)state;
-    const char *asked = getenv("LUTETIA_PAGE_RUNS");
+    const char *asked = getenv("LUTETIA_LONG_PAGE_RUNS");
     const int runs = asked ? atoi(asked) : 1;
     for (int run = 0; run < runs; run++)
         for (int k = 0; k < KINDS; k++)
