@@ -21,6 +21,8 @@ const struct control dyn_word_controls[] = {
      "how strong what a line hangs from is", AT(hang)},
     {"damping_ratio", "", 0, 2, 0.08, CONTROL_LINEAR, NULL,
      "how soon springs stop swinging: 1 is at once", AT(damping_ratio)},
+    {"carry", "", 0, 20, 0, CONTROL_LINEAR, NULL,
+     "how much stronger springs are for each line beyond the first", AT(carry)},
     {"letter_breaking", "", 0, 100, 0, CONTROL_LOGARITHMIC, NULL,
      "the strain at which sides and diagonals break; 0: never", AT(letter_breaking)},
     {"link_breaking", "", 0, 100, 0, CONTROL_LOGARITHMIC, NULL,
@@ -29,14 +31,20 @@ const struct control dyn_word_controls[] = {
      "what a letter's box is: advance by capital M, or its ink", AT(box)},
     {"tack", "", 0, 4, DYN_TACK_NONE, CONTROL_CHOICE, "none first ends top bottom",
      "which corners are tacked", AT(tack)},
+    {"brace", "", 0, 1, DYN_BRACE_NONE, CONTROL_CHOICE, "none crossed",
+     "whether springs across keep letters and lines from sliding along each other", AT(brace)},
 };
 const int dyn_word_controls_count = sizeof dyn_word_controls / sizeof *dyn_word_controls;
 
 const struct dyn_preset dyn_presets[] = {
     {"stiff", "letters keep their shapes, and the word is a board",
-     "side=20000 diagonal=20000 link=20000 damping_ratio=0.3", false},
+     "side=20000 diagonal=20000 link=20000 hang=20000 carry=1 damping_ratio=0.3 "
+     "brace=crossed",
+     false},
     {"jelly", "soft, and swings for long",
-     "side=220 diagonal=130 link=160 damping_ratio=0.03 restitution=0.5 friction=0.6", false},
+     "side=220 diagonal=130 link=160 damping_ratio=0.03 restitution=0.5 friction=0.6 carry=8 "
+     "brace=crossed",
+     false},
     {"pendulum", "hangs from its first letter",
      "side=6000 diagonal=6000 link=6000 damping_ratio=0.05 drag=0.01 tack=first", false},
     {"heavy", "hangs from its ends and sags",

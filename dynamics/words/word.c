@@ -25,12 +25,14 @@ void dyn_word_destroy(struct dyn_word *word)
 
 /* ---- springs ---- */
 
-static struct dyn_spring spring_of(const struct dyn_word_style *style, enum dyn_part part)
+static struct dyn_spring spring_of(const struct dyn_word *word,
+                                   const struct dyn_word_style *style, enum dyn_part part)
 {
-    const double constants[] = {style->side, style->diagonal, style->link, style->hang};
+    const double constants[DYN_PARTS_COUNT] = {style->side, style->diagonal, style->link,
+                                               style->hang, style->link,     style->hang};
     double breaking = part == DYN_SIDE || part == DYN_DIAGONAL ? style->letter_breaking
                                                                : style->link_breaking;
-    double k = constants[part],
+    double k = constants[part] * (1 + style->carry * (word->lines_count - 1)),
            both = style->letter_mass / 4 / 2; /* two equal masses oscillate with the reduced
                                                * mass, a half */
     struct dyn_spring spring = dyn_spring_usual();
@@ -43,7 +45,7 @@ static struct dyn_spring spring_of(const struct dyn_word_style *style, enum dyn_
 static enum dyn_status spring_add(struct dyn_word *word, struct dyn_network *n,
                                   enum dyn_part part, int a, int b)
 {
-    struct dyn_spring spring = spring_of(&word->style, part);
+    struct dyn_spring spring = spring_of(word, &word->style, part);
     int count = word->range.springs_count;
     if (!array_reserve(&word->part, &word->parts_capacity, count + 1, sizeof *word->part))
         return dyn_fail(DYN_NO_MEMORY, "no memory for a word of %d springs", count);
@@ -68,9 +70,10 @@ static enum dyn_status box_springs(struct dyn_word *word, struct dyn_network *n,
     return status;
 }
 
-/* The lower corner of the word's letters in that line that is nearest to the mass; -1: none. */
+/* The lower corner of the word's letters in that line that is nearest to the mass, and is not
+ * `but`; -1: none. */
 static int lower_corner(const struct dyn_word *word, const struct dyn_network *n, int line,
-                        int mass)
+                        int mass, int but)
 {
     const struct dyn_state *states = dyn_network_states(n);
     double least = INFINITY;
@@ -79,7 +82,7 @@ static int lower_corner(const struct dyn_word *word, const struct dyn_network *n
         for (int k = 0; k < 2 && word->letters[i].line == line; k++) {
             const struct dyn_state *s = &states[word->letters[i].mass[k]];
             double far = hypot(s->x - states[mass].x, s->y - states[mass].y);
-            if (far < least) {
+            if (far < least && word->letters[i].mass[k] != but) {
                 least = far;
                 next = word->letters[i].mass[k];
             }
@@ -128,15 +131,26 @@ static int line_over(const struct dyn_word *word, const struct dyn_network *n,
     return line_above(word, letter->line);
 }
 
+static bool is_crossed(const struct dyn_word *word)
+{
+    return (int)word->style.brace == DYN_BRACE_CROSSED;
+}
+
+/* Each upper corner of a letter hangs from the nearest corner above; and, where springs are
+ * crossed, from the one that is nearest to the letter's other upper corner. */
 static enum dyn_status hang_springs(struct dyn_word *word, struct dyn_network *n,
                                     const struct dyn_letter *letter)
 {
     enum dyn_status status = DYN_OK;
     for (int k = 3; k >= 2 && status == DYN_OK; k--) {
         const int above = line_over(word, n, letter, letter->mass[k]);
-        if (above >= 0)
-            status = spring_add(word, n, DYN_HANG,
-                                lower_corner(word, n, above, letter->mass[k]), letter->mass[k]);
+        if (above < 0)
+            continue;
+        const int corner = lower_corner(word, n, above, letter->mass[k], -1),
+                  across = lower_corner(word, n, above, letter->mass[5 - k], corner);
+        status = spring_add(word, n, DYN_HANG, corner, letter->mass[k]);
+        if (status == DYN_OK && is_crossed(word))
+            status = spring_add(word, n, DYN_HANG_BRACE, across, letter->mass[k]);
     }
     return status;
 }
@@ -155,6 +169,9 @@ static enum dyn_status springs_make(struct dyn_word *word, struct dyn_network *n
         for (int k = 0; k < 2 && a->line == b->line && status == DYN_OK; k++) {
             a->link[k] = dyn_springs_count(n);
             status = spring_add(word, n, DYN_LINK, a->mass[1 + k], b->mass[k ? 3 : 0]);
+            if (status == DYN_OK && is_crossed(word))
+                status =
+                    spring_add(word, n, DYN_LINK_BRACE, a->mass[1 + k], b->mass[k ? 0 : 3]);
         }
     }
     for (int i = 0; i < word->letters_count && status == DYN_OK; i++) {
@@ -230,6 +247,8 @@ enum dyn_status dyn_word_create(struct dyn_network *n, const struct dyn_word_def
         return dyn_fail(DYN_NO_MEMORY, "no memory for a word");
     word->style = def->style;
     enum dyn_status status = dyn_letters_make(word, def, &places);
+    for (int i = 0; status == DYN_OK && i < word->letters_count; i++)
+        word->lines_count += i == 0 || word->letters[i].line != word->letters[i - 1].line;
     if (status == DYN_OK)
         status = masses_make(word, n, def, places);
     if (status == DYN_OK)
@@ -319,7 +338,7 @@ enum dyn_status dyn_word_style_set(struct dyn_word *word, struct dyn_network *n,
         dyn_mass_write(n, word->range.first_mass + i, mass, style->letter_mass / 4);
     for (int i = 0; i < word->range.springs_count; i++) {
         struct dyn_spring now = dyn_spring_get(n, word->range.first_spring + i);
-        struct dyn_spring spring = spring_of(style, dyn_word_part(word, i));
+        struct dyn_spring spring = spring_of(word, style, dyn_word_part(word, i));
         spring.rest_length = now.rest_length;
         spring.broken = now.broken;
         status = dyn_spring_set(n, word->range.first_spring + i, &spring);
@@ -338,9 +357,9 @@ enum dyn_status dyn_words_hang(struct dyn_network *n, const struct dyn_word *upp
     *first = dyn_springs_count(n);
     for (int i = 0; i < lower->letters_count; i++)
         for (int k = 3; k >= 2 && status == DYN_OK && lower->letters[i].line == top; k--) {
-            struct dyn_spring spring = spring_of(&lower->style, DYN_HANG);
+            struct dyn_spring spring = spring_of(lower, &lower->style, DYN_HANG);
             spring.end[1] = lower->letters[i].mass[k];
-            spring.end[0] = lower_corner(upper, n, last_line, spring.end[1]);
+            spring.end[0] = lower_corner(upper, n, last_line, spring.end[1], -1);
             status = dyn_spring_add(n, &spring, NULL);
         }
     *count = dyn_springs_count(n) - *first;

@@ -27,6 +27,9 @@
  *         :   :          :
  *       3-------2 ~~~~ ...
  *
+ * With `brace` there are also springs across the gaps, from 1 to the next letter's 3 and from
+ * 2 to its 0, and between lines; without them letters and lines slide along each other.
+ *
  * A word's masses and springs are contiguous in the network, which owns them; a network may
  * have many words, and other masses. All springs are at rest where the letters are put,
  * straight or along a path.
@@ -56,15 +59,21 @@ enum dyn_box { DYN_BOX_EM, DYN_BOX_INK };
  * right one; all upper ones of the first line; all lower ones of the last line. */
 enum dyn_tack { DYN_TACK_NONE, DYN_TACK_FIRST, DYN_TACK_ENDS, DYN_TACK_TOP, DYN_TACK_BOTTOM };
 
+/* CROSSED: springs across the gaps between letters of a line and between lines. Without them
+ * nothing keeps letters and lines from sliding along each other. */
+enum dyn_brace { DYN_BRACE_NONE, DYN_BRACE_CROSSED };
+
 /* All members are doubles, so that the table can describe them. */
 struct dyn_word_style {
     double letter_mass;                /* kg; each corner has a quarter */
     double side, diagonal, link, hang; /* springs' constants, kg/s2 */
     double damping_ratio;              /* for each spring alone with its masses: 1 is
                                         * critical */
-    double letter_breaking; /* breaking strain of sides and diagonals; 0: they never break */
-    double link_breaking;   /* for links and for springs between lines */
-    double box, tack;       /* enum dyn_box, enum dyn_tack: used when a word is made */
+    double carry;                      /* constants are (1 + carry (lines - 1)) times as
+                                        * large: the lowest line bears all others */
+    double letter_breaking;  /* breaking strain of sides and diagonals; 0: they never break */
+    double link_breaking;    /* for links and for springs between lines */
+    double box, tack, brace; /* enum dyn_box, dyn_tack, dyn_brace: used when a word is made */
 };
 
 extern const struct control dyn_word_controls[]; /* the rows of struct dyn_word_style */
@@ -149,7 +158,15 @@ void dyn_word_quad(const struct dyn_word *word, const struct dyn_network *n, int
 int dyn_word_letter_at(const struct dyn_word *word, const struct dyn_network *n, double x,
                        double y, double uv[2]);
 
-enum dyn_part { DYN_SIDE, DYN_DIAGONAL, DYN_LINK, DYN_HANG };
+enum dyn_part {
+    DYN_SIDE,
+    DYN_DIAGONAL,
+    DYN_LINK,
+    DYN_HANG,
+    DYN_LINK_BRACE,
+    DYN_HANG_BRACE,
+    DYN_PARTS_COUNT
+};
 
 /* The word's springs and masses in the network: first number and count. The kind of a
  * spring: index from 0 on. */

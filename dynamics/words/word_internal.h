@@ -8,7 +8,7 @@
 
 struct dyn_word {
     struct dyn_letter *letters; /* and then marks */
-    int letters_count, marks_count, letters_capacity;
+    int letters_count, marks_count, letters_capacity, lines_count;
     struct dyn_word_style style;
     struct dyn_word_range range;
     uint8_t *part; /* the kind of each spring */

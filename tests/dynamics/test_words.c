@@ -188,7 +188,7 @@ static void paragraph_is_boxes_links_and_what_lines_hang_from(void **state)
     struct dyn_word_def def = def_of(f, "wet paper\n\nand springs");
     struct dyn_network *n;
     struct dyn_word *word = word_make(&n, &def);
-    int of_part[4] = {0};
+    int of_part[DYN_PARTS_COUNT] = {0};
     struct dyn_word_range range = dyn_word_range(word);
     for (int i = 0; i < range.springs_count; i++) {
         of_part[dyn_word_part(word, i)]++;
