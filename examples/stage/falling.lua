@@ -1,5 +1,5 @@
 -- A word falls, bounces, comes to rest, and is thrown up again.
--- stage: spring Lutetia --preset jelly --set side=2400 --set diagonal=2000 --set link=2400 --set friction=0 --turn 12 --at 0.1,1.4 --set restitution=0.65 --set show_masses=off --set show_springs=off --set collide=on --view -0.7,-0.25,4.1,3 --seconds 8
+-- stage: spring Lutetia --preset jelly --set side=1200 --set diagonal=900 --set link=900 --set friction=0 --turn 12 --at 0.1,1.4 --set restitution=0.85 --set show_masses=off --set show_springs=off --set collide=on --view -0.7,-0.25,4.1,3 --seconds 8
 
 local every = param("every", 4)     -- seconds from one throw to the next
 local up = param("up", 0.08)        -- seconds that gravity is turned round for

@@ -1,5 +1,5 @@
 -- A word swings from its first letter; each time it stands still it is another word.
--- stage: spring tick --preset pendulum --set show_masses=off --set show_springs=off --view -4.5,-0.5,5,6 --at 0,5 --seconds 12
+-- stage: spring tick --preset pendulum --set show_masses=off --set show_springs=off --view -4.2,-0.2,4.6,6.4 --at 0,5 --seconds 12
 
 local words = {"tick", "tock", "ticket", "tocsin", "ticking"}
 local every, at = param("every", 2.4), 1

@@ -1,5 +1,5 @@
 -- A score: a row of numbers is played, each beat tightens the word for a moment, and it sounds.
--- stage: spring rhythm --preset pendulum --set tack=ends --at 0,2.6 --set show_masses=off --set show_springs=on --view -0.8,-0.2,5.4,4 --seconds 10
+-- stage: spring rhythm --preset pendulum --set tack=ends --at 0,2.6 --set show_masses=off --set show_springs=on --set floor_on=off --view -0.8,0.5,5.4,4.9 --seconds 10
 
 local score = {9, 0, 5, 0, 7, 5, 0, 3} -- how hard, 0 to 9; one after the other
 local beat = param("beat", 0.3)        -- seconds

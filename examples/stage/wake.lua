@@ -1,5 +1,5 @@
 -- Where the letters have been stays to be seen, as they are thrown about.
--- stage: spring wake --preset jelly --set side=6000 --set diagonal=5000 --set link=4000 --theme dark --turn 8 --at 0,2 --set restitution=0.8 --set skins=12 --set skin_every=0.06 --set collide=on --set show_masses=off --set show_springs=off --view -1.5,-0.2,5,3.6 --set left_on=on --set left=-1.5 --set right_on=on --set right=5 --seconds 8
+-- stage: spring wake --preset jelly --set side=6000 --set diagonal=5000 --set link=4000 --theme dark --turn 8 --at 0,2 --set restitution=0.8 --set skins=12 --set skin_every=0.06 --set collide=on --set show_masses=off --set show_springs=off --view -1.8,-0.3,5.3,3.9 --set left_on=on --set left=-1.5 --set right_on=on --set right=5 --seconds 8
 
 function frame(time)
   local kick = time % 2 < 0.1 and time > 0.5

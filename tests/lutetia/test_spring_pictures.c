@@ -29,6 +29,7 @@ static const struct {
     {"README.md", "breakdown.png", "springs-breakdown.png"},
     {"docs/stage.md", "word.png", "springs-word.png"},
     {"docs/stage.md", "skins.png", "springs-skins.png"},
+    {"docs/springs.md", "paragraph.png", "springs-paragraph.png"},
     {"docs/stage.md", "falling.png", "springs-falling.png"},
     {"docs/stage.md", "collision.png", "springs-collision.png"},
     {"docs/stage.md", "network.png", "springs-network.png"},
