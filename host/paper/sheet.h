@@ -181,8 +181,9 @@ double paper_sheet_margin(const struct paper_sheet_config *config);
  * it. */
 enum { PAPER_BRUSHES_BYTES = 4 };
 /* Memory that a sheet of that size takes, bytes: of the device each field, its replacement, and
- * temporaries between steps, a little above what was measured of 4096x4096 fibers with three
- * pigments (64 float arrays) and with six (89); and what brushes keep. */
+ * temporaries in a part of a step, a little above what was measured of 4096x4096 fibers with
+ * three pigments (67 float arrays) and of 2900x2900 with six (85); and what brushes keep. While
+ * the first steps of a smaller sheet are computed it may be twice that. */
 double paper_sheet_bytes(double width, double height, int pigments);
 
 struct paper_sheet;
@@ -296,6 +297,12 @@ enum paper_status paper_sheet_finish(struct paper_sheet *sheet);
  * fibers, 4..4096: 64 unless told; 0: there are none. No event: it is not recorded. Errors:
  * BAD_ARGUMENT, MACHINE_FAILED. */
 enum paper_status paper_sheet_confine(struct paper_sheet *sheet, int unit);
+/* Steps of a sheet, or of a box, that has so many fibers or more are computed in three parts
+ * instead of at once: PAPER_PARTED_USUAL unless told. That takes less memory and a little more
+ * time. The bits are the same. No event: it is not recorded. Errors: BAD_ARGUMENT (NaN, below
+ * 0). */
+#define PAPER_PARTED_USUAL 8388608.0
+enum paper_status paper_sheet_part_from(struct paper_sheet *sheet, double fibers);
 /* The part of the sheet that the last step computed: 1 without boxes. */
 double paper_sheet_share(const struct paper_sheet *sheet);
 /* The number of steps that the sheet has gone through; during a stroke, those of the stroke so

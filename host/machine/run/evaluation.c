@@ -38,6 +38,7 @@ struct evaluation {
     struct device_buffer *
         *buffers; /* by node, of those in memory; after the second half also of those stored */
     double start;
+    bool *kept;  /* by node: its array is needed after the plan, if it is stored */
     bool stored; /* the second half is done: the stored buffers are referenced */
 };
 
@@ -165,7 +166,8 @@ static enum machine_status first_half(struct machine *m, struct evaluation *e,
     if (!e->plan)
         return plan_use_runs(use) ? m->status : MACHINE_OK;
     e->buffers = calloc((size_t)e->reach.count, sizeof(struct device_buffer *));
-    if (!e->buffers)
+    e->kept = malloc((size_t)e->reach.count * sizeof *e->kept);
+    if (!e->buffers || !e->kept)
         return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to run a plan");
     for (int i = 0; i < e->reach.count; i++)
         e->buffers[i] = e->reach.nodes[i]->buffer;
@@ -198,6 +200,38 @@ static bool is_kept(const struct evaluation *e, const struct machine_value *v)
     return false;
 }
 
+/* Finds whose arrays outlive the plan. A value that is in memory lets go of its operands, and
+ * so does one that nobody holds any more. An array of which only such values are made is given
+ * back as soon as the plan's last kernel that reads it has been started: a plan of several
+ * kernels stores much for its own kernels only. */
+static enum machine_status find_kept(struct machine *m, struct evaluation *e)
+{
+    struct machine_value *const *nodes = e->reach.nodes;
+    uint32_t *holders = malloc((size_t)e->reach.count * sizeof *holders);
+    int count;
+    const int *stored = plan_stored(e->plan, &count);
+    if (!holders)
+        return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to run a plan");
+    for (int i = 0; i < e->reach.count; i++) {
+        holders[i] = nodes[i]->refs;
+        e->kept[i] = false;
+    }
+    for (int i = 0; i < count; i++)
+        e->kept[stored[i]] = is_kept(e, nodes[stored[i]]);
+    for (int i = 0; i < e->targets.count; i++) /* whoever asks may only borrow it */
+        holders[e->targets.values[i]->local]++;
+    for (int i = e->reach.count - 1; i >= 0; i--) { /* users first */
+        const struct machine_value *v = nodes[i];
+        const int inputs = v->buffer ? 0 : node_ops[v->op].inputs;
+        const bool lets_go = e->kept[i] || holders[i] == 0;
+        for (int k = 0; lets_go && k < inputs; k++)
+            holders[v->in[k]->local]--;
+        e->kept[i] = e->kept[i] && holders[i] > 0;
+    }
+    free(holders);
+    return MACHINE_OK;
+}
+
 static enum machine_status second_half(struct machine *m, struct evaluation *e)
 {
     int count;
@@ -205,9 +239,11 @@ static enum machine_status second_half(struct machine *m, struct evaluation *e)
     struct device_buffer *const *buffers = e->buffers;
     if (m->watch)
         tell_computed(m, e);
-    enum machine_status status = m->sequencers
-                                     ? division_run(m, e->plan, e->buffers, nodes, NULL)
-                                     : plan_run(m, e->plan, e->buffers, nodes, NULL);
+    const struct fates fates = {.kept = e->kept};
+    enum machine_status status = find_kept(m, e);
+    if (!status)
+        status = m->sequencers ? division_run(m, e->plan, e->buffers, nodes, &fates)
+                               : plan_run(m, e->plan, e->buffers, nodes, &fates);
     const int *stored = plan_stored(e->plan, &count);
     if (status)
         return status;
@@ -215,11 +251,11 @@ static enum machine_status second_half(struct machine *m, struct evaluation *e)
     /* Users first: a node whose inputs are released may hold their last references. */
     for (int i = count - 1; i >= 0; i--) {
         graph_ref(nodes[stored[i]]);
-        if (is_kept(e, nodes[stored[i]]))
+        if (e->kept[stored[i]])
             device_buffer_ref(buffers[stored[i]]);
     }
     for (int i = count - 1; i >= 0; i--)
-        if (is_kept(e, nodes[stored[i]]))
+        if (e->kept[stored[i]])
             graph_materialised(m, nodes[stored[i]], buffers[stored[i]]);
     for (int i = count - 1; i >= 0; i--)
         graph_unref(m, nodes[stored[i]]);
@@ -232,8 +268,10 @@ static void release(struct machine *m, struct evaluation *e)
     int count = 0;
     const int *stored = e->stored ? plan_stored(e->plan, &count) : NULL;
     for (int i = count - 1; i >= 0; i--)
-        device_buffer_unref(m, e->buffers[stored[i]]);
+        if (e->buffers[stored[i]])
+            device_buffer_unref(m, e->buffers[stored[i]]);
     free(e->buffers);
+    free(e->kept);
     free(e->targets.values);
     reach_finish(&e->reach);
 }

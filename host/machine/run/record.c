@@ -85,10 +85,23 @@ bool record_begins_alike(const struct edge *a, const struct edge *b, int count)
 static void number_buffers(struct machine *m, struct device_buffer *const *buffers, int count)
 {
     m->values->mark++;
-    for (int i = 0; i < count; i++) {
-        buffers[i]->mark = m->values->mark;
-        buffers[i]->number = (uint32_t)i;
-    }
+    for (int i = 0; i < count; i++)
+        if (buffers[i]) {
+            buffers[i]->mark = m->values->mark;
+            buffers[i]->number = (uint32_t)i;
+        }
+}
+
+/* Lets go of arrays of the state before that nobody else holds: the plan does not read them,
+ * and they are in no later state. */
+static void spare_let_go(struct machine *m)
+{
+    struct replay *p = m->run->replay;
+    for (int i = 0; i < p->from_buffers_count; i++)
+        if (p->from_buffers[i] && p->from_buffers[i]->refs == 1) {
+            device_buffer_unref(m, p->from_buffers[i]);
+            p->from_buffers[i] = NULL;
+        }
 }
 
 static bool sources_find(struct machine *m, struct deed *d, struct machine_value *const *nodes,
@@ -140,6 +153,7 @@ void record_evaluates(struct machine *m, struct plan *plan, struct machine_value
                  .from = array_zeroed((size_t)count, sizeof *e.deed.from),
                  .values = array_zeroed((size_t)count, sizeof(struct machine_value *))}};
     p->making = sources_find(m, &e.deed, nodes, buffers);
+    spare_let_go(m);
     if (p->making)
         p->made = e;
     else
@@ -179,10 +193,11 @@ static bool edge_complete(struct machine *m, const struct walk *w, int to,
                 wanted[i]->buffer->mark != m->values->mark)
                 return false;
     number_buffers(m, p->from_buffers, p->from_buffers_count);
-    for (int k = 0; k < count; k++) {
-        buffers[stored[k]]->mark = m->values->mark;
-        buffers[stored[k]]->number = ~(uint32_t)stored[k];
-    }
+    for (int k = 0; k < count; k++)
+        if (buffers[stored[k]]) { /* else only the plan's own kernels have looked at it */
+            buffers[stored[k]]->mark = m->values->mark;
+            buffers[stored[k]]->number = ~(uint32_t)stored[k];
+        }
     int32_t *next = array_zeroed((size_t)w->buffers_count, sizeof *next);
     bool *kept = array_zeroed((size_t)e->deed.nodes_count, sizeof *kept);
     e->deed.next = next;

@@ -157,7 +157,7 @@ struct replay {
     struct machine_call *log;
     int log_count, log_capacity;
     int from; /* -1: not known, or something other than calls has happened since */
-    struct device_buffer **from_buffers; /* referenced */
+    struct device_buffer **from_buffers; /* referenced; NULL: nobody needs it any more */
     int from_buffers_count;
     uint64_t from_stores;
     int depth;        /* nesting depth of calls being performed */

@@ -429,7 +429,8 @@ void states_from_forget(struct machine *m)
 {
     struct replay *p = m->run->replay;
     for (int i = 0; i < p->from_buffers_count; i++)
-        device_buffer_unref(m, p->from_buffers[i]);
+        if (p->from_buffers[i])
+            device_buffer_unref(m, p->from_buffers[i]);
     free(p->from_buffers);
     p->from_buffers = NULL;
     p->from_buffers_count = 0;

@@ -52,6 +52,15 @@ enum paper_status paper_sheet_confine(struct paper_sheet *p, int unit)
     return sheet_confine(p, unit);
 }
 
+enum paper_status paper_sheet_part_from(struct paper_sheet *p, double fibers)
+{
+    if (!(fibers >= 0))
+        return paper_fail(PAPER_BAD_ARGUMENT,
+                          "steps are computed in parts from 0 fibers or more (got %g)", fibers);
+    p->parted_from = fibers;
+    return PAPER_OK;
+}
+
 double paper_sheet_share(const struct paper_sheet *p)
 {
     return sheet_share(p);

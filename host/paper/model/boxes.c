@@ -337,6 +337,7 @@ enum paper_status sheet_step(struct paper_sheet *p, const void *arguments)
         struct paper_sheet *s = &b->parts[i]->sheet;
         s->air = p->air;
         s->salted = p->salted;
+        s->parted_from = p->parted_from;
         s->salt_reach = p->salt_reach;
         s->salt_strength = p->salt_strength;
         CM_set_vp_set(s->page.grid.vp_set);

@@ -40,6 +40,8 @@ void sheet_fields_make(struct paper_sheet *p)
     }
     for (int i = 0; i < SHEET_TEMPORARIES; i++)
         p->t[i] = field_make(KIT_FLOAT_BITS);
+    for (int i = 0; i < SHEET_TERMS; i++)
+        p->term[i] = field_make(KIT_FLOAT_BITS);
     p->shades = field_make(SHEET_SHADES_BITS);
     p->shade = field_make(SHEET_SHADE_BITS);
     p->shifted = field_make(SHEET_SHADES_BITS);
@@ -92,6 +94,14 @@ void sheet_temporaries_clear(struct paper_sheet *p)
 {
     for (int i = 0; i < SHEET_TEMPORARIES; i++)
         kit_f_set(p->t[i], 0.0);
+}
+
+void sheet_step_part_end(struct paper_sheet *p)
+{
+    if (!sheet_parted(p))
+        return;
+    sheet_temporaries_clear(p);
+    CM_warm_boot();
 }
 
 void sheet_end_narrow(const struct paper_sheet *p, unsigned axis, bool last)

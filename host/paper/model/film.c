@@ -296,11 +296,24 @@ static void film_flow(struct paper_sheet *p, const struct sheet_terms *terms)
         sheet_flow_through(p, p->surface[i], &pigment, NULL);
 }
 
+/* What only the film needs goes before its arrays would wait for the end of the step. */
+static void film_terms_clear(const struct sheet_terms *terms)
+{
+    const CM_field_id_t of_film[] = {terms->depth, terms->level, terms->deep, terms->inverse,
+                                     terms->swirled};
+    for (size_t i = 0; i < sizeof of_film / sizeof *of_film; i++)
+        kit_f_set(of_film[i], 0.0);
+}
+
 void sheet_film_step(struct paper_sheet *p)
 {
     struct sheet_terms terms;
     sheet_soak(p, &terms);
-    if (sheet_has(p, PAPER_PART_SURFACE))
+    sheet_step_part_end(p);
+    if (sheet_has(p, PAPER_PART_SURFACE)) {
         film_flow(p, &terms);
+        film_terms_clear(&terms);
+        sheet_step_part_end(p);
+    }
     sheet_capillary_flow(p, &terms);
 }

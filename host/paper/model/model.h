@@ -8,7 +8,7 @@
 #include "picture.h"
 #include "sheet.h"
 
-enum { SHEET_TEMPORARIES = 56, SHEET_DRIED_BITS = 31 };
+enum { SHEET_TEMPORARIES = 56, SHEET_TERMS = 7, SHEET_DRIED_BITS = 31 };
 /* Of a picture: of a channel, from the lowest, and of all three. */
 enum { SHEET_SHADE_BITS = 16, SHEET_SHADES_BITS = 3 * SHEET_SHADE_BITS };
 /* How many fibers aside the picture of a fiber looks. */
@@ -85,14 +85,16 @@ struct paper_sheet {
     CM_field_id_t shades, shade,
         shifted; /* a picture's channels, one, and where it goes (view.c) */
     CM_field_id_t t[SHEET_TEMPORARIES];
-    struct sheet_areas changed;    /* since they were asked for (areas.c) */
-    uint16_t *covers;              /* ground.c; NULL: not made */
-    double covers_light;           /* by which they were */
-    struct sheet_boxes *boxes;     /* model/boxes.c; NULL: there was none */
-    int boxes_unit;                /* their sides are multiples of it; 0: no boxes */
-    struct sheet_growing *growing; /* model/growing.c; NULL: no stroke grows */
-    struct sheet_brushes *brushes; /* model/brush_internal.h; NULL: there is none */
-    bool (*due)(void *context);    /* paper_sheet_stop_when() */
+    CM_field_id_t term[SHEET_TERMS]; /* struct sheet_terms; 0 between steps */
+    struct sheet_areas changed;      /* since they were asked for (areas.c) */
+    uint16_t *covers;                /* ground.c; NULL: not made */
+    double covers_light;             /* by which they were */
+    struct sheet_boxes *boxes;       /* model/boxes.c; NULL: there was none */
+    int boxes_unit;                  /* their sides are multiples of it; 0: no boxes */
+    double parted_from;              /* fibers from which steps are computed in parts; step.c */
+    struct sheet_growing *growing;   /* model/growing.c; NULL: no stroke grows */
+    struct sheet_brushes *brushes;   /* model/brush_internal.h; NULL: there is none */
+    bool (*due)(void *context);      /* paper_sheet_stop_when() */
     void *due_context;
 };
 
@@ -127,6 +129,11 @@ void sheet_extras_reset(struct paper_sheet *p);
 
 /* A step of all of the VP set's fibers. Between paper_enter() and paper_leave(). */
 void sheet_step_everywhere(struct paper_sheet *p);
+/* Whether its steps are computed in parts. */
+static inline bool sheet_parted(const struct paper_sheet *p)
+{
+    return (double)p->page.grid.width * p->page.grid.height >= p->parted_from;
+}
 /* Steps go on in boxes around what can change, away from the sheet's own fields. So who looks
  * at these begins with sheet_look(), who changes some of them with sheet_change(), or with
  * sheet_change_area() or sheet_change_place() where all that can be seen of the change is
@@ -161,6 +168,9 @@ enum paper_status sheet_amounts_clear(struct paper_sheet *p);
  * they are cleared before anybody looks, and at the end by sheet_leave(), which is
  * paper_leave() otherwise. */
 void sheet_temporaries_clear(struct paper_sheet *p);
+/* A part of a step ends, after which temporaries are needed no more: where steps are computed
+ * in parts, what waits is computed. */
+void sheet_step_part_end(struct paper_sheet *p);
 /* Narrows the context to fibers at the sheet's end on an axis: its last ones, or its first. Of
  * a box without such fibers those along its side are taken for them. */
 void sheet_end_narrow(const struct paper_sheet *p, unsigned axis, bool last);
@@ -247,7 +257,7 @@ enum paper_status sheet_sizing_make(struct paper_sheet *p);
 /* What a step needs of them at faces and corners; after sheet_faces_make(). Uses t[0..4]. */
 void sheet_film_faces_make(struct paper_sheet *p);
 
-/* What a fiber's own part of a step leaves for its faces: temporaries of the sheet. */
+/* What a fiber's own part of a step leaves for its faces: the sheet's `term`s. */
 struct sheet_terms {
     CM_field_id_t room;      /* 1 to 0 as it fills up */
     CM_field_id_t saturated; /* infused water to capacity */
@@ -274,7 +284,7 @@ double sheet_settling_pace(const struct paper_sheet *p, int pigment);
 double sheet_edge_length(const struct paper_sheet *p);
 /* d = all of the pigments, in all layers, in grains. */
 void sheet_paint_sum(struct paper_sheet *p, CM_field_id_t d);
-/* Uses t[7..15]; terms are t[0..6]. */
+/* Uses t[7..15]. */
 void sheet_soak(struct paper_sheet *p, struct sheet_terms *terms);
 /* Uses t[7..15], t[32..44]. */
 void sheet_capillary_flow(struct paper_sheet *p, const struct sheet_terms *terms);

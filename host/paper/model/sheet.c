@@ -119,6 +119,7 @@ enum paper_status sheet_create(const struct paper_sheet_config *config,
     p->air = paper_air_default();
     p->salt_reach = 10;
     p->salt_strength = 1;
+    p->parted_from = PAPER_PARTED_USUAL;
     sheet_boxes_init(p);
     status = paper_attach();
     if (status != PAPER_OK) {

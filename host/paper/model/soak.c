@@ -470,8 +470,8 @@ static void room_make(struct paper_sheet *p, CM_field_id_t room)
 
 void sheet_soak(struct paper_sheet *p, struct sheet_terms *terms)
 {
-    *terms =
-        (struct sheet_terms){p->t[0], p->t[1], p->t[2], p->t[3], p->t[4], p->t[5], p->t[6]};
+    *terms = (struct sheet_terms){p->term[0], p->term[1], p->term[2], p->term[3],
+                                  p->term[4], p->term[5], p->term[6]};
     bool surface = sheet_has(p, PAPER_PART_SURFACE);
     if (surface)
         sink_in(p);

@@ -27,6 +27,12 @@
  * falls to 0 at that. A mirrored sheet gives mirrored bits, for every expression is symmetric
  * in a face's two sides.
  *
+ * What waits to be computed holds the arrays that it is made of, and what neighbours look at
+ * may have to be stored. Of a whole step that can be twice what the sheet itself takes. So a
+ * step of a large sheet is computed in three parts, one after the other: after soak.c, after
+ * film.c, and at its end. Between them only seven terms are alive. That takes a little time, as
+ * these are stored, and changes no bit.
+ *
  * Sources: Small 1991 (displacement by gravity, absorption, evaporation); Curtis et al. 1997
  * (wet area, edge darkening, transfer of pigment, capacities). */
 #include "model/model.h"
@@ -48,6 +54,21 @@ struct paper_air paper_air_default(void)
     };
 }
 
+/* A field that is overwritten before it is read is a temporary for the machine, and stays an
+ * expression that holds the arrays of its operands. Terms are none where a part of a step gets
+ * them from the part before: they are read first. */
+static void terms_read(struct paper_sheet *p)
+{
+    for (int i = 0; sheet_parted(p) && i < SHEET_TERMS; i++)
+        kit_f_copy(p->t[0], p->term[i]);
+}
+
+static void terms_clear(struct paper_sheet *p)
+{
+    for (int i = 0; i < SHEET_TERMS; i++)
+        kit_f_set(p->term[i], 0.0);
+}
+
 void sheet_step_everywhere(struct paper_sheet *p)
 {
     CM_set_context();
@@ -58,8 +79,11 @@ void sheet_step_everywhere(struct paper_sheet *p)
         paper_cycle(&p->page, &p->air.thesis, p->infused, weights, p->config.pigments_count);
         return;
     }
+    terms_read(p);
     sheet_film_step(p);
+    terms_clear(p);
     if (p->salted)
         sheet_salt_step(p);
     sheet_temporaries_clear(p);
+    sheet_step_part_end(p);
 }
