@@ -6,6 +6,7 @@
 
 #include "lutetia.h"
 #include "type_common.h"
+#include "voice_stream.h"
 
 #include <input.h>
 #include <window.h>
@@ -40,6 +41,8 @@ struct voice_live {
     int words_count;
     struct voice_type_def type;
     struct display_image image;
+    int size_px[2]; /* of a picture */
+    struct voice_stream stream;
 };
 
 /* ---- what is heard ---- */
@@ -163,8 +166,8 @@ static int size_fit(struct voice_live *v)
     }
     font_shaper_destroy(shaper);
     const bool rises = v->type.mapping.feature[TYPE_BASELINE] != VOICE_NOTHING;
-    v->type.size_px[1] = fmin(0.92 * v->def->picture[0] / widest,
-                              v->def->picture[1] / (1.15 + (rises ? v->type.rise_em : 0)));
+    v->type.size_px[1] = fmin(0.92 * v->size_px[0] / widest,
+                              v->size_px[1] / (1.15 + (rises ? v->type.rise_em : 0)));
     v->type.size_px[0] = fmin(v->type.size_px[0], v->type.size_px[1]);
     return EXIT_SUCCESS;
 }
@@ -206,7 +209,8 @@ static int window_run(struct voice_live *v, struct window *window)
     struct input_event event;
     int status = EXIT_SUCCESS;
     while (status == EXIT_SUCCESS && !window_closing(window) && !interrupted()) {
-        const double due_s = input_now_s() + FRAME_S;
+        const double due_s =
+            input_now_s() + (v->stream.stream ? fmin(FRAME_S, 1 / v->stream.def.fps) : FRAME_S);
         if (!microphone_keep(v) || !frames_take(v))
             status = fail("voice", "no memory for what is heard");
         if (status == EXIT_SUCCESS && v->changed)
@@ -214,6 +218,8 @@ static int window_run(struct voice_live *v, struct window *window)
         if (status == EXIT_SUCCESS && v->changed &&
             window_show(window, &v->image) != DISPLAY_OK)
             status = fail("voice", "%s", display_error());
+        if (status == EXIT_SUCCESS)
+            status = voice_stream_take(&v->stream, &v->image, input_now_s());
         while (window_input_take(window, fmax(0, due_s - input_now_s()), &event))
             if (event.kind == INPUT_KEY_DOWN && event.key == INPUT_KEY_ESCAPE)
                 window_close(window);
@@ -250,10 +256,13 @@ static int window_open(struct voice_live *v)
     int status = moment_draw(v);
     if (status == EXIT_SUCCESS && window_show(window, &v->image) != DISPLAY_OK)
         status = fail("voice", "%s", display_error());
+    if (status == EXIT_SUCCESS && v->def->stream)
+        status = voice_stream_open(&v->stream);
     if (status == EXIT_SUCCESS)
         status = microphone_first(v);
     if (status == EXIT_SUCCESS)
         status = window_run(v, window);
+    voice_stream_close(&v->stream);
     window_destroy(window);
     return status;
 }
@@ -265,13 +274,16 @@ int voice_live_window(const struct voice_live_def *def)
         return fail("voice", "no memory for a voice");
     v->def = def;
     v->type = def->type;
+    memcpy(v->size_px, def->picture, sizeof v->size_px);
     int status = words_make(v);
+    if (status == EXIT_SUCCESS && def->stream)
+        status = voice_stream_read(def->stream, v->size_px, &v->stream);
     if (status == EXIT_SUCCESS)
         status = types_make(v);
     if (status == EXIT_SUCCESS && !microphone_known(source_of(def->source)))
         status = microphone_begin(def->source, &v->microphone); /* says which there are */
     if (status == EXIT_SUCCESS)
-        status = type_image_create("voice", def->picture[0], def->picture[1], &v->image);
+        status = type_image_create("voice", v->size_px[0], v->size_px[1], &v->image);
     if (status == EXIT_SUCCESS)
         status = window_open(v);
     for (int i = 0; i < WORDS_MAX; i++) {

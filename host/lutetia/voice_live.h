@@ -15,6 +15,8 @@ struct voice_live_def {
     struct voice_type_def type; /* its most size 0: as fits */
     int picture[2];
     const char *screen; /* as window.h */
+    /* As picture_stream_read(); NULL: none. Pictures are drawn for its size. */
+    const char *stream;
 };
 
 /* Until somebody closes the window. Each sound that begins shows the text's next word. Exit

@@ -12,6 +12,7 @@
 #include <microphone.h>
 #include <voice.h>
 
+#include "../display/pipewire_reader.h"
 #include "../display/scratch.h"
 #include "../lutetia/child.h"
 #include "../skip.h"
@@ -241,6 +242,63 @@ static void letters_in_a_window_follow(void)
     assert_true(WIFEXITED(status));
 }
 
+#ifdef LUTETIA_PIPEWIRE
+/* Waits until a streamed picture of that size has ink within bounds, and returns it. */
+static long streamed_wait(struct pipewire_reader *reader, long least, long most)
+{
+    const double until_s = clock_now_s() + 15;
+    struct display_image got = {0};
+    long ink = -1;
+    while (clock_now_s() < until_s && !(ink >= least && ink <= most)) {
+        poll(NULL, 0, 20);
+        if (!pipewire_reader_next(reader, &got))
+            continue;
+        assert_true(got.width_px == 320 && got.height_px == 160);
+        ink = 0;
+        for (int i = 0; i < 320 * 160; i++)
+            ink += got.pixels[4 * i] < 128;
+    }
+    display_image_destroy(&got);
+    if (ink < least || ink > most)
+        fail_msg("%ld pixels of ink in the stream; wanted %ld to %ld", ink, least, most);
+    return ink;
+}
+
+/* Another program reads the letters, in the size that was asked for, not the window's. */
+static void letters_in_a_stream_follow(void)
+{
+    char folder[64];
+    const pid_t daemon = pipewire_daemon_start(folder, sizeof folder);
+    if (daemon < 0)
+        return;
+    const pid_t pid = fork();
+    assert_true(pid >= 0);
+    if (pid == 0) {
+        execl(lutetia, lutetia, "voice", "--microphone", "jack", "Aagh", "--picture", "480x240",
+              "--stream", "pipewire,320x160,30", (char *)NULL);
+        _exit(127);
+    }
+    assert_true(screen_window("voice", 15) != 0);
+    struct pipewire_reader *reader = pipewire_reader_open("lutetia", false);
+    assert_non_null(reader);
+    player_connect();
+    (void)streamed_wait(reader, 0, 50);
+    player.level = 500;
+    const long loud = streamed_wait(reader, 1500, 320 * 160);
+    assert_true(fabs(pipewire_reader_fps(reader) - 30) < 0.01);
+    player.level = 100;
+    (void)streamed_wait(reader, 10, loud / 3);
+    player.level = 0;
+    (void)streamed_wait(reader, 0, 150);
+    pipewire_reader_close(reader);
+    kill(pid, SIGINT);
+    int status;
+    assert_int_equal(waitpid(pid, &status, 0), pid);
+    assert_true(WIFEXITED(status));
+    pipewire_daemon_end(daemon, folder);
+}
+#endif
+
 /* The window stays, until it is interrupted: one line, and a microphone is looked for. A source
  * that nobody knows ends it. */
 static void without_a_server_that_is_said(void **unused)
@@ -283,6 +341,9 @@ static void sound_goes_through_jack(void **unused)
     what_is_played_is_heard();
     recordings_become_pictures();
     letters_in_a_window_follow();
+#ifdef LUTETIA_PIPEWIRE
+    letters_in_a_stream_follow();
+#endif
     player.jack->jack_client_close(player.client);
     kill(jackd, SIGTERM);
     waitpid(jackd, NULL, 0);
