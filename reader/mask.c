@@ -2,9 +2,13 @@
  * Markdown looks at: see reader_internal.h. */
 #include "reader_internal.h"
 
+#include <text.h>
+
 #include <ctype.h>
+#include <locale.h>
 #include <stdlib.h>
 #include <string.h>
+#include <wctype.h>
 
 struct masking {
     const char *source;
@@ -13,6 +17,7 @@ struct masking {
     int fence_length;
     struct reader_mask *out;
     enum reader_status status;
+    locale_t utf8; /* 0: none; each letter beyond ASCII is a word's */
 };
 
 void reader_mask_finish(struct reader_mask *mask)
@@ -97,9 +102,45 @@ static int code_end(const struct masking *m, int at, int end)
     return at + n;
 }
 
-static bool is_word(char c)
+/* Scripts that have no blanks between words. In them a formula stands beside letters. */
+static bool is_unspaced(uint32_t c)
 {
-    return isalnum((unsigned char)c) || (unsigned char)c >= 0x80;
+    static const uint32_t scripts[][2] = {
+        {0x0e00, 0x0fff},   /* Thai, Lao, Tibetan */
+        {0x1000, 0x109f},   /* Myanmar */
+        {0x1780, 0x17ff},   /* Khmer */
+        {0x2e80, 0xa4cf},   /* Han, kana, bopomofo, Yi */
+        {0xac00, 0xd7ff},   /* Hangul: particles follow what they are of at once */
+        {0xf900, 0xfaff},   /* Han */
+        {0xff00, 0xffef},   /* wide forms */
+        {0x1b000, 0x1b16f}, /* kana */
+        {0x20000, 0x3ffff}  /* Han */
+    };
+    for (size_t i = 0; i < sizeof scripts / sizeof *scripts; i++)
+        if (c >= scripts[i][0] && c <= scripts[i][1])
+            return true;
+    return false;
+}
+
+/* Whether a letter or digit begins at `at`, of a script that has blanks between words. */
+static bool is_word(const struct masking *m, int at)
+{
+    const char *s = m->source + at;
+    uint32_t c;
+    if (!((unsigned char)*s & 0x80))
+        return isalnum((unsigned char)*s);
+    return font_utf8_next(&s, m->source + m->bytes, &c) && !is_unspaced(c) &&
+           (m->utf8 ? iswalnum_l((wint_t)c, m->utf8) != 0 : true);
+}
+
+/* The same of what ends there. */
+static bool is_word_before(const struct masking *m, int at)
+{
+    int begin = at - 1;
+    while (begin > 0 && at - begin < FONT_UTF8_BYTES &&
+           ((unsigned char)m->source[begin] & 0xc0) == 0x80)
+        begin--;
+    return at > 0 && is_word(m, begin);
 }
 
 /* The place of the dollars that end a formula whose inner begins there; -1: there are none. */
@@ -116,7 +157,7 @@ static int formula_end(const struct masking *m, int inner, int end, bool display
                 return k > inner ? k : -1;
         } else if (s[k] == '$') {
             bool good = k > inner && !isspace((unsigned char)s[k - 1]) &&
-                        (k + 1 == end || !is_word(s[k + 1]));
+                        (k + 1 == end || !is_word(m, k + 1));
             return good ? k : -1;
         }
     }
@@ -154,7 +195,7 @@ static int dollar_take(struct masking *m, int at, int end)
     bool display = dollars >= 2;
     int inner = at + (display ? 2 : 1);
     if (dollars > 2 || inner >= end ||
-        (!display && (isspace((unsigned char)s[inner]) || (at > 0 && is_word(s[at - 1])))))
+        (!display && (isspace((unsigned char)s[inner]) || is_word_before(m, at))))
         return at + dollars;
     int close = formula_end(m, inner, end, display);
     if (close < 0 || close - inner > READER_FORMULA_BYTES || (!display && close - at < 2))
@@ -193,6 +234,54 @@ static int rest_take(struct masking *m, int at, int end)
     return at;
 }
 
+/* ---- a file's head ---- */
+
+/* Whether a line is a word and a colon, as YAML's first. */
+static bool is_key(const struct masking *m, int at, int end)
+{
+    const int begin = at;
+    while (at < end && (isalnum((unsigned char)m->source[at]) || strchr("_-", m->source[at])))
+        at++;
+    return at > begin && at < end && m->source[at] == ':' &&
+           (at + 1 == end || isspace((unsigned char)m->source[at + 1]));
+}
+
+/* Whether a line is three of that letter. */
+static bool is_mark(const struct masking *m, int at, int end, char letter)
+{
+    return run_of(m, at, end, letter) == 3 && is_blank(m, at + 3, end) &&
+           !memchr(m->source + at, '>', (size_t)(end - at));
+}
+
+/* Behind the lines of YAML between `---` and `---` or `...` that many programs put at the head
+ * of a file of Markdown, for themselves; 0: there are none. */
+static int head_end(const struct masking *m)
+{
+    enum { BYTES_MOST = 1 << 16 };
+    int at = line_end(m, 0);
+    if (!is_mark(m, 0, at, '-') || at == m->bytes || !is_key(m, at + 1, line_end(m, at + 1)))
+        return 0;
+    while (at < m->bytes && at < BYTES_MOST) {
+        const int begin = at + 1;
+        at = line_end(m, begin);
+        if (is_mark(m, begin, at, '-') || is_mark(m, begin, at, '.'))
+            return at;
+    }
+    return 0;
+}
+
+/* Its lines are blank to Markdown. */
+static int head_mask(struct masking *m)
+{
+    const int end = head_end(m);
+    for (int k = 0; k < end; k++) {
+        m->line += m->source[k] == '\n';
+        if (m->source[k] != '\n' && m->source[k] != '\r')
+            m->out->masked[k] = ' ';
+    }
+    return end;
+}
+
 enum reader_status reader_mask_make(const char *source, int bytes, struct reader_mask *out)
 {
     struct masking m = {
@@ -200,13 +289,14 @@ enum reader_status reader_mask_make(const char *source, int bytes, struct reader
     *out = (struct reader_mask){.masked = malloc((size_t)bytes + 1)};
     if (!out->masked)
         return reader_fail(READER_NO_MEMORY, "no memory for a document");
+    m.utf8 = newlocale(LC_CTYPE_MASK, "C.UTF-8", (locale_t)0);
     memcpy(out->masked, source, (size_t)bytes);
     out->masked[bytes] = '\0';
     for (int k = 0; k + 1 < bytes; k++) /* what stands for formulas stands for nothing else */
         if (memcmp(source + k, READER_MASK_SIGN, 2) == 0)
             out->masked[k + 1] = (char)0x92;
     int paragraph = 0; /* its end, once it is known */
-    for (int at = 0; at < bytes && m.status == READER_OK;) {
+    for (int at = head_mask(&m); at < bytes && m.status == READER_OK;) {
         int end = line_end(&m, at);
         bool begins = at == 0 || source[at - 1] == '\n';
         if (begins && line_is_fenced(&m, at, end)) {
@@ -221,6 +311,8 @@ enum reader_status reader_mask_make(const char *source, int bytes, struct reader
             m.line++;
         }
     }
+    if (m.utf8)
+        freelocale(m.utf8);
     if (m.status != READER_OK)
         reader_mask_finish(out);
     return m.status;

@@ -144,6 +144,7 @@ void font_math_destroy(struct font_math *m)
     hb_font_destroy(m->hb);
     hb_buffer_destroy(m->buffer);
     font_face_close(m->square);
+    font_shaper_destroy(m->shaper);
     formula_nodes_finish(&m->nodes);
     free(m->items);
     free(m->scripts);
@@ -156,13 +157,13 @@ static bool item_place(const struct font_math *m, const struct formula_item *ite
                        struct font_layout *out)
 {
     struct font_placed *g = &out->glyphs[out->glyphs_count++];
-    *g = (struct font_placed){.face = m->face,
+    *g = (struct font_placed){.face = item->face,
                               .glyph = item->glyph,
                               .x_px = item->x,
                               .y_px = item->y,
                               .cluster = item->byte,
                               .size_px = (float)item->size};
-    if (item->glyph)
+    if (item->face)
         return true;
     /* A square of 100 pixels: none so large is made darker, whatever is asked for. */
     const double side = 100;

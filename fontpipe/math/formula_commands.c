@@ -16,7 +16,8 @@ static const struct formula_command commands[] = {
             .stretched = stretched_, .under = under_)
 #define ALPHABET(name_, which)                                                                 \
     COMMAND(.name = name_, .act = FORMULA_ACT_ALPHABET, .style = which)
-#define TEXT(name_) COMMAND(.name = name_, .act = FORMULA_ACT_TEXT)
+#define SWITCH(name_, which) COMMAND(.name = name_, .act = FORMULA_ACT_SWITCH, .style = which)
+#define TEXT(name_, which) COMMAND(.name = name_, .act = FORMULA_ACT_TEXT, .style = which)
 #define FUNCTION(name_, limits, text_)                                                         \
     COMMAND(.name = name_, .act = FORMULA_ACT_FUNCTION, .stretched = limits, .text = text_)
 #define SPACE(name_, ems) COMMAND(.name = name_, .act = FORMULA_ACT_SPACE, .number = ems)

@@ -12,12 +12,15 @@ enum formula_act {
     FORMULA_ACT_ACCENT, /* character; stretched, under; braces take limits */
     FORMULA_ACT_BAR,
     FORMULA_ACT_ALPHABET, /* style: a FORMULA_ITALIC.. */
-    FORMULA_ACT_TEXT,
+    FORMULA_ACT_SWITCH,   /* the same, of all that follows in the braces */
+    FORMULA_ACT_BOXED,    /* style: 1 of words */
+    FORMULA_ACT_TEXT,     /* style: 0, or 1 and an alphabet's letters */
     /* an operator's name; text: what is written, NULL: the command's own; stretched: with
      * limits */
     FORMULA_ACT_FUNCTION,
     FORMULA_ACT_OPERATOR, /* the same of an argument; a star: with limits */
     FORMULA_ACT_SPACE,    /* number: ems */
+    FORMULA_ACT_SKIP,     /* of an argument */
     FORMULA_ACT_STYLE,    /* style */
     FORMULA_ACT_BIG,      /* number: ems; class */
     FORMULA_ACT_OVERSET,  /* under; class */
@@ -26,6 +29,8 @@ enum formula_act {
     FORMULA_ACT_NOT,
     FORMULA_ACT_CLASS,  /* class: of an argument */
     FORMULA_ACT_MODULO, /* style: 0 \bmod, 1 \pmod, 2 \mod */
+    FORMULA_ACT_TAG,    /* words; number: ems before them; style: 1 in parentheses */
+    FORMULA_ACT_UNSEEN, /* its argument is not seen */
     FORMULA_ACT_FENCE,
     FORMULA_ACT_BEGIN,
     FORMULA_ACT_SUBSTACK,

@@ -62,7 +62,8 @@ struct formula_box formula_glyph_box(struct font_math *m, uint32_t glyph, double
     box.depth = -(e.y_bearing + e.height) * scale;
     box.italic = hb_ot_math_get_glyph_italics_correction(m->hb, glyph) * scale;
     box.glyph = glyph;
-    const struct formula_item item = {.glyph = glyph, .byte = byte, .size = size};
+    const struct formula_item item = {
+        .face = m->face, .glyph = glyph, .byte = byte, .size = size};
     formula_item_add(m, &item);
     box.end = m->items_count;
     return box;
@@ -81,6 +82,12 @@ static uint32_t script_form(const struct font_math *m, uint32_t glyph,
             return forms[style.level == FORMULA_SCRIPTSCRIPT && count > 1];
     }
     return glyph;
+}
+
+bool formula_has(const struct font_math *m, uint32_t character)
+{
+    hb_codepoint_t glyph;
+    return hb_font_get_nominal_glyph(m->hb, character, &glyph) != 0;
 }
 
 uint32_t formula_glyph(struct font_math *m, uint32_t character, struct formula_style style)
@@ -232,36 +239,5 @@ struct formula_box formula_fence(struct font_math *m, uint32_t character, double
                        style, byte);
     formula_box_centre(m, &box, style);
     box.glyph = 0;
-    return box;
-}
-
-struct formula_box formula_words(struct font_math *m, const struct formula_node *node,
-                                 struct formula_style style)
-{
-    const double size = formula_size(m, style), scale = size / m->upem;
-    struct formula_box box = formula_box_empty(m);
-    const char *text = node->text;
-    const int bytes = node->text_bytes;
-    unsigned count;
-    hb_buffer_clear_contents(m->buffer);
-    hb_buffer_add_utf8(m->buffer, text, bytes, 0, bytes);
-    hb_buffer_guess_segment_properties(m->buffer);
-    hb_shape(m->hb, m->buffer, NULL, 0);
-    const hb_glyph_info_t *infos = hb_buffer_get_glyph_infos(m->buffer, &count);
-    const hb_glyph_position_t *at = hb_buffer_get_glyph_positions(m->buffer, &count);
-    for (unsigned i = 0; i < count; i++) {
-        const char *character = text + infos[i].cluster;
-        uint32_t c = ' ';
-        if (!infos[i].codepoint && font_utf8_next(&character, text + bytes, &c))
-            font_layout_missing_add(m->out, c);
-        struct formula_box one =
-            formula_glyph_box(m, infos[i].codepoint, size,
-                              node->byte + (node->is_source ? (int)infos[i].cluster : 0));
-        formula_box_move(m, &one, box.width + at[i].x_offset * scale, -at[i].y_offset * scale);
-        box.width += at[i].x_advance * scale;
-        box.height = fmax(box.height, one.height);
-        box.depth = fmax(box.depth, one.depth);
-    }
-    box.end = m->items_count;
     return box;
 }

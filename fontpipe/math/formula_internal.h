@@ -54,11 +54,12 @@ enum formula_alphabet {
 enum formula_kind {
     FORMULA_SYMBOL,   /* character */
     FORMULA_GROUP,    /* a */
-    FORMULA_WORDS,    /* text..text_bytes, upright */
+    FORMULA_WORDS,    /* text..text_bytes; style: 0 upright, or 1 and an alphabet */
     FORMULA_FRACTION, /* a over b; number: 0 without a rule; character, other: delimiters */
     FORMULA_RADICAL,  /* of a; b: its degree */
     FORMULA_ACCENT,   /* character over a; stretched, under */
     FORMULA_BAR,      /* over a, or under it */
+    FORMULA_BOXED,    /* a in a frame */
     FORMULA_FENCED,   /* a between character and other */
     FORMULA_BIG,      /* character, so many ems high */
     FORMULA_ARRAY,    /* a: rows, whose a are cells, whose a are nodes; array */
@@ -83,6 +84,7 @@ struct formula_table {
     double row_em;        /* of what rows are farther apart */
     int style;            /* of cells: a FORMULA_DISPLAY.. */
     bool pairs;           /* no gap behind each first of two columns */
+    char argument;        /* what follows its name: 'c' columns, 'n' a number; 0: nothing */
 };
 
 struct formula_node {
@@ -146,7 +148,8 @@ struct formula_style {
 };
 
 struct formula_item {
-    uint32_t glyph; /* 0: a rule */
+    struct font_face *face; /* NULL: a rule */
+    uint32_t glyph;
     int byte;
     double x, y;          /* of its origin; of a rule's upper left corner */
     double size;          /* of the em */
@@ -176,6 +179,7 @@ struct font_math {
     struct font_layout *out; /* what is missing is told there */
     hb_codepoint_t *scripts; /* GSUB's lookups for glyphs of scripts (ssty) */
     unsigned scripts_count;
+    struct font_shaper *shaper; /* of what the font has not; NULL until that is met */
 };
 
 /* formula_constants.c: a constant of the MATH table at a style's size, in pixels; and the
@@ -191,6 +195,8 @@ void formula_item_add(struct font_math *m, const struct formula_item *item);
 void formula_box_move(struct font_math *m, const struct formula_box *box, double x, double y);
 struct formula_box formula_glyph_box(struct font_math *m, uint32_t glyph, double size,
                                      int byte);
+/* Whether the font has the character. */
+bool formula_has(const struct font_math *m, uint32_t character);
 /* The glyph of a character at a style; tells of one that the font has not. */
 uint32_t formula_glyph(struct font_math *m, uint32_t character, struct formula_style style);
 /* A character at least so high (wide), by a variant or put together of parts; not centred.
@@ -206,9 +212,12 @@ void formula_box_centre(struct font_math *m, struct formula_box *box,
  * stands for none. */
 struct formula_box formula_fence(struct font_math *m, uint32_t character, double height,
                                  double depth, struct formula_style style, int byte);
-/* Words by the font's shaping, upright. */
+/* formula_words.c: words by the font's shaping, upright. Words, or a single character, that
+ * have letters which the font has not are set as text is: by other fonts. */
 struct formula_box formula_words(struct font_math *m, const struct formula_node *node,
                                  struct formula_style style);
+struct formula_box formula_foreign(struct font_math *m, uint32_t character,
+                                   struct formula_style style, int byte);
 struct formula_box formula_rule(struct font_math *m, double x, double y, double width,
                                 double height, int byte);
 
@@ -234,6 +243,9 @@ struct formula_box formula_accent(struct font_math *m, struct formula_box in,
                                   const struct formula_node *node, struct formula_style style);
 struct formula_box formula_bar(struct font_math *m, struct formula_box in, bool under,
                                struct formula_style style, int byte);
+/* What was made just before, in a frame. */
+struct formula_box formula_boxed(struct font_math *m, struct formula_box in,
+                                 struct formula_style style, int byte);
 struct formula_box formula_fenced(struct font_math *m, struct formula_box in, uint32_t left,
                                   uint32_t right, struct formula_style style, int byte);
 /* A stretched sign over what is in the box, or under it. */

@@ -59,8 +59,8 @@ static struct formula_node *option_read(struct formula_reader *r)
     return list;
 }
 
-/* Words between braces as they are; \% and the like are the signs. */
-static struct formula_node *text_read(struct formula_reader *r)
+/* Words between braces as they are; \% and the like are the signs. style: of WORDS. */
+static struct formula_node *text_read(struct formula_reader *r, int style)
 {
     size_t bytes;
     struct formula_node *group = formula_node_make(r, FORMULA_GROUP), **last = &group->a;
@@ -72,6 +72,7 @@ static struct formula_node *text_read(struct formula_reader *r)
         if (at > from) {
             struct formula_node *words = formula_words_make(r, from, (size_t)(at - from));
             words->byte = (int)(from - r->begin);
+            words->style = style;
             *last = words;
             last = &words->next;
         }
@@ -149,9 +150,12 @@ static struct formula_node *environment_read(struct formula_reader *r)
     node = formula_node_make(r, FORMULA_ARRAY);
     node->table = table;
     node->class = table->left || table->right ? FORMULA_INNER : FORMULA_ORD;
-    if (strcmp(table->name, "array") == 0) {
-        node->text = formula_raw_read(r, &bytes);
-        node->text_bytes = (int)bytes;
+    if (r->end - r->at > 2 && r->at[0] == '[' && strchr("tcb", r->at[1]) && r->at[2] == ']')
+        r->at += 3; /* which line is the formula's: it is the middle */
+    if (table->argument) {
+        const char *argument = formula_raw_read(r, &bytes);
+        node->text = table->argument == 'c' ? argument : NULL;
+        node->text_bytes = table->argument == 'c' ? (int)bytes : 0;
     }
     if (formula_enter(r))
         node->a = rows_read(r, FORMULA_STOP_END | FORMULA_STOP_BRACE);
@@ -204,6 +208,39 @@ static struct formula_node *modulo_read(struct formula_reader *r, int how)
     if (how == 1)
         *last = formula_symbol_make(r, ')', FORMULA_CLOSE);
     return group;
+}
+
+/* An equation's number, behind it; with a star without parentheses. */
+static struct formula_node *tag_read(struct formula_reader *r, const struct formula_command *c)
+{
+    struct formula_node *group = formula_node_make(r, FORMULA_GROUP);
+    struct formula_node *gap = formula_node_make(r, FORMULA_SPACE);
+    const bool star = r->at < r->end && *r->at == '*';
+    r->at += star;
+    struct formula_node *words = text_read(r, 0);
+    gap->number = c->number;
+    group->a = gap;
+    gap->next = words;
+    if (!star && c->style) {
+        gap->next = formula_symbol_make(r, '(', FORMULA_OPEN);
+        gap->next->next = words;
+        words->next = formula_symbol_make(r, ')', FORMULA_CLOSE);
+    }
+    return group;
+}
+
+static struct formula_node *boxed_read(struct formula_reader *r, bool words)
+{
+    struct formula_node *node = formula_node_make(r, FORMULA_BOXED);
+    node->a = words ? text_read(r, 0) : argument_read(r);
+    return node;
+}
+
+static struct formula_node *skip_read(struct formula_reader *r)
+{
+    struct formula_node *node = formula_node_make(r, FORMULA_SPACE);
+    node->number = formula_length_read(r);
+    return node;
 }
 
 static struct formula_node *alphabet_read(struct formula_reader *r,
@@ -338,7 +375,7 @@ static struct formula_node *command_read(struct formula_reader *r, size_t length
     case FORMULA_ACT_ALPHABET:
         return alphabet_read(r, c);
     case FORMULA_ACT_TEXT:
-        return text_read(r);
+        return text_read(r, c->style);
     case FORMULA_ACT_FUNCTION:
     case FORMULA_ACT_OPERATOR:
         return operator_read(r, c);
@@ -350,6 +387,18 @@ static struct formula_node *command_read(struct formula_reader *r, size_t length
         return not_read(r);
     case FORMULA_ACT_MODULO:
         return modulo_read(r, c->style);
+    case FORMULA_ACT_TAG:
+        return tag_read(r, c);
+    case FORMULA_ACT_BOXED:
+        return boxed_read(r, c->style);
+    case FORMULA_ACT_SKIP:
+        return skip_read(r);
+    case FORMULA_ACT_SWITCH:
+        r->alphabet = (enum formula_alphabet)c->style;
+        break;
+    case FORMULA_ACT_UNSEEN:
+        formula_raw_read(r, &(size_t){0});
+        break;
     case FORMULA_ACT_FENCE:
         return fenced_read(r);
     case FORMULA_ACT_BEGIN:
@@ -445,6 +494,7 @@ static void scripts_read(struct formula_reader *r, struct formula_node *node)
 static struct formula_node *list_read(struct formula_reader *r, int stops)
 {
     struct formula_node *first = NULL, **last = &first, *over = NULL;
+    const enum formula_alphabet before = r->alphabet;
     for (;;) {
         formula_blank_skip(r);
         if (r->at == r->end || formula_stands_at_stop(r, stops))
@@ -469,6 +519,7 @@ static struct formula_node *list_read(struct formula_reader *r, int stops)
         *last = node;
         last = &node->next;
     }
+    r->alphabet = before;
     if (!over)
         return first;
     over->b = first;

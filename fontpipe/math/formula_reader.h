@@ -44,6 +44,9 @@ struct formula_node *formula_unknown_read(struct formula_reader *r, size_t bytes
 struct formula_node *formula_character_read(struct formula_reader *r);
 /* The bytes between braces, without looking at them. */
 const char *formula_raw_read(struct formula_reader *r, size_t *bytes);
+/* A length behind a command, with braces or without, in ems: of 10 points where it says points.
+ * What is none, or beyond 100 ems, is 0. */
+double formula_length_read(struct formula_reader *r);
 /* A delimiter; 0: none. */
 uint32_t formula_delimiter_read(struct formula_reader *r);
 

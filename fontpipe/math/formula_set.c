@@ -46,6 +46,8 @@ static struct formula_box symbol_set(struct font_math *m, const struct formula_n
                                      struct formula_style style)
 {
     struct formula_box box;
+    if (!node->big && !formula_has(m, letter_of(m, node)))
+        return formula_foreign(m, node->character, style, node->byte);
     if (!node->big) {
         box = formula_glyph_box(m, formula_glyph(m, letter_of(m, node), style),
                                 formula_size(m, style), node->byte);
@@ -268,6 +270,8 @@ static struct formula_box nucleus_set(struct font_math *m, const struct formula_
     case FORMULA_BAR:
         return formula_bar(m, formula_set(m, node->a, node->under ? style : cramped(style)),
                            node->under, style, node->byte);
+    case FORMULA_BOXED:
+        return formula_boxed(m, formula_set(m, node->a, style), style, node->byte);
     case FORMULA_FENCED:
         return fenced_set(m, node, style);
     case FORMULA_BIG:

@@ -139,6 +139,25 @@ struct formula_box formula_bar(struct font_math *m, struct formula_box in, bool 
     return box;
 }
 
+struct formula_box formula_boxed(struct font_math *m, struct formula_box in,
+                                 struct formula_style style, int byte)
+{
+    /* LaTeX's \fboxsep and \fboxrule at ten points. */
+    const double size = formula_size(m, style), gap = 0.3 * size, thick = 0.04 * size,
+                 edge = gap + thick, width = in.width + 2 * edge,
+                 height = in.height + in.depth + 2 * edge;
+    formula_box_move(m, &in, edge, 0);
+    formula_rule(m, 0, -in.height - edge, width, thick, byte);
+    formula_rule(m, 0, in.depth + gap, width, thick, byte);
+    formula_rule(m, 0, -in.height - edge, thick, height, byte);
+    formula_rule(m, width - thick, -in.height - edge, thick, height, byte);
+    struct formula_box box = around(m, in.begin);
+    box.width = width;
+    box.height = in.height + edge;
+    box.depth = in.depth + edge;
+    return box;
+}
+
 struct formula_box formula_fenced(struct font_math *m, struct formula_box in, uint32_t left,
                                   uint32_t right, struct formula_style style, int byte)
 {

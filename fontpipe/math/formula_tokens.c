@@ -194,3 +194,49 @@ uint32_t formula_delimiter_read(struct formula_reader *r)
     font_utf8_next(&r->at, r->end, &c);
     return c == '.' ? 0 : c == '<' ? 0x27e8 : c == '>' ? 0x27e9 : c;
 }
+
+/* ---- lengths ---- */
+
+/* A number with a decimal point. */
+static double number_read(struct formula_reader *r)
+{
+    double value = 0, unit = 1;
+    bool fraction = false;
+    const bool minus = r->at < r->end && *r->at == '-';
+    r->at += minus || (r->at < r->end && *r->at == '+');
+    for (; r->at < r->end && ((*r->at >= '0' && *r->at <= '9') || *r->at == '.'); r->at++) {
+        if (*r->at == '.') {
+            fraction = true;
+            continue;
+        }
+        value = fraction ? value + (*r->at - '0') * (unit /= 10) : 10 * value + (*r->at - '0');
+    }
+    return minus ? -value : value;
+}
+
+double formula_length_read(struct formula_reader *r)
+{
+    enum { MOST = 100 };
+    static const struct {
+        const char *name;
+        double ems;
+    } units[] = {{"em", 1},     {"ex", 0.43},    {"mu", 1 / 18.0}, {"pt", 0.1},
+                 {"pc", 1.2},   {"px", 0.075},   {"bp", 0.10037},  {"in", 7.227},
+                 {"cm", 2.845}, {"mm", 0.28453}, {"dd", 0.107}};
+    r->at += r->at < r->end && *r->at == '*';
+    formula_blank_skip(r);
+    const bool braced = r->at < r->end && *r->at == '{';
+    r->at += braced;
+    double ems = 0, number = number_read(r);
+    formula_blank_skip(r);
+    for (size_t i = 0; i < sizeof units / sizeof *units; i++)
+        if (r->end - r->at >= 2 && memcmp(r->at, units[i].name, 2) == 0) {
+            ems = number * units[i].ems;
+            r->at += 2;
+            break;
+        }
+    while (braced && r->at < r->end && *r->at != '}')
+        r->at++;
+    r->at += braced && r->at < r->end;
+    return ems >= -MOST && ems <= MOST ? ems : 0;
+}

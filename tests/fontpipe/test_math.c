@@ -405,6 +405,91 @@ static void unknown_commands_are_shown_as_written(void **state)
     font_layout_finish(&l);
 }
 
+/* DejaVu Math has no Cyrillic; other fonts of the distribution have. */
+static void letters_that_the_font_lacks_are_of_other_fonts(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {"\\text{a \xd0\xb8 b}", "x = \xd0\xb8",
+                                        "\\textbf{\xd0\xb8}"};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        struct font_layout l = set(texts[i], false);
+        int others = 0;
+        for (int k = 0; k < l.glyphs_count; k++) {
+            const struct font_placed *g = &l.glyphs[k];
+            others += g->face != face && !g->map && g->glyph;
+            if (g->x_px < 0 || g->x_px > l.width_px)
+                fail_msg("%s: a letter stands outside", texts[i]);
+        }
+        if (others != 1 || l.missing_count)
+            fail_msg("%s: %d letters of another font", texts[i], others);
+        font_layout_finish(&l);
+    }
+    struct font_layout l = set("x \xf3\xb0\x80\x80", false); /* a private one: nobody's */
+    assert_int_equal(l.missing_count, 1);
+    assert_int_equal(l.missing[0], 0xf0000);
+    assert_int_equal(l.glyphs_count, 2); /* the sign for that */
+    font_layout_finish(&l);
+}
+
+static void frame_goes_around(void **state)
+{
+    (void)state;
+    struct font_layout l = set("\\boxed{x}y", false), plain = set("xy", false);
+    const double gap = 0.3 * size, thick = 0.04 * size;
+    near(l.width_px, plain.width_px + 2 * (gap + thick));
+    near(from(&l, 7)->x_px, gap + thick);
+    const struct font_box top = rule(&l, 0), bottom = rule(&l, 1), left = rule(&l, 2);
+    const struct font_box x = ink(from(&l, 7)->glyph, size);
+    near(top.y1, x.y0 - gap);
+    near(bottom.y0, x.y1 + gap);
+    near(left.y0, top.y0);
+    near(left.y1, bottom.y1);
+    near(top.x1 - top.x0, from(&l, 9)->x_px);
+    font_layout_finish(&l);
+    font_layout_finish(&plain);
+}
+
+/* Two ways to write one thing: the same letters in the same places. */
+static void formulas_are_the_same(const char *one, const char *other)
+{
+    struct font_layout a = set(one, true), b = set(other, true);
+    if (a.glyphs_count != b.glyphs_count || fabs(a.width_px - b.width_px) > 0.01)
+        fail_msg("%s is not %s: %d letters, %.2f wide, and %d, %.2f", one, other,
+                 a.glyphs_count, a.width_px, b.glyphs_count, b.width_px);
+    for (int i = 0; i < a.glyphs_count; i++)
+        if (a.glyphs[i].glyph != b.glyphs[i].glyph ||
+            fabs(a.glyphs[i].x_px - b.glyphs[i].x_px) > 0.01)
+            fail_msg("%s is not %s: letter %d", one, other, i);
+    font_layout_finish(&a);
+    font_layout_finish(&b);
+}
+
+static void other_notations_are_the_same(void **state)
+{
+    (void)state;
+    static const char *const pairs[][2] = {
+        {"x\\tag{1}", "x\\qquad(\\text{1})"},
+        {"x\\tag*{A}", "x\\qquad\\text{A}"},
+        {"a\\label{b}c", "ac"},
+        {"\\textcolor{red}{x}+\\color{blue}y", "{x}+y"},
+        {"{\\bf v}w", "\\mathbf{v}w"},
+        {"{\\rm d}x", "\\mathrm{d}x"},
+        {"\\left(\\cal A\\right)b", "\\left(\\mathcal{A}\\right)b"},
+        {"\\textbf{ab}", "\\mathbf{ab}"},
+        {"a\\hspace{1em}b", "a\\quad b"},
+        {"a\\hskip 1em b", "a\\quad b"},
+        {"a\\mkern18mu b", "a\\quad b"},
+        {"a\\hspace*{-10pt}b", "a\\hspace{-1em}b"},
+        {"a\\hspace{1e9em}b", "ab"},
+        {"a\\lt b\\gt c", "a<b>c"},
+        {"\\R\\Z", "\\mathbb{RZ}"},
+        {"\\begin{alignedat}{2}a&=b\\end{alignedat}", "\\begin{aligned}a&=b\\end{aligned}"},
+        {"\\begin{aligned}[t]a&=b\\end{aligned}", "\\begin{aligned}a&=b\\end{aligned}"},
+        {"\\begin{multline}a\\\\b\\end{multline}", "\\begin{gathered}a\\\\b\\end{gathered}"}};
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
+        formulas_are_the_same(pairs[i][0], pairs[i][1]);
+}
+
 static void wrong_notation_ends_where_it_must(void **state)
 {
     (void)state;
@@ -492,6 +577,9 @@ int main(void)
         cmocka_unit_test(columns_are_aligned),
         cmocka_unit_test(letters_are_of_their_alphabet),
         cmocka_unit_test(unknown_commands_are_shown_as_written),
+        cmocka_unit_test(letters_that_the_font_lacks_are_of_other_fonts),
+        cmocka_unit_test(frame_goes_around),
+        cmocka_unit_test(other_notations_are_the_same),
         cmocka_unit_test(wrong_notation_ends_where_it_must),
         cmocka_unit_test(what_is_too_large_is_refused),
     };

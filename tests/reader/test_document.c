@@ -194,11 +194,26 @@ static void notes_have_numbers_names_and_classes(void **state)
     reader_document_destroy(d);
 }
 
+/* Lines of YAML at the head are for other programs. */
+static void head_of_a_file_is_not_shown(void **state)
+{
+    (void)state;
+    blocks_are("---\ntitle: A $b\ntags:\n  - c\n\n---\n\n# H\n", "h1 H\n");
+    blocks_are("---\r\na_b: `c\r\n...\r\nd `e` f\r\n", "p d `e` f\n");
+    blocks_are("---\nlayout: x\n", "rule \np layout: x\n"); /* it never ends */
+    blocks_are("p\n\n---\na: b\n---\n", "p p\nrule \nh2 a: b\n");
+}
+
 static void formulas_are_kept_from_markdown(void **state)
 {
     (void)state;
     blocks_are("It is $a_1*b*c_2$ and $\\alpha$.", "p It is {$a_1*b*c_2$} and {$\\alpha$}.\n");
     blocks_are("$5 or $6, a$b$c, \\$x$, $ x$, $x $.", "p $5 or $6, a$b$c, $x$, $ x$, $x $.\n");
+    blocks_are("\u4f4d\u7f6e$q$\u3002\u91cf $p$\uff0c$\\omega$\u4f1a $x$\ub294 \u201c$y$\u201d",
+               "p \u4f4d\u7f6e{$q$}\u3002\u91cf {$p$}\uff0c{$\\omega$}\u4f1a {$x$}\ub294 "
+               "\u201c{$y$}\u201d\n");
+    blocks_are("\u00e9$x$, $x$\u00e9, \u0434$x$ $x$\u0434, \u0905$x$ $x$\u0964.",
+               "p \u00e9$x$, $x$\u00e9, \u0434$x$ $x$\u0434, \u0905$x$ {$x$}\u0964.\n");
     blocks_are("*$a$* **b $c$** [$d$](e)", "p *{$a$}* !b !!{$c$}! {$d$}\n");
     blocks_are("`$a$` ``b ` $c$`` $d$", "p `$a$` `b ` $c$` {$d$}\n");
     blocks_are("    $a$\n\n```\n$b$\n```\n\n$c$\n", "code `$a$`\ncode `$b$`\np {$c$}\n");
@@ -569,6 +584,7 @@ int main(void)
         cmocka_unit_test(live_scripts_have_stages),
         cmocka_unit_test(blocks_are_those_of_markdown),
         cmocka_unit_test(notes_have_numbers_names_and_classes),
+        cmocka_unit_test(head_of_a_file_is_not_shown),
         cmocka_unit_test(formulas_are_kept_from_markdown),
         cmocka_unit_test(labels_are_found),
         cmocka_unit_test(references_have_names),
