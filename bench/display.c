@@ -77,7 +77,7 @@ static bool turn_take(const struct shown_program *p, double seconds, enum turn_k
                       struct turn *t)
 {
     const double began = bench_now_s(), processor = bench_process_s();
-    double now = began, due = began;
+    double now = began, due = began + 0.5 / PICTURES_PER_S;
     *t = (struct turn){.steps = 0};
     do {
         if (!bench_machine_steps(step, &p->listing, 1, 1))

@@ -36,8 +36,18 @@ void shown_name(struct shown *s, const char *word)
     snprintf(s->name, sizeof s->name, "%s", base && base[1] ? base + 1 : name);
 }
 
+/* A window gives way to the program that it shows: it draws where the program waits, which
+ * costs half of what it costs to interrupt it. */
+static void give_way(void)
+{
+    enum { BY = 10 };
+    errno = nice(BY) < 0 ? errno : 0; /* what is refused changes nothing */
+}
+
 bool shown_ready(const struct shown *s)
 {
+    if (s->watched)
+        give_way();
     return !s->watched || write(STDOUT_FILENO, "\n", 1) == 1;
 }
 
@@ -267,6 +277,8 @@ static int from_program(struct shown *s, char **arguments)
         become(s, ends[1], arguments);
     close(ends[1]);
     s->seen = true;
+    if (s->has_window(s->context))
+        give_way();
     int status = from_descriptor(s, ends[0], arguments[0], true);
     close(ends[0]);
     int ended = child_end(s, child, arguments[0]);
