@@ -297,11 +297,11 @@ enum paper_status paper_sheet_finish(struct paper_sheet *sheet);
  * fibers, 4..4096: 64 unless told; 0: there are none. No event: it is not recorded. Errors:
  * BAD_ARGUMENT, MACHINE_FAILED. */
 enum paper_status paper_sheet_confine(struct paper_sheet *sheet, int unit);
+#define PAPER_PARTED_USUAL 8388608.0
 /* Steps of a sheet, or of a box, that has so many fibers or more are computed in three parts
  * instead of at once: PAPER_PARTED_USUAL unless told. That takes less memory and a little more
  * time. The bits are the same. No event: it is not recorded. Errors: BAD_ARGUMENT (NaN, below
  * 0). */
-#define PAPER_PARTED_USUAL 8388608.0
 enum paper_status paper_sheet_part_from(struct paper_sheet *sheet, double fibers);
 /* The part of the sheet that the last step computed: 1 without boxes. */
 double paper_sheet_share(const struct paper_sheet *sheet);
