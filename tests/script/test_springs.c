@@ -67,7 +67,7 @@ static void words_are_made_of_letters(void **state)
            "local m = w:mask{scale = 20, x = 5, y = 60} local x, y, wide, high = m:bounds()\n"
            "print(x >= 0 and x < 12, wide > 180 and wide < 250, high > 10 and high < 30)\n"
            "w:step(240) local _, y2 = w:mask{scale = 20, x = 5, y = 60}:bounds() print(y2 > y)",
-           "6\t24\t46\t5\t6\t7\t8\n3.0\t2\t8\ntrue\ttrue\ttrue\ntrue\n");
+           "6\t24\t56\t5\t6\t7\t8\n3.0\t2\t8\ntrue\ttrue\ttrue\ntrue\n");
 }
 
 static void masses_are_led_along_keys(void **state)
