@@ -37,7 +37,7 @@ void shown_name(struct shown *s, const char *word)
 }
 
 /* A window gives way to the program that it shows: it draws where the program waits, which
- * costs half of what it costs to interrupt it. */
+ * costs the program less than to be interrupted. */
 static void give_way(void)
 {
     enum { BY = 10 };
