@@ -37,9 +37,8 @@ static struct formula_style smaller(struct formula_style s)
 
 static uint32_t letter_of(const struct font_math *m, const struct formula_node *node)
 {
-    hb_codepoint_t glyph;
-    uint32_t c = formula_letter(node->character, node->alphabet);
-    return hb_font_get_nominal_glyph(m->hb, c, &glyph) ? c : node->character;
+    const uint32_t c = formula_letter(node->character, node->alphabet);
+    return formula_has(m, c) ? c : node->character;
 }
 
 static struct formula_box symbol_set(struct font_math *m, const struct formula_node *node,

@@ -23,6 +23,13 @@ static int ink_put(const struct font_ink *from, double x, double y, struct font_
     return font_layout_ink_add(out, &ink);
 }
 
+/* Who asks for the page is told what an inset lacks, too. */
+static void missing_add(const struct font_layout *from, struct font_layout *to)
+{
+    for (int i = 0; i < from->missing_count && i < FONT_MISSING_MAX; i++)
+        font_layout_missing_add(to, from->missing[i]);
+}
+
 /* A copy of what is drawn, without its lines. */
 static bool shown_copy(const struct font_layout *from, struct font_layout *to)
 {
@@ -38,6 +45,7 @@ static bool shown_copy(const struct font_layout *from, struct font_layout *to)
         good = font_layout_map_add(to, &from->maps[i]) > 0;
     for (int i = 0; good && i < from->inks_count; i++)
         good = font_layout_ink_add(to, &from->inks[i]) > 0;
+    missing_add(from, to);
     return good;
 }
 
@@ -85,5 +93,6 @@ bool inset_put(const struct style *style, double x, double y, const struct font_
         if ((from->map > 0 && !to->map) || (from->ink > 0 && !to->ink))
             return false;
     }
+    missing_add(shown, out);
     return true;
 }

@@ -172,6 +172,24 @@ static void pages_say_the_letters(void **state)
     setting_finish(&s);
 }
 
+static void what_an_inset_lacks_is_told(void **state)
+{
+    (void)state;
+    struct setting s = setting_make(10, 4);
+    const struct page_style style = page_style_default();
+    const struct font_layout shown = {
+        .width_px = 9, .ascent_px = 9, .missing_count = 2, .missing = {0x4e2d, 0x6587}};
+    struct font_layout l;
+    assert_font(page_inset_add(s.text, &style, &shown, &s.inset));
+    add(&s, "a FG b FG", "FG", 0);
+    assert_font(page_layout(s.text, 0, &l));
+    assert_int_equal(l.missing_count, 2);
+    assert_int_equal(l.missing[0], 0x4e2d);
+    assert_int_equal(l.missing[1], 0x6587);
+    font_layout_finish(&l);
+    setting_finish(&s);
+}
+
 static void wrong_insets_are_refused(void **state)
 {
     (void)state;
@@ -193,6 +211,7 @@ int main(void)
         cmocka_unit_test(lines_are_not_broken_within),
         cmocka_unit_test(high_insets_have_room),
         cmocka_unit_test(pages_say_the_letters),
+        cmocka_unit_test(what_an_inset_lacks_is_told),
         cmocka_unit_test(wrong_insets_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

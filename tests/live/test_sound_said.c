@@ -9,67 +9,24 @@
 
 #include "../clock.h"
 #include "../display/scratch.h"
+#include "../midi/sound_server.h"
 #include "../skip.h"
 #include "xvfb.h"
 
-#include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 static char socket_path[300], errors_path[300];
 
-static pid_t program_begin(char *const words[], const char *errors)
-{
-    const pid_t child = fork();
-    assert_true(child >= 0);
-    if (child == 0) {
-        const int file = open(errors, O_WRONLY | O_CREAT | O_TRUNC, 0600),
-                  nothing = open("/dev/null", O_RDWR);
-        prctl(PR_SET_PDEATHSIG, SIGKILL);
-        dup2(nothing, STDIN_FILENO);
-        dup2(nothing, STDOUT_FILENO);
-        dup2(file, STDERR_FILENO);
-        execvp(words[0], words);
-        _exit(127);
-    }
-    return child;
-}
-
 static pid_t server_begin(void)
 {
-    char protocol[400];
-    snprintf(protocol, sizeof protocol,
-             "module-native-protocol-unix auth-anonymous=1 socket=%s", socket_path);
-    unlink(socket_path);
-    char *const words[] = {"pulseaudio",
-                           "-n",
-                           "--daemonize=no",
-                           "--exit-idle-time=-1",
-                           "--use-pid-file=no",
-                           "-L",
-                           "module-null-sink sink_name=room rate=48000",
-                           "-L",
-                           protocol,
-                           NULL};
-    const pid_t server = program_begin(words, "/dev/null");
-    const double until_s = clock_now_s() + 10;
-    while (access(socket_path, W_OK) != 0)
-        if (clock_now_s() > until_s || waitpid(server, NULL, WNOHANG) != 0 ||
-            poll(NULL, 0, 50) < 0)
-            return -1;
-    return server;
-}
-
-static void program_end(pid_t program)
-{
-    kill(program, SIGKILL);
-    waitpid(program, NULL, 0);
+    const pid_t server = sound_server_begin(socket_path);
+    return sound_server_wait(server, socket_path) ? server : -1;
 }
 
 static bool same(const struct display_image *a, const struct display_image *b)
@@ -115,7 +72,7 @@ static void comings_and_goings_are_said(void **state)
     unlink(socket_path);
     char *const words[] = {getenv("LUTETIA"), "spring",    "a",     "--size",   "400x300",
                            "--set",           "gravity=0", "--set", "grid=off", NULL};
-    const pid_t spring = program_begin(words, errors_path);
+    const pid_t spring = program_begin(words, "/dev/null", errors_path);
     const Window window = screen_window("spring", 15);
     assert_true(window != 0);
     poll(NULL, 0, 8000); /* what it says at first has gone */

@@ -13,71 +13,17 @@
 #include "../clock.h"
 #include "../display/scratch.h"
 #include "../skip.h"
+#include "sound_server.h"
 
-#include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 static char socket_path[300], recorded_path[300];
-
-static pid_t program_begin(char *const words[], const char *output)
-{
-    const pid_t child = fork();
-    assert_true(child >= 0);
-    if (child == 0) {
-        const int file = open(output, O_WRONLY | O_CREAT | O_TRUNC, 0600),
-                  nothing = open("/dev/null", O_RDWR);
-        prctl(PR_SET_PDEATHSIG, SIGKILL);
-        dup2(nothing, STDIN_FILENO);
-        dup2(file, STDOUT_FILENO);
-        dup2(nothing, STDERR_FILENO);
-        execvp(words[0], words);
-        _exit(127);
-    }
-    return child;
-}
-
-static void program_end(pid_t program)
-{
-    kill(program, SIGKILL);
-    waitpid(program, NULL, 0);
-}
-
-static pid_t server_begin(void)
-{
-    char protocol[400];
-    snprintf(protocol, sizeof protocol,
-             "module-native-protocol-unix auth-anonymous=1 socket=%s", socket_path);
-    unlink(socket_path);
-    char *const words[] = {"pulseaudio",
-                           "-n",
-                           "--daemonize=no",
-                           "--exit-idle-time=-1",
-                           "--use-pid-file=no",
-                           "-L",
-                           "module-null-sink sink_name=room rate=48000",
-                           "-L",
-                           protocol,
-                           NULL};
-    return program_begin(words, "/dev/null");
-}
-
-/* Waits until the server listens. */
-static bool server_wait(pid_t server)
-{
-    const double until_s = clock_now_s() + 10;
-    while (access(socket_path, W_OK) != 0)
-        if (clock_now_s() > until_s || waitpid(server, NULL, WNOHANG) != 0 ||
-            poll(NULL, 0, 50) < 0)
-            return false;
-    return true;
-}
 
 /* The greatest sample of two seconds of what the sink gets, while notes are played. */
 static int heard(struct sound *sound)
@@ -85,7 +31,7 @@ static int heard(struct sound *sound)
     char *const words[] = {
         "parec",        "-d",          "room.monitor",      "--raw", "--format=s16le",
         "--channels=1", "--rate=8000", "--latency-msec=50", NULL};
-    const pid_t recorder = program_begin(words, recorded_path);
+    const pid_t recorder = program_begin(words, recorded_path, "/dev/null");
     int most = 0;
     for (int i = 0; i < 20; i++) {
         const struct midi_message on = midi_message_make(0, MIDI_NOTE_ON, 72, 120),
@@ -128,8 +74,8 @@ static void a_server_that_comes_back_is_heard(void **state)
     setenv("PULSE_SERVER", address, 1);
     setenv("HOME", scratch_path("."), 1);
     unsetenv("XDG_RUNTIME_DIR");
-    pid_t server = server_begin();
-    if (!server_wait(server)) {
+    pid_t server = sound_server_begin(socket_path);
+    if (!sound_server_wait(server, socket_path)) {
         program_end(server);
         skip_because("no pulseaudio runs here");
     }
@@ -155,8 +101,8 @@ static void a_server_that_comes_back_is_heard(void **state)
         assert_non_null(strstr(said_wait(keeper), "gone"));
         assert_null(sound_keeper_said(keeper));
         poll(NULL, 0, 1200); /* it is asked for meanwhile, and is not there */
-        server = server_begin();
-        assert_true(server_wait(server));
+        server = sound_server_begin(socket_path);
+        assert_true(sound_server_wait(server, socket_path));
         assert_non_null(strstr(said_wait(keeper), "back"));
         const int after = heard(sound);
         printf("heard %d before, %d afterwards\n", before, after);
