@@ -203,22 +203,36 @@ static enum stage_status frame_put(struct film *f, int frame, int last)
     return status;
 }
 
+/* A picture before those that are written: it is drawn only where something is made of it. */
+static enum stage_status frame_pass(struct film *f, bool first)
+{
+    const struct stage_film_def *def = f->def;
+    if (!def->over && !first) /* the first one has the view made */
+        return STAGE_OK;
+    const enum stage_status status = picture_draw(f);
+    return status == STAGE_OK && def->over
+               ? def->over(def->context, f->stage, &f->list, &f->image)
+               : status;
+}
+
 static enum stage_status frames_run(struct film *f)
 {
     const struct stage_film_def *def = f->def;
     const int end = (int)lround(def->seconds * def->fps);
     /* a loop's last picture is followed by its first: it is not written twice */
     const int last = f->loop.loop ? f->loop.count + f->loop.loop - 1 : end;
+    const int settling = (int)lround(def->settle_s * def->fps);
     enum stage_status status = STAGE_OK;
-    for (int frame = 0; frame <= last && status == STAGE_OK; frame++) {
-        const double now_s = (double)frame / def->fps;
+    for (int frame = -settling; frame <= last && status == STAGE_OK; frame++) {
+        const double now_s = (double)(frame + settling) / def->fps;
         if (def->before)
             status = def->before(def->context, f->stage, now_s);
         if (status == STAGE_OK)
             status = stage_frame(f->stage, now_s, NULL);
         if (status == STAGE_OK)
-            status = frame_put(f, frame, last);
-        if (status == STAGE_OK && def->after && def->after(def->context, frame + 1, last + 1))
+            status = frame < 0 ? frame_pass(f, frame == -settling) : frame_put(f, frame, last);
+        if (status == STAGE_OK && def->after &&
+            def->after(def->context, frame + settling + 1, last + settling + 1))
             break;
     }
     if (status == STAGE_OK && f->strip.pixels && f->moments == moments_wanted(def))

@@ -41,6 +41,7 @@ struct stage_film_def {
     /* above 0: the last seconds of film and frames are faded into the first, so that they can
      * be repeated (stage_loop.h) */
     double loop_s;
+    double settle_s;         /* how long the stage moves before the first picture; 0 */
     enum stage_film_way way; /* EXACT */
     const char *filter;      /* for exact pictures; "gaussian-fast" */
     /* Called before each picture's steps, for whoever plays the stage; NULL: nobody does. */

@@ -23,8 +23,8 @@ def must(good, what):
         sys.exit(f"test_gallery.py: {what}")
 
 
-def still(name, *words):
-    done = run(*words, *LOOK, "--still", name)
+def still(name, *words, look=LOOK):
+    done = run(*words, *look, "--still", name)
     must(done.returncode == 0, f"{words}: {done.stderr.decode()}")
     with open(os.path.join(folder, name), "rb") as file:
         return file.read()
@@ -49,6 +49,18 @@ def gallery():
                             still("c.png", "stage", "idle.lua", *moment))
         must(led == again, f"{name}: not the same twice")
         must(led != idle, f"{name}: its script changes nothing")
+
+
+def repeats():
+    """The pieces that come back to what they were: what follows the loop is its beginning, to the bit."""
+    size = ["--size", "240x160"]
+    for name, settle, period in (("breath", 4.5, 4), ("apart", 5.5, 5)):
+        begin, later = (still(f"{when}.png", "stage", name, "--seconds", str(settle + when * period), look=size) for when in (0, 1))
+        between = still("between.png", "stage", name, "--seconds", str(settle + period / 2), look=size)
+        must(begin == later, f"{name}: it does not come back after {period} s")
+        must(begin != between, f"{name}: it stands still")
+    for name in ("0.png", "1.png", "between.png"):
+        os.remove(os.path.join(folder, name))
 
 
 def refused(text, says):
@@ -99,5 +111,6 @@ def damaged():
 
 
 gallery()
+repeats()
 strangers()
 damaged()

@@ -51,7 +51,7 @@ VERBS = {
         "still": None, "seconds": "0.6", "size": "64x96", "preset": "pendulum", "set": "gravity=0", "controls": "", "network": "n",
         "font": "EBGaramond12-Regular", "edits": EDITS, "at": "0,4", "turn": "30", "column": "0.5", "circle": "1", "script": "n", "map": "n.lua",
         "knobs": "n.knobs", "watch": "cue.txt", "osc": "9000", "osc-from": "127.0.0.1", "osc-to": "9001", "param": "a=1", "song": "song.mid", "server": "/no/where", "theme": "dark", "view": "0,0,9,9", "strip": "2x1",
-        "video": FILM, "frames": DIRECTORY, "fps": "7", "screen": "7", "stream": "/dev/null", "cues": "n.cues", "loop": "0.1", "way": "cuda", "wet": "", "pigment": "rose madder", "every": "1",
+        "video": FILM, "frames": DIRECTORY, "fps": "7", "screen": "7", "stream": "/dev/null", "cues": "n.cues", "loop": "0.1", "settle": "0.1", "way": "cuda", "wet": "", "pigment": "rose madder", "every": "1",
         "filter": "box", "sound": "made.wav", "silent": "", "save": FILE, "session": FILE, "replay": "n", "record": FILE,
         "play": "d"}),
     "midi render": (["song.mid", "-o", "out.wav"], {

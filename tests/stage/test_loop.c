@@ -33,7 +33,7 @@ static struct display_image picture_of(const char *folder, int frame)
     return image;
 }
 
-static void film_make(const char *folder, double seconds, double loop_s)
+static void film_make_after(const char *folder, double settle_s, double seconds, double loop_s)
 {
     struct stage *stage = scene_springs("wave", 1, face);
     struct stage_film_def def = stage_film_def_default();
@@ -44,9 +44,15 @@ static void film_make(const char *folder, double seconds, double loop_s)
     def.fps = FPS;
     def.seconds = seconds;
     def.loop_s = loop_s;
+    def.settle_s = settle_s;
     if (stage_film(stage, &def) != STAGE_OK)
         fail_msg("%s", stage_error());
     stage_destroy(stage);
+}
+
+static void film_make(const char *folder, double seconds, double loop_s)
+{
+    film_make_after(folder, 0, seconds, loop_s);
 }
 
 static double light(double number)
@@ -114,6 +120,27 @@ static void ends_go_over_into_beginnings(void **state)
     display_image_destroy(&last);
 }
 
+/* What begins later is the film without what was before, view included. */
+static void loops_begin_after_the_stage_has_settled(void **state)
+{
+    (void)state;
+    enum { SETTLING = 7 };
+    char whole[300], loop[300];
+    snprintf(whole, sizeof whole, "%s", scratch_path("all"));
+    snprintf(loop, sizeof loop, "%s", scratch_path("settled"));
+    film_make(whole, (double)(SETTLING + COUNT + FADE) / FPS, 0);
+    film_make_after(loop, (double)SETTLING / FPS, (double)COUNT / FPS, (double)FADE / FPS);
+    assert_true(exists(loop, COUNT - 1));
+    assert_false(exists(loop, COUNT));
+    for (int i = 0; i < COUNT - FADE; i++) {
+        struct display_image is = picture_of(loop, i),
+                             wanted = picture_of(whole, i + SETTLING + FADE);
+        assert_memory_equal(is.pixels, wanted.pixels, 3 * WIDTH * HEIGHT);
+        display_image_destroy(&is);
+        display_image_destroy(&wanted);
+    }
+}
+
 /* With alpha colours count as much as they cover: what is clear has none. */
 static void clear_pixels_have_no_colour(void **state)
 {
@@ -141,7 +168,7 @@ static void wrong_fades_are_refused(void **state)
         assert_int_equal(stage_film(stage, &def), STAGE_BAD_ARGUMENT);
         assert_non_null(strstr(stage_error(), "shorter than the film"));
     }
-    assert_int_equal(scratch_count(), 2); /* the folders of the test above */
+    assert_int_equal(scratch_count(), 4); /* the folders of the tests above */
     stage_destroy(stage);
 }
 
@@ -149,6 +176,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ends_go_over_into_beginnings),
+        cmocka_unit_test(loops_begin_after_the_stage_has_settled),
         cmocka_unit_test(clear_pixels_have_no_colour),
         cmocka_unit_test(wrong_fades_are_refused),
     };
