@@ -37,6 +37,8 @@ int verb_read(int argc, char **argv);
 int verb_font(int argc, char **argv);
 int verb_run(int argc, char **argv);
 int verb_spring(int argc, char **argv);
+/* The same, whose films last so long where nothing else says how long. */
+int verb_spring_lasting(int argc, char **argv, double seconds);
 int verb_voice(int argc, char **argv);
 int verb_studio(int argc, char **argv);
 

@@ -40,6 +40,7 @@ struct spring {
     const char *play;
     struct live_sound *sound;
     double recording_s; /* when the window's recording began */
+    double usual_s;     /* of a film of which nothing else says how long it lasts */
 };
 
 static int fail_stage(void)
@@ -372,7 +373,7 @@ static int film_seconds(struct spring *s, struct stage *stage)
     s->film.seconds = s->replay    ? stage_replay_seconds(stage) + last_s
                       : s->song    ? (double)midi_song_info(s->song).end_ns / 1e9 + last_s
                       : cues_s > 0 ? cues_s
-                                   : 5;
+                                   : s->usual_s;
     return s->film.seconds <= most_s
                ? EXIT_SUCCESS
                : fail("spring", "%s takes %.0f s: say by --seconds S how many are wanted",
@@ -515,6 +516,11 @@ static int spring_run(struct spring *s, struct stage *stage)
 
 int verb_spring(int argc, char **argv)
 {
+    return verb_spring_lasting(argc, argv, 5);
+}
+
+int verb_spring_lasting(int argc, char **argv, double seconds)
+{
     static struct spring s;
     struct spring_scene scene;
     bool help = false;
@@ -522,6 +528,7 @@ int verb_spring(int argc, char **argv)
                         .window = stage_window_def_default(),
                         .scene = spring_scene_def_default(),
                         .way = "exact",
+                        .usual_s = seconds,
                         .wet_def = spring_wet_def_default(),
                         .size = {1280, 720}};
     s.window.title = "springs";

@@ -200,21 +200,34 @@ static int print(const struct piece *p)
     return EXIT_SUCCESS;
 }
 
-/* As `lutetia spring WORDS ... --map PIECE` with what else the command line has. */
+/* As `lutetia spring WORDS ... --map PIECE` with what else the command line has. How long the
+ * piece lasts is for films alone: a window has no end. */
 static int play(struct piece *p, int argc, char **argv)
 {
     static char map[] = "--map";
     char **line = calloc((size_t)p->count + (size_t)argc + 3, sizeof *line);
     int count = 0;
+    double seconds = 5;
     if (!line)
         return fail("stage", "no memory");
-    for (int i = 0; i < p->count; i++)
-        line[count++] = p->words[i];
+    for (int i = 0; i < p->count; i++) {
+        if (i < 2 || i % 2 || strcmp(p->words[i], "--seconds") != 0) {
+            line[count++] = p->words[i];
+            continue;
+        }
+        char *end;
+        seconds = strtod(p->words[++i], &end);
+        if (*end || !(seconds >= 0 && seconds <= 3600)) {
+            free(line);
+            return fail("stage", "%s: --seconds must be 0..3600 (got '%.60s')", p->path,
+                        p->words[i]);
+        }
+    }
     line[count++] = map;
     line[count++] = p->path;
     for (int i = 0; i < argc; i++)
         line[count++] = argv[i];
-    const int status = verb_spring(count, line);
+    const int status = verb_spring_lasting(count, line, seconds);
     free(line);
     return status;
 }

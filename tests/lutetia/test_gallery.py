@@ -51,6 +51,14 @@ def gallery():
         must(led != idle, f"{name}: its script changes nothing")
 
 
+def windows():
+    """Without an option a piece is a window, which what it says of its films does not prevent: it lacks a display alone."""
+    there = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    for line in run("stage", "--list").stdout.decode().splitlines():
+        done = subprocess.run([lutetia, "stage", line.split()[0], "--silent"], cwd=folder, capture_output=True, timeout=100, env=there)
+        must(done.returncode != 0 and b"run it where there is a desktop" in done.stderr, f"{line}: {done.stderr}")
+
+
 def repeats():
     """The pieces that come back to what they were: what follows the loop is its beginning, to the bit."""
     size = ["--size", "240x160"]
@@ -81,6 +89,8 @@ def strangers():
     refused(f"-- stage: keys a\n{body}", "must begin as")
     refused(f"-- stage: spring --preset jelly\n{body}", "must begin as")
     refused(f"-- stage: spring \"a\n{body}", "an open quote")
+    for seconds in ("x", "-1", "4000", "nan", "1s"):
+        refused(f"-- stage: spring a --seconds {seconds}\n{body}", "--seconds must be 0..3600")
     refused("-- nothing\n" + body, "must begin as")
     refused("-- stage: spring a --set\n" + body, "a piece begins with")
     refused("-- stage: spring a\nio.open('f', 'w')\n", "attempt to index")
@@ -111,6 +121,7 @@ def damaged():
 
 
 gallery()
+windows()
 repeats()
 strangers()
 damaged()
