@@ -21,7 +21,7 @@ const struct control dyn_word_controls[] = {
      "how strong what a line hangs from is", AT(hang)},
     {"damping_ratio", "", 0, 2, 0.08, CONTROL_LINEAR, NULL,
      "how soon springs stop swinging: 1 is at once", AT(damping_ratio)},
-    {"carry", "", 0, 20, 0, CONTROL_LINEAR, NULL,
+    {"carry", "", 0, 20, 2, CONTROL_LINEAR, NULL,
      "how much stronger springs are for each line beyond the first", AT(carry)},
     {"letter_breaking", "", 0, 100, 0, CONTROL_LOGARITHMIC, NULL,
      "the strain at which sides and diagonals break; 0: never", AT(letter_breaking)},
@@ -31,7 +31,7 @@ const struct control dyn_word_controls[] = {
      "what a letter's box is: advance by capital M, or its ink", AT(box)},
     {"tack", "", 0, 4, DYN_TACK_NONE, CONTROL_CHOICE, "none first ends top bottom",
      "which corners are tacked", AT(tack)},
-    {"brace", "", 0, 1, DYN_BRACE_NONE, CONTROL_CHOICE, "none crossed",
+    {"brace", "", 0, 3, DYN_BRACE_PARAGRAPH, CONTROL_CHOICE, "none crossed paragraph lines",
      "whether springs across keep letters and lines from sliding along each other", AT(brace)},
 };
 const int dyn_word_controls_count = sizeof dyn_word_controls / sizeof *dyn_word_controls;
@@ -46,16 +46,20 @@ const struct dyn_preset dyn_presets[] = {
      "brace=crossed",
      false},
     {"pendulum", "hangs from its first letter",
-     "side=6000 diagonal=6000 link=6000 damping_ratio=0.05 drag=0.01 tack=first", false},
+     "side=6000 diagonal=6000 link=6000 damping_ratio=0.05 drag=0.01 tack=first "
+     "carry=0",
+     false},
     {"heavy", "hangs from its ends and sags",
-     "letter_mass=4 side=2500 diagonal=1500 link=2200 damping_ratio=0.15 tack=ends", false},
+     "letter_mass=4 side=2500 diagonal=1500 link=2200 damping_ratio=0.15 tack=ends "
+     "carry=1",
+     false},
     {"curtain", "hangs from all its upper corners, line from line, in a light wind",
      "letter_mass=0.3 side=250 diagonal=40 link=250 hang=250 damping_ratio=0.1 drag=0.08 "
-     "wind_x=1.5 tack=top",
+     "wind_x=1.5 tack=top brace=lines carry=1",
      false},
     {"breakdown", "breaks between its letters where it is strained most, and its pieces go on",
      "side=2500 diagonal=2000 link=210 damping_ratio=0.06 link_breaking=1.4 restitution=0.45 "
-     "friction=0.4 tack=ends",
+     "friction=0.4 tack=ends brace=none carry=0",
      true},
 };
 const int dyn_presets_count = sizeof dyn_presets / sizeof *dyn_presets;

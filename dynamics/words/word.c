@@ -131,9 +131,16 @@ static int line_over(const struct dyn_word *word, const struct dyn_network *n,
     return line_above(word, letter->line);
 }
 
-static bool is_crossed(const struct dyn_word *word)
+/* Whether springs go across the gaps between letters, and those between lines. */
+static bool letters_are_crossed(const struct dyn_word *word)
 {
-    return (int)word->style.brace == DYN_BRACE_CROSSED;
+    const enum dyn_brace brace = (enum dyn_brace)(int)word->style.brace;
+    return brace == DYN_BRACE_CROSSED || (brace != DYN_BRACE_NONE && word->lines_count > 1);
+}
+
+static bool lines_are_crossed(const struct dyn_word *word)
+{
+    return letters_are_crossed(word) && (int)word->style.brace != DYN_BRACE_LINES;
 }
 
 /* Each upper corner of a letter hangs from the nearest corner above; and, where springs are
@@ -149,7 +156,7 @@ static enum dyn_status hang_springs(struct dyn_word *word, struct dyn_network *n
         const int corner = lower_corner(word, n, above, letter->mass[k], -1),
                   across = lower_corner(word, n, above, letter->mass[5 - k], corner);
         status = spring_add(word, n, DYN_HANG, corner, letter->mass[k]);
-        if (status == DYN_OK && is_crossed(word))
+        if (status == DYN_OK && lines_are_crossed(word))
             status = spring_add(word, n, DYN_HANG_BRACE, across, letter->mass[k]);
     }
     return status;
@@ -169,7 +176,7 @@ static enum dyn_status springs_make(struct dyn_word *word, struct dyn_network *n
         for (int k = 0; k < 2 && a->line == b->line && status == DYN_OK; k++) {
             a->link[k] = dyn_springs_count(n);
             status = spring_add(word, n, DYN_LINK, a->mass[1 + k], b->mass[k ? 3 : 0]);
-            if (status == DYN_OK && is_crossed(word))
+            if (status == DYN_OK && letters_are_crossed(word))
                 status =
                     spring_add(word, n, DYN_LINK_BRACE, a->mass[1 + k], b->mass[k ? 0 : 3]);
         }

@@ -60,8 +60,10 @@ enum dyn_box { DYN_BOX_EM, DYN_BOX_INK };
 enum dyn_tack { DYN_TACK_NONE, DYN_TACK_FIRST, DYN_TACK_ENDS, DYN_TACK_TOP, DYN_TACK_BOTTOM };
 
 /* CROSSED: springs across the gaps between letters of a line and between lines. Without them
- * nothing keeps letters and lines from sliding along each other. */
-enum dyn_brace { DYN_BRACE_NONE, DYN_BRACE_CROSSED };
+ * nothing keeps letters and lines from sliding along each other. PARAGRAPH: the same, but a
+ * text of one line has none. LINES: a text of several lines has them between letters alone, so
+ * that its lines stay straight and swing. */
+enum dyn_brace { DYN_BRACE_NONE, DYN_BRACE_CROSSED, DYN_BRACE_PARAGRAPH, DYN_BRACE_LINES };
 
 /* All members are doubles, so that the table can describe them. */
 struct dyn_word_style {

@@ -1,7 +1,7 @@
 -- Lines hang from each other like a curtain, and a wind goes through them.
--- stage: spring "the wind goes\nthrough these\nletters again" --preset curtain --set show_masses=off --set show_springs=off --view -3,-0.5,9.5,5.8 --seconds 10
+-- stage: spring "the wind goes\nthrough these\nletters again" --preset curtain --set carry=0 --set show_masses=off --set show_springs=off --view -3,-0.5,9.5,5.8 --seconds 10
 
-local hard = param("hard", 5) -- units a second
+local hard = param("hard", 10) -- units a second
 
 function frame(time)
   local gust = math.sin(0.9 * time) * math.sin(0.37 * time + 1)

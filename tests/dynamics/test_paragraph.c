@@ -19,6 +19,7 @@
 enum { FACES = 4, TEXT_BYTES = 4096, LETTERS_MOST = 1024 };
 static const char *const face_names[FACES] = {"DejaVuSans", "DejaVuSerif", "DejaVuSansMono",
                                               "EBGaramond12-Regular"};
+#define HIGH 80.0  /* where the lowest of those that hang are, which do not reach the floor */
 #define HEIGHT 2.0 /* ems, from which texts fall */
 static struct font_face *faces[FACES];
 static struct font_shaper *shapers[FACES];
@@ -166,13 +167,14 @@ static struct kept fall(const char *preset, const char *text, int face, double t
     const double path[2][2] = {{0, 0}, {200 * cos(turn), 200 * sin(turn)}};
     def.path = turn != 0 ? path : NULL;
     def.path_count = turn != 0 ? 2 : 0;
-    scene_must(dyn_preset_apply(preset, &def.style, &world));
+    if (strcmp(preset, "usual") != 0)
+        scene_must(dyn_preset_apply(preset, &def.style, &world));
     scene_must(dyn_network_create(&n));
     scene_must(dyn_network_world_set(n, &world));
     scene_must(dyn_word_create(n, &def, &word));
     const int count = dyn_word_letters_count(word);
     assert_in_range(count, 1, LETTERS_MOST);
-    raise_above(n, HEIGHT);
+    raise_above(n, def.style.tack == DYN_TACK_NONE ? HEIGHT : HIGH);
     middles_take(word, n, was, area_was);
     scene_must(dyn_network_step(n, 1.0 / 240, 5 * 240));
     middles_take(word, n, is, area_is);
@@ -183,15 +185,15 @@ static struct kept fall(const char *preset, const char *text, int face, double t
     return kept;
 }
 
-enum { TEXTS = 24 };
+enum { TEXTS = 24, FEWER = 12 };
 
 /* Draws texts of 1 to 12 lines, every third of them turned, and counts those that have lost
  * their order. */
-static int texts_fall(const char *preset, double far_most, double area_least)
+static int texts_fall(const char *preset, int texts, double far_most, double area_least)
 {
     uint64_t chance = 11;
     int lost = 0;
-    for (int i = 0; i < TEXTS; i++) {
+    for (int i = 0; i < texts; i++) {
         char text[TEXT_BYTES];
         const int face = i % 2 ? i / 2 % FACES : 0, lines = 1 + i % 12,
                   width = (int)scene_chance(&chance, 1, 40);
@@ -212,7 +214,7 @@ static int texts_fall(const char *preset, double far_most, double area_least)
 static void stiff_texts_stay_blocks(void **state)
 {
     (void)state;
-    assert_int_equal(texts_fall("stiff", 0.02, 0.9), 0);
+    assert_int_equal(texts_fall("stiff", TEXTS, 0.02, 0.9), 0);
 }
 
 /* A letter as narrow as a comma may be turned over in the fall: one in ten of the texts, of
@@ -220,7 +222,22 @@ static void stiff_texts_stay_blocks(void **state)
 static void jelly_texts_keep_their_shape(void **state)
 {
     (void)state;
-    assert_in_range(texts_fall("jelly", 0.08, 0.3), 0, TEXTS / 10);
+    assert_in_range(texts_fall("jelly", TEXTS, 0.08, 0.3), 0, TEXTS / 10);
+}
+
+static void usual_texts_keep_their_shape(void **state)
+{
+    (void)state;
+    assert_in_range(texts_fall("usual", FEWER, 0.08, 0.3), 0, FEWER / 10);
+}
+
+/* They swing and sag, but nothing in them folds. */
+static void hanging_texts_keep_their_order(void **state)
+{
+    (void)state;
+    assert_in_range(texts_fall("pendulum", FEWER, 0.08, 0.3), 0, FEWER / 10);
+    assert_in_range(texts_fall("heavy", FEWER, 0.3, 0.3), 0, FEWER / 10);
+    assert_in_range(texts_fall("curtain", FEWER, 0.3, 0.3), 0, FEWER / 10);
 }
 
 /* Crossed springs join the letters of a line both ways, and each upper corner to two corners
@@ -261,12 +278,57 @@ static void crossed_paragraph_has_springs_across(void **state)
     dyn_network_destroy(n);
 }
 
+/* How many springs across the gaps between letters, and between lines, a text has. */
+static void across_count(const char *text, enum dyn_brace brace, int *of_letters, int *of_lines)
+{
+    struct dyn_word_def def = dyn_word_def_usual();
+    struct dyn_network *n;
+    struct dyn_word *word;
+    def.text = text;
+    def.shaper = shapers[0];
+    def.style.brace = brace;
+    scene_must(dyn_network_create(&n));
+    scene_must(dyn_word_create(n, &def, &word));
+    *of_letters = *of_lines = 0;
+    for (int i = 0; i < dyn_word_range(word).springs_count; i++) {
+        *of_letters += dyn_word_part(word, i) == DYN_LINK_BRACE;
+        *of_lines += dyn_word_part(word, i) == DYN_HANG_BRACE;
+    }
+    dyn_word_destroy(word);
+    dyn_network_destroy(n);
+}
+
+static void words_alone_are_chains(void **state)
+{
+    (void)state;
+    static const struct {
+        enum dyn_brace brace;
+        int word[2], lines[2];
+    } wanted[] = {{DYN_BRACE_NONE, {0, 0}, {0, 0}},
+                  {DYN_BRACE_CROSSED, {8, 0}, {8, 6}},
+                  {DYN_BRACE_PARAGRAPH, {0, 0}, {8, 6}},
+                  {DYN_BRACE_LINES, {0, 0}, {8, 0}}};
+    for (int i = 0; i < 4; i++) {
+        int letters, lines;
+        across_count("abcde", wanted[i].brace, &letters, &lines);
+        assert_int_equal(letters, wanted[i].word[0]);
+        assert_int_equal(lines, wanted[i].word[1]);
+        across_count("abc\nabc", wanted[i].brace, &letters, &lines);
+        assert_int_equal(letters, wanted[i].lines[0]);
+        assert_int_equal(lines, wanted[i].lines[1]);
+    }
+    assert_int_equal((int)dyn_word_style_usual().brace, DYN_BRACE_PARAGRAPH);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(crossed_paragraph_has_springs_across),
+        cmocka_unit_test(words_alone_are_chains),
         cmocka_unit_test(stiff_texts_stay_blocks),
         cmocka_unit_test(jelly_texts_keep_their_shape),
+        cmocka_unit_test(usual_texts_keep_their_shape),
+        cmocka_unit_test(hanging_texts_keep_their_order),
     };
     for (int i = 0; i < FACES; i++)
         if (font_face_open(face_names[i], 0, &faces[i]) != FONT_OK ||
