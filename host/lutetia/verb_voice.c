@@ -32,7 +32,7 @@ enum { SHEET_COLUMNS = 5, SHEET_ROWS = 4, LABEL_PX = 11 };
 struct voice_work {
     const char *sound_path, *text, *font, *edits, *axes, *map;
     const char *poster, *sheet, *envelope, *still, *frames, *video;
-    const char *microphone, *transcript, *features, *screen, *stream;
+    const char *microphone, *transcript, *features, *screen, *stream, *osc_to;
     double seconds;
     bool cry;
     double size_px[2], rise_em, slant, paper[3], inks[9], second_px, line_px, at_s;
@@ -92,15 +92,20 @@ static int words_take(struct voice_work *w, const struct option_words *words)
 }
 
 #define POSTER "poster|!sheet+!envelope+!still+!frames+!video+!features+!microphone"
-
 #define HEARD "microphone+!poster+!sheet+!envelope+!still+!frames+!video+!features"
 
 /* With what an option has an effect. The poster is made where no other picture is asked for. */
-static const struct option_need needs[] = {{"at", "still"},           {"fps", "video|frames"},
-                                           {"seconds", "microphone"}, {"rise", "map"},
-                                           {"slant", "map"},          {"second", POSTER},
-                                           {"line", POSTER},          {"screen", HEARD},
-                                           {"stream", HEARD},         {0}};
+static const struct option_need needs[] = {{"at", "still"},
+                                           {"fps", "video|frames"},
+                                           {"seconds", "microphone"},
+                                           {"rise", "map"},
+                                           {"slant", "map"},
+                                           {"second", POSTER},
+                                           {"line", POSTER},
+                                           {"screen", HEARD},
+                                           {"stream", HEARD},
+                                           {"osc-to", HEARD},
+                                           {0}};
 
 static int options_read(struct voice_work *w, int argc, char **argv, bool *help)
 {
@@ -127,6 +132,8 @@ static int options_read(struct voice_work *w, int argc, char **argv, bool *help)
          0, 0, 0},
         LIVE_SCREEN_OPTION(&w->screen),
         LIVE_STREAM_OPTION(&w->stream),
+        {"osc-to", 0, OPTION_TEXT, "ADDRESS:PORT",
+         "send what is heard in the window there by OSC, or to a PORT", &w->osc_to, 0, 0, 0},
         {"features", 0, OPTION_TEXT, "FILE.csv", "what is heard, as a table; needs no text",
          &w->features, 0, 0, 0},
         {"seconds", 0, OPTION_NUMBER, "S", "how long a microphone is heard (5)", &w->seconds,
@@ -302,14 +309,13 @@ static int live_play(struct voice_work *w)
                                  .hearing = w->hearing,
                                  .picture = {w->picture[0], w->picture[1]},
                                  .screen = w->screen,
-                                 .stream = w->stream};
+                                 .stream = w->stream,
+                                 .osc_to = w->osc_to};
     int status = face_take(w);
     type_def_take(w);
     def.face = w->face;
     def.type = w->def;
-    if (status == EXIT_SUCCESS)
-        status = voice_live_window(&def);
-    return status;
+    return status == EXIT_SUCCESS ? voice_live_window(&def) : status;
 }
 
 static int player_make(const struct voice_work *w, double scale, struct voice_type **out)

@@ -6,6 +6,7 @@
 
 #include "lutetia.h"
 #include "type_common.h"
+#include "voice_osc.h"
 #include "voice_stream.h"
 
 #include <input.h>
@@ -43,6 +44,7 @@ struct voice_live {
     struct display_image image;
     int size_px[2]; /* of a picture */
     struct voice_stream stream;
+    struct osc_port *osc; /* NULL: nobody is told */
 };
 
 /* ---- what is heard ---- */
@@ -109,6 +111,8 @@ static bool frames_take(struct voice_live *v)
         }
         v->frames[v->frames_count++] = f;
         v->attacks += f.attack;
+        if (v->osc)
+            voice_osc_send(v->osc, &f);
         v->changed = true;
     }
     return true;
@@ -284,6 +288,8 @@ int voice_live_window(const struct voice_live_def *def)
         status = microphone_begin(def->source, &v->microphone); /* says which there are */
     if (status == EXIT_SUCCESS)
         status = type_image_create("voice", v->size_px[0], v->size_px[1], &v->image);
+    if (status == EXIT_SUCCESS && def->osc_to)
+        status = voice_osc_open(def->osc_to, &v->osc);
     if (status == EXIT_SUCCESS)
         status = window_open(v);
     for (int i = 0; i < WORDS_MAX; i++) {
@@ -295,6 +301,7 @@ int voice_live_window(const struct voice_live_def *def)
     voice_destroy(v->voice);
     display_image_destroy(&v->image);
     microphone_close(v->microphone);
+    osc_port_close(v->osc);
     free(v);
     return status;
 }

@@ -17,6 +17,7 @@ struct voice_live_def {
     const char *screen; /* as window.h */
     /* As picture_stream_read(); NULL: none. Pictures are drawn for its size. */
     const char *stream;
+    const char *osc_to; /* as voice_osc_open(); NULL: nowhere */
 };
 
 /* Until somebody closes the window. Each sound that begins shows the text's next word. Exit

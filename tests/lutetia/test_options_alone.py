@@ -38,7 +38,7 @@ FILE, PICTURE, FILM, DIRECTORY, EDITS = "made.file", "made.png", "made.y4m", "ma
 VERBS = {
     "voice": (["--cry", "Aagh oh", "-o", "out.png", "--picture", "96x64"], {
         "poster": None, "cry": None, "picture": "160x64", "sheet": PICTURE, "envelope": PICTURE, "still": PICTURE, "at": "1",
-        "frames": DIRECTORY, "video": FILM, "fps": "7", "microphone": "any", "seconds": "1", "transcript": "none.srt", "features": FILE, "screen": "7", "stream": "/dev/null",
+        "frames": DIRECTORY, "video": FILM, "fps": "7", "microphone": "any", "seconds": "1", "transcript": "none.srt", "features": FILE, "screen": "7", "stream": "/dev/null", "osc-to": "9001",
         "map": "size=pitch", "font": "DejaVuSans", "axes": "wght=700", "size": "4,20", "rise": "1", "slant": "1",
         "second": "100", "line": "100", "edits": EDITS, "paper": "1,0,0", "inks": "0,0,1,0,1,0"}),
     "keys": (["song.mid", "-o", "out.png"], {

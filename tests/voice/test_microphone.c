@@ -10,6 +10,8 @@
 
 #include <jack_library.h>
 #include <microphone.h>
+#include <osc.h>
+#include <osc_port.h>
 #include <voice.h>
 
 #include "../display/pipewire_reader.h"
@@ -215,27 +217,76 @@ static long ink_wait(Window window, long least, long most)
     return 0;
 }
 
+/* What is told by OSC: packets without a fault, and what the last ones said. */
+struct told {
+    double level, pitch_hz, formant_hz[2];
+    int frames, attacks, others;
+};
+
+static void told_take(void *context, const struct osc_message *m)
+{
+    struct told *t = context;
+    assert_true(m->count >= 1 && m->arguments[0].type == 'f');
+    const double value = m->arguments[0].number;
+    if (strcmp(m->address, "/voice/level") == 0)
+        t->level = value, t->frames++;
+    else if (strcmp(m->address, "/voice/pitch") == 0)
+        t->pitch_hz = value;
+    else if (strcmp(m->address, "/voice/attack") == 0)
+        t->attacks++;
+    else if (strcmp(m->address, "/voice/formants") == 0 && m->count == 2)
+        t->formant_hz[0] = value, t->formant_hz[1] = m->arguments[1].number;
+    else
+        t->others++;
+}
+
+static struct told told_read(struct osc_port *port)
+{
+    struct told told = {.level = -1, .pitch_hz = -1};
+    uint8_t bytes[OSC_PACKET_MAX];
+    size_t count;
+    while ((count = osc_port_next(port, bytes, sizeof bytes)) > 0)
+        assert_null(osc_packet_read(bytes, count, told_take, &told));
+    return told;
+}
+
 static void letters_in_a_window_follow(void)
 {
+    const struct osc_port_def hears = {.listen = "0"};
+    struct osc_port *port;
+    char to[16];
+    assert_int_equal(osc_port_open(&hears, &port), STAGE_OK);
+    snprintf(to, sizeof to, "%d", osc_port_number(port));
     const pid_t pid = fork();
     assert_true(pid >= 0);
     if (pid == 0) {
         execl(lutetia, lutetia, "voice", "--microphone", "jack", "Aagh", "--picture", "480x240",
-              (char *)NULL);
+              "--osc-to", to, (char *)NULL);
         _exit(127);
     }
     Window window = screen_window("voice", 15);
     assert_true(window != 0);
     player_connect();
     (void)ink_wait(window, 0, 50); /* nothing is heard: nothing is seen */
+    (void)told_read(port);
     player.level = 500;
     const long loud = ink_wait(window, 3000, 480 * 240);
+    poll(NULL, 0, 300);
+    const struct told told = told_read(port);
+    assert_in_range(told.attacks, 1, 3);
+    assert_true(told.frames > 5 && told.others > told.frames && told.level > 0.1);
+    assert_true(fabs(told.pitch_hz - PITCH_HZ) < 0.02 * PITCH_HZ);
+    assert_true(told.formant_hz[0] >= 0 && told.formant_hz[1] >= told.formant_hz[0]);
     player.level = 100;
     (void)ink_wait(window, 20, loud / 3);
     player.level = 500;
     (void)ink_wait(window, loud / 2, 480 * 240);
     player.level = 0;
     (void)ink_wait(window, 0, 300);
+    poll(NULL, 0, 300);
+    const struct told quiet = told_read(port);
+    assert_true(quiet.frames > 5 && quiet.level < 0.01 && quiet.pitch_hz == 0);
+    osc_port_close(port);
     kill(pid, SIGINT);
     int status;
     assert_int_equal(waitpid(pid, &status, 0), pid);
