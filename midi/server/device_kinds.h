@@ -5,7 +5,8 @@
 #include "device.h"
 
 extern const struct device_kind device_kind_raw, device_kind_serial, device_kind_pty,
-    device_kind_loop, device_kind_file, device_kind_sound, device_kind_jack, device_kind_alsa;
+    device_kind_loop, device_kind_link, device_kind_file, device_kind_sound, device_kind_jack,
+    device_kind_alsa;
 
 /* All kinds of this build; ends with NULL. */
 extern const struct device_kind *const device_kinds[];
