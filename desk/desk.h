@@ -4,6 +4,7 @@
  *     desk_window.c    the window, and what the paper reports
  *     desk_common.c    what the others use
  *     desk_canvas.c    the sheet: how it is seen, the cursor, the ghost
+ *     desk_area.h      a canvas that is drawn by OpenGL, in part where processors compute that
  *     desk_gl.c        its drawing in OpenGL, core profile
  *     desk_hand.c      pointer and pen, as events (input.h), to the paper
  *     desk_shared.h    what the reader's window has, too: a pen's pressure on X11, names
@@ -26,6 +27,7 @@
 #ifndef LUTETIA_DESK_H
 #define LUTETIA_DESK_H
 
+#include "desk_area.h"
 #include "desk_frame.h"
 #include "desk_shared.h"
 #include "desk_words.h"
@@ -157,9 +159,12 @@ void desk_gl_destroy(struct desk_gl *gl);
  * than the device can. */
 bool desk_gl_picture(struct desk_gl *gl, const struct studio_picture *picture);
 void desk_gl_shown(struct desk_gl *gl, const struct studio_shown *shown);
-void desk_gl_draw(struct desk_gl *gl, const struct desk *d, int scale);
+/* drawn: as desk_area_draw has it. */
+void desk_gl_draw(struct desk_gl *gl, const struct desk *d, int scale,
+                  struct studio_rectangle *drawn);
 /* The picture alone, as the view has it. */
-void desk_gl_sheet(struct desk_gl *gl, const struct studio_view *view, int scale);
+void desk_gl_sheet(struct desk_gl *gl, const struct studio_view *view, int scale,
+                   struct studio_rectangle *drawn);
 
 /* desk_shape.c */
 /* A place of the canvas as the steadied way has it; from where it begins. */

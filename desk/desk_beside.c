@@ -11,20 +11,22 @@ struct desk_beside {
     bool due;                      /* it is kept once it is seen */
 };
 
-static gboolean beside_render(GtkGLArea *area, GdkGLContext *context, struct desk *d)
+static void beside_draw(void *context, int scale, struct studio_rectangle *drawn)
 {
+    struct desk *d = context;
     struct desk_beside *b = d->beside;
     struct studio_view view = d->view;
-    (void)context;
-    if (!b->gl || !b->picture.pixels)
-        return FALSE;
+    if (!b->gl || !b->picture.pixels) {
+        if (drawn)
+            *drawn = (struct studio_rectangle){0};
+        return;
+    }
     if (b->fresh)
         desk_gl_picture(b->gl, &b->picture);
     b->fresh = false;
-    view.width = gtk_widget_get_width(GTK_WIDGET(area));
-    view.height = gtk_widget_get_height(GTK_WIDGET(area));
-    desk_gl_sheet(b->gl, &view, gtk_widget_get_scale_factor(GTK_WIDGET(area)));
-    return TRUE;
+    view.width = gtk_widget_get_width(b->area);
+    view.height = gtk_widget_get_height(b->area);
+    desk_gl_sheet(b->gl, &view, scale, drawn);
 }
 
 static void beside_realize(GtkGLArea *area, struct desk *d)
@@ -48,10 +50,8 @@ GtkWidget *desk_beside_new(struct desk *d)
 {
     struct desk_beside *b = d->beside = g_new0(struct desk_beside, 1);
     b->box = gtk_overlay_new(); /* its canvas is as high as the sheet's */
-    b->area = gtk_gl_area_new();
+    b->area = desk_area_new(beside_draw, d);
     b->text = gtk_label_new("");
-    gtk_gl_area_set_auto_render(GTK_GL_AREA(b->area), FALSE);
-    gtk_gl_area_set_required_version(GTK_GL_AREA(b->area), 3, 2);
     gtk_widget_set_hexpand(b->area, TRUE);
     gtk_widget_set_vexpand(b->area, TRUE);
     gtk_widget_set_size_request(b->area, 240, 200);
@@ -59,7 +59,6 @@ GtkWidget *desk_beside_new(struct desk *d)
     desk_name(b->area, _("The moment beside"), NULL);
     g_signal_connect(b->area, "realize", G_CALLBACK(beside_realize), d);
     g_signal_connect(b->area, "unrealize", G_CALLBACK(beside_unrealize), d);
-    g_signal_connect(b->area, "render", G_CALLBACK(beside_render), d);
     gtk_overlay_set_child(GTK_OVERLAY(b->box), b->area);
     gtk_overlay_add_overlay(GTK_OVERLAY(b->box), b->text);
     gtk_widget_add_css_class(b->text, "osd");

@@ -80,14 +80,16 @@ void desk_canvas_look(struct desk *d)
         desk_gl_shown(d->gl, &shown);
 }
 
-static gboolean canvas_render(GtkGLArea *area, GdkGLContext *context, struct desk *d)
+static void canvas_draw(void *context, int scale, struct studio_rectangle *drawn)
 {
-    (void)context;
-    if (!d->gl)
-        return FALSE;
-    desk_gl_draw(d->gl, d, gtk_widget_get_scale_factor(GTK_WIDGET(area)));
+    struct desk *d = context;
+    if (!d->gl) {
+        if (drawn)
+            *drawn = (struct studio_rectangle){0};
+        return;
+    }
+    desk_gl_draw(d->gl, d, scale, drawn);
     desk_measure_drawn(d);
-    return TRUE;
 }
 
 static void canvas_realize(GtkGLArea *area, struct desk *d)
@@ -152,10 +154,8 @@ static gboolean canvas_scroll(GtkEventControllerScroll *scroll, double x, double
 
 GtkWidget *desk_canvas_new(struct desk *d)
 {
-    d->canvas = gtk_gl_area_new();
+    d->canvas = desk_area_new(canvas_draw, d);
     d->ghost = g_array_new(FALSE, FALSE, sizeof(struct desk_ghost));
-    gtk_gl_area_set_auto_render(GTK_GL_AREA(d->canvas), FALSE);
-    gtk_gl_area_set_required_version(GTK_GL_AREA(d->canvas), 3, 2);
     gtk_widget_set_hexpand(d->canvas, TRUE);
     gtk_widget_set_vexpand(d->canvas, TRUE);
     gtk_widget_set_size_request(d->canvas, 240, 200);
@@ -164,7 +164,6 @@ GtkWidget *desk_canvas_new(struct desk *d)
     desk_name(d->canvas, _("The sheet"), NULL);
     g_signal_connect(d->canvas, "realize", G_CALLBACK(canvas_realize), d);
     g_signal_connect(d->canvas, "unrealize", G_CALLBACK(canvas_unrealize), d);
-    g_signal_connect(d->canvas, "render", G_CALLBACK(canvas_render), d);
     g_signal_connect(d->canvas, "resize", G_CALLBACK(canvas_resize), d);
     GtkEventController *scroll =
         gtk_event_controller_scroll_new(GTK_EVENT_CONTROLLER_SCROLL_BOTH_AXES);

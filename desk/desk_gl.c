@@ -11,10 +11,18 @@
 #include <math.h>
 
 #define DASH_PX 6.0
+#define FAR_PX 1e6
 #define SEEN_MOST 2e6 /* pixels of a line: longer than any on a sheet at the largest zoom */
 
 struct corner {
     float x, y, a_x, a_y, b_x, b_y, radius, hollow, color[4];
+};
+
+/* How the sheet is seen. Where this is another one, all of the canvas is drawn. */
+struct sheet_seen {
+    struct studio_view view;
+    int scale, width, height; /* the picture's size */
+    bool masked;
 };
 
 struct desk_gl {
@@ -22,6 +30,10 @@ struct desk_gl {
     int width, height; /* of the picture */
     struct studio_shown shown;
     GArray *corners;
+    /* what the canvas has, and what has to be drawn of it */
+    struct sheet_seen seen;
+    struct studio_rectangle changed;     /* of the picture, fibers */
+    struct studio_rectangle over, under; /* of the capsules of now and of before, pixels */
 };
 
 static const char sheet_vertex[] =
@@ -223,6 +235,7 @@ bool desk_gl_picture(struct desk_gl *gl, const struct studio_picture *picture)
     }
     if (r.right <= r.left)
         return true;
+    gl->changed = studio_rectangle_join(gl->changed, r);
     glPixelStorei(GL_UNPACK_ROW_LENGTH, picture->width);
     glTexSubImage2D(GL_TEXTURE_2D, 0, r.left, r.top, r.right - r.left, r.bottom - r.top,
                     GL_RGBA, GL_UNSIGNED_BYTE,
@@ -250,6 +263,15 @@ struct look {
     double hollow; /* half the width of the line around it; 0: filled */
 };
 
+/* The pixels that it touches; far away, any place that is. */
+static struct studio_rectangle pixels_of(double left, double top, double right, double bottom)
+{
+    return (struct studio_rectangle){(int)floor(fmax(-FAR_PX, fmin(FAR_PX, left))),
+                                     (int)floor(fmax(-FAR_PX, fmin(FAR_PX, top))),
+                                     (int)ceil(fmax(-FAR_PX, fmin(FAR_PX, right))),
+                                     (int)ceil(fmax(-FAR_PX, fmin(FAR_PX, bottom)))};
+}
+
 static void piece_add(struct desk_gl *gl, struct studio_place a, struct studio_place b,
                       double radius, const struct look *look)
 {
@@ -265,20 +287,21 @@ static void piece_add(struct desk_gl *gl, struct studio_place a, struct studio_p
         memcpy(c.color, look->color, sizeof c.color);
         g_array_append_val(gl->corners, c);
     }
+    gl->over = studio_rectangle_join(gl->over, pixels_of(left, top, right, bottom));
 }
 
-static void pieces_draw(struct desk_gl *gl, int width, int height)
+/* Those from the one to the other. */
+static void pieces_draw(struct desk_gl *gl, guint from, guint to, int width, int height)
 {
-    if (gl->corners->len == 0)
+    if (from == to)
         return;
     glUseProgram(gl->pieces);
     glUniform2f(glGetUniformLocation(gl->pieces, "size"), (float)width, (float)height);
     glBindVertexArray(gl->array);
     glBindBuffer(GL_ARRAY_BUFFER, gl->buffer);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(gl->corners->len * sizeof(struct corner)),
-                 gl->corners->data, GL_STREAM_DRAW);
-    glDrawArrays(GL_TRIANGLES, 0, (GLsizei)gl->corners->len);
-    g_array_set_size(gl->corners, 0);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)((to - from) * sizeof(struct corner)),
+                 &g_array_index(gl->corners, struct corner, from), GL_STREAM_DRAW);
+    glDrawArrays(GL_TRIANGLES, 0, (GLsizei)(to - from));
 }
 
 static struct studio_place pixel_of(const struct desk *d, int scale, double x, double y)
@@ -291,8 +314,7 @@ static struct studio_place pixel_of(const struct desk *d, int scale, double x, d
 
 /* The way that the paper has not done yet: it darkens, and where it crosses itself it darkens
  * once. */
-static void ghost_draw(struct desk_gl *gl, const struct desk *d, int scale, int width,
-                       int height)
+static void ghost_add(struct desk_gl *gl, const struct desk *d, int scale)
 {
     for (guint i = 0; i < d->ghost->len; i++) {
         const struct desk_ghost *g = &g_array_index(d->ghost, struct desk_ghost, i);
@@ -303,16 +325,20 @@ static void ghost_draw(struct desk_gl *gl, const struct desk *d, int scale, int 
         piece_add(gl, pixel_of(d, scale, before->x, before->y), pixel_of(d, scale, g->x, g->y),
                   scale * d->view.zoom * g->radius, &look);
     }
+}
+
+static void ghost_draw(struct desk_gl *gl, guint count, int width, int height)
+{
     glBlendEquation(GL_MIN);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE); /* the canvas is opaque everywhere */
-    pieces_draw(gl, width, height);
+    pieces_draw(gl, 0, count, width, height);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glBlendEquation(GL_FUNC_ADD);
 }
 
 /* From where the hand came down to where it is: a wash's rectangle, a throw's direction. */
-static void drag_draw(struct desk_gl *gl, const struct desk *d, int scale,
-                      const struct look *look)
+static void drag_add(struct desk_gl *gl, const struct desk *d, int scale,
+                     const struct look *look)
 {
     const enum studio_tool_number tool = desk_tool(d);
     const struct studio_place to = studio_view_to_sheet(&d->view, d->pointer_x, d->pointer_y);
@@ -344,7 +370,7 @@ static void drag_draw(struct desk_gl *gl, const struct desk *d, int scale,
 
 /* What is selected has a line around it, of dark and light dashes. A dash that begins on one
  * side ends on the next. */
-static void outline_draw(struct desk_gl *gl, const struct desk *d, int scale)
+static void outline_add(struct desk_gl *gl, const struct desk *d, int scale)
 {
     static const struct look looks[2] = {{{0, 0, 0, 0.9f}, 0}, {{1, 1, 1, 0.9f}, 0}};
     const double dash = DASH_PX * scale, width = scale * d->view.width,
@@ -374,7 +400,7 @@ static void outline_draw(struct desk_gl *gl, const struct desk *d, int scale)
     }
 }
 
-static void cursor_draw(struct desk_gl *gl, const struct desk *d, int scale)
+static void cursor_add(struct desk_gl *gl, const struct desk *d, int scale)
 {
     const struct look dark = {{0.05f, 0.05f, 0.05f, 0.9f}, 0.6 * scale},
                       light = {{1, 1, 1, 0.8f}, 1.6 * scale};
@@ -383,7 +409,7 @@ static void cursor_draw(struct desk_gl *gl, const struct desk *d, int scale)
     const struct studio_place at = {x, y};
     const struct look *looks[] = {&light, &dark};
     for (int i = 0; i < 2; i++) {
-        drag_draw(gl, d, scale, looks[i]);
+        drag_add(gl, d, scale, looks[i]);
         if (!d->pointer_inside || d->panning)
             continue;
         if (radius > arm)
@@ -430,11 +456,16 @@ static void sheet_triangle(const struct desk_gl *gl)
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+/* Whether something is shown on the sheet as it would be. */
+static bool masked(const struct desk_gl *gl, const struct desk *d)
+{
+    return gl->shown.gray != NULL && (!desk_stamps(d) || d->pointer_inside);
+}
+
 static void sheet_draw(const struct desk_gl *gl, const struct desk *d, int scale,
                        const double ink[3])
 {
-    const bool stamps = desk_stamps(d),
-               mask = gl->shown.gray != NULL && (!stamps || d->pointer_inside);
+    const bool stamps = desk_stamps(d), mask = masked(gl, d);
     const struct studio_place at = studio_view_to_sheet(&d->view, d->pointer_x, d->pointer_y);
     const double on_x =
                      gl->shown.x + (stamps ? floor(at.x) : 0), /* a stamp is at the pointer */
@@ -446,32 +477,114 @@ static void sheet_draw(const struct desk_gl *gl, const struct desk *d, int scale
     sheet_triangle(gl);
 }
 
-void desk_gl_sheet(struct desk_gl *gl, const struct studio_view *view, int scale)
+/* The pixels of what has changed of the picture, with those beside them that take a part of
+ * it. */
+static struct studio_rectangle changed_pixels(const struct desk_gl *gl,
+                                              const struct studio_view *view, int scale)
+{
+    const struct studio_rectangle *r = &gl->changed;
+    const double reach = 2 + ceil(scale * view->zoom),
+                 x[] = {r->left, r->right, r->right, r->left},
+                 y[] = {r->top, r->top, r->bottom, r->bottom};
+    struct studio_rectangle pixels = {0};
+    for (int i = 0; i < 4 && r->right > r->left; i++) {
+        const struct studio_place at = studio_view_to_canvas(view, x[i], y[i]);
+        pixels = studio_rectangle_join(pixels,
+                                       pixels_of(scale * at.x - reach, scale * at.y - reach,
+                                                 scale * at.x + reach, scale * at.y + reach));
+    }
+    return pixels;
+}
+
+static bool view_same(const struct studio_view *a, const struct studio_view *b)
+{
+    return a->width == b->width && a->height == b->height && a->x0 == b->x0 && a->y0 == b->y0 &&
+           a->zoom == b->zoom && a->turn == b->turn && a->mirrored == b->mirrored;
+}
+
+/* What has to be drawn, and from here on it alone is. */
+static void part_begin(struct desk_gl *gl, const struct sheet_seen *seen, int width, int height,
+                       struct studio_rectangle *drawn)
+{
+    const struct sheet_seen *s = &gl->seen;
+    const bool same = s->scale == seen->scale && s->width == seen->width &&
+                      s->height == seen->height && !s->masked && !seen->masked &&
+                      view_same(&s->view, &seen->view);
+    struct studio_rectangle r = *drawn;
+    r = studio_rectangle_join(r, changed_pixels(gl, &seen->view, seen->scale));
+    r = studio_rectangle_join(r, gl->under);
+    r = studio_rectangle_join(r, gl->over);
+    if (!same)
+        r = (struct studio_rectangle){0, 0, width, height};
+    *drawn = (struct studio_rectangle){CLAMP(r.left, 0, width), CLAMP(r.top, 0, height),
+                                       CLAMP(r.right, 0, width), CLAMP(r.bottom, 0, height)};
+    gl->seen = *seen;
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(drawn->left, height - drawn->bottom, MAX(0, drawn->right - drawn->left),
+              MAX(0, drawn->bottom - drawn->top));
+}
+
+static void part_end(struct desk_gl *gl)
+{
+    glDisable(GL_SCISSOR_TEST);
+    gl->changed = (struct studio_rectangle){0};
+    gl->under = gl->over;
+    gl->over = (struct studio_rectangle){0};
+    g_array_set_size(gl->corners, 0);
+}
+
+static bool nothing_in(const struct studio_rectangle *drawn)
+{
+    return drawn && (drawn->right <= drawn->left || drawn->bottom <= drawn->top);
+}
+
+static void ground_draw(void)
 {
     glClearColor(0.30f, 0.29f, 0.28f, 1);
     glClear(GL_COLOR_BUFFER_BIT);
-    if (!gl->width)
-        return;
-    sheet_program(gl, view, scale, false);
-    sheet_triangle(gl);
 }
 
-void desk_gl_draw(struct desk_gl *gl, const struct desk *d, int scale)
+void desk_gl_sheet(struct desk_gl *gl, const struct studio_view *view, int scale,
+                   struct studio_rectangle *drawn)
+{
+    const struct sheet_seen seen = {*view, scale, gl->width, gl->height, false};
+    if (drawn)
+        part_begin(gl, &seen, (int)lrint(scale * view->width), (int)lrint(scale * view->height),
+                   drawn);
+    if (!nothing_in(drawn)) {
+        ground_draw();
+        if (gl->width) {
+            sheet_program(gl, view, scale, false);
+            sheet_triangle(gl);
+        }
+    }
+    part_end(gl);
+}
+
+void desk_gl_draw(struct desk_gl *gl, const struct desk *d, int scale,
+                  struct studio_rectangle *drawn)
 {
     const int width = (int)lrint(scale * d->view.width),
               height = (int)lrint(scale * d->view.height);
+    const struct sheet_seen seen = {d->view, scale, gl->width, gl->height, masked(gl, d)};
     double ink[3];
-    glClearColor(0.30f, 0.29f, 0.28f, 1);
-    glClear(GL_COLOR_BUFFER_BIT);
-    if (!gl->width)
-        return;
-    desk_tool_color(d, ink);
-    sheet_draw(gl, d, scale, ink);
-    glEnable(GL_BLEND);
-    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE);
-    ghost_draw(gl, d, scale, width, height);
-    outline_draw(gl, d, scale);
-    cursor_draw(gl, d, scale);
-    pieces_draw(gl, width, height);
-    glDisable(GL_BLEND);
+    ghost_add(gl, d, scale);
+    const guint ghost = gl->corners->len;
+    outline_add(gl, d, scale);
+    cursor_add(gl, d, scale);
+    if (drawn)
+        part_begin(gl, &seen, width, height, drawn);
+    if (!nothing_in(drawn)) {
+        ground_draw();
+        if (gl->width) {
+            desk_tool_color(d, ink);
+            sheet_draw(gl, d, scale, ink);
+            glEnable(GL_BLEND);
+            glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE);
+            ghost_draw(gl, ghost, width, height);
+            pieces_draw(gl, ghost, gl->corners->len, width, height);
+            glDisable(GL_BLEND);
+        }
+    }
+    part_end(gl);
 }

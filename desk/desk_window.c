@@ -305,6 +305,7 @@ void desk_window_open(struct desk *d)
 {
     GtkWidget *all = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0),
               *middle = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0), *over = gtk_overlay_new();
+    desk_area_renderer_choose(gdk_display_get_default());
     desk_frame_theme(d->options.theme);
     d->changed = setting_changed;
     d->look = look;

@@ -21,6 +21,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "clock.h"
 #include "studio_played.h"
 #include "studio_scene.h"
 #include "xvfb.h"
@@ -333,6 +334,99 @@ static void closed_in_mid_stroke(void **state)
     assert_int_equal(saved_count("mid.h5", "blot"), 0);
 }
 
+/* ---- what is drawn again ---- */
+
+enum { PART_LEFT = 240, PART_TOP = 120, PART_WIDTH = 560, PART_HEIGHT = 640, SHOWN_S = 60 };
+
+/* The middle of the canvas, under the message that a picture was written. */
+static void canvas_read(Window window, uint8_t *rgb)
+{
+    struct display_image image;
+    screen_read(window, &image);
+    assert_true(image.width_px >= PART_LEFT + PART_WIDTH &&
+                image.height_px >= PART_TOP + PART_HEIGHT);
+    for (int y = 0; y < PART_HEIGHT; y++)
+        memcpy(rgb + 3 * (size_t)y * PART_WIDTH,
+               image.pixels + 3 * ((size_t)(PART_TOP + y) * (size_t)image.width_px + PART_LEFT),
+               3 * PART_WIDTH);
+    display_image_destroy(&image);
+}
+
+static void canvas_play(void)
+{
+    FILE *events = played_begin();
+    const char *turned = "3.7 47.3 35.1 20 1";
+    fprintf(events, "0 set paused on\n0 set show colour\n0 set width 9\n0.1 view %s\n", turned);
+    for (int stroke = 0; stroke < 2; stroke++) {
+        const double at_s = 0.5 + stroke;
+        fprintf(events, "%g down -120 %d 0.9\n", at_s, 90 * stroke - 60);
+        for (int i = 1; i < 20; i++)
+            fprintf(events, "%g move %d %d 0.9\n", at_s + 0.03 * i, -120 + 12 * i,
+                    90 * stroke - 60 + i * i / 5);
+        fprintf(events, "%g up 120 %d 0.9\n", at_s + 0.6, 90 * stroke);
+    }
+    fprintf(events, "3 set tool select\n3.1 down -80 -90\n3.3 move 10 0\n3.5 up 100 80\n"
+                    "3.6 set tool brush\n3.7 set width 20\n");
+    for (int i = 0; i < 20; i++)
+        fprintf(events, "%g move %d %d\n", 4 + 0.03 * i, 150 - 11 * i, 13 * i - 100);
+    fprintf(events, "4.7 picture %s\n", played_path("drawn.png"));
+    fclose(events);
+}
+
+/* The canvas when nothing moves any more. expected NULL: whatever it is then; else until it is
+ * this. */
+static void canvas_end(const uint8_t *expected, uint8_t *rgb)
+{
+    const size_t bytes = 3 * (size_t)PART_WIDTH * PART_HEIGHT;
+    uint8_t *before = calloc(bytes, 1);
+    struct stat drawn;
+    char journal[300];
+    int status;
+    const double until_s = clock_now_s() + SHOWN_S;
+    assert_non_null(before);
+    remove(played_path("drawn.png"));
+    const pid_t studio = played_start();
+    const Window window = screen_window("Studio", SHOWN_S);
+    assert_true(window != 0);
+    while (stat(played_path("drawn.png"), &drawn) != 0 && clock_now_s() < until_s)
+        usleep(50000);
+    for (bool still = false; !still && clock_now_s() < until_s;) {
+        usleep(400000);
+        canvas_read(window, rgb);
+        still = memcmp(rgb, expected ? expected : before, bytes) == 0;
+        memcpy(before, rgb, bytes);
+    }
+    kill(studio, SIGKILL);
+    waitpid(studio, &status, 0);
+    free(before);
+    while (played_journal(journal, sizeof journal)) /* the next test has its own */
+        assert_int_equal(remove(journal), 0);
+    assert_true(screen_window_gone(window, SHOWN_S));
+}
+
+/* Where processors compute OpenGL, the canvas is drawn in parts; what is seen is what drawing
+ * all of it shows: paint, the outline of a selection and the cursor over them, and nothing that
+ * was there before. */
+static void parts_are_the_whole(void **state)
+{
+    (void)state;
+    const size_t bytes = 3 * (size_t)PART_WIDTH * PART_HEIGHT;
+    uint8_t *parts = malloc(bytes), *whole = malloc(bytes);
+    int colors = 0;
+    assert_true(parts && whole);
+    canvas_play();
+    canvas_end(NULL, parts);
+    setenv("GSK_RENDERER", "gl", 1);
+    canvas_end(parts, whole);
+    unsetenv("GSK_RENDERER");
+    assert_memory_equal(parts, whole, bytes);
+    for (size_t i = 3; i < bytes; i++)
+        colors += parts[i] != parts[i - 3];
+    assert_true(colors > 10000); /* there is something */
+    free(parts);
+    free(whole);
+}
+
 /* ---- what was not saved ---- */
 
 /* Killed while nobody had saved: all that is older than a second is there again, and what the
@@ -445,6 +539,7 @@ int main(void)
         cmocka_unit_test(springy_type_is_printed_where_it_lands),
         cmocka_unit_test(hand_is_helped),
         cmocka_unit_test(closed_in_mid_stroke),
+        cmocka_unit_test(parts_are_the_whole),
         cmocka_unit_test(killed_and_found_again),
         cmocka_unit_test(wrong_is_one_line),
         cmocka_unit_test(wrong_files_are_told),

@@ -1,0 +1,212 @@
+/* desk_area.c - see desk_area.h.
+ *
+ *     framebuffer -> what has changed, read back -> pixels -> tiles that it touches -> textures
+ *
+ * Tiles have whole pixels of the screen and are neither scaled nor turned, so there are no
+ * seams between them. */
+#include "desk_area.h"
+
+#include <epoxy/gl.h>
+#include <string.h>
+
+enum { TILE = 128, BYTES = 4 }; /* pixels, a multiple of every scale; bytes of a pixel */
+
+struct _DeskArea {
+    GtkGLArea parent;
+    desk_area_draw *draw;
+    void *context;
+    GLuint framebuffer, colors;
+    int width, height, columns, rows; /* pixels; tiles */
+    uint8_t *pixels, *read;           /* from the top; what was read, from the bottom */
+    GdkTexture **tiles;
+};
+
+#define DESK_TYPE_AREA desk_area_get_type()
+G_DECLARE_FINAL_TYPE(DeskArea, desk_area, DESK, AREA, GtkGLArea)
+G_DEFINE_TYPE(DeskArea, desk_area, GTK_TYPE_GL_AREA)
+
+/* ---- which renderer ---- */
+
+static bool computed(void)
+{
+    static const char *const drivers[] = {"llvmpipe", "softpipe", "swrast"};
+    const char *name = (const char *)glGetString(GL_RENDERER);
+    for (size_t i = 0; name && i < G_N_ELEMENTS(drivers); i++)
+        if (strstr(name, drivers[i]))
+            return true;
+    return false;
+}
+
+void desk_area_renderer_choose(GdkDisplay *display)
+{
+    GdkGLContext *context =
+        g_getenv("GSK_RENDERER") ? NULL : gdk_display_create_gl_context(display, NULL);
+    if (!context)
+        return;
+    if (gdk_gl_context_realize(context, NULL)) {
+        gdk_gl_context_make_current(context);
+        if (computed())
+            g_setenv("GSK_RENDERER", "cairo", TRUE); /* read when a window gets its renderer */
+        gdk_gl_context_clear_current();
+    }
+    g_object_unref(context);
+}
+
+/* ---- tiles ---- */
+
+static void tiles_free(DeskArea *a)
+{
+    for (int i = 0; i < a->columns * a->rows; i++)
+        g_clear_object(&a->tiles[i]);
+    g_clear_pointer(&a->tiles, g_free);
+    g_clear_pointer(&a->pixels, g_free);
+    g_clear_pointer(&a->read, g_free);
+    a->width = a->height = a->columns = a->rows = 0;
+}
+
+static void framebuffer_free(DeskArea *a)
+{
+    if (a->framebuffer)
+        glDeleteFramebuffers(1, &a->framebuffer);
+    if (a->colors)
+        glDeleteRenderbuffers(1, &a->colors);
+    a->framebuffer = a->colors = 0;
+}
+
+static void size_set(DeskArea *a, int width, int height)
+{
+    const size_t bytes = BYTES * (size_t)width * (size_t)height;
+    tiles_free(a);
+    framebuffer_free(a);
+    a->width = width;
+    a->height = height;
+    a->columns = (width + TILE - 1) / TILE;
+    a->rows = (height + TILE - 1) / TILE;
+    a->tiles = g_new0(GdkTexture *, (gsize)(a->columns * a->rows));
+    a->pixels = g_malloc(bytes);
+    a->read = g_malloc(bytes);
+    glGenFramebuffers(1, &a->framebuffer);
+    glGenRenderbuffers(1, &a->colors);
+    glBindRenderbuffer(GL_RENDERBUFFER, a->colors);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
+    glBindFramebuffer(GL_FRAMEBUFFER, a->framebuffer);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, a->colors);
+    g_signal_emit_by_name(a, "resize", width, height);
+}
+
+static void tile_make(DeskArea *a, int column, int row)
+{
+    const int x = column * TILE, y = row * TILE, width = MIN(TILE, a->width - x),
+              height = MIN(TILE, a->height - y);
+    const size_t stride = BYTES * (size_t)width;
+    uint8_t *copy = g_malloc(stride * (size_t)height);
+    for (int i = 0; i < height; i++)
+        memcpy(copy + (size_t)i * stride,
+               a->pixels + BYTES * ((size_t)(y + i) * (size_t)a->width + (size_t)x), stride);
+    GBytes *bytes = g_bytes_new_take(copy, stride * (size_t)height);
+    GdkTexture **tile = &a->tiles[row * a->columns + column];
+    g_clear_object(tile);
+    *tile = gdk_memory_texture_new(width, height,
+                                   epoxy_is_desktop_gl() ? GDK_MEMORY_B8G8R8A8_PREMULTIPLIED
+                                                         : GDK_MEMORY_R8G8B8A8_PREMULTIPLIED,
+                                   bytes, stride);
+    g_bytes_unref(bytes);
+}
+
+/* What has been drawn comes into the tiles that it touches. */
+static void take(DeskArea *a, const struct studio_rectangle *r)
+{
+    const int width = r->right - r->left, height = r->bottom - r->top;
+    const size_t stride = BYTES * (size_t)width;
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    glReadPixels(r->left, a->height - r->bottom, width, height,
+                 epoxy_is_desktop_gl() ? GL_BGRA : GL_RGBA, GL_UNSIGNED_BYTE, a->read);
+    for (int i = 0; i < height; i++)
+        memcpy(a->pixels + BYTES * ((size_t)(r->top + i) * (size_t)a->width + (size_t)r->left),
+               a->read + (size_t)(height - 1 - i) * stride, stride);
+    for (int row = r->top / TILE; row * TILE < r->bottom; row++)
+        for (int column = r->left / TILE; column * TILE < r->right; column++)
+            tile_make(a, column, row);
+}
+
+/* ---- the widget ---- */
+
+static void tiles_snapshot(const DeskArea *a, GtkSnapshot *snapshot, int scale)
+{
+    for (int i = 0; i < a->columns * a->rows; i++) {
+        const int x = i % a->columns * TILE, y = i / a->columns * TILE;
+        const graphene_rect_t bounds = {{(float)x / (float)scale, (float)y / (float)scale},
+                                        {(float)MIN(TILE, a->width - x) / (float)scale,
+                                         (float)MIN(TILE, a->height - y) / (float)scale}};
+        if (a->tiles[i])
+            gtk_snapshot_append_texture(snapshot, a->tiles[i], &bounds);
+    }
+}
+
+static void area_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
+{
+    DeskArea *a = DESK_AREA(widget);
+    GtkGLArea *area = GTK_GL_AREA(widget);
+    const int scale = gtk_widget_get_scale_factor(widget),
+              width = scale * gtk_widget_get_width(widget),
+              height = scale * gtk_widget_get_height(widget);
+    struct studio_rectangle drawn = {0};
+    if (!GSK_IS_CAIRO_RENDERER(gtk_native_get_renderer(gtk_widget_get_native(widget))) ||
+        gtk_gl_area_get_error(area)) {
+        GTK_WIDGET_CLASS(desk_area_parent_class)->snapshot(widget, snapshot);
+        return;
+    }
+    if (width <= 0 || height <= 0)
+        return;
+    gtk_gl_area_make_current(area);
+    if (width != a->width || height != a->height) {
+        size_set(a, width, height);
+        drawn = (struct studio_rectangle){0, 0, width, height};
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, a->framebuffer);
+    glViewport(0, 0, width, height);
+    a->draw(a->context, scale, &drawn);
+    if (drawn.right > drawn.left && drawn.bottom > drawn.top)
+        take(a, &drawn);
+    tiles_snapshot(a, snapshot, scale);
+}
+
+static gboolean area_render(GtkGLArea *area, GdkGLContext *context)
+{
+    DeskArea *a = DESK_AREA(area);
+    (void)context;
+    a->draw(a->context, gtk_widget_get_scale_factor(GTK_WIDGET(area)), NULL);
+    return TRUE;
+}
+
+static void area_unrealize(GtkWidget *widget)
+{
+    DeskArea *a = DESK_AREA(widget);
+    gtk_gl_area_make_current(GTK_GL_AREA(widget));
+    if (!gtk_gl_area_get_error(GTK_GL_AREA(widget)))
+        framebuffer_free(a);
+    tiles_free(a);
+    GTK_WIDGET_CLASS(desk_area_parent_class)->unrealize(widget);
+}
+
+static void desk_area_class_init(DeskAreaClass *class)
+{
+    GTK_WIDGET_CLASS(class)->snapshot = area_snapshot;
+    GTK_WIDGET_CLASS(class)->unrealize = area_unrealize;
+    GTK_GL_AREA_CLASS(class)->render = area_render;
+}
+
+static void desk_area_init(DeskArea *a)
+{
+    (void)a;
+}
+
+GtkWidget *desk_area_new(desk_area_draw *draw, void *context)
+{
+    DeskArea *a = g_object_new(DESK_TYPE_AREA, NULL);
+    a->draw = draw;
+    a->context = context;
+    gtk_gl_area_set_auto_render(GTK_GL_AREA(a), FALSE);
+    gtk_gl_area_set_required_version(GTK_GL_AREA(a), 3, 2);
+    return GTK_WIDGET(a);
+}
