@@ -40,6 +40,8 @@ static bool math_open(struct html *h)
         font_math_create(h->math_face, &h->math) == FONT_OK)
         return true;
     h->math_missing = true;
+    if (h->setup->lacks)
+        h->setup->lacks->math = true;
     if (asked)
         h->status = reader_fail(READER_FAILED, "%s", font_error());
     return false;
@@ -66,6 +68,21 @@ static char *formula_draw(struct html *h, const struct font_layout *layout, doub
     return svg;
 }
 
+/* Notes what the formula that was set last lacks. */
+static void formula_lacks(const struct html *h, const struct font_layout *layout)
+{
+    struct reader_html_lacks *lacks = h->setup->lacks;
+    int unknown;
+    const char *first = font_math_unknown(h->math, &unknown);
+    if (!lacks)
+        return;
+    if (unknown && !lacks->unknown_count)
+        snprintf(lacks->unknown, sizeof lacks->unknown, "%s", first);
+    lacks->unknown_count += unknown;
+    for (int i = 0; i < layout->missing_count && i < FONT_MISSING_MAX; i++)
+        font_layout_missing_add(&lacks->letters, layout->missing[i]);
+}
+
 bool html_formula_put(struct html *h, const char *tex, int bytes, bool display)
 {
     const struct font_math_options options = {.size_px = SIZE_PX, .display = display};
@@ -79,6 +96,7 @@ bool html_formula_put(struct html *h, const char *tex, int bytes, bool display)
     if (!math_open(h) ||
         font_math_layout(h->math, tex, (size_t)bytes, &options, &layout) != FONT_OK)
         return false;
+    formula_lacks(h, &layout);
     char *svg = formula_draw(h, &layout, pad, &count);
     if (svg) {
         fprintf(

@@ -28,8 +28,18 @@
 #include "reader_template.h"
 
 #include <stdio.h>
+#include <text.h>
 
 enum reader_html_theme { READER_HTML_LIGHT, READER_HTML_DARK, READER_HTML_BOTH };
+
+/* What formulas lacked. Letters of the text itself are the browser's to find. */
+struct reader_html_lacks {
+    bool
+        math; /* there are formulas, and no font to set them in: they stand as they are written */
+    int unknown_count;          /* commands that are not known */
+    char unknown[48];           /* the first of them */
+    struct font_layout letters; /* its `missing` are the characters that no font has */
+};
 
 struct reader_html_setup {
     const char *title;            /* NULL: the first heading */
@@ -48,6 +58,7 @@ struct reader_html_setup {
      * caption and its file. NULL: none is found. */
     bool (*picture)(void *user, int source, const char *target, FILE *to);
     void *picture_user;
+    struct reader_html_lacks *lacks; /* it is filled; NULL: nobody asks */
 };
 
 /* The document's plain text must be there (reader_document_plain()). Errors: BAD_ARGUMENT (it

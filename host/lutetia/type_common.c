@@ -69,6 +69,12 @@ void type_missing_tell(const char *verb, const char *font, const struct font_lay
          layout->missing_count > FONT_MISSING_MAX ? " and more" : "", font);
 }
 
+void type_damaged_tell(const char *verb, int damaged)
+{
+    if (damaged)
+        tell(verb, "the text is not UTF-8 in %d places; U+FFFD stands there", damaged);
+}
+
 void type_edits_tell(const char *verb)
 {
     const char *what = font_edits_said();

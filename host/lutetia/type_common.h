@@ -24,6 +24,8 @@ int type_drawing_write(const char *verb, const char *path, const struct font_dra
                        double x_px, double y_px);
 /* Says which characters no font has, if there are any. */
 void type_missing_tell(const char *verb, const char *font, const struct font_layout *layout);
+/* Says in how many places a text was not UTF-8, if it was not. */
+void type_damaged_tell(const char *verb, int damaged);
 /* Says which glyphs were left out of what has been drawn so far, if any were. */
 void type_left_out_tell(const char *verb);
 /* The same of a text that is not laid out here. */

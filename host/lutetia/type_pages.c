@@ -227,8 +227,7 @@ int type_pages_check(const struct type_pages *s)
 void type_pages_tell(const struct type_pages *s, const char *font, int damaged,
                      const char *divided)
 {
-    if (damaged)
-        tell(s->verb, "the text is not UTF-8 in %d places; U+FFFD stands there", damaged);
+    type_damaged_tell(s->verb, damaged);
     if (divided && !page_language_divides(divided))
         tell(s->verb,
              "there are no patterns to divide words of '%.20s' by (packages hyphen-..., as "

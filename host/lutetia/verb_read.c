@@ -214,15 +214,14 @@ static void lost_tell(const struct reader_files *files, const struct reader_docu
         tell("read", "and %ld other labels", document->lost_all - document->lost_count);
 }
 
-static void told(const struct reader_pages *pages)
+/* What formulas lacked: unknown commands, of which `first` is one, and a font (no_font). */
+static void formulas_tell(int unknown, const char *first, bool no_font)
 {
-    int unknown;
-    const char *first = reader_pages_unknown(pages, &unknown);
     if (unknown)
         tell("read",
              "'%s' is no command of mathematics that is known%s: it stands as it is written",
              first, unknown > 1 ? ", and others are not" : "");
-    if (reader_pages_lacks_math(pages))
+    if (no_font)
         tell("read",
              "there is no font with a table MATH (package fonts-dejavu-extra): formulas "
              "stand as they are written");
@@ -247,7 +246,9 @@ static int pages_write(struct read *r, const struct reader_pages_setup *setup,
     }
     int status = type_pages_write(&r->pages, reader_pages_text(pages));
     if (status == EXIT_SUCCESS) {
-        told(pages);
+        int unknown;
+        const char *first = reader_pages_unknown(pages, &unknown);
+        formulas_tell(unknown, first, reader_pages_lacks_math(pages));
         type_pages_tell(&r->pages, setup->font, damaged, setup->language);
     }
     type_left_out_tell("read");
@@ -257,8 +258,10 @@ static int pages_write(struct read *r, const struct reader_pages_setup *setup,
 
 /* All of it as one file that a browser shows. */
 static int html_write(const struct read *r, const struct reader_document *document,
-                      const struct reader_files *files, const struct reader_remarks *remarks)
+                      const struct reader_files *files, const struct reader_remarks *remarks,
+                      int damaged)
 {
+    struct reader_html_lacks lacks = {0};
     const struct reader_html_setup setup = {.title = r->pages.title,
                                             .language = r->pages.language,
                                             .theme = !r->theme ? READER_HTML_BOTH
@@ -270,8 +273,16 @@ static int html_write(const struct read *r, const struct reader_document *docume
                                             .math = r->math,
                                             .template = r->template ? &r->look : NULL,
                                             .files = files,
-                                            .remarks = remarks};
-    return read_html_write(r->pages.out_path, document, &setup);
+                                            .remarks = remarks,
+                                            .lacks = &lacks};
+    const int status = read_html_write(r->pages.out_path, document, &setup);
+    if (status == EXIT_SUCCESS) {
+        formulas_tell(lacks.unknown_count, lacks.unknown, lacks.math);
+        type_damaged_tell("read", damaged);
+        type_missing_tell("read", r->math ? r->math : "the formulas' font", &lacks.letters);
+    }
+    type_left_out_tell("read");
+    return status;
 }
 
 /* Sizes and colours on pages; their columns are their own. */
@@ -301,7 +312,7 @@ static int document_write(struct read *r, const struct option_words *words,
             read_left_open(r->manual ? READ_LEFT_MANUAL : words->words[0], document, &remarks);
     setup->remarks = remarks;
     if (status == EXIT_SUCCESS)
-        status = is_html(r) ? html_write(r, document, files, remarks)
+        status = is_html(r) ? html_write(r, document, files, remarks, damaged)
                  : r->small_px
                      ? read_small_write(r->pages.out_path, document, setup, r->small_px)
                      : pages_write(r, setup, document, damaged);

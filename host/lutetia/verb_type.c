@@ -197,9 +197,7 @@ static int type_map(const struct type *t, const struct font_layout *layout,
 
 static void type_report(const struct type *t, const struct font_layout *layout)
 {
-    if (layout->damaged_count)
-        tell("type", "the text is not UTF-8 in %d places; U+FFFD stands there",
-             layout->damaged_count);
+    type_damaged_tell("type", layout->damaged_count);
     type_missing_tell("type", t->font, layout);
 }
 

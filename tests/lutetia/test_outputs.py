@@ -97,16 +97,19 @@ WHOLE = {
 
 
 class Place:
-    """A folder with what the rows read, a disk that can be mounted in it, and caches of its own."""
+    """A folder with what the rows read, and a disk that can be mounted in it. own_caches: kernels are compiled anew here, and a run
+    may end while they are; else the caches are those of the environment."""
 
-    def __init__(self, lutetia):
+    def __init__(self, lutetia, own_caches):
         self.lutetia = lutetia
         self.holder = tempfile.TemporaryDirectory(prefix="lutetia-outputs-")
         self.at = pathlib.Path(self.holder.name)
         for name in ("disk", "work", "tmp", "caches"):
             (self.at / name).mkdir()
-        self.environment = dict(os.environ, TMPDIR=str(self.at / "tmp"), XDG_CACHE_HOME=str(self.at / "caches"))
-        self.environment.pop("POCL_CACHE_DIR", None)
+        self.environment = dict(os.environ, TMPDIR=str(self.at / "tmp"))
+        if own_caches:
+            self.environment["XDG_CACHE_HOME"] = str(self.at / "caches")
+            self.environment.pop("POCL_CACHE_DIR", None)
         self.fill(self.at / "work")
         self.program = self.at / "program"
         subprocess.run([lutetia, "cc", "prog.c", "-o", str(self.program)], cwd=self.at / "work", check=True)
@@ -159,7 +162,9 @@ class Row:
 
     def learn(self):
         cwd = self.place.at / "work"
-        for turn in range(2):  # the first one compiles kernels
+        for turn in range(2):
+            if turn and self.seconds < 1:  # no kernel was compiled
+                break
             self.old(cwd)
             began = time.monotonic()
             child = self.begin(cwd)
@@ -331,7 +336,7 @@ def by_chance(place, seconds, chance):
 def main():
     lutetia = os.path.abspath(sys.argv[1])
     if len(sys.argv) > 2 and sys.argv[2].endswith("s"):
-        place = Place(lutetia)
+        place = Place(lutetia, True)
         wrong = by_chance(place, float(sys.argv[2][:-1]), random.Random(int(sys.argv[3]) if len(sys.argv) > 3 else None))
         place.holder.cleanup()
         sys.exit(wrong > 0)
@@ -341,7 +346,7 @@ def main():
     chance = random.Random(seed)
     wrong = ["no row of verbs.py tries %s" % what for what in verbs.forgotten(lutetia)]
     counts = {"disks": 0, "signals": 0, "on the way": 0, "rows": 0}
-    place = Place(lutetia)
+    place = Place(lutetia, moments > 0)
     for at, (name, _, _, files, words, variables) in enumerate(verbs.OUTPUTS):
         if (names and name not in names) or (not names and not moments and name in verbs.SLOW):
             continue

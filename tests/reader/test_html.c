@@ -422,6 +422,25 @@ static void words_stay_under_remarks(void **state)
     }
 }
 
+/* What formulas lack is told: unknown commands, letters that no font has, each once. */
+static void what_formulas_lack_is_told(void **state)
+{
+    (void)state;
+    static const char text[] = "$\\foo + \\baz$, $\\text{\U000F0000}$ and\n\n"
+                               "$$\\text{\U000F0000\U000F0001}$$\n";
+    struct reader_document *d = read_text(text, sizeof text - 1);
+    struct reader_html_lacks lacks = {0};
+    free(html_of(d, &(struct reader_html_setup){.lacks = &lacks}));
+    if (!lacks.math) {
+        assert_int_equal(lacks.unknown_count, 2);
+        assert_string_equal(lacks.unknown, "\\foo");
+        assert_int_equal(lacks.letters.missing_count, 2);
+        assert_int_equal(lacks.letters.missing[0], 0xF0000);
+        assert_int_equal(lacks.letters.missing[1], 0xF0001);
+    }
+    reader_document_destroy(d);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -436,6 +455,7 @@ int main(void)
         cmocka_unit_test(ink_is_scaled_and_grouped),
         cmocka_unit_test(remarks_without_words_stand_at_the_end),
         cmocka_unit_test(words_stay_under_remarks),
+        cmocka_unit_test(what_formulas_lack_is_told),
     };
     const int file = mkstemp(path);
     if (without_library())
