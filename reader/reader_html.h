@@ -34,8 +34,7 @@ enum reader_html_theme { READER_HTML_LIGHT, READER_HTML_DARK, READER_HTML_BOTH }
 
 /* What formulas lacked. Letters of the text itself are the browser's to find. */
 struct reader_html_lacks {
-    bool
-        math; /* there are formulas, and no font to set them in: they stand as they are written */
+    bool math;                  /* no font for formulas: they stand as they are written */
     int unknown_count;          /* commands that are not known */
     char unknown[48];           /* the first of them */
     struct font_layout letters; /* its `missing` are the characters that no font has */
