@@ -88,6 +88,7 @@ struct desk {
     /* the hand */
     struct desk_pen *pen;
     bool down, panning, space;
+    bool by_pen;        /* a pen has come down, and until it is lifted a mouse does nothing */
     bool eraser;        /* the pen is held the other way round */
     unsigned modifiers; /* of input.h, when the hand came down */
     bool shaping;       /* a line or an ellipse, which is sent when it ends */

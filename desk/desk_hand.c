@@ -233,9 +233,11 @@ static bool place_of(struct desk *d, double x, double y, struct input_event *e)
     return true;
 }
 
+/* Its place on the surface, x, y; axes NULL: the event's own. */
 static void pressure_take(struct desk *d, GdkEvent *event, const double *axes, guint32 time_ms,
-                          struct input_event *e)
+                          double x, double y, struct input_event *e)
 {
+    const double scale = gtk_widget_get_scale_factor(d->canvas);
     double tilt[2] = {0, 0};
     GdkDeviceTool *tool = gdk_event_get_device_tool(event);
     if (tool && (gdk_device_tool_get_axes(tool) & GDK_AXIS_FLAG_PRESSURE)) {
@@ -251,9 +253,17 @@ static void pressure_take(struct desk *d, GdkEvent *event, const double *axes, g
             gdk_event_get_axis(event, GDK_AXIS_YTILT, &tilt[1]);
         }
     } else
-        e->pen = desk_pen_at(d->pen, time_ms, &e->pressure, tilt, &e->eraser);
+        e->pen = desk_pen_at(d->pen, time_ms, &e->pressure, tilt, &e->eraser) &&
+                 !desk_pen_other(d->pen, time_ms, scale * x, scale * y,
+                                 e->kind == INPUT_POINTER_MOVE);
     e->tilt_x = tilt[0];
     e->tilt_y = tilt[1];
+}
+
+/* A mouse that is bumped while a pen paints. */
+static bool beside_pen(const struct desk *d, const struct input_event *e)
+{
+    return d->down && d->by_pen && !e->pen;
 }
 
 static void moves_take(struct desk *d, GdkEvent *event)
@@ -272,8 +282,9 @@ static void moves_take(struct desk *d, GdkEvent *event)
             gdk_event_get_position(event, &x, &y);
         if (!place_of(d, x, y, &e))
             continue;
-        pressure_take(d, event, past ? past->axes : NULL, time_ms, &e);
-        desk_hand_event(d, &e);
+        pressure_take(d, event, past ? past->axes : NULL, time_ms, x, y, &e);
+        if (!beside_pen(d, &e))
+            desk_hand_event(d, &e);
     }
     g_free(history);
 }
@@ -294,7 +305,11 @@ static void button_take(struct desk *d, GdkEvent *event, enum input_kind kind)
     gdk_event_get_position(event, &x, &y);
     if (!place_of(d, x, y, &e))
         return;
-    pressure_take(d, event, NULL, gdk_event_get_time(event), &e);
+    pressure_take(d, event, NULL, gdk_event_get_time(event), x, y, &e);
+    if (beside_pen(d, &e))
+        return;
+    if (kind == INPUT_POINTER_DOWN && !d->down)
+        d->by_pen = e.pen;
     if (kind == INPUT_POINTER_DOWN)
         gtk_widget_grab_focus(d->canvas);
     desk_hand_event(d, &e);

@@ -1,27 +1,33 @@
 /* desk_pen.c - a pen's pressure and tilt on X11, where GTK tells them only of pens whose driver
  * names their tool.
  *
- * Each report of XInput 2 passes by before GTK joins it with others. Those of devices that have
- * an axis "Abs Pressure" are kept for a moment, with their times, and found again by them.
- * Elsewhere (Wayland) pens have tools, and nothing of this is needed. */
+ * Each report of XInput 2 passes by before GTK joins it with others. They are kept for a
+ * moment, with their times, and found again by them. A pen is what has an axis "Abs Pressure".
+ * GTK does not tell a pen from a mouse that moves the same pointer, so a mouse's reports are
+ * kept, too. Elsewhere (Wayland) pens have tools, and nothing of this is needed.
+ */
 #include "desk_shared.h"
 
 #ifdef LUTETIA_DESK_X11
 
 #include <X11/extensions/XInput2.h>
 #include <gdk/x11/gdkx.h>
+#include <math.h>
 #include <string.h>
 
 G_GNUC_BEGIN_IGNORE_DEPRECATIONS
 
 enum { REPORTS = 1024, DEVICES = 64, AXES = 3 };
+#define NEAR_PX 0.02 /* of one place told twice */
 #define FORGOTTEN_MS                                                                           \
     400 /* a press has its own time, but the pressure of the report before it */
 
 struct report {
     guint32 time_ms;
+    double x_px, y_px; /* of the surface, pixels of the screen */
+    bool moved;        /* else a button was pressed or let go */
+    bool pen, eraser;
     double axis[AXES]; /* pressure 0..1, tilts -1..1 */
-    bool eraser;
 };
 
 struct device {
@@ -99,8 +105,12 @@ static void report_keep(struct desk_pen *pen, struct device *device, const XIDev
         value++;
     }
     struct report *report = &pen->reports[pen->reports_count++ % REPORTS];
-    report->time_ms = (guint32)e->time;
-    report->eraser = device->eraser;
+    *report = (struct report){.time_ms = (guint32)e->time,
+                              .x_px = e->event_x,
+                              .y_px = e->event_y,
+                              .moved = e->evtype == XI_Motion,
+                              .pen = device->pen,
+                              .eraser = device->eraser};
     memcpy(report->axis, device->last, sizeof report->axis);
 }
 
@@ -114,7 +124,7 @@ static gboolean xevent(GdkX11Display *display, const XEvent *event, struct desk_
         return FALSE;
     const XIDeviceEvent *e = cookie->data;
     struct device *device = device_of(pen, e->display, e->sourceid);
-    if (device && device->pen)
+    if (device)
         report_keep(pen, device, e);
     return FALSE;
 }
@@ -142,7 +152,7 @@ bool desk_pen_at(struct desk_pen *pen, guint32 time_ms, double *pressure, double
     const struct report *nearest = NULL;
     for (guint i = 0; i < kept; i++) { /* the newest first */
         const struct report *r = &pen->reports[(pen->reports_count - 1 - i) % REPORTS];
-        if ((gint32)(time_ms - r->time_ms) < 0)
+        if (!r->pen || (gint32)(time_ms - r->time_ms) < 0)
             continue;
         nearest = r;
         break;
@@ -154,6 +164,23 @@ bool desk_pen_at(struct desk_pen *pen, guint32 time_ms, double *pressure, double
     tilt[1] = nearest->axis[2];
     *eraser = nearest->eraser;
     return true;
+}
+
+bool desk_pen_other(const struct desk_pen *pen, guint32 time_ms, double x_px, double y_px,
+                    bool moved)
+{
+    const guint kept = MIN(pen->reports_count, REPORTS);
+    bool other = false;
+    for (guint i = 0; i < kept; i++) {
+        const struct report *r = &pen->reports[(pen->reports_count - 1 - i) % REPORTS];
+        if (r->time_ms != time_ms || r->moved != moved || fabs(r->x_px - x_px) > NEAR_PX ||
+            fabs(r->y_px - y_px) > NEAR_PX)
+            continue;
+        if (r->pen)
+            return false;
+        other = true;
+    }
+    return other;
 }
 
 G_GNUC_END_IGNORE_DEPRECATIONS
@@ -179,6 +206,17 @@ bool desk_pen_at(struct desk_pen *pen, guint32 time_ms, double *pressure, double
     (void)time_ms;
     (void)pressure;
     (void)tilt;
+    return false;
+}
+
+bool desk_pen_other(const struct desk_pen *pen, guint32 time_ms, double x_px, double y_px,
+                    bool moved)
+{
+    (void)pen;
+    (void)time_ms;
+    (void)x_px;
+    (void)y_px;
+    (void)moved;
     return false;
 }
 

@@ -25,5 +25,9 @@ void desk_pen_destroy(struct desk_pen *pen);
  * other end. False: no pen has spoken. */
 bool desk_pen_at(struct desk_pen *pen, guint32 time_ms, double *pressure, double tilt[2],
                  bool *eraser);
+/* Whether what came at that time from that place of the surface, in pixels of the screen, a
+ * move or else a button's, was told by a device that is no pen. */
+bool desk_pen_other(const struct desk_pen *pen, guint32 time_ms, double x_px, double y_px,
+                    bool moved);
 
 #endif
