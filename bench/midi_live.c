@@ -244,6 +244,7 @@ static bool keys_window(const char *server, struct shared *shared, int count, do
     window_def.height_px = 360;
     window_def.fps = FPS;
     window_def.before = live_player_before;
+    window_def.readable = live_player_readable;
     window_def.context = player;
     *shown = ok && stage_window_create(stage, &window_def, &window) == STAGE_OK;
     if (*shown)

@@ -9,7 +9,7 @@
 #include <epoxy/gl.h>
 #include <string.h>
 
-enum { TILE = 128, BYTES = 4 }; /* pixels, a multiple of every scale; bytes of a pixel */
+enum { TILE = 192, BYTES = 4 }; /* pixels, a multiple of the scales 1 to 4; bytes of a pixel */
 
 struct _DeskArea {
     GtkGLArea parent;

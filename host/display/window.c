@@ -15,6 +15,7 @@
 
 #include <endian.h>
 #include <math.h>
+#include <poll.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
@@ -267,6 +268,18 @@ void window_wake(void)
         return;
     if (waking.descriptor < 0 || write(waking.descriptor, &one, sizeof one) != sizeof one)
         glfw3.PostEmptyEvent();
+}
+
+bool window_wait_or(double wait_s, int descriptor)
+{
+    struct pollfd readable = {.fd = descriptor, .events = POLLIN};
+    if (descriptor < 0 || waking.descriptor < 0) {
+        glfw3.WaitEventsTimeout(wait_s);
+        return false;
+    }
+    window_x11_wait(waking.display, descriptor, wait_s);
+    glfw3.PollEvents();
+    return poll(&readable, 1, 0) > 0;
 }
 
 void window_wait(double wait_s)

@@ -94,6 +94,10 @@ void window_wake(void);
 /* Takes the window's next event (input.h), waiting wait_s seconds at most (0: not at all).
  * False if there is none; *event is then NONE. */
 bool window_input_take(struct window *window, double wait_s, struct input_event *event);
+/* The same, but it waits no longer once the descriptor is readable. -1, or a window that is not
+ * X11's: it waits for events only. */
+bool window_input_take_or(struct window *window, double wait_s, int descriptor,
+                          struct input_event *event);
 
 /* ---- windows that another draws in: config.drawn_by_caller ----
  *

@@ -214,8 +214,10 @@ void window_input_begin(struct window *window)
     place_set(window, x, y);
 }
 
-bool window_input_take(struct window *window, double wait_s, struct input_event *event)
+bool window_input_take_or(struct window *window, double wait_s, int descriptor,
+                          struct input_event *event)
 {
+    bool readable = false;
     double until_s = input_now_s() + wait_s;
     glfw3.PollEvents();
     for (;;) {
@@ -228,10 +230,15 @@ bool window_input_take(struct window *window, double wait_s, struct input_event 
                 window_size(window, &event->width_px, &event->height_px);
             return true;
         }
-        if (!(left_s > 0))
+        if (!(left_s > 0) || readable)
             return false;
-        glfw3.WaitEventsTimeout(left_s);
+        readable = window_wait_or(left_s, descriptor);
     }
+}
+
+bool window_input_take(struct window *window, double wait_s, struct input_event *event)
+{
+    return window_input_take_or(window, wait_s, -1, event);
 }
 
 void window_close(struct window *window)

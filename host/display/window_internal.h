@@ -76,6 +76,10 @@ struct window {
  * X11. */
 void window_wakes(void *x11_display);
 
+/* Waits for the window's events, which it handles, and for the descriptor (-1: none). True:
+ * that is readable. */
+bool window_wait_or(double wait_s, int descriptor);
+
 /* Redraws the image, scaled to fit. */
 void window_draw(struct window *window);
 

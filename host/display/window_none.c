@@ -108,6 +108,16 @@ bool window_input_take(struct window *window, double wait_s, struct input_event 
     abort();
 }
 
+bool window_input_take_or(struct window *window, double wait_s, int descriptor,
+                          struct input_event *event)
+{
+    (void)window;
+    (void)wait_s;
+    (void)descriptor;
+    (void)event;
+    abort();
+}
+
 void (*(*window_functions(void))(const char *))(void)
 {
     abort();

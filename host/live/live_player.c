@@ -386,6 +386,12 @@ void live_player_destroy(struct live_player *p)
     free(p);
 }
 
+int live_player_readable(void *player)
+{
+    const struct live_player *p = player;
+    return live_source_descriptor(p->def.source);
+}
+
 enum stage_status live_player_before(void *player, struct stage *stage, double now_s)
 {
     struct live_player *p = player;

@@ -53,6 +53,7 @@ void live_player_destroy(struct live_player *player); /* NULL is fine */
 /* For stage_window_def and stage_film_def; context: the player. */
 enum stage_status live_player_before(void *player, struct stage *stage, double now_s);
 bool live_player_key(void *player, const struct input_event *event);
+int live_player_readable(void *player);
 
 /* The script or cues lead by time, whether anything is played or not. */
 bool live_player_leads(const struct live_player *player);

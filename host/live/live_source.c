@@ -144,6 +144,11 @@ bool live_source_next(struct live_source *s, double now_s, struct midi_message *
     return s->client && client_next(s, m);
 }
 
+int live_source_descriptor(const struct live_source *s)
+{
+    return s->client ? midi_client_descriptor(s->client) : -1;
+}
+
 const char *live_source_said(struct live_source *s)
 {
     const bool said = s->said;

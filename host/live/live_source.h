@@ -44,6 +44,8 @@ bool live_source_key(struct live_source *source, const struct input_event *event
 /* The next message that has come, or of the song until second now_s; waits for none. False:
  * there is none. */
 bool live_source_next(struct live_source *source, double now_s, struct midi_message *m);
+/* A descriptor that is readable when there is a message; -1: there is none now. */
+int live_source_descriptor(const struct live_source *source);
 /* What there is to say of the server since the last call: that it has gone, or is back; NULL:
  * nothing. */
 const char *live_source_said(struct live_source *source);

@@ -80,6 +80,7 @@ int live_window(struct live *live, struct stage *stage, struct stage_window_def 
     struct stage_window *window;
     if (live->player) {
         def->before = live_player_before;
+        def->readable = live_player_readable;
         def->key = live_player_key;
         def->context = live->player;
         def->knobs = live_player_knobs(live->player);

@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 enum { RECORDING_FPS = 30, MESSAGE_S = 4 };
+#define EARLY 0.25 /* of the time between pictures, where something is played meanwhile */
 
 struct stage_window {
     struct stage *stage;
@@ -26,6 +27,7 @@ struct stage_window {
     struct stage_stream *stream; /* NULL: none */
     struct stage_draw_list list;
     struct frame_pace pace;
+    double soonest_s; /* when the next picture may begin of which something is waited for */
     bool open, drawn; /* drawn: at least once */
     struct help_sheet help;
     struct typed_words words;
@@ -466,14 +468,30 @@ static enum stage_status frame_draw(struct stage_window *w, double now_s)
     return stage_renderer_draw(w->renderer, &w->list, stage_background(w->stage));
 }
 
-enum stage_status stage_window_turn(struct stage_window *w)
+/* Until the next picture is due, which it is sooner if something is played meanwhile. */
+static void turn_wait(struct stage_window *w)
 {
     struct input_event event;
-    double wait_s = fmax(0, w->pace.due_s - input_now_s());
-    while (window_input_take(w->window, wait_s, &event)) {
-        event_take(w, &event);
-        wait_s = fmax(0, w->pace.due_s - input_now_s());
+    int descriptor = w->def.readable ? w->def.readable(w->def.context) : -1;
+    for (;;) {
+        const double wait_s = fmax(0, w->pace.due_s - input_now_s());
+        const bool came = window_input_take_or(w->window, wait_s, descriptor, &event);
+        if (came)
+            event_take(w, &event);
+        const bool played = came ? w->def.played && event.kind == INPUT_KEY_DOWN
+                                 : input_now_s() < w->pace.due_s;
+        if (!came && !played)
+            return;
+        if (played) {
+            w->pace.due_s = fmin(w->pace.due_s, w->soonest_s);
+            descriptor = -1;
+        }
     }
+}
+
+enum stage_status stage_window_turn(struct stage_window *w)
+{
+    turn_wait(w);
     double began_s = input_now_s();
     enum stage_status status =
         w->def.before ? w->def.before(w->def.context, w->stage, began_s) : STAGE_OK;
@@ -485,6 +503,7 @@ enum stage_status stage_window_turn(struct stage_window *w)
         status = frame_draw(w, began_s);
     recording_add(w, began_s);
     w->pace.due_s = began_s + w->pace.least_s;
+    w->soonest_s = fmax(began_s + EARLY * w->pace.least_s, 2 * input_now_s() - began_s);
     return status;
 }
 

@@ -43,6 +43,10 @@ struct stage_window_def {
      * taken. NULL: nobody does. */
     enum stage_status (*before)(void *context, struct stage *stage, double now_s);
     bool (*key)(void *context, const struct input_event *event);
+    /* A descriptor that is readable when `before` has something to take, or -1: the next
+     * picture then comes at once, if the last one was a quarter of a picture's time ago, and as
+     * long ago as it took. NULL: pictures come in time only. */
+    int (*readable)(void *context);
     void *context;
     struct stage_panel_knobs knobs; /* zeros: there are none */
     /* What key() takes besides, for the help; borrowed. */

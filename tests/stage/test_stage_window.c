@@ -9,10 +9,12 @@
 
 #include <stage_window.h>
 
+#include <fcntl.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "../display/scratch.h"
 #include "clock.h"
@@ -416,6 +418,54 @@ static void keys_are_listed(void **state)
     UNTIL(!stage_window_open(window));
 }
 
+/* ---- what is played meanwhile ---- */
+
+static int played_pipe[2];
+
+static int played_readable(void *context)
+{
+    (void)context;
+    return played_pipe[0];
+}
+
+static enum stage_status played_take(void *context, struct stage *of, double now_s)
+{
+    char byte;
+    (void)context;
+    (void)of;
+    (void)now_s;
+    while (read(played_pipe[0], &byte, 1) == 1)
+        ;
+    return STAGE_OK;
+}
+
+/* Pictures are two seconds apart: the next one comes at once where something is played, and in
+ * time where nothing is. */
+static void a_picture_comes_when_it_is_played(void **state)
+{
+    (void)state;
+    struct stage_window_def def = stage_window_def_default();
+    def.fps = 0.5;
+    def.before = played_take;
+    def.readable = played_readable;
+    assert_int_equal(pipe2(played_pipe, O_NONBLOCK), 0);
+    stage = scene_springs("word", 0.5, face);
+    assert_int_equal(stage_window_create(stage, &def, &window), STAGE_OK);
+    turn();
+    const double began_s = clock_now_s();
+    assert_int_equal(write(played_pipe[1], "a", 1), 1);
+    turn();
+    const double played_s = clock_now_s();
+    turn();
+    const double ended_s = clock_now_s();
+    assert_true(played_s - began_s < 1.5);
+    assert_true(ended_s - played_s > 1.5);
+    stage_window_destroy(window);
+    stage_destroy(stage);
+    close(played_pipe[0]);
+    close(played_pipe[1]);
+}
+
 int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
@@ -430,6 +480,7 @@ int main(void)
         TEST(films_are_recorded),
         TEST(windows_have_other_sizes_and_fill_the_screen),
         TEST(keys_are_listed),
+        cmocka_unit_test(a_picture_comes_when_it_is_played),
     };
     if (font_face_open("DejaVuSans", 0, &face) != FONT_OK)
         return 1;
