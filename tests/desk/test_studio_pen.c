@@ -30,12 +30,13 @@
 
 #include "clock.h"
 #include "studio_scene.h"
+#include "xorg.h"
 
 enum { WAIT_S = 90, SCREEN_WIDTH = 1280, SCREEN_HEIGHT = 1024, ZOOM = 4 };
 enum { PEN, FLAT, MOUSE, DEVICES };
 
 static char folder[] = "/tmp/lutetia-pen-XXXXXX";
-static pid_t server = -1, studio = -1;
+static pid_t studio = -1;
 static Display *display;
 static int devices[DEVICES]; /* sockets */
 
@@ -79,61 +80,6 @@ static bool config_write(void)
                 device_kinds[i][0], path_of(device_kinds[i][0]), device_kinds[i][1],
                 device_kinds[i][2]);
     return fclose(file) == 0;
-}
-
-_Noreturn static void server_become(int descriptor)
-{
-    char number[16];
-    const int nothing = open("/dev/null", O_WRONLY);
-    snprintf(number, sizeof number, "%d", descriptor);
-    dup2(nothing, 1);
-    dup2(nothing, 2);
-    execlp("Xorg", "Xorg", "-displayfd", number, "-config", path_of("conf"), "-logfile",
-           path_of("log"), "-noreset", "-nolisten", "tcp", "-novtswitch", "-sharevts",
-           (char *)NULL);
-    _exit(127);
-}
-
-static bool server_start(void)
-{
-    char name[32] = ":";
-    int ends[2];
-    size_t count = 1;
-    ssize_t got = 1;
-    if (!mkdtemp(folder) || !config_write() || pipe(ends) != 0)
-        return false;
-    server = fork();
-    if (server == 0) {
-        close(ends[0]);
-        server_become(ends[1]);
-    }
-    close(ends[1]);
-    while (got > 0 && count < sizeof name - 1 && !strchr(name, '\n')) {
-        got = read(ends[0], name + count, sizeof name - 1 - count);
-        count += got > 0 ? (size_t)got : 0;
-    }
-    close(ends[0]);
-    if (!strchr(name, '\n'))
-        return false;
-    *strchr(name, '\n') = '\0';
-    setenv("DISPLAY", name, 1);
-    unsetenv("WAYLAND_DISPLAY");
-    display = XOpenDisplay(NULL);
-    return display != NULL;
-}
-
-static void server_end(void)
-{
-    char command[80];
-    if (display)
-        XCloseDisplay(display);
-    if (server > 0) {
-        kill(server, SIGTERM);
-        waitpid(server, NULL, 0);
-    }
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    if (system(command) != 0)
-        print_message("%s is left\n", folder);
 }
 
 /* ---- what the driver hears ---- */
@@ -448,15 +394,16 @@ int main(void)
         cmocka_unit_test_setup_teardown(mouse_changes_nothing, studio_start, studio_end),
         cmocka_unit_test_setup_teardown(pen_without_pressure_paints, studio_start, studio_end),
     };
-    bool ready = server_start();
+    bool ready = mkdtemp(folder) && config_write() && xorg_start(folder);
+    display = xorg_display();
     for (int i = 0; ready && i < DEVICES; i++)
         ready = device_open(i);
     if (!ready) {
-        server_end();
+        xorg_end(folder);
         puts("[  SKIPPED ] no Xorg with the drivers dummy and inputtest");
         return 77;
     }
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    server_end();
+    xorg_end(folder);
     return failed;
 }

@@ -11,13 +11,12 @@
 
 #include <X11/Xlib.h>
 #include <X11/Xutil.h>
-#include <fcntl.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
 #include <unistd.h>
+
+#include "xorg.h"
 
 static const char config_text[] = "Section \"Device\"\n Identifier \"d\"\n Driver \"dummy\"\n"
                                   " VideoRam 65536\nEndSection\n"
@@ -34,29 +33,13 @@ static const struct {
 } places[] = {{0, 640, 480}, {640, 800, 600}, {1440, 640, 480}};
 
 static char folder[] = "/tmp/lutetia-screens-XXXXXX";
-static pid_t server = -1;
 static Display *display;
-
-static void server_become(int descriptor)
-{
-    char config[80], log[80], number[16];
-    snprintf(config, sizeof config, "%s/conf", folder);
-    snprintf(log, sizeof log, "%s/log", folder);
-    snprintf(number, sizeof number, "%d", descriptor);
-    const int nothing = open("/dev/null", O_WRONLY);
-    dup2(nothing, 1);
-    dup2(nothing, 2);
-    execlp("Xorg", "Xorg", "-displayfd", number, "-config", config, "-logfile", log, "-noreset",
-           "-nolisten", "tcp", "-novtswitch", "-sharevts", (char *)NULL);
-    _exit(127);
-}
 
 /* False: there is no such server here. */
 static bool server_start(void)
 {
-    char path[80], name[32] = ":";
-    int ends[2];
-    if (!mkdtemp(folder) || pipe(ends) != 0)
+    char path[80];
+    if (!mkdtemp(folder))
         return false;
     snprintf(path, sizeof path, "%s/conf", folder);
     FILE *file = fopen(path, "w");
@@ -64,48 +47,15 @@ static bool server_start(void)
         return false;
     fputs(config_text, file);
     fclose(file);
-    server = fork();
-    if (server == 0) {
-        close(ends[0]);
-        server_become(ends[1]);
-    }
-    close(ends[1]);
-    size_t count = 1;
-    ssize_t got = 1;
-    while (got > 0 && count < sizeof name - 1 && !strchr(name, '\n')) {
-        got = read(ends[0], name + count, sizeof name - 1 - count);
-        count += got > 0 ? (size_t)got : 0;
-    }
-    close(ends[0]);
-    if (!strchr(name, '\n'))
+    if (!xorg_start(folder))
         return false;
-    *strchr(name, '\n') = '\0';
-    setenv("DISPLAY", name, 1);
-    unsetenv("WAYLAND_DISPLAY");
-    display = XOpenDisplay(NULL);
-    return display && system("exec 2>/dev/null; xrandr --addmode DUMMY1 800x600 && "
-                             "xrandr --addmode DUMMY2 640x480 && "
-                             "xrandr --output DUMMY0 --mode 640x480 --pos 0x0 "
-                             "--output DUMMY1 --mode 800x600 --pos 640x0 "
-                             "--output DUMMY2 --mode 640x480 --pos 1440x0 && "
-                             "xrandr >/dev/null") == 0; /* at last it is looked who is there */
-}
-
-static void server_end(void)
-{
-    char path[80];
-    if (display)
-        XCloseDisplay(display);
-    if (server > 0) {
-        kill(server, SIGTERM);
-        waitpid(server, NULL, 0);
-    }
-    static const char *const left[] = {"conf", "log", "log.old"};
-    for (size_t i = 0; i < sizeof left / sizeof *left; i++) {
-        snprintf(path, sizeof path, "%s/%s", folder, left[i]);
-        unlink(path);
-    }
-    rmdir(folder);
+    display = xorg_display();
+    return system("exec 2>/dev/null; xrandr --addmode DUMMY1 800x600 && "
+                  "xrandr --addmode DUMMY2 640x480 && "
+                  "xrandr --output DUMMY0 --mode 640x480 --pos 0x0 "
+                  "--output DUMMY1 --mode 800x600 --pos 640x0 "
+                  "--output DUMMY2 --mode 640x480 --pos 1440x0 && "
+                  "xrandr >/dev/null") == 0; /* at last it is looked who is there */
 }
 
 /* A picture whose pixels tell where they are. */
@@ -258,11 +208,11 @@ int main(void)
         cmocka_unit_test(other_words_are_refused),
     };
     if (!server_start()) {
-        server_end();
+        xorg_end(folder);
         puts("[  SKIPPED ] screens: no Xorg with the dummy driver and xrandr");
         return 77;
     }
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    server_end();
+    xorg_end(folder);
     return failed;
 }
