@@ -243,28 +243,56 @@ size_t osc_arguments_write(uint8_t *out, size_t room, const char *address,
     return w.full ? 0 : w.used;
 }
 
+/* Puts the message of a call's further arguments. */
+static void message_put(struct writer *w, const char *address, const char *types,
+                        va_list arguments)
+{
+    char all[OSC_ARGUMENTS_MAX + 2] = ",";
+    w->full = w->full || strlen(types) > OSC_ARGUMENTS_MAX;
+    if (w->full)
+        return;
+    memcpy(all + 1, types, strlen(types) + 1);
+    string_put(w, address);
+    string_put(w, all);
+    for (; *types; types++) {
+        if (*types == 's') {
+            string_put(w, va_arg(arguments, const char *));
+        } else if (*types == 'i') {
+            word_put(w, (uint32_t)va_arg(arguments, int));
+        } else {
+            float_put(w, va_arg(arguments, double));
+        }
+    }
+}
+
 size_t osc_message_write(uint8_t *out, size_t room, const char *address, const char *types, ...)
 {
     struct writer w = {.out = out, .room = room};
-    char all[OSC_ARGUMENTS_MAX + 2] = ",";
     va_list arguments;
-    if (strlen(types) > OSC_ARGUMENTS_MAX)
-        return 0;
-    memcpy(all + 1, types, strlen(types) + 1);
-    string_put(&w, address);
-    string_put(&w, all);
     va_start(arguments, types);
-    for (; *types; types++) {
-        if (*types == 's') {
-            string_put(&w, va_arg(arguments, const char *));
-        } else if (*types == 'i') {
-            word_put(&w, (uint32_t)va_arg(arguments, int));
-        } else {
-            float_put(&w, va_arg(arguments, double));
-        }
-    }
+    message_put(&w, address, types, arguments);
     va_end(arguments);
     return w.full ? 0 : w.used;
+}
+
+size_t osc_bundle_add(uint8_t *out, size_t room, size_t used, const char *address,
+                      const char *types, ...)
+{
+    enum { HEAD = 16, LENGTH = 4 };
+    struct writer w = {.out = out, .room = room, .used = used};
+    va_list arguments;
+    if (used == 0)
+        bytes_put(&w, "#bundle\0\0\0\0\0\0\0\0\1", HEAD, HEAD);
+    struct writer length = w;
+    word_put(&w, 0);
+    const size_t from = w.used;
+    va_start(arguments, types);
+    message_put(&w, address, types, arguments);
+    va_end(arguments);
+    if (w.full)
+        return 0;
+    word_put(&length, (uint32_t)(w.used - from));
+    return w.used;
 }
 
 /* ---- addresses ----

@@ -50,7 +50,12 @@ const char *osc_packet_read(const uint8_t *bytes, size_t count,
 size_t osc_message_write(uint8_t *out, size_t room, const char *address, const char *types,
                          ...);
 
-/* The same of arguments as they are read: texts, and numbers as f. */
+/* Adds a message to the bundle whose `used` bytes stand in out; 0 begins a bundle, whose time
+ * is "at once". Returns the bundle's bytes; 0: there is no room. */
+size_t osc_bundle_add(uint8_t *out, size_t room, size_t used, const char *address,
+                      const char *types, ...);
+
+/* A message of arguments as they are read: texts, and numbers as f. */
 size_t osc_arguments_write(uint8_t *out, size_t room, const char *address,
                            const struct osc_argument *arguments, int count);
 

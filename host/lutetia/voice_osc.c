@@ -16,7 +16,8 @@ int voice_osc_open(const char *to, struct osc_port **out)
 
 void voice_osc_send(struct osc_port *port, const struct voice_frame *f)
 {
-    uint8_t packet[100];
+    uint8_t packet[400];
+    size_t used = 0;
     const struct {
         const char *address;
         double value;
@@ -26,13 +27,10 @@ void voice_osc_send(struct osc_port *port, const struct voice_frame *f)
                 {"/voice/clarity", f->clarity},
                 {"/voice/bright", f->bright}};
     if (f->attack)
-        osc_port_send(port, packet,
-                      osc_message_write(packet, sizeof packet, "/voice/attack", "f", f->level));
+        used = osc_bundle_add(packet, sizeof packet, used, "/voice/attack", "f", f->level);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        osc_port_send(
-            port, packet,
-            osc_message_write(packet, sizeof packet, rows[i].address, "f", rows[i].value));
-    osc_port_send(port, packet,
-                  osc_message_write(packet, sizeof packet, "/voice/formants", "ff",
-                                    f->formant_hz[0], f->formant_hz[1]));
+        used = osc_bundle_add(packet, sizeof packet, used, rows[i].address, "f", rows[i].value);
+    used = osc_bundle_add(packet, sizeof packet, used, "/voice/formants", "ff",
+                          f->formant_hz[0], f->formant_hz[1]);
+    osc_port_send(port, packet, used);
 }

@@ -127,6 +127,23 @@ static void what_is_written_is_read(void **unused)
     assert_int_equal(osc_arguments_write(out, count - 1, "/a/b", arguments, 3), 0);
 }
 
+static void bundles_are_written(void **unused)
+{
+    (void)unused;
+    static const uint8_t wanted[] = "#bundle\0\0\0\0\0\0\0\0\x01"
+                                    "\0\0\0\x20" FREQUENCY "\0\0\0\x0c/b\0\0,i\0\0\0\0\0\x05";
+    uint8_t out[sizeof wanted - 1];
+    size_t used = osc_bundle_add(out, sizeof out, 0, "/oscillator/4/frequency", "f", 440.0);
+    assert_int_equal(used, 16 + 4 + 32);
+    used = osc_bundle_add(out, sizeof out, used, "/b", "i", 5);
+    assert_int_equal(used, sizeof out);
+    assert_memory_equal(out, wanted, sizeof out);
+    assert_int_equal(osc_bundle_add(out, sizeof out, used, "/b", "i", 5), 0);
+    for (size_t room = 0; room < 52; room++)
+        assert_int_equal(osc_bundle_add(out, room, 0, "/oscillator/4/frequency", "f", 440.0),
+                         0);
+}
+
 /* ---- addresses ---- */
 
 static bool slow_words(const char *p, const char *a);
@@ -504,6 +521,7 @@ int main(void)
         cmocka_unit_test(packets_are_read_as_the_bytes_say),
         cmocka_unit_test(bundles_are_read_in_their_order),
         cmocka_unit_test(what_is_written_is_read),
+        cmocka_unit_test(bundles_are_written),
         cmocka_unit_test(addresses_match_as_by_trying_all),
         cmocka_unit_test(strangers_are_not_heard),
         cmocka_unit_test(wrong_addresses_are_refused_in_one_line),
