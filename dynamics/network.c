@@ -112,15 +112,12 @@ void dyn_network_destroy(struct dyn_network *n)
     free(n);
 }
 
-enum dyn_status dyn_network_copy(struct dyn_network *to, const struct dyn_network *from)
+enum dyn_status dyn_network_copy_state(struct dyn_network *to, const struct dyn_network *from)
 {
     size_t masses = (size_t)from->masses_count, springs = (size_t)from->springs_count;
     if (to == from)
         return DYN_OK;
-    if (from->events && !to->events)
-        to->events = malloc(DYN_EVENTS_MAX * sizeof *to->events);
-    if (!masses_reserve(to, from->masses_count) || !springs_reserve(to, from->springs_count) ||
-        (from->events && !to->events))
+    if (!masses_reserve(to, from->masses_count) || !springs_reserve(to, from->springs_count))
         return dyn_fail(DYN_NO_MEMORY, "no memory for a copy of %d masses and %d springs",
                         from->masses_count, from->springs_count);
     to->world = from->world;
@@ -141,12 +138,26 @@ enum dyn_status dyn_network_copy(struct dyn_network *to, const struct dyn_networ
     }
     memcpy(to->pulls, from->pulls, sizeof to->pulls);
     to->pulls_count = from->pulls_count;
+    to->changed = true;
+    return DYN_OK;
+}
+
+enum dyn_status dyn_network_copy(struct dyn_network *to, const struct dyn_network *from)
+{
+    if (to == from)
+        return DYN_OK;
+    if (from->events && !to->events)
+        to->events = malloc(DYN_EVENTS_MAX * sizeof *to->events);
+    if (from->events && !to->events)
+        return dyn_fail(DYN_NO_MEMORY, "no memory for a copy of a network's events");
+    const enum dyn_status status = dyn_network_copy_state(to, from);
+    if (status != DYN_OK)
+        return status;
     if (from->events)
         memcpy(to->events, from->events, DYN_EVENTS_MAX * sizeof *to->events);
     to->events_first = from->events_first;
     to->events_count = from->events_count;
     to->events_lost = from->events_lost;
-    to->changed = true;
     return DYN_OK;
 }
 

@@ -82,9 +82,12 @@ struct dyn_spring dyn_spring_usual(void);
 enum dyn_status dyn_network_create(struct dyn_network **out);
 void dyn_network_destroy(struct dyn_network *n); /* NULL is fine */
 
-/* Copies the whole network with its time and events, to keep a state and return to it. Both
- * compute the same bits from then on. Errors: NO_MEMORY; `to` is unchanged. */
+/* Copies the whole network with its time and events. Both compute the same bits from then on.
+ * Errors: NO_MEMORY; `to` is unchanged. */
 enum dyn_status dyn_network_copy(struct dyn_network *to, const struct dyn_network *from);
+/* The same, but the events that wait in `to` stay there, and those of `from` are not copied: to
+ * keep a state and return to it. */
+enum dyn_status dyn_network_copy_state(struct dyn_network *to, const struct dyn_network *from);
 
 /* index: gets its number; NULL is fine. Errors: BAD_ARGUMENT (a number outside of its
  * field's range, see fields.h; a spring from a mass to itself or to one that is not there),

@@ -203,7 +203,7 @@ static enum stage_status springs_keep(void *actor, void **state)
     kept->text->users++;
     enum dyn_status status = dyn_network_create(&kept->network);
     if (status == DYN_OK)
-        status = dyn_network_copy(kept->network, s->network);
+        status = dyn_network_copy_state(kept->network, s->network);
     if (status != DYN_OK) {
         springs_forget(kept);
         return springs_fail(status);
@@ -216,7 +216,7 @@ static enum stage_status springs_restore(void *actor, const void *state)
 {
     struct springs *s = actor;
     const struct kept *kept = state;
-    enum dyn_status status = dyn_network_copy(s->network, kept->network);
+    enum dyn_status status = dyn_network_copy_state(s->network, kept->network);
     if (status != DYN_OK)
         return springs_fail(status);
     s->set = kept->set;

@@ -1,7 +1,8 @@
-/* midi_client.c - see midi_client.h. Received frames become events in a queue; while a
- * command waits for its reply, other frames are queued, too. */
+/* midi_client.c - see midi_client.h. What was received stays bytes until it is asked for, frame
+ * by frame; while a command waits for its reply, other frames become events in a queue. */
 #include "midi_client.h"
 #include "midi_connect.h"
+#include "midi_events.h"
 #include "midi_proof.h"
 #include "midi_wire.h"
 
@@ -22,7 +23,6 @@ enum {
     LISTENS_MAX = MIDI_WIRE_DEVICES,
     NAME_MAX_BYTES = 64,
     FILTERS_MAX_BYTES = 512,
-    QUEUE_MAX = 1 << 16,
     REPLY_WAIT_MS = 5000,
     RETRY_MS = 200
 };
@@ -38,10 +38,8 @@ struct midi_client {
     int port; /* TCP; 0: a socket whose owner was checked */
     uint64_t retry_ns;
     uint8_t in[MIDI_WIRE_HEAD + MIDI_WIRE_REPLY_MAX + 16384];
-    size_t in_count;
-    struct midi_client_event *queue;
-    size_t first, count, room; /* a ring */
-    uint32_t lost_here;        /* dropped because the queue is full */
+    size_t in_at, in_count; /* from in_at on they have not become events yet */
+    struct midi_events events;
     struct listen_to listens[LISTENS_MAX];
     int listens_count;
     char devices[MIDI_WIRE_DEVICES][NAME_MAX_BYTES]; /* "": none */
@@ -67,46 +65,6 @@ struct midi_client_def midi_client_def_default(const char *name)
 
 /* ---- events ---- */
 
-static struct midi_client_event *event_add(struct midi_client *c)
-{
-    if (c->count == c->room) {
-        const size_t room = c->room ? 2 * c->room : 64;
-        struct midi_client_event *grown =
-            c->room < QUEUE_MAX ? malloc(room * sizeof *grown) : NULL;
-        if (!grown) {
-            c->lost_here++;
-            return NULL;
-        }
-        for (size_t i = 0; i < c->count; i++)
-            grown[i] = c->queue[(c->first + i) % c->room];
-        free(c->queue);
-        c->queue = grown;
-        c->room = room;
-        c->first = 0;
-    }
-    struct midi_client_event *e = &c->queue[(c->first + c->count++) % c->room];
-    e->kind = MIDI_CLIENT_NOTHING;
-    e->device = -1;
-    e->lost = 0;
-    e->text[0] = '\0';
-    e->message.count = 0;
-    return e;
-}
-
-static bool event_take(struct midi_client *c, struct midi_client_event *out)
-{
-    if (c->count) {
-        *out = c->queue[c->first];
-        c->first = (c->first + 1) % c->room;
-        c->count--;
-        return true;
-    }
-    *out = (struct midi_client_event){.device = -1, .lost = c->lost_here};
-    out->kind = c->lost_here ? MIDI_CLIENT_LOST : MIDI_CLIENT_NOTHING;
-    c->lost_here = 0;
-    return out->lost > 0;
-}
-
 struct released {
     struct midi_client *client;
     int device;
@@ -115,7 +73,7 @@ struct released {
 static void release_take(void *context, const struct midi_message *m)
 {
     const struct released *r = context;
-    struct midi_client_event *e = event_add(r->client);
+    struct midi_client_event *e = midi_events_add(&r->client->events);
     if (!e)
         return;
     e->kind = MIDI_CLIENT_MESSAGE;
@@ -129,7 +87,7 @@ static void gone(struct midi_client *c, const char *why)
         return;
     close(c->file);
     c->file = -1;
-    c->in_count = 0;
+    c->in_at = c->in_count = 0;
     if (!c->welcome) { /* connect_to() tells it */
         snprintf(c->why, sizeof c->why, "%s", why);
         return;
@@ -140,7 +98,7 @@ static void gone(struct midi_client *c, const char *why)
         midi_notes_release(&c->heard[i], midi_now_ns(), release_take, &r);
         c->devices[i][0] = '\0';
     }
-    struct midi_client_event *e = event_add(c);
+    struct midi_client_event *e = midi_events_add(&c->events);
     if (!e)
         return;
     e->kind = MIDI_CLIENT_GONE;
@@ -158,7 +116,7 @@ static void payload_text(const struct midi_wire_frame *f, char *text, size_t roo
 
 static void device_take(struct midi_client *c, const struct midi_wire_frame *f)
 {
-    struct midi_client_event *e = event_add(c);
+    struct midi_client_event *e = midi_events_add(&c->events);
     char text[160];
     payload_text(f, text, sizeof text);
     if (f->device < MIDI_WIRE_DEVICES)
@@ -204,13 +162,13 @@ static bool frame_take(struct midi_client *c, const struct midi_wire_frame *f)
         return false; /* nothing is believed before */
     switch (f->kind) {
     case MIDI_WIRE_MIDI:
-        e = event_add(c);
+        e = midi_events_add(&c->events);
         if (!e)
             return true;
         e->kind = MIDI_CLIENT_MESSAGE;
         e->device = f->device;
         if (f->device >= MIDI_WIRE_DEVICES || !midi_wire_message(f, &e->message)) {
-            c->count--;
+            midi_events_drop(&c->events);
             return false;
         }
         midi_notes_take(&c->heard[f->device], &e->message);
@@ -219,7 +177,7 @@ static bool frame_take(struct midi_client *c, const struct midi_wire_frame *f)
         device_take(c, f);
         return true;
     case MIDI_WIRE_LOST:
-        e = event_add(c);
+        e = midi_events_add(&c->events);
         if (e) {
             e->kind = MIDI_CLIENT_LOST;
             e->lost = f->number;
@@ -254,27 +212,36 @@ static const char *stranger(struct midi_client *c)
                : "what answers there is no MIDI server";
 }
 
-/* Takes the frames that have come, and calls gone() if they are malformed. */
-static void frames_take(struct midi_client *c)
+/* Takes the frames that have come: all of them, or as many as it takes until there is an event.
+ * Calls gone() if they are malformed. */
+static void frames_take(struct midi_client *c, bool all)
 {
     struct midi_wire_frame f;
-    size_t at = 0;
-    for (size_t used; (used = midi_wire_read(c->in + at, c->in_count - at, &f)); at += used)
+    while (all || !c->events.count) {
+        const size_t used = midi_wire_read(c->in + c->in_at, c->in_count - c->in_at, &f);
+        if (!used)
+            break;
+        c->in_at += used;
         if (!frame_take(c, &f)) {
             gone(c, stranger(c));
             return;
         }
-    if (!at && c->in_count == sizeof c->in) {
-        gone(c, stranger(c));
-        return;
     }
-    memmove(c->in, c->in + at, c->in_count - at);
-    c->in_count -= at;
+    if (c->in_at == c->in_count)
+        c->in_at = c->in_count = 0;
 }
 
-/* Reads once; flags: MSG_DONTWAIT, or 0 to wait. False: nothing came, or a signal did. */
+/* Reads once, where no whole frame waits; flags: MSG_DONTWAIT, or 0 to wait. False: nothing
+ * came, or a signal did. */
 static bool input_take(struct midi_client *c, int flags)
 {
+    memmove(c->in, c->in + c->in_at, c->in_count - c->in_at);
+    c->in_count -= c->in_at;
+    c->in_at = 0;
+    if (c->in_count == sizeof c->in) {
+        gone(c, stranger(c));
+        return true;
+    }
     const ssize_t got = recv(c->file, c->in + c->in_count, sizeof c->in - c->in_count, flags);
     if (got < 0 && (errno == EAGAIN || errno == EINTR))
         return false;
@@ -283,15 +250,15 @@ static bool input_take(struct midi_client *c, int flags)
         return true;
     }
     c->in_count += (size_t)got;
-    frames_take(c);
     return true;
 }
 
 /* The server takes nothing any more; it may have said why. */
 static void refused(struct midi_client *c, int error)
 {
+    frames_take(c, true);
     while (c->file >= 0 && input_take(c, MSG_DONTWAIT))
-        ;
+        frames_take(c, true);
     gone(c, c->farewell[0] ? c->farewell : strerror(error));
 }
 
@@ -356,8 +323,8 @@ static enum midi_status reply_wait(struct midi_client *c, const bool *done, cons
     uint64_t left_ns = REPLY_WAIT_MS * UINT64_C(1000000);
     while (c->file >= 0 && !*done && !c->refused && left_ns) {
         const uint64_t began_ns = midi_now_ns();
-        if (wait_for(c, POLLIN, began_ns + turn_ns))
-            (void)input_take(c, MSG_DONTWAIT);
+        if (wait_for(c, POLLIN, began_ns + turn_ns) && input_take(c, MSG_DONTWAIT))
+            frames_take(c, true);
         const uint64_t took_ns = midi_now_ns() - began_ns,
                        counts_ns = took_ns < turn_ns ? took_ns : turn_ns;
         left_ns -= counts_ns < left_ns ? counts_ns : left_ns;
@@ -376,6 +343,7 @@ static enum midi_status command(struct midi_client *c, const char *text, char *r
                                 size_t room)
 {
     char usual[400];
+    frames_take(c, true); /* what came before is no reply */
     c->reply = reply ? reply : usual;
     c->reply_room = reply ? room : sizeof usual;
     c->reply[0] = '\0';
@@ -440,7 +408,7 @@ static enum midi_status connect_to(struct midi_client *c)
     enum midi_status status = midi_connect(c->usual ? NULL : c->address, &c->file, &c->port);
     if (status != MIDI_OK)
         return status;
-    c->in_count = 0;
+    c->in_at = c->in_count = 0;
     c->farewell[0] = c->why[0] = '\0';
     c->welcome = c->challenged = c->shown = c->strange = false;
     c->reply = why;
@@ -487,7 +455,7 @@ void midi_client_close(struct midi_client *c)
         return;
     if (c->file >= 0)
         close(c->file);
-    free(c->queue);
+    midi_events_finish(&c->events);
     free(c);
 }
 
@@ -565,7 +533,7 @@ static void try_again(struct midi_client *c, uint64_t until_ns)
     c->retry_ns = midi_now_ns() + RETRY_MS * UINT64_C(1000000);
     if (connect_to(c) != MIDI_OK)
         return;
-    struct midi_client_event *e = event_add(c);
+    struct midi_client_event *e = midi_events_add(&c->events);
     if (e)
         e->kind = MIDI_CLIENT_BACK;
 }
@@ -576,10 +544,11 @@ enum midi_status midi_client_next(struct midi_client *c, int wait_ms,
     const uint64_t until_ns =
         wait_ms < 0 ? UINT64_MAX : midi_now_ns() + (uint64_t)wait_ms * 1000000;
     for (bool last = false;;) {
-        if (event_take(c, event))
+        frames_take(c, false);
+        if (midi_events_take(&c->events, event))
             return MIDI_OK;
         if (last)
-            return MIDI_OK; /* NOTHING: set by event_take() */
+            return MIDI_OK; /* NOTHING: set by midi_events_take() */
         if (c->file < 0 && !c->stays)
             return midi_fail(MIDI_NO_SERVER, "the server is gone");
         last = midi_now_ns() >= until_ns;
