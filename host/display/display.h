@@ -52,6 +52,8 @@ const char *display_error(void);
 /* Allocates pixels, all 0, for the size and channels that image holds.
  * Errors: BAD_ARGUMENT, NO_MEMORY; pixels is then NULL. */
 enum display_status display_image_create(struct display_image *image);
+/* Cuts off an odd last column and an odd last row. */
+void display_image_make_even(struct display_image *image);
 
 /* Frees the pixels; an image of zeros is fine. */
 void display_image_destroy(struct display_image *image);

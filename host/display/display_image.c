@@ -2,6 +2,7 @@
 #include "display_internal.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 _Thread_local struct error_text display_last_error;
 
@@ -27,6 +28,18 @@ enum display_status display_image_create(struct display_image *image)
         return display_fail(DISPLAY_NO_MEMORY, "no memory for an image of %dx%d pixels",
                             image->width_px, image->height_px);
     return DISPLAY_OK;
+}
+
+void display_image_make_even(struct display_image *image)
+{
+    const int width = image->width_px & ~1, height = image->height_px & ~1;
+    const size_t bytes = (size_t)image->channels;
+    for (int y = 0; width != image->width_px && y < height; y++)
+        memmove(image->pixels + bytes * (size_t)y * (size_t)width,
+                image->pixels + bytes * (size_t)y * (size_t)image->width_px,
+                bytes * (size_t)width);
+    image->width_px = width;
+    image->height_px = height;
 }
 
 void display_image_destroy(struct display_image *image)

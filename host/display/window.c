@@ -282,6 +282,11 @@ bool window_wait_or(double wait_s, int descriptor)
     return poll(&readable, 1, 0) > 0;
 }
 
+void window_lost_set(void (*lost)(void *context), void *context)
+{
+    window_x11_lost_set(lost, context);
+}
+
 void window_wait(double wait_s)
 {
     uint64_t count;

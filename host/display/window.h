@@ -86,6 +86,10 @@ void window_size(const struct window *window, int *width_px, int *height_px);
 bool window_closing(const struct window *window);
 void window_close(struct window *window);
 
+/* Where the display goes away (X11), the program ends. Before that lost() is called, once, and
+ * may use no window: it saves what would be lost. NULL: nothing is called. */
+void window_lost_set(void (*lost)(void *context), void *context);
+
 /* Waits wait_s seconds at most for something to happen to any of the windows, of which there is
  * one, or for window_wake(), which any thread may call; without a window that does nothing. */
 void window_wait(double wait_s);

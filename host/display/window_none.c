@@ -70,6 +70,11 @@ void window_settle(struct window *window)
     abort();
 }
 
+void window_lost_set(void (*lost)(void *context), void *context)
+{
+    (void)lost, (void)context;
+}
+
 void window_wait(double wait_s)
 {
     (void)wait_s;

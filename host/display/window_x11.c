@@ -20,7 +20,8 @@
 #define X_NAMES(X)                                                                             \
     X(OpenDisplay) X(CloseDisplay) X(GetWindowAttributes) X(CreateGC) X(FreeGC) X(Sync)        \
     X(SetErrorHandler) X(ShmQueryExtension) X(ShmCreateImage) X(ShmAttach) X(ShmDetach)        \
-    X(ShmPutImage) X(ShmGetEventBase) X(CheckTypedEvent) X(Flush) X(Pending)
+    X(ShmPutImage) X(ShmGetEventBase) X(CheckTypedEvent) X(Flush) X(Pending)                  \
+    X(SetIOErrorHandler)
 /* clang-format on */
 
 #define X_MEMBER(name) __typeof__(X##name) *name;
@@ -289,6 +290,30 @@ bool window_x11_put_shared(struct window_x11 *x11, const uint8_t *pixels, int wi
     image->data = (char *)(uintptr_t)pixels;
     image_put(x11, image);
     return true;
+}
+
+static struct {
+    void (*call)(void *context);
+    void *context;
+} lost;
+
+/* Whoever saves may meet the lost connection again. */
+static int lost_take(Display *display)
+{
+    void (*const call)(void *) = lost.call;
+    (void)display;
+    lost.call = NULL;
+    if (call)
+        call(lost.context);
+    return 0;
+}
+
+void window_x11_lost_set(void (*call)(void *context), void *context)
+{
+    lost.call = call;
+    lost.context = context;
+    if (library_loaded())
+        x.SetIOErrorHandler(call ? lost_take : NULL);
 }
 
 bool window_x11_waits(void)

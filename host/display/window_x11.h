@@ -45,6 +45,10 @@ void window_x11_put_again(struct window_x11 *x11);
  * none are. */
 const uint8_t *window_x11_pixels(const struct window_x11 *x11, int *width_px, int *height_px);
 
+/* When the connection to a server is lost, X's library ends the program: lost() is called
+ * before, once. It may use nothing of X's. NULL: nothing is. */
+void window_x11_lost_set(void (*lost)(void *context), void *context);
+
 /* Waits for an event of that display (GLFW's) or for bytes in the descriptor, so long at most.
  * waits(): X11's library is there for it. */
 bool window_x11_waits(void);

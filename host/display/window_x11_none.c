@@ -54,6 +54,11 @@ const uint8_t *window_x11_pixels(const struct window_x11 *x11, int *width_px, in
     return NULL;
 }
 
+void window_x11_lost_set(void (*lost)(void *context), void *context)
+{
+    (void)lost, (void)context;
+}
+
 bool window_x11_waits(void)
 {
     return false;

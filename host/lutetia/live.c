@@ -3,6 +3,8 @@
 
 #include "lutetia.h"
 
+#include <window.h>
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -74,6 +76,26 @@ void live_end(struct live *live)
     *live = (struct live){.verb = live->verb};
 }
 
+/* What a window has of which nothing else is kept. */
+struct kept {
+    struct live *live;
+    struct stage *stage;
+};
+
+static void display_lost(void *context)
+{
+    const struct kept *kept = context;
+    struct live *live = kept->live;
+    stage_window_record_end(live->window);
+    const char *recorded = stage_window_recorded(live->window);
+    tell(live->verb, "the display is gone%s%s%s", recorded ? "; the film " : "",
+         recorded ? recorded : "", recorded ? " is whole up to there" : "");
+    if (stage_session_end(kept->stage) != STAGE_OK)
+        tell(live->verb, "%s", stage_error());
+    live->window = NULL;
+    live_end(live);
+}
+
 int live_window(struct live *live, struct stage *stage, struct stage_window_def *def,
                 const char *no_display)
 {
@@ -98,8 +120,15 @@ int live_window(struct live *live, struct stage *stage, struct stage_window_def 
         tell(live->verb, "%s", live->note);
     if (live->source && live_source_by_computer(live->source))
         stage_window_say(window, "no MIDI server: the computer's keys play, from Z and from Q");
-    while (status == STAGE_OK && stage_window_open(window) && !interrupted())
+    struct kept kept = {live, stage};
+    window_lost_set(display_lost, &kept);
+    while (status == STAGE_OK && stage_window_open(window) && !interrupted()) {
+        const char *wrong = stage_session_said(stage);
+        if (wrong)
+            stage_window_say(window, wrong);
         status = stage_window_turn(window);
+    }
+    window_lost_set(NULL, NULL);
     if (status != STAGE_OK)
         fail(live->verb, "%s", stage_error());
     live->window = NULL;

@@ -491,6 +491,8 @@ static int window_run(struct spring *s, struct stage *stage)
     s->live_options.played_context = s;
     if (map_begin(s, stage) != EXIT_SUCCESS || window_sound(s) != EXIT_SUCCESS)
         return EXIT_FAILED;
+    if (s->session && stage_session_follow(stage, s->session) != STAGE_OK)
+        return fail_stage();
     return live_window(&s->live, stage, &s->window,
                        "run it where there is a desktop, or take --still FILE or --video FILE");
 }
@@ -508,8 +510,12 @@ static int spring_run(struct spring *s, struct stage *stage)
     int status = film ? film_make(s, stage) : window_run(s, stage);
     if (status == EXIT_SUCCESS && film && s->save && stage_save(stage, s->save) != STAGE_OK)
         status = fail_stage();
-    if (status == EXIT_SUCCESS && s->session &&
-        stage_session_save(stage, s->session) != STAGE_OK)
+    enum stage_status kept = STAGE_OK;
+    if (!film)
+        kept = stage_session_end(stage);
+    else if (status == EXIT_SUCCESS && s->session)
+        kept = stage_session_save(stage, s->session);
+    if (kept != STAGE_OK && status == EXIT_SUCCESS)
         status = fail_stage();
     return interrupt_report("spring", status, "what was written before is whole");
 }

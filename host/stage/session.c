@@ -225,8 +225,8 @@ enum stage_status stage_session_file_check(const struct stage_file *file, const 
 
 /* ---- writing ---- */
 
-static void deed_print(const struct stage_session *s, const struct stage_deed *d,
-                       const struct control *rows, FILE *to)
+void stage_session_deed_print(const struct stage_session *s, const struct stage_deed *d,
+                              const struct control *rows, FILE *to)
 {
     const struct stage_event *e = &d->event;
     fprintf(to, "%lld %s", (long long)d->step, kind_names[d->kind]);
@@ -258,7 +258,7 @@ enum stage_status stage_session_write(const struct stage_session *s, const struc
     if (s->begin)
         fprintf(out.stream, "begin %016llx\n", (unsigned long long)s->begin);
     for (int i = 0; i < s->count; i++)
-        deed_print(s, &s->deeds[i], rows, out.stream);
+        stage_session_deed_print(s, &s->deeds[i], rows, out.stream);
     if (s->end)
         fprintf(out.stream, "end %lld\n", (long long)s->end);
     else

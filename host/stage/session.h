@@ -34,6 +34,7 @@
 #include "actor.h"
 
 #include <stdint.h>
+#include <stdio.h>
 
 enum stage_deed_kind {
     STAGE_DEED_HAND,
@@ -86,7 +87,11 @@ void stage_session_finish(struct stage_session *session); /* frees; zeros it */
 /* If memory is short the session is marked broken. */
 void stage_session_add(struct stage_session *session, const struct stage_deed *deed);
 
-/* rows: the controls' names. Errors: BAD_FILE, BAD_ARGUMENT (broken). */
+/* An action's line. rows: the controls' names. */
+void stage_session_deed_print(const struct stage_session *session,
+                              const struct stage_deed *deed, const struct control *rows,
+                              FILE *to);
+/* Writes all of it. Errors: BAD_FILE, BAD_ARGUMENT (broken). */
 enum stage_status stage_session_write(const struct stage_session *session,
                                       const struct control *rows, const char *path);
 

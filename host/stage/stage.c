@@ -316,6 +316,8 @@ enum stage_status stage_frame(struct stage *s, double now_s, int *steps)
             status = s->actor.kind->step(s->actor.self, s->clock.step_s);
     }
     s->clock.steps_count = last;
+    if (s->session_file)
+        stage_session_file_add(s->session_file, &s->session, s->controls, last);
     return status;
 }
 
@@ -430,6 +432,24 @@ enum stage_status stage_session_save(struct stage *s, const char *path)
     return stage_session_write(&s->session, s->controls, path);
 }
 
+enum stage_status stage_session_follow(struct stage *s, const char *path)
+{
+    return stage_session_file_open(path, &s->session_file);
+}
+
+enum stage_status stage_session_end(struct stage *s)
+{
+    struct stage_session_file *file = s->session_file;
+    s->session_file = NULL;
+    s->session.end = s->clock.steps_count;
+    return file ? stage_session_file_close(file, &s->session, s->controls) : STAGE_OK;
+}
+
+const char *stage_session_said(struct stage *s)
+{
+    return s->session_file ? stage_session_file_said(s->session_file) : NULL;
+}
+
 enum stage_status stage_session_replay(struct stage *s, const char *path)
 {
     struct stage_session read;
@@ -456,6 +476,7 @@ void stage_destroy(struct stage *s)
     for (int i = 0; i < s->marks_count; i++)
         mark_forget(s, &s->marks[i]);
     mark_forget(s, &s->beginning);
+    stage_session_end(s);
     stage_session_finish(&s->session);
     stage_session_finish(&s->replay);
     for (int i = 0; i < STAGE_SKINS_MAX; i++)

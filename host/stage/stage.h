@@ -106,6 +106,13 @@ enum stage_status stage_text_check(const struct stage *stage, const char *words)
 /* Saves the actions since the first frame. Errors: BAD_FILE; BAD_ARGUMENT: a file was
  * loaded that was gone at once, or there were too many actions. */
 enum stage_status stage_session_save(struct stage *stage, const char *path);
+/* The session is in this file from the first frame on and grows as it happens, so that a
+ * program that is killed leaves it (session_file.h). Errors: BAD_FILE, NO_MEMORY. */
+enum stage_status stage_session_follow(struct stage *stage, const char *path);
+/* Ends that file. Errors: those of stage_session_save(). */
+enum stage_status stage_session_end(struct stage *stage);
+/* What is wrong with that file, once; NULL: nothing. */
+const char *stage_session_said(struct stage *stage);
 /* Repeats a session's actions at their steps; call before the first frame. Errors: BAD_FILE
  * (also if a file that it loads is not there, or has changed), NO_MEMORY. If the stage began in
  * another way than the session did, stage_frame() says so. */

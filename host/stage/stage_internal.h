@@ -2,6 +2,7 @@
 #ifndef LUTETIA_STAGE_INTERNAL_H
 #define LUTETIA_STAGE_INTERNAL_H
 
+#include "session_file.h"
 #include "stage.h"
 
 /* The stage's own parameters, all doubles. */
@@ -40,6 +41,7 @@ struct stage {
     /* The actions so far; the actions to replay, and how many have been replayed. */
     struct stage_session session, replay;
     int replayed_count;
+    struct stage_session_file *session_file; /* NULL: the session is in no file meanwhile */
 };
 
 /* After a step: keeps the letters where it ends a skin's interval. */

@@ -119,17 +119,6 @@ static void recording_begin(struct stage_window *w)
     say(w, "recording to %s", video_path(w->video));
 }
 
-/* Films have even sides: an odd last column or row is cut off. */
-static void image_make_even(struct display_image *image)
-{
-    int width = image->width_px & ~1, height = image->height_px & ~1;
-    for (int y = 0; width != image->width_px && y < height; y++)
-        memmove(image->pixels + 3 * (size_t)y * (size_t)width,
-                image->pixels + 3 * (size_t)y * (size_t)image->width_px, 3 * (size_t)width);
-    image->width_px = width;
-    image->height_px = height;
-}
-
 /* Repeats the last picture for all frames due until now. */
 static void recording_add(struct stage_window *w, double now_s)
 {
@@ -138,7 +127,7 @@ static void recording_add(struct stage_window *w, double now_s)
     int width = w->image.width_px, height = w->image.height_px;
     bool failed = stage_renderer_read(w->renderer, &w->image) != STAGE_OK;
     if (!failed)
-        image_make_even(&w->image);
+        display_image_make_even(&w->image); /* as films are */
     if (!failed && video_frames(w->video) > 0 &&
         (width != w->image.width_px || height != w->image.height_px)) {
         recording_end(w); /* a film has one size */
@@ -565,6 +554,11 @@ void stage_window_destroy(struct stage_window *w)
     display_image_destroy(&w->image);
     stage_draw_finish(&w->list);
     free(w);
+}
+
+void stage_window_record_end(struct stage_window *w)
+{
+    recording_end(w);
 }
 
 bool stage_window_open(const struct stage_window *w)

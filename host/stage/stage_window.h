@@ -73,6 +73,9 @@ enum stage_status stage_window_create(struct stage *stage, const struct stage_wi
 /* Ends a recording, and destroys the window. NULL is fine. */
 void stage_window_destroy(struct stage_window *w);
 
+/* Ends a recording, if there is one. Needs no display: it may have gone. */
+void stage_window_record_end(struct stage_window *w);
+
 /* One frame: waits until it is due. Errors: those of the actor and of drawing; errors of
  * files are only shown on the screen. */
 enum stage_status stage_window_turn(struct stage_window *w);

@@ -247,6 +247,84 @@ static void windows_end(void **state)
     }
 }
 
+/* A letter is led about. */
+static void drag(Window window)
+{
+    at(window, 0.06, 2.729);
+    xtest_button(1, true);
+    for (int i = 0; i <= 10; i++) {
+        at(window, 0.05 * i, 2.729 + 0.1 * i);
+        usleep(20000);
+    }
+    xtest_button(1, false);
+    usleep(200000);
+}
+
+/* The session has the drag, and can be replayed. */
+static void session_check(const char *session)
+{
+    char text[1 << 15] = "";
+    FILE *file = fopen(session, "r");
+    assert_non_null(file);
+    assert_true(fread(text, 1, sizeof text - 1, file) > 0);
+    fclose(file);
+    if (!strstr(text, " hand down ") || !strstr(text, " hand up ") || !strstr(text, "\nend "))
+        fail_msg("%s", text);
+    const char *again[20] = {"end",
+                             "--set",
+                             "gravity=0",
+                             "--replay",
+                             session,
+                             "--still",
+                             scratch_path("killed.png"),
+                             "--seconds",
+                             "1",
+                             NULL};
+    ends_with(start(again), 0);
+}
+
+/* Where the program is killed, the session is in its file all the same. */
+static void sessions_are_written_as_they_happen(void **state)
+{
+    (void)state;
+    const char *session = scratch_path("killed.session");
+    const char *arguments[10] = {"end", "--set", "gravity=0", "--session", session};
+    memcpy(arguments + 5, scene, sizeof scene);
+    pid_t pid = start(arguments);
+    drag(window_of());
+    kill(pid, SIGKILL);
+    waitpid(pid, NULL, 0);
+    session_check(session);
+}
+
+/* Where the display goes away, the session and the film are whole. */
+static void lost_displays_lose_nothing_else(void **state)
+{
+    (void)state;
+    char film[4096], session[4096], head[10];
+    snprintf(film, sizeof film, "%s", scratch_path("lost.y4m"));
+    snprintf(session, sizeof session, "%s", scratch_path("lost.session"));
+    const char *arguments[12] = {"end",   "--set",    "gravity=0", "--session",
+                                 session, "--record", film};
+    memcpy(arguments + 7, scene, sizeof scene);
+    pid_t pid = start(arguments);
+    Window window = window_of();
+    xtest_type(XK_v);
+    drag(window);
+    screen_end();
+    ends_with(pid, 1);
+    session_check(session);
+    FILE *file = fopen(film, "r");
+    assert_non_null(file);
+    assert_int_equal(fread(head, 1, sizeof head, file), sizeof head);
+    assert_memory_equal(head, "YUV4MPEG2 ", sizeof head);
+    assert_int_equal(fseek(file, 0, SEEK_END), 0);
+    const long frames = ftell(file) / (3 * 600 * 374);
+    fclose(file);
+    if (frames < 6)
+        fail_msg("%ld pictures of half a second", frames);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -254,11 +332,11 @@ int main(void)
         cmocka_unit_test(sessions_in_which_files_are_loaded_are_replayed),
         cmocka_unit_test(fine_screens_have_larger_windows),
         cmocka_unit_test(windows_end),
+        cmocka_unit_test(sessions_are_written_as_they_happen),
+        cmocka_unit_test(lost_displays_lose_nothing_else), /* the last: it ends the display */
     };
     lutetia = getenv("LUTETIA");
     if (!lutetia || !screen_start("800x600"))
         return 77;
-    int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    screen_end();
-    return failed;
+    return cmocka_run_group_tests(tests, NULL, NULL);
 }
