@@ -103,6 +103,15 @@ bool interrupted(void)
     return interrupt_flag != 0;
 }
 
+void interrupt_forget(void)
+{
+    sigset_t interrupt;
+    sigemptyset(&interrupt);
+    sigaddset(&interrupt, SIGINT);
+    sigprocmask(SIG_BLOCK, &interrupt, NULL);
+    interrupt_flag = 0;
+}
+
 int interrupt_report(const char *verb, int status, const char *untouched)
 {
     if (status == EXIT_SUCCESS || !interrupted())

@@ -71,6 +71,8 @@ bool data_find(char path[PATH_MAX], const char *built, const char *installed);
  * ends the program at once. */
 void interrupt_catch(void);
 bool interrupted(void);
+/* It was meant for what has ended by it: the next one counts as the first. */
+void interrupt_forget(void);
 
 /* ---- progress ---- */
 

@@ -306,26 +306,38 @@ int voice_live_window(const struct voice_live_def *def)
     return status;
 }
 
+/* Whoever ends it early, or a server that goes away, leaves what was heard until then. */
 static int record(struct microphone *microphone, double seconds, struct voice_sound *out)
 {
     enum { WAIT_US = 10000 };
+    const double least_s = 0.1;
+    const char *why = NULL;
     const double began_s = seconds_now();
     out->rate_hz = microphone_rate_hz(microphone);
     const size_t wanted = (size_t)(seconds * out->rate_hz) + 1;
     out->samples = malloc(wanted * sizeof *out->samples);
     if (!out->samples)
         return fail("voice", "no memory for %g seconds of sound", seconds);
-    while (out->count < wanted) {
+    while (out->count < wanted && !why) {
+        const bool gone = microphone_gone(microphone);
         out->count +=
             microphone_take(microphone, out->samples + out->count, wanted - out->count);
         if (interrupted())
-            return EXIT_INTERRUPTED;
-        if (microphone_gone(microphone))
-            return fail("voice", "the sound server is gone");
-        if (seconds_now() > began_s + seconds + 5)
-            return fail("voice", "the microphone gives no sound");
-        usleep(WAIT_US);
+            why = "interrupted";
+        else if (gone)
+            why = "the sound server is gone";
+        else if (seconds_now() > began_s + seconds + 5)
+            why = "the microphone gives no sound";
+        else
+            usleep(WAIT_US);
     }
+    const double heard_s = (double)out->count / out->rate_hz;
+    if (!why || out->count >= wanted)
+        return EXIT_SUCCESS;
+    if (heard_s < least_s)
+        return interrupted() ? EXIT_INTERRUPTED : fail("voice", "%s", why);
+    interrupt_forget(); /* it ended the recording, and not what is made of it */
+    tell("voice", "%s: %.1f of %g s were heard, and are kept", why, heard_s, seconds);
     return EXIT_SUCCESS;
 }
 
