@@ -1,8 +1,8 @@
 /* test_live_memory.c - a stage that is played takes as much memory after ten times as many
  * notes, unpluggings, scenes and values of OSC.
  *
- * What is counted is what malloc has handed out, to the byte: GLIBC_TUNABLES leave out its lists
- * of each thread, which count what was given back, and pieces in pages of their own. */
+ * What is counted is what malloc has handed out. GLIBC_TUNABLES leave out its lists of each
+ * thread, which count what was given back, and pieces in pages of their own. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
