@@ -86,7 +86,7 @@ void dyn_network_destroy(struct dyn_network *n); /* NULL is fine */
  * Errors: NO_MEMORY; `to` is unchanged. */
 enum dyn_status dyn_network_copy(struct dyn_network *to, const struct dyn_network *from);
 /* The same, but the events that wait in `to` stay there, and those of `from` are not copied: to
- * keep a state and return to it. */
+ * keep a state and return to it. Errors: NO_MEMORY; `to` is unchanged. */
 enum dyn_status dyn_network_copy_state(struct dyn_network *to, const struct dyn_network *from);
 
 /* index: gets its number; NULL is fine. Errors: BAD_ARGUMENT (a number outside of its
